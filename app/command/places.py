@@ -143,7 +143,7 @@ def plan(
     checked_output("output", output, (".pdf",))
     require("figures", "output", "A plan")
     changes = {"paper": paper, "title": title, "spacing": spacing, "clear": clear, "language": language}
-    values = read_dance(file) | {name: value for name, value in changes.items() if value is not None}
+    values = read_dance(file, several=True) | {name: value for name, value in changes.items() if value is not None}
     if gate:
         values["gates"] = [_gate(text) for text in gate]
     request = checked(PlanRequest, values, object_words(file))

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.patches import Rectangle
 
 from app.files.drawing import with_square
+from app.files.performances import COLOURS
 from app.maps.features import inner_point
 from app.maps.marks import line_of
 from app.plan.sheet import POINT, Box, PaperName, Scale, Sheet, north_arrow, scale_of
@@ -34,6 +35,8 @@ SEEN = 0.12
 TICK, BESIDE, ARROWS = 1.1, 2.6, 45.0
 # Smallest readable type on a bench [pt].
 SMALLEST = 3.4
+# Distance of the name of a dragon from its path [mm], and shares of the path, in order, at which the name may stand.
+NAME_AWAY, NAME_PLACES = 3.5, (0.04, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9, 0.97)
 # Type of numbers at marks, of names, of benches, and of coordinates along the frame [pt].
 MARK_TYPE, NAME_TYPE, BENCH_TYPE, COORDINATE_TYPE = 5.5, 7.0, 5.0, 5.0
 # Numbers that are multiples of this are placed first, because not all of them may have room.
@@ -64,29 +67,72 @@ class GroundMap:
         return line_of(path, *path.drawn_between(float(marks.s[0]), float(marks.s[-1]) + marks.spacing))
 
 
-def scale_for(ground: GroundMap, name: PaperName) -> Scale:
-    """The scale at which the whole ground fits on the paper. raises: InvalidValue"""
-    rings = np.concatenate([rings[0] for rings in ground.clear])
+def scale_for(grounds: Sequence[GroundMap], name: PaperName) -> Scale:
+    """The scale at which the whole ground of one dragon or of several fits on the paper. raises: InvalidValue"""
+    rings = np.concatenate([rings[0] for ground in grounds for rings in ground.clear])
     low, high = rings.min(axis=0), rings.max(axis=0)
-    return scale_of(name, *with_square(ground.venue, low, high))
+    return scale_of(name, *with_square(grounds[0].venue, low, high))
 
 
 def draw_ground(sheet: Sheet, ground: GroundMap, scale: Scale, *, numbers: bool) -> Rectangle:
     """Draw the map on a sheet; returns its frame. numbers: of the marks, and the names of obstacles"""
-    room = scale.paper.room
-    frame = sheet.frame(room)
-    _draw_coordinates(sheet, scale, room)
-    north_arrow(sheet, room[2] - 7.0, room[3] - 16.0, ground.geographic)
-    for order, (polygons, look) in enumerate(((ground.clear, IN_CLEAR), (ground.swept, IN_SWEPT)), start=1):
-        for rings in polygons:
-            sheet.area([_drawn(scale.on_paper(ring)) for ring in rings], frame, zorder=order, **look)
-    _draw_venue(sheet, ground, scale, frame)
+    frame = _draw_areas(sheet, [ground], scale)
     line = scale.on_paper(ground.line)
     sheet.line(line, frame, color=BLUE, linewidth=0.9 if numbers else 0.4, zorder=4)
     if numbers:
         _draw_arrows(sheet, line, frame)
         _draw_gates(sheet, ground, scale)
         _draw_marks(sheet, ground, scale, line)
+    return frame
+
+
+def draw_grounds(sheet: Sheet, grounds: Sequence[GroundMap], names: Sequence[str], scale: Scale) -> Rectangle:
+    """Draw one map of several dragons on a sheet; returns its frame. names: of the dragons, beside their paths"""
+    frame = _draw_areas(sheet, grounds, scale)
+    lines = [scale.on_paper(ground.line) for ground in grounds]
+    for k, line in enumerate(lines):
+        colour = colour_of(k)
+        sheet.line(line, frame, color=colour, linewidth=0.9, zorder=4)
+        _draw_arrows(sheet, line, frame, colour)
+    _draw_gates(sheet, grounds[0], scale)
+    for k, (line, name) in enumerate(zip(lines, names, strict=True)):
+        places = _beside(line, 0.5 * sheet.width(name, NAME_TYPE, bold=True))
+        look: dict[str, Any] = {
+            "color": colour_of(k),
+            "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.8},
+        }
+        if not sheet.label(name, NAME_TYPE, places, scale.paper.room, fontweight="bold", **look):
+            x, y = places[0].tolist()
+            sheet.words(x, y, name, NAME_TYPE, ha="center", fontweight="bold", **look)
+    return frame
+
+
+def _beside(line: Floats, half: float) -> list[Floats]:
+    """Places on both sides of a path for a word of that half width, at several shares of it [mm]."""
+    places = []
+    for k in (max(1, int(share * (len(line) - 1))) for share in NAME_PLACES):
+        along = line[k] - line[k - 1]
+        normal = np.array([-along[1], along[0]]) / max(float(np.hypot(*along)), 1e-9)
+        away = NAME_AWAY + half * abs(float(normal[0]))
+        places += [line[k] + away * normal, line[k] - away * normal]
+    return places
+
+
+def colour_of(dragon: int) -> str:
+    """Colour of one of several dragons, by its number."""
+    return COLOURS[dragon % len(COLOURS)]
+
+
+def _draw_areas(sheet: Sheet, grounds: Sequence[GroundMap], scale: Scale) -> Rectangle:
+    """Draw frame, coordinates, swept ground, the zone to keep clear and the venue; returns the frame."""
+    room = scale.paper.room
+    frame = sheet.frame(room)
+    _draw_coordinates(sheet, scale, room)
+    north_arrow(sheet, room[2] - 7.0, room[3] - 16.0, grounds[0].geographic)
+    for order, (name, look) in enumerate((("clear", IN_CLEAR), ("swept", IN_SWEPT)), start=1):
+        for rings in [rings for ground in grounds for rings in getattr(ground, name)]:
+            sheet.area([_drawn(scale.on_paper(ring)) for ring in rings], frame, zorder=order, **look)
+    _draw_venue(sheet, grounds[0], scale, frame)
     return frame
 
 
@@ -149,7 +195,7 @@ def _inside(ring: Floats, beside: float) -> list[tuple[float, float]]:
     return middles
 
 
-def _draw_arrows(sheet: Sheet, line: Floats, frame: Rectangle) -> None:
+def _draw_arrows(sheet: Sheet, line: Floats, frame: Rectangle, colour: str = BLUE) -> None:
     """Draw arrows along the path, in the direction of the dance."""
     steps = np.hypot(*np.diff(line, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])
@@ -160,7 +206,7 @@ def _draw_arrows(sheet: Sheet, line: Floats, frame: Rectangle) -> None:
         tip = line[k] + 1.6 * tangent
         sheet.shape(
             np.array([tip, line[k] - 1.0 * tangent + 0.9 * normal, line[k] - 1.0 * tangent - 0.9 * normal]), frame,
-            facecolor=BLUE, linewidth=0.0, zorder=6,
+            facecolor=colour, linewidth=0.0, zorder=6,
         )  # fmt: skip
 
 
@@ -205,15 +251,18 @@ def _draw_gates(sheet: Sheet, ground: GroundMap, scale: Scale) -> None:
         )
 
 
-def draw_benches(sheet: Sheet, scale: Scale, outlines: Floats, names: Sequence[str], frame: Rectangle) -> None:
+def draw_benches(
+    sheet: Sheet, scale: Scale, outlines: Floats, names: Sequence[str], frame: Rectangle, colour: str = ""
+) -> None:
     """Draw every bench in its true size, with its name where there is room for it.
 
-    outlines: corners (n, 4, 2) [m]
+    outlines: corners (n, 4, 2) [m]; colour: of all benches, empty for those of the only dragon
     """
+    own = {"facecolor": colour} if colour else {}
     room = scale.paper.room
     corners = scale.on_paper(outlines)
     for k, bench in enumerate(corners):
-        sheet.shape(bench, frame, zorder=5, **(IN_BENCH if k else IN_HEAD))
+        sheet.shape(bench, frame, zorder=5, **(IN_BENCH if k else IN_HEAD) | own)
     middles = corners.mean(axis=1)
     across = corners[:, 0] - corners[:, 1]
     wide = np.hypot(*across.T)
@@ -240,8 +289,10 @@ def draw_benches(sheet: Sheet, scale: Scale, outlines: Floats, names: Sequence[s
             sheet.label(names[k].partition(" ")[0], size, places, room)
 
 
-def draw_legend(sheet: Sheet, ground: GroundMap, left: float, right: float, bottom: float, *, benches: bool) -> None:
-    """Draw the meaning of colours and lines, in a cell of the title block."""
+def draw_legend(
+    sheet: Sheet, ground: GroundMap, left: float, right: float, bottom: float, *, benches: bool, several: bool = False
+) -> None:
+    """Draw the meaning of colours and lines, in a cell of the title block. several: of a map of several dragons"""
     say, wide = sheet.say, right - left - 14.0
     spacing = ground.timing.marks.spacing
     # Look of an area, or the kind of a line, and its words.
@@ -250,7 +301,11 @@ def draw_legend(sheet: Sheet, ground: GroundMap, left: float, right: float, bott
         (IN_CLEAR, say(f"keep clear, {ground.width:g} m", f"保持清空，{ground.width:g} m")),
         ("path", say("path of the handles", "把手的路线")),
     ]
-    if benches:
+    if several:
+        rows[-1] = ("path", say("path of each dragon, in its own colour", "每条龙的路线，颜色各异"))
+        if benches:
+            rows.append((IN_BENCH, say("bench, in the colour of its dragon", "板凳，颜色同其龙")))
+    elif benches:
         rows += [(IN_BENCH, say("bench", "板凳")), (IN_HEAD, say("head", "龙头"))]
     else:
         rows.append(("mark", say(f"chalk mark every {spacing:g} m", f"粉笔标记，每 {spacing:g} m")))

@@ -16,7 +16,15 @@ from matplotlib.backends.backend_pdf import PdfPages
 import core
 from app.files.drawing import in_turn
 from app.files.words import Say
-from app.plan.ground import GroundMap, draw_benches, draw_ground, draw_legend, scale_for
+from app.plan.ground import (
+    GroundMap,
+    colour_of,
+    draw_benches,
+    draw_ground,
+    draw_grounds,
+    draw_legend,
+    scale_for,
+)
 from app.plan.sheet import BLOCK, MARGIN, Paper, PaperName, Scale, Sheet, Title, title_block
 from app.plan.tables import PlanTable, draw_tables
 from app.plan.timing import TimeFormat, points_of
@@ -30,6 +38,7 @@ class Plan:
     """The content of a plan.
 
     family: fonts; names: of the benches; clock: format of times; title: of the block on every sheet
+    times_note: what the times are
     """
 
     ground: GroundMap
@@ -39,37 +48,65 @@ class Plan:
     title: Title
     paper: PaperName
     budget: core.Budget
+    times_note: str
+
+
+@dataclass(frozen=True, slots=True)
+class Together:
+    """What stands before the plans of several dragons: one map of all of them, and where each bench is.
+
+    performance: the dances; moments: three times of it [s]; names: of the dragons; clock: format of its times
+    title: of the block on these sheets
+    """
+
+    performance: core.Performance
+    moments: Sequence[float]
+    names: Sequence[str]
+    clock: TimeFormat
+    title: Title
 
 
 @dataclass(frozen=True, slots=True)
 class _Page:
-    """A sheet, its subtitle, the scale of its map, and whether benches stand on it (None: a sheet of tables)."""
+    """A sheet of a plan, its title and subtitle, the scale of its map (None: a sheet of tables), whether benches stand
+    on it, and whether it shows several dragons."""
 
+    plan: Plan
+    title: Title
     sheet: Sheet
     subtitle: str
     scale: Scale | None = None
     benches: bool = False
+    several: bool = False
 
 
-def plan_pdf(plan: Plan, say: Say, progress: Callable[[float], None] = lambda share: None) -> bytes:
-    """The bytes of the plan.
+def plan_pdf(
+    plans: Sequence[Plan],
+    together: Together | None,
+    say: Say,
+    progress: Callable[[float], None] = lambda share: None,
+) -> bytes:
+    """The bytes of the plan of one dragon, or of several together and of each.
 
     raises: InvalidValue if it is too large for the paper at every scale; Halted once the budget is stopped
     """
-    scale = scale_for(plan.ground, plan.paper)
+    scales = [scale_for([plan.ground], plan.paper) for plan in plans]
     sink = io.BytesIO()
 
     def drawn() -> bytes:
-        with matplotlib.rc_context({"font.family": plan.family, **FONTS}):
-            pages = [*_maps(plan, scale, say), *_tables(plan, scale.paper, say)]
-            metadata = {"Title": plan.title.title, "Creator": "Bench Dragon", "CreationDate": None}
+        with matplotlib.rc_context({"font.family": plans[0].family, **FONTS}):
+            pages = [] if together is None else [*_together(plans, together, say)]
+            for plan, scale in zip(plans, scales, strict=True):
+                pages += [*_maps(plan, scale, say), *_tables(plan, scale.paper, say)]
+            metadata = {"Title": pages[0].title.title, "Creator": "Bench Dragon", "CreationDate": None}
             with PdfPages(sink, metadata=metadata) as file:
                 for k, page in enumerate(pages, start=1):
-                    cell = title_block(page.sheet, plan.title, page.subtitle, f"{k}/{len(pages)}", page.scale)
+                    cell = title_block(page.sheet, page.title, page.subtitle, f"{k}/{len(pages)}", page.scale)
                     if page.scale is not None:
-                        draw_legend(page.sheet, plan.ground, *cell, MARGIN, benches=page.benches)
+                        look = {"benches": page.benches, "several": page.several}
+                        draw_legend(page.sheet, page.plan.ground, *cell, MARGIN, **look)
                     else:
-                        _notes(page.sheet, plan, *cell)
+                        _notes(page.sheet, page.plan, *cell)
                     file.savefig(page.sheet.figure)
                     progress(k / len(pages))
         return sink.getvalue()
@@ -77,25 +114,46 @@ def plan_pdf(plan: Plan, say: Say, progress: Callable[[float], None] = lambda sh
     return in_turn(drawn)
 
 
+def _together(plans: Sequence[Plan], together: Together, say: Say) -> Iterator[_Page]:
+    """The map of all dragons, and the place of each bench at three moments."""
+    grounds, first = [plan.ground for plan in plans], plans[0]
+    scale = scale_for(grounds, first.paper)
+    sheet = Sheet(scale.paper, say, first.family, first.budget)
+    draw_grounds(sheet, grounds, together.names, scale)
+    yield _Page(first, together.title, sheet, say("Plan of the ground", "场地平面图"), scale, several=True)
+    parts, moments = together.performance.parts, together.moments
+    placed = core.performance_trajectory(together.performance, moments, budget=first.budget)
+    for t, time in enumerate(moments):
+        sheet = Sheet(scale.paper, say, first.family, first.budget)
+        frame = draw_grounds(sheet, grounds, together.names, scale)
+        for k, (part, result, plan) in enumerate(zip(parts, placed, plans, strict=True)):
+            outlines = core.bench_outlines(part.dance.dragon, result.position[t])
+            draw_benches(sheet, scale, outlines, plan.names, frame, colour_of(k))
+        yield _Page(first, together.title, sheet, _places(together.clock.words(time), say), scale, True, True)
+
+
+def _places(when: str, say: Say) -> str:
+    return say(f"Place of each bench at {when}", f"{when} 时各节板凳的位置")
+
+
 def _maps(plan: Plan, scale: Scale, say: Say) -> Iterator[_Page]:
     ground, timing = plan.ground, plan.ground.timing
     sheet = Sheet(scale.paper, say, plan.family, plan.budget)
     draw_ground(sheet, ground, scale, numbers=True)
-    yield _Page(sheet, say("Plan of the ground", "场地平面图"), scale)
+    yield _Page(plan, plan.title, sheet, say("Plan of the ground", "场地平面图"), scale)
     dance = ground.dance
     for time, handles in zip(timing.moments, core.trajectory(dance, timing.moments).position, strict=True):
         sheet = Sheet(scale.paper, say, plan.family, plan.budget)
         frame = draw_ground(sheet, ground, scale, numbers=False)
         draw_benches(sheet, scale, core.bench_outlines(dance.dragon, handles), plan.names, frame)
-        when = plan.clock.words(time)
-        yield _Page(sheet, say(f"Place of each bench at {when}", f"{when} 时各节板凳的位置"), scale, True)
+        yield _Page(plan, plan.title, sheet, _places(plan.clock.words(time), say), scale, True)
 
 
 def _tables(plan: Plan, paper: Paper, say: Say) -> Iterator[_Page]:
     tables = [_events(plan, say), _gates(plan, say), _benches(plan, say), _marks(plan, say), _points(plan, say)]
     for sheet in draw_tables(tables, lambda: Sheet(paper, say, plan.family, plan.budget)):
         sheet.frame(paper.room)
-        yield _Page(sheet, say("Points to paint, and times", "放样点与时间表"))
+        yield _Page(plan, plan.title, sheet, say("Points to paint, and times", "放样点与时间表"))
 
 
 def _notes(sheet: Sheet, plan: Plan, left: float, right: float) -> None:
@@ -103,9 +161,7 @@ def _notes(sheet: Sheet, plan: Plan, left: float, right: float) -> None:
     say, place = sheet.say, f"{plan.ground.timing.start_place:.1f}"
     lines = [
         say("mark: length along the path from mark 0 [m]", "标记：沿路线距标记 0 的长度 [m]"),
-        say("times: of the day", "时间：当日时刻")
-        if plan.clock.start_clock
-        else say("times: minutes:seconds, from time 0 of the dance", "时间：自时刻 0 起的 分:秒"),
+        plan.times_note,
         say(
             f"enters: the front handle passes {place} m, the place of the head at the start",
             f"进入：前把手经过 {place} m，即龙头的起始位置",

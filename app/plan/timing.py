@@ -18,10 +18,15 @@ from core.values import Floats
 @dataclass(frozen=True, slots=True)
 class TimeFormat:
     """Format of times: minutes and seconds of the dance, or the time of day if it is known at time 0; with music, bar
-    and beat before them."""
+    and beat before them.
+
+    delay: time of the performance at time 0 of the dance, whose minutes and seconds it then is [s]; the time of day is
+        known at time 0 of the performance
+    """
 
     start_clock: str | None = None
     music: Music | None = None
+    delay: float = 0.0
 
     def words(self, time: float | None) -> str:
         """A time [s]; a dash for None.
@@ -43,6 +48,7 @@ class TimeFormat:
 
     def clock(self, time: float) -> str:
         """A time [s] without bar and beat."""
+        time += self.delay
         if self.start_clock is not None:
             return time_of_day(time, self.start_clock)
         tenths = round(abs(time) * 10.0)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field
 
@@ -16,7 +17,8 @@ from app.questions.check import verdict_of
 from app.questions.maps import Marked
 from app.wire.dances import clock_of
 from app.wire.degrees import Place
-from app.wire.question import Coordinate, Question, Terms, Wire, measure
+from app.wire.performances import SeveralFields
+from app.wire.question import Coordinate, Question, Terms, Wire, check_limit, measure
 from core import Dance, FailureKind, InvalidValue, Judgement
 from core.display import format_count
 from core.errors import Given, Quantity, format_number, question_about
@@ -25,7 +27,9 @@ from core.people.crew import places_near
 from core.shapes.engines import widened
 
 if TYPE_CHECKING:
-    from app.plan.plan import Plan
+    from app.plan.plan import Plan, Together
+    from app.plan.sheet import Title
+    from app.plan.timing import TimeFormat, Timing
 
 PDF_TYPE = "application/pdf"
 # Excess of the swept ground on paper [m]: 0.05 mm at 1:200.
@@ -38,6 +42,8 @@ SECONDS = 4.0
 FIRST_CHINESE = "\u2e80"
 # Most gates of a plan.
 GATES_MAX = 20
+# Most dragons of a plan: all its sheets are laid out before the first one is written.
+DRAGONS_MAX = 20
 # Words for each kind of failure.
 FAILURES = {
     FailureKind.CONTACT: ("benches touch or are too near", "板凳相碰或过近"),
@@ -58,7 +64,7 @@ class PlanGate(Wire, strict=True):
     within: float = measure("m", "Largest distance of the path from the place where it passes it", 5.0, ge=0, le=100)
 
 
-class PlanRequest(Marked):
+class DancePlan(Marked):
     """A dance, as for /check, and the look of its plan."""
 
     paper: Literal["A4", "A3"] = Field("A4", description="Size of the paper")
@@ -76,76 +82,180 @@ class PlanRequest(Marked):
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
 
+class PlanRequest(SeveralFields, DancePlan):
+    """A dance, or several on one clock, as for /check, and the look of its plan."""
+
+
 def plan(request: PlanRequest, terms: Terms) -> bytes:
     """The dance on paper as PDF: a map true to scale, the place of each bench, the points to paint and the times."""
-    from app.files.fonts import families
-    from app.plan.ground import GroundMap
-    from app.plan.plan import Plan
-    from app.plan.sheet import Title
-    from app.plan.timing import TimeFormat, timing_of
+    from app.plan.timing import TimeFormat
 
-    dance, budget, say = request.to_dance(terms.settings.checked_benches_max), terms.budget, Say(request.language)
+    if request.dances is not None:
+        return _of_several(request, terms)
+    dance, say = request.to_dance(terms.settings.checked_benches_max), Say(request.language)
     place, clock = request.to_place(dance.dragon), TimeFormat(clock_of(request, dance), request.music)
-    start, stop = dance.span(request.start, request.stop)
-    marks = marks_of(dance, start, stop, request.spacing)
-    timing = timing_of(dance, marks, start, stop, _gates(request, dance, start, stop, budget), budget)
-    swept = core.envelope(dance, start=start, stop=stop, excess=EXCESS, budget=budget).polygons
-    width = request.clear if request.clear is not None else request.margin or CLEAR
-    clear = widened(swept, width) if width else swept
-    geographic = request.origin_at(place) is not None
-    report = verdict_of(request, dance, place.venue, start, terms)
-    title = Title(
-        request.title or say("Bench dragon", "板凳龙"),
-        [*_facts(dance, request.margin, start, stop, clock.words, say), *_grid(place, say)],
-        verdict_words(report, clock.words, say),
-        report.verdict is Judgement.PASSES,
-        geographic,
-    )
-    gates = [(one.name, one.x, one.y) for one in request.gates]
-    ground = GroundMap(dance, place.venue, swept, clear, width, timing, geographic, gates)
-    numbers = [say("head", "龙头"), *map(str, range(1, dance.dragon.benches))]
-    names = [f"{number} {own}".rstrip() for number, own in zip_longest(numbers, dance.dragon.names, fillvalue="")]
-    texts = "".join(
-        [
-            title.title,
-            *names,
-            *(one.name for one in request.gates),
-            *(area.name for area in (place.venue.areas if place.venue else ())),
-        ]
-    )
+    span = dance.span(request.start, request.stop)
+    (passes,) = _passes_of_gates(request, [dance], [span], terms.budget)
+    timing = _timing(request, dance, span, passes, terms)
+    swept = core.envelope(dance, start=span[0], stop=span[1], excess=EXCESS, budget=terms.budget)
+    report = verdict_of(request, dance, place.venue, span[0], terms)
+    verdict = verdict_words(report, clock.words, say), report.verdict is Judgement.PASSES
+    common = _Common(request, place, verdict, _family(request, place, [dance.dragon], []), terms.budget)
+    times = say("times: minutes:seconds, from time 0 of the dance", "时间：自时刻 0 起的 分:秒")
+    return _drawn(dance, [common.plan_of(dance, timing, swept, clock, times)], say, terms)
+
+
+def _of_several(request: PlanRequest, terms: Terms) -> bytes:
+    """The plan of several dragons: all of them on one map, then the sheets of each."""
+    from app.plan.plan import Together
+    from app.plan.timing import TimeFormat
+
+    parts = request.dances or []
+    check_limit("dances", "dragons of a plan", len(parts), DRAGONS_MAX, "print some of them")
+    (performance, place), say, budget = request.to_placed(terms.settings), Say(request.language), terms.budget
+    start, stop = performance.span(request.start, request.stop)
+    clock = TimeFormat(clock_of(request, performance))
+    dances, spans = zip(*((part.dance, part.own_span(start, stop)) for part in performance.parts), strict=True)
+    passes = _passes_of_gates(request, dances, spans, budget)
+    timings = [_timing(request, *one, terms) for one in zip(dances, spans, passes, strict=True)]
+    grounds = core.performance_envelope(performance, start=start, stop=stop, excess=EXCESS, budget=budget)
+    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
+    report = core.performance_check(performance, start=start, stop=stop, details=False, budget=budget, **limits)
+    verdict = verdict_words(report, clock.words, say), report.verdict is Judgement.PASSES
+    names = [part.name or say(f"dragon {k}", f"第 {k + 1} 条龙") for k, part in enumerate(performance.parts)]
+    common = _Common(request, place, verdict, _family(request, place, [one.dragon for one in dances], names), budget)
+    times = say("times: minutes:seconds, from time 0 of the performance", "时间：自表演时刻 0 起的 分:秒")
+    plans = []
+    for k, (part, timing, swept) in enumerate(zip(performance.parts, timings, grounds, strict=True)):
+        own_clock = TimeFormat(clock.start_clock, parts[k].music, part.delay)
+        plans.append(common.plan_of(part.dance, timing, swept, own_clock, times, names[k]))
+    benches = sum(one.dragon.benches for one in dances)
+    facts = [
+        say(f"{len(dances)} dragons, {benches} benches", f"{len(dances)} 条龙，{benches} 节板凳"),
+        say(f"margin {format_number(request.margin)} m", f"间距 {format_number(request.margin)} m"),
+        _from_to(clock.words(start), clock.words(stop), say),
+        *_grid(place, say),
+    ]
+    moments = [start, 0.5 * (start + stop), stop]
+    together = Together(performance, moments, names, clock, common.title_of(facts))
+    return _drawn_together(performance, plans, together, say, terms)
+
+
+def _timing(
+    request: PlanRequest, dance: Dance, span: tuple[float, float], passes: list[tuple[str, float]], terms: Terms
+) -> Timing:
+    from app.plan.timing import timing_of
+
+    return timing_of(dance, marks_of(dance, *span, request.spacing), *span, passes, terms.budget)
+
+
+def _family(
+    request: PlanRequest, place: Place, dragons: Sequence[core.Dragon], names: Sequence[str]
+) -> tuple[str, ...]:
+    """Names of the fonts that have every character of the plan. names: of the dragons"""
+    from app.files.fonts import families
+
+    areas = place.venue.areas if place.venue else ()
+    titles = [request.title or Say(request.language)("Bench dragon", "板凳龙"), *names]
+    places = [*(one.name for one in request.gates), *(area.name for area in areas)]
+    texts = "".join([*titles, *places, *(name for dragon in dragons for name in dragon.names)])
     # Chinese names may stand in an English plan.
-    family = families(Language.CHINESE if max(texts) >= FIRST_CHINESE else request.language)
-    return _drawn(dance, Plan(ground, family, names, clock, title, request.paper, budget), say, terms)
+    return families(Language.CHINESE if max(texts) >= FIRST_CHINESE else request.language)
 
 
-def _gates(
-    request: PlanRequest, dance: Dance, start: float, stop: float, budget: core.Budget
-) -> list[tuple[str, float]]:
-    """Name and s [m] of each pass of a gate, in order along the path. raises: InvalidValue for a gate off the path"""
+@dataclass(frozen=True, slots=True)
+class _Common:
+    """What the plans of all dragons of a request share. verdict: in words, and whether it passes"""
+
+    request: PlanRequest
+    place: Place
+    verdict: tuple[str, bool]
+    family: tuple[str, ...]
+    budget: core.Budget
+
+    @property
+    def say(self) -> Say:
+        return Say(self.request.language)
+
+    @property
+    def geographic(self) -> bool:
+        return self.request.origin_at(self.place) is not None
+
+    def title_of(self, facts: list[str], name: str = "") -> Title:
+        """The title block. name: of the dragon, empty if it is the only one, or for all of them"""
+        from app.plan.sheet import Title
+
+        title = self.request.title or self.say("Bench dragon", "板凳龙")
+        return Title(f"{title}: {name}" if name else title, facts, *self.verdict, self.geographic)
+
+    def plan_of(
+        self, dance: Dance, timing: Timing, swept: core.Envelope, clock: TimeFormat, times: str, name: str = ""
+    ) -> Plan:
+        """The plan of a dragon. times: a note on what they are; name: of the dragon, empty if it is the only one"""
+        from app.plan.ground import GroundMap
+        from app.plan.plan import Plan
+
+        request, say = self.request, self.say
+        span = clock.words(timing.moments[0]), clock.words(timing.moments[-1])
+        facts = [*_facts(dance, request.margin, say), _from_to(*span, say), *_grid(self.place, say)]
+        width = request.clear if request.clear is not None else request.margin or CLEAR
+        clear = widened(swept.polygons, width) if width else swept.polygons
+        gates = [(one.name, one.x, one.y) for one in request.gates]
+        venue = self.place.venue
+        ground = GroundMap(dance, venue, swept.polygons, clear, width, timing, self.geographic, gates)
+        numbers = [say("head", "龙头"), *map(str, range(1, dance.dragon.benches))]
+        names = [f"{number} {own}".rstrip() for number, own in zip_longest(numbers, dance.dragon.names, fillvalue="")]
+        note = say("times: of the day", "时间：当日时刻") if clock.start_clock else times
+        return Plan(ground, self.family, names, clock, self.title_of(facts, name), request.paper, self.budget, note)
+
+
+def _passes_of_gates(
+    request: PlanRequest, dances: Sequence[Dance], spans: Sequence[tuple[float, float]], budget: core.Budget
+) -> list[list[tuple[str, float]]]:
+    """For each dance, name and s [m] of each pass of a gate, in order along its path.
+
+    raises: InvalidValue for a gate off all paths
+    """
+    passes: list[list[tuple[str, float]]] = [[] for _ in dances]
     if not request.gates:
-        return []
-    ends = handle_places(dance, [start, stop], budget=budget)
-    passes = []
+        return passes
+    walked = [handle_places(dance, span, budget=budget) for dance, span in zip(dances, spans, strict=True)]
     for k, gate in enumerate(request.gates):
-        near = places_near(dance.path, (gate.x, gate.y), float(ends[0, -1]), float(ends[1, 0]), gate.within)
-        if not near:
+        near = [
+            places_near(dance.path, (gate.x, gate.y), float(ends[0, -1]), float(ends[1, 0]), gate.within)
+            for dance, ends in zip(dances, walked, strict=True)
+        ]
+        for own, places in zip(passes, near, strict=True):
+            own += [(gate.name, s) for s in places]
+        if not any(near):
             rule = "must be within {within} of the path that the dragon walks"
             raise InvalidValue(f"gates.{k}", rule, got=Given(gate.name), within=Quantity(gate.within, "m"))
-        passes += [(gate.name, s) for s in near]
-    return sorted(passes, key=lambda one: one[1])
+    return [sorted(own, key=lambda one: one[1]) for own in passes]
 
 
 @question_about("dance", Dance, "the plan was not drawn")
-def _drawn(dance: Dance, plan: Plan, say: Say, terms: Terms) -> bytes:
+def _drawn(dance: Dance, plans: list[Plan], say: Say, terms: Terms) -> bytes:
     """The bytes of the plan of a dance. raises: TooMuchWork"""
     from app.plan.plan import plan_pdf
 
-    return plan_pdf(plan, say, terms.progress)
+    return plan_pdf(plans, None, say, terms.progress)
 
 
-def _facts(
-    dance: Dance, margin: float, start: float, stop: float, words: Callable[[float], str], say: Say
-) -> list[str]:
+@question_about("performance", core.Performance, "the plan was not drawn")
+def _drawn_together(
+    performance: core.Performance, plans: list[Plan], together: Together, say: Say, terms: Terms
+) -> bytes:
+    """The bytes of the plan of several dances. raises: TooMuchWork"""
+    from app.plan.plan import plan_pdf
+
+    return plan_pdf(plans, together, say, terms.progress)
+
+
+def _from_to(start: str, stop: str, say: Say) -> str:
+    return say(f"from {start} to {stop}", f"时间 {start} 至 {stop}")
+
+
+def _facts(dance: Dance, margin: float, say: Say) -> list[str]:
     """The dance in lines of the title block."""
     dragon = dance.dragon
     length = float(dragon.chords.sum())
@@ -161,7 +271,6 @@ def _facts(
             f"head at {english} m/s{paused}, margin {format_number(margin)} m",
             f"龙头速度 {chinese} m/s{stopped}，间距 {format_number(margin)} m",
         ),
-        say(f"from {words(start)} to {words(stop)}", f"时间 {words(start)} 至 {words(stop)}"),
     ]
 
 
@@ -173,7 +282,7 @@ def _grid(place: Place, say: Say) -> list[str]:
     return [say(f"x = y = 0 is x {x} m, y {y} m of the survey grid", f"x = y = 0 为测量坐标 x {x} m，y {y} m")]
 
 
-def verdict_words(report: core.Report, words: Callable[[float], str], say: Say) -> str:
+def verdict_words(report: core.Report | core.PerformanceReport, words: Callable[[float], str], say: Say) -> str:
     """The verdict of a check in a few words."""
     if not report.failures:
         return say("Checked: passes", "检查：通过")
@@ -182,4 +291,8 @@ def verdict_words(report: core.Report, words: Callable[[float], str], say: Say) 
     return say(f"Checked: {failure} at {words(first.time)}", f"检查：{words(first.time)} {failure}")
 
 
-QUESTION = Question(plan, None, body=PlanRequest, forms=(PDF_TYPE,), cost=lambda request: SECONDS, at="/plan")
+def _cost(request: PlanRequest) -> float:
+    return SECONDS * len(request.dances or [None])
+
+
+QUESTION = Question(plan, None, body=PlanRequest, forms=(PDF_TYPE,), cost=_cost, at="/plan")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -233,3 +234,86 @@ def test_a_font_that_is_gone_or_broken_draws_nothing(tmp_path: Path) -> None:
     (tmp_path / "broken.ttf").write_bytes(b"no font")
     for name in ("gone.ttf", "broken.ttf"):
         assert not fonts.draws_our_words(font_manager.FontEntry(fname=str(tmp_path / name), name="Noto Sans CJK SC"))
+
+
+# -- several dances ------------------------------------------------------------------------------------------
+
+LANES = [{"kind": "waypoints", "points": points} for points in ([[-30, 0], [30, 0]], [[0, -30], [0, 30]])]
+TWO: dict[str, Any] = {
+    "dances": [
+        {"name": "Long", "dragon": {"benches": 5, "names": ["Zhou", "Wu", "Zheng", "Wang", "Feng"]}, "path": LANES[0]},
+        {"name": "北", "delay": 40, "dragon": {"benches": 4}, "path": LANES[1]},
+    ],
+    "venue": {"type": "Polygon", "coordinates": [[[-35, -35], [35, -35], [35, 35], [-35, 35], [-35, -35]]]},
+    "gates": [{"name": "south gate", "x": 0, "y": -20}],
+    "title": "Lanterns",
+    "margin": 0.3,
+}
+
+
+def several_pages(client: httpx.Client, **more: Any) -> Any:
+    data = client.post("/plan", json=TWO | more).raise_for_status().content
+    return list(pypdfium2.PdfDocument(data))
+
+
+def test_the_plan_of_several_shows_all_of_them_and_then_each(client: httpx.Client) -> None:
+    sheets = [words(page) for page in several_pages(client)]
+    for sheet in sheets[:4]:
+        for word in ("Long", "北", "2 dragons, 9 benches", "south gate", "Checked: passes", "from 0:"):
+            assert word in sheet
+    assert "Place of each bench at" in sheets[1]
+    first = next(k for k, sheet in enumerate(sheets) if "Lanterns: 北" in sheet)
+    assert all("Lanterns: Long" in sheet for sheet in sheets[4:first])
+    assert "Lanterns: 北" in sheets[-1]
+    # The table of gates stands with the dragon that passes the gate, on the clock of the performance.
+    assert "Head and tail at the gates" not in "".join(sheets[4:first])
+    (gate,) = (
+        line for line in "\n".join(sheets[first:]).splitlines() if line.startswith("south gate") and " m " in line
+    )
+    assert gate.split()[2:] == ["10.0", "m", "0:50.0", "0:57.8"]
+    assert "times: minutes:seconds, from time 0 of the performance" in sheets[-1]
+
+
+def test_each_of_several_has_the_sheets_that_it_has_alone(client: httpx.Client) -> None:
+    alone = {"dragon": TWO["dances"][1]["dragon"], "path": LANES[1]} | {
+        name: TWO[name] for name in ("venue", "gates", "margin")
+    }
+    own = [words(page) for page in pypdfium2.PdfDocument(client.post("/plan", json=alone).raise_for_status().content)]
+    several = [words(page) for page in several_pages(client)][-len(own) :]
+    assert [sheet.count("–") for sheet in several] == [sheet.count("–") for sheet in own]
+    marks = [line for line in "\n".join(own).splitlines() if re.fullmatch(r"\d+ \d+\.000 -?\d+\.000", line.strip())]
+    assert marks
+    for line in marks:
+        assert line in "\n".join(several)
+
+
+def test_an_encounter_stands_in_the_title_block(client: httpx.Client) -> None:
+    meeting = [TWO["dances"][0], TWO["dances"][1] | {"delay": 0}]
+    sheets = [words(page) for page in several_pages(client, dances=meeting, start_clock="19:30", language="zh")]
+    assert all(re.search("检查：19:30:.. 板凳相碰或过近", sheet) for sheet in sheets)
+    assert "2 条龙，9 节板凳" in sheets[0]
+    assert "时间：当日时刻" in sheets[-1]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "pointer", "detail"),
+    [
+        ({"gates": [{"name": "far", "x": 20, "y": 20}]}, "/gates/0", "gates[0] must be within 5 m of the path"),
+        ({"dances": [TWO["dances"][1] | {"name": None}] * 21}, "/dances", "dragons of a plan must be at most 20 here"),
+        ({"path": LANES[0]}, "/path", "path must stand in each of the dances, got it beside them"),
+    ],
+)
+def test_what_is_wrong_with_several_is_refused(
+    client: httpx.Client, wrong: dict[str, Any], pointer: str, detail: str
+) -> None:
+    refused = client.post("/plan", json=TWO | wrong)
+    assert refused.status_code == 422
+    (error,) = refused.json()["errors"]
+    assert (error["pointer"], error["detail"][: len(detail)]) == (pointer, detail)
+
+
+def test_the_command_prints_the_plan_of_several(client: httpx.Client, tmp_path: Path) -> None:
+    file, output = tmp_path / "two.json", tmp_path / "two.pdf"
+    file.write_text(json.dumps(TWO))
+    assert run("plan", str(file), "--output", str(output)).returncode == 0
+    assert output.read_bytes() == client.post("/plan", json=TWO).content

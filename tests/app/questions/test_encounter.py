@@ -291,7 +291,6 @@ ABOUT_ONE = "{file} holds the dances of several dragons, and this question is ab
     ("envelope", TWO, ABOUT_ONE),
     ("film", TWO, ABOUT_ONE),
     ("maps", TWO, ABOUT_ONE),
-    ("plan", TWO, ABOUT_ONE),
     ("cues", TWO, ABOUT_ONE),
     ("propose", TWO, ABOUT_ONE),
     ("check", TWO | {"head_speed": 2}, "head_speed must stand in each of the dances, got it beside them"),
