@@ -35,15 +35,17 @@ FLAGS = {
     "clang": [*UNIX_FLAGS, "-O3"],
     "msvc": ["/O2", "/fp:precise"],
 }
-# One wheel for all Pythons (Py_LIMITED_API of 3.11) would be slower by more than 2 %: the minimum pitch takes 1.03 to 1.05,
-# the highest head speed 1.02 to 1.10, other questions 0.97 to 1.02 times as long (measured 2026-11-27 with Cython 3.3.1).
+# One wheel for all Pythons (Py_LIMITED_API of 3.11) would be slower by more than 2 %: the minimum pitch takes 1.03 to
+# 1.05, the highest head speed 1.02 to 1.10, other questions 0.97 to 1.02 times as long (measured 2026-11-27 with Cython
+# 3.3.1).
 DIRECTIVES = {
     "language_level": 3,
     "boundscheck": False,
     "wraparound": False,
     "cdivision": True,
     "initializedcheck": False,
-    # Loops keep nothing between two calls, so Python without its global lock may run them at once: tests/core/test_threads.
+    # Loops keep nothing between two calls, so Python without its global lock may run them at once:
+    # tests/core/test_threads.
     "freethreading_compatible": True,
     "emit_code_comments": False,  # the C compiles in nine tenths of the time
 }
