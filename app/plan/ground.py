@@ -102,20 +102,19 @@ def draw_grounds(sheet: Sheet, grounds: Sequence[GroundMap], names: Sequence[str
             "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.8},
         }
         if not sheet.label(name, NAME_TYPE, places, scale.paper.room, fontweight="bold", **look):
-            x, y = places[0].tolist()
-            sheet.words(x, y, name, NAME_TYPE, ha="center", fontweight="bold", **look)
+            sheet.words(*places[0], name, NAME_TYPE, ha="center", fontweight="bold", **look)
     return frame
 
 
-def _beside(line: Floats, half: float) -> list[Floats]:
+def _beside(line: Floats, half: float) -> list[tuple[float, float]]:
     """Places on both sides of a path for a word of that half width, at several shares of it [mm]."""
     places = []
     for k in (max(1, int(share * (len(line) - 1))) for share in NAME_PLACES):
         along = line[k] - line[k - 1]
         normal = np.array([-along[1], along[0]]) / max(float(np.hypot(*along)), 1e-9)
         away = NAME_AWAY + half * abs(float(normal[0]))
-        places += [line[k] + away * normal, line[k] - away * normal]
-    return places
+        places += [line[k] + side * away * normal for side in (1.0, -1.0)]
+    return [(x, y) for x, y in np.array(places).tolist()]
 
 
 def colour_of(dragon: int) -> str:

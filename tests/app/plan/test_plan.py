@@ -17,6 +17,10 @@ from matplotlib import font_manager
 
 from app.files import fonts
 from app.plan.sheet import MARGIN, RATIOS, scale_of
+from app.questions.plan import PDF_TYPE, PlanRequest
+from app.questions.plan import QUESTION as PLAN
+from app.wire.messages import checked
+from app.wire.question import Terms
 from core import InvalidValue
 from tests.support.command import run
 
@@ -251,13 +255,17 @@ TWO: dict[str, Any] = {
 }
 
 
-def several_pages(client: httpx.Client, **more: Any) -> Any:
-    data = client.post("/plan", json=TWO | more).raise_for_status().content
-    return list(pypdfium2.PdfDocument(data))
+def printed(body: dict[str, Any]) -> bytes:
+    """The plan, which the deadline of the service does not end."""
+    return PLAN.to_bytes(checked(PlanRequest, body), Terms(), PDF_TYPE)
 
 
-def test_the_plan_of_several_shows_all_of_them_and_then_each(client: httpx.Client) -> None:
-    sheets = [words(page) for page in several_pages(client)]
+def several_pages(**more: Any) -> Any:
+    return list(pypdfium2.PdfDocument(printed(TWO | more)))
+
+
+def test_the_plan_of_several_shows_all_of_them_and_then_each() -> None:
+    sheets = [words(page) for page in several_pages()]
     for sheet in sheets[:4]:
         for word in ("Long", "北", "2 dragons, 9 benches", "south gate", "Checked: passes", "from 0:"):
             assert word in sheet
@@ -274,12 +282,12 @@ def test_the_plan_of_several_shows_all_of_them_and_then_each(client: httpx.Clien
     assert "times: minutes:seconds, from time 0 of the performance" in sheets[-1]
 
 
-def test_each_of_several_has_the_sheets_that_it_has_alone(client: httpx.Client) -> None:
+def test_each_of_several_has_the_sheets_that_it_has_alone() -> None:
     alone = {"dragon": TWO["dances"][1]["dragon"], "path": LANES[1]} | {
         name: TWO[name] for name in ("venue", "gates", "margin")
     }
-    own = [words(page) for page in pypdfium2.PdfDocument(client.post("/plan", json=alone).raise_for_status().content)]
-    several = [words(page) for page in several_pages(client)][-len(own) :]
+    own = [words(page) for page in pypdfium2.PdfDocument(printed(alone))]
+    several = [words(page) for page in several_pages()][-len(own) :]
     assert [sheet.count("–") for sheet in several] == [sheet.count("–") for sheet in own]
     marks = [line for line in "\n".join(own).splitlines() if re.fullmatch(r"\d+ \d+\.000 -?\d+\.000", line.strip())]
     assert marks
@@ -287,9 +295,9 @@ def test_each_of_several_has_the_sheets_that_it_has_alone(client: httpx.Client) 
         assert line in "\n".join(several)
 
 
-def test_an_encounter_stands_in_the_title_block(client: httpx.Client) -> None:
+def test_an_encounter_stands_in_the_title_block() -> None:
     meeting = [TWO["dances"][0], TWO["dances"][1] | {"delay": 0}]
-    sheets = [words(page) for page in several_pages(client, dances=meeting, start_clock="19:30", language="zh")]
+    sheets = [words(page) for page in several_pages(dances=meeting, start_clock="19:30", language="zh")]
     assert all(re.search("检查：19:30:.. 板凳相碰或过近", sheet) for sheet in sheets)
     assert "2 条龙，9 节板凳" in sheets[0]
     assert "时间：当日时刻" in sheets[-1]
@@ -312,8 +320,8 @@ def test_what_is_wrong_with_several_is_refused(
     assert (error["pointer"], error["detail"][: len(detail)]) == (pointer, detail)
 
 
-def test_the_command_prints_the_plan_of_several(client: httpx.Client, tmp_path: Path) -> None:
+def test_the_command_prints_the_plan_of_several(tmp_path: Path) -> None:
     file, output = tmp_path / "two.json", tmp_path / "two.pdf"
     file.write_text(json.dumps(TWO))
     assert run("plan", str(file), "--output", str(output)).returncode == 0
-    assert output.read_bytes() == client.post("/plan", json=TWO).content
+    assert output.read_bytes() == printed(TWO)
