@@ -1,4 +1,4 @@
-"""A child process, as its parent meets it."""
+"""A child process, seen from its parent."""
 
 from __future__ import annotations
 

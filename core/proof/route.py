@@ -64,7 +64,7 @@ class Piece:
         return self.curvature
 
     def behind(self, t: arb, chord: arb) -> arb:
-        """The parameter of the first point behind at a chord, if the piece is long enough."""
+        """The parameter of the first point behind that is a chord away, if the piece is long enough."""
         half = abs(self.curvature) * chord / 2
         if self.curvature == 0:
             return t + chord
@@ -188,7 +188,7 @@ class BallPath:
         return hull.lower(), hull.upper()
 
     def behind(self, front: tuple[Piece, arb], chord: arb) -> tuple[Piece, arb]:
-        """The first place behind at a chord (8.), as piece and parameter."""
+        """The first place behind that is a chord away (8.), as piece and parameter."""
         piece, t = front
         rear = piece, piece.behind(t, chord)
         if not self.holds(piece, piece.place(rear[1])):
@@ -201,7 +201,7 @@ class BallPath:
         return rear
 
     def _on_earlier(self, front: tuple[Piece, arb], chord: arb) -> tuple[Piece, arb]:
-        """The point at a chord behind the front handle, on an earlier piece than the front handle."""
+        """The point a chord behind the front handle, on an earlier piece than the front handle."""
         point, z = front[0].point(front[1]), front[0].place(front[1])
         for k in range(front[0].index - 1, -1, -1):
             piece, end = self.pieces[k], self.ends(k + 1)[1]
