@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from app.wire.degrees import GRID_MAX, Origin
+from app.wire.degrees import GRID_MAX, GeographicOrigin
 from app.wire.geojson import Thing
 from core import InvalidValue
 from core.values import Floats, Point
@@ -92,17 +92,17 @@ class Drawing:
 
     features: tuple[MapFeature, ...]
     unit: Unit
-    origin: Origin | None = None
+    origin: GeographicOrigin | None = None
     path: Mapping[str, object] | None = None
     left_out: Mapping[str, int] = field(default_factory=dict)
     hidden: Mapping[str, int] = field(default_factory=dict)
     grid: Point | None = None
 
 
-def origin_of(stated: object) -> Origin | None:
+def origin_of(stated: object) -> GeographicOrigin | None:
     """The place of x = y = 0 in a file's own words; None if it gives none."""
     values = _numbers(stated, ("longitude", "latitude"), (180.0, 90.0))
-    return None if values is None else Origin(*values)
+    return None if values is None else GeographicOrigin(*values)
 
 
 def grid_of(stated: object) -> Point | None:

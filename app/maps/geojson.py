@@ -23,7 +23,7 @@ from app.maps.features import (
     origin_of,
     role_of,
 )
-from app.wire.degrees import GEOGRAPHIC, named_system
+from app.wire.degrees import GEOGRAPHIC, crs_name
 from app.wire.geojson import DEPTH_MAX
 from core import InvalidValue
 from core.errors import Given
@@ -46,7 +46,7 @@ def read(document: Mapping[str, Any]) -> Drawing:
     collector = FeatureCollector()
     for feature in _features("file", document, MapFeature("point", ()), collector):
         collector.add(feature)
-    system = named_system(document)
+    system = crs_name(document)
     geographic = system is not None and GEOGRAPHIC.search(system) is not None
     line: Mapping[str, object] = next((one.properties for one in collector.features if "path" in one.properties), {})
     path = line.get("path")

@@ -15,7 +15,7 @@ from app.maps import geojson
 from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, Unit, area_of, holds_any, round_area
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
 from app.maps.tracks import APART, CHORD, walk_of
-from app.wire.degrees import ACROSS_MAX, GRID_MAX, Origin, Plane, middle_of, refuse_wide, unwrapped
+from app.wire.degrees import ACROSS_MAX, GRID_MAX, GeographicOrigin, Plane, middle_of, refuse_wide, unwrapped
 from app.wire.geojson import outlined, read_things, venue_of
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
@@ -51,7 +51,7 @@ class DanceParts:
 
     path: Mapping[str, Any] | None = None
     venue: Venue | None = None
-    origin: Origin | None = None
+    origin: GeographicOrigin | None = None
     dance: Mapping[str, Any] | None = None
     notes: Sequence[str] = ()
     things: Sequence[MapFeature] = ()
@@ -185,7 +185,7 @@ class Reading:
             raise error.because(GUESSED) if guessed else error from None
         plane = Plane(self.origin)
         if abs(self.origin.longitude) > 180.0:
-            self.origin = Origin((self.origin.longitude + 180.0) % 360.0 - 180.0, self.origin.latitude)
+            self.origin = GeographicOrigin((self.origin.longitude + 180.0) % 360.0 - 180.0, self.origin.latitude)
         self.features = [one.moved(plane.metres) for one in self.features]
         east, north = self.origin.longitude, self.origin.latitude
         self._note(

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.maps.features import Drawing, MapFeature, Unit, features_of
-from app.wire.degrees import Origin, Place, Plane
+from app.wire.degrees import GeographicOrigin, Place, Plane
 from app.wire.question import check_limit
 from core import Dance
 from core.motion.places import handle_places
@@ -81,7 +81,7 @@ def line_of(path: Path, low: float, high: float) -> Floats:
 
 
 def drawing_of(
-    dance: Dance, place: Place, marks: Marks, path_fields: Mapping[str, object], origin: Origin | None
+    dance: Dance, place: Place, marks: Marks, path_fields: Mapping[str, object], origin: GeographicOrigin | None
 ) -> Drawing:
     """The dance as a map in metres. place: the venue; path_fields: the path as a request describes it"""
     features = features_of(place.things)

@@ -44,10 +44,10 @@ class Marked(DanceCheck, strict=True):
         description="Place of x = y = 0; null: as the venue states it. KML needs it; GeoJSON is in metres without it",
     )
 
-    def origin_at(self, place: degrees.Place) -> degrees.Origin | None:
+    def origin_at(self, place: degrees.Place) -> degrees.GeographicOrigin | None:
         """The origin in the request, else that of the venue."""
         origin = self.origin
-        return degrees.Origin(origin.longitude, origin.latitude) if origin else place.origin
+        return degrees.GeographicOrigin(origin.longitude, origin.latitude) if origin else place.origin
 
 
 class MapsRequest(Marked, strict=True):

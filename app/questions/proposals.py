@@ -8,7 +8,7 @@ from pydantic import Field
 
 import core
 from app.wire.dances import DragonFields, VenueFields
-from app.wire.degrees import Origin, Place
+from app.wire.degrees import GeographicOrigin, Place
 from app.wire.geojson import venue_geometry
 from app.wire.paths import Point, path_of
 from app.wire.question import Angle, Answer, Margin, Question, SpeedLimit, Terms, Whole, Wire, measure
@@ -152,7 +152,7 @@ def proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, P
     return result, place
 
 
-def body_of(request: ProposalsRequest, one: core.Proposal, origin: Origin | None) -> dict[str, Any]:
+def body_of(request: ProposalsRequest, one: core.Proposal, origin: GeographicOrigin | None) -> dict[str, Any]:
     """The body of POST /check for a proposal, with the limits that were asked for."""
     body = {
         "dragon": dragon_of(one.dance.dragon),

@@ -118,8 +118,8 @@ def _columns(words: Iterable[str], number: int) -> list[str]:
     """The columns that the first line names."""
     columns = []
     for word in words:
-        plain = word.partition("[")[0].partition("(")[0].strip().lower()
-        column = next((column for column, known in WORDS.items() if plain in known), None)
+        heading = word.partition("[")[0].partition("(")[0].strip().lower()
+        column = next((column for column, known in WORDS.items() if heading in known), None)
         if column is None or column in columns:
             rule = f"a column must be {'named once' if column else 'name, length, width or overhang'}"
             raise _line_error(number, rule, got=Given(word))

@@ -38,7 +38,7 @@ SWAPPED = "longitude comes first and latitude second, and here they look swapped
 
 
 @dataclass(frozen=True, slots=True)
-class Origin:
+class GeographicOrigin:
     """Place of x = y = 0 [degrees]."""
 
     longitude: float
@@ -52,7 +52,7 @@ class Origin:
 class Plane:
     """The plane that touches the earth at an origin: x to the east, y to the north [m]."""
 
-    def __init__(self, origin: Origin) -> None:
+    def __init__(self, origin: GeographicOrigin) -> None:
         self.origin = origin
         l0, p0 = math.radians(origin.longitude), math.radians(origin.latitude)
         self.middle = _from_centre(np.array([[origin.longitude, origin.latitude]]))
@@ -86,7 +86,7 @@ class Place:
     """
 
     venue: Venue | None = None
-    origin: Origin | None = None
+    origin: GeographicOrigin | None = None
     things: Sequence[Thing] = ()
     grid: Point | None = None
 
@@ -98,16 +98,16 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
     raises: InvalidValue, also for metres that must be degrees: all coordinates are within 180 and 90, in either order,
         and the square is narrower than a bench
     """
-    named = named_system(geometry)
+    system_name = crs_name(geometry)
     for member in ("geometry", "features", "geometries"):
         _refuse_systems_inside(f"venue.{member}", geometry.get(member))
-    geographic = named is not None and GEOGRAPHIC.search(named) is not None
-    if coordinates is None and named is not None and not geographic:
+    geographic = system_name is not None and GEOGRAPHIC.search(system_name) is not None
+    if coordinates is None and system_name is not None and not geographic:
         words = "give longitude and latitude without crs, or true metres with coordinates 'metres' beside the venue"
-        raise InvalidValue("venue.crs", f"must be left out or name CRS84: {words}", got=Given(named))
-    if named is not None and coordinates == ("metres" if geographic else "degrees"):
+        raise InvalidValue("venue.crs", f"must be left out or name CRS84: {words}", got=Given(system_name))
+    if system_name is not None and coordinates == ("metres" if geographic else "degrees"):
         rule = f"must agree with {{crs}}: {{system}} is {'longitude and latitude' if geographic else 'something else'}"
-        crs, system = Parameter("venue.crs"), Given(named)
+        crs, system = Parameter("venue.crs"), Given(system_name)
         raise InvalidValue("coordinates", rule, got=Given(coordinates), crs=crs, system=system)
     if coordinates == "degrees" or geographic:
         return _projected(_in_degrees(geometry))
@@ -117,7 +117,7 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
     return Place(venue_of(polygons), _stated_origin(geometry.get("origin")), things, _stated_grid(geometry.get("grid")))
 
 
-def _stated_origin(member: object) -> Origin | None:
+def _stated_origin(member: object) -> GeographicOrigin | None:
     """Place of x = y = 0, from the member `origin` of a venue in metres. raises: InvalidValue"""
     if member is None:
         return None
@@ -125,7 +125,7 @@ def _stated_origin(member: object) -> Origin | None:
         raise InvalidValue("venue.origin", "must have longitude and latitude in degrees, or be left out")
     limits = {"longitude": DEGREES[1], "latitude": DEGREES[2]}
     places = (checked_number(f"venue.origin.{name}", member[name], "degrees", -m, m) for name, m in limits.items())
-    return Origin(*places)
+    return GeographicOrigin(*places)
 
 
 def _stated_grid(member: object) -> Point | None:
@@ -138,7 +138,7 @@ def _stated_grid(member: object) -> Point | None:
     return x, y
 
 
-def named_system(geometry: Mapping[str, object]) -> str | None:
+def crs_name(geometry: Mapping[str, object]) -> str | None:
     """Name of the coordinate system in GeoJSON of 2008; None without one."""
     system = geometry.get("crs") if isinstance(geometry, Mapping) else None
     if system is None:
@@ -209,17 +209,17 @@ def _projected(polygons: list[Polygon]) -> Place:
         return tuple(map(tuple, plane.metres(np.array(ring)).tolist()))
 
     metres = [(name, tuple(map(placed, rings))) for name, rings in turned]
-    where = Origin((origin.longitude + 180.0) % 360.0 - 180.0, origin.latitude)
+    where = GeographicOrigin((origin.longitude + 180.0) % 360.0 - 180.0, origin.latitude)
     return Place(venue_of(metres), where, [(*polygon, None) for polygon in metres])
 
 
-def middle_of(rings: list[Ring]) -> Origin:
+def middle_of(rings: list[Ring]) -> GeographicOrigin:
     """The middle of the box around rings in degrees."""
     left, low, right, high = _bounds(rings)
-    return Origin(0.5 * (left + right), 0.5 * (low + high))
+    return GeographicOrigin(0.5 * (left + right), 0.5 * (low + high))
 
 
-def refuse_wide(field: str, rings: list[Ring], origin: Origin) -> None:
+def refuse_wide(field: str, rings: list[Ring], origin: GeographicOrigin) -> None:
     """raises: InvalidValue for rings in degrees that are more than ACROSS_MAX across"""
     left, low, right, high = _bounds(rings)
     across = AXIS * math.radians(max((right - left) * math.cos(math.radians(origin.latitude)), high - low))

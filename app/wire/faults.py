@@ -7,7 +7,7 @@ from typing import Any
 
 from app.wire.dances import SHAPES
 from app.wire.messages import fault_of, place_of
-from app.wire.problem import ERRORS_MAX, PLACE_MAX, ErrorItem, Problem, item_of, plain, problem_of
+from app.wire.problem import ERRORS_MAX, PLACE_MAX, ErrorItem, Problem, item_of, problem_of, sendable_text
 from core import BenchDragonError
 
 # A function that makes an error of the problem from the steps to its place and the error itself.
@@ -56,4 +56,4 @@ def pointer(place: Sequence[Any], body: Any) -> str:
         steps.append(str(step).replace("~", "~0").replace("/", "~1"))
         inside = isinstance(step, int) if isinstance(body, list) else isinstance(body, dict) and step in body
         body = body[step] if inside else None
-    return plain("".join(f"/{step}" for step in steps), ERRORS_MAX * PLACE_MAX)
+    return sendable_text("".join(f"/{step}" for step in steps), ERRORS_MAX * PLACE_MAX)

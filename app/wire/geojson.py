@@ -27,7 +27,7 @@ Polygon = tuple[str, tuple[Ring, ...]]
 # Name, the rings of a polygon or the points of a tree or a wall, and its radius, if it has one [m].
 Thing = tuple[str, tuple[Ring, ...], float | None]
 # Name if it has one, the field of its coordinates, the coordinates as given, and half of its width, if it has one [m].
-FoundPolygon = tuple[str | None, str, object, float | None]
+RawPolygon = tuple[str | None, str, object, float | None]
 # Unit of coordinates, and the largest |x| and |y| in it.
 Scale = tuple[str, float, float]
 METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
@@ -103,7 +103,7 @@ def venue_geometry(venue: Venue, origin: Any = None) -> dict[str, object]:
     return {"type": "FeatureCollection", **place, "features": features}
 
 
-def _polygons(field: str, geometry: object, depth: int = 0) -> list[FoundPolygon]:
+def _polygons(field: str, geometry: object, depth: int = 0) -> list[RawPolygon]:
     """Every polygon of a GeoJSON object, in its order."""
     if depth > DEPTH_MAX:
         raise InvalidValue("venue", "must not nest objects deeper than {most}", most=DEPTH_MAX)

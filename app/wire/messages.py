@@ -14,7 +14,7 @@ from pydantic import BaseModel, Tag, ValidationError
 
 from app.wire.dances import AXIS, SHAPES
 from app.wire.paths import KINDS
-from app.wire.question import SHOWN_MAX, Wire, short_json, unit_of
+from app.wire.question import VALUE_LENGTH_MAX, Wire, short_json, unit_of
 from core import InvalidValue
 from core.errors import Given, Parameter, Quantity, Value, format_field
 
@@ -40,9 +40,11 @@ def checked(model: type[Model], values: object, thing: str = OBJECT) -> Model:
         fault, field = fault_of({**first, "loc": ("request", *first["loc"])}, model, thing), ".".join(map(str, steps))
         subject: dict[str, Value] = {}
         if len(steps) > 1:
-            named = next((step for step in reversed(steps) if isinstance(step, str)), fault.field) == fault.field
+            last_name = next((step for step in reversed(steps) if isinstance(step, str)), fault.field)
             word = "table" if "table" in fault.values else "field"
-            subject = {word: Parameter(field) if named else f"{format_field(field)}: {fault.values[word]}"}
+            subject = {
+                word: Parameter(field) if last_name == fault.field else f"{format_field(field)}: {fault.values[word]}"
+            }
         raise fault.renamed(lambda name: field if name == fault.field else name, **subject) from error
 
 
@@ -87,7 +89,7 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
     words = str(value) if isinstance(value, str) and number is not None else short_json(value)
     got: Value = Given(value, words)
     if number is not None:
-        got = Quantity(number, unit, text=f"{words} {unit}".rstrip() if len(words) < SHOWN_MAX else "")
+        got = Quantity(number, unit, text=f"{words} {unit}".rstrip() if len(words) < VALUE_LENGTH_MAX else "")
     values: dict[str, Value] = {"got": got, "unit": unit}
     bounds = {"ge": "least", "gt": "least", "le": "most", "lt": "most"}
     values |= {word: Quantity(limits[key], unit, 15) for key, word in bounds.items() if key in limits}

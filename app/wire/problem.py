@@ -87,7 +87,7 @@ def problem_of(
     """
     error = BenchDragonError.in_words("", error, **values) if isinstance(error, str) else error
     sentence = sentence_of(error)
-    sentence["detail"] = plain(f"{error}{more}", 2 * DETAIL_MAX)
+    sentence["detail"] = sendable_text(f"{error}{more}", 2 * DETAIL_MAX)
     kind, listed = f"urn:problem-type:bench-dragon:{code}", list(islice(errors, ERRORS_MAX))
     problem = Problem(type=kind, title=title(status), status=status, errors=listed, **sentence)
     while problem.errors and len(problem.to_json()) > BYTES_MAX:
@@ -97,35 +97,37 @@ def problem_of(
 
 def item_of(error: BenchDragonError, *, pointer: str | None = None, name: str | None = None) -> ErrorItem:
     """An error at its place."""
-    return ErrorItem(pointer=pointer, name=name and plain(name, PLACE_MAX), **sentence_of(error))
+    return ErrorItem(pointer=pointer, name=name and sendable_text(name, PLACE_MAX), **sentence_of(error))
 
 
 def sentence_of(error: BenchDragonError) -> dict[str, Any]:
     """The fields of a Sentence."""
     return {
-        "detail": plain(error.message),
-        "template": plain(error.template),
+        "detail": sendable_text(error.message),
+        "template": sendable_text(error.template),
         "got": None if error.got is None else _part(error.got),
-        "reason": plain(error.reason) or None,
+        "reason": sendable_text(error.reason) or None,
         "values": {word: _part(value) for word, value in error.values.items()},
     }
 
 
 def _part(value: Value) -> Part:
     if isinstance(value, Parameter):
-        return Part(text=plain(str(value)), parameter=plain(value.name, PLACE_MAX))
+        return Part(text=sendable_text(str(value)), parameter=sendable_text(value.name, PLACE_MAX))
     if isinstance(value, Quantity):
         number = float(f"{value.value:.{value.digits}g}")
-        return Part(text=plain(str(value)), value=number if math.isfinite(number) else None, unit=value.unit or None)
+        return Part(
+            text=sendable_text(str(value)), value=number if math.isfinite(number) else None, unit=value.unit or None
+        )
     inner = value.value if isinstance(value, Given) else None if isinstance(value, str) else value
     if isinstance(inner, str):
-        inner = plain(inner)
+        inner = sendable_text(inner)
     elif isinstance(inner, bool) or not (isinstance(inner, int | float) and abs(inner) <= NUMBER_MAX):
         inner = None
-    return Part(text=plain(str(value)), value=inner)
+    return Part(text=sendable_text(str(value)), value=inner)
 
 
-def plain(text: str, longest: int = DETAIL_MAX) -> str:
+def sendable_text(text: str, longest: int = DETAIL_MAX) -> str:
     """Text that can be sent: cut if it is long, without half characters."""
     text = text if len(text) <= longest else f"{text[:longest]}... ({len(text)} characters)"
     return text.encode(errors="replace").decode()

@@ -37,7 +37,7 @@ JSON = "application/json"
 # Any file.
 BYTES = "application/octet-stream"
 # Longer values are shortened in messages [characters].
-SHOWN_MAX = 60
+VALUE_LENGTH_MAX = 60
 # An object with more names than this is refused without a look at its fields.
 NAMES_MAX = 100
 
@@ -76,7 +76,7 @@ def short_json(value: Any) -> str:
     if isinstance(value, float):
         return format_number(value)
     text = json.dumps(value, ensure_ascii=False, default=str)
-    return text if len(text) <= SHOWN_MAX else f"{text[:SHOWN_MAX]}... ({len(text)} characters)"
+    return text if len(text) <= VALUE_LENGTH_MAX else f"{text[:VALUE_LENGTH_MAX]}... ({len(text)} characters)"
 
 
 def measure(unit: str, description: str = "", default: Any = ..., **limits: Any) -> Any:

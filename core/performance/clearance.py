@@ -26,7 +26,7 @@ from core.kernels import Budget, Ended
 from core.motion.trajectory import instants
 from core.performance.answer import FirstEncounter, NearPass
 from core.performance.encounter import first_encounter, marched
-from core.performance.march import DIP_WIDTH, Dip, crossing, least_after, sliver
+from core.performance.march import DIP_WIDTH, EncounterDip, crossing, least_after, sliver
 from core.performance.performance import Performance
 from core.performance.stage import BEFORE, Stage
 from core.sampling import dips
@@ -118,13 +118,13 @@ def performance_clearance(
     return PerformanceClearance(time, clearance.reshape(time.shape), dragons, benches, grazes)
 
 
-def _looked(stage: Stage, time: float, known: tuple[int, int] = (0, 0)) -> Dip:
+def _looked(stage: Stage, time: float, known: tuple[int, int] = (0, 0)) -> EncounterDip:
     """clearance_at(), whose work counts in the budget of the whole question."""
     stage.budget.afford(len(stage.owner))
     return clearance_at(stage, time, known)
 
 
-def clearance_at(stage: Stage, time: float, known: tuple[int, int] = (0, 0)) -> Dip:
+def clearance_at(stage: Stage, time: float, known: tuple[int, int] = (0, 0)) -> EncounterDip:
     """The least gap at a time [s], and its rows; known: rows to begin with, which stay if no others are nearer.
 
     Where a bench folds at that time, its dragon stands as it does just before (march.sliver()).
@@ -133,7 +133,7 @@ def clearance_at(stage: Stage, time: float, known: tuple[int, int] = (0, 0)) -> 
         if not stage.stand(k, BEFORE, time, 0.0):
             stage.stand(k, BEFORE, time - sliver(stage, k), 0.0)
     gap, a, b = stage.nearest(*known)
-    return Dip(gap, time, (a, b))
+    return EncounterDip(gap, time, (a, b))
 
 
 def _samples(stage: Stage) -> int:
@@ -145,7 +145,7 @@ def _samples(stage: Stage) -> int:
     return max(3, int(min(3.0 + (until - begin) / step, affordable)))
 
 
-def looks(stage: Stage) -> list[Dip]:
+def looks(stage: Stage) -> list[EncounterDip]:
     """The least gaps at times over the span, in even steps."""
     return [_looked(stage, time) for time in np.linspace(*stage.span, _samples(stage)).tolist()]
 
@@ -244,11 +244,11 @@ def _left_to_fold(stage: Stage, proven: float) -> float:
     return min(stage.margin, max(0.0, least_after(stage, proven, stage.span[1], folding)))
 
 
-def _least(stage: Stage, dip: Dip, at_least: float | None) -> PerformanceLeastClearance:
+def _least(stage: Stage, dip: EncounterDip, at_least: float | None) -> PerformanceLeastClearance:
     return PerformanceLeastClearance(dip.gap, at_least, dip.time, *stage.pair(*dip.rows))
 
 
-def _touch(stage: Stage, met: FirstEncounter, touching: Dip) -> PerformanceLeastClearance:
+def _touch(stage: Stage, met: FirstEncounter, touching: EncounterDip) -> PerformanceLeastClearance:
     """The first touch; if that is not decided, a certain or else a computed one."""
     if met.dragons is None or met.benches is None or met.time is None:
         if met.overlapping is not None and met.time_bracket is not None:
@@ -261,12 +261,12 @@ def _touch(stage: Stage, met: FirstEncounter, touching: Dip) -> PerformanceLeast
     return PerformanceLeastClearance(0.0, 0.0, met.time, met.dragons, met.benches)
 
 
-def resampled(stage: Stage, known: Sequence[Dip], within: float) -> list[Dip]:
+def resampled(stage: Stage, known: Sequence[EncounterDip], within: float) -> list[EncounterDip]:
     """The samples, looked at again on this stage where the known gap is at most `within` [m]."""
     return [_looked(stage, one.time, one.rows) if one.gap <= within else one for one in known]
 
 
-def sampled_least(stage: Stage, samples: Sequence[Dip]) -> Dip:
+def sampled_least(stage: Stage, samples: Sequence[EncounterDip]) -> EncounterDip:
     """The least clearance at the ends and in the dips of samples in order of time."""
     lowest = dips(np.array([sample.gap for sample in samples]), DIPS_REFINED).tolist()
     return min(
@@ -274,14 +274,14 @@ def sampled_least(stage: Stage, samples: Sequence[Dip]) -> Dip:
     )
 
 
-def refined(stage: Stage, time: float) -> Dip:
+def refined(stage: Stage, time: float) -> EncounterDip:
     """The bottom of the dip around a time [s]."""
     begin, until = stage.span
     step = (until - begin) / (_samples(stage) - 1)
     return _in_dip(stage, max(begin, time - step), time, min(until, time + step))
 
 
-def _in_dip(stage: Stage, low: float, middle: float, high: float) -> Dip:
+def _in_dip(stage: Stage, low: float, middle: float, high: float) -> EncounterDip:
     """The bottom of the dip around the middle time [s]; searched again if another pair is nearer there."""
     best = clearance_at(stage, middle)
     for _ in range(2):

@@ -20,7 +20,7 @@ from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
 from core.paths.path import HeadState
 from core.performance.answer import EncounterEvidence, FirstEncounter, NearPass
-from core.performance.march import March, Met, beyond, to_fold
+from core.performance.march import EncounterMarch, Met, beyond, to_fold
 from core.performance.performance import Performance, PerformanceEnd
 from core.performance.stage import PROBED, Stage
 from core.values import Point
@@ -83,7 +83,7 @@ def marched(stage: Stage, *, dips: bool = True) -> Met:
     begin, until = stage.span
     if len(stage.players) == 1:
         return Met(Ended.REACHED, until)
-    march, first = March(stage, dips=dips), max(begin, stage.clear_until())
+    march, first = EncounterMarch(stage, dips=dips), max(begin, stage.clear_until())
     if first >= until:
         return Met(Ended.REACHED, until)
     folding = stage.folding(until)

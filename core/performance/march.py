@@ -54,7 +54,7 @@ CROSSING_WIDTH, DIP_WIDTH, ROUNDS = 1e-3, 1e-10, 100
 BEYOND = (1e-3, 1e-1)
 
 
-class Dip(NamedTuple):
+class EncounterDip(NamedTuple):
     """A local minimum of the clearance between dragons: gap [m], time [s], and its two rows."""
 
     gap: float
@@ -77,11 +77,11 @@ class Met(NamedTuple):
     rows: tuple[int, int] = (0, 0)
     steps: int = 0
     curvature: float = 0.0
-    graze: Dip | None = None
+    graze: EncounterDip | None = None
     half: float = 0.0
 
 
-class March:
+class EncounterMarch:
     """The steps of one march on a stage, see the top of this file.
 
     dips: True looks for the least graze on the way
@@ -98,7 +98,7 @@ class March:
         self.touching: float | None = None
         self._seen: list[tuple[float, float, tuple[int, int], float]] = []
 
-    graze: Dip | None
+    graze: EncounterDip | None
 
     def run(self, begin: float, until: float) -> Met:
         """The first encounter between two times [s]; wider brackets are tried where narrow ones fail."""
@@ -246,7 +246,7 @@ class March:
             time = crossing(lambda time: -stage.gap_rate(time, *rows), older, newer, DIP_WIDTH)
             bottom = stage.gap(time, *rows)
             if bottom < lowest:
-                self.graze = Dip(bottom, time, rows)
+                self.graze = EncounterDip(bottom, time, rows)
 
 
 # Input:  a bracket [low, high] of times, and a function that is positive at low and not at high.
@@ -276,7 +276,7 @@ def crossing(value: Callable[[float], float], low: float, high: float, width: fl
     return high
 
 
-def to_fold(stage: Stage, march: March, begin: float, until: float, folding: list[int]) -> Met:
+def to_fold(stage: Stage, march: EncounterMarch, begin: float, until: float, folding: list[int]) -> Met:
     """March from a time to the first fold [s]; REACHED: clear up to it.
 
     folding: the parts that fold then or just after, whose motion is bounded at the end instead of followed
@@ -352,7 +352,7 @@ def beyond(stage: Stage, met: Met, until: float) -> Met | None:
         begin = met.proven + ahead
         if begin >= until or stage.spent:
             return None
-        later = March(stage, dips=False).run(begin, until)
+        later = EncounterMarch(stage, dips=False).run(begin, until)
         if later.touching is not None and later.ended in (Ended.TOUCHED, Ended.TOUCHED_AT_START):
             return later
         if later.ended is Ended.REACHED:

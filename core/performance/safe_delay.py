@@ -34,7 +34,7 @@ from core.extremes.speed import highest_speed
 from core.kernels import Budget, Ended
 from core.kernels.constants import HALF_LENGTH
 from core.passages import TIME_MAX
-from core.performance.march import March, Met
+from core.performance.march import EncounterMarch, Met
 from core.performance.performance import DELAY_MAX, Part, Performance
 from core.performance.stage import Player, Stage
 from core.shapes.reach import gains
@@ -255,7 +255,7 @@ class _Search:
 
     def _march(self, stage: Stage, half: float | None) -> Met:
         self.marches += 1
-        march = March(stage, dips=False)
+        march = EncounterMarch(stage, dips=False)
         begin = max(stage.span[0], stage.clear_until())
         if begin >= stage.span[1]:
             return Met(Ended.REACHED, begin)

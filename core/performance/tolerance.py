@@ -26,7 +26,7 @@ from core.motion.trajectory import trajectory
 from core.performance.answer import EncounterEvidence
 from core.performance.clearance import looks, refined, resampled, sampled_least
 from core.performance.encounter import encounter_claim, first_encounter, marched
-from core.performance.march import Dip, Met
+from core.performance.march import EncounterDip, Met
 from core.performance.performance import Performance
 from core.performance.stage import Stage
 from core.shapes.reach import gains
@@ -159,7 +159,7 @@ class _Between:
     """A stray that is safe between dragons [m], the dip that limits it and its pair (dragons, benches), evidence."""
 
     stray: float
-    dip: Dip | None = None
+    dip: EncounterDip | None = None
     pair: tuple[tuple[int, int], tuple[int, int]] = ((0, 0), (0, 0))
     evidence: EncounterEvidence | None = None
 
@@ -206,7 +206,7 @@ def _safe_between(performance: Performance, most: float, span: tuple[float, floa
     return _Between(0.0, dip, stage.pair(*dip.rows))
 
 
-def _touching(stage: Stage, nominal: Dip, budget: Budget) -> _Between:
+def _touching(stage: Stage, nominal: EncounterDip, budget: Budget) -> _Between:
     """No stray at all, at the first touch, or at a sampled one if that is not decided."""
     (begin, until), performance = stage.span, stage.performance
     stop = None if until >= performance.end.time else until
@@ -227,7 +227,7 @@ class _Grounds:
     """The grounds of all dragons over a span. in_place: samples of the benches in their nominal places"""
 
     def __init__(
-        self, performance: Performance, span: tuple[float, float], in_place: Sequence[Dip], budget: Budget
+        self, performance: Performance, span: tuple[float, float], in_place: Sequence[EncounterDip], budget: Budget
     ) -> None:
         self.performance, self.span, self.in_place, self.budget = performance, span, in_place, budget
         self.gain = 2.0 * max(float(gains(part.dance.dragon).max()) for part in performance.parts)
@@ -236,12 +236,12 @@ class _Grounds:
         """The benches with the ground that they may cover."""
         return Stage(self.performance, self.span, 0.0, stray=stray, work=WORK_BUDGET, budget=self.budget)
 
-    def sampled(self, stray: float) -> Dip:
+    def sampled(self, stray: float) -> EncounterDip:
         """The least clearance of the samples at which two grounds can reach each other."""
         stage = self.stage(stray)
         return sampled_least(stage, resampled(stage, self.in_place, SAMPLED_BEYOND * self.gain * stray))
 
-    def grazing(self, stray: float, dip: Dip) -> tuple[float, Dip]:
+    def grazing(self, stray: float, dip: EncounterDip) -> tuple[float, EncounterDip]:
         """The stray near this one at which the grounds in a dip only graze [m], and the dip then; method: as in
         core/tolerance/safe.py."""
         slope = 2.0

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.wire.degrees import ACROSS_MAX, Origin, Plane, place_of
+from app.wire.degrees import ACROSS_MAX, GeographicOrigin, Plane, place_of
 from core import Dance, Dragon, InvalidValue, check
 from core import Spiral as CoreSpiral
 from tests.app.test_cli import answer_of
@@ -184,7 +184,7 @@ def test_vertices_lie_where_the_slow_formula_puts_them(
             assert (east, north) == pytest.approx(slow, abs=PLACED)
 
 
-def east_north(origin: Origin, longitude: float, latitude: float) -> tuple[float, float]:
+def east_north(origin: GeographicOrigin, longitude: float, latitude: float) -> tuple[float, float]:
     """By the latitude and longitude alone, as in Torge and Mueller, Geodesy, section 6.2: e = n cos p sin(l - l0)."""
     squared = 1.0 - (1.0 - 1.0 / 298.257223563) ** 2
     p0, p, dl = math.radians(origin.latitude), math.radians(latitude), math.radians(longitude - origin.longitude)
@@ -317,7 +317,7 @@ def test_core_itself_knows_metres_alone() -> None:
 
 @pytest.mark.parametrize(("metres", "latitude", "apart"), [(100.0, 30.0, 0.0001), (2_000.0, 60.0, 0.14)])
 def test_an_edge_along_a_parallel_bends_as_far_as_the_pages_say(metres: float, latitude: float, apart: float) -> None:
-    plane = Plane(Origin(119.0, latitude))
+    plane = Plane(GeographicOrigin(119.0, latitude))
     half = 0.5 * metres / 111_320.0 / math.cos(math.radians(latitude))
     begin, middle, end = plane.metres(np.array([[119.0 - half, latitude], [119.0, latitude], [119.0 + half, latitude]]))
     assert np.hypot(*(middle - 0.5 * (begin + end))) == pytest.approx(apart, rel=0.2)

@@ -8,7 +8,7 @@ import pytest
 
 from core import Arc, Dance, Dragon, Line, Part, Performance, Route, Spiral
 from core.kernels import Ended
-from core.performance.march import March, beyond, crossing, least_after, to_fold
+from core.performance.march import EncounterMarch, beyond, crossing, least_after, to_fold
 from core.performance.stage import Stage
 
 # Width of a crossing in these tests [s].
@@ -38,12 +38,12 @@ def test_a_margin_just_above_the_least_gap_is_met_and_just_below_is_proven() -> 
     circles = [Route([Arc((0.0, 0.0), radius, start, 11.0)]) for radius, start in ((14.0, 0.0), (14.6, -1.2))]
     performance = Performance([Part(Dance(Dragon(4), circles[0])), Part(Dance(Dragon(4), circles[1], 1.4), -1.0)])
     span = (10.0, 100.0)
-    proven = March(Stage(performance, span, 0.0)).run(*span)
+    proven = EncounterMarch(Stage(performance, span, 0.0)).run(*span)
     assert proven.ended is Ended.REACHED
     assert proven.graze is not None
     bottom = proven.graze.gap
-    assert March(Stage(performance, span, bottom - 1e-6)).run(*span).ended is Ended.REACHED
-    met = March(Stage(performance, span, bottom + 1e-6)).run(*span)
+    assert EncounterMarch(Stage(performance, span, bottom - 1e-6)).run(*span).ended is Ended.REACHED
+    met = EncounterMarch(Stage(performance, span, bottom + 1e-6)).run(*span)
     assert met.ended is Ended.TOUCHED
     assert met.touching is not None
     assert met.touching <= proven.graze.time + 1e-6
@@ -52,7 +52,7 @@ def test_a_margin_just_above_the_least_gap_is_met_and_just_below_is_proven() -> 
 def test_a_certain_encounter_is_found_behind_an_undecided_touch() -> None:
     performance = crossed()
     stage = Stage(performance, (15.0, 60.0), 0.0)
-    met = March(stage).run(15.0, 60.0)
+    met = EncounterMarch(stage).run(15.0, 60.0)
     assert met.touching is not None
     later = beyond(stage, met._replace(ended=Ended.STUCK, proven=met.proven - 5e-4), 60.0)
     assert later is not None
@@ -67,7 +67,7 @@ def test_the_rest_before_a_fold_is_clear_only_where_the_gap_exceeds_the_motion_l
     folding = stage.folding(end)
     assert folding == [0, 1]
     assert least_after(stage, end - 1e-4, end, folding) > stage.margin
-    met = to_fold(stage, March(stage), 0.0, end, folding)
+    met = to_fold(stage, EncounterMarch(stage), 0.0, end, folding)
     assert (met.ended, met.proven) == (Ended.REACHED, end)
     stage.enter(end - 1e-4, end)
     gap, *_ = stage.nearest()
