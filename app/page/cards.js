@@ -8,14 +8,14 @@ const [BEND, LITTLE] = [40, 0.1];
 /** Room around the picture and width of its lines, as parts of its larger side [1]; most points of a path. */
 const [AROUND, LINE, POINTS] = [0.04, 0.006, 400];
 /** A safe stray as people say it, rounded down [cm]. */
-const spokenStray = (stray) => (stray < LITTLE ? Math.floor(1000 * stray) / 10 : Math.floor(100 * stray));
+const centimetresDown = (stray) => (stray < LITTLE ? Math.floor(1000 * stray) / 10 : Math.floor(100 * stray));
 const degrees = (angle) => (angle * 180) / Math.PI;
 
 /** {title, size, good, tight}: the words of a proposal among all of them. */
 export function cardWords(proposal, all) {
   const { figure, dance, duration, length, tolerance, turns, near, clearance, sharpest_bend: bend } = proposal;
   const most = (value) => all.length > 1 && all.every((one) => one === proposal || value(one) < value(proposal) - 1e-3);
-  const stray = String(spokenStray(tolerance));
+  const stray = String(centimetresDown(tolerance));
   const good = [say(most((one) => one.tolerance) ? "good_tolerance_best" : "good_tolerance", { stray })];
   if (most((one) => one.duration)) good.push(say("good_long"));
   if (most((one) => one.turns)) good.push(say("good_turns", { turns: turns.toFixed(1) }));

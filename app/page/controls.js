@@ -29,7 +29,7 @@ const typed = (text) => text.trim().replace(/^([-+]?\d*),(\d+)$/, "$1.$2");
 /** A number in another unit, without the noise of binary fractions; other texts stay unchanged. */
 const times = (text, factor) => (factor !== 1 && text !== "" && Number.isFinite(Number(text)) ? String(Number((Number(text) * factor).toPrecision(12))) : text);
 /** Factor from the service's unit to the shown unit. */
-const SHOWN = Object.fromEntries(FIELDS.map(({ name, centimetres }) => [name, centimetres ? 100 : 1]));
+const FACTORS = Object.fromEntries(FIELDS.map(({ name, centimetres }) => [name, centimetres ? 100 : 1]));
 
 export class Controls {
   #rows = new Map();
@@ -59,7 +59,7 @@ export class Controls {
   }
 
   #row({ name, slider: [min, max, step], doors = [] }) {
-    const change = ({ target }) => this.state.set({ [name]: times(typed(target.value), 1 / SHOWN[name]) });
+    const change = ({ target }) => this.state.set({ [name]: times(typed(target.value), 1 / FACTORS[name]) });
     const typing = new Pause(name);
     const acts = { oninput: (event) => typing.begin(TYPING, () => change(event)), onchange: change };
     const described = { "aria-describedby": `${name}-help ${name}-limits ${name}-error` };
@@ -112,7 +112,7 @@ export class Controls {
   #show(name) {
     const row = this.#rows.get(name);
     if (!row) return;
-    const text = times(this.state.get(name), SHOWN[name]);
+    const text = times(this.state.get(name), FACTORS[name]);
     if (row.text.value.trim() !== text) row.text.value = text;
     row.slider.value = text;
     row.ends.forEach((field, k) => (field.value = row.slider[ENDS[k]]));
@@ -122,13 +122,13 @@ export class Controls {
   /** limits: name -> [low, high, unit] as the service states them */
   translate(limits) {
     for (const [name, row] of this.#rows) {
-      const named = { name: say(name) };
-      row.slider.setAttribute("aria-label", say("slider", named));
-      row.reset.setAttribute("aria-label", say("reset", named));
-      row.ends.forEach((field, k) => field.setAttribute("aria-label", say(ENDS[k] === "min" ? "sliderFrom" : "sliderTo", named)));
+      const nameOfField = { name: say(name) };
+      row.slider.setAttribute("aria-label", say("slider", nameOfField));
+      row.reset.setAttribute("aria-label", say("reset", nameOfField));
+      row.ends.forEach((field, k) => field.setAttribute("aria-label", say(ENDS[k] === "min" ? "sliderFrom" : "sliderTo", nameOfField)));
       const [low, high, unit = ""] = limits[name] ?? [];
-      row.unit.textContent = unit === "turns" ? say(unit) : SHOWN[name] > 1 ? "cm" : unit;
-      row.limits.textContent = low === undefined ? "" : say(name === "stray" ? "limits_stray" : "limits", { low: low * SHOWN[name], high: high * SHOWN[name] });
+      row.unit.textContent = unit === "turns" ? say(unit) : FACTORS[name] > 1 ? "cm" : unit;
+      row.limits.textContent = low === undefined ? "" : say(name === "stray" ? "limits_stray" : "limits", { low: low * FACTORS[name], high: high * FACTORS[name] });
       if (this.state.initial(name) === "") row.text.placeholder = say(`${name}_none`);
     }
   }

@@ -16,7 +16,7 @@ export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: nul
 /** Names of the parts of a drawing in an address. */
 export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "start", "origin", "grid", "yard"];
 /** Half a side of the ground without a drawn area [m]. */
-const PLAIN = 90_000;
+const FAR = 90_000;
 const DECIMALS = 4;
 const NUMBER = /^-?\d+(\.\d+)?(e-?\d+)?$/;
 const KINDS = { a: "area", b: "block", c: "circle", w: "wall", g: "gate" };
@@ -56,7 +56,7 @@ export const yardOf = ({ things, yard }) => yard ?? things.find((thing) => isAre
 export function venueOf({ things, origin, grid }) {
   const whole = things.filter((thing) => isWhole(thing) && thing.kind !== "gate");
   if (!whole.length) return null;
-  const corners = [[-PLAIN, -PLAIN], [PLAIN, -PLAIN], [PLAIN, PLAIN], [-PLAIN, PLAIN]];
+  const corners = [[-FAR, -FAR], [FAR, -FAR], [FAR, FAR], [-FAR, FAR]];
   const ground = whole.find(isArea) ?? { kind: "area", name: freeName(things, "plain"), points: corners };
   const features = [ground, ...whole.filter((thing) => thing !== ground)].map(featureOf);
   return { type: "FeatureCollection", ...(origin && { origin }), ...(grid && { grid }), features };
@@ -83,17 +83,17 @@ function thingsOf(venue) {
   const things = [];
   for (const { properties, geometry } of features) {
     const { type, coordinates } = geometry;
-    const named = (kind, points, more) => things.push({ kind, name: freeName(things, properties?.name || kind), points, ...more });
-    if (type === "Point") named("circle", [place(coordinates)], { radius: properties.radius });
-    else if (type === "LineString") named("wall", coordinates.map(place), { radius: properties.radius });
+    const addThing = (kind, points, more) => things.push({ kind, name: freeName(things, properties?.name || kind), points, ...more });
+    if (type === "Point") addThing("circle", [place(coordinates)], { radius: properties.radius });
+    else if (type === "LineString") addThing("wall", coordinates.map(place), { radius: properties.radius });
     else if (type === "Polygon") {
       const [outer, ...holes] = coordinates.map((ring) => ring.slice(0, -1).map(place));
-      named("block", outer, holes.length ? { holes } : {});
+      addThing("block", outer, holes.length ? { holes } : {});
     }
   }
   const square = things.find(({ kind, name }) => kind === "block" && name === "square") ?? things.find(({ kind }) => kind === "block");
   if (square) square.kind = "area";
-  return things.filter(({ points, kind }) => kind !== "area" || Math.abs(points[0][0]) < PLAIN);
+  return things.filter(({ points, kind }) => kind !== "area" || Math.abs(points[0][0]) < FAR);
 }
 
 /** The drawing of a dance from a request of /check, or from an answer of /places. */
@@ -126,7 +126,7 @@ function legsOf(path) {
   return { points: points.map(place), straight, begin };
 }
 
-const plainText = (points) => points.map(([x, y]) => `${x},${y}`).join("_");
+const pointsText = (points) => points.map(([x, y]) => `${x},${y}`).join("_");
 const pointsIn = (text) => text.split("_").map((point) => point.replace(/^\*/, "").split(",").map(Number));
 /** Names in an address: the characters that separate things are escaped. */
 const escaped = (name) => encodeURIComponent(name).replace(/[~_.!'()*-]/g, (one) => `%${one.charCodeAt(0).toString(16)}`).replaceAll("%", "-");
@@ -137,7 +137,7 @@ export function toAddress(drawing) {
   const { points, straight, radius, begin, limit, things, path, start, origin, grid, yard } = drawing;
   const legs = points.map(([x, y], k) => `${straight.includes(k) ? "*" : ""}${x},${y}`).join("_");
   const texts = things.map(({ kind, name, points: own, radius: wide = "", heading, holes = [] }) =>
-    [kind[0], escaped(name), ...[String(heading ?? wide), ...[own, ...holes].map(plainText)].map((part) => part.replaceAll(".", "!"))].join("."),
+    [kind[0], escaped(name), ...[String(heading ?? wide), ...[own, ...holes].map(pointsText)].map((part) => part.replaceAll(".", "!"))].join("."),
   );
   const parts = {
     route: legs,
@@ -149,7 +149,7 @@ export function toAddress(drawing) {
     start: path ? (start ?? "") : "",
     origin: origin ? `${origin.longitude},${origin.latitude}` : "",
     grid: grid ? `${grid.x},${grid.y}` : "",
-    yard: yard ? plainText(yard) : "",
+    yard: yard ? pointsText(yard) : "",
   };
   return Object.entries(parts).filter(([, text]) => text !== "");
 }

@@ -19,7 +19,7 @@ const [COUNT, SECOND] = [3, 1_000];
 const OBJECTIVES = ["tolerance", "benches", "turns", "duration"];
 /** A drawing without a path. */
 const { points, straight, path, start, begin } = EMPTY;
-const PLAIN = { points, straight, path, start, begin };
+const WITHOUT_PATH = { points, straight, path, start, begin };
 const WAITING = ["accepted", "running"];
 const field = (key, properties) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, "aria-label": say(key), ...properties });
 
@@ -111,7 +111,7 @@ export class Propose {
     }
     this.#tell(null);
     const before = this.#drawing;
-    const drawing = { ...before, ...(isPresetPath(before) && PLAIN), ...(isPresetVenue(before) && { things: [], yard: null }) };
+    const drawing = { ...before, ...(isPresetPath(before) && WITHOUT_PATH), ...(isPresetVenue(before) && { things: [], yard: null }) };
     const yard = yardOf(drawing);
     const points = shape(...numbers, yard.length ? extent(yard).middle : [0, 0]);
     const k = drawing.things.findIndex(({ kind }) => kind === "area");
@@ -169,14 +169,14 @@ export class Propose {
 
   /** Show the proposals of a job as they are found. */
   async #follow(request, search) {
-    const found = { key: this.#keyOf(request), proposals: [], courses: [] };
+    const answer = { key: this.#keyOf(request), proposals: [], courses: [] };
     for await (const { part } of this.service.events(`jobs/${search.job}/events`, search.end.signal)) {
       if (!part || search !== this.#search) continue;
-      const course = await this.#courseOf(part, found.proposals.length).catch(() => null);
+      const course = await this.#courseOf(part, answer.proposals.length).catch(() => null);
       if (!course || search !== this.#search) continue;
-      found.proposals.push(part);
-      found.courses.push(course);
-      this.#answer = found;
+      answer.proposals.push(part);
+      answer.courses.push(course);
+      this.#answer = answer;
       this.show();
     }
   }

@@ -11,13 +11,13 @@ const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "t
 export function showRefusals(questions, graphs, boxOf) {
   // Each message appears once: beside its field, or in the first box that it concerns.
   const wordsOf = (problem) => refusalWords(problem).textContent;
-  const shown = new Set([...questions.errors().values()].map(wordsOf));
+  const printed = new Set([...questions.errors().values()].map(wordsOf));
   const inOrder = [...Object.keys(TITLES), ...questions.refusals.keys()].filter((kind, k, all) => questions.refusals.has(kind) && all.indexOf(kind) === k);
   for (const kind of inOrder) {
     const { problem, errors } = questions.refusals.get(kind);
     const words = [problem, ...errors].map(wordsOf);
-    const first = words.some((one) => shown.has(one)) ? null : problem;
-    for (const one of words) shown.add(one);
+    const first = words.some((one) => printed.has(one)) ? null : problem;
+    for (const one of words) printed.add(one);
     if (kind in TITLES) showRefusal($(boxOf(kind)), TITLES[kind], first, questions.fieldsOf(kind));
     graphs.refuse(kind, first);
   }

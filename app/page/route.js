@@ -136,8 +136,8 @@ export class RouteForm {
     this.editor.edit(null);
     this.state.set({ view: null, time: null });
     const preset = PRESETS[name] ?? EMPTY;
-    const named = preset.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) }));
-    this.steps.take({ ...preset, ...(isOwn && !named.length ? { things, origin, grid, limit } : { things: named }) });
+    const translated = preset.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) }));
+    this.steps.take({ ...preset, ...(isOwn && !translated.length ? { things, origin, grid, limit } : { things: translated }) });
   }
 
   /** Show the drawing; rows are made again only if their number changes. */

@@ -77,15 +77,15 @@ export function refusalWords(problem) {
 export const proofWords = ({ method, claim }) => (column ? claimInChinese(claim) : method);
 
 export const nameBenches = (names) => (households = names);
-const named = (words, k) => (households[k] ? say("named", { words, name: households[k] }) : words);
+const withHousehold = (words, k) => (households[k] ? say("named", { words, name: households[k] }) : words);
 
 /** Name of bench k in a sentence. */
 export function benchName(k, benches) {
-  return named(k === 0 ? say("theHead") : k === benches - 1 ? say("theTail") : say("body", { k }), k);
+  return withHousehold(k === 0 ? say("theHead") : k === benches - 1 ? say("theTail") : say("body", { k }), k);
 }
 
 /** Name of handle k, after the bench that it leads; bench k has the same name. */
 export function handleName(k, benches) {
   if (k === benches) return say("tailRear");
-  return named(k === 0 ? say("head") : k === benches - 1 ? say("tail") : say("body", { k }), k);
+  return withHousehold(k === 0 ? say("head") : k === benches - 1 ? say("tail") : say("body", { k }), k);
 }

@@ -50,11 +50,11 @@ function drawMeasures(pen, view, colours, { kind, points }, held, taken) {
   const isClosed = kind !== "wall";
   const { lengths, angles } = measures(points, isClosed);
   const count = points.length;
-  const isShown = (k) => count <= 12 || held === null || Math.min((k - held + count) % count, (held - k + count) % count) < 2;
+  const isLabelled = (k) => count <= 12 || held === null || Math.min((k - held + count) % count, (held - k + count) % count) < 2;
   points.forEach((point, k) => {
     const next = points[(k + 1) % count];
-    if (isShown(k) && lengths[k] * view.scale > SIDE) label(pen, view, `${lengths[k].toFixed(2)} m`, point.map((one, axis) => (one + next[axis]) / 2), colours.pick, colours, taken, 4);
-    if (isShown(k) && angles[k] !== null && lengths[k] * view.scale > SIDE) label(pen, view, `${angles[k].toFixed(0)}°`, point, colours.pick, colours, taken, 14);
+    if (isLabelled(k) && lengths[k] * view.scale > SIDE) label(pen, view, `${lengths[k].toFixed(2)} m`, point.map((one, axis) => (one + next[axis]) / 2), colours.pick, colours, taken, 4);
+    if (isLabelled(k) && angles[k] !== null && lengths[k] * view.scale > SIDE) label(pen, view, `${angles[k].toFixed(0)}°`, point, colours.pick, colours, taken, 14);
   });
 }
 

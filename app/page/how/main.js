@@ -85,8 +85,8 @@ read();
 const language = address.searchParams.get("lang");
 translate(["en", "zh"].includes(language) ? language : undefined);
 // The sections get their texts only now, so the browser could not scroll to the section in the address.
-const named = figures.find(({ section }) => `#${section.id}` === location.hash);
-named?.section.scrollIntoView();
+const linked = figures.find(({ section }) => `#${section.id}` === location.hash);
+linked?.section.scrollIntoView();
 // The visible figure comes first; one question at a time leaves the service free for a drag.
-for (const figure of [...new Set([named ?? figures[0], ...figures])]) await figure.change();
+for (const figure of [...new Set([linked ?? figures[0], ...figures])]) await figure.change();
 for (const figure of figures) await figure.refine();

@@ -6,7 +6,7 @@ import { Chart, Picture, onSpiral } from "./draw.js";
 
 /** Number of the contest's benches, of drawn ones, and of judged ones if only the first ones meet [1]. */
 const DRAGON = { overhang: 0.275, width: 0.3 };
-const [SHOWN, JUDGED] = [60, 40];
+const [DRAWN, JUDGED] = [60, 40];
 const START_TURNS = 16;
 /** Pitch of the contest's spiral [m]. */
 const PITCH = 0.55;
@@ -80,7 +80,7 @@ const stairs = {
   async ask(ask, { pitch }) {
     scan ??= await ask("pitch-scan", { query: { samples: SAMPLES, locate: false } });
     const contact = await ask("collision-time", { query: { pitch, cross_check: "none" } });
-    return { contact, pose: await poseAt(ask, spiralOf(pitch), contact.time, { benches: SHOWN }) };
+    return { contact, pose: await poseAt(ask, spiralOf(pitch), contact.time, { benches: DRAWN }) };
   },
   async refine(ask) {
     scan = { ...(await ask("pitch-scan", { query: { samples: SAMPLES } })), whole: true };
@@ -221,7 +221,7 @@ const stray = {
       const free = await ask("tolerance", { query: { pitch } });
       const near = { pitch, stray: free.stray_bracket[1], cross_check: "none" };
       const { point } = await ask("collision-time", { query: near });
-      const pose = await poseAt(ask, spiralOf(pitch), free.time, { benches: SHOWN });
+      const pose = await poseAt(ask, spiralOf(pitch), free.time, { benches: DRAWN });
       Object.assign(this, { known: { free, point, pose }, key: pitch });
     }
     const { known } = this;
