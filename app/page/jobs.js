@@ -146,23 +146,37 @@ export class Jobs {
     }
   }
 
-  /** Show the list, also after a change of language; the focused element keeps the focus. */
+  /** Show the list, also after a change of language. A row stays while its buttons do, so that a press on one counts. */
   render() {
     const focus = document.activeElement?.id;
     const rows = [...this.#jobs].filter(([, { status }]) => status).map(([id, job]) => this.#row(id, job));
-    this.list.replaceChildren(...rows);
+    if (rows.some((row, k) => row !== this.list.children[k]) || rows.length !== this.list.children.length) this.list.replaceChildren(...rows);
     $("#no-jobs").hidden = rows.length > 0;
     if (focus && this.list.querySelector(`#${CSS.escape(focus)}`)) $(`#${CSS.escape(focus)}`).focus();
   }
 
+  /** The row of a job: a new one in another state or language, else the one before with its progress. */
   #row(id, job) {
+    const { status } = job;
+    const drawn = `${document.documentElement.lang} ${status.status}`;
+    if (job.drawn !== drawn) Object.assign(job, { drawn, row: this.#newRow(id, job) });
+    job.row.querySelector(".state").textContent = stateWords(status);
+    const bar = job.row.querySelector("progress");
+    if (bar) {
+      bar.value = status.progress;
+      bar.setAttribute("aria-label", `${what(status.processID, job.spec)}: ${status.progress} %`);
+    }
+    return job.row;
+  }
+
+  #newRow(id, job) {
     const { status } = job;
     const going = UNFINISHED.includes(status.status);
     const name = what(status.processID, job.spec);
     const labelled = (key, act) => button({ id: `${key}-${id}`, textContent: say(key), "aria-label": `${say(key)}: ${name}` }, act);
-    const words = Object.entries({ title: name, state: stateWords(status) }).map(([className, textContent]) => make("span", { className, textContent }));
+    const words = Object.entries({ title: name, state: "" }).map(([className, textContent]) => make("span", { className, textContent }));
     const row = make("li", { "data-state": status.status }, ...words);
-    if (going) row.append(make("progress", { max: 100, value: status.progress, "aria-label": `${name}: ${status.progress} %` }));
+    if (going) row.append(make("progress", { max: 100 }));
     const { href, type } = resultOf(status);
     const buttons = make("span", { className: "buttons" });
     if (href && isTable(status)) buttons.append(labelled("jobMap", () => this.#open(id, job)));

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from tests.support.axe import serious
-from tests.support.pending import settled
+from tests.support.pending import settled, with_below
 
 PHONE = {"width": 390, "height": 844}
 
@@ -63,7 +63,7 @@ def test_no_text_is_missing_in_either_language(visit: Any) -> None:
 
 def test_the_page_is_used_by_keyboard_alone(open_page: Any) -> None:
     page = open_page("?time=100&benches=20")
-    settled(page)
+    settled(with_below(page))
     page.evaluate(FOCUSED)
     page.keyboard.press("Tab")
     assert page.evaluate("focused[0][0]") == "skip"

@@ -248,7 +248,8 @@ def test_what_takes_longer_than_one_answer_comes_as_a_job(open_page: Any, tmp_pa
 
 
 def test_cards_come_while_the_search_goes_on_and_a_chosen_one_ends_it(open_page: Any, tmp_path: Any) -> None:
-    square = f"{EMPTY}&benches=24&things=a.square..0,0_40,0_40,30_0,30~c.linden.0!5.12,9~c.elm.0!5.28,20"
+    # A long search, so that it still goes on when a slow browser has drawn the first cards.
+    square = f"{EMPTY}&benches=100&things=a.square..0,0_80,0_80,70_0,70~c.linden.0!5.24,21~c.elm.0!5.56,45"
     with serving(tmp_path / "server.log", deadline_seconds=0.05, data=tmp_path / "data") as service:
         page = open_page(square, base=service.url, failing=True)
         page.locator("#propose").click()

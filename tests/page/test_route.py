@@ -13,7 +13,7 @@ from playwright.sync_api import expect
 
 from tests.support import polite
 from tests.support.axe import serious
-from tests.support.pending import reached, settled
+from tests.support.pending import reached, settled, with_below
 
 ROOT = Path(__file__).parents[2]
 PHONE = {"width": 390, "height": 844}
@@ -492,8 +492,8 @@ def test_a_drawn_dance_is_played_listed_and_kept_as_a_spiral_is(visit: Any, serv
     verdict(page, "Can be danced")
     page.locator("#rows tr.chosen", has_text="2 · body 2").wait_for()
     page.locator("#table-time", has_text="60").wait_for()
-    reached(page.locator("#keep"))
-    assert re.search(r"'\S+/check'.*\"kind\":\"waypoints\"", page.locator("#curl").inner_text())
+    reached(with_below(page).locator("#keep"))
+    expect(page.locator("#curl")).to_have_text(re.compile(r"'\S+/check'.*\"kind\":\"waypoints\"", re.DOTALL))
     with page.expect_download() as download:
         page.locator("[data-keep=keepTrajectory][data-form=CSV]").click()
     assert Path(download.value.path()).read_text().startswith("time,handle,x,y,speed")

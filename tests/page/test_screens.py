@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.pending import settled
+from tests.support.pending import settled, with_below
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 FINGER = 44  # [px]: the least width and height of what a finger should hit
@@ -53,9 +53,12 @@ def answered(page: Any, query: str) -> None:
 def test_on_a_phone_a_finger_hits_every_control(visit: Any, query: str) -> None:
     page = visit(query, **PHONE)
     answered(page, query)
+    if query != DANCES["nothing drawn"]:
+        with_below(page)
     page.evaluate("document.querySelectorAll('details').forEach((one) => (one.open = true))")
     if query != DANCES["nothing drawn"]:
         page.locator("#paper table").wait_for()
+    settled(page)
     # No point lies under the buttons of the picture.
     views = page.locator("#views").bounding_box()
     knots = [knot.bounding_box() for knot in page.locator(".knot").all()]
