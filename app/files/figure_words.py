@@ -54,6 +54,26 @@ TEXTS = {
     "Radius of the head at first contact, against the pitch": "首次碰撞时龙头的半径与螺距",
     "Radius of the head when two benches are first within {margin} m of each other, against the pitch":
         "两节板凳首次相距 {margin} m 时龙头的半径与螺距",
+    "At {time} s": "{time} s 时",
+    "bench {bench} of {dragon} and bench {other} of {second} touch at {time} s":
+        "{dragon}的第 {bench} 节板凳与{second}的第 {other} 节板凳在 {time} s 相碰",
+    "bench {bench} of {dragon} and bench {other} of {second} come within {margin} m at {time} s":
+        "{dragon}的第 {bench} 节板凳与{second}的第 {other} 节板凳在 {time} s 相距 {margin} m",
+    "no benches of two dragons touch until {time} s": "到 {time} s 为止，各龙之间没有板凳相碰",
+    "no benches of two dragons touch until {time} s, where the last path ends":
+        "到 {time} s 最后一条路径结束为止，各龙之间没有板凳相碰",
+    "no benches of two dragons touch until {time} s, where bench {bench} of {dragon} folds":
+        "到 {time} s {dragon}的第 {bench} 节板凳折叠为止，各龙之间没有板凳相碰",
+    "no benches of two dragons come within {margin} m until {time} s":
+        "到 {time} s 为止，各龙之间的板凳相距从不小于 {margin} m",
+    "no benches of two dragons come within {margin} m until {time} s, where the last path ends":
+        "到 {time} s 最后一条路径结束为止，各龙之间的板凳相距从不小于 {margin} m",
+    "no benches of two dragons come within {margin} m until {time} s, where bench {bench} of {dragon} folds":
+        "到 {time} s {dragon}的第 {bench} 节板凳折叠为止，各龙之间的板凳相距从不小于 {margin} m",
+    "undecided from {time} s on": "从 {time} s 起未能判定",
+    # After the sentences that begin in the same way.
+    "bench {bench} of {dragon}": "{dragon}的第 {bench} 节板凳",
+    "dragon {number}": "{number} 号龙",
     "No contact at any of these pitches": "这些螺距都没有碰撞",
     "Never within {margin} m at any of these pitches": "在这些螺距下相距从不小于 {margin} m",
 }  # fmt: skip
@@ -61,7 +81,7 @@ TEXTS = {
 
 def _pattern(text: str) -> re.Pattern[str]:
     """What a text looks like, with a name, a number or a point in place of each {value}."""
-    kinds = {"name": "[a-z-]+", "place": r"\(.+\)"}
+    kinds = {"name": "[a-z-]+", "place": r"\(.+\)", "dragon": ".+", "second": ".+"}
     pieces = re.split(r"\{(\w+)\}", text)
     return re.compile(
         "".join(
@@ -85,6 +105,7 @@ def in_chinese(text: str) -> str:
             values = match.groupdict()
             if "name" in values and values["name"] not in NAMES:
                 continue
+            values |= {one: in_chinese(values[one]) for one in ("dragon", "second") if one in values}
             return chinese.format(**values | {"name": NAMES.get(values.get("name", ""), "")})
     return text
 

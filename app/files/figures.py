@@ -23,7 +23,7 @@ from core.errors import format_number
 from core.plots import GREY, VERMILION, draw_scan
 
 
-def _file(draw: Callable[[], Figure], format: str, language: Language) -> bytes:
+def figure_file(draw: Callable[[], Figure], format: str, language: Language) -> bytes:
     """The file of a figure with its words in this language. raises: MissingPackage without a font for it"""
     family = families(language)
 
@@ -62,7 +62,7 @@ def trajectory_figure(
         axes.set_title(f"Handles and their speeds at {time:g} s{words}", fontsize=11)
         return figure
 
-    return _file(drawn, format, language)
+    return figure_file(drawn, format, language)
 
 
 def contact_figure(
@@ -91,7 +91,7 @@ def contact_figure(
             axes.indicate_inset_zoom(enlarged, edgecolor="black", linewidth=0.8)
         return figure
 
-    return _file(drawn, format, language)
+    return figure_file(drawn, format, language)
 
 
 def pitch_scan_figure(
@@ -131,7 +131,7 @@ def pitch_scan_figure(
         axes.indicate_inset_zoom(near, edgecolor="black", linewidth=0.7)
         return figure
 
-    return _file(drawn, format, language)
+    return figure_file(drawn, format, language)
 
 
 def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius: float, near: str) -> None:

@@ -7,9 +7,12 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from app.files.drawing import canvas, draw_venue, file_bytes, in_turn
+from app.files.drawing import canvas, draw_venue
+from app.files.figures import figure_file
+from app.files.tables import Language
 from core import Budget, FirstEncounter, OutsideRun, Performance, bench_outlines, trajectory
 from core.display import display
 from core.plots import BLUE, ENLARGED_MARGINS, ENLARGED_WIDTHS, PALE, SHAPES_MAX, VERMILION, plan
@@ -29,6 +32,7 @@ def encounter_figure(
     *,
     time: float | None = None,
     format: str = "svg",
+    language: Language = Language.ENGLISH,
     budget: Budget | None = None,
 ) -> bytes:
     """All dragons at the time of their encounter, and the two benches that meet enlarged; or at a time [s].
@@ -45,7 +49,7 @@ def encounter_figure(
     outlines = [bench_outlines(part.dance.dragon, own) for part, own in zip(performance.parts, handles, strict=True)]
     title = f"At {display(time, 's')}" if encounter is None else repr(encounter)[1:-1].partition(": ")[2]
 
-    def drawn() -> bytes:
+    def drawn() -> Figure:
         figure = canvas(11.0 if meets else 7.2, 6.0)
         axes = figure.add_subplot(1, 2, 1) if meets else figure.add_subplot()
         _draw(axes, performance, handles, outlines)
@@ -54,9 +58,9 @@ def encounter_figure(
             _draw_pair(near, encounter, outlines)
             axes.indicate_inset_zoom(near, edgecolor="black", linewidth=0.8)
         figure.suptitle(title, fontsize=11, parse_math=False)
-        return file_bytes(figure, format)
+        return figure
 
-    return in_turn(drawn)
+    return figure_file(drawn, format, language)
 
 
 def _refuse(performance: Performance, time: float) -> None:

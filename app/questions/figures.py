@@ -10,7 +10,7 @@ import core
 from app.files.tables import Language
 from app.questions.pitch_scan import ScanFields
 from app.wire.dances import DragonFields, PlacedDance
-from app.wire.performances import Moment, PerformanceSpan, PlacedPerformance
+from app.wire.performances import Moment, PerformanceSpan, PlacedPerformance, SeveralFields
 from app.wire.question import DanceQuery, FileFormat, Instant, Margin, Question, Terms, UniformDragon, Wire, measure
 from core.design.pitch_scan import scan_near_minimum
 
@@ -42,11 +42,14 @@ class TrajectoryFigureQuery(TimeQuery, WithLanguage):
     """Every handle at one instant, drawn."""
 
 
-class TrajectoryFigureRequest(PlacedDance, WithLanguage):
-    """Every handle at one instant, drawn on any path."""
+class TrajectoryFigureRequest(SeveralFields, PlacedDance, WithLanguage):
+    """Every handle at one instant, drawn on any path; or every bench of several dragons."""
 
     time: Instant | None = measure(
-        "s", "Instant to draw; default: 0, or the first time at which the whole dragon is on the path", None
+        "s",
+        "Instant to draw; default: 0, or the first time at which the whole dragon is on the path; of several dances "
+        "their beginning",
+        None,
     )
 
 
@@ -64,8 +67,8 @@ class ContactFigureQuery(ContactQuery, WithLanguage):
     """The dance at first contact, drawn."""
 
 
-class ContactFigureRequest(PlacedDance, WithLanguage):
-    """The dance at first contact, drawn on any path."""
+class ContactFigureRequest(SeveralFields, PlacedDance, WithLanguage):
+    """The dance at first contact, drawn on any path; or several dragons at their first encounter."""
 
     margin: Margin = 0.0
     start: Instant | None = measure(
@@ -74,7 +77,7 @@ class ContactFigureRequest(PlacedDance, WithLanguage):
     stop: Instant | None = measure("s", "End time; default: the end of the run", None)
 
 
-class EncounterFigureRequest(PerformanceSpan, PlacedPerformance, strict=True):
+class EncounterFigureRequest(PerformanceSpan, PlacedPerformance, WithLanguage, strict=True):
     """Several dragons at their first encounter, or at another time, drawn."""
 
     margin: Margin = 0.0
@@ -95,6 +98,10 @@ def trajectory_figure(request: TrajectoryFigureQuery | TrajectoryFigureRequest, 
     """Every handle at one instant, coloured by its speed, on the given path and in the given venue."""
     from app.files import figures
 
+    if isinstance(request, TrajectoryFigureRequest) and request.dances is not None:
+        performance, _ = request.to_placed(terms.settings)
+        time = performance.begin if request.time is None else request.time
+        return _together(performance, None, time, FORMATS[form], request.language, terms)
     dance = request.to_dance(terms.settings.drawn_benches_max)
     venue = request.to_place(dance.dragon).venue if isinstance(request, PlacedDance) else None
     time = dance.default_start if request.time is None else request.time
@@ -106,6 +113,9 @@ def contact_figure(request: ContactFigureQuery | ContactFigureRequest, terms: Te
     from app.files import figures
 
     placed: dict[str, Any] = {}
+    if isinstance(request, ContactFigureRequest) and request.dances is not None:
+        performance, _ = request.to_placed(terms.settings)
+        return _together(performance, request, None, FORMATS[form], request.language, terms)
     if not isinstance(request, ContactFigureRequest):
         dance = request.to_dance(terms.settings.drawn_benches_max)
     else:
@@ -117,16 +127,28 @@ def contact_figure(request: ContactFigureQuery | ContactFigureRequest, terms: Te
 
 def encounter_figure(request: EncounterFigureRequest, terms: Terms, form: str) -> bytes:
     """Several dragons at their first encounter, with the two benches that meet enlarged, or at a given time."""
+    performance, _ = request.to_placed(terms.settings)
+    search = request if request.time is None else None
+    return _together(performance, search, request.time, FORMATS[form], request.language, terms)
+
+
+def _together(
+    performance: core.Performance,
+    search: EncounterFigureRequest | ContactFigureRequest | None,
+    time: float | None,
+    format: str,
+    language: Language,
+    terms: Terms,
+) -> bytes:
+    """Several dragons, drawn at the first encounter of a search, or at a time [s]."""
     from app.files import performances
 
-    performance, _ = request.to_placed(terms.settings)
     result = None
-    if request.time is None:
-        result = core.first_encounter(
-            performance, margin=request.margin, start=request.start, stop=request.stop, budget=terms.budget
-        )
+    if search is not None:
+        span: dict[str, Any] = {"start": search.start, "stop": search.stop}
+        result = core.first_encounter(performance, margin=search.margin, budget=terms.budget, **span)
     return performances.encounter_figure(
-        performance, result, time=request.time, format=FORMATS[form], budget=terms.budget
+        performance, result, time=time, format=format, language=language, budget=terms.budget
     )
 
 

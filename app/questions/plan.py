@@ -122,7 +122,7 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
     report = core.performance_check(performance, start=start, stop=stop, details=False, budget=budget, **limits)
     verdict = verdict_words(report, clock.words, say), report.verdict is Judgement.PASSES
-    names = [part.name or say(f"dragon {k}", f"第 {k + 1} 条龙") for k, part in enumerate(performance.parts)]
+    names = [part.name or say(f"dragon {k}", f"{k} 号龙") for k, part in enumerate(performance.parts)]
     common = _Common(request, place, verdict, _family(request, place, [one.dragon for one in dances], names), budget)
     times = say("times: minutes:seconds, from time 0 of the performance", "时间：自表演时刻 0 起的 分:秒")
     plans = []

@@ -341,3 +341,36 @@ def test_signs_of_typesetting_in_names_are_drawn_as_they_are() -> None:
     parts = [Part(Dance(Dragon(60), spiral), name=name) for spiral, name in zip(spirals, ("$x", "y$ _a_"), strict=True)]
     performance = Performance(parts)
     assert "bench 3 of $x" in texts(encounter_figure(performance, first_encounter(performance, start=207.0)))
+
+
+@pytest.mark.parametrize(
+    ("kind", "more", "english", "chinese"),
+    [
+        ("trajectory", {"time": 20}, "At 20 s", "20 s 时"),
+        ("contact", {}, "bench 2 of east and bench 0 of north touch at ", "east的第 2 节板凳与north的第 0 节板凳在 "),
+        ("contact", {"margin": 0.2}, "come within 0.2 m at", "相距 0.2 m"),
+        ("contact", {"stop": 12}, "no benches of two dragons touch until 12 s", "到 12 s 为止，各龙之间没有板凳相碰"),
+        ("encounter", {}, "bench 0 of north", "north的第 0 节板凳"),
+    ],
+)
+def test_the_figures_of_one_dance_take_several_in_both_languages(
+    client: httpx.Client, kind: str, more: dict[str, Any], english: str, chinese: str
+) -> None:
+    for language, words in (("en", english), ("zh", chinese)):
+        body = TWO | more | {"language": language}
+        shown = texts(client.post(f"/figures/{kind}.svg", json=body).raise_for_status().content)
+        assert words in shown
+    beside = client.post(f"/figures/{kind}.svg", json=TWO | {"head_speed": 1.0})
+    assert beside.status_code == 422
+    assert beside.json()["errors"][0]["pointer"] == "/head_speed"
+
+
+def test_the_command_draws_both_figures_of_several(client: httpx.Client, tmp_path: Path) -> None:
+    file = tmp_path / "two.json"
+    file.write_text(json.dumps(TWO))
+    done = run("figures", str(file), str(tmp_path), "--format", "svg")
+    assert done.returncode == 0, done.stderr
+    for kind in ("trajectory", "contact"):
+        drawn = client.post(f"/figures/{kind}.svg", json=TWO).raise_for_status().content
+        assert (tmp_path / f"{kind}.svg").read_bytes() == drawn
+    assert "holds the dances of several" in run("figures", str(file), "--kind", "pitch-scan").stderr
