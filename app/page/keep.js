@@ -1,7 +1,7 @@
 /** Everything to save: the link, files of every kind, a film, and the commands that give the same. */
 
 import { Problem, TOO_LONG } from "./api.js";
-import { $, bearer, button, download, make, onClick } from "./elements.js";
+import { $, bearer, button, download, make, onClick, textButton } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
@@ -88,7 +88,11 @@ const REQUESTS = {
   },
   ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
   plan: (questions, paper) => ({ path: "plan", body: { ...questions.checkBody(questions.dance), paper, language: language() } }),
-  cues: (questions) => ({ path: "cues", body: { ...questions.checkBody(questions.dance), language: language() } }),
+  /** On a spiral up to its end, because a fold has no cues. */
+  cues(questions) {
+    const { kind, begin, end } = questions.dance;
+    return { path: "cues", body: { ...questions.checkBody(questions.dance), ...(kind === "spiral" && { start: begin, stop: end }), language: language() } };
+  },
   map(questions, form) {
     const { origin } = questions.dance.kind === "route" ? questions.state.get("drawing") : {};
     return { path: `maps.${form.toLowerCase()}`, body: { ...questions.checkBody(questions.dance), ...(origin && { origin }) } };
@@ -121,6 +125,8 @@ export class Keep {
     this.canvas = canvas;
     onClick("#copy-curl", () => copy($("#curl").textContent));
     $("#kept").append(...ITEMS.map((item) => this.#row(item)));
+    const { state } = questions;
+    $("#keepCues-PDF").before(textButton("cardFollow", () => state.push({ bench: state.get("handle") ?? 0 }), { id: "card-follow" }));
     const keys = [SHOWN, ...ITEMS.filter(({ ask }) => ask).map(({ key }) => key), PROOF];
     $("#curl-of").append(...keys.map((key) => make("option", { value: key, "data-text": key })));
     $("#curl-of").addEventListener("change", () => this.show());

@@ -52,9 +52,13 @@ const service = new Service({
     if (channel === "look" && busy) $("#scan").classList.remove("coarse"); // The view drawn so far is no longer of these numbers.
     if (channel === "contact") $("main").classList.toggle("waiting", busy && Boolean(questions.dance));
   },
-  lost,
+  lost(seconds) {
+    lost(seconds);
+    carrier?.network(false);
+  },
   back() {
     $("#lost").hidden = true;
+    carrier?.network(true);
     announce(() => say("back"));
   },
   refused: async () => learnRefusals(await parts.load("refusals")),
@@ -78,8 +82,8 @@ const graphs = new Graphs(state, questions, (time) => player.seek(time));
 const doors = new Doors(state, parts);
 new Sharing(state, parts);
 addLook();
-/** What belongs to a drawn dance, and what stands below the dance; null until they have loaded. @type {any} */
-let [route, below] = [null, null];
+/** What belongs to a drawn dance, what stands below the dance, and a carrier's view; null until they have loaded. @type {any} */
+let [route, below, carrier] = [null, null, null];
 /** Language of the first view. */
 let begun = "";
 let limits = {};
@@ -96,7 +100,9 @@ function draw() {
     drawing = false;
     pending(DRAWING, false);
     const { pose } = dance.scene;
-    if (state.get("follow") && pose) dance.view.set(pose.x[0], pose.y[0]);
+    const bench = state.get("bench");
+    if (pose && bench !== null) dance.view.centre(pose, bench);
+    else if (pose && state.get("follow")) dance.view.set(pose.x[0], pose.y[0]);
     dance.draw();
     if (dance.scene.pose) placeInset((rectangles) => dance.covered(rectangles));
   });
@@ -179,6 +185,7 @@ const SHOW = {
     below?.show();
     route?.judged();
     player.update();
+    carrier?.show();
     if (state.opensInMotion && !opened) player.open();
     opened = true;
   },
@@ -253,7 +260,10 @@ const SHOW = {
 /** Other events. */
 const TELL = {
   pose: (pose) => player.exact(pose),
-  track: () => player.update(false),
+  track() {
+    player.update(false);
+    carrier?.hold();
+  },
   gap: () => dance.scene.pose && showPose(dance.scene.pose),
   path(points) {
     dance.setPath(points, route?.around());
@@ -271,6 +281,7 @@ const TELL = {
     if (refusals.has("contact") && !questions.dance) for (const box of $$("[aria-busy=true]")) box.setAttribute("aria-busy", false);
     showRefusals(questions, graphs, (kind) => BUSY[kind][0]);
     route?.refused();
+    carrier?.show();
   },
 };
 
@@ -282,6 +293,11 @@ const SHOW_STATE = {
     restyle();
   },
   lang: translate,
+  bench(bench) {
+    if (bench !== null) openCarrier();
+    else carrier?.show();
+    questions.refresh();
+  },
   follow: (follow) => $("#follow").setAttribute("aria-pressed", follow),
   rate: (rate) => ($("#rate").value = rate),
   handle: () => announce(showHandle),
@@ -330,6 +346,7 @@ function translate() {
   if (dance.scene.pose) showPose(dance.scene.pose);
   TELL.refused();
   route?.translate();
+  carrier?.show();
   announceAgain();
 }
 
@@ -343,6 +360,14 @@ async function openRoute() {
   const { course } = questions;
   if (state.get("path") === "route" && course) TELL.path(course);
   return route;
+}
+
+/** The view of one carrier. */
+async function openCarrier() {
+  const { Carrier } = await parts.load("carrier");
+  carrier ??= new Carrier({ state, service, questions, dance, show: showPose });
+  writeTexts();
+  carrier.show();
 }
 
 function showRoute() {

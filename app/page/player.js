@@ -123,7 +123,8 @@ export class Player {
   /** After a change of the time or of the answers: show samples, and ask for the service's own numbers. */
   update(ask = true) {
     const { dance } = this.questions;
-    if (!dance) return;
+    // A carrier's view has its own clock.
+    if (!dance || this.state.get("bench") !== null) return;
     const { time } = this;
     const now = performance.now();
     const pose = dance.track?.at(time);

@@ -46,7 +46,7 @@ const picked = (from, names) => Object.fromEntries(names.map((name) => [name, fr
 export const isPlain = ({ extras: { csv, passages } }) => !csv && !passages.length;
 
 export class Questions {
-  /** {kind, query, numbers, extras, answer, begin, end, clock: time of day at time 0 or null, report: of /check if it answered, track; drawn: drawing, failures, verdict} */
+  /** {kind, query, numbers, extras, answer, begin, end, clock: time of day at time 0 or null, report: of /check if it answered, track, isExplored: whether all else is asked; drawn: drawing, failures, verdict} */
   dance = null;
   /** The drawn path from the service: {s, x, y, knots, bends, drawing} */
   course = null;
@@ -87,6 +87,7 @@ export class Questions {
     const query = this.state.texts([...MOTION, ...CONTACT, ...(kind === "turn" ? TURN : [])]);
     const request = this.#danceOf(kind, query);
     if (this.#isNew("contact", { kind, ...query, ...request.extras })) this.#askContact(request);
+    if (this.#isFollowed) return;
     const circle = this.#over([...CIRCLE, ...CONTACT]);
     if (!this.#isNew("minimum", circle)) return;
     this.#whole = !this.answers.minimum;
@@ -242,9 +243,14 @@ export class Questions {
     this.tell("path", answer);
   }
 
+  /** True for a carrier, who needs only the dance itself. */
+  get #isFollowed() {
+    return this.state.get("bench") !== null;
+  }
+
   #atRest() {
     this.#askDance();
-    if (this.state.get("path") === "route") return;
+    if (this.#isFollowed || this.state.get("path") === "route") return;
     if (!this.#whole) this.#keep("minimum", "minimum-pitch", this.#over([...CIRCLE, ...CONTACT]));
     this.#whole = true;
     const staircase = [...CIRCLE, "margin"];
@@ -321,8 +327,9 @@ export class Questions {
   /** Ask once for everything that belongs to the shown dance. */
   #askDance() {
     const { dance } = this;
-    if (!dance || dance.track) return;
-    this.#startTrack(dance);
+    if (dance && !dance.track) this.#startTrack(dance);
+    if (!dance || dance.isExplored || this.#isFollowed) return;
+    dance.isExplored = true;
     const { begin, end } = dance;
     this.#keep("speeds", "trajectory", { body: this.body({ times: speedTimes(dance), decimals: 6 }) }, dance);
     if (dance.answer.time !== null) this.#keep("gap", "clearance", this.#clearanceOf(dance, end, end, 1), dance);

@@ -19,9 +19,10 @@ export const EXTRAS = ["csv", "passages", "start_clock", "begin_clock"];
 const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, value]), ...EXTRAS.map((name) => [name, ""])]);
 /** True if the address has nothing except the language: then the page opens with the dance in motion. */
 const isBare = (address) => [...address.keys()].every((name) => name === "lang");
-/** time: null is the end of the dance; view: [x, y, pixels per metre], null shows the whole path. */
-const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, view: null, lang: null };
+/** time: null is the end of the dance; bench: the one that a carrier follows, or null; view: [x, y, pixels per metre], null shows the whole path. */
+const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, bench: null, view: null, lang: null };
 
+const whole = (text) => (/^\d+$/.test(text) ? Number(text) : null);
 const oneOf = (values) => (text) => values.find((value) => String(value) === text);
 const READ = {
   door: oneOf(["arrival", "contest", "village", "look", "all"]),
@@ -29,7 +30,8 @@ const READ = {
   time: (text) => (text.trim() && Number.isFinite(Number(text)) ? Number(text) : null),
   rate: oneOf(RATES),
   follow: (text) => text === "true",
-  handle: (text) => (/^\d+$/.test(text) ? Number(text) : null),
+  handle: whole,
+  bench: whole,
   view(text) {
     const numbers = text.split(",").map(Number);
     return numbers.length === 3 && numbers.every(Number.isFinite) && numbers[2] > 0 ? numbers : null;

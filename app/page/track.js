@@ -25,6 +25,7 @@ export function speedTimes({ begin, end, numbers: { benches } }) {
 export class Track {
   #chunks = new Map();
   #loading = new Set();
+  #kept = KEPT;
 
   /**
    * ask(chunk, times, decimals) -> Promise of the table at {start, stop, step}; span: [first, last] instant [s];
@@ -47,6 +48,25 @@ export class Track {
     this.refusal = null;
   }
 
+  /** True if every chunk has arrived and is kept. */
+  get isWhole() {
+    return this.#kept === Infinity && this.#chunks.size * this.size >= this.samples;
+  }
+
+  /** Load and keep every chunk. */
+  async hold() {
+    this.#kept = Infinity;
+    for (let k = 0; k * this.size < this.samples && !this.stopped && !this.refusal; k++) {
+      while (this.#loading.has(k)) await new Promise(requestAnimationFrame);
+      if (!this.#chunks.has(k)) await this.#load(k, this.#first(k));
+    }
+  }
+
+  /** Number of the first sample of a chunk. */
+  #first(k) {
+    return Math.max(0, k * this.size - 2);
+  }
+
   /** {time, x, y, speed} at an instant, each a row over the handles; null while its chunk is on its way. */
   at(time) {
     if (!this.step) return null;
@@ -62,9 +82,8 @@ export class Track {
   }
 
   #chunk(k) {
-    const first = Math.max(0, k * this.size - 2);
     if (k * this.size >= this.samples || this.stopped || this.refusal) return null;
-    if (!this.#chunks.has(k) && !this.#loading.has(k)) this.#load(k, first);
+    if (!this.#chunks.has(k) && !this.#loading.has(k)) this.#load(k, this.#first(k));
     return this.#chunks.get(k);
   }
 
@@ -75,7 +94,7 @@ export class Track {
     try {
       const table = await this.ask(k, { start, stop, step: this.step }, DECIMALS);
       this.#chunks.set(k, { ...table, first });
-      if (this.#chunks.size > KEPT) this.#chunks.delete(this.#chunks.keys().next().value);
+      if (this.#chunks.size > this.#kept) this.#chunks.delete(this.#chunks.keys().next().value);
       if (!this.stopped) this.ready();
     } catch (error) {
       // The service refuses, or the dance has changed; at rest the dance is drawn without samples.

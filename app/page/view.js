@@ -71,6 +71,11 @@ export class View {
     this.fitted = fitted;
   }
 
+  /** Move the view to the middle of bench k of a pose, if it has one. */
+  centre({ x, y }, k) {
+    if (k + 1 < x.length) this.set((x[k] + x[k + 1]) / 2, (y[k] + y[k + 1]) / 2);
+  }
+
   /** Move the view to a point that is outside. */
   reveal(x, y) {
     const [px, py] = this.toScreen(x, y);

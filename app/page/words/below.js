@@ -16,6 +16,7 @@ export const BELOW = {
   keepGround: ["Ground that benches sweep", "板凳扫过的地面"],
   keepPlan: ["Plan on paper, true to scale", "按比例的平面图"],
   keepCues: ["A cue card for each bench", "每节板凳的提示卡"],
+  cardFollow: ["Follow a bench", "跟随一节"],
   keepMap: ["Map with chalk marks", "带粉笔标记的地图"],
   keepAnswer: ["First contact with its certificate", "首次碰撞及其证明"],
   keepVerdict: ["The verdict on the whole dance", "全程判定"],

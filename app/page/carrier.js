@@ -1,0 +1,322 @@
+/** The view of one carrier: the bench of the address in large type, its next cue counted down. Once loaded it needs no network. */
+
+import { Problem, Superseded } from "./api.js";
+import { $, button, hide, make, numberIn, textButton } from "./elements.js";
+import { secondsBetween, timeOfDay } from "./passages.js";
+import { handleName, language, refusalWords, say } from "./text.js";
+import { learn } from "./words.js";
+import { CARRIER } from "./words/carrier.js";
+
+learn(CARRIER);
+
+/** Time between two pictures, in motion and with reduced motion [ms]. */
+const [FRAME, STEP] = [50, 500];
+/** Part of the ground across the picture [m]. */
+const ACROSS = 14;
+/** A cue is the present one for this long [s]; correction of the clock by a button [s]. */
+const [PRESENT, CORRECTION] = [6, 5];
+/** Largest dance whose picture is held: samples times handles. */
+const HELD_MOST = 2_000_000;
+/** Where the browser keeps when a dance began, so that a page that was loaded again goes on. */
+const STORED = "bench-dragon-began";
+const LANGUAGES = ["en", "zh"];
+
+const digits = (number) => String(number).padStart(2, "0");
+/** A duration such as 0:07 or 1:02:03, to the whole second above. seconds: at least 0 */
+function minutesAndSeconds(seconds) {
+  const whole = Math.ceil(seconds);
+  const [hours, minutes] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60];
+  return hours ? `${hours}:${digits(minutes)}:${digits(whole % 60)}` : `${minutes}:${digits(whole % 60)}`;
+}
+
+/** The time of day now, with the seconds. */
+const clockNow = (date = new Date()) => [date.getHours(), date.getMinutes(), date.getSeconds()].map(digits).join(":");
+
+export class Carrier {
+  /** Card by language, and what it belongs to. */
+  #cards = {};
+  #of = null;
+  #problem = null;
+  /** When the dance is at time 0 [ms since 1970]; null: it has not begun. */
+  #began = null;
+  #track = null;
+  #frame = 0;
+  #drawn = 0;
+  /** The dance in the picture. */
+  #shown = null;
+  #lock = null;
+  #network = true;
+
+  /**
+   * show(pose): draws it
+   * @param {{ state: State, service: Service, questions: Questions, dance: any, show: any }} parts
+   */
+  constructor({ state, service, questions, dance, show }) {
+    this.state = state;
+    this.service = service;
+    this.questions = questions;
+    this.dance = dance;
+    this.draw = show;
+    this.still = matchMedia("(prefers-reduced-motion: reduce)");
+    this.title = make("h1", { id: "carrier-title" });
+    this.number = make("input", { id: "card-bench", inputMode: "numeric", autocomplete: "off", "data-label": "cardBench", onchange: ({ target }) => this.#choose(target) });
+    this.other = button({}, () => state.set({ lang: LANGUAGES.find((one) => one !== language()) }));
+    const close = button({ "data-label": "cardClose", textContent: "✕" }, () => state.push({ bench: null, view: null, time: null }));
+    this.clock = make("p", { className: "clock" });
+    this.when = make("p", { className: "when" });
+    this.stand = make("p", { className: "stand" });
+    this.beside = make("p", { className: "beside" });
+    this.note = make("p", { className: "hint" });
+    this.cue = make("p", { className: "cue", "aria-live": "polite" });
+    this.start = textButton("cardStart", () => this.#begin(this.#span.begin), { className: "main", id: "card-start" });
+    this.byClock = textButton("cardClock", () => this.#goByClock(), { id: "card-clock" });
+    this.again = textButton("cardAgain", () => this.#begin(this.#span.begin));
+    const correct = (key, seconds) => textButton(key, () => this.#begin(this.#now + seconds), { "data-correct": seconds });
+    this.corrections = [correct("cardEarlier", -CORRECTION), correct("cardLater", CORRECTION)];
+    this.list = make("ol", { "aria-labelledby": "card-cues" });
+    const heading = make("h2", { id: "card-cues", "data-text": "cardCues" });
+    const row = (...parts) => make("p", { className: "row" }, ...parts);
+    this.present = make("div", {}, this.when, this.cue);
+    this.box = make("section", { id: "carrier", "aria-labelledby": "carrier-title" }, row(this.title, this.number, this.other, close), this.clock, this.present, row(this.start));
+    this.more = make("section", { id: "card-more", "aria-labelledby": "card-cues" }, this.stand, this.beside, heading, this.list, row(...this.corrections, this.again, this.byClock), this.note);
+    $("#front").prepend(this.box);
+    $("#dance").after(this.more);
+    const style = make("link", { rel: "stylesheet", href: new URL("./carrier.css", import.meta.url).href, onload: () => this.#look() });
+    document.head.append(style);
+    dance.above.push((pen, colours) => this.#mark(pen, colours));
+    document.addEventListener("visibilitychange", () => this.#keepAwake());
+  }
+
+  get #bench() {
+    return this.state.get("bench");
+  }
+
+  get #card() {
+    return this.#cards[language()] ?? Object.values(this.#cards)[0] ?? null;
+  }
+
+  get #span() {
+    return this.questions.dance ?? { begin: 0, end: 0 };
+  }
+
+  /** Time of the dance now, also before its beginning and after its end [s]. */
+  get #now() {
+    return this.#began === null ? this.#span.begin : (Date.now() - this.#began) / 1000;
+  }
+
+  /** After a change of the bench, the dance or the language. */
+  show() {
+    const isOpen = this.#bench !== null;
+    const wasOpen = "carrier" in document.documentElement.dataset;
+    this.box.hidden = this.more.hidden = !isOpen;
+    if (isOpen) document.documentElement.dataset.carrier = "";
+    else delete document.documentElement.dataset.carrier;
+    cancelAnimationFrame(this.#frame);
+    if (!isOpen) return this.#keepAwake();
+    if (!wasOpen) this.#look();
+    this.number.value = this.#bench;
+    this.other.textContent = language() === "en" ? "中文" : "English";
+    this.other.lang = language() === "en" ? "zh-Hans" : "en";
+    this.#ask();
+    this.hold();
+    this.#showCard();
+    this.#keepAwake();
+    this.#tick(performance.now());
+  }
+
+  /** Whether the service can be reached. */
+  network(is) {
+    this.#network = is;
+    this.#showNote();
+  }
+
+  /** Hold all samples of the dance, so that its picture needs no network. */
+  async hold() {
+    const { dance } = this.questions;
+    const track = dance?.track;
+    if (this.#bench === null || !track || track === this.#track) return;
+    this.#track = track;
+    if (track.samples * track.handles <= HELD_MOST) await track.hold();
+    this.#showNote();
+  }
+
+  /** The part of the ground around the bench. */
+  #look() {
+    const { view } = this.dance;
+    view.measure();
+    view.set(view.x, view.y, Math.min(view.width, view.height) / ACROSS);
+  }
+
+  #choose(field) {
+    const bench = numberIn(field.value);
+    if (Number.isInteger(bench) && bench >= 0) this.state.set({ bench });
+    else field.value = this.#bench;
+  }
+
+  /** Ask for the card of this bench in both languages, because a network may be gone when another language is wanted. */
+  async #ask() {
+    const { dance } = this.questions;
+    if (!dance || (this.#of?.dance === dance && this.#of.bench === this.#bench)) return;
+    const of = { dance, bench: this.#bench };
+    [this.#of, this.#cards, this.#problem] = [of, {}, null];
+    this.#resume();
+    const { benches } = dance.numbers;
+    if (of.bench >= benches) return;
+    const body = { ...this.questions.checkBody(dance), start: dance.begin, stop: dance.end, cards: [of.bench] };
+    try {
+      for (const one of [language(), ...LANGUAGES.filter((other) => other !== language())]) {
+        const { cards } = await this.service.ask("cues", "cues", { body: { ...body, language: one } });
+        if (of !== this.#of) return;
+        this.#cards[one] = cards[0];
+        this.#showCard();
+      }
+    } catch (error) {
+      if (error instanceof Superseded || of !== this.#of) return;
+      if (!(error instanceof Problem)) throw error;
+      this.#problem = error.problem;
+      this.#showCard();
+    }
+  }
+
+  /** Go on as before the page was loaded again, or by the clock of the dance. */
+  #resume() {
+    const { begin, end, clock } = this.#span;
+    this.#began = null;
+    try {
+      const { of, began } = JSON.parse(sessionStorage.getItem(STORED));
+      const now = (Date.now() - began) / 1000;
+      if (of === this.#key() && begin <= now && now < end) this.#began = began;
+    } catch {
+      // Nothing is stored, or the browser allows no storage.
+    }
+    if (this.#began === null && clock) this.#goByClock();
+  }
+
+  #key() {
+    return JSON.stringify(this.questions.checkBody(this.questions.dance));
+  }
+
+  #goByClock() {
+    const date = new Date();
+    this.#began = Date.now() - 1000 * secondsBetween(this.#span.clock, clockNow(date)) - date.getMilliseconds();
+    this.#keep(null);
+  }
+
+  /** The dance is at this time now [s]. */
+  #begin(time) {
+    this.#began = Date.now() - 1000 * time;
+    this.#keep(this.#began);
+    this.#keepAwake();
+    this.#showTime();
+  }
+
+  #keep(began) {
+    try {
+      if (began === null) sessionStorage.removeItem(STORED);
+      else sessionStorage.setItem(STORED, JSON.stringify({ of: this.#key(), began }));
+    } catch {
+      // Without storage a page that is loaded again begins anew.
+    }
+  }
+
+  /** Keep the screen on while this view is seen; a browser ends that when the page is hidden. */
+  async #keepAwake() {
+    if (this.#bench === null || document.hidden) {
+      this.#lock?.release();
+      this.#lock = null;
+    } else if (!this.#lock || this.#lock.released) {
+      this.#lock = (await navigator.wakeLock?.request("screen").catch(() => null)) ?? null;
+    }
+    this.#showNote();
+  }
+
+  #tick(now) {
+    this.#frame = requestAnimationFrame((next) => this.#tick(next));
+    if (now - this.#drawn < (this.still.matches ? STEP : FRAME)) return;
+    this.#drawn = now;
+    this.#showTime();
+  }
+
+  /** Time of a cue: of day, or since the beginning. */
+  #timeOf(time) {
+    const { begin, clock } = this.#span;
+    return clock ? timeOfDay(time, clock) : minutesAndSeconds(time - begin);
+  }
+
+  /** What stands on the card. */
+  #showCard() {
+    const { dance } = this.questions;
+    const card = this.#card;
+    const benches = dance?.numbers.benches ?? Infinity;
+    const name = (k) => handleName(k, benches);
+    this.title.textContent = this.#bench < benches ? name(this.#bench) : `${say("cardBench")} ${this.#bench}`;
+    document.title = `${this.title.textContent} · ${say("title")}`;
+    const { ahead, behind, start } = card ?? {};
+    const key = ahead ? (behind ? "cardNeighbours" : "cardLast") : behind ? "cardFirst" : "cardAlone";
+    this.beside.textContent = card ? say(key, { ahead: ahead && name(ahead.bench), behind: behind && name(behind.bench) }) : "";
+    const stands = start && (start.steps ? (start.steps > 0 ? "standPast" : "standBefore") : "standAt");
+    this.stand.textContent = card ? say(stands, { mark: start.mark, steps: Math.abs(start.steps), x: start.x.toFixed(1), y: start.y.toFixed(1) }) : "";
+    this.list.replaceChildren(...(card?.cues ?? []).map((cue) => make("li", {}, make("span", { textContent: this.#timeOf(cue.since) }), make("span", { textContent: cue.words }))));
+    this.byClock.hidden = !dance?.clock;
+    this.#showTime();
+    this.#showNote();
+  }
+
+  #showNote() {
+    const isWhole = this.#track?.isWhole;
+    const cards = Object.keys(this.#cards).length === LANGUAGES.length;
+    const isLarge = this.#track && this.#track.samples * this.#track.handles > HELD_MOST;
+    const held = cards && isWhole ? "cardHeld" : cards && isLarge ? "cardPart" : "cardLoading";
+    const words = [this.#network ? held : "cardOffline", this.#lock ? "cardAwake" : "cardAsleep"];
+    this.note.textContent = words.map((key) => say(key)).join(" ");
+    this.box.dataset.held = String(held === "cardHeld");
+    this.box.dataset.awake = String(Boolean(this.#lock));
+  }
+
+  /** The picture and the countdown of this moment. */
+  #showTime() {
+    const { dance, refusals } = this.questions;
+    if (this.#bench === null) return;
+    const put = (element, text) => element.textContent === text || (element.textContent = text);
+    const refusal = refusals.get("contact")?.problem ?? this.#problem;
+    if (!dance) return put(this.cue, refusal ? refusalWords(refusal).textContent : "");
+    const { begin, end, numbers: { benches } } = dance;
+    const time = this.#now;
+    const pose = dance.track?.at(Math.min(Math.max(time, begin), end));
+    // At rest nothing is drawn anew.
+    if (pose && (this.dance.scene.pose?.time !== pose.time || this.#shown !== dance)) {
+      this.#shown = dance;
+      this.draw(pose);
+      $("#stage").setAttribute("aria-busy", "false");
+    }
+    const isGoing = this.#began !== null;
+    put(this.clock, dance.clock ? clockNow() : isGoing ? minutesAndSeconds(Math.max(Math.floor(time - begin), 0)) : "");
+    hide(this.start, isGoing);
+    for (const one of [...this.corrections, this.again]) hide(one, !isGoing);
+    const cues = this.#card?.cues ?? [];
+    const next = cues.find(({ since }) => since > time || !isGoing);
+    const present = isGoing && cues.findLast(({ since, until }) => since <= time && time < Math.max(until, since + PRESENT));
+    const isOver = isGoing && time >= end && !present;
+    const [cue, at] = present ? [present, present.until] : [next, next?.since];
+    this.present.classList.toggle("present", Boolean(present));
+    const left = minutesAndSeconds(Math.max(at - time, 0));
+    const lacks = this.#bench >= benches ? say("cardNone", { bench: this.#bench, last: benches - 1 }) : refusal ? refusalWords(refusal).textContent : "";
+    put(this.when, lacks || isOver || !cue || !isGoing ? "" : !present ? say("cardIn", { time: left }) : at > time ? say("cardPaused", { time: left }) : say("cardNow"));
+    const words = isOver ? say("cardOver") : isGoing ? (cue?.words ?? "") : `${say("cardNotBegun")} ${cue ? `${say("cardNext")}${say("colon")}${cue.words}` : ""}`;
+    put(this.cue, lacks || words);
+    [...this.list.children].forEach((row, k) => (row.className = isGoing && cues[k].until <= time ? "past" : cues[k] === cue ? "following" : ""));
+  }
+
+  /** Mark the bench in the picture, and the one that it meets next. */
+  #mark(pen, colours) {
+    const { pose } = this.dance.scene;
+    if (this.#bench === null || !pose || this.#bench > pose.x.length - 2) return;
+    const met = this.#card?.cues.find(({ nearest, until }) => nearest && until > this.#now)?.nearest;
+    for (const [k, colour] of [[met?.bench, colours.second], [this.#bench, colours.pick]]) {
+      if (k === undefined) continue;
+      pen.fill(this.dance.bench(k), colour);
+      pen.stroke(this.dance.bench(k), colours.text, 2);
+      pen.label(String(k), (pose.x[k] + pose.x[k + 1]) / 2, (pose.y[k] + pose.y[k + 1]) / 2, colour, colours.card);
+    }
+  }
+}
