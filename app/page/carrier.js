@@ -254,7 +254,7 @@ export class Carrier {
     const { ahead, behind, start } = card ?? {};
     const key = ahead ? (behind ? "cardNeighbours" : "cardLast") : behind ? "cardFirst" : "cardAlone";
     this.beside.textContent = card ? say(key, { ahead: ahead && name(ahead.bench), behind: behind && name(behind.bench) }) : "";
-    const stands = start && (start.steps ? (start.steps > 0 ? "standPast" : "standBefore") : "standAt");
+    const stands = start && (start.steps ? `${start.steps > 0 ? "standPast" : "standBefore"}${Math.abs(start.steps) === 1 ? "One" : ""}` : "standAt");
     this.stand.textContent = card ? say(stands, { mark: start.mark, steps: Math.abs(start.steps), x: start.x.toFixed(1), y: start.y.toFixed(1) }) : "";
     this.list.replaceChildren(...(card?.cues ?? []).map((cue) => make("li", {}, make("span", { textContent: this.#timeOf(cue.since) }), make("span", { textContent: cue.words }))));
     this.byClock.hidden = !dance?.clock;
@@ -304,7 +304,7 @@ export class Carrier {
     put(this.when, lacks || isOver || !cue || !isGoing ? "" : !present ? say("cardIn", { time: left }) : at > time ? say("cardPaused", { time: left }) : say("cardNow"));
     const words = isOver ? say("cardOver") : isGoing ? (cue?.words ?? "") : `${say("cardNotBegun")} ${cue ? `${say("cardNext")}${say("colon")}${cue.words}` : ""}`;
     put(this.cue, lacks || words);
-    [...this.list.children].forEach((row, k) => (row.className = isGoing && cues[k].until <= time ? "past" : cues[k] === cue ? "following" : ""));
+    [...this.list.children].forEach((row, k) => (row.className = cues[k] === cue ? "following" : isGoing && cues[k].until <= time ? "past" : ""));
   }
 
   /** Mark the bench in the picture, and the one that it meets next. */

@@ -20,6 +20,8 @@ const [LEAST_WIDTH, HEAD] = [6, 15];
 const SKULL = new Path2D("M-.6 .45Q-.1 .75 .45 .5Q.75 .4 1.1 .42Q1.35 .3 1.3 0Q1.35 -.3 1.1 -.42Q.75 -.4 .45 -.5Q-.1 -.75 -.6 -.45Q-.45 0 -.6 .45Z");
 const HORNS = new Path2D("M.1 .5Q-.6 .7 -1.1 1.15Q-.9 .6 -.3 .35ZM.1 -.5Q-.6 -.7 -1.1 -1.15Q-.9 -.6 -.3 -.35Z");
 const EYES = new Path2D("M.5 .27A.13 .13 0 1 1 .24 .27A.13 .13 0 1 1 .5 .27ZM.5 -.27A.13 .13 0 1 1 .24 -.27A.13 .13 0 1 1 .5 -.27Z");
+/** How far a path of several dragons hides what is below it [1]. */
+const WAY = 0.4;
 /** Half side of the inset around the point of contact, in bench widths. */
 const INSET_WIDTHS = 1.6;
 
@@ -205,6 +207,9 @@ export class Dance {
   drawn = false;
   #path = null;
   #points = null;
+  #around = [];
+  /** Paths of several dragons: {x, y, line, colour} */
+  #ways = [];
   #bounds = null;
   #colours = {};
   #palette = [];
@@ -225,9 +230,19 @@ export class Dance {
 
   /** The path of the head, {x, y}, as sampled by the service, or null; around: further points [x, y] to be shown. */
   setPath(path, around = []) {
-    this.#path = null;
-    if (path) [this.#path, this.#points] = [smooth(path), path];
-    const [xs, ys] = ["x", "y"].map((axis, k) => [...(path?.[axis] ?? []), ...around.map((point) => point[k])]);
+    [this.#path, this.#points, this.#around] = [path && smooth(path), path, around];
+    this.#bound();
+  }
+
+  /** The paths of several dragons, each {x, y, colour}. */
+  setWays(ways) {
+    this.#ways = ways.map((way) => ({ ...way, line: smooth(way) }));
+    this.#bound();
+  }
+
+  /** What must be visible. */
+  #bound() {
+    const [xs, ys] = ["x", "y"].map((axis, k) => [...(this.#points?.[axis] ?? []), ...this.#ways.flatMap((way) => way[axis]), ...this.#around.map((point) => point[k])]);
     if (xs.length) this.#bounds = [least(xs), least(ys), largest(xs), largest(ys)];
   }
 
@@ -237,24 +252,37 @@ export class Dance {
     const [pen, colours] = [new Pen(this.canvas, this.view), this.#colours];
     for (const layer of this.below) layer(pen, colours);
     if (this.#path) this.#drawPath(pen);
-    if (circle > 0) pen.stroke(pen.circle(0, 0, circle * pen.scale), colours.circle, 1.5);
+    pen.context.globalAlpha = WAY;
+    for (const { line, colour } of this.#ways) pen.stroke(line, colour, 2);
+    pen.context.globalAlpha = 1;
+    if (circle > 0 && !this.scene.parts) pen.stroke(pen.circle(0, 0, circle * pen.scale), colours.circle, 1.5);
     const { metres, pixels } = scaleBar(this.view.scale);
     pen.bar(`${metres} m`, pixels, colours.text, colours.card);
     if (pose) this.#drawDragon(pen);
     for (const layer of this.above) layer(pen, colours);
   }
 
+  /** What is drawn: the dragon, or each of several as {pose, dragon, colour, name}. @type {any[]} */
+  get #parts() {
+    return this.scene.parts ?? [this.scene];
+  }
+
   #drawDragon(pen) {
     const { pose, contact, handle, headName, handleName } = this.scene;
     const colours = this.#colours;
-    this.#grounds(pen);
-    this.#benches(pen);
-    pen.stroke(this.bench(0), colours.head, 2.5);
+    for (const part of this.#parts) {
+      this.#grounds(pen, part);
+      this.#benches(pen, part);
+      pen.stroke(this.bench(0, new Path2D(), part), part.colour ?? colours.head, 2.5);
+    }
     if (contact) this.#pair(pen);
     if (contact?.point) pen.stroke(pen.circle(...contact.point, 9), colours.text, 3);
     const [[x], [y]] = [pose.x, pose.y];
-    this.#drawHead(pen);
-    pen.label(headName, x, y, colours.head, colours.card);
+    for (const part of this.#parts) {
+      this.#drawHead(pen, part);
+      if (part.name) pen.label(part.name, part.pose.x[0], part.pose.y[0], part.colour, colours.card);
+    }
+    if (!this.scene.parts) pen.label(headName, x, y, colours.head, colours.card);
     if (handle !== null && handle < pose.x.length) {
       const [x, y] = [pose.x[handle], pose.y[handle]];
       pen.stroke(pen.circle(x, y, 8), colours.pick, 3);
@@ -290,8 +318,7 @@ export class Dance {
   }
 
   /** The head of the dragon, from above, at the front end of its bench. */
-  #drawHead(pen) {
-    const { pose: { x, y }, dragon } = this.scene;
+  #drawHead(pen, { pose: { x, y }, dragon, colour: own }) {
     const { overhang, width } = sizeOf(dragon, 0);
     const way = Math.atan2(y[0] - y[1], x[0] - x[1]);
     const size = Math.max(1.5 * Math.max(width, this.#leastWidth(pen.scale)), HEAD / pen.scale);
@@ -302,39 +329,37 @@ export class Dance {
     context.scale(size, size);
     Object.assign(context, { lineWidth: 1.5 / (size * pen.scale), lineJoin: "round", strokeStyle: this.#colours.card });
     for (const [shape, colour] of [[HORNS, "text"], [SKULL, "head"], [EYES, "card"]]) {
-      context.fillStyle = this.#colours[colour];
+      context.fillStyle = (colour === "head" && own) || this.#colours[colour];
       context.fill(shape);
       if (shape === SKULL) context.stroke(shape);
     }
     context.restore();
   }
 
-  /** Outline of bench k in the picture. */
-  bench(k, path = new Path2D()) {
-    return trace(outline(this.scene.pose, this.scene.dragon, k, this.#leastWidth(this.view.scale)), path);
+  /** Outline of bench k in the picture. part: its dragon, one of several */
+  bench(k, path = new Path2D(), /** @type {any} */ { pose, dragon } = this.scene) {
+    return trace(outline(pose, dragon, k, this.#leastWidth(this.view.scale)), path);
   }
 
-  #benches(pen) {
-    const { pose, speeds } = this.scene;
+  #benches(pen, /** @type {any} */ { pose, dragon, colour, speeds = null }) {
     const [low, high] = speeds ?? speedRange(pose);
     const paths = this.#palette.map(() => new Path2D());
     const share = (speed) => Math.min(Math.max((speed - low) / (high - low), 0), 1);
-    const shade = (speed) => (low === null || high - low < SPEED_SPREAD_MIN ? SHADES - 1 : Math.round(share(speed) * (SHADES - 1)));
+    const shade = (speed) => (colour || low === null || high - low < SPEED_SPREAD_MIN ? SHADES - 1 : Math.round(share(speed) * (SHADES - 1)));
     for (let k = pose.x.length - 2; k >= 0; k--) {
-      const corners = outline(pose, this.scene.dragon, k, this.#leastWidth(pen.scale));
+      const corners = outline(pose, dragon, k, this.#leastWidth(pen.scale));
       trace([...corners, corners[0]], paths[shade(pose.speed[k])], false); // in Chromium each closePath() looks at the whole path
     }
     const all = new Path2D();
     paths.forEach((path, k) => {
-      pen.fill(path, this.#palette[k]);
+      pen.fill(path, colour ?? this.#palette[k]);
       all.addPath(path);
     });
     pen.stroke(all, this.#colours.outline);
   }
 
   /** The ground that the benches may cover, as one band. */
-  #grounds(pen) {
-    const { pose, dragon } = this.scene;
+  #grounds(pen, { pose, dragon }) {
     const [path, stray] = [new Path2D(), strayOf(dragon)];
     if (!(stray > 0)) return;
     for (let k = pose.x.length - 2; k >= 0; k--) addGround(path, pose, dragon, k, stray);
@@ -343,8 +368,9 @@ export class Dance {
 
   /** The two benches that touch. */
   #pair(pen) {
-    this.scene.contact.benches.forEach((bench, k) => {
-      const path = this.bench(bench);
+    const { benches, dragons = [0, 0] } = this.scene.contact;
+    benches.forEach((bench, k) => {
+      const path = this.bench(bench, new Path2D(), this.#parts[dragons[k]]);
       pen.fill(path, this.#colours[k ? "second" : "first"]);
       pen.stroke(path, this.#colours.text);
     });
@@ -356,8 +382,8 @@ export class Dance {
     const [x, y] = contact.point;
     const { clientWidth: width, clientHeight: height } = this.inset;
     const pen = new Pen(this.inset, { x, y, scale: height / (2 * INSET_WIDTHS * dragon.width), width, height });
-    this.#grounds(pen);
-    this.#benches(pen);
+    for (const part of this.#parts) this.#grounds(pen, part);
+    for (const part of this.#parts) this.#benches(pen, part);
     this.#pair(pen);
     if (contact.edge) {
       const ends = edge(outline(pose, dragon, contact.edge.bench), contact.edge.name);

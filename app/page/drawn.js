@@ -99,7 +99,8 @@ export class Drawn {
     const { points } = drawing;
     $("main").classList.toggle("drawn", drawn);
     this.picture.drawn = drawn;
-    for (const box of [$("#route"), $("#judgement")]) box.hidden = !drawn;
+    $("#route").hidden = !drawn;
+    $("#judgement").hidden = !drawn && !this.state.get("dances");
     $("#save").disabled = this.#isEmpty;
     this.editor.show();
     const empty = drawn && this.#isEmpty;

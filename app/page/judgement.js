@@ -10,7 +10,7 @@ const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecide
 const DECIMALS = 6;
 
 /** One failure of /check in a sentence. */
-function words({ kind, benches, area, peak_speed: peak }, { numbers, drawing }) {
+export function failureWords({ kind, benches, area, peak_speed: peak }, { numbers, drawing }) {
   const name = (k) => benchName(k, numbers.benches);
   const [a, b] = benches;
   const values = { a: a === undefined ? "" : name(a), b: b === undefined ? "" : name(b), area: area ?? "", limit: drawing.limit };
@@ -41,13 +41,14 @@ export class Judgement {
     this.look = look;
   }
 
-  /** Show the verdict on a dance that the service has checked. */
+  /** Show the verdict on a dance that the service has checked. dance: may have lines to add, and words(failure) of its own */
   show(dance, course) {
     const [outcome, mark] = OUTCOMES[dance.verdict];
-    const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), words(failure, dance), () => this.seek(failure)));
+    const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), (dance.words ?? ((one) => failureWords(one, dance)))(failure), () => this.seek(failure)));
     const { length } = course ?? {};
     const time = (dance.end - dance.begin).toFixed(1);
     const lines = [length === undefined ? "" : say(Number(time) ? "pathLength" : "pathOnly", { length: length.toFixed(2), time })];
+    lines.push(...(dance.lines ?? []));
     const { clock } = dance;
     const [start, end] = [dance.begin, dance.answer.end?.time ?? dance.end].map((one) => clock && timeOfDay(Number(one.toFixed(DECIMALS)), clock));
     if (clock) lines.push(say("startsEnds", { start, end }));
@@ -60,12 +61,12 @@ export class Judgement {
   }
 
   /** Show why there is no verdict: no drawing yet, bends that are too tight, or the service's refusal. */
-  refuse(problem, course, benches) {
+  refuse(problem, course, benches, words = problem && refusalWords(problem)) {
     const bends = course?.bends ?? [];
     const sentences = bends.map((bend) => say("tightBend", { ...radiiOf(bend), bench: benchName(bend.bench, benches) }));
     const rows = bends.map(({ points }, k) => this.#row(say("show"), sentences[k], () => this.look(points[Math.floor(points.length / 2)])));
     const drawn = problem === null;
-    const lines = drawn ? [say("drawFirst")] : rows.length ? [] : [refusalWords(problem)];
+    const lines = drawn ? [say("drawFirst")] : rows.length ? [] : [words];
     this.#fill(drawn ? "" : "contact", drawn ? "" : "✕", say(drawn ? "verdict_none" : "verdict_fails"), lines, rows, sentences[0] ?? lines[0]?.textContent);
   }
 

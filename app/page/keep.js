@@ -143,7 +143,7 @@ export class Keep {
 
   /** Name each button after its item. */
   translate() {
-    for (const button of $("#kept").querySelectorAll("button")) nameButton(button);
+    for (const button of $("#kept").querySelectorAll("[data-keep]")) nameButton(button);
     for (const film of $("#kept").querySelectorAll(".film")) Object.assign(film, { alt: say("keepFilm"), ariaLabel: say("keepFilm") });
     this.show();
     if ($("#paper").open) this.paper();
@@ -153,7 +153,7 @@ export class Keep {
   offer(paths) {
     const calls = Object.values(paths).flatMap((path) => Object.values(path));
     const types = new Set(calls.flatMap(({ responses }) => Object.keys(responses?.[200]?.content ?? {})));
-    for (const button of $("#kept").querySelectorAll("button")) button.hidden = !types.has(TYPES[button.dataset.form]);
+    for (const button of $("#kept").querySelectorAll("[data-keep]")) button.hidden = !types.has(TYPES[button.dataset.form]);
   }
 
   /** The commands for the chosen item; they stay as they are while there is no dance. */

@@ -82,8 +82,8 @@ const graphs = new Graphs(state, questions, (time) => player.seek(time));
 const doors = new Doors(state, parts);
 new Sharing(state, parts);
 addLook();
-/** What belongs to a drawn dance, what stands below the dance, and a carrier's view; null until they have loaded. @type {any} */
-let [route, below, carrier] = [null, null, null];
+/** What belongs to a drawn dance, what stands below the dance, a carrier's view, and several dragons; null until they have loaded. @type {any} */
+let [route, below, carrier, dragons] = [null, null, null, null];
 /** Language of the first view. */
 let begun = "";
 let limits = {};
@@ -120,12 +120,13 @@ function showPose(pose) {
   const contact = answer.benches && pose.time === end ? answer : null;
   // Inner and outer refer to the centre of a spiral; other paths have none.
   const drawn = contact && kind !== "spiral" ? { ...contact, edge: null } : contact;
-  Object.assign(dance.scene, { pose, dragon: numbers, contact: drawn });
+  const several = pose.poses?.map((one, k) => ({ ...questions.dance.parts[k], pose: one, dragon: questions.dance.parts[k].numbers })) ?? null;
+  Object.assign(dance.scene, { pose, dragon: numbers, contact: drawn, parts: several });
   $("#halo").hidden = !(strayOf(numbers) > 0);
   $("#inset").hidden = !contact?.point;
   const { answer: touching, dance: of } = questions.answers.gap ?? {};
   const gap = of === questions.dance ? touching.clearance[0] : null;
-  if (contact) $("#inset figcaption").textContent = answers.insetWords(contact, gap, numbers);
+  if (contact) $("#inset figcaption").textContent = contact.dragons ? dragons.insetWords(contact) : answers.insetWords(contact, gap, numbers);
   const [low, high] = dance.scene.speeds ?? speedRange(pose);
   const [least, largest] = $$("#legend span");
   const [speed, slowest] = [high, low].map((one) => one === null ? null : formatNumber(one, 6, 2));
@@ -177,9 +178,13 @@ const SHOW = {
     const { answer, numbers, begin, end } = questions.dance;
     Object.assign($("#time"), { min: begin, max: end });
     markContact(answer, begin, end);
+    pace.begun(questions.dance);
+    if (questions.dance.parts) {
+      player.update();
+      return dragons.showDance();
+    }
     Object.assign($("#verdict"), { hidden: false, textContent: answers.verdictWords(answer, numbers) });
     answers.showFirstContact($("#first-contact"), answer, numbers);
-    pace.begun(questions.dance);
     answers.showEnd($("#run-end"), answer, end, numbers);
     graphs.pitch();
     below?.show();
@@ -282,6 +287,7 @@ const TELL = {
     showRefusals(questions, graphs, (kind) => BUSY[kind][0]);
     route?.refused();
     carrier?.show();
+    if (state.get("dances")) dragons?.judged();
   },
 };
 
@@ -296,7 +302,7 @@ const SHOW_STATE = {
   bench(bench) {
     if (bench !== null) openCarrier();
     else carrier?.show();
-    questions.refresh();
+    refresh();
   },
   follow: (follow) => $("#follow").setAttribute("aria-pressed", follow),
   rate: (rate) => ($("#rate").value = rate),
@@ -311,6 +317,10 @@ const SHOW_STATE = {
     if (questions.answers.minimum) SHOW.minimum();
   },
   drawing: showRoute,
+  dances(dances) {
+    if (dances) openDragons().then((one) => one.show());
+    else dragons?.show();
+  },
   start_clock: showTime,
   time() {
     showTime();
@@ -321,8 +331,15 @@ const SHOW_STATE = {
 function showState(changed) {
   for (const [name, show] of Object.entries(SHOW_STATE)) if (changed.has(name)) show(state.get(name));
   if (CONTACT.some((name) => changed.has(name))) graphs.help();
-  if (NUMBERS.some((name) => changed.has(name))) questions.refresh();
+  if (["dragon", "path", "drawing"].some((name) => changed.has(name))) dragons?.show();
+  if ([...NUMBERS, "dances"].some((name) => changed.has(name))) refresh();
   draw();
+}
+
+/** Ask about what the numbers describe: one dance, or several. */
+function refresh() {
+  if (state.get("dances")) openDragons().then((one) => state.get("dances") && one.refresh());
+  else questions.refresh();
 }
 
 /** Mark the button of this value as pressed, among buttons that choose between values. */
@@ -347,6 +364,8 @@ function translate() {
   TELL.refused();
   route?.translate();
   carrier?.show();
+  dragons?.show();
+  if (state.get("dances")) refresh(); // The names that the page gives them have changed.
   announceAgain();
 }
 
@@ -368,6 +387,16 @@ async function openCarrier() {
   carrier ??= new Carrier({ state, service, questions, dance, show: showPose });
   writeTexts();
   carrier.show();
+}
+
+/** The list of several dragons. */
+async function openDragons() {
+  const { Dragons } = await parts.load("dragons");
+  if (dragons) return dragons;
+  dragons = new Dragons({ state, service, questions, dance, draw, player });
+  writeTexts();
+  dragons.show();
+  return dragons;
 }
 
 function showRoute() {
@@ -392,6 +421,7 @@ function listen() {
   for (const button of $$("[data-section]")) button.addEventListener("click", () => $(`#${button.dataset.section}`).scrollIntoView());
   whenReached(["#keep", "#sweeps", "#grade"], openBelow);
   whenReached(["#stage"], openRoute, OF_FILES);
+  onClick("#several", () => openDragons().then((one) => one.add()));
   addEventListener("look", restyle);
   matchMedia("print").addEventListener("change", restyle);
   new ResizeObserver(draw).observe($("#stage"));

@@ -68,11 +68,11 @@ export function placeInset(covered) {
 export const showPrinted = (end) => ($("#printed").textContent = `${end && say("printedEnds", { end })}\n${location.href}`);
 
 /** Mark first contact on the slider of the time. answer: {time, outcome}; begin, end: of the slider [s] */
-export function markContact({ time, outcome }, begin, end) {
+export function markContact({ time, outcome, dragons }, begin, end) {
   const mark = $("#contact-mark");
   mark.hidden = !outcome.startsWith("contact");
   if (mark.hidden) return;
   mark.style.setProperty("--share", end > begin ? (time - begin) / (end - begin) : 0);
-  mark.title = say("contactMark", { time: time.toFixed(6) });
+  mark.title = say(dragons ? "meetingMark" : "contactMark", { time: time.toFixed(6) });
   mark.setAttribute("aria-label", mark.title);
 }

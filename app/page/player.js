@@ -129,10 +129,10 @@ export class Player {
     const now = performance.now();
     const pose = dance.track?.at(time);
     const isExact = this.#exact?.time === time && this.#exact.dance === dance;
-    if (pose && time < dance.end && !isExact) this.show(pose);
+    if (pose && (time < dance.end || dance.parts) && !isExact) this.show(pose);
     if (!ask || (this.#playing && now - this.#requested < EXACT_EVERY)) return;
     this.#requested = now;
-    this.questions.pose(time);
+    if (!dance.parts) this.questions.pose(time);
   }
 
   /** Called when the service's own numbers arrive. */

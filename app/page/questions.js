@@ -122,6 +122,24 @@ export class Questions {
     return { request: { ...texts, benches: listed.lengths.length }, body: { dragon: { csv }, ...Object.fromEntries(others), ...more } };
   }
 
+  /**
+   * Ask about several dances on one clock. body: of /check; course: body of the question about the chosen path, if it is drawn;
+   * kept: what the dance keeps: drawing, numbers, extras, parts
+   */
+  async askTogether({ body, course, ...kept }) {
+    this.#rest.end();
+    this.#forget(ABOUT_NUMBERS.filter((channel) => channel !== "contact"));
+    this.service.drop([...AT_REST, "path", ...(course ? [] : ["course"])]);
+    if (course && this.#isNew("course", course)) this.#askCourse(course, kept.drawing);
+    if (!this.#isNew("contact", body)) return;
+    const report = await this.#answer("contact", "check", { body: { ...body, ...VERDICT } });
+    if (!report) return;
+    const { encounter, start: begin, stop, failures, verdict } = report;
+    const answer = { ...encounter, end: encounter.time === null ? { reason: "path", time: stop } : null };
+    this.#take({ ...kept, kind: "dances", answer, report, failures, verdict, begin, end: encounter.time ?? stop - BEFORE_END, clock: clockAtZero(kept.extras, begin), track: null });
+    this.tell("dance");
+  }
+
   /** Ask everything for a drawn path. */
   #refreshDrawn() {
     const request = this.drawn();
@@ -327,8 +345,9 @@ export class Questions {
   /** Ask once for everything that belongs to the shown dance. */
   #askDance() {
     const { dance } = this;
-    if (dance && !dance.track) this.#startTrack(dance);
-    if (!dance || dance.isExplored || this.#isFollowed) return;
+    if (!dance || dance.parts) return; // Several dragons have their own questions.
+    if (!dance.track) this.#startTrack(dance);
+    if (dance.isExplored || this.#isFollowed) return;
     dance.isExplored = true;
     const { begin, end } = dance;
     this.#keep("speeds", "trajectory", { body: this.body({ times: speedTimes(dance), decimals: 6 }) }, dance);

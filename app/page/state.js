@@ -19,8 +19,8 @@ export const EXTRAS = ["csv", "passages", "start_clock", "begin_clock"];
 const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, value]), ...EXTRAS.map((name) => [name, ""])]);
 /** True if the address has nothing except the language: then the page opens with the dance in motion. */
 const isBare = (address) => [...address.keys()].every((name) => name === "lang");
-/** time: null is the end of the dance; bench: the one that a carrier follows, or null; view: [x, y, pixels per metre], null shows the whole path. */
-const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, bench: null, view: null, lang: null };
+/** time: null is the end of the dance; dances: those of several dragons, as in an address; dragon: the chosen one; bench: the one that a carrier follows, or null; view: [x, y, pixels per metre], null shows the whole path. */
+const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, bench: null, dances: "", dragon: 0, view: null, lang: null };
 
 const whole = (text) => (/^\d+$/.test(text) ? Number(text) : null);
 const oneOf = (values) => (text) => values.find((value) => String(value) === text);
@@ -32,6 +32,7 @@ const READ = {
   follow: (text) => text === "true",
   handle: whole,
   bench: whole,
+  dragon: (text) => whole(text) ?? 0,
   view(text) {
     const numbers = text.split(",").map(Number);
     return numbers.length === 3 && numbers.every(Number.isFinite) && numbers[2] > 0 ? numbers : null;
@@ -146,7 +147,7 @@ export class State {
     }
     const plain = query.toString();
     if (csv) query.set("csv", csv);
-    const isDrawn = this.#values.path === "route";
+    const isDrawn = this.#values.path === "route" || this.#values.dances;
     if (isDrawn) for (const [name, text] of toAddress(drawing)) query.set(name, text);
     this.fits = query.toString().length <= ADDRESS_MOST;
     const text = (this.fits ? query.toString() : plain).replace(/%(?:2C|7E|21|3A|40)/g, decodeURIComponent);

@@ -49,7 +49,8 @@ MIDDLE = """() => {
   probe.fillStyle = getComputedStyle(canvas).getPropertyValue("--pick");
   probe.fillRect(0, 0, 1, 1);
   const [r, g, b] = probe.getImageData(0, 0, 1, 1).data;
-  return [...Array(1600).keys()].filter((k) => data[4 * k] === r && data[4 * k + 1] === g && data[4 * k + 2] === b).length;
+  const has = (k) => data[4 * k] === r && data[4 * k + 1] === g && data[4 * k + 2] === b;
+  return [...Array(1600).keys()].filter(has).length;
 }"""
 
 

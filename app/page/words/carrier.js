@@ -21,6 +21,8 @@ export const CARRIER = {
   cardAlone: ["You dance alone.", "只有这一节板凳。"],
   standAt: ["You stand at mark {mark} (x {x} m, y {y} m).", "站在标记 {mark}（x {x} m，y {y} m）。"],
   standPast: ["You stand {steps} steps past mark {mark} (x {x} m, y {y} m).", "站在标记 {mark} 过 {steps} 步处（x {x} m，y {y} m）。"],
+  standPastOne: ["You stand 1 step past mark {mark} (x {x} m, y {y} m).", "站在标记 {mark} 过 1 步处（x {x} m，y {y} m）。"],
+  standBeforeOne: ["You stand 1 step before mark {mark} (x {x} m, y {y} m).", "站在标记 {mark} 前 1 步处（x {x} m，y {y} m）。"],
   standBefore: ["You stand {steps} steps before mark {mark} (x {x} m, y {y} m).", "站在标记 {mark} 前 {steps} 步处（x {x} m，y {y} m）。"],
   cardNone: ["This dragon has no bench {bench}: its tail is bench {last}.", "没有 {bench} 号板凳：龙尾是 {last} 号。"],
   cardLoading: ["Loading: stay within reach of the network.", "正在加载，请保持网络连接。"],

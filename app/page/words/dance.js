@@ -158,6 +158,7 @@ export const DANCE = {
   begin_clock: ["Starts at", "开始于"],
   clockAtZero: ["The file or the address says {clock} at 0 s; the dance starts at {start}.", "文件或链接中 0 s 时为 {clock}，舞龙于 {start} 开始。"],
   clockWrong: ["Write the time of day as 19:30 or 19:30:15.", "时刻的格式为 19:30 或 19:30:15。"],
+  several: ["Several dragons", "多条龙"],
   spiral: ["Spiral", "螺线"],
   turn: ["Turn", "调头"],
   route: ["Route", "路线"],

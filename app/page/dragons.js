@@ -1,0 +1,322 @@
+/** Several dragons on one clock: their list, the question about all of them, and their common picture. */
+
+import { Problem, Superseded } from "./api.js";
+import { benchesOf } from "./benches.js";
+import { EMPTY, fromAddress, toAddress, venueOf } from "./drawing.js";
+import { $, button, download, make, numberIn, textButton } from "./elements.js";
+import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
+import { Judgement, failureWords } from "./judgement.js";
+import { bound } from "./numbers.js";
+import { announce } from "./overlays.js";
+import { passagesIn } from "./passages.js";
+import { pending } from "./pending.js";
+import { benchName, refusalWords, say, sayOf, writeTexts } from "./text.js";
+import { LEGS, OWN, PARTS, PRESETS, Tracks, recordText, recordsIn, trackOf, wayOf } from "./together.js";
+import { learn } from "./words.js";
+import { DRAGONS } from "./words/dragons.js";
+import { ROUTE } from "./words/route.js";
+
+learn({ ...ROUTE, ...DRAGONS });
+
+const COLOURS = ["#b3261e", "#0b5cad", "#1a6f33", "#a3158f", "#b85c00", "#0f7b7b", "#6b5b95", "#7a5200"];
+/** Largest delay [s], and waiting time of a copy [s]. */
+const [DELAY_MOST, LATER] = [1e6, 30];
+const DEGREE = Math.PI / 180;
+
+export class Dragons {
+  #loads = Symbol("dragons");
+
+  /**
+   * paths(ways): draws the paths; draw(): the picture
+   * @param {{ state: State, service: Service, questions: Questions, dance: any, draw: any, player: any }} parts
+   */
+  constructor({ state, service, questions, dance, draw, player }) {
+    this.state = state;
+    this.service = service;
+    this.questions = questions;
+    this.picture = dance;
+    this.draw = draw;
+    this.player = player;
+    this.box = $("#dragons");
+    this.list = make("ul", { "aria-labelledby": "dragons-title" });
+    this.wrong = make("p", { className: "error", role: "alert" });
+    const presets = Object.keys(PRESETS).map((name) => textButton(`dragons_${name}`, () => this.begin(name), { "data-dragons": name }));
+    this.panel = make(
+      "div",
+      { hidden: true },
+      make("h2", { id: "dragons-title", "data-text": "dragonsTitle" }),
+      make("p", { className: "hint", "data-text": "dragonsHelp" }),
+      this.list,
+      this.wrong,
+      make("p", { className: "buttons" }, textButton("dragonAdd", () => this.add(), { id: "dragon-add" }), textButton("dragonSave", () => this.#save(), { id: "dragons-save" }), textButton("dragonsClose", () => this.#close(), { id: "dragons-close" })),
+    );
+    this.offer = make("p", { className: "buttons" }, make("span", { className: "hint", "data-text": "dragonsOr" }), ...presets);
+    this.box.append(this.panel, this.offer);
+    this.judgement = new Judgement($("#judgement"), (failure) => player.seek(failure.time), () => {});
+    document.head.append(make("link", { rel: "stylesheet", href: new URL("./dragons.css", import.meta.url).href }));
+  }
+
+  get #records() {
+    const text = this.state.get("dances");
+    return text ? recordsIn(text) : [];
+  }
+
+  get #active() {
+    return Math.min(this.state.get("dragon"), this.#records.length - 1);
+  }
+
+  #nameOf(records, k) {
+    return records[k].name || (k < 3 ? say(`dragon_${k + 1}`) : say("dragonNumber", { number: k + 1 }));
+  }
+
+  #colourOf = (record, k) => (/^#[0-9a-f]{6}$/.test(record.colour ?? "") ? record.colour : COLOURS[k % COLOURS.length]);
+
+  /** The texts of the shown dance that differ from the defaults. */
+  #present() {
+    const path = this.state.get("path");
+    const pairs = PARTS.filter((name) => this.state.get(name) !== this.state.initial(name, path)).map((name) => [name, this.state.get(name)]);
+    const legs = path === "route" ? toAddress(this.state.get("drawing")).filter(([name]) => LEGS.includes(name)) : [];
+    return Object.fromEntries([...pairs, ...legs.map(([name, text]) => [name, String(text)])]);
+  }
+
+  /**
+   * All values of the dance of a record, among what stands in the common square.
+   * @returns {any}
+   */
+  #valuesOf(record) {
+    const path = record.path ?? "spiral";
+    const values = Object.fromEntries(PARTS.map((name) => [name, record[name] ?? this.state.initial(name, path)]));
+    const { things, origin, grid, yard, limit } = this.state.get("drawing");
+    const legs = LEGS.filter((name) => name in record).map((name) => [name, record[name]]);
+    return { ...values, path, drawing: { ...(path === "route" ? fromAddress(new URLSearchParams(legs)) : EMPTY), things, origin, grid, yard, limit } };
+  }
+
+  /** Take other dragons; the chosen one is the shown dance. others: changes of the state */
+  #take(records, active = this.#active, others = {}) {
+    const texts = records.map((record, k) => recordText(k === active ? Object.fromEntries(Object.entries(record).filter(([name]) => OWN.includes(name))) : record));
+    // A list of one dragon without anything would be no list.
+    this.state.push({ ...others, dances: texts.join("~") || "name:", dragon: active });
+  }
+
+  /** The records, with the shown dance in that of the chosen dragon. */
+  #whole() {
+    return this.#records.map((record, k) => (k === this.#active ? { ...record, ...this.#present() } : record));
+  }
+
+  begin(name) {
+    const records = PRESETS[name];
+    const values = this.#valuesOf(records[0]);
+    const { things, origin, grid, yard, limit } = EMPTY;
+    this.#take(records, 0, { ...values, drawing: { ...values.drawing, things, origin, grid, yard, limit }, time: null, view: null, follow: false });
+  }
+
+  #choose(k) {
+    const records = this.#whole();
+    this.#take(records, k, { ...this.#valuesOf(records[k]), handle: null });
+  }
+
+  /** Add a dragon like the chosen one: in the same spiral from the other side, or later on the same path. */
+  add() {
+    if (!this.#records.length) this.#take([{}], 0);
+    const spiral = this.state.get("path") === "spiral";
+    const record = this.#whole()[this.#active];
+    this.#copy(this.#active, spiral ? { rotation: String((Number(record.rotation ?? 0) + 180) % 360 || "") } : {}, spiral ? 0 : LATER);
+  }
+
+  /** Copy dragon k. changes: of the copy; later: how much later it dances [s] */
+  #copy(k, changes = {}, later = LATER) {
+    const records = this.#whole();
+    const delay = Number(records[k].delay ?? 0) + later;
+    this.#take([...records, { ...records[k], name: "", colour: "", delay: delay ? String(delay) : "", ...changes }]);
+  }
+
+  #remove(k) {
+    const records = this.#whole();
+    const left = records.toSpliced(k, 1);
+    const active = this.#active;
+    if (k !== active) return this.#take(left, active - (k < active ? 1 : 0));
+    const next = Math.min(k, left.length - 1);
+    this.#take(left, next, { ...this.#valuesOf(left[next]), handle: null });
+  }
+
+  #close() {
+    this.state.push({ dances: "", dragon: 0 });
+  }
+
+  /** Change what dragon k has in addition to its dance. */
+  #set(k, name, text) {
+    const records = this.#whole();
+    this.#take(records.with(k, { ...records[k], [name]: text }));
+  }
+
+  #number(k, name, field) {
+    const number = numberIn(field.value);
+    const isNumber = field.value.trim() === "" || (typeof number === "number" && Math.abs(number) <= DELAY_MOST);
+    field.setAttribute("aria-invalid", !isNumber);
+    this.wrong.textContent = isNumber ? "" : say("dragonNotNumber", { text: field.value });
+    if (isNumber) this.#set(k, name, Number(number) ? String(number) : "");
+  }
+
+  #rename(k, field) {
+    const records = this.#records;
+    const name = field.value.trim();
+    const isTaken = records.some((_, other) => other !== k && this.#nameOf(records, other) === name);
+    field.setAttribute("aria-invalid", isTaken);
+    this.wrong.textContent = isTaken ? say("dragonSameName", { name }) : "";
+    if (!isTaken) this.#set(k, "name", name);
+  }
+
+  /** After a change of the state or of the language. */
+  show() {
+    const records = this.#records;
+    const isOn = records.length > 0;
+    $("main").classList.toggle("several", isOn);
+    this.panel.hidden = !isOn;
+    $("#several").hidden = isOn;
+    if (!isOn) {
+      this.list.replaceChildren();
+      this.picture.scene.parts = null;
+      this.picture.setWays([]);
+      $("#judgement").hidden = this.state.get("path") !== "route";
+      return;
+    }
+    $("#judgement").hidden = false;
+    const focused = document.activeElement?.id;
+    this.list.replaceChildren(...records.map((record, k) => this.#row(records, record, k)));
+    if (focused && this.list.querySelector(`#${CSS.escape(focused)}`)) $(`#${CSS.escape(focused)}`).focus();
+    writeTexts();
+  }
+
+  #row(records, record, k) {
+    const name = this.#nameOf(records, k);
+    const isActive = k === this.#active;
+    const label = (key, input) => make("label", {}, make("span", { textContent: say(key) }), input);
+    const input = (key, value, properties) => make("input", { id: `${key}-${k}`, value, autocomplete: "off", ...properties });
+    const numbers = [label("dragonDelay", input("dragon-delay", record.delay ?? "0", { inputMode: "decimal", onchange: ({ target }) => this.#number(k, "delay", target) }))];
+    const path = isActive ? this.state.get("path") : (record.path ?? "spiral");
+    if (path === "spiral") numbers.push(label("dragonTurn", input("dragon-turn", record.rotation ?? "0", { inputMode: "decimal", onchange: ({ target }) => this.#number(k, "rotation", target) })));
+    const alone = records.length < 2;
+    return make(
+      "li",
+      { "data-dragon": k },
+      button({ id: `dragon-choose-${k}`, textContent: k + 1, "aria-pressed": isActive, "aria-label": say("dragonChoose", { name }) }, () => this.#choose(k)),
+      input("dragon-colour", this.#colourOf(record, k), { type: "color", "aria-label": say("dragonColour"), onchange: ({ target }) => this.#set(k, "colour", target.value) }),
+      label("dragonName", input("dragon-name", name, { maxLength: 40, onchange: ({ target }) => this.#rename(k, target) })),
+      button({ id: `dragon-copy-${k}`, textContent: "×2", title: say("dragonCopy", { name }), "aria-label": say("dragonCopy", { name }) }, () => this.#copy(k)),
+      button({ id: `dragon-remove-${k}`, textContent: "✕", disabled: alone, title: say("dragonRemove", { name }), "aria-label": say("dragonRemove", { name }) }, () => this.#remove(k)),
+      make("div", { className: "numbers" }, ...numbers),
+    );
+  }
+
+  /** The dance of each record: its numbers, its body in a request, and what the picture needs. */
+  #parts() {
+    const records = this.#whole();
+    return records.map((record, k) => {
+      const values = this.#valuesOf(record);
+      const { path: kind, csv, drawing } = values;
+      const names = [...DRAGON, "pitch", "start_turns", "head_speed", ...(kind === "turn" ? TURN : [])];
+      const numbers = /** @type {any} */ (numbersOf(Object.fromEntries(names.map((name) => [name, String(values[name])]).filter(([, text]) => text !== ""))));
+      const listed = csv ? benchesOf(csv) : null;
+      const extras = { csv, listed, passages: passagesIn(values.passages), clock: "", beginClock: "" };
+      if (listed) Object.assign(numbers, { listed, benches: listed.lengths.length });
+      const top = Math.max(numbers.head_speed, ...extras.passages.map(({ speed }) => Number(speed) || 0));
+      const { dragon, path, head_speed, passages } = this.questions.body({}, { numbers, kind, drawing, extras });
+      const rotation = Number(record.rotation ?? 0) * DEGREE;
+      const body = { dragon, path: kind === "spiral" && rotation ? { ...path, rotation } : path, head_speed, ...(passages && { passages }) };
+      const common = { width: numbers.width, overhang: numbers.overhang, ...this.#stray() };
+      return { kind, numbers: { ...numbers, ...common }, top, body, delay: Number(record.delay ?? 0), name: this.#nameOf(records, k), colour: this.#colourOf(record, k) };
+    });
+  }
+
+  #stray() {
+    return numbersOf(this.state.texts(CONTACT));
+  }
+
+  /** The FILE of the performance. */
+  #file(parts = this.#parts()) {
+    const { clock, beginClock } = this.state.extras();
+    const drawing = this.state.get("drawing");
+    const venue = venueOf(drawing);
+    const limits = { ...this.#stray(), ...(venue && { venue }), ...(drawing.limit && { speed_limit: drawing.limit }), ...(clock && { start_clock: clock }), ...(beginClock && { begin_clock: beginClock }) };
+    return { dances: parts.map(({ name, body, delay }) => ({ name, ...body, ...(delay && { delay }) })), ...limits };
+  }
+
+  #save() {
+    download(new Blob([JSON.stringify(this.#file(), null, 2)], { type: "application/json" }), "dances.json");
+    announce(() => say("saved", { name: "dances.json" }));
+  }
+
+  /** Ask about the dragons as they are now. */
+  refresh() {
+    const parts = this.#parts();
+    const active = this.#active;
+    const own = parts[active];
+    const course = own.kind === "route" ? { ...own.body, ...this.#stray() } : null;
+    if (!course) this.picture.setPath(null);
+    this.questions.askTogether({ body: this.#file(parts), active, parts, course, drawing: this.state.get("drawing"), numbers: { ...own.numbers, top_speed: own.top }, extras: this.state.extras() });
+  }
+
+  /** After an answer: the tracks and the paths of all dragons, and the verdict. */
+  async showDance() {
+    const { dance } = this.questions;
+    this.judged();
+    if (dance.track || dance.isLoading) return;
+    dance.isLoading = true;
+    pending(this.#loads, true);
+    const ready = () => dance === this.questions.dance && this.player.update(false);
+    try {
+      const tracks = await Promise.all(dance.parts.map((_, k) => trackOf(this.service, dance, k, ready)));
+      if (dance !== this.questions.dance) return;
+      dance.track = new Tracks(tracks, dance.active);
+      this.player.update(false);
+      const ways = await Promise.all(dance.parts.map((_, k) => wayOf(this.service, dance, k)));
+      if (dance !== this.questions.dance) return;
+      this.picture.setWays(ways.map((way, k) => ({ ...way, colour: dance.parts[k].colour })));
+      this.draw();
+    } catch (error) {
+      // A newer question has taken its place; a refusal of the question itself is shown already.
+      if (!(error instanceof Superseded || error instanceof Problem)) throw error;
+    } finally {
+      pending(this.#loads, false);
+    }
+  }
+
+  /** The name of a bench with that of its dragon. */
+  #benchOf({ parts }, dragon, bench) {
+    return say("dragonBench", { bench: benchName(bench, parts[dragon].numbers.benches), name: parts[dragon].name });
+  }
+
+  /** One failure in a sentence. */
+  #words(dance, failure) {
+    const { dragons, benches } = failure;
+    const common = this.#stray();
+    if (dragons.length === 2) return sayOf("fail_contact", common, { a: this.#benchOf(dance, dragons[0], benches[0]), b: this.#benchOf(dance, dragons[1], benches[1]) });
+    if (!dragons.length) return failureWords(failure, { numbers: dance.numbers, drawing: dance.drawing });
+    const part = dance.parts[dragons[0]];
+    return `${part.name}${say("colon")}${failureWords(failure, { numbers: part.numbers, drawing: dance.drawing })}`;
+  }
+
+  /** The verdict on all of them. */
+  judged() {
+    const { dance, refusals } = this.questions;
+    const refusal = refusals.get("contact");
+    if (refusal) {
+      const [, k] = /\/dances\/(\d+)\//.exec(refusal.errors[0]?.pointer ?? "") ?? [];
+      const words = refusalWords(refusal.problem);
+      const name = k === undefined ? "" : `${this.#nameOf(this.#records, Number(k))}${say("colon")}`;
+      return this.judgement.refuse(refusal.problem, null, 0, { ...words, textContent: `${name}${words.textContent}` });
+    }
+    if (dance?.kind !== "dances") return;
+    const { time, time_bracket: bracket } = dance.answer;
+    const met = bracket && time !== null ? [say("dragonsLeast", { time: time.toFixed(6), low: bound(bracket[0], 9, -1), high: bound(bracket[1], 9, 1) })] : [];
+    const apart = dance.answer.outcome === "clear" ? [sayOf("dragonsApart", this.#stray())] : [];
+    this.judgement.show({ ...dance, words: (failure) => this.#words(dance, failure), lines: [...met, ...apart] }, null);
+    $("#stage").setAttribute("aria-busy", "false");
+  }
+
+  /** The caption of the magnifier: the two benches that meet. */
+  insetWords({ dragons, benches }) {
+    const { dance } = this.questions;
+    return [0, 1].map((k) => this.#benchOf(dance, dragons[k], benches[k])).join(say("listed"));
+  }
+}

@@ -1,0 +1,188 @@
+"""Several dragons on the page: their list, their common verdict, picture and clock, and their address."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.support import polite
+from tests.support.axe import serious
+from tests.support.pending import settled
+
+ENCOUNTERS = Path(__file__).parent.parent / "reference" / "encounters.json"
+PHONE: Any = {"width": 390, "height": 844}
+ADDRESS_MOST = 500  # characters, so that chat programs keep it whole
+# Share of the pixels of the picture that have the colour of a dragon.
+COLOURED = """(colour) => {
+  const canvas = document.querySelector("#canvas");
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  const [r, g, b] = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+  let count = 0;
+  for (let k = 0; k < data.length; k += 4) count += data[k] === r && data[k + 1] === g && data[k + 2] === b;
+  return count;
+}"""
+COLOURS = ("#b3261e", "#0b5cad", "#1a6f33")
+
+
+def begun(open_page: Any, preset: str, query: str = "?door=all&lang=en&time=0", **options: Any) -> Any:
+    """The page with a performance to begin with."""
+    page = open_page(query, **options)
+    settled(page)
+    page.locator("#several").click()
+    page.locator(f"[data-dragons={preset}]").click()
+    settled(page)
+    return page
+
+
+def saved(page: Any) -> Any:
+    with page.expect_download() as download:
+        page.locator("#dragons-save").click()
+    return json.loads(Path(download.value.path()).read_bytes())
+
+
+def judged(page: Any) -> str:
+    return str(page.locator("#judgement").inner_text())
+
+
+def test_two_in_one_spiral_meet_when_the_reference_says(open_page: Any) -> None:
+    reference = json.loads(ENCOUNTERS.read_text("utf-8"))
+    time = next(one["time"] for one in reference["cases"] if one["name"] == "two dragons in one spiral, opposite")
+    page = begun(open_page, "spiral")
+    expect(page.locator("#judgement")).to_contain_text(f"First meeting at {time:.6f} s")
+    expect(page.locator(".failures li").first).to_contain_text("body 3 of red and the head of blue touch.")
+    expect(page.locator("#contact-mark")).to_have_attribute("aria-label", f"Two dragons meet at {time:.6f} s")
+    page.locator("#to-end").click()
+    settled(page)
+    expect(page.locator("#clock")).to_have_text(f"{time:.6f} s")
+    expect(page.locator("#inset figcaption")).to_have_text("body 3 of red, the head of blue")
+    assert all(page.evaluate(COLOURED, colour) > 200 for colour in COLOURS[:2])
+    query = page.url.partition("?")[2]
+    assert len(page.url) < ADDRESS_MOST
+    other = open_page(f"?{query}")
+    settled(other)
+    assert judged(other) == judged(page)
+    other.locator("[data-lang=zh]").click()
+    settled(other)
+    expect(other.locator("#judgement")).to_contain_text("红龙的第3节龙身与蓝龙的龙头相碰。")
+    expect(other.locator("#inset figcaption")).to_contain_text("红龙的第3节龙身")
+
+
+@pytest.mark.parametrize("preset", ["spiral", "streets", "parade"])
+def test_a_file_of_the_page_is_judged_by_the_service_as_on_the_page(open_page: Any, server: str, preset: str) -> None:
+    page = begun(open_page, preset)
+    file = saved(page)
+    report = polite.post(f"{server}/check", json=file | {"details": False}).raise_for_status().json()
+    words = {"passes": "Can be danced", "fails": "Cannot be danced"}[report["verdict"]]
+    assert words in judged(page)
+    assert (report["verdict"] == "passes") is (preset == "parade")
+    assert page.locator(".failures li").count() == len(report["failures"])
+    assert len(file["dances"]) == page.locator("#dragons li").count() == (3 if preset == "parade" else 2)
+    assert len(page.url) < ADDRESS_MOST
+    assert all(page.evaluate(COLOURED, colour) > 20 for colour in COLOURS[: len(file["dances"])])
+
+
+def test_a_parade_is_played_together(open_page: Any) -> None:
+    page = begun(open_page, "parade", reduced_motion="no-preference")
+    expect(page.locator("#judgement")).to_contain_text("No two dragons touch.")
+    expect(page.locator("#contact-mark")).to_be_hidden()
+    before = page.locator("#canvas").evaluate("canvas => canvas.toDataURL()")
+    page.locator("#play").click()
+    page.wait_for_function("() => Number(document.querySelector('#time').value) > 30")
+    page.locator("#play").click()
+    assert page.locator("#canvas").evaluate("canvas => canvas.toDataURL()") != before
+    assert all(page.evaluate(COLOURED, colour) > 20 for colour in COLOURS)
+
+
+def test_who_waits_is_let_pass_and_the_browser_leads_back(open_page: Any, server: str) -> None:
+    page = begun(open_page, "streets")
+    expect(page.locator("#judgement")).to_contain_text("Cannot be danced")
+    page.locator("#dragon-delay-1").fill("30")
+    page.locator("#dragon-delay-1").press("Enter")
+    expect(page.locator("#judgement")).to_contain_text("Can be danced")
+    assert saved(page)["dances"][1]["delay"] == 30
+    page.locator("#dragon-delay-1").fill("soon")
+    page.locator("#dragon-delay-1").press("Enter")
+    expect(page.locator("#dragons [role=alert]")).to_have_text("“soon” is no number.")
+    page.go_back()
+    expect(page.locator("#judgement")).to_contain_text("Cannot be danced")
+    expect(page.locator("#dragon-delay-1")).to_have_value("4")
+
+
+def test_dragons_are_chosen_changed_copied_named_coloured_and_removed(open_page: Any) -> None:
+    page = begun(open_page, "spiral")
+    page.locator("#dragon-choose-1").click()
+    expect(page.locator("#dragon-choose-1")).to_have_attribute("aria-pressed", "true")
+    page.locator("#benches").fill("30")
+    page.locator("#benches").press("Enter")
+    settled(page)
+    page.locator("#dragon-choose-0").click()
+    expect(page.locator("#benches")).to_have_value("60")
+    settled(page)
+    file = saved(page)
+    assert [one["dragon"]["benches"] for one in file["dances"]] == [60, 30]
+    assert [one["path"].get("rotation", 0) for one in file["dances"]] == [0, math.pi]
+    page.locator("#dragon-copy-1").click()
+    expect(page.locator("#dragons li")).to_have_count(3)
+    page.locator("#dragon-name-2").fill("blue")
+    page.locator("#dragon-name-2").press("Enter")
+    expect(page.locator("#dragons [role=alert]")).to_have_text("Another dragon is called “blue”.")
+    page.locator("#dragon-name-2").fill("West!~1")
+    page.locator("#dragon-name-2").press("Enter")
+    page.locator("#dragon-colour-2").fill("#008080")
+    settled(page)
+    third = saved(page)["dances"][2]
+    assert (third["name"], third["dragon"]["benches"], third["delay"]) == ("West!~1", 30, 30)
+    other = open_page(f"?{page.url.partition('?')[2]}")
+    settled(other)
+    expect(other.locator("#dragon-name-2")).to_have_value("West!~1")
+    expect(other.locator("#dragon-colour-2")).to_have_value("#008080")
+    assert saved(other) == saved(page)
+    page.locator("#dragon-remove-0").click()
+    expect(page.locator("#dragons li")).to_have_count(2)
+    expect(page.locator("#benches")).to_have_value("30")
+    page.locator("#dragons-close").click()
+    expect(page.locator("#dragons li")).to_have_count(0)
+    expect(page.locator("#first-contact .value")).to_be_visible()
+    settled(page)
+    assert "dances" not in parse_qs(urlsplit(page.url).query)
+
+
+def test_another_dragon_winds_into_the_spiral_from_the_other_side(open_page: Any) -> None:
+    page = open_page("?benches=20&pitch=1.1&start_turns=6&lang=en&time=0")
+    settled(page)
+    page.locator("#several").click()
+    expect(page.locator("#dragons li")).to_have_count(2)
+    expect(page.locator("#dragon-turn-1")).to_have_value("180")
+    settled(page)
+    expect(page.locator("#judgement .value")).to_be_visible()
+
+
+def test_a_refusal_names_the_dragon(open_page: Any) -> None:
+    page = open_page("?benches=9&pitch=1.1&start_turns=6&dances=~pitch:55!benches:9&lang=en", failing=True)
+    expect(page.locator("#judgement")).to_contain_text("blue: “Pitch” must be at most 10 m; it is 55 m")
+
+
+def test_an_unreadable_address_opens_what_can_be_read(open_page: Any) -> None:
+    page = open_page(
+        "?benches=9&pitch=1.1&start_turns=6&dances=~rotation:180!benches:9!what:ever!pitch:1.1!%25&lang=en"
+    )
+    settled(page)
+    expect(page.locator("#dragons li")).to_have_count(2)
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_on_a_phone_nothing_is_cut_off_and_everyone_can_use_it(open_page: Any, language: str) -> None:
+    page = begun(
+        open_page, "parade", f"?door=all&lang={language}&time=0", viewport=PHONE, is_mobile=True, has_touch=True
+    )
+    assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
+    assert serious(page, "#dragons") == []
+    small = """() => [...document.querySelectorAll("#dragons :is(button, input)")]
+      .filter((one) => one.checkVisibility() && one.getBoundingClientRect().height < 44).map((one) => one.outerHTML)"""
+    assert page.evaluate(small) == []
