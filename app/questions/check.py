@@ -219,13 +219,13 @@ class DragonFailure(Failure):
     @classmethod
     def in_performance(cls, result: core.PerformanceFailure, performance: Performance, clock: str | None) -> Self:
         parts, one = [performance.parts[k] for k in result.dragons], result.failure
-        named = [part.name for part in parts]
+        names = [part.name for part in parts]
         if one is not None:
             dragon, delay = parts[0].dance.dragon, parts[0].delay
             peak_time = None if one.peak_time is None else one.peak_time + delay
             own = Failure.of(replace(one, time=result.time, peak_time=peak_time), dragon, clock).model_dump()
             own |= {"message": result.message, "time_bracket": result.time_bracket}
-            return cls(**own, dragons=result.dragons, dragon_names=named)
+            return cls(**own, dragons=result.dragons, dragon_names=names)
         households = [
             part.dance.dragon.names[bench] if part.dance.dragon.names else ""
             for part, bench in zip(parts, result.benches, strict=True)
@@ -238,7 +238,7 @@ class DragonFailure(Failure):
             head=None,
             peak_speed=None,
             peak_time=None,
-            dragon_names=named,
+            dragon_names=names,
         )
 
 

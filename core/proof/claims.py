@@ -18,7 +18,7 @@ from core.paths.spiral import Spiral, end_theta
 from core.proof.chain import Chain, delta_guess
 from core.proof.fold import verify_fold
 from core.proof.pairs import Unfinished, Unproven, above, below
-from core.proof.sweeps import AnyChain, OverlapFound, proven_sweeps, searched_stretches
+from core.proof.sweeps import AnyChain, SweepOverlap, proven_sweeps, searched_stretches
 from core.proof.words import apart_words, contact_words, danced_words, dragon_words, near_words, spiral_words
 from core.sampling import bisect
 from core.values import Progress
@@ -145,7 +145,7 @@ class MinimumPitchClaim(SpiralClaim):
             return fold
         try:
             proven_sweeps(less, *self._way(less), less.repeats_from, searched_stretches(less), progress, follows=False)
-        except OverlapFound as overlap:
+        except SweepOverlap as overlap:
             theta = head_theta(less, overlap.a, overlap.place, below(circle), above(less.start))
             theta = max(min(theta, below(less.start)), above(circle))
             return {"benches": [overlap.a, overlap.b], "head_theta": theta}

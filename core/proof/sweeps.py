@@ -31,7 +31,7 @@ Tile = tuple[float, float, str | list[Face], list[float]]
 Source = Callable[[int, float, float, Sequence[float]], Iterator["tuple[AnyStretch, Tile]"]]
 
 
-class OverlapFound(Unfinished):
+class SweepOverlap(Unfinished):
     """Benches a < b strictly overlap, or are nearer than the margin, when the front handle of a is at this place."""
 
     def __init__(self, chain: AnyChain, a: int, b: int, place: float) -> None:
@@ -73,7 +73,7 @@ def _face(stretch: AnyStretch, partner: int) -> tuple[Face, float]:
     margin = stretch.chain.margin
     for place, pose in zip((stretch.low, stretch.high), stretch.ends, strict=True):
         if pose.within(partner, margin):
-            raise OverlapFound(stretch.chain, *_met(stretch, partner), place)
+            raise SweepOverlap(stretch.chain, *_met(stretch, partner), place)
     low, high = (pose.gaps(partner) for pose in stretch.ends)
     tries = [(max(ALL_FACES, key=lambda k: min(float(low[int(k)]), float(high[int(k)]))), 0.0)]
     if margin > 0:

@@ -15,7 +15,7 @@ from tests.support.serving import free_port, serving
 
 PATIENT = 50.0  # longest computation of one answer [s], also on a busy machine
 IMPORT = re.compile(r'(?:from|import) "(\.{1,2}/[\w./-]+\.js)"')
-SAID = re.compile(r'(?:\bsay(?:Of)?|\btitleOf|\btextButton)\("([\w-]+)"|"data-(?:text|label)": "([\w-]+)"')
+USE_OF_WORDS = re.compile(r'(?:\bsay(?:Of)?|\btitleOf|\btextButton)\("([\w-]+)"|"data-(?:text|label)": "([\w-]+)"')
 WORD = re.compile(r'^  "?([\w-]+)"?: \[', re.MULTILINE)
 # Parts with a file of each that tells that it has loaded.
 LATER = {"qr.js", "below.js", "grade.js", "map.js", "drawn.js", "propose.js", "refusals.js"}
@@ -35,16 +35,16 @@ def test_the_words_of_the_first_view_come_with_it() -> None:
     modules = first_view()
     texts = [one.read_text("utf-8") for one in modules if one.parent == PAGE]
     words = {key for one in modules if one.parent.name == "words" for key in WORD.findall(one.read_text("utf-8"))}
-    said = {key for text in texts for both in SAID.findall(text) for key in both if key}
-    assert len(said) > 100
-    assert said - words == set()
+    used = {key for text in texts for both in USE_OF_WORDS.findall(text) for key in both if key}
+    assert len(used) > 100
+    assert used - words == set()
 
 
 def test_every_text_of_the_page_has_its_words_in_some_part() -> None:
     words = {key for file in (PAGE / "words").glob("*.js") for key in WORD.findall(file.read_text("utf-8"))}
-    named = set(re.findall(r'data-(?:text|label)="(\w+)"', (PAGE / "index.html").read_text("utf-8")))
-    assert len(named) > 100
-    assert named - words == set()
+    labels = set(re.findall(r'data-(?:text|label)="(\w+)"', (PAGE / "index.html").read_text("utf-8")))
+    assert len(labels) > 100
+    assert labels - words == set()
 
 
 def test_a_part_loads_when_a_person_first_needs_it(open_page: Any) -> None:

@@ -83,8 +83,8 @@ def test_csv_has_the_dragon_before_each_line(client: httpx.Client) -> None:
                 assert [float(word) for word in row[2:7]] == values
                 assert row[7:] == [names[k][handle], clocks[t]]
     assert next(rows, None) is None
-    plain = TWO["dances"][0] | {"name": None}
-    body = {"dances": [plain, plain], "times": [20]}
+    part = TWO["dances"][0] | {"name": None}
+    body = {"dances": [part, part], "times": [20]}
     text = client.post("/trajectory", json=body, headers={"accept": CSV_TYPE}).raise_for_status().text
     assert text.splitlines()[0] == "dragon,time,handle,x,y,speed"
     assert [line[:2] for line in text.splitlines()[1:]] == ["0,"] * 5 + ["1,"] * 5
@@ -148,10 +148,10 @@ def test_the_command_and_a_job_write_what_the_service_says(client: httpx.Client,
         done = run("trajectory", str(file), "--output", str(output))
         assert (done.returncode, done.stderr) == (0, f"{output}: 11 handles at 4 instants\n")
         assert output.read_bytes() == ask(client, form).content
-    shown = run("trajectory", str(file), "--handles", "0,4")
-    assert (shown.returncode, shown.stderr) == (0, "")
+    result = run("trajectory", str(file), "--handles", "0,4")
+    assert (result.returncode, result.stderr) == (0, "")
     for words in ("east: x [m]", "dragon 1: speed [m/s]", "4 =Feng", "2 of 6 handles, 4 of 4 instants"):
-        assert words in shown.stdout
+        assert words in result.stdout
     assert "must be from 0 to 4 for this dragon, got 5" in run("trajectory", str(file), "--handles", "0,5").stderr
 
 

@@ -153,9 +153,9 @@ def test_the_command_says_what_the_service_says(client: httpx.Client, tmp_path: 
     file.write_text(json.dumps(TWO))
     output = run("check", str(file), "--json")
     assert output.stdout.encode() == client.post("/check", json=TWO).content + b"\n"
-    shown = run("check", str(file))
-    assert (shown.returncode, shown.stderr) == (0, "")
-    words = " ".join(shown.stdout.split())
+    result = run("check", str(file))
+    assert (result.returncode, result.stderr) == (0, "")
+    words = " ".join(result.stdout.split())
     for failure in ask(client, TWO)["failures"]:
         assert f"{failure['clock']} {failure['message']}" in words
     for row in ("least clearance of two dragons", "east: first within 0.05 m", "north: highest speed", "engines agree"):

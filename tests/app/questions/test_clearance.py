@@ -90,11 +90,11 @@ def test_the_command_and_a_job_say_what_the_service_says(client: httpx.Client, t
         json.dumps(TWO | {"venue": {"type": "FeatureCollection", "features": []}})
     )  # no part of this question
     assert run("clearance", str(file), "--json").stdout.encode() == known.content + b"\n"
-    shown = run("clearance", str(file))
-    assert (shown.returncode, shown.stderr) == (0, "")
-    assert "dragons" in shown.stdout
+    result = run("clearance", str(file))
+    assert (result.returncode, result.stderr) == (0, "")
+    assert "dragons" in result.stdout
     graze = known.json()["grazes"][0]
-    assert f"{graze['time']:.9f}" in shown.stdout
+    assert f"{graze['time']:.9f}" in result.stdout
     file.write_text(json.dumps({"dances": TWO["dances"], "start": 20}))
     ranged = json.loads(run("clearance", str(file), "--json", "--step", "5").stdout)
     assert ranged["time"][:2] == [20.0, 25.0]

@@ -250,6 +250,6 @@ def test_the_command_takes_a_file_of_several(client: httpx.Client, tmp_path: Pat
     file.write_text(json.dumps(SEVERAL))
     known = client.post("/tolerance", json=SEVERAL).raise_for_status()
     assert run("tolerance", str(file), "--json").stdout.encode() == known.content + b"\n"
-    shown = run("tolerance", str(file))
-    assert (shown.returncode, shown.stderr) == (0, "")
-    assert "a, b" in shown.stdout
+    result = run("tolerance", str(file))
+    assert (result.returncode, result.stderr) == (0, "")
+    assert "a, b" in result.stdout

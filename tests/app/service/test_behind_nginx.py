@@ -23,9 +23,9 @@ FOLDERS = ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
 def configuration(folder: Path, port: int, services: list[int]) -> str:
     """The configuration that the documentation shows, for these ports and an ordinary user."""
     text = (ROOT / "docs" / "operations.md").read_text()
-    shown = re.search(r"```\n(upstream dragon .*?)```", text, re.DOTALL)
-    assert shown, "no configuration of nginx in docs/operations.md"
-    http = shown[1].replace("listen 80;", f"listen 127.0.0.1:{port};")
+    match = re.search(r"```\n(upstream dragon .*?)```", text, re.DOTALL)
+    assert match, "no configuration of nginx in docs/operations.md"
+    http = match[1].replace("listen 80;", f"listen 127.0.0.1:{port};")
     for of_docs, own in zip(("127.0.0.1:8001", "127.0.0.1:8002"), services, strict=True):
         assert of_docs in http
         http = http.replace(of_docs, f"127.0.0.1:{own}")

@@ -144,11 +144,11 @@ def test_a_question_about_several_dances_has_rows_of_its_own(name: str) -> None:
     narrow, wide, refused = rows(ShardPiece.whole(spec, spec.asks, 0))
     assert (narrow["error.code"], wide["error.code"], refused["error.code"]) == (None, None, "invalid-value")
     assert narrow.keys() >= set(OF_SEVERAL[name])
-    assert isinstance(narrow[spec.asks.shown], float)
+    assert isinstance(narrow[spec.asks.map_column], float)
     assert "dances[1].dragon.width" in refused["error.message"]
     if name in ("clearance", "least_clearance"):
-        assert narrow[spec.asks.shown] == pytest.approx(8.7)
-        assert wide[spec.asks.shown] == pytest.approx(8.6)
+        assert narrow[spec.asks.map_column] == pytest.approx(8.7)
+        assert wide[spec.asks.map_column] == pytest.approx(8.6)
     assert question_of(name).answer is not question_of(name, ["dances.1.delay"]).answer
 
 

@@ -14,7 +14,7 @@ from core import Dance, Dragon, Spiral, bench_poses, first_contact, trajectory
 from core.proof import prove_collision_time, verify
 from core.proof.chain import Chain
 from core.proof.pairs import Unproven
-from core.proof.sweeps import OverlapFound, proven_sweeps, recorded_stretches, searched_stretches
+from core.proof.sweeps import SweepOverlap, proven_sweeps, recorded_stretches, searched_stretches
 from core.shapes.rectangles import corners
 from tests.core.proof.test_certificate import CONTACTS, DOUBLES
 from tests.support.forgeries import stretches
@@ -85,7 +85,7 @@ def test_a_sweep_into_a_contact_names_a_pair_that_overlaps_there() -> None:
     """The default dance first touches with the head at 26.17 rad, and benches 0 and 8."""
     with ctx.workprec(128):
         chain = Chain(Dragon(14), arb(0.55), 16.0)
-        with pytest.raises(OverlapFound) as met:
+        with pytest.raises(SweepOverlap) as met:
             proven_sweeps(chain, 28.0, 26.0, 1, searched_stretches(chain), lambda share: None, follows=False)
         a, b = met.value.a, met.value.b
         pose = chain.pose_at(a, arb(met.value.place))
