@@ -43,7 +43,7 @@ export class Carrier {
   #frame = 0;
   #drawn = 0;
   /** The dance in the picture. */
-  #shown = null;
+  #drawnDance = null;
   #lock = null;
   #network = true;
 
@@ -284,8 +284,8 @@ export class Carrier {
     const time = this.#now;
     const pose = dance.track?.at(Math.min(Math.max(time, begin), end));
     // At rest nothing is drawn anew.
-    if (pose && (this.dance.scene.pose?.time !== pose.time || this.#shown !== dance)) {
-      this.#shown = dance;
+    if (pose && (this.dance.scene.pose?.time !== pose.time || this.#drawnDance !== dance)) {
+      this.#drawnDance = dance;
       this.draw(pose);
       $("#stage").setAttribute("aria-busy", "false");
     }

@@ -5,7 +5,7 @@ import { $, bearer, button, download, make, onClick, textButton } from "./elemen
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
-import { isPlain } from "./questions.js";
+import { fitsQuery } from "./questions.js";
 import { language, refusalWords, say } from "./text.js";
 
 const CSV_STEP = 1;
@@ -48,9 +48,9 @@ const ITEMS = [
 ];
 const BESIDES = [...CONTACT, "entry_radius", "exit_radius"];
 /** Name of a file in this format. */
-const named = (file, form) => (["A4", "A3"].includes(form) ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
+const fileName = (file, form) => (["A4", "A3"].includes(form) ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
 /** Commands in addition to those of the items: for the shown answer, and for a proof. */
-const SHOWN = "keepShown";
+const ON_SCREEN = "keepShown";
 const PROOF = "keepProof";
 
 /** A figure with its words in the language of the page. */
@@ -79,7 +79,7 @@ const REQUESTS = {
     // The figure of a contact shows everybody in their place: with a stray, the figure of the last shown instant replaces it.
     if (strayOf(query) > 0) return figure("trajectory", form, { body: questions.placed({ time: end }) });
     const { stray, hole, pin, ...flat } = query;
-    return figure("contact", form, kind === "spiral" && isPlain(questions.dance) ? { query: flat } : { body: questions.placed({ margin: numbers.margin, start: begin, ...(kind === "turn" && answer.time === null && { stop: end }) }) });
+    return figure("contact", form, kind === "spiral" && fitsQuery(questions.dance) ? { query: flat } : { body: questions.placed({ margin: numbers.margin, start: begin, ...(kind === "turn" && answer.time === null && { stop: end }) }) });
   },
   stairs: (questions, form) => figure("pitch-scan", form, questions.pitchOf(["margin"])),
   film(questions) {
@@ -101,7 +101,7 @@ const REQUESTS = {
   answer(questions) {
     const { dance } = questions;
     if (dance.kind !== "spiral") return REQUESTS.verdict(questions);
-    return { path: "collision-time", ...(isPlain(dance) ? { query: dance.query } : { body: questions.checkBody(dance) }) };
+    return { path: "collision-time", ...(fitsQuery(dance) ? { query: dance.query } : { body: questions.checkBody(dance) }) };
   },
   verdict: (questions) => ({ path: "check", body: questions.checkBody(questions.dance) }),
   pitch: (questions) => ({ path: "minimum-pitch", ...questions.pitchOf(CONTACT) }),
@@ -127,7 +127,7 @@ export class Keep {
     $("#kept").append(...ITEMS.map((item) => this.#row(item)));
     const { state } = questions;
     $("#keepCues-PDF").before(textButton("cardFollow", () => state.push({ bench: state.get("handle") ?? 0 }), { id: "card-follow" }));
-    const keys = [SHOWN, ...ITEMS.filter(({ ask }) => ask).map(({ key }) => key), PROOF];
+    const keys = [ON_SCREEN, ...ITEMS.filter(({ ask }) => ask).map(({ key }) => key), PROOF];
     $("#curl-of").append(...keys.map((key) => make("option", { value: key, "data-text": key })));
     $("#curl-of").addEventListener("change", () => this.show());
     $("#paper").addEventListener("toggle", () => $("#paper").open && this.paper());
@@ -161,7 +161,7 @@ export class Keep {
     if (!this.questions.dance) return;
     const wanted = $("#curl-of").value;
     const item = ITEMS.find(({ key }) => key === wanted);
-    const lines = { [SHOWN]: () => ["answer", "trajectory"].map((name) => this.#curl(REQUESTS[name](this.questions))), [PROOF]: () => [this.#proof()] };
+    const lines = { [ON_SCREEN]: () => ["answer", "trajectory"].map((name) => this.#curl(REQUESTS[name](this.questions))), [PROOF]: () => [this.#proof()] };
     $("#curl").textContent = (lines[wanted] ?? (() => [this.#curl(REQUESTS[item.ask](this.questions, item.forms[0]), item)]))().join("\n");
   }
 
@@ -176,14 +176,14 @@ export class Keep {
     const url = query ? `${path}?${new URLSearchParams(query)}` : path;
     const sent = body ? ` -H 'Content-Type: application/json' -d '${JSON.stringify(body).replaceAll("'", "'\\''")}'` : "";
     const form = item?.forms[0];
-    const kept = form && form !== "JSON" ? ` -H 'Accept: ${TYPES[form]}' -fo ${named(item.file ?? "dance", form)}` : "";
+    const kept = form && form !== "JSON" ? ` -H 'Accept: ${TYPES[form]}' -fo ${fileName(item.file ?? "dance", form)}` : "";
     return `curl '${base}${url}'${sent}${kept}`;
   }
 
   /** The command that proves the shown answer in ball arithmetic. */
   #proof() {
     const { kind, numbers, answer, begin, end } = this.questions.dance;
-    if (kind === "route" || !isPlain(this.questions.dance)) return "bench-dragon prove dance dance.json";
+    if (kind === "route" || !fitsQuery(this.questions.dance)) return "bench-dragon prove dance dance.json";
     const claim = kind === "turn" ? "turn" : answer.outcome === "clear" ? "clear" : "collision-time";
     const names = [...DRAGON, "pitch", "start_turns", ...(kind === "turn" ? TURN : []), "head_speed", "margin"];
     const known = names.filter((name) => numbers[name] !== undefined).map((name) => `--${name.replaceAll("_", "-")} ${numbers[name]}`);
@@ -200,7 +200,7 @@ export class Keep {
       if (item.job) return;
       announce(() => say("making", { name: say(item.key) }), true);
       const blob = item.ask ? await this.#fetch(REQUESTS[item.ask](this.questions, form), form) : await this.#picture();
-      const name = named(item.file, form);
+      const name = fileName(item.file, form);
       download(blob, name);
       announce(() => say("saved", { name }));
     } catch (error) {
@@ -240,7 +240,7 @@ export class Keep {
     if (problem) announce(() => refusalWords(problem).textContent, true);
     if (status !== "successful") return;
     const result = `jobs/${jobID}/result`;
-    const name = named(file, form);
+    const name = fileName(file, form);
     if (key !== "keepFilm") {
       make("a", { href: result, download: name }).click();
       return announce(() => say("saved", { name }));

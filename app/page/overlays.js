@@ -5,7 +5,7 @@ import { $ } from "./elements.js";
 import { refusalWords, say } from "./text.js";
 
 /** Time that a message stays, and additional time for each letter of a long one [ms]. */
-const [SHOWN_FOR, LETTER] = [6_000, 80];
+const [VISIBLE_FOR, LETTER] = [6_000, 80];
 /** Possible corners of the inset, the preferred one first. */
 const CORNERS = ["top-right", "bottom-right", "top-left"];
 
@@ -27,7 +27,7 @@ export function announce(words, stays = false) {
   const end = () => announce(() => "", true);
   Object.assign(box, { textContent: words(), onclick: end });
   clearTimeout(timer);
-  if (!stays) timer = setTimeout(end, Math.max(SHOWN_FOR, LETTER * box.textContent.length));
+  if (!stays) timer = setTimeout(end, Math.max(VISIBLE_FOR, LETTER * box.textContent.length));
 }
 
 /** Copy a text, and say whether the browser allowed it: without HTTPS many do not. */

@@ -35,7 +35,7 @@ const AT_REST = ["speeds", "gap", "clearance", "fastest", "tolerance"];
 /** Questions whose refusals concern an entered number; other refusals only affect what can be shown. The last one wins. */
 const ABOUT_NUMBERS = ["time", "quickest", "head", "shortest", "minimum", "contact"];
 /** Those of them that are asked about each kind of path. */
-const ASKED_ON = { spiral: ["minimum", "contact"], turn: ABOUT_NUMBERS, route: ["contact"] };
+const CHANNELS_OF = { spiral: ["minimum", "contact"], turn: ABOUT_NUMBERS, route: ["contact"] };
 
 /** The last shown instant: first contact, or the time until which nothing touches. */
 const lastInstant = ({ time, time_bracket, end }) => time ?? (end ? end.time - BEFORE_END : time_bracket[0]);
@@ -43,7 +43,7 @@ const lastInstant = ({ time, time_bracket, end }) => time ?? (end ? end.time - B
 const picked = (from, names) => Object.fromEntries(names.map((name) => [name, from[name]]));
 
 /** True if its numbers describe a dance completely, so that a query can ask about it on a spiral. */
-export const isPlain = ({ extras: { csv, passages } }) => !csv && !passages.length;
+export const fitsQuery = ({ extras: { csv, passages } }) => !csv && !passages.length;
 
 export class Questions {
   /** {kind, query, numbers, extras, answer, begin, end, clock: time of day at time 0 or null, report: of /check if it answered, track, isExplored: whether all else is asked; drawn: drawing, failures, verdict} */
@@ -81,7 +81,7 @@ export class Questions {
     const kind = this.state.get("path");
     // An answer about the former path would take the place of this one.
     this.service.drop([kind === "route" ? "path" : "course"]);
-    this.#forget(ABOUT_NUMBERS.filter((channel) => !ASKED_ON[kind].includes(channel)));
+    this.#forget(ABOUT_NUMBERS.filter((channel) => !CHANNELS_OF[kind].includes(channel)));
     if (kind === "route") return this.#refreshDrawn();
     this.#latest.delete("course");
     const query = this.state.texts([...MOTION, ...CONTACT, ...(kind === "turn" ? TURN : [])]);
@@ -215,7 +215,7 @@ export class Questions {
 
   async #askContact(request) {
     if (request.kind === "spiral") {
-      const question = isPlain(request) ? { query: { ...request.query, ...QUICK } } : { body: { ...this.checkBody(request), ...QUICK } };
+      const question = fitsQuery(request) ? { query: { ...request.query, ...QUICK } } : { body: { ...this.checkBody(request), ...QUICK } };
       const answer = await this.#answer("contact", "collision-time", question);
       if (answer) this.#accept({ ...request, answer, begin: 0, end: lastInstant(answer) });
       return;
@@ -300,7 +300,7 @@ export class Questions {
     const { benches, turning_diameter } = dance.numbers;
     if (kind === "turn") return { request: { benches }, body: this.body(this.#stretch(dance), dance) };
     const request = { ...query, benches };
-    return isPlain(dance) ? { request, query } : { request, body: this.body({ turning_diameter }, dance) };
+    return fitsQuery(dance) ? { request, query } : { request, body: this.body({ turning_diameter }, dance) };
   }
 
   /** The request for the highest speed of the head in a turn. */
@@ -309,7 +309,7 @@ export class Questions {
     const dance = this.#danceOf("turn", query);
     const { head_speed, ...flat } = query;
     const request = { ...query, benches: dance.numbers.benches };
-    return isPlain(dance) ? { request, query: flat } : { request, body: this.body({ speed_limit: dance.numbers.speed_limit }, dance) };
+    return fitsQuery(dance) ? { request, query: flat } : { request, body: this.body({ speed_limit: dance.numbers.speed_limit }, dance) };
   }
 
   /** The request for the time of the head through the shown turn. */
@@ -360,7 +360,7 @@ export class Questions {
 
   /** The request for a clearance: a query on a spiral, where more benches are allowed; a body on other paths. */
   #clearanceOf(dance, start, stop, step) {
-    if (dance.kind !== "spiral" || !isPlain(dance)) return { body: this.body({ times: { start, stop, step } }) };
+    if (dance.kind !== "spiral" || !fitsQuery(dance)) return { body: this.body({ times: { start, stop, step } }) };
     return { query: { ...picked(dance.query, MOTION), start, stop, step } };
   }
 

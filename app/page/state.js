@@ -145,12 +145,12 @@ export class State {
       if (value === this.initial(name)) continue;
       query.set(name, { view: () => value.map((one) => +one.toPrecision(6)), time: () => +value.toFixed(9) }[name]?.() ?? value);
     }
-    const plain = query.toString();
+    const withoutDrawing = query.toString();
     if (csv) query.set("csv", csv);
     const isDrawn = this.#values.path === "route" || this.#values.dances;
     if (isDrawn) for (const [name, text] of toAddress(drawing)) query.set(name, text);
     this.fits = query.toString().length <= ADDRESS_MOST;
-    const text = (this.fits ? query.toString() : plain).replace(/%(?:2C|7E|21|3A|40)/g, decodeURIComponent);
+    const text = (this.fits ? query.toString() : withoutDrawing).replace(/%(?:2C|7E|21|3A|40)/g, decodeURIComponent);
     history.replaceState(this.fits ? null : { drawing, csv }, "", location.pathname + (text && `?${text}`));
   }
 }
