@@ -116,5 +116,8 @@ def film(
     form = GIF_TYPE if gif else films.FORM
     with show.waiting(f"film {output}") as progress:
         terms = Terms(progress=progress)
-        data = films.film_of(request, dance_of(request, context, terms.settings.drawn_benches_max), terms, form)
+        if isinstance(request, FilmRequest) and request.dances is not None:
+            data = films.films(request, terms, form)
+        else:
+            data = films.film_of(request, dance_of(request, context, terms.settings.drawn_benches_max), terms, form)
     show.write(output, data)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import io
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -87,9 +87,16 @@ def film(
     progress: called with the share of finished frames
     raises: OutsideRun; TooMuchWork where the budget is stopped; MissingPackage without a font for the language
     """
+    return encoded(frames(dance, spec, venue, title, budget or Budget()), spec, form, progress)
+
+
+def encoded(
+    pictures: Iterator[NDArray[np.uint8]], spec: FilmSpec, form: str, progress: Callable[[float], None]
+) -> bytes:
+    """The bytes of a film of these pictures. progress: as for film()"""
     encode, sink = encoded_mp4 if form == MP4_TYPE else encoded_gif, io.BytesIO()
     with encode(sink, spec) as take:
-        for k, frame in enumerate(frames(dance, spec, venue, title, budget or Budget()), start=1):
+        for k, frame in enumerate(pictures, start=1):
             take(frame)
             progress(k / spec.times.size)
     return sink.getvalue()
@@ -112,26 +119,40 @@ class FilmPicture:
     """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
 
     def __init__(self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str) -> None:
-        self.language, self.start_clock, self.music = spec.language, spec.start_clock, spec.music
-        in_turn(lambda: self._draw(dance, spec, venue, title))
+        self.dance = dance
+        self.prepare(spec, venue, title)
 
-    def _draw(self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str) -> None:
+    def prepare(self, spec: FilmSpec, venue: Venue | None, title: str) -> None:
+        """Draw the background, and make what moves before it."""
+        self.language, self.start_clock, self.music = spec.language, spec.start_clock, spec.music
+        in_turn(lambda: self._draw(spec, venue, title))
+
+    def draw_paths(self, times: Floats) -> Floats:
+        """Draw what does not move; returns the places (N, 2) of handles at these times [m]."""
+        handles = trajectory(self.dance, times).position.reshape(-1, 2)
+        draw_dance(self.axes, self.dance.path, handles, np.empty((0, 4, 2)))
+        return handles
+
+    def add_benches(self) -> None:
+        """Add the benches that move."""
+        self.head = self.benches(1, VERMILION, "black")
+        self.body = self.benches(self.dance.dragon.benches - 1, BLUE, BODY_EDGE)
+
+    def _draw(self, spec: FilmSpec, venue: Venue | None, title: str) -> None:
         points = TYPE_SHARE * spec.height * 72.0 / DPI
         with matplotlib.rc_context({"font.family": families(spec.language), "font.size": points}):
             figure = Figure(figsize=(spec.width / DPI, spec.height / DPI), dpi=DPI)
             self.canvas = FigureCanvasAgg(figure)
             self.axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
             sampled = np.linspace(spec.start, spec.stop, EXTENT_INSTANTS)
-            handles = trajectory(dance, sampled).position.reshape(-1, 2)
-            draw_dance(self.axes, dance.path, handles, np.empty((0, 4, 2)))
+            handles = self.draw_paths(sampled)
             draw_venue(self.axes, venue)
             self._look(*with_square(venue, handles.min(axis=0), handles.max(axis=0)), spec)
             place: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False}
             self.axes.text(0.985, 0.97, title, ha="right", va="top", **place)
             self.time = self.axes.text(0.985, 0.03, "", ha="right", va="bottom", animated=True, **place)
-        self.head = self._benches(1, VERMILION, "black")
-        self.body = self._benches(dance.dragon.benches - 1, BLUE, BODY_EDGE)
-        self.touching = self._benches(2, VERMILION, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
+        self.add_benches()
+        self.touching = self.benches(2, VERMILION, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
         self.canvas.draw()
         self.still = self.canvas.copy_from_bbox(figure.bbox)
 
@@ -145,7 +166,8 @@ class FilmPicture:
         self.axes.set_axis_off()
         scale_bar(self.axes, middle - np.array([shape * tall, tall]), tall)
 
-    def _benches(self, count: int, face: str, edge: str, linewidth: float = EDGE) -> PathPatch:
+    def benches(self, count: int, face: str, edge: str, linewidth: float = EDGE) -> PathPatch:
+        """Some benches in one colour, whose places frame() gives."""
         codes = np.tile([Outline.MOVETO, Outline.LINETO, Outline.LINETO, Outline.LINETO, Outline.CLOSEPOLY], count)
         path = Outline(np.zeros((5 * count, 2)), codes.astype(Outline.code_type))
         patch = PathPatch(path, facecolor=face, edgecolor=edge, linewidth=linewidth, animated=True, zorder=3)
@@ -157,16 +179,19 @@ class FilmPicture:
         closed = np.concatenate([outlines, outlines[:, :1]], axis=1)
         self.head.get_path().vertices = closed[0]
         self.body.get_path().vertices = closed[1:].reshape(-1, 2)
+        artists: list[Artist] = [self.body, self.head, self.time]
+        if not touching:
+            return self.shown(time, artists)
+        self.touching.get_path().vertices = closed[list(touching)].reshape(-1, 2)
+        return self.shown(time, [*artists, self.touching], TOUCHING[self.language].format(*touching))
+
+    def shown(self, time: float, artists: Sequence[Artist], first: str = "") -> NDArray[np.uint8]:
+        """The picture of what moves, at a time [s]. first: words before the time"""
         words = f"{time_of_day(time, self.start_clock)}  " if self.start_clock else ""
         words += WORDS[self.language].format(time=time)
         if self.music and (count := self.music.count(time)):
             words = f"{COUNTS[self.language].format(*count)}  {words}"
-        artists: list[Artist] = [self.body, self.head, self.time]
-        if touching:
-            self.touching.get_path().vertices = closed[list(touching)].reshape(-1, 2)
-            words = TOUCHING[self.language].format(*touching) + words
-            artists.append(self.touching)
-        self.time.set_text(words)
+        self.time.set_text(first + words)
         self.canvas.restore_region(self.still)
         for artist in artists:
             self.axes.draw_artist(artist)
@@ -252,7 +277,8 @@ def encoded_gif(sink: io.BytesIO, spec: FilmSpec) -> Iterator[Take]:
 
     pictures: list[Image.Image] = []
     palette = Image.new("P", (1, 1))
-    ends = np.array([[to_rgb(colour) for colour in blend] for blend in GIF_BLENDS])
+    several = [pair for colour in spec.colours for pair in (("white", colour), (colour, "black"))]
+    ends = np.array([[to_rgb(colour) for colour in blend] for blend in (*GIF_BLENDS, *several)])
     blends = ends[:, :1] + np.linspace(0.0, 1.0, GIF_STEPS)[:, None] * (ends[:, 1:] - ends[:, :1])
     palette.putpalette(np.rint(255.0 * blends).astype(np.uint8).tobytes())
 

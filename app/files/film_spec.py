@@ -22,7 +22,8 @@ LOOKS = {MP4_TYPE: (30, 1080), GIF_TYPE: (12, 360)}
 class FilmSpec:
     """start, stop: times in the dance [s]; seconds: length of the film [s]; rate: [frames/s]; height: [pixels]
     start_clock: time of day at time 0, see time_of_day(); touching: benches that touch at the last instant
-    music: beats, which a film counts and an MP4 lets hear"""
+    music: beats, which a film counts and an MP4 lets hear
+    dragons: of several, whose benches touch; colours: of several dragons"""
 
     start: float
     stop: float
@@ -33,6 +34,8 @@ class FilmSpec:
     start_clock: str | None = None
     touching: tuple[int, int] | None = None
     music: Music | None = None
+    dragons: tuple[int, int] | None = None
+    colours: tuple[str, ...] = ()
 
     @property
     def width(self) -> int:

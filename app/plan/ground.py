@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.patches import Rectangle
 
 from app.files.drawing import with_square
-from app.files.performances import COLOURS
+from app.files.performances import colour_of
 from app.maps.features import inner_point
 from app.maps.marks import line_of
 from app.plan.sheet import POINT, Box, PaperName, Scale, Sheet, north_arrow, scale_of
@@ -115,11 +115,6 @@ def _beside(line: Floats, half: float) -> list[tuple[float, float]]:
         away = NAME_AWAY + half * abs(float(normal[0]))
         places += [line[k] + side * away * normal for side in (1.0, -1.0)]
     return [(x, y) for x, y in np.array(places).tolist()]
-
-
-def colour_of(dragon: int) -> str:
-    """Colour of one of several dragons, by its number."""
-    return COLOURS[dragon % len(COLOURS)]
 
 
 def _draw_areas(sheet: Sheet, grounds: Sequence[GroundMap], scale: Scale) -> Rectangle:

@@ -15,16 +15,9 @@ from matplotlib.backends.backend_pdf import PdfPages
 
 import core
 from app.files.drawing import in_turn
+from app.files.performances import colour_of
 from app.files.words import Say
-from app.plan.ground import (
-    GroundMap,
-    colour_of,
-    draw_benches,
-    draw_ground,
-    draw_grounds,
-    draw_legend,
-    scale_for,
-)
+from app.plan.ground import GroundMap, draw_benches, draw_ground, draw_grounds, draw_legend, scale_for
 from app.plan.sheet import BLOCK, MARGIN, Paper, PaperName, Scale, Sheet, Title, title_block
 from app.plan.tables import PlanTable, draw_tables
 from app.plan.timing import TimeFormat, points_of

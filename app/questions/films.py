@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
+import core
 from app.files.film_spec import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, FilmSpec
 from app.files.tables import Language
 from app.wire.dances import PlacedDance, clock_of
+from app.wire.performances import SeveralFields
 from app.wire.question import AS_WHOLE, Instant, Question, Terms, Wire, check_limit, measure
-from core import Dance, EndReason, InvalidValue, Outcome, first_contact
+from core import Dance, EndReason, InvalidValue, Outcome, Performance, first_contact
 from core.errors import quantities
 
 FORM = next(iter(ENDINGS))
@@ -40,14 +42,16 @@ class FilmFields(Wire):
     title: str = Field("", max_length=80, description="Words at the upper right")
 
 
-class FilmRequest(FilmFields, PlacedDance):
-    """A film of any dragon on any path, in any venue."""
+class FilmRequest(SeveralFields, FilmFields, PlacedDance):
+    """A film of any dragon on any path, in any venue; or of several dragons on one clock."""
 
     language: Language = Field(Language.ENGLISH, description="Language of the words in the picture", strict=False)
 
 
 def films(request: FilmRequest, terms: Terms, form: str = FORM) -> bytes:
     """A film of the dance: every bench at every instant, as MP4 or GIF."""
+    if request.dances is not None:
+        return _of_several(request, terms, form)
     return film_of(request, request.to_dance(terms.settings.drawn_benches_max), terms, form)
 
 
@@ -56,17 +60,66 @@ def film_of(request: FilmFields, dance: Dance, terms: Terms, form: str) -> bytes
     from app.files import film
 
     placed = request if isinstance(request, FilmRequest) else None
-    rate, height = rate_and_height(request, form)
-    megapixels = round(request.seconds * rate * height * height * 16 / 9 / 1e6)
-    check_limit(
-        "seconds", "millions of pixels", megapixels, terms.settings.film_megapixels_max, "take fewer or smaller"
-    )
+    rate, height = _checked_size(request, terms, form)
     start, stop, touching = span_of(request, dance, terms)
     clock = clock_of(placed, dance) if placed else None
     music = placed.music if placed else None
     spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, touching, music)
     venue = placed.to_place(dance.dragon).venue if placed else None
     return film.film(dance, spec, form, venue=venue, title=request.title, budget=terms.budget, progress=terms.progress)
+
+
+def _of_several(request: FilmRequest, terms: Terms, form: str) -> bytes:
+    """A film of several dragons, which has no sound and counts no beats: each of them may have its own."""
+    from app.files.performance_film import performance_film
+    from app.files.performances import COLOURS
+
+    rate, height = _checked_size(request, terms, form)
+    performance, _ = request.to_placed(terms.settings)
+    start, stop, touching = _span_together(request, performance, terms)
+    dragons, benches = touching or (None, None)
+    clock, colours = clock_of(request, performance), COLOURS[: len(performance.parts)]
+    look: dict[str, Any] = {"touching": benches, "dragons": dragons, "colours": colours}
+    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, **look)
+    more: dict[str, Any] = {"budget": terms.budget, "progress": terms.progress}
+    return performance_film(performance, spec, form, title=request.title, **more)
+
+
+def _span_together(
+    request: FilmFields, performance: Performance, terms: Terms
+) -> tuple[float, float, tuple[tuple[int, int], tuple[int, int]] | None]:
+    """First and last instant of the film [s], and the dragons and benches that touch at the last.
+
+    Without a stop it is the first encounter, or the first contact of a dragon by itself, whichever is earlier.
+    raises: InvalidValue; OutsideRun
+    """
+    if request.stop is not None:
+        return *performance.span(request.start, request.stop), None
+    start, end = performance.span(request.start)
+    end -= BEFORE_FOLD if performance.end.dragon is not None else 0.0
+    until = max(min(end, start + LONGEST), start + BEFORE_FOLD)
+    found = core.first_encounter(performance, start=start, stop=until, budget=terms.budget)
+    touches = []
+    if found.outcome is Outcome.CONTACT and found.time is not None and found.dragons and found.benches:
+        touches.append((found.time, (found.dragons, found.benches)))
+    for k, part in enumerate(performance.parts):
+        first, last = part.own_span(start, until)
+        contact = first_contact(part.dance, start=first, stop=last, budget=terms.budget)
+        if contact.outcome is Outcome.CONTACT and contact.time is not None and contact.benches:
+            touches.append((contact.time + part.delay, ((k, k), contact.benches)))
+    if not touches:
+        return start, until, None
+    stop, who = min(touches)
+    return *performance.span(start, stop), who
+
+
+def _checked_size(request: FilmFields, terms: Terms, form: str) -> tuple[int, int]:
+    """Frames a second, and height [pixels]. raises: TooLarge for a film with too many pixels"""
+    rate, height = rate_and_height(request, form)
+    megapixels = round(request.seconds * rate * height * height * 16 / 9 / 1e6)
+    most = terms.settings.film_megapixels_max
+    check_limit("seconds", "millions of pixels", megapixels, most, "take fewer or smaller")
+    return rate, height
 
 
 def rate_and_height(request: FilmFields, form: str) -> tuple[int, int]:

@@ -1,0 +1,113 @@
+"""Films of several dragons: as those of one (film.py), with each dragon in its own colour and its name beside."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from numpy.typing import NDArray
+
+from app.files.film import BATCH, FilmPicture, encoded
+from app.files.film_spec import FilmSpec
+from app.files.performances import LEGEND_MOST, colour_of
+from app.files.tables import Language
+from core import Budget, Performance, bench_outlines, performance_trajectory
+from core.errors import question_about
+from core.plots import draw_dance
+from core.values import Floats
+
+# Words for the benches that touch: bench and dragon of each.
+TOUCHING = {
+    Language.ENGLISH: "bench {} of {} and bench {} of {} touch\n",
+    Language.CHINESE: "第 {0} 节（{1}）与第 {2} 节（{3}）板凳相碰（龙头为 0）\n",
+}
+# Place of the first name and distance from one name to the next, as shares of the height of the picture.
+NAME_AT, NAME_STEP = 0.97, 0.045
+
+
+@question_about("performance", Performance, "the film was not drawn")
+def performance_film(
+    performance: Performance,
+    spec: FilmSpec,
+    form: str,
+    *,
+    title: str = "",
+    budget: Budget | None = None,
+    progress: Callable[[float], None] = lambda share: None,
+) -> bytes:
+    """The bytes of a film of several dragons in one of FORMS, in their venue.
+
+    progress: called with the share of finished frames
+    raises: TooMuchWork where the budget is stopped; MissingPackage without a font for the language
+    """
+    return encoded(_frames(performance, spec, title, budget or Budget()), spec, form, progress)
+
+
+def _frames(performance: Performance, spec: FilmSpec, title: str, budget: Budget) -> Iterator[NDArray[np.uint8]]:
+    """Pictures (height, width, 4) in red, green, blue, alpha, each its own copy."""
+    times, stage = spec.times, PerformancePicture(performance, spec, title)
+    dragons = [part.dance.dragon for part in performance.parts]
+    for first in range(0, times.size, BATCH):
+        some = times[first : first + BATCH]
+        results = performance_trajectory(performance, some, budget=budget)
+        outlines = [bench_outlines(dragon, one.position) for dragon, one in zip(dragons, results, strict=True)]
+        for k, time in enumerate(some.tolist()):
+            budget.look()
+            touching = spec.touching if first + k == times.size - 1 else None
+            yield stage.picture(time, [own[k] for own in outlines], spec.dragons, touching)
+
+
+class PerformancePicture(FilmPicture):
+    """A picture of several dragons that is drawn again for each frame."""
+
+    def __init__(self, performance: Performance, spec: FilmSpec, title: str) -> None:
+        self.performance = performance
+        self.prepare(spec, performance.venue, title)
+
+    def name_of(self, dragon: int) -> str:
+        """Name of a dragon, or its number in words."""
+        chinese = self.language is Language.CHINESE
+        return self.performance.parts[dragon].name or (f"{dragon} 号龙" if chinese else f"dragon {dragon}")
+
+    def draw_paths(self, times: Floats) -> Floats:
+        places = []
+        for part, result in zip(self.performance.parts, performance_trajectory(self.performance, times), strict=True):
+            places.append(result.position.reshape(-1, 2))
+            draw_dance(self.axes, part.dance.path, places[-1], np.empty((0, 4, 2)))
+        look: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False, "va": "top"}
+        for k in range(min(len(places), LEGEND_MOST)):
+            self.axes.text(0.015, NAME_AT - NAME_STEP * k, self.name_of(k), color=colour_of(k), **look)
+        return np.concatenate(places)
+
+    def add_benches(self) -> None:
+        self.dragons = []
+        for k, part in enumerate(self.performance.parts):
+            head = self.benches(1, colour_of(k), "black")
+            self.dragons.append((self.benches(part.dance.dragon.benches - 1, colour_of(k), colour_of(k)), head))
+
+    def picture(
+        self,
+        time: float,
+        outlines: list[Floats],
+        dragons: tuple[int, int] | None = None,
+        touching: tuple[int, int] | None = None,
+    ) -> NDArray[np.uint8]:
+        """The picture at one instant.
+
+        outlines: (n, 4, 2) of each dragon [m]; dragons, touching: the dragons and the benches that are marked and named
+        """
+        closed = [np.concatenate([own, own[:, :1]], axis=1) for own in outlines]
+        artists: list[Artist] = []
+        for (body, head), own in zip(self.dragons, closed, strict=True):
+            head.get_path().vertices = own[0]
+            body.get_path().vertices = own[1:].reshape(-1, 2)
+            artists += [body, head]
+        artists.append(self.time)
+        if touching is None or dragons is None:
+            return self.shown(time, artists)
+        pairs = list(zip(dragons, touching, strict=True))
+        self.touching.get_path().vertices = np.concatenate([closed[k][bench] for k, bench in pairs])
+        named = [word for k, bench in pairs for word in (bench, self.name_of(k))]
+        return self.shown(time, [*artists, self.touching], TOUCHING[self.language].format(*named))

@@ -1,0 +1,106 @@
+"""Films of several dragons: every bench where it is, in the colour of its dragon, up to the first touch."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
+from PIL import Image
+
+from app.files.film_spec import GIF_TYPE, FilmSpec
+from app.files.performance_film import PerformancePicture
+from app.files.performances import colour_of
+from app.files.tables import Language
+from app.questions.films import QUESTION, FilmRequest
+from app.settings import Settings
+from app.wire.messages import checked
+from app.wire.question import Terms
+from core import Budget, TooMuchWork, bench_outlines, first_contact, first_encounter, performance_trajectory
+from tests.support.command import run
+
+EAST = {"name": "east", "dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}}
+NORTH = {"dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}, "delay": 2}
+SQUARE = {"type": "Polygon", "coordinates": [[[-5, -25], [35, -25], [35, 25], [-5, 25], [-5, -25]]]}
+TWO: dict[str, Any] = {
+    "dances": [EAST, NORTH],
+    "venue": SQUARE,
+    "seconds": 1,
+    "rate": 4,
+    "height": 180,
+    "start_clock": "19:30",
+}
+PERFORMANCE, _ = FilmRequest.model_validate(TWO).to_placed(Settings())
+
+
+def film_of(body: dict[str, Any]) -> list[NDArray[np.uint8]]:
+    """Pictures of a film as GIF."""
+    film = Image.open(io.BytesIO(QUESTION.to_bytes(checked(FilmRequest, body), Terms(), GIF_TYPE)))
+    pictures = []
+    for k in range(film.n_frames):
+        film.seek(k)
+        pictures.append(np.asarray(film.convert("RGB")))
+    return pictures
+
+
+def test_every_bench_is_drawn_in_the_colour_of_its_dragon() -> None:
+    stage = PerformancePicture(PERFORMANCE, FilmSpec(14.0, 30.0, height=720, start_clock="19:30"), "Lanterns")
+    dragons = [part.dance.dragon for part in PERFORMANCE.parts]
+    for time in (14.0, 20.5):  # the second one still stands at the first time
+        results = performance_trajectory(PERFORMANCE, time)
+        outlines = [bench_outlines(dragon, one.position) for dragon, one in zip(dragons, results, strict=True)]
+        picture = stage.picture(time, outlines)
+        for k, own in enumerate(outlines):
+            for x, y in stage.axes.transData.transform(own.mean(axis=1)):
+                colour = picture[round(len(picture) - 1 - y), round(x), :3] / 255.0
+                assert colour == pytest.approx(to_rgb(colour_of(k)), abs=0.02)
+    assert stage.time.get_text() == "19:30:20  20.50 s"
+    stage.picture(20.5, outlines, (0, 1), (2, 0))
+    assert stage.time.get_text().startswith("bench 2 of east and bench 0 of dragon 1 touch\n")
+    chinese = PerformancePicture(PERFORMANCE, FilmSpec(20.0, 30.0, height=180, language=Language.CHINESE), "")
+    chinese.picture(20.5, outlines, (0, 1), (2, 0))
+    assert chinese.time.get_text().startswith("第 2 节（east）与第 0 节（1 号龙）板凳相碰")
+
+
+def test_the_film_ends_at_the_first_encounter_and_marks_it() -> None:
+    met = first_encounter(PERFORMANCE)
+    own, asked = film_of(TWO), film_of(TWO | {"stop": met.time})
+    assert len(own) == len(asked) == 4
+    assert all((a == b).all() for a, b in zip(own[:-1], asked[:-1], strict=True))
+    assert (own[-1] != asked[-1]).any()
+
+
+def test_the_film_ends_at_the_first_contact_of_a_dragon_by_itself() -> None:
+    coiled = {"dragon": {"benches": 12}, "path": {"kind": "spiral", "start_turns": 5}}
+    time = first_contact(checked(FilmRequest, coiled).to_dance(100)).time
+    assert time is not None
+    far = NORTH | {"path": {"kind": "waypoints", "points": [[90, -20], [90, 20]]}}
+    both = TWO | {"dances": [far, coiled | {"delay": 1}], "venue": None}
+    own, asked = film_of(both), film_of(both | {"stop": time + 1.0})
+    assert (own[-2] == asked[-2]).all()
+    assert (own[-1] != asked[-1]).any()
+
+
+def test_a_stopped_budget_ends_the_film() -> None:
+    budget = Budget()
+    budget.stop()
+    with pytest.raises(TooMuchWork):
+        QUESTION.to_bytes(checked(FilmRequest, TWO | {"stop": 30}), Terms(budget=budget), GIF_TYPE)
+
+
+def test_the_command_and_the_service_make_the_same_film(client: httpx.Client, tmp_path: Path) -> None:
+    file, film = tmp_path / "two.json", tmp_path / "two.gif"
+    file.write_text(json.dumps(TWO))
+    assert run("film", str(file), "--output", str(film)).returncode == 0
+    known = client.post("/films", json=TWO, headers={"accept": GIF_TYPE}).raise_for_status()
+    assert film.read_bytes() == known.content
+    refused = client.post("/films", json=TWO | {"head_speed": 1.0})
+    assert refused.json()["errors"][0]["pointer"] == "/head_speed"
+    late = client.post("/films", json=TWO | {"stop": 99})
+    assert late.json()["errors"][0]["detail"].startswith("stop must be at most 41.999")
