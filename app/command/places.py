@@ -100,7 +100,7 @@ def maps(
     ending = checked_output("output", output, tuple(f".{one}" for one in MapFormat))
     if ending == ".dxf":
         require("dxf", "output", "DXF")
-    values = read_dance(file)
+    values = read_dance(file, several=True)
     if spacing is not None:
         values["spacing"] = spacing
     if (longitude is None) != (latitude is None):

@@ -181,11 +181,11 @@ class FilmPicture:
         self.body.get_path().vertices = closed[1:].reshape(-1, 2)
         artists: list[Artist] = [self.body, self.head, self.time]
         if not touching:
-            return self.shown(time, artists)
+            return self.compose(time, artists)
         self.touching.get_path().vertices = closed[list(touching)].reshape(-1, 2)
-        return self.shown(time, [*artists, self.touching], TOUCHING[self.language].format(*touching))
+        return self.compose(time, [*artists, self.touching], TOUCHING[self.language].format(*touching))
 
-    def shown(self, time: float, artists: Sequence[Artist], first: str = "") -> NDArray[np.uint8]:
+    def compose(self, time: float, artists: Sequence[Artist], first: str = "") -> NDArray[np.uint8]:
         """The picture of what moves, at a time [s]. first: words before the time"""
         words = f"{time_of_day(time, self.start_clock)}  " if self.start_clock else ""
         words += WORDS[self.language].format(time=time)

@@ -106,8 +106,8 @@ class PerformancePicture(FilmPicture):
             artists += [body, head]
         artists.append(self.time)
         if touching is None or dragons is None:
-            return self.shown(time, artists)
+            return self.compose(time, artists)
         pairs = list(zip(dragons, touching, strict=True))
         self.touching.get_path().vertices = np.concatenate([closed[k][bench] for k, bench in pairs])
         named = [word for k, bench in pairs for word in (bench, self.name_of(k))]
-        return self.shown(time, [*artists, self.touching], TOUCHING[self.language].format(*named))
+        return self.compose(time, [*artists, self.touching], TOUCHING[self.language].format(*named))

@@ -140,7 +140,7 @@ def written(drawing: Drawing) -> bytes:
             x, y = point if feature.role == "obstacle" else (point[0] + CROSS, point[1] + CROSS)
             space.add_text(feature.name, dxfattribs={"layer": layer, "height": WORDS, "insert": (x, y)})
         if feature.role == "path":
-            content["path"] = feature.properties["path"]
+            content.setdefault("path", feature.properties["path"])  # the first one, which is read again
     if drawing.origin is not None:
         content["origin"] = drawing.origin
     if drawing.grid is not None:

@@ -178,7 +178,7 @@ class _FeatureReader:
         data = self.data
         for key in ("path", "origin"):
             if value := _json(data.get(key, "")):
-                self.stored[key] = value
+                self.stored.setdefault(key, value)  # the path that is read is the first one
         name = self.name or data.get("name") or None
         role = role_of(data.get("role"), name, *reversed(self.folders))
         feature = MapFeature("point", (), name, role, _number(data.get("radius", "")))

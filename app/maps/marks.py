@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -80,18 +80,39 @@ def line_of(path: Path, low: float, high: float) -> Floats:
     return points
 
 
-def drawing_of(
-    dance: Dance, place: Place, marks: Marks, path_fields: Mapping[str, object], origin: GeographicOrigin | None
-) -> Drawing:
-    """The dance as a map in metres. place: the venue; path_fields: the path as a request describes it"""
-    features = features_of(place.things)
-    path = dance.path
-    low, high = path.drawn_between(min(float(marks.s[0]), path.begin), path.end)
-    line = tuple(map(tuple, line_of(path, low, high).tolist()))
-    features.append(MapFeature("line", (line,), "path", "path", properties={"path": path_fields}))
-    for name, s, point in zip(marks.names, marks.s.tolist(), marks.points.tolist(), strict=True):
-        properties = {"s": round(s, 6), "x": round(point[0], 4), "y": round(point[1], 4)}
-        features.append(MapFeature("point", (((point[0], point[1]),),), name, "mark", properties=properties))
+@dataclass(frozen=True, slots=True)
+class MarkedDance:
+    """A dance on a map: its marks, and its path as a request describes it.
+
+    number, name: of one of several dragons; None for the only one, and for one without a name
+    """
+
+    dance: Dance
+    marks: Marks
+    path_fields: Mapping[str, object]
+    number: int | None = None
+    name: str | None = None
+
+    def features(self) -> Iterator[MapFeature]:
+        """The line of the path, and the marks; those of one of several dragons have its number and its name."""
+        path, marks = self.dance.path, self.marks
+        own = {} if self.number is None else {"dragon": self.number, "dragon_name": self.name}
+        low, high = path.drawn_between(min(float(marks.s[0]), path.begin), path.end)
+        line = tuple(map(tuple, line_of(path, low, high).tolist()))
+        properties: dict[str, object] = {"path": self.path_fields, **own}
+        yield MapFeature("line", (line,), self._full_name("path"), "path", properties=properties)
+        for name, s, point in zip(marks.names, marks.s.tolist(), marks.points.tolist(), strict=True):
+            properties = {"s": round(s, 6), "x": round(point[0], 4), "y": round(point[1], 4), **own}
+            yield MapFeature("point", (((point[0], point[1]),),), self._full_name(name), "mark", properties=properties)
+
+    def _full_name(self, name: str) -> str:
+        """A name on the map; of one of several dragons, after its own name or its number."""
+        return name if self.number is None else f"{self.name or self.number} {name}"
+
+
+def drawing_of(dances: Iterable[MarkedDance], place: Place, origin: GeographicOrigin | None) -> Drawing:
+    """The dances as a map in metres. place: the venue"""
+    features = [*features_of(place.things), *(feature for one in dances for feature in one.features())]
     return Drawing(tuple(features), Unit.METRES, origin, grid=place.grid)
 
 

@@ -98,10 +98,10 @@ def _span_together(
     start, end = performance.span(request.start)
     end -= BEFORE_FOLD if performance.end.dragon is not None else 0.0
     until = max(min(end, start + LONGEST), start + BEFORE_FOLD)
-    found = core.first_encounter(performance, start=start, stop=until, budget=terms.budget)
+    met = core.first_encounter(performance, start=start, stop=until, budget=terms.budget)
     touches = []
-    if found.outcome is Outcome.CONTACT and found.time is not None and found.dragons and found.benches:
-        touches.append((found.time, (found.dragons, found.benches)))
+    if met.outcome is Outcome.CONTACT and met.time is not None and met.dragons and met.benches:
+        touches.append((met.time, (met.dragons, met.benches)))
     for k, part in enumerate(performance.parts):
         first, last = part.own_span(start, until)
         contact = first_contact(part.dance, start=first, stop=last, budget=terms.budget)

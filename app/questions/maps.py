@@ -6,10 +6,12 @@ from pydantic import Field
 
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.maps import dxf, geojson, kml
-from app.maps.marks import drawing_of, in_degrees, marks_of, on_grid
+from app.maps.marks import MARKS_MAX, MarkedDance, drawing_of, in_degrees, marks_of, on_grid
 from app.questions.check import DanceCheck
 from app.wire import degrees
-from app.wire.question import FileFormat, Question, Terms, Wire, measure
+from app.wire.paths import AnyPath
+from app.wire.performances import SeveralFields
+from app.wire.question import FileFormat, Question, Terms, Wire, check_limit, measure
 from core import InvalidValue
 
 KML_TYPE = "application/vnd.google-earth.kml+xml"
@@ -50,17 +52,36 @@ class Marked(DanceCheck, strict=True):
         return degrees.GeographicOrigin(origin.longitude, origin.latitude) if origin else place.origin
 
 
-class MapsRequest(Marked, strict=True):
-    """The dance as a map."""
+class MapsRequest(SeveralFields, Marked, strict=True):
+    """The dance as a map, or several dances on one."""
+
+
+def _one(request: MapsRequest, terms: Terms) -> tuple[list[MarkedDance], degrees.Place]:
+    dance = request.to_dance(terms.settings.checked_benches_max)
+    place = request.to_place(dance.dragon)
+    marks = marks_of(dance, *dance.span(request.start, request.stop), request.spacing)
+    return [MarkedDance(dance, marks, _fields_of(request.path))], place
+
+
+def _several(request: MapsRequest, terms: Terms) -> tuple[list[MarkedDance], degrees.Place]:
+    performance, place = request.to_placed(terms.settings)
+    span, dances = performance.span(request.start, request.stop), []
+    for k, (part, body) in enumerate(zip(performance.parts, request.dances or (), strict=True)):
+        marks = marks_of(part.dance, *part.own_span(*span), request.spacing)
+        dances.append(MarkedDance(part.dance, marks, _fields_of(body.path), k, part.name))
+    check_limit("spacing", "marks", sum(len(one.marks.s) for one in dances), MARKS_MAX, "set them further apart")
+    return dances, place
+
+
+def _fields_of(path: AnyPath) -> dict[str, object]:
+    return path.model_dump(mode="json", exclude_none=True)
 
 
 def maps(request: MapsRequest, terms: Terms, form: str) -> bytes:
     """The square, the path and the chalk marks as GeoJSON, KML or DXF, which POST /places reads again."""
-    dance = request.to_dance(terms.settings.checked_benches_max)
-    place = request.to_place(dance.dragon)
+    dances, place = _one(request, terms) if request.dances is None else _several(request, terms)
     origin = request.origin_at(place)
-    marks = marks_of(dance, *dance.span(request.start, request.stop), request.spacing)
-    drawing = drawing_of(dance, place, marks, request.path.model_dump(mode="json", exclude_none=True), origin)
+    drawing = drawing_of(dances, place, origin)
     if form == DXF_TYPE:
         return dxf.written(on_grid(drawing))
     if form == GEOJSON_TYPE:
@@ -71,6 +92,8 @@ def maps(request: MapsRequest, terms: Terms, form: str) -> bytes:
     return kml.written(in_degrees(drawing))
 
 
-QUESTION = Question(
-    maps, None, None, MapsRequest, FORMS, lambda request, form: SECONDS, at="/maps.{format}", formats=MapFormat
-)
+def _cost(request: MapsRequest, form: str) -> float:
+    return SECONDS * len(request.dances or [None])
+
+
+QUESTION = Question(maps, None, None, MapsRequest, FORMS, _cost, at="/maps.{format}", formats=MapFormat)

@@ -70,10 +70,10 @@ def test_every_bench_is_drawn_in_the_colour_of_its_dragon() -> None:
 
 def test_the_film_ends_at_the_first_encounter_and_marks_it() -> None:
     met = first_encounter(PERFORMANCE)
-    own, asked = film_of(TWO), film_of(TWO | {"stop": met.time})
-    assert len(own) == len(asked) == 4
-    assert all((a == b).all() for a, b in zip(own[:-1], asked[:-1], strict=True))
-    assert (own[-1] != asked[-1]).any()
+    own, cut = film_of(TWO), film_of(TWO | {"stop": met.time})
+    assert len(own) == len(cut) == 4
+    assert all((a == b).all() for a, b in zip(own[:-1], cut[:-1], strict=True))
+    assert (own[-1] != cut[-1]).any()
 
 
 def test_the_film_ends_at_the_first_contact_of_a_dragon_by_itself() -> None:
@@ -82,9 +82,9 @@ def test_the_film_ends_at_the_first_contact_of_a_dragon_by_itself() -> None:
     assert time is not None
     far = NORTH | {"path": {"kind": "waypoints", "points": [[90, -20], [90, 20]]}}
     both = TWO | {"dances": [far, coiled | {"delay": 1}], "venue": None}
-    own, asked = film_of(both), film_of(both | {"stop": time + 1.0})
-    assert (own[-2] == asked[-2]).all()
-    assert (own[-1] != asked[-1]).any()
+    own, cut = film_of(both), film_of(both | {"stop": time + 1.0})
+    assert (own[-2] == cut[-2]).all()
+    assert (own[-1] != cut[-1]).any()
 
 
 def test_a_stopped_budget_ends_the_film() -> None:

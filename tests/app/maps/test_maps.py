@@ -17,7 +17,8 @@ from app.files.tables import Language
 from app.files.words import Say
 from app.maps.layout import DanceParts
 from app.maps.places import places_of
-from app.questions.maps import MapFormat
+from app.questions.maps import MapFormat, MapsRequest
+from app.settings import Settings
 from core import InvalidValue
 from core.shapes.engines import GROWTH_MOST
 from tests.conftest import ROOT
@@ -476,3 +477,62 @@ def test_the_command_takes_a_map_for_a_dance_and_gives_one(tmp_path: Path) -> No
     assert "camphor" in back.stdout
     again = json.loads((tmp_path / "again.json").read_text())
     assert (again["path"]["kind"], len(again["venue"]["features"])) == ("waypoints", 2)
+
+
+# -- several dances ------------------------------------------------------------------------------------------
+
+LANE = {"kind": "route", "pieces": [{"kind": "line", "start": [-14.0, 6.0], "end": [14.0, 6.0]}]}
+TWO: dict[str, Any] = {
+    "dances": [
+        {"name": "low", "dragon": {"benches": 2}, "path": CORNER},
+        {"dragon": {"benches": 3}, "path": LANE, "delay": 9},
+    ],
+    "venue": VILLAGE,
+    "origin": ORIGIN,
+    "spacing": 2,
+}
+
+
+def test_a_map_of_several_dances_has_the_path_and_the_marks_of_each(client: httpx.Client) -> None:
+    performance, _ = MapsRequest.model_validate(TWO).to_placed(Settings())
+    features = client.post("/maps.geojson", json=TWO).raise_for_status().json()["features"]
+    lines = [one for one in features if one["properties"]["role"] == "path"]
+    assert [one["properties"]["name"] for one in lines] == ["low path", "1 path"]
+    for k, (line, dance) in enumerate(zip(lines, TWO["dances"], strict=True)):
+        start, stop = performance.parts[k].own_span(*performance.span())
+        alone = {name: TWO[name] for name in ("venue", "origin", "spacing")} | {"start": start, "stop": stop}
+        alone |= {name: dance[name] for name in ("dragon", "path")}
+        own = client.post("/maps.geojson", json=alone).raise_for_status().json()["features"]
+        (path,) = (one for one in own if one["properties"]["role"] == "path")
+        assert (line["geometry"], line["properties"]["path"]) == (path["geometry"], path["properties"]["path"])
+        assert (line["properties"]["dragon"], line["properties"]["dragon_name"]) == (k, dance.get("name"))
+        marks, own_marks = (
+            [one for one in some if one["properties"]["role"] == "mark" and one["properties"].get("dragon", k) == k]
+            for some in (features, own)
+        )
+        assert [one["geometry"] for one in marks] == [one["geometry"] for one in own_marks]
+        before = dance.get("name") or k
+        names = [f"{before} {one['properties']['name']}" for one in own_marks]
+        assert [one["properties"]["name"] for one in marks] == names
+        assert len(marks) > 3
+
+
+@pytest.mark.parametrize("format", MapFormat)
+def test_a_map_of_several_is_read_with_its_first_path_and_a_note(client: httpx.Client, format: str) -> None:
+    result = read(client.post(f"/maps.{format}", json=TWO).raise_for_status().content)
+    assert result.path is not None
+    assert {name: value for name, value in result.path.items() if name in CORNER} == CORNER
+    assert "2 lines are called path; the first is the path, and the others are left out." in result.notes
+    assert result.venue is not None
+    assert len(result.venue.areas) == len(VILLAGE["features"])
+
+
+def test_the_command_writes_the_map_of_several(client: httpx.Client, tmp_path: Path) -> None:
+    file, output = tmp_path / "two.json", tmp_path / "two.kml"
+    file.write_text(json.dumps(TWO))
+    assert run("maps", str(file), "--output", str(output)).returncode == 0
+    assert output.read_bytes() == client.post("/maps.kml", json=TWO).content
+    many = client.post(
+        "/maps.kml", json=TWO | {"spacing": 0.5, "dances": [TWO["dances"][1] | {"delay": k} for k in range(40)]}
+    )
+    assert many.json()["errors"][0]["detail"].startswith("marks must be at most 2000 here, got 2280")
