@@ -1,5 +1,6 @@
 /** What stands below the dance: what can be kept, many designs with their jobs, and grading. It loads when a person is near. */
 
+import { Crew } from "./crew.js";
 import { Designs } from "./designs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
@@ -13,20 +14,22 @@ learn(Object.fromEntries(Object.entries(COLUMNS).map(([name, words]) => [`column
 
 export class Below {
   /**
-   * names: of the state's numbers
-   * @param {{ state: State, service: Service, questions: Questions, names: string[], canvas: any }} parts
+   * names: of the state's numbers; player: knows the time shown
+   * @param {{ state: State, service: Service, questions: Questions, names: string[], canvas: any, player: any }} parts
    */
-  constructor({ state, service, questions, names, canvas }) {
+  constructor({ state, service, questions, names, canvas, player }) {
     const { jobs, map } = new Designs(state, service, names);
     this.jobs = jobs;
     this.map = map;
     this.keep = new Keep({ service, questions, jobs, canvas });
+    this.crew = new Crew(service, questions, player);
     this.grader = new Grader(service);
   }
 
   /** Show what belongs to the dance. */
   show() {
     this.keep.show();
+    this.crew.show();
   }
 
   /** paths: of the OpenAPI document; limits: name -> [low, high, unit] */
@@ -38,6 +41,7 @@ export class Below {
   translate(language) {
     this.grader.translate(language);
     this.keep.translate();
+    this.crew.show();
     this.jobs.render();
     this.map.draw();
   }

@@ -407,7 +407,7 @@ function showRoute() {
 async function openBelow() {
   const { Below } = await parts.load("below");
   if (below) return;
-  below = new Below({ state, service, questions, names: NUMBERS, canvas: $("#canvas") });
+  below = new Below({ state, service, questions, names: NUMBERS, canvas: $("#canvas"), player });
   writeTexts();
   if (paths) below.learn(paths, limits);
   below.translate(language());

@@ -1,0 +1,136 @@
+/** The people of a dance: a form, who carries how long, and who is where at a time; the paper with the timeline, and a table. */
+
+import { Problem, Superseded } from "./api.js";
+import { $, button, download, make, numberIn, textButton } from "./elements.js";
+import { announce } from "./overlays.js";
+import { clockIn } from "./passages.js";
+import { handleName, language, refusalWords, say } from "./text.js";
+
+/** Numbers of the form: the field of the service, its key, its first value; an empty one is left to the service. */
+const NUMBERS = { head_people: ["crewHead", "8"], bench_people: ["crewBench", "2"], spares: ["crewSpares", "0"], shift: ["crewShift", ""], rest: ["crewRest", "0"] };
+const POINT = { x: ["crewX", ""], y: ["crewY", ""] };
+const FORMS = { PDF: "application/pdf", CSV: "text/csv" };
+const MINUTE = 60;
+
+const minutes = (seconds) => `${Math.floor(seconds / MINUTE)}:${String(Math.floor(seconds % MINUTE)).padStart(2, "0")}`;
+
+export class Crew {
+  /** The last answer, with the dance that it is about. */
+  #answer = null;
+  #of = null;
+  #problem = null;
+
+  /**
+   * player: knows the time shown
+   * @param {Service} service
+   * @param {Questions} questions
+   */
+  constructor(service, questions, player) {
+    this.service = service;
+    this.questions = questions;
+    this.player = player;
+    const field = ([name, [key, value]]) => make("label", { className: "line" }, make("span", { "data-text": key }), make("input", { id: `crew-${name}`, value, inputMode: "decimal", autocomplete: "off" }));
+    this.at = make("input", { id: "crew-at", autocomplete: "off", placeholder: "0" });
+    this.result = make("div", { id: "crew-result", "aria-live": "polite" });
+    const save = Object.keys(FORMS).map((form) => button({ id: `crew-${form}`, textContent: form }, () => this.#save(form)));
+    this.box = make(
+      "details",
+      { id: "crew" },
+      make("summary", { "data-text": "crewTitle" }),
+      make("p", { className: "hint", "data-text": "crewHelp" }),
+      ...Object.entries({ ...NUMBERS, ...POINT }).map(field),
+      make("label", { className: "line" }, make("span", { "data-text": "crewAt" }), this.at),
+      make("p", { className: "buttons" }, textButton("crewAsk", () => this.#ask(), { className: "main", id: "crew-ask" }), ...save),
+      this.result,
+    );
+    $("#paper").before(this.box);
+    this.box.addEventListener("toggle", () => this.#open());
+  }
+
+  /** The time shown is the one asked about, until a person types another. */
+  #open() {
+    if (this.box.open && !this.at.value) this.at.value = this.player.time.toFixed(0);
+  }
+
+  /** {path, body} of the question. throws: Problem for what is no number */
+  #question() {
+    const { questions } = this;
+    const { begin, end, kind, clock } = questions.dance;
+    const typed = (name) => numberIn($(`#crew-${name}`).value);
+    const numbers = Object.fromEntries(Object.keys(NUMBERS).map((name) => [name, typed(name)]).filter(([, value]) => value !== ""));
+    const [x, y] = [typed("x"), typed("y")];
+    const at = numberIn(this.at.value);
+    const day = clock && typeof at === "string" && at ? clockIn(at) : null;
+    const time = day ? { at_clock: day } : at === "" ? {} : { at };
+    const points = x === "" && y === "" ? [] : [{ x, y }];
+    return { ...questions.checkBody(questions.dance), ...(kind === "route" ? {} : { start: begin, stop: end }), ...numbers, points, ...time, language: language() };
+  }
+
+  async #ask() {
+    const { dance } = this.questions;
+    if (!dance) return;
+    [this.#problem, this.#of] = [null, dance];
+    try {
+      this.#answer = await this.service.ask("crew", "crew", { body: this.#question() });
+    } catch (error) {
+      if (error instanceof Superseded) return;
+      if (!(error instanceof Problem)) throw error;
+      [this.#answer, this.#problem] = [null, error.problem];
+    }
+    this.show();
+  }
+
+  async #save(form) {
+    try {
+      const name = `crew.${form.toLowerCase()}`;
+      download(await this.service.ask(`crew ${form}`, "crew", { body: this.#question(), accept: FORMS[form] }), name);
+      announce(() => say("saved", { name }));
+    } catch (error) {
+      if (error instanceof Superseded) return;
+      if (!(error instanceof Problem)) throw error;
+      [this.#answer, this.#problem] = [null, error.problem];
+      this.show();
+    }
+  }
+
+  /** After an answer, a change of the language or of the dance. */
+  show() {
+    if (this.#problem) return this.result.replaceChildren(make("p", { className: "error", ...refusalWords(this.#problem) }));
+    // People of another dance are none of this one.
+    if (!this.#answer || this.#of !== this.questions.dance) return this.result.replaceChildren();
+    const { people, spares, changes, longest, at, carriers, start, stop } = this.#answer;
+    const parts = [make("p", { textContent: say("crewIs", { people, spares, changes, longest: minutes(longest) }) })];
+    if (at) parts.push(this.#roll(at));
+    this.result.replaceChildren(...parts, this.#people(carriers, start, stop));
+  }
+
+  #table(title, heads, rows) {
+    const head = make("tr", {}, ...heads.map((key) => make("th", { scope: "col", textContent: say(key) })));
+    const cell = (content, k) => make(k ? "td" : "th", k ? {} : { scope: "row" }, content);
+    const body = rows.map((cells) => make("tr", {}, ...cells.map(cell)));
+    return make("details", { open: true }, make("summary", { textContent: title }), make("table", {}, make("thead", {}, head), make("tbody", {}, ...body)));
+  }
+
+  /** Who is where at the time asked about. */
+  #roll({ time, clock, benches, resting }) {
+    const rows = benches.map(({ bench, people, mark }) => [handleName(bench, benches.length), people.join(", "), String(mark)]);
+    const box = this.#table(say("crewAtTime", { time: clock ?? `${time} s` }), ["crewOfBench", "crewPeople", "crewMark"], rows);
+    box.append(make("p", { textContent: say(resting.length ? "crewResting" : "crewNoneRests", { names: resting.join(", ") }) }));
+    return box;
+  }
+
+  /** Each person with minutes, metres and the times in which they carry. */
+  #people(carriers, start, stop) {
+    const share = (time) => `${(100 * (time - start)) / (stop - start)}%`;
+    const line = (spells) => {
+      const bars = spells.map(({ begin, end, bench }) => {
+        const bar = make("i", { title: `${bench}: ${minutes(begin - start)}–${minutes(end - start)}` });
+        Object.assign(bar.style, { left: share(begin), width: share(start + end - begin) });
+        return bar;
+      });
+      return make("span", { className: "bars", role: "img", "aria-label": spells.map(({ begin, end, bench }) => say("crewSpell", { bench, begin: minutes(begin - start), end: minutes(end - start) })).join(say("comma")) }, ...bars);
+    };
+    const rows = carriers.map(({ label, time, way, spells }) => [label, minutes(time), way.toFixed(0), line(spells)]);
+    return this.#table(say("crewCarriers"), ["crewPerson", "crewMinutes", "crewMetres", "crewTimeline"], rows);
+  }
+}
