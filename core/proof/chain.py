@@ -11,7 +11,7 @@ from flint import acb, arb
 
 from core.dragon import Dragon
 from core.errors import Quantity, format_number
-from core.proof.ground import AT_ONCE, ONE_BY_ONE, Ground, PolygonSide
+from core.proof.ground import AT_ONCE, ONE_BY_ONE, BenchGround, PolygonSide
 from core.proof.pairs import Benches, Size, TouchingLine, Unproven, above, below
 
 # A guess from doubles is within this of its root [rad]; an interval Newton step verifies it.
@@ -70,7 +70,9 @@ class Chain(Follower["Pose"]):
         super().__init__(dragon, margin)
         self.stray = arb(stray)
         strayed = set(self.sizes) if stray else ()
-        self.grounds = {size: Ground(size.chord / 2, size.half_length, size.half_width, self.stray) for size in strayed}
+        self.grounds = {
+            size: BenchGround(size.chord / 2, size.half_length, size.half_width, self.stray) for size in strayed
+        }
         self.growth = pitch / (2 * arb.pi())
         self.start = 2 * arb.pi() * start_turns
         kinds = {size: (size.chord / self.growth) ** 2 for size in set(self.sizes)}
@@ -302,7 +304,7 @@ class SpiralStretch:
         first, second = (self.chain.sizes[self.bench + k] for k in (0, partner))
         return self._beyond(partner, TouchingLine(face, direction, first, second))
 
-    def grounds(self, partner: int) -> tuple[Ground, Ground]:
+    def grounds(self, partner: int) -> tuple[BenchGround, BenchGround]:
         """Grounds of the first bench and of `partner`."""
         first, second = (self.chain.grounds[self.chain.sizes[self.bench + k]] for k in (0, partner))
         return first, second

@@ -26,7 +26,7 @@ NUMBERS = np.arange(SIDES)
 ROUGH_OUTWARDS = np.exp(1j * math.tau / SIDES * NUMBERS)
 
 
-class Ground:
+class BenchGround:
     """The ground of one kind of bench [m].
 
     outwards: SIDES unit vectors; supports, corners: (4, SIDES) of its polygons, corner k where sides k and k + 1 meet
@@ -96,7 +96,7 @@ class PolygonSide(TouchingLine):
     number: 0 to SIDES - 1 for the first ground's sides, from SIDES on for the second's; hulls: a polygon of each
     """
 
-    def __init__(self, number: int, hulls: tuple[int, int], first: Ground, second: Ground) -> None:
+    def __init__(self, number: int, hulls: tuple[int, int], first: BenchGround, second: BenchGround) -> None:
         self.by_partner, side = number >= SIDES, number % SIDES
         own, other = (second, first) if self.by_partner else (first, second)
         mine, beyond = reversed(hulls) if self.by_partner else hulls
@@ -117,7 +117,7 @@ class PolygonSide(TouchingLine):
 
 
 def best_side(
-    first: Ground, second: Ground, hulls: tuple[int, int], places: Sequence[tuple[complex, complex]]
+    first: BenchGround, second: BenchGround, hulls: tuple[int, int], places: Sequence[tuple[complex, complex]]
 ) -> tuple[int, float]:
     """The side that keeps two polygons furthest apart in several places, and the least gap there [m], in doubles.
 
@@ -133,7 +133,7 @@ def best_side(
     return best, float(least[best])
 
 
-def _gaps(own: Ground, mine: int, other: Ground, hull: int, to: complex, axis: complex) -> Floats:
+def _gaps(own: BenchGround, mine: int, other: BenchGround, hull: int, to: complex, axis: complex) -> Floats:
     """Distance of a polygon beyond each side of another (SIDES,) [m]."""
     nearest = (NUMBERS + SIDES // 2 + math.floor(-math.atan2(axis.imag, axis.real) * SIDES / math.tau)) % SIDES
     corner = to + axis * other.rough_corners[hull, nearest]

@@ -10,7 +10,7 @@ import pytest
 import shapely
 from flint import acb, arb, ctx
 
-from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, Ground, PolygonSide, best_side
+from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, BenchGround, PolygonSide, best_side
 from core.shapes.reach import bench_hulls, directions, supports
 from tests.support.random_strays import moved_points, random_strays
 
@@ -20,10 +20,10 @@ SHAPES = [(1.65, 0.275, 0.3, 0.05), (2.86, 0.275, 0.3, 0.26), (1.65, 0.275, 0.3,
 IDS = ["body", "head", "half a chord", "no overhang"]
 
 
-def ground_of(chord: float, overhang: float, width: float, stray: float) -> Ground:
+def ground_of(chord: float, overhang: float, width: float, stray: float) -> BenchGround:
     half = arb(chord) / 2
     with ctx.workprec(96):
-        return Ground(half, half + arb(overhang), arb(width) / 2, arb(stray))
+        return BenchGround(half, half + arb(overhang), arb(width) / 2, arb(stray))
 
 
 @pytest.mark.parametrize(("chord", "overhang", "width", "stray"), SHAPES, ids=IDS)
