@@ -39,7 +39,7 @@ class RequestName(logging.Filter):
 
 
 class Faults:
-    """Faults that repeat: each is logged when it comes first, and how often it came when all are over.
+    """Faults that repeat: each is logged when it first comes, and over() logs how often it came.
 
     words: of the line, with the fault as its argument
     """
@@ -57,7 +57,7 @@ class Faults:
                 self.logger.error(self.words, fault)
 
     def over(self) -> None:
-        """Log how often faults came that are over."""
+        """Log how often each fault came that came more than once; to call when they have ended."""
         with self._lock:
             for fault, times in self._times.items():
                 if times > 1:

@@ -32,7 +32,7 @@ from core.venue import Area, Venue
 # Travel of the head between two samples [m], and most samples; fewer where benches and edges make more than PAIRS.
 STEP, SAMPLES_MAX, PAIRS = 0.3, 600, 4e6
 SAMPLES_MIN = 30
-# Speeds above a limit by this part are rounding [1].
+# A speed breaks a limit if it is above it by more than this share, which rounding can add [1].
 SPEED_ROUNDING = 1e-6
 # Distance between points of a stretch [m], and their largest number.
 POINT_STEP, POINTS_MAX = 0.3, 200

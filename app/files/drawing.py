@@ -37,7 +37,7 @@ AROUND = 0.6
 
 
 def in_turn(draw: Callable[[], Value]) -> Value:
-    """The value of a function that draws, which is called after all earlier ones and must not call in_turn itself."""
+    """The value of a drawing function, called when all earlier ones are done. It must not call in_turn() itself."""
     return _DRAWER.submit(draw).result()
 
 

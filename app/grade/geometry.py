@@ -27,7 +27,7 @@ PI_ROUNDED = (3.14, 3.1416)
 PLACE_STEP, PLACE_NEAR = 0.01, 0.05
 # Least and largest shift of the times that is looked for [s]: six decimals of the head's place show 1e-6 s.
 SHIFT_LEAST, SHIFT_MOST = 1e-5, 500.0
-# Largest distance of a start from one of three decimals, at which it counts as that one [turns].
+# A start counts as one of three decimals up to this distance from it [turns].
 SIMPLE_TURNS = 1e-5
 # Decimals of a length that a student types, error of a length that is measured between places of six decimals [m], and
 # difference below which two lengths are the same [m].

@@ -46,7 +46,7 @@ BeginClock = Annotated[
 def clock_at_zero(begin_clock: str, begin: float) -> str:
     """The time of day at time 0 of a dance that begins at a time of the day.
 
-    begin_clock: then; begin: that time of the dance [s], to a millionth of a second
+    begin_clock: that time of day; begin: the time at which the dance begins [s], to a millionth of a second
 
     >>> clock_at_zero("19:30", 44.898), time_of_day(44.898, clock_at_zero("19:30", 44.898))
     ('19:29:15.102', '19:30:00')

@@ -18,7 +18,7 @@ RATIO_MIN = 0.01
 RATIO_MAX = 100.0
 # Distance by which rounding may put an arc outside its circle [m].
 OUTSIDE = 1e-9
-# Least A for the division by it [1]: a smaller one, and no root, leave arcs larger than any that is accepted.
+# Least A to divide by [1]. With a smaller one, or without a root, the arcs are larger than any that is accepted.
 LEAST_CURVED = 1e-30
 
 
