@@ -49,7 +49,7 @@ def stretch_of(chain: AnyChain, bench: int, low: float, high: float, last: int) 
 
 
 def _faces(stretch: AnyStretch) -> Tile:
-    """Verified faces that keep all benches of the stretch apart; raises OverlapFound if two are too near at an end."""
+    """Verified faces that keep all benches of the stretch apart; raises SweepOverlap if two are too near at an end."""
     faces: Any = [] if _strays(stretch) else ""
     directions = []
     while not stretch.complete:
