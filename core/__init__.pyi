@@ -72,6 +72,7 @@ from .performance.clearance import (
     performance_least_clearance,
 )
 from .performance.cross_check import EncounterCheck, encounter_check
+from .performance.cues import performance_cues
 from .performance.encounter import first_encounter
 from .performance.performance import Part, Performance, PerformanceEnd
 from .performance.safe_delay import SafeDelays, safe_delay
@@ -246,6 +247,7 @@ __all__ = [
     "overlaps",
     "performance_check",
     "performance_clearance",
+    "performance_cues",
     "performance_envelope",
     "performance_least_clearance",
     "performance_tolerance",

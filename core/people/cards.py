@@ -3,8 +3,8 @@
 1. The beginning and the end are always on the card.
 2. Then come the pauses, the longest first, at most PAUSES_MOST of them.
 3. Then the fastest moment, if the bench is more than FASTER above the speed with which the head begins to walk.
-4. Then the meetings, the nearest first. Meetings on one side, with benches that go one way, of which each is at most
-   TOGETHER after the one before, are one cue, whose moment and gap are those of the nearest of them.
+4. Then the meetings, the nearest first. Meetings on one side, with benches of one dragon that go one way, of which each
+   is at most TOGETHER after the one before, are one cue, whose moment and gap are those of the nearest of them.
 What has no place any more is left out. Of equal ones the earlier comes first.
 """
 
@@ -16,7 +16,7 @@ from enum import StrEnum
 
 from core.display import Readable
 from core.errors import checked_type
-from core.people.cues import BenchCues, Meeting
+from core.people.cues import BenchCues, Meeting, Side
 
 # Most cues of a card, and most pauses among them; the first of these holds the beginning and the end, too.
 CUES_MOST, PAUSES_MOST = 8, 3
@@ -92,11 +92,16 @@ def _order(cue: Cue) -> tuple[float, bool]:
     return cue.time, cue.kind is CueKind.DONE
 
 
+def _kind_of(one: Meeting) -> tuple[Side, bool, int | None]:
+    """What meetings of one cue have in common."""
+    return one.side, one.oncoming, one.dragon
+
+
 def _together(meetings: Sequence[Meeting]) -> list[Cue]:
     """The cues of meetings, in order of time."""
     groups: list[list[Meeting]] = []
     for one in meetings:
-        same = (group for group in groups if (group[-1].side, group[-1].oncoming) == (one.side, one.oncoming))
+        same = (group for group in groups if _kind_of(group[-1]) == _kind_of(one))
         group = next((group for group in same if one.time - group[-1].time <= TOGETHER), None)
         if group is None:
             groups.append([one])

@@ -67,6 +67,7 @@ class Meeting(Readable):
 
     time: [s]; bench: the other one; side: on which it is; gap: between the two benches, edge to edge [m], below zero if
     they overlap; oncoming: True if the other one points the other way; x, y: middle of this bench [m]
+    dragon: of the other bench, in a performance; None in a single dance
     """
 
     time: float
@@ -76,6 +77,7 @@ class Meeting(Readable):
     oncoming: bool
     x: float
     y: float
+    dragon: int | None = None
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -19,7 +19,8 @@ two rows, STEP of head travel apart.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -48,6 +49,33 @@ HANDLES_AT_ONCE, ROWS_AT_ONCE = 1_000_000, 40
 SPARE = 0.5
 
 Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """All handles of a dragon, or of several one after the other, and the benches between them.
+
+    place: handles (R, N + 1, 2) at R travels of the head, or for several dragons at R times; sizes: lengths and widths
+    of the benches (N, 2) [m]; gaps: numbers of those that are no benches, between two dragons
+    """
+
+    place: Callable[[Floats, Budget], Floats]
+    sizes: Floats
+    gaps: Indices
+
+    @property
+    def at_once(self) -> int:
+        """Number of instants whose handles are laid out at once."""
+        return max(1, HANDLES_AT_ONCE // (len(self.sizes) + 1))
+
+
+def chain_of(dance: Dance) -> Chain:
+    """The chain of one dragon. dance: at 1 m/s without passages"""
+
+    def place(travels: Floats, budget: Budget) -> Floats:
+        return trajectory(dance, travels, budget=budget).position
+
+    return Chain(place, np.stack([dance.dragon.lengths, dance.dragon.widths], axis=-1), _NO_BENCHES)
 
 
 class MeetingColumns(NamedTuple):
@@ -102,24 +130,29 @@ def meetings_between(
     returns: in the order of the own benches, then of travels
     raises: TooMuchWork
     """
+    return meetings_in(chain_of(dance), benches, travels, reach, budget)
+
+
+def meetings_in(chain: Chain, benches: Sequence[int], travels: Floats, reach: float, budget: Budget) -> MeetingColumns:
+    """meetings_between() of the benches of a chain; travels: of the head, or for several dragons times"""
     parts = [MeetingColumns(*_NONE)]
-    at_once = instants_at_once(dance)
+    at_once = chain.at_once
     rows, before = max(2, min(ROWS_AT_ONCE, at_once)), dict[int, _Before]()
     for first in range(0, len(travels), rows):
         some = travels[first : first + rows]
-        poses = bench_poses(trajectory(dance, some, budget=budget).position)
-        crossings = _crossings(poses, some, benches, _far(dance, reach), before)
+        poses = bench_poses(chain.place(some, budget))
+        crossings = _crossings(poses, some, benches, (_far(chain, reach), chain.gaps), before)
         budget.afford(float(len(some) * len(benches)))
         for part in _parts(crossings, at_once):
-            parts.append(_met(dance, _zeros(dance, part, budget), reach, budget))
+            parts.append(_met(chain, _zeros(chain, part, budget), reach, budget))
     columns = [np.concatenate(column) for column in zip(*parts, strict=True)]
     order = np.lexsort((columns[2], columns[0]))
     return MeetingColumns(*(column[order] for column in columns))
 
 
-def _far(dance: Dance, reach: float) -> float:
+def _far(chain: Chain, reach: float) -> float:
     """Distance of two middles beyond which the benches are further apart than the reach [m]."""
-    return reach + float(np.hypot(dance.dragon.lengths, dance.dragon.widths).max())
+    return reach + float(np.hypot(*chain.sizes.T).max())
 
 
 def _parts(crossings: _Crossings, most: int) -> Iterator[_Crossings]:
@@ -141,15 +174,19 @@ class _Before(NamedTuple):
 # |a| is more than EVEN, and a change of sign is one between two rows that count, with none that counts between them.
 # `before` carries the last row that counted from one block of rows to the next.
 def _crossings(
-    poses: Floats, travels: Floats, benches: Sequence[int], far: float, before: dict[int, _Before]
+    poses: Floats, travels: Floats, benches: Sequence[int], limits: tuple[float, Indices], before: dict[int, _Before]
 ) -> _Crossings:
-    """The changes of sign of a in a block of rows, or since the one before it. poses: (R, n, 3)"""
+    """The changes of sign of a in a block of rows, or since the one before it.
+
+    poses: (R, n, 3); limits: distance beyond which no bench is met [m], and the gaps of a chain
+    """
+    far, gaps = limits
     middles, heading = poses[..., :2], poses[..., 2]
     low, high = middles.min(axis=0) - SPARE, middles.max(axis=0) + SPARE
     rows, columns = np.arange(len(travels) + 1)[:, None], [_NONE]
     for k in benches:
         near = np.flatnonzero(((low <= high[k] + far) & (high >= low[k] - far)).all(axis=1))
-        near = near[np.abs(near - k) > 1]
+        near = near[(np.abs(near - k) > 1) & ~np.isin(near, gaps)]
         away = middles[:, near] - middles[:, k, None]
         known, when = _recalled(before.get(k), near)
         along = away[..., 0] * np.cos(heading[:, k, None]) + away[..., 1] * np.sin(heading[:, k, None])
@@ -178,9 +215,9 @@ def _recalled(before: _Before | None, near: Indices) -> tuple[Floats, Floats]:
     return known, when
 
 
-def _abreast(dance: Dance, own: Indices, other: Indices, travels: Floats, budget: Budget) -> Floats:
+def _abreast(chain: Chain, own: Indices, other: Indices, travels: Floats, budget: Budget) -> Floats:
     """a of each pair at its own travel (E,) [m]."""
-    position, rows = trajectory(dance, travels, budget=budget).position, np.arange(own.size)
+    position, rows = chain.place(travels, budget), np.arange(own.size)
     front, rear = position[rows, own], position[rows, own + 1]
     away = 0.5 * (position[rows, other] + position[rows, other + 1] - front - rear)
     along = front - rear
@@ -189,7 +226,7 @@ def _abreast(dance: Dance, own: Indices, other: Indices, travels: Floats, budget
 
 
 # False position of Illinois: the end that stays twice has its value halved, so that the other end comes near, too.
-def _zeros(dance: Dance, crossings: _Crossings, budget: Budget) -> tuple[Indices, Indices, Floats]:
+def _zeros(chain: Chain, crossings: _Crossings, budget: Budget) -> tuple[Indices, Indices, Floats]:
     """Own and other bench and the travel of each zero, |a| at most ABREAST there."""
     own, other = crossings.own, crossings.other
     low, high, at_low, at_high = (column.copy() for column in crossings[2:])
@@ -200,7 +237,7 @@ def _zeros(dance: Dance, crossings: _Crossings, budget: Budget) -> tuple[Indices
             break
         share = at_low[open_] / (at_low[open_] - at_high[open_])
         middle = low[open_] + share * (high[open_] - low[open_])
-        value = _abreast(dance, own[open_], other[open_], middle, budget)
+        value = _abreast(chain, own[open_], other[open_], middle, budget)
         travel[open_] = middle
         same = (value > 0.0) == (at_low[open_] > 0.0)
         lower, upper = open_[same], open_[~same]
@@ -212,18 +249,17 @@ def _zeros(dance: Dance, crossings: _Crossings, budget: Budget) -> tuple[Indices
     return own, other, travel
 
 
-def _met(dance: Dance, zeros: tuple[Indices, Indices, Floats], reach: float, budget: Budget) -> MeetingColumns:
+def _met(chain: Chain, zeros: tuple[Indices, Indices, Floats], reach: float, budget: Budget) -> MeetingColumns:
     """The zeros that are meetings: within the reach, and with no third bench between the two middles."""
     own, other, travel = zeros
     rows = np.arange(own.size)
-    poses = bench_poses(trajectory(dance, travel, budget=budget).position)
-    sizes = np.stack([dance.dragon.lengths, dance.dragon.widths], axis=-1)
+    poses, sizes = bench_poses(chain.place(travel, budget)), chain.sizes
     mine, theirs = poses[rows, own], poses[rows, other]
     gap = frames_separation(frames(mine, sizes[own]), frames(theirs, sizes[other])).separation
     away = theirs[:, :2] - mine[:, :2]
     left = away[:, 1] * np.cos(mine[:, 2]) - away[:, 0] * np.sin(mine[:, 2])
     kept = np.flatnonzero(gap <= reach)
-    hidden = _hidden(poses[kept], sizes, own[kept], other[kept])
+    hidden = _hidden(poses[kept], chain, own[kept], other[kept])
     kept = kept[~hidden]
     cosine = np.cos(theirs[kept, 2] - mine[kept, 2])
     return MeetingColumns(own[kept], other[kept], travel[kept], left[kept], gap[kept], cosine)
@@ -231,14 +267,15 @@ def _met(dance: Dance, zeros: tuple[Indices, Indices, Floats], reach: float, bud
 
 # The segment p + t q, t in [0, 1], meets a rectangle if the intervals of t in which it is between the two long sides
 # and between the two short sides have a common part. p and q are taken in the frame of the rectangle.
-def _hidden(poses: Floats, sizes: Floats, own: Indices, other: Indices) -> NDArray[np.bool_]:
+def _hidden(poses: Floats, chain: Chain, own: Indices, other: Indices) -> NDArray[np.bool_]:
     """True where a third bench meets the segment between the two middles. poses: (E, n, 3); returns (E,)"""
-    rows = np.arange(own.size)
+    rows, sizes = np.arange(own.size), chain.sizes
     mine, way = poses[rows, own, :2], poses[rows, other, :2] - poses[rows, own, :2]
     reach = np.hypot(*way.T) + 0.5 * float(np.hypot(*sizes.T).max())
     away = poses[..., :2] - mine[:, None]
     near = np.einsum("ijk,ijk->ij", away, away) <= (reach * reach)[:, None]
     near[rows, own] = near[rows, other] = False
+    near[:, chain.gaps] = False
     event, third = np.nonzero(near)
     heading, half = poses[event, third, 2], 0.5 * sizes[third]
     cos, sin = np.cos(heading), np.sin(heading)
