@@ -26,7 +26,7 @@ from app.settings import Settings
 FRESH = 600.0
 DAY = 86_400.0  # [s]
 # Columns of a Row.
-COLUMNS = "id, question, client, state, started, finished, updated, time_left, cost, size + length(call)"
+COLUMNS = "id, question, client, state, started, finished, updated, time_left, cost, size + call_size"
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Counts:
 
 def counts(read: Callable[[str], list[Any]]) -> Counts:
     """What is in the store now. read: function from a query to its rows"""
-    [(kept, used)] = read("SELECT count(*), coalesce(sum(size + length(call)), 0) FROM jobs WHERE NOT expired")
+    [(kept, used)] = read("SELECT count(*), coalesce(sum(size + call_size), 0) FROM jobs WHERE NOT expired")
     sums = "SELECT coalesce(sum(done), 0), coalesce(sum(total), 0) FROM jobs WHERE state IN ('accepted', 'running')"
     most = "SELECT count(*) AS jobs FROM jobs WHERE NOT expired GROUP BY client ORDER BY jobs DESC LIMIT 1"
     [(done, total)], [(gave_way,)] = read(sums), read("SELECT gave_way FROM removals")
@@ -86,7 +86,7 @@ def _bytes_of(jobs: Iterable[Row]) -> int:
 
 def has_room(run: sqlite3.Connection, client: str, size: int, limits: Settings) -> bool:
     """True if a new job of the client needs nobody's room, as most do. size: of its call [bytes]"""
-    sums = "count(*), coalesce(sum(size + length(call)), 0), coalesce(sum(state IN ('accepted', 'running')), 0)"
+    sums = "count(*), coalesce(sum(size + call_size), 0), coalesce(sum(state IN ('accepted', 'running')), 0)"
     kept, used, _ = run.execute(f"SELECT {sums} FROM jobs WHERE NOT expired").fetchone()
     own, own_used, unfinished = run.execute(
         f"SELECT {sums} FROM jobs WHERE NOT expired AND client = ?", (client,)

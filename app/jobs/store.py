@@ -1,6 +1,6 @@
 """The store of all jobs: one SQLite database in the data folder, with the results beside it as files.
 
-    FOLDER/jobs.sqlite   tables jobs, events, turns; written ahead (WAL) and flushed at every change
+    FOLDER/jobs.sqlite   tables jobs, calls, events, turns; written ahead (WAL) and flushed at every change
     FOLDER/client.key    key of the names of clients
     FOLDER/results/ID    the bytes of an answer, complete or absent
     FOLDER/sweeps/ID     the shards of an unfinished sweep
@@ -48,7 +48,7 @@ REWRITTEN_MAX = 1 << 26
 # Longest estimate of a run [s]; an estimate may be infinite.
 COST_MAX = 1e9
 # What is left of a job whose call and result are removed.
-GONE: dict[str, Any] = {"call": b"", "size": 0, "client": ""}
+GONE: dict[str, Any] = {"call_size": 0, "size": 0, "client": ""}
 COLUMNS = ", ".join(field.name for field in fields(Job))
 
 
@@ -101,16 +101,20 @@ class Store:
             self._connection.close()
 
     def check(self, job: str | None = None) -> None:
-        """See whether others can read the store, and a job in it: the connection goes on with a file that is removed.
+        """See whether others can read the store, and a job in it.
 
         raises: OSError if the file was removed or replaced; sqlite3.Error if it is damaged
         """
-        if not self._file.is_file() or os.stat(self._file).st_ino != self._inode:
-            raise OSError(errno.ENOENT, "the file of the jobs was removed or replaced: start the service anew")
+        self.check_file()
         with closing(sqlite3.connect(f"{self._file.as_uri()}?mode=ro", timeout=PATIENCE, uri=True)) as other:
             known = other.execute("SELECT count(*) FROM jobs WHERE id = ?", (job,)).fetchone()[0]
         if job is not None and not known:
             raise OSError(errno.EIO, "a job that was written is not there")
+
+    def check_file(self) -> None:
+        """raises: OSError if the file was removed or replaced, with which the connection goes on as if it were not"""
+        if not self._file.is_file() or os.stat(self._file).st_ino != self._inode:
+            raise OSError(errno.ENOENT, "the file of the jobs was removed or replaced: start the service anew")
 
     @contextmanager
     def _change(self) -> Iterator[sqlite3.Connection]:
@@ -162,10 +166,11 @@ class Store:
                 gone = kept.gone
                 self._give_way(run, gone, limits.jobs_max)
             run.execute(
-                "INSERT INTO jobs (id, question, call, client, state, created, updated, message, cost)"
+                "INSERT INTO jobs (id, question, call_size, client, state, created, updated, message, cost)"
                 " VALUES (?, ?, ?, ?, 'accepted', ?, ?, 'Waiting for its turn.', ?)",
-                (job, question, call, name, now, now, min(COST_MAX, cost)),
+                (job, question, len(call), name, now, now, min(COST_MAX, cost)),
             )
+            run.execute("INSERT INTO calls VALUES (?, ?)", (job, call))
             self._add_event(run, job)
         self._unlink(gone)
         self.check(job)
@@ -180,6 +185,7 @@ class Store:
         words = "Its result gave way to newer jobs."
         for job in jobs:
             run.execute("DELETE FROM events WHERE job = ?", (job,))
+            run.execute("DELETE FROM calls WHERE job = ?", (job,))
             self._move(run, job, "NOT expired", message=words, expired=GAVE_WAY, **GONE)
         if jobs:
             past = f"SELECT id FROM jobs WHERE expired = {GAVE_WAY} ORDER BY updated DESC LIMIT -1 OFFSET ?"
@@ -211,8 +217,8 @@ class Store:
         return counts(self._read)
 
     def call(self, job: str) -> bytes:
-        """The call of a job. raises: KeyError if there is no such job"""
-        rows = self._read("SELECT call FROM jobs WHERE id = ?", job)
+        """The call of a job. raises: KeyError if there is none"""
+        rows = self._read("SELECT data FROM calls WHERE job = ?", job)
         if not rows:
             raise KeyError(job)
         data: bytes = rows[0][0]
@@ -397,6 +403,7 @@ class Store:
         for (job,) in self._read("SELECT id FROM jobs WHERE finished < ? AND NOT expired", latest):
             self.result(job).unlink(missing_ok=True)
             with self._change() as run:
+                run.execute("DELETE FROM calls WHERE job = ?", (job,))
                 self._move(run, job, "NOT expired", message="Its result has expired.", expired=EXPIRED, **GONE)
                 run.execute("UPDATE removals SET made = made + 1")
         gone = [job for (job,) in self._read("SELECT id FROM jobs WHERE finished < ?", latest - days * DAY)]

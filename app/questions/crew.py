@@ -19,7 +19,7 @@ from app.questions.maps import Marked
 from app.questions.plan import FIRST_CHINESE, PDF_TYPE
 from app.wire.clocks import DAY, checked_clock
 from app.wire.dances import clock_of
-from app.wire.question import AS_WHOLE, JSON, Answer, Coordinate, Instant, Question, Terms, Wire, measure
+from app.wire.question import AS_WHOLE, JSON, Answer, Coordinate, Instant, OneLine, Question, Terms, Wire, measure
 from core import Dance, InvalidValue
 from core.errors import Given, Parameter, Quantity, TooLarge
 from core.motion.places import handle_places
@@ -63,7 +63,7 @@ class CrewFields(Wire):
     at_clock: Annotated[str | None, AfterValidator(checked_clock)] = Field(
         None, description="The same as a time of day such as 19:45, for a dance with start_clock or begin_clock"
     )
-    title: str = Field("", max_length=80, description="Title of the dance on paper")
+    title: OneLine = Field("", max_length=80, description="Title of the dance on paper")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
 

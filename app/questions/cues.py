@@ -20,7 +20,7 @@ from app.questions.plan import FIRST_CHINESE, PDF_TYPE, verdict_words
 from app.wire.clocks import time_of_day
 from app.wire.dances import clock_of
 from app.wire.degrees import Place
-from app.wire.question import AS_WHOLE, JSON, Answer, Question, Terms, measure
+from app.wire.question import AS_WHOLE, JSON, Answer, OneLine, Question, Terms, measure
 from core import Dance, InvalidValue
 from core.errors import Given, Parameter, TooLarge
 from core.motion.places import handle_places
@@ -54,7 +54,7 @@ class CuesRequest(Marked, strict=True):
     step_length: float = measure(
         "m", "Length of a step, in which distances from chalk marks are counted", 0.75, ge=0.2, le=2
     )
-    title: str = Field("", max_length=80, description="Title of the dance on every card")
+    title: OneLine = Field("", max_length=80, description="Title of the dance on every card")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
     def benches_of(self, dragon: core.Dragon) -> Sequence[int]:

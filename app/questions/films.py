@@ -11,7 +11,7 @@ from app.files.film_spec import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, FilmSpec
 from app.files.tables import Language
 from app.wire.dances import PlacedDance, clock_of
 from app.wire.performances import SeveralFields
-from app.wire.question import AS_WHOLE, Instant, Question, Terms, Wire, check_limit, measure
+from app.wire.question import AS_WHOLE, Instant, OneLine, Question, Terms, Wire, check_limit, measure
 from core import Dance, EndReason, InvalidValue, Outcome, Performance, first_contact
 from core.errors import quantities
 
@@ -39,7 +39,7 @@ class FilmFields(Wire):
         "pixels", "Height of the picture, 16 : 9; default: 1080, or 360 for a GIF", None
     )
     language: Language = Field(Language.ENGLISH, description="Language of the words in the picture")
-    title: str = Field("", max_length=80, description="Words at the upper right")
+    title: OneLine = Field("", max_length=80, description="Words at the upper right")
 
 
 class FilmRequest(SeveralFields, FilmFields, PlacedDance):

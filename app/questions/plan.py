@@ -18,7 +18,7 @@ from app.questions.maps import Marked
 from app.wire.dances import clock_of
 from app.wire.degrees import Place
 from app.wire.performances import SeveralFields
-from app.wire.question import Coordinate, Question, Terms, Wire, check_limit, measure
+from app.wire.question import Coordinate, OneLine, Question, Terms, Wire, check_limit, measure
 from core import Dance, FailureKind, InvalidValue, Judgement
 from core.display import format_count
 from core.errors import Given, Quantity, format_number, question_about
@@ -58,7 +58,7 @@ FAILURES = {
 class PlanGate(Wire, strict=True):
     """A gate, or another place by name, whose passes the plan lists by the clock."""
 
-    name: str = Field(min_length=1, max_length=40, description="Its name")
+    name: OneLine = Field(min_length=1, max_length=40, description="Its name")
     x: Coordinate = measure("m", "x of the place")
     y: Coordinate = measure("m", "y of the place")
     within: float = measure("m", "Largest distance of the path from the place where it passes it", 5.0, ge=0, le=100)
@@ -78,7 +78,7 @@ class DancePlan(Marked):
         fail_fast=True,
         description="Gates and other places by name: the plan shows them, and when head and tail pass each",
     )
-    title: str = Field("", max_length=80, description="Title of the plan")
+    title: OneLine = Field("", max_length=80, description="Title of the plan")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
 

@@ -1,13 +1,15 @@
-"""How many calls about jobs may use the threads that all calls share."""
+"""How many calls that make jobs, or are about them, may use the threads that all calls share."""
 
 from __future__ import annotations
 
 import asyncio
 
+from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.service.lanes import limit
 from app.service.middleware import Layer
+from app.service.negotiation import prefers_job
 from app.service.problems import Refused
 from app.settings import Settings
 from core.errors import Quantity
@@ -19,8 +21,8 @@ JOB_CALLS, JOB_CALLS_WAITING = 4, 200
 class JobCalls(Layer):
     """Lets few calls about jobs at a time into the threads that all calls share, because each waits for the disk.
 
-    The others wait for their turn outside, so that a thousand removals at once delay no page. A call keeps its place
-    until its answer begins; calls with a body have limits of their own.
+    The others wait for their turn outside, so that a thousand jobs or removals at once delay no page. A call has its
+    place from the end of its body, which may come slowly, until its answer begins.
     """
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
@@ -28,19 +30,23 @@ class JobCalls(Layer):
         self._places, self._waiting, self._retry_after = asyncio.Semaphore(JOB_CALLS), 0, settings.retry_after
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if not scope["path"].startswith("/jobs") or scope["method"] not in ("GET", "DELETE"):
+        if not scope["path"].startswith(("/jobs", "/sweeps")) and not prefers_job(Headers(scope=scope)):
             return await self.app(scope, receive, send)
         if self._waiting >= JOB_CALLS_WAITING:
             values = {"most": limit(JOB_CALLS_WAITING, "waiting call"), "seconds": Quantity(self._retry_after, "s")}
             words, after = "The limit of {most} about jobs is reached", {"Retry-After": str(self._retry_after)}
             refused = Refused(503, words, None, after, reason="try again in {seconds}.", **values)
             return await self.refuse(refused, scope, receive, send)
-        self._waiting += 1
-        try:
-            await self._places.acquire()
-        finally:
-            self._waiting -= 1
-        has_place = True
+        has_place = False
+
+        async def enter() -> None:
+            nonlocal has_place
+            self._waiting += 1
+            try:
+                await self._places.acquire()
+            finally:
+                self._waiting -= 1
+            has_place = True
 
         def leave() -> None:
             nonlocal has_place
@@ -48,11 +54,23 @@ class JobCalls(Layer):
                 self._places.release()
             has_place = False
 
+        is_read = scope["method"] in ("GET", "HEAD", "DELETE")
+
+        async def receive_and_enter() -> Message:
+            nonlocal is_read
+            message = await receive()
+            if not is_read and not message.get("more_body", False):
+                is_read = True
+                await enter()
+            return message
+
         async def send_and_leave(message: Message) -> None:
             leave()
             await send(message)
 
+        if is_read:
+            await enter()
         try:
-            await self.app(scope, receive, send_and_leave)
+            await self.app(scope, receive_and_enter, send_and_leave)
         finally:
             leave()

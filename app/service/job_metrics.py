@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sqlite3
 from collections.abc import Callable, Iterator
 
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
@@ -9,6 +10,9 @@ from prometheus_client.registry import Collector
 
 from app.jobs.job import JobState
 from app.jobs.keeper import Keeper
+
+
+STORE_FAILED = "1 while the store of the jobs cannot be read, and the other metrics of jobs are missing"
 
 
 class JobMetrics(Collector):
@@ -26,7 +30,15 @@ class JobMetrics(Collector):
         keeper = self._keeper()
         if isinstance(keeper, str):
             return
-        counts, limits = keeper.store.counts(), keeper.settings
+        try:
+            keeper.store.check_file()
+            counts = keeper.store.counts()
+        except (OSError, sqlite3.Error) as error:  # The other metrics are needed all the more.
+            keeper.faults.log(str(error))
+            yield GaugeMetricFamily("bench_dragon_jobs_store_failed", STORE_FAILED, value=1)
+            return
+        yield GaugeMetricFamily("bench_dragon_jobs_store_failed", STORE_FAILED, value=0)
+        limits = keeper.settings
         states = GaugeMetricFamily("bench_dragon_jobs", "Jobs that are kept", labels=["state"])
         for state in JobState:
             states.add_metric([state], counts.states.get(state, 0))

@@ -125,13 +125,17 @@ def take(request: Request, task: Task, cost: float) -> Response:
     except Full as error:
         raise full(error, keeper.settings) from error
     except OSError as error:
-        keeper.faults.log(str(error))
-        words = "This service takes no jobs now: the store of the jobs failed."
-        raise Refused(503, words, None, COME_AGAIN) from error
+        raise refused(keeper, error) from error
     keeper.hurry()
     root = request.scope.get("root_path", "")
     headers = {**NOT_KEPT, "Location": f"{root}/jobs/{job.id}", "Preference-Applied": RESPOND_ASYNC}
     return Response(status(job, root), 202, headers, JSON)
+
+
+def refused(keeper: Keeper, error: OSError) -> Refused:
+    """The refusal of a call while the store cannot be used, without the names of folders; the fault is logged."""
+    keeper.faults.log(str(error))
+    return Refused(503, "This service takes no jobs now: the store of the jobs failed.", None, COME_AGAIN)
 
 
 def full(error: Full, limits: Settings) -> Refused:
@@ -199,7 +203,12 @@ JobId = Annotated[str, Path(description="Name of the job, the last part of its a
 
 def job_of(request: Request, job_id: JobId) -> Job:
     """The job with that name. raises: Refused (404) if there is none"""
-    job = keeper_of(request).store.get(job_id)
+    keeper = keeper_of(request)
+    try:
+        keeper.store.check_file()
+    except OSError as error:
+        raise refused(keeper, error) from error
+    job = keeper.store.get(job_id)
     if job is None:
         words = "There is no job {job}: it was removed, it has expired, or its ID is wrong."
         raise Refused(404, words, job=short_json(job_id))

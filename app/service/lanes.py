@@ -36,9 +36,10 @@ class Lane:
     """A limit on simultaneous computations, in total and for each client."""
 
     def __init__(
-        self, name: str, most: int, of_client: int, retry_after: int, running: Gauge, refused: Counter
+        self, name: str, most: int, of_client: int, settings: Settings, running: Gauge, refused: Counter
     ) -> None:
-        self.name, self.most, self.of_client, self.retry_after = name, most, of_client, retry_after
+        self.name, self.most, self.of_client = name, most, of_client
+        self.retry_after, self.longest = settings.retry_after, settings.deadline_seconds
         self._running, self._refused = running.labels(name), refused.labels(name)
         self._lock = Lock()
         # For each computation: its beginning [s], its estimated time [s], and its client.
@@ -64,11 +65,14 @@ class Lane:
                 del self._begun[key]
 
     def _full(self, status: int, whose: str, most: int, begun: Iterable[tuple[float, float, str]]) -> Refused:
-        """A refusal with the expected end of the first computation; a late one is expected to take as long again."""
+        """A refusal with the expected end of the first computation; a late one is expected to take as long again.
+
+        None takes longer than its deadline.
+        """
         self._refused.inc()
         now = time.monotonic()
         left = (began + cost - now if now < began + cost else now - began for began, cost, _ in begun)
-        seconds = max(self.retry_after, math.ceil(min(left)))
+        seconds = max(self.retry_after, math.ceil(min(self.longest, *left)))
         values = {"most": limit(most, f"{self.name} computation"), "seconds": Quantity(seconds, "s")}
         words, after = f"{whose} limit of {{most}} at once is reached", {"Retry-After": str(seconds)}
         return Refused(status, words, None, after, reason="try again in {seconds}.", **values)
@@ -86,7 +90,7 @@ class Lanes:
         self.stopped = Counter("bench_dragon_stopped", "Computations ended early", ("reason",), registry=registry)
 
         def lane(name: str, most: int, of_client: int) -> Lane:
-            return Lane(name, most, of_client, settings.retry_after, running, refused)
+            return Lane(name, most, of_client, settings, running, refused)
 
         self._cheap = lane("cheap", settings.cheap_max, settings.cheap_max)
         self._heavy = lane("heavy", settings.heavy_max, part(settings.heavy_max, settings.heavy_client_max))

@@ -29,7 +29,7 @@ from app.service.problems import CLOSE, Refused
 from app.service.routes import FILE, refusals
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
-from app.wire.question import BYTES, JSON, Answer, Coordinates, Wire, measure
+from app.wire.question import BYTES, JSON, Answer, Coordinates, OneLine, Wire, measure
 from core import BenchDragonError
 from core.errors import Quantity, too_much
 from core.kernels import Halted
@@ -50,7 +50,7 @@ TYPED = r"^[0-9]{1,6}(\.[0-9]{1,15})?$"
 class GradeQuery(Wire):
     """Query parameters beside the file."""
 
-    name: str = Field("upload", min_length=1, max_length=200, description="Name of the file, as result1.xlsx")
+    name: OneLine = Field("upload", min_length=1, max_length=200, description="Name of the file, as result1.xlsx")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh")
     collision_time: str | None = measure("s", "Time of first contact", None, pattern=TYPED)
     pitch: str | None = measure("m", "Minimum pitch", None, pattern=TYPED)
@@ -61,7 +61,7 @@ class GradeQuery(Wire):
 class PlacesQuery(Wire):
     """Query parameters beside the file."""
 
-    name: str | None = Field(
+    name: OneLine | None = Field(
         None, max_length=200, description="Name of the file; its format is recognised from its first bytes"
     )
     units: Coordinates | None = Field(

@@ -222,6 +222,7 @@ def serve(host: str, port: int, workers: int) -> None:
         "host": host,
         "port": port,
         "http": PARSER,
+        "ws": "none",  # An upgrade is a request like others, whatever packages are installed.
         "log_config": log_config(settings.log_json),
         "server_header": False,
         "timeout_graceful_shutdown": settings.grace_seconds,

@@ -30,7 +30,8 @@ from pydantic_core import CoreSchema, PydanticCustomError
 from app.settings import Settings
 from core import Budget, Dance, Dragon, Spiral, Stray, TooLarge
 from core.dragon import BENCHES_MAX, wider_pin
-from core.errors import format_number
+from core.errors import InvalidValue, format_number
+from core.names import TURNING, checked_name
 from core.values import Progress, unheard
 
 JSON = "application/json"
@@ -38,6 +39,8 @@ JSON = "application/json"
 BYTES = "application/octet-stream"
 # Longer values are shortened in messages [characters].
 VALUE_LENGTH_MAX = 60
+# Characters that turn the direction of writing around, as a message shows them.
+ESCAPED = {ord(one): f"\\u{ord(one):04x}" for one in TURNING}
 # An object with more names than this is refused without a look at its fields.
 NAMES_MAX = 100
 
@@ -58,6 +61,18 @@ def _inside(outer: Any) -> list[Any]:
     return [inner for inner in entries if isinstance(inner, (dict, list))]
 
 
+def _one_line(text: str) -> str:
+    try:
+        checked_name("text", text)
+    except InvalidValue as error:
+        raise PydanticCustomError("rule", "must be one line of plain text") from error
+    return text
+
+
+# A title or a name, which stands in sentences and on paper.
+OneLine = Annotated[str, AfterValidator(_one_line)]
+
+
 def shallow(most: int) -> AfterValidator:
     """A check that objects and lists are at most so deep in one another, because recursion exhausts the stack."""
 
@@ -75,7 +90,7 @@ def short_json(value: Any) -> str:
         return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
     if isinstance(value, float):
         return format_number(value)
-    text = json.dumps(value, ensure_ascii=False, default=str)
+    text = json.dumps(value, ensure_ascii=False, default=str).translate(ESCAPED)
     return text if len(text) <= VALUE_LENGTH_MAX else f"{text[:VALUE_LENGTH_MAX]}... ({len(text)} characters)"
 
 

@@ -37,7 +37,7 @@ INTEGER_BITS = 64
 
 # What a spreadsheet takes for the beginning of a formula (OWASP, CSV injection), perhaps behind blanks and our own
 # mark: at the beginning of a text, and behind what separates the entries of a line elsewhere.
-FORMULA = "(['\\s\u00a0\u200b\u3000\ufeff]*[=+\\-@\t\r\uff1d\uff0b\uff0d\uff20])"
+FORMULA = "(['\"\\s\u00a0\u200b\u3000\ufeff]*[=+\\-@\t\r\uff1d\uff0b\uff0d\uff20])"
 TO_CELL, OF_CELL = f"(^|[;\t]){FORMULA}", f"(^|[;\t])'{FORMULA}"
 
 

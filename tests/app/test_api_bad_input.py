@@ -9,6 +9,9 @@ from typing import Any, NamedTuple
 import httpx
 import pytest
 
+from app.files.tables import XLSX_TYPE
+from app.wire.question import BYTES
+
 PROBLEM_TYPE = "application/problem+json"
 GOOD: dict[str, Any] = {"times": [0.0], "dragon": {"benches": 2}}
 
@@ -272,3 +275,28 @@ def test_an_answer_that_takes_too_much_work_is_a_problem(client: httpx.Client) -
 )
 def test_a_media_type_that_the_call_does_not_offer_is_a_problem(client: httpx.Client, path: str, accept: str) -> None:
     assert_problem(client.get(path, headers={"Accept": accept}), 406, "Accept", (accept,))
+
+
+TURNED = "Li\u202e.csv"
+BENCH = {"lengths": [2.2], "widths": [0.3], "overhangs": [0.275], "names": [TURNED]}
+VILLAGE = {"path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [40, 0]}]}}
+NAMED: dict[str, tuple[str, dict[str, Any]]] = {
+    "gate": ("/plan", {"json": VILLAGE | {"gates": [{"name": TURNED, "x": 0, "y": 0}]}}),
+    "plan": ("/plan", {"json": VILLAGE | {"title": TURNED}}),
+    "cues": ("/cues", {"json": VILLAGE | {"title": TURNED}}),
+    "crew": ("/crew", {"json": VILLAGE | {"title": TURNED}}),
+    "film": ("/films", {"json": VILLAGE | {"title": TURNED}}),
+    "bench": ("/check", {"json": VILLAGE | {"dragon": BENCH}}),
+    "workbook": ("/grade", {"params": {"name": TURNED}, "content": b"PK", "headers": {"Content-Type": XLSX_TYPE}}),
+    "map": ("/places", {"params": {"name": TURNED}, "content": b"{}", "headers": {"Content-Type": BYTES}}),
+}
+
+
+@pytest.mark.parametrize("door", NAMED)
+def test_a_name_that_turns_the_writing_around_is_refused_and_not_repeated(client: httpx.Client, door: str) -> None:
+    path, sent = NAMED[door]
+    refused = client.post(path, **sent)
+    assert refused.status_code == 422, refused.text
+    detail = refused.json()["detail"]
+    assert "one line of plain text" in detail
+    assert "\u202e" not in detail

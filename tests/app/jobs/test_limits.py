@@ -13,6 +13,7 @@ import httpx
 import pytest
 
 from app.jobs.room import DAY, FRESH
+from app.wire.problem import PROBLEM_TYPE
 from tests.support.job_service import ENDLESS, LONG, PATIENCE, SHORT, JobService, wait_for
 
 TOKEN = "correct horse"
@@ -278,9 +279,19 @@ def test_a_store_that_fails_while_the_service_runs_promises_nothing(
 ) -> None:
     folder = tmp_path / "data"
     with JobService(folder) as service:
-        assert service.finished(service.post(SHORT))["status"] == "successful"
+        address = service.post(SHORT)
+        assert service.finished(address)["status"] == "successful"
         assert service.client.get("/readyz").status_code == 200
+        assert "bench_dragon_jobs_store_failed 0.0" in service.client.get("/metrics").text
         harm(folder)
+        # What SQLite still has in memory is read from a damaged file, and nothing of one that is gone.
+        for method, path in (("GET", address), ("GET", f"{address}/result"), ("DELETE", address)):
+            if harm is removed:
+                answer = service.client.request(method, path)
+                assert (answer.status_code, answer.headers["content-type"]) == (503, PROBLEM_TYPE), answer.text
+        metrics = service.client.get("/metrics").raise_for_status().text
+        assert "bench_dragon_requests_total" in metrics
+        assert harm is damaged or "bench_dragon_jobs_store_failed 1.0" in metrics
         refused = service.client.post("/jobs", json=SHORT)
         assert refused.status_code == 503, refused.text
         assert str(tmp_path) not in refused.text

@@ -205,7 +205,7 @@ def test_jobs_of_the_layouts_before_are_taken_over_without_the_addresses_of_thei
         for job, client, state, created in rows:
             old.execute(
                 "INSERT INTO jobs (id, question, call, client, state, created, updated, message, finished)"
-                " VALUES (?, 'turn', x'', ?, ?, ?, 1, '', ?)",
+                " VALUES (?, 'turn', CAST('call' AS BLOB), ?, ?, ?, 1, '', ?)",
                 (job, client, state, created, time.time() if state == "successful" else None),
             )
         old.execute(f"PRAGMA user_version = {layout}")
@@ -214,6 +214,7 @@ def test_jobs_of_the_layouts_before_are_taken_over_without_the_addresses_of_thei
         with closing(Store(tmp_path)) as store:
             result = store.known("a")
             assert (result.question, result.done, result.total) == ("turn", None, None)
+            assert store.call("a") == b"call"
             with pytest.raises(FullForClient):  # Its jobs are still those of its client.
                 store.create("turn", b"", "192.0.2.77", Settings(jobs_client_max=2))
             assert store.counts().kept == 3
@@ -224,6 +225,22 @@ def test_jobs_of_the_layouts_before_are_taken_over_without_the_addresses_of_thei
         store.begin()
         assert store.take() == "a"
     assert not any(b"192.0.2" in file.read_bytes() for file in tmp_path.iterdir() if file.is_file())
+
+
+def test_jobs_of_the_layout_with_calls_among_the_jobs_are_taken_over(tmp_path: Path) -> None:
+    with closing(Store(tmp_path)) as store:
+        job = store.create("turn", b"call", "192.0.2.77", ROOM).id
+    with closing(sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None)) as old:
+        old.execute("ALTER TABLE jobs ADD COLUMN call BLOB")
+        old.execute("UPDATE jobs SET call = (SELECT data FROM calls WHERE job = id)")
+        old.execute("DROP TABLE calls")
+        old.execute("ALTER TABLE jobs DROP COLUMN call_size")
+        old.execute("PRAGMA user_version = 3")
+    with closing(Store(tmp_path)) as store:
+        assert store.call(job) == b"call"
+        assert (store.counts().kept, store.counts().used) == (1, 4)
+        with pytest.raises(FullForClient):
+            store.create("turn", b"", "192.0.2.77", Settings(jobs_client_max=1))
 
 
 def test_of_a_client_a_hash_is_kept_which_another_folder_does_not_have(store: Store, tmp_path: Path) -> None:
@@ -255,7 +272,8 @@ def test_the_oldest_finished_job_of_a_client_gives_way_to_its_next_one(store: St
     entries = [store.known(job) for job in jobs]
     assert [job.expired for job in entries] == [GAVE_WAY, GAVE_WAY, 0, 0, 0]
     assert [store.result(job).exists() for job in jobs] == [False, False, True, True, True]
-    assert store.call(jobs[0]) == b""
+    with pytest.raises(KeyError):
+        store.call(jobs[0])
     assert entries[0].message == "Its result gave way to newer jobs."
     assert store.result(others).exists()
     assert (store.counts().kept, store.counts().gave_way, store.counts().of_client) == (4, 2, 3)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import fcntl
 import json
+import socket
 import sqlite3
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import closing
+from contextlib import ExitStack, closing
 from pathlib import Path
 from threading import Timer
 from typing import Any
@@ -16,6 +17,7 @@ from typing import Any
 import httpx
 import pytest
 
+from app.service.job_calls import JOB_CALLS
 from tests.support.job_service import ENDLESS, LONG, PATIENCE, SCAN, SHORT, JobService, direct, wait_for
 
 ANSWERED = [
@@ -324,3 +326,42 @@ def test_many_removals_keep_no_page_waiting(service: JobService) -> None:
             assert not any(removal.done() for removal in removals)
             other.execute("ROLLBACK")
         assert {removal.result().status_code for removal in removals} == {204, 404}
+
+
+SMALL_SWEEP = {"question": "collision_time", "request": {"benches": 20}, "over": {"pitch": [0.5, 0.55]}}
+MAKING: dict[str, tuple[str, str, dict[str, Any]]] = {
+    "jobs": ("POST", "/jobs", {"json": SHORT}),
+    "sweeps": ("POST", "/sweeps", {"json": SMALL_SWEEP}),
+    "body": ("POST", "/check", {"json": {"path": {"kind": "spiral"}}, "headers": {"Prefer": "respond-async"}}),
+    "query": ("GET", "/minimum-pitch", {"params": {"benches": 30}, "headers": {"Prefer": "respond-async"}}),
+}
+
+
+@pytest.mark.parametrize("kind", MAKING)
+def test_many_new_jobs_keep_no_page_waiting(service: JobService, kind: str) -> None:
+    """Another process writes to the store, so that every job waits: more of them than the service has threads."""
+    method, path, more = MAKING[kind]
+    with ThreadPoolExecutor(60) as threads:
+        with closing(sqlite3.connect(service.folder / "jobs.sqlite", isolation_level=None)) as other:
+            other.execute("BEGIN IMMEDIATE")
+            url = f"http://127.0.0.1:{service.port}{path}"
+            asked = [threads.submit(httpx.request, method, url, timeout=PATIENCE, **more) for _ in range(60)]
+            time.sleep(HELD)
+            for page in ("/", "/how", "/readyz"):
+                assert service.client.get(page).status_code == 200
+            assert not any(one.done() for one in asked)
+            other.execute("ROLLBACK")
+        # A client may have so many unfinished jobs.
+        assert {one.result().status_code for one in asked} <= {202, 429}
+
+
+def test_bodies_that_come_slowly_take_no_place_of_those_that_are_there(service: JobService) -> None:
+    body = json.dumps(SHORT).encode()
+    head = f"POST /jobs HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n"
+    with ExitStack() as stack:
+        for _ in range(JOB_CALLS + 1):
+            slow = stack.enter_context(socket.create_connection(("127.0.0.1", service.port), timeout=PATIENCE))
+            slow.sendall(head.encode() + body[:5])
+        assert service.client.post("/jobs", json=SHORT).status_code in (202, 429)
+        slow.sendall(body[5:])
+        assert slow.recv(12) in (b"HTTP/1.1 202", b"HTTP/1.1 429")

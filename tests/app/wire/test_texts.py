@@ -83,6 +83,7 @@ def test_short_names_and_shallow_lists_are_read() -> None:
         ("=1+1", "'=1+1"),
         (" =1+1", "' =1+1"),
         ("x;=HYPERLINK(1)", "x;'=HYPERLINK(1)"),
+        ('x;"=1+1;y', "x;'\"=1+1;y"),
         ("x\t@SUM(1)", "x\t'@SUM(1)"),
         ("\uff1d1+1", "'\uff1d1+1"),
         ("\u200b=1", "'\u200b=1"),
