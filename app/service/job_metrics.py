@@ -11,7 +11,6 @@ from prometheus_client.registry import Collector
 from app.jobs.job import JobState
 from app.jobs.keeper import Keeper
 
-
 STORE_FAILED = "1 while the store of the jobs cannot be read, and the other metrics of jobs are missing"
 
 
