@@ -30,6 +30,7 @@ from app.grade.report import (
 )
 from app.grade.words import note, say
 from app.processes.limits import READING_MAX, reading
+from app.wire.question import ESCAPED
 from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
 
@@ -65,15 +66,16 @@ def grade(
     grades, refused = [], []
     with show.steps() if len(paths) > 1 else nullcontext(lambda what, share: None) as progress:
         for k, file in enumerate(paths):
+            name = str(file).translate(ESCAPED)  # A name may come from a student.
             try:
                 # One byte beyond the limit shows that the file is too long.
                 with file.open("rb") as source:
                     data = source.read(FILE_MAX + 1)
             except OSError as error:
                 refused.append(error)
-                grades.append(unreadable(str(file), note("not_opened", why=error.strerror), language))
+                grades.append(unreadable(name, note("not_opened", why=error.strerror), language))
             else:
-                grades.append(_graded(str(file), data, language))
+                grades.append(_graded(name, data, language))
             progress("grading", (k + 1) / len(paths))
     if refused and len(refused) == len(paths) and not answers:
         raise refused[0]

@@ -74,8 +74,8 @@ def test_a_file_that_is_missing_is_reported_and_the_others_are_graded(class_of_t
 
 @pytest.mark.parametrize("coding", ["utf-8", "gbk", "ascii"])
 def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path: Path, coding: str) -> None:
-    """Folders of a ZIP from Chinese Windows, unpacked on Linux, and a name that is text in no encoding."""
-    names = ["李".encode("gbk"), "王".encode(), b"\xff\xfe\x81"]
+    """Folders of a ZIP from Chinese Windows, unpacked on Linux, a name that is text in no encoding, and one that turns."""
+    names = ["李".encode("gbk"), "王".encode(), b"\xff\xfe\x81", "Li\u202e".encode()]
     for name in names:
         folder = os.path.join(os.fsencode(tmp_path), b"class", name)
         os.makedirs(folder)
@@ -90,12 +90,12 @@ def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path: Path, co
         return subprocess.run(command, check=True, capture_output=True, timeout=PATIENCE, env=environment).stdout
 
     answer = graded_class("--json", "--summary", str(summary))
-    files = json.loads(answer)["files"]
-    assert [Path(file["file"]).parent.name for file in files] == ["王", "李", "\\xff\\xfe\\x81"]
+    files, folders = json.loads(answer)["files"], ["Li\\u202e", "王", "李", "\\xff\\xfe\\x81"]
+    assert [Path(file["file"]).parent.name for file in files] == folders
     assert {file["verdict"] for file in files} == {"right"}
-    assert [len(file["notes"]) for file in files] == [0, 1, 1]
+    assert [len(file["notes"]) for file in files] == [0, 0, 1, 1]
     with summary.open(encoding="utf-8-sig", newline="") as lines:
-        assert [Path(row["file"]).parent.name for row in csv.DictReader(lines)] == ["王", "李", "\\xff\\xfe\\x81"]
+        assert [Path(row["file"]).parent.name for row in csv.DictReader(lines)] == folders
     assert "\\xff" in graded_class("--language", "zh").decode(coding)
 
 
