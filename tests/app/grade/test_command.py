@@ -74,7 +74,7 @@ def test_a_file_that_is_missing_is_reported_and_the_others_are_graded(class_of_t
 
 @pytest.mark.parametrize("coding", ["utf-8", "gbk", "ascii"])
 def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path: Path, coding: str) -> None:
-    """Folders of a ZIP from Chinese Windows, unpacked on Linux, a name that is text in no encoding, and one that turns."""
+    """Folders of a ZIP from Chinese Windows, unpacked on Linux, one that is text in no encoding, and one that turns."""
     names = ["李".encode("gbk"), "王".encode(), b"\xff\xfe\x81", "Li\u202e".encode()]
     for name in names:
         folder = os.path.join(os.fsencode(tmp_path), b"class", name)
