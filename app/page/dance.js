@@ -1,17 +1,15 @@
 /** The picture: benches as rectangles between their handles, coloured by speed, over the faint path. */
 
-import { colours, inType } from "./elements.js";
+import { colours } from "./elements.js";
 import { strayOf } from "./fields.js";
+import { Pen, SHADES, addGround, edge, outline, palette, scaleBar, sizeOf, smooth, trace } from "./pen.js";
 import { View } from "./view.js";
 
-const SHADES = 48;
 const COLOURS = ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo", "thing", "ground", "drawn", "gate", "speed"];
 /** Speeds closer together than this [m/s] get one colour, so that colours do not show rounding. */
 const SPEED_SPREAD_MIN = 1e-9;
 /** A click within this distance of a handle [px] selects it. */
 const PICK_RADIUS = 22;
-/** Longest scale bar [px], its distance from the edges, and its possible lengths in metres, times a power of ten. */
-const [BAR, BAR_EDGE, ROUND] = [120, 14, [5, 2, 1]];
 /** Number of arrows along the path, and their size [px]. */
 const [ARROWS, ARROW] = [9, 5];
 /** Least width of a drawn bench on a route, and least size of the head [px]. */
@@ -25,16 +23,6 @@ const WAY = 0.4;
 /** Half side of the inset around the point of contact, in bench widths. */
 const INSET_WIDTHS = 1.6;
 
-/** A number of colours interpolated along a list such as "#00224e, #fee838". */
-export function palette(ramp) {
-  const stops = ramp.split(",").map((colour) => [1, 3, 5].map((at) => parseInt(colour.trim().slice(at, at + 2), 16)));
-  return Array.from({ length: SHADES }, (_, k) => {
-    const place = (k / SHADES) * (stops.length - 1);
-    const [low, high] = [stops[Math.floor(place)], stops[Math.floor(place) + 1]];
-    return `rgb(${low.map((one, at) => Math.round(one + (high[at] - one) * (place % 1))).join(" ")})`;
-  });
-}
-
 const least = (numbers) => numbers.reduce((a, b) => Math.min(a, b));
 const largest = (numbers) => numbers.reduce((a, b) => Math.max(a, b));
 
@@ -47,157 +35,13 @@ export function speedRange({ speed }) {
 /** Smallest and largest of rows of speeds [m/s]. */
 export const spanOf = (rows) => [least(rows.map(least)), largest(rows.map(largest))];
 
-/** The scale bar for a number of pixels per metre: {metres, pixels}, as long as fits. */
-export function scaleBar(scale) {
-  const rough = BAR / scale;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const metres = Number((ROUND.find((one) => one * power <= rough) * power).toPrecision(1));
-  return { metres, pixels: metres * scale };
-}
-
-/** {overhang, width} of bench k of a dragon; listed: its benches one by one, if they are given so. */
-const sizeOf = ({ listed, overhang, width }, k) => (listed ? { overhang: listed.overhangs[k], width: listed.widths[k] } : { overhang, width });
-
-/** Corners of bench k in a drawn pose: front left, front right, rear right, rear left. least: width that it has at least [m] */
-function outline({ x, y }, dragon, k, least = 0) {
-  const { overhang, width: own } = sizeOf(dragon, k);
-  const width = Math.max(own, least);
-  const length = Math.hypot(x[k] - x[k + 1], y[k] - y[k + 1]);
-  const [ux, uy] = [(x[k] - x[k + 1]) / length, (y[k] - y[k + 1]) / length];
-  const [ox, oy, wx, wy] = [ux * overhang, uy * overhang, (-uy * width) / 2, (ux * width) / 2];
-  const [fx, fy, rx, ry] = [x[k] + ox, y[k] + oy, x[k + 1] - ox, y[k + 1] - oy];
-  return [[fx + wx, fy + wy], [fx - wx, fy - wy], [rx - wx, ry - wy], [rx + wx, ry + wy]];
-}
-
-/**
- * Adds to a path the ground that bench k of a pose covers while each of its holes is within the stray [m] of its place:
- * a side moves out by the stray between the holes, and a corner by (d + D) / chord times the stray, where d and D are
- * its distances from the two holes. The path is left open, as filling closes it.
- */
-export function addGround(path, { x, y }, dragon, k, stray) {
-  const { overhang, width } = sizeOf(dragon, k);
-  const half = width / 2;
-  const [dx, dy] = [x[k] - x[k + 1], y[k] - y[k + 1]];
-  const chord = Math.hypot(dx, dy);
-  const reach = (stray * (Math.hypot(overhang, half) + Math.hypot(chord + overhang, half))) / chord;
-  const front = Math.atan2(dy, dx);
-  [k, k + 1].forEach((hole, end) => {
-    const way = front + end * Math.PI;
-    const [ux, uy] = [Math.cos(way), Math.sin(way)];
-    const place = (along, left) => [x[hole] + along * ux - left * uy, y[hole] + along * uy + left * ux];
-    path[end ? "lineTo" : "moveTo"](...place(0, -half - stray));
-    path.arc(...place(overhang, -half), reach, way - Math.PI / 2, way);
-    path.arc(...place(overhang, half), reach, way, way + Math.PI / 2);
-    path.lineTo(...place(0, half + stray));
-  });
-}
-
-/** The two ends of an edge by its name in the service; inner is the side nearer to the centre. */
-function edge(corners, name) {
-  const far = (/** @type {number[][]} */ [a, b]) => Math.hypot(a[0] + b[0], a[1] + b[1]);
-  const [inner, outer] = [[corners[0], corners[3]], [corners[1], corners[2]]].sort((a, b) => far(a) - far(b));
-  return { front: [corners[0], corners[1]], rear: [corners[2], corners[3]], inner, outer }[name];
-}
-
-/** A path along points [x, y], added to another. */
-export function trace(points, path = new Path2D(), isClosed = true) {
-  points.forEach(([x, y], k) => (k ? path.lineTo(x, y) : path.moveTo(x, y)));
-  if (isClosed) path.closePath();
-  return path;
-}
-
-/** A smooth line through the middles of the given points. */
-function smooth({ x, y }) {
-  const path = new Path2D();
-  path.moveTo(x[0], y[0]);
-  for (let k = 1; k < x.length - 1; k++) path.quadraticCurveTo(x[k], y[k], (x[k] + x[k + 1]) / 2, (y[k] + y[k + 1]) / 2);
-  path.lineTo(x.at(-1), y.at(-1));
-  return path;
-}
-
-/** Draws in metres on a cleared canvas centred at (x, y); radii and line widths are in pixels. */
-class Pen {
-  constructor(canvas, { x, y, scale, width: wide, height: high }) {
-    const [width, height] = [wide, high].map((size) => Math.round(size * devicePixelRatio));
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    const [context, zoom] = [canvas.getContext("2d"), scale * devicePixelRatio];
-    context.resetTransform();
-    context.clearRect(0, 0, width, height);
-    context.setTransform(zoom, 0, 0, -zoom, width / 2 - x * zoom, height / 2 + y * zoom);
-    this.context = context;
-    this.scale = scale;
-    /** Boxes of the names that are drawn, [left, bottom, width]. @type {number[][]} [px] */
-    this.names = [];
-    this.left = x - wide / (2 * scale);
-    this.top = y + high / (2 * scale);
-    this.right = x + wide / (2 * scale);
-  }
-
-  fill(path, colour) {
-    this.context.fillStyle = colour;
-    this.context.fill(path);
-  }
-
-  stroke(path, colour, width = 1) {
-    Object.assign(this.context, { strokeStyle: colour, lineWidth: width / this.scale });
-    this.context.stroke(path);
-  }
-
-  /** An arrow's tip at (x, y) towards the direction (dx, dy); size: [px] */
-  tip(x, y, dx, dy, size) {
-    const reach = size / this.scale / Math.hypot(dx, dy);
-    const [ux, uy] = [dx * reach, dy * reach];
-    return trace([[x - ux - uy, y - uy + ux], [x, y], [x - ux + uy, y - uy - ux]], new Path2D(), false);
-  }
-
-  /** The scale, at the lower right. */
-  bar(words, pixels, colour, halo) {
-    const { context } = this;
-    const { width, height } = context.canvas;
-    context.save();
-    context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-    const [right, bottom] = [width / devicePixelRatio - BAR_EDGE, height / devicePixelRatio - BAR_EDGE];
-    Object.assign(context, { font: `600 ${inType(12)}px system-ui, sans-serif`, textAlign: "center", lineJoin: "round" });
-    for (const [strokeStyle, lineWidth] of [[halo, 5], [colour, 2]]) {
-      Object.assign(context, { strokeStyle, lineWidth });
-      context.beginPath();
-      for (const [x, y] of [[right - pixels, bottom - 6], [right - pixels, bottom], [right, bottom], [right, bottom - 6]]) context.lineTo(x, y);
-      context.stroke();
-    }
-    Object.assign(context, { strokeStyle: halo, lineWidth: 4, fillStyle: colour });
-    context.strokeText(words, right - pixels / 2, bottom - 6);
-    context.fillText(words, right - pixels / 2, bottom - 6);
-    context.restore();
-  }
-
-  circle(x, y, radius) {
-    const path = new Path2D();
-    path.arc(x, y, radius / this.scale, 0, 2 * Math.PI);
-    return path;
-  }
-
-  label(text, x, y, colour, halo) {
-    const { context, scale } = this;
-    context.save();
-    context.translate(x, y);
-    context.scale(1 / scale, -1 / scale);
-    Object.assign(context, { font: `600 ${inType(14)}px system-ui, sans-serif`, lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour });
-    const { width } = context.measureText(text);
-    const from = x + (10 + width) / scale > this.right ? -10 - width : 10;
-    this.names.push([(x - this.left) * scale + from, (this.top - y) * scale - 10, width]);
-    context.strokeText(text, from, -10);
-    context.fillText(text, from, -10);
-    context.restore();
-  }
-}
-
 export class Dance {
   /**
    * pose {x, y, speed}, its dragon {width, overhang, stray, hole, pin}, contact: the service's answer while its instant is shown, handle:
    * the chosen one, names of head and handle, circle: radius of the turning circle [m]; speeds: [lowest, highest] of the
-   * whole dance [m/s], which have the first and the last colour; null: those of the pose
+   * whole dance [m/s], which have the first and the last colour; null: those of the pose; parts: several dragons, or null
    */
-  scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", handleName: "", circle: null, speeds: null };
+  scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", handleName: "", circle: null, speeds: null, parts: null };
   /** Functions of a pen and the colours that draw additional layers: below the benches, and above them. */
   below = [];
   above = [];

@@ -3,6 +3,7 @@
 import * as answers from "./answers.js";
 import { Problem, Service } from "./api.js";
 import { BenchTable } from "./bench_table.js";
+import { boxes } from "./boxes.js";
 import { Controls, limitsIn } from "./controls.js";
 import { Dance, spanOf, speedRange } from "./dance.js";
 import { Doors } from "./doors.js";
@@ -13,7 +14,7 @@ import { addLook } from "./look.js";
 import { announce, announceAgain, lost, markContact, placeInset, showPrinted } from "./overlays.js";
 import { formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
-import { passagesText, quickened, timeOfDay } from "./passages.js";
+import { timeOfDay } from "./passages.js";
 import { OF_FILES, Parts, whenReached } from "./parts.js";
 import { pending } from "./pending.js";
 import { Player } from "./player.js";
@@ -100,7 +101,7 @@ function draw() {
     drawing = false;
     pending(DRAWING, false);
     const { pose } = dance.scene;
-    const bench = state.get("bench");
+    const bench = state.get("dances") ? null : state.get("bench");
     if (pose && bench !== null) dance.view.centre(pose, bench);
     else if (pose && state.get("follow")) dance.view.set(pose.x[0], pose.y[0]);
     dance.draw();
@@ -194,52 +195,7 @@ const SHOW = {
     if (state.opensInMotion && !opened) player.open();
     opened = true;
   },
-  minimum() {
-    const { answer, request } = questions.answers.minimum;
-    // In a turn the pitch of the spiral inwards would lead to a collision.
-    const turns = state.get("path") === "turn";
-    const use = (pitch) => {
-      if (turns) state.choosePath("spiral");
-      state.set({ pitch: String(pitch) });
-    };
-    answers.showMinimumPitch($("#minimum-pitch"), answer, request, turns ? "danceSpiral" : "usePitch", use);
-    graphs.curve();
-  },
-  tolerance() {
-    const { answer, request } = questions.answers.tolerance;
-    answers.showTolerance($("#tolerance"), answer, Number(request.benches), request.turning_diameter);
-    graphs.curve();
-  },
-  curve: () => graphs.curve(),
-  look() {
-    // The former jumps belong to other numbers.
-    delete questions.answers.scan;
-    graphs.scan("look");
-  },
-  scan() {
-    delete questions.answers.look;
-    graphs.scan("scan");
-  },
-  shortest() {
-    const { answer, request } = questions.answers.shortest;
-    answers.showShortestTurn($("#shortest-turn"), answer, request, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
-  },
-  quickest() {
-    const { answer, request } = questions.answers.quickest;
-    answers.showQuickestTurn($("#quickest-turn"), answer, request, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
-  },
-  time() {
-    const { answer, request } = questions.answers.time;
-    answers.showTurnTime($("#turn-time"), answer, request);
-  },
-  head() {
-    const { answer, request } = questions.answers.head;
-    answers.showHeadSpeed($("#head-speed"), answer, request, (speed) => {
-      // The whole dance becomes faster or slower.
-      const passages = quickened(state.extras().passages, speed / Number(state.get("head_speed")));
-      state.set({ head_speed: String(speed), passages: passagesText(passages) });
-    });
-  },
+  ...boxes({ questions, state, graphs }),
   speeds() {
     const { speeds, fastest } = questions.answers;
     const [low, high] = spanOf(speeds.answer.speed); // of some instants, which may miss the highest speed of all
@@ -300,7 +256,8 @@ const SHOW_STATE = {
   },
   lang: translate,
   bench(bench) {
-    if (bench !== null) openCarrier();
+    if (bench !== null && state.get("dances")) announce(() => say("cardSingle"));
+    else if (bench !== null) openCarrier();
     else carrier?.show();
     refresh();
   },

@@ -1,9 +1,9 @@
 /** The map of a sweep: a value over one parameter as a line, over two as colours with contours. */
 
 import { ticks } from "./charts.js";
-import { palette } from "./dance.js";
 import { $, colours, inType, make } from "./elements.js";
 import { FIELDS } from "./fields.js";
+import { palette } from "./pen.js";
 import { columnName, say } from "./text.js";
 
 const HEIGHT = 340;

@@ -124,7 +124,7 @@ export class Player {
   update(ask = true) {
     const { dance } = this.questions;
     // A carrier's view has its own clock.
-    if (!dance || this.state.get("bench") !== null) return;
+    if (!dance || (this.state.get("bench") !== null && !dance.parts)) return;
     const { time } = this;
     const now = performance.now();
     const pose = dance.track?.at(time);

@@ -1,9 +1,9 @@
 /** Layers of a drawing on the picture: the square and its obstacles, stretches on which a limit fails, benches at fault. */
 
-import { trace } from "./dance.js";
 import { headingOf, isWhole, yardOf } from "./drawing.js";
 import { inType } from "./elements.js";
 import { radiiOf } from "./judgement.js";
+import { trace } from "./pen.js";
 import { measures } from "./square.js";
 import { say } from "./text.js";
 

@@ -91,7 +91,7 @@ def test_a_bare_address_opens_in_motion_and_the_wheel_scrolls_until_the_picture_
 def test_the_picture_has_its_scale_its_direction_and_one_scale_of_colours(visit: Any) -> None:
     page = visit("?time=0&view=8.8,0,40")
     metres, pixels = page.evaluate(
-        "import('/page/dance.js').then(({ scaleBar }) => [4e-3, 40, 41, 2e4].map((scale) => scaleBar(scale)))"
+        "import('/page/pen.js').then(({ scaleBar }) => [4e-3, 40, 41, 2e4].map((scale) => scaleBar(scale)))"
         ".then((all) => [all.map((one) => one.metres), all.map((one) => one.pixels)])"
     )
     assert metres == [20_000, 2, 2, 0.005]

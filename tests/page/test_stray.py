@@ -16,7 +16,7 @@ SURE = ("Contact at", "Nothing touches", "touch at", "meet at", "时碰撞", "�
 CHORD, OVERHANG, WIDTH, STRAY = 1.65, 0.275, 0.3, 0.05
 # For a bench anywhere on the canvas: whether each of these points, in the frame of the bench, is on its ground.
 ON_GROUND = """async ([stray, chord, overhang, width, points]) => {
-  const { addGround } = await import("/page/dance.js");
+  const { addGround } = await import("/page/pen.js");
   const pen = document.createElement("canvas").getContext("2d");
   const [x, y, ux, uy] = [3, -2, 0.6, -0.8];
   const holes = [chord / 2, -chord / 2];

@@ -1,8 +1,8 @@
 /** Pictures in metres and charts of the service's answers, as SVG. */
 
 import { ticks } from "../charts.js";
-import { addGround } from "../dance.js";
 import { inType } from "../elements.js";
+import { addGround } from "../pen.js";
 
 const NAMESPACE = "http://www.w3.org/2000/svg";
 /** Length of a straight piece of a drawn spiral [rad]. */
