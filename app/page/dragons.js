@@ -2,7 +2,7 @@
 
 import { Problem, Superseded } from "./api.js";
 import { benchesOf } from "./benches.js";
-import { EMPTY, fromAddress, toAddress, venueOf } from "./drawing.js";
+import { EMPTY, drawingOf, fromAddress, venueOf } from "./drawing.js";
 import { $, button, download, make, numberIn, textButton } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { Judgement, failureWords } from "./judgement.js";
@@ -11,7 +11,7 @@ import { announce } from "./overlays.js";
 import { passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
 import { benchName, refusalWords, say, sayOf, writeTexts } from "./text.js";
-import { LEGS, OWN, PARTS, PRESETS, Tracks, recordText, recordsIn, trackOf, wayOf } from "./together.js";
+import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
 import { learn } from "./words.js";
 import { DRAGONS } from "./words/dragons.js";
 import { ROUTE } from "./words/route.js";
@@ -75,8 +75,7 @@ export class Dragons {
   #present() {
     const path = this.state.get("path");
     const pairs = PARTS.filter((name) => this.state.get(name) !== this.state.initial(name, path)).map((name) => [name, this.state.get(name)]);
-    const legs = path === "route" ? toAddress(this.state.get("drawing")).filter(([name]) => LEGS.includes(name)) : [];
-    return Object.fromEntries([...pairs, ...legs.map(([name, text]) => [name, String(text)])]);
+    return Object.fromEntries([...pairs, ...(path === "route" ? legsOf(this.state.get("drawing")) : [])]);
   }
 
   /**
@@ -108,6 +107,18 @@ export class Dragons {
     const values = this.#valuesOf(records[0]);
     const { things, origin, grid, yard, limit } = EMPTY;
     this.#take(records, 0, { ...values, drawing: { ...values.drawing, things, origin, grid, yard, limit }, time: null, view: null, follow: false });
+  }
+
+  /** Open a FILE of several. name: of the file */
+  open({ dances, venue = null, speed_limit: limit = null, start_clock: clock = "", begin_clock: begins = "", ...limits }, name) {
+    const foreign = dances.findIndex(({ path }) => isForeign(path));
+    if (foreign >= 0) return announce(() => say("dragonForeign", { name: dances[foreign].name ?? say("dragonNumber", { number: foreign + 1 }) }));
+    const records = dances.map(recordOf);
+    const { things, origin, grid } = drawingOf({ path: null, venue, speed_limit: limit });
+    this.state.set({ drawing: { ...EMPTY, things, origin, grid, limit } }, false);
+    const numbers = Object.fromEntries(CONTACT.filter((one) => typeof limits[one] === "number").map((one) => [one, String(limits[one])]));
+    this.#take(records, 0, { ...this.#valuesOf(records[0]), ...numbers, start_clock: clock, begin_clock: begins, time: null, view: null, handle: null });
+    announce(() => say("opened", { name }));
   }
 
   #choose(k) {

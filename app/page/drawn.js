@@ -30,9 +30,10 @@ export class Drawn {
   #wanted = null;
 
   /**
-   * @param {{ state: State, service: Service, questions: Questions, dance: any, draw: any }} parts
+   * several(content, name): opens a dance of several dragons
+   * @param {{ state: State, service: Service, questions: Questions, dance: any, draw: any, several: any }} parts
    */
-  constructor({ state, service, questions, dance, draw }) {
+  constructor({ state, service, questions, dance, draw, several }) {
     this.state = state;
     this.questions = questions;
     this.picture = dance;
@@ -40,7 +41,7 @@ export class Drawn {
     this.steps = new Steps(state, () => this.show());
     const course = () => (questions.course?.drawing === state.get("drawing") ? questions.course : null);
     this.editor = new Editor(dance, state, this.steps, course, () => this.show());
-    const files = new Files(state, this.steps, service, questions);
+    const files = new Files(state, this.steps, service, questions, several);
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
     this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor });
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point));

@@ -5,7 +5,7 @@ import { tableOf } from "./benches.js";
 import { drawingOf } from "./drawing.js";
 import { $, bearer, download, make, textButton } from "./elements.js";
 import { announce, announceRefusal } from "./overlays.js";
-import { passagesText } from "./passages.js";
+import { pacesOf, passagesText } from "./passages.js";
 import { language, say } from "./text.js";
 
 const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.gpx,.dxf,.csv,.tsv,.xlsx";
@@ -20,8 +20,10 @@ export class Files {
    * @param {Steps} steps
    * @param {Service} service
    * @param {Questions} questions
+   * @param {any} several opens a dance of several dragons
    */
-  constructor(state, steps, service, questions) {
+  constructor(state, steps, service, questions, several) {
+    this.several = several;
     this.state = state;
     this.steps = steps;
     this.service = service;
@@ -63,7 +65,8 @@ export class Files {
       }
       announce(() => say("opening", { name: file.name }));
       const content = (await ownDance(file)) ?? (await this.#places(file));
-      if (content) this.#take(content, file.name);
+      if (content?.dances) await this.several(content, file.name);
+      else if (content) this.#take(content, file.name);
     } catch (error) {
       announceRefusal(error);
     }
@@ -87,7 +90,7 @@ export class Files {
     this.walked = "dragon" in content ? null : content.passages;
     this.times.hidden = !this.walked;
     const { dragon = {}, path, venue } = content;
-    const paces = content.passages ?? content.beats?.map(({ bars, tempo, step, beats = 4 }) => ({ speed: (tempo * step) / 60, duration: (60 * bars * beats) / tempo }));
+    const paces = pacesOf(content);
     const own = Object.fromEntries(UNIFORM.filter((one) => one in dragon).map((one) => [one, String(dragon[one])]));
     const numbers = Object.fromEntries(NUMBERS.filter((one) => typeof content[one] === "number").map((one) => [one, String(content[one])]));
     if (this.state.get("path") !== "route") this.state.choosePath("route");

@@ -255,12 +255,6 @@ const SHOW_STATE = {
     restyle();
   },
   lang: translate,
-  bench(bench) {
-    if (bench !== null && state.get("dances")) announce(() => say("cardSingle"));
-    else if (bench !== null) openCarrier();
-    else carrier?.show();
-    refresh();
-  },
   follow: (follow) => $("#follow").setAttribute("aria-pressed", follow),
   rate: (rate) => ($("#rate").value = rate),
   handle: () => announce(showHandle),
@@ -274,6 +268,12 @@ const SHOW_STATE = {
     if (questions.answers.minimum) SHOW.minimum();
   },
   drawing: showRoute,
+  bench(bench) {
+    if (bench !== null && state.get("dances")) announce(() => say("cardSingle"));
+    else if (bench !== null) openCarrier();
+    else carrier?.show();
+    refresh();
+  },
   dances(dances) {
     if (dances) openDragons().then((one) => one.show());
     else dragons?.show();
@@ -330,7 +330,8 @@ function translate() {
 async function openRoute() {
   const { Drawn } = await parts.load("drawn");
   if (route) return route;
-  route = new Drawn({ state, service, questions, dance, draw });
+  const several = async (content, name) => (await openDragons()).open(content, name);
+  route = new Drawn({ state, service, questions, dance, draw, several });
   writeTexts();
   route.translate();
   const { course } = questions;

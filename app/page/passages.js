@@ -29,6 +29,9 @@ export const passagesText = (passages) =>
     return `${one.speed}@${value}${sign}`;
   }).join("_");
 
+/** The passages of a FILE, or those that its beats of a drum give; undefined without. */
+export const pacesOf = ({ passages, beats }) => passages ?? beats?.map(({ bars, tempo, step, beats: count = 4 }) => ({ speed: (tempo * step) / 60, duration: (60 * bars * count) / tempo }));
+
 /** The passages of the dance made faster by a factor. */
 export const quickened = (passages, factor) =>
   passages.map(({ speed, ...ends }) => ({ speed: speed * factor, ...Object.fromEntries(Object.entries(ends).map(([name, end]) => [name, name === ENDS.m ? end : Number(end) / factor])) }));

@@ -1,6 +1,9 @@
 /** Several dragons as texts of an address, presets of them, and what is loaded of each: its samples and its path. */
 
+import { tableOf } from "./benches.js";
+import { drawingOf, toAddress } from "./drawing.js";
 import { CONTACT, DRAGON, FIELDS } from "./fields.js";
+import { pacesOf, passagesText } from "./passages.js";
 import { Track } from "./track.js";
 
 /** Parts of a dance in an address: its numbers, a table of benches, passages, and its path; all else is common to all dragons. */
@@ -27,6 +30,22 @@ export function recordsIn(text) {
       return {};
     }
   });
+}
+
+/** The drawn legs of a path as texts of an address. */
+export const legsOf = (drawing) => toAddress(drawing).filter(([name]) => LEGS.includes(name)).map(([name, text]) => [name, String(text)]);
+
+/** True for a spiral that this page cannot show: with another centre, or counter-clockwise. */
+export const isForeign = ({ kind, centre = [0, 0], clockwise = true }) => kind === "spiral" && (!clockwise || centre.some(Boolean));
+
+/** A dance of a FILE as a dragon of an address. */
+export function recordOf(/** @type {any} */ { name, delay, dragon = {}, path, head_speed: speed, ...paces }) {
+  const isCoil = ["spiral", "turn"].includes(path.kind);
+  const known = { ...dragon, ...(isCoil && path), head_speed: speed };
+  const numbers = NUMBERS.filter((one) => typeof known[one] === "number").map((one) => [one, String(known[one])]);
+  const turned = isCoil && path.rotation ? String(Number(((path.rotation * 180) / Math.PI).toFixed(9))) : "";
+  const others = { name: name ?? "", delay: delay ? String(delay) : "", rotation: turned, csv: tableOf(dragon), passages: passagesText(pacesOf(paces) ?? []), path: isCoil ? path.kind : "route" };
+  return Object.fromEntries([...Object.entries(others), ...numbers, ...(isCoil ? [] : legsOf(drawingOf(/** @type {any} */ ({ path }))))].filter(([, text]) => text !== ""));
 }
 
 const street = (from, to, begin) => ({ path: "route", route: `*${from}_${to}`, begin });

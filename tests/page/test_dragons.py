@@ -186,3 +186,33 @@ def test_on_a_phone_nothing_is_cut_off_and_everyone_can_use_it(open_page: Any, l
     small = """() => [...document.querySelectorAll("#dragons :is(button, input)")]
       .filter((one) => one.checkVisibility() && one.getBoundingClientRect().height < 44).map((one) => one.outerHTML)"""
     assert page.evaluate(small) == []
+
+
+@pytest.mark.parametrize("preset", ["spiral", "parade"])
+def test_a_saved_file_opens_again(open_page: Any, tmp_path: Path, preset: str) -> None:
+    page = begun(open_page, preset)
+    page.locator("#margin").fill("0.02")
+    page.locator("#margin").press("Enter")
+    settled(page)
+    file = saved(page)
+    kept = tmp_path / "square.json"
+    kept.write_text(json.dumps(file))
+    other = open_page("?door=all&path=route&lang=en")
+    settled(other)
+    other.locator("#open-file").set_input_files(str(kept))
+    expect(other.locator("#dragons li")).to_have_count(len(file["dances"]))
+    settled(other)
+    assert saved(other) == file
+    assert judged(other) == judged(page)
+    file["dances"][1]["path"] = {"kind": "spiral", "pitch": 1.1, "start_turns": 8, "clockwise": False}
+    kept.write_text(json.dumps(file))
+    if other.locator("#open-file").count():
+        other.locator("#open-file").set_input_files(str(kept))
+        expect(other.locator("#status")).to_contain_text("the page shows spirals around x = y = 0")
+
+
+def test_a_bench_is_followed_where_one_dragon_dances(open_page: Any) -> None:
+    page = open_page("?benches=9&pitch=1.1&start_turns=6&dances=~rotation:180&bench=3&lang=en")
+    expect(page.locator("#status")).to_contain_text("The page follows a bench where one dragon dances")
+    expect(page.locator("#dragons li")).to_have_count(2)
+    settled(page)

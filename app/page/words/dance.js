@@ -21,7 +21,7 @@ export const DANCE = {
   copyFailed: ["The browser did not allow copying", "浏览器不允许复制"],
   allCalls: ["All calls", "全部接口"],
   partLost: ["A part of the page did not load. Load the page again: its address keeps everything.", "页面的一部分未能加载。请重新加载页面，地址中保存了全部内容。"],
-  cardSingle: ["A card is for a dance of one dragon, and this address has several.", "提示卡只适用于一条龙，而此地址含多条龙。"],
+  cardSingle: ["The page follows a bench where one dragon dances; this address has several.", "页面只能在单条龙时跟随一节板凳，而此地址含多条龙。"],
   lost: ["The service does not answer. The page stays as it is; next try in {seconds} s.", "服务没有响应。画面保持不变，{seconds} 秒后重试。"],
   trying: ["The service does not answer. The page stays as it is; trying again now.", "服务没有响应。画面保持不变，正在重试。"],
   old: ["Older than your numbers", "结果早于当前数值"],
