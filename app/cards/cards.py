@@ -57,17 +57,22 @@ class CardSheets:
     budget: Budget
 
 
-def cards_pdf(sheets: CardSheets, progress: Callable[[float], None] = lambda share: None) -> bytes:
-    """The bytes of the PDF. raises: Halted once the budget is stopped"""
+def cards_pdf(decks: Sequence[CardSheets], progress: Callable[[float], None] = lambda share: None) -> bytes:
+    """The bytes of the PDF. decks: of one dragon, or of each of several; raises: Halted once the budget is stopped"""
     sink, on_sheet = io.BytesIO(), ACROSS * DOWN
+    count, done = sum(len(sheets.cards) for sheets in decks), 0
 
     def drawn() -> bytes:
-        with matplotlib.rc_context({"font.family": sheets.family, **FONTS}):
-            metadata = {"Title": sheets.title, "Creator": "Bench Dragon", "CreationDate": None}
+        nonlocal done
+        with matplotlib.rc_context({"font.family": decks[0].family, **FONTS}):
+            metadata = {"Title": decks[0].title, "Creator": "Bench Dragon", "CreationDate": None}
             with PdfPages(sink, metadata=metadata) as file:
-                for first in range(0, len(sheets.cards), on_sheet):
-                    file.savefig(_sheet(sheets, sheets.cards[first : first + on_sheet]).figure)
-                    progress(min(1.0, (first + on_sheet) / len(sheets.cards)))
+                for sheets in decks:
+                    for first in range(0, len(sheets.cards), on_sheet):
+                        some = sheets.cards[first : first + on_sheet]
+                        file.savefig(_sheet(sheets, some).figure)
+                        done += len(some)
+                        progress(done / count)
         return sink.getvalue()
 
     return in_turn(drawn)

@@ -16,16 +16,29 @@ COLUMNS = (
     "gap", "oncoming", "speed", "mark", "past_mark", "steps", "words",
 )  # fmt: skip
 COUNT = "count"
+# Columns before and after them for several dragons.
+DRAGON_COLUMNS, OTHER_DRAGON = ("dragon", "dragon_name"), "other_dragon"
 
 
 def cards_csv(cards: Sequence[Card], words: CardWords) -> bytes:
     """CSV with the columns of COLUMNS, with music also COUNT; an entry is empty where it does not apply."""
+    return _csv([*COLUMNS, COUNT] if words.clock.music else COLUMNS, [(cards, words)])
+
+
+def performance_cards_csv(decks: Sequence[tuple[Sequence[Card], CardWords]]) -> bytes:
+    """The same of several dragons, with DRAGON_COLUMNS before these columns and OTHER_DRAGON after them.
+
+    decks: the cards of each dragon, and what their words follow from
+    """
+    return _csv([*DRAGON_COLUMNS, *COLUMNS, OTHER_DRAGON], decks)
+
+
+def _csv(columns: Sequence[str], decks: Sequence[tuple[Sequence[Card], CardWords]]) -> bytes:
     sink = io.StringIO(newline="")
-    columns = [*COLUMNS, COUNT] if words.clock.music else COLUMNS
     writer = csv.DictWriter(sink, columns, extrasaction="ignore", lineterminator="\n")
     writer.writeheader()
-    for card in cards:
-        for line in _lines(card, words):
+    for cards, words in decks:
+        for line in (line for card in cards for line in _lines(card, words)):
             writer.writerow({name: _cell(value) for name, value in line.items()})
     return sink.getvalue().encode()
 
@@ -40,6 +53,8 @@ def _cell(value: object) -> str:
 def _lines(card: Card, words: CardWords) -> Iterator[dict[str, object]]:
     bench, stand = card.bench, card.bench.start
     own: dict[str, object] = {"bench": bench.bench, "name": words.names[bench.bench] if words.names else ""}
+    if words.dragon is not None:
+        own |= dict(zip(DRAGON_COLUMNS, (words.dragon, words.dragons[words.dragon][0]), strict=True))
     mark, past = words.chalk.nearest(stand.s)
     place = {"mark": mark, "past_mark": past, "steps": words.chalk.steps(past)}
     at = {"time": stand.time, "x": stand.x, "y": stand.y} | _clock("clock", stand.time, words)
@@ -59,8 +74,8 @@ def _clock(name: str, time: float, words: CardWords) -> dict[str, object]:
 def _more(card: Card, cue: Cue, words: CardWords) -> dict[str, object]:
     """What only some kinds of cues have."""
     if met := cue.nearest:
-        other = words.names[met.bench] if words.names else ""
         return {
-            "other": met.bench, "other_name": other, "side": met.side.value, "gap": met.gap, "oncoming": met.oncoming,
+            "other": met.bench, "other_name": words.met_name(met), "side": met.side.value, "gap": met.gap,
+            "oncoming": met.oncoming, OTHER_DRAGON: met.dragon,
         }  # fmt: skip
     return {"speed": card.bench.fastest.speed} if cue.kind == "fastest" else {}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from app.files.words import Say
@@ -64,6 +64,8 @@ class CardWords:
     """What the words of a card follow from.
 
     names: of all benches, empty for one without; clock: format of times; geographic: True if y points north
+    dragon: number of the dragon in a performance, and dragons: the name of each, with the names of its benches; None
+        and empty for a single dance
     """
 
     say: Say
@@ -71,6 +73,22 @@ class CardWords:
     clock: TimeFormat
     chalk: Chalk
     geographic: bool
+    dragon: int | None = None
+    dragons: Sequence[tuple[str, tuple[str, ...]]] = ()
+
+    def met_name(self, met: Meeting) -> str:
+        """Name of the bench that is met; empty without one."""
+        names = self.names if met.dragon is None else self.dragons[met.dragon][1]
+        return names[met.bench] if names else ""
+
+    def _met_bench(self, met: Meeting) -> str:
+        """The bench that is met, in words; of another dragon, with the name of that."""
+        own = self.met_name(met)
+        chinese = f"{met.bench} 号板凳{own and f'（{own}）'}"
+        if met.dragon in (None, self.dragon):
+            return self.say(f"Bench {self.name(met.bench)}", chinese)
+        dragon, number = self.dragons[met.dragon][0], own or ("(head)" if met.bench == 0 else "")
+        return self.say(f"Bench {f'{met.bench} {number}'.rstrip()} of {dragon}", f"{dragon}的 {chinese}")
 
     def name(self, bench: int) -> str:
         """Number and name of a bench.
@@ -134,8 +152,7 @@ class CardWords:
         left = nearest.side is Side.LEFT
         side = say(f"on your {'left' if left else 'right'}", f"在{'左' if left else '右'}侧")
         how = say("comes towards you", "迎面而来") if nearest.oncoming else say("walks your way", "同向而行")
-        own = self.names[nearest.bench] if self.names else ""
-        who = say(f"Bench {self.name(nearest.bench)}", f"{nearest.bench} 号板凳{own and f'（{own}）'}")
+        who = self._met_bench(nearest)
         if len(cue.meetings) == 1:
             return say(f"{who} {how} {side}, {gap}.", f"{who}{side}{how}，距 {gap}。")
         met = {one.bench for one in cue.meetings}

@@ -42,6 +42,9 @@ def cues(
         list[str] | None, typer.Option(help="Name or number of a bench with a card; may be given several times.")
     ] = None,
     reach: Annotated[float | None, typer.Option(help="Largest gap of a meeting [m]; default: 8")] = None,
+    part: Annotated[
+        str | None, typer.Option(help="Of several dragons, the one whose benches get cards: its name or its number.")
+    ] = None,
     step_length: Annotated[float | None, typer.Option(help="Length of a step [m]; default: 0.75")] = None,
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
     title: Annotated[str | None, typer.Option(help="Title of the dance on every card")] = None,
@@ -52,10 +55,10 @@ def cues(
     if ending == ".pdf":
         require("figures", "output", "A card on paper")
     changes = {
-        "first_bench": first_bench, "last_bench": last_bench, "cards": bench or None, "reach": reach,
+        "part": part, "first_bench": first_bench, "last_bench": last_bench, "cards": bench or None, "reach": reach,
         "step_length": step_length, "spacing": spacing, "title": title, "language": language,
     }  # fmt: skip
-    values = read_dance(file) | {name: value for name, value in changes.items() if value is not None}
+    values = read_dance(file, several=True) | {name: value for name, value in changes.items() if value is not None}
     request = checked(CuesRequest, values, object_words(file))
     with refusing(request), show.waiting("cues") as progress:
         data = CUES.to_bytes(request, Terms(progress=progress), FORMS[ending])

@@ -4,29 +4,28 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import Annotated, Self
+from typing import Annotated, Any
 
 from pydantic import Field
 
 import core
-from app.cards.tables import cards_csv
+from app.cards.tables import cards_csv, performance_cards_csv
 from app.cards.words import CardWords, Chalk
 from app.files.tables import CSV_TYPE, Language
 from app.files.words import Say
 from app.plan.timing import TimeFormat
 from app.questions.check import verdict_of
+from app.questions.cue_cards import Cues, PerformanceCues
 from app.questions.maps import Marked
 from app.questions.plan import FIRST_CHINESE, PDF_TYPE, verdict_words
-from app.wire.clocks import time_of_day
 from app.wire.dances import clock_of
 from app.wire.degrees import Place
-from app.wire.question import AS_WHOLE, JSON, Answer, OneLine, Question, Terms, measure
-from core import Dance, InvalidValue
+from app.wire.performances import NumberOrName, SeveralFields
+from app.wire.question import AS_WHOLE, JSON, OneLine, Question, Terms, measure
+from core import Dance, InvalidValue, Performance
 from core.errors import Given, Parameter, TooLarge
 from core.motion.places import handle_places
-from core.people import cards as rule
-from core.people import cues as facts
-from core.people.cards import CUES_MOST, Card, card_of
+from core.people.cards import Card, card_of
 from core.people.cues import FOLLOWED_MAX, REACH, REACH_MAX, bench_cues
 
 # Estimated time of the cues of a bench and of its card on paper [s], measured 2026-11-27.
@@ -35,7 +34,7 @@ SECONDS_PER_BENCH, SECONDS_PER_CARD = 0.02, 0.05
 BenchNumber = Annotated[int, Field(ge=0), AS_WHOLE]
 
 
-class CuesRequest(Marked, strict=True):
+class DanceCues(Marked, strict=True):
     """A dance, as for /check, and the benches that get cards."""
 
     first_bench: BenchNumber | None = Field(
@@ -73,10 +72,32 @@ class CuesRequest(Marked, strict=True):
                 raise InvalidValue(name, "must be at most {most}, the tail", got=bench, most=count - 1)
         if last < first:
             raise InvalidValue("last_bench", "must not be before first_bench ({first})", got=last, first=first)
-        if last - first >= FOLLOWED_MAX:
-            rule = "cards must be at most {most}: choose the benches with first_bench and last_bench"
-            raise TooLarge.in_words("last_bench", rule, got=last - first + 1, most=FOLLOWED_MAX)
+        _refuse_many(last - first + 1)
         return range(first, last + 1)
+
+
+class CuesRequest(SeveralFields, DanceCues, strict=True):
+    """A dance, or several on one clock, as for /check, and the benches that get cards."""
+
+    part: NumberOrName | None = Field(
+        None,
+        description="Of several dances, the dragon whose benches get cards: its number in the order of the dances, "
+        "from 0, or its name; null: each",
+    )
+
+    def dragons_of(self, performance: Performance) -> Sequence[int]:
+        """The dragons whose benches get cards. raises: InvalidValue"""
+        names = [part.name for part in performance.parts]
+        if self.part is None:
+            return range(len(names))
+        if self.part in names:
+            return [names.index(str(self.part))]
+        if isinstance(self.part, str) and not re.fullmatch(r"\d{1,9}", self.part, re.ASCII):
+            raise InvalidValue("part", "must be the name or the number of a dragon", got=Given(self.part))
+        number, most = int(self.part), len(names) - 1
+        if not 0 <= number <= most:
+            raise InvalidValue("part", "must be from 0 to {most}", got=number, most=most)
+        return [number]
 
 
 def _bench_of(field: str, word: int | str, dragon: core.Dragon) -> int:
@@ -91,153 +112,12 @@ def _bench_of(field: str, word: int | str, dragon: core.Dragon) -> int:
     return int(word)
 
 
-class Neighbour(Answer):
-    """Another bench."""
-
-    bench: int = Field(description="Its number; 0 is the head")
-    name: str = Field(description="Its name; empty without one")
-
-
-class Stand(Answer):
-    """A bench at one moment."""
-
-    time: float = measure("s")
-    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
-    x: float = measure("m", "x of its front handle")
-    y: float = measure("m", "y of its front handle")
-    heading: float = measure("rad", "Direction from its rear to its front handle")
-    mark: float = measure("m", "The nearest chalk mark along the path, by its length from mark 0")
-    past_mark: float = measure("m", "Way along the path from that mark to the front handle; below zero: before it")
-    steps: int = Field(description="The same in whole steps")
-
-
-class Meeting(Answer):
-    """Another bench comes abreast: its middle is straight to one side of the own middle, with no bench between."""
-
-    time: float = measure("s", "When the other middle is abreast, to within 1e-9 m along the own bench")
-    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
-    bench: int = Field(description="The other bench; 0 is the head")
-    name: str = Field(description="Its name; empty without one")
-    side: facts.Side = Field(description="Side on which it is, seen in the direction of the front handle")
-    gap: float = measure("m", "Gap of the two benches then, edge to edge; below zero: minus the depth of the overlap")
-    oncoming: bool = Field(description="True if it comes towards the own bench; false if it walks the same way")
-    x: float = measure("m", "x of the own middle then")
-    y: float = measure("m", "y of the own middle then")
-
-
-class Fastest(Answer):
-    """The moment at which a bench is fastest."""
-
-    time: float = measure("s")
-    speed: float = measure(
-        "m/s", "Higher speed of its two handles: reached then, and not exceeded every 0.25 m of head way"
-    )
-    speed_ratio: float = Field(description="The same over the speed with which the head begins to walk")
-    handle: int = Field(description="The handle: the number of the bench, or one more for its rear one")
-    x: float = measure("m", "x of that handle then")
-    y: float = measure("m", "y of that handle then")
-
-
-class Cue(Answer):
-    """One cue of a card."""
-
-    kind: rule.CueKind = Field(description="begin, pause, fastest, meeting or done")
-    time: float = measure("s", "Moment of the cue: of several meetings, that of the nearest")
-    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
-    count: str | None = Field(
-        description="Nearest beat of the music then, such as 17.3 for the third of bar 17; null: none"
-    )
-    since: float = measure(
-        "s", "Beginning of a pause, or moment of the first of several meetings; else the same as time"
-    )
-    until: float = measure("s", "End of a pause, or moment of the last of several meetings; else the same as time")
-    x: float = measure("m", "x of the bench: of the front handle, in a meeting of the middle, or of the fastest handle")
-    y: float = measure("m", "y of the same point")
-    nearest: Meeting | None = Field(description="The meeting, or the nearest of several; null in another kind of cue")
-    others: list[int] = Field(description="All benches met in this cue, in order of time; none in another kind of cue")
-    words: str = Field(description="The cue in one sentence, in the language of the request")
-
-
-class CueCard(Answer):
-    """What the carriers of one bench have to know."""
-
-    bench: int = Field(description="Number of the bench; 0 is the head")
-    name: str = Field(description="Its name; empty without one")
-    ahead: Neighbour | None = Field(description="The bench before it; null for the head")
-    behind: Neighbour | None = Field(description="The bench behind it; null for the tail")
-    start: Stand = Field(description="Where it stands when the dance starts")
-    begin: Stand = Field(description="When it begins to walk")
-    direction: float = measure("rad", "Direction in which its front handle begins to walk, from the x axis")
-    cues: list[Cue] = Field(description=f"At most {CUES_MOST} cues in order of time, as on the card")
-    left_out: int = Field(description="Cues that have no place on the card")
-    least_left_out: float | None = measure(
-        "m", "Least gap of all meetings left out, so nobody passes nearer without being on the card; null: none is"
-    )
-    meetings: list[Meeting] = Field(description="All meetings within the reach, in order of time")
-    fastest: Fastest = Field(description="When it is fastest")
-    done: Stand = Field(description="When and where it stops for good")
-
-
-class Cues(Answer):
-    """The cue cards of a dance."""
-
-    cards: list[CueCard] = Field(description="A card for each bench that was asked for, in order")
-
-    @classmethod
-    def of(cls, cards: list[Card], words: CardWords) -> Self:
-        return cls(cards=[_card(card, words) for card in cards])
-
-
-def _clock(time: float, words: CardWords) -> str | None:
-    start = words.clock.start_clock
-    return None if start is None else time_of_day(time, start)
-
-
-def _neighbour(bench: int | None, words: CardWords) -> Neighbour | None:
-    return None if bench is None else Neighbour(bench=bench, name=words.names[bench] if words.names else "")
-
-
-def _stand(at: facts.Stand, words: CardWords) -> Stand:
-    mark, past = words.chalk.nearest(at.s)
-    own = {"clock": _clock(at.time, words), "mark": mark, "past_mark": past, "steps": words.chalk.steps(past)}
-    return Stand.from_result(at, **own)
-
-
-def _meeting(one: facts.Meeting, words: CardWords) -> Meeting:
-    name = words.names[one.bench] if words.names else ""
-    return Meeting.from_result(one, name=name, clock=_clock(one.time, words))
-
-
-def _card(card: Card, words: CardWords) -> CueCard:
-    bench = card.bench
-    cues = [
-        Cue.from_result(
-            cue, clock=_clock(cue.time, words), count=words.clock.count(cue.time) or None,
-            nearest=cue.nearest and _meeting(cue.nearest, words),
-            others=[one.bench for one in cue.meetings], words=words.sentence(card, cue),
-        )
-        for cue in card.cues
-    ]  # fmt: skip
-    ratio = bench.fastest.speed / bench.head_speed
-    return CueCard(
-        bench=bench.bench,
-        name=words.names[bench.bench] if words.names else "",
-        ahead=_neighbour(bench.ahead, words),
-        behind=_neighbour(bench.behind, words),
-        start=_stand(bench.start, words),
-        begin=_stand(bench.begin, words),
-        direction=bench.direction,
-        cues=cues,
-        left_out=len(card.left_out),
-        least_left_out=card.least_left_out,
-        meetings=[_meeting(one, words) for one in bench.meetings],
-        fastest=Fastest.from_result(bench.fastest, speed_ratio=ratio),
-        done=_stand(bench.done, words),
-    )
-
-
-def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | bytes:
+def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | PerformanceCues | bytes:
     """A card for each bench: where it stands, when it walks, whom it meets and how near, where it is fastest."""
+    if request.dances is not None:
+        return _of_several(request, terms, form)
+    if request.part is not None:
+        raise InvalidValue("part", "must be left out without dances", got=Given(request.part))
     dance = request.to_dance(request.most_benches(terms.settings))
     benches = request.benches_of(dance.dragon)
     _refuse_equal_names(dance.dragon)
@@ -248,46 +128,110 @@ def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | bytes:
     cards, words = [card_of(one) for one in own_cues], _words(request, dance, place, terms)
     if form == JSON:
         return Cues.of(cards, words)
-    return cards_csv(cards, words) if form == CSV_TYPE else _paper(request, dance, place, (cards, words), terms)
+    if form == CSV_TYPE:
+        return cards_csv(cards, words)
+    return _paper(request, place, [((dance, ""), (cards, words))], _verdict(request, dance, place, words, terms), terms)
+
+
+def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCues | bytes:
+    """The cards of several dragons."""
+    (performance, place), say = request.to_placed(terms.settings), Say(request.language)
+    chosen = {k: request.benches_of(performance.parts[k].dance.dragon) for k in request.dragons_of(performance)}
+    _refuse_many(sum(map(len, chosen.values())))
+    names = [part.name or say(f"dragon {k}", f"{k} 号龙") for k, part in enumerate(performance.parts)]
+    dragons = [(name, part.dance.dragon.names) for name, part in zip(names, performance.parts, strict=True)]
+    clock = TimeFormat(clock_of(request, performance))
+    start, stop = performance.span(request.start, request.stop)
+    geographic, decks = request.origin_at(place) is not None, list[tuple[list[Card], CardWords]]()
+    for k, benches in chosen.items():
+        dance = performance.parts[k].dance
+        _refuse_equal_names(dance.dragon, f"dances.{k}.")
+        span: dict[str, Any] = {"start": request.start, "stop": request.stop, "budget": terms.budget}
+        own = core.performance_cues(performance, k, benches, reach=request.reach, **span)
+        chalk = _chalk(request, dance, performance.parts[k].own_span(start, stop)[0], terms)
+        words = CardWords(say, dance.dragon.names, clock, chalk, geographic, k, dragons)
+        decks.append(([card_of(one) for one in own], words))
+    if form == JSON:
+        return PerformanceCues.together(decks)
+    if form == CSV_TYPE:
+        return performance_cards_csv(decks)
+    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
+    report = core.performance_check(
+        performance, start=start, stop=request.stop, details=False, budget=terms.budget, **limits
+    )
+    verdict = verdict_words(report, clock.words, say)
+    dances = [(performance.parts[k].dance, names[k]) for k in chosen]
+    return _paper(request, place, list(zip(dances, decks, strict=True)), verdict, terms)
+
+
+def _refuse_many(count: int) -> None:
+    """raises: TooLarge for more cards than one question may have"""
+    if count > FOLLOWED_MAX:
+        rule = "cards must be at most {most}: choose the benches with first_bench and last_bench"
+        raise TooLarge.in_words("last_bench", rule, got=count, most=FOLLOWED_MAX)
+
+
+def _chalk(request: CuesRequest, dance: Dance, start: float, terms: Terms) -> Chalk:
+    """The chalk marks of a dance that starts at a time [s]."""
+    tail = float(handle_places(dance, [start], budget=terms.budget)[0, -1])
+    return Chalk.of(dance, tail, request.spacing, request.step_length)
 
 
 def _words(request: CuesRequest, dance: Dance, place: Place, terms: Terms) -> CardWords:
-    start, _ = dance.span(request.start, request.stop)
-    tail = float(handle_places(dance, [start], budget=terms.budget)[0, -1])
-    chalk = Chalk.of(dance, tail, request.spacing, request.step_length)
+    chalk = _chalk(request, dance, dance.span(request.start, request.stop)[0], terms)
     clock = TimeFormat(clock_of(request, dance), request.music)
     geographic = request.origin_at(place) is not None
     return CardWords(Say(request.language), dance.dragon.names, clock, chalk, geographic)
 
 
-def _refuse_equal_names(dragon: core.Dragon) -> None:
-    """raises: InvalidValue for two benches with one name, because a card names other benches by it"""
+def _refuse_equal_names(dragon: core.Dragon, before: str = "") -> None:
+    """raises: InvalidValue for two benches with one name, because a card names other benches by it
+
+    before: what stands before the field of the dragon
+    """
     first = dict[str, int]()
     for k, name in enumerate(dragon.names):
         if name and first.setdefault(name, k) != k:
-            other = Parameter(f"dragon.names.{first[name]}")
-            raise InvalidValue(f"dragon.names.{k}", "must differ from {other}", got=Given(name), other=other)
+            other = Parameter(f"{before}dragon.names.{first[name]}")
+            raise InvalidValue(f"{before}dragon.names.{k}", "must differ from {other}", got=Given(name), other=other)
+
+
+def _verdict(request: CuesRequest, dance: Dance, place: Place, words: CardWords, terms: Terms) -> str:
+    """The verdict on a single dance in a few words."""
+    if dance.dragon.benches > terms.settings.checked_benches_max:
+        return words.say("Not checked: the dragon is too long", "未检查：板凳过多")
+    start = dance.span(request.start, request.stop)[0]
+    return verdict_words(verdict_of(request, dance, place.venue, start, terms), words.clock.words, words.say)
 
 
 def _paper(
-    request: CuesRequest, dance: Dance, place: Place, content: tuple[list[Card], CardWords], terms: Terms
+    request: CuesRequest,
+    place: Place,
+    decks: Sequence[tuple[tuple[Dance, str], tuple[list[Card], CardWords]]],
+    verdict: str,
+    terms: Terms,
 ) -> bytes:
-    """The cards as PDF."""
+    """The cards as PDF.
+
+    decks: for each dragon its dance, its name, which is empty for the only one, its cards, and their words
+    """
     from app.cards.cards import CardSheets, cards_pdf
     from app.files.fonts import families
 
-    cards, words = content
-    say, start = words.say, dance.span(request.start, request.stop)[0]
-    if dance.dragon.benches <= terms.settings.checked_benches_max:
-        verdict = verdict_words(verdict_of(request, dance, place.venue, start, terms), words.clock.words, say)
-    else:
-        verdict = say("Not checked: the dragon is too long", "未检查：板凳过多")
-    title = request.title or say("Bench dragon", "板凳龙")
+    title = request.title or Say(request.language)("Bench dragon", "板凳龙")
     areas = place.venue.areas if place.venue else ()
-    texts = "".join([title, *dance.dragon.names, *(area.name for area in areas)])
+    names = [one for (dance, name), _ in decks for one in (name, *dance.dragon.names)]
+    # The cards of one dragon name those of others.
+    names += [one for _, (_, words) in decks[:1] for name, own in words.dragons for one in (name, *own)]
     # Chinese names may stand on English cards.
+    texts = "".join([title, *names, *(area.name for area in areas)])
     family = families(Language.CHINESE if max(texts) >= FIRST_CHINESE else request.language)
-    sheets = CardSheets(dance, place.venue, cards, words, title, verdict, family, terms.budget)
+    sheets = [
+        CardSheets(
+            dance, place.venue, cards, words, f"{title}: {name}" if name else title, verdict, family, terms.budget
+        )
+        for (dance, name), (cards, words) in decks
+    ]
     return cards_pdf(sheets, terms.progress)
 
 
@@ -298,4 +242,4 @@ def _cost(request: CuesRequest, form: str = JSON) -> float:
     return count * (SECONDS_PER_BENCH + (SECONDS_PER_CARD if form == PDF_TYPE else 0.0))
 
 
-QUESTION = Question(cues, Cues, None, CuesRequest, (JSON, CSV_TYPE, PDF_TYPE), _cost)
+QUESTION = Question(cues, Cues, None, CuesRequest, (JSON, CSV_TYPE, PDF_TYPE), _cost, several=PerformanceCues)

@@ -4,23 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Self
 
-from pydantic import BeforeValidator, Field
-from pydantic_core import PydanticCustomError
+from pydantic import Field
 
 import core
 from app.wire.answers import TOTAL_STRAY, Point
-from app.wire.performances import Moment, PerformanceFields
+from app.wire.performances import Moment, NumberOrName, PerformanceFields
 from app.wire.question import Answer, Margin, Question, Strays, Terms, measure
 from core.performance.performance import DELAY_MAX
-
-
-def _number_or_name(value: Any) -> Any:
-    if isinstance(value, float) and value.is_integer():
-        return int(value)
-    if isinstance(value, bool) or not isinstance(value, (int, str)):
-        raise PydanticCustomError("rule", "must be the number of a dragon, in the order of the dances, or its name")
-    return value
-
 
 Delay = Annotated[float, Field(ge=-DELAY_MAX, le=DELAY_MAX)]
 
@@ -28,7 +18,7 @@ Delay = Annotated[float, Field(ge=-DELAY_MAX, le=DELAY_MAX)]
 class DelayFields(Strays):
     """The delays of one dragon that are tried, and what counts as a contact."""
 
-    part: Annotated[int | str, BeforeValidator(_number_or_name)] = Field(
+    part: NumberOrName = Field(
         1,
         description="The dragon that waits: its number in the order of the dances, from 0, or its name. Its own delay "
         "does not count",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import BeforeValidator, Field, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from app.settings import Settings
@@ -22,6 +22,18 @@ if TYPE_CHECKING:
 BESIDE_SEVERAL = "must stand in each of the dances, got it beside them"
 # A time of a performance [s]: of a dance, and its delay.
 Moment = Annotated[float, Field(ge=-2 * DELAY_MAX, le=2 * DELAY_MAX)]
+
+
+def _number_or_name(value: Any) -> Any:
+    if isinstance(value, float) and value.is_integer():
+        return int(value)
+    if isinstance(value, bool) or not isinstance(value, (int, str)):
+        raise PydanticCustomError("rule", "must be the number of a dragon, in the order of the dances, or its name")
+    return value
+
+
+# A dragon of a performance.
+NumberOrName = Annotated[int | str, BeforeValidator(_number_or_name)]
 
 
 class PartBody(PathFields, strict=True):

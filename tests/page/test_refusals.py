@@ -180,6 +180,10 @@ def refusals(server: str) -> list[dict[str, Any]]:
         answers += [client.post("/check", json=body) for body in bodies]
         answers += [client.post("/check", json=one) for one in DANCES]
         answers.append(client.post("/tolerance", json={"dances": [EAST], "turning_diameter": 9}))
+        answers.append(client.post("/clearance", json={"dances": [EAST]}))
+        answers.append(client.post("/plan", json={"dances": [EAST] * 21}))
+        parts = ({"part": "west"}, {"part": 5}, {"part": True}, {"dances": None, "part": 0})
+        answers += [client.post("/cues", json={"dances": [EAST]} | one) for one in parts]
         answers.append(client.post("/maps.kml", json=few | {"path": path}))
         answers += [client.post("/places", content=data, headers=octets) for data in FILES]
         answers += [client.get("/jobs/" + 48 * "0"), late()]

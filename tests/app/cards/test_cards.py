@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ import core
 from app.cards.words import Chalk, runs
 from app.maps.dances import read_dance
 from app.questions.cues import CuesRequest
+from app.settings import Settings
 from app.wire.messages import checked
 from core.people.cards import CUES_MOST, TOGETHER
 from core.people.meetings import MeetingColumns
@@ -291,3 +293,97 @@ def test_chalk_marks_are_counted_in_whole_steps_both_ways() -> None:
     assert [chalk.steps(past) for past in (0.0, 0.24, 0.26, -2.4)] == [0, 0, 1, -5]
     assert runs([1]) == "1"
     assert math.isclose(chalk.nearest(1e6)[1], 0.0, abs_tol=ROUNDING)
+
+
+# -- several dances ------------------------------------------------------------------------------------------
+
+LANES = [
+    {"kind": "route", "pieces": [{"kind": "line", "start": [a, y], "end": [b, y]}]}
+    for a, b, y in ((0, 30, 0), (30, 0, 2))
+]
+TWO: dict[str, Any] = {
+    "dances": [
+        {"name": "east", "dragon": {"benches": 4, "names": ["Zhou", "Wu", "", "Wang"]}, "path": LANES[0]},
+        {"dragon": {"benches": 3}, "path": LANES[1], "delay": 3},
+    ],
+    "start_clock": "19:45",
+    "title": "Lantern night",
+}
+
+
+def test_cards_of_several_are_those_of_core(client: httpx.Client) -> None:
+    cards = client.post("/cues", json=TWO).raise_for_status().json()["cards"]
+    performance, _ = CuesRequest.model_validate(TWO).to_placed(Settings())
+    known = [(k, one) for k in (0, 1) for one in core.performance_cues(performance, k)]
+    assert [(card["dragon"], card["bench"]) for card in cards] == [(k, one.bench) for k, one in known]
+    assert {card["dragon_name"] for card in cards} == {"east", "dragon 1"}
+    for card, (_, one) in zip(cards, known, strict=True):
+        assert [card[name]["time"] for name in ("start", "begin", "done")] == [
+            one.start.time, one.begin.time, one.done.time
+        ]  # fmt: skip
+        assert [(m["time"], m["dragon"], m["bench"], m["side"], m["gap"]) for m in card["meetings"]] == [
+            (m.time, m.dragon, m.bench, m.side.value, m.gap) for m in one.meetings
+        ]
+        nearest = [cue["nearest"] for cue in card["cues"] if cue["nearest"]]
+        assert nearest
+        assert all(near["dragon"] != card["dragon"] for near in nearest)
+    met = next(cue for cue in cards[4]["cues"] if cue["kind"] == "meeting")
+    assert re.match(r"Bench \d (Zhou|Wu|Wang)? ?of east on your left, 1\.70 m: the nearest of ", met["words"])
+    assert met["nearest"]["name"] == ["Zhou", "Wu", "", "Wang"][met["nearest"]["bench"]]
+    assert met["clock"].startswith("19:45:")
+    chinese = client.post("/cues", json=TWO | {"language": "zh"}).raise_for_status().json()["cards"]
+    words = [cue["words"] for card in chinese[:4] for cue in card["cues"] if cue["kind"] == "meeting"]
+    assert all(one.startswith("1 号龙的 ") for one in words)
+
+
+def test_one_of_several_gets_cards_by_its_name_or_its_number(client: httpx.Client) -> None:
+    whole = client.post("/cues", json=TWO).raise_for_status().json()["cards"]
+    for part, some in (("east", whole[:4]), (1, whole[4:]), ("1", whole[4:])):
+        assert client.post("/cues", json=TWO | {"part": part}).raise_for_status().json()["cards"] == some
+    wu = client.post("/cues", json=TWO | {"part": 0, "cards": ["Wu"]}).raise_for_status().json()["cards"]
+    assert wu == [whole[1]]
+
+
+def test_csv_and_paper_of_several_name_the_dragon(client: httpx.Client, tmp_path: Path) -> None:
+    rows = list(csv.DictReader(io.StringIO(answer_of(client, TWO, "text/csv").decode())))
+    cards = client.post("/cues", json=TWO).raise_for_status().json()["cards"]
+    assert [(row["dragon"], row["dragon_name"], row["bench"]) for row in rows if row["kind"] == "stand"] == [
+        (str(card["dragon"]), card["dragon_name"], str(card["bench"])) for card in cards
+    ]
+    met = [row for row in rows if row["kind"] == "meeting"]
+    assert {(row["dragon"], row["other_dragon"]) for row in met} == {("0", "1"), ("1", "0")}
+    assert {row["other_dragon"] for row in rows if row["kind"] == "begin"} == {""}
+    file, paper = tmp_path / "two.json", tmp_path / "two.pdf"
+    file.write_text(json.dumps(TWO))
+    assert run("cues", str(file), "--output", str(paper)).returncode == 0
+    assert paper.read_bytes() == answer_of(client, TWO, "application/pdf")
+    sheets = [page.get_textpage().get_text_bounded() for page in pypdfium2.PdfDocument(paper)]
+    assert ["Lantern night: east" in sheet for sheet in sheets] == [True, False]
+    assert "Lantern night: dragon 1" in sheets[1]
+    assert all("Checked: passes" in sheet for sheet in sheets)
+    assert "of east" in sheets[1]
+
+
+@pytest.mark.parametrize(
+    ("change", "pointer", "words"),
+    [
+        ({"part": "west"}, "/part", "part must be the name or the number of a dragon, got 'west'"),
+        ({"part": 2}, "/part", "part must be from 0 to 1, got 2"),
+        ({"part": True}, "/part", "part must be the number of a dragon, in the order of the dances, or its name"),
+        ({"last_bench": 3}, "/last_bench", "last_bench must be at most 2, the tail, got 3"),
+        ({"head_speed": 1}, "/head_speed", "head_speed must stand in each of the dances, got it beside them"),
+        ({"dances": None, "path": LANES[0], "part": 0}, "/part", "part must be left out without dances, got 0"),
+        (
+            {"dances": [TWO["dances"][1], {"dragon": {"benches": 3, "names": ["Li", "", "Li"]}, "path": LANES[0]}]},
+            "/dances/1/dragon/names/2",
+            "dances[1].dragon.names[2] must differ from dances[1].dragon.names[0], got 'Li'",
+        ),
+    ],
+)
+def test_what_is_wrong_with_cards_of_several_is_refused(
+    client: httpx.Client, change: dict[str, Any], pointer: str, words: str
+) -> None:
+    refused = client.post("/cues", json=TWO | change)
+    assert refused.status_code == 422
+    (error,) = refused.json()["errors"]
+    assert (error["pointer"], error["detail"][: len(words)]) == (pointer, words)

@@ -289,7 +289,6 @@ ABOUT_ONE = "{file} holds the dances of several dragons, and this question is ab
     ("encounter", TWO | {"marginn": 2}, "marginn is unknown here: did you mean margin?"),
     ("collision-time", TWO, ABOUT_ONE),
     ("contact-probability", TWO, ABOUT_ONE),
-    ("cues", TWO, ABOUT_ONE),
     ("propose", TWO, ABOUT_ONE),
     ("check", TWO | {"head_speed": 2}, "head_speed must stand in each of the dances, got it beside them"),
 ])  # fmt: skip

@@ -1,0 +1,211 @@
+"""The answer of the question cues: the cards of one dragon, or of several."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Self
+
+from pydantic import Field
+
+from app.cards.words import CardWords
+from app.wire.clocks import time_of_day
+from app.wire.question import Answer, measure
+from core.people import cards as rule
+from core.people import cues as facts
+from core.people.cards import CUES_MOST, Card
+
+
+class Neighbour(Answer):
+    """Another bench."""
+
+    bench: int = Field(description="Its number; 0 is the head")
+    name: str = Field(description="Its name; empty without one")
+
+
+class Stand(Answer):
+    """A bench at one moment."""
+
+    time: float = measure("s")
+    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
+    x: float = measure("m", "x of its front handle")
+    y: float = measure("m", "y of its front handle")
+    heading: float = measure("rad", "Direction from its rear to its front handle")
+    mark: float = measure("m", "The nearest chalk mark along the path, by its length from mark 0")
+    past_mark: float = measure("m", "Way along the path from that mark to the front handle; below zero: before it")
+    steps: int = Field(description="The same in whole steps")
+
+
+class Meeting(Answer):
+    """Another bench comes abreast: its middle is straight to one side of the own middle, with no bench between."""
+
+    time: float = measure("s", "When the other middle is abreast, to within 1e-9 m along the own bench")
+    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
+    bench: int = Field(description="The other bench; 0 is the head")
+    name: str = Field(description="Its name; empty without one")
+    side: facts.Side = Field(description="Side on which it is, seen in the direction of the front handle")
+    gap: float = measure("m", "Gap of the two benches then, edge to edge; below zero: minus the depth of the overlap")
+    oncoming: bool = Field(description="True if it comes towards the own bench; false if it walks the same way")
+    x: float = measure("m", "x of the own middle then")
+    y: float = measure("m", "y of the own middle then")
+
+
+class Fastest(Answer):
+    """The moment at which a bench is fastest."""
+
+    time: float = measure("s")
+    speed: float = measure(
+        "m/s", "Higher speed of its two handles: reached then, and not exceeded every 0.25 m of head way"
+    )
+    speed_ratio: float = Field(description="The same over the speed with which the head begins to walk")
+    handle: int = Field(description="The handle: the number of the bench, or one more for its rear one")
+    x: float = measure("m", "x of that handle then")
+    y: float = measure("m", "y of that handle then")
+
+
+class Cue(Answer):
+    """One cue of a card."""
+
+    kind: rule.CueKind = Field(description="begin, pause, fastest, meeting or done")
+    time: float = measure("s", "Moment of the cue: of several meetings, that of the nearest")
+    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
+    count: str | None = Field(
+        description="Nearest beat of the music then, such as 17.3 for the third of bar 17; null: none"
+    )
+    since: float = measure(
+        "s", "Beginning of a pause, or moment of the first of several meetings; else the same as time"
+    )
+    until: float = measure("s", "End of a pause, or moment of the last of several meetings; else the same as time")
+    x: float = measure("m", "x of the bench: of the front handle, in a meeting of the middle, or of the fastest handle")
+    y: float = measure("m", "y of the same point")
+    nearest: Meeting | None = Field(description="The meeting, or the nearest of several; null in another kind of cue")
+    others: list[int] = Field(description="All benches met in this cue, in order of time; none in another kind of cue")
+    words: str = Field(description="The cue in one sentence, in the language of the request")
+
+
+class CueCard(Answer):
+    """What the carriers of one bench have to know."""
+
+    bench: int = Field(description="Number of the bench; 0 is the head")
+    name: str = Field(description="Its name; empty without one")
+    ahead: Neighbour | None = Field(description="The bench before it; null for the head")
+    behind: Neighbour | None = Field(description="The bench behind it; null for the tail")
+    start: Stand = Field(description="Where it stands when the dance starts")
+    begin: Stand = Field(description="When it begins to walk")
+    direction: float = measure("rad", "Direction in which its front handle begins to walk, from the x axis")
+    cues: list[Cue] = Field(description=f"At most {CUES_MOST} cues in order of time, as on the card")
+    left_out: int = Field(description="Cues that have no place on the card")
+    least_left_out: float | None = measure(
+        "m", "Least gap of all meetings left out, so nobody passes nearer without being on the card; null: none is"
+    )
+    meetings: list[Meeting] = Field(description="All meetings within the reach, in order of time")
+    fastest: Fastest = Field(description="When it is fastest")
+    done: Stand = Field(description="When and where it stops for good")
+
+
+class Cues(Answer):
+    """The cue cards of a dance."""
+
+    cards: list[CueCard] = Field(description="A card for each bench that was asked for, in order")
+
+    @classmethod
+    def of(cls, cards: list[Card], words: CardWords) -> Self:
+        return cls(cards=[_card(card, words) for card in cards])
+
+
+class DragonMeeting(Meeting):
+    """A bench of one of several dragons comes abreast."""
+
+    dragon: int = Field(description="The dragon of the other bench, in the order of the dances")
+    dragon_name: str = Field(description="Its name, or its number in words")
+
+
+class DragonCue(Cue):
+    """One cue of a card of one of several dragons."""
+
+    nearest: DragonMeeting | None = Field(
+        description="The meeting, or the nearest of several, all with benches of one dragon; null in another kind"
+    )
+
+
+class DragonCueCard(CueCard):
+    """What the carriers of one bench of one of several dragons have to know; times are those of the performance."""
+
+    dragon: int = Field(description="The dragon, in the order of the dances")
+    dragon_name: str = Field(description="Its name, or its number in words")
+    cues: list[DragonCue] = Field(  # type: ignore[assignment]
+        description=f"At most {CUES_MOST} cues in order of time, as on the card"
+    )
+    meetings: list[DragonMeeting] = Field(  # type: ignore[assignment]
+        description="All meetings within the reach, with benches of any dragon, in order of time"
+    )
+
+
+class PerformanceCues(Answer):
+    """The cue cards of several dragons."""
+
+    cards: list[DragonCueCard] = Field(description="A card for each bench that was asked for, dragon by dragon")
+
+    @classmethod
+    def together(cls, decks: Iterable[tuple[list[Card], CardWords]]) -> Self:
+        return cls(cards=[_dragon_card(card, words) for cards, words in decks for card in cards])
+
+
+def _clock(time: float, words: CardWords) -> str | None:
+    start = words.clock.start_clock
+    return None if start is None else time_of_day(time, start)
+
+
+def _neighbour(bench: int | None, words: CardWords) -> Neighbour | None:
+    return None if bench is None else Neighbour(bench=bench, name=words.names[bench] if words.names else "")
+
+
+def _stand(at: facts.Stand, words: CardWords) -> Stand:
+    mark, past = words.chalk.nearest(at.s)
+    own = {"clock": _clock(at.time, words), "mark": mark, "past_mark": past, "steps": words.chalk.steps(past)}
+    return Stand.from_result(at, **own)
+
+
+def _meeting(one: facts.Meeting, words: CardWords) -> Meeting:
+    own = {"name": words.met_name(one), "clock": _clock(one.time, words)}
+    if one.dragon is None:
+        return Meeting.from_result(one, **own)
+    return DragonMeeting.from_result(one, dragon_name=words.dragons[one.dragon][0], **own)
+
+
+def _dragon_card(card: Card, words: CardWords) -> DragonCueCard:
+    assert words.dragon is not None
+    values = _values(card, words, DragonCue)
+    return DragonCueCard(**values, dragon=words.dragon, dragon_name=words.dragons[words.dragon][0])
+
+
+def _card(card: Card, words: CardWords) -> CueCard:
+    return CueCard(**_values(card, words, Cue))
+
+
+def _values(card: Card, words: CardWords, kind: type[Cue]) -> dict[str, Any]:
+    """The fields of a card. kind: of its cues"""
+    bench = card.bench
+    cues = [
+        kind.from_result(
+            cue, clock=_clock(cue.time, words), count=words.clock.count(cue.time) or None,
+            nearest=cue.nearest and _meeting(cue.nearest, words),
+            others=[one.bench for one in cue.meetings], words=words.sentence(card, cue),
+        )
+        for cue in card.cues
+    ]  # fmt: skip
+    ratio = bench.fastest.speed / bench.head_speed
+    return {
+        "bench": bench.bench,
+        "name": words.names[bench.bench] if words.names else "",
+        "ahead": _neighbour(bench.ahead, words),
+        "behind": _neighbour(bench.behind, words),
+        "start": _stand(bench.start, words),
+        "begin": _stand(bench.begin, words),
+        "direction": bench.direction,
+        "cues": cues,
+        "left_out": len(card.left_out),
+        "least_left_out": card.least_left_out,
+        "meetings": [_meeting(one, words) for one in bench.meetings],
+        "fastest": Fastest.from_result(bench.fastest, speed_ratio=ratio),
+        "done": _stand(bench.done, words),
+    }
