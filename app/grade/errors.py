@@ -94,6 +94,8 @@ ERRORS = {
         "数值与正确值相差不到末位的一个单位；四舍五入为 {nearest} {unit}。"),
     "possible_turn": ("A turn of this length is possible where the dance enters the circle and leaves it elsewhere: the answer is right if both places are stated. The turn from the edge of the circle is {length} m long.",
         "若自由选取调头的进入点和离开点，这样的长度是可能的：说明这两个位置即为正确答案。从圆的边界进入时，调头曲线长 {length} m。"),
+    "possible_turn_of_ratio": ("A turn of this length is possible with arcs of another ratio than 2 : 1, where the dance enters the circle and leaves it elsewhere: the answer is right if the ratio and both places are stated. The turn of 2 : 1 from the edge of the circle is {length} m long.",
+        "若改变两段圆弧的半径比（不取 2:1），并自由选取进入点和离开点，这样的长度是可能的：说明半径比和这两个位置即为正确答案。半径比 2:1、从圆的边界进入时，调头曲线长 {length} m。"),
     "evidence_outside": ("{sheet}: {count} of {outside} places of handles outside turn 16, more than 8.8 m from the centre; the first is that of handle {handle} at {time} s.",
         "{sheet}：第 16 圈以外（距中心超过 8.8 m）的 {outside} 个把手位置中有 {count} 个；第一个是 {time} s 时的 {handle} 号把手。"),
     "evidence_outside_v": ("{sheet}: {count} of {outside} speeds of handles outside turn 16, more than 8.8 m from the centre; the first is that of handle {handle} at {time} s.",

@@ -43,6 +43,8 @@ DECIMALS_MOST = 4
 # is tighter than half of the head's chord, or benches overlap; a test recomputes it. core.shortest_turn with a free
 # ratio, whose bends are wider by the rounding that a proof needs, proves 8.223983 m.
 TURN_LENGTH_LEAST = 8.2147138
+# Length that every turn exceeds whose first arc has twice the radius of the second [m], as core.shortest_turn() proves.
+TURN_OF_TWO_LEAST = 11.7991513
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,8 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
             return Graded(Rating.RIGHT, [note("pitch_rounded_up", **words)], [])
         return Graded(Rating.ROUNDED, [note("rounded_otherwise", **words)], [])
     if name == "turn_length" and TURN_LENGTH_LEAST - half_unit <= value < right:
-        return Graded(Rating.RIGHT, [note("possible_turn", length=f"{right:.7f}")], [])
+        kind = "possible_turn" if value + half_unit >= TURN_OF_TWO_LEAST else "possible_turn_of_ratio"
+        return Graded(Rating.RIGHT, [note(kind, length=f"{right:.7f}")], [])
     notes = _overlap_of(value) if name == "pitch" and value < right else []
     return Graded(Rating.WRONG, notes, explained(name, value, half_unit))
 

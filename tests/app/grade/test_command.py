@@ -13,7 +13,7 @@ import pytest
 
 import core
 from app.files.tables import Language
-from app.grade.numbers import SEARCH_END, TURN_LENGTH_LEAST, gives
+from app.grade.numbers import SEARCH_END, TURN_LENGTH_LEAST, TURN_OF_TWO_LEAST, gives
 from app.grade.report import typed
 from app.grade.shortcuts import pitch_grids, right_answer, shortcuts
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
@@ -263,7 +263,12 @@ def test_a_number_right_to_its_last_digit_is_not_accused(name: str, text: str, v
 def test_every_turn_that_may_be_possible_is_a_right_answer_to_question_4(text: str) -> None:
     result = typed("turn_length", text, Language.ENGLISH)
     assert (result.verdict, result.diagnosis, result.possible) == ("right", [], [])
-    assert "right if both places are stated" in result.notes[0]
+    stated = "both places" if float(text) > TURN_OF_TWO_LEAST else "the ratio and both places"
+    assert f"right if {stated} are stated" in result.notes[0]
+
+
+def test_no_shorter_turn_has_arcs_of_two_to_one() -> None:
+    assert core.shortest_turn(core.Dragon(), 1.7).length_bracket[0] == pytest.approx(TURN_OF_TWO_LEAST, abs=1e-7)
 
 
 @pytest.mark.parametrize("ratio", [1.0, pytest.param(None, marks=pytest.mark.deep)], ids=["equal arcs", "any ratio"])
