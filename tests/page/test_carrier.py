@@ -24,6 +24,7 @@ STREET = "path=route&route=*-40,0_0,0_20,10_*40,0_80,0&begin=30&benches=9&door=v
 DRAGON = {"benches": 20, "head_length": 3.41, "body_length": 2.2, "width": 0.3, "overhang": 0.275}
 SPIRAL = {"kind": "spiral", "pitch": 0.55, "start_turns": 16}
 CORRECTION = 5.0  # of one press [s]
+SLACK = 45  # from the last press to the cue [s], so that a slow machine is not late
 
 
 def card(server: str, bench: int, language: str = "en", **more: Any) -> Any:
@@ -40,6 +41,17 @@ def words_of(page: Any) -> list[str]:
 def held(page: Any) -> Any:
     page.locator("#carrier[data-held=true]").wait_for()
     return page
+
+
+def ahead(page: Any, presses: int) -> None:
+    """Press the button of those who are ahead, as quickly as the page takes it."""
+    code = "presses => { for (let k = 0; k < presses; k++) document.querySelector(\"[data-correct='5']\").click(); }"
+    page.evaluate(code, presses)
+
+
+def seconds(clock: str) -> int:
+    """A duration such as 6:06 in seconds."""
+    return sum(int(part) * 60**k for k, part in enumerate(reversed(clock.split(":"))))
 
 
 MIDDLE = """() => {
@@ -82,23 +94,22 @@ def test_the_next_cue_is_counted_down_and_the_pressed_start_outlives_the_page(op
     cues = card(server, 7)["cues"]
     expect(page.locator("#carrier .cue")).to_contain_text("Press Start when the dance begins.")
     page.locator("#card-start").click()
-    late = next(cue for cue in cues if cue["since"] > 20)
-    k = cues.index(late)
-    presses = int((late["since"] - 12) // CORRECTION)
-    for _ in range(presses):
-        page.locator("[data-correct='5']").click()
+    late = next(cue for cue in cues if cue["since"] > 100)
+    ahead(page, int((late["since"] - SLACK) // CORRECTION))
     expect(page.locator("#carrier .cue")).to_have_text(late["words"])
-    when = page.locator("#carrier .when")
+    when, clock = page.locator("#carrier .when"), page.locator("#carrier .clock")
     expect(when).to_have_text(re.compile(r"^in 0:\d\d$"))
-    expect(page.locator("#card-more li").nth(k)).to_have_class("following")
-    left = int(when.inner_text()[-2:])
-    assert late["since"] - presses * CORRECTION - 60 < left <= late["since"] - presses * CORRECTION
+    expect(page.locator("#card-more li").nth(cues.index(late))).to_have_class("following")
+    assert 0 < int(when.inner_text()[-2:]) <= SLACK + CORRECTION
+    gone = seconds(clock.inner_text())
     page.reload()
     held(page)
-    expect(when).to_have_text(re.compile(r"^(in 0:\d\d|now|Now)$"))
     expect(page.get_by_role("button", name="Start again")).to_be_visible()
-    if left > 5:
-        expect(when).to_have_text("Now")  # The moment comes by itself.
+    assert seconds(clock.inner_text()) >= gone
+    while when.inner_text().startswith("in") and int(when.inner_text()[-2:]) > 2 * CORRECTION:
+        ahead(page, 1)
+        page.wait_for_timeout(100)
+    expect(when).to_have_text("Now")  # The moment comes by itself.
 
 
 def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(
@@ -113,8 +124,7 @@ def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(
     page.locator("#card-start").click()
     before = picture(page)
     cues = {language: card(server, 7, language)["cues"] for language in ("en", "zh")}
-    for _ in range(5):
-        page.locator("[data-correct='5']").click()
+    ahead(page, 5)
     expected = next(k for k, cue in enumerate(cues["en"]) if cue["since"] > 27)
     expect(page.locator("#card-more li.following")).to_contain_text(cues["en"][expected]["words"])
     page.get_by_role("button", name="中文").click()
@@ -122,8 +132,7 @@ def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(
     assert words_of(page) == [cue["words"] for cue in cues["zh"]]
     assert page.evaluate(MIDDLE) > 100
     assert (picture(page) != before).any(axis=-1).mean() > 0.01
-    for _ in range(100):
-        page.locator("[data-correct='5']").click()
+    ahead(page, 100)
     expect(page.locator("#carrier .cue")).to_have_text("舞龙已结束。")
 
 
