@@ -20,6 +20,7 @@ from app.service.negotiation import GZIPPED, accepted, form_of, gzipped, header_
 from app.service.short_tries import SHORT, ShortTries
 from app.service.version import build
 from app.settings import Settings
+from app.wire.dances import TimeRange
 from app.wire.question import BYTES, UNKNOWN_COST, Call, FileFormat, Terms, Wire
 from app.wire.refusals import refusing
 from core import Budget, TooMuchWork
@@ -45,8 +46,13 @@ class Computation:
 
     @cached_property
     def tag(self) -> str:
-        """Strong tag: an answer depends only on the call, its values with all defaults, the form and the build."""
-        values = "\n".join((build(), self._path, self.media_type, self.inputs.model_dump_json()))
+        """Strong tag: an answer depends only on the call, its values with all defaults, the form and the build.
+
+        Of times also on the ends that the caller gave, because the others may be moved.
+        """
+        times = getattr(self.inputs, "times", self.inputs)
+        stated = times.stated if isinstance(times, TimeRange) else ""
+        values = "\n".join((build(), self._path, self.media_type, self.inputs.model_dump_json(), stated))
         return hashlib.blake2b(values.encode(), digest_size=16).hexdigest()
 
     @property

@@ -93,6 +93,11 @@ class TimeRange(Wire):
     stop: Instant = measure("s", "Last instant, if the step meets it", 300.0)
     step: float = measure("s", "Time between two instants", 1.0, ge=1e-6, le=1e6)
 
+    @property
+    def stated(self) -> str:
+        """Names of the ends that the caller gave: within() moves only others."""
+        return ", ".join(name for name in ("start", "stop") if name in self.model_fields_set)
+
     def instants(self) -> int:
         """Number of instants, computed before any is allocated. raises: InvalidValue when stop lies before start"""
         if self.stop < self.start:

@@ -23,6 +23,14 @@ def test_a_question_that_is_asked_again_is_answered_from_memory(server: str, cli
     assert sample(server, REPEATED) == before + 1.0
 
 
+def test_an_end_that_may_be_moved_is_another_question_than_the_same_end_as_a_wish(client: httpx.Client) -> None:
+    line = {"kind": "line", "start": [0, 0], "end": [40, 0]}
+    body = {"dragon": {"benches": 4}, "path": {"kind": "route", "start": 5.0, "pieces": [line]}}
+    moved = client.post("/trajectory", json=body | {"times": {"stop": 20}})
+    assert moved.raise_for_status().json()["time"][0] > 0.0
+    assert client.post("/trajectory", json=body | {"times": {"start": 0, "stop": 20}}).status_code == 422
+
+
 def test_the_answers_kept_stay_within_their_room_and_the_latest_stay() -> None:
     kept = KeptAnswers(160, CollectorRegistry())
     for number in range(40):
