@@ -9,13 +9,13 @@ from typing import Annotated, Any
 from pydantic import Field
 
 import core
+from app.cards.answer import Cues, PerformanceCues
 from app.cards.tables import cards_csv, performance_cards_csv
 from app.cards.words import CardWords, Chalk
 from app.files.tables import CSV_TYPE, Language
 from app.files.words import Say
 from app.plan.timing import TimeFormat
 from app.questions.check import verdict_of
-from app.questions.cue_cards import Cues, PerformanceCues
 from app.questions.maps import Marked
 from app.questions.plan import FIRST_CHINESE, PDF_TYPE, verdict_words
 from app.wire.dances import clock_of

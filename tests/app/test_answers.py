@@ -25,8 +25,13 @@ APART_FROM_MARGINS = {
     *((model, name) for model in ("CollisionTime", "Encounter") for name in ("margin", "corner", "edge")),
     ("Encounter", "cross_check"),
     # Cue cards list who comes near, within a reach and not a margin.
-    ("Meeting", "gap"), ("CueCard", "meetings"),
-    *(("Cue", name) for name in ("kind", "time", "since", "until", "x", "nearest")),
+    *((model, "gap") for model in ("Meeting", "DragonMeeting")),
+    *((model, "meetings") for model in ("CueCard", "DragonCueCard")),
+    *(
+        (model, name)
+        for model in ("Cue", "DragonCue")
+        for name in ("kind", "time", "since", "until", "x", "nearest")
+    ),
 }  # fmt: skip
 
 

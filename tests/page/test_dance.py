@@ -194,6 +194,7 @@ def test_the_clearance_chart_and_the_dance_have_one_time(visit: Any, server: str
     plot = page.locator("#clearance .u-over")
     box = plot.bounding_box()
     plot.click(position={"x": box["width"] / 2, "y": 20})
+    settled(page)
     time = clock(page)
     assert time == pytest.approx(collision_time(server, benches=40)["time"] / 2, rel=0.02)
     text_of(page, "#table-time", page.locator("#clock").inner_text())

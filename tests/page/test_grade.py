@@ -99,7 +99,7 @@ def test_a_number_that_is_rounded_the_other_way_is_not_wrong(page: Any) -> None:
     expect(boxes.nth(0).locator(".value")).to_have_text("✓rounded")
     expect(boxes.nth(0)).to_contain_text("0.4504 m is the smallest of as many digits")
     expect(boxes.nth(1).locator(".value")).to_have_text("✓right")
-    expect(boxes.nth(1)).to_contain_text("the answer is right if both places are stated")
+    expect(boxes.nth(1)).to_contain_text("the answer is right if the ratio and both places are stated")
 
 
 def test_an_invalid_number_is_refused_in_words(page: Any, visit: Any) -> None:

@@ -1,4 +1,4 @@
-"""The answer of the question cues: the cards of one dragon, or of several."""
+"""The answer of the question cues: the cards of one dragon, or of several, with the words of each cue."""
 
 from __future__ import annotations
 
