@@ -19,11 +19,19 @@ export function setLanguage(choice) {
   return language;
 }
 
-/** Write the text or the label of every element that has a key; those of a part that has not loaded stay as the service wrote them. */
+/** Attribute -> element -> the text that was written, which others may have replaced since. */
+const WRITTEN = { text: new WeakMap(), label: new WeakMap() };
+
+/** Write the text or the label of every element that has a key and not yet that text; those of a part that has not loaded stay as the service wrote them. */
 export function writeTexts() {
-  const known = (name) => $$(`[data-${name}]`).filter(({ dataset }) => dataset[name] in WORDS);
-  for (const element of known("text")) element.textContent = say(element.dataset.text);
-  for (const element of known("label")) {
+  const due = (name) => $$(`[data-${name}]`).filter((element) => {
+    const key = element.dataset[name];
+    if (!(key in WORDS) || WRITTEN[name].get(element) === say(key)) return false;
+    WRITTEN[name].set(element, say(key));
+    return true;
+  });
+  for (const element of due("text")) element.textContent = say(element.dataset.text);
+  for (const element of due("label")) {
     element.setAttribute("aria-label", say(element.dataset.label));
     if (element.tagName === "BUTTON") element.title = say(element.dataset.label);
   }
