@@ -55,7 +55,8 @@ def root(rising, guess, low, high):
 
 
 def head_angle(arc):
-    """Angle of the spiral r = theta at a length from the centre."""
+    """Angle of the spiral r = theta at a length from the centre, where rounding may leave less than nothing."""
+    arc = np.maximum(arc, 0.0)
     far = np.sqrt(2.0 * arc)
     return root(lambda theta: (arc_length(theta) - arc, np.hypot(1.0, theta)), far, 0.0 * far, far + 1.0)
 
