@@ -59,7 +59,7 @@ class JobCalls(Layer):
         async def receive_and_enter() -> Message:
             nonlocal is_read
             message = await receive()
-            if not is_read and not message.get("more_body", False):
+            if not is_read and message["type"] == "http.request" and not message.get("more_body", False):
                 is_read = True
                 await enter()
             return message

@@ -125,14 +125,14 @@ def take(request: Request, task: Task, cost: float) -> Response:
     except Full as error:
         raise full(error, keeper.settings) from error
     except OSError as error:
-        raise refused(keeper, error) from error
+        raise store_refusal(keeper, error) from error
     keeper.hurry()
     root = request.scope.get("root_path", "")
     headers = {**NOT_KEPT, "Location": f"{root}/jobs/{job.id}", "Preference-Applied": RESPOND_ASYNC}
     return Response(status(job, root), 202, headers, JSON)
 
 
-def refused(keeper: Keeper, error: OSError) -> Refused:
+def store_refusal(keeper: Keeper, error: OSError) -> Refused:
     """The refusal of a call while the store cannot be used, without the names of folders; the fault is logged."""
     keeper.faults.log(str(error))
     return Refused(503, "This service takes no jobs now: the store of the jobs failed.", None, COME_AGAIN)
@@ -207,7 +207,7 @@ def job_of(request: Request, job_id: JobId) -> Job:
     try:
         keeper.store.check_file()
     except OSError as error:
-        raise refused(keeper, error) from error
+        raise store_refusal(keeper, error) from error
     job = keeper.store.get(job_id)
     if job is None:
         words = "There is no job {job}: it was removed, it has expired, or its ID is wrong."
