@@ -171,6 +171,7 @@ def test_a_wish_that_is_shown_has_proposals(place: str, wish: str, tmp_path: Pat
 
 @pytest.mark.parametrize(("values", "command"), RESULTS, ids=[command for _, command in RESULTS])
 def test_a_result_is_printed_by_the_command_beside_it(values: str, command: str, tmp_path: Path) -> None:
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
     printed = run(command, tmp_path).stdout
     for value in NUMBER.findall(values):
         digits = len(value.partition(".")[2])

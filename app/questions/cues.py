@@ -20,7 +20,7 @@ from app.questions.maps import Marked
 from app.questions.plan import FIRST_CHINESE, PDF_TYPE, verdict_words
 from app.wire.dances import clock_of
 from app.wire.degrees import Place
-from app.wire.performances import NumberOrName, SeveralFields
+from app.wire.performances import NumberOrName, SeveralFields, dragon_of
 from app.wire.question import AS_WHOLE, JSON, OneLine, Question, Terms, measure
 from core import Dance, InvalidValue, Performance
 from core.errors import Given, Parameter, TooLarge
@@ -87,17 +87,9 @@ class CuesRequest(SeveralFields, DanceCues, strict=True):
 
     def dragons_of(self, performance: Performance) -> Sequence[int]:
         """The dragons whose benches get cards. raises: InvalidValue"""
-        names = [part.name for part in performance.parts]
         if self.part is None:
-            return range(len(names))
-        if self.part in names:
-            return [names.index(str(self.part))]
-        if isinstance(self.part, str) and not re.fullmatch(r"\d{1,9}", self.part, re.ASCII):
-            raise InvalidValue("part", "must be the name or the number of a dragon", got=Given(self.part))
-        number, most = int(self.part), len(names) - 1
-        if not 0 <= number <= most:
-            raise InvalidValue("part", "must be from 0 to {most}", got=number, most=most)
-        return [number]
+            return range(len(performance.parts))
+        return [dragon_of(self.part, performance)]
 
 
 def _bench_of(field: str, word: int | str, dragon: core.Dragon) -> int:

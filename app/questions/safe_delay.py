@@ -8,7 +8,7 @@ from pydantic import Field
 
 import core
 from app.wire.answers import TOTAL_STRAY, Point
-from app.wire.performances import Moment, NumberOrName, PerformanceFields
+from app.wire.performances import Moment, NumberOrName, PerformanceFields, dragon_of
 from app.wire.question import Answer, Margin, Question, Strays, Terms, measure
 from core.performance.performance import DELAY_MAX
 
@@ -36,12 +36,6 @@ class DelayFields(Strays):
 
 class SafeDelayRequest(DelayFields, PerformanceFields, strict=True):
     """The delays of one dragon at which no benches of two dragons touch, or come within a margin."""
-
-    def to_part(self) -> int | str:
-        """The dragon that waits, as core takes it: a number in digits is a number unless it is a name."""
-        is_number = isinstance(self.part, str) and self.part.isdecimal()
-        is_name = self.part in [one.name for one in self.dances]
-        return int(self.part) if is_number and not is_name else self.part
 
 
 class SafeDelays(Answer):
@@ -78,7 +72,8 @@ def safe_delay(request: SafeDelayRequest, terms: Terms) -> SafeDelays:
     """The delays of one dragon at which no benches of two dragons touch or come within a margin, proven."""
     limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "stop": request.stop}
     performance = request.to_performance(terms.settings)
-    result = core.safe_delay(performance, request.to_part(), request.least, request.most, budget=terms.budget, **limits)
+    part = dragon_of(request.part, performance)
+    result = core.safe_delay(performance, part, request.least, request.most, budget=terms.budget, **limits)
     return SafeDelays.of(result, request)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
@@ -34,6 +35,13 @@ def _number_or_name(value: Any) -> Any:
 
 # A dragon of a performance.
 NumberOrName = Annotated[int | str, BeforeValidator(_number_or_name)]
+
+
+def dragon_of(part: int | str, performance: Performance) -> int:
+    """The number of a dragon; digits are its number unless they are its name. raises: InvalidValue"""
+    is_name = part in [one.name for one in performance.parts]
+    is_number = isinstance(part, str) and not is_name and re.fullmatch(r"\d{1,9}", part, re.ASCII)
+    return performance.number_of(int(part) if is_number else part)
 
 
 class PartBody(PathFields, strict=True):

@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from core.dance import Dance, EndReason, whole_seconds
 from core.display import Readable, display, format_count
 from core.errors import (
@@ -174,6 +176,17 @@ class Performance(Readable):
     def name_of(self, k: int) -> str:
         """The name of a dragon, or its number."""
         return self.parts[k].name or f"dragon {k}"
+
+    def number_of(self, part: int | str) -> int:
+        """The number of a dragon, from its name or its number. raises: InvalidValue"""
+        for k, one in enumerate(self.parts):
+            if one.name is not None and one.name == part:
+                return k
+        number = isinstance(part, (int, np.integer)) and not isinstance(part, bool)
+        if number and 0 <= int(part) < len(self.parts):
+            return int(part)
+        rule = "must be a dragon's name, or its number below {count}"
+        raise InvalidValue("part", rule, got=Given(part), count=len(self.parts))
 
     @property
     def default_times(self) -> Floats:

@@ -29,7 +29,7 @@ from core.contact.search import MARGIN_MAX, WORK_BUDGET
 from core.dance import Dance
 from core.display import Readable, display
 from core.dragon import Stray, checked_stray
-from core.errors import Given, InvalidValue, Parameter, Quantity, bound, checked_number, quantities, question_about
+from core.errors import InvalidValue, Parameter, Quantity, bound, checked_number, quantities, question_about
 from core.extremes.speed import highest_speed
 from core.kernels import Budget, Ended
 from core.kernels.constants import HALF_LENGTH
@@ -121,7 +121,7 @@ def safe_delay(
     >>> [tuple(round(end, 1) for end in interval) for interval in safe_delay(crossing, 1, -60.0, 60.0).safe]
     [(-60.0, -10.3), (10.3, 60.0)]
     """
-    k = _number_of(performance, part)
+    k = performance.number_of(part)
     low = checked_number("least", least, "s", -DELAY_MAX, DELAY_MAX)
     high = checked_number("most", most, "s", -DELAY_MAX, DELAY_MAX)
     if low >= high:
@@ -133,19 +133,6 @@ def safe_delay(
     search = _Search(performance, k, (low, high), margin, strayed, until, (budget or Budget()).within(DELAY_WORK))
     safe, undecided = search.run(low, high)
     return SafeDelays(safe, undecided, k, low, high, margin, strayed, until, search.marches, performance)
-
-
-def _number_of(performance: Performance, part: object) -> int:
-    """The number of a part."""
-    names = [one.name for one in performance.parts]
-    if isinstance(part, str):
-        if part not in names:
-            raise InvalidValue("part", "must be the name of a dragon", got=Given(part))
-        return names.index(part)
-    if isinstance(part, bool) or not isinstance(part, (int, np.integer)) or not 0 <= part < len(names):
-        rule = "must be a dragon's name, or its number below {count}"
-        raise InvalidValue("part", rule, got=Given(part), count=len(names))
-    return int(part)
 
 
 def _refuse_folds(performance: Performance, k: int, least: float, stop: float | None) -> None:

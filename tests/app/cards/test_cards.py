@@ -367,8 +367,8 @@ def test_csv_and_paper_of_several_name_the_dragon(client: httpx.Client, tmp_path
 @pytest.mark.parametrize(
     ("change", "pointer", "words"),
     [
-        ({"part": "west"}, "/part", "part must be the name or the number of a dragon, got 'west'"),
-        ({"part": 2}, "/part", "part must be from 0 to 1, got 2"),
+        ({"part": "west"}, "/part", "part must be a dragon's name, or its number below 2, got 'west'"),
+        ({"part": 2}, "/part", "part must be a dragon's name, or its number below 2, got 2"),
         ({"part": True}, "/part", "part must be the number of a dragon, in the order of the dances, or its name"),
         ({"last_bench": 3}, "/last_bench", "last_bench must be at most 2, the tail, got 3"),
         ({"head_speed": 1}, "/head_speed", "head_speed must stand in each of the dances, got it beside them"),

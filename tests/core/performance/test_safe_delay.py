@@ -146,7 +146,7 @@ def test_a_stray_makes_the_safe_intervals_shorter() -> None:
     [
         ({"part": 2}, "part must be a dragon's name, or its number below 2, got 2"),
         ({"part": True}, "part must be a dragon's name, or its number below 2, got True"),
-        ({"part": "north"}, "part must be the name of a dragon, got 'north'"),
+        ({"part": "north"}, "part must be a dragon's name, or its number below 2, got 'north'"),
         ({"least": 5.0, "most": 5.0}, "most must be more than least (5 s), got 5 s"),
         ({"most": 1e9}, "most must be at most 1e+06 s"),
         ({"margin": -1.0}, "margin must be"),
