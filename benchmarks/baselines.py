@@ -70,13 +70,22 @@ def looks(dragon: Dragon, path: Spiral, times: Floats) -> list[bool]:
     ]
 
 
-def looks_at_two(dragon: Dragon, path: Spiral, times: Floats) -> list[bool]:
-    """True at each time at which two dragons overlap, the second one turned by half a turn about the centre."""
-    overlap = []
+def handles(dragon: Dragon, path: Spiral, time: float) -> Floats:
+    """(n + 1, 2) positions [m] at one instant, of a spiral anywhere and in either direction."""
+    position = handles_and_velocities(dragon, path, time)[0]
+    if not path.clockwise:
+        position = position * [1.0, -1.0]
+    cos, sin = math.cos(path.rotation), math.sin(path.rotation)
+    return position @ np.array([[cos, sin], [-sin, cos]]) + path.centre
+
+
+def looks_at_several(dragon: Dragon, paths: list[Spiral], times: Floats) -> list[bool]:
+    """True at each time at which benches of two equal dragons overlap, one on each path."""
+    owner, overlap = np.repeat(np.arange(len(paths)), dragon.benches), []
     for time in times:
-        position = handles_and_velocities(dragon, path, time)[0]
-        tree = shapely.STRtree(polygons(dragon, position))
-        overlap.append(tree.query(polygons(dragon, -position), predicate="intersects").size > 0)
+        benches = [bench for path in paths for bench in polygons(dragon, handles(dragon, path, time))]
+        a, b = shapely.STRtree(benches).query(benches, predicate="intersects")
+        overlap.append(bool((owner[a] != owner[b]).any()))
     return overlap
 
 

@@ -98,30 +98,44 @@ def test_minimum_pitch_baseline(benchmark: BenchmarkFixture) -> None:
     assert not any(benchmark.pedantic(baselines.looks, (DRAGON, path, times), rounds=3))
 
 
-TWO = core.Performance([core.Part(core.Dance(DRAGON, core.Spiral(1.1, 16.0, rotation=turn))) for turn in (0.0, np.pi)])
+TWO = [core.Spiral(1.1, 16.0, rotation=turn) for turn in (0.0, np.pi)]
+PLACES = [(45.0 * k, 45.0 * row) for row in range(3) for k in range(3)] + [(135.0, 0.0)]
+TEN = [core.Spiral(1.1, 14.0, place, 0.7 * k, k % 2 == 1) for k, place in enumerate(PLACES)]
+SHORTER = core.Dragon(200)
+
+
+def performance(dragon: core.Dragon, paths: list[core.Spiral]) -> core.Performance:
+    return core.Performance([core.Part(core.Dance(dragon, path)) for path in paths])
 
 
 def test_first_encounter(benchmark: BenchmarkFixture) -> None:
     benchmark.group = "first encounter"
-    assert benchmark(core.first_encounter, TWO).outcome is core.Outcome.CONTACT
+    assert benchmark(core.first_encounter, performance(DRAGON, TWO)).outcome is core.Outcome.CONTACT
 
 
 def test_first_encounter_baseline(benchmark: BenchmarkFixture) -> None:
-    time = core.first_encounter(TWO).time
+    time = core.first_encounter(performance(DRAGON, TWO)).time
     assert time is not None
     benchmark.group = "first encounter"
     benchmark.extra_info["scale"] = baselines.looks_for_first_contact(time) / SAMPLED_LOOKS.size
-    path = core.Spiral(1.1, 16.0)
-    assert not any(benchmark.pedantic(baselines.looks_at_two, (DRAGON, path, SAMPLED_LOOKS), rounds=3))
-    assert baselines.looks_at_two(DRAGON, path, np.array([time - 1e-6, time + 1e-6])) == [False, True]
+    assert not any(benchmark.pedantic(baselines.looks_at_several, (DRAGON, TWO, SAMPLED_LOOKS), rounds=3))
+    assert baselines.looks_at_several(DRAGON, TWO, np.array([time - 1e-6, time + 1e-6])) == [False, True]
 
 
 def test_ten_dragons(benchmark: BenchmarkFixture) -> None:
     benchmark.group = "ten dragons"
-    places = [(45.0 * k, 45.0 * row) for row in range(3) for k in range(3)] + [(135.0, 0.0)]
-    spirals = [core.Spiral(1.1, 14.0, place, 0.7 * k, k % 2 == 1) for k, place in enumerate(places)]
-    square = core.Performance([core.Part(core.Dance(core.Dragon(200), spiral)) for spiral in spirals])
-    assert benchmark(lambda: core.first_encounter(square, stop=300.0)).outcome is core.Outcome.CLEAR
+    square = performance(SHORTER, TEN)
+    assert benchmark(core.first_encounter, square, stop=300.0).outcome is core.Outcome.CLEAR
+
+
+def test_ten_dragons_baseline(benchmark: BenchmarkFixture) -> None:
+    benchmark.group = "ten dragons"
+    times = np.array([100.0, 300.0])
+    benchmark.extra_info["scale"] = 300.0 / baselines.STEP / times.size
+    assert not any(benchmark.pedantic(baselines.looks_at_several, (SHORTER, TEN, times), rounds=3))
+    for path, part in zip(TEN, core.performance_trajectory(performance(SHORTER, TEN), times), strict=True):
+        plain = np.stack([baselines.handles(SHORTER, path, time) for time in times])
+        assert abs(plain - part.position).max() < AGREEMENT
 
 
 def test_envelope(benchmark: BenchmarkFixture) -> None:
