@@ -46,7 +46,7 @@ def performance_film(
 
 
 def _frames(performance: Performance, spec: FilmSpec, title: str, budget: Budget) -> Iterator[NDArray[np.uint8]]:
-    """Pictures (height, width, 4) in red, green, blue, alpha, each its own copy."""
+    """Pictures (height, width, 4) in red, green, blue, alpha, each valid until the next one."""
     times, stage = spec.times, PerformancePicture(performance, spec, title)
     dragons = [part.dance.dragon for part in performance.parts]
     for first in range(0, times.size, BATCH):

@@ -61,11 +61,23 @@ def test_every_bench_is_drawn_in_the_colour_of_its_dragon() -> None:
                 colour = picture[round(len(picture) - 1 - y), round(x), :3] / 255.0
                 assert colour == pytest.approx(to_rgb(colour_of(k)), abs=0.02)
     assert stage.time.get_text() == "19:30:20  20.50 s"
+
+
+@pytest.mark.parametrize(
+    ("language", "words"),
+    [
+        (Language.ENGLISH, "bench 2 of east and bench 0 of dragon 1 touch\n"),
+        pytest.param(Language.CHINESE, "第 2 节（east）与第 0 节（1 号龙）板凳相碰", marks=pytest.mark.chinese_font),
+    ],
+)
+def test_the_benches_that_touch_are_named(language: Language, words: str) -> None:
+    stage = PerformancePicture(PERFORMANCE, FilmSpec(20.0, 30.0, height=180, language=language), "")
+    results = performance_trajectory(PERFORMANCE, 20.5)
+    outlines = [
+        bench_outlines(part.dance.dragon, one.position) for part, one in zip(PERFORMANCE.parts, results, strict=True)
+    ]
     stage.picture(20.5, outlines, (0, 1), (2, 0))
-    assert stage.time.get_text().startswith("bench 2 of east and bench 0 of dragon 1 touch\n")
-    chinese = PerformancePicture(PERFORMANCE, FilmSpec(20.0, 30.0, height=180, language=Language.CHINESE), "")
-    chinese.picture(20.5, outlines, (0, 1), (2, 0))
-    assert chinese.time.get_text().startswith("第 2 节（east）与第 0 节（1 号龙）板凳相碰")
+    assert stage.time.get_text().startswith(words)
 
 
 def test_the_film_ends_at_the_first_encounter_and_marks_it() -> None:

@@ -246,7 +246,7 @@ LANES = [{"kind": "waypoints", "points": points} for points in ([[-30, 0], [30, 
 TWO: dict[str, Any] = {
     "dances": [
         {"name": "Long", "dragon": {"benches": 5, "names": ["Zhou", "Wu", "Zheng", "Wang", "Feng"]}, "path": LANES[0]},
-        {"name": "北", "delay": 40, "dragon": {"benches": 4}, "path": LANES[1]},
+        {"name": "North", "delay": 40, "dragon": {"benches": 4}, "path": LANES[1]},
     ],
     "venue": {"type": "Polygon", "coordinates": [[[-35, -35], [35, -35], [35, 35], [-35, 35], [-35, -35]]]},
     "gates": [{"name": "south gate", "x": 0, "y": -20}],
@@ -267,12 +267,12 @@ def several_pages(**more: Any) -> Any:
 def test_the_plan_of_several_shows_all_of_them_and_then_each() -> None:
     sheets = [words(page) for page in several_pages()]
     for sheet in sheets[:4]:
-        for word in ("Long", "北", "2 dragons, 9 benches", "south gate", "Checked: passes", "from 0:"):
+        for word in ("Long", "North", "2 dragons, 9 benches", "south gate", "Checked: passes", "from 0:"):
             assert word in sheet
     assert "Place of each bench at" in sheets[1]
-    first = next(k for k, sheet in enumerate(sheets) if "Lanterns: 北" in sheet)
+    first = next(k for k, sheet in enumerate(sheets) if "Lanterns: North" in sheet)
     assert all("Lanterns: Long" in sheet for sheet in sheets[4:first])
-    assert "Lanterns: 北" in sheets[-1]
+    assert "Lanterns: North" in sheets[-1]
     # The table of gates stands with the dragon that passes the gate, on the clock of the performance.
     assert "Head and tail at the gates" not in "".join(sheets[4:first])
     (gate,) = (
@@ -295,11 +295,13 @@ def test_each_of_several_has_the_sheets_that_it_has_alone() -> None:
         assert line in "\n".join(several)
 
 
+@pytest.mark.chinese_font
 def test_an_encounter_stands_in_the_title_block() -> None:
-    meeting = [TWO["dances"][0], TWO["dances"][1] | {"delay": 0}]
+    meeting = [TWO["dances"][0], TWO["dances"][1] | {"name": "北", "delay": 0}]
     sheets = [words(page) for page in several_pages(dances=meeting, start_clock="19:30", language="zh")]
     assert all(re.search("检查：19:30:.. 板凳相碰或过近", sheet) for sheet in sheets)
     assert "2 条龙，9 节板凳" in sheets[0]
+    assert "北" in sheets[0]
     assert "时间：当日时刻" in sheets[-1]
 
 
