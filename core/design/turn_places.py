@@ -23,6 +23,10 @@ PLACES = 60
 WIDER = 1e-12
 # Distance from a bound that counts as on it [m], above what the minimiser leaves.
 SNAP = 1e-5
+# Distance of the neighbours with which a place is compared [m], of ratios [1]; length by which a shorter one is shorter
+# for certain [m]; most searches, each from the shortest neighbour of the one before: where the minimiser gives up, the
+# correction may lead to a place from which there are shorter ones.
+APART, SHORTER, SEARCHES = 1e-3, 1e-9, 4
 # Rounds of the correction that puts a place on the border of what benches can follow.
 CORRECTIONS = 8
 
@@ -73,24 +77,30 @@ def locally_shortest(
     bounds = [(inner, radius), (inner, radius), (math.log(RATIO_MIN), math.log(RATIO_MAX))][:free]
     begin = np.array([start[0], start[0] + growth * start[1], start[2]])[:free]
     room = {"type": "ineq", "fun": lambda x: sizes(x)[:2] - least}
+    low, high = np.array(bounds).T
+    steps = APART * (np.indices((3,) * free).reshape(free, -1).T - 1.0)
     with np.errstate(all="ignore"):
-        point = minimize(
-            lambda x: sizes(x)[4], begin, bounds=bounds, constraints=[room], method="SLSQP",
-            options={"ftol": 1e-13, "maxiter": 200},
-        ).x  # fmt: skip
-        low, high = np.array(bounds).T
-        point = np.clip(point, low, high)
-        point = np.where(np.abs(point - low) < SNAP, low, np.where(np.abs(point - high) < SNAP, high, point))
-        inside = (point > low) & (point < high)
-        for _ in range(CORRECTIONS):
-            for k in range(2):
-                missing = least + WIDER - sizes(point)[k]
-                if missing > 0.0 or -JUST < missing < -2.0 * WIDER:
-                    point = _corrected(lambda x: sizes(x)[:2], k, point, inside, missing)
-        point = np.clip(point, low, high)
-    if not np.isfinite(point).all() or (sizes(point)[:2] < least).any():
-        return None
-    return place(point)
+        for _ in range(SEARCHES):
+            point = minimize(
+                lambda x: sizes(x)[4], begin, bounds=bounds, constraints=[room], method="SLSQP",
+                options={"ftol": 1e-13, "maxiter": 200},
+            ).x  # fmt: skip
+            point = np.clip(point, low, high)
+            point = np.where(point - low < SNAP, low, np.where(high - point < SNAP, high, point))
+            inside = (point > low) & (point < high)
+            for _ in range(CORRECTIONS):
+                for k in range(2):
+                    missing = least + WIDER - sizes(point)[k]
+                    if missing > 0.0 or -JUST < missing < -2.0 * WIDER:
+                        point = _corrected(lambda x: sizes(x)[:2], k, point, inside, missing)
+            point = np.clip(point, low, high)
+            if not np.isfinite(point).all() or (sizes(point)[:2] < least).any():
+                return None
+            around = [x for x in np.clip(point + steps, low, high) if (sizes(x)[:2] >= least).all()]
+            begin = min(around, key=lambda x: float(sizes(x)[4]), default=point)
+            if not sizes(begin)[4] < sizes(point)[4] - SHORTER:
+                return place(point)
+    return None
 
 
 def _corrected(
