@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Self
 
 import httpx
+import psutil
 
 from app.files.tables import XLSX_TYPE
 from tests.conftest import STOP_TIMEOUT, wait_until_live
@@ -156,6 +157,17 @@ CALLS = {
     "check": "POST /check",
     "trajectory_figure": "GET /figures/trajectory.{format}",
 }
+
+
+def is_gone(pid: int) -> bool:
+    """True if the process has ended, whether or not its parent has noticed.
+
+    In a container the first process may be nobody who notices the end of orphans.
+    """
+    try:
+        return psutil.Process(pid).status() == psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return True
 
 
 def wait_for(claim: Any, patience: float = PATIENCE) -> None:

@@ -21,7 +21,7 @@ from app.processes.pool import STARTS, Pool
 from core import Budget
 from core.kernels import Halted
 from tests.conftest import ROOT
-from tests.support.job_service import LINGER, wait_for
+from tests.support.job_service import LINGER, is_gone, wait_for
 
 MODULE = "tests.support.tasks"
 
@@ -36,14 +36,6 @@ def answered(pool: Pool, task: bytes, budget: Budget | None = None) -> tuple[int
     """Process that answered, and the length of the task."""
     pid, length = map(int, pool.answer(task, budget).split())
     return pid, length
-
-
-def is_gone(pid: int) -> bool:
-    """True if the process has ended, whether or not its parent has noticed."""
-    try:
-        return psutil.Process(pid).status() == psutil.STATUS_ZOMBIE
-    except psutil.NoSuchProcess:
-        return True
 
 
 def test_one_process_answers_one_task_after_another(pool: Pool) -> None:

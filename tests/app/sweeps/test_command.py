@@ -20,6 +20,7 @@ from app.sweeps.shards import ShardPiece, parts, write_part
 from app.sweeps.spec import Spec
 from tests.conftest import heed_ctrl_c
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, bin_folder, run
+from tests.support.job_service import is_gone, wait_for
 
 SPEC = """
 question = "collision_time"
@@ -102,10 +103,10 @@ def test_after_ctrl_c_and_a_kill_no_worker_is_left_and_the_sweep_continues_to_th
     # The second worker may not have begun when the first one has written a part.
     interrupted = len(children)
     assert 1 <= interrupted <= 2
-    assert not psutil.wait_procs(children, PATIENCE)[1]
+    wait_for(lambda: all(is_gone(child.pid) for child in children))
     assert stopped(spec, tmp_path / "a", kill, 1)[0] == -signal.SIGKILL
     assert len(children) == interrupted + 1
-    assert not psutil.wait_procs(children, PATIENCE)[1]
+    wait_for(lambda: all(is_gone(child.pid) for child in children))
     assert table(spec, tmp_path / "a") == table(spec, tmp_path / "undisturbed")
 
 
