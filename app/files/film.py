@@ -50,7 +50,7 @@ WAITING = 4
 # H.264: quality (crf, smaller is better), effort, and number of threads, which changes the bytes. A frame between two
 # others (bframes) makes the file of a spiral 3.4 times smaller for 1.4 times the encoder's work (measured 2026-11-27).
 SEARCH = "bframes=1:b-adapt=0:trellis=0:weightp=0:ref=1:rc-lookahead=5"
-OPTIONS, THREADS = {"crf": "24", "preset": "veryfast", "x264-params": SEARCH}, 2
+OPTIONS, THREADS = {"crf": "25", "preset": "veryfast", "x264-params": SEARCH}, 2
 FAST_START = {"movflags": "faststart"}
 # The sound is whole before the first picture, so the file waits for as many pictures as it takes.
 WITH_SOUND = {"max_interleave_delta": "0"}
