@@ -48,7 +48,7 @@ def propose(
     if output:
         for name, data in _files(result, answer).items():
             show.write(output / name, data)
-    show.print_result(answer, json, _parts(answer))
+    show.print_result(answer, json, _parts(answer, request.objective))
 
 
 def _files(result: core.Proposals, answer: Proposals) -> dict[str, bytes]:
@@ -63,16 +63,26 @@ def _files(result: core.Proposals, answer: Proposals) -> dict[str, bytes]:
     return files | ({"overview.png": overview(result.proposals)} if result.proposals else {})
 
 
-def _parts(answer: Proposals) -> Iterator[show.Part]:
+def _parts(answer: Proposals, objective: core.Objective) -> Iterator[show.Part]:
     yield Text(answer.summary, style="bold")
     if not answer.proposals:
         return
+    counts = objective is core.Objective.BENCHES
     table = show.new_table(
-        "Proposals", "figure", "safe stray", "duration", "length", "turns", "nearest", "highest speed"
-    )
+        "Proposals", "figure", *["benches"] * counts, "safe stray", "duration", "length", "turns", "nearest",
+        "highest speed",
+    )  # fmt: skip
     for one in answer.proposals:
         near = f"{one.near.distance:.3f} m, {one.near.name}"
         speed = "" if one.highest_speed is None else f"{one.highest_speed:.2f} m/s"
-        row: list[Any] = [one.figure.value, f"{one.tolerance:.3f} m", f"{one.duration:.0f} s", f"{one.length:.0f} m"]
+        row: list[Any] = [one.figure.value, *[str(_benches(one.dance["dragon"]))] * counts]
+        row += [f"{one.tolerance:.3f} m", f"{one.duration:.0f} s", f"{one.length:.0f} m"]
         table.add_row(*row, f"{one.turns:.1f}", near, speed)
     yield table
+    if counts and answer.most_benches is not None:
+        yield f"By the area of the square, no dragon of this kind has more than {answer.most_benches} benches."
+
+
+def _benches(dragon: dict[str, Any]) -> int:
+    """Number of the benches of a dragon in a body."""
+    return len(dragon["lengths"]) if "lengths" in dragon else int(dragon["benches"])

@@ -251,6 +251,11 @@ export class Propose {
     return say(kind === "fails" && !failure ? "lack_fails_none" : `lack_${kind}`, { ...names, ...numbers, tried, figure: figure ? say(`figure_${figure}`) : "" });
   }
 
+  /** How many benches the area of the square bounds, if they are what counts. */
+  #most({ most_benches: most = null }) {
+    return this.objective.value === "benches" && most !== null ? ` ${say("proposedMost", { most })}` : "";
+  }
+
   /** After a change of anything. */
   show() {
     const drawing = this.#drawing;
@@ -279,7 +284,7 @@ export class Propose {
 
   #showWords(answer) {
     const seconds = this.#search && Math.round((performance.now() - this.#search.began) / 1000);
-    const result = answer && (answer.proposals.length ? `${say(answer.tried ? "proposed" : "proposedSoFar", { count: answer.proposals.length, tried: answer.tried })} ${say("proposedChoose")}` : this.#lack(answer));
+    const result = answer && (answer.proposals.length ? `${say(answer.tried ? "proposed" : "proposedSoFar", { count: answer.proposals.length, tried: answer.tried })} ${say("proposedChoose")}${this.#most(answer)}` : this.#lack(answer));
     const text = this.#search ? say(answer ? "proposingMore" : "proposing", { seconds, count: answer?.proposals.length }) : (this.note?.() ?? result ?? "");
     const problem = !this.#search && !text && this.#problem;
     Object.assign(this.words, problem ? refusalWords(problem) : { textContent: text });

@@ -39,6 +39,8 @@ BENCHES_MOST, COUNT_MOST = 2_000, 12
 STRAY_HALVINGS = 10
 # Default work of a question, about a minute [1].
 PROPOSE_WORK = 3e8
+# Part of the area of a square by which it is enlarged for the rounding of sums [1].
+AREA_SPARE = 1e-9
 
 Kind = TypeVar("Kind", Figure, Objective)
 
@@ -301,10 +303,17 @@ def with_benches(dragon: Dragon, count: int) -> Dragon:
 
 
 def _area_bound(search: Search, dragon: Dragon) -> int:
-    """Number of benches that no dragon of this kind in the square exceeds: of every other one, which cannot overlap,
-    the areas are not larger than the square."""
-    left = search.ground.area - float(dragon.lengths[0] * dragon.widths[0])
-    return 2 * (1 + int(max(left, 0.0) / float(dragon.lengths[-1] * dragon.widths[-1])))
+    """Number of benches that no dragon of this kind in the square exceeds: the areas of every other one, which cannot
+    overlap, are together not larger than the square."""
+    room, sizes = search.ground.area * (1.0 + AREA_SPARE), dragon.lengths * dragon.widths
+    parity = np.arange(dragon.benches) % 2
+    covered = [np.where(parity == k, sizes, 0.0).cumsum() for k in (0, 1)]
+    fitting = int((np.maximum(*covered) <= room).sum())
+    if fitting < dragon.benches:
+        return fitting
+    # Further benches are like the last one; of each parity, the first of them for which there is no room.
+    last, count = float(sizes[-1]), dragon.benches
+    return min(count + (count + k) % 2 + 2 * int((room - float(covered[k][-1])) / last) for k in (0, 1))
 
 
 def _most_benches(
@@ -316,7 +325,7 @@ def _most_benches(
     on_proposal: Callable[[Proposal], None],
 ) -> Proposals:
     """Proposals with as many benches as were found to fit, one of each figure."""
-    limit = min(BENCHES_MOST, most or BENCHES_MOST)
+    limit = BENCHES_MOST if most is None else min(BENCHES_MOST, max(most, 1))
     every = []
     for figure in figures:
         longest = _longest(venue, search, [figure], (min(search.dragon.benches, limit), limit))

@@ -226,6 +226,23 @@ def test_why_none_fits_stands_in_one_sentence(open_page: Any, language: str, wor
     assert page.locator(CARDS).count() == 0
 
 
+@pytest.mark.parametrize(
+    ("language", "words"),
+    [("en", r"By its area the square has room for at most \d+\."), ("zh", r"按面积，广场最多容纳 \d+ 节。")],
+)
+def test_as_many_benches_as_fit_stand_beside_what_the_area_bounds(open_page: Any, language: str, words: str) -> None:
+    page = open_page(f"{EMPTY}&benches=3&lang={language}&things=a.square..0,0_9,0_9,9_0,9")
+    settled(page)
+    page.locator("#objective").select_option("benches")
+    proposed(page)
+    settled(page)
+    expect(page.locator("#proposed")).to_have_text(re.compile(words))
+    page.locator("#objective").select_option("turns")
+    proposed(page)
+    settled(page)
+    expect(page.locator("#proposed")).not_to_have_text(re.compile(words))
+
+
 def test_a_search_can_be_stopped(open_page: Any) -> None:
     page = open_page(YARD)
     settled(page)

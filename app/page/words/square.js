@@ -25,6 +25,7 @@ export const SQUARE = {
   proposeFirst: ["First say how large your square is.", "请先填写广场的大小。"],
   proposed: ["The best {count} of {tried} tried; each has passed its check.", "试过 {tried} 种，以下 {count} 种最佳，均已通过检查。"],
   proposedChoose: ["Choose one; then you may edit it.", "选择一种，之后仍可修改。"],
+  proposedMost: ["By its area the square has room for at most {most}.", "按面积，广场最多容纳 {most} 节。"],
   figure_spiral: ["Spiral in and out", "螺线盘入盘出"],
   figure_eight: ["Figure eight", "8 字形"],
   figure_serpentine: ["Serpentine", "蛇形"],

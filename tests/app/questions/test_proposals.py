@@ -140,3 +140,16 @@ def test_the_command_writes_dances_and_pictures(tmp_path: Path) -> None:
         "The widest free circle is 3.02 m across; a turn of the head bench needs 3.91 m.",
     )
     assert list((tmp_path / "none").iterdir()) == []
+
+
+def test_the_command_says_how_many_benches_fit_and_what_the_area_bounds(tmp_path: Path) -> None:
+    ring = [[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]
+    body = {"venue": {"type": "Polygon", "coordinates": [ring]}, "dragon": {"benches": 3}, "figures": ["ring"]}
+    file = tmp_path / "wish.json"
+    file.write_text(json.dumps({**body, "objective": "benches", "count": 1}))
+    answer = json.loads(run("propose", str(file), "--json").stdout)
+    most, fitting = answer["most_benches"], answer["proposals"][0]["dance"]["dragon"]["benches"]
+    table = run("propose", str(file)).stdout.splitlines()
+    head, row = (next(line.split() for line in table if word in line) for word in ("figure", "ring"))
+    assert row[head.index("benches")] == str(fitting)
+    assert f"no dragon of this kind has more than {most} benches" in " ".join(table)

@@ -126,6 +126,19 @@ def test_the_most_benches_are_below_the_bound_of_the_areas_and_no_dance_has_one_
     assert refuted(Case(SMALL, best.dance.dragon, (), limits()), best) == ""
 
 
+@pytest.mark.parametrize("last", [0.3, 1.0, 4.0], ids=["thin", "like the others", "wide"])
+@pytest.mark.parametrize("side", [0.5, 3.0, 5.0])
+def test_the_bound_of_the_areas_is_that_of_every_other_bench_of_a_dragon_whose_last_bench_differs(
+    last: float, side: float
+) -> None:
+    yard = Venue(box("yard", 0, 0, side, side))
+    dragon = Dragon.of([3.4, *[2.0] * 8, 2.0], [1.0] * 9 + [last], [0.275] * 10)
+    result = propose(yard, dragon, figures=["ring"], count=1, objective="benches")
+    areas = [2.0 if k else 3.4 for k in range(9)] + [2.0 * last] * 200
+    fits = [max(sum(areas[:n:2]), sum(areas[1:n:2])) <= side * side for n in range(200)]
+    assert result.most_benches == fits.index(False) - 1
+
+
 def reason_of(venue: Venue, dragon: Dragon, **more: Any) -> core.Reason:
     result = propose(venue, dragon, **more)
     assert result.proposals == ()
