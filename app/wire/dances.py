@@ -114,10 +114,10 @@ class TimeRange(Wire):
         return self.model_copy(update={"start": start, "stop": stop})
 
     def times_of(self, dance: Dance | Performance, cells_max: int) -> Floats:
-        """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
+        """Instants (T,) [s], none of them after the stop. raises: TooLarge, InvalidValue"""
         instants = self.instants()
         check_limit("times.step", "instants x handles", instants * handles_of(dance), cells_max, FEWER_CELLS)
-        return self.start + self.step * np.arange(instants, dtype=np.float64)
+        return np.minimum(self.start + self.step * np.arange(instants, dtype=np.float64), self.stop)
 
 
 def handles_of(dance: Dance | Performance) -> int:

@@ -73,7 +73,9 @@ def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDrag
         return error
     stop_alone = times.model_fields_set & {"start", "stop"} == {"stop"}
     end = "stop" if index or stop_alone else "start"
-    return error.with_field(f"times.{end}", Quantity(getattr(times, end), "s"))
+    if (value := getattr(times, end)) is None:  # an end that was left to the question
+        return error
+    return error.with_field(f"times.{end}", Quantity(value, "s"))
 
 
 def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:

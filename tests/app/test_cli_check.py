@@ -205,6 +205,22 @@ def test_the_dance_that_is_judged_is_written_as_a_table(dance: Path) -> None:
     assert (sheet.max_row - 1, sheet.max_column - 1) == (2 * 5, len(answer["time"]))
 
 
+LANES = [{"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, y], [40, y]]}} for y in (0, 5)]
+
+
+@pytest.mark.parametrize("more", [LANES[0], {"dances": LANES}], ids=["one", "several"])
+def test_the_last_second_of_a_table_is_not_after_the_end_of_a_path(tmp_path: Path, more: dict[str, Any]) -> None:
+    file, table = tmp_path / "lane.json", tmp_path / "lane.csv"
+    file.write_text(json.dumps({"start": 10, **more}))
+    # The sides of this path are a rounding shorter than 40 m.
+    done = run("check", str(file), "--output", str(table))
+    assert done.stderr == f"{table}\n"
+    report = json.loads(answer_of("check", str(file), "--json"))
+    assert report["stop"] % 1.0 > 0.999
+    times = [float(row["time"]) for row in csv.DictReader(table.read_text().splitlines())]
+    assert (times[0], times[-1]) == (10.0, report["stop"])
+
+
 # The last digit of a distance in a report [m].
 LAST_DIGIT = 1e-6
 
