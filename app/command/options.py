@@ -18,12 +18,13 @@ from app.command.usage import path_argument
 from app.files.disk import display_name, object_words
 from app.maps.dances import read_dance
 from app.settings import Settings
+from app.wire.clocks import clock_at_zero
 from app.wire.dances import DanceFields, PathFields, SpanFields, TimeRange
 from app.wire.messages import checked
 from app.wire.performances import BESIDE_SEVERAL, PerformanceFields
 from app.wire.question import DanceQuery, Strays
 from app.wire.refusals import refusing
-from core import BenchDragonError, InvalidValue
+from core import BenchDragonError, Dance, InvalidValue, Performance
 from core.dance import DEFAULT_SPAN
 from core.errors import Given, Value
 
@@ -83,7 +84,7 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
         values["times"] = steps
     elif "time" in own and "start" in held:
         values.setdefault("time", held["start"])
-    return checked(body, values, object_words(file))
+    return _begun(checked(body, values, object_words(file)), held, context)
 
 
 def _refuse_other(file: Path, held: dict[str, Any], own: Collection[str]) -> None:
@@ -110,19 +111,32 @@ def _steps(held: dict[str, Any], body: type[BaseModel], context: typer.Context) 
         context.meta[RANGED] = True
     if "start" in ends and "stop" not in ends | steps:
         start = (ends | steps)["start"]
-        ends["stop"] = max(start, min(start + DEFAULT_SPAN, math.floor(_end_of(held))))
+        ends["stop"] = max(start, min(start + DEFAULT_SPAN, math.floor(_in_file(held).end.time)))
     return ends | steps
 
 
-def _end_of(held: dict[str, Any]) -> float:
-    """End time of the dance, or of the dances, in a file [s]. raises: InvalidValue"""
+def _in_file(held: dict[str, Any]) -> Dance | Performance:
+    """The dance in a file, or the dances of several. raises: InvalidValue"""
     if "dances" in held:
         several = checked(PerformanceFields, {"dances": held["dances"]})
         with refusing(several):
-            return several.to_performance(Settings()).end.time
+            return several.to_performance(Settings())
     request = checked(DanceFields, {name: held[name] for name in DanceFields.model_fields if name in held})
     with refusing(request):
-        return request.to_dance(Settings().benches_max).end.time
+        return request.to_dance(Settings().benches_max)
+
+
+def _begun(request: Model, held: dict[str, Any], context: typer.Context) -> Model:
+    """The request with the time of day at time 0, if the dance in a file begins at a time of day and not at the start
+    of this question. raises: InvalidValue"""
+    if not isinstance(request, DanceFields) or request.begin_clock is None or request.start_clock is not None:
+        return request
+    is_own = "start" in type(request).model_fields
+    if typed_options(context, "start") == [] if is_own else "start" not in held:
+        return request
+    start = checked(SpanFields, {"start": held.get("start")}).start
+    zero = clock_at_zero(request.begin_clock, _in_file(held).begin if start is None else start)
+    return request.model_copy(update={"begin_clock": None, "start_clock": zero})
 
 
 @contextmanager

@@ -256,6 +256,24 @@ def test_the_dance_starts_at_its_time_of_day_and_the_verdict_says_when_it_ends(
     assert at_zero["begins"] == time_of_day(report["start"], "19:30")
 
 
+@pytest.mark.parametrize(
+    ("file", "start", "begin"),
+    [({"start": 20}, [], 20.0), ({"start": 20}, ["--start", "22"], 20.0), ({}, ["--start", "22"], None)],
+    ids=["start of the file", "later", "whole dragon on the path"],
+)
+def test_a_dance_starts_at_its_time_of_day_wherever_a_table_begins(
+    tmp_path: Path, file: dict[str, Any], start: list[str], begin: float | None
+) -> None:
+    dance, table = tmp_path / "dance.json", tmp_path / "all.csv"
+    body = {"dragon": {"benches": 4}, "path": LANE, "begin_clock": "19:30", **file}
+    dance.write_text(json.dumps(body))
+    done = run("trajectory", str(dance), *start, "--output", str(table))
+    assert done.returncode == 0, done.stderr
+    first = next(csv.DictReader(table.read_text().splitlines()))
+    begin = core.Dance(core.Dragon(4), core.Route([core.Line((0, 0), (60, 0))])).begin if begin is None else begin
+    assert first["clock"] == f"19:30:{int(float(first['time']) - begin):02d}"
+
+
 def test_two_times_of_day_are_refused(client: httpx.Client) -> None:
     refused = client.post(
         "/check", json={"path": LANE, "dragon": {"benches": 2}, "start_clock": "19:30", "begin_clock": "19:31"}
