@@ -324,7 +324,7 @@ class Reading:
     def _walked(self, line: MapFeature) -> Mapping[str, Any]:
         """The path along a track, with a note on how far it is from what was walked."""
         points, times = np.array(line.rings[0]), np.array(line.times)
-        walk = walk_of(points, times if np.isfinite(times).all() else None, self.chord)
+        walk = walk_of(points, times, self.chord)
         name = line.name or self.say("a track without a name", "未命名的轨迹")
         if walk is None:
             length = Quantity(APART, "m")

@@ -141,10 +141,17 @@ def _beside(points: Floats, s: Floats, line: Floats) -> tuple[Floats, Floats]:
 
 
 def passages_of(times: Floats, places: Floats) -> list[dict[str, Any]] | None:
-    """Speeds from the first time on (0 s); None if the times do not grow. times [s], places along the path [m]: (P,)"""
+    """Speeds from the first time on (0 s); None if the times do not grow. times [s], places along the path [m]: (P,)
+
+    A point whose time is not known (NaN) does not count, but the first point must have one.
+    """
+    if not np.isfinite(times[0]):
+        return None
+    known = np.isfinite(times)
+    times, places = times[known], places[known]
     grows = np.concatenate([[True], times[1:] > np.maximum.accumulate(times)[:-1]])
     times, places = times[grows] - times[0], places[grows]
-    if len(times) < 2 or not np.isfinite(times).all():
+    if len(times) < 2:
         return None
     error = PLACE
     while len(kept := _corners(times, places, error)) > PASSAGES + 1:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 import httpx
@@ -84,7 +85,8 @@ def test_its_times_are_passages_with_a_pause_where_people_stood() -> None:
 
 def test_times_that_do_not_grow_are_none_and_many_speeds_become_few() -> None:
     assert passages_of(np.zeros(5), np.arange(5.0)) is None
-    assert passages_of(np.array([0.0, math.nan, 2.0]), np.arange(3.0)) is None
+    assert passages_of(np.array([math.nan, 1.0, 2.0]), np.arange(3.0)) is None
+    assert passages_of(np.array([0.0, math.nan, 2.0]), np.arange(3.0)) == [{"speed": 1.0, "until_time": 2.0}]
     times = np.arange(20_000.0)
     places = np.cumsum(np.repeat(np.random.default_rng(0).uniform(0.5, 1.5, 200), 100))
     passages = passages_of(times, places)
@@ -137,6 +139,12 @@ def test_gpx_is_a_path_with_its_waypoints_as_obstacles() -> None:
     without = places_of(gpx([point(k) for k in range(70)]), None, Say(Language.CHINESE))
     assert without.passages is None
     assert "轨迹没有递增的时间。" in without.notes
+
+
+def test_points_without_a_time_do_not_end_the_times() -> None:
+    lane = [re.sub("<time>.*</time>", "", one) if k in (30, 31, 45) else one for k, one in enumerate(LANE)]
+    parts = places_of(gpx(lane), None, Say(Language.ENGLISH))
+    assert parts.passages == [{"speed": pytest.approx(1.112, abs=0.02), "until_time": 69.0}]
 
 
 def test_the_service_smooths_a_walk_for_the_longest_bench(client: httpx.Client) -> None:
