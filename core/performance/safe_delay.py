@@ -50,8 +50,9 @@ SAMPLES = 24
 ZOOMS, ZOOMED = 3, 9
 # How far beyond a met interval the next delay is tried, as a part of half of it, and how often that is halved [1].
 AHEAD, HALVINGS = 0.8, 4
-# Work of one question [1], see core/kernels/constants.py: about a minute.
-DELAY_WORK = 4e8
+# Work of one question [1], see core/kernels/constants.py: about a minute; of a sample of the separation of two benches,
+# and of the beginning of a march for each bench of all dragons.
+DELAY_WORK, SAMPLE_WORK, BENCH_WORK = 4e8, 400.0, 20.0
 # Part by which bounds are enlarged for the rounding of their own numbers [1].
 SPARE = 1e-9
 
@@ -242,6 +243,7 @@ class _Search:
 
     def _march(self, stage: Stage, half: float | None) -> Met:
         self.marches += 1
+        self.budget.afford(BENCH_WORK * len(stage.owner))
         march = EncounterMarch(stage, dips=False)
         begin = max(stage.span[0], stage.clear_until())
         if begin >= stage.span[1]:
@@ -272,6 +274,8 @@ class _Search:
         """The furthest delay up to which two benches are followed that certainly meet [s]."""
         reach, part = delay + side * half, AHEAD
         while side * (end - reach) > 0.0 and half > 0.25 * LEAST:
+            if self._stands(delay, side, time, rows):
+                return end
             for _ in range(HALVINGS):
                 ahead = reach + side * part * half
                 shift = ahead - delay
@@ -285,6 +289,23 @@ class _Search:
             part = min(AHEAD, 2.0 * part)
         return reach
 
+    # Two benches that meet at a time t of a delay d meet at every longer delay d' too if
+    # - the dragon has not begun at t: with d' neither has it. If the performance begins later than t with d', all stand
+    #   at its beginning as they do at t;
+    # - the other one's path has ended at t: at t + d' - d the dragon is where it was, and the other one still stands.
+    #   If the performance has ended by then, all stand at its end as they do at t. A stop may come before.
+    # The same holds for shorter delays with beginnings and ends exchanged.
+    def _stands(self, delay: float, side: float, time: float, rows: tuple[int, int]) -> bool:
+        """True if two benches that meet at a time meet at all delays on this side, because one of them stands then."""
+        owners = [int(self.look.owner[row]) for row in rows]
+        if self.k not in owners:
+            return False
+        other = self.performance.parts[sum(owners) - self.k]
+        dance, own = self.performance.parts[self.k].dance, time - delay
+        if side > 0.0:
+            return own <= dance.begin or (self.stop is None and time >= other.end)
+        return own >= dance.end.time or time <= other.begin
+
     def _deepest(self, delay: float, times: np.ndarray, rows: tuple[int, int]) -> tuple[float, float]:
         """The time at which two benches are deepest within the margin at a delay, and half the width of the interval of
         delays around it at which they are within it at that time [s]."""
@@ -293,10 +314,11 @@ class _Search:
         look.players[k] = Player(replace(player.part, delay=delay), player.search, player.first, look.span)
         until = look.span[1]
         gap, time = math.inf, float(times[0])
+        laid_out = sum(row - look.players[int(look.owner[row])].first + 2 for row in rows)
         for _ in range(ZOOMS):
             inside = np.clip(times, look.span[0], until).tolist()
+            self.budget.afford((SAMPLE_WORK + laid_out) * len(inside))
             gaps = [look.gap_most(time, *rows) for time in inside]
-            self.budget.look()
             nearest = int(np.argmin(gaps))
             gap, time = min((gap, time), (gaps[nearest], inside[nearest]))
             times = np.linspace(inside[max(nearest - 1, 0)], inside[min(nearest + 1, len(inside) - 1)], ZOOMED)

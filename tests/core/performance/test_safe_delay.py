@@ -135,6 +135,28 @@ def test_no_delay_is_safe_while_two_others_meet_and_all_are_without_others() -> 
     assert repr(alone) == "<SafeDelays: delays of third from 0 to 20 s: safe 0 to 20 s>"
 
 
+@pytest.mark.parametrize("place", ["beginning", "end"])
+def test_dragons_that_stand_on_the_same_ground_meet_at_all_delays_of_a_fortnight(place: str) -> None:
+    """Found by one sample, not by one for every third of a second."""
+    lanes = [Line((0.0, 0.0), (40.0, 0.0)), Line((0.0, 0.0), (0.0, 40.0))]
+    if place == "end":
+        lanes = [Line(lane.end, lane.start) for lane in lanes]
+    crossing = Performance([Part(Dance(Dragon(3), Route([lane]))) for lane in lanes])
+    delays = safe_delay(crossing, 1, -1e6, 1e6)
+    assert (delays.safe, delays.undecided) == ((), ())
+    assert delays.marches < 60
+    for delay in (-1e6, -50.0, 50.0, 1e6):
+        parts = [crossing.parts[0], replace(crossing.parts[1], delay=delay)]
+        assert first_encounter(Performance(parts)).outcome is not Outcome.CLEAR
+
+
+def test_following_two_benches_through_the_delays_is_work() -> None:
+    lanes = [Line((0.0, 0.0), (1000.0, 0.0)), Line((1000.0, 0.0), (0.0, 0.0))]
+    against = Performance([Part(Dance(Dragon(3), Route([lane]))) for lane in lanes])
+    with pytest.raises(TooMuchWork):
+        safe_delay(against, 1, -900.0, 900.0, budget=Budget(1e6))
+
+
 def test_a_stray_makes_the_safe_intervals_shorter() -> None:
     nominal, straying = (safe_delay(streets(3, 3), 1, 0.0, 30.0, stray=stray) for stray in (0.0, 0.05))
     assert isinstance(straying, SafeDelays)
