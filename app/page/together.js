@@ -36,11 +36,13 @@ export function recordsIn(text) {
 export const legsOf = (drawing) => toAddress(drawing).filter(([name]) => LEGS.includes(name)).map(([name, text]) => [name, String(text)]);
 
 /** True for a spiral that this page cannot show: with another centre, or counter-clockwise. */
-export const isForeign = ({ kind, centre = [0, 0], clockwise = true }) => kind === "spiral" && (!clockwise || centre.some(Boolean));
+export const isForeign = ({ kind = "spiral", centre = [0, 0], clockwise = true } = {}) => kind === "spiral" && (!clockwise || centre.some(Boolean));
 
 /** A dance of a FILE as a dragon of an address. */
-export function recordOf(/** @type {any} */ { name, delay, dragon = {}, path, head_speed: speed, ...paces }) {
-  const isCoil = ["spiral", "turn"].includes(path.kind);
+export function recordOf(/** @type {any} */ { name, delay, dragon = {}, path: own, head_speed: speed, ...paces }) {
+  const path = { kind: "spiral", ...own };
+  // A turn with clothoids has no fields of its own: it is shown as any path.
+  const isCoil = path.kind === "spiral" || (path.kind === "turn" && (path.middle ?? null) === null);
   const known = { ...dragon, ...(isCoil && path), head_speed: speed };
   const numbers = NUMBERS.filter((one) => typeof known[one] === "number").map((one) => [one, String(known[one])]);
   const turned = isCoil && path.rotation ? String(Number(((path.rotation * 180) / Math.PI).toFixed(9))) : "";

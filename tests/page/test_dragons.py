@@ -211,6 +211,23 @@ def test_a_saved_file_opens_again(open_page: Any, tmp_path: Path, preset: str) -
         expect(other.locator("#status")).to_contain_text("the page shows spirals around x = y = 0")
 
 
+def test_a_turn_with_clothoids_and_a_dance_without_a_path_are_opened_as_they_are(
+    open_page: Any, tmp_path: Path
+) -> None:
+    turn = {"kind": "turn", "pitch": 1.7, "turning_diameter": 9.0, "start_turns": 5.0, "middle": 1.0, "ends": 0.5}
+    dances = [{"name": "turning", "dragon": {"benches": 3}, "path": turn, "delay": 100}, {"dragon": {"benches": 4}}]
+    file = tmp_path / "two.json"
+    file.write_text(json.dumps({"dances": dances}))
+    page = open_page("?door=all&path=route&lang=en")
+    settled(page)
+    page.locator("#open-file").set_input_files(str(file))
+    expect(page.locator("#dragons li")).to_have_count(2)
+    settled(page)
+    kept = saved(page)["dances"]
+    assert kept[0]["path"] == turn
+    assert (kept[1]["path"], kept[1]["dragon"]["benches"]) == ({"kind": "spiral", "pitch": 0.55, "start_turns": 16}, 4)
+
+
 def test_a_bench_is_followed_where_one_dragon_dances(open_page: Any) -> None:
     page = open_page("?benches=9&pitch=1.1&start_turns=6&dances=~rotation:180&bench=3&lang=en")
     expect(page.locator("#status")).to_contain_text("The page follows a bench where one dragon dances")
