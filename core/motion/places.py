@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -11,8 +13,8 @@ from core.kernels import Budget
 from core.kernels.constants import CHAIN_COLUMNS, CHORD, LAG, SIZE_COLUMNS
 from core.values import Floats
 
-# Travel of the head between two rows of a table of places [m], and largest number of rows.
-STEP, ROWS_MAX = 0.25, 2_000
+# Travel of the head between two rows of a table of places [m], largest number of rows, and of finer tables at a time.
+STEP, ROWS_MAX, FINER_MOST = 0.25, 2_000, 100
 
 
 @question_about("dance", Dance)
@@ -48,7 +50,8 @@ class Passing:
     """Times at which handles first pass places on the path, between two instants [s].
 
     The place of a handle depends only on the head's travel. It is interpolated linearly between the rows of a table,
-    STEP apart, with an error below a centimetre.
+    STEP apart, with an error below a centimetre. On a way of more than ROWS_MAX rows they are further apart, and a
+    finer table is made between the two rows between which a handle is there.
     raises: TooMuchWork
     """
 
@@ -56,10 +59,16 @@ class Passing:
         self.clock = dance.clock
         first, last = self.clock.travel(start), self.clock.travel(stop)
         self.travels = np.linspace(first, last, min(ROWS_MAX, int((last - first) / STEP) + 2))
-        self.start, self.s = start, _behind(dance, self.travels, budget or Budget())
+        self.start, self.dance, self.budget = start, dance, budget or Budget()
+        self.s = _behind(dance, self.travels, self.budget)
+        self.steps = math.ceil((last - first) / (len(self.travels) - 1) / STEP)
+        self.finer = dict[int, tuple[Floats, Floats]]()
 
     def when(self, handle: int, s: float) -> float | None:
-        """The first time at which a handle is at s [s]; None if it is not there between the two instants."""
+        """The first time at which a handle is at s [s]; None if it is not there between the two instants.
+
+        raises: TooMuchWork
+        """
         row = self.s[:, handle]
         passed = np.flatnonzero(row >= s)
         if not passed.size or (passed[0] == 0 and row[0] > s):
@@ -67,5 +76,19 @@ class Passing:
         k = int(passed[0])
         if k == 0:
             return self.start
+        travels, places = self._between(k)
+        row = places[:, handle]
+        k = max(1, int((row >= s).argmax()))
         share = (s - row[k - 1]) / (row[k] - row[k - 1])
-        return self.clock.time(float(self.travels[k - 1] + share * (self.travels[k] - self.travels[k - 1])))
+        return self.clock.time(float(travels[k - 1] + share * (travels[k] - travels[k - 1])))
+
+    def _between(self, k: int) -> tuple[Floats, Floats]:
+        """Travels and places from row k - 1 to row k, at most STEP apart."""
+        if self.steps <= 1:
+            return self.travels[k - 1 : k + 1], self.s[k - 1 : k + 1]
+        if k not in self.finer:
+            if len(self.finer) == FINER_MOST:
+                self.finer.clear()
+            travels = np.linspace(self.travels[k - 1], self.travels[k], self.steps + 1)
+            self.finer[k] = travels, _behind(self.dance, travels, self.budget)
+        return self.finer[k]
