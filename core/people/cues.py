@@ -171,8 +171,8 @@ def bench_cues(
         values = {"got": Quantity(until, "s"), "begin": Quantity(begin, "s")}
         raise InvalidValue("stop", "must be after the head begins to walk: it stands still from {begin} on", **values)
     budget, steady = budget or Budget(), steady_dance(dance)
-    last = min(walks[-1].last, steady.end.time)
-    met = meetings_between(steady, followed, travels_between(walks[0].first, last), reach, budget)
+    travels = _travels(steady, walks[0].first, walks[-1].last)
+    met = meetings_between(steady, followed, travels, reach, budget)
     fastest = _fastest(steady, followed, walks, budget)
     rests = [(a.end, b.begin) for a, b in pairwise(walks) if b.begin > a.end]
     # In the order in which the loop below takes them: start, begin, done, and each pause.
@@ -184,7 +184,7 @@ def bench_cues(
         when = dance.clock.time(float(met.travel[k]))
         one = Meeting(when, int(met.other[k]), side, float(met.gap[k]), bool(met.cosine[k] < 0.0), *middles[k])
         meetings.setdefault(bench, []).append(one)
-    directions = _directions(steady, followed, walks[0].first, budget)
+    directions = _directions(steady, followed, float(travels[0]), budget)
     cues = []
     for k, bench in enumerate(followed):
         at_start, at_begin, at_end, *at_rests = stands[k]
@@ -222,6 +222,11 @@ def _span(dance: Dance, start: float | None, stop: float | None) -> tuple[float,
             raise InvalidValue("stop", f"must be given: it {rule}", **values)
         raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **values)
     return dance.span(start, stop)
+
+
+def _travels(steady: Dance, first: float, last: float) -> Floats:
+    """travels_between() of two travels that the clock of a dance rounds, and so may put just outside its run [m]."""
+    return travels_between(max(first, steady.earliest), min(last, steady.end.time))
 
 
 def _stands(dance: Dance, benches: list[int], times: list[float], budget: Budget) -> list[list[Stand]]:
@@ -276,7 +281,7 @@ def _fastest(steady: Dance, benches: list[int], walks: list[Period], budget: Bud
     low, high, walk = np.empty(count), np.empty(count), np.zeros(count, dtype=np.intp)
     at_once = max(3, instants_at_once(steady))
     for number, period in enumerate(walks):
-        travels = travels_between(period.first, min(period.last, steady.end.time))
+        travels = _travels(steady, period.first, period.last)
         for first in range(0, len(travels), at_once):
             some = travels[first : first + at_once]
             speed = period.speed * _rates(steady, benches, some, budget)

@@ -16,7 +16,7 @@ from core.errors import InvalidValue, Quantity, Value, bound, checked_number, qu
 from core.kernels import Budget
 from core.people.cues import REACH, REACH_MAX, BenchCues, Meeting, Side, Stand, bench_cues
 from core.people.meetings import ROWS_MAX, STEP, Chain, Indices, MeetingColumns, meetings_in
-from core.performance.performance import Performance
+from core.performance.performance import STANDING, Performance
 from core.performance.verdict import performance_trajectory
 from core.values import Floats
 
@@ -53,6 +53,7 @@ def performance_cues(
     reach = checked_number("reach", reach, "m", 0.0, REACH_MAX)
     begin, until = _span(performance, start, stop)
     part = performance.parts[int(number)]
+    _refuse_one_that_stands(performance, int(number), begin, until)
     first, last = part.own_span(begin, until)
     own = bench_cues(part.dance, benches, reach=reach, start=first, stop=last, budget=budget)
     chain, firsts = _chain_of(performance)
@@ -76,6 +77,16 @@ def _span(performance: Performance, start: float | None, stop: float | None) -> 
             raise InvalidValue("stop", f"must be given: it {rule}", **values)
         raise InvalidValue("stop", rule, got=Quantity(until, "s"), **values)
     return begin, until
+
+
+def _refuse_one_that_stands(performance: Performance, dragon: int, begin: float, until: float) -> None:
+    """raises: InvalidValue for a dragon that never walks between two times of the performance [s]"""
+    part = performance.parts[dragon]
+    first, last = part.own_time(begin), part.own_time(until)
+    walks = (one.end - one.begin for one in part.dance.clock.periods(first, last) if one.speed > 0.0)
+    if last - first < STANDING or not any(walks):
+        rule = "must be after dragon {dragon} begins to walk: it stands still from {begin} on"
+        raise InvalidValue("stop", rule, got=Quantity(until, "s"), dragon=dragon, begin=Quantity(begin, "s"))
 
 
 def _times(performance: Performance, begin: float, until: float) -> Floats:

@@ -86,6 +86,17 @@ def test_meetings_stand_at_the_first_time_at_which_the_head_is_there() -> None:
     assert [b.time / a.time for a, b in pairs] == pytest.approx([2.0] * len(bench_cues(steady, [4])[0].meetings))
 
 
+@pytest.mark.parametrize("waits", [0.0, 50.0])
+def test_a_clock_that_rounds_puts_no_moment_before_the_dance(waits: float) -> None:
+    lane = Route([Line((0.0, 0.0), (30.0, 0.0))])
+    for tenths in range(3, 21):
+        passages = [Passage(0.0, until_time=waits)] if waits else []
+        dance = Dance(Dragon(3), lane, tenths / 10.0, passages)
+        (cues,) = bench_cues(dance, [1])
+        assert cues.begin.time == dance.begin
+        assert cues.done.time == dance.end.time
+
+
 @pytest.mark.parametrize(
     ("dance", "options", "message"),
     [

@@ -144,6 +144,21 @@ def test_what_is_wrong_is_refused(arguments: dict[str, float], words: str) -> No
         performance_cues(Performance(PARTS), **arguments)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(
+    ("dragon", "start", "stop", "values"),
+    [
+        (1, None, 12.0, "got 12 s: it stands still from 7.810000004839435 s on"),
+        (2, None, 20.0, "got 20 s: it stands still from 7.810000004839435 s on"),
+        (0, 31.0, 40.0, "got 40 s: it stands still from 31 s on"),
+    ],
+    ids=["pause", "before", "after"],
+)
+def test_a_dragon_that_never_walks_is_named(dragon: int, start: float | None, stop: float, values: str) -> None:
+    with pytest.raises(InvalidValue) as caught:
+        performance_cues(Performance(PARTS), dragon, start=start, stop=stop)
+    assert str(caught.value) == f"stop must be after dragon {dragon} begins to walk, {values}"
+
+
 def test_a_stop_before_the_fold_is_needed() -> None:
     folding = Performance([Part(Dance(Dragon(20), Spiral(0.7, 4.0))), PARTS[0]])
     with pytest.raises(InvalidValue, match=r"stop must be given: it must be before .* when bench .* of dragon 0 folds"):
