@@ -26,11 +26,12 @@ def cards_csv(cards: Sequence[Card], words: CardWords) -> bytes:
 
 
 def performance_cards_csv(decks: Sequence[tuple[Sequence[Card], CardWords]]) -> bytes:
-    """The same of several dragons, with DRAGON_COLUMNS before these columns and OTHER_DRAGON after them.
+    """The same of several dragons, with DRAGON_COLUMNS before these columns and OTHER_DRAGON after COLUMNS.
 
     decks: the cards of each dragon, and what their words follow from
     """
-    return _csv([*DRAGON_COLUMNS, *COLUMNS, OTHER_DRAGON], decks)
+    columns = [*DRAGON_COLUMNS, *COLUMNS, OTHER_DRAGON]
+    return _csv([*columns, COUNT] if any(words.clock.music for _, words in decks) else columns, decks)
 
 
 def _csv(columns: Sequence[str], decks: Sequence[tuple[Sequence[Card], CardWords]]) -> bytes:

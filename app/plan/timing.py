@@ -22,11 +22,13 @@ class TimeFormat:
 
     delay: time of the performance at time 0 of the dance, whose minutes and seconds it then is [s]; the time of day is
         known at time 0 of the performance
+    music_begin: time at which the music begins [s]
     """
 
     start_clock: str | None = None
     music: Music | None = None
     delay: float = 0.0
+    music_begin: float = 0.0
 
     def words(self, time: float | None) -> str:
         """A time [s]; a dash for None.
@@ -43,7 +45,7 @@ class TimeFormat:
 
     def count(self, time: float) -> str:
         """Bar and beat nearest to a time [s]; empty outside the music."""
-        count = self.music and self.music.count(time)
+        count = self.music and self.music.count(time - self.music_begin)
         return str(count) if count else ""
 
     def clock(self, time: float) -> str:

@@ -21,12 +21,13 @@ from app.wire.clocks import DAY, checked_clock
 from app.wire.dances import clock_of
 from app.wire.question import AS_WHOLE, JSON, Answer, Coordinate, Instant, OneLine, Question, Terms, Wire, measure
 from core import Dance, InvalidValue
-from core.errors import Given, Parameter, Quantity, TooLarge
+from core.errors import Given, Parameter, Quantity, TooLarge, question_about
 from core.motion.places import handle_places
 from core.people import crew as facts
 from core.people.crew import ON_BENCH_MAX, PEOPLE_MAX, PLACES_MAX, SHIFT_MAX, Relief, places_near
 
 if TYPE_CHECKING:
+    from app.cards.timeline import CrewSheets
     from app.plan.tables import PlanTable
 
 # Estimated time of a bench, without and with a sheet of paper for its people [s], measured 2026-11-27.
@@ -296,7 +297,7 @@ def _roll(time: float, crew: CrewWords, dance: Dance, terms: Terms) -> Roll:
 
 def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | None, terms: Terms) -> bytes:
     """The crew as PDF."""
-    from app.cards.timeline import CrewSheets, crew_pdf
+    from app.cards.timeline import CrewSheets
     from app.files.fonts import families
 
     say, result, clock = crew.words.say, crew.crew, crew.words.clock.words
@@ -317,7 +318,15 @@ def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | Non
     ]
     family = families(Language.CHINESE if max(title) >= FIRST_CHINESE else request.language)
     table = None if roll is None else _roll_table(roll, crew)
-    return crew_pdf(CrewSheets(crew, title, facts, family, terms.budget, table), terms.progress)
+    return _drawn(dance, CrewSheets(crew, title, facts, family, terms.budget, table), terms)
+
+
+@question_about("dance", Dance, "the timeline was not drawn")
+def _drawn(dance: Dance, sheets: CrewSheets, terms: Terms) -> bytes:
+    """The crew as PDF. raises: TooMuchWork"""
+    from app.cards.timeline import crew_pdf
+
+    return crew_pdf(sheets, terms.progress)
 
 
 def _roll_table(roll: Roll, crew: CrewWords) -> PlanTable:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
@@ -23,10 +23,13 @@ from app.wire.degrees import Place
 from app.wire.performances import NumberOrName, SeveralFields, dragon_of
 from app.wire.question import AS_WHOLE, JSON, OneLine, Question, Terms, measure
 from core import Dance, InvalidValue, Performance
-from core.errors import Given, Parameter, TooLarge
+from core.errors import Given, Parameter, TooLarge, question_about
 from core.motion.places import handle_places
 from core.people.cards import Card, card_of
 from core.people.cues import FOLLOWED_MAX, REACH, REACH_MAX, bench_cues
+
+if TYPE_CHECKING:
+    from app.cards.cards import CardSheets
 
 # Estimated time of the cues of a bench and of its card on paper [s], measured 2026-11-27.
 SECONDS_PER_BENCH, SECONDS_PER_CARD = 0.02, 0.05
@@ -122,17 +125,19 @@ def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | Perform
         return Cues.of(cards, words)
     if form == CSV_TYPE:
         return cards_csv(cards, words)
-    return _paper(request, place, [((dance, ""), (cards, words))], _verdict(request, dance, place, words, terms), terms)
+    verdict = _verdict(request, dance, place, words, terms)
+    return _drawn(dance, _sheets(request, place, [((dance, ""), (cards, words))], verdict, terms), terms)
 
 
 def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCues | bytes:
     """The cards of several dragons."""
     (performance, place), say = request.to_placed(terms.settings), Say(request.language)
+    parts = request.dances or []
     chosen = {k: request.benches_of(performance.parts[k].dance.dragon) for k in request.dragons_of(performance)}
     _refuse_many(sum(map(len, chosen.values())))
     names = [part.name or say(f"dragon {k}", f"{k} 号龙") for k, part in enumerate(performance.parts)]
     dragons = [(name, part.dance.dragon.names) for name, part in zip(names, performance.parts, strict=True)]
-    clock = TimeFormat(clock_of(request, performance))
+    start_clock = clock_of(request, performance)
     start, stop = performance.span(request.start, request.stop)
     geographic, decks = request.origin_at(place) is not None, list[tuple[list[Card], CardWords]]()
     for k, benches in chosen.items():
@@ -141,6 +146,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
         span: dict[str, Any] = {"start": request.start, "stop": request.stop, "budget": terms.budget}
         own = core.performance_cues(performance, k, benches, reach=request.reach, **span)
         chalk = _chalk(request, dance, performance.parts[k].own_span(start, stop)[0], terms)
+        clock = TimeFormat(start_clock, parts[k].music, music_begin=parts[k].delay)
         words = CardWords(say, dance.dragon.names, clock, chalk, geographic, k, dragons)
         decks.append(([card_of(one) for one in own], words))
     if form == JSON:
@@ -151,9 +157,10 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     report = core.performance_check(
         performance, start=start, stop=request.stop, details=False, budget=terms.budget, **limits
     )
-    verdict = verdict_words(report, clock.words, say)
+    verdict = verdict_words(report, TimeFormat(start_clock).words, say)
     dances = [(performance.parts[k].dance, names[k]) for k in chosen]
-    return _paper(request, place, list(zip(dances, decks, strict=True)), verdict, terms)
+    sheets = _sheets(request, place, list(zip(dances, decks, strict=True)), verdict, terms)
+    return _drawn_together(performance, sheets, terms)
 
 
 def _refuse_many(count: int) -> None:
@@ -196,18 +203,18 @@ def _verdict(request: CuesRequest, dance: Dance, place: Place, words: CardWords,
     return verdict_words(verdict_of(request, dance, place.venue, start, terms), words.clock.words, words.say)
 
 
-def _paper(
+def _sheets(
     request: CuesRequest,
     place: Place,
     decks: Sequence[tuple[tuple[Dance, str], tuple[list[Card], CardWords]]],
     verdict: str,
     terms: Terms,
-) -> bytes:
-    """The cards as PDF.
+) -> list[CardSheets]:
+    """The cards on paper.
 
     decks: for each dragon its dance, its name, which is empty for the only one, its cards, and their words
     """
-    from app.cards.cards import CardSheets, cards_pdf
+    from app.cards.cards import CardSheets
     from app.files.fonts import families
 
     title = request.title or Say(request.language)("Bench dragon", "板凳龙")
@@ -218,12 +225,27 @@ def _paper(
     # Chinese names may stand on English cards.
     texts = "".join([title, *names, *(area.name for area in areas)])
     family = families(Language.CHINESE if max(texts) >= FIRST_CHINESE else request.language)
-    sheets = [
+    return [
         CardSheets(
             dance, place.venue, cards, words, f"{title}: {name}" if name else title, verdict, family, terms.budget
         )
         for (dance, name), (cards, words) in decks
     ]
+
+
+@question_about("dance", Dance, "the cards were not drawn")
+def _drawn(dance: Dance, sheets: list[CardSheets], terms: Terms) -> bytes:
+    """The cards of a dance as PDF. raises: TooMuchWork"""
+    from app.cards.cards import cards_pdf
+
+    return cards_pdf(sheets, terms.progress)
+
+
+@question_about("performance", Performance, "the cards were not drawn")
+def _drawn_together(performance: Performance, sheets: list[CardSheets], terms: Terms) -> bytes:
+    """The cards of several dances as PDF. raises: TooMuchWork"""
+    from app.cards.cards import cards_pdf
+
     return cards_pdf(sheets, terms.progress)
 
 

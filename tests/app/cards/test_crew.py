@@ -16,8 +16,12 @@ import pytest
 
 import core
 from app.maps.dances import read_dance
+from app.questions.crew import QUESTION as CREW
 from app.questions.crew import CrewRequest
+from app.questions.plan import PDF_TYPE
 from app.wire.messages import checked
+from app.wire.question import Terms
+from core import Budget, TooMuchWork
 from tests.support.command import run
 
 VILLAGE = Path(__file__).parents[3] / "examples" / "village_square.toml"
@@ -168,6 +172,18 @@ def test_bad_input_is_one_sentence(client: httpx.Client, body: Any, change: Any,
     assert refused.status_code in (413, 422)
     assert refused.json()["errors"][0]["pointer"] == pointer
     assert words in refused.json()["detail"]
+
+
+def test_a_deadline_while_the_timeline_is_drawn_is_a_refusal(body: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    budget = Budget()
+
+    def late(draw: Any) -> Any:
+        budget.stop("within 2 s")
+        return draw()
+
+    monkeypatch.setattr("app.cards.timeline.in_turn", late)
+    with pytest.raises(TooMuchWork, match="the timeline was not drawn within 2 s"):
+        CREW.to_bytes(checked(CrewRequest, body | PEOPLE), Terms(budget=budget), PDF_TYPE)
 
 
 def test_a_clock_after_midnight_is_in_the_same_night(client: httpx.Client, body: Any) -> None:
