@@ -6,6 +6,7 @@ The same dance gives the same bytes on the same versions of the libraries, becau
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -31,11 +32,13 @@ ACROSS, DOWN, PAD = 2, 2, 7.0
 # Length of a mark where to cut [mm].
 CUT = 6.0
 # Sizes of type: of the bench's number, of where it stands, of times, sentences, neighbours and small print [pt].
-BENCH_TYPE, STAND_TYPE, TIME_TYPE, WORDS_TYPE, NEAR_TYPE, SMALL_TYPE = 26.0, 11.0, 10.0, 9.0, 9.5, 5.5
+BENCH_TYPE, STAND_TYPE, TIME_TYPE, WORDS_TYPE, NEAR_TYPE, SMALL_TYPE = 26.0, 12.0, 12.0, 11.0, 10.0, 5.5
 # Height of a line of a sentence, space between two cues, and distance of sentences from the left edge [mm].
-LINE, BETWEEN, INDENT = 4.0, 1.4, 22.0
+LINE, BETWEEN, INDENT = 4.9, 1.4, 27.0
 # Least height of the picture, and the space between the picture and its frame [mm].
 PICTURE, INSIDE = 24.0, 4.0
+# The blank between a number and its unit, at which no line may break.
+UNIT_BLANK = re.compile(r"(?<=\d) (?=[ms]\b|%)")
 # Radius of the circle with the number of a moment, and distances from its place that are tried for it, in order [mm].
 MOMENT, AWAY = 1.9, (4.0, 6.5, 9.0)
 
@@ -168,7 +171,7 @@ def _draw_number(sheet: Sheet, number: int, at: tuple[float, float], shrink: flo
 def _wrapped(sheet: Sheet, sentence: str, size: float, wide: float) -> list[str]:
     """Lines of a sentence no wider than `wide` [mm], broken at blanks and between Chinese characters."""
     pieces = [""]
-    for character in sentence:
+    for character in UNIT_BLANK.sub("\u00a0", sentence):
         # A line may break before a blank, before and after a Chinese character, and never before a closing mark.
         may_break = character == " " or character > "\u2e80" or (pieces[-1] and pieces[-1][-1] > "\u2e80")
         if may_break and character not in "，。；：）、":

@@ -157,6 +157,12 @@ class CardWords:
             return say(f"{who} {how} {side}, {gap}.", f"{who}{side}{how}，距 {gap}。")
         met = {one.bench for one in cue.meetings}
         since, until = self.clock.words(cue.since), self.clock.words(cue.until)
+        if len(met) == 1:
+            times = len(cue.meetings)
+            return say(
+                f"{who} {how} {side}, {gap} at the nearest of {times} times from {since} to {until}.",
+                f"{who}{side}{how}，{since} 至 {until} 共 {times} 次，最近 {gap}。",
+            )
         hows = "come towards you" if nearest.oncoming else "walk your way"
         return say(
             f"{who} {side}, {gap}: the nearest of {len(met)} benches ({runs(met)}) that {hows} from {since} to "

@@ -15,7 +15,7 @@ class BarsBody(Wire, strict=True):
     """Bars at one tempo, from the end of those before, or from time 0; the head goes one step on each beat."""
 
     bars: Annotated[int, Field(ge=BARS[0], le=BARS[1]), AS_WHOLE] = Field(description="Number of bars")
-    tempo: float = measure("1/min", "Beats, and so steps, a minute", ge=TEMPO[0], le=TEMPO[1])
+    tempo: float = measure("beats/min", "Beats, and so steps, a minute", ge=TEMPO[0], le=TEMPO[1])
     step: float = measure("m", "Way of the head on each beat; 0: it marks time", ge=STEP[0], le=STEP[1])
     beats: Annotated[int, Field(ge=IN_BAR[0], le=IN_BAR[1]), AS_WHOLE] = Field(4, description="Beats in a bar")
 

@@ -41,7 +41,7 @@ class Bars(Readable):
     tempo: float
     step: float
     beats: int = 4
-    _units = {"tempo": "1/min", "step": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+    _units = {"tempo": "beats/min", "step": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     @property
     def speed(self) -> float:

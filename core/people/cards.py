@@ -1,7 +1,7 @@
 """The cues of a card: at most CUES_MOST of all that happens to a bench, by one rule.
 
 1. The beginning and the end are always on the card.
-2. Then come the pauses, the longest first, at most PAUSES_MOST of them.
+2. Then come the pauses, the longest first: every one that has a place.
 3. Then the fastest moment, if the bench is more than FASTER above the speed with which the head begins to walk.
 4. Then the meetings, the nearest first. Meetings on one side, with benches of one dragon that go one way, of which each
    is at most TOGETHER after the one before, are one cue, whose moment and gap are those of the nearest of them.
@@ -18,8 +18,8 @@ from core.display import Readable
 from core.errors import checked_type
 from core.people.cues import BenchCues, Meeting, Side
 
-# Most cues of a card, and most pauses among them; the first of these holds the beginning and the end, too.
-CUES_MOST, PAUSES_MOST = 8, 3
+# Most cues of a card, the beginning and the end among them.
+CUES_MOST = 8
 # Share of the speed at the beginning by which a bench must be faster for a cue [1].
 FASTER = 0.01
 # Longest time from one meeting to the next of the same cue [s].
@@ -82,8 +82,8 @@ def card_of(bench: BenchCues) -> Card:
     peak = Cue(CueKind.FASTEST, fastest.time, fastest.x, fastest.y, fastest.time, fastest.time)
     peaks = [peak] if fastest.speed > (1.0 + FASTER) * bench.head_speed else []
     met = sorted(_together(bench.meetings), key=lambda cue: cue.nearest.gap if cue.nearest else 0.0)
-    ranked = [*always, *pauses[:PAUSES_MOST], *peaks, *met]
-    kept, rest = ranked[:CUES_MOST], ranked[CUES_MOST:] + pauses[PAUSES_MOST:]
+    ranked = [*always, *pauses, *peaks, *met]
+    kept, rest = ranked[:CUES_MOST], ranked[CUES_MOST:]
     return Card(bench, *(tuple(sorted(cues, key=_order)) for cues in (kept, rest)))
 
 

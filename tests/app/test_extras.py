@@ -134,6 +134,7 @@ def test_every_question_is_answered_without_an_extra(bare_install: Install, line
             "crew no-such-file.toml --output crew.pdf",
             "A timeline needs the package matplotlib, which is not installed: pip install 'bench-dragon[figures]'",
         ),
+        ("mcp", "mcp needs the package mcp, which is not installed: pip install 'bench-dragon[mcp]'"),
         (
             "sweep run no-such-spec.toml --output folder",
             "sweep needs the package pyarrow, which is not installed: pip install 'bench-dragon[sweep]'",

@@ -20,9 +20,13 @@ from scipy.integrate import quad
 import core
 from app.cards.words import Chalk, runs
 from app.maps.dances import read_dance
+from app.questions.cues import QUESTION as CUES
 from app.questions.cues import CuesRequest
+from app.questions.plan import PDF_TYPE
 from app.settings import Settings
 from app.wire.messages import checked
+from app.wire.question import Terms
+from core import Budget, TooMuchWork
 from core.people.cards import CUES_MOST, TOGETHER
 from core.people.meetings import MeetingColumns
 from tests.support.command import run
@@ -254,10 +258,12 @@ def test_cards_are_chosen_by_name_and_by_number(client: httpx.Client, body: dict
         ({"cards": [3], "last_bench": 5}, "/last_bench", "last_bench must be left out beside cards, got 5"),
         ({"step_length": 0}, "/step_length", "must be"),
         ({"reach": -1}, "/reach", "must be"),
+        ({"beats": [{"bars": 4, "tempo": 0, "step": 0.5}]}, "/beats/0/tempo",
+         "tempo must be at least 10 beats/min, got 0 beats/min"),
     ],
     ids=[
         "one name twice", "no such bench", "backwards", "too many", "fold", "no name", "no number", "twice", "no step",
-        "no reach",
+        "no reach", "no tempo",
     ],
 )  # fmt: skip
 def test_bad_input_is_one_sentence(client: httpx.Client, body: Any, change: Any, pointer: str, words: str) -> None:
@@ -344,6 +350,14 @@ def test_one_of_several_gets_cards_by_its_name_or_its_number(client: httpx.Clien
     assert wu == [whole[1]]
 
 
+@pytest.mark.parametrize("several", [False, True], ids=["one", "several"])
+def test_a_deadline_while_cards_are_drawn_is_a_refusal(body: dict[str, Any], several: bool) -> None:
+    budget = Budget()
+    terms = Terms(budget=budget, progress=lambda _: budget.stop("within 2 s"))
+    with pytest.raises(TooMuchWork, match="the cards were not drawn within 2 s"):
+        CUES.to_bytes(checked(CuesRequest, TWO if several else body), terms, PDF_TYPE)
+
+
 def test_csv_and_paper_of_several_name_the_dragon(client: httpx.Client, tmp_path: Path) -> None:
     rows = list(csv.DictReader(io.StringIO(answer_of(client, TWO, "text/csv").decode())))
     cards = client.post("/cues", json=TWO).raise_for_status().json()["cards"]
@@ -362,6 +376,27 @@ def test_csv_and_paper_of_several_name_the_dragon(client: httpx.Client, tmp_path
     assert "Lantern night: dragon 1" in sheets[1]
     assert all("Checked: passes" in sheet for sheet in sheets)
     assert "of east" in sheets[1]
+
+
+def test_each_of_several_counts_its_own_beats_from_its_delay_on(client: httpx.Client) -> None:
+    east, west = TWO["dances"]
+    beats = [{"bars": 6, "tempo": 60, "step": 1}, {"bars": 2, "tempo": 60, "step": 0}]
+    drummed = TWO | {"dances": [east, west | {"beats": beats}]}
+    cards = client.post("/cues", json=drummed).raise_for_status().json()["cards"]
+    assert {cue["count"] for card in cards if card["dragon"] == 0 for cue in card["cues"]} == {None}
+    counted = 0
+    for card in cards[4:]:
+        for cue in card["cues"]:
+            beat = round(cue["time"] - 3.0)
+            assert cue["count"] == (f"{beat // 4 + 1}.{beat % 4 + 1}" if beat <= 32 else None)
+            counted += beat <= 32
+        pause = next(cue for cue in card["cues"] if cue["kind"] == "pause")
+        assert (pause["since"], pause["count"]) == (27.0, "7.1")
+        assert "Stand still until 9.1 19:45:35" in pause["words"]
+    assert counted > 6
+    rows = list(csv.DictReader(io.StringIO(answer_of(client, drummed, "text/csv").decode())))
+    counts = [cue["count"] or "" for card in cards for cue in card["cues"]]
+    assert [row["count"] for row in rows if row["kind"] != "stand"] == counts
 
 
 @pytest.mark.parametrize(

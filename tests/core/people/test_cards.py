@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from core.people.cards import CUES_MOST, PAUSES_MOST, TOGETHER, CueKind, card_of
+from core.people.cards import CUES_MOST, TOGETHER, CueKind, card_of
 from core.people.cues import BenchCues, FastestMoment, Meeting, Pause, Side, Stand
 
 pytestmark = pytest.mark.uncompiled
@@ -35,13 +35,16 @@ def test_the_nearest_meetings_have_a_place_and_the_others_are_counted() -> None:
 
 
 def test_the_longest_pauses_come_before_all_meetings() -> None:
-    pauses = [Pause(10.0 * k, 10.0 * k + length, 0.0, 0.0) for k, length in enumerate([3.0, 9.0, 1.0, 5.0, 2.0], 1)]
-    card = card_of(bench([meeting(100.0 + 20.0 * k, 1.0) for k in range(9)], pauses))
-    assert [cue.time for cue in card.cues if cue.kind is CueKind.PAUSE] == [10.0, 20.0, 40.0]
-    assert sum(cue.kind is CueKind.PAUSE for cue in card.cues) == PAUSES_MOST
-    assert [cue.time for cue in card.left_out if cue.kind is CueKind.PAUSE] == [30.0, 50.0]
+    lengths = [3.0, 9.0, 1.0, 5.0, 2.0, 4.0, 8.0]
+    pauses = [Pause(10.0 * k, 10.0 * k + length, 0.0, 0.0) for k, length in enumerate(lengths, 1)]
+    met = [meeting(100.0 + 20.0 * k, 1.0) for k in range(9)]
+    card = card_of(bench(met, pauses))
+    assert [cue.time for cue in card.cues if cue.kind is CueKind.PAUSE] == [10.0, 20.0, 40.0, 50.0, 60.0, 70.0]
+    assert [cue.time for cue in card.left_out if cue.kind is CueKind.PAUSE] == [30.0]
     assert len(card.cues) == CUES_MOST
     # Of equal meetings the earlier ones have a place.
+    card = card_of(bench(met, pauses[:3]))
+    assert [cue.time for cue in card.cues if cue.kind is CueKind.PAUSE] == [10.0, 20.0, 30.0]
     assert [cue.time for cue in card.cues if cue.nearest] == [100.0, 120.0]
 
 
@@ -71,7 +74,7 @@ def test_whatever_happens_nothing_is_lost_and_nobody_left_out_is_nearer() -> Non
             for _ in range(some.randrange(40))
         ]
         met.sort(key=lambda one: one.time)
-        begins = sorted(some.sample(range(2, 900), some.randrange(6)))
+        begins = sorted(some.sample(range(2, 900), some.randrange(9)))
         pauses = [Pause(float(one), one + some.uniform(0.1, 1.0), 0.0, 0.0) for one in begins]
         card = card_of(bench(met, pauses, some.choice([1.0, 2.0])))
         everything = [one for cue in (*card.cues, *card.left_out) for one in cue.meetings]
@@ -79,5 +82,6 @@ def test_whatever_happens_nothing_is_lost_and_nobody_left_out_is_nearer() -> Non
         assert sum(cue.kind is CueKind.PAUSE for cue in (*card.cues, *card.left_out)) == len(pauses)
         kept = [cue.nearest.gap for cue in card.cues if cue.nearest]
         assert len(card.cues) <= CUES_MOST
-        assert not card.left_out or len(card.cues) == CUES_MOST or len(pauses) > PAUSES_MOST
+        assert not card.left_out or len(card.cues) == CUES_MOST
+        assert sum(cue.kind is CueKind.PAUSE for cue in card.cues) == min(len(pauses), CUES_MOST - 2)
         assert card.least_left_out is None or not kept or max(kept) <= card.least_left_out
