@@ -319,13 +319,14 @@ class Store:
         return {row[0] for row in self._read("SELECT id FROM jobs WHERE state = 'running'")}
 
     def proceed(self, job: str, share: float, rate: float | None, **more: int) -> None:
-        """Record the progress of a job: share done, 0 to 1, and rate [1/s].
+        """Record the progress of a job: share done, 0 to 1, and rate [1/s]. 100 percent come with the answer alone.
 
         more: for a sweep the designs `done` of the `total`, and the `size` of its shards [bytes]
         """
         left, percent = ((1.0 - share) / rate, 100.0 * rate) if rate else (None, None)
+        progress = min(int(100.0 * share), 99)
         with self._change() as run:
-            self._move(run, job, "state = 'running'", progress=int(100.0 * share), rate=percent, time_left=left, **more)
+            self._move(run, job, "state = 'running'", progress=progress, rate=percent, time_left=left, **more)
 
     def tell(self, job: str, part: dict[str, Any]) -> None:
         """Inform listeners of a running job about a part of its answer."""
