@@ -1,6 +1,6 @@
 /** Charts by uPlot: clearance over time, and against the pitch stray and radius at first contact; and ticks of all axes. */
 
-import { colours, inType, make } from "./elements.js";
+import { SMALL_TYPE, colours, inType, make } from "./elements.js";
 import { say } from "./text.js";
 
 const HEIGHT = 240;
@@ -51,7 +51,7 @@ export class Chart {
 
   #options({ labels, range, width, draw }) {
     const colour = colours();
-    const [grid, font] = [{ stroke: colour("line"), width: 1 }, `${inType(12)}px system-ui, sans-serif`];
+    const [grid, font] = [{ stroke: colour("line"), width: 1 }, `${inType(SMALL_TYPE)}px system-ui, sans-serif`];
     const look = { stroke: colour("muted"), grid, ticks: grid, font, labelFont: font, labelSize: 22 };
     const moveMarker = () => this.now(this.#now);
     return {
@@ -60,7 +60,7 @@ export class Chart {
       legend: { show: false },
       cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
       scales: { x: { time: false }, y: { range } },
-      axes: labels.map((label, k) => ({ ...look, label: say(label), size: inType([34, 52][k]) })),
+      axes: labels.map((label, k) => ({ ...look, label: say(label), size: inType([36, 56][k]) })),
       series: [{}, { stroke: colour("accent"), width, points: { show: false }, ...(width ? {} : { paths: () => null }) }],
       hooks: { draw: [(plot) => draw(pen(plot, colour))], setSize: [moveMarker], ready: [moveMarker] },
     };

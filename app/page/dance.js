@@ -122,10 +122,8 @@ export class Dance {
     if (contact) this.#pair(pen);
     if (contact?.point) pen.stroke(pen.circle(...contact.point, 9), colours.text, 3);
     const [[x], [y]] = [pose.x, pose.y];
-    for (const part of this.#parts) {
-      this.#drawHead(pen, part);
-      if (part.name) pen.label(part.name, part.pose.x[0], part.pose.y[0], part.colour, colours.card);
-    }
+    for (const part of this.#parts) this.#drawHead(pen, part);
+    for (const part of this.#parts) if (part.name) pen.label(part.name, part.pose.x[0], part.pose.y[0], part.colour, colours.card);
     if (!this.scene.parts) pen.label(headName, x, y, colours.head, colours.card);
     if (handle !== null && handle < pose.x.length) {
       const [x, y] = [pose.x[handle], pose.y[handle]];

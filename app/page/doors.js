@@ -9,11 +9,13 @@ import { say } from "./text.js";
 /** The kinds of path behind a door, of which the first one opens; behind `all` is the whole page, as behind an old address. */
 const PATHS = { contest: ["spiral", "turn"], village: ["route"], look: ["spiral", "turn"] };
 
-/** Longest name of an unknown door in a message [characters]. */
+/** Longest part of an address in a message [characters]. */
 const LONGEST = 40;
 
 export class Doors {
   #pressed = "";
+  /** Numbers and answers stand side by side. */
+  wide = matchMedia("(min-width: 760px)");
 
   /**
    * @param {State} state
@@ -23,6 +25,7 @@ export class Doors {
     this.state = state;
     this.parts = parts;
     for (const button of $$("[data-door]")) button.addEventListener("click", () => this.#enter(button.dataset.door));
+    this.wide.addEventListener("change", () => this.#arrange(this.door));
     onClick("#more", () => this.#offerMore(!$("main").classList.contains("more")));
   }
 
@@ -46,28 +49,36 @@ export class Doors {
     $("#more").setAttribute("aria-expanded", is);
   }
 
-  /** Say that the address names a door that the page does not have. */
+  /** Say that the address names a door that the page does not have, or something else that it does not know. */
   refuse() {
-    const { noDoor } = this.state;
+    const { noDoor, strange, unread } = this.state;
+    const [first] = [...unread, ...strange];
     if (noDoor !== null) announce(() => say("noDoor", { door: noDoor.slice(0, LONGEST) }));
+    else if (first) announce(() => say("notKnown", { text: first.join("=").slice(0, LONGEST) }));
   }
 
   /** Show what belongs to the door. */
   show() {
     const { door } = this;
     const main = $("main");
-    // In the village the verdict comes first; the order is that of reading and of the Tab key.
-    const order = door === "village" || door === "all" ? ["#answers", "#controls"] : ["#controls", "#answers"];
-    if (main.dataset.door !== door) {
-      $("#front").append(...order.map($));
-      // The square by its size comes first in the village, and among the numbers of the whole page.
-      if (door === "village") $("#dance").after($("#place"));
-      else $("#route").prepend($("#place"));
-    }
+    this.#arrange(door);
     main.dataset.door = door;
     main.classList.toggle("compact", door !== "all");
     for (const button of $$("[data-door]:is(button)")) button.setAttribute("aria-pressed", button.dataset.door === door);
     this.#offerMore(false);
     setExact(door === "all");
+  }
+
+  /** Put numbers and answers into the order in which they stand. */
+  #arrange(door) {
+    // The order is that of reading and of the Tab key: in the village the verdict comes first, and so it does where all is one column.
+    const verdictFirst = door === "village" || (door === "all" && !this.wide.matches);
+    const order = verdictFirst ? ["#answers", "#controls"] : ["#controls", "#answers"];
+    if ($("main").dataset.door !== door || $(order[0]).compareDocumentPosition($(order[1])) & Node.DOCUMENT_POSITION_PRECEDING) {
+      $("#front").append(...order.map($));
+      // The square by its size comes first in the village, and among the numbers of the whole page.
+      if (door === "village") $("#dance").after($("#place"));
+      else $("#route").prepend($("#place"));
+    }
   }
 }

@@ -6,7 +6,7 @@ import { EMPTY, drawingOf, fromAddress, venueOf } from "./drawing.js";
 import { $, button, download, make, numberIn, textButton } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { Judgement, failureWords } from "./judgement.js";
-import { bound } from "./numbers.js";
+import { bound, formatNumber, isExact } from "./numbers.js";
 import { announce } from "./overlays.js";
 import { passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
@@ -18,13 +18,18 @@ import { ROUTE } from "./words/route.js";
 
 learn({ ...ROUTE, ...DRAGONS });
 
-const COLOURS = ["#b3261e", "#0b5cad", "#1a6f33", "#a3158f", "#b85c00", "#0f7b7b", "#6b5b95", "#7a5200"];
+/** Colours of the dragons on a light and on a dark ground; each can be read as a name beside its head. */
+const LIGHT = ["#b3261e", "#0b5cad", "#1a6f33", "#a3158f", "#b85c00", "#0f7b7b", "#6b5b95", "#7a5200"];
+const DARK = ["#ff8b7c", "#6cb4ff", "#63d585", "#ff8de9", "#ff9d4d", "#4fc7c7", "#b9a6e6", "#f0bd5b"];
+const isDark = () => document.documentElement.dataset.theme === "dark" && !matchMedia("print").matches;
 /** Largest delay [s], and waiting time of a copy [s]. */
 const [DELAY_MOST, LATER] = [1e6, 30];
 const DEGREE = Math.PI / 180;
 
 export class Dragons {
   #loads = Symbol("dragons");
+  /** Paths of the dragons of the shown dance. @type {any[]} */
+  #ways = [];
 
   /**
    * paths(ways): draws the paths; draw(): the picture
@@ -69,7 +74,7 @@ export class Dragons {
     return records[k].name || (k < 3 ? say(`dragon_${k + 1}`) : say("dragonNumber", { number: k + 1 }));
   }
 
-  #colourOf = (record, k) => (/^#[0-9a-f]{6}$/.test(record.colour ?? "") ? record.colour : COLOURS[k % COLOURS.length]);
+  #colourOf = (record, k) => (/^#[0-9a-f]{6}$/.test(record.colour ?? "") ? record.colour : (isDark() ? DARK : LIGHT)[k % LIGHT.length]);
 
   /** The texts of the shown dance that differ from the defaults. */
   #present() {
@@ -187,6 +192,7 @@ export class Dragons {
     if (!isOn) {
       this.list.replaceChildren();
       this.picture.scene.parts = null;
+      this.#ways = [];
       this.picture.setWays([]);
       $("#judgement").hidden = this.state.get("path") !== "route";
       return;
@@ -257,14 +263,28 @@ export class Dragons {
     announce(() => say("saved", { name: "dances.json" }));
   }
 
+  /** Draw each dragon in the colour that it has now: a person, the theme or paper has changed it. */
+  recolour() {
+    const { dance } = this.questions;
+    const records = this.#records;
+    if (dance?.parts?.length !== records.length) return;
+    dance.parts.forEach((part, k) => (part.colour = this.#colourOf(records[k], k)));
+    this.picture.setWays(this.#ways.slice(0, records.length).map((way, k) => ({ ...way, colour: dance.parts[k].colour })));
+    for (const field of this.list.querySelectorAll("input[type=color]")) field.value = dance.parts[field.closest("li").dataset.dragon].colour;
+    this.player.update(false);
+    this.draw();
+  }
+
   /** Ask about the dragons as they are now. */
   refresh() {
     const parts = this.#parts();
+    this.recolour();
     const active = this.#active;
     const own = parts[active];
     const course = own.kind === "route" ? { ...own.body, ...this.#stray() } : null;
     if (!course) this.picture.setPath(null);
-    this.questions.askTogether({ body: this.#file(parts), active, parts, course, drawing: this.state.get("drawing"), numbers: { ...own.numbers, top_speed: own.top }, extras: this.state.extras() });
+    const file = this.#file(parts);
+    this.questions.askTogether({ body: file, file, active, parts, course, drawing: this.state.get("drawing"), numbers: { ...own.numbers, top_speed: own.top }, extras: this.state.extras() });
   }
 
   /** After an answer: the tracks and the paths of all dragons, and the verdict. */
@@ -282,8 +302,8 @@ export class Dragons {
       this.player.update(false);
       const ways = await Promise.all(dance.parts.map((_, k) => wayOf(this.service, dance, k)));
       if (dance !== this.questions.dance) return;
-      this.picture.setWays(ways.map((way, k) => ({ ...way, colour: dance.parts[k].colour })));
-      this.draw();
+      this.#ways = ways;
+      this.recolour();
     } catch (error) {
       // A newer question has taken its place; a refusal of the question itself is shown already.
       if (!(error instanceof Superseded || error instanceof Problem)) throw error;
@@ -319,9 +339,12 @@ export class Dragons {
     }
     if (dance?.kind !== "dances") return;
     const { time, time_bracket: bracket } = dance.answer;
-    const met = bracket && time !== null ? [say("dragonsLeast", { time: time.toFixed(6), low: bound(bracket[0], 9, -1), high: bound(bracket[1], 9, 1) })] : [];
+    const meets = bracket && time !== null;
+    const proven = meets ? [say("dragonsLeast", { time: time.toFixed(6), low: bound(bracket[0], 9, -1), high: bound(bracket[1], 9, 1) })] : [];
+    // Behind a door stands what people say, and all digits are with the evidence.
+    const met = meets && !isExact() ? [say("dragonsMeet", { time: formatNumber(time, 6, 2) })] : proven;
     const apart = dance.answer.outcome === "clear" ? [sayOf("dragonsApart", this.#stray())] : [];
-    this.judgement.show({ ...dance, words: (failure) => this.#words(dance, failure), lines: [...met, ...apart] }, null);
+    this.judgement.show({ ...dance, words: (failure) => this.#words(dance, failure), lines: [...met, ...apart], known: isExact() ? [] : proven }, null);
     $("#stage").setAttribute("aria-busy", "false");
   }
 

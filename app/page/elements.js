@@ -30,6 +30,8 @@ export function colours(element = document.documentElement) {
   return (name) => style.getPropertyValue(`--${name}`).trim();
 }
 
+/** The two sizes of type in pictures, as those of the page [px]. */
+export const [SMALL_TYPE, USUAL_TYPE] = [13.12, 15];
 /** A length in the usual size of the type in the chosen one [px]. */
 export const inType = (pixels) => (pixels * Number.parseFloat(getComputedStyle(document.documentElement).fontSize)) / 16;
 

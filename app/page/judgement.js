@@ -41,7 +41,7 @@ export class Judgement {
     this.look = look;
   }
 
-  /** Show the verdict on a dance that the service has checked. dance: may have lines to add, and words(failure) of its own */
+  /** Show the verdict on a dance that the service has checked. dance: may have lines to add, what is known of it, and words(failure) of its own */
   show(dance, course) {
     const [outcome, mark] = OUTCOMES[dance.verdict];
     const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), (dance.words ?? ((one) => failureWords(one, dance)))(failure), () => this.seek(failure)));
@@ -52,7 +52,7 @@ export class Judgement {
     const { clock } = dance;
     const [start, end] = [dance.begin, dance.answer.end?.time ?? dance.end].map((one) => clock && timeOfDay(Number(one.toFixed(DECIMALS)), clock));
     if (clock) lines.push(say("startsEnds", { start, end }));
-    this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, rows[0]?.textContent);
+    this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, rows[0]?.textContent, dance.known);
   }
 
   /** No verdict until these fields are mended, beside which the reason stands. */
@@ -74,8 +74,9 @@ export class Judgement {
     return make("li", {}, button({ textContent: name }, act), " ", make("span", { textContent: text }));
   }
 
-  /** first: the first of the rows in words */
-  #fill(outcome, mark, value, lines, rows, first = "") {
+  /** first: the first of the rows in words; known: sentences of the evidence */
+  #fill(outcome, mark, value, lines, rows, first = "", known = []) {
+    const open = this.box.querySelector("details")?.open ?? false;
     const sign = make("span", { className: "mark", "aria-hidden": "true", textContent: mark });
     this.box.dataset.outcome = outcome;
     // On a phone the verdict also appears below the picture.
@@ -83,6 +84,7 @@ export class Judgement {
     const sentences = lines.filter(Boolean).map((line) => make("p", typeof line === "string" ? { textContent: line } : line));
     const list = make("ol", { className: "failures" }, ...rows);
     const old = make("p", { className: "old", textContent: say("old") });
-    this.box.replaceChildren(old, make("h3", { textContent: say("verdictTitle") }), make("p", { className: "value" }, sign, value), ...sentences, ...(rows.length ? [list] : []));
+    const evidence = make("details", { open }, make("summary", { textContent: say("how") }), ...known.map((textContent) => make("p", { textContent })));
+    this.box.replaceChildren(old, make("h3", { textContent: say("verdictTitle") }), make("p", { className: "value" }, sign, value), ...sentences, ...(rows.length ? [list] : []), ...(known.length ? [evidence] : []));
   }
 }

@@ -1,7 +1,7 @@
 /** Everything to save: the link, files of every kind, a film, and the commands that give the same. */
 
 import { Problem, TOO_LONG } from "./api.js";
-import { $, bearer, button, download, make, onClick, textButton } from "./elements.js";
+import { $, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
@@ -110,6 +110,18 @@ const REQUESTS = {
   paper: () => ({ path: "paper", query: { language: language() } }),
 };
 
+/** What there is of several dragons. The film ends at the first touch, or with the performance. */
+const TOGETHER = {
+  trajectory: ({ dance }) => ({ path: "trajectory", body: { dances: dance.file.dances, times: seconds(dance) } }),
+  film({ dance: { file: { stray, hole, pin, margin, speed_limit, ...file } } }) {
+    return { path: "films", body: { ...file, language: language() } };
+  },
+  plan: ({ dance }, paper) => ({ path: "plan", body: { ...dance.file, paper, language: language() } }),
+  cues: ({ dance }) => ({ path: "cues", body: { ...dance.file, language: language() } }),
+  map: ({ dance }, form) => ({ path: `maps.${form.toLowerCase()}`, body: { ...dance.file, ...(dance.drawing.origin && { origin: dance.drawing.origin }) } }),
+  verdict: ({ dance }) => ({ path: "check", body: dance.file }),
+};
+
 /** Name a button after its item, its format and how far its job is. */
 const nameButton = (button) => button.setAttribute("aria-label", `${say(button.dataset.keep)}, ${button.dataset.form}${button.querySelector(".share").textContent}`);
 
@@ -156,13 +168,24 @@ export class Keep {
     for (const button of $("#kept").querySelectorAll("[data-keep]")) button.hidden = !types.has(TYPES[button.dataset.form]);
   }
 
-  /** The commands for the chosen item; they stay as they are while there is no dance. */
+  /** The requests that there are about the dance. */
+  get #requests() {
+    return this.questions.dance?.parts ? TOGETHER : REQUESTS;
+  }
+
+  /** What can be saved of the dance, and the commands for the chosen item; they stay as they are while there is no dance. */
   show() {
     if (!this.questions.dance) return;
+    const requests = this.#requests;
+    const isThere = (key) => key === ON_SCREEN || (key === PROOF ? requests === REQUESTS : ITEMS.some((item) => item.key === key && (!item.ask || item.ask in requests)));
+    [...$("#kept").children].forEach((row, k) => hide(row, !isThere(ITEMS[k].key)));
+    for (const option of $("#curl-of").options) option.hidden = option.disabled = !isThere(option.value);
+    if (!isThere($("#curl-of").value)) $("#curl-of").value = ON_SCREEN;
     const wanted = $("#curl-of").value;
     const item = ITEMS.find(({ key }) => key === wanted);
-    const lines = { [ON_SCREEN]: () => ["answer", "trajectory"].map((name) => this.#curl(REQUESTS[name](this.questions))), [PROOF]: () => [this.#proof()] };
-    $("#curl").textContent = (lines[wanted] ?? (() => [this.#curl(REQUESTS[item.ask](this.questions, item.forms[0]), item)]))().join("\n");
+    const shown = "answer" in requests ? "answer" : "verdict";
+    const lines = { [ON_SCREEN]: () => [shown, "trajectory"].map((name) => this.#curl(requests[name](this.questions))), [PROOF]: () => [this.#proof()] };
+    $("#curl").textContent = (lines[wanted] ?? (() => [this.#curl(requests[item.ask](this.questions, item.forms[0]), item)]))().join("\n");
   }
 
   /**
@@ -199,7 +222,7 @@ export class Keep {
       if (item.ask === "kit" && this.#besides().length) announce(() => say("kitWithout", { names: this.#besides().map((name) => say(name)).join(", ") }));
       if (item.job) return;
       announce(() => say("making", { name: say(item.key) }), true);
-      const blob = item.ask ? await this.#fetch(REQUESTS[item.ask](this.questions, form), form) : await this.#picture();
+      const blob = item.ask ? await this.#fetch(this.#requests[item.ask](this.questions, form), form) : await this.#picture();
       const name = fileName(item.file, form);
       download(blob, name);
       announce(() => say("saved", { name }));
@@ -223,7 +246,7 @@ export class Keep {
 
   /** Start a job, which is among the jobs too. */
   async #begin(item, form) {
-    const { path, query, body } = REQUESTS[item.ask](this.questions, form);
+    const { path, query, body } = this.#requests[item.ask](this.questions, form);
     const headers = { Prefer: "respond-async", ...bearer() };
     const status = await this.service.ask(`keep ${form}`, path, { query, body, headers, accept: `${TYPES[form]}, application/json;q=0.1` });
     this.jobs.add(status, { question: path, over: {} }, (now) => this.#follow(item, form, now));

@@ -181,6 +181,7 @@ const SHOW = {
     markContact(answer, begin, end);
     pace.begun(questions.dance);
     if (questions.dance.parts) {
+      below?.show();
       player.update();
       return dragons.showDance();
     }
@@ -401,9 +402,10 @@ function restyle() {
   dance.restyle();
   graphs.restyle();
   below?.restyle();
-  const { kind, answer, end = 0, extras } = questions.dance ?? {};
+  const { kind, answer, end = 0, clock } = questions.dance ?? {};
   const last = answer?.end?.time ?? end;
-  showPrinted(kind === "route" ? `${last.toFixed(2)} s${extras.clock && ` (${timeOfDay(last, extras.clock)})`}` : "");
+  showPrinted(["route", "dances"].includes(kind) ? `${last.toFixed(2)} s${clock ? ` (${timeOfDay(last, clock)})` : ""}` : "");
+  dragons?.recolour();
   // Printing does not wait for the next frame.
   dance.draw();
 }

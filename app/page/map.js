@@ -1,7 +1,7 @@
 /** The map of a sweep: a value over one parameter as a line, over two as colours with contours. */
 
 import { ticks } from "./charts.js";
-import { $, colours, inType, make } from "./elements.js";
+import { $, SMALL_TYPE, colours, inType, make } from "./elements.js";
 import { FIELDS } from "./fields.js";
 import { palette } from "./pen.js";
 import { columnName, say } from "./text.js";
@@ -258,7 +258,7 @@ function drawLine(context, xs, values, at, colour) {
 }
 
 function drawAxes(context, { left, top, width, height }, { x, y }, at, [nameX, nameY], colour) {
-  Object.assign(context, { strokeStyle: colour("border"), fillStyle: colour("muted"), lineWidth: 1, font: `${inType(12)}px system-ui, sans-serif` });
+  Object.assign(context, { strokeStyle: colour("border"), fillStyle: colour("muted"), lineWidth: 1, font: `${inType(SMALL_TYPE)}px system-ui, sans-serif` });
   context.strokeRect(left, top, width, height);
   context.textBaseline = "top";
   context.textAlign = "center";

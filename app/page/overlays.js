@@ -2,6 +2,7 @@
 
 import { Problem, Superseded } from "./api.js";
 import { $ } from "./elements.js";
+import { formatNumber } from "./numbers.js";
 import { refusalWords, say } from "./text.js";
 
 /** Time that a message stays, and additional time for each letter of a long one [ms]. */
@@ -73,6 +74,6 @@ export function markContact({ time, outcome, dragons }, begin, end) {
   mark.hidden = !outcome.startsWith("contact");
   if (mark.hidden) return;
   mark.style.setProperty("--share", end > begin ? (time - begin) / (end - begin) : 0);
-  mark.title = say(dragons ? "meetingMark" : "contactMark", { time: time.toFixed(6) });
+  mark.title = say(dragons ? "meetingMark" : "contactMark", { time: formatNumber(time, 6, 2) });
   mark.setAttribute("aria-label", mark.title);
 }

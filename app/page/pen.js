@@ -1,6 +1,6 @@
 /** What draws the picture: shapes of benches in metres as paths, and a pen on a canvas. */
 
-import { inType } from "./elements.js";
+import { SMALL_TYPE, USUAL_TYPE, inType } from "./elements.js";
 
 /** Number of colours of a palette. */
 export const SHADES = 48;
@@ -126,7 +126,7 @@ export class Pen {
     context.save();
     context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     const [right, bottom] = [width / devicePixelRatio - BAR_EDGE, height / devicePixelRatio - BAR_EDGE];
-    Object.assign(context, { font: `600 ${inType(12)}px system-ui, sans-serif`, textAlign: "center", lineJoin: "round" });
+    Object.assign(context, { font: `600 ${inType(SMALL_TYPE)}px system-ui, sans-serif`, textAlign: "center", lineJoin: "round" });
     for (const [strokeStyle, lineWidth] of [[halo, 5], [colour, 2]]) {
       Object.assign(context, { strokeStyle, lineWidth });
       context.beginPath();
@@ -145,17 +145,22 @@ export class Pen {
     return path;
   }
 
+  /** A name beside (x, y), where it covers none of the names before it. */
   label(text, x, y, colour, halo) {
     const { context, scale } = this;
     context.save();
     context.translate(x, y);
     context.scale(1 / scale, -1 / scale);
-    Object.assign(context, { font: `600 ${inType(14)}px system-ui, sans-serif`, lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour });
+    Object.assign(context, { font: `600 ${inType(USUAL_TYPE)}px system-ui, sans-serif`, lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour });
     const { width } = context.measureText(text);
-    const from = x + (10 + width) / scale > this.right ? -10 - width : 10;
-    this.names.push([(x - this.left) * scale + from, (this.top - y) * scale - 10, width]);
-    context.strokeText(text, from, -10);
-    context.fillText(text, from, -10);
+    const [atX, atY, high] = [(x - this.left) * scale, (this.top - y) * scale, inType(USUAL_TYPE)];
+    const sides = x + (10 + width) / scale > this.right ? [-10 - width, 10] : [10, -10 - width];
+    const places = [-10, 10 + high].flatMap((dy) => sides.map((dx) => [dx, dy]));
+    const isFree = ([dx, dy]) => this.names.every(([left, bottom, wide]) => Math.abs(atY + dy - bottom) >= high || atX + dx > left + wide || left > atX + dx + width);
+    const [dx, dy] = places.find(isFree) ?? places[0];
+    this.names.push([atX + dx, atY + dy, width]);
+    context.strokeText(text, dx, dy);
+    context.fillText(text, dx, dy);
     context.restore();
   }
 }

@@ -48,9 +48,22 @@ export class Player {
     return this.#playing;
   }
 
-  /** Play from the beginning, unless motion is reduced. */
+  /**
+   * Play from the beginning at the first movement of a pointer, unless motion is reduced or a key comes first: who reads the
+   * page by keys or by the landmarks of a screen reader starts the dance with its button.
+   */
   open() {
-    if (!this.still.matches && !this.#playing) this.toggle();
+    if (this.still.matches) return;
+    const waiting = new AbortController();
+    const listen = (type, act) => addEventListener(type, act, { capture: true, signal: waiting.signal });
+    const end = () => waiting.abort();
+    for (const type of ["keydown", "focusin", "popstate"]) listen(type, end);
+    for (const type of ["pointermove", "wheel"]) {
+      listen(type, () => {
+        end();
+        if (!this.#playing && this.state.get("time") === 0) this.toggle();
+      });
+    }
   }
 
   get #span() {

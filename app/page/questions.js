@@ -124,7 +124,7 @@ export class Questions {
 
   /**
    * Ask about several dances on one clock. body: of /check; course: body of the question about the chosen path, if it is drawn;
-   * kept: what the dance keeps: drawing, numbers, extras, parts
+   * kept: what the dance keeps: drawing, numbers, extras, parts, file: of all of them
    */
   async askTogether({ body, course, ...kept }) {
     this.#rest.end();

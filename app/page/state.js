@@ -46,6 +46,10 @@ export class State {
   #values = { ...DEFAULTS };
   #listeners = [];
   #writing = new Pause("address");
+  /** @type {string[][]} */
+  strange = [];
+  /** @type {string[][]} */
+  unread = [];
   /** True if the whole dance is in the address. */
   fits = true;
 
@@ -67,11 +71,14 @@ export class State {
     for (const [name, text] of address) if (name in DEFAULTS) values[name] = (READ[name] ?? String)(text) ?? DEFAULTS[name];
     /** The door of the address, if there is none of that name. */
     this.noDoor = address.has("door") && !values.door ? address.get("door") : null;
-    if (history.state?.csv) values.csv = history.state.csv;
+    /** What a newer page may have written: names that this one does not know, which stay in the address, and values that it cannot read. */
+    this.strange = [...address].filter(([name]) => !(name in DEFAULTS || PARTS.includes(name)));
+    this.unread = [...address].filter(([name, text]) => name !== "door" && text && `${name}=${text}` !== "time=end" && READ[name] && (READ[name](text) ?? null) === null);
+    for (const name of ["csv", "dances"]) if (history.state?.[name]) values[name] = history.state[name];
     values.drawing = history.state?.drawing ?? (PARTS.some((name) => address.has(name)) ? fromAddress(address) : EMPTY);
     this.#values = values;
     for (const name of ["pitch", "benches"]) if (!address.has(name)) values[name] = this.initial(name);
-    this.opensInMotion = isBare(address);
+    this.opensInMotion = isBare(address) && !history.state?.csv && !history.state?.dances;
     if (this.opensInMotion) Object.assign(values, { time: 0, door: "arrival" });
   }
 
@@ -137,20 +144,22 @@ export class State {
 
   write() {
     this.#writing.end();
-    const { drawing, csv, ...others } = this.#values;
+    const { drawing, csv, dances, ...others } = this.#values;
     // An address without anything is that of the doors.
     const rest = Object.keys(others).every((name) => name === "lang" || others[name] === this.initial(name));
-    const query = new URLSearchParams(rest && !csv ? { door: "all" } : {});
+    const query = new URLSearchParams(rest && !csv && !dances ? { door: "all" } : {});
     for (const [name, value] of Object.entries(others)) {
       if (value === this.initial(name)) continue;
       query.set(name, { view: () => value.map((one) => +one.toPrecision(6)), time: () => +value.toFixed(9) }[name]?.() ?? value);
     }
+    for (const [name, text] of this.strange) query.append(name, text);
     const withoutDrawing = query.toString();
     if (csv) query.set("csv", csv);
-    const isDrawn = this.#values.path === "route" || this.#values.dances;
+    if (dances) query.set("dances", dances);
+    const isDrawn = this.#values.path === "route" || dances;
     if (isDrawn) for (const [name, text] of toAddress(drawing)) query.set(name, text);
     this.fits = query.toString().length <= ADDRESS_MOST;
     const text = (this.fits ? query.toString() : withoutDrawing).replace(/%(?:2C|7E|21|3A|40)/g, decodeURIComponent);
-    history.replaceState(this.fits ? null : { drawing, csv }, "", location.pathname + (text && `?${text}`));
+    history.replaceState(this.fits ? null : { drawing, csv, dances }, "", location.pathname + (text && `?${text}`));
   }
 }

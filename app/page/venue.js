@@ -1,7 +1,7 @@
 /** Layers of a drawing on the picture: the square and its obstacles, stretches on which a limit fails, benches at fault. */
 
 import { headingOf, isWhole, yardOf } from "./drawing.js";
-import { inType } from "./elements.js";
+import { SMALL_TYPE, inType } from "./elements.js";
 import { radiiOf } from "./judgement.js";
 import { trace } from "./pen.js";
 import { measures } from "./square.js";
@@ -68,7 +68,7 @@ function label(pen, view, text, /** @type {number[]} */ [x, y], colour, colours,
   context.save();
   context.translate(x, y);
   context.scale(1 / pen.scale, -1 / pen.scale);
-  Object.assign(context, { font: `600 ${inType(12)}px system-ui, sans-serif`, lineWidth: 4, lineJoin: "round", strokeStyle: colours.card, fillStyle: colour, textAlign: "left" });
+  Object.assign(context, { font: `600 ${inType(SMALL_TYPE)}px system-ui, sans-serif`, lineWidth: 4, lineJoin: "round", strokeStyle: colours.card, fillStyle: colour, textAlign: "left" });
   const { width } = context.measureText(text);
   const places = [away, -width / 2, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT].map((dy) => [dx, dy]));
   const isInside = (/** @type {number[]} */ [dx]) => atX + dx >= 0 && atX + dx + width <= view.width;

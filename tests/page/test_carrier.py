@@ -12,7 +12,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.axe import serious
+from tests.support.axe import findings
 from tests.support.pending import settled, with_below
 from tests.support.serving import free_port, serving
 
@@ -83,7 +83,7 @@ def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page: Any, 
     for place in ("header", "#controls", "#answers", "#transport", "#tabs", "#keep"):
         expect(page.locator(place).first).to_be_hidden()
     assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
-    assert serious(page, "#front") == []
+    assert findings(page, "#front") == []
     small = """() => [...document.querySelectorAll("#carrier :is(button, input), #card-more button")]
       .filter((one) => one.checkVisibility() && one.getBoundingClientRect().height < 24).map((one) => one.outerHTML)"""
     assert page.evaluate(small) == []
@@ -190,3 +190,35 @@ def test_on_a_spiral_the_cards_end_where_the_dance_ends(open_page: Any) -> None:
     with page.expect_download() as download:
         page.locator("#keepCues-CSV").click()
     assert Path(download.value.path()).read_bytes().startswith(b"bench,")
+
+
+SIZES = """() => {
+  const sizes = new Set();
+  for (const one of document.querySelectorAll("body *")) {
+    const isField = one.matches("input:not([type=range], [type=color], [type=checkbox]), select, textarea");
+    const hasText = [...one.childNodes].some((node) => node.nodeType === 3 && node.data.trim());
+    if ((isField || hasText) && one.checkVisibility({ visibilityProperty: true }) && !one.matches("option, .unseen"))
+      sizes.add(getComputedStyle(one).fontSize);
+  }
+  return [...sizes];
+}"""
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_on_a_phone_the_picture_takes_a_third_and_four_sizes_of_type_are_enough(open_page: Any, language: str) -> None:
+    benches = {"en": 19, "zh": 18}[language]  # Another dance has not begun.
+    page = held(open_page(f"?benches={benches}&bench=7&lang={language}", **ON_PHONE))
+    assert page.locator("#stage").bounding_box()["height"] <= 0.35 * PHONE["height"] + 1
+    before = set(page.evaluate(SIZES))
+    page.locator("#card-start").click()
+    assert len(before | set(page.evaluate(SIZES))) <= 4
+
+
+def test_on_paper_stand_the_bench_its_picture_and_all_cues_without_buttons(open_page: Any, server: str) -> None:
+    page = held(open_page("?benches=20&bench=7&lang=en"))
+    page.emulate_media(media="print")
+    page.pdf()
+    expect(page.locator("button:visible, input:visible")).to_have_count(0)
+    expect(page.locator("#canvas")).to_be_visible()
+    expect(page.locator("#carrier h1")).to_have_text("body 7")
+    assert words_of(page) == [cue["words"] for cue in card(server, 7)["cues"]]

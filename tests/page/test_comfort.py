@@ -61,10 +61,13 @@ def test_on_a_phone_the_picture_stays_in_sight_of_what_is_dragged_and_fingers_ha
     assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
 
 
-def test_a_bare_address_opens_in_motion_and_the_wheel_scrolls_until_the_picture_is_clicked(
+def test_a_bare_address_moves_with_the_mouse_and_the_wheel_scrolls_until_the_picture_is_clicked(
     open_page: Any, server: str
 ) -> None:
     page = open_page("")
+    settled(page)
+    shows(page, "#play", "Play")
+    page.mouse.move(300, 300)
     shows(page, "#play", "Pause")
     page.locator("#doors [data-door=all]").click()
     expect(page.locator("#clock")).to_have_text(re.compile(r"^[1-9]"))
@@ -83,9 +86,18 @@ def test_a_bare_address_opens_in_motion_and_the_wheel_scrolls_until_the_picture_
     page.mouse.wheel(0, 200)
     page.wait_for_url("**view=**")
     assert page.evaluate("scrollY") == 0
+    keys = open_page("")
+    settled(keys)
+    keys.keyboard.press("Tab")
+    keys.mouse.move(300, 300)
     still = open_page("", reduced_motion="reduce")
-    shows(still, "#clock", "0.00 s")
-    shows(still, "#play", "Play")
+    settled(still)
+    still.mouse.move(300, 300)
+    keys.mouse.move(320, 300)
+    for one in (keys, still):
+        settled(one)
+        shows(one, "#clock", "0.00 s")
+        shows(one, "#play", "Play")
 
 
 def test_the_picture_has_its_scale_its_direction_and_one_scale_of_colours(visit: Any) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.axe import serious
+from tests.support.axe import findings
 from tests.support.pending import settled, with_below
 
 PHONE: Any = {"width": 390, "height": 844}
@@ -87,7 +87,7 @@ def test_on_a_phone_the_crew_fits_and_everyone_can_use_it(open_page: Any) -> Non
     page.locator("#crew-ask").click()
     expect(page.locator("#crew-result table")).to_have_count(2)
     assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
-    assert serious(page, "#crew") == []
+    assert findings(page, "#crew") == []
 
 
 def test_a_spiral_has_its_crew_up_to_its_first_contact(open_page: Any) -> None:

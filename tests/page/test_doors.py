@@ -11,7 +11,7 @@ from zipfile import ZipFile
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.axe import serious
+from tests.support.axe import findings
 from tests.support.pending import settled, with_below
 from tests.support.qr_reader import read_qr
 
@@ -69,6 +69,26 @@ def test_an_unknown_door_is_named_in_a_sentence_once(open_page: Any) -> None:
     expect(page.locator("#status")).to_be_empty()
 
 
+@pytest.mark.parametrize(
+    ("query", "text", "kept"),
+    [("&helix=3", "helix=3", True), ("&path=helix", "path=helix", False), (f"&{'x' * 90}=1", "x" * 40, True)],
+    ids=["name", "value", "long"],
+)
+def test_what_a_newer_page_wrote_is_named_once_and_the_rest_opens(
+    open_page: Any, query: str, text: str, kept: bool
+) -> None:
+    page = open_page(f"{EASY}{query}")
+    words = f"This page does not know “{text}” in the address: here is the rest."
+    expect(page.locator("#status")).to_have_text(words)
+    expect(page.locator("#benches")).to_have_value("5")
+    page.locator("#benches").fill("6")
+    page.locator("#benches").press("Enter")
+    settled(page)
+    assert "benches=6" in page.url
+    assert (query in page.url) is kept  # A newer page opens all of it.
+    expect(page.locator("#status")).to_be_empty()
+
+
 def test_a_printed_route_has_its_picture_its_end_and_its_address_and_no_buttons(open_page: Any) -> None:
     page = open_page(f"?door=village{ROUTE}&limit=0.5")
     settled(page)
@@ -81,6 +101,15 @@ def test_a_printed_route_has_its_picture_its_end_and_its_address_and_no_buttons(
     flat = """[...document.querySelectorAll("button, select, input, a")].filter((one) => one.checkVisibility())
       .filter((one) => getComputedStyle(one).borderTopWidth !== "0px").map((one) => one.outerHTML)"""
     assert page.evaluate(flat) == []
+
+
+def test_a_printed_route_that_begins_at_a_time_of_day_ends_at_one(open_page: Any) -> None:
+    page = open_page(f"?door=village{ROUTE.replace('start_clock', 'begin_clock')}")
+    settled(page)
+    page.emulate_media(media="print")
+    page.pdf()
+    # The dance begins at -13.94 s.
+    expect(page.locator("#printed")).to_contain_text("The dance ends at 50.00 s (19:31:03")
 
 
 def test_a_route_is_drawn_by_keyboard_from_nothing(open_page: Any) -> None:
@@ -120,7 +149,7 @@ def test_behind_a_door_stand_few_numbers_and_more_on_demand(visit: Any, door: st
     assert {"width", "margin", "hole"} <= set(numbers(page))
     page.locator("#more").click()
     assert numbers(page) == FEW[door]
-    assert serious(page) == []
+    assert findings(page) == []
 
 
 def test_numbers_are_as_people_say_them_and_all_digits_are_with_the_evidence(visit: Any) -> None:
@@ -186,7 +215,7 @@ def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_pag
         expect(button).to_have_text(re.compile(r"^The whole contest kit \d+ %$"))
         expect(button).to_have_accessible_name(re.compile(r"^The whole contest kit, ZIP \d+ %$"))
         expect(page.locator("#status")).to_contain_text("without: Margin, Stray.")
-        assert serious(page, "#keep") == []
+        assert findings(page, "#keep") == []
         expect(jobs).to_have_count(1)
         button.click()  # a second click starts no second job
     assert download.value.suggested_filename == "contest-kit.zip"
@@ -282,7 +311,7 @@ def test_an_address_is_shared_without_a_clipboard(open_page: Any, query: str) ->
     # It is selected, so that it can be copied by hand; and a phone can read it.
     assert page.evaluate("getSelection().toString() || document.activeElement.value") == address
     assert read_qr(page.locator("#qr").evaluate(MODULES)) == address
-    assert serious(page, "#sharing") == []
+    assert findings(page, "#sharing") == []
     page.keyboard.press("Escape")
     expect(page.locator("#sharing")).to_be_hidden()
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.axe import serious
+from tests.support.axe import findings
 from tests.support.pending import settled, with_below
 
 PHONE = {"width": 390, "height": 844}
@@ -137,18 +137,16 @@ def test_reduced_motion_moves_in_steps(open_page: Any) -> None:
     ],
     ids=["contact", "clear", "refused on a phone"],
 )
-def test_axe_finds_nothing_serious_in_light_or_dark(
-    open_page: Any, look_at: Any, query: str, options: dict[str, Any]
-) -> None:
+def test_axe_finds_nothing_in_light_or_dark(open_page: Any, look_at: Any, query: str, options: dict[str, Any]) -> None:
     refused = "pitch=55" in query
     page = open_page(query, failing=refused, color_scheme="light", **options)
     page.locator("#pitch-error").wait_for() if refused else look_at(page, "curve", "scan")
     settled(page)
     opened = "document.querySelectorAll('details').forEach((one) => (one.open = true))"
     page.evaluate(opened)
-    assert serious(page) == []
+    assert findings(page) == []
     page.locator("[data-lang=zh]").click()
     settled(page)
     page.evaluate(opened)
     page.emulate_media(color_scheme="dark")
-    assert serious(page, in_colours=True) == []
+    assert findings(page, in_colours=True) == []

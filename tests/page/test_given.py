@@ -11,7 +11,7 @@ from playwright.sync_api import expect
 
 from app.wire.benches import bench_table
 from tests.support import polite
-from tests.support.axe import serious
+from tests.support.axe import findings
 from tests.support.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
@@ -172,7 +172,7 @@ def test_a_route_without_a_drawing_invites_to_draw_and_waits_for_nothing(visit: 
     settled(page)
     expect(page.locator("[aria-busy=true]:visible")).to_have_count(0)
     expect(page.locator("#old")).to_be_hidden()
-    assert serious(page) == []
+    assert findings(page) == []
     page.locator("#one-by-one summary").tap()
     page.locator("#passages summary").tap()
     page.locator("#passageAdd").tap()

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.axe import serious
+from tests.support.axe import findings
 from tests.support.pending import settled
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
@@ -144,7 +144,7 @@ def test_the_look_is_kept_on_both_pages(browser: Any, server: str) -> None:
     for name in ("Dark", "Large type, for a projector"):
         page.locator("#look button", has_text=name).click()
         expect(page.locator("#look button", has_text=name)).to_have_attribute("aria-pressed", "true")
-    assert serious(page) == []
+    assert findings(page) == []
     dark = page.locator("body").evaluate("one => getComputedStyle(one).backgroundColor")
     assert dark != usual[0]
     assert box.bounding_box()["height"] > 1.15 * usual[1]
@@ -180,11 +180,11 @@ def test_a_phone_in_chinese_and_a_dark_screen_are_served_too(open_page: Any) -> 
     page.locator("#staircase .try").last.tap()
     expect(page.locator("#staircase .lead")).to_contain_text("第16节龙身")
     assert "undefined" not in page.locator("body").inner_text()
-    assert serious(page) == []
+    assert findings(page) == []
     page.locator("[data-lang=en]").tap()
     expect(page.locator("#staircase .lead")).to_contain_text("At a pitch of 0.4504 m the head stops 4.40")
     page.wait_for_url("**lang=en")
-    assert serious(page) == []
+    assert findings(page) == []
 
 
 def test_a_wide_screen_has_one_column_too(figures: Any) -> None:

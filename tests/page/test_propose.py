@@ -11,7 +11,7 @@ from urllib.parse import parse_qs, urlsplit
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.axe import serious
+from tests.support.axe import findings
 from tests.support.pending import settled
 from tests.support.serving import serving
 
@@ -73,7 +73,7 @@ def test_from_nothing_to_a_certified_dance_on_a_phone_in_two_minutes(open_page: 
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
         assert "undefined" not in page.locator("#place").inner_text()
         assert "NaN" not in page.locator("#place").inner_text()
-    assert serious(page) == []
+    assert findings(page) == []
     # What was chosen is in the address.
     page.reload()
     expect(page.locator("#judgement[data-outcome=clear]")).to_be_visible()
@@ -191,7 +191,7 @@ def test_corners_have_typed_coordinates_and_sides_typed_lengths(open_page: Any) 
     fields.nth(0).press("Enter")
     expect(fields.nth(0)).to_have_attribute("aria-invalid", "true")
     expect(page.locator("#proposed")).to_contain_text("you typed “wide”")
-    assert serious(page) == []
+    assert findings(page) == []
 
 
 def test_a_square_is_drawn_by_its_size_and_a_wrong_size_is_named(open_page: Any) -> None:

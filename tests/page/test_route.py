@@ -12,7 +12,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.axe import serious
+from tests.support.axe import findings
 from tests.support.pending import reached, settled, with_below
 
 ROOT = Path(__file__).parents[2]
@@ -520,5 +520,5 @@ def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(visit: Any) -> 
     page.locator("#verdict", has_text="可以表演").wait_for()
     assert after[:2] + after[3:] == before[:2] + before[3:]
     settled(page)
-    assert serious(page) == []
+    assert findings(page) == []
     assert "undefined" not in page.locator("body").inner_text()

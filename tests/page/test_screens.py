@@ -86,6 +86,78 @@ def test_nothing_scrolls_inside(visit: Any, query: str) -> None:
         assert canvas["y"] + canvas["height"] <= height
 
 
+# Sizes of all words in sight, on canvases too, in the usual size of the type [px].
+SIZES = """() => {
+  const sizes = new Set();
+  for (const one of document.querySelectorAll("body *")) {
+    const isField = one.matches("input:not([type=range], [type=color], [type=checkbox]), select, textarea");
+    const hasText = [...one.childNodes].some((node) => node.nodeType === 3 && node.data.trim());
+    if (!(isField || hasText) || one.matches("option, .unseen")) continue;
+    if (!one.checkVisibility({ visibilityProperty: true })) continue;
+    const scale = one.ownerSVGElement?.getScreenCTM().a ?? 1;
+    sizes.add(Math.round(10 * scale * Number.parseFloat(getComputedStyle(one).fontSize)) / 10);
+  }
+  const { prototype } = CanvasRenderingContext2D;
+  const fill = prototype.fillText;
+  prototype.fillText = function (...all) {
+    sizes.add(Math.round(10 * Number.parseFloat(/[\\d.]+px/.exec(this.font)[0])) / 10);
+    return fill.apply(this, all);
+  };
+  dispatchEvent(new Event("look"));
+  prototype.fillText = fill;
+  return [...sizes];
+}"""
+FOUR = {13.1, 15.0, 19.2, 22.4}  # [px]
+
+
+@pytest.mark.parametrize("query", ["", *DANCES.values(), f"{VILLAGE}&door=village", "?door=contest&time=end"])
+def test_the_page_and_its_pictures_have_four_sizes_of_type(open_page: Any, query: str) -> None:
+    page = open_page(query, reduced_motion="reduce")
+    settled(page)
+    if query:
+        with_below(page)
+        page.evaluate("document.querySelectorAll('details').forEach((one) => (one.open = true))")
+        settled(page)
+    for language in ("zh", "en"):
+        page.locator(f"[data-lang={language}]").click()
+        settled(page)
+        assert set(page.evaluate(SIZES)) <= FOUR
+
+
+@pytest.mark.parametrize(("width", "first"), [(1440, "controls"), (900, "controls"), (390, "answers")])
+def test_the_tab_key_goes_through_numbers_and_answers_as_they_stand(open_page: Any, width: int, first: str) -> None:
+    page = open_page("?benches=12&time=0")
+    settled(page)
+    page.set_viewport_size({"width": width, "height": 900})
+    last = "answers" if first == "controls" else "controls"
+    boxes = [page.locator(f"#{one}").bounding_box() for one in (first, last)]
+    assert boxes[0]["x"] < boxes[1]["x"] or boxes[0]["y"] < boxes[1]["y"]
+    focused = """async () => {
+      await new Promise(requestAnimationFrame);
+      return document.activeElement.closest("#controls, #answers")?.id;
+    }"""
+    page.locator("#rate").focus()
+    seen: list[str] = []
+    for _ in range(40):
+        page.keyboard.press("Tab")
+        one = page.evaluate(focused)
+        if one and one not in seen:
+            seen.append(one)
+    assert seen == [first, last]
+
+
+def test_with_the_colours_of_the_system_marks_and_bars_stay_visible(open_page: Any) -> None:
+    page = open_page("?benches=20&time=end", forced_colors="active")
+    settled(with_below(page))
+    page.locator("#crew summary").first.click()
+    page.locator("#crew-ask").click()
+    page.locator("#crew .bars i").first.wait_for()
+    ground = "one => getComputedStyle(one).backgroundColor"
+    card = page.locator("body").evaluate(ground)
+    for place in ("#crew .bars i", "#contact-mark"):
+        assert page.locator(place).first.evaluate(ground) not in (card, "rgba(0, 0, 0, 0)")
+
+
 def test_the_words_of_a_failure_stand_below_a_time_of_day_that_takes_their_room(visit: Any) -> None:
     page = visit(VILLAGE)
     row = page.locator(".failures li").nth(1)

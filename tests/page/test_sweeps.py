@@ -13,7 +13,7 @@ from playwright.sync_api import expect
 from app.sweeps.columns import answer_columns
 from app.sweeps.questions import question_of
 from tests.support import polite
-from tests.support.axe import serious
+from tests.support.axe import findings
 from tests.support.job_service import SHORT, JobService, wait_for
 from tests.support.pending import reached, settled, with_below
 
@@ -184,9 +184,9 @@ def refuses_in_words(page: Any) -> None:
 def is_for_everyone(page: Any) -> None:
     """Form, list and map are accessible in light and dark, and nothing is cut off in either language."""
     page.locator("[data-lang=zh]").click()
-    assert serious(page, "#sweeps") == []
+    assert findings(page, "#sweeps") == []
     page.emulate_media(color_scheme="dark")
-    assert serious(page, "#sweeps", in_colours=True) == []
+    assert findings(page, "#sweeps", in_colours=True) == []
     # A job's name and state stand beside its buttons, never below them, and are not cut off.
     row = page.locator("#jobs li").first
     (name, state), buttons = (

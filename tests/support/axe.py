@@ -6,13 +6,12 @@ from typing import Any
 
 from axe_playwright_python.sync_playwright import Axe
 
-SERIOUS = {"serious", "critical"}
 # Rules whose findings depend on colours, and so on the colour scheme.
 IN_COLOURS = ["color-contrast", "link-in-text-block"]
 
 
-def serious(page: Any, place: str | None = None, *, in_colours: bool = False) -> list[tuple[str, str]]:
-    """Serious findings of axe: the rule, and the first element that breaks it.
+def findings(page: Any, place: str | None = None, *, in_colours: bool = False) -> list[tuple[str, str]]:
+    """All findings of axe: the rule, and the first element that breaks it.
 
     in_colours: only by rules that depend on colours
     """
@@ -20,4 +19,4 @@ def serious(page: Any, place: str | None = None, *, in_colours: bool = False) ->
     # Selectors of what is found, which nobody reads, take axe a third of its time.
     options = {"resultTypes": ["violations"], "selectors": False, **({"runOnly": IN_COLOURS} if in_colours else {})}
     result = Axe().run(page, place, options).response["violations"]
-    return [(one["id"], one["nodes"][0]["html"]) for one in result if one["impact"] in SERIOUS]
+    return [(one["id"], one["nodes"][0]["html"]) for one in result]

@@ -27,6 +27,7 @@ export const DANCE = {
   old: ["Older than your numbers", "结果早于当前数值"],
   doors: ["What the page is for", "页面用途"],
   noDoor: ["The page has no door “{door}”: here is everything.", "页面没有“{door}”这个入口：这里显示全部内容。"],
+  notKnown: ["This page does not know “{text}” in the address: here is the rest.", "页面不认识地址中的“{text}”：这里显示其余内容。"],
   printedEnds: ["The dance ends at {end}.", "舞龙于 {end} 结束。"],
   door_contest: ["Contest", "竞赛题"],
   door_village: ["Village", "村里舞龙"],

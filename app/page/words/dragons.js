@@ -25,6 +25,7 @@ export const DRAGONS = {
   dragonNotNumber: ["“{text}” is no number.", "“{text}”不是数字。"],
   dragonSameName: ["Another dragon is called “{name}”.", "已有名为“{name}”的龙。"],
   dragonsApart: ["No two dragons {touch}.", "任何两条龙都不{touch}。"],
+  dragonsMeet: ["First meeting at {time} s.", "首次相遇在 {time} s。"],
   dragonsLeast: ["First meeting at {time} s, proven between {low} s and {high} s.", "首次相遇在 {time} s，已证明在 {low} s 与 {high} s 之间。"],
   dragonForeign: ["{name}: the page shows spirals around x = y = 0 that are danced clockwise; use the command for this file.", "{name}：页面只显示以 x = y = 0 为中心的顺时针螺线；此文件请用命令行。"],
   meetingMark: ["Two dragons meet at {time} s", "两条龙在 {time} s 相遇"],
