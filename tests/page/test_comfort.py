@@ -198,6 +198,8 @@ def test_a_hanging_service_is_noticed_the_next_try_counts_down_and_messages_go_a
         page.locator("#lost", has_text=words).wait_for()
         page.clock.fast_forward(1000)
     page.locator("#lost", has_text="trying again now").wait_for()
+    while len(tries) < 3:
+        page.wait_for_timeout(10)
     tries[-1].continue_()
     page.locator("#lost").wait_for(state="hidden")
     shows(page, "#status", "The service is back.")
