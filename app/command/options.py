@@ -131,8 +131,9 @@ def _begun(request: Model, held: dict[str, Any], context: typer.Context) -> Mode
     of this question. raises: InvalidValue"""
     if not isinstance(request, DanceFields) or request.begin_clock is None or request.start_clock is not None:
         return request
-    is_own = "start" in type(request).model_fields
-    if typed_options(context, "start") == [] if is_own else "start" not in held:
+    has_start = "start" in type(request).model_fields
+    starts_elsewhere = bool(typed_options(context, "start")) if has_start else "start" in held
+    if not starts_elsewhere:
         return request
     start = checked(SpanFields, {"start": held.get("start")}).start
     zero = clock_at_zero(request.begin_clock, _in_file(held).begin if start is None else start)

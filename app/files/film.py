@@ -47,8 +47,8 @@ AROUND, EXTENT_INSTANTS = 0.04, 60
 BATCH = 60
 # Most frames that wait for the encoder.
 WAITING = 4
-# H.264: quality (crf, smaller is better), effort, and number of threads, which changes the bytes. A frame between two
-# others (bframes) makes the file of a spiral 3.4 times smaller for 1.4 times the encoder's work (measured 2026-11-27).
+# H.264: quality (crf, smaller is better), effort, and number of threads, which changes the bytes. With a frame between
+# two others (bframes) the film of the default dance takes 7.3 MB in place of 26 (measured 2026-11-27).
 SEARCH = "bframes=1:b-adapt=0:trellis=0:weightp=0:ref=1:rc-lookahead=5"
 OPTIONS, THREADS = {"crf": "25", "preset": "veryfast", "x264-params": SEARCH}, 2
 FAST_START = {"movflags": "faststart"}

@@ -78,7 +78,9 @@ class Passing:
             return self.start
         travels, places = self._between(k)
         row = places[:, handle]
-        k = max(1, int((row >= s).argmax()))
+        # The last row again, which may differ in its last bit, if no row has reached s.
+        later = np.flatnonzero(row[1:] >= s)
+        k = 1 + int(later[0]) if later.size else len(row) - 1
         share = (s - row[k - 1]) / (row[k] - row[k - 1])
         return self.clock.time(float(travels[k - 1] + share * (travels[k] - travels[k - 1])))
 

@@ -179,14 +179,13 @@ class Performance(Readable):
 
     def number_of(self, part: int | str) -> int:
         """The number of a dragon, from its name or its number. raises: InvalidValue"""
-        for k, one in enumerate(self.parts):
-            if one.name is not None and one.name == part:
-                return k
-        number = isinstance(part, (int, np.integer)) and not isinstance(part, bool)
-        if number and 0 <= int(part) < len(self.parts):
+        names = [one.name for one in self.parts]
+        if isinstance(part, str) and part in names:
+            return names.index(part)
+        if isinstance(part, (int, np.integer)) and not isinstance(part, bool) and 0 <= part < len(names):
             return int(part)
         rule = "must be a dragon's name, or its number below {count}"
-        raise InvalidValue("part", rule, got=Given(part), count=len(self.parts))
+        raise InvalidValue("part", rule, got=Given(part), count=len(names))
 
     @property
     def default_times(self) -> Floats:

@@ -87,6 +87,8 @@ export const RULES = {
   "be the number of a dragon, in the order of the dances, or its name": [undefined, "应为某条龙的编号或名称"],
   "be left out without dances": ["be left out where there is one dragon", "只有一条龙时不能给出"],
   "be at least two, between which there is a clearance": ["have at least two dragons, between which there is a clearance", "至少应有两条龙，才有相互间距"],
+  "be after the head begins to walk: it stands still from {begin} on": [undefined, "应在龙头起步之后：从 {begin} 起龙头停着不动"],
+  "be after dragon {dragon} begins to walk: it stands still from {begin} on": [undefined, "应在 {dragon} 号龙起步之后：从 {begin} 起它停着不动"],
   "differ from {other}": ["differ from the names of the others", "应与其他名称不同"],
   "let {part} begin, which is at {begin}, before bench {bench} of {other} folds at {end}": ["let it begin, which is at {begin}, before a bench of another one folds at {end}", "应使其在另一条龙折叠之前开始（开始于 {begin}，折叠于 {end}）"],
 };

@@ -85,6 +85,13 @@ def test_a_sweep_that_is_begun_again_keeps_its_progress_and_another_job_begins_a
         assert store.known(job).progress == progress
 
 
+def test_a_job_whose_work_is_done_is_not_at_a_hundred_percent_before_its_answer_is_there(store: Store) -> None:
+    job = make(store)
+    store.take()
+    store.proceed(job, 1.0, 0.1)
+    assert (store.known(job).state, store.known(job).progress) == (JobState.RUNNING, 99)
+
+
 def test_a_result_is_kept_and_reported_again_when_its_state_could_not_be_written(store: Store) -> None:
     job = make(store)
     store.take()
