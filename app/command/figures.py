@@ -109,6 +109,13 @@ def film(
     request: FilmOptions | FilmRequest,
     context: typer.Context,
     output: Annotated[Path, typer.Option(help="Write a .mp4 file (extra film), or a .gif.")] = Path("dance.mp4"),
+    marked: Annotated[
+        list[str] | None,
+        typer.Option("--bench", help="Name or number of a bench that stands out; may be given several times."),
+    ] = None,
+    part: Annotated[
+        str | None, typer.Option(help="Of several dragons, the one whose bench stands out: its name or its number.")
+    ] = None,
 ) -> None:
     """A film of the dance; with a FILE, of any dragon on any path and in any venue."""
     gif = checked_output("output", output, (".mp4", ".gif")) == ENDINGS[GIF_TYPE]
@@ -119,5 +126,9 @@ def film(
         if isinstance(request, FilmRequest) and request.dances is not None:
             data = films.films(request, terms, form)
         else:
-            data = films.film_of(request, dance_of(request, context, terms.settings.drawn_benches_max), terms, form)
+            if not isinstance(request, FilmRequest):
+                unused(context, ["part"], "belongs to a FILE of several dragons: leave it out")
+            benches = request.marked if isinstance(request, FilmRequest) else marked
+            dance = dance_of(request, context, terms.settings.drawn_benches_max)
+            data = films.film_of(request, dance, terms, form, benches)
     show.write(output, data)

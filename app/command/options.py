@@ -77,7 +77,9 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
     if instead and (strays := [name for name in Strays.model_fields if held.get(name) and name not in own]):
         print(f"{file}: ignored: {', '.join(strays)}, because {instead}.", file=sys.stderr)
     values = {name: value for name, value in held.items() if name in own or name not in CheckRequest.model_fields}
-    values |= {name: context.params[name] for name in typed_options(context, *own)}
+    typed = {name: context.params[name] for name in typed_options(context, *own)}
+    # An option that may be given several times is a tuple there.
+    values |= {name: list(value) if isinstance(value, tuple) else value for name, value in typed.items()}
     if isinstance(values.get("times"), str):
         values["times"] = numbers("times", values["times"], float)
     elif "times" in own and (steps := _steps(held, body, context)):

@@ -42,9 +42,9 @@ def strokes_of(spec: FilmSpec) -> tuple[Floats, list[bool]]:
     """
     if spec.music is None:
         return np.empty(0), []
-    times, first = spec.music.beats(spec.start, spec.stop)
+    times, first = spec.music.beats(spec.start - spec.music_begin, spec.stop - spec.music_begin)
     pace = (spec.times.size - 1) / (spec.rate * (spec.stop - spec.start))
-    return (times - spec.start) * pace, first
+    return (times + spec.music_begin - spec.start) * pace, first
 
 
 def samples_of(spec: FilmSpec) -> Floats:

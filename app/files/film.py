@@ -1,8 +1,8 @@
 """Films of a dance, as MP4 (H.264, through PyAV) or as GIF (Pillow).
 
-matplotlib draws the background once. For each frame that picture is copied back, and Agg fills two paths: one of the
-head, one of all other benches. Meanwhile a second thread encodes the frames before. The same film gives the same bytes
-on the same versions of these libraries.
+matplotlib draws the background and the numbers of benches once. For each frame the background is copied back, Agg
+fills two paths, one of the head and one of all other benches, and the numbers are laid on them. Meanwhile a second
+thread encodes the frames before. The same film gives the same bytes on the same versions of these libraries.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
@@ -28,12 +28,13 @@ from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
 from app.files.drawing import draw_venue, in_turn, with_square
+from app.files.film_labels import MARKED_SHARE, Labels, numbered, size_of
 from app.files.film_spec import MP4_TYPE, FilmSpec
-from app.files.fonts import families
+from app.files.fonts import families_for
 from app.files.scratch import temporary
 from app.files.tables import Language
 from app.wire.clocks import time_of_day
-from core import Budget, Dance, Venue, bench_outlines, trajectory
+from core import Budget, Dance, Dragon, Venue, bench_outlines, trajectory
 from core.errors import question_about
 from core.plots import BLUE, PALE, VERMILION, draw_dance
 from core.values import Floats
@@ -47,9 +48,10 @@ AROUND, EXTENT_INSTANTS = 0.04, 60
 BATCH = 60
 # Most frames that wait for the encoder.
 WAITING = 4
-# H.264: quality (crf, smaller is better), effort, and number of threads, which changes the bytes. With a frame between
-# two others (bframes) the film of the default dance takes 7.3 MB in place of 26 (measured 2026-11-27).
-SEARCH = "bframes=1:b-adapt=0:trellis=0:weightp=0:ref=1:rc-lookahead=5"
+# H.264: quality (crf, smaller is better), effort, and number of threads, which changes the bytes. With two frames
+# between two others (bframes) the film of the default dance takes 7.9 MB in place of 26, and its numbers one of them
+# (measured 2026-11-28).
+SEARCH = "bframes=2:b-adapt=0:trellis=0:weightp=0:ref=1:rc-lookahead=5"
 OPTIONS, THREADS = {"crf": "25", "preset": "veryfast", "x264-params": SEARCH}, 2
 FAST_START = {"movflags": "faststart"}
 # The sound is whole before the first picture, so the file waits for as many pictures as it takes.
@@ -69,6 +71,9 @@ GIF_BLENDS = (
 WORDS = {Language.ENGLISH: "{time:.2f} s", Language.CHINESE: "时间 {time:.2f} 秒"}
 COUNTS = {Language.ENGLISH: "bar {} beat {}", Language.CHINESE: "第 {} 小节第 {} 拍"}
 TOUCHING = {Language.ENGLISH: "benches {} and {} touch\n", Language.CHINESE: "第 {} 节与第 {} 节板凳相碰（龙头为 0）\n"}
+COUNTS_OF = {Language.ENGLISH: "{}: {}", Language.CHINESE: "{}：{}"}
+# Colour of marked benches.
+MARKED = "#F0E442"
 # Edge of benches [points], and of those that touch, as a share of the height of the picture.
 EDGE, TOUCHING_SHARE = 0.8, 0.0025
 
@@ -117,6 +122,16 @@ def frames(
             yield stage.frame(float(time), benches, spec.touching if k == times.size - 1 else None)
 
 
+class Layer(NamedTuple):
+    """What moves of one dragon. words: of the marked benches, by number"""
+
+    body: PathPatch
+    head: PathPatch
+    marked: PathPatch
+    words: dict[int, str]
+    labels: list[Labels]
+
+
 class FilmPicture:
     """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
 
@@ -126,7 +141,7 @@ class FilmPicture:
 
     def prepare(self, spec: FilmSpec, venue: Venue | None, title: str) -> None:
         """Draw the background, and make what moves before it."""
-        self.language, self.start_clock, self.music = spec.language, spec.start_clock, spec.music
+        self.language, self.start_clock, self.spec = spec.language, spec.start_clock, spec
         in_turn(lambda: self._draw(spec, venue, title))
 
     def draw_paths(self, times: Floats) -> Floats:
@@ -135,14 +150,20 @@ class FilmPicture:
         draw_dance(self.axes, self.dance.path, handles, np.empty((0, 4, 2)))
         return handles
 
-    def add_benches(self) -> None:
-        """Add the benches that move."""
-        self.head = self.benches(1, VERMILION, "black")
-        self.body = self.benches(self.dance.dragon.benches - 1, BLUE, BODY_EDGE)
+    @property
+    def dragons(self) -> list[Dragon]:
+        """All dragons of the picture."""
+        return [self.dance.dragon]
+
+    def colours(self, dragon: int) -> tuple[str, str, str, str]:
+        """Colours of the head, of the body, of its edges, and of those of its numbers."""
+        return VERMILION, BLUE, BODY_EDGE, BLUE
 
     def _draw(self, spec: FilmSpec, venue: Venue | None, title: str) -> None:
-        points = TYPE_SHARE * spec.height * 72.0 / DPI
-        with matplotlib.rc_context({"font.family": families(spec.language), "font.size": points}):
+        points, dragons = TYPE_SHARE * spec.height * 72.0 / DPI, self.dragons
+        names = [name for k, bench in spec.marked for name in dragons[k].names[bench : bench + 1]]
+        family = families_for([title, *names], spec.language)
+        with matplotlib.rc_context({"font.family": family, "font.size": points}):
             figure = Figure(figsize=(spec.width / DPI, spec.height / DPI), dpi=DPI)
             self.canvas = FigureCanvasAgg(figure)
             self.axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
@@ -153,7 +174,7 @@ class FilmPicture:
             place: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False}
             self.axes.text(0.985, 0.97, title, ha="right", va="top", **place)
             self.time = self.axes.text(0.985, 0.03, "", ha="right", va="bottom", animated=True, **place)
-        self.add_benches()
+            self.layers = [self._layer(k, dragon, spec) for k, dragon in enumerate(dragons)]
         self.touching = self.benches(2, VERMILION, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
         self.canvas.draw()
         self.still = self.canvas.copy_from_bbox(figure.bbox)
@@ -176,24 +197,65 @@ class FilmPicture:
         self.axes.add_patch(patch)
         return patch
 
+    def _layer(self, k: int, dragon: Dragon, spec: FilmSpec) -> Layer:
+        """What moves of a dragon."""
+        head, body, edge, around = self.colours(k)
+        own = [bench for one, bench in spec.marked if one == k]
+        (left, right), chord = self.axes.get_xlim(), float(np.mean(dragon.chords))
+        size = size_of(spec.height)
+        plain = numbered(dragon.benches, chord * spec.width / (right - left), size)
+        words = {bench: " ".join([str(bench), *filter(None, dragon.names[bench : bench + 1])]) for bench in own}
+        labels = [
+            Labels(self.axes, {bench: str(bench) for bench in plain if bench not in words}, size, around),
+            Labels(self.axes, words, size_of(spec.height, MARKED_SHARE)),
+        ]
+        marked = self.benches(len(words), MARKED, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
+        benches = self.benches(dragon.benches - 1, body, edge), self.benches(1, head, "black"), marked
+        return Layer(*benches, words, labels)
+
     def frame(self, time: float, outlines: Floats, touching: tuple[int, int] | None = None) -> NDArray[np.uint8]:
         """The picture at one instant. outlines: (n, 4, 2) [m]; touching: the benches that are marked and named"""
-        closed = np.concatenate([outlines, outlines[:, :1]], axis=1)
-        self.head.get_path().vertices = closed[0]
-        self.body.get_path().vertices = closed[1:].reshape(-1, 2)
-        artists: list[Artist] = [self.body, self.head, self.time]
-        if not touching:
-            return self.compose(time, artists)
-        self.touching.get_path().vertices = closed[list(touching)].reshape(-1, 2)
-        return self.compose(time, [*artists, self.touching], TOUCHING[self.language].format(*touching))
+        pairs = [(0, bench) for bench in touching or ()]
+        return self.compose(time, [outlines], pairs, TOUCHING[self.language].format(*touching) if touching else "")
 
-    def compose(self, time: float, artists: Sequence[Artist], first: str = "") -> NDArray[np.uint8]:
-        """The picture of what moves, at a time [s]. first: words before the time"""
+    def compose(
+        self, time: float, outlines: Sequence[Floats], touching: Sequence[tuple[int, int]] = (), first: str = ""
+    ) -> NDArray[np.uint8]:
+        """The picture at one instant [s].
+
+        outlines: (n, 4, 2) of each dragon [m]; touching: dragon and number of the two benches that are marked
+        first: words before the time
+        """
+        closed = [np.concatenate([own, own[:, :1]], axis=1) for own in outlines]
+        artists: list[Artist] = []
+        for layer, own in zip(self.layers, closed, strict=True):
+            layer.head.get_path().vertices = own[0]
+            layer.body.get_path().vertices = own[1:].reshape(-1, 2)
+            layer.marked.get_path().vertices = own[list(layer.words)].reshape(-1, 2)
+            artists += [layer.body, layer.head, *([layer.marked] if layer.words else [])]
+        if touching:
+            self.touching.get_path().vertices = np.concatenate([closed[k][bench] for k, bench in touching])
+            artists.append(self.touching)
+        for layer, own in zip(self.layers, outlines, strict=True):
+            for labels in layer.labels:
+                labels.place(own)
+                artists.append(labels)
+        return self._composed(first + self.words(time), [*artists, self.time])
+
+    def words(self, time: float) -> str:
+        """The count, the time of day and the time [s] of a picture."""
         words = f"{time_of_day(time, self.start_clock)}  " if self.start_clock else ""
         words += WORDS[self.language].format(time=time)
-        if self.music and (count := self.music.count(time)):
-            words = f"{COUNTS[self.language].format(*count)}  {words}"
-        self.time.set_text(first + words)
+        music = self.spec.music
+        if music and (count := music.count(time - self.spec.music_begin)):
+            counted = COUNTS[self.language].format(*count)
+            if self.spec.music_of:
+                counted = COUNTS_OF[self.language].format(self.spec.music_of, counted)
+            words = f"{counted}  {words}"
+        return words
+
+    def _composed(self, words: str, artists: Sequence[Artist]) -> NDArray[np.uint8]:
+        self.time.set_text(words)
         self.canvas.restore_region(self.still)
         for artist in artists:
             self.axes.draw_artist(artist)
@@ -283,7 +345,8 @@ def encoded_gif(sink: io.BytesIO, spec: FilmSpec) -> Iterator[Take]:
 
     pictures: list[Image.Image] = []
     palette = Image.new("P", (1, 1))
-    several = [pair for colour in spec.colours for pair in (("white", colour), (colour, "black"))]
+    colours = [*spec.colours, *([MARKED] if spec.marked else [])]
+    several = [pair for colour in colours for pair in (("white", colour), (colour, "black"))]
     ends = np.array([[to_rgb(colour) for colour in blend] for blend in (*GIF_BLENDS, *several)])
     blends = ends[:, :1] + np.linspace(0.0, 1.0, GIF_STEPS)[:, None] * (ends[:, 1:] - ends[:, :1])
     palette.putpalette(np.rint(255.0 * blends).astype(np.uint8).tobytes())

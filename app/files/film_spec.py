@@ -22,8 +22,10 @@ LOOKS = {MP4_TYPE: (30, 1080), GIF_TYPE: (12, 360)}
 class FilmSpec:
     """start, stop: times in the dance [s]; seconds: length of the film [s]; rate: [frames/s]; height: [pixels]
     start_clock: time of day at time 0, see time_of_day(); touching: benches that touch at the last instant
-    music: beats, which a film counts and an MP4 lets hear
-    dragons: of several, whose benches touch; colours: of several dragons"""
+    music: beats, which a film counts and an MP4 lets hear; music_begin: when they begin [s]; music_of: the dragon of
+        several that has them, empty where all have the same
+    dragons: of several, whose benches touch; colours: of several dragons
+    marked: dragon, 0 for the only one, and bench of each bench that stands out, with its number and its name"""
 
     start: float
     stop: float
@@ -34,8 +36,11 @@ class FilmSpec:
     start_clock: str | None = None
     touching: tuple[int, int] | None = None
     music: Music | None = None
+    music_begin: float = 0.0
+    music_of: str = ""
     dragons: tuple[int, int] | None = None
     colours: tuple[str, ...] = ()
+    marked: tuple[tuple[int, int], ...] = ()
 
     @property
     def width(self) -> int:

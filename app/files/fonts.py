@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from pathlib import Path
@@ -23,6 +23,8 @@ CHINESE = (
 LIST_FOLDER = "MPLCONFIGDIR"
 # The font that comes with matplotlib: Latin letters, digits and mathematical signs.
 LATIN = "DejaVu Sans"
+# First character that only a Chinese font has.
+FIRST_CHINESE = "\u2e80"
 # Characters that a Chinese font must have: some of those that our pictures use.
 TRIED = "板凳龙螺距速度首次碰撞调头把手"
 
@@ -52,6 +54,15 @@ def families(language: Language) -> tuple[str, ...]:
         "--language zh needs a font with Chinese characters, which this machine does not have: install "
         "fonts-wqy-microhei or fonts-noto-cjk (apt install fonts-wqy-microhei)",
     )
+
+
+def families_for(texts: Iterable[str], language: Language) -> tuple[str, ...]:
+    """Font families for these texts beside words in a language: Chinese names may stand on English paper.
+
+    raises: MissingPackage, as families() does
+    """
+    is_chinese = any(text and max(text) >= FIRST_CHINESE for text in texts)
+    return families(Language.CHINESE if is_chinese else language)
 
 
 @contextmanager

@@ -6,14 +6,13 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
-from matplotlib.artist import Artist
 from numpy.typing import NDArray
 
 from app.files.film import BATCH, FilmPicture, encoded
 from app.files.film_spec import FilmSpec
 from app.files.performances import LEGEND_MOST, colour_of
 from app.files.tables import Language
-from core import Budget, Performance, bench_outlines, performance_trajectory
+from core import Budget, Dragon, Performance, bench_outlines, performance_trajectory
 from core.errors import question_about
 from core.plots import draw_dance
 from core.values import Floats
@@ -81,11 +80,13 @@ class PerformancePicture(FilmPicture):
             self.axes.text(0.015, NAME_AT - NAME_STEP * k, self.name_of(k), color=colour_of(k), **look)
         return np.concatenate(places)
 
-    def add_benches(self) -> None:
-        self.dragons = []
-        for k, part in enumerate(self.performance.parts):
-            head = self.benches(1, colour_of(k), "black")
-            self.dragons.append((self.benches(part.dance.dragon.benches - 1, colour_of(k), colour_of(k)), head))
+    @property
+    def dragons(self) -> list[Dragon]:
+        return [part.dance.dragon for part in self.performance.parts]
+
+    def colours(self, dragon: int) -> tuple[str, str, str, str]:
+        own = colour_of(dragon)
+        return own, own, own, "black"
 
     def picture(
         self,
@@ -98,16 +99,8 @@ class PerformancePicture(FilmPicture):
 
         outlines: (n, 4, 2) of each dragon [m]; dragons, touching: the dragons and the benches that are marked and named
         """
-        closed = [np.concatenate([own, own[:, :1]], axis=1) for own in outlines]
-        artists: list[Artist] = []
-        for (body, head), own in zip(self.dragons, closed, strict=True):
-            head.get_path().vertices = own[0]
-            body.get_path().vertices = own[1:].reshape(-1, 2)
-            artists += [body, head]
-        artists.append(self.time)
         if touching is None or dragons is None:
-            return self.compose(time, artists)
+            return self.compose(time, outlines)
         pairs = list(zip(dragons, touching, strict=True))
-        self.touching.get_path().vertices = np.concatenate([closed[k][bench] for k, bench in pairs])
         named = [word for k, bench in pairs for word in (bench, self.name_of(k))]
-        return self.compose(time, [*artists, self.touching], TOUCHING[self.language].format(*named))
+        return self.compose(time, outlines, pairs, TOUCHING[self.language].format(*named))

@@ -16,7 +16,7 @@ from app.files.words import Say
 from app.maps.marks import mark_name
 from app.plan.timing import TimeFormat
 from app.questions.maps import Marked
-from app.questions.plan import FIRST_CHINESE, PDF_TYPE
+from app.questions.plan import PDF_TYPE
 from app.wire.clocks import DAY, checked_clock
 from app.wire.dances import clock_of
 from app.wire.question import AS_WHOLE, JSON, Answer, Coordinate, Instant, OneLine, Question, Terms, Wire, measure
@@ -298,7 +298,7 @@ def _roll(time: float, crew: CrewWords, dance: Dance, terms: Terms) -> Roll:
 def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | None, terms: Terms) -> bytes:
     """The crew as PDF."""
     from app.cards.timeline import CrewSheets
-    from app.files.fonts import families
+    from app.files.fonts import families_for
 
     say, result, clock = crew.words.say, crew.crew, crew.words.clock.words
     title = request.title or say("Bench dragon", "板凳龙")
@@ -316,7 +316,7 @@ def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | Non
             f"连续抬板最长 {minutes}:{seconds:02d}",
         ),
     ]
-    family = families(Language.CHINESE if max(title) >= FIRST_CHINESE else request.language)
+    family = families_for([title], request.language)
     table = None if roll is None else _roll_table(roll, crew)
     return _drawn(dance, CrewSheets(crew, title, facts, family, terms.budget, table), terms)
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
 
@@ -17,11 +16,11 @@ from app.files.words import Say
 from app.plan.timing import TimeFormat
 from app.questions.check import verdict_of
 from app.questions.maps import Marked
-from app.questions.plan import FIRST_CHINESE, PDF_TYPE, verdict_words
-from app.wire.dances import clock_of
+from app.questions.plan import PDF_TYPE, verdict_words
+from app.wire.dances import BenchNumber, bench_of, clock_of
 from app.wire.degrees import Place
-from app.wire.performances import NumberOrName, SeveralFields, dragon_of
-from app.wire.question import AS_WHOLE, JSON, OneLine, Question, Terms, measure
+from app.wire.performances import NumberOrName, SeveralFields, dragons_of
+from app.wire.question import JSON, OneLine, Question, Terms, measure
 from core import Dance, InvalidValue, Performance
 from core.errors import Given, Parameter, TooLarge, question_about
 from core.motion.places import handle_places
@@ -33,8 +32,6 @@ if TYPE_CHECKING:
 
 # Estimated time of the cues of a bench and of its card on paper [s], measured 2026-11-27.
 SECONDS_PER_BENCH, SECONDS_PER_CARD = 0.02, 0.05
-
-BenchNumber = Annotated[int, Field(ge=0), AS_WHOLE]
 
 
 class DanceCues(Marked, strict=True):
@@ -67,7 +64,7 @@ class DanceCues(Marked, strict=True):
                 if getattr(self, name) is not None:
                     rule, other = "must be left out beside {other}", Parameter("cards")
                     raise InvalidValue(name, rule, got=getattr(self, name), other=other)
-            return [_bench_of(f"cards.{k}", one, dragon) for k, one in enumerate(self.cards)]
+            return [bench_of(f"cards.{k}", one, dragon) for k, one in enumerate(self.cards)]
         first = 0 if self.first_bench is None else self.first_bench
         last = count - 1 if self.last_bench is None else self.last_bench
         for name, bench in (("first_bench", first), ("last_bench", last)):
@@ -87,24 +84,6 @@ class CuesRequest(SeveralFields, DanceCues, strict=True):
         description="Of several dances, the dragon whose benches get cards: its number in the order of the dances, "
         "from 0, or its name; null: each",
     )
-
-    def dragons_of(self, performance: Performance) -> Sequence[int]:
-        """The dragons whose benches get cards. raises: InvalidValue"""
-        if self.part is None:
-            return range(len(performance.parts))
-        return [dragon_of(self.part, performance)]
-
-
-def _bench_of(field: str, word: int | str, dragon: core.Dragon) -> int:
-    """The bench with that name, or else that number. raises: InvalidValue"""
-    if isinstance(word, str):
-        if word and word in dragon.names:
-            return dragon.names.index(word)
-        if not re.fullmatch(r"\d{1,9}", word, re.ASCII):
-            raise InvalidValue(field, "must be the name or the number of a bench", got=Given(word))
-    if int(word) >= dragon.benches:
-        raise InvalidValue(field, "must be at most {most}, the tail", got=int(word), most=dragon.benches - 1)
-    return int(word)
 
 
 def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | PerformanceCues | bytes:
@@ -133,7 +112,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     """The cards of several dragons."""
     (performance, place), say = request.to_placed(terms.settings), Say(request.language)
     parts = request.dances or []
-    chosen = {k: request.benches_of(performance.parts[k].dance.dragon) for k in request.dragons_of(performance)}
+    chosen = {k: request.benches_of(performance.parts[k].dance.dragon) for k in dragons_of(request.part, performance)}
     _refuse_many(sum(map(len, chosen.values())))
     names = [part.name or say(f"dragon {k}", f"{k} 号龙") for k, part in enumerate(performance.parts)]
     dragons = [(name, part.dance.dragon.names) for name, part in zip(names, performance.parts, strict=True)]
@@ -215,16 +194,14 @@ def _sheets(
     decks: for each dragon its dance, its name, which is empty for the only one, its cards, and their words
     """
     from app.cards.cards import CardSheets
-    from app.files.fonts import families
+    from app.files.fonts import families_for
 
     title = request.title or Say(request.language)("Bench dragon", "板凳龙")
     areas = place.venue.areas if place.venue else ()
     names = [one for (dance, name), _ in decks for one in (name, *dance.dragon.names)]
     # The cards of one dragon name those of others.
     names += [one for _, (_, words) in decks[:1] for name, own in words.dragons for one in (name, *own)]
-    # Chinese names may stand on English cards.
-    texts = "".join([title, *names, *(area.name for area in areas)])
-    family = families(Language.CHINESE if max(texts) >= FIRST_CHINESE else request.language)
+    family = families_for([title, *names, *(area.name for area in areas)], request.language)
     return [
         CardSheets(
             dance, place.venue, cards, words, f"{title}: {name}" if name else title, verdict, family, terms.budget

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -9,15 +10,18 @@ from pydantic import Field
 import core
 from app.files.film_spec import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, FilmSpec
 from app.files.tables import Language
-from app.wire.dances import PlacedDance, clock_of
-from app.wire.performances import SeveralFields
+from app.files.words import Say
+from app.wire.dances import BenchNumber, PlacedDance, bench_of, clock_of
+from app.wire.performances import NumberOrName, PartBody, SeveralFields, dragons_of
 from app.wire.question import AS_WHOLE, Instant, OneLine, Question, Terms, Wire, check_limit, measure
-from core import Dance, EndReason, InvalidValue, Outcome, Performance, first_contact
-from core.errors import quantities
+from core import Dance, Dragon, EndReason, InvalidValue, Outcome, Performance, first_contact
+from core.errors import Given, quantities
 
 FORM = next(iter(ENDINGS))
 # Longest time of the dance in a film without a stop, unless benches touch earlier, and time left before a fold [s].
 LONGEST, BEFORE_FOLD = 1_000.0, 1e-3
+# Most benches that stand out.
+MARKED_MAX = 50
 # Time to draw and encode a million pixels of a film, measured 2026-11-22 [s].
 SECONDS_PER_MEGAPIXEL = {MP4_TYPE: 0.012, GIF_TYPE: 0.04}
 
@@ -46,43 +50,83 @@ class FilmRequest(SeveralFields, FilmFields, PlacedDance):
     """A film of any dragon on any path, in any venue; or of several dragons on one clock."""
 
     language: Language = Field(Language.ENGLISH, description="Language of the words in the picture", strict=False)
+    marked: list[BenchNumber | str] | None = Field(
+        None,
+        min_length=1,
+        max_length=MARKED_MAX,
+        description="Benches that stand out, with their numbers and names: each by its name or its number",
+    )
+    part: NumberOrName | None = Field(
+        None,
+        description="Of several dances, the dragon whose benches are marked: its number in the order of the dances, "
+        "from 0, or its name; null: each",
+    )
 
 
 def films(request: FilmRequest, terms: Terms, form: str = FORM) -> bytes:
     """A film of the dance: every bench at every instant, as MP4 or GIF."""
     if request.dances is not None:
         return _of_several(request, terms, form)
-    return film_of(request, request.to_dance(terms.settings.drawn_benches_max), terms, form)
+    dance = request.to_dance(terms.settings.drawn_benches_max)
+    return film_of(request, dance, terms, form, request.marked)
 
 
-def film_of(request: FilmFields, dance: Dance, terms: Terms, form: str) -> bytes:
-    """The film of a dance, in the venue and with the time of day of its request, if these are given."""
+def film_of(
+    request: FilmFields, dance: Dance, terms: Terms, form: str, marked: Sequence[int | str] | None = None
+) -> bytes:
+    """The film of a dance, in the venue and with the time of day of its request, if these are given.
+
+    marked: name or number of each bench that stands out
+    """
     from app.files import film
 
     placed = request if isinstance(request, FilmRequest) else None
     rate, height = _checked_size(request, terms, form)
+    if placed and placed.part is not None:
+        raise InvalidValue("part", "must be left out without dances", got=Given(placed.part))
+    own: dict[str, Any] = {"marked": _marked(marked, {0: dance.dragon})}
     start, stop, touching = span_of(request, dance, terms)
     clock = clock_of(placed, dance) if placed else None
     music = placed.music if placed else None
-    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, touching, music)
+    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, touching, music, **own)
     venue = placed.to_place(dance.dragon).venue if placed else None
     return film.film(dance, spec, form, venue=venue, title=request.title, budget=terms.budget, progress=terms.progress)
 
 
 def _of_several(request: FilmRequest, terms: Terms, form: str) -> bytes:
-    """A film of several dragons, which has no sound and counts no beats: each of them may have its own."""
+    """A film of several dragons. Its drum is that of the first of them that has beats."""
     from app.files.performance_film import performance_film
     from app.files.performances import COLOURS
 
     rate, height = _checked_size(request, terms, form)
     performance, _ = request.to_placed(terms.settings)
+    chosen = {k: performance.parts[k].dance.dragon for k in dragons_of(request.part, performance)}
+    marked = _marked(request.marked, chosen)
     start, stop, touching = _span_together(request, performance, terms)
     dragons, benches = touching or (None, None)
     clock, colours = clock_of(request, performance), COLOURS[: len(performance.parts)]
-    look: dict[str, Any] = {"touching": benches, "dragons": dragons, "colours": colours}
-    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, **look)
+    look: dict[str, Any] = {"touching": benches, "dragons": dragons, "colours": colours, "marked": marked}
+    music = shared_music(request.dances or [], Say(request.language))
+    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, **look, **music)
     more: dict[str, Any] = {"budget": terms.budget, "progress": terms.progress}
     return performance_film(performance, spec, form, title=request.title, **more)
+
+
+def _marked(words: Sequence[int | str] | None, dragons: dict[int, Dragon]) -> tuple[tuple[int, int], ...]:
+    """Dragon and number of each bench that stands out. dragons: those chosen, by number. raises: InvalidValue"""
+    named = [(f"marked.{k}", word) for k, word in enumerate(words or ())]
+    return tuple(dict.fromkeys((k, bench_of(*one, dragon)) for k, dragon in dragons.items() for one in named))
+
+
+def shared_music(dances: Sequence[PartBody], say: Say) -> dict[str, Any]:
+    """The beats of the first dragon that has any, when they begin, and its name if another one has others, or none."""
+    own = next(((k, one) for k, one in enumerate(dances) if one.beats), None)
+    if own is None:
+        return {}
+    k, part = own
+    is_common = all((one.beats, one.delay) == (part.beats, part.delay) for one in dances)
+    name = "" if is_common else part.name or say(f"dragon {k}", f"{k} 号龙")
+    return {"music": part.music, "music_begin": part.delay, "music_of": name}
 
 
 def _span_together(

@@ -38,8 +38,6 @@ EXCESS = 0.01
 CLEAR = 0.5
 # Time of the default dance's plan, measured 2026-11-22 [s].
 SECONDS = 4.0
-# First character of Unicode that needs a Chinese font, approximately.
-FIRST_CHINESE = "\u2e80"
 # Most gates of a plan.
 GATES_MAX = 20
 # Most dragons of a plan: all its sheets are laid out before the first one is written.
@@ -153,14 +151,12 @@ def _family(
     request: PlanRequest, place: Place, dragons: Sequence[core.Dragon], names: Sequence[str]
 ) -> tuple[str, ...]:
     """Names of the fonts that have every character of the plan. names: of the dragons"""
-    from app.files.fonts import families
+    from app.files.fonts import families_for
 
     areas = place.venue.areas if place.venue else ()
     titles = [request.title or Say(request.language)("Bench dragon", "板凳龙"), *names]
     places = [*(one.name for one in request.gates), *(area.name for area in areas)]
-    texts = "".join([*titles, *places, *(name for dragon in dragons for name in dragon.names)])
-    # Chinese names may stand in an English plan.
-    return families(Language.CHINESE if max(texts) >= FIRST_CHINESE else request.language)
+    return families_for([*titles, *places, *(name for dragon in dragons for name in dragon.names)], request.language)
 
 
 @dataclass(frozen=True, slots=True)

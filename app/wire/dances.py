@@ -7,6 +7,7 @@ dance.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
@@ -19,6 +20,7 @@ from app.wire.benches import BenchCsv
 from app.wire.clocks import BeginClock, PassageBody, StartClock, clock_at_zero, passages_of
 from app.wire.paths import KINDS, AnyPath, SpiralPath
 from app.wire.question import (
+    AS_WHOLE,
     Coordinates,
     HeadSpeed,
     Instant,
@@ -49,6 +51,8 @@ VENUE_DEPTH_MAX = 20
 BENCH_LISTS = ("lengths", "widths", "overhangs")
 
 
+# Number of a bench, 0 for the head.
+BenchNumber = Annotated[int, Field(ge=0), AS_WHOLE]
 Names = Annotated[
     list[str] | None,
     Field(description="Names of the benches, such as a household or a person, head first; empty: none"),
@@ -124,6 +128,18 @@ def handles_of(dance: Dance | Performance) -> int:
     """Number of the handles of a dragon, or of all dragons."""
     dances = [dance] if isinstance(dance, Dance) else [part.dance for part in dance.parts]
     return sum(one.dragon.benches + 1 for one in dances)
+
+
+def bench_of(field: str, word: int | str, dragon: Dragon) -> int:
+    """The bench with that name, or else that number. raises: InvalidValue"""
+    if isinstance(word, str):
+        if word and word in dragon.names:
+            return dragon.names.index(word)
+        if not re.fullmatch(r"\d{1,9}", word, re.ASCII):
+            raise InvalidValue(field, "must be the name or the number of a bench", got=Given(word))
+    if int(word) >= dragon.benches:
+        raise InvalidValue(field, "must be at most {most}, the tail", got=int(word), most=dragon.benches - 1)
+    return int(word)
 
 
 class TimeSteps(TimeRange, strict=True):

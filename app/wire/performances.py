@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
@@ -42,6 +43,11 @@ def dragon_of(part: int | str, performance: Performance) -> int:
     is_name = part in [one.name for one in performance.parts]
     is_number = isinstance(part, str) and not is_name and re.fullmatch(r"\d{1,9}", part, re.ASCII)
     return performance.number_of(int(part) if is_number else part)
+
+
+def dragons_of(part: int | str | None, performance: Performance) -> Sequence[int]:
+    """The dragon of that number or name; None: all of them. raises: InvalidValue"""
+    return range(len(performance.parts)) if part is None else [dragon_of(part, performance)]
 
 
 class PartBody(PathFields, strict=True):

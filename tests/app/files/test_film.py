@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import time
 from pathlib import Path
 
@@ -12,7 +13,8 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from app.files.film import FilmPicture, film
+from app.files.film import DPI, FilmPicture, film
+from app.files.film_labels import numbered, pictures_of, size_of
 from app.files.film_spec import GIF_TYPE, MP4_TYPE, FilmSpec
 from core import (
     Budget,
@@ -27,6 +29,7 @@ from core import (
     trajectory,
 )
 from core.people.beats import Bars, Music
+from core.plots import BLUE
 from tests.support.command import run
 from tests.support.depth import some
 
@@ -228,3 +231,74 @@ def test_a_film_counts_bars_and_beats(client: httpx.Client) -> None:
 def test_a_film_without_beats_has_no_sound(client: httpx.Client) -> None:
     with av.open(io.BytesIO(client.post("/films", json=SMALL).raise_for_status().content)) as file:
         assert len(file.streams.audio) == 0
+
+
+# White of a number; the picture of one has it where its digits are thick.
+WHITE = 250
+
+
+def digits_at(picture: np.ndarray, row: int, column: int, word: str, height: int = 1080) -> bool:
+    """True if these digits stand in the picture in their white, with their middle at a place."""
+    digits = pictures_of([word], size_of(height), BLUE, DPI)[0]
+    rows, columns = digits.shape[:2]
+    top, left = row - rows // 2, column - columns // 2
+    for down in (-1, 0, 1):
+        for right in (-1, 0, 1):
+            seen = picture[top + down : top + down + rows, left + right : left + right + columns, :3]
+            thick = (digits[..., :3].min(axis=-1) >= WHITE) & (digits[..., 3] == 255)
+            assert thick.sum() > 10
+            around = (digits[..., 3] == 255) & (digits[..., 0] < 100)  # the edge, between and around the digits
+            if (seen[thick].min(axis=-1) >= WHITE).all() and (seen[around][:, 0] < WHITE).all():
+                return True
+    return False
+
+
+def fronts(stage: FilmPicture, outlines: np.ndarray) -> np.ndarray:
+    """Rows and columns halfway from the middle of each bench to its front."""
+    places = 0.5 * (outlines.mean(axis=1) + outlines[:, :2].mean(axis=1))
+    columns, rows = stage.axes.transData.transform(places).T
+    return np.rint(np.stack([stage.canvas.get_width_height()[1] - rows, columns], axis=1)).astype(int)
+
+
+def test_the_head_and_every_tenth_bench_have_their_numbers() -> None:
+    dance = Dance(Dragon(), Spiral())
+    stage = FilmPicture(dance, FilmSpec(0.0, 300.0), None, "")
+    for instant in (0.0, 171.3):
+        outlines = bench_outlines(dance.dragon, trajectory(dance, [instant]).position)[0]
+        picture = stage.frame(instant, outlines)
+        places = fronts(stage, outlines)
+        assert [k for k in range(223) if digits_at(picture, *places[k], str(k))] == list(range(0, 223, 10)), instant
+
+
+@pytest.mark.parametrize(
+    ("benches", "spacing", "step"),
+    [(223, 110.0, 10), (300, 110.0, 10), (24, 110.0, 1), (223, 2.0, 50), (2000, 9.0, 100)],
+)
+def test_a_small_picture_and_a_long_dragon_have_fewer_numbers(benches: int, spacing: float, step: int) -> None:
+    assert list(numbered(benches, spacing, size_of(1080))) == list(range(0, benches, step))
+
+
+def test_marked_benches_stand_out_with_number_and_name(tmp_path: Path) -> None:
+    names = [*("" for _ in range(11)), "Li"]
+    dance = Dance(Dragon(benches=12).named(names), Spiral())
+    outlines = bench_outlines(dance.dragon, trajectory(dance, [60.0]).position)[0]
+    plain, stage = (FilmPicture(dance, FilmSpec(0.0, 60.0, marked=own), None, "") for own in ((), ((0, 7), (0, 11))))
+    rear = 0.3 * outlines[:, :2].mean(axis=1) + 0.7 * outlines[:, 2:].mean(axis=1)
+    columns, rows = np.rint(stage.axes.transData.transform(rear)).astype(int).T
+    colours = [stage.frame(60.0, outlines)[1080 - rows[k], columns[k], :3] for k in range(12)]
+    assert [k for k in range(12) if is_like(colours[k], (240, 228, 66))] == [7, 11]
+    assert stage.layers[0].words == {7: "7", 11: "11 Li"}
+    assert plain.layers[0].words == {}
+    body = {"dragon": {"benches": 12, "names": names}, **{name: SMALL[name] for name in SMALL if name != "dragon"}}
+    file, films = tmp_path / "dance.json", {}
+    file.write_text(json.dumps(body))
+    for name, options in {"none": (), "number": ("--bench", "11"), "name": ("--bench", "Li")}.items():
+        films[name] = tmp_path / f"{name}.gif"
+        done = run("film", str(file), *options, "--output", str(films[name]))
+        assert done.returncode == 0, done.stderr
+    assert films["number"].read_bytes() == films["name"].read_bytes() != films["none"].read_bytes()
+    alone = tmp_path / "alone.gif"
+    small = ("--seconds", "1", "--rate", "2", "--height", "90", "--stop", "9")
+    assert run("film", *small, "--bench", "17", "--output", str(alone)).returncode == 0
+    done = run("film", *small, "--bench", "223", "--output", str(alone))
+    assert (done.returncode, done.stderr) == (2, "Error: marked[0] must be at most 222, the tail, got 223\n")

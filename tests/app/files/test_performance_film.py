@@ -18,11 +18,13 @@ from app.files.film_spec import GIF_TYPE, FilmSpec
 from app.files.performance_film import PerformancePicture
 from app.files.performances import colour_of
 from app.files.tables import Language
-from app.questions.films import QUESTION, FilmRequest
+from app.files.words import Say
+from app.questions.films import QUESTION, FilmRequest, shared_music
 from app.settings import Settings
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import Budget, TooMuchWork, bench_outlines, first_contact, first_encounter, performance_trajectory
+from tests.app.files.test_film import HEARD, onsets
 from tests.support.command import run
 
 EAST = {"name": "east", "dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}}
@@ -116,3 +118,35 @@ def test_the_command_and_the_service_make_the_same_film(client: httpx.Client, tm
     assert refused.json()["errors"][0]["pointer"] == "/head_speed"
     late = client.post("/films", json=TWO | {"stop": 99})
     assert late.json()["errors"][0]["detail"].startswith("stop must be at most 41.999")
+
+
+BEATS = [{"bars": 8, "tempo": 96, "step": 0.6}]
+
+
+def counted(dances: list[dict[str, Any]], time: float) -> str:
+    """The words of a picture at a time, before those of the time."""
+    request = checked(FilmRequest, TWO | {"dances": dances})
+    spec = FilmSpec(14.0, 18.0, height=90, **shared_music(request.dances or [], Say(request.language)))
+    stage = PerformancePicture(request.to_placed(Settings())[0], spec, "")
+    return stage.words(time).partition("  ")[0]
+
+
+def test_the_drum_is_that_of_the_first_dragon_with_beats_on_the_clock_of_all(client: httpx.Client) -> None:
+    body = TWO | {"dances": [EAST, NORTH | {"beats": BEATS}], "start": 14, "stop": 18, "seconds": 6, "rate": 10}
+    data = client.post("/films", json=body).raise_for_status().content
+    # The second dragon begins at 2 s.
+    beats = [beat for beat in (2.0 + 60 / 96 * k for k in range(32)) if 14.0 <= beat <= 18.0]
+    frames = FilmSpec(14.0, 18.0, 6.0, 10).times
+    heard = np.interp(beats, frames, np.arange(frames.size) / 10)
+    onset_times = onsets(data)
+    assert len(onset_times) == len(heard) == 6
+    assert np.abs(np.array(onset_times) - heard).max() < HEARD
+
+
+def test_the_count_names_its_dragon_unless_all_have_the_same_beats() -> None:
+    own, other = {"beats": BEATS}, {"beats": [{"bars": 8, "tempo": 120, "step": 0.5}]}
+    # 12 s are 19.2 beats of the first music, and 14 s are 22.4 of it.
+    assert counted([EAST, NORTH | own], 14.0) == "dragon 1: bar 5 beat 4"
+    assert counted([EAST | own, NORTH | other], 14.0) == "east: bar 6 beat 3"
+    assert counted([EAST | own, NORTH | own | {"delay": 0}], 14.0) == "bar 6 beat 3"
+    assert counted([EAST, NORTH], 14.0) == "14.00 s"
