@@ -1,4 +1,4 @@
-/** The view of one carrier: the bench of the address in large type, its next cue counted down. Once loaded it needs no network. */
+/** The view of one carrier: the bench of the address, of several dragons that of the chosen one, in large type, its next cue counted down. Once loaded it needs no network. */
 
 import { Problem, Superseded } from "./api.js";
 import { $, button, hide, make, numberIn, textButton } from "./elements.js";
@@ -48,10 +48,10 @@ export class Carrier {
   #network = true;
 
   /**
-   * show(pose): draws it
-   * @param {{ state: State, service: Service, questions: Questions, dance: any, show: any }} parts
+   * show(pose): draws it; choose(k): chooses dragon k of several
+   * @param {{ state: State, service: Service, questions: Questions, dance: any, show: any, choose: any }} parts
    */
-  constructor({ state, service, questions, dance, show }) {
+  constructor({ state, service, questions, dance, show, choose }) {
     this.state = state;
     this.service = service;
     this.questions = questions;
@@ -60,6 +60,7 @@ export class Carrier {
     this.still = matchMedia("(prefers-reduced-motion: reduce)");
     this.title = make("h1", { id: "carrier-title" });
     this.number = make("input", { id: "card-bench", inputMode: "numeric", autocomplete: "off", "data-label": "cardBench", onchange: ({ target }) => this.#choose(target) });
+    this.dragon = make("select", { id: "card-dragon", "data-label": "cardDragon", onchange: ({ target }) => choose(Number(target.value)) });
     this.other = button({}, () => state.set({ lang: LANGUAGES.find((one) => one !== language()) }));
     const close = button({ "data-label": "cardClose", textContent: "✕" }, () => state.push({ bench: null, view: null, time: null }));
     this.clock = make("p", { className: "clock" });
@@ -77,7 +78,7 @@ export class Carrier {
     const heading = make("h2", { id: "card-cues", "data-text": "cardCues" });
     const row = (...parts) => make("p", { className: "row" }, ...parts);
     this.present = make("div", {}, this.when, this.cue);
-    this.box = make("section", { id: "carrier", "aria-labelledby": "carrier-title" }, row(this.title, this.number, this.other, close), this.clock, this.present, row(this.start));
+    this.box = make("section", { id: "carrier", "aria-labelledby": "carrier-title" }, row(this.title, this.dragon, this.number, this.other, close), this.clock, this.present, row(this.start));
     this.more = make("section", { id: "card-more", "aria-labelledby": "card-cues" }, this.stand, this.beside, heading, this.list, row(...this.corrections, this.again, this.byClock), this.note);
     $("#front").prepend(this.box);
     $("#dance").after(this.more);
@@ -136,7 +137,7 @@ export class Carrier {
     const track = dance?.track;
     if (this.#bench === null || !track || track === this.#track) return;
     this.#track = track;
-    if (track.samples * track.handles <= HELD_MOST) await track.hold();
+    if (track.cells <= HELD_MOST) await track.hold();
     this.#showNote();
   }
 
@@ -156,16 +157,16 @@ export class Carrier {
   /** Ask for the card of this bench in both languages, because a network may be gone when another language is wanted. */
   async #ask() {
     const { dance } = this.questions;
-    if (!dance || (this.#of?.dance === dance && this.#of.bench === this.#bench)) return;
-    const of = { dance, bench: this.#bench };
+    const of = { dance, bench: this.#bench, dragon: dance?.active };
+    if (!dance || Object.entries(of).every(([name, value]) => this.#of?.[name] === value)) return;
     [this.#of, this.#cards, this.#problem] = [of, {}, null];
     this.#resume();
     const { benches } = dance.numbers;
     if (of.bench >= benches) return;
-    const body = { ...this.questions.checkBody(dance), start: dance.begin, stop: dance.end, cards: [of.bench] };
+    const own = { start: dance.begin, stop: dance.end, cards: [of.bench] };
     try {
       for (const one of [language(), ...LANGUAGES.filter((other) => other !== language())]) {
-        const { cards } = await this.service.ask("cues", "cues", { body: { ...body, language: one } });
+        const { cards } = await this.service.ask("cues", "cues", { body: { ...this.#body(one), ...own, language: one } });
         if (of !== this.#of) return;
         this.#cards[one] = cards[0];
         this.#showCard();
@@ -176,6 +177,13 @@ export class Carrier {
       this.#problem = error.problem;
       this.#showCard();
     }
+  }
+
+  /** Body of a question about the dance, or about all dragons with their names in a language. */
+  #body(lang) {
+    const { dance } = this.questions;
+    if (!dance.parts) return this.questions.checkBody(dance);
+    return { ...dance.file, dances: dance.file.dances.map((one, k) => ({ ...one, name: dance.parts[k].names[lang] })), part: dance.active };
   }
 
   /** Go on as before the page was loaded again, or by the clock of the dance. */
@@ -193,7 +201,7 @@ export class Carrier {
   }
 
   #key() {
-    return JSON.stringify(this.questions.checkBody(this.questions.dance));
+    return JSON.stringify(this.#body("en"));
   }
 
   #goByClock() {
@@ -234,6 +242,7 @@ export class Carrier {
     this.#frame = requestAnimationFrame((next) => this.#tick(next));
     if (now - this.#drawn < (this.still.matches ? STEP : FRAME)) return;
     this.#drawn = now;
+    this.hold();
     this.#showTime();
   }
 
@@ -249,7 +258,11 @@ export class Carrier {
     const card = this.#card;
     const benches = dance?.numbers.benches ?? Infinity;
     const name = (k) => handleName(k, benches);
-    this.title.textContent = this.#bench < benches ? name(this.#bench) : `${say("cardBench")} ${this.#bench}`;
+    const bench = this.#bench < benches ? name(this.#bench) : `${say("cardBench")} ${this.#bench}`;
+    const dragons = dance?.parts?.map(({ names }) => names[language()]) ?? [];
+    this.dragon.replaceChildren(...dragons.map((textContent, value) => make("option", { value, textContent, selected: value === dance.active })));
+    this.dragon.hidden = !dragons.length;
+    this.title.textContent = dragons.length ? say("cardOf", { bench, dragon: dragons[dance.active] }) : bench;
     document.title = `${this.title.textContent} · ${say("title")}`;
     const { ahead, behind, start } = card ?? {};
     const key = ahead ? (behind ? "cardNeighbours" : "cardLast") : behind ? "cardFirst" : "cardAlone";
@@ -265,7 +278,7 @@ export class Carrier {
   #showNote() {
     const isWhole = this.#track?.isWhole;
     const cards = Object.keys(this.#cards).length === LANGUAGES.length;
-    const isLarge = this.#track && this.#track.samples * this.#track.handles > HELD_MOST;
+    const isLarge = this.#track?.cells > HELD_MOST;
     const held = cards && isWhole ? "cardHeld" : cards && isLarge ? "cardPart" : "cardLoading";
     const words = [this.#network ? held : "cardOffline", this.#lock ? "cardAwake" : "cardAsleep"];
     this.note.textContent = words.map((key) => say(key)).join(" ");
@@ -309,14 +322,16 @@ export class Carrier {
 
   /** Mark the bench in the picture, and the one that it meets next. */
   #mark(pen, colours) {
-    const { pose } = this.dance.scene;
-    if (this.#bench === null || !pose || this.#bench > pose.x.length - 2) return;
+    const { scene } = this.dance;
+    if (this.#bench === null || !scene.pose || this.#bench > scene.pose.x.length - 2) return;
     const met = this.#card?.cues.find(({ nearest, until }) => nearest && until > this.#now)?.nearest;
-    for (const [k, colour] of [[met?.bench, colours.second], [this.#bench, colours.pick]]) {
+    for (const [k, colour, of] of [[met?.bench, colours.second, scene.parts?.[met?.dragon] ?? scene], [this.#bench, colours.pick, scene]]) {
       if (k === undefined) continue;
-      pen.fill(this.dance.bench(k), colour);
-      pen.stroke(this.dance.bench(k), colours.text, 2);
-      pen.label(String(k), (pose.x[k] + pose.x[k + 1]) / 2, (pose.y[k] + pose.y[k + 1]) / 2, colour, colours.card);
+      const { x, y } = of.pose;
+      const outline = this.dance.bench(k, new Path2D(), of);
+      pen.fill(outline, colour);
+      pen.stroke(outline, colours.text, 2);
+      pen.label(String(k), (x[k] + x[k + 1]) / 2, (y[k] + y[k + 1]) / 2, colour, colours.card);
     }
   }
 }

@@ -8,9 +8,9 @@ import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { Judgement, failureWords } from "./judgement.js";
 import { bound, formatNumber, isExact } from "./numbers.js";
 import { announce } from "./overlays.js";
-import { passagesIn } from "./passages.js";
+import { beatsOf, passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
-import { benchName, refusalWords, say, sayOf, writeTexts } from "./text.js";
+import { benchName, language, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
 import { learn } from "./words.js";
 import { DRAGONS } from "./words/dragons.js";
@@ -70,8 +70,8 @@ export class Dragons {
     return Math.min(this.state.get("dragon"), this.#records.length - 1);
   }
 
-  #nameOf(records, k) {
-    return records[k].name || (k < 3 ? say(`dragon_${k + 1}`) : say("dragonNumber", { number: k + 1 }));
+  #nameOf(records, k, lang = language()) {
+    return records[k].name || (k < 3 ? sayIn(lang, `dragon_${k + 1}`) : sayIn(lang, "dragonNumber", { number: k + 1 }));
   }
 
   #colourOf = (record, k) => (/^#[0-9a-f]{6}$/.test(record.colour ?? "") ? record.colour : (isDark() ? DARK : LIGHT)[k % LIGHT.length]);
@@ -126,7 +126,7 @@ export class Dragons {
     announce(() => say("opened", { name }));
   }
 
-  #choose(k) {
+  choose(k) {
     const records = this.#whole();
     this.#take(records, k, { ...this.#valuesOf(records[k]), handle: null });
   }
@@ -216,7 +216,7 @@ export class Dragons {
     return make(
       "li",
       { "data-dragon": k },
-      button({ id: `dragon-choose-${k}`, textContent: k + 1, "aria-pressed": isActive, "aria-label": say("dragonChoose", { name }) }, () => this.#choose(k)),
+      button({ id: `dragon-choose-${k}`, textContent: k + 1, "aria-pressed": isActive, "aria-label": say("dragonChoose", { name }) }, () => this.choose(k)),
       input("dragon-colour", this.#colourOf(record, k), { type: "color", "aria-label": say("dragonColour"), onchange: ({ target }) => this.#set(k, "colour", target.value) }),
       label("dragonName", input("dragon-name", name, { maxLength: 40, onchange: ({ target }) => this.#rename(k, target) })),
       button({ id: `dragon-copy-${k}`, textContent: "×2", title: say("dragonCopy", { name }), "aria-label": say("dragonCopy", { name }) }, () => this.#copy(k)),
@@ -234,14 +234,14 @@ export class Dragons {
       const names = [...DRAGON, "pitch", "start_turns", "head_speed", ...(kind === "turn" ? TURN : [])];
       const numbers = /** @type {any} */ (numbersOf(Object.fromEntries(names.map((name) => [name, String(values[name])]).filter(([, text]) => text !== ""))));
       const listed = csv ? benchesOf(csv) : null;
-      const extras = { csv, listed, passages: passagesIn(values.passages), clock: "", beginClock: "" };
+      const extras = { csv, listed, passages: passagesIn(values.passages), beats: beatsOf(values), clock: "", beginClock: "" };
       if (listed) Object.assign(numbers, { listed, benches: listed.lengths.length });
       const top = Math.max(numbers.head_speed, ...extras.passages.map(({ speed }) => Number(speed) || 0));
-      const { dragon, path, head_speed, passages } = this.questions.body({}, { numbers, kind, drawing, extras });
+      const { dragon, path, head_speed, passages, beats } = this.questions.body({}, { numbers, kind, drawing, extras });
       const rotation = Number(record.rotation ?? 0) * DEGREE;
-      const body = { dragon, path: kind === "spiral" && rotation ? { ...path, rotation } : path, head_speed, ...(passages && { passages }) };
+      const body = { dragon, path: kind === "spiral" && rotation ? { ...path, rotation } : path, head_speed, ...(passages && { passages }), ...(beats && { beats }) };
       const common = { width: numbers.width, overhang: numbers.overhang, ...this.#stray() };
-      return { kind, numbers: { ...numbers, ...common }, top, body, delay: Number(record.delay ?? 0), name: this.#nameOf(records, k), colour: this.#colourOf(record, k) };
+      return { kind, numbers: { ...numbers, ...common }, top, body, delay: Number(record.delay ?? 0), name: this.#nameOf(records, k), names: { en: this.#nameOf(records, k, "en"), zh: this.#nameOf(records, k, "zh") }, colour: this.#colourOf(record, k) };
     });
   }
 

@@ -5,7 +5,7 @@ import { tableOf } from "./benches.js";
 import { drawingOf } from "./drawing.js";
 import { $, bearer, download, make, textButton } from "./elements.js";
 import { announce, announceRefusal } from "./overlays.js";
-import { pacesOf, passagesText } from "./passages.js";
+import { paceTexts, passagesText } from "./passages.js";
 import { language, say } from "./text.js";
 
 const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.gpx,.dxf,.csv,.tsv,.xlsx";
@@ -90,7 +90,6 @@ export class Files {
     this.walked = "dragon" in content ? null : content.passages;
     this.times.hidden = !this.walked;
     const { dragon = {}, path, venue } = content;
-    const paces = pacesOf(content);
     const own = Object.fromEntries(UNIFORM.filter((one) => one in dragon).map((one) => [one, String(dragon[one])]));
     const numbers = Object.fromEntries(NUMBERS.filter((one) => typeof content[one] === "number").map((one) => [one, String(content[one])]));
     if (this.state.get("path") !== "route") this.state.choosePath("route");
@@ -101,7 +100,7 @@ export class Files {
     if (!venue && !("dragon" in content)) Object.assign(opened, { things, origin, grid });
     const others = {
       ...("dragon" in content && { csv: tableOf(dragon) }),
-      ...(paces && "dragon" in content && { passages: passagesText(paces) }),
+      ...((content.passages || content.beats) && "dragon" in content && paceTexts(content)),
       ...(("start_clock" in content || "begin_clock" in content) && { start_clock: content.start_clock ?? "", begin_clock: content.begin_clock ?? "" }),
     };
     this.state.set({ ...own, ...numbers, ...others, time: null, view: null });

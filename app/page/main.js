@@ -101,7 +101,7 @@ function draw() {
     drawing = false;
     pending(DRAWING, false);
     const { pose } = dance.scene;
-    const bench = state.get("dances") ? null : state.get("bench");
+    const bench = state.get("bench");
     if (pose && bench !== null) dance.view.centre(pose, bench);
     else if (pose && state.get("follow")) dance.view.set(pose.x[0], pose.y[0]);
     dance.draw();
@@ -183,6 +183,7 @@ const SHOW = {
     if (questions.dance.parts) {
       below?.show();
       player.update();
+      carrier?.show();
       return dragons.showDance();
     }
     Object.assign($("#verdict"), { hidden: false, textContent: answers.verdictWords(answer, numbers) });
@@ -270,8 +271,7 @@ const SHOW_STATE = {
   },
   drawing: showRoute,
   bench(bench) {
-    if (bench !== null && state.get("dances")) announce(() => say("cardSingle"));
-    else if (bench !== null) openCarrier();
+    if (bench !== null) openCarrier();
     else carrier?.show();
     refresh();
   },
@@ -323,7 +323,8 @@ function translate() {
   route?.translate();
   carrier?.show();
   dragons?.show();
-  if (state.get("dances")) refresh(); // The names that the page gives them have changed.
+  // The names that the page gives them have changed; a carrier has them in both languages, and may have no network.
+  if (state.get("dances") && state.get("bench") === null) refresh();
   announceAgain();
 }
 
@@ -343,7 +344,8 @@ async function openRoute() {
 /** The view of one carrier. */
 async function openCarrier() {
   const { Carrier } = await parts.load("carrier");
-  carrier ??= new Carrier({ state, service, questions, dance, show: showPose });
+  const choose = (k) => openDragons().then((one) => one.choose(k));
+  carrier ??= new Carrier({ state, service, questions, dance, show: showPose, choose });
   writeTexts();
   carrier.show();
 }

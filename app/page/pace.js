@@ -1,7 +1,8 @@
 /** The editor of the head's speeds and times: passages, and the time of day at time 0. */
 
 import { button, make, numberIn, textButton } from "./elements.js";
-import { ENDS, beginsOf, clockIn, endOf, passagesIn, timeOfDay } from "./passages.js";
+import { announce } from "./overlays.js";
+import { ENDS, beatsOf, beginsOf, clockIn, endOf, passagesIn, timeOfDay } from "./passages.js";
 import { refusalWords, say } from "./text.js";
 
 /** Duration of an added pause, and of an added passage [s]. */
@@ -28,7 +29,7 @@ export class Pace {
     /** Said of an address or a file with the time of day at time 0, if the dance begins at another time. */
     this.help = make("p", { id: "clock-help", className: "hint", hidden: true });
     field.after(make("div", { id: "pace" }, box, label, this.wrong, this.help));
-    state.listen((names) => ["passages", "start_clock", "begin_clock"].some((name) => names.has(name)) && this.show());
+    state.listen((names) => ["passages", "beats", "start_clock", "begin_clock"].some((name) => names.has(name)) && this.show());
     this.show();
   }
 
@@ -78,8 +79,20 @@ export class Pace {
     return row;
   }
 
+  /** The beats that give the speeds, or null; other speeds take the place of theirs. */
+  get #beats() {
+    const [passages, beats] = ["passages", "beats"].map((name) => this.state.get(name));
+    const all = beatsOf({ passages, beats });
+    if (beats && !all) {
+      this.state.set({ beats: "" });
+      announce(() => say("beatsGone"));
+    }
+    return all;
+  }
+
   show() {
     const passages = passagesIn(this.state.get("passages"));
+    const beats = this.#beats;
     while (this.#rows.length > passages.length) this.#rows.pop().box.remove();
     while (this.#rows.length < passages.length) {
       this.#rows.push(this.#row());
@@ -92,7 +105,8 @@ export class Pace {
       row.unit.value = sign;
     });
     this.list.parentElement.open ||= passages.length > 0;
-    this.title.textContent = passages.length ? say("passagesCount", { count: passages.length }) : say("passages");
+    const bars = beats?.reduce((sum, one) => sum + one.bars, 0);
+    this.title.textContent = beats ? say("beatsKept", { bars }) : passages.length ? say("passagesCount", { count: passages.length }) : say("passages");
     if (document.activeElement !== this.clock) this.clock.value = this.state.get("begin_clock") || this.state.get("start_clock");
   }
 

@@ -29,8 +29,30 @@ export const passagesText = (passages) =>
     return `${one.speed}@${value}${sign}`;
   }).join("_");
 
+/** A number as people read it, without the last digits, which are of rounding. */
+const shortened = (number) => Number(number.toPrecision(12));
+
 /** The passages of a FILE, or those that its beats of a drum give; undefined without. */
-export const pacesOf = ({ passages, beats }) => passages ?? beats?.map(({ bars, tempo, step, beats: count = 4 }) => ({ speed: (tempo * step) / 60, duration: (60 * bars * count) / tempo }));
+export const pacesOf = (/** @type {any} */ { passages, beats }) => passages ?? beats?.map(({ bars, tempo, step, beats: count = 4 }) => ({ speed: shortened((tempo * step) / 60), duration: shortened((60 * bars * count) / tempo) }));
+
+/** Beats of an address, such as 16,96,0.6_4,96,0,3: bars, tempo, step and, if not 4, beats in a bar; in the service's format, null if they cannot be read. */
+export function beatsIn(text) {
+  const all = text.split("_").map((one) => one.split(",").map(Number));
+  if (!all.every((one) => [3, 4].includes(one.length) && one.every(Number.isFinite))) return null;
+  return all.map(([bars, tempo, step, beats = 4]) => ({ bars, tempo, step, beats }));
+}
+
+/** Beats as the text of an address. */
+export const beatsText = (beats) => beats.map(({ bars, tempo, step, beats: count = 4 }) => [bars, tempo, step, ...(count === 4 ? [] : [count])].join()).join("_");
+
+/** The beats of texts of an address, if its passages are those that they give; else null. */
+export function beatsOf({ beats, passages }) {
+  const all = beats ? beatsIn(beats) : null;
+  return all && passagesText(pacesOf({ beats: all })) === passages ? all : null;
+}
+
+/** The speeds of a FILE as texts of an address: its passages, or its beats with the passages that they give. */
+export const paceTexts = (content) => ({ passages: passagesText(pacesOf(content) ?? []), beats: content.passages ? "" : beatsText(content.beats ?? []) });
 
 /** The passages of the dance made faster by a factor. */
 export const quickened = (passages, factor) =>

@@ -137,7 +137,7 @@ export class Player {
   update(ask = true) {
     const { dance } = this.questions;
     // A carrier's view has its own clock.
-    if (!dance || (this.state.get("bench") !== null && !dance.parts)) return;
+    if (!dance || this.state.get("bench") !== null) return;
     const { time } = this;
     const now = performance.now();
     const pose = dance.track?.at(time);

@@ -15,7 +15,7 @@ const CLEARANCE_SAMPLES = 400;
 const CURVE = { samples: 13 };
 /** Request for the first view of the pitch chart, many times faster than with the jumps between samples. */
 const LOOK = { samples: 41, locate: false };
-const nameOf = ({ name, pointer = "" }) => name ?? (pointer.startsWith("/passages") ? "passages" : pointer.split("/").at(-1));
+const nameOf = ({ name, pointer = "" }) => name ?? (/^\/(passages|beats)/.test(pointer) ? "passages" : pointer.split("/").at(-1));
 /** Time before a fold, or before the end of a path, of the last shown instant [s], because the chain ends there. */
 const BEFORE_END = 1e-6;
 /** Distance between samples of the path [m], and the largest number of samples. */
@@ -61,6 +61,8 @@ export class Questions {
   /** The slow questions, and the first view of the staircase: in progress or answered. */
   #turn = null;
   #looked = null;
+  /** What the newest question about several dances keeps. @type {any} */
+  #kept = null;
   /** True if the engines judge the whole dragon at the minimum pitch: at first, and when input pauses. */
   #whole = true;
 
@@ -131,12 +133,22 @@ export class Questions {
     this.#forget(ABOUT_NUMBERS.filter((channel) => channel !== "contact"));
     this.service.drop([...AT_REST, "path", ...(course ? [] : ["course"])]);
     if (course && this.#isNew("course", course)) this.#askCourse(course, kept.drawing);
-    if (!this.#isNew("contact", body)) return;
+    this.#kept = kept;
+    if (!this.#isNew("contact", body)) return this.#chosen();
     const report = await this.#answer("contact", "check", { body: { ...body, ...VERDICT } });
     if (!report) return;
     const { encounter, start: begin, stop, failures, verdict } = report;
     const answer = { ...encounter, end: encounter.time === null ? { reason: "path", time: stop } : null };
-    this.#take({ ...kept, kind: "dances", answer, report, failures, verdict, begin, end: encounter.time ?? stop - BEFORE_END, clock: clockAtZero(kept.extras, begin), track: null });
+    this.#take({ ...this.#kept, kind: "dances", answer, report, failures, verdict, begin, end: encounter.time ?? stop - BEFORE_END, clock: clockAtZero(kept.extras, begin), track: null });
+    this.tell("dance");
+  }
+
+  /** The same dances with another one of them chosen need no new answer. */
+  #chosen() {
+    const { dance } = this;
+    if (!dance?.parts || dance.active === this.#kept.active || JSON.stringify(dance.file) !== JSON.stringify(this.#kept.file)) return;
+    Object.assign(dance, this.#kept);
+    if (dance.track) dance.track.active = dance.active;
     this.tell("dance");
   }
 
@@ -167,11 +179,11 @@ export class Questions {
   }
 
   /** Body of a request about a dance; default: the shown dance. */
-  body(more, { numbers, kind, drawing, extras: { csv, passages, clock, beginClock } } = this.dance) {
+  body(more, { numbers, kind, drawing, extras: { csv, passages, beats = null, clock, beginClock } } = this.dance) {
     const dragon = csv ? { csv } : picked(numbers, DRAGON);
     // Where a dance on a proposed path starts at 0 s, that is its beginning for every question.
     const begins = beginClock && { [kind === "route" && drawing.path && drawing.start === 0 ? "start_clock" : "begin_clock"]: beginClock };
-    const pace = { head_speed: numbers.head_speed, ...(passages.length && { passages }), ...(clock && { start_clock: clock }), ...begins };
+    const pace = { head_speed: numbers.head_speed, ...(beats ? { beats } : passages.length && { passages }), ...(clock && { start_clock: clock }), ...begins };
     if (kind === "route") return { dragon, path: pathOf(drawing), ...pace, ...more };
     const names = ["pitch", "start_turns", ...(kind === "turn" ? TURN : [])];
     return { dragon, path: { kind, ...picked(numbers, names) }, ...pace, ...more };

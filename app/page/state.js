@@ -3,7 +3,7 @@
 import { benchesOf } from "./benches.js";
 import { EMPTY, PARTS, fromAddress, toAddress } from "./drawing.js";
 import { FIELDS } from "./fields.js";
-import { clockIn, passagesIn } from "./passages.js";
+import { beatsIn, beatsOf, clockIn, paceTexts, passagesIn } from "./passages.js";
 import { Pause } from "./pending.js";
 
 export const RATES = [1, 2, 5, 10, 20, 50];
@@ -14,8 +14,8 @@ const DRAWN_BENCHES = "24";
 /** Longest address that all browsers and chat programs accept [characters]. */
 const ADDRESS_MOST = 8_000;
 
-/** Parts of a dance in addition to its numbers, as text: a table of benches, passages, the time of day at time 0 or when it begins. */
-export const EXTRAS = ["csv", "passages", "start_clock", "begin_clock"];
+/** Parts of a dance in addition to its numbers, as text: a table of benches, passages, the beats that give them, the time of day at time 0 or when it begins. */
+export const EXTRAS = ["csv", "passages", "beats", "start_clock", "begin_clock"];
 const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, value]), ...EXTRAS.map((name) => [name, ""])]);
 /** True if the address has nothing except the language: then the page opens with the dance in motion. */
 const isBare = (address) => [...address.keys()].every((name) => name === "lang");
@@ -38,6 +38,7 @@ const READ = {
     return numbers.length === 3 && numbers.every(Number.isFinite) && numbers[2] > 0 ? numbers : null;
   },
   lang: oneOf(["en", "zh"]),
+  beats: (text) => beatsIn(text) && text,
   start_clock: clockIn,
   begin_clock: clockIn,
 };
@@ -74,6 +75,8 @@ export class State {
     /** What a newer page may have written: names that this one does not know, which stay in the address, and values that it cannot read. */
     this.strange = [...address].filter(([name]) => !(name in DEFAULTS || PARTS.includes(name)));
     this.unread = [...address].filter(([name, text]) => name !== "door" && text && `${name}=${text}` !== "time=end" && READ[name] && (READ[name](text) ?? null) === null);
+    if (!address.has("passages") && values.beats) Object.assign(values, paceTexts({ beats: beatsIn(values.beats) }));
+    if (!beatsOf(values)) values.beats = "";
     for (const name of ["csv", "dances"]) if (history.state?.[name]) values[name] = history.state[name];
     values.drawing = history.state?.drawing ?? (PARTS.some((name) => address.has(name)) ? fromAddress(address) : EMPTY);
     this.#values = values;
@@ -97,10 +100,10 @@ export class State {
     return Object.fromEntries(names.map((name) => [name, this.#values[name]]).filter(([name, text]) => text || DEFAULTS[name]));
   }
 
-  /** Parts in addition to the numbers: the table of benches and its benches, passages, the time of day at time 0 or when the dance begins. */
+  /** Parts in addition to the numbers: the table of benches and its benches, passages, the beats that give them or null, the time of day at time 0 or when the dance begins. */
   extras() {
     const { csv, passages, start_clock: clock, begin_clock: begins } = this.#values;
-    return { csv, listed: csv ? benchesOf(csv) : null, passages: passagesIn(passages), clock: begins ? "" : clock, beginClock: begins };
+    return { csv, listed: csv ? benchesOf(csv) : null, passages: passagesIn(passages), beats: beatsOf(this.#values), clock: begins ? "" : clock, beginClock: begins };
   }
 
   /** listener(names): called after each change with the set of names that changed */
@@ -149,7 +152,8 @@ export class State {
     const rest = Object.keys(others).every((name) => name === "lang" || others[name] === this.initial(name));
     const query = new URLSearchParams(rest && !csv && !dances ? { door: "all" } : {});
     for (const [name, value] of Object.entries(others)) {
-      if (value === this.initial(name)) continue;
+      // Beats give the passages.
+      if (value === this.initial(name) || (name === "passages" && others.beats)) continue;
       query.set(name, { view: () => value.map((one) => +one.toPrecision(6)), time: () => +value.toFixed(9) }[name]?.() ?? value);
     }
     for (const [name, text] of this.strange) query.append(name, text);

@@ -41,8 +41,13 @@ export function writeTexts() {
 export const language = () => document.documentElement.lang.slice(0, 2);
 
 /** The text of this key, with {names} replaced. */
-export function say(key, values = {}) {
-  return WORDS[key][column].replace(/\{(\w+)\}/g, (_, name) => values[name]);
+export const say = (key, values = {}) => filled(WORDS[key][column], values);
+
+/** The same in a language: en or zh. */
+export const sayIn = (lang, key, values = {}) => filled(WORDS[key][lang === "zh" ? 1 : 0], values);
+
+function filled(text, values) {
+  return text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
 }
 
 /**

@@ -3,12 +3,12 @@
 import { tableOf } from "./benches.js";
 import { drawingOf, toAddress } from "./drawing.js";
 import { CONTACT, DRAGON, FIELDS } from "./fields.js";
-import { pacesOf, passagesText } from "./passages.js";
+import { paceTexts } from "./passages.js";
 import { Track } from "./track.js";
 
-/** Parts of a dance in an address: its numbers, a table of benches, passages, and its path; all else is common to all dragons. */
+/** Parts of a dance in an address: its numbers, a table of benches, passages, beats, and its path; all else is common to all dragons. */
 const NUMBERS = FIELDS.map(({ name }) => name).filter((name) => !CONTACT.includes(name));
-export const PARTS = [...NUMBERS, "csv", "passages", "path"];
+export const PARTS = [...NUMBERS, "csv", "passages", "beats", "path"];
 export const LEGS = ["route", "corner", "begin", "raw"];
 /** What a dragon has in addition to its dance. */
 export const OWN = ["name", "colour", "delay", "rotation"];
@@ -46,7 +46,7 @@ export function recordOf(/** @type {any} */ { name, delay, dragon = {}, path: ow
   const known = { ...dragon, ...(isCoil && path), head_speed: speed };
   const numbers = NUMBERS.filter((one) => typeof known[one] === "number").map((one) => [one, String(known[one])]);
   const turned = isCoil && path.rotation ? String(Number(((path.rotation * 180) / Math.PI).toFixed(9))) : "";
-  const others = { name: name ?? "", delay: delay ? String(delay) : "", rotation: turned, csv: tableOf(dragon), passages: passagesText(pacesOf(paces) ?? []), path: isCoil ? path.kind : "route" };
+  const others = { name: name ?? "", delay: delay ? String(delay) : "", rotation: turned, csv: tableOf(dragon), ...paceTexts(paces), path: isCoil ? path.kind : "route" };
   return Object.fromEntries([...Object.entries(others), ...numbers, ...(isCoil ? [] : legsOf(drawingOf(/** @type {any} */ ({ path }))))].filter(([, text]) => text !== ""));
 }
 
@@ -77,6 +77,23 @@ export class Tracks {
 
   retry() {
     for (const { track } of this.tracks) track.retry?.();
+  }
+
+  /** Those that move: a dragon that stands has only one place. */
+  get #moving() {
+    return this.tracks.map(({ track }) => track).filter((track) => track.hold);
+  }
+
+  get cells() {
+    return this.#moving.reduce((sum, track) => sum + track.cells, 0);
+  }
+
+  get isWhole() {
+    return this.#moving.every((track) => track.isWhole);
+  }
+
+  async hold() {
+    for (const track of this.#moving) await track.hold();
   }
 
   get refusal() {

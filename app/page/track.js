@@ -53,6 +53,11 @@ export class Track {
     return this.#kept === Infinity && this.#chunks.size * this.size >= this.samples;
   }
 
+  /** Number of the places of all handles. */
+  get cells() {
+    return this.samples * this.handles;
+  }
+
   /** Load and keep every chunk. */
   async hold() {
     this.#kept = Infinity;

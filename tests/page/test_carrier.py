@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -31,6 +32,22 @@ def card(server: str, bench: int, language: str = "en", **more: Any) -> Any:
     """The card of a bench of the spiral with 20 benches, up to its first contact."""
     stop = polite.get(f"{server}/collision-time", params={"benches": 20}).json()["time"]
     body = {"dragon": DRAGON, "path": SPIRAL, "start": 0, "stop": stop, "cards": [bench], "language": language} | more
+    return polite.post(f"{server}/cues", json=body).raise_for_status().json()["cards"][0]
+
+
+# Two dragons in one spiral, by the list in the address; the chosen one is that of the other numbers.
+OF_TWO = "benches=20&pitch=1.1&start_turns=8"
+TWO = "{}~{}".format("name:A!benches:20!pitch:1.1!start_turns:8", "rotation:180")
+SPIRALS = [{"kind": "spiral", "pitch": 1.1, "start_turns": 8, **more} for more in ({}, {"rotation": math.pi})]
+
+
+def card_of_two(server: str, bench: int, dragon: int, language: str) -> Any:
+    """The card of a bench of two dragons, up to their encounter."""
+    names = ["A", {"en": "blue", "zh": "蓝龙"}[language]]
+    own = [{"name": name, "dragon": DRAGON, "path": path} for name, path in zip(names, SPIRALS, strict=True)]
+    report = polite.post(f"{server}/check", json={"dances": own}).raise_for_status().json()
+    span = {"start": report["start"], "stop": report["encounter"]["time"] or report["stop"] - 1e-6}
+    body = {"dances": own, **span, "cards": [bench], "part": dragon, "language": language}
     return polite.post(f"{server}/cues", json=body).raise_for_status().json()["cards"][0]
 
 
@@ -222,3 +239,38 @@ def test_on_paper_stand_the_bench_its_picture_and_all_cues_without_buttons(open_
     expect(page.locator("#canvas")).to_be_visible()
     expect(page.locator("#carrier h1")).to_have_text("body 7")
     assert words_of(page) == [cue["words"] for cue in card(server, 7)["cues"]]
+
+
+def test_a_bench_of_the_chosen_one_of_several_dragons_goes_on_without_a_network(
+    open_page: Any, server: str, picture: Any, tmp_path: Path
+) -> None:
+    port = free_port()
+    with serving(tmp_path / "gone.log", port=port, deadline_seconds=PATIENT):
+        address = f"?dances={TWO}&dragon=1&{OF_TWO}&bench=7&lang=en"
+        page = open_page(address, base=f"http://127.0.0.1:{port}", failing=True, **ON_PHONE)
+        held(page)
+        expect(page.locator("#carrier h1")).to_have_text("blue: body 7")
+        assert page.evaluate(MIDDLE) > 100
+    cues = {language: card_of_two(server, 7, 1, language)["cues"] for language in ("en", "zh")}
+    assert any(cue["nearest"] and cue["nearest"]["dragon"] == 0 for cue in cues["en"])
+    assert words_of(page) == [cue["words"] for cue in cues["en"]]
+    expect(page.locator("#card-more .hint")).to_contain_text("No network: the card goes on.")
+    page.locator("#card-start").click()
+    before = picture(page)
+    ahead(page, 5)
+    expected = next(k for k, cue in enumerate(cues["en"]) if cue["since"] > 27)
+    expect(page.locator("#card-more li.following")).to_contain_text(cues["en"][expected]["words"])
+    page.get_by_role("button", name="中文").click()
+    expect(page.locator("#carrier h1")).to_have_text("蓝龙：第7节龙身")
+    assert words_of(page) == [cue["words"] for cue in cues["zh"]]
+    assert page.evaluate(MIDDLE) > 100
+    assert (picture(page) != before).any(axis=-1).mean() > 0.01
+
+
+def test_another_dragon_is_chosen_in_the_view(open_page: Any, server: str) -> None:
+    page = held(open_page(f"?dances={TWO}&dragon=1&{OF_TWO}&bench=7&lang=en"))
+    page.locator("#card-dragon").select_option("A")
+    expect(page.locator("#carrier h1")).to_have_text("A: body 7")
+    page.wait_for_url(lambda url: "dragon" not in parse_qs(urlsplit(url).query))
+    held(page)
+    assert words_of(page) == [cue["words"] for cue in card_of_two(server, 7, 0, "en")["cues"]]

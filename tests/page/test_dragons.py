@@ -228,10 +228,15 @@ def test_a_turn_with_clothoids_and_a_dance_without_a_path_are_opened_as_they_are
     assert (kept[1]["path"], kept[1]["dragon"]["benches"]) == ({"kind": "spiral", "pitch": 0.55, "start_turns": 16}, 4)
 
 
-def test_a_bench_is_followed_where_one_dragon_dances(open_page: Any) -> None:
+def test_a_bench_of_the_chosen_dragon_is_followed_and_the_view_closes_to_all(open_page: Any) -> None:
     page = open_page("?benches=9&pitch=1.1&start_turns=6&dances=~rotation:180&bench=3&lang=en")
-    expect(page.locator("#status")).to_contain_text("The page follows a bench where one dragon dances")
+    expect(page.locator("#carrier h1")).to_have_text("red: body 3")
+    page.get_by_role("button", name="Close").click()
+    expect(page.locator("#carrier")).to_be_hidden()
     expect(page.locator("#dragons li")).to_have_count(2)
+    settled(with_below(page))
+    page.get_by_role("button", name="Follow a bench").click()
+    expect(page.locator("#carrier h1")).to_have_text("red: head")
     settled(page)
 
 
@@ -241,7 +246,7 @@ def test_the_film_the_plan_the_cues_and_the_map_are_of_all_dragons(open_page: An
     rows = page.locator("#kept li:visible > span:first-child")
     names = ("The picture as it is", "Film of the dance", "Plan on paper, true to scale", "A cue card for each bench")
     expect(rows).to_have_text([*names, "Map with chalk marks"])
-    expect(page.locator("#crew, #paper, #card-follow").locator("visible=true")).to_have_count(0)
+    expect(page.locator("#crew, #paper").locator("visible=true")).to_have_count(0)
     kept = {}
     for key in ("keepPlan-A3", "keepCues-CSV", "keepMap-GeoJSON"):
         with page.expect_download() as download:

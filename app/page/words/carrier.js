@@ -2,6 +2,8 @@
 
 export const CARRIER = {
   cardBench: ["Bench", "板凳号"],
+  cardDragon: ["Dragon", "龙"],
+  cardOf: ["{dragon}: {bench}", "{dragon}：{bench}"],
   cardNext: ["Next", "接下来"],
   cardNow: ["Now", "现在"],
   cardIn: ["in {time}", "{time} 后"],
