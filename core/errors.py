@@ -300,7 +300,13 @@ def question_about(name: str, kind: type, missing: str = "") -> Callable[[Callab
         @wraps(question)
         def answer(*args: P.args, **kwargs: P.kwargs) -> R:
             if args or name in kwargs:
-                checked_type(name, args[0] if args else kwargs[name], kind)
+                subject = args[0] if args else kwargs[name]
+                if other := getattr(subject, "questions", {}).get(question.__name__):
+                    rule = "must be {kinds}: for several dragons call {other}()"
+                    raise InvalidValue(
+                        name, rule, got=f"a {type(subject).__name__}", kinds=f"a {kind.__name__}", other=other
+                    )
+                checked_type(name, subject, kind)
             if (budget := cast("Budget | None", kwargs.get("budget"))) is not None:
                 checked_type("budget", budget, Budget)
             try:

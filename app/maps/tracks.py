@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from app.wire.paths import POINTS_MAX
-from core import Dragon, Legs
+from core import Dragon, InvalidValue, Legs, Quantity
 from core.paths.following import tightest_bend
 from core.values import Floats
 
@@ -32,8 +32,9 @@ POINTS_MOST = 20_000
 EASY = 1.1
 # Way behind and ahead of the last place in which the next point is looked for, beside the distance of both points [m].
 BEHIND, AHEAD = 2.0, 6.0
-# Largest error of a place on the path at a time [m], its growth until PASSAGES are enough, and a pause's speed [m/s].
-PLACE, PLACE_GROWTH, PASSAGES, PAUSE = 1.0, 1.5, 60, 0.1
+# Largest error of a place on the path at a time: at least [m], and in errors of the receiver [1]; its growth until
+# PASSAGES are enough [1]; and a pause's speed [m/s].
+PLACE, ERRORS, PLACE_GROWTH, PASSAGES, PAUSE = 1.0, 3.0, 1.5, 60, 0.1
 DECIMALS = 3
 
 
@@ -63,6 +64,7 @@ def walk_of(points: Floats, times: Floats | None, chord: float = CHORD) -> Walk 
     """The path along a track; None if it is too short.
 
     points: (P, 2) [m]; times: (P,) [s], or None; chord: longest distance of the handles of a bench [m]
+    raises: InvalidValue for points that no smooth curve follows
     """
     every = len(points) // POINTS_MOST + 1
     points, times = points[::every], None if times is None else times[::every]
@@ -73,15 +75,29 @@ def walk_of(points: Floats, times: Floats | None, chord: float = CHORD) -> Walk 
     width = FIRST
     while True:
         kept = _knots(smoothed(way, width))
-        is_easy = not Legs([tuple(one) for one in kept.tolist()]).tighter(radius)
+        course = _curve(kept)
+        is_easy = course is not None and not course.tighter(radius)
         if is_easy or width * GROWTH > WIDEST:
             break
         width *= GROWTH
-    course = Legs([tuple(one) for one in kept.tolist()])
+    if course is None:
+        rule = "must hold a track that does not turn on the spot, as this one does even when smoothed over {width}"
+        raise InvalidValue("file", rule, width=Quantity(width, "m", 3))
     s = np.linspace(course.begin, course.end, min(STEPS_MAX, int((course.end - course.begin) / STEP) + 2))
     places, off = _beside(points, s, course.position(s))
-    passages = None if times is None else passages_of(np.asarray(times, dtype=np.float64), places)
+    passages = None
+    if times is not None:  # a receiver is as far off along the way as across it
+        error = max(PLACE, ERRORS * float(np.sqrt(np.mean(off * off))))
+        passages = passages_of(np.asarray(times, dtype=np.float64), places, error)
     return Walk(kept, float(off.max()), width, is_easy, radius, passages)
+
+
+def _curve(knots: Floats) -> Legs | None:
+    """The curve through these points; None if it would stop or turn on the spot, as through noise."""
+    try:
+        return Legs([tuple(one) for one in knots.tolist()])
+    except InvalidValue:
+        return None
 
 
 def apart(points: Floats) -> Floats:
@@ -135,16 +151,19 @@ def _beside(points: Floats, s: Floats, line: Floats) -> tuple[Floats, Floats]:
         distance = np.hypot(*(begins + share[:, None] * ways - point).T)
         best = int(distance.argmin())
         off[k] = distance[best]
-        at = max(at, float(s[low + best] + share[best] * (s[low + best + 1] - s[low + best]) - s[0]))
-        places[k], before = at, point
+        places[k] = s[low + best] + share[best] * (s[low + best + 1] - s[low + best]) - s[0]
+        at, before = max(at, float(places[k])), point
     return places, off
 
 
-def passages_of(times: Floats, places: Floats) -> list[dict[str, Any]] | None:
+def passages_of(times: Floats, places: Floats, error: float = PLACE) -> list[dict[str, Any]] | None:
     """Speeds from the first time on (0 s); None if the times do not grow. times [s], places along the path [m]: (P,)
 
+    error: of a place at a time that passages may have [m]; where places fall, they are first fitted by some that do not
     A point whose time is not known (NaN) does not count, but the first point must have one.
     """
+    from scipy.optimize import isotonic_regression  # type: ignore[import-untyped]
+
     if not np.isfinite(times[0]):
         return None
     known = np.isfinite(times)
@@ -153,7 +172,7 @@ def passages_of(times: Floats, places: Floats) -> list[dict[str, Any]] | None:
     times, places = times[grows] - times[0], places[grows]
     if len(times) < 2:
         return None
-    error = PLACE
+    places = isotonic_regression(places).x
     while len(kept := _corners(times, places, error)) > PASSAGES + 1:
         error *= PLACE_GROWTH
     passages: list[dict[str, Any]] = []

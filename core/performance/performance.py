@@ -7,8 +7,9 @@ the dance has no continuation then.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -123,6 +124,18 @@ class Performance(Readable):
     begin: float = field(init=False, repr=False, compare=False)
     end: PerformanceEnd = field(init=False, repr=False, compare=False)
     _units = {"begin": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+    # Functions of core for one dance, and those for several; the error for the wrong one names the right one.
+    questions: ClassVar[Mapping[str, str]] = {
+        "bench_cues": "performance_cues",
+        "check": "performance_check",
+        "clearance_profile": "performance_clearance",
+        "envelope": "performance_envelope",
+        "first_contact": "first_encounter",
+        "least_clearance": "performance_least_clearance",
+        "quick_check": "performance_check",
+        "tolerance": "performance_tolerance",
+        "trajectory": "performance_trajectory",
+    }
 
     def __post_init__(self) -> None:
         parts = tuple(checked_list("parts", self.parts, "a list of Part objects"))

@@ -1,9 +1,10 @@
 """Settings of Sphinx for the site that docs/site/build.py assembles."""
 
 from importlib.metadata import version as version_of
+from inspect import signature
 from pathlib import Path
 
-from docstrings import as_fields
+from docstrings import as_fields, with_budget
 from sphinx.pycode import ModuleAnalyzer
 
 import core
@@ -47,8 +48,9 @@ python_maximum_signature_line_length = 80
 
 
 def setup(app):
-    def convert(_app, _kind, _name, _object, _options, lines):
-        lines[:] = as_fields(list(lines))
+    def convert(_app, kind, _name, described, _options, lines):
+        takes_budget = kind == "function" and "budget" in signature(described).parameters
+        lines[:] = as_fields(with_budget(list(lines)) if takes_budget else list(lines))
 
     # The source of a compiled module is not where Python finds the module.
     def find_source(_app, module):

@@ -10,6 +10,22 @@ ENTRY = re.compile(r"(\w+(?:, \w+)*)(?: (\[[^]]+\]))?[:;]\s+(\S.*)")
 MARKS = re.compile(r"(`[^`]*`)|([*|\\])|(?<=\w)(_)(?!\w)")
 
 
+# Every search takes one, so docstrings name it only where its default is of their own.
+BUDGET = "budget: remaining work, which questions may share and a thread may stop; None: the default of the question"
+
+
+def with_budget(lines: list[str]) -> list[str]:
+    """The docstring of a function that takes a budget, with an entry for it before raises: or the examples."""
+    if any(re.search(r"\bbudget(, \w+)*: ", line) for line in lines):
+        return lines
+    ends = (at for at, line in enumerate(lines) if line.startswith(("raises:", "source:", ">>>")))
+    at = next(ends, len(lines))
+    before = lines[:at]
+    while before and not before[-1]:
+        before.pop()
+    return [*before, BUDGET, *([""] if lines[at:] and lines[at].startswith(">>>") else []), *lines[at:]]
+
+
 def escape(text: str) -> str:
     return MARKS.sub(lambda mark: mark[1] or f"\\{mark[2] or mark[3]}", text)
 

@@ -218,6 +218,7 @@ export const WHOLE = {
   "file must not have a document type or entities: save it again as plain GPX": ["The file has a document type or entities. Save it again as plain GPX", "文件含文档类型或实体声明：请另存为普通 GPX"],
   "{field} must have points with lat and lon in degrees": [undefined, "轨迹点应有经纬度（lat、lon，单位：度），现为“{got}”"],
   "{field} must have places of a track such as 120.1 30.2 12": [undefined, "轨迹点应如 120.1 30.2 12，现为“{got}”"],
+  "{field} must hold a track that does not turn on the spot, as this one does even when smoothed over {width}": ["The points of the track are too far off their way: even smoothed over {width} it turns on the spot", "轨迹点误差过大：即使按 {width} 平滑，轨迹仍有原地折返"],
   "{field} must hold a track with points at least {length} apart": [undefined, "轨迹过短：相邻点应至少相距 {length}"],
   "{field} must be KML, got {fault} in line {line}": ["The KML has a fault in line {line}: {fault}", "KML 文件第 {line} 行有误"],
   "file must not have a document type or entities: save it again as plain KML": ["The file has a document type or entities. Save it again as plain KML", "文件含文档类型或实体声明：请重新存为普通 KML"],

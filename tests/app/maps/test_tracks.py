@@ -83,6 +83,24 @@ def test_its_times_are_passages_with_a_pause_where_people_stood() -> None:
     assert {one["speed"] for one in walk.passages} - {0.0} <= {round(0.5 + 0.001 * k, 3) for k in range(1_000)}
 
 
+@pytest.mark.parametrize("noise", [0.8, 1.5])
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_of_every_point_is_no_change_of_speed(noise: float, seed: int) -> None:
+    """One pace, a pause, the same pace: not a passage for each few metres of noise."""
+    times = np.arange(0.0, 250.0)
+    walk = walk_of(walked(times) + np.random.default_rng(seed).normal(0.0, noise, (len(times), 2)), times)
+    assert walk is not None
+    assert walk.passages is not None
+    assert [one["speed"] for one in walk.passages] == pytest.approx([1.0, 0.0, 1.0], abs=0.1)
+    assert (walk.passages[0]["until_time"], walk.passages[1]["until_time"]) == pytest.approx(REST, abs=6.0)
+
+
+def test_points_that_are_noise_alone_are_no_path() -> None:
+    points = np.random.default_rng(0).normal(0.0, 30.0, (250, 2))
+    with pytest.raises(InvalidValue, match=r"does not turn on the spot, as this one does .* smoothed over 14\.6 m$"):
+        walk_of(points, None)
+
+
 def test_times_that_do_not_grow_are_none_and_many_speeds_become_few() -> None:
     assert passages_of(np.zeros(5), np.arange(5.0)) is None
     assert passages_of(np.array([math.nan, 1.0, 2.0]), np.arange(3.0)) is None
