@@ -28,7 +28,8 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
 from app.service.negotiation import GZIPPED, accepted, tags_in
-from app.service.problems import Refused
+from app.service.problems import CLOSE, Refused
+from app.wire.problem import PROBLEM_TYPE
 from app.wire.question import JSON
 
 PAGE = Path(__file__).parent.parent / "page"
@@ -65,6 +66,44 @@ WORD = re.compile(r'^  (\w+): \[("(?:[^"\\]|\\.)*"), ("(?:[^"\\]|\\.)*")\],$', r
 GAP = re.compile(r'(data-text="(\w+)"[^>]*>)(?=</)')
 # For files whose address changes with their content: a year, the longest time that caches heed.
 KEPT = "public, max-age=31536000, immutable"
+# Pages whose addresses a person follows: a too long one is answered in sentences, by its language.
+FOLLOWED = ("/", "/how")
+# Title, what is wrong, what happens to what the address held, and the words of a link to the page.
+TOO_LONG = {
+    "en": (
+        "This address is too long",
+        "The address has {got:,} characters after its question mark; at most {most:,} can be read.",
+        "Save a large drawing as a file and send that instead of its address.",
+        "Open the page as it begins",
+    ),
+    "zh": (
+        "地址过长",
+        "地址在问号之后有 {got:,} 个字符，最多可读取 {most:,} 个。",
+        "较大的图请保存为文件，发送文件而不是地址。",
+        "从头打开页面",
+    ),
+}
+TOO_LONG_PAGE = """<!doctype html>
+<html lang="{tag}">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>{0}</title>
+<script src="page/theme.js"></script>
+<link rel="stylesheet" href="page/style.css">
+<link rel="stylesheet" href="page/how.css">
+</head>
+<body>
+<main class="article">
+<h1>{0}</h1>
+<p>{1}</p>
+<p>{2}</p>
+<p><a href=".">{3}</a></p>
+</main>
+</body>
+</html>
+"""
 # Files kept in memory: those of the page, of uPlot and of Swagger UI are about 70.
 KEPT_FILES = 256
 
@@ -167,6 +206,21 @@ def language_of(request: Request) -> str:
     """The language of a page as the page chooses it: that of its address, or that of the browser; zh or en."""
     wanted = request.query_params.get("lang") or request.headers.get("accept-language", "")
     return "zh" if wanted.lower().startswith("zh") else "en"
+
+
+def long_address(request: Request, got: int, most: int) -> Response | None:
+    """The answer (414) to a person who followed a too long address of a page; None for a program, or another path.
+
+    got: length of the query; most: the largest one that is read
+    """
+    kind = accepted(request.headers.get("accept"), [PROBLEM_TYPE, "text/html"])
+    if request.url.path not in FOLLOWED or kind != "text/html":
+        return None
+    language = language_of(request)
+    words = [sentence.format(got=got, most=most) for sentence in TOO_LONG[language]]
+    text = TOO_LONG_PAGE.format(*words, tag="zh-Hans" if language == "zh" else "en")
+    headers = {**CLOSE, "Cache-Control": "no-store", "Vary": "Accept, Accept-Language"}
+    return Response(text, 414, headers, media_type="text/html")
 
 
 class Guide(Files):

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from starlette.datastructures import Headers
+from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.service.middleware import Layer
+from app.service.pages import long_address
 from app.service.problems import CLOSE, Refused
 from app.settings import Settings
 from core.errors import Quantity
@@ -17,6 +19,7 @@ LARGE = 64_000
 class RequestLimits(Layer):
     """Answers 414 to a long query, 400 to a length stated twice, and 413 as soon as a body is too long.
 
+    A person who followed a long address gets a page, a program a problem.
     While this process holds as many bytes of bodies as it may, a further large one gets 503.
     """
 
@@ -41,7 +44,10 @@ class RequestLimits(Layer):
                 raise self._full()
             return message
 
-        if refused := self._refused_head(Headers(scope=scope), scope["query_string"], most):
+        headers, query = Headers(scope=scope), scope["query_string"]
+        if len(query) > self.query_max and (page := long_address(Request(scope), len(query), self.query_max)):
+            return await page(scope, receive, send)
+        if refused := self._refused_head(headers, query, most):
             return await self.refuse(refused, scope, receive, send)
         try:
             return await self.app(scope, receive_limited, send)

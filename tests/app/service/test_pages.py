@@ -111,3 +111,38 @@ def test_the_edition_depends_on_the_files_alone(tmp_path: Path) -> None:
     assert editions[0] == editions[1] != editions[2]
     (tmp_path / "c" / "words" / "main.js").write_text("1, as before")
     assert Files(directory=tmp_path / "c").edition() not in editions
+
+
+# What Chromium asks a page for.
+BROWSER = "text/html,application/xhtml+xml,application/xml;q=0.9,image/avif,image/webp,*/*;q=0.8"
+LONG = "x" * 20_000
+
+
+@pytest.mark.parametrize(
+    ("query", "asked", "lang", "words"),
+    [
+        (LONG, "de, en", "en", "The address has 20,000 characters after its question mark; at most 8,000 can be read."),
+        (LONG, "zh-CN, en;q=0.5", "zh-Hans", "地址在问号之后有 20,000 个字符，最多可读取 8,000 个。"),
+        (f"lang=zh&{LONG}", "en", "zh-Hans", "地址在问号之后有 20,008 个字符，最多可读取 8,000 个。"),
+    ],
+    ids=["English", "Chinese browser", "Chinese address"],
+)
+@pytest.mark.parametrize("path", ["/", "/how"])
+def test_a_too_long_address_is_answered_to_a_person_in_a_page(
+    server: str, path: str, query: str, asked: str, lang: str, words: str
+) -> None:
+    answer = httpx.get(f"{server}{path}?{query}", headers={"Accept": BROWSER, "Accept-Language": asked})
+    assert answer.status_code == 414
+    assert answer.headers["Content-Type"] == "text/html; charset=utf-8"
+    assert answer.headers["Connection"] == "close"
+    assert f'<html lang="{lang}">' in answer.text
+    assert f"<p>{words}</p>" in answer.text
+    assert '<a href=".">' in answer.text
+    # Nothing of the address stands in the page.
+    assert "xxx" not in answer.text
+
+
+@pytest.mark.parametrize(("path", "accept"), [("/", "*/*"), ("/", "application/json"), ("/turn", BROWSER)])
+def test_a_too_long_address_is_a_problem_to_a_program(server: str, path: str, accept: str) -> None:
+    answer = httpx.get(f"{server}{path}?{LONG}", headers={"Accept": accept})
+    assert (answer.status_code, answer.headers["Content-Type"]) == (414, "application/problem+json")
