@@ -6,7 +6,9 @@ import { Corners } from "./corners.js";
 import { EMPTY, drawingOf, freeName, headingOf, venueOf, withPoints, yardOf } from "./drawing.js";
 import { bearer, button, hide, make, numberIn, textButton } from "./elements.js";
 import { strayOf } from "./fields.js";
+import { failureWords } from "./judgement.js";
 import { knotsOf } from "./knots.js";
+import { formatNumber } from "./numbers.js";
 import { pending } from "./pending.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
 import { circle, extent, rectangle } from "./square.js";
@@ -16,6 +18,8 @@ import { benchName, refusalWords, say } from "./text.js";
 const [WIDTH, HEIGHT, MOST] = [30, 40, 10_000];
 /** Number of dances that are proposed, and time between two looks at the search [ms]. */
 const [COUNT, SECOND] = [3, 1_000];
+/** Digits of a time after the decimal point. */
+const DECIMALS = 6;
 const OBJECTIVES = ["tolerance", "benches", "turns", "duration"];
 /** A drawing without a path. */
 const { points, straight, path, start, begin } = EMPTY;
@@ -248,7 +252,8 @@ export class Propose {
     const gates = this.#drawing.things.filter((thing) => thing.kind === "gate");
     const names = kind === "way" ? { a: gates[who[0]]?.name, b: gates[who[1]]?.name } : { who: who.length ? benchName(who[0], Number(this.state.get("benches"))) : "" };
     const numbers = { have: have?.toFixed(digits), need: kind === "stray" ? need : need?.toFixed(digits) };
-    return say(kind === "fails" && !failure ? "lack_fails_none" : `lack_${kind}`, { ...names, ...numbers, tried, figure: figure ? say(`figure_${figure}`) : "" });
+    const first = failure && { failure: failureWords(failure, this.questions.drawn()), time: formatNumber(failure.time, DECIMALS, 2) };
+    return say(kind === "fails" && !failure ? "lack_fails_none" : `lack_${kind}`, { ...names, ...numbers, ...first, tried, figure: figure ? say(`figure_${figure}`) : "" });
   }
 
   /** How many benches the area of the square bounds, if they are what counts. */

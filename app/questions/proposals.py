@@ -7,11 +7,13 @@ from typing import Annotated, Any, Self
 from pydantic import Field
 
 import core
+from app.questions.check import Failure
 from app.wire.dances import DragonFields, VenueFields
 from app.wire.degrees import GeographicOrigin, Place
 from app.wire.geojson import venue_geometry
 from app.wire.paths import Point, path_of
 from app.wire.question import Angle, Answer, Margin, Question, SpeedLimit, Terms, Whole, Wire, measure
+from core.dragon import BENCHES_MAX
 from core.proposal.gates import GATES_MAX
 from core.proposal.propose import COUNT_MOST
 
@@ -94,7 +96,13 @@ class Lack(Answer):
     need: float | None = Field(description="What it takes; null for fails")
     figure: core.Figure | None = Field(description="The figure that comes nearest; null for area, width and way")
     who: list[int] = Field(description="For width the bench that needs it, for way the numbers of both gates")
-    failure: str = Field(description="For fails the first failure of the dance that comes nearest; else empty")
+    failure: Failure | None = Field(
+        description="For fails the first failure of the dance that comes nearest; else null"
+    )
+
+    @classmethod
+    def of(cls, result: core.Reason, dragon: core.Dragon) -> Self:
+        return cls.from_result(result, failure=result.failure and Failure.of(result.failure, dragon, None))
 
 
 class Proposals(Answer):
@@ -125,7 +133,7 @@ def answer_of(request: ProposalsRequest, result: core.Proposals, place: Place) -
     """The answer with the proposals of core."""
     bodies = [Proposal.of(one, body_of(request, one, place.origin)) for one in result.proposals]
     reason, kind = (result.reason.message, result.reason.kind) if result.reason else (None, None)
-    values = result.reason and Lack.from_result(result.reason)
+    values = result.reason and Lack.of(result.reason, request.to_dragon(BENCHES_MAX))
     own: dict[str, Any] = {"reason": reason, "reason_kind": kind, "reason_values": values}
     return Proposals.from_result(result, proposals=bodies, summary=result.message, **own)
 

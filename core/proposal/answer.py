@@ -8,6 +8,7 @@ from enum import StrEnum
 from core.dance import Dance
 from core.display import Readable, display
 from core.errors import format_number
+from core.failures import Failure
 from core.judgement import Report
 from core.proposal.figures import Figure
 from core.venue import Venue
@@ -42,7 +43,7 @@ class Reason(Readable):
 
     have, need: AREA [m2]; WIDTH, WAY, STRAY [m]; BENCHES: numbers of benches; FAILS: None
     figure: the one that comes nearest, None for AREA, WIDTH and WAY; who: bench that needs the width, or both gates
-    failure: the sentence on its first failure, for FAILS
+    failure: its first one, for FAILS
     AREA is proven, and so is the width that there is; the others are about the dances that were tried.
     """
 
@@ -52,7 +53,7 @@ class Reason(Readable):
     need: float | None = None
     figure: Figure | None = None
     who: tuple[int, ...] = ()
-    failure: str = ""
+    failure: Failure | None = None
     _units = {"have": "", "need": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     @property
@@ -75,9 +76,9 @@ class Reason(Readable):
         if self.kind is ReasonKind.BENCHES:
             most = f"the longest dragon that was found to fit, in {figure}, has {have:.0f}"
             return f"The dragon has {benches_of(int(need))}; {most}."
-        if not self.failure:
+        if self.failure is None:
             return f"None of {self.tried} tried has room for the whole dragon between the edges of the free ground."
-        return f"None of {self.tried} tried passes its check; the nearest, {figure}: {self.failure}"
+        return f"None of {self.tried} tried passes its check; the nearest, {figure}: {self.failure.message}"
 
     def _line(self) -> str:
         return self.message

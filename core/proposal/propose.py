@@ -289,8 +289,7 @@ def _failing(search: Search) -> Reason:
     if search.nearest is None:
         return Reason(ReasonKind.FAILS, search.tried)
     one, report = search.nearest
-    failure = report.failures[0].message
-    return Reason(ReasonKind.FAILS, search.tried, figure=one.design.figure, failure=failure)
+    return Reason(ReasonKind.FAILS, search.tried, figure=one.design.figure, failure=report.failures[0])
 
 
 def with_benches(dragon: Dragon, count: int) -> Dragon:

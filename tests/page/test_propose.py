@@ -11,6 +11,8 @@ from urllib.parse import parse_qs, urlsplit
 import pytest
 from playwright.sync_api import expect
 
+from app.questions.proposals import Lack
+from core import Dragon, Failure, FailureKind, Figure, Reason, ReasonKind
 from tests.support.axe import findings
 from tests.support.pending import settled
 from tests.support.serving import serving
@@ -224,6 +226,33 @@ def test_why_none_fits_stands_in_one_sentence(open_page: Any, language: str, wor
     page.locator("#propose").click()
     expect(page.locator("#proposed")).to_have_text(words)
     assert page.locator(CARDS).count() == 0
+
+
+# What a square without any dance that passes is answered with: the first failure of the nearest one.
+LACK = Lack.of(
+    Reason(ReasonKind.FAILS, 30, figure=Figure.EIGHT, failure=Failure(FailureKind.VENUE, 12.3456, (3,), "linden", "")),
+    Dragon(8),
+)
+WHY = {"reason_kind": "fails", "reason_values": LACK.model_dump(mode="json")}
+NONE = {"proposals": [], "tried": 30, "checked": 5, **WHY}
+
+
+@pytest.mark.parametrize(
+    ("language", "words"),
+    [
+        (
+            "en",
+            "None of 30 tried passes its check; the nearest, “Figure eight”, fails at 12.35 s: body 3 touches linden.",
+        ),
+        ("zh", "试过的 30 种均未通过检查；最接近的“8 字形”在 12.35 s 不合格：第3节龙身碰到linden。"),
+    ],
+)
+def test_where_none_passes_the_first_failure_of_the_nearest_is_named(open_page: Any, language: str, words: str) -> None:
+    page = open_page(f"{YARD}&lang={language}")
+    settled(page)
+    page.route("**/proposals", lambda route: route.fulfill(json=NONE))
+    page.locator("#propose").click()
+    expect(page.locator("#proposed")).to_have_text(words)
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from core import Dragon, Figure, Reason, ReasonKind, Venue, propose
+from core import Dragon, Failure, FailureKind, Figure, Reason, ReasonKind, Venue, propose
 from core.proposal.answer import benches_of
 from tests.support.random_squares import box
+
+TOUCH = Failure(FailureKind.CONTACT, 3.0, (1, 9), None, "Benches 1 and 9 touch at 3.000000 s.")
 
 
 @pytest.mark.parametrize(
@@ -37,7 +39,7 @@ from tests.support.random_squares import box
             "The dragon has 40 benches; the longest dragon that was found to fit, in a spiral, has 1.",
         ),
         (
-            Reason(ReasonKind.FAILS, 30, figure=Figure.RING, failure="Benches 1 and 9 touch at 3.000000 s."),
+            Reason(ReasonKind.FAILS, 30, figure=Figure.RING, failure=TOUCH),
             "None of 30 tried passes its check; the nearest, a ring: Benches 1 and 9 touch at 3.000000 s.",
         ),
         (
