@@ -1,6 +1,7 @@
 /** Several dragons on one clock: their list, the question about all of them, and their common picture. */
 
 import { Problem, Superseded } from "./api.js";
+import { SPAN, announceOpened } from "./files.js";
 import { benchesOf } from "./benches.js";
 import { EMPTY, drawingOf, fromAddress, venueOf } from "./drawing.js";
 import { $, button, download, make, numberIn, textButton } from "./elements.js";
@@ -26,6 +27,11 @@ const isDark = () => document.documentElement.dataset.theme === "dark" && !match
 const [DELAY_MOST, LATER] = [1e6, 30];
 const DEGREE = Math.PI / 180;
 
+/** Way of an arrow key along a row. */
+const WAYS = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 };
+/** @returns {any[]} */
+const partsOf = (row) => [...row.querySelectorAll("button, input")].filter((one) => !one.disabled);
+
 export class Dragons {
   #loads = Symbol("dragons");
   /** Paths of the dragons of the shown dance. @type {any[]} */
@@ -44,6 +50,8 @@ export class Dragons {
     this.player = player;
     this.box = $("#dragons");
     this.list = make("ul", { "aria-labelledby": "dragons-title" });
+    this.list.addEventListener("keydown", (event) => this.#move(event));
+    this.list.addEventListener("focusin", ({ target }) => this.#rest(target));
     this.wrong = make("p", { className: "error", role: "alert" });
     const presets = Object.keys(PRESETS).map((name) => textButton(`dragons_${name}`, () => this.begin(name), { "data-dragons": name }));
     this.panel = make(
@@ -123,7 +131,7 @@ export class Dragons {
     this.state.set({ drawing: { ...EMPTY, things, origin, grid, limit } }, false);
     const numbers = Object.fromEntries(CONTACT.filter((one) => typeof limits[one] === "number").map((one) => [one, String(limits[one])]));
     this.#take(records, 0, { ...this.#valuesOf(records[0]), ...numbers, start_clock: clock, begin_clock: begins, time: null, view: null, handle: null });
-    announce(() => say("opened", { name }));
+    announceOpened(name, SPAN.filter((one) => typeof limits[one] === "number"));
   }
 
   choose(k) {
@@ -213,7 +221,7 @@ export class Dragons {
     const path = isActive ? this.state.get("path") : (record.path ?? "spiral");
     if (path === "spiral") numbers.push(label("dragonTurn", input("dragon-turn", record.rotation ?? "0", { inputMode: "decimal", onchange: ({ target }) => this.#number(k, "rotation", target) })));
     const alone = records.length < 2;
-    return make(
+    const row = make(
       "li",
       { "data-dragon": k },
       button({ id: `dragon-choose-${k}`, textContent: k + 1, "aria-pressed": isActive, "aria-label": say("dragonChoose", { name }) }, () => this.choose(k)),
@@ -223,6 +231,34 @@ export class Dragons {
       button({ id: `dragon-remove-${k}`, textContent: "✕", disabled: alone, title: say("dragonRemove", { name }), "aria-label": say("dragonRemove", { name }) }, () => this.#remove(k)),
       make("div", { className: "numbers" }, ...numbers),
     );
+    const [first, ...others] = partsOf(row);
+    first.tabIndex = 0;
+    for (const one of others) one.tabIndex = -1;
+    return row;
+  }
+
+  /** A row is one Tab stop: the part of it that had the focus last. */
+  #rest(target) {
+    for (const one of partsOf(target.closest("li"))) one.tabIndex = one === target ? 0 : -1;
+  }
+
+  /** Arrow keys move along a row, and those to the side leave a text only at its end. */
+  #move(event) {
+    const { key, target } = event;
+    const way = WAYS[key];
+    if (!way || event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return;
+    const end = way < 0 ? 0 : target.value.length;
+    const isSideways = key === "ArrowLeft" || key === "ArrowRight";
+    if (isSideways && target.type === "text" && (target.selectionStart !== end || target.selectionEnd !== end)) return;
+    event.preventDefault();
+    const parts = partsOf(target.closest("li"));
+    const next = parts[parts.indexOf(target) + way];
+    if (!next) return;
+    // What was typed counts, and the list is written anew.
+    target.blur();
+    const there = $(`#${next.id}`);
+    there?.focus();
+    there?.select?.();
   }
 
   /** The dance of each record: its numbers, its body in a request, and what the picture needs. */

@@ -13,6 +13,15 @@ const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.gpx,.dxf,.csv,.tsv,.xlsx";
 const NUMBERS = ["head_speed", "margin", "stray", "hole", "pin"];
 const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
 
+/** The times of a FILE; the page shows each dance from its beginning to its end. */
+export const SPAN = ["start", "stop"];
+
+/** Say that a file was opened. unread: what of it the page leaves out; notes: what else it did not take over */
+export function announceOpened(name, unread, notes = []) {
+  const stays = notes.length + unread.length > 0;
+  announce(() => [say("opened", { name }), ...(unread.length ? [say("openedWhole", { names: unread.join(say("listed")) })] : []), ...notes].join(" "), stays);
+}
+
 export class Files {
   /**
    * steps: receives drawings; questions: has the shown dance
@@ -105,8 +114,8 @@ export class Files {
     };
     this.state.set({ ...own, ...numbers, ...others, time: null, view: null });
     this.steps.take(opened);
-    const notes = content.notes ?? [];
-    announce(() => [say("opened", { name }), ...notes].join(" "), notes.length > 0);
+    const unread = SPAN.filter((one) => typeof content[one] === "number" && content[one] !== opened[one]);
+    announceOpened(name, unread, content.notes);
   }
 
   /** The dance in the format of `bench-dragon check`. */

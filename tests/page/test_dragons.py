@@ -188,6 +188,31 @@ def test_on_a_phone_nothing_is_cut_off_and_everyone_can_use_it(open_page: Any, l
     assert page.evaluate(small) == []
 
 
+def test_a_row_of_the_list_is_one_tab_stop_in_which_arrow_keys_move(open_page: Any) -> None:
+    page = begun(open_page, "spiral")
+    page.locator("#dragon-choose-0").focus()
+
+    def after(*keys: str) -> str:
+        for key in keys:
+            page.keyboard.press(key)
+        return str(page.evaluate("document.activeElement.id"))
+
+    assert [after("Tab") for _ in range(3)] == ["dragon-choose-1", "dragon-add", "dragons-save"]
+    page.locator("#dragon-choose-0").focus()
+    assert [after("ArrowRight") for _ in range(2)] == ["dragon-colour-0", "dragon-name-0"]
+    page.keyboard.type("east")
+    # Within a text they move in the text.
+    assert after("ArrowLeft", "x", "ArrowRight") == "dragon-name-0"
+    assert after("ArrowRight") == "dragon-copy-0"
+    expect(page.locator("#dragon-name-0")).to_have_value("easxt")
+    rest = ["dragon-remove-0", "dragon-delay-0", "dragon-turn-0", "dragon-turn-0"]
+    assert [after("ArrowDown") for _ in rest] == rest
+    assert after("ArrowUp") == "dragon-delay-0"
+    assert [after(key) for key in ("Tab", "Shift+Tab")] == ["dragon-choose-1", "dragon-delay-0"]
+    settled(page)
+    assert findings(page) == []
+
+
 @pytest.mark.parametrize("preset", ["spiral", "parade"])
 def test_a_saved_file_opens_again(open_page: Any, tmp_path: Path, preset: str) -> None:
     page = begun(open_page, preset)
@@ -226,6 +251,29 @@ def test_a_turn_with_clothoids_and_a_dance_without_a_path_are_opened_as_they_are
     kept = saved(page)["dances"]
     assert kept[0]["path"] == turn
     assert (kept[1]["path"], kept[1]["dragon"]["benches"]) == ({"kind": "spiral", "pitch": 0.55, "start_turns": 16}, 4)
+
+
+@pytest.mark.parametrize(
+    ("language", "words"),
+    [
+        ("en", "Opened two.json. Left out: start, stop. The page shows a dance from beginning to end."),
+        ("zh", "已打开 two.json。 已略去：start、stop。页面显示整场舞龙。"),
+    ],
+)
+@pytest.mark.parametrize("several", [True, False], ids=["several", "one"])
+def test_times_of_a_file_that_the_page_leaves_out_are_named(
+    open_page: Any, tmp_path: Path, several: bool, language: str, words: str
+) -> None:
+    line = {"kind": "line", "start": [0, 0], "end": [60, 0]}
+    dance = {"dragon": {"benches": 3}, "path": {"kind": "route", "pieces": [line]}}
+    file = tmp_path / "two.json"
+    content = {"dances": [dance, {**dance, "delay": 60}]} if several else dance
+    file.write_text(json.dumps({**content, "start": 20, "stop": 40}))
+    page = open_page(f"?door=village&path=route&lang={language}")
+    settled(page)
+    page.locator("#open-file").set_input_files(str(file))
+    expect(page.locator("#status")).to_have_text(words)
+    settled(page)
 
 
 def test_a_bench_of_the_chosen_dragon_is_followed_and_the_view_closes_to_all(open_page: Any) -> None:

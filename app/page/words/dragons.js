@@ -2,7 +2,7 @@
 
 export const DRAGONS = {
   dragonsTitle: ["Dragons", "各条龙"],
-  dragonsHelp: ["The numbers below are those of the chosen dragon. All dance on one clock.", "下面的参数属于选中的龙；所有的龙共用一个时钟。"],
+  dragonsHelp: ["The numbers below are those of the chosen dragon. All dance on one clock. Arrow keys move along a row.", "下面的参数属于选中的龙；所有的龙共用一个时钟。方向键在一行内移动。"],
   dragonAdd: ["Add a dragon", "添加一条龙"],
   dragonCopy: ["Copy {name}", "复制{name}"],
   dragonRemove: ["Remove {name}", "删除{name}"],

@@ -61,6 +61,7 @@ export const ROUTE = {
   open: ["Open …", "打开……"],
   save: ["Save", "保存文件"],
   opening: ["Reading {name} …", "正在读取 {name}……"],
+  openedWhole: ["Left out: {names}. The page shows a dance from beginning to end.", "已略去：{names}。页面显示整场舞龙。"],
   opened: ["Opened {name}.", "已打开 {name}。"],
   verdictTitle: ["Verdict", "判定"],
   verdict_passes: ["Can be danced", "可以表演"],
