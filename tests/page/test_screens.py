@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.support.pending import settled, with_below
 
@@ -204,3 +205,39 @@ def test_on_a_phone_the_picture_takes_a_third_of_the_height_and_one_tap_leads_ev
         page.locator(f"[data-section={section}]").tap()
         top = page.locator(f"#{section}").evaluate("one => one.getBoundingClientRect().top")
         assert -1 <= top < height - 100, section
+
+
+def test_the_page_how_it_works_has_the_same_sizes_of_type(open_page: Any) -> None:
+    page = open_page("how?lang=zh")
+    page.locator("#staircase .jump").first.wait_for(state="attached")
+    settled(page)
+    for width in (1366, 390):
+        page.set_viewport_size({"width": width, "height": 900})
+        for language in ("zh", "en"):
+            page.locator(f"[data-lang={language}]").click()
+            sizes = set(page.evaluate(SIZES))
+            assert sizes <= FOUR
+            assert len(sizes) > 2
+
+
+@pytest.mark.parametrize(
+    ("door", "names"),
+    [
+        ("contest", {"en": "Picture Numbers Answers Save", "zh": "画面 参数 结果 保存"}),
+        ("village", {"en": "Picture People Answers Save", "zh": "画面 人 结果 保存"}),
+        # Behind this door nothing is kept.
+        ("look", {"en": "Picture Numbers Answers", "zh": "画面 参数 结果"}),
+    ],
+)
+def test_the_tabs_of_a_phone_are_picture_people_answers_and_save(
+    open_page: Any, door: str, names: dict[str, str]
+) -> None:
+    page = open_page(f"?door={door}&path=route&benches=3", viewport={"width": 360, "height": 780})
+    settled(page)
+    for language, words in names.items():
+        page.locator(f"[data-lang={language}]").click()
+        assert page.locator("#tabs").inner_text().split() == words.split()
+        cut = "[...document.querySelectorAll('#tabs button')].filter((one) => one.scrollWidth > one.clientWidth).length"
+        assert page.evaluate(cut) == 0
+    page.locator("#tabs button").nth(1).click()
+    expect(page.locator("#controls")).to_be_in_viewport()
