@@ -77,7 +77,7 @@ class Reason(Readable):
             most = f"the longest dragon that was found to fit, in {figure}, has {have:.0f}"
             return f"The dragon has {benches_of(int(need))}; {most}."
         if self.failure is None:
-            return f"None of {self.tried} tried has room for the whole dragon between the edges of the free ground."
+            return "No figure has room for the whole dragon between the edges of the free ground."
         return f"None of {self.tried} tried passes its check; the nearest, {figure}: {self.failure.message}"
 
     def _line(self) -> str:

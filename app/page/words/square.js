@@ -3,7 +3,7 @@
 export const SQUARE = {
   placeTitle: ["A dance for our square", "为广场设计舞龙"],
   placeRectangle: ["Our square is", "广场为矩形"],
-  placeCircle: ["or a circle,", "或为圆形，直径"],
+  placeCircle: ["or a circle, across", "或为圆形，直径"],
   placeTake: ["Draw it", "画出"],
   placeWidth: ["Width of the square", "广场的宽"],
   placeHeight: ["Length of the square", "广场的长"],

@@ -44,7 +44,7 @@ TOUCH = Failure(FailureKind.CONTACT, 3.0, (1, 9), None, "Benches 1 and 9 touch a
         ),
         (
             Reason(ReasonKind.FAILS, 0),
-            "None of 0 tried has room for the whole dragon between the edges of the free ground.",
+            "No figure has room for the whole dragon between the edges of the free ground.",
         ),
     ],
     ids=lambda one: one.kind.value if isinstance(one, Reason) else "",
