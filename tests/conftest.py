@@ -38,6 +38,7 @@ from tests.support import browser, firefox, lock  # noqa: E402
 from tests.support.depth import DEEP  # noqa: E402
 
 ROOT = Path(__file__).parent.parent
+FLINT_BITS = 53  # precision of python-flint unless it is told another
 START_TIMEOUT = 60.0  # longest wait for the first answer [s]; a cold start takes about one
 STOP_TIMEOUT = 30.0  # longest wait from the signal to the end [s]; uvicorn lets running computations finish
 # Where this is set, a test that cannot run here is an error.
@@ -52,6 +53,14 @@ NO_NGINX = "they restart services behind a proxy: apt install nginx-light"
 NO_FONT = "they draw Chinese words, and there is no font for them: apt install fonts-wqy-microhei"
 NO_INDEX = "they ask the package index, which does not answer"
 NO_ENGINE = "they compare an engine that cannot be had for this machine and its Python: {}"
+
+
+@pytest.fixture(autouse=True)
+def usual_precision() -> Iterator[None]:
+    """No test computes with the digits that another one asked of python-flint."""
+    yield
+    if flint := sys.modules.get("flint"):
+        flint.ctx.prec = FLINT_BITS
 
 
 @pytest.hookimpl(trylast=True)  # after -m and -k

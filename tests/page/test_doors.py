@@ -191,6 +191,12 @@ def test_a_village_keeps_film_plan_cues_and_map_and_sees_there_how_far_they_are(
         assert download.value.suggested_filename == f"cues.{form.lower()}"
         assert Path(download.value.path()).read_bytes().startswith(begin)
     expect(page.locator("#sweeps")).to_be_hidden()
+
+    def longer(route: Any) -> None:
+        """A film that is not whole before it is cancelled."""
+        route.continue_(post_data=json.dumps({**route.request.post_data_json, "seconds": 60.0}))
+
+    page.route("**/films", longer)
     page.locator("#keepFilm-GIF").click()
     expect(page.locator("#jobs li")).to_be_visible()
     page.locator("#jobs li button", has_text="Cancel").click()

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 
+import flint
 import numpy as np
 import pytest
 from flint import arb
 
 from core import Coil, Dance, Dragon, Line, Passage, Route, Spiral, trajectory
-from tests.support.exact_chain import coil_handles
+from tests.support.exact_chain import BITS, coil_handles
 
 # Of 10,000 turns a double knows the length to 1e-8 m and the angle to 4e-12 rad.
 DRAGON = Dragon(12, head_length=2.5)
@@ -27,6 +28,7 @@ def error_of(place: np.ndarray, exact: tuple[arb, arb]) -> float:
 @pytest.mark.parametrize("speed", [1.0, 1.3])
 @pytest.mark.parametrize(("pitch", "turns"), [(0.55, 16.0), (0.55, 1e3), (0.3, 1e4), (3.0, 1e4), (0.55, 1e5)])
 def test_positions_on_long_spirals_are_as_good_as_stated(pitch: float, turns: float, speed: float) -> None:
+    flint.ctx.prec = BITS  # also for the product of time and speed
     dance = Dance(DRAGON, Spiral(pitch, turns), speed)
     times = [*(dance.end.time * np.array([-0.1, 0.0, 0.3, 0.9, 0.999])).tolist(), dance.end.time - 20.0]
     for time, places in zip(times, trajectory(dance, times).position, strict=True):
