@@ -5,6 +5,7 @@ from __future__ import annotations
 import ssl
 from collections.abc import Iterator
 from functools import cache
+from inspect import signature
 
 import httpx
 import pytest
@@ -16,6 +17,8 @@ from tests.support.serving import serving
 ssl.create_default_context = cache(ssl.create_default_context)
 
 ANSWER_TIMEOUT = 120.0  # [s]; no test waits this long for an answer that is coming
+# The default of all calls of httpx, 5 s, is too short for a cold start of /openapi.json on a slow machine.
+signature(httpx.get).parameters["timeout"].default.read = ANSWER_TIMEOUT
 
 
 @pytest.fixture(scope="session")
