@@ -55,8 +55,8 @@ def pictures_of(words: Sequence[str], size: float, edge: str, dpi: float) -> lis
     """
     if not words:
         return []
-    line = math.ceil(LINE * size)
-    width = math.ceil(WIDEST * size * (max(map(len, words)) + 1))
+    # Even, so that the middle of a word is between two pixels, whatever the others are.
+    line, width = (2 * math.ceil(0.5 * length) for length in (LINE * size, WIDEST * size * (max(map(len, words)) + 1)))
     figure = Figure(figsize=(width / dpi, line * len(words) / dpi), dpi=dpi, facecolor="none")
     canvas, points = FigureCanvasAgg(figure), size * 72.0 / dpi
     look: dict[str, Any] = {"color": "white", "ha": "center", "va": "center", "weight": "bold", "parse_math": False}

@@ -4,8 +4,7 @@ import { Crew } from "./crew.js";
 import { Designs } from "./designs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
-import { say } from "./text.js";
-import { learn } from "./words.js";
+import { learn, say } from "./text.js";
 import { BELOW } from "./words/below.js";
 import { COLUMNS } from "./words/columns.js";
 

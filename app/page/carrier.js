@@ -3,8 +3,7 @@
 import { Problem, Superseded } from "./api.js";
 import { $, button, hide, make, numberIn, textButton } from "./elements.js";
 import { secondsBetween, timeOfDay } from "./passages.js";
-import { handleName, language, refusalWords, say } from "./text.js";
-import { learn } from "./words.js";
+import { handleName, language, learn, refusalWords, say } from "./text.js";
 import { CARRIER } from "./words/carrier.js";
 
 learn(CARRIER);

@@ -11,9 +11,8 @@ import { bound, formatNumber, isExact } from "./numbers.js";
 import { announce } from "./overlays.js";
 import { beatsOf, passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
-import { benchName, language, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
+import { benchName, language, learn, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
-import { learn } from "./words.js";
 import { DRAGONS } from "./words/dragons.js";
 import { ROUTE } from "./words/route.js";
 

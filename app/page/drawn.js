@@ -9,9 +9,8 @@ import { Judgement } from "./judgement.js";
 import { PRESETS } from "./presets.js";
 import { Propose } from "./propose.js";
 import { RouteForm } from "./route.js";
-import { say } from "./text.js";
+import { learn, say } from "./text.js";
 import { layers } from "./venue.js";
-import { learn } from "./words.js";
 import { ROUTE } from "./words/route.js";
 import { SQUARE } from "./words/square.js";
 

@@ -3,7 +3,14 @@
 import { $$ } from "./elements.js";
 import { strayOf } from "./fields.js";
 import { claimInChinese } from "./proofs.js";
-import { WORDS } from "./words.js";
+import { ANSWERS } from "./words/answers.js";
+import { DANCE } from "./words/dance.js";
+import { MORE } from "./words/more.js";
+
+/** Every word of the page in English and in Simplified Chinese, with the terms of the contest; later parts bring their own. */
+const WORDS = { ...DANCE, ...ANSWERS, ...MORE };
+/** Take the words of a part that has loaded. */
+export const learn = (words) => Object.assign(WORDS, words);
 
 let column = 0;
 /** Names of the benches, such as households, head first; empty for benches without a name. */
