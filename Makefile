@@ -162,7 +162,7 @@ figures: test-setup
 # The wheel is built from the sdist; both pass the checks of a package index. A wheel is for one platform if, and only
 # if, it holds compiled loops; on Linux it then needs no library beside those of manylinux.
 dist: test-setup
-	@rm -rf dist
+	@rm -rf dist && mkdir -p build
 	@$(BIN)/python -c 'from setuptools.build_meta import build_sdist; build_sdist("dist")' >build/sdist.log
 	@$(PIP) wheel --no-build-isolation --no-deps --wheel-dir dist dist/*.tar.gz
 	@$(BIN)/python -m venv --clear build/checks
