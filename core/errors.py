@@ -301,7 +301,7 @@ def question_about(name: str, kind: type, missing: str = "") -> Callable[[Callab
         def answer(*args: P.args, **kwargs: P.kwargs) -> R:
             if args or name in kwargs:
                 subject = args[0] if args else kwargs[name]
-                if other := getattr(subject, "questions", {}).get(question.__name__):
+                if other := getattr(subject, "_instead", {}).get(question.__name__):
                     rule = "must be {kinds}: for several dragons call {other}()"
                     raise InvalidValue(
                         name, rule, got=f"a {type(subject).__name__}", kinds=f"a {kind.__name__}", other=other

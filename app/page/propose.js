@@ -18,8 +18,6 @@ import { benchName, refusalWords, say } from "./text.js";
 const [WIDTH, HEIGHT, MOST] = [30, 40, 10_000];
 /** Number of dances that are proposed, and time between two looks at the search [ms]. */
 const [COUNT, SECOND] = [3, 1_000];
-/** Digits of a time after the decimal point. */
-const DECIMALS = 6;
 const OBJECTIVES = ["tolerance", "benches", "turns", "duration"];
 /** A drawing without a path. */
 const { points, straight, path, start, begin } = EMPTY;
@@ -252,7 +250,7 @@ export class Propose {
     const gates = this.#drawing.things.filter((thing) => thing.kind === "gate");
     const names = kind === "way" ? { a: gates[who[0]]?.name, b: gates[who[1]]?.name } : { who: who.length ? benchName(who[0], Number(this.state.get("benches"))) : "" };
     const numbers = { have: have?.toFixed(digits), need: kind === "stray" ? need : need?.toFixed(digits) };
-    const first = failure && { failure: failureWords(failure, this.questions.drawn()), time: formatNumber(failure.time, DECIMALS, 2) };
+    const first = failure && { failure: failureWords(failure, this.questions.drawn()), time: formatNumber(failure.time, 6, 2) };
     return say(kind === "fails" && !failure ? "lack_fails_none" : `lack_${kind}`, { ...names, ...numbers, ...first, tried, figure: figure ? say(`figure_${figure}`) : "" });
   }
 

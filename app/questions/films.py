@@ -84,11 +84,12 @@ def film_of(
     rate, height = _checked_size(request, terms, form)
     if placed and placed.part is not None:
         raise InvalidValue("part", "must be left out without dances", got=Given(placed.part))
-    own: dict[str, Any] = {"marked": _marked(marked, {0: dance.dragon})}
+    benches = _marked(marked, {0: dance.dragon})
     start, stop, touching = span_of(request, dance, terms)
     clock = clock_of(placed, dance) if placed else None
     music = placed.music if placed else None
-    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, touching, music, **own)
+    look: dict[str, Any] = {"touching": touching, "music": music, "marked": benches}
+    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, **look)
     venue = placed.to_place(dance.dragon).venue if placed else None
     return film.film(dance, spec, form, venue=venue, title=request.title, budget=terms.budget, progress=terms.progress)
 

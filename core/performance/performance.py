@@ -124,8 +124,8 @@ class Performance(Readable):
     begin: float = field(init=False, repr=False, compare=False)
     end: PerformanceEnd = field(init=False, repr=False, compare=False)
     _units = {"begin": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
-    # Functions of core for one dance, and those for several; the error for the wrong one names the right one.
-    questions: ClassVar[Mapping[str, str]] = {
+    # Functions of core for one dance, and those for several, which the error of question_about() names.
+    _instead: ClassVar[Mapping[str, str]] = {
         "bench_cues": "performance_cues",
         "check": "performance_check",
         "clearance_profile": "performance_clearance",

@@ -113,7 +113,7 @@ def test_a_wrong_subject_is_refused_by_name_whatever_arguments_follow(call: Call
 
 def test_a_performance_is_sent_to_the_question_about_several_dragons() -> None:
     performance = core.Performance([core.Part(DANCE)])
-    for one, several in core.Performance.questions.items():
+    for one, several in core.Performance._instead.items():
         assert callable(getattr(core, several))
         with pytest.raises(InvalidValue) as refused:
             getattr(core, one)(performance, 0.55)

@@ -55,6 +55,22 @@ def words_of(page: Any) -> list[str]:
     return page.locator("#card-more li span:last-child").all_inner_texts()
 
 
+def goes_on_in_both_languages(page: Any, picture: Any, cues: dict[str, Any], heading: str) -> None:
+    """Start the card without a network: cues, picture and, in Chinese, the heading follow the clock."""
+    expect(page.locator("#card-more .hint")).to_contain_text("No network: the card goes on.")
+    page.locator("#card-start").click()
+    before = picture(page)
+    ahead(page, 5)
+    expected = next(k for k, cue in enumerate(cues["en"]) if cue["since"] > 27)
+    expect(page.locator("#card-more li.following")).to_contain_text(cues["en"][expected]["words"])
+    page.get_by_role("button", name="中文").click()
+    expect(page.locator("#carrier h1")).to_have_text(heading)
+    expect(page.locator("#card-more .hint")).to_contain_text("没有网络")
+    assert words_of(page) == [cue["words"] for cue in cues["zh"]]
+    assert page.evaluate(MIDDLE) > 100
+    assert (picture(page) != before).any(axis=-1).mean() > 0.01
+
+
 def held(page: Any) -> Any:
     page.locator("#carrier[data-held=true]").wait_for()
     return page
@@ -136,19 +152,9 @@ def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(
     with serving(tmp_path / "gone.log", port=port, deadline_seconds=PATIENT):
         page = open_page("?benches=20&bench=7&lang=en", base=f"http://127.0.0.1:{port}", failing=True, **ON_PHONE)
         held(page)
-    expect(page.locator("#card-more .hint")).to_contain_text("No network: the card goes on.")
     expect(page.locator("#lost")).to_be_hidden()
-    page.locator("#card-start").click()
-    before = picture(page)
     cues = {language: card(server, 7, language)["cues"] for language in ("en", "zh")}
-    ahead(page, 5)
-    expected = next(k for k, cue in enumerate(cues["en"]) if cue["since"] > 27)
-    expect(page.locator("#card-more li.following")).to_contain_text(cues["en"][expected]["words"])
-    page.get_by_role("button", name="中文").click()
-    expect(page.locator("#card-more .hint")).to_contain_text("没有网络")
-    assert words_of(page) == [cue["words"] for cue in cues["zh"]]
-    assert page.evaluate(MIDDLE) > 100
-    assert (picture(page) != before).any(axis=-1).mean() > 0.01
+    goes_on_in_both_languages(page, picture, cues, "第7节龙身")
     ahead(page, 100)
     expect(page.locator("#carrier .cue")).to_have_text("舞龙已结束。")
 
@@ -254,17 +260,7 @@ def test_a_bench_of_the_chosen_one_of_several_dragons_goes_on_without_a_network(
     cues = {language: card_of_two(server, 7, 1, language)["cues"] for language in ("en", "zh")}
     assert any(cue["nearest"] and cue["nearest"]["dragon"] == 0 for cue in cues["en"])
     assert words_of(page) == [cue["words"] for cue in cues["en"]]
-    expect(page.locator("#card-more .hint")).to_contain_text("No network: the card goes on.")
-    page.locator("#card-start").click()
-    before = picture(page)
-    ahead(page, 5)
-    expected = next(k for k, cue in enumerate(cues["en"]) if cue["since"] > 27)
-    expect(page.locator("#card-more li.following")).to_contain_text(cues["en"][expected]["words"])
-    page.get_by_role("button", name="中文").click()
-    expect(page.locator("#carrier h1")).to_have_text("蓝龙：第7节龙身")
-    assert words_of(page) == [cue["words"] for cue in cues["zh"]]
-    assert page.evaluate(MIDDLE) > 100
-    assert (picture(page) != before).any(axis=-1).mean() > 0.01
+    goes_on_in_both_languages(page, picture, cues, "蓝龙：第7节龙身")
 
 
 def test_another_dragon_is_chosen_in_the_view(open_page: Any, server: str) -> None:
