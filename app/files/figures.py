@@ -56,7 +56,7 @@ def trajectory_figure(
         figure = canvas(7.2, 6.2)
         axes = result.plot(figure.add_subplot())
         if venue:
-            draw_venue(axes, venue)
+            draw_venue(axes, venue, [result.position[0]])
             look_around(figure, axes, result.position[0])
         words = "" if (spiral := dance.path.spiral) is None else f" (pitch {format_number(spiral.pitch)} m)"
         axes.set_title(f"Handles and their speeds at {time:g} s{words}", fontsize=11)

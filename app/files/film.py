@@ -27,13 +27,13 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
-from app.files.drawing import draw_venue, in_turn, with_square
-from app.files.film_labels import MARKED_SHARE, Labels, numbered, size_of
+from app.files.drawing import draw_areas, in_turn, with_square
+from app.files.film_labels import MARKED_SHARE, Labels, LabelsBeside, NameLabels, numbered, size_of
 from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families_for
 from app.files.scratch import temporary
 from app.files.tables import Language
-from app.wire.clocks import time_of_day
+from app.wire.clocks import minutes_and_seconds, time_of_day
 from core import Budget, Dance, Dragon, Venue, bench_outlines, trajectory
 from core.errors import question_about
 from core.plots import BLUE, PALE, VERMILION, draw_dance
@@ -68,14 +68,17 @@ GIF_BLENDS = (
     ("white", "black"), ("white", BLUE), ("white", BODY_EDGE), ("white", VERMILION), (BLUE, BODY_EDGE),
     (BLUE, VERMILION), (BODY_EDGE, VERMILION), ("black", VERMILION), ("black", BLUE), ("white", PALE),
 )  # fmt: skip
-WORDS = {Language.ENGLISH: "{time:.2f} s", Language.CHINESE: "时间 {time:.2f} 秒"}
+WORDS = {Language.ENGLISH: "{clock} ({time:.2f} s)", Language.CHINESE: "{clock}（{time:.2f} 秒）"}
 COUNTS = {Language.ENGLISH: "bar {} beat {}", Language.CHINESE: "第 {} 小节第 {} 拍"}
 TOUCHING = {Language.ENGLISH: "benches {} and {} touch\n", Language.CHINESE: "第 {} 节与第 {} 节板凳相碰（龙头为 0）\n"}
 COUNTS_OF = {Language.ENGLISH: "{}: {}", Language.CHINESE: "{}：{}"}
 # Colour of marked benches.
 MARKED = "#F0E442"
-# Edge of benches [points], and of those that touch, as a share of the height of the picture.
-EDGE, TOUCHING_SHARE = 0.8, 0.0025
+# Edge of benches [points], and of those that touch, as a share of the height of the picture. Benches narrower than
+# EDGED edges have edges in their own colour, because dark ones would hide it.
+EDGE, TOUCHING_SHARE, EDGED = 0.8, 0.0025, 4.0
+# Least width at which a marked bench is drawn, as a share of the height of the picture.
+MARKED_LEAST = 0.014
 
 
 @question_about("dance", Dance, "the film was not drawn")
@@ -123,12 +126,13 @@ def frames(
 
 
 class Layer(NamedTuple):
-    """What moves of one dragon. words: of the marked benches, by number"""
+    """What moves of one dragon. words: of the marked benches, by number; wider: times their widths are drawn (M,)"""
 
     body: PathPatch
     head: PathPatch
     marked: PathPatch
     words: dict[int, str]
+    wider: Floats
     labels: list[Labels]
 
 
@@ -162,6 +166,7 @@ class FilmPicture:
     def _draw(self, spec: FilmSpec, venue: Venue | None, title: str) -> None:
         points, dragons = TYPE_SHARE * spec.height * 72.0 / DPI, self.dragons
         names = [name for k, bench in spec.marked for name in dragons[k].names[bench : bench + 1]]
+        names += [area.name for area in venue.areas] if venue else []
         family = families_for([title, *names], spec.language)
         with matplotlib.rc_context({"font.family": family, "font.size": points}):
             figure = Figure(figsize=(spec.width / DPI, spec.height / DPI), dpi=DPI)
@@ -169,8 +174,10 @@ class FilmPicture:
             self.axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
             sampled = np.linspace(spec.start, spec.stop, EXTENT_INSTANTS)
             handles = self.draw_paths(sampled)
-            draw_venue(self.axes, venue)
+            paths = [np.asarray(line.get_xydata(), dtype=np.float64) for line in self.axes.lines]
+            draw_areas(self.axes, venue)
             self._look(*with_square(venue, handles.min(axis=0), handles.max(axis=0)), spec)
+            self.names = [NameLabels(self.axes, venue, spec.height, paths)] if venue else []
             place: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False}
             self.axes.text(0.985, 0.97, title, ha="right", va="top", **place)
             self.time = self.axes.text(0.985, 0.03, "", ha="right", va="bottom", animated=True, **place)
@@ -202,16 +209,20 @@ class FilmPicture:
         head, body, edge, around = self.colours(k)
         own = [bench for one, bench in spec.marked if one == k]
         (left, right), chord = self.axes.get_xlim(), float(np.mean(dragon.chords))
-        size = size_of(spec.height)
-        plain = numbered(dragon.benches, chord * spec.width / (right - left), size)
+        size, to_pixels = size_of(spec.height), spec.width / (right - left)
+        plain, widths = numbered(dragon.benches, chord * to_pixels, size), to_pixels * dragon.widths
+        head_edge = "black"
+        if float(widths.min()) < EDGED * EDGE * DPI / 72.0:
+            edge, head_edge = body, head
+        drawn = np.maximum(widths[own], MARKED_LEAST * spec.height)
         words = {bench: " ".join([str(bench), *filter(None, dragon.names[bench : bench + 1])]) for bench in own}
         labels = [
             Labels(self.axes, {bench: str(bench) for bench in plain if bench not in words}, size, around),
-            Labels(self.axes, words, size_of(spec.height, MARKED_SHARE)),
+            LabelsBeside(self.axes, words, size_of(spec.height, MARKED_SHARE), drawn),
         ]
         marked = self.benches(len(words), MARKED, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
-        benches = self.benches(dragon.benches - 1, body, edge), self.benches(1, head, "black"), marked
-        return Layer(*benches, words, labels)
+        benches = self.benches(dragon.benches - 1, body, edge), self.benches(1, head, head_edge), marked
+        return Layer(*benches, words, drawn / widths[own], labels)
 
     def frame(self, time: float, outlines: Floats, touching: tuple[int, int] | None = None) -> NDArray[np.uint8]:
         """The picture at one instant. outlines: (n, 4, 2) [m]; touching: the benches that are marked and named"""
@@ -231,11 +242,12 @@ class FilmPicture:
         for layer, own in zip(self.layers, closed, strict=True):
             layer.head.get_path().vertices = own[0]
             layer.body.get_path().vertices = own[1:].reshape(-1, 2)
-            layer.marked.get_path().vertices = own[list(layer.words)].reshape(-1, 2)
+            layer.marked.get_path().vertices = widened(own[list(layer.words)], layer.wider).reshape(-1, 2)
             artists += [layer.body, layer.head, *([layer.marked] if layer.words else [])]
         if touching:
             self.touching.get_path().vertices = np.concatenate([closed[k][bench] for k, bench in touching])
             artists.append(self.touching)
+        artists += self.names
         for layer, own in zip(self.layers, outlines, strict=True):
             for labels in layer.labels:
                 labels.place(own)
@@ -243,9 +255,9 @@ class FilmPicture:
         return self._composed(first + self.words(time), [*artists, self.time])
 
     def words(self, time: float) -> str:
-        """The count, the time of day and the time [s] of a picture."""
-        words = f"{time_of_day(time, self.start_clock)}  " if self.start_clock else ""
-        words += WORDS[self.language].format(time=time)
+        """The count, the clock as on the cards, and the time [s] of a picture."""
+        clock = time_of_day(time, self.start_clock) if self.start_clock else minutes_and_seconds(time)
+        words = WORDS[self.language].format(clock=clock, time=time)
         music = self.spec.music
         if music and (count := music.count(time - self.spec.music_begin)):
             counted = COUNTS[self.language].format(*count)
@@ -260,6 +272,14 @@ class FilmPicture:
         for artist in artists:
             self.axes.draw_artist(artist)
         return np.asarray(self.canvas.buffer_rgba())
+
+
+def widened(outlines: Floats, times: Floats) -> Floats:
+    """Benches (M, 5, 2), closed, at some times their widths (M,)."""
+    front, rear = (outlines[:, k].mean(axis=1, keepdims=True) for k in ([0, 1], [2, 3]))
+    ends = np.concatenate([front, front, rear, rear, front], axis=1)
+    wider: Floats = ends + times[:, None, None] * (outlines - ends)
+    return wider
 
 
 def scale_bar(axes: Axes, corner: Floats, half: float) -> None:

@@ -14,18 +14,25 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import NDArray
 
+from app.files.drawing import NamePlaces
+from core import Venue
 from core.values import Floats
 
 # Most numbers on one dragon, and from one number to the next along the dragon, in widths of a number.
 NUMBERS_MOST, APART = 30, 3.0
 # Size of the numbers, and of those of marked benches, as shares of the height of the picture; least size [pixels].
-SHARE, MARKED_SHARE, LEAST = 0.0125, 0.022, 8.0
+SHARE, MARKED_SHARE, LEAST = 0.0125, 0.028, 8.0
 # Width of a digit, which is the widest a character of a name may have too, and height of a line, as parts of the size.
 DIGIT, WIDEST, LINE = 0.65, 1.1, 2.2
-# Width of the dark edge of a number, as a part of its size.
-EDGE = 0.16
+# Width of the dark edge of a number, and of the paper around black words, as parts of their size.
+EDGE, HALO = 0.16, 0.4
 # Place of a number on its bench: from the middle to the front, as a part of this way.
 TO_FRONT = 0.5
+# Space between a marked bench and its number, and how much more free a number must be on the other side of its bench
+# before it changes there, as parts of its size; number of nearest benches from which it counts how free it is.
+BESIDE, CHANGES, NEAREST = 0.25, 0.25, 12
+# Size of the names of areas, as a share of the height of the picture, and the least one [pixels].
+NAME_SHARE, NAME_LEAST = 0.018, 11.0
 
 
 def size_of(height: int, share: float = SHARE) -> float:
@@ -48,10 +55,12 @@ def numbered(benches: int, spacing: float, size: float) -> range:
     return range(0, benches, step)
 
 
-def pictures_of(words: Sequence[str], size: float, edge: str, dpi: float) -> list[NDArray[np.uint8]]:
-    """Pictures (rows, columns, 4) of words, in white with an edge, each as small as it can be.
+def pictures_of(
+    words: Sequence[str], size: float, edge: str, dpi: float, face: str = "white", weight: str = "bold"
+) -> list[NDArray[np.uint8]]:
+    """Pictures (rows, columns, 4) of words with an edge, each as small as it can be.
 
-    size: [pixels]; edge: its colour
+    size: [pixels]; edge, face: colours of the edge and of the words
     """
     if not words:
         return []
@@ -59,8 +68,9 @@ def pictures_of(words: Sequence[str], size: float, edge: str, dpi: float) -> lis
     line, width = (2 * math.ceil(0.5 * length) for length in (LINE * size, WIDEST * size * (max(map(len, words)) + 1)))
     figure = Figure(figsize=(width / dpi, line * len(words) / dpi), dpi=dpi, facecolor="none")
     canvas, points = FigureCanvasAgg(figure), size * 72.0 / dpi
-    look: dict[str, Any] = {"color": "white", "ha": "center", "va": "center", "weight": "bold", "parse_math": False}
-    look["path_effects"] = [Stroke(linewidth=EDGE * points, foreground=edge), Normal()]
+    look: dict[str, Any] = {"color": face, "ha": "center", "va": "center", "weight": weight, "parse_math": False}
+    wide = EDGE if face == "white" else HALO
+    look["path_effects"] = [Stroke(linewidth=wide * points, foreground=edge), Normal()]
     for k, word in enumerate(words):
         figure.text(0.5, 1.0 - (k + 0.5) / len(words), word, fontsize=points, **look)
     canvas.draw()
@@ -76,27 +86,75 @@ def _cropped(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return picture[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
 
 
+def laid(pictures: Sequence[NDArray[np.uint8]]) -> list[NDArray[np.uint8]]:
+    """Pictures as Agg takes them, the lowest row first."""
+    return [one[::-1].copy() for one in pictures]
+
+
 class Labels(Artist):
     """The words of some benches of a dragon, where place() puts them."""
 
-    def __init__(self, axes: Axes, words: dict[int, str], size: float, edge: str = "black") -> None:
+    def __init__(
+        self, axes: Axes, words: dict[int, str], size: float, edge: str = "black", face: str = "white"
+    ) -> None:
         super().__init__()
         self._axes, self._benches = axes, list(words)
-        # Agg takes the lowest row first.
-        pictures = pictures_of(list(words.values()), size, edge, axes.figure.dpi)
-        self._pictures = [one[::-1].copy() for one in pictures]
-        self._places = np.zeros((len(words), 2))
+        self._pictures = laid(pictures_of(list(words.values()), size, edge, axes.figure.dpi, face))
+        self.places = np.zeros((len(words), 2))
 
     def place(self, outlines: Floats) -> None:
         """Put each word on its bench. outlines: (n, 4, 2), the front corners first [m]"""
         own = outlines[self._benches]
         front = own[:, :2].mean(axis=1)
-        self._places = self._axes.transData.transform((1.0 - TO_FRONT) * own.mean(axis=1) + TO_FRONT * front)
+        self.places = self._axes.transData.transform((1.0 - TO_FRONT) * own.mean(axis=1) + TO_FRONT * front)
 
     def draw(self, renderer: Any) -> None:
         context = renderer.new_gc()
-        for (x, y), picture in zip(self._places.tolist(), self._pictures, strict=True):
+        for (x, y), picture in zip(self.places.tolist(), self._pictures, strict=True):
             rows, columns = picture.shape[:2]
             if rows:
                 renderer.draw_image(context, round(x - 0.5 * columns), round(y - 0.5 * rows), picture)
         context.restore()
+
+
+class LabelsBeside(Labels):
+    """The words of marked benches, beside them in black, on the side where the dragon is further away.
+
+    State: that side of each. A word changes it only if the other one is much freer, because it would flicker.
+    """
+
+    def __init__(self, axes: Axes, words: dict[int, str], size: float, widths: Floats) -> None:
+        """widths: of each of these benches in the picture [pixels]"""
+        super().__init__(axes, words, size, "white", "black")
+        self._away, self._changes = 0.5 * widths + BESIDE * size, CHANGES * size
+        halves = [(0.5 * one.shape[1], 0.5 * one.shape[0]) for one in self._pictures]
+        self.halves, self.sides = np.array(halves).reshape(-1, 2), np.zeros(len(words))
+
+    def place(self, outlines: Floats) -> None:
+        if not self._benches:
+            return
+        to_pixels = self._axes.transData.transform
+        middles, own = to_pixels(outlines.mean(axis=1)), outlines[self._benches]
+        along = to_pixels(own[:, :2].mean(axis=1)) - to_pixels(own[:, 2:].mean(axis=1))
+        normals = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
+        aways = (self._away + (np.abs(normals) * self.halves).sum(axis=1))[:, None] * normals
+        for k, bench in enumerate(self._benches):
+            others = np.delete(middles, bench, axis=0)
+            sides = middles[bench] + np.array([[1.0], [-1.0]]) * aways[k]
+            distances = np.sort(np.hypot(*np.moveaxis(others[None] - sides[:, None], -1, 0)), axis=1)[:, :NEAREST]
+            lead = float(np.subtract(*distances.mean(axis=1))) if others.size else 0.0
+            if self.sides[k] == 0.0 or lead * self.sides[k] < -self._changes:
+                self.sides[k] = 1.0 if lead >= 0.0 else -1.0
+            self.places[k] = sides[0 if self.sides[k] > 0.0 else 1]
+
+
+class NameLabels(Labels):
+    """The names of the areas of a venue, in black with the paper around them. lines: see NamePlaces"""
+
+    def __init__(self, axes: Axes, venue: Venue, height: int, lines: Sequence[Floats]) -> None:
+        """height: of the picture [pixels]; the axes show what they will show"""
+        super().__init__(axes, {}, 0.0)
+        names, size = [area.name for area in venue.areas], max(NAME_SHARE * height, NAME_LEAST)
+        self._pictures = laid(pictures_of(names, size, "white", axes.figure.dpi, "black", "normal"))
+        sizes = np.array([one.shape[1::-1] for one in self._pictures], dtype=np.float64)
+        self.places = NamePlaces(venue, lines).middles(axes, sizes)

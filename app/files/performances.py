@@ -97,7 +97,7 @@ def _draw(axes: Axes, performance: Performance, handles: list[Floats], outlines:
             *handles[k][0], marker="o", markersize=8, markerfacecolor="none", markeredgecolor=colour, linestyle="none",
             zorder=3, label=performance.name_of(k),
         )  # fmt: skip
-    draw_venue(axes, performance.venue)
+    draw_venue(axes, performance.venue, handles)
     axes.autoscale_view()
     if 1 < len(performance.parts) <= LEGEND_MOST:
         legend = axes.legend(loc="upper right", fontsize=9, framealpha=0.95)

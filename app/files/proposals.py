@@ -51,8 +51,8 @@ def overview(proposals: Sequence[Proposal], format: str = "png", words: Sequence
 
 def _draw(axes: Axes, proposal: Proposal) -> None:
     dance, report = proposal.dance, proposal.report
-    draw_venue(axes, proposal.venue)
     line = dance.path.position(np.linspace(dance.path.begin, dance.path.end, POINTS))
+    draw_venue(axes, proposal.venue, [line])
     axes.plot(*line.T, color=GREY, linewidth=0.8, zorder=2)
     for part, colour in MOMENTS:
         handles = trajectory(dance, [report.start + part * (report.stop - report.start)]).position[0]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.maps.marks import Marks
-from app.wire.clocks import time_of_day
+from app.wire.clocks import minutes_and_seconds, time_of_day
 from core import Budget, Dance
 from core.motion.places import Passing, handle_places
 from core.people.beats import Music
@@ -53,10 +53,7 @@ class TimeFormat:
         time += self.delay
         if self.start_clock is not None:
             return time_of_day(time, self.start_clock)
-        tenths = round(abs(time) * 10.0)
-        minutes, rest = divmod(tenths, 600)
-        sign = "-" if time < 0.0 and tenths else ""
-        return f"{sign}{minutes}:{rest // 10:02d}.{rest % 10}"
+        return minutes_and_seconds(time)
 
 
 @dataclass(frozen=True, slots=True)

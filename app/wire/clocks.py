@@ -58,6 +58,18 @@ def clock_at_zero(begin_clock: str, begin: float) -> str:
     return f"{seconds // 3600:02d}:{seconds // 60 % 60:02d}:{seconds % 60:02d}{fraction}"
 
 
+def minutes_and_seconds(time: float) -> str:
+    """A time [s] in minutes, seconds and tenths.
+
+    >>> minutes_and_seconds(83.06), minutes_and_seconds(-4.19), minutes_and_seconds(-0.04)
+    ('1:23.1', '-0:04.2', '0:00.0')
+    """
+    tenths = round(abs(time) * 10.0)
+    minutes, rest = divmod(tenths, 600)
+    sign = "-" if time < 0.0 and tenths else ""
+    return f"{sign}{minutes}:{rest // 10:02d}.{rest % 10}"
+
+
 def time_of_day(time: float, start_clock: str) -> str:
     """The time of day at a time of the dance [s], rounded down to the second; after midnight it begins again at 00:00.
 

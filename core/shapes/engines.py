@@ -33,6 +33,8 @@ GROWTH_MOST = 1.01 * ARC_GROWTH
 # Step of the grid for the points of a union, by which a side can move at most [m]; number of polygons that are united
 # between two checks of the budget, and of polygons of a strip that are one ring [1].
 GRID, UNITED, PIECE = 1e-5, 256, 64
+# How near the radius of a circle is to that of the largest one in a polygon, as a share of the polygon's extent [1].
+WIDEST = 0.01
 
 # Rings of each polygon, (points, 2) [m], closed: the outer one counter-clockwise, then the holes, clockwise.
 Polygons = tuple[tuple[Floats, ...], ...]
@@ -246,6 +248,34 @@ def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
 
     within: NDArray[np.bool_] = shapely.contains_xy(shapely.Polygon(rings[0], rings[1:]), points)
     return within
+
+
+def widest_place(
+    rings: Sequence[ArrayLike],
+    others: Sequence[Sequence[ArrayLike]] = (),
+    view: tuple[float, float, float, float] | None = None,
+) -> tuple[float, float, float]:
+    """Middle x, y and radius of the largest circle inside a valid polygon and outside others [m].
+
+    No circle is wider by over twice WIDEST. Of circles that are as wide, it is the one around the centroid, if that is.
+
+    rings: as in polygon_fault(); others: the rings of each; view: left, low, right and top of a box that holds
+        the circle [m]; if others and view leave no ground, they do not count
+    """
+    import shapely
+
+    whole = shapely.Polygon(rings[0], rings[1:])
+    seen = whole if view is None else shapely.intersection(whole, shapely.box(*view))
+    free = shapely.difference(seen, shapely.union_all([shapely.Polygon(one[0], one[1:]) for one in others]))
+    ground = whole if free.area == 0.0 else free
+    left, low, right, high = ground.bounds
+    tolerance = WIDEST * max(right - left, high - low)
+    radius, centroid = shapely.maximum_inscribed_circle(ground, tolerance=tolerance), shapely.centroid(ground)
+    around = float(shapely.distance(centroid, shapely.boundary(ground)))
+    if shapely.contains(ground, centroid) and around >= radius.length - tolerance:
+        return float(centroid.x), float(centroid.y), around
+    (x, y), _ = shapely.get_coordinates(radius).tolist()
+    return x, y, float(radius.length)
 
 
 def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_out: float, budget: Budget) -> Polygons:

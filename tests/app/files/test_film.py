@@ -11,18 +11,23 @@ import av
 import httpx
 import numpy as np
 import pytest
+import shapely
 from PIL import Image, ImageSequence
 
-from app.files.film import DPI, FilmPicture, film
+from app.files.film import DPI, MARKED_LEAST, FilmPicture, film
 from app.files.film_labels import numbered, pictures_of, size_of
 from app.files.film_spec import GIF_TYPE, MP4_TYPE, FilmSpec
 from core import (
+    Area,
     Budget,
     Dance,
     Dragon,
+    Route,
     Spiral,
     TooMuchWork,
     Turn,
+    Venue,
+    Waypoints,
     bench_outlines,
     bench_poses,
     first_contact,
@@ -221,7 +226,11 @@ def test_a_film_counts_bars_and_beats(client: httpx.Client) -> None:
     music = Music([Bars(2, 96.0, 0.6), Bars(2, 132.0, 0.3, beats=3)])
     dance = Dance(Dragon(3), Spiral(), 1.0, music.passages)
     stage = FilmPicture(dance, FilmSpec(0.0, 9.0, music=music), None, "")
-    for instant, words in ((0.0, "bar 1 beat 1  0.00 s"), (5.46, "bar 3 beat 2  5.46 s"), (8.5, "8.50 s")):
+    for instant, words in (
+        (0.0, "bar 1 beat 1  0:00.0 (0.00 s)"),
+        (5.46, "bar 3 beat 2  0:05.5 (5.46 s)"),
+        (8.5, "0:08.5 (8.50 s)"),
+    ):
         stage.frame(instant, bench_outlines(dance.dragon, trajectory(dance, [instant]).position)[0])
         assert stage.time.get_text() == words
     gif = client.post("/films", json={"beats": MARCH, **SMALL}, headers={"Accept": GIF_TYPE}).raise_for_status()
@@ -276,6 +285,72 @@ def test_the_head_and_every_tenth_bench_have_their_numbers() -> None:
 )
 def test_a_small_picture_and_a_long_dragon_have_fewer_numbers(benches: int, spacing: float, step: int) -> None:
     assert list(numbered(benches, spacing, size_of(1080))) == list(range(0, benches, step))
+
+
+YELLOW = (240, 228, 66)
+VILLAGE = Path(__file__).parents[3] / "examples" / "village_square.geojson"
+
+
+def village(height: int = 540, marked: tuple[tuple[int, int], ...] = ((0, 17),)) -> tuple[FilmPicture, Venue]:
+    """A picture of a dragon that winds across the village square, so far away that a bench is two pixels wide."""
+    square, *obstacles = (
+        Area(one["properties"]["name"], tuple(tuple(map(tuple, ring)) for ring in one["geometry"]["coordinates"]))
+        for one in json.loads(VILLAGE.read_bytes())["features"]
+    )
+    venue = Venue(square, obstacles)
+    winding = Waypoints([(-67, -8), (-12, -8), (-3, -9), (6, -8), (10.5, -3), (7, 2.5), (0, 3.5), (-4.5, 7), (-1, 10.5),
+                         (6, 10.5), (12, 15), (12, 62)])  # fmt: skip
+    dance = Dance(Dragon(benches=24), Route([winding], start=50.0))
+    return FilmPicture(dance, FilmSpec(0.0, 119.0, height=height, marked=marked), venue, ""), venue
+
+
+@pytest.mark.parametrize("height", [540, 1080])
+def test_a_marked_bench_is_wide_enough_to_be_seen_and_its_number_beside_it(height: int) -> None:
+    stage, _ = village(height)
+    bench, numbers = 17, stage.layers[0].labels[1]
+    for instant in (0.0, 40.0, 70.0, 90.0, 119.0):
+        outlines = bench_outlines(stage.dance.dragon, trajectory(stage.dance, [instant]).position)[0]
+        picture = stage.frame(instant, outlines)
+        x, y = stage.axes.transData.transform(outlines[bench].mean(axis=0))
+        front, rear = stage.axes.transData.transform(outlines[bench, [0, 2]])
+        yellow = np.argwhere((np.abs(picture[..., :3].astype(int) - YELLOW) < NEAR).all(axis=-1))
+        assert len(yellow) > 0.5 * MARKED_LEAST * height * np.hypot(*(front - rear))
+        assert np.hypot(*(np.median(yellow, axis=0) - (height - y, x))) < 2.0
+        place, (wide, high) = numbers.places[0], 2.0 * numbers.halves[0]
+        assert max(np.abs(place - (x, y)) - (wide / 2, high / 2)) > 2.0  # the box of the number is off the middle
+        assert np.hypot(*(place - (x, y))) < wide + high
+        left, top = round(place[0] - wide / 2), round(height - place[1] - high / 2)
+        digits = picture[top : top + int(high), left : left + int(wide), :3].max(axis=-1) < 60
+        assert digits.sum() > 20
+
+
+def test_a_number_stands_on_the_outer_side_of_a_bend_and_does_not_flicker() -> None:
+    stage, _ = village()
+    numbers, changes, before = stage.layers[0].labels[1], 0, 0.0
+    for instant in np.linspace(0.0, 119.0, 400):
+        outlines = bench_outlines(stage.dance.dragon, trajectory(stage.dance, [instant]).position)[0]
+        numbers.place(outlines)
+        changes, before = changes + (numbers.sides[0] != before), float(numbers.sides[0])
+        middles = stage.axes.transData.transform(outlines[12:23].mean(axis=1))
+        bend = middles.mean(axis=0) - middles[5]  # towards the inner side
+        if np.hypot(*bend) > 10.0:
+            assert (numbers.places[0] - middles[5]) @ bend < 0.0, instant
+    assert 2 <= changes <= 5
+
+
+def test_names_of_areas_stand_where_these_are_wide_and_off_the_path() -> None:
+    stage, venue = village()
+    (names,) = stage.names
+    places = stage.axes.transData.inverted().transform(names.places)
+    of = dict(zip([area.name for area in venue.areas], map(shapely.Point, places), strict=True))
+    polygons = {area.name: shapely.Polygon(area.rings[0], area.rings[1:]) for area in venue.areas}
+    assert polygons["stage"].centroid.distance(of["stage"]) < 0.1
+    free = polygons["square"].difference(shapely.union_all([polygons[name] for name in polygons if name != "square"]))
+    path = shapely.LineString(stage.axes.lines[0].get_xydata())
+    assert free.boundary.union(path).distance(of["square"]) > 3.0  # a street is 6 m wide
+    assert free.contains(of["square"])
+    for name in ("well", "linden tree", "chestnut tree"):  # too small: beside
+        assert 0.0 < polygons[name].distance(of[name]) < 8.0, name
 
 
 def test_marked_benches_stand_out_with_number_and_name(tmp_path: Path) -> None:

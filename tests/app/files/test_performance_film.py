@@ -62,7 +62,7 @@ def test_every_bench_is_drawn_in_the_colour_of_its_dragon() -> None:
             for x, y in stage.axes.transData.transform(own.mean(axis=1)):
                 colour = picture[round(len(picture) - 1 - y), round(x), :3] / 255.0
                 assert colour == pytest.approx(to_rgb(colour_of(k)), abs=0.02)
-    assert stage.time.get_text() == "19:30:20  20.50 s"
+    assert stage.time.get_text() == "19:30:20 (20.50 s)"
 
 
 @pytest.mark.parametrize(
@@ -149,4 +149,4 @@ def test_the_count_names_its_dragon_unless_all_have_the_same_beats() -> None:
     assert counted([EAST, NORTH | own], 14.0) == "dragon 1: bar 5 beat 4"
     assert counted([EAST | own, NORTH | other], 14.0) == "east: bar 6 beat 3"
     assert counted([EAST | own, NORTH | own | {"delay": 0}], 14.0) == "bar 6 beat 3"
-    assert counted([EAST, NORTH], 14.0) == "14.00 s"
+    assert counted([EAST, NORTH], 14.0) == "0:14.0 (14.00 s)"

@@ -10,7 +10,17 @@ import shapely
 from numpy.typing import NDArray
 
 from core.kernels import Budget
-from core.shapes.engines import GRID, GROWTH_MOST, KEPT_DRAGONS, PIECE, Engine, engine_pairs, united
+from core.shapes.engines import (
+    GRID,
+    GROWTH_MOST,
+    KEPT_DRAGONS,
+    PIECE,
+    WIDEST,
+    Engine,
+    engine_pairs,
+    united,
+    widest_place,
+)
 from tests.support.depth import examples
 from tests.support.scenes import unlinked_pairs
 
@@ -110,3 +120,36 @@ def test_a_strip_covers_what_its_polygons_cover(wave: str, corners: int, cells: 
     assert result.covers(own)
     border = shapely.points(shapely.get_coordinates(shapely.segmentize(result.boundary, 0.01)))
     assert shapely.distance(own, border).max() <= GROWTH_MOST * 1e-3 + GRID
+
+
+SQUARE = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.0)]
+STREET = [(0.0, 0.0), (50.0, 0.0), (50.0, 4.0), (10.0, 4.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.0)]
+HALL = [(0.0, 0.0), (30.0, 0.0), (30.0, 10.0), (0.0, 10.0), (0.0, 0.0)]
+
+
+@pytest.mark.parametrize(
+    ("rings", "others", "middle", "radius"),
+    [
+        pytest.param([SQUARE], [], (5.0, 5.0), 5.0, id="a-square"),
+        pytest.param([HALL], [], (15.0, 5.0), 5.0, id="as-wide-everywhere-so-around-the-centroid"),
+        pytest.param([STREET], [], (5.0, 5.0), 5.0, id="the-wide-end-and-not-the-long-street"),
+        pytest.param([SQUARE], [[SQUARE]], (5.0, 5.0), 5.0, id="all-covered"),
+        pytest.param([HALL], [[SQUARE], [[(x + 10.0, y) for x, y in SQUARE]]], (25.0, 5.0), 5.0, id="beside-others"),
+    ],
+)
+def test_the_widest_place_is_the_middle_of_the_largest_circle(
+    rings: list[list[tuple[float, float]]],
+    others: list[list[list[tuple[float, float]]]],
+    middle: tuple[float, float],
+    radius: float,
+) -> None:
+    x, y, wide = widest_place(rings, others)
+    extent = max(max(column) - min(column) for column in zip(*rings[0], strict=True))
+    assert (x, y) == pytest.approx(middle, abs=2.0 * WIDEST * extent)
+    assert radius - 2.0 * WIDEST * extent <= wide <= radius + 1e-9
+    assert shapely.Polygon(rings[0], rings[1:]).boundary.distance(shapely.Point(x, y)) == pytest.approx(wide)
+
+
+def test_the_widest_place_is_in_the_view_if_the_view_shows_some_of_the_polygon() -> None:
+    assert widest_place([STREET], view=(20.0, -5.0, 40.0, 50.0))[:2] == pytest.approx((30.0, 2.0), abs=1.0)
+    assert widest_place([STREET], view=(60.0, -5.0, 90.0, 50.0)) == widest_place([STREET])
