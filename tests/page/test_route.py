@@ -360,7 +360,7 @@ def test_the_whole_dance_is_in_the_address_or_in_a_file_and_opens_again(visit: A
 
 
 def test_a_map_of_a_survey_grid_keeps_it_in_the_address_and_in_files(visit: Any, tmp_path: Path) -> None:
-    page = visit()
+    page = visit("?path=route")
     corners = [[499_950, 3_219_950], [500_050, 3_219_950], [500_050, 3_220_050], [499_950, 3_220_050]]
     square = {"type": "Polygon", "coordinates": [[*corners, corners[0]]]}
     line = {"type": "LineString", "coordinates": [[499_960, 3_220_000], [500_040, 3_219_990]]}
@@ -377,7 +377,7 @@ def test_a_map_of_a_survey_grid_keeps_it_in_the_address_and_in_files(visit: Any,
 
 
 def test_a_table_of_a_chinese_spreadsheet_is_opened_and_so_is_a_workbook(visit: Any, tmp_path: Path) -> None:
-    page = visit(failing=True)
+    page = visit("?path=route", failing=True)
     (tmp_path / "benches.csv").write_bytes("周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n".encode("gb18030"))
     page.locator("#open-file").set_input_files(tmp_path / "benches.csv")
     page.locator("#one-by-one summary", has_text="2").wait_for()
