@@ -108,7 +108,7 @@ class _Commands(Commands):
             one.help = escape(one.help or "")  # A unit such as [m] must not be read as a style of rich.
             for parameter in one.params:
                 parameter.help = escape(parameter.help or "")
-                explain_values(parameter)
+            explain_values(one)
         return command
 
     def invoke(self, ctx: Any) -> Any:

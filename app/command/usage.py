@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 import re
-from copy import copy
+from enum import EnumType
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
 from typer.core import TyperGroup
@@ -31,19 +32,36 @@ class Commands(TyperGroup):
         return super().resolve_command(ctx, args)
 
 
-def explain_values(parameter: Any) -> None:
-    """Let an option or argument say in the service's words which values it takes."""
-    kind = copy(parameter.type)  # one object for all options of a type
-    convert = kind.convert
+# typer's types of values are its own and change from version to version. So what a value must be is read from the
+# annotation, and only the one method that converts a value is replaced.
+def explain_values(command: Any) -> None:
+    """Let the options and arguments of a command say in the service's words which values they take."""
+    annotations = inspect.signature(command.callback, eval_str=True).parameters if command.callback else {}
+    for parameter in command.params:
+        if parameter.name in annotations:
+            _explain(parameter, *_taken(annotations[parameter.name].annotation))
 
-    def convert_or_explain(value: Any, *context: Any) -> Any:
+
+def _explain(parameter: Any, kind: Any, declared: Any) -> None:
+    convert = parameter.process_value
+
+    def convert_or_explain(context: Any, value: Any) -> Any:
         try:
-            return convert(value, *context)
+            return convert(context, value)
         except typer.BadParameter as error:
-            raise ExplainedMistake(_value_message(parameter, str(value))) from error
+            if type(error) is not typer.BadParameter:  # one that is missing
+                raise
+            raise ExplainedMistake(_value_message(parameter, kind, declared, str(value))) from error
 
-    kind.convert = convert_or_explain
-    parameter.type = kind
+    parameter.process_value = convert_or_explain
+
+
+def _taken(annotation: Any) -> tuple[Any, Any]:
+    """Type of the values that an option or argument takes, and what its annotation declares beside."""
+    kind, *declared = get_args(annotation) if get_origin(annotation) is Annotated else [annotation]
+    while get_origin(kind) not in (None, Literal):
+        kind = next(one for one in get_args(kind) if one is not type(None))
+    return kind, declared[0] if declared else None
 
 
 def message_of(error: Any) -> str:
@@ -82,15 +100,16 @@ def _name(parameter: Any) -> str:
     return str((parameter.metavar or parameter.name.upper()) if argument else parameter.opts[0])
 
 
-def _value_message(parameter: Any, value: str) -> str:
-    """Message for a value that an option or argument cannot take."""
-    name, kind = _name(parameter), parameter.type
-    if kind.name == path.__name__:
+def _value_message(parameter: Any, kind: Any, declared: Any, value: str) -> str:
+    """Message for a value that an option or argument cannot take. kind, declared: see _taken()"""
+    name = _name(parameter)
+    if getattr(declared, "parser", None) is path:
         return f"{name} {EMPTY}"
-    if getattr(kind, "choices", None):
-        *most, last = [str(getattr(choice, "value", choice)) for choice in kind.choices]
+    choices = get_args(kind) if get_origin(kind) is Literal else list(kind) if isinstance(kind, EnumType) else []
+    if choices:
+        *most, last = [str(getattr(choice, "value", choice)) for choice in choices]
         return f"{name} must be {', '.join(most)} or {last}, got {value}"
-    if hasattr(kind, "min") and re.fullmatch(r"[-+]?\d+", value):
-        return f"{name} must be from {kind.min} to {kind.max}, got {value}"
-    wrong = {"type": "int_parsing" if "int" in kind.name else "float_parsing", "input": value}
+    if getattr(declared, "min", None) is not None and re.fullmatch(r"[-+]?\d+", value):
+        return f"{name} must be from {declared.min} to {declared.max}, got {value}"
+    wrong = {"type": "int_parsing" if kind is int else "float_parsing", "input": value}
     return fault_of({**wrong, "loc": ("query", parameter.name)}, None).with_field(name).message
