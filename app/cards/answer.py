@@ -43,8 +43,12 @@ class Meeting(Answer):
     bench: int = Field(description="The other bench; 0 is the head")
     name: str = Field(description="Its name; empty without one")
     side: facts.Side = Field(description="Side on which it is, seen in the direction of the front handle")
-    gap: float = measure("m", "Gap of the two benches then, edge to edge; below zero: minus the depth of the overlap")
-    oncoming: bool = Field(description="True if it comes towards the own bench; false if it walks the same way")
+    gap: float = measure(
+        "m",
+        "Gap of the two benches then, edge to edge; at another moment it may be less; below zero: minus the depth of "
+        "the overlap",
+    )
+    oncoming: bool = Field(description="True if it points the other way than the own bench; false if the same way")
     x: float = measure("m", "x of the own middle then")
     y: float = measure("m", "y of the own middle then")
 
@@ -94,9 +98,7 @@ class CueCard(Answer):
     direction: float = measure("rad", "Direction in which its front handle begins to walk, from the x axis")
     cues: list[Cue] = Field(description=f"At most {CUES_MOST} cues in order of time, as on the card")
     left_out: int = Field(description="Cues that have no place on the card")
-    least_left_out: float | None = measure(
-        "m", "Least gap of all meetings left out, so nobody passes nearer without being on the card; null: none is"
-    )
+    least_left_out: float | None = measure("m", "Least gap of all meetings left out, each at its moment; null: none is")
     meetings: list[Meeting] = Field(description="All meetings within the reach, in order of time")
     fastest: Fastest = Field(description="When it is fastest")
     done: Stand = Field(description="When and where it stops for good")

@@ -17,12 +17,13 @@ from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.patches import Circle
 
 from app.cards.words import CardWords
-from app.files.drawing import in_turn, with_square
+from app.files.drawing import in_turn
 from app.maps.marks import line_of
 from app.plan.sheet import PAPERS, POINT, Box, Paper, Sheet, north_arrow
 from core import Budget, Dance, Venue
 from core.people.cards import Card
 from core.plots import BLUE, VERMILION
+from core.shapes.engines import widest_place
 from core.values import Floats
 
 # Type 42 puts the outlines of TrueType fonts into the file, so that every machine and printer draws them alike.
@@ -34,13 +35,17 @@ CUT = 6.0
 # Sizes of type: of the bench's number, of where it stands, of times, sentences, neighbours and small print [pt].
 BENCH_TYPE, STAND_TYPE, TIME_TYPE, WORDS_TYPE, NEAR_TYPE, SMALL_TYPE = 26.0, 12.0, 12.0, 11.0, 10.0, 5.5
 # Height of a line of a sentence, space between two cues, and distance of sentences from the left edge [mm].
-LINE, BETWEEN, INDENT = 4.9, 1.4, 27.0
+LINE, BETWEEN, INDENT = 4.9, 1.4, 24.0
 # Least height of the picture, and the space between the picture and its frame [mm].
-PICTURE, INSIDE = 24.0, 4.0
+PICTURE, INSIDE = 24.0, 2.0
+# Ground around the way of a bench in the picture [m], and the type of the names of obstacles [pt].
+AROUND, NAME_TYPE = 1.5, 6.5
 # The blank between a number and its unit, at which no line may break.
 UNIT_BLANK = re.compile(r"(?<=\d) (?=[ms]\b|%)")
 # Radius of the circle with the number of a moment, and distances from its place that are tried for it, in order [mm].
-MOMENT, AWAY = 1.9, (4.0, 6.5, 9.0)
+MOMENT, AWAY = 1.9, (4.0, 6.5, 9.0, 12.0)
+# Space between the way and the circle of a moment, where there is room [mm].
+BESIDE = 0.9
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +63,28 @@ class CardSheets:
     verdict: str
     family: tuple[str, ...]
     budget: Budget
+
+
+@dataclass(frozen=True, slots=True)
+class _AreaName:
+    """The name of an obstacle in the picture: the middle and the radius of the largest circle in it, half the width of
+    the name [mm]."""
+
+    name: str
+    x: float
+    y: float
+    wide: float
+    radius: float
+
+    @property
+    def fits(self) -> bool:
+        """True if the name stands inside."""
+        return self.wide <= self.radius
+
+    @property
+    def line(self) -> Floats:
+        """Points along the name inside."""
+        return np.array([(self.x + part * self.wide, self.y) for part in (-1.0, -0.5, 0.0, 0.5, 1.0)])
 
 
 def cards_pdf(decks: Sequence[CardSheets], progress: Callable[[float], None] = lambda share: None) -> bytes:
@@ -122,7 +149,8 @@ def _draw_card(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
     y -= 2.6
     sheet.line([(left, y), (right, y)], linewidth=0.6)
     y = _draw_cues(sheet, sheets, card, (left, bottom, right, y))
-    notes = [words.left_out(card), sheets.verdict]
+    marks = say("Chalk marks name the metres along the path.", "粉笔标记为沿路径的米数。")
+    notes = [note for note in (marks, words.distances(card), words.left_out(card), sheets.verdict) if note]
     for k, note in enumerate(reversed(notes)):
         sheet.words(left, bottom + 2.6 * k, note, SMALL_TYPE, within=right - left, color="#444444")
     _draw_track(sheet, sheets, card, (left, bottom + 2.6 * len(notes) + 1.0, right, y))
@@ -192,7 +220,7 @@ def _draw_track(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
     left, bottom, right, top = box
     dance, bench, venue = sheets.dance, card.bench, sheets.venue
     line = line_of(dance.path, bench.start.s, max(bench.done.s, bench.start.s + 0.1))
-    low, high = with_square(venue, line.min(axis=0), line.max(axis=0))
+    low, high = line.min(axis=0) - AROUND, line.max(axis=0) + AROUND
     unit = min(
         (right - left - 2 * INSIDE) / max(high[0] - low[0], 1.0),
         (top - bottom - 2 * INSIDE) / max(high[1] - low[1], 1.0),
@@ -217,26 +245,56 @@ def _draw_track(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
     sheet.line(track, frame, color=BLUE, linewidth=1.2, zorder=4)
     _draw_arrows(sheet, track, frame)
     taken: list[Floats] = [arrow + np.array([0.0, up]) for up in (3.0, 9.0)]
+    names = _names_of(sheet, venue, on_card, box)
+    kept_free = np.concatenate([track, *(one.line for one in names if one.fits)])
     for number, cue in enumerate(card.cues, start=1):
         at = on_card((cue.x, cue.y))
         sheet.axes.plot(*at, marker="o", markersize=2.6, color=VERMILION, zorder=7)
-        place = _free(at, taken, box)
+        place = _free(at, taken, box, kept_free)
         taken.append(place)
         if place is not at:
             sheet.line([at, place], linewidth=0.4, color=VERMILION, zorder=6)
         _draw_number(sheet, number, (float(place[0]), float(place[1])))
+    _write_names(sheet, names, track, taken, box)
 
 
-def _free(at: Floats, taken: Sequence[Floats], box: Box) -> Floats:
-    """A place in the box and near a point for a number that covers no other one; the point itself if there is none."""
+def _names_of(sheet: Sheet, venue: Venue | None, on_card: Callable[[Any], Floats], box: Box) -> list[_AreaName]:
+    """The names of the obstacles in the picture."""
+    (left, bottom, right, top), names = box, list[_AreaName]()
+    for area in venue.areas[1:] if venue else ():
+        x, y, radius = widest_place(area.rings)
+        (x, y), (edge, _) = on_card((x, y)).tolist(), on_card((x + radius, y)).tolist()
+        if left < x < right and bottom < y < top:
+            wide = 0.5 * sheet.width(area.name, NAME_TYPE) + 0.3
+            names.append(_AreaName(area.name, x, y, wide, edge - x))
+    return names
+
+
+def _write_names(sheet: Sheet, names: Sequence[_AreaName], track: Floats, taken: Sequence[Floats], box: Box) -> None:
+    """Write names in their obstacles, or beside small ones where neither the way nor a number is."""
+    sheet.take(np.concatenate([track - 0.4, track + 0.4], axis=1))
+    badges = np.array(taken)
+    sheet.take(np.concatenate([badges - MOMENT, badges + MOMENT], axis=1))
+    for one in names:
+        away = one.radius + one.wide + 0.5
+        beside = [(one.x + away, one.y), (one.x - away, one.y)]
+        sheet.label(one.name, NAME_TYPE, [(one.x, one.y)] if one.fits else beside, box, color="#555555")
+
+
+def _free(at: Floats, taken: Sequence[Floats], box: Box, kept_free: Floats) -> Floats:
+    """A place in the box and near a point for a number that covers no other one, and none of the points to keep free if
+    that can be; the point itself if there is none."""
     low, high = np.array(box[:2]) + MOMENT, np.array(box[2:]) - MOMENT
+    on_way: Floats | None = None
     for away in AWAY:
         for angle in np.linspace(0.25 * np.pi, 2.25 * np.pi, 16, endpoint=False):
             place: Floats = at + away * np.array([np.cos(angle), np.sin(angle)])
             inside = bool((place >= low).all() and (place <= high).all())
             if inside and all(np.hypot(*(place - one)) > 2.0 * MOMENT + 0.3 for one in taken):
-                return place
-    return at
+                if np.hypot(*(kept_free - place).T).min() > MOMENT + BESIDE:
+                    return place
+                on_way = place if on_way is None else on_way
+    return at if on_way is None else on_way
 
 
 def _draw_arrows(sheet: Sheet, track: Floats, frame: Any) -> None:

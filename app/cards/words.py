@@ -19,6 +19,12 @@ COMPASS = (
     ("south-west", "西南"), ("west", "西"), ("north-west", "西北"),
 )  # fmt: skip
 
+# Directions on a plan, from the x axis counter-clockwise.
+ON_PLAN = (
+    ("to the right", "向右"), ("up and to the right", "向右上"), ("up", "向上"), ("up and to the left", "向左上"),
+    ("to the left", "向左"), ("down and to the left", "向左下"), ("down", "向下"), ("down and to the right", "向右下"),
+)  # fmt: skip
+
 
 def runs(numbers: Iterable[int]) -> str:
     """Numbers in short, in rising order.
@@ -96,13 +102,13 @@ class CardWords:
         >>> from app.files.tables import Language
         >>> words = CardWords(Say(Language.ENGLISH), ("", "Li"), TimeFormat(), Chalk(0.0, 5.0, 0.75), False)
         >>> words.name(0), words.name(1), words.direction(0.0)
-        ('0 (head)', '1 Li', '0° from the x axis')
+        ('0 (head)', '1 Li', 'to the right on the plan (0°)')
         """
         own = self.names[bench] if self.names else ""
         return f"{bench} {own}" if own else self.say("0 (head)", "0（龙头）") if bench == 0 else str(bench)
 
     def direction(self, angle: float) -> str:
-        """A direction [rad]: a point of the compass, or degrees from the x axis, counter-clockwise."""
+        """A direction [rad]: a point of the compass, or how it is on the plan, with degrees from its x axis."""
         degrees = math.degrees(angle)
         if self.geographic:
             bearing = (90.0 - degrees) % 360.0
@@ -110,7 +116,8 @@ class CardWords:
             number = round(bearing) % 360
             return self.say(f"{english} ({number:03d}°)", f"{chinese}（方位 {number:03d}°）")
         number = round(degrees) % 360
-        return self.say(f"{number}° from the x axis", f"与 x 轴夹角 {number}°")
+        english, chinese = ON_PLAN[round(degrees / 45.0) % len(ON_PLAN)]
+        return self.say(f"{english} on the plan ({number}°)", f"图上{chinese}（{number}°）")
 
     def at_mark(self, stand: Stand) -> str:
         """A place as whole steps from the nearest chalk mark."""
@@ -118,11 +125,11 @@ class CardWords:
         mark = mark_name(place)
         steps = self.chalk.steps(past)
         if steps == 0:
-            return self.say(f"at mark {mark}", f"在标记 {mark}")
+            return self.say(f"at chalk mark {mark} m", f"在粉笔标记 {mark} m")
         unit = "step" if abs(steps) == 1 else "steps"
         where, side = ("past", "过") if steps > 0 else ("before", "前")
-        chinese = f"标记 {mark} {side} {abs(steps)} 步"
-        return self.say(f"{abs(steps)} {unit} {where} mark {mark}", chinese)
+        chinese = f"粉笔标记 {mark} m {side} {abs(steps)} 步"
+        return self.say(f"{abs(steps)} {unit} {where} chalk mark {mark} m", chinese)
 
     def sentence(self, card: Card, cue: Cue) -> str:
         """A cue in one sentence, without its time."""
@@ -130,15 +137,15 @@ class CardWords:
         match cue.kind:
             case CueKind.BEGIN:
                 to = self.direction(bench.direction)
-                return say(f"Walk. Direction: {to}.", f"起步，方向：{to}。")
+                return say(f"Walk {to}.", f"起步，方向：{to}。")
             case CueKind.PAUSE:
                 long, end = f"{cue.until - cue.since:.0f}", self.clock.words(cue.until)
                 return say(f"Stand still until {end} ({long} s).", f"停下，至 {end}（{long} 秒）。")
             case CueKind.FASTEST:
-                speed, more = bench.fastest.speed, 100.0 * (bench.fastest.speed / bench.head_speed - 1.0)
+                speed, head = bench.fastest.speed, bench.head_speed
                 return say(
-                    f"Fastest: {speed:.2f} m/s, {more:.0f} % more than the head at the beginning.",
-                    f"最快：{speed:.2f} m/s，比龙头起步时快 {more:.0f} %。",
+                    f"Fastest: {speed:.2f} m/s (the head begins with {head:.2f} m/s).",
+                    f"最快：{speed:.2f} m/s（龙头起步时 {head:.2f} m/s）。",
                 )
             case CueKind.DONE:
                 return say(f"Stop, {self.at_mark(bench.done)}. Done.", f"停，{self.at_mark(bench.done)}。结束。")
@@ -150,36 +157,45 @@ class CardWords:
         if nearest.gap < 0.0:
             gap = say(f"overlapping by {-nearest.gap:.2f} m", f"重叠 {-nearest.gap:.2f} m")
         left = nearest.side is Side.LEFT
-        side = say(f"on your {'left' if left else 'right'}", f"在{'左' if left else '右'}侧")
-        how = say("comes towards you", "迎面而来") if nearest.oncoming else say("walks your way", "同向而行")
+        side = say(f"straight on your {'left' if left else 'right'}", f"在正{'左' if left else '右'}方")
+        how = say("It goes the other way", "反向") if nearest.oncoming else say("It goes your way", "同向")
         who = self._met_bench(nearest)
         if len(cue.meetings) == 1:
-            return say(f"{who} {how} {side}, {gap}.", f"{who}{side}{how}，距 {gap}。")
+            return say(f"{who} {side}, {gap}. {how}.", f"{who}{side}，距 {gap}，与你{how}。")
         met = {one.bench for one in cue.meetings}
         since, until = self.clock.words(cue.since), self.clock.words(cue.until)
         if len(met) == 1:
             times = len(cue.meetings)
             return say(
-                f"{who} {how} {side}, {gap} at the nearest of {times} times from {since} to {until}.",
-                f"{who}{side}{how}，{since} 至 {until} 共 {times} 次，最近 {gap}。",
+                f"{who} {side}, {gap} at the nearest of {times} times from {since} to {until}. {how}.",
+                f"{who}{side}，{since} 至 {until} 共 {times} 次，最近 {gap}，与你{how}。",
             )
-        hows = "come towards you" if nearest.oncoming else "walk your way"
+        hows = "pass you the other way" if nearest.oncoming else "walk your way"
         return say(
             f"{who} {side}, {gap}: the nearest of {len(met)} benches ({runs(met)}) that {hows} from {since} to "
             f"{until}.",
-            f"{who}{side}，距 {gap}：{since} 至 {until} {how}的 {len(met)} 节（{runs(met)}）中最近。",
+            f"{who}{side}，距 {gap}：{since} 至 {until} 与你{how}经过的 {len(met)} 节（{runs(met)}）中最近。",
         )
 
     def left_out(self, card: Card) -> str:
-        """What has no place on the card."""
+        """What has no place on the card; empty if all has one."""
         say, pauses = self.say, sum(cue.kind is CueKind.PAUSE for cue in card.left_out)
         met = sum(len(cue.meetings) for cue in card.left_out)
         parts = []
         if met and card.least_left_out is not None:
             words = f"{card.least_left_out:.2f} m"
             plural = "meeting" if met == 1 else "meetings"
-            parts.append(say(f"{met} {plural}, none nearer than {words}", f"{met} 次相遇（均不近于 {words}）"))
+            parts.append(say(f"{met} {plural}, none nearer than {words} then", f"{met} 次相遇（当时均不近于 {words}）"))
         if pauses:
             parts.append(say(f"{pauses} shorter pause{'s' * (pauses > 1)}", f"{pauses} 次较短停顿"))
-        kept = say("Left out: ", "未列：")
-        return kept + say("; ", "；").join(parts) if parts else say("Nothing is left out.", "无省略。")
+        return say("Not on this card: ", "本卡未列：") + say("; ", "；").join(parts) + say(".", "。") if parts else ""
+
+    def distances(self, card: Card) -> str:
+        """What the distances of meetings mean; empty on a card without any."""
+        if not any(cue.nearest for cue in (*card.cues, *card.left_out)):
+            return ""
+        return self.say(
+            "Distances are from edge to edge when the other bench is straight to your side; before and after it may be "
+            "nearer.",
+            "距离是对方在你正侧方时两凳边到边的距离，此前此后可能更近。",
+        )

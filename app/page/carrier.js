@@ -28,6 +28,12 @@ function minutesAndSeconds(seconds) {
   return hours ? `${hours}:${digits(minutes)}:${digits(whole % 60)}` : `${minutes}:${digits(whole % 60)}`;
 }
 
+/** A time of the dance [s] as on the card and in the film: 1:23.1 */
+function cardTime(time) {
+  const tenths = Math.round(Math.abs(time) * 10);
+  return `${time < 0 && tenths ? "-" : ""}${Math.floor(tenths / 600)}:${digits(Math.floor((tenths % 600) / 10))}.${tenths % 10}`;
+}
+
 /** The time of day now, with the seconds. */
 const clockNow = (date = new Date()) => [date.getHours(), date.getMinutes(), date.getSeconds()].map(digits).join(":");
 
@@ -245,10 +251,10 @@ export class Carrier {
     this.#showTime();
   }
 
-  /** Time of a cue: of day, or since the beginning. */
+  /** Time of a cue as on the card: of day, or of the dance. */
   #timeOf(time) {
-    const { begin, clock } = this.#span;
-    return clock ? timeOfDay(time, clock) : minutesAndSeconds(time - begin);
+    const { clock } = this.#span;
+    return clock ? timeOfDay(time, clock) : cardTime(time);
   }
 
   /** What stands on the card. */
@@ -279,7 +285,8 @@ export class Carrier {
     const cards = Object.keys(this.#cards).length === LANGUAGES.length;
     const isLarge = this.#track?.cells > HELD_MOST;
     const held = cards && isWhole ? "cardHeld" : cards && isLarge ? "cardPart" : "cardLoading";
-    const words = [this.#network ? held : "cardOffline", this.#lock ? "cardAwake" : "cardAsleep"];
+    const distances = this.#card?.cues.some(({ nearest }) => nearest) ? ["cardDistances"] : [];
+    const words = [...distances, this.#network ? held : "cardOffline", this.#lock ? "cardAwake" : "cardAsleep"];
     this.note.textContent = words.map((key) => say(key)).join(" ");
     this.box.dataset.held = String(held === "cardHeld");
     this.box.dataset.awake = String(Boolean(this.#lock));
@@ -302,7 +309,7 @@ export class Carrier {
       $("#stage").setAttribute("aria-busy", "false");
     }
     const isGoing = this.#began !== null;
-    put(this.clock, dance.clock ? clockNow() : isGoing ? minutesAndSeconds(Math.max(Math.floor(time - begin), 0)) : "");
+    put(this.clock, dance.clock ? clockNow() : isGoing ? cardTime(Math.floor(Math.max(time, begin))).slice(0, -2) : "");
     hide(this.start, isGoing);
     for (const one of [...this.corrections, this.again]) hide(one, !isGoing);
     const cues = this.#card?.cues ?? [];

@@ -82,9 +82,47 @@ function label(pen, view, text, /** @type {number[]} */ [x, y], colour, colours,
   context.restore();
 }
 
-/** Place of a thing's name: its middle, or the first corner of an area. */
+/** Cells of a grid along each side. */
+const GRID = 24;
+/** Middles of the widest places of areas, by their points. @type {WeakMap<number[][], number[]>} */
+const WIDEST = new WeakMap();
+
+/** The middle of the largest circle inside an area, of those around the points of a grid that becomes finer. */
+function widest(/** @type {number[][]} */ points) {
+  const known = WIDEST.get(points);
+  if (known) return known;
+  const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
+  let [low, step, best, room] = [[Math.min(...xs), Math.min(...ys)], [0, 0], points[0], 0];
+  step = [(Math.max(...xs) - low[0]) / GRID, (Math.max(...ys) - low[1]) / GRID];
+  for (let round = 0; round < 3; round++) {
+    for (let i = 0; i <= GRID; i++)
+      for (let j = 0; j <= GRID; j++) {
+        const at = [low[0] + i * step[0], low[1] + j * step[1]];
+        const free = roomAround(points, at);
+        if (free > room) [room, best] = [free, at];
+      }
+    low = best.map((middle, k) => middle - step[k]);
+    step = step.map((one) => (2 * one) / GRID);
+  }
+  WIDEST.set(points, best);
+  return best;
+}
+
+/** Distance of a point inside an area to its edge; 0 outside [m]. */
+function roomAround(/** @type {number[][]} */ points, /** @type {number[]} */ [x, y]) {
+  let [inside, least] = [false, Infinity];
+  for (const [k, [ax, ay]] of points.entries()) {
+    const [bx, by] = points[(k + 1) % points.length];
+    if (ay > y !== by > y && x < ax + ((bx - ax) * (y - ay)) / (by - ay)) inside = !inside;
+    const along = Math.min(Math.max(((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2 || 1), 0), 1);
+    least = Math.min(least, Math.hypot(ax + along * (bx - ax) - x, ay + along * (by - ay) - y));
+  }
+  return inside ? least : 0;
+}
+
+/** Place of a thing's name: its middle, or where an area is widest. */
 function labelPlace({ kind, points }) {
-  if (kind === "area") return points[0];
+  if (kind === "area") return points.length > 2 ? widest(points) : points[0];
   const [x, y] = points.reduce(([a, b], [c, d]) => [a + c, b + d], [0, 0]);
   return [x / points.length, y / points.length];
 }

@@ -136,7 +136,8 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     report = core.performance_check(
         performance, start=start, stop=request.stop, details=False, budget=terms.budget, **limits
     )
-    verdict = verdict_words(report, TimeFormat(start_clock).words, say)
+    in_words = TimeFormat(start_clock).words
+    verdict = verdict_words(report, in_words, say) if report.failures else _passed(request, place, say)
     dances = [(performance.parts[k].dance, names[k]) for k in chosen]
     sheets = _sheets(request, place, list(zip(dances, decks, strict=True)), verdict, terms)
     return _drawn_together(performance, sheets, terms)
@@ -179,7 +180,25 @@ def _verdict(request: CuesRequest, dance: Dance, place: Place, words: CardWords,
     if dance.dragon.benches > terms.settings.checked_benches_max:
         return words.say("Not checked: the dragon is too long", "未检查：板凳过多")
     start = dance.span(request.start, request.stop)[0]
-    return verdict_words(verdict_of(request, dance, place.venue, start, terms), words.clock.words, words.say)
+    report = verdict_of(request, dance, place.venue, start, terms)
+    if report.failures:
+        return verdict_words(report, words.clock.words, words.say)
+    return _passed(request, place, words.say)
+
+
+def _passed(request: CuesRequest, place: Place, say: Say) -> str:
+    """What the check of a dance that passes found."""
+    margin = request.margin
+    english, chinese = ("", "") if margin == 0.0 else (f" ({margin:g} m kept clear)", f"（均留 {margin:g} m）")
+    if place.venue is None:
+        return say(
+            f"The whole dance was checked: nobody touches another bench{english}.",
+            f"整场舞龙已检查：板凳互不相碰{chinese}。",
+        )
+    return say(
+        f"The whole dance was checked: nobody touches another bench, an obstacle or the edge of the square{english}.",
+        f"整场舞龙已检查：板凳互不相碰，也不碰障碍物和场地边界{chinese}。",
+    )
 
 
 def _sheets(

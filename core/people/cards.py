@@ -65,7 +65,7 @@ class Card(Readable):
 
     @property
     def least_left_out(self) -> float | None:
-        """Least gap of all meetings left out [m], None if none is: nobody passes nearer without being on the card."""
+        """Least gap of all meetings left out, each at its moment [m], None if none is."""
         return min((cue.nearest.gap for cue in self.left_out if cue.nearest), default=None)
 
 

@@ -202,7 +202,7 @@ def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(client: httpx.C
         for cue in card["cues"]:
             assert cue["clock"] in text
             assert cue["words"].replace(" ", "") in text.replace(" ", "")
-        assert "Checked: passes" in text
+        assert "The whole dance was checked: nobody touches another bench" in text
         assert "Lantern night" in text
     fonts = [one.get_font() for page in pages for one in page.get_objects(filter=[pdfium.FPDF_PAGEOBJ_TEXT])]
     assert fonts
@@ -227,7 +227,8 @@ def test_chinese_cards_are_the_same_from_a_terminal(client: httpx.Client, body: 
         assert (tmp_path / name).read_bytes() == answer_of(client, request, accept)
     data = (tmp_path / "cues.pdf").read_bytes()
     text = "".join(pypdfium2.PdfDocument(data)[0].get_textpage().get_text_bounded().split())
-    for words in ("前：无后：1Wang", "起步，方向：与x轴夹角0°。", "停下，至19:45:50（16秒）。", "元宵", "检查：通过"):
+    cues = "前：无后：1Wang", "起步，方向：图上向右（0°）。", "停下，至19:45:50（16秒）。"
+    for words in (*cues, "元宵", "整场舞龙已检查：板凳互不相碰"):
         assert words in text
 
 
@@ -334,7 +335,7 @@ def test_cards_of_several_are_those_of_core(client: httpx.Client) -> None:
         assert nearest
         assert all(near["dragon"] != card["dragon"] for near in nearest)
     met = next(cue for cue in cards[4]["cues"] if cue["kind"] == "meeting")
-    assert re.match(r"Bench \d (Zhou|Wu|Wang)? ?of east on your left, 1\.70 m: the nearest of ", met["words"])
+    assert re.match(r"Bench \d (Zhou|Wu|Wang)? ?of east straight on your left, 1\.70 m: the nearest of ", met["words"])
     assert met["nearest"]["name"] == ["Zhou", "Wu", "", "Wang"][met["nearest"]["bench"]]
     assert met["clock"].startswith("19:45:")
     chinese = client.post("/cues", json=TWO | {"language": "zh"}).raise_for_status().json()["cards"]
@@ -374,7 +375,7 @@ def test_csv_and_paper_of_several_name_the_dragon(client: httpx.Client, tmp_path
     sheets = [page.get_textpage().get_text_bounded() for page in pypdfium2.PdfDocument(paper)]
     assert ["Lantern night: east" in sheet for sheet in sheets] == [True, False]
     assert "Lantern night: dragon 1" in sheets[1]
-    assert all("Checked: passes" in sheet for sheet in sheets)
+    assert all("The whole dance was checked: nobody touches another bench" in sheet for sheet in sheets)
     assert "of east" in sheets[1]
 
 

@@ -333,7 +333,7 @@ def test_the_cues_are_those_that_the_rule_chooses_and_the_paper_has_them(cards: 
             assert cue["clock"] == clock(cue["time"])
             assert "".join(cue["words"].split()) in text
             if near := cue["nearest"]:
-                assert re.search(rf"on your {near['side']}, {near['gap']:.2f} m\b", cue["words"])
+                assert re.search(rf"straight on your {near['side']}, {near['gap']:.2f} m\b", cue["words"])
                 # One bench that comes abreast again and again is not several.
                 several, times = len(set(cue["others"])), len(cue["others"])
                 assert (f"the nearest of {several} benches" in cue["words"]) == (several > 1)
