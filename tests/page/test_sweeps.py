@@ -15,7 +15,7 @@ from app.sweeps.questions import question_of
 from tests.support import polite
 from tests.support.axe import findings
 from tests.support.job_service import SHORT, JobService, wait_for
-from tests.support.pending import reached, settled, with_below
+from tests.support.pending import reached, with_below
 
 PHONE = {"width": 390, "height": 844}
 WIDE = {"width": 1440, "height": 900}
