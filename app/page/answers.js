@@ -107,7 +107,7 @@ function certificateWords({ outcome, certificate: { steps, clear_until: until } 
   return outcome === "undecided" ? say("certificateNone") : sayOf("certificateStart", request);
 }
 
-const methodOf = (certificate) => paragraph(proofWords(certificate), { className: "method" });
+const methodOf = (certificate) => make("p", { ...proofWords(certificate), className: "method" });
 
 /** answer: of /collision-time */
 export function showFirstContact(box, answer, request) {

@@ -1,4 +1,4 @@
-/** What stands below the dance: what can be kept, many designs with their jobs, and grading. It loads when a person is near. */
+/** What stands below the dance: the people, what can be saved, many designs with their jobs, and grading. It loads when a person is near. */
 
 import { Crew } from "./crew.js";
 import { Designs } from "./designs.js";

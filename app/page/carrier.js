@@ -87,8 +87,6 @@ export class Carrier {
     this.more = make("section", { id: "card-more", "aria-labelledby": "card-cues" }, this.stand, this.beside, heading, this.list, row(...this.corrections, this.again, this.byClock), this.note);
     $("#front").prepend(this.box);
     $("#dance").after(this.more);
-    const style = make("link", { rel: "stylesheet", href: new URL("./carrier.css", import.meta.url).href, onload: () => this.#look() });
-    document.head.append(style);
     dance.above.push((pen, colours) => this.#mark(pen, colours));
     document.addEventListener("visibilitychange", () => this.#keepAwake());
   }

@@ -43,7 +43,7 @@ export class Crew {
       make("p", { className: "buttons" }, textButton("crewAsk", () => this.#ask(), { className: "main", id: "crew-ask" }), ...save),
       this.result,
     );
-    $("#paper").before(this.box);
+    $("#cues").before(this.box);
     this.box.addEventListener("toggle", () => this.#open());
   }
 

@@ -101,7 +101,7 @@ export class Dance {
     pen.context.globalAlpha = 1;
     if (circle > 0 && !this.scene.parts) pen.stroke(pen.circle(0, 0, circle * pen.scale), colours.circle, 1.5);
     const { metres, pixels } = scaleBar(this.view.scale);
-    pen.bar(`${metres} m`, pixels, colours.text, colours.card);
+    pen.bar(`${metres} m`, pixels, colours.text, colours.card, this.view.scaleIsLeft);
     if (pose) this.#drawDragon(pen);
     for (const layer of this.above) layer(pen, colours);
   }

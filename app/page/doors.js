@@ -80,5 +80,11 @@ export class Doors {
       if (door === "village") $("#dance").after($("#place"));
       else $("#route").prepend($("#place"));
     }
+    // In the village how far people may stray is with the people, whom a phone has beside their numbers.
+    const people = $("#people");
+    if (door === "village") $("#people-title").after($("#tolerance"));
+    else $("#head-speed").after($("#tolerance"));
+    if (door === "village" && !this.wide.matches) $("#controls").before(people);
+    else $("#charts").after(people);
   }
 }

@@ -65,7 +65,6 @@ export class Dragons {
     this.offer = make("p", { className: "buttons" }, make("span", { className: "hint", "data-text": "dragonsOr" }), ...presets);
     this.box.append(this.panel, this.offer);
     this.judgement = new Judgement($("#judgement"), (failure) => player.seek(failure.time), () => {});
-    document.head.append(make("link", { rel: "stylesheet", href: new URL("./dragons.css", import.meta.url).href }));
   }
 
   get #records() {

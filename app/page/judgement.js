@@ -52,7 +52,7 @@ export class Judgement {
     const { clock } = dance;
     const [start, end] = [dance.begin, dance.answer.end?.time ?? dance.end].map((one) => clock && timeOfDay(Number(one.toFixed(DECIMALS)), clock));
     if (clock) lines.push(say("startsEnds", { start, end }));
-    this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, rows[0]?.textContent, dance.known);
+    this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, dance.known);
   }
 
   /** No verdict until these fields are mended, beside which the reason stands. */
@@ -67,20 +67,20 @@ export class Judgement {
     const rows = bends.map(({ points }, k) => this.#row(say("show"), sentences[k], () => this.look(points[Math.floor(points.length / 2)])));
     const drawn = problem === null;
     const lines = drawn ? [say("drawFirst")] : rows.length ? [] : [words];
-    this.#fill(drawn ? "" : "contact", drawn ? "" : "✕", say(drawn ? "verdict_none" : "verdict_fails"), lines, rows, sentences[0] ?? lines[0]?.textContent);
+    this.#fill(drawn ? "" : "contact", drawn ? "" : "✕", say(drawn ? "verdict_none" : "verdict_fails"), lines, rows);
   }
 
   #row(name, text, act) {
     return make("li", {}, button({ textContent: name }, act), " ", make("span", { textContent: text }));
   }
 
-  /** first: the first of the rows in words; known: sentences of the evidence */
-  #fill(outcome, mark, value, lines, rows, first = "", known = []) {
+  /** known: sentences of the evidence */
+  #fill(outcome, mark, value, lines, rows, known = []) {
     const open = this.box.querySelector("details")?.open ?? false;
     const sign = make("span", { className: "mark", "aria-hidden": "true", textContent: mark });
     this.box.dataset.outcome = outcome;
-    // On a phone the verdict also appears below the picture.
-    Object.assign($("#verdict"), { hidden: false, textContent: [mark, value, first && `· ${first}`].join(" ") });
+    // On a phone the verdict also appears below the picture, in one line that leads to its reasons.
+    Object.assign($("#verdict"), { hidden: false, textContent: [mark, value].join(" ").trim() });
     const sentences = lines.filter(Boolean).map((line) => make("p", typeof line === "string" ? { textContent: line } : line));
     const list = make("ol", { className: "failures" }, ...rows);
     const old = make("p", { className: "old", textContent: say("old") });

@@ -1,7 +1,7 @@
-/** Everything to save: the link, files of every kind, a film, and the commands that give the same. */
+/** Everything to save: the cue cards, which stand with the people, files of every kind, a film, and the commands that give the same. */
 
 import { Problem, TOO_LONG } from "./api.js";
-import { $, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
+import { $, $$, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
@@ -26,7 +26,7 @@ const TYPES = {
   PDF: "application/pdf",
   ZIP: "application/zip",
 };
-/** Items to save, in the order of the page: formats, and the name of the request; slow ones become a job; hint: a button of its own. */
+/** Items to save, in the order of the page: formats, and the name of the request; slow ones become a job; hint: a button of its own; among: the list in which it stands, if not that of the files. */
 const ITEMS = [
   { key: "keepKit", forms: ["ZIP"], ask: "kit", file: "contest-kit", job: true, hint: "keepKitIs" },
   { key: "keepTrajectory", forms: ["CSV", "XLSX", "Arrow", "JSON"], ask: "trajectory", file: "trajectory" },
@@ -37,7 +37,7 @@ const ITEMS = [
   { key: "keepFilm", forms: ["MP4", "GIF"], ask: "film", file: "dance", job: true },
   { key: "keepGround", forms: ["GeoJSON", "DXF", "JSON"], ask: "ground", file: "envelope" },
   { key: "keepPlan", forms: ["A4", "A3"], ask: "plan", file: "plan" },
-  { key: "keepCues", forms: ["PDF", "CSV"], ask: "cues", file: "cues" },
+  { key: "keepCues", forms: ["PDF", "CSV"], ask: "cues", file: "cues", among: "#cues" },
   { key: "keepMap", forms: ["GeoJSON", "KML", "DXF"], ask: "map", file: "map" },
   { key: "keepAnswer", forms: ["JSON"], ask: "answer", file: "first-contact" },
   { key: "keepVerdict", forms: ["JSON"], ask: "verdict", file: "check" },
@@ -126,6 +126,9 @@ const TOGETHER = {
 const nameButton = (button) => button.setAttribute("aria-label", `${say(button.dataset.keep)}, ${button.dataset.form}${button.querySelector(".share").textContent}`);
 
 export class Keep {
+  /** That of each item. */
+  #rows;
+
   /**
    * jobs: makes films
    * @param {{ service: Service, questions: Questions, jobs: Jobs, canvas: any }} parts
@@ -136,7 +139,8 @@ export class Keep {
     this.jobs = jobs;
     this.canvas = canvas;
     onClick("#copy-curl", () => copy($("#curl").textContent));
-    $("#kept").append(...ITEMS.map((item) => this.#row(item)));
+    this.#rows = ITEMS.map((item) => this.#row(item));
+    ITEMS.forEach(({ among = "#kept" }, k) => $(among).append(this.#rows[k]));
     const { state } = questions;
     $("#keepCues-PDF").before(textButton("cardFollow", () => state.push({ bench: state.get("handle") ?? 0 }), { id: "card-follow" }));
     const keys = [ON_SCREEN, ...ITEMS.filter(({ ask }) => ask).map(({ key }) => key), PROOF];
@@ -155,7 +159,7 @@ export class Keep {
 
   /** Name each button after its item. */
   translate() {
-    for (const button of $("#kept").querySelectorAll("[data-keep]")) nameButton(button);
+    for (const button of $$("[data-keep]")) nameButton(button);
     for (const film of $("#kept").querySelectorAll(".film")) Object.assign(film, { alt: say("keepFilm"), ariaLabel: say("keepFilm") });
     this.show();
     if ($("#paper").open) this.paper();
@@ -165,7 +169,7 @@ export class Keep {
   offer(paths) {
     const calls = Object.values(paths).flatMap((path) => Object.values(path));
     const types = new Set(calls.flatMap(({ responses }) => Object.keys(responses?.[200]?.content ?? {})));
-    for (const button of $("#kept").querySelectorAll("[data-keep]")) button.hidden = !types.has(TYPES[button.dataset.form]);
+    for (const button of $$("[data-keep]")) button.hidden = !types.has(TYPES[button.dataset.form]);
   }
 
   /** The requests that there are about the dance. */
@@ -178,7 +182,7 @@ export class Keep {
     if (!this.questions.dance) return;
     const requests = this.#requests;
     const isThere = (key) => key === ON_SCREEN || (key === PROOF ? requests === REQUESTS : ITEMS.some((item) => item.key === key && (!item.ask || item.ask in requests)));
-    [...$("#kept").children].forEach((row, k) => hide(row, !isThere(ITEMS[k].key)));
+    this.#rows.forEach((row, k) => hide(row, !isThere(ITEMS[k].key)));
     for (const option of $("#curl-of").options) option.hidden = option.disabled = !isThere(option.value);
     if (!isThere($("#curl-of").value)) $("#curl-of").value = ON_SCREEN;
     const wanted = $("#curl-of").value;

@@ -22,7 +22,7 @@ import { Questions } from "./questions.js";
 import { Sharing } from "./sharing.js";
 import { EXTRAS, State } from "./state.js";
 import { Table } from "./table.js";
-import { handleName, language, learnRefusals, say, setLanguage, writeTexts } from "./text.js";
+import { handleName, language, learnProofs, learnRefusals, say, setLanguage, writeTexts } from "./text.js";
 import { showRefusals } from "./refusal_boxes.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), ...EXTRAS, "path", "drawing"];
@@ -42,6 +42,8 @@ const BUSY = {
   scan: ["#scan"],
   grade: ["#grade"],
 };
+/** What a tab leads to while nothing is drawn, so that there are no people and no files yet. */
+const INSTEAD = { people: "#controls", keep: "#answers" };
 const ZOOM = 1.5;
 /** In a run that ends in a fold: a handle this many times faster than the head shows that the fold is near [1]. */
 const FAST = 2;
@@ -85,6 +87,8 @@ new Sharing(state, parts);
 addLook();
 /** What belongs to a drawn dance, what stands below the dance, a carrier's view, and several dragons; null until they have loaded. @type {any} */
 let [route, below, carrier, dragons] = [null, null, null, null];
+/** Proofs have their words in Chinese too. */
+let hasProofs = false;
 /** Language of the first view. */
 let begun = "";
 let limits = {};
@@ -311,6 +315,7 @@ function translate() {
   for (const link of $$("[data-how]")) link.href = `how?lang=${chosen}`;
   // Of a part that is not there, the texts stay in the first language until it is.
   if (chosen !== (begun ||= chosen)) for (const open of [openRoute, openBelow]) open();
+  if (chosen === "zh") openProofs();
   graphs.help();
   controls.translate(limits);
   benches.show();
@@ -326,6 +331,15 @@ function translate() {
   // The names that the page gives them have changed; a carrier has them in both languages, and may have no network.
   if (state.get("dances") && state.get("bench") === null) refresh();
   announceAgain();
+}
+
+/** The words of proofs in Chinese; the service has them in English. */
+async function openProofs() {
+  const words = await parts.load("proofs");
+  if (hasProofs) return;
+  hasProofs = true;
+  learnProofs(words);
+  translate();
 }
 
 /** What belongs to a drawn dance. */
@@ -374,13 +388,19 @@ async function openBelow() {
   below.translate(language());
 }
 
+/** Scroll to a section. */
+function showSection(name) {
+  const section = $(`#${name}`);
+  (section.checkVisibility() ? section : $(INSTEAD[name])).scrollIntoView();
+}
+
 function listen() {
   state.listen(showState);
   onClick("#lost button", () => service.retry());
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
   for (const button of $$("[data-path]")) button.addEventListener("click", () => (button.dataset.path === "route" ? openRoute().then((one) => one.choose()) : state.choosePath(button.dataset.path)));
-  for (const button of $$("[data-section]")) button.addEventListener("click", () => $(`#${button.dataset.section}`).scrollIntoView());
-  whenReached(["#keep", "#sweeps", "#grade"], openBelow);
+  for (const { dataset } of $$("[data-section]")) onClick(`[data-section=${dataset.section}]`, () => showSection(dataset.section));
+  whenReached(["#people", "#keep", "#sweeps", "#grade"], openBelow);
   whenReached(["#stage"], openRoute, OF_FILES);
   onClick("#several", () => openDragons().then((one) => one.add()));
   addEventListener("look", restyle);

@@ -1,12 +1,18 @@
 /** Parts of the page that load when a person first needs them. */
 
-import { $ } from "./elements.js";
+import { $, make } from "./elements.js";
 import { announce } from "./overlays.js";
 import { pending } from "./pending.js";
 import { say } from "./text.js";
 
 /** Distance from the view at which a part loads: small until a person scrolls, because answers that come push it down. */
 const [IN_VIEW, A_SCREEN] = ["0px", "100%"];
+/** Parts with a sheet of style: the name of its file. */
+const STYLES = { below: "below.css", carrier: "carrier.css", dragons: "dragons.css", drawn: "place.css" };
+
+/** Add a sheet of style to the page, and wait for it; without it the part works too. */
+const addStyle = (file) =>
+  new Promise((onload) => document.head.append(make("link", { rel: "stylesheet", href: new URL(`./${file}`, import.meta.url).href, onload, onerror: onload })));
 
 export class Parts {
   #parts = new Map();
@@ -29,7 +35,8 @@ export class Parts {
     try {
       // A browser may never repeat an import that has failed, so the file comes first; the import takes it from the cache.
       await this.service.ask(`part ${name}`, url, { accept: "text/javascript" });
-      return await import(url);
+      const [module] = await Promise.all([import(url), name in STYLES && addStyle(STYLES[name])]);
+      return module;
     } catch (error) {
       // The service was lost in between.
       console.warn(error);

@@ -119,13 +119,14 @@ export class Pen {
     return trace([[x - ux - uy, y - uy + ux], [x, y], [x - ux + uy, y - uy - ux]], new Path2D(), false);
   }
 
-  /** The scale, at the lower right. */
-  bar(words, pixels, colour, halo) {
+  /** The scale, at the lower right or left; no name covers it. */
+  bar(words, pixels, colour, halo, isLeft) {
     const { context } = this;
     const { width, height } = context.canvas;
     context.save();
     context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-    const [right, bottom] = [width / devicePixelRatio - BAR_EDGE, height / devicePixelRatio - BAR_EDGE];
+    const [right, bottom] = [isLeft ? BAR_EDGE + pixels : width / devicePixelRatio - BAR_EDGE, height / devicePixelRatio - BAR_EDGE];
+    this.names.push([right - pixels, bottom - 6, pixels], [right - pixels, bottom, pixels]);
     Object.assign(context, { font: `600 ${inType(SMALL_TYPE)}px system-ui, sans-serif`, textAlign: "center", lineJoin: "round" });
     for (const [strokeStyle, lineWidth] of [[halo, 5], [colour, 2]]) {
       Object.assign(context, { strokeStyle, lineWidth });

@@ -2,7 +2,6 @@
 
 import { $$ } from "./elements.js";
 import { strayOf } from "./fields.js";
-import { claimInChinese } from "./proofs.js";
 import { ANSWERS } from "./words/answers.js";
 import { DANCE } from "./words/dance.js";
 import { MORE } from "./words/more.js";
@@ -93,8 +92,12 @@ export function refusalWords(problem) {
   return refusalIn ? refusalIn(one, column === 1, say) : { textContent: one.detail, lang: "en" };
 }
 
+/** The function of proofs.js; null until it has loaded. */
+let claimIn = null;
+export const learnProofs = (module) => (claimIn = module.claimInChinese);
+
 /** The proof of an answer in the language of the page: the service's own sentences, or its claim in Chinese. */
-export const proofWords = ({ method, claim }) => (column ? claimInChinese(claim) : method);
+export const proofWords = ({ method, claim }) => (column && claimIn ? { textContent: claimIn(claim) } : { textContent: method, lang: "en" });
 
 export const nameBenches = (names) => (households = names);
 const withHousehold = (words, k) => (households[k] ? say("named", { words, name: households[k] }) : words);

@@ -1,12 +1,17 @@
 /** From metres to pixels: pan, zoom, pinch and keys on a canvas. y points up in the world and down on the screen. */
 
+import { $ } from "./elements.js";
+
 const ZOOM_STEP = 1.25;
 const PAN_STEP = 60;
 const CLICK_TRAVEL = 5;
 const [SCALE_MIN, SCALE_MAX] = [0.05, 20_000];
-const PADDING = 24;
-/** Room for the column of buttons on the left, and for the scale below [px]. */
-const [BUTTONS, SCALE] = [40, 20];
+/** Room around all that is shown, in a low picture less, down to that of a point with its name [px]. */
+const [PADDING, LEAST_PADDING] = [24, 18];
+/** Room beside the buttons on the left, and for the scale below; buttons wider than this have the scale below them [px]. */
+const [BESIDE, SCALE, COLUMN] = [19, 20, 60];
+/** Height of a picture in multiples of its padding, if it is low. */
+const LOW = 16;
 
 const within = (scale) => Math.min(Math.max(scale, SCALE_MIN), SCALE_MAX);
 
@@ -36,6 +41,9 @@ export class View {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     this.width = width;
     this.height = height;
+    const { offsetLeft, offsetWidth } = $("#views");
+    this.left = offsetLeft + offsetWidth + BESIDE;
+    this.scaleIsLeft = offsetWidth > COLUMN;
   }
 
   toScreen(x, y) {
@@ -59,9 +67,11 @@ export class View {
 
   /** Show these bounds completely, [x min, y min, x max, y max]. */
   fit([left, bottom, right, top]) {
-    const [wide, high] = [this.width - 2 * PADDING - BUTTONS, this.height - 2 * PADDING - SCALE];
+    const padding = Math.min(PADDING, Math.max(LEAST_PADDING, this.height / LOW));
+    const below = this.scaleIsLeft ? 0 : SCALE;
+    const [wide, high] = [this.width - this.left - padding, this.height - 2 * padding - below];
     const scale = within(Math.min(wide / (right - left), high / (top - bottom)));
-    this.set((left + right) / 2 - BUTTONS / 2 / scale, (bottom + top) / 2 - SCALE / 2 / scale, scale, true);
+    this.set((left + right) / 2 - (this.left - padding) / 2 / scale, (bottom + top) / 2 - below / 2 / scale, scale, true);
   }
 
   set(x, y, scale = this.scale, fitted = false) {

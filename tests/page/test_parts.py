@@ -18,7 +18,8 @@ IMPORT = re.compile(r'(?:from|import) "(\.{1,2}/[\w./-]+\.js)"')
 USE_OF_WORDS = re.compile(r'(?:\bsay(?:Of)?|\btitleOf|\btextButton)\("([\w-]+)"|"data-(?:text|label)": "([\w-]+)"')
 WORD = re.compile(r'^  "?([\w-]+)"?: \[', re.MULTILINE)
 # Parts with a file of each that tells that it has loaded.
-LATER = {"qr.js", "below.js", "grade.js", "map.js", "drawn.js", "propose.js", "refusals.js"}
+LATER = {"qr.js", "below.js", "below.css", "grade.js", "map.js", "drawn.js", "place.css", "propose.js", "refusals.js"}
+LATER |= {"proofs.js"}  # in Chinese
 
 
 def first_view() -> set[Path]:
@@ -60,12 +61,15 @@ def test_a_part_loads_when_a_person_first_needs_it(open_page: Any) -> None:
     page.keyboard.press("Escape")
     assert LATER & set(names) == {"qr.js"}
     settled(with_below(page))
-    assert LATER & set(names) == {"qr.js", "below.js", "grade.js", "map.js"}
+    assert LATER & set(names) == {"qr.js", "below.js", "below.css", "grade.js", "map.js"}
     page.locator("#pitch").fill("55")
     page.locator("#pitch-error", has_text="“Pitch” must be at most 10 m").wait_for()
     page.get_by_role("button", name="Reset all").click()
     page.locator("[data-path=route]").click()
     expect(page.locator("#judgement .value")).to_be_visible()
+    assert LATER - set(names) == {"proofs.js"}
+    page.locator("[data-lang=zh]").click()
+    settled(page)
     assert set(names) >= LATER
 
 

@@ -1,7 +1,6 @@
-/** Words of what stands below the dance: files, sweeps, jobs and grading: [English, Simplified Chinese]. */
+/** Words of what stands below the dance: people, files, sweeps, jobs and grading: [English, Simplified Chinese]. */
 
 export const BELOW = {
-  keep: ["Keep", "保存"],
   keepKit: ["The whole contest kit", "竞赛全套文件"],
   keepKitIs: ["Five answers, workbooks, tables, figures, films and a report as ZIP; takes a minute or two.", "五问答案、结果文件、表格、插图、动画与报告，打包为 ZIP，需一两分钟。"],
   kitUniform: ["The kit is for equal benches: reset the table of benches.", "全套文件只适用于相同的板凳：请先还原板凳表。"],
@@ -33,7 +32,7 @@ export const BELOW = {
   paperOurs: ["here", "本服务"],
   curl: ["The same from a terminal", "在终端中得到同样结果"],
   copyCurl: ["Copy command", "复制命令"],
-  crewTitle: ["People: who carries when", "人员：谁何时抬板凳"],
+  crewTitle: ["Who carries when", "谁何时抬板凳"],
   crewHelp: ["People change after a shift, or where a bench passes a point; spares come in. Empty: not so.", "每班结束后，或板凳经过某点时换人，由替补接替；留空则不按此换人。"],
   crewHead: ["on the head", "龙头人数"],
   crewBench: ["on every other bench", "其余每节人数"],

@@ -45,10 +45,9 @@ export const DANCE = {
   startsEnds: ["It starts at {start} and ends at {end}.", "{start} 开始，{end} 结束。"],
   sections: ["Sections", "各部分"],
   tabPicture: ["Picture", "画面"],
-  tabPeople: ["People", "人"],
   tabNumbers: ["Numbers", "参数"],
   tabAnswers: ["Answers", "结果"],
-  tabKeep: ["Save", "保存"],
+  keep: ["Save", "保存"],
   retry: ["Try now", "立即重试"],
   back: ["The service is back.", "服务已恢复。"],
 
