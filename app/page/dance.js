@@ -22,6 +22,8 @@ const EYES = new Path2D("M.5 .27A.13 .13 0 1 1 .24 .27A.13 .13 0 1 1 .5 .27ZM.5 
 const WAY = 0.4;
 /** Half side of the inset around the point of contact, in bench widths. */
 const INSET_WIDTHS = 1.6;
+/** Room for the inset on a phone; a drawn path, which may be wide, has no room for it [px]. */
+const INSET = 100;
 
 const least = (numbers) => numbers.reduce((a, b) => Math.min(a, b));
 const largest = (numbers) => numbers.reduce((a, b) => Math.max(a, b));
@@ -92,7 +94,7 @@ export class Dance {
 
   draw() {
     const { pose, circle } = this.scene;
-    if (this.view.fitted && this.#bounds && this.view.width) this.view.fit(this.#bounds);
+    if (this.view.fitted && this.#bounds && this.view.width) this.view.fit(this.#bounds, this.drawn ? 0 : INSET);
     const [pen, colours] = [new Pen(this.canvas, this.view), this.#colours];
     for (const layer of this.below) layer(pen, colours);
     if (this.#path) this.#drawPath(pen);

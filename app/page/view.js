@@ -65,13 +65,13 @@ export class View {
     return best;
   }
 
-  /** Show these bounds completely, [x min, y min, x max, y max]. */
-  fit([left, bottom, right, top]) {
+  /** Show these bounds completely, [x min, y min, x max, y max]. inset: width that a low picture leaves free on the right for it [px] */
+  fit([left, bottom, right, top], inset = 0) {
     const padding = Math.min(PADDING, Math.max(LEAST_PADDING, this.height / LOW));
-    const below = this.scaleIsLeft ? 0 : SCALE;
-    const [wide, high] = [this.width - this.left - padding, this.height - 2 * padding - below];
+    const [below, beside] = this.scaleIsLeft ? [0, Math.max(inset, padding)] : [SCALE, padding];
+    const [wide, high] = [this.width - this.left - beside, this.height - 2 * padding - below];
     const scale = within(Math.min(wide / (right - left), high / (top - bottom)));
-    this.set((left + right) / 2 - (this.left - padding) / 2 / scale, (bottom + top) / 2 - below / 2 / scale, scale, true);
+    this.set((left + right) / 2 - (this.left - beside) / 2 / scale, (bottom + top) / 2 - below / 2 / scale, scale, true);
   }
 
   set(x, y, scale = this.scale, fitted = false) {
