@@ -49,8 +49,8 @@ BATCH = 60
 # Most frames that wait for the encoder.
 WAITING = 4
 # H.264: quality (crf, smaller is better), effort, and number of threads, which changes the bytes. With five frames
-# between two others (bframes) and the quickest search the film of the default dance takes 7.8 MB in place of 26, and 0.6
-# of the processor's time of two frames and the usual search, for 1 % more bytes (measured 2026-11-28).
+# between two others (bframes) and the quickest search the film of the default dance takes 7.8 MB in place of 26, and
+# 0.6 of the processor's time of two frames and the usual search, for 1 % more bytes (measured 2026-11-28).
 SEARCH = "bframes=5:b-adapt=0:b-pyramid=none:subme=1:trellis=0:weightp=0:ref=1:rc-lookahead=6"
 OPTIONS, THREADS = {"crf": "25", "preset": "veryfast", "x264-params": SEARCH}, 2
 FAST_START = {"movflags": "faststart"}
