@@ -62,7 +62,7 @@ function drawMeasures(pen, view, colours, { kind, points }, held, taken) {
  * Draw a name beside its place, where it overlaps none of the names before it, whose boxes are in `taken`. Without room a
  * name in the colour of text is left out until the picture is enlarged; one in another colour is drawn nevertheless.
  */
-function label(pen, view, text, /** @type {number[]} */ [x, y], colour, colours, taken, away = 8) {
+function label(pen, view, text, /** @type {number[]} */ [x, y, room = 0], colour, colours, taken, away = 8) {
   const { context } = pen;
   const [atX, atY] = view.toScreen(x, y);
   context.save();
@@ -70,9 +70,11 @@ function label(pen, view, text, /** @type {number[]} */ [x, y], colour, colours,
   context.scale(1 / pen.scale, -1 / pen.scale);
   Object.assign(context, { font: `600 ${inType(SMALL_TYPE)}px system-ui, sans-serif`, lineWidth: 4, lineJoin: "round", strokeStyle: colours.card, fillStyle: colour, textAlign: "left" });
   const { width } = context.measureText(text);
-  const places = [away, -width / 2, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT].map((dy) => [dx, dy]));
+  const centred = width < room * pen.scale ? [[-width / 2, NAME_HEIGHT / 2]] : [];
+  const beside = [away, -width / 2, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT].map((dy) => [dx, dy]));
   const isInside = (/** @type {number[]} */ [dx]) => atX + dx >= 0 && atX + dx + width <= view.width;
   const isFree = (/** @type {number[]} */ [dx, dy]) => taken.every(([left, bottom, wide]) => Math.abs(atY + dy - bottom) >= NAME_HEIGHT || atX + dx > left + wide || left > atX + dx + width);
+  const places = [...centred, ...beside];
   const place = places.find((one) => isInside(one) && isFree(one)) ?? (colour === colours.text ? null : (places.find(isInside) ?? places[0]));
   if (place) {
     taken.push([atX + place[0], atY + place[1], width]);
@@ -84,10 +86,10 @@ function label(pen, view, text, /** @type {number[]} */ [x, y], colour, colours,
 
 /** Cells of a grid along each side. */
 const GRID = 24;
-/** Middles of the widest places of areas, by their points. @type {WeakMap<number[][], number[]>} */
+/** Middles and widths of the widest places of areas, by their points. @type {WeakMap<number[][], number[]>} */
 const WIDEST = new WeakMap();
 
-/** The middle of the largest circle inside an area, of those around the points of a grid that becomes finer. */
+/** The middle of the largest circle inside an area, and its width, of those around the points of a grid that becomes finer. */
 function widest(/** @type {number[][]} */ points) {
   const known = WIDEST.get(points);
   if (known) return known;
@@ -104,8 +106,9 @@ function widest(/** @type {number[][]} */ points) {
     low = best.map((middle, k) => middle - step[k]);
     step = step.map((one) => (2 * one) / GRID);
   }
-  WIDEST.set(points, best);
-  return best;
+  const place = [...best, 2 * room];
+  WIDEST.set(points, place);
+  return place;
 }
 
 /** Distance of a point inside an area to its edge; 0 outside [m]. */
@@ -120,11 +123,12 @@ function roomAround(/** @type {number[][]} */ points, /** @type {number[]} */ [x
   return inside ? least : 0;
 }
 
-/** Place of a thing's name: its middle, or where an area is widest. */
+/** Place of a thing's name: its middle, or where an area is widest; and the width that it has there. */
 function labelPlace({ kind, points }) {
   if (kind === "area") return points.length > 2 ? widest(points) : points[0];
   const [x, y] = points.reduce(([a, b], [c, d]) => [a + c, b + d], [0, 0]);
-  return [x / points.length, y / points.length];
+  const xs = points.map(([one]) => one);
+  return [x / points.length, y / points.length, kind === "block" ? Math.max(...xs) - Math.min(...xs) : 0];
 }
 
 /** The layers of a drawn dance. get(): {drawing, selected, held, failure, course, benches}, or null in another kind of dance */
