@@ -23,6 +23,7 @@ import httpx
 import pytest
 
 from app.files.tables import CSV_TYPE
+from tests.app.conftest import ANSWER_TIMEOUT
 from tests.support.depth import some
 from tests.support.serving import Service, serving
 
@@ -257,8 +258,8 @@ def computing(service: Service) -> float:
     return float(match[1]) if match else 0.0
 
 
-def client_at(address: str) -> httpx.Client:
-    return httpx.Client(transport=httpx.HTTPTransport(local_address=address), timeout=SOON)
+def client_at(address: str, seconds: float = SOON) -> httpx.Client:
+    return httpx.Client(transport=httpx.HTTPTransport(local_address=address), timeout=seconds)
 
 
 def test_a_full_lane_says_when_to_come_again_and_others_pass(held: Service) -> None:
@@ -291,7 +292,7 @@ def test_by_default_one_client_cannot_take_all_places(tmp_path: Path) -> None:
             assert other.get(f"{service.url}/maximum-head-speed?benches=20").status_code == 200
 
         def post(address: str, path: str, body: bytes) -> tuple[int, str]:
-            with client_at(address) as client:
+            with client_at(address, ANSWER_TIMEOUT) as client:
                 headers = kind if path == "/grade" else {"Content-Type": "application/json"}
                 answer = client.post(service.url + path, content=body, headers=headers)
             return answer.status_code, answer.text
