@@ -388,10 +388,14 @@ async function openBelow() {
   below.translate(language());
 }
 
-/** Scroll to a section. */
-function showSection(name) {
+/** Scroll to a section, and once more where what loads only now has moved it. */
+async function showSection(name) {
   const section = $(`#${name}`);
-  (section.checkVisibility() ? section : $(INSTEAD[name])).scrollIntoView();
+  const place = section.checkVisibility() ? section : $(INSTEAD[name]);
+  place.scrollIntoView();
+  if (!(name in INSTEAD) || below) return;
+  await openBelow();
+  place.scrollIntoView();
 }
 
 function listen() {

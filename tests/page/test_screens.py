@@ -271,6 +271,15 @@ def test_on_a_phone_of_a_village_people_stand_together_and_files_under_save(visi
     assert order == sorted(order)
 
 
+def test_the_tab_save_leads_to_its_heading_also_when_its_files_load_only_then(open_page: Any) -> None:
+    page = open_page("?door=contest&benches=20&time=end", **PHONE)
+    settled(page)
+    page.locator("[data-section=keep]").tap()
+    page.locator("#kept li").first.wait_for()
+    settled(page)
+    expect(page.locator("#keep-title")).to_be_in_viewport()
+
+
 def test_on_a_phone_one_tap_leads_everywhere(visit: Any) -> None:
     page = visit(VILLAGE, **PHONE)
     answered(page, VILLAGE)
