@@ -11,9 +11,40 @@ const [AROUND, LINE, POINTS] = [0.04, 0.006, 400];
 const centimetresDown = (stray) => (stray < LITTLE ? Math.floor(1000 * stray) / 10 : Math.floor(100 * stray));
 const degrees = (angle) => (angle * 180) / Math.PI;
 
-/** {title, size, good, tight}: the words of a proposal among all of them. */
-export function cardWords(proposal, all) {
-  const { figure, dance, duration, length, tolerance, turns, near, clearance, sharpest_bend: bend } = proposal;
+/** Twice the area that a line goes around [m2]: positive to the left. */
+const twiceArea = ({ x, y }) => x.reduce((sum, one, k) => sum + one * y[(k + 1) % x.length] - x[(k + 1) % x.length] * y[k], 0);
+
+/** In which words proposals of one figure may differ, the first ones preferred; gates: their names. course: the part of that of /course that is danced in the square */
+const MARKS = [
+  ({ gates: [a, b] }, _, names) => (a === undefined ? "" : say("title_gates", { a: names[a], b: names[b] })),
+  (_, course) => say("title_wide", { wide: extent(course.x.map((x, k) => [x, course.y[k]])).width.toFixed(0) }),
+  (_, course) => say(twiceArea(course) > 0 ? "title_left" : "title_right"),
+  ({ turns }) => say("title_turns", { turns: turns.toFixed(1) }),
+  ({ length }) => say("title_walk", { length: length.toFixed(0) }),
+];
+
+/** The titles of all proposals; those of one figure are told apart by the first thing in which each differs from all others, else by a number. */
+export function cardTitles({ proposals, courses, yard }, gates) {
+  const { width, height, middle: [left, low] } = extent(yard);
+  const isInside = (x, y) => Math.abs(x - left) <= width / 2 && Math.abs(y - low) <= height / 2;
+  const danced = courses.map(({ s, x, y }) => {
+    // Streets and the place where the dragon stands are no part of a figure.
+    const own = [...s.keys()].filter((k) => s[k] >= 0 && isInside(x[k], y[k]));
+    return { x: own.map((k) => x[k]), y: own.map((k) => y[k]) };
+  });
+  return proposals.map((one, at) => {
+    const figure = say(`figure_${one.figure}`);
+    const alike = [...proposals.keys()].filter((k) => proposals[k].figure === one.figure);
+    if (alike.length < 2) return figure;
+    const words = MARKS.map((mark) => alike.map((k) => mark(proposals[k], danced[k], gates))).find((all) => new Set(all).size === all.length);
+    const place = alike.indexOf(at);
+    return say("titleWith", { figure, parts: words?.[place] ?? say("title_number", { number: place + 1 }) });
+  });
+}
+
+/** {size, good, tight}: the words of a proposal among all of them. square: name of the area */
+export function cardWords(proposal, all, square) {
+  const { dance, duration, length, tolerance, turns, near, clearance, sharpest_bend: bend } = proposal;
   const most = (value) => all.length > 1 && all.every((one) => one === proposal || value(one) < value(proposal) - 1e-3);
   const stray = String(centimetresDown(tolerance));
   const good = [say(most((one) => one.tolerance) ? "good_tolerance_best" : "good_tolerance", { stray })];
@@ -21,12 +52,12 @@ export function cardWords(proposal, all) {
   if (most((one) => one.turns)) good.push(say("good_turns", { turns: turns.toFixed(1) }));
   if (most((one) => -(one.sharpest_bend ?? 0))) good.push(say("good_gentle"));
   const isPair = clearance !== null && clearance < near.distance;
-  const tight = [isPair ? say("tight_pair", { distance: clearance.toFixed(2) }) : say("tight_near", { distance: near.distance.toFixed(2), name: near.name })];
+  const tight = [isPair ? say("tight_pair", { distance: clearance.toFixed(2) }) : say(near.name === square ? "tight_border" : "tight_near", { distance: near.distance.toFixed(2), name: near.name })];
   if (degrees(bend ?? 0) > BEND) tight.push(say("tight_bend", { angle: degrees(bend).toFixed(0) }));
   if (tolerance < LITTLE) tight.push(say("tight_stray", { stray }));
   const benches = dance.dragon.benches ?? dance.dragon.lengths.length;
   const size = say("cardSize", { benches, time: duration.toFixed(0), length: length.toFixed(0) });
-  return { title: say(`figure_${figure}`), size, good: good.join(say("comma")), tight: tight.join(say("comma")) };
+  return { size, good: good.join(say("comma")), tight: tight.join(say("comma")) };
 }
 
 const pointsText = (points) => points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");

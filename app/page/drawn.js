@@ -27,6 +27,8 @@ export class Drawn {
   #failure = null;
   /** A failure whose benches must still be moved into view. */
   #wanted = null;
+  /** What the verdict says of the proposals. */
+  #remark = "";
 
   /**
    * several(content, name): opens a dance of several dragons
@@ -42,7 +44,7 @@ export class Drawn {
     this.editor = new Editor(dance, state, this.steps, course, () => this.show());
     const files = new Files(state, this.steps, service, questions, several);
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
-    this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor });
+    this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show() });
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point));
     this.#invite();
     const { below, above } = layers(dance, () => this.#visible());
@@ -115,9 +117,10 @@ export class Drawn {
       for (const box of $$("main [aria-busy=true]")) box.setAttribute("aria-busy", false);
       this.picture.setPath(null, this.around());
       this.picture.scene.pose = null;
-      this.judgement.refuse(null, null, 0);
+      this.judgement.begin(this.propose.next);
       this.form.offer(null);
     }
+    else if (this.#remark !== this.propose.remark) this.judged();
     this.draw();
   }
 
@@ -126,7 +129,8 @@ export class Drawn {
     const { dance, course, refusals } = this.questions;
     if (dance?.kind !== "route" || !this.#isRoute || refusals.has("contact")) return;
     if (!dance.failures.includes(this.#failure)) this.#failure = null;
-    this.judgement.show(dance, course);
+    this.#remark = this.propose.remark;
+    this.judgement.show({ ...dance, lines: [this.#remark] }, course);
     this.form.offer(dance);
   }
 

@@ -2,7 +2,7 @@
 
 import { freeName, inserted, moved, pointsOf, removed, withPoints, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
-import { onBorder } from "./square.js";
+import { onBorder, streetLength } from "./square.js";
 import { say } from "./text.js";
 
 /** Largest movement of a press that is not a drag [px]; largest distance from the path of a tap that divides it [px]. */
@@ -72,6 +72,11 @@ export class Editor {
     return Boolean(this.#drag?.far);
   }
 
+  /** What a tap draws with the tool. */
+  get help() {
+    return say(`draw_${this.tool}`, { length: this.tool === "gate" ? streetLength(this.state) : "" });
+  }
+
   /** Draw with this tool from now on; a new obstacle begins with the next tap. */
   take(tool) {
     this.tool = tool;
@@ -102,7 +107,7 @@ export class Editor {
     $("#redo").disabled = !this.steps.canRedo;
     $("#delete").disabled = !this.#points.length;
     $("#draw-help").hidden = !on;
-    $("#draw-help").textContent = say(`draw_${this.tool}`);
+    $("#draw-help").textContent = this.help;
     this.#fit();
   }
 

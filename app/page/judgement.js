@@ -1,13 +1,15 @@
 /** The verdict on the drawn dance, and each failure in order of time with a button that shows it. */
 
 import { mendWords } from "./answers.js";
-import { $, button, make } from "./elements.js";
+import { $, button, hide, make } from "./elements.js";
 import { formatNumber } from "./numbers.js";
-import { timeOfDay } from "./passages.js";
+import { timeOfDay, wayAt } from "./passages.js";
 import { benchName, handleName, refusalWords, say, sayOf } from "./text.js";
 
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
 const DECIMALS = 6;
+/** Shortest part of a path before the head that is worth a word [m]. */
+const STANDS = 0.05;
 
 /** One failure of /check in a sentence. */
 export function failureWords({ kind, benches, area, peak_speed: peak }, { numbers, drawing }) {
@@ -33,6 +35,14 @@ export function radiiOf({ radius, least_radius: least }) {
   return { radius: radius.toFixed(digits), least: least.toFixed(digits) };
 }
 
+/** Sentences of the way that the head walks, and of the part of the path on which the dragon stands before. */
+function wayWords({ begin, end, numbers, extras }, { length, s }, time) {
+  const [first, last] = [begin, end].map((one) => wayAt(one, numbers.head_speed, extras.passages));
+  const stands = first - s[0];
+  const way = say("pathLength", { way: (last - first).toFixed(1), time });
+  return [stands < STANDS ? way : `${way} ${say("pathStands", { stands: stands.toFixed(1), length: length.toFixed(1) })}`];
+}
+
 export class Judgement {
   /** seek(failure): shows the dance at its time; look(point): moves the picture there */
   constructor(box, seek, look) {
@@ -47,7 +57,7 @@ export class Judgement {
     const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), (dance.words ?? ((one) => failureWords(one, dance)))(failure), () => this.seek(failure)));
     const { length } = course ?? {};
     const time = (dance.end - dance.begin).toFixed(1);
-    const lines = [length === undefined ? "" : say(Number(time) ? "pathLength" : "pathOnly", { length: length.toFixed(2), time })];
+    const lines = length === undefined ? [] : Number(time) ? wayWords(dance, course, time) : [say("pathOnly", { length: length.toFixed(1) })];
     lines.push(...(dance.lines ?? []));
     const { clock } = dance;
     const [start, end] = [dance.begin, dance.answer.end?.time ?? dance.end].map((one) => clock && timeOfDay(Number(one.toFixed(DECIMALS)), clock));
@@ -60,14 +70,19 @@ export class Judgement {
     this.#fill("", "", say("unanswered"), [mendWords(fields)], []);
   }
 
-  /** Show why there is no verdict: no drawing yet, bends that are too tight, or the service's refusal. */
-  refuse(problem, course, benches, words = problem && refusalWords(problem)) {
+  /** Without a path: what comes next, propose or path; null hides the verdict, because something else tells it. */
+  begin(next) {
+    if (next) this.#fill("", "", say(next === "propose" ? "verdict_propose" : "verdict_none"), [say(next === "propose" ? "firstPropose" : "drawFirst")], []);
+    hide(this.box, !next);
+    Object.assign($("#verdict"), { hidden: !next, href: next === "propose" ? "#propose" : "#answers" });
+  }
+
+  /** Show why there is no verdict: bends that are too tight, or the service's refusal. */
+  refuse(problem, course, benches, words = refusalWords(problem)) {
     const bends = course?.bends ?? [];
     const sentences = bends.map((bend) => say("tightBend", { ...radiiOf(bend), bench: benchName(bend.bench, benches) }));
     const rows = bends.map(({ points }, k) => this.#row(say("show"), sentences[k], () => this.look(points[Math.floor(points.length / 2)])));
-    const drawn = problem === null;
-    const lines = drawn ? [say("drawFirst")] : rows.length ? [] : [words];
-    this.#fill(drawn ? "" : "contact", drawn ? "" : "✕", say(drawn ? "verdict_none" : "verdict_fails"), lines, rows);
+    this.#fill("contact", "✕", say("verdict_fails"), rows.length ? [] : [words], rows);
   }
 
   #row(name, text, act) {
@@ -80,7 +95,7 @@ export class Judgement {
     const sign = make("span", { className: "mark", "aria-hidden": "true", textContent: mark });
     this.box.dataset.outcome = outcome;
     // On a phone the verdict also appears below the picture, in one line that leads to its reasons.
-    Object.assign($("#verdict"), { hidden: false, textContent: [mark, value].join(" ").trim() });
+    Object.assign($("#verdict"), { hidden: false, href: "#answers", textContent: [mark, value].join(" ").trim() });
     const sentences = lines.filter(Boolean).map((line) => make("p", typeof line === "string" ? { textContent: line } : line));
     const list = make("ol", { className: "failures" }, ...rows);
     const old = make("p", { className: "old", textContent: say("old") });

@@ -226,6 +226,7 @@ export class Keep {
       if (item.ask === "kit" && this.#besides().length) announce(() => say("kitWithout", { names: this.#besides().map((name) => say(name)).join(", ") }));
       if (item.job) return;
       announce(() => say("making", { name: say(item.key) }), true);
+      this.#mark(item, form, true);
       const blob = item.ask ? await this.#fetch(this.#requests[item.ask](this.questions, form), form) : await this.#picture();
       const name = fileName(item.file, form);
       download(blob, name);
@@ -234,7 +235,14 @@ export class Keep {
       // What takes too long for one answer is made as a job.
       if (error instanceof Problem && error.problem.type === TOO_LONG) this.#begin(item, form).catch(announceRefusal);
       else announceRefusal(error);
+    } finally {
+      if (!item.job) this.#mark(item, form, false);
     }
+  }
+
+  /** Mark a button while its file is made. */
+  #mark({ key }, form, going) {
+    $(`#${key}-${form}`).setAttribute("aria-busy", going);
   }
 
   /** The numbers in use that the contest's questions do not have. */

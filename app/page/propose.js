@@ -1,7 +1,7 @@
 /** The square by its size, and dances proposed for it: one of the cards becomes the route. */
 
 import { Problem, Superseded, TOO_LONG } from "./api.js";
-import { cardPicture, cardWords } from "./cards.js";
+import { cardPicture, cardTitles, cardWords } from "./cards.js";
 import { Corners } from "./corners.js";
 import { EMPTY, drawingOf, freeName, headingOf, venueOf, withPoints, yardOf } from "./drawing.js";
 import { bearer, button, hide, make, numberIn, textButton } from "./elements.js";
@@ -12,13 +12,19 @@ import { formatNumber } from "./numbers.js";
 import { pending } from "./pending.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
 import { circle, extent, rectangle } from "./square.js";
-import { benchName, refusalWords, say } from "./text.js";
+import { benchName, learn, refusalWords, say, writeTexts } from "./text.js";
+import { DANCE } from "./words/dance.js";
+import { SQUARE } from "./words/square.js";
 
 /** Size of a square before any is drawn [m], and the largest one. */
 const [WIDTH, HEIGHT, MOST] = [30, 40, 10_000];
+/** Difference of width and height of a round square, from rounding [m]. */
+const SAME = 1e-3;
 /** Number of dances that are proposed, and time between two looks at the search [ms]. */
 const [COUNT, SECOND] = [3, 1_000];
 const OBJECTIVES = ["tolerance", "benches", "turns", "duration"];
+/** Words for the stray behind the door of the village, and those of the other doors. */
+const STRAY = { true: { stray: SQUARE.strayVillage, stray_is: SQUARE.strayVillage_is }, false: { stray: DANCE.stray, stray_is: DANCE.stray_is } };
 /** A drawing without a path. */
 const { points, straight, path, start, begin } = EMPTY;
 const WITHOUT_PATH = { points, straight, path, start, begin };
@@ -26,21 +32,26 @@ const WAITING = ["accepted", "running"];
 const field = (key, properties) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, "aria-label": say(key), ...properties });
 
 export class Propose {
-  /** Of the last question: {key, proposals, courses, and the rest of the answer unless it is on its way}; null before. */
+  /** Of the last question: {key, yard, things, proposals, courses, and the rest of the answer unless it is on its way}; null before. */
   #answer = null;
   /** The search that runs: {began, job, end}; null without one. */
   #search = null;
   #problem = null;
   #chosen = null;
+  /** The path of the chosen dance, and the question that it answers. */
+  #made = { path: null, key: "" };
   /** What the cards show. */
   #drawn = null;
   #looking = Symbol("search");
 
   /**
    * @param {any} box
-   * @param {{ state: State, service: Service, questions: Questions, steps: Steps, editor: Editor }} parts
+   * changed(): called when a search begins or ends, or a dance is found
+   * @param {{ state: State, service: Service, questions: Questions, steps: Steps, editor: Editor, changed: () => void }} parts
    */
-  constructor(box, { state, service, questions, steps, editor }) {
+  constructor(box, { state, service, questions, steps, editor, changed }) {
+    this.changed = changed;
+    document.head.append(make("link", { rel: "stylesheet", href: new URL("./cards.css", import.meta.url).href }));
     this.box = box;
     this.state = state;
     this.service = service;
@@ -49,6 +60,8 @@ export class Propose {
     this.editor = editor;
     /** What is said in place of the answer, in the language of the page. @type {(() => string) | null} */
     this.note = null;
+    /** Why a size is refused; null without. @type {(() => string) | null} */
+    this.refusal = null;
     const line = (...parts) => make("p", { className: "line" }, ...parts);
     const words = (key) => make("span", { "data-text": key });
     const unit = () => make("span", { textContent: "m" });
@@ -60,26 +73,33 @@ export class Propose {
     this.ask = textButton("propose", () => this.#ask(), { id: "propose", className: "main" });
     this.words = make("p", { role: "status", id: "proposed" });
     this.stop = textButton("proposeStop", () => this.#stop(), { hidden: true });
+    this.cardsTitle = make("h3", { id: "cards-title" });
+    this.cardsOld = make("p", { className: "error", id: "cards-old", "data-text": "cardsOld" });
     this.cards = make("ol", { id: "cards" });
     this.corners = new Corners({ state, steps, editor }, (refused) => this.#tell(refused));
     const tools = ["gate", "circle", "block", "area"].map((tool) => textButton(`tool_${tool}`, () => this.#tool(tool), { "data-add": tool }));
     box.append(
       line(words("placeRectangle"), width, make("span", { textContent: "×" }), height, unit(), take("take-rectangle", rectangle, [width, height])),
       line(words("placeCircle"), diameter, unit(), take("take-circle", circle, [diameter])),
-      make("p", { className: "hint", "data-text": "placeAdd" }),
-      make("p", { className: "buttons" }, ...tools),
+      (this.wrong = make("p", { className: "error", id: "place-wrong", role: "alert" })),
+      (this.help = make("p", { className: "hint", id: "add-help", role: "status" })),
+      (this.tools = make("p", { className: "buttons" }, ...tools)),
+      (this.done = textButton("placeDone", () => this.editor.turn(false), { id: "place-done" })),
       this.corners.box,
       (this.dragonLine = line(words("placeDragon"), this.dragon[0], words("placeBenchesOf"), this.dragon[1], unit())),
       line(make("label", { htmlFor: "objective", "data-text": "objective" }), this.objective),
       make("p", { className: "buttons" }, this.ask, this.stop),
       this.words,
+      this.cardsTitle,
+      this.cardsOld,
       this.cards,
     );
     for (const [one, id] of [[width, "place-width"], [height, "place-height"], [diameter, "place-diameter"]]) {
       one.id = id;
+      one.addEventListener("input", () => (one.typed = true));
       one.addEventListener("keydown", ({ key }) => key === "Enter" && (one === diameter ? this.#draw(circle, [diameter]) : this.#draw(rectangle, [width, height])));
     }
-    state.listen((names) => ["benches", "body_length", "csv", "margin", "stray", "hole", "pin", "drawing", "path"].some((name) => names.has(name)) && this.show());
+    state.listen((names) => ["benches", "body_length", "csv", "margin", "stray", "hole", "pin", "drawing", "path", "door"].some((name) => names.has(name)) && this.show());
   }
 
   get #drawing() {
@@ -106,10 +126,12 @@ export class Propose {
     const numbers = fields.map(({ value }) => numberIn(value));
     fields.forEach((one, k) => one.setAttribute("aria-invalid", !(numbers[k] > 0 && numbers[k] <= MOST)));
     const wrong = fields.find((one) => one.getAttribute("aria-invalid") === "true");
-    if (wrong) return this.#tell(() => say("noNumberIn", { what: wrong.getAttribute("aria-label"), low: 0, high: MOST, text: wrong.value }));
+    this.refusal = wrong ? () => say("placeWrong", { what: say(wrong.dataset.label), high: MOST.toLocaleString("en"), text: wrong.value }) : null;
+    if (wrong) return this.show();
+    // A number typed for the other shape stays, unless it is wrong.
     for (const one of this.sizes) {
+      if (fields.includes(one) || one.getAttribute("aria-invalid") === "true") one.typed = false;
       one.removeAttribute("aria-invalid");
-      one.kept = null;
     }
     this.#tell(null);
     const before = this.#drawing;
@@ -121,15 +143,15 @@ export class Propose {
     this.state.set({ view: null, time: null });
     this.steps.take(k < 0 ? { ...drawing, things: [area, ...drawing.things] } : withPoints({ ...drawing, yard: null }, k, points));
     this.editor.edit(null);
+    requestAnimationFrame(() => this.ask.scrollIntoView({ block: "nearest" }));
   }
 
   /** Let taps on the picture add things of this kind. */
   #tool(tool) {
-    const isOn = this.editor.active && this.editor.tool === tool;
-    this.editor.turn(!isOn);
-    if (!isOn) this.editor.take(tool);
-    this.#tell(isOn ? null : () => say(`draw_${tool}`));
-    this.box.ownerDocument.querySelector("#dance").scrollIntoView({ block: "nearest" });
+    this.editor.turn(true);
+    this.editor.take(tool);
+    this.#tell(null);
+    for (const one of [document.querySelector("#dance"), this.help]) one.scrollIntoView({ block: "nearest" });
   }
 
   /** Say something below the button. words(): in the language of the page; null: what the answer says */
@@ -144,14 +166,15 @@ export class Propose {
     const search = { began: performance.now(), job: null, end: new AbortController() };
     this.note = null;
     [this.#search, this.#answer, this.#problem, this.#chosen] = [search, null, null, null];
-    this.show();
+    this.changed();
+    this.words.scrollIntoView({ block: "nearest" });
     pending(this.#looking, true);
     const clock = setInterval(() => this.show(), SECOND);
     try {
       const answer = await this.#answerTo(request, search);
       if (search !== this.#search) return;
       const courses = await Promise.all(answer.proposals.map((one, k) => this.#courseOf(one, k)));
-      this.#answer = { key: this.#keyOf(request), courses, ...answer };
+      this.#take({ ...this.#about(request), courses, ...answer });
     } catch (error) {
       if (search !== this.#search) return;
       if (error instanceof Problem) this.#problem = error.problem;
@@ -162,7 +185,20 @@ export class Propose {
       if (!this.#search || search === this.#search) pending(this.#looking, false);
     }
     this.#search = null;
-    this.show();
+    this.changed();
+  }
+
+  /** The square and the question of an answer. */
+  #about(request) {
+    return { key: this.#keyOf(request), yard: yardOf(this.#drawing), things: this.#drawing.things };
+  }
+
+  /** Show an answer; its first cards come into view. */
+  #take(answer) {
+    const isFirst = !this.#answer && answer.proposals.length > 0;
+    this.#answer = answer;
+    this.changed();
+    if (isFirst) this.cards.scrollIntoView({ block: "nearest" });
   }
 
   #courseOf({ dance: { path, dragon } }, k) {
@@ -171,15 +207,14 @@ export class Propose {
 
   /** Show the proposals of a job as they are found. */
   async #follow(request, search) {
-    const answer = { key: this.#keyOf(request), proposals: [], courses: [] };
+    const answer = { ...this.#about(request), proposals: [], courses: [] };
     for await (const { part } of this.service.events(`jobs/${search.job}/events`, search.end.signal)) {
       if (!part || search !== this.#search) continue;
       const course = await this.#courseOf(part, answer.proposals.length).catch(() => null);
       if (!course || search !== this.#search) continue;
       answer.proposals.push(part);
       answer.courses.push(course);
-      this.#answer = answer;
-      this.show();
+      this.#take(answer);
     }
   }
 
@@ -214,7 +249,7 @@ export class Propose {
     if (this.#search?.job) this.#remove(this.#search.job);
     this.service.drop(["proposals"]);
     this.#search = null;
-    this.show();
+    this.changed();
   }
 
   #keyOf(request) {
@@ -240,7 +275,26 @@ export class Propose {
     this.#chosen = k;
     this.steps.take({ ...drawing, things, yard: hasStreets ? yard : null, path, start, begin, ...knotsOf(courses[k]) });
     this.#answer.key = this.#keyOf(this.#request());
-    this.show();
+    this.#made = { path: this.#drawing.path, key: this.#answer.key };
+    this.changed();
+  }
+
+  /** True for an answer to another question than that of what is shown now. */
+  get #isOld() {
+    return Boolean(this.#answer) && this.#answer.key !== this.#keyOf(this.#request());
+  }
+
+  /** What comes next without a path: propose or path; null while dances are looked for or offered. */
+  get next() {
+    if (!yardOf(this.#drawing).length) return "path";
+    return this.#search || (this.#answer?.proposals.length && !this.#isOld) ? null : "propose";
+  }
+
+  /** What the verdict on the dance has to say of gates and of an earlier square, or an empty text. */
+  get remark() {
+    const { path, things, yard } = this.#drawing;
+    if (path && path === this.#made.path) return this.#made.key === this.#keyOf(this.#request()) ? "" : say("verdictOld");
+    return !yard && things.some(({ kind }) => kind === "gate") ? say("gatesApart") : "";
   }
 
   /** Why no dance was found, in words. */
@@ -264,24 +318,34 @@ export class Propose {
     const drawing = this.#drawing;
     const isRoute = this.state.get("path") === "route";
     hide(this.box, !isRoute);
+    learn(STRAY[String(this.state.get("door") === "village")]);
+    writeTexts();
     if (!isRoute) return;
     this.#showSizes(yardOf(drawing));
+    hide(this.wrong, !this.refusal);
+    this.wrong.textContent = this.refusal?.() ?? "";
+    this.help.textContent = this.editor.active ? this.editor.help : say("placeAdd");
+    // While drawing, the tools stand above the picture.
+    hide(this.tools, this.editor.active);
+    hide(this.done, !this.editor.active);
     this.corners.show();
     hide(this.dragonLine, Boolean(this.state.get("csv")));
     for (const [k, name] of ["benches", "body_length"].entries()) if (document.activeElement !== this.dragon[k]) this.dragon[k].value = this.state.get(name);
-    for (const one of this.box.querySelectorAll("[data-add]")) one.setAttribute("aria-pressed", this.editor.active && this.editor.tool === one.dataset.add);
     hide(this.stop, !this.#search);
     this.ask.disabled = Boolean(this.#search);
-    const answer = this.#answer && this.#answer.key === this.#keyOf(this.#request()) ? this.#answer : null;
-    this.#showWords(answer);
-    this.#showCards(answer);
+    const isOld = this.#isOld;
+    this.#showWords(isOld ? null : this.#answer);
+    this.#showCards(this.#answer, isOld);
   }
 
   #showSizes(yard) {
     const { width, height } = yard.length ? extent(yard) : { width: WIDTH, height: HEIGHT };
-    const values = [width, height, Math.min(width, height)].map((size) => String(Number(size.toFixed(2))));
+    // Only a round square has a diameter: the field keeps its number beside any other.
+    const isRound = yard.length > 4 && Math.abs(width - height) < SAME;
+    const values = [width, height, isRound || !this.sizes[2].value ? Math.min(width, height) : null];
     this.sizes.forEach((one, k) => {
-      if (document.activeElement !== one && one.kept !== values[k] && one.getAttribute("aria-invalid") !== "true") one.value = one.kept = values[k];
+      if (values[k] === null || one.typed || document.activeElement === one || one.getAttribute("aria-invalid") === "true") return;
+      one.value = String(Number(values[k].toFixed(2)));
     });
   }
 
@@ -294,17 +358,23 @@ export class Propose {
     this.words.className = problem || (answer && !answer.proposals.length) ? "error" : "hint";
   }
 
-  #showCards(answer) {
+  #showCards(answer, isOld) {
+    const count = answer?.proposals.length ?? 0;
+    hide(this.cardsTitle, !count);
+    hide(this.cardsOld, !count || !isOld);
+    this.cardsTitle.textContent = count ? say(count === 1 ? "cardsTitle_one" : "cardsTitle", { count }) : "";
     // Cards that stay the same keep the focus while the search goes on.
-    const drawn = answer && JSON.stringify([answer.key, answer.proposals.length, answer.tried, this.#chosen, this.state.get("lang")]);
+    const drawn = answer && JSON.stringify([answer.key, isOld, count, answer.tried, this.#chosen, this.state.get("lang")]);
     if (drawn === this.#drawn) return;
     this.#drawn = drawn;
     if (!answer) return this.cards.replaceChildren();
+    const named = (wanted) => answer.things.filter(({ kind }) => kind === wanted).map(({ name }) => name);
+    const titles = cardTitles(answer, named("gate"));
     const cards = answer.proposals.map((proposal, k) => {
-      const { title, size, good, tight } = cardWords(proposal, answer.proposals);
+      const { size, good, tight } = cardWords(proposal, answer.proposals, named("area")[0]);
       const lines = [["good", "✓", good], ["tight", "!", tight]].map(([className, mark, text]) => make("span", { className }, make("b", { "aria-hidden": "true", textContent: mark }), " ", text));
-      const picture = make("span", { className: "picture", "aria-hidden": "true", innerHTML: cardPicture({ yard: yardOf(this.#drawing), things: this.#drawing.things }, answer.courses[k]) });
-      return make("li", {}, button({ "aria-pressed": this.#chosen === k }, () => this.#choose(k), picture, make("b", { textContent: title }), make("span", { className: "hint", textContent: size }), ...lines));
+      const picture = make("span", { className: "picture", "aria-hidden": "true", innerHTML: cardPicture(answer, answer.courses[k]) });
+      return make("li", {}, button({ "aria-pressed": this.#chosen === k && !isOld, disabled: isOld }, () => this.#choose(k), picture, make("b", { textContent: titles[k] }), make("span", { className: "hint", textContent: size }), ...lines));
     });
     this.cards.replaceChildren(...cards);
   }

@@ -49,3 +49,17 @@ export function measures(points, isClosed) {
   });
   return { lengths, angles };
 }
+
+/** Length of a street in which a dragon stands, and what it has beyond the dragon [m]: a place to begin, and the overhang of a bench. */
+const STREET_MORE = 0.7;
+
+/** Length of the street beyond a gate, as the service adds it, in whole metres [m]. state: with the benches and the stray */
+export function streetLength(state) {
+  const { csv, listed } = state.extras();
+  const number = (name) => Number(state.get(name));
+  const [count, overhang] = [number("benches"), number("overhang")];
+  const lengths = csv ? listed.lengths : [number("head_length"), ...Array(Math.max(count - 1, 0)).fill(number("body_length"))];
+  const overhangs = csv ? listed.overhangs : lengths.map(() => overhang);
+  const chords = lengths.reduce((sum, length, k) => sum + length - 2 * overhangs[k], 0);
+  return Math.ceil(chords + Math.max(overhangs[0], overhangs.at(-1)) + STREET_MORE);
+}

@@ -25,7 +25,7 @@ export const BELOW = {
   keepPaper: ["The paper's numbers beside these", "论文数值与本服务的对照"],
   keepShown: ["What is shown", "当前结果"],
   keepProof: ["A proof in ball arithmetic", "球算术证明"],
-  making: ["Making {name}", "正在生成：{name}"],
+  making: ["Being made: “{name}”. It is saved as soon as it is ready.", "正在生成“{name}”，完成后即保存。"],
   paperWhat: ["quantity", "量"],
   paperSource: ["source", "来源"],
   paperTheirs: ["published", "已发表"],
