@@ -205,7 +205,7 @@ lock: setup
 	@$(BIN)/uv pip compile --universal --python-version 3.11 --no-deps --generate-hashes \
 		--no-header --no-annotate --no-emit-index-url --quiet requirements.lock --output-file requirements.hashes
 
-# In a clone, whose locks are made anew.
+# In a clone, whose locks are made anew. Tools of the tests hold typer back: the newest of all is tried by make wheels.
 versions: setup
 	@for resolution in lowest-direct highest; do \
 		rm -rf build/versions && git clone --quiet . build/versions && \
