@@ -398,7 +398,7 @@ def test_a_number_that_cannot_be_used_is_refused_beside_its_field_and_the_dance_
     page = visit(VILLAGE + "&lang=zh", failing=True)
     verdict(page, "无法表演")
     speed, latitude = (page.locator(f"#route [data-label={name}]") for name in ("speedLimit", "latitude"))
-    error = page.locator("#route .error")
+    error = page.locator("#route > .error")
     for field, text, words in (
         (speed, "1.1 m/s", "“把手限速”应为 0.001 到 100 之间的数，现为“1.1 m/s”。"),
         (speed, "-2", "现为“-2”"),
