@@ -26,7 +26,7 @@ APART_FROM_MARGINS = {
     ("Encounter", "cross_check"),
     # Cue cards list who comes near, within a reach and not a margin.
     *((model, "gap") for model in ("Meeting", "DragonMeeting")),
-    *((model, "meetings") for model in ("CueCard", "DragonCueCard")),
+    *((model, name) for model in ("CueCard", "DragonCueCard") for name in ("meetings", "least_left_out")),
     *(
         (model, name)
         for model in ("Cue", "DragonCue")

@@ -168,7 +168,7 @@ def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(visi
 
 def test_a_route_without_a_drawing_invites_to_draw_and_waits_for_nothing(visit: Any) -> None:
     page = visit("?path=route", viewport=PHONE, has_touch=True, is_mobile=True, locale="zh-CN")
-    page.locator("#invite h3").wait_for()
+    page.locator("#invite").wait_for()
     settled(page)
     expect(page.locator("[aria-busy=true]:visible")).to_have_count(0)
     expect(page.locator("#old")).to_be_hidden()
