@@ -119,8 +119,7 @@ export class Drawn {
       this.picture.scene.pose = null;
       this.judgement.begin(this.propose.next);
       this.form.offer(null);
-    }
-    else if (this.#remark !== this.propose.remark) this.judged();
+    } else if (this.#remark !== this.propose.remark) this.judged();
     this.draw();
   }
 

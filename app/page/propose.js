@@ -51,7 +51,6 @@ export class Propose {
    */
   constructor(box, { state, service, questions, steps, editor, changed }) {
     this.changed = changed;
-    document.head.append(make("link", { rel: "stylesheet", href: new URL("./cards.css", import.meta.url).href }));
     this.box = box;
     this.state = state;
     this.service = service;

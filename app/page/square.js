@@ -1,5 +1,7 @@
 /** The shape of a square, and gates on its border. Points are [x, y] in metres. */
 
+import { strayOf } from "./fields.js";
+
 /** Corners of a round square, all of them on the circle, so that the whole of it is inside. */
 const ROUND = 48;
 
@@ -50,10 +52,10 @@ export function measures(points, isClosed) {
   return { lengths, angles };
 }
 
-/** Length of a street in which a dragon stands, and what it has beyond the dragon [m]: a place to begin, and the overhang of a bench. */
+/** What a street has beyond the dragon, beside the margin, the stray and the overhang of a bench: a place to begin [m]. */
 const STREET_MORE = 0.7;
 
-/** Length of the street beyond a gate, as the service adds it, in whole metres [m]. state: with the benches and the stray */
+/** Length of the street that the service adds beyond a gate, in whole metres; a stray counts once, where the service counts what it moves the benches by [m]. */
 export function streetLength(state) {
   const { csv, listed } = state.extras();
   const number = (name) => Number(state.get(name));
@@ -61,5 +63,7 @@ export function streetLength(state) {
   const lengths = csv ? listed.lengths : [number("head_length"), ...Array(Math.max(count - 1, 0)).fill(number("body_length"))];
   const overhangs = csv ? listed.overhangs : lengths.map(() => overhang);
   const chords = lengths.reduce((sum, length, k) => sum + length - 2 * overhangs[k], 0);
-  return Math.ceil(chords + Math.max(overhangs[0], overhangs.at(-1)) + STREET_MORE);
+  const [stray, hole, pin, margin] = ["stray", "hole", "pin", "margin"].map(number);
+  const free = margin + strayOf({ stray, hole, pin });
+  return Math.ceil(chords + Math.max(overhangs[0], overhangs.at(-1)) + free + STREET_MORE);
 }

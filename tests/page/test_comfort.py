@@ -8,10 +8,13 @@ import shlex
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pypdfium2
 import pytest
+import shapely
 from playwright.sync_api import expect
 
+from core.shapes.engines import widest_place
 from tests.support import polite
 from tests.support.job_service import wait_for
 from tests.support.pending import reached, settled
@@ -98,6 +101,22 @@ def test_a_bare_address_moves_with_the_mouse_and_the_wheel_scrolls_until_the_pic
         settled(one)
         shows(one, "#clock", "0.00 s")
         shows(one, "#play", "Play")
+
+
+def test_a_name_stands_where_its_area_is_widest(visit: Any) -> None:
+    page = visit("?time=0")
+    # A square of 40 m with a street of 60 m, and a ring of 50,000 corners with two lobes.
+    street = [[0, 0], [40, 0], [40, 18], [100, 18], [100, 22], [40, 22], [40, 40], [0, 40]]
+    turns = np.linspace(0.0, 2.0 * np.pi, 50_000, endpoint=False)
+    lobes = np.stack([(30.0 + 12.0 * np.cos(turns)) * np.cos(turns), 12.0 * np.sin(turns)], axis=1).tolist()
+    script = "(areas) => import('/page/venue.js').then(({ widest }) => areas.map(widest))"
+    for corners, (x, y, width) in zip((street, lobes), page.evaluate(script, [street, lobes]), strict=True):
+        *_, radius = widest_place([[*corners, corners[0]]])
+        square = shapely.Polygon(corners)
+        assert square.contains(shapely.Point(x, y))
+        room = shapely.distance(square.boundary, shapely.Point(x, y))
+        assert 0.5 * width == pytest.approx(room, rel=0.01)
+        assert room > 0.97 * radius
 
 
 def test_the_picture_has_its_scale_its_direction_and_one_scale_of_colours(visit: Any) -> None:

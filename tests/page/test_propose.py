@@ -471,17 +471,20 @@ def test_the_verdict_on_a_drawn_path_says_that_gates_do_not_count(open_page: Any
     expect(page.locator("#judgement")).to_contain_text("Gates do not count for it")
 
 
-@pytest.mark.parametrize("benches", [8, 24])
-def test_a_gate_is_explained_with_the_street_that_is_added(open_page: Any, benches: int) -> None:
-    page = open_page(YARD.replace("benches=8", f"benches={benches}"), **PHONE)
+@pytest.mark.parametrize(("benches", "stray", "margin"), [(8, 0.0, 0.0), (24, 0.0, 0.0), (8, 0.05, 1.5)])
+def test_a_gate_is_explained_with_the_street_that_is_added(
+    open_page: Any, benches: int, stray: float, margin: float
+) -> None:
+    limits = f"&stray={stray}&margin={margin}"
+    page = open_page(YARD.replace("benches=8", f"benches={benches}") + limits, **PHONE)
     settled(page)
     page.locator("[data-add=gate]").click()
     expect(page.locator("[data-add=gate]")).to_be_hidden()
     expect(page.locator("[data-tool=gate]")).to_have_attribute("aria-pressed", "true")
     words = page.locator("#add-help").inner_text()
-    street = re.search(r"Beyond it a straight street of (\d+) m is added, as long as your dragon", words)
+    street = re.search(r"Beyond it a straight street of about (\d+) m is added, as long as your dragon", words)
     assert street
-    assert int(street[1]) == math.ceil(street_length(Needs(Dragon(benches), 0.0, 0.0)))
+    assert int(street[1]) == math.ceil(street_length(Needs(Dragon(benches), stray, margin)))
     page.locator("#place-done").click()
     expect(page.locator("[data-add=gate]")).to_be_visible()
     expect(page.locator("[data-tool=gate]")).to_be_hidden()

@@ -77,7 +77,7 @@ export const SQUARE = {
   breach_stray: ["too near if people stray", "离位时过近"],
   tool_gate: ["Gate", "入口"],
   thing_gate: ["gate", "入口"],
-  draw_gate: ["Tap the border: the dragon comes in or goes out there. Beyond it a straight street of {length} m is added, as long as your dragon, which stands in it before or after the dance.", "点击广场边界：龙队由此进出。入口外会加上一条 {length} m 长的直街，与龙队等长，舞龙前后全队站在街中。"],
+  draw_gate: ["Tap the border: the dragon comes in or goes out there. Beyond it a straight street of about {length} m is added, as long as your dragon, which stands in it before or after the dance.", "点击广场边界：龙队由此进出。入口外会加上一条约 {length} m 长的直街，与龙队等长，舞龙前后全队站在街中。"],
   gateHeading: ["Direction of those who enter [°]", "进入方向 [°]"],
   gateStraight: ["straight", "垂直"],
 };
