@@ -18,7 +18,7 @@ from matplotlib.patches import Circle
 
 from app.cards.words import CardWords
 from app.files.drawing import in_turn
-from app.maps.marks import line_of
+from app.maps.marks import line_of, mark_name
 from app.plan.sheet import PAPERS, POINT, Box, Paper, Sheet, north_arrow
 from core import Budget, Dance, Venue
 from core.people.cards import Card
@@ -33,9 +33,10 @@ ACROSS, DOWN, PAD = 2, 2, 7.0
 # Length of a mark where to cut [mm].
 CUT = 6.0
 # Sizes of type: of the bench's number, of where it stands, of times, sentences, neighbours and small print [pt].
-BENCH_TYPE, STAND_TYPE, TIME_TYPE, WORDS_TYPE, NEAR_TYPE, SMALL_TYPE = 26.0, 12.0, 12.0, 11.0, 10.0, 5.5
-# Height of a line of a sentence, space between two cues, and distance of sentences from the left edge [mm].
-LINE, BETWEEN, INDENT = 4.9, 1.4, 24.0
+BENCH_TYPE, STAND_TYPE, TIME_TYPE, WORDS_TYPE, NEAR_TYPE, SMALL_TYPE = 26.0, 12.0, 12.0, 11.0, 10.0, 6.5
+# Height of a line of a sentence and of small print, space between two cues, and distance of sentences from the left
+# edge [mm].
+LINE, SMALL_LINE, BETWEEN, INDENT = 4.9, 2.9, 1.4, 24.0
 # Least height of the picture, and the space between the picture and its frame [mm].
 PICTURE, INSIDE = 24.0, 2.0
 # Ground around the way of a bench in the picture [m], and the type of the names of obstacles [pt].
@@ -44,6 +45,10 @@ AROUND, NAME_TYPE = 1.5, 6.5
 UNIT_BLANK = re.compile(r"(?<=\d) (?=[ms]\b|%)")
 # Radius of the circle with the number of a moment, and distances from its place that are tried for it, in order [mm].
 MOMENT, AWAY = 1.9, (4.0, 6.5, 9.0, 12.0)
+# Half the size of the cross at a chalk mark [mm].
+CROSS = 0.9
+# Places that are tried for its name, from the cross [mm].
+NEAR_CROSS = ((0.0, -2.6), (5.0, 0.0), (-5.0, 0.0), (0.0, 2.6), (4.5, -2.6), (-4.5, -2.6), (4.5, 2.6), (-4.5, 2.6))
 # Space between the way and the circle of a moment, where there is room [mm].
 BESIDE = 0.9
 
@@ -142,18 +147,20 @@ def _draw_card(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
     )
     sheet.words(left, y - 4.3, front, 7.5, within=right - left)
     y -= 9.7
-    nobody = say("nobody", "无")
-    ahead, behind = (nobody if one is None else words.name(one) for one in (bench.ahead, bench.behind))
-    near = say(f"Before you: {ahead}.  Behind you: {behind}.", f"前：{ahead}    后：{behind}")
-    sheet.words(left, y, near, NEAR_TYPE, within=right - left)
+    sheet.words(left, y, words.neighbours(bench.ahead, bench.behind), NEAR_TYPE, within=right - left)
     y -= 2.6
     sheet.line([(left, y), (right, y)], linewidth=0.6)
     y = _draw_cues(sheet, sheets, card, (left, bottom, right, y))
-    marks = say("Chalk marks name the metres along the path.", "粉笔标记为沿路径的米数。")
-    notes = [note for note in (marks, words.distances(card), words.left_out(card), sheets.verdict) if note]
-    for k, note in enumerate(reversed(notes)):
-        sheet.words(left, bottom + 2.6 * k, note, SMALL_TYPE, within=right - left, color="#444444")
-    _draw_track(sheet, sheets, card, (left, bottom + 2.6 * len(notes) + 1.0, right, y))
+    marks = say(
+        "Chalk marks (x) name the metres along the path. The line is the way of your front handle; the dot of a "
+        "meeting is the middle of your bench.",
+        "粉笔标记（x）为沿路径的米数。线为你前把手的路线，相遇处的点为你这节板凳的中点。",
+    )
+    notes = [marks, words.distances(card), words.left_out(card), sheets.verdict]
+    lines = _wrapped(sheet, say(" ", "").join(filter(None, notes)), SMALL_TYPE, right - left)
+    for k, line in enumerate(lines, start=1):
+        sheet.words(left, bottom + SMALL_LINE * (len(lines) - k), line, SMALL_TYPE, color="#444444")
+    _draw_track(sheet, sheets, card, (left, bottom + SMALL_LINE * len(lines) + 1.0, right, y))
 
 
 def _draw_cues(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> float:
@@ -256,6 +263,22 @@ def _draw_track(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
             sheet.line([at, place], linewidth=0.4, color=VERMILION, zorder=6)
         _draw_number(sheet, number, (float(place[0]), float(place[1])))
     _write_names(sheet, names, track, taken, box)
+    _draw_marks(sheet, sheets, (bench.start.s, bench.done.s), on_card, box)
+
+
+def _draw_marks(
+    sheet: Sheet, sheets: CardSheets, places: Sequence[float], on_card: Callable[[Any], Floats], box: Box
+) -> None:
+    """Draw a cross at the chalk mark nearest to each of these places along the path, with its name where room is."""
+    chalk, path = sheets.words.chalk, sheets.dance.path
+    low, high = path.drawn_between(min(chalk.first, path.begin), path.end)
+    for mark in dict.fromkeys(chalk.nearest(s)[0] for s in places):
+        if not low <= (s := chalk.first + mark) <= high:
+            continue
+        x, y = on_card(path.position(s)).tolist()
+        for way in (CROSS, -CROSS):
+            sheet.line([(x - CROSS, y - way), (x + CROSS, y + way)], linewidth=0.9, color="black", zorder=6)
+        sheet.label(f"{mark_name(mark)} m", NAME_TYPE, [(x + dx, y + dy) for dx, dy in NEAR_CROSS], box)
 
 
 def _names_of(sheet: Sheet, venue: Venue | None, on_card: Callable[[Any], Floats], box: Box) -> list[_AreaName]:

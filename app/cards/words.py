@@ -107,6 +107,18 @@ class CardWords:
         own = self.names[bench] if self.names else ""
         return f"{bench} {own}" if own else self.say("0 (head)", "0（龙头）") if bench == 0 else str(bench)
 
+    def neighbours(self, ahead: int | None, behind: int | None) -> str:
+        """Who is before and behind a bench."""
+        nobody = self.say("nobody", "无")
+        numbered = [f"{bench} 号" if bench else "龙头" for bench in (ahead or 0, behind or 0)]
+        names = [self.names[bench] if self.names and bench is not None else "" for bench in (ahead, behind)]
+        chinese = [f"{one}（{name}）" if name else one for one, name in zip(numbered, names, strict=True)]
+        before, after = (
+            nobody if bench is None else self.say(self.name(bench), own)
+            for bench, own in zip((ahead, behind), chinese, strict=True)
+        )
+        return self.say(f"Before you: {before}.  Behind you: {after}.", f"前面：{before}    后面：{after}")
+
     def direction(self, angle: float) -> str:
         """A direction [rad]: a point of the compass, or how it is on the plan, with degrees from its x axis."""
         degrees = math.degrees(angle)
@@ -125,10 +137,9 @@ class CardWords:
         mark = mark_name(place)
         steps = self.chalk.steps(past)
         if steps == 0:
-            return self.say(f"at chalk mark {mark} m", f"在粉笔标记 {mark} m")
-        unit = "step" if abs(steps) == 1 else "steps"
-        where, side = ("past", "过") if steps > 0 else ("before", "前")
-        chinese = f"粉笔标记 {mark} m {side} {abs(steps)} 步"
+            return self.say(f"at chalk mark {mark} m", f"在 {mark} m 粉笔标记处")
+        unit, where = "step" if abs(steps) == 1 else "steps", "past" if steps > 0 else "before"
+        chinese = f"过 {mark} m 粉笔标记 {steps} 步" if steps > 0 else f"距 {mark} m 粉笔标记还差 {-steps} 步"
         return self.say(f"{abs(steps)} {unit} {where} chalk mark {mark} m", chinese)
 
     def sentence(self, card: Card, cue: Cue) -> str:
@@ -172,9 +183,9 @@ class CardWords:
             )
         hows = "pass you the other way" if nearest.oncoming else "walk your way"
         return say(
-            f"{who} {side}, {gap}: the nearest of {len(met)} benches ({runs(met)}) that {hows} from {since} to "
-            f"{until}.",
-            f"{who}{side}，距 {gap}：{since} 至 {until} 与你{how}经过的 {len(met)} 节（{runs(met)}）中最近。",
+            f"{who} {side}, {gap}. Benches {runs(met)} {hows} from {since} to {until}, none nearer when "
+            "straight beside you.",
+            f"{who}{side}，距 {gap}。{since} 至 {until}，{runs(met)} 号与你{how}经过，在正侧方时都不比它近。",
         )
 
     def left_out(self, card: Card) -> str:

@@ -8,6 +8,9 @@ import { benchName, handleName, proofWords, refusalWords, say, sayOf, titleOf } 
 /** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
 const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
 
+/** A time that is worth a word [s]. */
+const SHOWN = 0.05;
+
 /** Metres in millimetres; a value that rounds to zero has no sign. */
 const millimetres = (metres) => (1000 * metres).toFixed(3).replace(/^-(0\.0+)$/, "$1");
 const paragraph = (textContent, more) => make("p", { textContent, ...more });
@@ -213,12 +216,13 @@ export function showHighestSpeed(box, fastest, { benches }) {
   show(box, say("highest"), `${formatNumber(speed, 6, 2)} m/s`, [whose], known, { digits: `${speed.toFixed(6)} m/s` });
 }
 
-export function showEnd(box, answer, time, request) {
+/** begin, time: of the dance [s] */
+export function showEnd(box, answer, { begin, end: time }, request) {
   const reason = answer.end?.reason ?? { undecided: "undecided", clear: "turn" }[answer.outcome] ?? "contact";
   const name = reason === "fold" ? benchName(answer.end.bench, request.benches) : "";
   const words = reason === "contact" ? sayOf("end_contact", request) : say(`end_${reason}`, { name });
   const last = answer.end?.time ?? time;
-  show(box, say("end"), `${formatNumber(last, 6, 2)} s`, [words], [paragraph(say("endKnown"))], { digits: `${last.toFixed(6)} s` });
+  show(box, say("end"), `${formatNumber(last, 6, 2)} s`, [words, ...(request.drawn && Math.abs(begin) >= SHOWN ? [say("endBegins", { begin: formatNumber(begin, 6, 2) })] : [])], [paragraph(say("endKnown"))], { digits: `${last.toFixed(6)} s` });
 }
 
 /** problem: the service's problem; null if it is shown elsewhere; names: of the fields beside which it is shown */

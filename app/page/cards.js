@@ -3,8 +3,8 @@
 import { say } from "./text.js";
 import { extent } from "./square.js";
 
-/** Angle between two benches that is worth a word [degrees], and stray that is little room for people [m]. */
-const [BEND, LITTLE] = [40, 0.1];
+/** Angle between two benches that is worth a word [degrees]; stray that is little room for people, and a near distance [m]. */
+const [BEND, LITTLE, NEAR] = [40, 0.1, 0.3];
 /** Room around the picture and width of its lines, as parts of its larger side [1]; most points of a path. */
 const [AROUND, LINE, POINTS] = [0.04, 0.006, 400];
 /** A safe stray as people say it, rounded down [cm]. */
@@ -42,7 +42,7 @@ export function cardTitles({ proposals, courses, yard }, gates) {
   });
 }
 
-/** {size, good, tight}: the words of a proposal among all of them. square: name of the area */
+/** {size, good, tight, isTight}: the words of a proposal among all of them; isTight: whether to look out there. square: name of the area */
 export function cardWords(proposal, all, square) {
   const { dance, duration, length, tolerance, turns, near, clearance, sharpest_bend: bend } = proposal;
   const most = (value) => all.length > 1 && all.every((one) => one === proposal || value(one) < value(proposal) - 1e-3);
@@ -53,11 +53,12 @@ export function cardWords(proposal, all, square) {
   if (most((one) => -(one.sharpest_bend ?? 0))) good.push(say("good_gentle"));
   const isPair = clearance !== null && clearance < near.distance;
   const tight = [isPair ? say("tight_pair", { distance: clearance.toFixed(2) }) : say(near.name === square ? "tight_border" : "tight_near", { distance: near.distance.toFixed(2), name: near.name })];
+  const isTight = Math.min(clearance ?? Infinity, near.distance) < NEAR || degrees(bend ?? 0) > BEND || tolerance < LITTLE;
   if (degrees(bend ?? 0) > BEND) tight.push(say("tight_bend", { angle: degrees(bend).toFixed(0) }));
   if (tolerance < LITTLE) tight.push(say("tight_stray", { stray }));
   const benches = dance.dragon.benches ?? dance.dragon.lengths.length;
   const size = say("cardSize", { benches, time: duration.toFixed(0), length: length.toFixed(0) });
-  return { size, good: good.join(say("comma")), tight: tight.join(say("comma")) };
+  return { size, good: good.join(say("comma")), tight: tight.join(say("comma")), isTight };
 }
 
 const pointsText = (points) => points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");

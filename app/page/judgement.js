@@ -4,12 +4,16 @@ import { mendWords } from "./answers.js";
 import { $, button, hide, make } from "./elements.js";
 import { formatNumber } from "./numbers.js";
 import { timeOfDay, wayAt } from "./passages.js";
+import { isPresetPath, isPresetVenue } from "./presets.js";
 import { benchName, handleName, refusalWords, say, sayOf } from "./text.js";
 
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
 const DECIMALS = 6;
 /** Shortest part of a path before the head that is worth a word [m]. */
 const STANDS = 0.05;
+
+/** True for a dance in a square that stands here to begin with. */
+const isExample = ({ drawing }) => Boolean(drawing?.things.length) && isPresetPath(drawing) && isPresetVenue(drawing);
 
 /** One failure of /check in a sentence. */
 export function failureWords({ kind, benches, area, peak_speed: peak }, { numbers, drawing }) {
@@ -62,7 +66,7 @@ export class Judgement {
     const { clock } = dance;
     const [start, end] = [dance.begin, dance.answer.end?.time ?? dance.end].map((one) => clock && timeOfDay(Number(one.toFixed(DECIMALS)), clock));
     if (clock) lines.push(say("startsEnds", { start, end }));
-    this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, dance.known);
+    this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, { known: dance.known, title: say(isExample(dance) ? "verdictExample" : "verdictTitle") });
   }
 
   /** No verdict until these fields are mended, beside which the reason stands. */
@@ -89,8 +93,8 @@ export class Judgement {
     return make("li", {}, button({ textContent: name }, act), " ", make("span", { textContent: text }));
   }
 
-  /** known: sentences of the evidence */
-  #fill(outcome, mark, value, lines, rows, known = []) {
+  /** known: sentences of the evidence; title: what the verdict is on */
+  #fill(outcome, mark, value, lines, rows, { known = [], title = say("verdictTitle") } = {}) {
     const open = this.box.querySelector("details")?.open ?? false;
     const sign = make("span", { className: "mark", "aria-hidden": "true", textContent: mark });
     this.box.dataset.outcome = outcome;
@@ -100,6 +104,6 @@ export class Judgement {
     const list = make("ol", { className: "failures" }, ...rows);
     const old = make("p", { className: "old", textContent: say("old") });
     const evidence = make("details", { open }, make("summary", { textContent: say("how") }), ...known.map((textContent) => make("p", { textContent })));
-    this.box.replaceChildren(old, make("h3", { textContent: say("verdictTitle") }), make("p", { className: "value" }, sign, value), ...sentences, ...(rows.length ? [list] : []), ...(known.length ? [evidence] : []));
+    this.box.replaceChildren(old, make("h3", { textContent: title }), make("p", { className: "value" }, sign, value), ...sentences, ...(rows.length ? [list] : []), ...(known.length ? [evidence] : []));
   }
 }

@@ -192,7 +192,7 @@ const SHOW = {
     }
     Object.assign($("#verdict"), { hidden: false, textContent: answers.verdictWords(answer, numbers) });
     answers.showFirstContact($("#first-contact"), answer, numbers);
-    answers.showEnd($("#run-end"), answer, end, numbers);
+    answers.showEnd($("#run-end"), answer, questions.dance, numbers);
     graphs.pitch();
     below?.show();
     route?.judged();
@@ -407,6 +407,9 @@ function listen() {
   whenReached(["#people", "#keep", "#sweeps", "#grade"], openBelow);
   whenReached(["#stage"], openRoute, OF_FILES);
   onClick("#several", () => openDragons().then((one) => one.add()));
+  // A tap on a number chooses all of it, so that typing replaces it; later than the tap, which sets the cursor.
+  const chooseNumber = (target) => target.inputMode === "decimal" && setTimeout(() => document.activeElement === target && target.select());
+  addEventListener("focusin", ({ target }) => chooseNumber(target));
   addEventListener("look", restyle);
   matchMedia("print").addEventListener("change", restyle);
   new ResizeObserver(draw).observe($("#stage"));

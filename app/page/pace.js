@@ -8,8 +8,13 @@ import { refusalWords, say } from "./text.js";
 /** Duration of an added pause, and of an added passage [s]. */
 const [PAUSE, LONG] = [10, 20];
 
+/** Decimals of the times of a dance. */
+const DECIMALS = 6;
+
 export class Pace {
   #rows = [];
+  /** Time of day at which the dance shown begins; empty without one. */
+  #begins = "";
 
   /**
    * field: that of the head speed, above these elements
@@ -23,10 +28,10 @@ export class Pace {
     const adds = ["passageAdd", "pauseAdd"].map((id) => textButton(id, () => this.#add(id === "pauseAdd"), { id }));
     const help = make("p", { className: "hint", "data-text": "passagesHelp" });
     const box = make("details", { id: "passages" }, this.title, help, this.list, this.error, ...adds);
-    this.clock = make("input", { id: "begin_clock", autocomplete: "off", placeholder: "19:30", "aria-describedby": "clock-error clock-help", onchange: () => this.#start() });
-    this.wrong = make("p", { id: "clock-error", className: "error", hidden: true, "data-text": "clockWrong" });
+    this.clock = make("input", { id: "begin_clock", autocomplete: "off", "aria-describedby": "clock-error clock-help", onchange: () => this.#start() });
+    this.wrong = make("p", { id: "clock-error", className: "error", hidden: true });
     const label = make("label", { className: "starts" }, make("span", { "data-text": "begin_clock" }), " ", this.clock);
-    /** Said of an address or a file with the time of day at time 0, if the dance begins at another time. */
+    /** Says when the dance ends, and of an address or a file with the time of day at time 0 when it begins. */
     this.help = make("p", { id: "clock-help", className: "hint", hidden: true });
     field.after(make("div", { id: "pace" }, box, label, this.wrong, this.help));
     state.listen((names) => ["passages", "beats", "start_clock", "begin_clock"].some((name) => names.has(name)) && this.show());
@@ -52,19 +57,27 @@ export class Pace {
     const clock = clockIn(this.clock.value);
     this.wrong.hidden = clock !== null;
     this.clock.setAttribute("aria-invalid", clock === null);
+    this.#say();
     if (clock === null) return;
     this.clock.value = clock;
     this.state.set({ begin_clock: clock, start_clock: "" });
   }
 
-  /** Show when a dance begins whose time of day is given at time 0, as in old addresses and files. */
-  begun({ extras: { clock }, begin }) {
-    const isOther = Boolean(clock) && begin !== 0;
-    this.help.hidden = !isOther;
+  /** Say what a time must look like, and which one holds meanwhile. */
+  #say() {
+    this.clock.placeholder = say("clockExample");
+    this.wrong.textContent = [say("clockWrong"), this.#begins && say("clockKept", { clock: this.#begins })].join(" ").trim();
+  }
+
+  /** Show when a dance ends, and when it begins if its time of day is given at time 0, as in old addresses and files. */
+  begun({ clock, extras: { clock: atZero }, answer, begin, end }) {
+    this.help.hidden = !clock;
+    this.#begins = clock ? timeOfDay(Number(begin.toFixed(DECIMALS)), clock) : "";
     if (!clock) return;
-    const start = isOther ? timeOfDay(begin, clock) : clock;
-    this.help.textContent = isOther ? say("clockAtZero", { clock, start }) : "";
-    if (document.activeElement !== this.clock) this.clock.value = start;
+    const start = this.#begins;
+    const ends = say("clockEnds", { end: timeOfDay(Number((answer.end?.time ?? end).toFixed(DECIMALS)), clock) });
+    this.help.textContent = atZero && begin !== 0 ? `${say("clockAtZero", { clock: atZero, start })} ${ends}` : ends;
+    if (atZero && document.activeElement !== this.clock) this.clock.value = start;
   }
 
   #row() {
@@ -107,6 +120,7 @@ export class Pace {
     this.list.parentElement.open ||= passages.length > 0;
     const bars = beats?.reduce((sum, one) => sum + one.bars, 0);
     this.title.textContent = beats ? say("beatsKept", { bars }) : passages.length ? say("passagesCount", { count: passages.length }) : say("passages");
+    this.#say();
     if (document.activeElement !== this.clock) this.clock.value = this.state.get("begin_clock") || this.state.get("start_clock");
   }
 

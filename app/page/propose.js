@@ -299,7 +299,7 @@ export class Propose {
   /** Why no dance was found, in words. */
   #lack({ reason_kind: kind, reason_values: values, tried }) {
     const { have, need, figure, who, failure } = values;
-    const digits = { area: 1, width: 2, way: 2, stray: 3, benches: 0 }[kind];
+    const digits = { area: 1, stray: 3, benches: 0 }[kind] ?? 2;
     const gates = this.#drawing.things.filter((thing) => thing.kind === "gate");
     const names = kind === "way" ? { a: gates[who[0]]?.name, b: gates[who[1]]?.name } : { who: who.length ? benchName(who[0], Number(this.state.get("benches"))) : "" };
     const numbers = { have: have?.toFixed(digits), need: kind === "stray" ? need : need?.toFixed(digits) };
@@ -370,8 +370,8 @@ export class Propose {
     const named = (wanted) => answer.things.filter(({ kind }) => kind === wanted).map(({ name }) => name);
     const titles = cardTitles(answer, named("gate"));
     const cards = answer.proposals.map((proposal, k) => {
-      const { size, good, tight } = cardWords(proposal, answer.proposals, named("area")[0]);
-      const lines = [["good", "✓", good], ["tight", "!", tight]].map(([className, mark, text]) => make("span", { className }, make("b", { "aria-hidden": "true", textContent: mark }), " ", text));
+      const { size, good, tight, isTight } = cardWords(proposal, answer.proposals, named("area")[0]);
+      const lines = [["good", "✓", good], [isTight ? "tight" : "near", isTight ? "!" : "↔", tight]].map(([className, mark, text]) => make("span", { className }, make("b", { "aria-hidden": "true", textContent: mark }), " ", text));
       const picture = make("span", { className: "picture", "aria-hidden": "true", innerHTML: cardPicture(answer, answer.courses[k]) });
       return make("li", {}, button({ "aria-pressed": this.#chosen === k && !isOld, disabled: isOld }, () => this.#choose(k), picture, make("b", { textContent: titles[k] }), make("span", { className: "hint", textContent: size }), ...lines));
     });

@@ -101,6 +101,7 @@ class Refusal {
   /** A number as the page shows it. */
   quantity({ text, value, unit }) {
     if (unit === "m" && this.field?.centimetres) return `${Number((100 * value).toPrecision(12))} cm`;
+    if (unit === "rad") return `${Number(((180 * value) / Math.PI).toFixed(2))}°`;
     return this.chinese && CHINESE[unit] ? `${value}${CHINESE[unit]}` : text;
   }
 

@@ -92,8 +92,12 @@ class Proposal(Answer):
 class Lack(Answer):
     """The numbers of a reason: m2 for area, m for width, way and stray, benches for benches."""
 
-    have: float | None = Field(description="What there is; null for fails")
-    need: float | None = Field(description="What it takes; null for fails")
+    have: float | None = Field(
+        description="What there is; for fails that of width if no dance could be checked, else null"
+    )
+    need: float | None = Field(
+        description="What it takes; for fails that of width if no dance could be checked, else null"
+    )
     figure: core.Figure | None = Field(description="The figure that comes nearest; null for area, width and way")
     who: list[int] = Field(description="For width the bench that needs it, for way the numbers of both gates")
     failure: Failure | None = Field(

@@ -41,7 +41,8 @@ class ReasonKind(StrEnum):
 class Reason(Readable):
     """Why no dance is proposed: what there is and what it takes, in the unit of the kind.
 
-    have, need: AREA [m2]; WIDTH, WAY, STRAY [m]; BENCHES: numbers of benches; FAILS: None
+    have, need: AREA [m2]; WIDTH, WAY, STRAY [m]; BENCHES: numbers of benches; FAILS: those of WIDTH if no dance could
+        be checked, else None
     figure: the one that comes nearest, None for AREA, WIDTH and WAY; who: bench that needs the width, or both gates
     failure: its first one, for FAILS
     AREA is proven, and so is the width that there is; the others are about the dances that were tried.
@@ -77,7 +78,10 @@ class Reason(Readable):
             most = f"the longest dragon that was found to fit, in {figure}, has {have:.0f}"
             return f"The dragon has {benches_of(int(need))}; {most}."
         if self.failure is None:
-            return "No figure has room for the whole dragon between the edges of the free ground."
+            return (
+                f"No figure was found to fit, not even with one bench: the widest free circle is {have:.2f} m across, "
+                f"and a turn alone needs {need:.2f} m."
+            )
         return f"None of {self.tried} tried passes its check; the nearest, {figure}: {self.failure.message}"
 
     def _line(self) -> str:

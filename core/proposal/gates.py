@@ -81,13 +81,17 @@ def with_streets(venue: Venue, gates: Sequence[Gate], width: float, length: floa
     """
     rings = venue.square.rings
     for k, gate in enumerate(gates):
+        place, sizes = f"gates.{k}.point", quantities("m", 4, width=width, length=length)
         try:
             rings = (_with_street(rings[0], gate, width, length), *rings[1:])
+        except ValueError as error:
+            rule = "must have {width} of border for its street, and the square is narrower there"
+            raise InvalidValue(place, rule, width=sizes["width"]) from error
+        try:
             Area(venue.square.name, rings)
-        except (InvalidValue, ValueError) as error:
-            rule = "must leave room for a straight street, {width} wide and {length} long, beyond the border"
-            sizes = quantities("m", 4, width=width, length=length)
-            raise InvalidValue(f"gates.{k}.point", rule, **sizes) from error
+        except InvalidValue as error:
+            rule = "must lead to a straight street, {width} wide and {length} long, that does not meet the square again"
+            raise InvalidValue(place, rule, **sizes) from error
     return Venue(Area(venue.square.name, rings), venue.obstacles)
 
 

@@ -287,7 +287,9 @@ def _longest(
 
 def _failing(search: Search) -> Reason:
     if search.nearest is None:
-        return Reason(ReasonKind.FAILS, search.tried)
+        return Reason(
+            ReasonKind.FAILS, search.tried, 2.0 * search.ground.widest_circle()[3], search.needs.turning_width
+        )
     one, report = search.nearest
     return Reason(ReasonKind.FAILS, search.tried, figure=one.design.figure, failure=report.failures[0])
 

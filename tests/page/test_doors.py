@@ -179,6 +179,24 @@ def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(visit: Any
     assert order == ["judgement", "benches"]
 
 
+def test_a_village_begins_with_an_example_that_says_so_until_another_square_is_drawn(open_page: Any) -> None:
+    page = open_page("")
+    page.locator("[data-door=village]:visible").first.click()
+    settled(page)
+    expect(page.locator("#judgement h3")).to_have_text("Verdict on this example")
+    # The end counts from 0 s, the time of the verdict from where the dance begins.
+    expect(page.locator("#run-end")).to_contain_text(
+        re.compile(r"Times count from 0 s; the dance begins at -\d+\.\d\d s\.")
+    )
+    width = page.locator("#place-width")
+    width.click()
+    assert page.evaluate("getSelection().toString()") == width.input_value()
+    width.press_sequentially("30")
+    width.press("Enter")
+    settled(page)
+    expect(page.locator("#judgement h3")).to_have_text("Verdict")
+
+
 def test_a_village_keeps_film_plan_cues_and_map_and_sees_there_how_far_they_are(open_page: Any) -> None:
     page = open_page(f"?door=village{ROUTE}")
     settled(with_below(page))
@@ -317,6 +335,7 @@ def test_an_address_is_shared_without_a_clipboard(open_page: Any, query: str) ->
     assert len(address) < 500
     # It is selected, so that it can be copied by hand; and a phone can read it.
     assert page.evaluate("getSelection().toString() || document.activeElement.value") == address
+    page.locator("#qr").wait_for()
     assert read_qr(page.locator("#qr").evaluate(MODULES)) == address
     assert findings(page, "#sharing") == []
     page.keyboard.press("Escape")

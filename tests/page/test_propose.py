@@ -92,8 +92,10 @@ def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_the_route(open_p
     assert 2 <= cards.count() <= 3
     for card in cards.all():
         expect(card.locator(".good")).to_have_text(re.compile(r"✓ (Most room: p|P)eople may be \d"))
-        expect(card.locator(".tight")).to_have_text(
-            re.compile(r"! (nobody comes nearer than \d+\.\d\d m|benches that are not neighbours come as near as \d)")
+        expect(card.locator(".near, .tight")).to_have_text(
+            re.compile(
+                r"[↔!] (nobody comes nearer than \d+\.\d\d m|benches that are not neighbours come as near as \d)"
+            )
         )
         assert card.locator("svg .way").get_attribute("points")
     times = []
@@ -382,11 +384,11 @@ TWO_RINGS = {
             "en",
             ["Ring, 18 m wide", "Ring, 12 m wide"],
             [
-                "! nobody comes nearer than 0.50 m to the border of the square",
-                "! nobody comes nearer than 0.70 m to “linden”",
+                "↔ nobody comes nearer than 0.50 m to the border of the square",
+                "↔ nobody comes nearer than 0.70 m to “linden”",
             ],
         ),
-        ("zh", ["环形，宽 18 m", "环形，宽 12 m"], ["! 离广场边界最近 0.50 m", "! 离“linden”最近 0.70 m"]),
+        ("zh", ["环形，宽 18 m", "环形，宽 12 m"], ["↔ 离广场边界最近 0.50 m", "↔ 离“linden”最近 0.70 m"]),
     ],
 )
 def test_two_rings_are_told_apart_and_the_second_card_is_seen(
@@ -398,7 +400,7 @@ def test_two_rings_are_told_apart_and_the_second_card_is_seen(
     cards = proposed(page)
     expect(page.locator("#cards-title")).to_have_text({"en": "2 dances", "zh": "2 种舞龙"}[language])
     assert [card.locator("> b").inner_text() for card in cards.all()] == titles
-    assert [card.locator(".tight").inner_text() for card in cards.all()] == tight
+    assert [card.locator(".near").inner_text() for card in cards.all()] == tight
     second = cards.nth(1).bounding_box()
     assert second["x"] < 390 - 20
     assert page.evaluate("document.documentElement.scrollWidth") <= 390

@@ -132,6 +132,16 @@ DANCES: tuple[dict[str, Any], ...] = (
 )
 
 
+# Gates of SQUARE: off its border, outwards, in a corner, too many. A street of NOTCHED meets it again.
+GATES: tuple[list[dict[str, Any]], ...] = (
+    [{"point": [0, 0], "heading": 0}],
+    [{"point": [-50, 0], "heading": 3}],
+    [{"point": [-50, -49.9], "heading": 0}],
+    [{"point": [-50, 0], "heading": 0}] * 9,
+)
+NOTCHED = [[0, 0], [60, 0], [60, 40], [30, 40], [30, 20], [20, 20], [20, 40], [0, 40], [0, 0]]
+
+
 def feature(name: str, kind: str, coordinates: Any, **properties: Any) -> dict[str, Any]:
     geometry = {"type": kind, "coordinates": coordinates}
     return {"type": "Feature", "properties": {"name": name, **properties}, "geometry": geometry}
@@ -175,6 +185,11 @@ def refusals(server: str) -> list[dict[str, Any]]:
         square = {"type": "FeatureCollection", "features": [feature("square", "Polygon", [SQUARE])]}
         origins = [{"latitude": 95, "longitude": 0}, {"latitude": 0, "longitude": -200}]
         bodies += [few | {"path": path, "venue": square | {"origin": one}} for one in origins]
+        notched = {"type": "FeatureCollection", "features": [feature("square", "Polygon", [NOTCHED])]}
+        again = {"venue": notched, "gates": [{"point": [30, 30], "heading": 0}]}
+        empty = {"venue": square | {"features": []}}
+        wanted = [few | {"venue": square, "gates": one} for one in GATES] + [few | again, few | empty]
+        answers = [*answers, *(client.post("/proposals", json=one) for one in wanted)]
         bodies += [{"dragon": {"csv": one}} for one in TABLES]
         bodies += [few | {"path": path, "start_clock": "7pm"}, {"dragon": {"benches": 400}, "path": path}]
         answers += [client.post("/check", json=body) for body in bodies]

@@ -95,7 +95,7 @@ def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(visit: 
         assert page.locator(f"#{name}").get_attribute("aria-invalid") == "true"
         before = name
     page.get_by_role("button", name="Reset all").click()
-    page.locator("#controls .error:not([hidden])").wait_for(state="hidden")
+    page.locator("#controls .error:visible").wait_for(state="hidden")
     page.locator("#first-contact .value", has_text="412.473838").wait_for()
 
 
@@ -123,7 +123,7 @@ def test_a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_ag
 
 def test_a_refusal_about_a_turn_goes_with_the_turn_and_comes_back_with_it(visit: Any) -> None:
     page = visit(f"{SHORT}&path=turn&speed_limit=0", failing=True)
-    error = page.locator("#controls .error:not([hidden])")
+    error = page.locator("#controls .error:visible")
     error.wait_for()
     page.locator("[data-path=spiral]").click()
     error.wait_for(state="hidden")

@@ -74,9 +74,10 @@ def test_an_undecided_search_names_in_both_languages_the_pair_that_surely_meets(
     assert re.search(r"Proven clear up to 216\.338\d* s; .+ and .+ meet at 226\.780\d* s at the latest\.", text)
     page.get_by_role("button", name="中文").click()
     page.locator("#first-contact", has_text="最迟在 226.780").wait_for()
-    page.locator("#first-contact details").first.evaluate("details => { details.open = true; }")
-    method = page.locator("#first-contact .method").inner_text()
-    assert "之前无法判定，届时" in method
+    # The answer, with its details, is replaced when the words of the proof have loaded.
+    proof = page.locator("#first-contact .method", has_text="之前无法判定，届时")
+    proof.wait_for(state="attached")
+    method = proof.text_content()
     assert not re.search("[a-z]{4,}", method)
 
 

@@ -152,6 +152,7 @@ export const ANSWERS = {
   fcl: ["FCL", "FCL"],
   shapely: ["shapely", "shapely"],
   angle_sum: ["angle sum (paper)", "角度和（论文）"],
+  endBegins: ["Times count from 0 s; the dance begins at {begin} s.", "时间自 0 s 起计，舞龙于 {begin} s 开始。"],
   endKnown: ["From the same search as the answer above.", "与上面的结果出自同一次搜索。"],
   unanswered: ["No answer", "没有结果"],
   quoted: ["“{name}”", "“{name}”"],

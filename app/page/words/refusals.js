@@ -22,6 +22,9 @@ export const PLACES = {
   passages: ["“Slower, faster, pauses”", "“变速与停顿”"],
   dances: ["The list of dragons", "龙队列表"],
   part: ["The dragon that gets cards", "要做卡片的龙"],
+  gates: ["The gates", "入口"],
+  "gates.#.point": ["Gate #", "第 # 个入口"],
+  "gates.#.heading": ["The direction of gate #", "第 # 个入口的方向"],
   "dances.#": ["Dragon #", "第 # 条龙"],
   "dances.#.dragon": ["The benches of dragon #", "第 # 条龙的板凳"],
   "dances.#.path": ["The path of dragon #", "第 # 条龙的路径"],
@@ -49,6 +52,11 @@ export const RULES = {
   "be zero or more": [undefined, "应为 0 或更大"],
   "be smaller": [undefined, "应更小"],
   "be larger": [undefined, "应更大"],
+  "be at most {most} gates": [undefined, "最多为 {most} 个"],
+  "be on the border of the square": [undefined, "应在广场边界上"],
+  "lead into the square, within 80 degrees of straight across its border": [undefined, "应通向广场内，与边界垂线的夹角不超过 80°"],
+  "have {width} of border for its street, and the square is narrower there": ["have {width} of border for its street, and the square is narrower there. Move the gate, or make the square larger", "处的边界至少应有 {width} 宽以容纳入口外的街，而广场在此处更窄：请移动入口或加大广场"],
+  "lead to a straight street, {width} wide and {length} long, that does not meet the square again": ["lead to a straight street, {width} wide and {length} long, that does not meet the square again. Move or turn the gate", "外应有一条宽 {width}、长 {length} 的直街，且不再与广场相交：请移动或转动入口"],
   "be smaller, or the benches narrower": ["be smaller, or “Width”", "应更小，或减小“板宽”"],
   "be at least {least}, or the turning circle smaller": ["be at least {least}, or “Turning circle” smaller", "至少应为 {least}，或减小“调头空间直径”"],
   "be larger, or the pitch": [undefined, "应更大，或加大螺距"],
@@ -111,6 +119,7 @@ const ENDS = [
 /** What follows a rule, in Chinese. */
 export const REASONS = {
   "lengths are in metres, and {cm} is {m}": "长度以米为单位，{cm} 即 {m}",
+  "it is {off} from it, more than {most}": "现距边界 {off}，最多 {most}",
   "lengths are in metres": "长度以米为单位",
   "speeds are in metres per second": "速度以米每秒为单位",
   "angles are in radians": "角度以弧度为单位",
@@ -170,6 +179,7 @@ const GONE = [undefined, "任务已取消或结果已过期：请重新计算"];
 /** Templates whose sentence is told as a whole, by their template: [English, Chinese]; without English, that of the service stands. */
 export const WHOLE = {
   "The table has {cells} cells, and other forms at most {most}: take it as Parquet.": ["The table has {cells} cells, and other forms at most {most}: take it as Parquet", "表格有 {cells} 个单元格，其他格式最多 {most} 个：请保存为 Parquet"],
+  "{field} must be given: a dance is proposed for a square": ["First say how large your square is", "请先填写广场的大小"],
   "within s": ["No answer was found within {then}, the time limit for one answer here. Take fewer benches, or try again later", "在一次回答允许的 {then} 内没有算完：请减少板凳节数，或稍后再试"],
   "within s file": ["The file was not read within {then}. Try again, or leave out everything that does not belong to the square", "文件在 {then} 内没有读完：请重试，或删去与场地无关的内容"],
   "within work": ["No answer was found within the work limit of one question. Take fewer benches", "在一个问题允许的计算量内没有算完：请减少板凳节数"],

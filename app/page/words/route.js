@@ -64,6 +64,7 @@ export const ROUTE = {
   openedWhole: ["Left out: {names}. The page shows a dance from beginning to end.", "已略去：{names}。页面显示整场舞龙。"],
   opened: ["Opened {name}.", "已打开 {name}。"],
   verdictTitle: ["Verdict", "判定"],
+  verdictExample: ["Verdict on this example", "示例的判定"],
   verdict_passes: ["Can be danced", "可以表演"],
   verdict_fails: ["Cannot be danced", "无法表演"],
   verdict_undecided: ["Undecided", "无法判定"],

@@ -118,6 +118,12 @@ class Coil:
         return np.concatenate([first, first * np.cumprod(front / rear, axis=1)], axis=1)
 
 
+def numbers_in(runs: str) -> set[int]:
+    """The numbers that a text such as 3-5, 7 names."""
+    ends = [[int(one) for one in part.split("-")] for part in runs.split(", ")]
+    return {number for part in ends for number in range(part[0], part[-1] + 1)}
+
+
 def arc(theta: Any) -> Any:
     """Arc length from the centre of the spiral [m]."""
     return PITCH / math.tau / 2.0 * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
@@ -336,7 +342,9 @@ def test_the_cues_are_those_that_the_rule_chooses_and_the_paper_has_them(cards: 
                 assert re.search(rf"straight on your {near['side']}, {near['gap']:.2f} m\b", cue["words"])
                 # One bench that comes abreast again and again is not several.
                 several, times = len(set(cue["others"])), len(cue["others"])
-                assert (f"the nearest of {several} benches" in cue["words"]) == (several > 1)
+                listed = re.search(r"Benches ([\d, -]+) (?:pass you the other way|walk your way)", cue["words"])
+                assert bool(listed) == (several > 1)
+                assert listed is None or numbers_in(listed[1]) == set(cue["others"])
                 assert (f"at the nearest of {times} times" in cue["words"]) == (several == 1 < times)
                 again += several == 1 < times
     assert left_out > 0

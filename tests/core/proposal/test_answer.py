@@ -43,8 +43,11 @@ TOUCH = Failure(FailureKind.CONTACT, 3.0, (1, 9), None, "Benches 1 and 9 touch a
             "None of 30 tried passes its check; the nearest, a ring: Benches 1 and 9 touch at 3.000000 s.",
         ),
         (
-            Reason(ReasonKind.FAILS, 0),
-            "No figure has room for the whole dragon between the edges of the free ground.",
+            Reason(ReasonKind.FAILS, 0, 4.5, 4.25),
+            (
+                "No figure was found to fit, not even with one bench: the widest free circle is 4.50 m across, and a "
+                "turn alone needs 4.25 m."
+            ),
         ),
     ],
     ids=lambda one: one.kind.value if isinstance(one, Reason) else "",

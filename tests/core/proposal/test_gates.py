@@ -66,10 +66,11 @@ def test_a_wrong_gate_is_named(gates: Any, words: str) -> None:
 
 
 def test_a_street_without_room_is_refused() -> None:
-    words = r"gates\[0\]\.point must leave room for a straight street, 3 m wide and 30 m long, beyond the border"
+    narrow = r"gates\[0\]\.point must have 3 m of border for its street, and the square is narrower there"
     corner = checked_gates([Gate((0.0, 0.5), 0.0)], HALL)
-    with pytest.raises(InvalidValue, match=words):
+    with pytest.raises(InvalidValue, match=narrow):
         with_streets(HALL, corner, 3.0, 30.0)
+    words = r"gates\[0\]\.point must lead to a straight street, 3 m wide and 30 m long, that does not meet the square"
     bay = Venue(Area("bay", (closed([(0, 0), (20, 0), (20, 12), (8, 12), (8, 4), (6, 4), (6, 12), (0, 12)]),)))
     inner = checked_gates([Gate((8.0, 8.0), 0.0)], bay)
     with pytest.raises(InvalidValue, match=words):
