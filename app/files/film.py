@@ -1,8 +1,8 @@
 """Films of a dance, as MP4 (H.264, through PyAV) or as GIF (Pillow).
 
 matplotlib draws the background and the numbers of benches once. For each frame the background is copied back, Agg
-fills two paths, one of the head and one of all other benches, and the numbers are laid on them. Meanwhile a second
-thread encodes the frames before. The same film gives the same bytes on the same versions of these libraries.
+fills the benches, and the numbers are laid on them. Meanwhile a second thread encodes the frames before. The same film
+gives the same bytes on the same versions of these libraries.
 """
 
 from __future__ import annotations
@@ -21,14 +21,13 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
-from matplotlib.patches import PathPatch
-from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
 from app.files.drawing import draw_areas, in_turn, with_square
-from app.files.film_labels import MARKED_SHARE, Labels, LabelsBeside, NameLabels, numbered, size_of
+from app.files.film_labels import MARKED_SHARE, CornerText, Labels, LabelsBeside, NameLabels, numbered, size_of
 from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families_for
 from app.files.scratch import temporary
@@ -36,7 +35,7 @@ from app.files.tables import Language
 from app.wire.clocks import minutes_and_seconds, time_of_day
 from core import Budget, Dance, Dragon, Venue, bench_outlines, trajectory
 from core.errors import question_about
-from core.plots import BLUE, PALE, VERMILION, draw_dance
+from core.plots import BLUE, VERMILION, draw_dance
 from core.values import Floats
 
 DPI = 100
@@ -59,6 +58,8 @@ WITH_SOUND = {"max_interleave_delta": "0"}
 # AAC: bits a second, and samples that are handed over at once.
 SOUND_BITS, AT_ONCE = 96_000, 1024
 BODY_EDGE = "#003A5D"
+# Colour of paths, and width of their lines, as a share of the height of the picture.
+WAY, WAY_SHARE = "#9AA8B2", 0.0018
 # A GIF shows every frame for whole hundredths of a second.
 GIF_TICK = 100
 # Colours of a GIF: steps from one colour to another, because edges are smooth. A palette of the most frequent colours
@@ -66,7 +67,7 @@ GIF_TICK = 100
 GIF_STEPS = 9
 GIF_BLENDS = (
     ("white", "black"), ("white", BLUE), ("white", BODY_EDGE), ("white", VERMILION), (BLUE, BODY_EDGE),
-    (BLUE, VERMILION), (BODY_EDGE, VERMILION), ("black", VERMILION), ("black", BLUE), ("white", PALE),
+    (BLUE, VERMILION), (BODY_EDGE, VERMILION), ("black", VERMILION), ("black", BLUE), ("white", WAY),
 )  # fmt: skip
 WORDS = {Language.ENGLISH: "{clock} ({time:.2f} s)", Language.CHINESE: "{clock}（{time:.2f} 秒）"}
 COUNTS = {Language.ENGLISH: "bar {} beat {}", Language.CHINESE: "第 {} 小节第 {} 拍"}
@@ -79,6 +80,8 @@ MARKED = "#F0E442"
 EDGE, TOUCHING_SHARE, EDGED = 0.8, 0.0025, 4.0
 # Least width at which a marked bench is drawn, as a share of the height of the picture.
 MARKED_LEAST = 0.014
+# Part of a marked bench that is dark, its front.
+FRONT_SHARE = 0.18
 
 
 @question_about("dance", Dance, "the film was not drawn")
@@ -126,11 +129,13 @@ def frames(
 
 
 class Layer(NamedTuple):
-    """What moves of one dragon. words: of the marked benches, by number; wider: times their widths are drawn (M,)"""
+    """What moves of one dragon. fronts: of the marked benches, words: theirs, by number; wider: times their widths are
+    drawn (M,)"""
 
-    body: PathPatch
-    head: PathPatch
-    marked: PathPatch
+    body: PolyCollection
+    head: PolyCollection
+    marked: PolyCollection
+    fronts: PolyCollection
     words: dict[int, str]
     wider: Floats
     labels: list[Labels]
@@ -174,15 +179,17 @@ class FilmPicture:
             self.axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
             sampled = np.linspace(spec.start, spec.stop, EXTENT_INSTANTS)
             handles = self.draw_paths(sampled)
+            for line in self.axes.lines:
+                line.set(color=WAY, linewidth=WAY_SHARE * spec.height * 72.0 / DPI)
             paths = [np.asarray(line.get_xydata(), dtype=np.float64) for line in self.axes.lines]
             draw_areas(self.axes, venue)
             self._look(*with_square(venue, handles.min(axis=0), handles.max(axis=0)), spec)
             self.names = [NameLabels(self.axes, venue, spec.height, paths)] if venue else []
             place: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False}
             self.axes.text(0.985, 0.97, title, ha="right", va="top", **place)
-            self.time = self.axes.text(0.985, 0.03, "", ha="right", va="bottom", animated=True, **place)
+            self.time = CornerText(self.axes, points)
             self.layers = [self._layer(k, dragon, spec) for k, dragon in enumerate(dragons)]
-        self.touching = self.benches(2, VERMILION, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
+        self.touching = self.benches(VERMILION, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
         self.canvas.draw()
         self.still = self.canvas.copy_from_bbox(figure.bbox)
 
@@ -196,13 +203,12 @@ class FilmPicture:
         self.axes.set_axis_off()
         scale_bar(self.axes, middle - np.array([shape * tall, tall]), tall)
 
-    def benches(self, count: int, face: str, edge: str, linewidth: float = EDGE) -> PathPatch:
-        """Some benches in one colour, whose places frame() gives."""
-        codes = np.tile([Outline.MOVETO, Outline.LINETO, Outline.LINETO, Outline.LINETO, Outline.CLOSEPOLY], count)
-        path = Outline(np.zeros((5 * count, 2)), codes.astype(Outline.code_type))
-        patch = PathPatch(path, facecolor=face, edgecolor=edge, linewidth=linewidth, animated=True, zorder=3)
-        self.axes.add_patch(patch)
-        return patch
+    def benches(self, face: str, edge: str, linewidth: float = EDGE) -> PolyCollection:
+        """Some benches in one colour, whose places compose() gives."""
+        look: dict[str, Any] = {"facecolors": face, "edgecolors": edge, "linewidths": linewidth}
+        benches = PolyCollection([], **look, animated=True, zorder=3)
+        self.axes.add_collection(benches, autolim=False)
+        return benches
 
     def _layer(self, k: int, dragon: Dragon, spec: FilmSpec) -> Layer:
         """What moves of a dragon."""
@@ -220,9 +226,11 @@ class FilmPicture:
             Labels(self.axes, {bench: str(bench) for bench in plain if bench not in words}, size, around),
             LabelsBeside(self.axes, words, size_of(spec.height, MARKED_SHARE), drawn),
         ]
-        marked = self.benches(len(words), MARKED, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
-        benches = self.benches(dragon.benches - 1, body, edge), self.benches(1, head, head_edge), marked
-        return Layer(*benches, words, drawn / widths[own], labels)
+        wide = TOUCHING_SHARE * spec.height * 72.0 / DPI
+        marked, fronts = self.benches(MARKED, "black", wide), self.benches("black", "none", 0.0)
+        return Layer(
+            self.benches(body, edge), self.benches(head, head_edge), marked, fronts, words, drawn / widths[own], labels
+        )
 
     def frame(self, time: float, outlines: Floats, touching: tuple[int, int] | None = None) -> NDArray[np.uint8]:
         """The picture at one instant. outlines: (n, 4, 2) [m]; touching: the benches that are marked and named"""
@@ -237,15 +245,17 @@ class FilmPicture:
         outlines: (n, 4, 2) of each dragon [m]; touching: dragon and number of the two benches that are marked
         first: words before the time
         """
-        closed = [np.concatenate([own, own[:, :1]], axis=1) for own in outlines]
         artists: list[Artist] = []
-        for layer, own in zip(self.layers, closed, strict=True):
-            layer.head.get_path().vertices = own[0]
-            layer.body.get_path().vertices = own[1:].reshape(-1, 2)
-            layer.marked.get_path().vertices = widened(own[list(layer.words)], layer.wider).reshape(-1, 2)
-            artists += [layer.body, layer.head, *([layer.marked] if layer.words else [])]
+        for layer, own in zip(self.layers, outlines, strict=True):
+            marked = widened(own[list(layer.words)], layer.wider)
+            fronts = np.concatenate([marked[:, :2], fronts_of(marked)[:, ::-1]], axis=1)
+            place(layer.head, own[:1])
+            place(layer.body, own[1:])
+            place(layer.marked, marked)
+            place(layer.fronts, fronts)
+            artists += [layer.body, layer.head, *([layer.marked, layer.fronts] if layer.words else [])]
         if touching:
-            self.touching.get_path().vertices = np.concatenate([closed[k][bench] for k, bench in touching])
+            place(self.touching, np.stack([outlines[k][bench] for k, bench in touching]))
             artists.append(self.touching)
         artists += self.names
         for layer, own in zip(self.layers, outlines, strict=True):
@@ -267,19 +277,30 @@ class FilmPicture:
         return words
 
     def _composed(self, words: str, artists: Sequence[Artist]) -> NDArray[np.uint8]:
-        self.time.set_text(words)
+        self.time.text = words
         self.canvas.restore_region(self.still)
         for artist in artists:
             self.axes.draw_artist(artist)
         return np.asarray(self.canvas.buffer_rgba())
 
 
+def place(benches: PolyCollection, outlines: Any) -> None:
+    """Put benches at outlines (N, 4, 2) [m]."""
+    benches.set_verts(outlines)
+
+
 def widened(outlines: Floats, times: Floats) -> Floats:
-    """Benches (M, 5, 2), closed, at some times their widths (M,)."""
+    """Benches (M, 4, 2) at some times their widths (M,)."""
     front, rear = (outlines[:, k].mean(axis=1, keepdims=True) for k in ([0, 1], [2, 3]))
-    ends = np.concatenate([front, front, rear, rear, front], axis=1)
+    ends = np.concatenate([front, front, rear, rear], axis=1)
     wider: Floats = ends + times[:, None, None] * (outlines - ends)
     return wider
+
+
+def fronts_of(outlines: Floats) -> Floats:
+    """Where the fronts (M, 2, 2) of benches (M, 4, 2) end, beside the corners 0 and 1."""
+    fronts: Floats = outlines[:, :2] + FRONT_SHARE * (outlines[:, [3, 2]] - outlines[:, :2])
+    return fronts
 
 
 def scale_bar(axes: Axes, corner: Floats, half: float) -> None:

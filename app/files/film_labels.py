@@ -6,11 +6,13 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+import matplotlib
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import NDArray
 
@@ -33,6 +35,10 @@ TO_FRONT = 0.5
 BESIDE, CHANGES, NEAREST = 0.25, 0.25, 12
 # Size of the names of areas, as a share of the height of the picture, and the least one [pixels].
 NAME_SHARE, NAME_LEAST = 0.018, 11.0
+# Lower right corner of the time, as shares of width and height, and distance of its lines in sizes of the type.
+CORNER, SPACING = (0.985, 0.03), 1.2
+# From the bottom of a character's picture to the bottom of its line, in sizes of the type.
+BELOW = 0.75
 
 
 def size_of(height: int, share: float = SHARE) -> float:
@@ -115,6 +121,46 @@ class Labels(Artist):
             if rows:
                 renderer.draw_image(context, round(x - 0.5 * columns), round(y - 0.5 * rows), picture)
         context.restore()
+
+
+class CornerText(Artist):
+    """Lines of text at the lower right of the picture, in the type of rc_context() where it is made.
+
+    Each character is drawn once, because the time changes with every picture.
+    """
+
+    def __init__(self, axes: Axes, points: float) -> None:
+        super().__init__()
+        self.text, self._dpi, self._size = "", axes.figure.dpi, points * axes.figure.dpi / 72.0
+        self._font = FontProperties(family=list(matplotlib.rcParams["font.family"]), size=points)
+        self._characters: dict[str, tuple[float, NDArray[np.uint8]]] = {}
+
+    def draw(self, renderer: Any) -> None:
+        context, (width, height) = renderer.new_gc(), renderer.get_canvas_width_height()
+        for k, line in enumerate(reversed(self.text.split("\n"))):
+            drawn = [self._drawn(renderer, character) for character in line]
+            x = CORNER[0] * width - sum(advance for advance, _ in drawn)
+            y = CORNER[1] * height + (SPACING * k - BELOW) * self._size
+            for advance, picture in drawn:
+                renderer.draw_image(context, round(x - self._size), round(y), picture)
+                x += advance
+        context.restore()
+
+    def _drawn(self, renderer: Any, character: str) -> tuple[float, NDArray[np.uint8]]:
+        """The way from a character to the next one [pixels], and its picture, with its baseline at a third of the
+        height and its left edge at one size of the type."""
+        if character not in self._characters:
+            # Measured between two others, because a space alone has no width.
+            wide, bare = (
+                renderer.get_text_width_height_descent(text, self._font, ismath=False)[0]
+                for text in (f"|{character}|", "||")
+            )
+            side = math.ceil(3.0 * self._size)
+            canvas = FigureCanvasAgg(Figure(figsize=(side / self._dpi, side / self._dpi), dpi=self._dpi))
+            own = canvas.get_renderer()
+            own.draw_text(own.new_gc(), self._size, 2.0 * self._size, character, self._font, 0.0, ismath=False)
+            self._characters[character] = wide - bare, laid([np.asarray(canvas.buffer_rgba())])[0]
+        return self._characters[character]
 
 
 class LabelsBeside(Labels):

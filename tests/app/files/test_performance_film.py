@@ -62,7 +62,7 @@ def test_every_bench_is_drawn_in_the_colour_of_its_dragon() -> None:
             for x, y in stage.axes.transData.transform(own.mean(axis=1)):
                 colour = picture[round(len(picture) - 1 - y), round(x), :3] / 255.0
                 assert colour == pytest.approx(to_rgb(colour_of(k)), abs=0.02)
-    assert stage.time.get_text() == "19:30:20 (20.50 s)"
+    assert stage.time.text == "19:30:20 (20.50 s)"
 
 
 @pytest.mark.parametrize(
@@ -79,7 +79,7 @@ def test_the_benches_that_touch_are_named(language: Language, words: str) -> Non
         bench_outlines(part.dance.dragon, one.position) for part, one in zip(PERFORMANCE.parts, results, strict=True)
     ]
     stage.picture(20.5, outlines, (0, 1), (2, 0))
-    assert stage.time.get_text().startswith(words)
+    assert stage.time.text.startswith(words)
 
 
 def test_the_film_ends_at_the_first_encounter_and_marks_it() -> None:
