@@ -156,7 +156,7 @@ export function showMinimumPitch(box, answer, request, key, use) {
   ];
   const known = [facts(...rows), engines(answer.cross_check, benches, request)];
   const digits = `${answer.pitch.toFixed(9)} m`;
-  show(box, titleOf("minimumPitch", request), isExact() ? digits : `${(100 * answer.pitch).toFixed(1)} cm`, lines, known, { digits });
+  show(box, titleOf("minimumPitch", request), isExact() ? digits : `${bound(100 * answer.pitch, 2, 1)} cm`, lines, known, { digits });
   offer(box, key, () => use(high));
 }
 

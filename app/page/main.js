@@ -411,6 +411,12 @@ function listen() {
   const chooseNumber = (target) => target.inputMode === "decimal" && setTimeout(() => document.activeElement === target && target.select());
   addEventListener("focusin", ({ target }) => chooseNumber(target));
   addEventListener("look", restyle);
+  // "How it works" leads back to this dance; without storage, to the page as it begins.
+  addEventListener("pagehide", () => {
+    try {
+      sessionStorage.setItem("dance", location.search);
+    } catch {}
+  });
   matchMedia("print").addEventListener("change", restyle);
   new ResizeObserver(draw).observe($("#stage"));
   const all = () => {

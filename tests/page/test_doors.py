@@ -155,7 +155,7 @@ def test_behind_a_door_stand_few_numbers_and_more_on_demand(visit: Any, door: st
 def test_numbers_are_as_people_say_them_and_all_digits_are_with_the_evidence(visit: Any) -> None:
     page = visit("?door=contest&time=end")
     expect(page.locator("#first-contact .value")).to_have_text("✕Contact at 412.47 s")
-    expect(page.locator("#minimum-pitch .value")).to_have_text("45.0 cm")
+    expect(page.locator("#minimum-pitch .value")).to_have_text("45.04 cm")
     expect(page.locator("#clock")).to_have_text("412.47 s")
     expect(page.locator("#minimum-pitch button")).to_be_hidden()
     for box, digits in (("#first-contact", "412.473838 s"), ("#minimum-pitch", "0.450337393 m")):

@@ -222,3 +222,13 @@ def test_every_answer_of_the_dance_leads_to_the_idea_behind_it(open_page: Any) -
     page.locator("#tolerance details a").click()
     expect(page.locator("#stray h2")).to_be_in_viewport()
     expect(page.locator("#stray .ground").first).to_be_visible()
+
+
+def test_how_it_works_leads_back_to_the_dance_from_which_it_was_opened(open_page: Any) -> None:
+    page = open_page("?benches=9&pitch=0.6&door=contest&lang=zh")
+    page.locator("[data-how]:visible").first.click()
+    page.locator("#name a").click()
+    expect(page.locator("#first-contact .value")).to_be_visible()
+    assert "benches=9" in page.url
+    assert "pitch=0.6" in page.url
+    assert "door=contest" in page.url

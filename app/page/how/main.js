@@ -59,13 +59,24 @@ function read() {
   }
 }
 
+/** The address of the dance from which this page was opened in this tab, from its ? on; empty without one. */
+function cameFrom() {
+  try {
+    return sessionStorage.getItem("dance") ?? "";
+  } catch {
+    return ""; // storage is forbidden here
+  }
+}
+
 function translate(choice) {
   const language = setLanguage(choice);
   column = language === "zh" ? 1 : 0;
   for (const element of $$("[data-word]")) element.textContent = word(element.dataset.word);
   document.title = `${word("title")} · ${say("title")}`;
   for (const button of $$("[data-lang]")) button.setAttribute("aria-pressed", button.dataset.lang === language);
-  $("#name a").href = choice ? `.?lang=${choice}` : ".";
+  const back = new URLSearchParams(cameFrom());
+  if (choice) back.set("lang", choice);
+  $("#name a").href = back.size ? `.?${back}` : ".";
   for (const figure of figures) figure.translate();
 }
 

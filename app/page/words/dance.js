@@ -161,7 +161,7 @@ export const DANCE = {
   begin_clock: ["Starts at", "开始于"],
   clockAtZero: ["The file or the address says {clock} at 0 s; the dance starts at {start}.", "文件或链接中 0 s 时为 {clock}，舞龙于 {start} 开始。"],
   clockEnds: ["It ends at {end}.", "{end} 结束。"],
-  clockExample: ["such as 19:30", "如 19:30"],
+  clockExample: ["hh:mm", "时:分"],
   clockKept: ["Until then it starts at {clock}.", "在此之前仍于 {clock} 开始。"],
   clockWrong: ["Write the time of day as 19:30 or 19:30:15.", "时刻的格式为 19:30 或 19:30:15。"],
   several: ["Several dragons", "多条龙"],
