@@ -223,8 +223,8 @@ def test_a_square_is_drawn_by_its_size_and_a_wrong_size_is_named(open_page: Any)
 @pytest.mark.parametrize(
     ("language", "words"),
     [
-        ("en", "The widest free circle is 3.02 m across; a turn of the head needs 3.77 m."),
-        ("zh", "最大的空地圆直径为 3.02 m，龙头转弯需要 3.77 m。"),
+        ("en", "The widest free circle is 3.02 m across; a turn of the head needs 3.77 m. Make the square larger."),
+        ("zh", "最大的空地圆直径为 3.02 m，龙头转弯需要 3.77 m。请加大广场。"),
     ],
 )
 def test_why_none_fits_stands_in_one_sentence(open_page: Any, language: str, words: str) -> None:

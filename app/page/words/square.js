@@ -62,7 +62,7 @@ export const SQUARE = {
   tight_bend: ["bends of up to {angle}°", "板凳间转角达 {angle}°"],
   tight_stray: ["people may be only {stray} cm from their places", "每人只能离位 {stray} cm"],
   lack_area: ["The benches cover at least {need} m² at any moment; the square has {have} m².", "板凳在任何时刻至少占地 {need} m²，而广场只有 {have} m²。"],
-  lack_width: ["The widest free circle is {have} m across; a turn of {who} needs {need} m.", "最大的空地圆直径为 {have} m，{who}转弯需要 {need} m。"],
+  lack_width: ["The widest free circle is {have} m across; a turn of {who} needs {need} m. Make the square larger.", "最大的空地圆直径为 {have} m，{who}转弯需要 {need} m。请加大广场。"],
   lack_way: ["The way between {a} and {b} is {have} m wide at its narrowest; the benches need {need} m.", "{a}与{b}之间的通道最窄处宽 {have} m，板凳需要 {need} m。"],
   lack_stray: ["People shall be free to be {need} m from their places; the best of {tried} tried, {figure}, allows {have} m.", "要求每人可离位 {need} m，试过的 {tried} 种中最佳者（{figure}）只允许 {have} m。"],
   lack_benches: ["The dragon has {need} benches; the longest one found to fit, {figure}, has {have}.", "龙队有 {need} 节，找到的能容纳的最长龙队（{figure}）为 {have} 节。"],
