@@ -73,6 +73,7 @@ export class Pace {
   begun({ clock, extras: { clock: atZero }, answer, begin, end }) {
     this.help.hidden = !clock;
     this.#begins = clock ? timeOfDay(Number(begin.toFixed(DECIMALS)), clock) : "";
+    this.#say();
     if (!clock) return;
     const start = this.#begins;
     const ends = say("clockEnds", { end: timeOfDay(Number((answer.end?.time ?? end).toFixed(DECIMALS)), clock) });

@@ -32,7 +32,7 @@ from importlib.machinery import PathFinder
 class Plain(PathFinder):
     @classmethod
     def find_spec(cls, name, path=None, target=None):
-        hidden = name.partition(".")[0] in {sorted({*sum(MODULES.values(), ()), "starlette"})}
+        hidden = name.partition(".")[0] in {sorted({*sum(MODULES.values(), ())})}
         return None if hidden else super().find_spec(name, path, target)
 
 sys.meta_path[:] = [Plain if finder is PathFinder else finder for finder in sys.meta_path]
@@ -161,7 +161,7 @@ def test_a_workbook_is_graded_with_the_extra_only(bare_install: Install, tmp_pat
 
 
 def test_the_command_starts_without_what_only_an_extra_brings() -> None:
-    names = sorted({*sum(MODULES.values(), ()), *DISPENSABLE, "starlette"})
+    names = sorted({*sum(MODULES.values(), ()), *DISPENSABLE})
     code = f"import sys, app.command.main; print(*(name for name in {names} if name in sys.modules))"
     loaded = subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True)
     assert loaded.split() == []

@@ -285,7 +285,7 @@ def test_two_times_of_day_are_refused(client: httpx.Client) -> None:
 def test_a_film_shows_the_time_of_day() -> None:
     stage = FilmPicture(PLACED, FilmSpec(0.0, 130.0, height=90, start_clock="19:30"), None, "")
     stage.frame(101.5, core.bench_outlines(PLACED.dragon, core.trajectory(PLACED, 101.5).position))
-    assert stage.time.get_text() == "19:31:41 (101.50 s)"
+    assert stage.time.text == "19:31:41 (101.50 s)"
 
 
 def test_a_pause_has_a_length(client: httpx.Client) -> None:
