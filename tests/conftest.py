@@ -63,12 +63,12 @@ def usual_precision() -> Iterator[None]:
         flint.ctx.prec = FLINT_BITS
 
 
-@pytest.hookimpl(trylast=True)  # after -m and -k
 def pytest_make_parametrize_id(val: object) -> str | None:
     """A name for archives, whose bytes hold the time at which they were made: every process names its tests alike."""
     return "archive" if isinstance(val, bytes) and val.startswith(b"PK") else None
 
 
+@pytest.hookimpl(trylast=True)  # after -m and -k
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave the deep tests to `make deep`; leave out what this machine cannot run, in a line for each reason."""
     if not DEEP:

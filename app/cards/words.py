@@ -108,16 +108,16 @@ class CardWords:
         return f"{bench} {own}" if own else self.say("0 (head)", "0（龙头）") if bench == 0 else str(bench)
 
     def neighbours(self, ahead: int | None, behind: int | None) -> str:
-        """Who is before and behind a bench."""
-        nobody = self.say("nobody", "无")
-        numbered = [f"{bench} 号" if bench else "龙头" for bench in (ahead or 0, behind or 0)]
-        names = [self.names[bench] if self.names and bench is not None else "" for bench in (ahead, behind)]
-        chinese = [f"{one}（{name}）" if name else one for one, name in zip(numbered, names, strict=True)]
-        before, after = (
-            nobody if bench is None else self.say(self.name(bench), own)
-            for bench, own in zip((ahead, behind), chinese, strict=True)
-        )
+        """Who is before and behind a bench; None: nobody."""
+        before, after = self._neighbour(ahead), self._neighbour(behind)
         return self.say(f"Before you: {before}.  Behind you: {after}.", f"前面：{before}    后面：{after}")
+
+    def _neighbour(self, bench: int | None) -> str:
+        if bench is None:
+            return self.say("nobody", "无")
+        own = self.names[bench] if self.names else ""
+        chinese = f"{bench} 号" if bench else "龙头"
+        return self.say(self.name(bench), f"{chinese}（{own}）" if own else chinese)
 
     def direction(self, angle: float) -> str:
         """A direction [rad]: a point of the compass, or how it is on the plan, with degrees from its x axis."""

@@ -248,14 +248,13 @@ class FilmPicture:
         artists: list[Artist] = []
         for layer, own in zip(self.layers, outlines, strict=True):
             marked = widened(own[list(layer.words)], layer.wider)
-            fronts = np.concatenate([marked[:, :2], fronts_of(marked)[:, ::-1]], axis=1)
-            place(layer.head, own[:1])
-            place(layer.body, own[1:])
-            place(layer.marked, marked)
-            place(layer.fronts, fronts)
+            set_outlines(layer.head, own[:1])
+            set_outlines(layer.body, own[1:])
+            set_outlines(layer.marked, marked)
+            set_outlines(layer.fronts, fronts_of(marked))
             artists += [layer.body, layer.head, *([layer.marked, layer.fronts] if layer.words else [])]
         if touching:
-            place(self.touching, np.stack([outlines[k][bench] for k, bench in touching]))
+            set_outlines(self.touching, np.stack([outlines[k][bench] for k, bench in touching]))
             artists.append(self.touching)
         artists += self.names
         for layer, own in zip(self.layers, outlines, strict=True):
@@ -284,7 +283,7 @@ class FilmPicture:
         return np.asarray(self.canvas.buffer_rgba())
 
 
-def place(benches: PolyCollection, outlines: Any) -> None:
+def set_outlines(benches: PolyCollection, outlines: Any) -> None:
     """Put benches at outlines (N, 4, 2) [m]."""
     benches.set_verts(outlines)
 
@@ -298,9 +297,10 @@ def widened(outlines: Floats, times: Floats) -> Floats:
 
 
 def fronts_of(outlines: Floats) -> Floats:
-    """Where the fronts (M, 2, 2) of benches (M, 4, 2) end, beside the corners 0 and 1."""
-    fronts: Floats = outlines[:, :2] + FRONT_SHARE * (outlines[:, [3, 2]] - outlines[:, :2])
-    return fronts
+    """The front parts (M, 4, 2) of benches (M, 4, 2)."""
+    front, rear = outlines[:, :2], outlines[:, [3, 2]]
+    parts: Floats = np.concatenate([front, (front + FRONT_SHARE * (rear - front))[:, ::-1]], axis=1)
+    return parts
 
 
 def scale_bar(axes: Axes, corner: Floats, half: float) -> None:

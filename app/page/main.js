@@ -414,7 +414,7 @@ function listen() {
   // "How it works" leads back to this dance; without storage, to the page as it begins.
   addEventListener("pagehide", () => {
     try {
-      sessionStorage.setItem("dance", location.search);
+      sessionStorage.setItem("bench-dragon-dance", location.search);
     } catch {}
   });
   matchMedia("print").addEventListener("change", restyle);

@@ -62,7 +62,7 @@ function read() {
 /** The address of the dance from which this page was opened in this tab, from its ? on; empty without one. */
 function cameFrom() {
   try {
-    return sessionStorage.getItem("dance") ?? "";
+    return sessionStorage.getItem("bench-dragon-dance") ?? "";
   } catch {
     return ""; // storage is forbidden here
   }

@@ -424,3 +424,24 @@ def test_what_is_wrong_with_cards_of_several_is_refused(
     assert refused.status_code == 422
     (error,) = refused.json()["errors"]
     assert (error["pointer"], error["detail"][: len(words)]) == (pointer, words)
+
+
+def test_crosses_stand_at_the_chalk_marks_of_start_and_end(tmp_path: Path) -> None:
+    paper, data = tmp_path / "card.pdf", tmp_path / "card.json"
+    for output in (paper, data):
+        run("cues", "examples/village_square.toml", "--bench", "17", "--output", str(output))
+    (card,) = json.loads(data.read_text())["cards"]
+    page, places = pypdfium2.PdfDocument(paper)[0], dict[float, list[tuple[float, float]]]()
+    for one in page.get_objects(filter=[pdfium.FPDF_PAGEOBJ_PATH]):
+        left, bottom, right, top = one.get_bounds()
+        if abs((right - left) - (top - bottom)) < 0.01:
+            places.setdefault(round(right - left, 1), []).append((0.5 * (left + right), 0.5 * (bottom + top)))
+    # Two strokes a cross; a dot a moment, the first one at the start and the last one at the end.
+    strokes = next(some for size, some in places.items() if 7.0 < size < 8.5)
+    dots = next(some for size, some in places.items() if 4.5 < size < 6.0)
+    (start, done), (before, ahead) = (dots[0], dots[-1]), strokes[::2]
+    assert strokes[::2] == strokes[1::2]
+    scale = (done[0] - start[0]) / (card["done"]["x"] - card["start"]["x"])
+    # The street of the start leads along x, that of the end along y.
+    assert before == pytest.approx((start[0] - scale * card["start"]["past_mark"], start[1]), abs=0.05)
+    assert ahead == pytest.approx((done[0], done[1] - scale * card["done"]["past_mark"]), abs=0.05)

@@ -14,7 +14,7 @@ import pytest
 import shapely
 from PIL import Image, ImageSequence
 
-from app.files.film import DPI, FRONT_SHARE, MARKED_LEAST, FilmPicture, film
+from app.files.film import DPI, FRONT_SHARE, MARKED_LEAST, TYPE_SHARE, FilmPicture, film
 from app.files.film_labels import numbered, pictures_of, size_of
 from app.files.film_spec import GIF_TYPE, MP4_TYPE, FilmSpec
 from core import (
@@ -381,3 +381,22 @@ def test_marked_benches_stand_out_with_number_and_name(tmp_path: Path) -> None:
     assert run("film", *small, "--bench", "17", "--output", str(alone)).returncode == 0
     done = run("film", *small, "--bench", "223", "--output", str(alone))
     assert (done.returncode, done.stderr) == (2, "Error: marked[0] must be at most 222, the tail, got 223\n")
+
+
+@pytest.mark.parametrize("height", [540, 1080])
+def test_the_time_stands_where_a_text_of_matplotlib_would(height: int) -> None:
+    stage, _ = village(height)
+    words, boxes = "benches 3 and 9 touch\n1:23.0 (83.06 s)", []
+    look = {
+        "transform": stage.axes.transAxes,
+        "ha": "right",
+        "va": "bottom",
+        "fontsize": TYPE_SHARE * height * 72 / DPI,
+    }
+    stage.time.text = words
+    for artist in (stage.time, stage.axes.text(0.985, 0.03, words, animated=True, **look)):
+        stage.canvas.restore_region(stage.still)
+        stage.axes.draw_artist(artist)
+        dark = np.argwhere(np.asarray(stage.canvas.buffer_rgba())[int(0.85 * height) :, int(1.2 * height) :, 0] < 100)
+        boxes.append(np.concatenate([dark.min(axis=0), dark.max(axis=0)]))
+    assert np.abs(boxes[0] - boxes[1]).max() <= 0.004 * height
