@@ -188,7 +188,7 @@ install-time: setup
 # have names and versions only.
 # Lines of packages that [tool.uv] overrides leave nowhere needed are dropped.
 RESOLVE = $(BIN)/uv pip compile --universal --python-version 3.11 --upgrade --resolution $(or $(RESOLUTION),highest) \
-	--no-header --no-annotate --no-emit-index-url --quiet
+	--no-header --no-annotate --quiet
 lock: setup
 	@mkdir -p build
 	@$(RESOLVE) pyproject.toml --extra dev --group tools --output-file build/all.lock
@@ -203,7 +203,7 @@ lock: setup
 	@for file in requirements*.lock; do \
 		{ sed -n '/^#/p' $$file; cat build/$$file; } >build/commented && mv build/commented $$file; done
 	@$(BIN)/uv pip compile --universal --python-version 3.11 --no-deps --generate-hashes \
-		--no-header --no-annotate --no-emit-index-url --quiet requirements.lock --output-file requirements.hashes
+		--no-header --no-annotate --quiet requirements.lock --output-file requirements.hashes
 
 # In a clone, whose locks are made anew. Tools of the tests hold typer back: the newest of all is tried by make wheels.
 # The oldest versions have wheels for the oldest Python alone.
