@@ -32,7 +32,8 @@ def moved(pose: Pose, step: Step) -> Pose:
     """
     (x, y, heading), (length, curvature) = pose, step
     half = 0.5 * length * curvature
-    chord = length * math.sin(half) / half if half else length
+    # A product with a tiny curvature rounds to a few steps of the least number; only its own quotient is right.
+    chord = length * (math.sin(half) / half) if half else length
     return (x + chord * math.cos(heading + half), y + chord * math.sin(heading + half), heading + 2.0 * half)
 
 

@@ -103,7 +103,7 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: An
     expect(page.locator("#clock")).to_have_text(re.compile(r"^50.000000 s\s*07:30:50$"))
     # The head rests, and so does everybody.
     expect(page.locator("#rows tbody td").nth(3)).to_have_text("0.000000")
-    page.wait_for_url("**passages=0.5@20m_0@100s_1.5@60m*")
+    page.wait_for_url("**passages=0.5@20m_0@100s_1.5@60m*begin_clock=*")
     page.reload()
     expect(page.locator("#first-contact .value")).to_contain_text(contact)
     expect(page.locator("#passages li")).to_have_count(3)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import Arc, Coil, Line, Route
@@ -39,6 +39,7 @@ def test_every_word_ends_at_the_pose(begin, end, radius) -> None:
 
 
 @settings(max_examples=examples(60, 1000), deadline=None)
+@example((0.0, 0.0, 0.0), [(0.75, 5e-324)], 0.5)
 @given(POSES, st.lists(st.tuples(SIZES, st.floats(-0.98, 0.98)), min_size=1, max_size=5), st.floats(0.5, 4.0))
 def test_no_path_of_at_most_that_curvature_is_shorter(begin, steps, radius) -> None:
     walk = [(length, share / radius) for length, share in steps]
