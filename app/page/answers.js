@@ -95,6 +95,7 @@ function contactLine(answer, request) {
     return met ? sayOf("undecidedMet", request, { ...pair(met, benches), time, late }) : say("undecidedFrom", { time });
   }
   if (state === "folds") return sayOf("foldsUntil", request, { name: benchName(end.bench, benches) });
+  if (state === "clear" && end && request.drawn) return sayOf("clearToEnd", request);
   if (state === "clear") return end ? sayOf("clearUntil", request, { time: formatNumber(end.time, 6, 2) }) : sayOf("clearAll", request);
   const [x, y, radius] = [...point, head.radius].map((one) => formatNumber(one, 6, 2));
   const values = { ...pair(both, benches), x, y, radius };

@@ -22,6 +22,12 @@ const MOMENT = 10;
 /** The type of a problem of what takes too long for one answer: a job may take longer. */
 export const TOO_LONG = "urn:problem-type:bench-dragon:too-much-work";
 
+/** The command that asks the service from a terminal. body: null for none */
+export function commandFor(path, body = null) {
+  const sent = body ? ` -H 'Content-Type: application/json' -d '${JSON.stringify(body).replaceAll("'", "'\\''")}'` : "";
+  return `curl '${new URL(path, location.href).href}'${sent}`;
+}
+
 /** A refused request. problem: the service's problem; errors: of it */
 export class Problem extends Error {
   constructor(status, body) {

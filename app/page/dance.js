@@ -44,8 +44,9 @@ export class Dance {
    * whole dance [m/s], which have the first and the last colour; null: those of the pose; parts: several dragons, or null
    */
   scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", handleName: "", circle: null, speeds: null, parts: null };
-  /** Functions of a pen and the colours that draw additional layers: below the benches, and above them. */
+  /** Functions of a pen and the colours that draw additional layers: the ground, names over which the dragon passes, and what is above it. */
   below = [];
+  names = [];
   above = [];
   /** (x, y) -> whether a tap there was for a drawing [px]; null: none is edited */
   tapped = null;
@@ -54,6 +55,9 @@ export class Dance {
   #path = null;
   #points = null;
   #around = [];
+  /** Corners of a square with streets, or null; and whether the streets are shown too. */
+  #yard = null;
+  #beyond = false;
   /** Paths of several dragons: {x, y, line, colour} */
   #ways = [];
   #bounds = null;
@@ -74,9 +78,20 @@ export class Dance {
     this.#palette = palette(colour("ramp"));
   }
 
-  /** The path of the head, {x, y}, as sampled by the service, or null; around: further points [x, y] to be shown. */
-  setPath(path, around = []) {
-    [this.#path, this.#points, this.#around] = [path && smooth(path), path, around];
+  /**
+   * The path of the head, {x, y}, as sampled by the service, or null
+   * around: further points [x, y] to be shown; yard: corners of a square with streets, which is shown without them at first, or null
+   */
+  setPath(path, around = [], yard = null) {
+    this.#beyond &&= yard === this.#yard;
+    [this.#path, this.#points, this.#around, this.#yard] = [path && smooth(path), path, around, yard];
+    this.#bound();
+  }
+
+  /** Show all; of a square with streets the square, and what is beyond it as well if that is what is shown. */
+  showAll() {
+    this.#beyond = this.view.fitted && !this.#beyond;
+    this.view.fitted = true;
     this.#bound();
   }
 
@@ -88,7 +103,8 @@ export class Dance {
 
   /** What must be visible. */
   #bound() {
-    const [xs, ys] = ["x", "y"].map((axis, k) => [...(this.#points?.[axis] ?? []), ...this.#ways.flatMap((way) => way[axis]), ...this.#around.map((point) => point[k])]);
+    const isYard = this.#yard && !this.#ways.length && !this.#beyond;
+    const [xs, ys] = ["x", "y"].map((axis, k) => (isYard ? this.#yard.map((corner) => corner[k]) : [...(this.#points?.[axis] ?? []), ...this.#ways.flatMap((way) => way[axis]), ...this.#around.map((point) => point[k])]));
     if (xs.length) this.#bounds = [least(xs), least(ys), largest(xs), largest(ys)];
   }
 
@@ -104,6 +120,7 @@ export class Dance {
     if (circle > 0 && !this.scene.parts) pen.stroke(pen.circle(0, 0, circle * pen.scale), colours.circle, 1.5);
     const { metres, pixels } = scaleBar(this.view.scale);
     pen.bar(`${metres} m`, pixels, colours.text, colours.card, this.view.scaleIsLeft);
+    for (const layer of this.names) layer(pen, colours);
     if (pose) this.#drawDragon(pen);
     for (const layer of this.above) layer(pen, colours);
   }

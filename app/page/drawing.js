@@ -11,10 +11,11 @@
  */
 
 import { onBorder } from "./square.js";
+import { piecesOf, walkText } from "./walk.js";
 
 export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: null, path: null, start: null, things: [], origin: null, grid: null, yard: null };
 /** Names of the parts of a drawing in an address. */
-export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "start", "origin", "grid", "yard"];
+export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "walk", "start", "origin", "grid", "yard"];
 /** Half a side of the ground without a drawn area [m]. */
 const FAR = 90_000;
 const DECIMALS = 4;
@@ -132,6 +133,12 @@ const pointsIn = (text) => text.split("_").map((point) => point.replace(/^\*/, "
 const escaped = (name) => encodeURIComponent(name).replace(/[~_.!'()*-]/g, (one) => `%${one.charCodeAt(0).toString(16)}`).replaceAll("%", "-");
 const unescaped = (name) => decodeURIComponent(name.replaceAll("-", "%"));
 
+/** The text of a path that gives it back to every digit, or an empty text. */
+function walkOf(path) {
+  const text = path && "start" in path && walkText(path);
+  return text && JSON.stringify(piecesOf(text)) === JSON.stringify(path.pieces) ? text : "";
+}
+
 /** Parts of an address: name -> text. */
 export function toAddress(drawing) {
   const { points, straight, radius, begin, limit, things, path, start, origin, grid, yard } = drawing;
@@ -139,13 +146,15 @@ export function toAddress(drawing) {
   const texts = things.map(({ kind, name, points: own, radius: wide = "", heading, holes = [] }) =>
     [kind[0], escaped(name), ...[String(heading ?? wide), ...[own, ...holes].map(pointsText)].map((part) => part.replaceAll(".", "!"))].join("."),
   );
+  const walk = walkOf(path);
   const parts = {
     route: legs,
     corner: radius === EMPTY.radius ? "" : radius,
     begin: begin || "",
     limit: limit ?? "",
     things: texts.join("~"),
-    raw: path ? JSON.stringify(pathOf(drawing)) : "",
+    walk,
+    raw: path && !walk ? JSON.stringify(pathOf(drawing)) : "",
     start: path ? (start ?? "") : "",
     origin: origin ? `${origin.longitude},${origin.latitude}` : "",
     grid: grid ? `${grid.x},${grid.y}` : "",
@@ -170,6 +179,7 @@ export function fromAddress(address) {
       if (holes.length) thing.holes = holes.map(pointsIn);
       if (thing.kind && finite(thing.points)) drawing.things = [...drawing.things, thing];
     }
+    if (address.has("walk")) drawing.path = { kind: "route", start: drawing.begin, pieces: piecesOf(address.get("walk")) };
     if (address.has("raw")) drawing.path = JSON.parse(address.get("raw"));
     if (drawing.path && !address.has("begin")) drawing.begin = drawing.path.start ?? 0;
     const yard = pointsIn(address.get("yard") ?? "");

@@ -47,8 +47,9 @@ export class Drawn {
     this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show() });
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point));
     this.#invite();
-    const { below, above } = layers(dance, () => this.#visible());
+    const { below, names, above } = layers(dance, () => this.#visible());
     dance.below.push(below);
+    dance.names.push(names);
     dance.above.push(above, () => this.editor.place());
   }
 
@@ -65,8 +66,9 @@ export class Drawn {
   #visible() {
     if (!this.#isRoute) return null;
     const { course } = this.questions;
-    const selected = this.editor.active ? this.editor.item : null;
-    return { drawing: this.state.get("drawing"), selected, held: this.editor.held, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
+    const editing = this.editor.active;
+    const selected = editing ? this.editor.item : null;
+    return { drawing: this.state.get("drawing"), editing, selected, held: this.editor.held, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
   }
 
   /** The offers without a drawing: draw a path, or begin with a preset. */
@@ -94,6 +96,11 @@ export class Drawn {
     return this.#isRoute ? this.state.get("drawing").things.flatMap(({ points }) => points) : [];
   }
 
+  /** Corners of a square with streets without them, or null. */
+  yard() {
+    return this.#isRoute ? this.state.get("drawing").yard : null;
+  }
+
   /** After a change of the drawing or of the kind of dance. */
   show() {
     const drawn = this.#isRoute;
@@ -103,6 +110,8 @@ export class Drawn {
     this.picture.drawn = drawn;
     $("#route").hidden = !drawn;
     $("#judgement").hidden = !drawn && !this.state.get("dances");
+    // Where there is a verdict, it alone speaks at each change.
+    $("#first-contact").ariaLive = $("#judgement").hidden ? "polite" : "off";
     $("#save").disabled = this.#isEmpty;
     this.editor.show();
     const empty = drawn && this.#isEmpty;

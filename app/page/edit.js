@@ -2,6 +2,7 @@
 
 import { freeName, inserted, moved, pointsOf, removed, withPoints, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
+import { announce } from "./overlays.js";
 import { onBorder, streetLength } from "./square.js";
 import { say } from "./text.js";
 
@@ -172,6 +173,7 @@ export class Editor {
     const drag = this.#drag;
     this.#drag = null;
     if (drag?.far) this.steps.take(this.#drawing, null, drag.base);
+    else if (drag) announce(() => say("knotChosen", { k: drag.k + 1 }));
   }
 
   #key(event, k) {

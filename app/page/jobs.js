@@ -134,6 +134,17 @@ export class Jobs {
     }
   }
 
+  /** Cancel a job that still goes on; one that has ended meanwhile keeps its result. */
+  async #cancel(id) {
+    try {
+      const status = await this.service.ask(`cancel ${id}`, `jobs/${id}`, { cache: "no-store" });
+      if (UNFINISHED.includes(status.status)) await this.#end(id);
+      else this.#look();
+    } catch (error) {
+      announceRefusal(error);
+    }
+  }
+
   async #end(id) {
     try {
       const status = await this.service.ask(`end ${id}`, `jobs/${id}`, { method: "DELETE" });
@@ -181,7 +192,7 @@ export class Jobs {
     const buttons = make("span", { className: "buttons" });
     if (href && isTable(status)) buttons.append(labelled("jobMap", () => this.#open(id, job)));
     if (href) buttons.append(make("a", { href: `jobs/${id}/result`, download: `${status.processID}-${id.slice(0, 8)}${ENDINGS[type] ?? ""}`, textContent: say("jobResult") }));
-    buttons.append(labelled(going ? "jobCancel" : "jobRemove", () => this.#end(id)));
+    buttons.append(going ? labelled("jobCancel", () => this.#cancel(id)) : labelled("jobRemove", () => this.#end(id)));
     row.append(buttons);
     if (status.problem) row.append(make("p", { className: "error", ...refusalWords(status.problem) }));
     return row;

@@ -1,6 +1,6 @@
 /** Everything to save: the cue cards, which stand with the people, files of every kind, a film, and the commands that give the same. */
 
-import { Problem, TOO_LONG } from "./api.js";
+import { Problem, TOO_LONG, commandFor } from "./api.js";
 import { $, $$, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED } from "./jobs.js";
@@ -198,13 +198,10 @@ export class Keep {
    * @param {any} [item]
    */
   #curl({ path, query, body }, item) {
-    const base = new URL("./", location.href).href;
     if (item?.job) return this.#curl({ path: "jobs", body: { question: path.replaceAll("-", "_"), request: body, accept: TYPES[item.forms[0]] } });
-    const url = query ? `${path}?${new URLSearchParams(query)}` : path;
-    const sent = body ? ` -H 'Content-Type: application/json' -d '${JSON.stringify(body).replaceAll("'", "'\\''")}'` : "";
     const form = item?.forms[0];
     const kept = form && form !== "JSON" ? ` -H 'Accept: ${TYPES[form]}' -fo ${fileName(item.file ?? "dance", form)}` : "";
-    return `curl '${base}${url}'${sent}${kept}`;
+    return `${commandFor(query ? `${path}?${new URLSearchParams(query)}` : path, body)}${kept}`;
   }
 
   /** The command that proves the shown answer in ball arithmetic. */

@@ -4,7 +4,7 @@
 const [STRAIGHT, LEG] = [1e-6, 2];
 /** Turn [rad] and length [m] of the curve between two points. */
 const [TURN, LENGTH] = [Math.PI / 5, 15];
-const DECIMALS = 3;
+const DECIMALS = 2;
 
 const wrapped = (angle) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 

@@ -134,8 +134,11 @@ function showPose(pose) {
   if (contact) $("#inset figcaption").textContent = contact.dragons ? dragons.insetWords(contact) : answers.insetWords(contact, gap, numbers);
   const [low, high] = dance.scene.speeds ?? speedRange(pose);
   const [least, largest] = $$("#legend span");
-  const [speed, slowest] = [high, low].map((one) => one === null ? null : formatNumber(one, 6, 2));
-  least.textContent = low === null || low.toFixed(6) === high.toFixed(6) ? say("allEqual") : slowest;
+  // As few decimals as tell the two speeds apart.
+  const isEqual = low === null || low.toFixed(6) === high.toFixed(6);
+  const few = isEqual ? 2 : [2, 3, 4, 5, 6].find((count) => low.toFixed(count) !== high.toFixed(count));
+  const [speed, slowest] = [high, low].map((one) => one === null ? null : formatNumber(one, 6, few));
+  least.textContent = isEqual ? say("allEqual") : slowest;
   largest.textContent = answers.foldOf(questions.dance.answer) === null ? `${speed} m/s` : say("legendFold", { speed });
   showHandle();
   if (pose.dance) showTable(pose);
@@ -233,7 +236,7 @@ const TELL = {
   },
   gap: () => dance.scene.pose && showPose(dance.scene.pose),
   path(points) {
-    dance.setPath(points, route?.around());
+    dance.setPath(points, route?.around(), route?.yard());
     route?.judged();
     route?.refused();
     draw();
@@ -420,7 +423,7 @@ function listen() {
   matchMedia("print").addEventListener("change", restyle);
   new ResizeObserver(draw).observe($("#stage"));
   const all = () => {
-    dance.view.fitted = true;
+    dance.showAll();
     state.set({ view: null, follow: false });
     draw();
   };

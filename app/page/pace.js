@@ -30,10 +30,12 @@ export class Pace {
     const box = make("details", { id: "passages" }, this.title, help, this.list, this.error, ...adds);
     this.clock = make("input", { id: "begin_clock", autocomplete: "off", "aria-describedby": "clock-error clock-help", onchange: () => this.#start() });
     this.wrong = make("p", { id: "clock-error", className: "error", hidden: true });
-    const label = make("label", { className: "starts" }, make("span", { "data-text": "begin_clock" }), " ", this.clock);
+    const label = make("label", {}, make("span", { "data-text": "begin_clock" }), " ", this.clock);
     /** Says when the dance ends, and of an address or a file with the time of day at time 0 when it begins. */
     this.help = make("p", { id: "clock-help", className: "hint", hidden: true });
-    field.after(make("div", { id: "pace" }, box, label, this.wrong, this.help));
+    // Of a drawn dance it stands beside the square.
+    const starts = make("div", { id: "starts" }, label, this.wrong, this.help);
+    field.after(make("div", { id: "pace" }, box, starts));
     state.listen((names) => ["passages", "beats", "start_clock", "begin_clock"].some((name) => names.has(name)) && this.show());
     this.show();
   }

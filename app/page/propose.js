@@ -4,7 +4,7 @@ import { Problem, Superseded, TOO_LONG } from "./api.js";
 import { cardPicture, cardTitles, cardWords } from "./cards.js";
 import { Corners } from "./corners.js";
 import { EMPTY, drawingOf, freeName, headingOf, venueOf, withPoints, yardOf } from "./drawing.js";
-import { bearer, button, hide, make, numberIn, textButton } from "./elements.js";
+import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.js";
 import { strayOf } from "./fields.js";
 import { failureWords } from "./judgement.js";
 import { knotsOf } from "./knots.js";
@@ -12,6 +12,7 @@ import { formatNumber } from "./numbers.js";
 import { pending } from "./pending.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
 import { circle, extent, rectangle } from "./square.js";
+import { roundedRoute } from "./walk.js";
 import { benchName, learn, refusalWords, say, writeTexts } from "./text.js";
 import { DANCE } from "./words/dance.js";
 import { SQUARE } from "./words/square.js";
@@ -23,6 +24,11 @@ const SAME = 1e-3;
 /** Number of dances that are proposed, and time between two looks at the search [ms]. */
 const [COUNT, SECOND] = [3, 1_000];
 const OBJECTIVES = ["tolerance", "benches", "turns", "duration"];
+/** True for a thing that has no point in the rectangle around a ring. */
+function isBeyond(thing, ring) {
+  const { width, height, middle: [x, y] } = extent(ring);
+  return thing.points.every(([px, py]) => Math.abs(px - x) > width / 2 || Math.abs(py - y) > height / 2);
+}
 /** Words for the stray behind the door of the village, and those of the other doors. */
 const STRAY = { true: { stray: SQUARE.strayVillage, stray_is: SQUARE.strayVillage_is }, false: { stray: DANCE.stray, stray_is: DANCE.stray_is } };
 /** A drawing without a path. */
@@ -86,6 +92,7 @@ export class Propose {
       (this.done = textButton("placeDone", () => this.editor.turn(false), { id: "place-done" })),
       this.corners.box,
       (this.dragonLine = line(words("placeDragon"), this.dragon[0], words("placeBenchesOf"), this.dragon[1], unit())),
+      (this.start = make("div")),
       line(make("label", { htmlFor: "objective", "data-text": "objective" }), this.objective),
       make("p", { className: "buttons" }, this.ask, this.stop),
       this.words,
@@ -132,7 +139,6 @@ export class Propose {
       if (fields.includes(one) || one.getAttribute("aria-invalid") === "true") one.typed = false;
       one.removeAttribute("aria-invalid");
     }
-    this.#tell(null);
     const before = this.#drawing;
     const drawing = { ...before, ...(isPresetPath(before) && WITHOUT_PATH), ...(isPresetVenue(before) && { things: [], yard: null }) };
     const yard = yardOf(drawing);
@@ -142,6 +148,8 @@ export class Propose {
     this.state.set({ view: null, time: null });
     this.steps.take(k < 0 ? { ...drawing, things: [area, ...drawing.things] } : withPoints({ ...drawing, yard: null }, k, points));
     this.editor.edit(null);
+    const beyond = drawing.things.filter((thing) => !["area", "gate"].includes(thing.kind) && isBeyond(thing, points)).map(({ name }) => name);
+    this.#tell(beyond.length ? () => say("placeBeyond", { names: beyond.join(say("listed")) }) : null);
     requestAnimationFrame(() => this.ask.scrollIntoView({ block: "nearest" }));
   }
 
@@ -150,7 +158,7 @@ export class Propose {
     this.editor.turn(true);
     this.editor.take(tool);
     this.#tell(null);
-    for (const one of [document.querySelector("#dance"), this.help]) one.scrollIntoView({ block: "nearest" });
+    for (const one of [$("#dance"), this.help]) one.scrollIntoView({ block: "nearest" });
   }
 
   /** Say something below the button. words(): in the language of the page; null: what the answer says */
@@ -172,8 +180,12 @@ export class Propose {
     try {
       const answer = await this.#answerTo(request, search);
       if (search !== this.#search) return;
-      const courses = await Promise.all(answer.proposals.map((one, k) => this.#courseOf(one, k)));
-      this.#take({ ...this.#about(request), courses, ...answer });
+      // Cards that are there stay in their places: somebody may be reading them.
+      const { proposals: found, courses: theirs } = this.#answer ?? { proposals: [], courses: [] };
+      const texts = new Set(found.map((one) => JSON.stringify(one)));
+      const further = answer.proposals.filter((one) => !texts.has(JSON.stringify(one)));
+      const courses = await Promise.all(further.map((one, k) => this.#courseOf(one, found.length + k)));
+      this.#take({ ...this.#about(request), ...answer, proposals: [...found, ...further], courses: [...theirs, ...courses] });
     } catch (error) {
       if (search !== this.#search) return;
       if (error instanceof Problem) this.#problem = error.problem;
@@ -266,7 +278,8 @@ export class Propose {
     const area = opened.things.find(({ kind }) => kind === "area");
     const hasStreets = drawing.things.some(({ kind }) => kind === "gate");
     const things = drawing.things.map((thing) => (thing.kind === "area" ? { ...thing, points: hasStreets ? area.points : yard } : thing));
-    const { path, start, begin } = { ...opened, path: dance.path, start: dance.start, begin: dance.path.start };
+    // What is judged and shown is what the address says, to every digit.
+    const { path, start, begin } = { ...opened, path: roundedRoute(dance.path), start: dance.start, begin: dance.path.start };
     this.editor.turn(false);
     this.editor.edit(null);
     const benches = dance.dragon.benches ?? dance.dragon.lengths?.length;
@@ -317,6 +330,7 @@ export class Propose {
     const drawing = this.#drawing;
     const isRoute = this.state.get("path") === "route";
     hide(this.box, !isRoute);
+    this.#showStart(isRoute);
     learn(STRAY[String(this.state.get("door") === "village")]);
     writeTexts();
     if (!isRoute) return;
@@ -335,6 +349,12 @@ export class Propose {
     const isOld = this.#isOld;
     this.#showWords(isOld ? null : this.#answer);
     this.#showCards(this.#answer, isOld);
+  }
+
+  /** The time of day of the start among the numbers of the square, or else beside the speeds. */
+  #showStart(isRoute) {
+    const [starts, home] = [$("#starts"), isRoute ? this.start : $("#pace")];
+    if (starts.parentElement !== home) home.append(starts);
   }
 
   #showSizes(yard) {

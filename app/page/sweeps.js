@@ -1,5 +1,6 @@
 /** The form of a sweep: a question for many values of one or two parameters, the others as on the page. */
 
+import { commandFor } from "./api.js";
 import { make } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS } from "./fields.js";
 import { TABLE } from "./jobs.js";
@@ -38,7 +39,13 @@ export class SweepForm {
     this.error = make("p", { id: "sweep-error", className: "error", role: "alert" });
     const go = make("button", { className: "main", "data-text": "sweepStart" });
     const label = make("label", { htmlFor: "sweep-question", "data-text": "sweepQuestion" });
-    form.append(make("p", {}, label, " ", this.question), ...this.#rows.map(({ box }) => box), make("p", {}, go), this.error);
+    const command = make("code");
+    const text = make("pre", { tabIndex: 0, role: "region", "data-label": "curl" }, command);
+    const terminal = make("details", {}, make("summary", { "data-text": "curl" }), text);
+    const tell = () => terminal.open && (command.textContent = commandFor("sweeps", this.spec()));
+    for (const [one, event] of [[terminal, "toggle"], [form, "change"]]) one.addEventListener(event, tell);
+    state.listen(tell);
+    form.append(make("p", {}, label, " ", this.question), ...this.#rows.map(({ box }) => box), make("p", {}, go), this.error, terminal);
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       this.#submit();

@@ -133,7 +133,7 @@ function labelPlace({ kind, points }) {
   return [x / points.length, y / points.length, kind === "block" ? Math.max(...xs) - Math.min(...xs) : 0];
 }
 
-/** The layers of a drawn dance. get(): {drawing, selected, held, failure, course, benches}, or null in another kind of dance */
+/** The layers of a drawn dance. get(): {drawing, editing, selected, held, failure, course, benches}, or null in another kind of dance */
 export function layers(dance, get) {
   const below = (pen, colours) => {
     const drawn = get();
@@ -144,6 +144,17 @@ export function layers(dance, get) {
     for (const { kind, points } of drawn.course?.breaches ?? []) pen.stroke(trace(points, new Path2D(), false), colours[BREACHES[kind]], BEND_WIDTH);
     for (const bend of drawn.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
   };
+  const name = (pen, colours, { drawing, selected, failure }, names) => {
+    for (const [k, thing] of drawing.things.entries()) {
+      const colour = selected === k || failure?.area === thing.name ? colours.pick : colours.text;
+      if (thing.points.length) label(pen, dance.view, thing.name, labelPlace(thing), colour, colours, names);
+    }
+  };
+  // The dragon passes over the names, but what is edited can be read everywhere.
+  const names = (pen, colours) => {
+    const drawn = get();
+    if (drawn && !drawn.editing) name(pen, colours, drawn, pen.names);
+  };
   const above = (pen, colours) => {
     const drawn = get();
     if (!drawn) return;
@@ -152,10 +163,8 @@ export function layers(dance, get) {
     if (yardOf(drawing).length) for (const thing of drawing.things) if (thing.kind === "gate") drawGate(pen, colours, drawing, thing);
     const measured = drawing.things[selected];
     if (measured?.points.length > 1) drawMeasures(pen, dance.view, colours, measured, drawn.held, names);
-    for (const [k, thing] of drawing.things.entries()) {
-      if (!thing.points.length) continue;
-      const colour = selected === k || failure?.area === thing.name ? colours.pick : colours.text;
-      label(pen, dance.view, thing.name, labelPlace(thing), colour, colours, names);
+    if (drawn.editing) name(pen, colours, drawn, names);
+    for (const thing of drawing.things) {
       if (failure?.area === thing.name && isWhole(thing)) pen.stroke(trace(thing.points, new Path2D(), thing.kind !== "wall"), colours.pick, FAULT_WIDTH);
     }
     for (const { points, ...bend } of drawn.course?.bends ?? []) {
@@ -175,5 +184,5 @@ export function layers(dance, get) {
     const last = Math.min(first + 1, pose.x.length - 1);
     pen.stroke(pen.circle((pose.x[first] + pose.x[last]) / 2, (pose.y[first] + pose.y[last]) / 2, RING), colours.pick, 3);
   };
-  return { below, above };
+  return { below, names, above };
 }

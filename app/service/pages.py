@@ -45,6 +45,7 @@ DOCS = b"""<!doctype html>
 <link rel="icon" href="docs/assets/favicon-32x32.png">
 </head>
 <body>
+<p><a href=".">Bench Dragon</a></p>
 <div id="calls"></div>
 <script src="docs/assets/swagger-ui-bundle.js"></script>
 <script src="docs/start.js"></script>

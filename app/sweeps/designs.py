@@ -32,7 +32,7 @@ def designs(spec: Spec, start: int, stop: int) -> dict[str, list[Any]]:
         rest, place = np.divmod(rest, count)
         axis = spec.over[name]
         at = place.tolist()
-        values[name] = [axis.at(k / (count - 1)) for k in at] if isinstance(axis, Range) else [axis[k] for k in at]
+        values[name] = [axis.value(k) for k in at] if isinstance(axis, Range) else [axis[k] for k in at]
     if spec.samples:
         points = sample_points(spec.samples, len(spec.sampled), rest)
         for column, (name, axis) in zip(points.T, spec.sampled.items(), strict=True):

@@ -37,6 +37,8 @@ SOBOL_DIMENSIONS = 21_201
 # The first columns of every table.
 OWN_COLUMNS = ("design", "error.code", "error.message")
 
+# Digits of the distance of two values in a range that the values keep [1].
+STEP_DIGITS = 9
 Parameter = Annotated[str, Field(min_length=1, max_length=200)]
 
 
@@ -70,10 +72,16 @@ class Range(_Strict):
             return self.start * math.pow(self.stop / self.start, share)
         return self.start + (self.stop - self.start) * share
 
+    def value(self, k: int) -> float:
+        """Value k of `count`; on a linear scale without the digits that rounding adds, as in 0.41000000000000003."""
+        assert self.count is not None
+        value, step = self.at(k / (self.count - 1)), abs(self.stop - self.start) / (self.count - 1)
+        return value if self.scale == "log" or not step else round(value, STEP_DIGITS - math.floor(math.log10(step)))
+
     def grid(self) -> list[float]:
         """All `count` values."""
         assert self.count is not None
-        return [self.at(k / (self.count - 1)) for k in range(self.count)]
+        return [self.value(k) for k in range(self.count)]
 
 
 class Samples(_Strict):

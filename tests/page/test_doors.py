@@ -190,7 +190,7 @@ def test_a_village_begins_with_an_example_that_says_so_until_another_square_is_d
     )
     width = page.locator("#place-width")
     width.click()
-    page.wait_for_function("getSelection().toString() === document.activeElement.value")
+    page.wait_for_function("() => getSelection().toString() === document.activeElement.value")
     width.press_sequentially("30")
     width.press("Enter")
     settled(page)

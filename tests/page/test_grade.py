@@ -12,6 +12,7 @@ from playwright.sync_api import expect
 
 from core import Dragon
 from tests.support.axe import findings
+from tests.support.pending import settled
 from tests.support.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
 
 # Instants of a workbook that is soon read.
@@ -127,5 +128,7 @@ def test_the_language_of_the_verdicts_follows_that_of_the_page(page: Any, files:
     expect(page.locator("#grades .answer").nth(1).locator(".value")).to_have_text("✓正确")
     size = page.viewport_size
     page.set_viewport_size(PHONE)
+    settled(page)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     page.set_viewport_size(size)
+    settled(page)

@@ -190,6 +190,7 @@ def test_a_phone_in_chinese_and_a_dark_screen_are_served_too(open_page: Any) -> 
 def test_a_wide_screen_has_one_column_too(figures: Any) -> None:
     page = figures.page
     page.set_viewport_size({"width": 1920, "height": 1080})
+    settled(page)
     parts = page.locator(".article > :is(h1, p, section)")
     assert parts.count() > len(SECTIONS)
     assert len(set(parts.evaluate_all("all => all.map((one) => one.getBoundingClientRect().left)"))) == 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 import time
@@ -12,6 +13,7 @@ import pytest
 from playwright.sync_api import expect
 
 from app.questions.proposals import Lack
+from app.wire.paths import RoutePath
 from core import Dragon, Failure, FailureKind, Figure, Reason, ReasonKind
 from core.proposal.designs import street_length
 from core.proposal.needs import Needs
@@ -29,6 +31,8 @@ SCALED = f"{YARD}&view=0,0,{SCALE:g}"
 MINUTES = 120.0  # [s] from nothing to a certified dance
 CARDS = "#cards button"
 FINGER = 43.5  # [px]
+ADDRESS = 1_200  # most characters that a phone reads from a screen
+ROUNDED = 2e-6  # [m], by the numbers of a path in an address
 NARROW = """(least) => [...document.querySelectorAll("#place :is(button, input, select, summary)")]
   .filter((one) => one.checkVisibility())
   .map((one) => [one, one.getBoundingClientRect()])
@@ -79,9 +83,42 @@ def test_from_nothing_to_a_certified_dance_on_a_phone_in_two_minutes(open_page: 
         assert "undefined" not in page.locator("#place").inner_text()
         assert "NaN" not in page.locator("#place").inner_text()
     assert findings(page) == []
-    # What was chosen is in the address.
+    # What was chosen is in the address, to every digit, and the address in a QR code.
+    words = page.locator("#judgement").inner_text()
+    page.locator("#share").tap()
+    assert len(page.locator("#address").input_value()) < ADDRESS
+    page.locator("#qr").wait_for()
+    page.keyboard.press("Escape")
+    chosen = parts(page)
     page.reload()
-    expect(page.locator("#judgement[data-outcome=clear]")).to_be_visible()
+    settled(page)
+    assert page.locator("#judgement").inner_text() == words
+    assert parts(page) == chosen
+
+
+PIECES: list[dict[str, Any]] = [
+    {"kind": "line", "start": [-3.25, 1.5], "end": [4.123456, 8.654321]},
+    {"kind": "arc", "centre": [2.0, -1.0], "radius": 3.3333333333, "start_angle": 0.7, "sweep": 5.123456789},
+    {"kind": "arc", "centre": [2.0, -1.0], "radius": 3.3333333333, "start_angle": 0.7, "sweep": -0.123456789},
+    {"kind": "coil", "pitch": 1.7, "start_turns": 6.12, "end_turns": 1.5, "centre": [3.0, -2.0], "rotation": 0.7},
+    {"kind": "coil", "pitch": 1.7, "start_turns": 1.2, "end_turns": 5.0, "centre": [3.0, -2.0], "rotation": -2.5},
+]
+
+
+@pytest.mark.parametrize("piece", PIECES, ids=["line", "left", "right", "inwards", "outwards"])
+def test_a_path_in_an_address_goes_where_the_path_went(open_page: Any, piece: dict[str, Any]) -> None:
+    written = "path => import('/page/walk.js').then(({ roundedRoute }) => roundedRoute(path))"
+    page = open_page(EMPTY)
+    rounded = page.evaluate(written, {"kind": "route", "pieces": [piece]})
+    assert page.evaluate(written, rounded) == rounded
+    before, after = (
+        RoutePath.model_validate({"kind": "route", "pieces": pieces}).to_path()
+        for pieces in ([piece], rounded["pieces"])
+    )
+    assert after.end - after.begin == pytest.approx(before.end - before.begin, abs=ROUNDED)
+    for share in (0.0, 0.3, 1.0):
+        places = [path.position(path.begin + share * (path.end - path.begin)) for path in (before, after)]
+        assert places[1] == pytest.approx(places[0], abs=ROUNDED)
 
 
 def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_the_route(open_page: Any) -> None:
@@ -122,7 +159,7 @@ def test_a_chosen_dance_is_edited_like_any_route(open_page: Any) -> None:
     proposed(page).first.click()
     settled(page)
     chosen = parts(page)
-    assert "raw" in chosen
+    assert "walk" in chosen
     page.locator("#edit").click()
     page.locator("[data-tool=path]").click()
     settled(page)
@@ -133,14 +170,14 @@ def test_a_chosen_dance_is_edited_like_any_route(open_page: Any) -> None:
     settled(page)
     expect(page.locator("#judgement[data-outcome=clear]")).to_be_visible()
     edited = parts(page)
-    assert "raw" not in edited
+    assert "walk" not in edited
     assert edited["route"] != chosen["route"]
     page.keyboard.press("ControlOrMeta+z")
     settled(page)
     assert parts(page) == chosen
 
 
-def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page: Any) -> None:
+def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page: Any, picture: Any) -> None:
     page = open_page(SCALED)
     settled(page)
     page.locator("[data-add=gate]").click()
@@ -164,8 +201,19 @@ def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page
     page.locator(CARDS).first.click()
     settled(page)
     expect(page.locator("#judgement[data-outcome=clear]")).to_be_visible()
+    # The square fills the picture; its streets are seen too where all is asked for twice.
+    ground = page.evaluate("getComputedStyle(document.querySelector('#canvas')).getPropertyValue('--ground')").strip()
+    wanted = [int(ground[k : k + 2], 16) / 255 for k in (1, 3, 5)]
+    seen = []
+    for _ in range(3):
+        settled(page)
+        seen.append(int((abs(picture(page)[..., :3] - wanted).max(axis=-1) < 0.02).sum()))
+        page.locator("#show-all").click()
+    assert seen[1] < 0.5 * seen[0]
+    assert seen[2] == seen[0]
     # The square with its streets is danced in, and the square without them is asked about again.
     held = parts(page)
+    assert len(page.url) < ADDRESS
     assert held["yard"] == "-12,-10_12,-10_12,10_-12,10"
     with page.expect_request("**/proposals") as again:
         page.locator("#propose").click()
@@ -312,6 +360,59 @@ def test_cards_come_while_the_search_goes_on_and_a_chosen_one_ends_it(open_page:
         expect(page.locator("#proposed")).to_contain_text("found so far.")
         settled(page)
         expect(page.locator(f"{CARDS}[aria-pressed=true]")).to_have_count(1)
+
+
+ORDERS = """() => {
+  window.orders = [];
+  const ways = () => [...document.querySelectorAll("#cards .way")].map((way) => way.getAttribute("points"));
+  new MutationObserver(() => window.orders.push(ways())).observe(document.querySelector("#cards"), { childList: true });
+}"""
+
+
+def test_cards_keep_their_places_until_the_search_ends(open_page: Any, tmp_path: Any) -> None:
+    with serving(tmp_path / "server.log", deadline_seconds=0.05, data=tmp_path / "data") as service:
+        page = open_page(YARD, base=service.url, failing=True)
+        settled(page)
+        page.evaluate(ORDERS)
+        proposed(page)
+        settled(page, "search")
+        expect(page.locator("#proposed")).to_contain_text("each has passed its check")
+        orders = [ways for ways in page.evaluate("window.orders") if ways]
+    assert len(orders[-1]) >= 2
+    for before, after in itertools.pairwise(orders):
+        assert after[: len(before)] == before
+
+
+def test_what_a_smaller_square_leaves_outside_is_named(open_page: Any) -> None:
+    page = open_page(YARD)
+    settled(page)
+    page.locator("#place-width").fill("12")
+    page.locator("#take-rectangle").click()
+    expect(page.locator("#proposed")).to_have_text("")
+    page.locator("#place-width").fill("5")
+    page.locator("#take-rectangle").click()
+    expect(page.locator("#proposed")).to_contain_text("Outside the square now: linden.")
+
+
+def test_a_tap_on_a_point_says_how_to_add_one_beside_it(open_page: Any) -> None:
+    page = open_page(SCALED)
+    settled(page)
+    page.locator("[data-add=block]").click()
+    tap_at(page, 5, 5)
+    tap_at(page, 5.3, 5.2)
+    expect(page.locator("#status")).to_have_text(re.compile(r"Point 1: drag it, .*enlarge the picture with \+ first\."))
+
+
+def test_the_start_stands_beside_the_square_and_of_a_spiral_beside_the_speeds(open_page: Any) -> None:
+    page = open_page(f"{YARD}&route=*-11,-8_11,-8&begin_clock=19:30")
+    settled(page)
+    expect(page.locator("#place #begin_clock")).to_have_value("19:30")
+    page.locator("#begin_clock").fill("20")
+    page.locator("#begin_clock").press("Enter")
+    expect(page.locator("#place #clock-error")).to_contain_text("Until then it starts at 19:30:00.")
+    page.locator("[data-door=contest]:visible").first.click()
+    settled(page)
+    expect(page.locator("#pace #begin_clock")).to_have_count(1)
 
 
 def test_while_a_point_is_dragged_the_stretches_that_fail_are_coloured(open_page: Any, picture: Any) -> None:

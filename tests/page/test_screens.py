@@ -79,6 +79,7 @@ def test_nothing_scrolls_inside(visit: Any, query: str) -> None:
     page.evaluate("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
     for width, height in ((1440, 900), (1920, 1080)):
         page.set_viewport_size({"width": width, "height": height})
+        settled(page)
         assert page.evaluate(SCROLLING) == []
         # The picture stays in sight of answers and controls, however far down they reach.
         page.locator("#answers > :not([hidden])").last.evaluate("one => one.scrollIntoView({ block: 'end' })")
@@ -130,6 +131,7 @@ def test_the_tab_key_goes_through_numbers_and_answers_as_they_stand(open_page: A
     page = open_page("?benches=12&time=0")
     settled(page)
     page.set_viewport_size({"width": width, "height": 900})
+    settled(page)
     last = "answers" if first == "controls" else "controls"
     boxes = [page.locator(f"#{one}").bounding_box() for one in (first, last)]
     assert boxes[0]["x"] < boxes[1]["x"] or boxes[0]["y"] < boxes[1]["y"]
@@ -267,6 +269,7 @@ def test_on_a_phone_of_a_village_people_stand_together_and_files_under_save(visi
             expect(page.locator(f"#{section} {place}:visible").first).to_be_in_viewport()
     # On a wide screen they stand below the picture, and the numbers beside it.
     page.set_viewport_size({"width": 1366, "height": 768})
+    settled(page)
     order = [page.locator(f"#{one}").bounding_box()["y"] for one in ("front", "people", "keep")]
     assert order == sorted(order)
 
@@ -296,6 +299,7 @@ def test_the_page_how_it_works_has_the_same_sizes_of_type(open_page: Any) -> Non
     settled(page)
     for width in (1366, 390):
         page.set_viewport_size({"width": width, "height": 900})
+        settled(page)
         for language in ("zh", "en"):
             page.locator(f"[data-lang={language}]").click()
             sizes = set(page.evaluate(SIZES))

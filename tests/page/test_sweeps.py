@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+import shlex
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,7 +17,7 @@ from app.sweeps.questions import question_of
 from tests.support import polite
 from tests.support.axe import findings
 from tests.support.job_service import SHORT, JobService, wait_for
-from tests.support.pending import reached, with_below
+from tests.support.pending import reached, settled, with_below
 
 PHONE = {"width": 390, "height": 844}
 WIDE = {"width": 1440, "height": 900}
@@ -65,7 +67,12 @@ def drawn(page: Any) -> set[tuple[int, ...]]:
 
 def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: Any, service: JobService) -> None:
     page = open_page("?benches=40&margin=0.05", base=base(service))
-    ask(page, "collision_time", ("pitch", 0.5, 0.6, 5), ("width", 0.2, 0.3, 3))
+    with page.expect_request(lambda request: request.method == "POST" and request.url.endswith("/sweeps")) as asked:
+        ask(page, "collision_time", ("pitch", 0.5, 0.6, 5), ("width", 0.2, 0.3, 3))
+    page.locator("#sweep summary").click()
+    command = shlex.split(page.locator("#sweep code").inner_text())
+    assert command[1] == f"{base(service)}/sweeps"
+    assert json.loads(command[-1]) == asked.value.post_data_json
     page.locator("#jobs li[data-state=successful]", has_text="First contact over Pitch and Width").wait_for()
     for form, begin in (("CSV", b"design,"), ("Parquet", b"PAR1"), ("Arrow", b"ARROW1")):
         with page.expect_download() as download:
@@ -202,6 +209,7 @@ def is_for_everyone(page: Any) -> None:
     for language, size in (("zh", PHONE), ("en", WIDE)):
         page.locator(f"[data-lang={language}]").click()
         page.set_viewport_size(size)
+        settled(page)
         assert page.evaluate("document.documentElement.scrollWidth") <= size["width"]
         assert page.evaluate(outside, size["width"]) == []
 
@@ -245,7 +253,7 @@ def test_a_film_is_a_job_whose_result_is_a_file(open_page: Any, service: JobServ
 
 
 def test_a_film_can_be_cancelled(open_page: Any, service: JobService) -> None:
-    page = open_page(base=base(service))
+    page = open_page("?head_speed=0.1", base=base(service))  # A long film.
     reached(page.locator("#keep"))
     page.get_by_role("button", name="Film of the dance, GIF").click()
     row = page.locator("#jobs li", has_text="Film of the dance").first  # the newest

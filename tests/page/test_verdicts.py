@@ -10,6 +10,7 @@ from playwright.sync_api import expect
 
 from core import Dragon, minimum_pitch
 from core.design.pitch_bands import BORDER_WIDTH
+from tests.support.pending import settled
 
 MARKS = {"clear": "✓", "folds": "!", "contact": "✕", "contact_at_start": "✕"}
 WIDE = {"width": 1440, "height": 900}
@@ -98,6 +99,7 @@ def test_one_event_has_one_time_and_speeds_before_a_fold_are_marked(visit: Any) 
     page.locator("#table-fold").wait_for()
     for size in (PHONE, WIDE):
         page.set_viewport_size(size)
+        settled(page)
         assert times_of_the_fold(page) == {"238.214985"}
     note = "Just before the fold at 238.214985 s: towards it the speeds grow without bound."
     assert page.locator("#table-fold").inner_text() == note

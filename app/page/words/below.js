@@ -2,7 +2,7 @@
 
 export const BELOW = {
   keepKit: ["The whole contest kit", "竞赛全套文件"],
-  keepKitIs: ["Five answers, workbooks, tables, figures, films and a report as ZIP; takes a minute or two.", "五问答案、结果文件、表格、插图、动画与报告，打包为 ZIP，需一两分钟。"],
+  keepKitIs: ["Five answers, workbooks, tables, figures, films and a report as ZIP. It takes one to ten minutes, as fast as the machine; the button shows how far it is.", "五问答案、结果文件、表格、插图、动画与报告，打包为 ZIP。视机器快慢需一至十分钟，按钮上显示进度。"],
   kitUniform: ["The kit is for equal benches: reset the table of benches.", "全套文件只适用于相同的板凳：请先还原板凳表。"],
   kitWithout: ["The kit answers the contest's questions, without: {names}.", "全套文件回答赛题五问，不含：{names}。"],
   filmReady: ["The film is below its button.", "影片已在按钮下方打开。"],

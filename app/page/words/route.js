@@ -18,6 +18,7 @@ export const ROUTE = {
   draw_wall: ["Tap along the wall. Choose Wall again for the next one.", "沿墙依次点击。再次点击“墙”可绘制下一道。"],
   knots: ["Points of the drawing", "绘制的点"],
   knot: ["Point {k} of {count}, x {x} m, y {y} m", "第 {k} 点（共 {count} 点），x {x} m，y {y} m"],
+  knotChosen: ["Point {k}: drag it, or delete it with ⌫. To add a point beside it, enlarge the picture with + first.", "第 {k} 点：可拖动，或用 ⌫ 删除。要在旁边加点，请先用 + 放大画面。"],
   knotNumber: ["Point", "点"],
   pointX: ["x of the point", "点的 x"],
   pointY: ["y of the point", "点的 y"],

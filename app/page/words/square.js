@@ -4,6 +4,7 @@ export const SQUARE = {
   placeTitle: ["A dance for our square", "为广场设计舞龙"],
   placeRectangle: ["Our square is", "广场为矩形"],
   placeCircle: ["or a circle, across", "或为圆形，直径"],
+  placeBeyond: ["Outside the square now: {names}. They stay in the drawing; remove them in its list under “More numbers and answers”.", "现在位于广场之外：{names}。它们仍在图中，可在“更多数值与结果”的列表里删除。"],
   placeTake: ["Draw it", "画出"],
   placeWidth: ["Width of the square", "广场的宽"],
   placeHeight: ["Length of the square", "广场的长"],

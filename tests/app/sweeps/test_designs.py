@@ -77,3 +77,12 @@ def test_both_ends_of_a_range_are_exact_and_logarithms_are_even() -> None:
         assert (grid[0], grid[-1]) == (0.1, 0.7)
     ratios = np.diff(np.log(grid))
     assert np.ptp(ratios) < 1e-12
+
+
+def test_even_values_are_written_as_a_person_would() -> None:
+    assert [str(value) for value in Range(start=0.4, stop=0.5, count=11).grid()[1:4]] == ["0.41", "0.42", "0.43"]
+    assert Range(start=-2.0, stop=1.0, count=4).grid() == [-2.0, -1.0, 0.0, 1.0]
+    near = Range(start=0.5, stop=0.5 + 1e-13, count=3).grid()
+    assert near == sorted(set(near))
+    assert Range(start=0.5, stop=0.5, count=3).grid() == [0.5, 0.5, 0.5]
+    assert Range(start=1.0, stop=2.0, count=4).grid() == pytest.approx([1.0, 4.0 / 3.0, 5.0 / 3.0, 2.0], abs=1e-10)
