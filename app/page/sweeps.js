@@ -40,7 +40,7 @@ export class SweepForm {
     const go = make("button", { className: "main", "data-text": "sweepStart" });
     const label = make("label", { htmlFor: "sweep-question", "data-text": "sweepQuestion" });
     const command = make("code");
-    const text = make("pre", { tabIndex: 0, role: "region", "data-label": "curl" }, command);
+    const text = make("pre", { tabIndex: 0, role: "region", "data-label": "sweepCurl" }, command);
     const terminal = make("details", {}, make("summary", { "data-text": "curl" }), text);
     const tell = () => terminal.open && (command.textContent = commandFor("sweeps", this.spec()));
     for (const [one, event] of [[terminal, "toggle"], [form, "change"]]) one.addEventListener(event, tell);

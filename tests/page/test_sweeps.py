@@ -226,7 +226,7 @@ def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page: Any,
         sheet = {"name": "result1.csv", "mimeType": "text/csv", "buffer": b"1,2"}
         page.locator("#files").set_input_files(sheet)
         expect(page.locator("#grades .error")).to_contain_text("Jobs and uploads need the token of this service")
-        page.locator("#sweeps summary").click()
+        page.locator("#sweeps details:has(#token) summary").click()
         page.locator("#token").fill(TOKEN)
         page.locator("#token").press("Enter")
         page.locator("#files").set_input_files(sheet)

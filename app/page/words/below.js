@@ -30,6 +30,7 @@ export const BELOW = {
   paperSource: ["source", "来源"],
   paperTheirs: ["published", "已发表"],
   paperOurs: ["here", "本服务"],
+  sweepCurl: ["Command for this sweep", "此批量计算的命令"],
   curl: ["The same from a terminal", "在终端中得到同样结果"],
   copyCurl: ["Copy command", "复制命令"],
   crewTitle: ["Who carries when", "谁何时抬板凳"],
