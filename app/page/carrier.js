@@ -67,7 +67,7 @@ export class Carrier {
     this.number = make("input", { id: "card-bench", inputMode: "numeric", autocomplete: "off", "data-label": "cardBench", onchange: ({ target }) => this.#choose(target) });
     this.dragon = make("select", { id: "card-dragon", "data-label": "cardDragon", onchange: ({ target }) => choose(Number(target.value)) });
     this.other = button({}, () => state.set({ lang: LANGUAGES.find((one) => one !== language()) }));
-    const close = button({ "data-label": "cardClose", textContent: "✕" }, () => state.push({ bench: null, view: null, time: null }));
+    const close = button({ "data-label": "cardClose", textContent: "✕" }, () => state.push({ bench: null, view: null }));
     this.clock = make("p", { className: "clock" });
     this.when = make("p", { className: "when" });
     this.stand = make("p", { className: "stand" });

@@ -134,12 +134,12 @@ const escaped = (name) => encodeURIComponent(name).replace(/[~_.!'()*-]/g, (one)
 const unescaped = (name) => decodeURIComponent(name.replaceAll("-", "%"));
 
 /** The text of a path that gives it back to every digit, or an empty text. */
-function walkOf(path) {
+export function walkOf(path) {
   const text = path && "start" in path && walkText(path);
   return text && JSON.stringify(piecesOf(text)) === JSON.stringify(path.pieces) ? text : "";
 }
 
-/** Parts of an address: name -> text. */
+/** Parts of an address: name -> text. The points of a path that is written as a walk follow from it. */
 export function toAddress(drawing) {
   const { points, straight, radius, begin, limit, things, path, start, origin, grid, yard } = drawing;
   const legs = points.map(([x, y], k) => `${straight.includes(k) ? "*" : ""}${x},${y}`).join("_");
@@ -148,7 +148,7 @@ export function toAddress(drawing) {
   );
   const walk = walkOf(path);
   const parts = {
-    route: legs,
+    route: walk ? "" : legs,
     corner: radius === EMPTY.radius ? "" : radius,
     begin: begin || "",
     limit: limit ?? "",

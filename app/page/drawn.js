@@ -1,11 +1,12 @@
 /** A drawn dance on the page: joins the picture, the form, the files and the verdict. */
 
-import { EMPTY, yardOf } from "./drawing.js";
+import { EMPTY, walkOf, yardOf } from "./drawing.js";
 import { Editor } from "./edit.js";
 import { $, $$, hide, make, textButton } from "./elements.js";
 import { Files } from "./files.js";
 import { Steps } from "./history.js";
 import { Judgement } from "./judgement.js";
+import { knotsOf } from "./knots.js";
 import { PRESETS } from "./presets.js";
 import { Propose } from "./propose.js";
 import { RouteForm } from "./route.js";
@@ -110,8 +111,6 @@ export class Drawn {
     this.picture.drawn = drawn;
     $("#route").hidden = !drawn;
     $("#judgement").hidden = !drawn && !this.state.get("dances");
-    // Where there is a verdict, it alone speaks at each change.
-    $("#first-contact").ariaLive = $("#judgement").hidden ? "polite" : "off";
     $("#save").disabled = this.#isEmpty;
     this.editor.show();
     const empty = drawn && this.#isEmpty;
@@ -126,10 +125,18 @@ export class Drawn {
       for (const box of $$("main [aria-busy=true]")) box.setAttribute("aria-busy", false);
       this.picture.setPath(null, this.around());
       this.picture.scene.pose = null;
+      for (const id of ["#inset", "#clock-help"]) $(id).hidden = true;
       this.judgement.begin(this.propose.next);
       this.form.offer(null);
     } else if (this.#remark !== this.propose.remark) this.judged();
     this.draw();
+  }
+
+  /** Give the path of an address the points through which it can be edited. */
+  knotted() {
+    const drawing = this.state.get("drawing");
+    const { course } = this.questions;
+    if (course && !drawing.points.length && walkOf(drawing.path)) this.state.set({ drawing: { ...drawing, ...knotsOf(course) } }, false);
   }
 
   /** Show the service's verdict on the dance. */
@@ -147,6 +154,7 @@ export class Drawn {
     const refusal = this.questions.refusals.get("contact") ?? this.questions.refusals.get("course");
     if (!this.#isRoute || this.#isEmpty || !refusal) return;
     this.form.offer(null);
+    $("#clock-help").hidden = true;
     const fields = this.questions.refusals.has("contact") ? this.questions.fieldsOf("contact") : [];
     if (fields.length) this.judgement.wait(fields);
     else this.judgement.refuse(refusal.problem, this.questions.course, Number(this.state.get("benches")));

@@ -3,6 +3,7 @@
 import { mendWords } from "./answers.js";
 import { $, button, hide, make } from "./elements.js";
 import { formatNumber } from "./numbers.js";
+import { tell } from "./overlays.js";
 import { timeOfDay, wayAt } from "./passages.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
 import { benchName, handleName, refusalWords, say, sayOf } from "./text.js";
@@ -105,5 +106,6 @@ export class Judgement {
     const old = make("p", { className: "old", textContent: say("old") });
     const evidence = make("details", { open }, make("summary", { textContent: say("how") }), ...known.map((textContent) => make("p", { textContent })));
     this.box.replaceChildren(old, make("h3", { textContent: title }), make("p", { className: "value" }, sign, value), ...sentences, ...(rows.length ? [list] : []), ...(known.length ? [evidence] : []));
+    tell(this.box);
   }
 }

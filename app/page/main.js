@@ -11,7 +11,7 @@ import { $, $$, onClick } from "./elements.js";
 import { CONTACT, FIELDS, strayOf } from "./fields.js";
 import { Graphs } from "./graphs.js";
 import { addLook } from "./look.js";
-import { announce, announceAgain, lost, markContact, placeInset, showPrinted } from "./overlays.js";
+import { announce, announceAgain, lost, markContact, placeInset, showPrinted, tell } from "./overlays.js";
 import { formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
 import { timeOfDay } from "./passages.js";
@@ -195,6 +195,7 @@ const SHOW = {
     }
     Object.assign($("#verdict"), { hidden: false, textContent: answers.verdictWords(answer, numbers) });
     answers.showFirstContact($("#first-contact"), answer, numbers);
+    if ($("#judgement").hidden) tell($("#first-contact"));
     answers.showEnd($("#run-end"), answer, questions.dance, numbers);
     graphs.pitch();
     below?.show();
@@ -237,6 +238,7 @@ const TELL = {
   gap: () => dance.scene.pose && showPose(dance.scene.pose),
   path(points) {
     dance.setPath(points, route?.around(), route?.yard());
+    route?.knotted();
     route?.judged();
     route?.refused();
     draw();
@@ -279,7 +281,10 @@ const SHOW_STATE = {
   drawing: showRoute,
   bench(bench) {
     if (bench !== null) openCarrier();
-    else carrier?.show();
+    else {
+      carrier?.show();
+      player.update();
+    }
     refresh();
   },
   dances(dances) {

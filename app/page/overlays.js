@@ -7,6 +7,8 @@ import { refusalWords, say } from "./text.js";
 
 /** Time that a message stays, and additional time for each letter of a long one [ms]. */
 const [VISIBLE_FOR, LETTER] = [6_000, 80];
+/** Time without a change after which an answer is told [ms]. */
+const STILL = 700;
 /** Possible corners of the inset, the preferred one first. */
 const CORNERS = ["top-right", "bottom-right", "top-left"];
 
@@ -29,6 +31,17 @@ export function announce(words, stays = false) {
   Object.assign(box, { textContent: words(), onclick: end });
   clearTimeout(timer);
   if (!stays) timer = setTimeout(end, Math.max(VISIBLE_FOR, LETTER * box.textContent.length));
+}
+
+let hearing = 0;
+/** Tell an answer to those who listen, once nothing has changed for a while; the last one of several counts. box: of the answer */
+export function tell(box) {
+  clearTimeout(hearing);
+  hearing = setTimeout(() => {
+    const sentences = [...box.querySelectorAll(":scope > h3, :scope > p:not(.old)")].map((one) => one.textContent.replace(/^[✓✕?]/, ""));
+    const words = box.hidden ? "" : sentences.join(" ");
+    if ($("#heard").textContent !== words) $("#heard").textContent = words;
+  }, STILL);
 }
 
 /** Copy a text, and say whether the browser allowed it: without HTTPS many do not. */

@@ -72,8 +72,8 @@ export class Pace {
   }
 
   /** Show when a dance ends, and when it begins if its time of day is given at time 0, as in old addresses and files. */
-  begun({ clock, extras: { clock: atZero }, answer, begin, end }) {
-    this.help.hidden = !clock;
+  begun({ clock, extras: { clock: atZero }, answer, begin, end, verdict = null }) {
+    this.help.hidden = !clock || verdict === "fails";
     this.#begins = clock ? timeOfDay(Number(begin.toFixed(DECIMALS)), clock) : "";
     this.#say();
     if (!clock) return;

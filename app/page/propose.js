@@ -281,7 +281,7 @@ export class Propose {
     // What is judged and shown is what the address says, to every digit.
     const { path, start, begin } = { ...opened, path: roundedRoute(dance.path), start: dance.start, begin: dance.path.start };
     this.editor.turn(false);
-    this.editor.edit(null);
+    this.editor.take("path");
     const benches = dance.dragon.benches ?? dance.dragon.lengths?.length;
     this.state.set({ time: duration / 2, view: null, head_speed: String(dance.head_speed), ...(benches && !this.state.get("csv") && { benches: String(benches) }) });
     this.#chosen = k;

@@ -158,7 +158,7 @@ export class Questions {
     const { drawing } = request;
     // Without a drawing nothing stays visible, so the next one is asked about again, even if it is an earlier one.
     if (!drawing.path && drawing.points.length < 2) {
-      this.service.drop(["contact", "course", ...AT_REST]);
+      this.#forget(["contact", "course", ...AT_REST]);
       this.#take(null);
       return this.#latest.clear();
     }

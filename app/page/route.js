@@ -1,7 +1,7 @@
 /** The form of a drawn dance: presets, its points and its venue as lists, files in and out. */
 
 import { EMPTY, bent, freeName, moved, removed, withThing } from "./drawing.js";
-import { button, hide, make, numberIn } from "./elements.js";
+import { button, hide, make, numberIn, textButton } from "./elements.js";
 import { laterBy, passagesText, wayAt } from "./passages.js";
 import { PRESETS, isPresetVenue } from "./presets.js";
 import { say } from "./text.js";
@@ -43,8 +43,9 @@ export class RouteForm {
     this.state = state;
     this.steps = steps;
     this.editor = editor;
-    this.preset = labelled("select", "preset", { id: "preset", onchange: () => this.beginWith(this.preset.value) });
-    this.preset.append(textElement("option", "presetChoose", { value: "" }), ...["empty", ...Object.keys(PRESETS)].map((name) => textElement("option", `preset_${name}`, { value: name })));
+    // Buttons, because the arrow keys of a list would begin anew at each step.
+    this.presets = make("div", { id: "presets", popover: "auto" }, ...["empty", ...Object.keys(PRESETS)].map((name) => textButton(`preset_${name}`, () => this.beginWith(name), { "data-begin": name })));
+    this.preset = textElement("button", "presetChoose", { id: "preset", type: "button", popoverTargetElement: this.presets });
     this.corner = this.#number("cornerRadius", (radius) => this.#take({ radius }));
     this.limit = this.#number("speedLimit", (limit) => this.#take({ limit }));
     this.begin = this.#number("pathBegin", (begin) => this.#take({ begin }));
@@ -59,7 +60,7 @@ export class RouteForm {
     const table = make("table", {}, make("thead", {}, make("tr", {}, ...heads)), this.rows);
     const field = (key, input, unit) => make("label", { className: "line" }, textElement("span", key), input, unitOf(unit));
     box.append(
-      make("p", { className: "buttons" }, this.preset, ...files.buttons()),
+      make("p", { className: "buttons" }, this.preset, this.presets, ...files.buttons()),
       this.note,
       field("speedLimit", this.limit, "m/s"),
       (this.cornerLine = field("cornerRadius", this.corner, "m")),
@@ -132,7 +133,7 @@ export class RouteForm {
   beginWith(name) {
     const { things, origin, grid, limit } = this.#drawing;
     const isOwn = !isPresetVenue(this.#drawing);
-    this.preset.value = "";
+    if (this.presets.matches(":popover-open")) this.presets.hidePopover();
     this.editor.edit(null);
     this.state.set({ view: null, time: null });
     const preset = PRESETS[name] ?? EMPTY;

@@ -22,6 +22,7 @@ export const QUESTIONS = {
 const FIRST = [["pitch", 0.45, 0.6, 31], ["width", 0.25, 0.35, 11]];
 const COUNT_MAX = 200;
 const NONE = "";
+const CSV = "text/csv";
 
 export class SweepForm {
   #rows;
@@ -42,7 +43,7 @@ export class SweepForm {
     const command = make("code");
     const text = make("pre", { tabIndex: 0, role: "region", "data-label": "sweepCurl" }, command);
     const terminal = make("details", {}, make("summary", { "data-text": "curl" }), text);
-    const tell = () => terminal.open && (command.textContent = commandFor("sweeps", this.spec()));
+    const tell = () => terminal.open && (command.textContent = this.#commands());
     for (const [one, event] of [[terminal, "toggle"], [form, "change"]]) one.addEventListener(event, tell);
     state.listen(tell);
     form.append(make("p", {}, label, " ", this.question), ...this.#rows.map(({ box }) => box), make("p", {}, go), this.error, terminal);
@@ -105,6 +106,16 @@ export class SweepForm {
     const others = QUESTIONS[question].parameters.filter((name) => !(name in over));
     const request = Object.fromEntries(others.map((name) => [name, Number(this.state.get(name))]));
     return { question, over, request, accept: TABLE };
+  }
+
+  /** The commands that start the sweep, wait for its end and save its table. */
+  #commands() {
+    const at = (path) => `"${new URL("jobs/", location.href).href}$job/${path}"`;
+    return [
+      `job=$(${commandFor("sweeps", { ...this.spec(), accept: CSV })} | grep -o '"jobID":"[^"]*"' | cut -d'"' -f4)`,
+      `curl ${at("events")} >/dev/null`,
+      `curl ${at("result")} -o sweep.csv`,
+    ].join("\n");
   }
 
   async #submit() {

@@ -144,10 +144,12 @@ export function layers(dance, get) {
     for (const { kind, points } of drawn.course?.breaches ?? []) pen.stroke(trace(points, new Path2D(), false), colours[BREACHES[kind]], BEND_WIDTH);
     for (const bend of drawn.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
   };
-  const name = (pen, colours, { drawing, selected, failure }, names) => {
+  const name = (pen, colours, { drawing, editing, selected, failure }, names) => {
     for (const [k, thing] of drawing.things.entries()) {
-      const colour = selected === k || failure?.area === thing.name ? colours.pick : colours.text;
-      if (thing.points.length) label(pen, dance.view, thing.name, labelPlace(thing), colour, colours, names);
+      const isMeant = selected === k || failure?.area === thing.name;
+      const colour = isMeant ? colours.pick : colours.text;
+      // The square itself is known by its border.
+      if (thing.points.length && (editing || isMeant || thing.kind !== "area")) label(pen, dance.view, thing.name, labelPlace(thing), colour, colours, names);
     }
   };
   // The dragon passes over the names, but what is edited can be read everywhere.

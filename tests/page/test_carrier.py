@@ -55,6 +55,17 @@ def words_of(page: Any) -> list[str]:
     return page.locator("#card-more li span:last-child").all_inner_texts()
 
 
+def test_the_dance_is_shown_again_where_it_was_before_the_card(open_page: Any) -> None:
+    page = open_page("?benches=20&time=100")
+    settled(with_below(page))
+    page.locator("#card-follow").click()
+    held(page)
+    page.locator("#carrier").get_by_role("button", name="Close").click()
+    settled(page)
+    expect(page.locator("#clock")).to_have_text("100.000000 s")
+    expect(page.locator("#table-time")).to_contain_text("100.000000 s")
+
+
 def goes_on_in_both_languages(page: Any, picture: Any, cues: dict[str, Any], heading: str) -> None:
     """Start the card without a network: cues, picture and, in Chinese, the heading follow the clock."""
     expect(page.locator("#card-more .hint")).to_contain_text("No network: the card goes on.")

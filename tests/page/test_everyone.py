@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.support.axe import findings
 from tests.support.pending import settled, with_below
@@ -126,6 +128,27 @@ def test_reduced_motion_moves_in_steps(open_page: Any) -> None:
     })"""
     times = sorted(float(text.removesuffix(" s")) for text in page.evaluate(count))
     assert times[2] - times[1] >= 0.4
+
+
+def test_a_verdict_is_told_once_when_it_stays(open_page: Any) -> None:
+    page = open_page("?path=route&route=-9,0_9,0_20,9&benches=3")
+    settled(page)
+    heard = page.locator("#heard")
+    expect(heard).to_have_text(re.compile(r"^Verdict Can be danced The head walks"))
+    page.evaluate("""() => {
+      window.told = [];
+      const heard = document.querySelector("#heard");
+      new MutationObserver(() => window.told.push(heard.textContent)).observe(heard, { childList: true });
+    }""")
+    before = heard.inner_text()
+    page.locator("#edit").click()
+    page.locator(".knot").nth(2).focus()
+    for _ in range(3):
+        page.keyboard.press("Shift+ArrowRight")
+    expect(heard).not_to_have_text(before)
+    settled(page)
+    assert page.evaluate("window.told") == [heard.text_content()]
+    assert page.locator("#judgement[aria-live], #first-contact[aria-live]").count() == 0
 
 
 @pytest.mark.parametrize(

@@ -148,6 +148,8 @@ def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_the_route(open_p
         assert float(time_there[1]) == pytest.approx(float(way[1]), abs=0.6)  # at 1 m/s
         times.append(time_there[0])
     page.locator("#edit").click()
+    # A tap now belongs to the path.
+    expect(page.locator("[data-tool=path]")).to_have_attribute("aria-pressed", "true")
     page.locator("#undo").click()
     settled(page)
     expect(page.locator("#judgement")).to_contain_text(times[-2])
@@ -171,10 +173,17 @@ def test_a_chosen_dance_is_edited_like_any_route(open_page: Any) -> None:
     expect(page.locator("#judgement[data-outcome=clear]")).to_be_visible()
     edited = parts(page)
     assert "walk" not in edited
-    assert edited["route"] != chosen["route"]
+    # The points of what was chosen follow from its path.
+    assert "route" in edited
+    assert "route" not in chosen
     page.keyboard.press("ControlOrMeta+z")
     settled(page)
     assert parts(page) == chosen
+    count = knots.count()
+    page.reload()
+    page.locator("#edit").click()
+    page.locator("[data-tool=path]").click()
+    expect(knots).to_have_count(count)
 
 
 def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page: Any, picture: Any) -> None:
@@ -381,6 +390,20 @@ def test_cards_keep_their_places_until_the_search_ends(open_page: Any, tmp_path:
     assert len(orders[-1]) >= 2
     for before, after in itertools.pairwise(orders):
         assert after[: len(before)] == before
+
+
+def test_a_new_square_leaves_nothing_of_the_dance_before(open_page: Any) -> None:
+    page = open_page(
+        "?door=village&path=route&route=*-9,0_9,0&benches=2&width=-1&things=a.square..0,0_9,0_9,9_0,9", failing=True
+    )
+    settled(page)
+    wrong = page.locator("#controls .error:visible")
+    expect(wrong.first).to_be_visible()
+    page.locator("#preset").click()
+    page.locator("[data-begin=empty]").click()
+    settled(page)
+    expect(wrong).to_have_count(0)
+    expect(page.locator("#inset")).to_be_hidden()
 
 
 def test_what_a_smaller_square_leaves_outside_is_named(open_page: Any) -> None:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import re
-import shlex
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,7 @@ from app.sweeps.columns import answer_columns
 from app.sweeps.questions import question_of
 from tests.support import polite
 from tests.support.axe import findings
-from tests.support.job_service import SHORT, JobService, wait_for
+from tests.support.job_service import PATIENCE, SHORT, JobService, wait_for
 from tests.support.pending import reached, settled, with_below
 
 PHONE = {"width": 390, "height": 844}
@@ -67,12 +66,7 @@ def drawn(page: Any) -> set[tuple[int, ...]]:
 
 def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: Any, service: JobService) -> None:
     page = open_page("?benches=40&margin=0.05", base=base(service))
-    with page.expect_request(lambda request: request.method == "POST" and request.url.endswith("/sweeps")) as asked:
-        ask(page, "collision_time", ("pitch", 0.5, 0.6, 5), ("width", 0.2, 0.3, 3))
-    page.locator("#sweep summary").click()
-    command = shlex.split(page.locator("#sweep code").inner_text())
-    assert command[1] == f"{base(service)}/sweeps"
-    assert json.loads(command[-1]) == asked.value.post_data_json
+    ask(page, "collision_time", ("pitch", 0.5, 0.6, 5), ("width", 0.2, 0.3, 3))
     page.locator("#jobs li[data-state=successful]", has_text="First contact over Pitch and Width").wait_for()
     for form, begin in (("CSV", b"design,"), ("Parquet", b"PAR1"), ("Arrow", b"ARROW1")):
         with page.expect_download() as download:
@@ -92,6 +86,23 @@ def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: A
     expect(page.locator("#pitch")).to_have_value("0.55")
     expect(page.locator("#width")).to_have_value("0.25")
     page.locator("#first-contact .value", has_text=f"{answer['time']:.6f}").wait_for()
+
+
+@pytest.mark.curl
+def test_the_commands_of_a_sweep_save_the_table_of_the_page(
+    open_page: Any, service: JobService, tmp_path: Path
+) -> None:
+    page = open_page("?benches=12", base=base(service))
+    ask(page, "collision_time", ("pitch", 0.5, 0.52, 3), ("width", 0.2, 0.3, 2))
+    page.locator("#jobs li[data-state=successful]", has_text="First contact over Pitch and Width").wait_for()
+    page.locator("#sweep summary").click()
+    commands = page.locator("#sweep code").inner_text()
+    subprocess.run(["sh", "-ec", commands], check=True, cwd=tmp_path, capture_output=True, timeout=PATIENCE)
+    with page.expect_download() as download:
+        page.locator("#map-save [data-save=CSV]").click()
+    table = Path(download.value.path()).read_bytes()
+    assert (tmp_path / "sweep.csv").read_bytes() == table
+    assert table.count(b"\n") == 7
 
 
 def test_every_value_of_a_map_has_its_name_in_chinese(visit: Any) -> None:
