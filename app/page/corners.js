@@ -1,6 +1,6 @@
 /** The corners of the thing that is drawn, with typed coordinates, and the length of each side, as measured with a tape. */
 
-import { moved, pointsOf, removed } from "./drawing.js";
+import { moved, pointsOf, removed } from "./changes.js";
 import { button, hide, make, numberIn } from "./elements.js";
 import { measures } from "./square.js";
 import { say } from "./text.js";

@@ -10,7 +10,6 @@
  * yard: corners of the area without the streets that a proposal has added beyond its gates, or null
  */
 
-import { onBorder } from "./square.js";
 import { piecesOf, walkText } from "./walk.js";
 
 export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: null, path: null, start: null, things: [], origin: null, grid: null, yard: null };
@@ -49,7 +48,7 @@ function featureOf(thing) {
   return { type: "Feature", properties, geometry: geometry() };
 }
 
-const isArea = ({ kind }) => kind === "area";
+export const isArea = ({ kind }) => kind === "area";
 /** The corners of the square without added streets; none if it has no area. */
 export const yardOf = ({ things, yard }) => yard ?? things.find((thing) => isArea(thing) && isWhole(thing))?.points ?? [];
 
@@ -192,61 +191,4 @@ export function fromAddress(address) {
     // An address that was cut off still opens with its readable part.
   }
   return drawing;
-}
-
-/** The edited item of a drawing: null for the path, else the number of a thing. */
-export const pointsOf = (drawing, item) => (item === null ? drawing.points : (drawing.things[item]?.points ?? []));
-
-/** The drawing with other points of one item; gates stay on the border. */
-export function withPoints(drawing, item, points) {
-  if (item === null) return { ...drawing, points, path: null };
-  const changed = withThing(drawing, item, { points });
-  return isArea(drawing.things[item]) ? gated(changed, drawing.things[item].points) : changed;
-}
-
-/** The drawing with its gates moved to the border of a square that was changed. before: corners of the square then */
-function gated(drawing, before) {
-  const now = yardOf({ ...drawing, yard: null });
-  // A corner that was moved is moved in the square without streets too; any other change leaves the streets to the square.
-  const isMoved = drawing.yard && now.length === before.length;
-  const yard = isMoved ? drawing.yard.map((corner) => now[before.findIndex(([x, y]) => x === corner[0] && y === corner[1])] ?? corner) : null;
-  const ring = yard ?? now;
-  const things = ring.length < 3 ? drawing.things : drawing.things.map((thing) => (thing.kind === "gate" ? { ...thing, points: [onBorder(ring, thing.points[0]).point] } : thing));
-  return { ...drawing, yard, things };
-}
-
-/** Heading of those who enter by a gate [rad]: its own one, or straight into the square. */
-export const headingOf = (drawing, { points, heading }) => heading ?? onBorder(yardOf(drawing), points[0]).heading;
-
-export function withThing(drawing, item, changes) {
-  return { ...drawing, things: drawing.things.map((thing, k) => (k === item ? { ...thing, ...changes } : thing)) };
-}
-
-/** The drawing with a new point before point k of an item; both parts of a straight leg stay straight. */
-export function inserted(drawing, item, k, point) {
-  const changed = withPoints(drawing, item, pointsOf(drawing, item).toSpliced(k, 0, place(point)));
-  if (item !== null) return changed;
-  const straight = drawing.straight.flatMap((leg) => (leg < k - 1 ? [leg] : leg === k - 1 && k < changed.points.length - 1 ? [leg, leg + 1] : [leg + (leg >= k - 1)]));
-  return { ...changed, straight };
-}
-
-/** The drawing without point k of an item; a thing without points is removed. */
-export function removed(drawing, item, k) {
-  const points = pointsOf(drawing, item).toSpliced(k, 1);
-  if (item !== null) return points.length ? withPoints(drawing, item, points) : { ...drawing, things: drawing.things.toSpliced(item, 1) };
-  const isStraight = (leg) => drawing.straight.includes(leg);
-  // The two legs at this point become one, straight if both were.
-  const legs = points.slice(1).flatMap((_, leg) => (leg < k - 1 ? isStraight(leg) : leg === k - 1 ? isStraight(leg) && isStraight(k) : isStraight(leg + 1)) ? [leg] : []);
-  return { ...drawing, points, straight: legs, path: null };
-}
-
-export function moved(drawing, item, k, point) {
-  const ring = drawing.things[item]?.kind === "gate" ? yardOf(drawing) : [];
-  return withPoints(drawing, item, pointsOf(drawing, item).with(k, ring.length ? onBorder(ring, point).point : place(point)));
-}
-
-/** The drawing with a leg made straight, or curved again. */
-export function bent(drawing, leg) {
-  const { straight } = drawing;
-  return { ...drawing, path: null, straight: straight.includes(leg) ? straight.filter((one) => one !== leg) : [...straight, leg].sort((a, b) => a - b) };
 }

@@ -1,6 +1,7 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
-import { freeName, inserted, moved, pointsOf, removed, withPoints, yardOf } from "./drawing.js";
+import { inserted, moved, pointsOf, removed, withPoints } from "./changes.js";
+import { freeName, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
 import { onBorder, streetLength } from "./square.js";

@@ -2,8 +2,9 @@
 
 import { Problem, Superseded, TOO_LONG } from "./api.js";
 import { cardPicture, cardTitles, cardWords } from "./cards.js";
+import { headingOf, withPoints } from "./changes.js";
 import { Corners } from "./corners.js";
-import { EMPTY, drawingOf, freeName, headingOf, venueOf, withPoints, yardOf } from "./drawing.js";
+import { EMPTY, drawingOf, freeName, venueOf, yardOf } from "./drawing.js";
 import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.js";
 import { strayOf } from "./fields.js";
 import { failureWords } from "./judgement.js";

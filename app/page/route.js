@@ -1,6 +1,7 @@
 /** The form of a drawn dance: presets, its points and its venue as lists, files in and out. */
 
-import { EMPTY, bent, freeName, moved, removed, withThing } from "./drawing.js";
+import { bent, moved, removed, withThing } from "./changes.js";
+import { EMPTY, freeName } from "./drawing.js";
 import { button, hide, make, numberIn, textButton } from "./elements.js";
 import { laterBy, passagesText, wayAt } from "./passages.js";
 import { PRESETS, isPresetVenue } from "./presets.js";

@@ -1,6 +1,7 @@
 /** Layers of a drawing on the picture: the square and its obstacles, stretches on which a limit fails, benches at fault. */
 
-import { headingOf, isWhole, yardOf } from "./drawing.js";
+import { headingOf } from "./changes.js";
+import { isWhole, yardOf } from "./drawing.js";
 import { SMALL_TYPE, inType } from "./elements.js";
 import { radiiOf } from "./judgement.js";
 import { trace } from "./pen.js";

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -228,6 +229,7 @@ def test_every_answer_of_the_dance_leads_to_the_idea_behind_it(open_page: Any) -
 def test_how_it_works_leads_back_to_the_dance_from_which_it_was_opened(open_page: Any) -> None:
     page = open_page("?benches=9&pitch=0.6&door=contest&lang=zh")
     page.locator("[data-how]:visible").first.click()
+    expect(page.locator("#name a")).to_have_attribute("href", re.compile("benches=9"))
     page.locator("#name a").click()
     expect(page.locator("#first-contact .value")).to_be_visible()
     assert "benches=9" in page.url
