@@ -38,9 +38,9 @@ export class Doors {
     const [path] = PATHS[door] ?? [];
     const stays = !path || PATHS[door].includes(this.state.get("path"));
     const begins = door === "village" && this.state.get("drawing") === EMPTY;
-    const drawing = begins && (await this.parts.load("drawn")).village();
+    const example = begins && (await this.parts.load("drawn")).village();
     if (this.#pressed !== door) return; // Another door was pressed meanwhile.
-    this.state.choosePath(stays ? this.state.get("path") : path, { door, ...(begins && { drawing }) });
+    this.state.choosePath(stays ? this.state.get("path") : path, { door, ...example });
   }
 
   /** Show or hide what stands behind "more". */

@@ -7,7 +7,7 @@ import { Files } from "./files.js";
 import { Steps } from "./history.js";
 import { Judgement } from "./judgement.js";
 import { knotsOf } from "./knots.js";
-import { PRESETS } from "./presets.js";
+import { PRESETS, shownAt } from "./presets.js";
 import { Propose } from "./propose.js";
 import { RouteForm } from "./route.js";
 import { learn, say } from "./text.js";
@@ -17,8 +17,11 @@ import { SQUARE } from "./words/square.js";
 
 learn({ ...ROUTE, ...SQUARE });
 
-/** A first dance for a village, with its things named in the language of the page. */
-export const village = () => ({ ...PRESETS.village, things: PRESETS.village.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) })) });
+/** A first dance for a village: {drawing, with its things named in the language of the page, time at which it is shown}. */
+export function village() {
+  const things = PRESETS.village.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) }));
+  return { drawing: { ...PRESETS.village, things }, time: shownAt(PRESETS.village) };
+}
 
 /** Boxes about spirals, which are empty here. */
 const SPIRAL_ALONE = ["#minimum-pitch", "#curve", "#scan"];

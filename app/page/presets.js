@@ -2,6 +2,8 @@
 
 import { EMPTY } from "./drawing.js";
 
+/** When the dragon of the village is in its square [s]. */
+const IN_SQUARE = 75;
 const box = (left, low, right, high) => [[left, low], [right, low], [right, high], [left, high]];
 
 const drawings = {
@@ -30,6 +32,7 @@ const drawings = {
     straight: [0, 10],
     begin: 45,
     limit: 1.5,
+    yard: box(-20, -15, 20, 15),
     things: [
       {
         kind: "area",
@@ -50,6 +53,8 @@ const drawings = {
 export const PRESETS = Object.fromEntries(Object.entries(drawings).map(([name, drawing]) => [name, { ...EMPTY, ...drawing }]));
 
 const shapes = (things) => JSON.stringify(things.map(({ name: _, ...shape }) => shape));
+/** Time at which to show the dance of a drawing: of one in a square with streets an instant in the square, else its end [s]. */
+export const shownAt = ({ yard }) => (yard ? IN_SQUARE : null);
 /** True if these things, or this path, are those of a preset; without any they are too. */
 export const isPresetVenue = ({ things }) => Object.values(PRESETS).some((one) => shapes(one.things) === shapes(things));
 export const isPresetPath = ({ points, path }) => !path && Object.values(PRESETS).some((one) => JSON.stringify(one.points) === JSON.stringify(points));

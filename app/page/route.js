@@ -4,7 +4,7 @@ import { bent, moved, removed, withThing } from "./changes.js";
 import { EMPTY, freeName } from "./drawing.js";
 import { button, hide, make, numberIn, textButton } from "./elements.js";
 import { laterBy, passagesText, wayAt } from "./passages.js";
-import { PRESETS, isPresetVenue } from "./presets.js";
+import { PRESETS, isPresetVenue, shownAt } from "./presets.js";
 import { say } from "./text.js";
 
 /** The number in a field; null if there is none. */
@@ -136,8 +136,8 @@ export class RouteForm {
     const isOwn = !isPresetVenue(this.#drawing);
     if (this.presets.matches(":popover-open")) this.presets.hidePopover();
     this.editor.edit(null);
-    this.state.set({ view: null, time: null });
     const preset = PRESETS[name] ?? EMPTY;
+    this.state.set({ view: null, time: shownAt(preset) });
     const translated = preset.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) }));
     this.steps.take({ ...preset, ...(isOwn && !translated.length ? { things, origin, grid, limit } : { things: translated }) });
   }

@@ -134,7 +134,7 @@ export class State {
   choosePath(path, more = {}) {
     if (path === this.get("path")) return this.push(more);
     const benches = this.get("benches") === this.initial("benches") ? this.initial("benches", path) : this.get("benches");
-    this.push({ ...more, path, benches, pitch: this.initial("pitch", path), time: null, view: null });
+    this.push({ time: null, view: null, ...more, path, benches, pitch: this.initial("pitch", path) });
   }
 
   /** Change the state so that the browser's back button leads back to the present view. */
