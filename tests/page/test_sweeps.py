@@ -96,6 +96,7 @@ def test_the_commands_of_a_sweep_save_the_table_of_the_page(
     ask(page, "collision_time", ("pitch", 0.5, 0.52, 3), ("width", 0.2, 0.3, 2))
     page.locator("#jobs li[data-state=successful]", has_text="First contact over Pitch and Width").wait_for()
     page.locator("#sweep summary").click()
+    expect(page.locator("#sweep code")).to_contain_text("-o sweep.csv")
     commands = page.locator("#sweep code").inner_text()
     subprocess.run(["sh", "-ec", commands], check=True, cwd=tmp_path, capture_output=True, timeout=PATIENCE)
     with page.expect_download() as download:
