@@ -42,8 +42,8 @@ def propose(
     # A file for check may be asked about too: its path is what is looked for.
     wishes = {name: value for name, value in held.items() if name not in ("path", "head_speed", "start", "stop")}
     request = checked(ProposalsRequest, wishes, object_words(file))
-    with refusing(request), show.waiting("propose"):
-        result, place = proposed(request, Terms())
+    with refusing(request), show.waiting("propose") as progress:
+        result, place = proposed(request, Terms(progress=progress))
     answer = answer_of(request, result, place)
     if output:
         for name, data in _files(result, answer).items():

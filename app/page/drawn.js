@@ -1,6 +1,6 @@
 /** A drawn dance on the page: joins the picture, the form, the files and the verdict. */
 
-import { EMPTY, walkOf, yardOf } from "./drawing.js";
+import { EMPTY, isSamePath, walkOf, yardOf } from "./drawing.js";
 import { Editor } from "./edit.js";
 import { $, $$, hide, make, textButton } from "./elements.js";
 import { Files } from "./files.js";
@@ -148,7 +148,9 @@ export class Drawn {
     if (dance?.kind !== "route" || !this.#isRoute || refusals.has("contact")) return;
     if (!dance.failures.includes(this.#failure)) this.#failure = null;
     this.#remark = this.propose.remark;
-    this.judgement.show({ ...dance, lines: [this.#remark] }, course);
+    // The path of an earlier drawing is not the one on which this dance was judged.
+    const own = course && isSamePath(course.drawing, dance.drawing) ? course : null;
+    this.judgement.show({ ...dance, lines: [this.#remark] }, own);
     this.form.offer(dance);
   }
 

@@ -9,6 +9,8 @@ import { say } from "./text.js";
 
 /** Largest movement of a press that is not a drag [px]; largest distance from the path of a tap that divides it [px]. */
 const [TRAVEL, ON_PATH] = [3, 16];
+/** Distance between two points below which the second one is a dot [px]. */
+const NEAR = 24;
 /** Step of an arrow key that moves a point, alone and with Shift [m]. */
 const [STEP, LONG_STEP] = [0.1, 1];
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
@@ -130,11 +132,17 @@ export class Editor {
     });
   }
 
-  /** Move the buttons to the points in the picture, at each drawing of it. */
+  /** Move the buttons to the points in the picture, at each drawing of it; a point near one before it is a dot, to be enlarged. */
   place() {
-    this.#points.forEach(([x, y], k) => {
-      const [px, py] = this.dance.view.toScreen(x, y);
-      if (this.#knots[k]) this.#knots[k].style.transform = `translate(${px}px, ${py}px)`;
+    const shown = [];
+    this.#points.forEach((point, k) => {
+      const knot = this.#knots[k];
+      if (!knot) return;
+      const [px, py] = this.dance.view.toScreen(...point);
+      knot.style.transform = `translate(${px}px, ${py}px)`;
+      const isNear = shown.some(([x, y]) => Math.hypot(x - px, y - py) < NEAR);
+      knot.classList.toggle("near", isNear);
+      if (!isNear) shown.push([px, py]);
     });
   }
 
@@ -152,7 +160,7 @@ export class Editor {
     const { left, top } = this.box.getBoundingClientRect();
     const from = [event.clientX, event.clientY];
     const shifts = this.#points.map((point) => this.dance.view.toScreen(...point).map((one, axis) => one - from[axis]));
-    const far = shifts.map(([dx, dy]) => Math.hypot(dx + left, dy + top));
+    const far = shifts.map(([dx, dy], k) => (this.#knots[k].matches(".near:not(:focus)") ? Infinity : Math.hypot(dx + left, dy + top)));
     const k = far.indexOf(Math.min(...far));
     this.#knots[k].focus({ preventScroll: true });
     event.currentTarget.setPointerCapture(event.pointerId);

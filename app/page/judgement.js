@@ -41,10 +41,11 @@ export function radiiOf({ radius, least_radius: least }) {
 }
 
 /** Sentences of the way that the head walks, and of the part of the path on which the dragon stands before. */
-function wayWords({ begin, end, numbers, extras }, { length, s }, time) {
+function wayWords({ begin, end, numbers, extras, clock }, { length, s }, time) {
   const [first, last] = [begin, end].map((one) => wayAt(one, numbers.head_speed, extras.passages));
   const stands = first - s[0];
-  const way = say("pathLength", { way: (last - first).toFixed(1), time });
+  const span = { way: (last - first).toFixed(1), time, from: begin.toFixed(2), to: end.toFixed(2) };
+  const way = say(begin > 0 && !clock ? "pathSpan" : "pathLength", span);
   return [stands < STANDS ? way : `${way} ${say("pathStands", { stands: stands.toFixed(1), length: length.toFixed(1) })}`];
 }
 

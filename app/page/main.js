@@ -122,6 +122,7 @@ function choose(step) {
 /** Show a pose: interpolated in motion, or the service's own (with `dance`) for the table and at rest. */
 function showPose(pose) {
   const { answer, end, kind, numbers } = questions.dance;
+  if (kind !== (state.get("dances") ? "dances" : state.get("path"))) return; // of the former kind of path
   const contact = answer.benches && pose.time === end ? answer : null;
   // Inner and outer refer to the centre of a spiral; other paths have none.
   const drawn = contact && kind !== "spiral" ? { ...contact, edge: null } : contact;
@@ -273,6 +274,10 @@ const SHOW_STATE = {
   turning_diameter: (diameter) => (dance.scene.circle = Number(diameter) / 2),
   path(path) {
     press("path", path);
+    // Nothing of the former kind of path stays.
+    dance.scene.pose = null;
+    dance.setPath(null, route?.around(), route?.yard());
+    $("#inset").hidden = true;
     for (const box of ["#shortest-turn", "#quickest-turn", "#turn-time", "#head-speed"]) $(box).hidden = path !== "turn";
     dance.scene.circle = path === "route" ? null : Number(state.get("turning_diameter")) / 2;
     showRoute();
@@ -412,6 +417,7 @@ function listen() {
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
   for (const button of $$("[data-path]")) button.addEventListener("click", () => (button.dataset.path === "route" ? openRoute().then((one) => one.choose()) : state.choosePath(button.dataset.path)));
   for (const { dataset } of $$("[data-section]")) onClick(`[data-section=${dataset.section}]`, () => showSection(dataset.section));
+  onClick("#to-keep", () => showSection("keep"));
   whenReached(["#people", "#keep", "#sweeps", "#grade"], openBelow);
   whenReached(["#stage"], openRoute, OF_FILES);
   onClick("#several", () => openDragons().then((one) => one.add()));
@@ -433,7 +439,7 @@ function listen() {
     draw();
   };
   const follow = () => state.set({ follow: !state.get("follow") });
-  const full = () => (document.fullscreenElement ? document.exitFullscreen() : $("#dance").requestFullscreen()).catch(() => {});
+  const full = () => (document.fullscreenElement ? document.exitFullscreen() : $("#front").requestFullscreen()).catch(() => {});
   $("#full").hidden = !document.fullscreenEnabled;
   const views = { full, "zoom-in": () => dance.view.zoom(ZOOM), "zoom-out": () => dance.view.zoom(1 / ZOOM), "show-all": all, follow };
   for (const [id, act] of Object.entries(views)) onClick(`#${id}`, act);

@@ -41,7 +41,7 @@ const field = (key, properties) => make("input", { inputMode: "decimal", autocom
 export class Propose {
   /** Of the last question: {key, yard, things, proposals, courses, and the rest of the answer unless it is on its way}; null before. */
   #answer = null;
-  /** The search that runs: {began, job, end}; null without one. */
+  /** The search that runs: {began, share: of the figures that were tried [%], job, end}; null without one. */
   #search = null;
   #problem = null;
   #chosen = null;
@@ -171,7 +171,7 @@ export class Propose {
   async #ask() {
     if (!yardOf(this.#drawing).length) return this.#tell(() => say("proposeFirst"));
     const request = this.#request();
-    const search = { began: performance.now(), job: null, end: new AbortController() };
+    const search = { began: performance.now(), share: 0, job: null, end: new AbortController() };
     this.note = null;
     [this.#search, this.#answer, this.#problem, this.#chosen] = [search, null, null, null];
     this.changed();
@@ -198,6 +198,7 @@ export class Propose {
     }
     this.#search = null;
     this.changed();
+    if (!this.#answer?.proposals.length) this.words.scrollIntoView({ block: "nearest" }); // a reason has more lines
   }
 
   /** The square and the question of an answer. */
@@ -244,6 +245,7 @@ export class Propose {
       await new Promise((resolve) => setTimeout(resolve, SECOND));
       if (search !== this.#search) throw new Superseded();
       status = await this.service.ask("proposals", `jobs/${search.job}`, { cache: "no-store" });
+      search.share = status.progress;
     }
     if (status.problem) throw new Problem(status.problem.status, status.problem);
     const answer = await this.service.ask("proposals", `jobs/${search.job}/result`);
@@ -372,7 +374,8 @@ export class Propose {
   #showWords(answer) {
     const seconds = this.#search && Math.round((performance.now() - this.#search.began) / 1000);
     const result = answer && (answer.proposals.length ? `${say(answer.tried ? "proposed" : "proposedSoFar", { count: answer.proposals.length, tried: answer.tried })} ${say("proposedChoose")}${this.#most(answer)}` : this.#lack(answer));
-    const text = this.#search ? say(answer ? "proposingMore" : "proposing", { seconds, count: answer?.proposals.length }) : (this.note?.() ?? result ?? "");
+    const going = () => say(answer ? "proposingMore" : "proposing", { seconds, count: answer?.proposals.length }) + (this.#search.job ? say("proposingShare", this.#search) : "");
+    const text = this.#search ? going() : (this.note?.() ?? result ?? "");
     const problem = !this.#search && !text && this.#problem;
     Object.assign(this.words, problem ? refusalWords(problem) : { textContent: text });
     this.words.className = problem || (answer && !answer.proposals.length) ? "error" : "hint";

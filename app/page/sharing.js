@@ -1,44 +1,53 @@
 /** Sharing what is shown: its address to select, to copy and for the share sheet of the system, and as a QR code. */
 
-import { $, onClick } from "./elements.js";
+import { $$, make, textButton } from "./elements.js";
 import { copy } from "./overlays.js";
-import { say } from "./text.js";
+import { say, writeTexts } from "./text.js";
 
 /** Width of the light edge of a QR code, in modules; size of a module on the screen [px]. */
 const [QUIET, MODULE] = [4, 4];
 
 export class Sharing {
   /**
-   * @param {State} state
-   * @param {Parts} parts
+   * state: has write(), which brings the address up to date, and fits, false where what is shown is too long for it; parts: loads a part
+   * @param {{ write: () => void, fits: boolean }} state
+   * @param {{ load: (name: string) => Promise<any> }} parts
    */
   constructor(state, parts) {
     this.state = state;
     this.parts = parts;
-    onClick("#share", () => this.#open());
-    onClick("#copy-address", () => copy($("#address").value));
-    onClick("#share-sheet", () => navigator.share({ title: document.title, url: $("#address").value }).catch(() => {}));
-    $("#share-sheet").hidden = !navigator.share;
-    $("#address").addEventListener("focus", ({ target }) => target.select());
+    const box = make("div", { id: "sharing", popover: "auto", role: "dialog", "aria-labelledby": "sharing-title" });
+    this.address = make("input", { id: "address", readOnly: true, "data-label": "address", onfocus: () => this.address.select() });
+    this.code = make("canvas", { id: "qr", role: "img", "data-label": "qr" });
+    this.help = make("p", { id: "sharing-help", className: "hint" });
+    const copied = textButton("copyAddress", () => copy(this.address.value), { id: "copy-address", className: "main" });
+    const sheet = () => navigator.share({ title: document.title, url: this.address.value }).catch(() => {});
+    const close = textButton("close", () => box.hidePopover());
+    const buttons = [copied, textButton("shareSheet", sheet, { id: "share-sheet", hidden: !navigator.share }), close];
+    box.append(make("h2", { id: "sharing-title", "data-text": "share" }), this.address, this.code, this.help, make("p", { className: "buttons" }, ...buttons));
+    document.body.append(box);
+    this.box = box;
+    for (const one of $$("[data-share]")) one.addEventListener("click", () => this.#open());
   }
 
   #open() {
     this.state.write();
-    $("#address").value = location.href;
-    $("#qr").hidden = true;
-    $("#sharing-help").textContent = this.state.fits ? "" : say("tooLong");
-    $("#sharing").showPopover();
-    $("#address").focus();
+    this.address.value = location.href;
+    this.code.hidden = true;
+    this.help.textContent = this.state.fits ? "" : say("tooLong");
+    writeTexts();
+    this.box.showPopover();
+    this.address.focus();
     this.parts.load("qr").then(({ qrCode }) => this.#draw(qrCode(location.href)));
   }
 
   /** rows: of the code; null for an address too long for one */
   #draw(rows) {
-    $("#qr").hidden = !rows;
-    if (this.state.fits) $("#sharing-help").textContent = say(rows ? "sharingHelp" : "sharingLong");
+    this.code.hidden = !rows;
+    if (this.state.fits) this.help.textContent = say(rows ? "sharingHelp" : "sharingLong");
     if (!rows) return;
     const size = (rows.length + 2 * QUIET) * MODULE;
-    const canvas = Object.assign($("#qr"), { width: size, height: size });
+    const canvas = Object.assign(this.code, { width: size, height: size });
     const context = canvas.getContext("2d");
     context.fillStyle = "#fff";
     context.fillRect(0, 0, size, size);

@@ -158,6 +158,7 @@ def proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, P
         figures=request.figures,
         budget=terms.budget,
         on_proposal=lambda one: terms.part(Proposal.of(one, body_of(request, one, place.origin))),
+        progress=terms.progress,
         **wish,
         **limits,
     )

@@ -80,7 +80,7 @@ class Reason(Readable):
         if self.failure is None:
             return (
                 f"No figure was found to fit, not even with one bench: the widest free circle is {have:.2f} m across, "
-                f"a turn alone needs {need:.2f} m, and a figure more."
+                f"enough for a turn alone ({need:.2f} m), but for none of the figures that were tried."
             )
         return f"None of {self.tried} tried passes its check; the nearest, {figure}: {self.failure.message}"
 

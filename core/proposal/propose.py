@@ -28,7 +28,7 @@ from core.proposal.designs import gate_poses
 from core.proposal.figures import Figure
 from core.proposal.gates import Gate, checked_gates
 from core.proposal.search import Rated, Search, Wish
-from core.values import unheard
+from core.values import Progress, unheard
 from core.venue import Venue
 
 # Figures in the order in which they are tried: those that are soonest laid out first.
@@ -64,6 +64,7 @@ def propose(
     count: int = 3,
     budget: Budget | None = None,
     on_proposal: Callable[[Proposal], None] = unheard,
+    progress: Progress | None = None,
     **wishes: Unpack[Wishes],
 ) -> Proposals:
     """Dances of a dragon that fit into a square, the best one first, each certified by check().
@@ -75,6 +76,8 @@ def propose(
     objective: see Objective, "tolerance" by default; for `benches` the dragon's last bench is left out or repeated
     count: of proposals
     on_proposal: called with every proposal as soon as it is certified, in the order of the search
+    progress: called with the share of the figures that were tried, 0 to 1; a search for further dances of them, or for
+        the reason that there is none, may follow
     returns: see Proposals; with a reason instead of a proposal where none of the dances that were tried passes
     raises: InvalidValue; TooMuchWork if no dance was found within the budget, by default PROPOSE_WORK
 
@@ -97,11 +100,11 @@ def propose(
     search = Search(venue, dragon, doors, wish, work)
     most = None if doors else _area_bound(search, dragon)
     if wish.objective is Objective.BENCHES:
-        return _most_benches(search, venue, kinds, int(count), most, on_proposal)
+        return _most_benches(search, venue, kinds, int(count), most, on_proposal, progress or unheard)
     if most is not None and search.needs.least_area > search.ground.area:
         lack = Reason(ReasonKind.AREA, 0, search.ground.area, search.needs.least_area)
         return Proposals((), 0, 0, lack, most)
-    best, reason = _collected(search, kinds, int(count), on_proposal), None
+    best, reason = _collected(search, kinds, int(count), on_proposal, progress or unheard), None
     if not best:
         best, reason = _otherwise(search, venue, kinds, on_proposal)
     return Proposals(best, search.tried, search.checked, reason, most)
@@ -143,12 +146,16 @@ def _figures(figures: Sequence[str] | None, gates: int) -> list[Figure]:
 
 
 def _collected(
-    search: Search, figures: Sequence[Figure], count: int, on_proposal: Callable[[Proposal], None]
+    search: Search,
+    figures: Sequence[Figure],
+    count: int,
+    on_proposal: Callable[[Proposal], None],
+    progress: Progress,
 ) -> tuple[Proposal, ...]:
     """The best proposals, each figure once before any twice. raises: TooMuchWork if none was found in time"""
     proposals: list[Proposal] = []
     try:
-        for proposal in search.proposals(figures, count):
+        for proposal in search.proposals(figures, count, progress):
             proposals.append(proposal)
             on_proposal(proposal)
             if len(proposals) >= max(count, len(figures)):
@@ -324,15 +331,17 @@ def _most_benches(
     count: int,
     most: int | None,
     on_proposal: Callable[[Proposal], None],
+    progress: Progress,
 ) -> Proposals:
     """Proposals with as many benches as were found to fit, one of each figure."""
     limit = BENCHES_MOST if most is None else min(BENCHES_MOST, max(most, 1))
     every = []
-    for figure in figures:
+    for k, figure in enumerate(figures, start=1):
         longest = _longest(venue, search, [figure], (min(search.dragon.benches, limit), limit))
         if longest is not None and (one := longest[0].certified(*longest[1][:2])) is not None:
             every.append(one)
             on_proposal(one)
+        progress(k / len(figures))
     best, reason = tuple(sorted(every, key=_VALUES[Objective.BENCHES], reverse=True)[:count]), None
     if not best:
         best, reason = _otherwise(search, venue, figures, on_proposal)

@@ -28,6 +28,7 @@ from core.proposal.needs import Needs
 from core.proposal.places import placements, sampled
 from core.proposal.rating import PathRating, rated, strands
 from core.tolerance.tolerance import tolerance
+from core.values import Progress, unheard
 from core.venue import Venue
 
 # Head speed of a dance without a speed limit [m/s].
@@ -218,12 +219,17 @@ class Search:
                     return each, dance, k
         return None
 
-    def proposals(self, figures: Sequence[Figure], count: int) -> Iterator[Proposal]:
-        """Certified dances: the first that passes of each figure, then others of the same figures, up to the count."""
+    def proposals(self, figures: Sequence[Figure], count: int, progress: Progress = unheard) -> Iterator[Proposal]:
+        """Certified dances: the first that passes of each figure, then others of the same figures, up to the count.
+
+        progress: called with the share of the figures that were tried, 0 to 1
+        """
         left = {}
-        for figure in figures:
+        for k, figure in enumerate(figures, start=1):
             left[figure] = self.ranked(figure)
+            progress((k - 0.5) / len(figures))
             yield from self._next(left, figure)
+            progress(k / len(figures))
         further = 0
         while any(left.values()) and further < count:
             for figure in figures:

@@ -103,6 +103,32 @@ def test_a_bare_address_moves_with_the_mouse_and_the_wheel_scrolls_until_the_pic
         shows(one, "#play", "Play")
 
 
+def test_on_the_whole_screen_the_numbers_can_be_dragged_and_the_verdict_follows(open_page: Any) -> None:
+    page = open_page("?door=contest&benches=60")
+    settled(page)
+    page.locator("#full").click()
+    page.wait_for_function("() => document.fullscreenElement")
+    slider = page.locator("[data-field=pitch] input[type=range]")
+    expect(slider).to_be_in_viewport()
+    expect(page.locator("#answers")).to_be_hidden()
+    before = page.locator("#verdict").inner_text()
+    slider.evaluate("one => { one.value = 0.7; one.dispatchEvent(new Event('input', { bubbles: true })); }")
+    settled(page)
+    expect(page.locator("#verdict")).to_be_in_viewport()
+    expect(page.locator("#verdict")).not_to_have_text(before)
+
+
+def test_a_link_below_the_answers_leads_to_the_files(open_page: Any) -> None:
+    page = open_page("?door=contest&benches=20&time=end")
+    settled(page)
+    page.locator("#to-keep").click()
+    expect(page.locator("#kept li").first).to_be_visible()
+    settled(page)
+    expect(page.locator("#keep-title")).to_be_in_viewport()
+    page.locator("#keep [data-share]").click()
+    expect(page.locator("#address")).to_have_value(page.url)
+
+
 def test_a_name_stands_where_its_area_is_widest(visit: Any) -> None:
     page = visit("?time=0")
     # A square of 40 m with a street of 60 m, and a ring of 50,000 corners with two lobes.

@@ -129,6 +129,12 @@ def test_an_address_keeps_the_numbers_and_the_language(open_page: Any) -> None:
     assert "chord" not in page.url
     page.reload()
     expect(drawn(page).locator("#staircase .lead .dial")).to_have_text("0.5001 m")
+    # A number changed a moment ago is in what is shared.
+    dial(page, "staircase", "螺距").press("ArrowUp")
+    page.locator("#share").click()
+    expect(page.locator("#address")).to_have_value(re.compile("staircase_pitch=0.5002"))
+    expect(page.locator("#qr")).to_be_visible()
+    assert findings(page, "#sharing") == []
 
 
 def test_the_look_is_kept_on_both_pages(browser: Any, server: str) -> None:

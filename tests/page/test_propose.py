@@ -354,6 +354,7 @@ def test_what_takes_longer_than_one_answer_comes_as_a_job(open_page: Any, tmp_pa
         page = open_page(f"{EMPTY}&benches=8&things=a.square..0,0_30,0_30,3_0,3", base=service.url, failing=True)
         with page.expect_request("**/jobs/*/result"):
             page.locator("#propose").click()
+            expect(page.locator("#proposed")).to_contain_text(re.compile(r"\d+ s, \d+ % of the kinds of dance tried"))
         expect(page.locator("#proposed")).to_contain_text("The widest free circle is 3.02 m across")
 
 

@@ -103,6 +103,44 @@ def test_the_drawn_path_is_in_the_picture_whatever_answers_late_and_after_anothe
     assert in_the_picture(page)
 
 
+def test_nothing_of_a_spiral_is_shown_while_a_drawn_dance_is_waited_for(open_page: Any) -> None:
+    page = open_page("?benches=60&time=end&route=-200,0_0,0_40,10")
+    settled(page)
+    expect(page.locator("#inset")).to_be_visible()
+    held: list[Any] = []
+    page.route("**/check", lambda one: held.append(one))
+    page.locator("[data-path=route]").click()
+    expect(page.locator("#inset")).to_be_hidden()
+    page.wait_for_timeout(500)  # the spiral's player, if it still drew
+    expect(page.locator("#inset")).to_be_hidden()
+    while held:
+        held.pop(0).continue_()
+    page.unroute_all()
+    settled(page)
+    verdict(page, "Can be danced")
+
+
+def test_a_point_on_another_one_is_a_dot_until_the_picture_is_enlarged(open_page: Any) -> None:
+    page = open_page("?path=route&benches=3&route=0,0_20,0_21,0_60,0", failing=True)
+    settled(page)
+    page.locator("#edit").click()
+    second, third = page.locator(".knot").nth(1), page.locator(".knot").nth(2)
+    expect(third).to_have_class(re.compile("near"))
+    expect(second).not_to_have_class(re.compile("near"))
+    assert third.bounding_box()["width"] < second.bounding_box()["width"]
+    # With the keys it has its number, and a press takes the one that shows its number.
+    third.focus()
+    expect(third).to_have_css("font-size", second.evaluate("one => getComputedStyle(one).fontSize"))
+    page.evaluate("document.activeElement.blur()")
+    drag(page, third, 40, 0)
+    assert points(page)[2] == [21.0, 0.0]
+    settled(page)
+    for _ in range(20):
+        page.locator("#zoom-in").click()
+    settled(page)
+    expect(third).not_to_have_class(re.compile("near"))
+
+
 @pytest.mark.parametrize("late", ["check", "course"])
 def test_what_comes_late_is_not_shown_without_a_drawing_nor_after_a_switch_of_language(
     visit: Any, late: str, picture: Any, alike: Any

@@ -6,6 +6,7 @@ import { addLook } from "../look.js";
 import { lost } from "../overlays.js";
 import { Pause } from "../pending.js";
 import { refusalIn } from "../refusals.js";
+import { Sharing } from "../sharing.js";
 import { learnRefusals, say, setLanguage } from "../text.js";
 import { Figure } from "./figure.js";
 import { PLANS } from "./plans.js";
@@ -91,6 +92,7 @@ for (const button of $$("[data-lang]")) {
 onClick("#lost button", () => service.retry());
 addEventListener("look", () => figures.forEach((figure) => figure.draw()));
 addLook();
+new Sharing({ write, fits: true }, { load: () => import("../qr.js") });
 read();
 
 const language = address.searchParams.get("lang");

@@ -6,6 +6,8 @@ export const DANCE = {
   skip: ["Skip to the dance", "跳到舞龙画面"],
   language: ["Language", "语言"],
   share: ["Share", "分享"],
+  shareThis: ["Share what is shown", "分享当前内容"],
+  toKeep: ["Save it: figures, tables, films and more", "保存：图、表、动画等"],
   address: ["Address of what is shown", "当前画面的链接"],
   qr: ["QR code of the address", "链接的二维码"],
   sharingHelp: ["Whoever opens the address, or scans the code, sees the same.", "打开链接或扫码，看到的内容相同。"],

@@ -53,3 +53,9 @@ def test_a_spent_budget_ends_the_search() -> None:
     there = Search(HALL, Dragon(8), (), Wish(0.05, 0.0, None, Objective.TOLERANCE), Budget(10.0))
     with pytest.raises(Halted):
         there.ranked(Figure.RING)
+
+
+def test_progress_is_the_share_of_the_figures_that_were_tried() -> None:
+    shares: list[float] = []
+    list(search().proposals([Figure.RING, Figure.SERPENTINE], 0, shares.append))
+    assert shares == [0.25, 0.5, 0.75, 1.0]
