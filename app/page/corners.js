@@ -83,7 +83,7 @@ export class Corners {
     }
     if (this.#item !== item) this.box.open = points.length <= FEW;
     this.#item = item;
-    this.title.textContent = say("cornersOf", { name, count: points.length });
+    this.title.textContent = say(points.length === 1 ? "cornersOf_one" : "cornersOf", { name, count: points.length });
     const { lengths, angles } = measures(points, kind !== "wall");
     this.#rows.forEach(({ fields, angle }, k) => {
       const next = points.length > 1 ? lengths[k] : null;

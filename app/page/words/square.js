@@ -71,6 +71,7 @@ export const SQUARE = {
   lack_fails: ["None of {tried} tried passes its check; the nearest, “{figure}”, fails at {time} s: {failure}", "试过的 {tried} 种均未通过检查；最接近的“{figure}”在 {time} s 不合格：{failure}"],
   lack_fails_none: ["Nothing was found to fit, not even one bench. The widest free circle is {have} m across: a turn alone fits ({need} m), but none of the figures that were tried. Make the square larger, or what stands in it, the margin and the stray smaller.", "连一节板凳也找不到合适的舞龙。最大的空地圆直径为 {have} m：仅转弯（{need} m）可行，但试过的队形都放不下。请加大广场，或减小障碍物、间距与离位。"],
   cornersOf: ["Corners of “{name}”: {count}", "“{name}”的角：{count} 个"],
+  cornersOf_one: ["Place of “{name}”", "“{name}”的位置"],
   corner: ["Corner", "角"],
   cornerNext: ["to the next [m]", "到下一角 [m]"],
   cornerAngle: ["angle", "角度"],
