@@ -83,7 +83,7 @@ export class Carrier {
     const heading = make("h2", { id: "card-cues", "data-text": "cardCues" });
     const row = (...parts) => make("p", { className: "row" }, ...parts);
     this.present = make("div", {}, this.when, this.cue);
-    this.box = make("section", { id: "carrier", "aria-labelledby": "carrier-title" }, row(this.title, this.dragon, this.number, this.other, close), this.clock, this.present, row(this.start));
+    this.box = make("section", { id: "carrier", "aria-labelledby": "carrier-title" }, row(this.title, this.dragon, make("label", {}, make("span", { "data-text": "cardBench" }), this.number), this.other, close), this.clock, this.present, row(this.start));
     this.more = make("section", { id: "card-more", "aria-labelledby": "card-cues" }, this.stand, this.beside, heading, this.list, row(...this.corrections, this.again, this.byClock), this.note);
     $("#front").prepend(this.box);
     $("#dance").after(this.more);

@@ -45,7 +45,7 @@ function wayWords({ begin, end, numbers, extras, clock }, { length, s }, time) {
   const [first, last] = [begin, end].map((one) => wayAt(one, numbers.head_speed, extras.passages));
   const stands = first - s[0];
   const span = { way: (last - first).toFixed(1), time, from: begin.toFixed(2), to: end.toFixed(2) };
-  const way = say(begin > 0 && !clock ? "pathSpan" : "pathLength", span);
+  const way = say(Number(span.from) && !clock ? "pathSpan" : "pathLength", span);
   return [stands < STANDS ? way : `${way} ${say("pathStands", { stands: stands.toFixed(1), length: length.toFixed(1) })}`];
 }
 
