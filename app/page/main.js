@@ -274,7 +274,8 @@ const SHOW_STATE = {
   turning_diameter: (diameter) => (dance.scene.circle = Number(diameter) / 2),
   path(path) {
     press("path", path);
-    // Nothing of the former kind of path stays.
+    // Nothing of the former kind of path stays, nor does its motion.
+    if (player.playing) player.stop();
     dance.scene.pose = null;
     dance.setPath(null, route?.around(), route?.yard());
     $("#inset").hidden = true;

@@ -83,7 +83,7 @@ export class Player {
 
   /** Let a person type the time in place of the clock: in seconds, or a time of day if the start has one. */
   #typeTime() {
-    if (this.#playing) this.#stop();
+    if (this.#playing) this.stop();
     const clock = $("#clock");
     const field = make("input", { id: "typed-time", inputMode: "decimal", autocomplete: "off", value: clock.textContent.split(" ")[0], "aria-label": say("typeTime") });
     const end = () => {
@@ -113,12 +113,12 @@ export class Player {
   }
 
   #step(seconds) {
-    this.#stop();
+    this.stop();
     this.seek(this.time + seconds);
   }
 
   toggle() {
-    if (this.#playing) return this.#stop();
+    if (this.#playing) return this.stop();
     const { begin, end } = this.#span;
     if (begin >= end) return;
     this.questions.dance.track?.retry();
@@ -155,7 +155,8 @@ export class Player {
     else this.list(pose);
   }
 
-  #stop() {
+  /** Stop at the instant shown. */
+  stop() {
     this.#playing = false;
     pending(MOTION, false);
     cancelAnimationFrame(this.#frame);
@@ -166,17 +167,17 @@ export class Player {
   #tick(now, before) {
     this.#frame = requestAnimationFrame((next) => this.#tick(next, now));
     const { dance } = this.questions;
-    if (!dance) return this.#stop();
+    if (!dance) return this.stop();
     const refusal = dance.track?.refusal;
     if (refusal) {
       announce(() => `${say("notPlayed")} ${refusalWords(refusal).textContent}`);
-      return this.#stop();
+      return this.stop();
     }
     if (!dance.track?.at(this.time)) return;
     this.#passed += Math.min(now - before, FRAME_MAX);
     if (this.still.matches && this.#passed < STEP_EVERY) return;
     this.seek(this.time + (this.#passed / 1000) * this.state.get("rate"));
     this.#passed = 0;
-    if (this.state.get("time") === null) this.#stop();
+    if (this.state.get("time") === null) this.stop();
   }
 }

@@ -51,6 +51,17 @@ def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open
     assert numbers(page) == FEW["contest"]
 
 
+def test_a_spiral_in_motion_ends_when_the_village_is_chosen(open_page: Any) -> None:
+    page = open_page("")
+    settled(page)
+    page.mouse.move(300, 300)
+    expect(page.locator("#play")).to_contain_text("Pause")
+    page.locator("#arrival [data-door=village]").click()
+    settled(page)
+    expect(page.locator("#clock")).to_have_text("75.00 s")
+    expect(page.locator("#play")).to_contain_text("Play")
+
+
 def test_an_old_address_opens_all_that_it_opened_and_an_unknown_door_does_too(visit: Any) -> None:
     for query in ("?benches=5&time=end", "?benches=5&time=end&door=cellar"):
         page = visit(query)
