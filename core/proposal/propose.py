@@ -46,8 +46,9 @@ Kind = TypeVar("Kind", Figure, Objective)
 
 
 class Wishes(TypedDict, total=False):
-    """What a dance must keep, as for check(): stray, margin [m], speed_limit [m/s]; and what is best."""
+    """The figures to try; what a dance must keep, as for check(): stray, margin [m], speed_limit [m/s]; the best."""
 
+    figures: Sequence[str] | None
     stray: float | Stray
     margin: float
     speed_limit: float | None
@@ -60,7 +61,6 @@ def propose(
     dragon: Dragon,
     *,
     gates: Sequence[Gate] | None = None,
-    figures: Sequence[str] | None = None,
     count: int = 3,
     budget: Budget | None = None,
     on_proposal: Callable[[Proposal], None] = unheard,
@@ -90,7 +90,7 @@ def propose(
     checked_type("dragon", dragon, Dragon)
     wish = _wish(dragon, wishes)
     doors = checked_gates(gates, venue)
-    kinds = _figures(figures, len(doors))
+    kinds = _figures(wishes.get("figures"), len(doors))
     if checked_number("count", count, "", 1, COUNT_MOST) != int(count):
         raise InvalidValue("count", "must be a whole number", got=Given(count))
     if dragon.benches > BENCHES_MOST:

@@ -45,8 +45,8 @@ TOUCH = Failure(FailureKind.CONTACT, 3.0, (1, 9), None, "Benches 1 and 9 touch a
         (
             Reason(ReasonKind.FAILS, 0, 4.5, 4.25),
             (
-                "No figure was found to fit, not even with one bench: the widest free circle is 4.50 m across, a "
-                "turn alone needs 4.25 m, and a figure more."
+                "No figure was found to fit, not even with one bench: the widest free circle is 4.50 m across, "
+                "enough for a turn alone (4.25 m), but for none of the figures that were tried."
             ),
         ),
     ],
