@@ -272,7 +272,7 @@ export class Carrier {
     this.beside.textContent = card ? say(key, { ahead: ahead && name(ahead.bench), behind: behind && name(behind.bench) }) : "";
     const stands = start && (start.steps ? `${start.steps > 0 ? "standPast" : "standBefore"}${Math.abs(start.steps) === 1 ? "One" : ""}` : "standAt");
     this.stand.textContent = card ? say(stands, { mark: start.mark, steps: Math.abs(start.steps), x: start.x.toFixed(1), y: start.y.toFixed(1) }) : "";
-    this.list.replaceChildren(...(card?.cues ?? []).map((cue) => make("li", {}, make("span", { textContent: this.#timeOf(cue.since) }), make("span", { textContent: cue.words }))));
+    this.list.replaceChildren(...(card?.cues ?? []).map((cue) => make("li", {}, make("span", { textContent: this.#timeOf(cue.time) }), make("span", { textContent: cue.words }))));
     this.byClock.hidden = !dance?.clock;
     this.#showTime();
     this.#showNote();
@@ -311,8 +311,10 @@ export class Carrier {
     hide(this.start, isGoing);
     for (const one of [...this.corrections, this.again]) hide(one, !isGoing);
     const cues = this.#card?.cues ?? [];
-    const next = cues.find(({ since }) => since > time || !isGoing);
-    const present = isGoing && cues.findLast(({ since, until }) => since <= time && time < Math.max(until, since + PRESENT));
+    // The card has them by the time at which benches are nearest; who waits for one hears of it when it begins.
+    const begun = cues.toSorted((a, b) => a.since - b.since);
+    const next = begun.find(({ since }) => since > time || !isGoing);
+    const present = isGoing && begun.findLast(({ since, until }) => since <= time && time < Math.max(until, since + PRESENT));
     const isOver = isGoing && time >= end && !present;
     const [cue, at] = present ? [present, present.until] : [next, next?.since];
     this.present.classList.toggle("present", Boolean(present));

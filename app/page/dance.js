@@ -18,8 +18,8 @@ const [LEAST_WIDTH, HEAD] = [6, 15];
 const SKULL = new Path2D("M-.6 .45Q-.1 .75 .45 .5Q.75 .4 1.1 .42Q1.35 .3 1.3 0Q1.35 -.3 1.1 -.42Q.75 -.4 .45 -.5Q-.1 -.75 -.6 -.45Q-.45 0 -.6 .45Z");
 const HORNS = new Path2D("M.1 .5Q-.6 .7 -1.1 1.15Q-.9 .6 -.3 .35ZM.1 -.5Q-.6 -.7 -1.1 -1.15Q-.9 -.6 -.3 -.35Z");
 const EYES = new Path2D("M.5 .27A.13 .13 0 1 1 .24 .27A.13 .13 0 1 1 .5 .27ZM.5 -.27A.13 .13 0 1 1 .24 -.27A.13 .13 0 1 1 .5 -.27Z");
-/** How far a path of several dragons hides what is below it [1]. */
-const WAY = 0.4;
+/** How far a path of several dragons, and an outdated dragon on a drawn path, hide what is below them [1]. */
+const [WAY, FADED] = [0.4, 0.4];
 /** Half side of the inset around the point of contact, in bench widths. */
 const INSET_WIDTHS = 1.6;
 /** Room for the inset on a phone; a drawn path, which may be wide, has no room for it [px]. */
@@ -41,9 +41,10 @@ export class Dance {
   /**
    * pose {x, y, speed}, its dragon {width, overhang, stray, hole, pin}, contact: the service's answer while its instant is shown, handle:
    * the chosen one, names of head and handle, circle: radius of the turning circle [m]; speeds: [lowest, highest] of the
-   * whole dance [m/s], which have the first and the last colour; null: those of the pose; parts: several dragons, or null
+   * whole dance [m/s], which have the first and the last colour; null: those of the pose; parts: several dragons, or null;
+   * faded: not of the numbers as they are
    */
-  scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", handleName: "", circle: null, speeds: null, parts: null };
+  scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", handleName: "", circle: null, speeds: null, parts: null, faded: false };
   /** Functions of a pen and the colours that draw additional layers: the ground, names over which the dragon passes, and what is above it. */
   below = [];
   names = [];
@@ -121,7 +122,10 @@ export class Dance {
     const { metres, pixels } = scaleBar(this.view.scale);
     pen.bar(`${metres} m`, pixels, colours.text, colours.card, this.view.scaleIsLeft);
     for (const layer of this.names) layer(pen, colours);
+    // On a drawn path the dragon alone fades: what is drawn is as it is.
+    pen.context.globalAlpha = this.scene.faded && this.drawn ? FADED : 1;
     if (pose) this.#drawDragon(pen);
+    pen.context.globalAlpha = 1;
     for (const layer of this.above) layer(pen, colours);
   }
 

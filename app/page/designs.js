@@ -32,7 +32,8 @@ export class Designs {
     const { path, value } = QUESTIONS[this.#spec?.question] ?? { path: "spiral" };
     const answered = value === "pitch" && row.pitch !== null ? { pitch: row.pitch } : {};
     const known = Object.entries({ ...this.#spec?.request, ...over, ...answered }).filter(([name]) => this.names.includes(name));
-    this.state.set({ path, time: null, view: null, ...Object.fromEntries(known.map(([name, number]) => [name, String(number)])) });
+    // Back leads to the numbers before.
+    this.state.push({ path, time: null, view: null, ...Object.fromEntries(known.map(([name, number]) => [name, String(number)])) });
     $("#canvas").scrollIntoView({ block: "nearest" });
   }
 }

@@ -7,6 +7,8 @@ import { CONTACT, strayOf } from "./fields.js";
 import { benchName, refusalWords, say, sayOf } from "./text.js";
 
 const PITCH_DECIMALS = 4;
+/** Difference of two times that are shown as one [s]. */
+const INSTANT = 0.005;
 /** Charts for which the service needs seconds. */
 const SLOW = ["curve", "scan"];
 /** Distance from the view at which they are requested: small at first, because on wide screens they are just below it. */
@@ -79,7 +81,8 @@ export class Graphs {
     const k = Math.min(Math.round((now - dance.begin) / step), answer.time.length - 1);
     const [a, b] = answer.benches[k].map((bench) => benchName(bench, dance.numbers.benches));
     const gap = gapWords(answer.clearance[k]);
-    $("#clearance .reading").textContent = say("clearanceAt", { time: instantWords(k === answer.time.length - 1 ? dance.end : answer.time[k], dance), gap, a, b });
+    const is = Math.abs(answer.time[k] - now) < INSTANT ? "clearanceAt" : "clearanceNear";
+    $("#clearance .reading").textContent = say(is, { time: instantWords(k === answer.time.length - 1 ? dance.end : answer.time[k], dance), gap, a, b });
   }
 
   /** Draw the proven stray against the pitch, with the current stray and the minimum pitch for it. */

@@ -62,7 +62,7 @@ const service = new Service({
   back() {
     $("#lost").hidden = true;
     carrier?.network(true);
-    announce(() => say("back"));
+    if (questions.dance) announce(() => say("back")); // before a first answer nobody has missed it
   },
   refused: async () => learnRefusals(await parts.load("refusals")),
 });
@@ -211,7 +211,9 @@ const SHOW = {
     const { speeds, fastest } = questions.answers;
     const [low, high] = spanOf(speeds.answer.speed); // of some instants, which may miss the highest speed of all
     const most = (fastest?.dance === speeds.dance && fastest.answer.highest_speed?.speed) || high; // none in a run to a fold
-    dance.scene.speeds = [low, Math.min(Math.max(high, most), FAST * speeds.dance.numbers.top_speed)];
+    // Towards a fold speeds have no bound.
+    const bound = answers.foldOf(speeds.dance.answer) === null ? Infinity : FAST * speeds.dance.numbers.top_speed;
+    dance.scene.speeds = [low, Math.min(Math.max(high, most), bound)];
     if (dance.scene.pose) showPose(dance.scene.pose);
   },
   fastest() {
@@ -250,6 +252,8 @@ const TELL = {
     benches.refuse(questions.errors().get("csv"));
     pace.refuse(questions.errors().get("passages"));
     $("main").classList.toggle("stale", refusals.has("contact") && Boolean(questions.dance));
+    dance.scene.faded = $("main").classList.contains("stale");
+    $("main").classList.toggle("refused", refusals.has("contact") && !questions.dance);
     // Without a dance there are no further questions.
     if (refusals.has("contact") && !questions.dance) for (const box of $$("[aria-busy=true]")) box.setAttribute("aria-busy", false);
     showRefusals(questions, graphs, (kind) => BUSY[kind][0]);
@@ -419,12 +423,22 @@ function listen() {
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
   for (const button of $$("[data-path]")) button.addEventListener("click", () => (button.dataset.path === "route" ? openRoute().then((one) => one.choose()) : state.choosePath(button.dataset.path)));
   for (const { dataset } of $$("[data-section]")) onClick(`[data-section=${dataset.section}]`, () => showSection(dataset.section));
-  onClick("#to-keep", () => showSection("keep"));
+  onClick("#to-keep", async () => {
+    await showSection("keep");
+    $("#keep-title").focus({ preventScroll: true });
+  });
+  // The reasons of the verdict are not on the whole screen.
+  $("#verdict").addEventListener("click", async (event) => {
+    if (!document.fullscreenElement) return;
+    event.preventDefault();
+    await document.exitFullscreen();
+    $("#answers").scrollIntoView();
+  });
   whenReached(["#people", "#keep", "#sweeps", "#grade"], openBelow);
   whenReached(["#stage"], openRoute, OF_FILES);
   onClick("#several", () => openDragons().then((one) => one.add()));
   // A tap on a number chooses all of it, so that typing replaces it; later than the tap, which sets the cursor.
-  const chooseNumber = (target) => target.inputMode === "decimal" && setTimeout(() => document.activeElement === target && target.select());
+  const chooseNumber = (target) => /decimal|numeric/.test(target.inputMode) && setTimeout(() => document.activeElement === target && target.select());
   addEventListener("focusin", ({ target }) => chooseNumber(target));
   addEventListener("look", restyle);
   // "How it works" leads back to this dance; without storage, to the page as it begins.

@@ -53,6 +53,7 @@ export class SweepMap {
     this.select.replaceChildren(...values.map((name) => make("option", { value: name })));
     if (values.includes(own)) this.select.value = own;
     this.#cell = null;
+    this.reading.textContent = "";
     this.draw();
   }
 

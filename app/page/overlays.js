@@ -38,7 +38,7 @@ let hearing = 0;
 export function tell(box) {
   clearTimeout(hearing);
   hearing = setTimeout(() => {
-    const sentences = [...box.querySelectorAll(":scope > h3, :scope > p:not(.old)")].map((one) => one.textContent.replace(/^[✓✕?]/, ""));
+    const sentences = [...box.querySelectorAll(":scope > h3, :scope > p:not(.old), :scope > .failures span")].map((one) => one.textContent.replace(/^[✓✕?]/, ""));
     const words = box.hidden ? "" : sentences.join(" ");
     if ($("#heard").textContent !== words) $("#heard").textContent = words;
   }, STILL);

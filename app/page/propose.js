@@ -30,6 +30,13 @@ function isBeyond(thing, ring) {
   const { width, height, middle: [x, y] } = extent(ring);
   return thing.points.every(([px, py]) => Math.abs(px - x) > width / 2 || Math.abs(py - y) > height / 2);
 }
+/** The drawing with its gates at the same share of the sides of another square. ring, points: corners before and after */
+function stretched(drawing, ring, points) {
+  if (!ring.length) return drawing;
+  const [before, after] = [extent(ring), extent(points)];
+  const at = ([x, y]) => [after.middle[0] + ((x - before.middle[0]) * after.width) / before.width, after.middle[1] + ((y - before.middle[1]) * after.height) / before.height];
+  return { ...drawing, things: drawing.things.map((thing) => (thing.kind === "gate" ? { ...thing, points: thing.points.map(at) } : thing)) };
+}
 /** Words for the stray behind the door of the village, and those of the other doors. */
 const STRAY = { true: { stray: SQUARE.strayVillage, stray_is: SQUARE.strayVillage_is }, false: { stray: DANCE.stray, stray_is: DANCE.stray_is } };
 /** A drawing without a path. */
@@ -73,7 +80,7 @@ export class Propose {
     const unit = () => make("span", { textContent: "m" });
     this.sizes = [field("placeWidth"), field("placeHeight"), field("placeDiameter")];
     const [width, height, diameter] = this.sizes;
-    const take = (key, shape, fields) => textButton("placeTake", () => this.#draw(shape, fields), { id: key });
+    const take = (key, shape, fields) => textButton("placeTake", () => this.#draw(shape, fields), { id: key, "data-label": key });
     this.dragon = ["benches", "body_length"].map((name) => field(name, { onchange: ({ target }) => this.#setNumber(name, target) }));
     this.objective = make("select", { "data-label": "objective", id: "objective" }, ...OBJECTIVES.map((name) => make("option", { value: name, "data-text": `objective_${name}` })));
     this.ask = textButton("propose", () => this.#ask(), { id: "propose", className: "main" });
@@ -147,7 +154,7 @@ export class Propose {
     const k = drawing.things.findIndex(({ kind }) => kind === "area");
     const area = { kind: "area", name: freeName(drawing.things, say("thing_area")), points };
     this.state.set({ view: null, time: null });
-    this.steps.take(k < 0 ? { ...drawing, things: [area, ...drawing.things] } : withPoints({ ...drawing, yard: null }, k, points));
+    this.steps.take(k < 0 ? { ...drawing, things: [area, ...drawing.things] } : withPoints({ ...stretched(drawing, yard, points), yard: null }, k, points));
     this.editor.edit(null);
     const beyond = drawing.things.filter((thing) => !["area", "gate"].includes(thing.kind) && isBeyond(thing, points)).map(({ name }) => name);
     this.#tell(beyond.length ? () => say("placeBeyond", { names: beyond.join(say("listed")) }) : null);

@@ -37,13 +37,13 @@ function drawThing(pen, colours, thing) {
   pen.stroke(path, colours.circle, kind === "area" ? 2 : 1);
 }
 
-/** A gate: an arrow through the border, in the direction of those who enter. */
+/** A gate: an arrow both ways through the border, because a dance may enter or leave there. */
 function drawGate(pen, colours, drawing, gate) {
   const [[x, y]] = gate.points;
   const heading = headingOf(drawing, gate);
   const [dx, dy] = [Math.cos(heading), Math.sin(heading)].map((one) => (one * GATE_LENGTH) / pen.scale);
   pen.stroke(trace([[x - dx / 2, y - dy / 2], [x + dx / 2, y + dy / 2]], new Path2D(), false), colours.gate, GATE);
-  pen.stroke(pen.tip(x + dx / 2, y + dy / 2, dx, dy, 9), colours.gate, GATE);
+  for (const way of [1, -1]) pen.stroke(pen.tip(x + (way * dx) / 2, y + (way * dy) / 2, way * dx, way * dy, 9), colours.gate, GATE);
 }
 
 /** Lengths and angles of a thing while it is drawn, of all corners or of those beside the held one. */

@@ -18,7 +18,7 @@ from app.plan.sheet import POINT, Box, PaperName, Scale, Sheet, north_arrow, sca
 from app.plan.timing import Timing
 from core import Dance, Venue
 from core.plots import BLUE, VERMILION
-from core.shapes.engines import Polygons
+from core.shapes.engines import Polygons, widest_place
 from core.values import Floats
 
 EDGE, STONE = "#B8860B", "#D9D9D9"
@@ -175,17 +175,22 @@ def _draw_venue(sheet: Sheet, ground: GroundMap, scale: Scale, frame: Rectangle)
         look = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.6}} if wide else {}
         sheet.label(area.name, NAME_TYPE, [(x, y), *around] if wide else around, scale.paper.room, **look)
         sheet.take(np.array([left, low, right, high]))
-    places = _inside(scale.on_paper(np.array(square.rings[0])), 0.5 * sheet.width(square.name, NAME_TYPE) + 1.5)
+    middle = scale.on_paper(np.array(widest_place(square.rings)[:2]))
+    places = _inside(scale.on_paper(np.array(square.rings[0])), middle, 0.5 * sheet.width(square.name, NAME_TYPE) + 1.5)
     sheet.label(square.name, NAME_TYPE, places, scale.paper.room)
 
 
-def _inside(ring: Floats, beside: float) -> list[tuple[float, float]]:
-    """Places for a word of that half width inside a closed ring: at the middle of each side, the longest side first."""
+def _inside(ring: Floats, middle: Floats, beside: float) -> list[tuple[float, float]]:
+    """Places for a word of that half width inside a closed ring: at the middle of each side.
+
+    Sides as long as the word come first, and of them those nearest to the middle, which is not in a street.
+    """
     along = np.diff(ring, axis=0)
     area = float((ring[:-1, 0] * ring[1:, 1] - ring[1:, 0] * ring[:-1, 1]).sum())
     inwards = np.sign(area) * np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
     places = ring[:-1] + 0.5 * along + inwards * (beside * np.abs(inwards[:, :1]) + 2.5 * np.abs(inwards[:, 1:]))
-    middles: list[tuple[float, float]] = [tuple(places[k].tolist()) for k in np.argsort(-np.hypot(*along.T))]
+    order = np.lexsort((np.hypot(*(places - middle).T), np.hypot(*along.T) < 2.0 * beside))
+    middles: list[tuple[float, float]] = [tuple(places[k].tolist()) for k in order]
     return middles
 
 

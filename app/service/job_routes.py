@@ -335,8 +335,9 @@ def result(request: Request, keeper: KeptKeeper, job: RequestedJob) -> Response:
                 form = accepted(request.headers.get("accept"), SWEEP_FORMS) or PARQUET_TYPE
                 if form != PARQUET_TYPE:
                     return Response(_rows_as(form, file), headers=NOT_KEPT | {"Vary": "Accept"}, media_type=form)
-            if file.stat().st_size > READ_AT_ONCE:
-                return LargeResult(file, headers=NOT_KEPT, media_type=job.media_type)
+            # A player jumps to another time of a film by a range of its bytes.
+            if file.stat().st_size > READ_AT_ONCE or str(job.media_type).startswith("video/"):
+                return RangedResult(file, headers=NOT_KEPT, media_type=job.media_type)
             return Response(file.read_bytes(), headers=NOT_KEPT, media_type=job.media_type)
     why = "The job was dismissed" if job.state is JobState.DISMISSED else "The result has expired"
     why = "The result gave way to newer jobs" if job.expired == GAVE_WAY else why
@@ -378,7 +379,7 @@ async def events(
     return EventStream(keeper, job.id, after)
 
 
-class LargeResult(FileResponse):
+class RangedResult(FileResponse):
     """A file, or one range of its bytes; any other Range is ignored, as HTTP allows: a refusal would have no words."""
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:

@@ -65,7 +65,7 @@ class Reason(Readable):
             return f"The benches cover at least {need:.1f} m2 at any moment; the square has {have:.1f} m2."
         if self.kind is ReasonKind.WIDTH:
             bench = "the head bench" if self.who == (0,) else f"bench {self.who[0]}"
-            return f"The widest free circle is {have:.2f} m across; a turn of {bench} needs {need:.2f} m."
+            return f"The widest free circle is at most {have:.2f} m across; a turn of {bench} needs {need:.2f} m."
         if self.kind is ReasonKind.WAY:
             gates = f"gate {self.who[0]} and gate {self.who[1]}"
             return (
@@ -79,8 +79,8 @@ class Reason(Readable):
             return f"The dragon has {benches_of(int(need))}; {most}."
         if self.failure is None:
             return (
-                f"No figure was found to fit, not even with one bench: the widest free circle is {have:.2f} m across, "
-                f"enough for a turn alone ({need:.2f} m), but for none of the figures that were tried."
+                f"No figure was found to fit, not even with one bench: the widest free circle is at most {have:.2f} m "
+                f"across, a turn alone needs {need:.2f} m, and every figure that was tried needs more."
             )
         return f"None of {self.tried} tried passes its check; the nearest, {figure}: {self.failure.message}"
 

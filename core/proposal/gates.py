@@ -16,6 +16,8 @@ from core.venue import Area, Venue
 
 # Largest distance of a gate from the border [m]: coordinates that were measured with a tape or read from a map.
 ON_BORDER = 0.25
+# Largest difference of the distances of two sides from a gate at their corner [m].
+AT_CORNER = 1e-9
 # Largest number of gates [1].
 GATES_MAX = 8
 
@@ -57,14 +59,15 @@ def _on_border(name: str, gate: Gate, square: Area) -> Gate:
     along = np.clip(((gate.point - a) * way).sum(axis=1) / squared, 0.0, 1.0)
     nearest = a + along[:, None] * way
     distance = np.hypot(*(nearest - gate.point).T)
-    k = int(distance.argmin())
+    left = math.copysign(1.0, _signed_area(square.rings[0]))
+    into = left * ((np.stack([-way[:, 1], way[:, 0]], axis=1) @ gate.ahead) / np.sqrt(squared))
+    # At a corner the side counts that is crossed straighter.
+    k = int(np.where(distance <= distance.min() + AT_CORNER, into, -math.inf).argmax())
     if distance[k] > ON_BORDER:
         rule = "must be on the border of the square: it is {off} from it, more than {most}"
         raise InvalidValue(f"{name}.point", rule, **quantities("m", 4, off=float(distance[k]), most=ON_BORDER))
     x, y = nearest[k].tolist()
-    left = math.copysign(1.0, _signed_area(square.rings[0]))
-    inwards = left * np.array([-way[k, 1], way[k, 0]]) / math.sqrt(squared[k])
-    if inwards @ np.array(gate.ahead) < math.cos(math.radians(80.0)):
+    if into[k] < math.cos(math.radians(80.0)):
         rule = "must lead into the square, within 80 degrees of straight across its border"
         raise InvalidValue(f"{name}.heading", rule, got=Quantity(gate.heading, "rad", 6))
     return Gate((x, y), gate.heading)

@@ -110,6 +110,20 @@ MIDDLE = """() => {
 }"""
 
 
+def test_the_times_are_those_of_the_printed_card_in_their_order(open_page: Any) -> None:
+    # Benches pass for a while, and are nearest at one moment of it.
+    path = "*-67,-8_-12,-8_-3,-9_6,-8_10.5,-3_7,2.5_0,3.5_-4.5,7_-1,10.5_6,10.5_*12,15_12,62"
+    with (page := open_page(f"?path=route&route={path}&bench=17", **ON_PHONE)).expect_response("**/cues") as sent:
+        page.reload()
+    held(page)
+    cues = sent.value.json()["cards"][0]["cues"]
+    assert any(cue["since"] < cue["time"] for cue in cues)
+    shown = page.locator("#card-more li span:first-child").all_inner_texts()
+    seconds = [60.0 * float(minutes) + float(rest) for minutes, rest in (text.split(":") for text in shown)]
+    assert seconds == pytest.approx([cue["time"] for cue in cues], abs=0.051)
+    assert seconds == sorted(seconds)
+
+
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page: Any, server: str, language: str) -> None:
     allowed = {"en": ["screen-wake-lock"], "zh": []}[language]

@@ -116,6 +116,18 @@ def test_on_the_whole_screen_the_numbers_can_be_dragged_and_the_verdict_follows(
     settled(page)
     expect(page.locator("#verdict")).to_be_in_viewport()
     expect(page.locator("#verdict")).not_to_have_text(before)
+    # The verdict leads to its reasons, which are not on the whole screen.
+    page.locator("#verdict").click()
+    expect(page.locator("#answers")).to_be_in_viewport()
+    assert page.evaluate("document.fullscreenElement") is None
+
+
+def test_on_the_whole_screen_of_a_bare_address_there_are_numbers_too(open_page: Any) -> None:
+    page = open_page("")
+    settled(page)
+    page.keyboard.press("Tab")  # so that nothing moves
+    page.locator("#full").click()
+    expect(page.locator("[data-field=pitch] input[type=range]")).to_be_in_viewport()
 
 
 def test_a_link_below_the_answers_leads_to_the_files(open_page: Any) -> None:
@@ -125,6 +137,7 @@ def test_a_link_below_the_answers_leads_to_the_files(open_page: Any) -> None:
     expect(page.locator("#kept li").first).to_be_visible()
     settled(page)
     expect(page.locator("#keep-title")).to_be_in_viewport()
+    expect(page.locator("#keep-title")).to_be_focused()
     page.locator("#keep [data-share]").click()
     expect(page.locator("#address")).to_have_value(page.url)
 
@@ -213,6 +226,9 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
     assert float(page.locator("#exit_radius").input_value()) == shortest["exit_radius"]
     shows(page, "#first-contact .value", "Nothing touches")
     settled(page)
+    # The colours have the highest speed of the answer, also above twice that of the head.
+    fast = page.locator("#highest-speed .value").inner_text().removesuffix(" m/s")
+    expect(page.locator("#legend span").nth(1)).to_have_text(re.compile(f"^{fast[:4]}"))
     page.get_by_role("button", name="Dance the quickest turn").click()
     settled(page)
     text = page.locator("#turn-time .value").inner_text()

@@ -130,6 +130,16 @@ def test_reduced_motion_moves_in_steps(open_page: Any) -> None:
     assert times[2] - times[1] >= 0.4
 
 
+def test_a_verdict_is_told_with_its_reasons(open_page: Any) -> None:
+    page = open_page("?path=route&route=*-40,0_0,0_30,5&benches=5&things=a.square..-30,-20_9,-20_9,20_-30,20")
+    settled(page)
+    reasons = page.locator("#judgement .failures span").all_inner_texts()
+    assert len(reasons) > 1
+    expect(page.locator("#heard")).to_have_text(re.compile(r"^Verdict Cannot be danced"))
+    for reason in reasons:
+        expect(page.locator("#heard")).to_contain_text(reason)
+
+
 def test_no_verdict_is_told_twice(open_page: Any) -> None:
     page = open_page("?path=route&route=-9,0_9,0_20,9&benches=3")
     settled(page)

@@ -186,6 +186,17 @@ def test_a_chosen_dance_is_edited_like_any_route(open_page: Any) -> None:
     expect(knots).to_have_count(count)
 
 
+def test_gates_keep_their_share_of_the_sides_of_another_square(open_page: Any) -> None:
+    page = open_page(f"{EMPTY}&things=a.square..-20,-15_20,-15_20,15_-20,15~g.gate..-20,5~g.out..10,15")
+    settled(page)
+    page.locator("#place-width").fill("24")
+    page.locator("#place-height").fill("18")
+    page.locator("#take-rectangle").click()
+    settled(page)
+    gates = [one.split(".")[3] for one in parts(page)["things"].split("~") if one.startswith("g.")]
+    assert gates == ["-12,3", "6,9"]
+
+
 def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page: Any, picture: Any) -> None:
     page = open_page(SCALED)
     settled(page)
@@ -280,8 +291,11 @@ def test_a_square_is_drawn_by_its_size_and_a_wrong_size_is_named(open_page: Any)
 @pytest.mark.parametrize(
     ("language", "words"),
     [
-        ("en", "The widest free circle is 3.02 m across; a turn of the head needs 3.77 m. Make the square larger."),
-        ("zh", "最大的空地圆直径为 3.02 m，龙头转弯需要 3.77 m。请加大广场。"),
+        (
+            "en",
+            "The widest free circle is at most 3.02 m across; a turn of the head needs 3.77 m. Make the square larger.",
+        ),
+        ("zh", "最大的空地圆直径至多 3.02 m，龙头转弯需要 3.77 m。请加大广场。"),
     ],
 )
 def test_why_none_fits_stands_in_one_sentence(open_page: Any, language: str, words: str) -> None:
@@ -355,7 +369,7 @@ def test_what_takes_longer_than_one_answer_comes_as_a_job(open_page: Any, tmp_pa
         with page.expect_request("**/jobs/*/result"):
             page.locator("#propose").click()
             expect(page.locator("#proposed")).to_contain_text(re.compile(r"\d+ s, \d+ % of the kinds of dance tried"))
-        expect(page.locator("#proposed")).to_contain_text("The widest free circle is 3.02 m across")
+        expect(page.locator("#proposed")).to_contain_text("The widest free circle is at most 3.02 m across")
 
 
 def test_cards_come_while_the_search_goes_on_and_a_chosen_one_ends_it(open_page: Any, tmp_path: Any) -> None:

@@ -120,6 +120,31 @@ def test_nothing_of_a_spiral_is_shown_while_a_drawn_dance_is_waited_for(open_pag
     verdict(page, "Can be danced")
 
 
+def test_a_bend_that_is_too_tight_is_shown_near(open_page: Any) -> None:
+    page = open_page("?path=route&benches=9&route=*-60,0_*0,0_0,40&corner=0.3", failing=True)
+    settled(page)
+    verdict(page, "Cannot be danced")
+    assert "view=" not in page.url
+    page.locator("#judgement").get_by_role("button", name="Show").first.click()
+    page.wait_for_url("**view=**")
+    x, y, scale = [float(one) for one in page.evaluate("new URLSearchParams(location.search).get('view')").split(",")]
+    assert abs(x) < 3
+    assert -3 < y < 3
+    assert scale > 20
+
+
+def test_of_a_first_dance_that_is_refused_there_is_nothing_to_play(open_page: Any) -> None:
+    page = open_page("?path=route&benches=40&route=0,0_9,0", failing=True)
+    settled(page)
+    expect(page.locator("#judgement .value")).to_contain_text("Cannot be danced")
+    expect(page.locator("#play")).to_be_hidden()
+    expect(page.locator("#legend")).to_be_hidden()
+    page.locator("[data-field=benches] input").first.fill("3")
+    settled(page)
+    verdict(page, "Can be danced")
+    expect(page.locator("#play")).to_be_visible()
+
+
 def test_a_point_on_another_one_is_a_dot_until_the_picture_is_enlarged(open_page: Any) -> None:
     page = open_page("?path=route&benches=3&route=0,0_20,0_21,0_60,0", failing=True)
     settled(page)

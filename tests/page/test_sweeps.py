@@ -86,6 +86,12 @@ def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: A
     expect(page.locator("#pitch")).to_have_value("0.55")
     expect(page.locator("#width")).to_have_value("0.25")
     page.locator("#first-contact .value", has_text=f"{answer['time']:.6f}").wait_for()
+    # Back leads to the numbers before; a new map has nothing of the one before.
+    page.go_back()
+    expect(page.locator("#width")).to_have_value("0.3")
+    expect(reading).not_to_be_empty()
+    ask(page, "collision_time", ("pitch", 0.5, 0.52, 2), ("width", 0.2, 0.3, 2))
+    expect(reading).to_be_empty()
 
 
 @pytest.mark.curl

@@ -197,6 +197,22 @@ def test_a_gate_stands_on_the_map_and_has_the_times_of_head_and_tail(client: htt
     assert refused.json()["detail"] == "gates[0] must be within 5 m of the path that the dragon walks, got 'far'"
 
 
+def test_the_name_of_a_square_stands_in_no_street(client: httpx.Client) -> None:
+    # A square of 20 m with a street of 60 m.
+    ring = [[-70, -3], [-10, -3], [-10, -10], [10, -10], [10, 10], [-10, 10], [-10, 3], [-70, 3], [-70, -3]]
+    geometry = {"type": "Polygon", "coordinates": [ring]}
+    venue = {"type": "Feature", "properties": {"name": "threshing floor"}, "geometry": geometry}
+    path = {"kind": "waypoints", "points": [[-68, 0], [8, 0]], "straight": [0]}
+    body = {"dragon": {"benches": 5}, "path": path, "venue": {"type": "FeatureCollection", "features": [venue]}}
+    data = client.post("/plan", json=body).raise_for_status().content
+    page = pypdfium2.PdfDocument(data)[0]
+    text = page.get_textpage()
+    name = text.get_charbox(text.search("threshing floor").get_next()[0])
+    # The street is left of the square, which is the last quarter of the ground.
+    shapes = boxes(page)
+    assert POINT * name[0] > 0.5 * (shapes[:, 0].min() + shapes[:, 2].max())
+
+
 def test_a_spiral_has_its_radius_and_angle_and_its_failure_in_the_title(client: httpx.Client) -> None:
     body = {"dragon": {"benches": 9}, "path": {"kind": "spiral", "pitch": 0.4, "start_turns": 6, "centre": [9, 9]}}
     pages = list(pypdfium2.PdfDocument(client.post("/plan", json=body | {"spacing": 10}).raise_for_status().content))

@@ -75,7 +75,7 @@ def test_a_reason_stands_where_no_dance_fits(client: httpx.Client) -> None:
     answer = proposals(client, venue=lane)
     assert answer["proposals"] == []
     assert answer["reason_kind"] == "width"
-    assert answer["reason"] == "The widest free circle is 3.02 m across; a turn of the head bench needs 3.91 m."
+    assert answer["reason"] == "The widest free circle is at most 3.02 m across; a turn of the head bench needs 3.91 m."
 
 
 def test_a_venue_in_degrees_keeps_its_place(client: httpx.Client) -> None:
@@ -137,7 +137,7 @@ def test_the_command_writes_dances_and_pictures(tmp_path: Path) -> None:
     none = run("propose", str(lane), "--output", str(tmp_path / "none"))
     assert (none.returncode, none.stdout.strip()) == (
         0,
-        "The widest free circle is 3.02 m across; a turn of the head bench needs 3.91 m.",
+        "The widest free circle is at most 3.02 m across; a turn of the head bench needs 3.91 m.",
     )
     assert list((tmp_path / "none").iterdir()) == []
 

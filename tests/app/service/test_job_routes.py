@@ -139,6 +139,16 @@ def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service: Jo
         assert (answer.status_code, answer.content == content) == (status, True), wanted
 
 
+def test_a_player_may_jump_to_another_time_of_a_short_film(service: JobService) -> None:
+    film = {"dragon": {"benches": 3}, "path": {"kind": "spiral", "pitch": 0.8}, "height": 90, "seconds": 1}
+    address = service.post({"question": "films", "request": film, "accept": "video/mp4"})
+    service.finished(address)
+    whole = service.client.get(f"{address}/result")
+    assert whole.headers["accept-ranges"] == "bytes"
+    part = service.client.get(f"{address}/result", headers={"Range": "bytes=5-9"})
+    assert (part.status_code, part.content) == (206, whole.content[5:10])
+
+
 def test_head_of_events_ends_at_once(service: JobService) -> None:
     address = service.post(ENDLESS)
     answer = service.client.head(f"{address}/events", timeout=5.0)

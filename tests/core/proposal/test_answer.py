@@ -20,11 +20,11 @@ TOUCH = Failure(FailureKind.CONTACT, 3.0, (1, 9), None, "Benches 1 and 9 touch a
         ),
         (
             Reason(ReasonKind.WIDTH, 9, 4.1, 5.2, who=(0,)),
-            "The widest free circle is 4.10 m across; a turn of the head bench needs 5.20 m.",
+            "The widest free circle is at most 4.10 m across; a turn of the head bench needs 5.20 m.",
         ),
         (
             Reason(ReasonKind.WIDTH, 9, 4.1, 5.2, who=(7,)),
-            "The widest free circle is 4.10 m across; a turn of bench 7 needs 5.20 m.",
+            "The widest free circle is at most 4.10 m across; a turn of bench 7 needs 5.20 m.",
         ),
         (
             Reason(ReasonKind.WAY, 9, 0.2, 0.44, who=(0, 2)),
@@ -45,8 +45,8 @@ TOUCH = Failure(FailureKind.CONTACT, 3.0, (1, 9), None, "Benches 1 and 9 touch a
         (
             Reason(ReasonKind.FAILS, 0, 4.5, 4.25),
             (
-                "No figure was found to fit, not even with one bench: the widest free circle is 4.50 m across, "
-                "enough for a turn alone (4.25 m), but for none of the figures that were tried."
+                "No figure was found to fit, not even with one bench: the widest free circle is at most 4.50 m across, "
+                "a turn alone needs 4.25 m, and every figure that was tried needs more."
             ),
         ),
     ],

@@ -65,6 +65,14 @@ def test_a_wrong_gate_is_named(gates: Any, words: str) -> None:
         checked_gates(gates, HALL)
 
 
+@pytest.mark.parametrize("venue", [HALL, TURNED], ids=["counter-clockwise", "clockwise"])
+@pytest.mark.parametrize("heading", [0.0, math.pi / 2, 0.6])
+def test_at_a_corner_a_gate_may_lead_in_over_either_side(venue: Venue, heading: float) -> None:
+    assert checked_gates([Gate((0.0, 0.0), heading)], venue)[0].point == (0.0, 0.0)
+    with pytest.raises(InvalidValue, match="must lead into the square"):
+        checked_gates([Gate((0.0, 0.0), heading + math.pi)], venue)
+
+
 def test_a_street_without_room_is_refused() -> None:
     narrow = r"gates\[0\]\.point must have 3 m of border for its street, and the square is narrower there"
     corner = checked_gates([Gate((0.0, 0.5), 0.0)], HALL)

@@ -150,7 +150,7 @@ def reason_of(venue: Venue, dragon: Dragon, **more: Any) -> core.Reason:
 def test_a_yard_that_is_too_narrow_is_told_with_both_widths() -> None:
     reason = reason_of(Venue(box("lane", 0, 0, 30, 3.0)), Dragon(8))
     assert reason.kind is ReasonKind.WIDTH
-    assert reason.message == "The widest free circle is 3.02 m across; a turn of the head bench needs 3.91 m."
+    assert reason.message == "The widest free circle is at most 3.02 m across; a turn of the head bench needs 3.91 m."
 
 
 def test_trees_everywhere_leave_no_room() -> None:
