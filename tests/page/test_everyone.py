@@ -133,7 +133,7 @@ def test_reduced_motion_moves_in_steps(open_page: Any) -> None:
 def test_a_verdict_is_told_with_its_reasons(open_page: Any) -> None:
     page = open_page("?path=route&route=*-40,0_0,0_30,5&benches=5&things=a.square..-30,-20_9,-20_9,20_-30,20")
     settled(page)
-    reasons = page.locator("#judgement .failures span").all_inner_texts()
+    reasons = page.locator("#judgement .failures span").all_text_contents()
     assert len(reasons) > 1
     expect(page.locator("#heard")).to_have_text(re.compile(r"^Verdict Cannot be danced"))
     for reason in reasons:
