@@ -28,6 +28,8 @@ export class Editor {
   /** The edited item: null for the path, else the number of a thing. */
   item = null;
   #knots = [];
+  /** A mouse stands beside a keyboard. */
+  #hasKeys = matchMedia("(pointer: fine)");
   #drag = null;
 
   /**
@@ -78,7 +80,8 @@ export class Editor {
 
   /** What a tap draws with the tool. */
   get help() {
-    return say(`draw_${this.tool}`, { length: this.tool === "gate" ? streetLength(this.state) : "" });
+    const words = say(`draw_${this.tool}`, { length: this.tool === "gate" ? streetLength(this.state) : "" });
+    return this.#hasKeys.matches ? `${words}${say("draw_keys")}` : words;
   }
 
   /** Draw with this tool from now on; a new obstacle begins with the next tap. */

@@ -69,10 +69,15 @@ export function laterBy(passages, gone, time) {
   });
 }
 
-/** A typed time of day, such as 19:30, 7:30 or 19:30:15, in the service's format; null if it is none. */
+/** A time of day as people write it: its hour, its minutes, its seconds or nothing, and am, pm or nothing. */
+const TYPED = /^(\d{1,2})[:.]?(\d\d)(?:[:.](\d\d))?(?: ?([ap]m))?$/i;
+
+/** A typed time of day, such as 19:30, 7.30, 1930, 7:30 pm or 19:30:15, in the service's format; null if it is none. */
 export function clockIn(text) {
   const typed = text.trim().replaceAll("：", ":");
-  const full = /^\d:/.test(typed) ? `0${typed}` : typed;
+  const [, hour, minutes, seconds, half] = TYPED.exec(typed) ?? [];
+  const hours = half ? (Number(hour) % 12) + (half.toLowerCase() === "pm" ? 12 : 0) : hour;
+  const full = hour ? [String(hours).padStart(2, "0"), minutes, ...(seconds ? [seconds] : [])].join(":") : typed;
   return full === "" || CLOCK.test(full) ? full : null;
 }
 

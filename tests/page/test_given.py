@@ -96,7 +96,7 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: An
         for field, value in zip(row.locator("input").all(), (until, speed), strict=True):
             field.fill(value)
             field.press("Tab")
-    page.locator("#begin_clock").fill("7:30")
+    page.locator("#begin_clock").fill("7.30 AM")
     page.locator("#begin_clock").press("Tab")
     contact = contact_of(server, dragon={"benches": 30}, passages=PASSAGES)
     expect(page.locator("#first-contact .value")).to_contain_text(contact)

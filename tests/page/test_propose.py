@@ -445,6 +445,10 @@ def test_the_start_stands_beside_the_square_and_of_a_spiral_beside_the_speeds(op
     page = open_page(f"{YARD}&route=*-11,-8_11,-8&begin_clock=19:30")
     settled(page)
     expect(page.locator("#place #begin_clock")).to_have_value("19:30")
+    for typed, shown in (("2015", "20:15"), ("8:45 pm", "20:45"), ("12:05am", "00:05"), ("19.30", "19:30")):
+        page.locator("#begin_clock").fill(typed)
+        page.locator("#begin_clock").press("Enter")
+        expect(page.locator("#begin_clock")).to_have_value(shown)
     page.locator("#begin_clock").fill("20")
     page.locator("#begin_clock").press("Enter")
     expect(page.locator("#place #clock-error")).to_contain_text("Until then it starts at 19:30:00.")

@@ -31,14 +31,18 @@ const service = new Service({
   refused: async () => {},
 });
 learnRefusals({ refusalIn });
-const figures = Object.entries(PLANS).map(([id, plan]) => new Figure($(`#${id}`), plan, service, word, keep));
+const figures = Object.entries(PLANS).map(([id, plan]) => new Figure($(`#${id}`), plan, service, word, () => keep(id)));
 
 /** Each number to drag with its name in the address, such as chord_turns. */
 const dials = figures.flatMap(({ section, dials: own }) => Object.entries(own).map(([name, dial]) => [`${section.id}_${name}`, dial]));
 const writing = new Pause("address");
 
+/** The figure of which a person has moved a number last: the address leads to it. */
+let moved = "";
+
 /** Keep the numbers in the address after a pause: browsers refuse more than a few changes of it per second. */
-function keep() {
+function keep(id) {
+  moved = id;
   if (!writing.lasts) writing.begin(300, write);
 }
 
@@ -49,7 +53,7 @@ function write() {
     else address.searchParams.set(name, String(value));
   }
   const query = address.searchParams.toString();
-  history.replaceState(null, "", `${location.pathname}${query && `?${query}`}${location.hash}`);
+  history.replaceState(null, "", `${location.pathname}${query && `?${query}`}${moved ? `#${moved}` : location.hash}`);
 }
 
 /** Take over the numbers of the address; what is no number there leaves the figure as it is. */
