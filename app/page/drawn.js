@@ -23,8 +23,8 @@ export function village() {
   return { drawing: { ...PRESETS.village, things }, time: shownAt(PRESETS.village) };
 }
 
-/** Way across the picture that shows a bend [m]. */
-const NEAR = 12;
+/** Part of the ground across a picture that shows a bend [m]. */
+const ACROSS = 12;
 /** Boxes about spirals, which are empty here. */
 const SPIRAL_ALONE = ["#minimum-pitch", "#curve", "#scan"];
 
@@ -51,7 +51,7 @@ export class Drawn {
     const files = new Files(state, this.steps, service, questions, several);
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
     this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show() });
-    this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point, true));
+    this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point, ACROSS));
     this.#invite();
     const { below, names, above } = layers(dance, () => this.#visible());
     dance.below.push(below);
@@ -191,11 +191,11 @@ export class Drawn {
     this.draw();
   }
 
-  /** Move the picture to a point [m] outside the view; isNear: and enlarge it there. */
-  #look(point, isNear = false) {
+  /** Move the picture to a point [m] outside the view. across: part of the ground to enlarge there [m]; none: as large as before */
+  #look(point, across = 0) {
     const { view } = this.picture;
-    if (isNear) {
-      view.set(...point, Math.max(view.scale, Math.min(view.width, view.height) / NEAR));
+    if (across) {
+      view.set(...point, Math.max(view.scale, Math.min(view.width, view.height) / across));
       view.moved(true);
     } else view.reveal(...point);
     this.draw();

@@ -251,15 +251,17 @@ const TELL = {
     controls.refuse(questions.errors());
     benches.refuse(questions.errors().get("csv"));
     pace.refuse(questions.errors().get("passages"));
-    $("main").classList.toggle("stale", refusals.has("contact") && Boolean(questions.dance));
-    dance.scene.faded = $("main").classList.contains("stale");
-    $("main").classList.toggle("refused", refusals.has("contact") && !questions.dance);
+    const [isStale, isRefused] = [Boolean(questions.dance), !questions.dance].map((is) => is && refusals.has("contact"));
+    dance.scene.faded = isStale;
+    $("main").classList.toggle("stale", isStale);
+    $("main").classList.toggle("refused", isRefused);
     // Without a dance there are no further questions.
-    if (refusals.has("contact") && !questions.dance) for (const box of $$("[aria-busy=true]")) box.setAttribute("aria-busy", false);
+    if (isRefused) for (const box of $$("[aria-busy=true]")) box.setAttribute("aria-busy", false);
     showRefusals(questions, graphs, (kind) => BUSY[kind][0]);
     route?.refused();
     carrier?.show();
     if (state.get("dances")) dragons?.judged();
+    draw();
   },
 };
 

@@ -130,6 +130,18 @@ def test_on_the_whole_screen_of_a_bare_address_there_are_numbers_too(open_page: 
     expect(page.locator("[data-field=pitch] input[type=range]")).to_be_in_viewport()
 
 
+def test_a_gap_beside_an_instant_that_the_curve_does_not_have_says_so(open_page: Any) -> None:
+    page = open_page("?door=contest&benches=20&time=100.2")
+    settled(page)
+    reading = page.locator("#clearance .reading")
+    expect(reading).to_contain_text("s, the nearest time of the curve: gap")
+    # It is the nearest one of 400 times.
+    assert abs(float(reading.inner_text().split(" s")[0]) - 100.2) < 1.2
+    page.locator("#to-end").click()
+    settled(page)
+    expect(reading).not_to_contain_text("nearest")
+
+
 def test_a_link_below_the_answers_leads_to_the_files(open_page: Any) -> None:
     page = open_page("?door=contest&benches=20&time=end")
     settled(page)

@@ -313,6 +313,28 @@ def test_a_verdict_of_before_is_pale_and_says_so_while_the_service_does_not_answ
     assert page.locator("#judgement > .old").is_hidden()
 
 
+def test_a_dragon_that_cannot_follow_a_change_fades_and_the_drawing_does_not(open_page: Any, picture: Any) -> None:
+    square = "things=a.square..-70,-9_9,-9_9,49_-70,49"
+    page = open_page(f"?path=route&benches=9&route=*-60,0_*0,0_0,40&{square}", failing=True)
+    settled(page)
+    verdict(page, "Can be danced")
+
+    def shown(name: str) -> bool:
+        """True if the picture holds this colour of the page."""
+        colour = page.evaluate("name => getComputedStyle(document.body).getPropertyValue(`--${name}`).trim()", name)
+        rgb = [int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5)]
+        return bool((abs(picture(page)[..., :3] - rgb).max(axis=-1) < 0.01).any())
+
+    assert shown("head")
+    assert shown("circle")  # the border of the square
+    page.locator("[data-field=benches] input").first.fill("90")
+    settled(page)
+    verdict(page, "Cannot be danced")
+    assert not shown("head")
+    assert shown("circle")
+    assert page.locator("#canvas").evaluate("one => getComputedStyle(one).opacity") == "1"
+
+
 def test_a_dance_that_begins_later_can_begin_at_time_0(visit: Any) -> None:
     page = visit("?path=route&benches=24&route=0,0_150,0", failing=True)
     offer = page.get_by_role("button", name="Begin at time 0: head at 40.9 m")
