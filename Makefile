@@ -2,7 +2,7 @@
 # what the service needs, `make test` also what the tests need.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup test-setup serve test machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd docs examples figures dist wheels install-time lock versions clean
+.PHONY: help setup test-setup serve test test-all machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd docs examples figures dist wheels install-time lock versions clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -20,10 +20,11 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 
 help:
 	@echo 'make serve    the service on http://$(HOST):$(PORT) (HOST=, PORT=)'
-	@echo 'make test     the tests (ARGS= for pytest, SHUFFLE= for a random order)'
+	@echo 'make test     the tests, some minutes (ARGS= for pytest, SHUFFLE=random for a random order)'
+	@echo 'make test-all  the same with kills, bombs, packages and further cases'
 	@echo 'make machines  make serve and make test on other Debians, ten minutes each (as root; SUITES=, PACKAGES=, OWNER=)'
 	@echo 'make hunt     random campaigns against slow oracles, 20 minutes (SECONDS=, SEED=; the seed is printed)'
-	@echo 'make deep     the tests with all cases and samples, of which make test runs some of each kind'
+	@echo 'make deep     make test-all with all cases and samples, of which it runs some of each kind'
 	@echo 'make rounding 10,000 computed gaps against 50-digit arithmetic and the bounds on rounding (ARGS="GAPS SEED")'
 	@echo 'make libreoffice  grades the three workbooks as saved by LibreOffice (needs libreoffice-calc; ARGS=--renew: the small ones)'
 	@echo 'make lint     ruff and mypy, and for the page oxlint and TypeScript'
@@ -91,6 +92,9 @@ test: test-setup
 	@$(BIN)/python tests/support/browser.py
 	@$(BIN)/python -m pytest --numprocesses logical --dist worksteal $(ARGS)
 
+test-all:
+	@$(MAKE) --no-print-directory test ARGS='--all $(ARGS)'
+
 # Not with the settings of this make, which are for this machine.
 machines:
 	@env -u MAKEFLAGS -u MAKELEVEL bash .ci/machines $(SUITES)
@@ -99,7 +103,7 @@ hunt: test-setup
 	@$(BIN)/python -m tests.campaigns.hunt $(or $(SECONDS),1200) $(SEED)
 
 deep: setup
-	@DEEP=1 $(MAKE) --no-print-directory test
+	@DEEP=1 $(MAKE) --no-print-directory test-all
 
 rounding: test-setup
 	@$(BIN)/python -m tests.campaigns.rounding_sweep $(or $(ARGS),10000)

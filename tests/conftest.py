@@ -7,6 +7,7 @@ import http.client
 import json
 import os
 import random
+import shlex
 import shutil
 import signal
 import socket
@@ -43,8 +44,13 @@ START_TIMEOUT = 60.0  # longest wait for the first answer [s]; a cold start take
 STOP_TIMEOUT = 30.0  # longest wait from the signal to the end [s]; uvicorn lets running computations finish
 # Where this is set, a test that cannot run here is an error.
 STRICT = "EVERY_TEST" in os.environ
+# A number for a random order of the tests, or the word random for any.
+SHUFFLE = os.environ.get("SHUFFLE", "")
+if SHUFFLE == "random":
+    SHUFFLE = os.environ["SHUFFLE"] = str(random.SystemRandom().randrange(10_000))
 # Number of tests left out for each reason, and its name in what a process of several reports.
 LEFT_OUT_OUTPUT = "left_out"
+THOROUGH = "kills, bombs, packages, other machines and further cases: make test-all runs them too"
 LEFT_OUT = pytest.StashKey[dict[str, int]]()
 NO_DISK = "they mount a small disk, which only root may do: run make test as root"
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
@@ -68,16 +74,28 @@ def pytest_make_parametrize_id(val: object) -> str | None:
     return "archive" if isinstance(val, bytes) and val.startswith(b"PK") else None
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--all", action="store_true", help="run the thorough tests too")
+
+
+def pytest_report_header() -> str:
+    return f"random order: SHUFFLE={SHUFFLE}" if SHUFFLE else ""
+
+
 @pytest.hookimpl(trylast=True)  # after -m and -k
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave the deep tests to `make deep`; leave out what this machine cannot run, in a line for each reason."""
+    """Leave the deep tests to `make deep`; leave out what this machine cannot run, in a line for each reason.
+
+    Thorough tests run where they are named: with --all, by their node ids, or by -m.
+    """
     if not DEEP:
         config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("deep")])
         items[:] = [item for item in items if not item.get_closest_marker("deep")]
     kept: list[pytest.Item] = []
     groups: dict[str, list[pytest.Item]] = {}
+    named = config.getoption("--all") or config.getoption("-m") or any("::" in word for word in config.args)
     for item in items:
-        reason = _why_left_out(item)
+        reason = THOROUGH if item.get_closest_marker("thorough") and not named else _why_left_out(item)
         groups.setdefault(reason, []).append(item) if reason else kept.append(item)
     left_out = {reason: len(group) for reason, group in groups.items()}
     _note_left_out(config, left_out)
@@ -85,9 +103,14 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         config.workeroutput[LEFT_OUT_OUTPUT] = left_out
     for group in groups.values():
         config.hook.pytest_deselected(items=group)
-    if seed := os.environ.get("SHUFFLE"):  # the same order in every process
-        random.Random(seed).shuffle(kept)
-    items[:] = [] if left_out and STRICT else kept
+    if SHUFFLE:  # the same order in every process
+        random.Random(SHUFFLE).shuffle(kept)
+    items[:] = [] if _lacking(config) else kept
+
+
+def _lacking(config: pytest.Config) -> bool:
+    """Whether the machine lacks what a test needs, where each must be able to run."""
+    return STRICT and bool(config.stash.get(LEFT_OUT, {}).keys() - {THOROUGH})
 
 
 def _why_left_out(item: pytest.Item) -> str:
@@ -140,7 +163,7 @@ def pytest_testnodedown(node: Any) -> None:
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    if STRICT and session.config.stash.get(LEFT_OUT, {}):
+    if _lacking(session.config):
         session.exitstatus = pytest.ExitCode.USAGE_ERROR
 
 
@@ -161,9 +184,16 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    failed = [report.nodeid for kind in ("failed", "error") for report in terminalreporter.stats.get(kind, [])]
+    if failed:
+        terminalreporter.section("to repeat each alone")
+        python = Path(sys.executable)
+        python = python.relative_to(ROOT) if python.is_relative_to(ROOT) else python
+        for name in dict.fromkeys(failed):
+            terminalreporter.write_line(f"{python} -m pytest {shlex.quote(name)}")
     for reason, count in config.stash.get(LEFT_OUT, {}).items():
         terminalreporter.write_line(f"{count} tests are left out: {reason}", yellow=True)
-    if STRICT and config.stash.get(LEFT_OUT, {}):
+    if _lacking(config):
         terminalreporter.write_line("No test ran: where EVERY_TEST is set, each must be able to.", red=True)
 
 
