@@ -88,12 +88,10 @@ $(VENV)/compiled: $(wildcard core/kernels/*.py core/kernels/*.pxd) setup.py pypr
 serve: setup
 	@BENCH_DRAGON_DATA="$${BENCH_DRAGON_DATA:-data}" $(BIN)/bench-dragon serve --host $(HOST) --port $(PORT)
 
-test: test-setup
+test-all: ALL := --all
+test test-all: test-setup
 	@$(BIN)/python tests/support/browser.py
-	@$(BIN)/python -m pytest --numprocesses logical --dist worksteal $(ARGS)
-
-test-all:
-	@$(MAKE) --no-print-directory test ARGS='--all $(ARGS)'
+	@$(BIN)/python -m pytest --numprocesses logical --dist worksteal $(ALL) $(ARGS)
 
 # Not with the settings of this make, which are for this machine.
 machines:
