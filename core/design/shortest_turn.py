@@ -93,8 +93,8 @@ class ShortestTurn(Readable):
 
     turn: danced with proof; its length is the upper end of length_bracket (no turn is shorter, turn) [m]
     entry_bracket, exit_bracket: radii between which those of every turn as short as that lie [m]
-    limited_by: BEND, CIRCLE or CONTACT, the first that applies to it: an arc as tight as benches can follow; an end on
-        the circle; else benches within the margin in turns beside it
+    limited_by: BEND, CIRCLE or CONTACT, the first that applies to it: an arc, or the coil at an end, as tight as benches
+        can follow; an end on the circle; else benches within the margin in turns beside it
     boxes: number of excluded boxes; overlaps: those of them by an exhibited overlap; evaluations: tried dances
     """
 
@@ -329,18 +329,19 @@ class TurnSearch:
         near = [boxes.taken(np.flatnonzero(boxes.lows <= best.length)) for boxes in (*self.longer, left)]
         middles, sizes = (np.hstack([getattr(boxes, name) for boxes in near]) for name in ("centres", "halves"))
         leaving, spread = middles[0] + self.growth * middles[1], sizes[0] + self.growth * sizes[1]
-        ends = [(middles[0], sizes[0]), (leaving, spread)]
+        spans = [(middles[0], sizes[0]), (leaving, spread)]
         if self.mirrored:
             both = np.hstack([middles[0], leaving]), np.hstack([sizes[0], spread])
-            ends = [both, both]
+            spans = [both, both]
         brackets = []
-        for (at, half), own in zip(ends, (best.entry_radius, best.exit_radius), strict=True):
+        for (at, half), own in zip(spans, (best.entry_radius, best.exit_radius), strict=True):
             low, high = (at - half).min(initial=own), (at + half).max(initial=own)
             brackets.append((max(float(low), self.inner), min(float(high), self.radius)))
         limit = TurnLimit.CONTACT
-        if min(best.radii) < self.least + AT_LIMIT:
+        ends = best.entry_radius, best.exit_radius
+        if min(best.radii) < self.least + AT_LIMIT or min(ends) < self.inner + SAME:
             limit = TurnLimit.BEND
-        elif max(best.entry_radius, best.exit_radius) > self.radius - AT_LIMIT:
+        elif max(ends) > self.radius - AT_LIMIT:
             limit = TurnLimit.CIRCLE
         return ShortestTurn(
             best, (lowest, best.length), brackets[0], brackets[1], limit, self.boxes, self.overlaps,

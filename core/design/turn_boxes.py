@@ -31,12 +31,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.design.spans import Known, Span, angle_slopes, mean_value, parameters
+from core.errors import SIZE_MAX
+from core.paths.pieces import LENGTH_MIN
 from core.values import Floats
 
 # Rounding of all closed forms here [m], [rad]: sizes are below 1e4 m and their errors some 1e-16 of them.
 ROUNDING = 1e-11
 # Largest room that a constraint has where it just holds [m].
 JUST = 1e-6
+# Least length of an arc [m], above that of a piece by more than rounding.
+SHORTEST_ARC = 1.001 * LENGTH_MIN
 
 
 @dataclass(frozen=True)
@@ -74,6 +78,13 @@ def sizes_of(growth: float, entry: Floats, turned: Floats, log_ratio: Floats) ->
         towards = -(apart + least * both)
         angles = [np.angle(-normal * towards.conj()) % (2.0 * math.pi) for normal in (n, m)]
     return np.array([ratio * least, least, *angles, ratio * least * angles[0] + least * angles[1], leaving])
+
+
+def can_be_drawn(sizes: Floats) -> NDArray[np.bool_]:
+    """Which turns of these sizes (6, N), as sizes_of() has them, have arcs that a path may have."""
+    arcs = (sizes[:2] * sizes[2:4]).min(axis=0)
+    fits: NDArray[np.bool_] = (arcs >= SHORTEST_ARC) & (sizes[:2].max(axis=0) <= SIZE_MAX)
+    return fits
 
 
 @np.errstate(over="ignore", invalid="ignore")

@@ -28,7 +28,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
-from core.design.turn_boxes import Turns, sizes_of
+from core.design.turn_boxes import Turns, can_be_drawn, sizes_of
 from core.dragon import Dragon
 from core.paths.turn import Turn
 from core.values import Floats
@@ -76,7 +76,8 @@ def box_of(pitch: float, turns: Turns, k: int, centre: Floats, half: Floats, lea
     signs = np.array([[0.0] * 3, *([x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0))])
     points = centre + half * signs
     sizes = sizes_of(growth, *points.T)
-    fits = np.flatnonzero((sizes[:2].min(axis=0) >= least) & (points[:, 0] > 0.0) & (sizes[5] > 0.0))
+    follows = (sizes[:2].min(axis=0) >= least) & (points[:, 0] > 0.0) & (sizes[5] > 0.0)
+    fits = np.flatnonzero(follows & can_be_drawn(sizes))
     if not fits.size or not turns.whole[k]:
         return None
     best = int(fits[0])

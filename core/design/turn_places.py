@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from core.design.turn_boxes import JUST, sizes_of
+from core.design.turn_boxes import JUST, can_be_drawn, sizes_of
 from core.paths.turn import RATIO_MAX, RATIO_MIN
 from core.values import Floats
 
@@ -44,7 +44,7 @@ def starts(growth: float, inner: float, radius: float, ratio: float | None, leas
     a, b, logarithm = np.meshgrid(radii, radii, logs, indexing="ij")
     v = (b - a) / growth
     sizes = sizes_of(growth, a.ravel(), v.ravel(), logarithm.ravel())
-    fits = np.minimum(sizes[0], sizes[1]) >= least
+    fits = (np.minimum(sizes[0], sizes[1]) >= least) & can_be_drawn(sizes)
     length = np.where(fits, sizes[4], np.inf).reshape(a.shape)
     padded = np.pad(length, 1, constant_values=np.inf)
     lowest = np.isfinite(length)

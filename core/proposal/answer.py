@@ -25,9 +25,10 @@ class Objective(StrEnum):
 
 
 class ReasonKind(StrEnum):
-    """Why no dance is proposed. AREA: the benches cover more than the square has; WIDTH: nowhere is room for a turn;
-    WAY: no way between two gates is wide enough; STRAY: the best dance allows a smaller stray than wanted; BENCHES: a
-    dragon of fewer benches fits; FAILS: none of the dances that were tried passes its check."""
+    """Why no dance is proposed. AREA: the benches cover more than the square has; WIDTH: nowhere is room for a turn as
+    tight as those that are tried; WAY: no way between two gates is wide enough; STRAY: the best dance allows a smaller
+    stray than wanted; BENCHES: a dragon of fewer benches fits; FAILS: none of the dances that were tried passes its
+    check."""
 
     AREA = "area"
     WIDTH = "width"
@@ -45,7 +46,7 @@ class Reason(Readable):
         be checked, else None
     figure: the one that comes nearest, None for AREA, WIDTH and WAY; who: bench that needs the width, or both gates
     failure: its first one, for FAILS
-    AREA is proven, and so is the width that there is; the others are about the dances that were tried.
+    AREA and WAY are proven, and so is the width that there is; the others are about the dances that were tried.
     """
 
     kind: ReasonKind
@@ -65,12 +66,12 @@ class Reason(Readable):
             return f"The benches cover at least {need:.1f} m2 at any moment; the square has {have:.1f} m2."
         if self.kind is ReasonKind.WIDTH:
             bench = "the head bench" if self.who == (0,) else f"bench {self.who[0]}"
-            return f"The widest free circle is at most {have:.2f} m across; a turn of {bench} needs {need:.2f} m."
+            turn = f"the tightest turn of {bench} that is tried takes {need:.2f} m"
+            return f"No dance was found: the widest free circle is at most {have:.2f} m across, and {turn}."
         if self.kind is ReasonKind.WAY:
             gates = f"gate {self.who[0]} and gate {self.who[1]}"
-            return (
-                f"The free ground between {gates} is {have:.2f} m wide at its narrowest; the benches need {need:.2f} m."
-            )
+            room = f"is at most {have:.2f} m wide at its narrowest" if have else "is closed"
+            return f"The free ground between {gates} {room}; the benches need at least {need:.2f} m."
         if self.kind is ReasonKind.STRAY:
             best = f"the best of {self.tried} tried, {figure}, allows {have:.3f} m"
             return f"People shall be free to stray {format_number(need)} m; {best}."
@@ -79,8 +80,8 @@ class Reason(Readable):
             return f"The dragon has {benches_of(int(need))}; {most}."
         if self.failure is None:
             return (
-                f"No figure was found to fit, not even with one bench: the widest free circle is at most {have:.2f} m "
-                f"across, a turn alone needs {need:.2f} m, and every figure that was tried needs more."
+                f"No dance was found, not even with one bench: the widest free circle is at most {have:.2f} m across, "
+                f"and the tightest turn that is tried takes {need:.2f} m."
             )
         return f"None of {self.tried} tried passes its check; the nearest, {figure}: {self.failure.message}"
 

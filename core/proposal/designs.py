@@ -101,12 +101,18 @@ def _pieces(design: Design, needs: Needs, ways: LegFinder) -> list[Piece] | None
         )[0]
     into, out = design.gates
     lead, street = needs.chord, stand_length(needs)
-    begin, end = gate_poses(into, lead)[0], gate_poses(out, lead)[1]
-    stand: Step = (street + lead, 0.0)
-    first = moved(begin, (-street - lead, 0.0))
     if shape is None:
-        steps = ways.around(begin, end)
-        return None if steps is None else pieces_of(first, [stand, *steps, stand])[0]
+        # A square less than two chords across has room for a straight way alone.
+        ends = [(near, gate_poses(into, near)[0], gate_poses(out, near)[1]) for near in (lead, 0.0)]
+        found = ((near, begin, ways.around(begin, end)) for near, begin, end in ends)
+        near, begin, steps = next((one for one in found if one[2] is not None), (0.0, ends[0][1], None))
+        if steps is None:
+            return None
+        stand: Step = (street + near, 0.0)
+        return pieces_of(moved(begin, (-street - near, 0.0)), [stand, *steps, stand])[0]
+    begin, end = gate_poses(into, lead)[0], gate_poses(out, lead)[1]
+    stand = (street + lead, 0.0)
+    first = moved(begin, (-street - lead, 0.0))
     enter, leave = _doors(design)
     way_in, way_out = ways.around(begin, enter), ways.around(leave, end)
     if way_in is None or way_out is None:

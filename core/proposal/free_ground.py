@@ -20,8 +20,10 @@ from core.venue import Venue
 PAIRS_AT_ONCE = 200_000
 # Nodes along the longer side of the grid, and pairs of a node and an edge in all [1].
 NODES, NODE_PAIRS = 96, 4_000_000
-# Accuracy of the bound of the widest circle [m].
-WIDEST = 0.01
+# Cells into which the grid is divided at most [1].
+CELLS_MAX = 16_000_000
+# Accuracy of the bound of the widest circle, and size of a cell from which on it is divided no more [m].
+WIDEST, SMALLEST = 0.01, 0.002
 
 
 class FreeGround:
@@ -111,6 +113,47 @@ class FreeGround:
     def node_error(self) -> float:
         """Largest distance of a point from the node next to it [m]."""
         return float(self.spacing * math.sqrt(0.5))
+
+    def is_parted(self, begins: Floats, ends: Floats, room: float) -> bool:
+        """True if it is proven that no way leads from one box to another with this clearance everywhere [m]; False if
+        there is one, or if neither is proven. begins, ends: points (N, 2) around each of which the box is the least [m]
+
+        No clearance in a square cell exceeds that of its middle by more than half its diagonal h, nor falls short of it
+        by more. So a way runs through cells whose middle has at least `room` - h, from each to one of its eight
+        neighbours; and if cells whose middle has at least `room` + h lead from one end to the other, a way does. Cells
+        between are divided by four.
+        """
+        from scipy.ndimage import label  # type: ignore[import-untyped]
+
+        spacing, corner, middle = self.spacing, self.low, self.field
+        possible, certain = np.ones_like(middle, bool), np.zeros_like(middle, bool)
+
+        def joined(cells: NDArray[np.bool_]) -> bool:
+            parts = label(cells, structure=np.ones((3, 3)))[0]
+            most = np.array(parts.shape) - 1
+            reached = []
+            for points in (begins, ends):
+                places = np.clip(np.rint((points - corner) / spacing).astype(np.int64), 0, most)
+                (i, j), (m, n) = places.min(axis=0), places.max(axis=0)
+                reached.append(set(parts[i : m + 1, j : n + 1].flat) - {0})
+            return not reached[0].isdisjoint(reached[1])
+
+        while True:
+            half = spacing * math.sqrt(0.5)
+            possible &= certain | (middle >= room - half)
+            certain |= possible & (middle >= room + half)
+            if not joined(possible):
+                return True
+            if spacing < SMALLEST or joined(certain):
+                return False
+            divided = np.repeat(np.repeat(possible & ~certain, 2, axis=0), 2, axis=1)
+            cells = np.argwhere(divided)
+            if len(cells) * len(self.edges) > NODE_PAIRS or divided.size > CELLS_MAX:
+                return False
+            possible, certain = (np.repeat(np.repeat(part, 2, axis=0), 2, axis=1) for part in (possible, certain))
+            corner, spacing = corner - 0.25 * spacing, 0.5 * spacing
+            middle = np.zeros(divided.shape)
+            middle[divided] = self.clearance(corner + spacing * cells)
 
     def widest_circle(self) -> tuple[float, float, float, float]:
         """The widest free circle: centre x, y, radius, and a proven upper bound of the radius [m].

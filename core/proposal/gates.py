@@ -77,19 +77,23 @@ def _signed_area(ring: tuple[Point, ...]) -> float:
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise(ring))
 
 
-def with_streets(venue: Venue, gates: Sequence[Gate], width: float, length: float) -> Venue:
-    """The venue with a straight street beyond every gate, whose dragon may stand there. width, length: [m]
+def with_streets(venue: Venue, gates: Sequence[Gate], widths: tuple[float, float], length: float) -> Venue:
+    """The venue with a straight street beyond every gate, whose dragon may stand there.
 
+    widths: of a street, and where the border of the square has no room for it [m]; length: [m]
     raises: InvalidValue naming the gate whose street has no room on the border, or runs back into the square
     """
     rings = venue.square.rings
     for k, gate in enumerate(gates):
-        place, sizes = f"gates.{k}.point", quantities("m", 4, width=width, length=length)
-        try:
-            rings = (_with_street(rings[0], gate, width, length), *rings[1:])
-        except ValueError as error:
+        place = f"gates.{k}.point"
+        ring, width = _with_street(rings[0], gate, widths[0], length), widths[0]
+        if ring is None:
+            ring, width = _with_street(rings[0], gate, widths[1], length), widths[1]
+        sizes = quantities("m", 4, width=width, length=length)
+        if ring is None:
             rule = "must have {width} of border for its street, and the square is narrower there"
-            raise InvalidValue(place, rule, width=sizes["width"]) from error
+            raise InvalidValue(place, rule, width=sizes["width"])
+        rings = (ring, *rings[1:])
         try:
             Area(venue.square.name, rings)
         except InvalidValue as error:
@@ -98,8 +102,8 @@ def with_streets(venue: Venue, gates: Sequence[Gate], width: float, length: floa
     return Venue(Area(venue.square.name, rings), venue.obstacles)
 
 
-def _with_street(ring: tuple[Point, ...], gate: Gate, width: float, length: float) -> tuple[Point, ...]:
-    """The ring with a street. raises: ValueError if the border does not reach both sides of the street
+def _with_street(ring: tuple[Point, ...], gate: Gate, width: float, length: float) -> tuple[Point, ...] | None:
+    """The ring with a street; None if the border does not reach both sides of the street.
 
     From the gate along the border both ways, the street begins where the border is half a width beside its axis. A ring
     that goes counter-clockwise leads to the right of those who enter.
@@ -113,8 +117,8 @@ def _with_street(ring: tuple[Point, ...], gate: Gate, width: float, length: floa
     right, first = _side(forwards, at, -side, 0.5 * width)
     left, last = _side(backwards, at, side, 0.5 * width)
     kept = forwards[first : len(points) - last]
-    if not len(kept):
-        raise ValueError("the border is narrower than the street")
+    if right is None or left is None or not len(kept):
+        return None
     back = at - length * ahead
     path = [*kept, left, back + 0.5 * width * side, back - 0.5 * width * side, right, kept[0]]
     return tuple((float(x), float(y)) for x, y in path)
@@ -127,14 +131,12 @@ def _distance(a: Floats, b: Floats, point: Floats) -> float:
     return float(np.hypot(*(a + along * way - point)))
 
 
-def _side(points: Floats, at: Floats, side: Floats, half: float) -> tuple[Floats, int]:
+def _side(points: Floats, at: Floats, side: Floats, half: float) -> tuple[Floats | None, int]:
     """The place of the border, from a gate along these points, that is `half` to a side of it; and the next point.
-
-    raises: ValueError if there is none
-    """
+    None without one."""
     beside, before, reached = (points - at) @ side, at, 0.0
     for k, (point, offset) in enumerate(zip(points, beside.tolist(), strict=True)):
         if offset >= half:
             return before + (half - reached) / (offset - reached) * (point - before), k
         before, reached = point, offset
-    raise ValueError("the border is narrower than the street")
+    return None, 0

@@ -17,7 +17,6 @@ from core.kernels import Budget
 from core.proposal.free_ground import FreeGround
 from core.proposal.needs import Needs
 from core.proposal.walks import Pose, Step, dubins, long_enough, moved
-from core.sampling import bisect
 from core.values import Floats
 
 # Distance of the points of a leg at which its room is measured [m].
@@ -35,7 +34,7 @@ class LegFinder:
         self.ground, self.needs, self.budget = ground, needs, budget
         self.sides = {radius: float(needs.sides(np.array([1.0 / radius]))[0]) for radius in needs.radii}
         self._legs: dict[tuple[Pose, Pose], list[Step] | None] = {}
-        self._trees: dict[int, NDArray[np.int32]] = {}
+        self._trees: dict[tuple[int, float], NDArray[np.int32]] = {}
 
     def leg(self, begin: Pose, end: Pose) -> list[Step] | None:
         """A direct leg on free ground; None if all six paths leave it, for every radius."""
@@ -54,15 +53,21 @@ class LegFinder:
         return None
 
     def free(self, begin: Pose, steps: Sequence[Step], radius: float) -> bool:
-        """True if benches on these steps have room everywhere, with margin and stray."""
+        """True if benches on these steps have room everywhere, with margin and stray: that of a bend on it and for a
+        chord before and after it, else that of a straight way."""
         self.budget.afford(LEG_WORK)
-        points = points_along(begin, steps)
-        most, least = self.sides[radius] + self.needs.free, self.needs.straight_side + self.needs.free
-        roughly = self.ground.nearest_node(points[:, 0], points[:, 1])
-        if roughly.min() < least - self.ground.node_error:
+        points, travel = points_along(begin, steps)
+        straight = self.needs.straight_side + self.needs.free
+        least, ends = np.full(len(points), straight), np.cumsum([0.0, *(length for length, _ in steps)])
+        for (length, curvature), start in zip(steps, ends[:-1].tolist(), strict=True):
+            if curvature != 0.0 and length > 0.0:
+                near = np.maximum(start - travel, travel - start - length) <= self.needs.chord
+                least[near] = self.sides[radius] + self.needs.free
+        lack = least - self.ground.nearest_node(points[:, 0], points[:, 1])
+        if lack.max() > self.ground.node_error:
             return False
-        near = roughly < most + self.ground.node_error
-        return bool(not near.any() or self.ground.clearance(points[near]).min() >= most)
+        near = lack > -self.ground.node_error
+        return bool(not near.any() or (self.ground.clearance(points[near]) >= least[near]).all())
 
     def around(self, begin: Pose, end: Pose) -> list[Step] | None:
         """A leg around obstacles; None if the grid has no way, or benches cannot follow it."""
@@ -71,11 +76,16 @@ class LegFinder:
         reach = self.needs.radii[-1]
         ahead = (begin[0] + reach * math.cos(begin[2]), begin[1] + reach * math.sin(begin[2]))
         before = (end[0] - reach * math.cos(end[2]), end[1] - reach * math.sin(end[2]))
-        line = self._line(ahead, before)
-        if line is None:
-            return None
-        chains = (self._chain([begin, *_bends(line, radius), end]) for radius in self.needs.radii)
-        return next((chain for chain in chains if chain is not None), None)
+        # Ways on which benches can turn anywhere, then those that have room for straight benches.
+        for room in (self.sides[self.needs.radii[-1]], self.needs.straight_side):
+            line = self._line(ahead, before, room + self.needs.free)
+            if line is None:
+                continue
+            for radius in self.needs.radii:
+                chain = self._chain([begin, *_bends(line, radius), end])
+                if chain is not None:
+                    return chain
+        return None
 
     def _chain(self, poses: Sequence[Pose]) -> list[Step] | None:
         """Direct legs from pose to pose; None if one is blocked."""
@@ -90,24 +100,20 @@ class LegFinder:
                 pose = moved(pose, step)
         return steps
 
-    def _node(self, point: tuple[float, float]) -> int:
+    def _node(self, point: tuple[float, float], room: float) -> int:
         """The node of the grid with room that is next to a point; -1 without one nearby."""
         nodes, ground = self.ground.node_points(), self.ground
         distance = np.hypot(*(nodes - point).T)
-        distance[ground.field.reshape(-1) < self._room] = math.inf
+        distance[ground.field.reshape(-1) < room] = math.inf
         k = int(distance.argmin())
         return k if distance[k] < 4.0 * ground.spacing + self.needs.chord else -1
 
-    @property
-    def _room(self) -> float:
-        return self.sides[self.needs.radii[-1]] + self.needs.free
-
-    def _line(self, begin: tuple[float, float], end: tuple[float, float]) -> Floats | None:
-        """Corners (N, 2) of a way on the grid between two points [m]; None if there is none."""
-        first, last = self._node(begin), self._node(end)
+    def _line(self, begin: tuple[float, float], end: tuple[float, float], room: float) -> Floats | None:
+        """Corners (N, 2) of a way on the grid between two points, with this clearance [m]; None if there is none."""
+        first, last = self._node(begin, room), self._node(end, room)
         if min(first, last) < 0:
             return None
-        before = self._tree(first)
+        before = self._tree(first, room)
         way = [last]
         while way[-1] != first:
             way.append(int(before[way[-1]]))
@@ -116,39 +122,24 @@ class LegFinder:
         points = np.concatenate([[begin], self.ground.node_points()[way[::-1]], [end]])
         kept, k = [points[0]], 0
         while k < len(points) - 1:
-            seen = next(j for j in range(len(points) - 1, k, -1) if j == k + 1 or self._visible(points[k], points[j]))
+            seen = next(
+                j for j in range(len(points) - 1, k, -1) if j == k + 1 or self._visible(points[k], points[j], room)
+            )
             kept.append(points[seen])
             k = seen
         return np.array(kept)
 
-    def narrowest(self, begin: Pose, end: Pose) -> float:
-        """Width of the free ground between two poses where it is narrowest on its widest way [m], from the grid."""
-        from scipy.ndimage import label  # type: ignore[import-untyped]
-
-        nodes = self.ground.node_points()
-        first, last = (int(np.hypot(*(nodes - pose[:2]).T).argmin()) for pose in (begin, end))
-        field = self.ground.field
-
-        def joined(room: float) -> bool:
-            parts = label(field >= room, structure=np.ones((3, 3)))[0].reshape(-1)
-            return bool(parts[first] and parts[first] == parts[last])
-
-        most = float(min(field.reshape(-1)[first], field.reshape(-1)[last]))
-        if most <= 0.0 or not joined(0.0):
-            return 0.0
-        return 2.0 * (most if joined(most) else bisect(lambda room: not joined(room), 0.0, most, width=0.01)[0])
-
-    def _visible(self, a: Floats, b: Floats) -> bool:
+    def _visible(self, a: Floats, b: Floats, room: float) -> bool:
         way = np.linspace(0.0, 1.0, int(np.hypot(*(b - a)) / (0.5 * self.ground.spacing)) + 2)[:, None]
-        return bool(self.ground.roughly(a + way * (b - a)).min() >= self._room)
+        return bool(self.ground.roughly(a + way * (b - a)).min() >= room)
 
-    def _tree(self, first: int) -> NDArray[np.int32]:
+    def _tree(self, first: int, room: float) -> NDArray[np.int32]:
         """Node before each node on the shortest ways from the first one, -9999 for nodes out of reach."""
-        if first not in self._trees:
+        if (first, room) not in self._trees:
             from scipy.sparse import coo_matrix  # type: ignore[import-untyped]
             from scipy.sparse.csgraph import dijkstra  # type: ignore[import-untyped]
 
-            free = self.ground.field >= self._room
+            free = self.ground.field >= room
             numbers = np.arange(free.size).reshape(free.shape)
             rows, columns, ways = [], [], []
             for di, dj in ((1, 0), (0, 1), (1, 1), (1, -1)):
@@ -161,8 +152,8 @@ class LegFinder:
             edges = (np.concatenate(ways), (np.concatenate(rows), np.concatenate(columns)))
             graph = coo_matrix(edges, shape=(free.size, free.size)).tocsr()
             self.budget.afford(float(free.size))
-            _, self._trees[first] = dijkstra(graph, directed=False, indices=first, return_predecessors=True)
-        return self._trees[first]
+            _, self._trees[first, room] = dijkstra(graph, directed=False, indices=first, return_predecessors=True)
+        return self._trees[first, room]
 
 
 def _bends(line: Floats, radius: float) -> list[Pose]:
@@ -181,9 +172,9 @@ def _bends(line: Floats, radius: float) -> list[Pose]:
     return poses
 
 
-def points_along(pose: Pose, steps: Sequence[Step], step: float = STEP) -> Floats:
-    """Points (N, 2) along steps from a pose, at most `step` apart [m]."""
-    parts = []
+def points_along(pose: Pose, steps: Sequence[Step], step: float = STEP) -> tuple[Floats, Floats]:
+    """Points (N, 2) along steps from a pose, at most `step` apart, and their ways from it (N,) [m]."""
+    parts, travels, travel = [], [], 0.0
     for length, curvature in steps:
         s = np.linspace(0.0, length, max(2, math.ceil(length / step) + 1))
         x, y, heading = pose
@@ -199,5 +190,6 @@ def points_along(pose: Pose, steps: Sequence[Step], step: float = STEP) -> Float
                 axis=-1,
             )
         parts.append(part)
-        pose = moved(pose, (length, curvature))
-    return np.concatenate(parts)
+        travels.append(travel + s)
+        pose, travel = moved(pose, (length, curvature)), travel + length
+    return np.concatenate(parts), np.concatenate(travels)

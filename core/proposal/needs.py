@@ -94,8 +94,16 @@ class Needs:
         return 0.5 * float(self._kinds(self.dragon.widths).max())
 
     @property
+    def least_width(self) -> float:
+        """Width of free ground that no dance can do without [m]: that of the largest circle in a bench, with the margin
+        and, because all people may stray to one side together, the stray on both sides."""
+        sizes = np.minimum(self._kinds(self.dragon.widths), self._kinds(self.dragon.lengths))
+        return float(sizes.max()) + 2.0 * (self.margin + self.stray)
+
+    @property
     def turning_width(self) -> float:
-        """Diameter of the circle in which the longest bench turns on its tightest bend, margin and stray included."""
+        """Diameter of the circle in which the longest bench turns on the tightest bend that is tried, margin and stray
+        included [m]. A wish: a bend that is 1.1 times as tight can be danced."""
         overhang = float(self._kinds(self.dragon.overhangs).max())
         middle = math.sqrt(self.tight**2 - 0.25 * self.chord**2)
         outer = math.hypot(middle + self.straight_side, 0.5 * self.chord + overhang)

@@ -24,10 +24,10 @@ from core.extremes.speed import checked_limit
 from core.judgement import quick_check
 from core.kernels import Budget, Halted
 from core.proposal.answer import Objective, Proposal, Proposals, Reason, ReasonKind
-from core.proposal.designs import gate_poses
 from core.proposal.figures import Figure
 from core.proposal.gates import Gate, checked_gates
 from core.proposal.search import Rated, Search, Wish
+from core.sampling import bisect
 from core.values import Progress, unheard
 from core.venue import Venue
 
@@ -39,6 +39,8 @@ BENCHES_MOST, COUNT_MOST = 2_000, 12
 STRAY_HALVINGS = 10
 # Default work of a question, about a minute [1].
 PROPOSE_WORK = 3e8
+# Accuracy of half the width of a way between gates [m], and work of one answer whether it is as wide as that [1].
+WAY_WIDTH, WAY_WORK = 0.002, 1e5
 # Part of the area of a square by which it is enlarged for the rounding of sums [1].
 AREA_SPARE = 1e-9
 
@@ -195,20 +197,37 @@ def _otherwise(
 
 
 def _too_narrow(search: Search, figures: Sequence[Figure]) -> Reason | None:
-    """The reason that a way between two gates, or the whole square, is too narrow."""
+    """The reason that every way between two gates, or the whole square, is too narrow."""
     needs, tried = search.needs, search.tried
-    _, _, _, most = search.ground.widest_circle()
     if Figure.PARADE in figures:
-        inside = [gate_poses(gate, needs.chord)[0] for gate in search.gates]
-        pairs = list(combinations(range(len(inside)), 2))
-        widest, pair = max((search.ways.narrowest(inside[a], inside[b]), (a, b)) for a, b in pairs)
-        needed = 2.0 * (needs.straight_side + needs.free)
-        if widest < needed:
-            return Reason(ReasonKind.WAY, tried, widest, needed, who=pair)
+        pairs = list(combinations(range(len(search.gates)), 2))
+        widths = [(_widest_way(search, search.gates[a], search.gates[b]), (a, b)) for a, b in pairs]
+        widest, pair = max(widths)
+        if widest < needs.least_width:
+            return Reason(ReasonKind.WAY, tried, widest, needs.least_width, who=pair)
+    _, _, _, most = search.ground.widest_circle()
     if 2.0 * most < needs.turning_width:
         bench = int(np.argmax(needs.dragon.chords[: needs.dragon.uniform_from + 1]))
         return Reason(ReasonKind.WIDTH, tried, 2.0 * most, needs.turning_width, who=(bench,))
     return None
+
+
+def _widest_way(search: Search, begin: Gate, end: Gate) -> float:
+    """A proven upper bound of the width of the free ground between two gates where it is narrowest, on its widest way
+    [m]; the width that benches need if it is not proven to be less."""
+    openings = []
+    for gate in (begin, end):
+        across = 0.5 * search.street_width * np.array([-gate.ahead[1], gate.ahead[0]])
+        openings.append(np.array([gate.point - across, gate.point + across]))
+    need = 0.5 * search.needs.least_width
+
+    def parted(room: float) -> bool:
+        search.budget.afford(WAY_WORK)
+        return search.ground.is_parted(*openings, room)
+
+    if not parted(need):
+        return 2.0 * need
+    return 0.0 if parted(0.0) else 2.0 * bisect(parted, 0.0, need, width=WAY_WIDTH)[1]
 
 
 def _without_stray(

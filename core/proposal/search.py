@@ -33,8 +33,8 @@ from core.venue import Venue
 
 # Head speed of a dance without a speed limit [m/s].
 HEAD_SPEED = 1.0
-# Room on each side of a street, beside the benches [m].
-STREET_ROOM = 1.0
+# Room on each side of a street, beside the benches, and where the border of the square is too narrow for it [m].
+STREET_ROOM, STREET_LEAST = 1.0, 0.02
 # Placed shapes of a figure that are laid out, without and with gates, pairs of gates, and dances that are checked for
 # one proposal [1].
 PLACED, PLACED_GATED, GATE_PAIRS, CHECKED = 8, 4, 2, 4
@@ -87,9 +87,10 @@ class Search:
     def __init__(self, venue: Venue, dragon: Dragon, gates: Sequence[Gate], wish: Wish, budget: Budget) -> None:
         self.dragon, self.gates, self.wish, self.budget = dragon, tuple(gates), wish, budget
         self.needs = Needs(dragon, wish.stray, wish.margin)
-        width = 2.0 * (self.needs.straight_side + self.needs.free + STREET_ROOM)
-        self.street = street_length(self.needs) if gates else 0.0
-        self.venue = with_streets(venue, gates, width, self.street) if gates else venue
+        least = 2.0 * (self.needs.straight_side + self.needs.free + STREET_LEAST)
+        self.street_width = least + 2.0 * (STREET_ROOM - STREET_LEAST)
+        street = street_length(self.needs)
+        self.venue = with_streets(venue, gates, (self.street_width, least), street) if gates else venue
         square = venue.square.edges.reshape(-1, 2)
         self.ground = FreeGround(self.venue, (square.min(axis=0), square.max(axis=0)))
         self.ways = LegFinder(self.ground, self.needs, budget)
