@@ -21,6 +21,7 @@ from app.settings import Settings
 from app.wire.clocks import clock_at_zero
 from app.wire.dances import DanceFields, PathFields, SpanFields, TimeRange
 from app.wire.messages import checked
+from app.wire.numbers import number_of
 from app.wire.performances import BESIDE_SEVERAL, PerformanceFields
 from app.wire.question import DanceQuery, Strays
 from app.wire.refusals import refusing
@@ -53,6 +54,7 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
     entries = []
     for k, word in enumerate(text.split(",")):
         try:
+            number_of(word)
             entries.append(kind(word))
         except ValueError as error:
             rule = f"must be a {'whole number' if kind is int else 'number'}, as in --{{option}} 0,1,2"

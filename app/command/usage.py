@@ -13,6 +13,7 @@ import typer
 from typer.core import TyperGroup
 
 from app.wire.messages import ALIKE_SLIP, fault_of
+from app.wire.numbers import number_of
 
 # Class of every mistake that the parser reports; typer gives it no public name.
 Misuse: Any = typer.BadParameter.__base__
@@ -47,9 +48,11 @@ def _explain(parameter: Any, kind: Any, declared: Any) -> None:
 
     def convert_or_explain(context: Any, value: Any) -> Any:
         try:
+            if kind in (int, float) and isinstance(value, str):
+                number_of(value)
             return convert(context, value)
-        except typer.BadParameter as error:
-            if type(error) is not typer.BadParameter:  # one that is missing
+        except (typer.BadParameter, ValueError) as error:
+            if isinstance(error, typer.BadParameter) and type(error) is not typer.BadParameter:  # one that is missing
                 raise
             raise ExplainedMistake(_value_message(parameter, kind, declared, str(value))) from error
 

@@ -9,6 +9,7 @@ from contextlib import suppress
 from app.grade.grid import Cell, Grid, UnreadableTable
 from app.grade.words import Note, note
 from app.grade.workbook import sheets_of
+from app.wire.numbers import number_of
 from core import Budget
 
 # Longest file [bytes]; the contest's workbooks have 2 MB.
@@ -75,7 +76,7 @@ def _number(word: str, decimal: str) -> Cell:
         return None
     pointed = bare.replace(decimal, ".")
     try:
-        value = float(pointed)
+        value = number_of(pointed)
     except ValueError:
         return word
-    return word if "_" in pointed or pointed[-1].isalpha() else value  # 1_000, inf and nan are words here
+    return word if pointed[-1].isalpha() else value  # inf and nan are words here

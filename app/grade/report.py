@@ -23,6 +23,7 @@ from app.grade.rubric import rubric_of
 from app.grade.sheets import tables_of
 from app.grade.shortcuts import UNITS, Finding, right_answer
 from app.grade.words import Note, note, say
+from app.wire.numbers import number_of
 from app.wire.question import Answer
 from core import Budget, InvalidValue, TooMuchWork
 from core.errors import Given, Quantity, too_much
@@ -203,7 +204,7 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
     raises: InvalidValue
     """
     try:
-        value = float(text)
+        value = number_of(text)
     except ValueError as error:
         raise InvalidValue(name, "must be a number [{unit}]", got=Given(text), unit=UNITS[name]) from error
     if not 0.0 < value < 1e6:

@@ -11,6 +11,7 @@ from datetime import datetime
 
 from app.files.markup import read_document
 from app.maps.features import Drawing, FeatureCollector, MapFeature, Unit, role_of
+from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
 from core.values import Point
@@ -95,7 +96,7 @@ class _TrackReader:
 def _degrees(attributes: Mapping[str, str], name: str) -> float:
     text = attributes.get(name, "")
     try:
-        return float(text)
+        return number_of(text)
     except ValueError as error:
         rule = "must have points with lat and lon in degrees"
         raise InvalidValue("file", rule, got=Given(text)) from error

@@ -28,6 +28,7 @@ from app.maps.features import (
     role_of,
 )
 from app.maps.gpx import seconds_of
+from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
 from core.venue import Ring
@@ -215,7 +216,7 @@ def _points(text: str) -> Ring:
 
 def _number(text: str) -> float | None:
     try:
-        return float(text)
+        return number_of(text)
     except ValueError:
         return None
 

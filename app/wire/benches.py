@@ -12,6 +12,7 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
+from app.wire.numbers import number_of
 from app.wire.question import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
 from app.wire.texts import text_of_cell
 from core import Dragon, InvalidValue
@@ -102,7 +103,7 @@ def _holds_sizes(cells: list[str], comma: bool) -> bool:
 
 def _number(word: str, comma: bool) -> float | None:
     try:
-        return float(word.replace(",", ".") if comma else word)
+        return number_of(word.replace(",", ".") if comma else word)
     except ValueError:
         return None
 

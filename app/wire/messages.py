@@ -13,6 +13,7 @@ from typing import Annotated, Any, TypeVar, get_args, get_origin
 from pydantic import BaseModel, Tag, ValidationError
 
 from app.wire.dances import AXIS, SHAPES
+from app.wire.numbers import number_of
 from app.wire.paths import KINDS
 from app.wire.question import VALUE_LENGTH_MAX, Wire, short_json, unit_of
 from core import InvalidValue
@@ -253,7 +254,7 @@ def _number(value: Any, *, text: bool) -> float | None:
     if isinstance(value, bool) or not isinstance(value, (int, float, str) if text else (int, float)):
         return None
     try:
-        number = float(value)
+        number = number_of(value) if isinstance(value, str) else float(value)
     except (ValueError, OverflowError):
         return None
     return number if math.isfinite(number) else None

@@ -13,7 +13,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import lru_cache
-from typing import Annotated, Any, Literal, Self
+from types import NoneType
+from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import (
     AfterValidator,
@@ -22,6 +23,7 @@ from pydantic import (
     ConfigDict,
     Field,
     GetJsonSchemaHandler,
+    ValidationError,
     model_validator,
 )
 from pydantic.fields import FieldInfo
@@ -176,6 +178,28 @@ class Wire(BaseModel):
         if isinstance(value, dict) and None in value.values():
             return {name: part for name, part in value.items() if part is not None or name not in cls._parts()}
         return value
+
+    @model_validator(mode="before")
+    @classmethod
+    def _plain_numbers(cls, value: Any) -> Any:
+        # Of a query all values are texts, and Pydantic takes 1_000 for a number, as Python does.
+        if isinstance(value, dict):
+            wrong = [
+                name for name, text in value.items() if isinstance(text, str) and "_" in text and cls._number(name)
+            ]
+            if wrong:
+                faults: list[Any] = [
+                    {"type": cls._number(name), "loc": (name,), "input": value[name]} for name in wrong
+                ]
+                raise ValidationError.from_exception_data(cls.__name__, faults)
+        return value
+
+    @classmethod
+    def _number(cls, name: str) -> str:
+        """The kind of fault of a text that is no number for a field; empty if the field takes other values."""
+        field = cls.model_fields.get(name)
+        kinds = set(get_args(field.annotation) or [field.annotation]) - {NoneType} if field else set()
+        return {frozenset([float]): "float_parsing", frozenset([int]): "int_parsing"}.get(frozenset(kinds), "")
 
     @classmethod
     def _parts(cls) -> set[str]:

@@ -93,8 +93,8 @@ class ShortestTurn(Readable):
 
     turn: danced with proof; its length is the upper end of length_bracket (no turn is shorter, turn) [m]
     entry_bracket, exit_bracket: radii between which those of every turn as short as that lie [m]
-    limited_by: BEND, CIRCLE or CONTACT, the first that applies to it: an arc, or the coil at an end, as tight as benches
-        can follow; an end on the circle; else benches within the margin in turns beside it
+    limited_by: BEND, CIRCLE or CONTACT, the first that applies to it: an arc, or the coil at an end, as tight as
+        benches can follow; an end on the circle; else benches within the margin in turns beside it
     boxes: number of excluded boxes; overlaps: those of them by an exhibited overlap; evaluations: tried dances
     """
 

@@ -30,6 +30,8 @@ from core.paths.path import Path
 from core.sampling import bisect, dips
 from core.values import Floats
 
+# Nobody comes in for less than this before the end [s]: a moment that rounding alone keeps from it is the end.
+SPELL_LEAST = 1e-3
 # Most people of one crew, on one bench, spells of all together, and places of changes.
 PEOPLE_MAX, ON_BENCH_MAX, SPELLS_MAX, PLACES_MAX = 20_000, 50, 100_000, 200
 PEOPLE_RULE = "people must be at most {most}, spares among them"
@@ -159,12 +161,12 @@ def crew(
     if relief.shift is not None:
         everyone = frozenset(range(dance.dragon.benches))
         moments = (begin + relief.shift * k for k in range(1, int((until - begin) / relief.shift) + 1))
-        changes = {moment: everyone for moment in moments if moment < until}
+        changes = {moment: everyone for moment in moments if moment < until - SPELL_LEAST}
     if relief.places:
         passing = Passing(dance, begin, until, budget=budget)
         for s in relief.places:
             for bench in range(dance.dragon.benches):
-                if (time := passing.when(bench, s)) is not None and begin < time < until:
+                if (time := passing.when(bench, s)) is not None and begin + SPELL_LEAST < time < until - SPELL_LEAST:
                     changes[time] = changes.get(time, frozenset()) | {bench}
     turns = _Turns(benches, relief.spares, begin, relief.rest)
     for time in sorted(changes):

@@ -36,7 +36,7 @@ from core.performance.stage import AFTER, BEFORE, PROBED, WIDTH_ROUNDING, Stage
 
 # Half widths of the bracket around an encounter [s]: the first one as a rule, the others where benches meet so slowly
 # that rounding hides the gap.
-HALF_BRACKETS = (1e-10, 4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
+HALF_BRACKETS = (1e-10, 4.9e-10, 1e-9, 2e-9, 5e-9, 1e-8, 2e-8, 5e-8, 5e-7, 5e-6, 5e-5)
 # A half width is at least this many units of the last digit of the times [1], and lets two benches approach by this
 # many times the rounding of their gap [1].
 HALF_DIGITS, HALF_ROUNDINGS = 8.0, 1.5

@@ -191,7 +191,8 @@ def _values(claim: AnyClaim) -> dict[str, Any]:
 def verify(certificate: Certificate, *, progress: Progress | None = None) -> Proof:
     """The statement that a certificate proves, after every inequality in it was verified again, without a search.
 
-    certificate: as made here, or read from JSON; the balls have the precision that it states
+    certificate: as made here, or read from JSON; the balls have the precision that it states, or PRECISION if that is
+        more, because a proof holds whatever the precision with which it was made
     raises: ProofRefused if any member is changed, missing or unknown, or any step is not proven
     """
     stated = certificate.get("format") if isinstance(certificate, dict) else None
@@ -203,7 +204,7 @@ def verify(certificate: Certificate, *, progress: Progress | None = None) -> Pro
     if certificate["digest"] != digest(content):
         raise ProofRefused.in_words("digest", "the certificate was changed after it was made")
     try:
-        with ctx.workprec(certificate["precision"]), refusing("certificate"):
+        with ctx.workprec(max(PRECISION, certificate["precision"])), refusing("certificate"):
             return _verified(content, progress or unheard)
     except (InvalidValue, OutsideRun) as error:
         field = error.field if "path" in content["claim"] else error.field.removeprefix("path.")

@@ -28,7 +28,7 @@ from core.proposal.figures import Figure
 from core.proposal.gates import Gate, checked_gates
 from core.proposal.search import Rated, Search, Wish
 from core.sampling import bisect
-from core.values import Progress, unheard
+from core.values import Floats, Progress, unheard
 from core.venue import Venue
 
 # Figures in the order in which they are tried: those that are soonest laid out first.
@@ -215,15 +215,15 @@ def _too_narrow(search: Search, figures: Sequence[Figure]) -> Reason | None:
 def _widest_way(search: Search, begin: Gate, end: Gate) -> float:
     """A proven upper bound of the width of the free ground between two gates where it is narrowest, on its widest way
     [m]; the width that benches need if it is not proven to be less."""
-    openings = []
-    for gate in (begin, end):
-        across = 0.5 * search.street_width * np.array([-gate.ahead[1], gate.ahead[0]])
-        openings.append(np.array([gate.point - across, gate.point + across]))
     need = 0.5 * search.needs.least_width
+
+    def opening(gate: Gate) -> Floats:
+        across = 0.5 * search.street_width * np.array([-gate.ahead[1], gate.ahead[0]])
+        return np.array([gate.point - across, gate.point + across])
 
     def parted(room: float) -> bool:
         search.budget.afford(WAY_WORK)
-        return search.ground.is_parted(*openings, room)
+        return search.ground.is_parted(opening(begin), opening(end), room)
 
     if not parted(need):
         return 2.0 * need
