@@ -240,6 +240,21 @@ def too_much(budget: Budget, field: str, rule: str, got: Value, **values: Value)
     return error
 
 
+def unanswered(
+    budget: Budget, field: str, missing: str, count: int, things: str = "benches", *, timed: bool = False
+) -> TooMuchWork:
+    """The error of a question that ended early, whatever took long: it states the limit and what was asked about.
+
+    missing: which answer is missing; count, things: what the question was about; timed: about a stretch of time too
+    """
+    less = f"take fewer {things}" + (", or a shorter time" if timed else "")
+    advice = f"allow more time, or {less}" if budget.stopped else less
+    template = f"{missing} {{then}}, with {{count}} {things}"
+    error = TooMuchWork.in_words(field, template, reason=advice, then=budget.then, count=count)
+    error.stopped = budget.stopped
+    return error
+
+
 class OutsideRun(BenchDragonError):
     """A time is after the end of the run, or before the whole dragon is on the path."""
 
@@ -318,13 +333,11 @@ def question_about(name: str, kind: type, missing: str = "") -> Callable[[Callab
             arguments = signature(question).bind(*args, **kwargs).arguments
             result = arguments.get("contact") or arguments.get("encounter")
             if performance := arguments.get("performance") or getattr(result, "performance", None):
-                rule = "must be fewer, or the time asked about shorter"
-                raise too_much(spent, "parts", f"{rule}: {missing} {{then}}", len(performance.parts))
+                raise unanswered(spent, "parts", missing, len(performance.parts), "dragons", timed=True)
             dance = arguments.get("dance") or getattr(result, "dance", None)
             if dragon := arguments.get("dragon") or (dance and dance.dragon):
-                rule = "must be fewer" + (", or the time asked about shorter" if dance else "")
-                raise too_much(spent, "dragon.benches", f"{rule}: {missing} {{then}}", dragon.benches)
-            raise too_much(spent, "benches", f"must be fewer: {missing} {{then}}", len(arguments["poses"]))
+                raise unanswered(spent, "dragon.benches", missing, dragon.benches, timed=bool(dance))
+            raise unanswered(spent, "benches", missing, len(arguments["poses"]))
 
         return answer
 

@@ -13,7 +13,7 @@ from app.files.film_spec import ENDINGS, LOOKS
 from app.files.tables import Language
 from app.questions.films import SECONDS_PER_MEGAPIXEL
 from app.wire.question import Question, Terms, check_limit, measure
-from core.errors import too_much
+from core.errors import unanswered
 
 ZIP_TYPE = "application/zip"
 # Time of everything but the films of the contest's dance, measured 2026-11-27 [s].
@@ -60,7 +60,7 @@ def _overall(request: ContestKitRequest, terms: Terms) -> Callable[[str, float],
         done = sum(weight * one for weight, one in zip(weights, steps.values(), strict=False))
         terms.progress(done / sum(weights))
         if terms.budget.stopped:
-            raise too_much(terms.budget, "benches", "must be fewer: the kit was not made {then}", request.benches)
+            raise unanswered(terms.budget, "benches", "the kit was not made", request.benches)
 
     return report
 
