@@ -34,6 +34,8 @@ html_theme_options = {
     "footer_end": [],
     "logo": {"text": project},
 }
+# Without it the theme starts in a mode that its own script reports as invalid.
+html_context = {"default_mode": "auto"}
 myst_heading_anchors = 4
 myst_enable_extensions = ["html_image"]
 highlight_language = "none"
