@@ -27,6 +27,8 @@ from core.venue import refuse_many_edges
 
 # Radius of a point, and half of the width of a line, without a radius [m].
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
+# Length that a path has less than its track from which on a note says so [m].
+LOST = 1.0
 # Largest number of things that a note names; a list of more ends in dots.
 LISTED_MOST = 5
 # Reason of a refusal of numbers that were taken for degrees.
@@ -330,11 +332,11 @@ class Reading:
             length = Quantity(APART, "m")
             raise InvalidValue("file", "must hold a track with points at least {length} apart", length=length)
         self.passages = walk.passages
-        english = (
-            f"The path is a smooth curve along the track {name}, at most {walk.largest:.2f} m from what was walked."
-        )
-        chinese = f"路径是沿轨迹“{name}”的光滑曲线，与实际走过的位置最多相差 {walk.largest:.2f} m。"
-        self._note(english, chinese)
+        english = f"The path is a smooth curve along the track {name}, {walk.length:.0f} m long, at most"
+        chinese = f"路径是沿轨迹“{name}”的光滑曲线，长 {walk.length:.0f} m，与实际走过的位置最多相差"
+        self._note(f"{english} {walk.largest:.2f} m from what was walked.", f"{chinese} {walk.largest:.2f} m。")
+        if walk.lost >= LOST:
+            self._note(f"It is {walk.lost:.1f} m shorter than the track.", f"它比轨迹短 {walk.lost:.1f} m。")
         if not walk.is_easy:
             self._note(
                 f"Some bends stay tighter than {walk.radius:.1f} m, which a bench needs whose handles are "

@@ -1,8 +1,10 @@
 """A path from a track that was walked: thinned, smoothed to what benches can follow, with its times as passages.
 
 A receiver is metres off, and more so while it stands: its points are thinned to APART, and smoothed along the way with
-a Gaussian whose width grows until no bend is tighter than the longest bench can follow. Both ends stay in
-place. Of a track of more than POINTS_MOST points every second, third and so on counts.
+a Gaussian whose width grows until no bend is tighter than the longest bench can follow. It grows no further once the
+path is further from the points than their noise explains: smoothing would then cut what was walked. Of the widths up
+to there the least one counts that leaves the tight bends about as short as any. Both ends stay in place. Of a track of
+more than POINTS_MOST points every second, third and so on counts.
 """
 
 from __future__ import annotations
@@ -26,6 +28,9 @@ APART = 2.0
 STEP, STEPS_MAX, KNOT = 0.5, 20_000, 3.0
 # First width of the smoothing [m], its growth, and the widest one; a Gaussian is cut off at so many widths [1].
 FIRST, GROWTH, WIDEST, CUT = 1.0, 1.25, 15.0, 3.0
+# The path is as far from the points as their noise explains: in distances after the first smoothing [1], at least [m];
+# and length by which tight bends are as short as others [m].
+NOISE, NOISE_LEAST, ABOUT = 3.0, 1.0, 1.0
 # Most points of a track that count [1].
 POINTS_MOST = 20_000
 # Radius of the bends beyond the least one that benches can follow [1].
@@ -43,12 +48,15 @@ class Walk:
     """A path along a track.
 
     points: of its curve (K, 2) [m]; largest: distance of a point of the track from the curve [m]
+    length, lost: of the curve, and by how much it is shorter than the thinned track [m]
     width: of the smoothing [m]; is_easy: True if benches can follow every bend, of at least radius [m]
     passages: speeds from the first time on, in the form of a request; None without times
     """
 
     points: Floats
     largest: float
+    length: float
+    lost: float
     width: float
     is_easy: bool
     radius: float
@@ -72,24 +80,58 @@ def walk_of(points: Floats, times: Floats | None, chord: float = CHORD) -> Walk 
     way = evenly(apart(points))
     if len(way) < 3:
         return None
-    width = FIRST
-    while True:
-        kept = _knots(smoothed(way, width))
-        course = _curve(kept)
-        is_easy = course is not None and not course.tighter(radius)
-        if is_easy or width * GROWTH > WIDEST:
-            break
+    tries: list[_Try] = []
+    width, one = FIRST, None
+    while width <= WIDEST:
+        if (one := _tried(points, way, width, radius)) is not None:
+            if tries and one.error > max(NOISE_LEAST, NOISE * tries[0].error):
+                break
+            tries.append(one)
+            if one.tight == 0.0:
+                break
         width *= GROWTH
-    if course is None:
+    if one is None:
         rule = "must hold a track that does not turn on the spot, as this one does even when smoothed over {width}"
-        raise InvalidValue("file", rule, width=Quantity(width, "m", 3))
-    s = np.linspace(course.begin, course.end, min(STEPS_MAX, int((course.end - course.begin) / STEP) + 2))
-    places, off = _beside(points, s, course.position(s))
+        raise InvalidValue("file", rule, width=Quantity(width / GROWTH, "m", 3))
+    least = min(one.tight for one in tries)
+    best = next(one for one in tries if one.tight <= (least + ABOUT if least else 0.0))
     passages = None
     if times is not None:  # a receiver is as far off along the way as across it
-        error = max(PLACE, ERRORS * float(np.sqrt(np.mean(off * off))))
-        passages = passages_of(np.asarray(times, dtype=np.float64), places, error)
-    return Walk(kept, float(off.max()), width, is_easy, radius, passages)
+        passages = passages_of(np.asarray(times, dtype=np.float64), best.places, max(PLACE, ERRORS * best.error))
+    lost = length_along(way) - best.length
+    return Walk(best.knots, best.largest, best.length, lost, best.width, best.tight == 0.0, radius, passages)
+
+
+@dataclass(frozen=True)
+class _Try:
+    """The curve after one smoothing. tight: length of its bends that are too tight [m]; error: of the points [m];
+    places: of the points along it [m]"""
+
+    width: float
+    knots: Floats
+    length: float
+    tight: float
+    largest: float
+    error: float
+    places: Floats
+
+
+def _tried(points: Floats, way: Floats, width: float, radius: float) -> _Try | None:
+    """The curve along a way smoothed by this width [m]; None if it would stop or turn on the spot."""
+    knots = _knots(smoothed(way, width))
+    course = _curve(knots)
+    if course is None:
+        return None
+    tight = sum(end - start for start, end, _ in course.tighter(radius))
+    s = np.linspace(course.begin, course.end, min(STEPS_MAX, int((course.end - course.begin) / STEP) + 2))
+    places, off = _beside(points, s, course.position(s))
+    error = float(np.sqrt(np.mean(off * off)))
+    return _Try(width, knots, course.end - course.begin, tight, float(off.max()), error, places)
+
+
+def length_along(points: Floats) -> float:
+    """Length of the line through points (N, 2) [m]."""
+    return float(np.hypot(*np.diff(points, axis=0).T).sum())
 
 
 def _curve(knots: Floats) -> Legs | None:
