@@ -35,6 +35,13 @@ RECORD_BEGIN = re.compile(rb"\n[^\S\n]*[+-]?0[0_]*[^\S\n]*\n[^\S\n]*[A-Za-z_]")
 LAYERS = {"square": ("SQUARE", 7), "obstacle": ("OBSTACLES", 8), "path": ("PATH", 5), "mark": (MARKS, 1)}
 # Words of ezdxf for an entity that it has left out, with its kind in group 1.
 DELETED = re.compile(r"(?:[Dd]elet|[Rr]emov)\w*[^#]*?\b([A-Z][A-Z0-9_]+)\(#")
+# Words of ezdxf for an entity without the marker of one of its parts: the marker and the kind. Kinds of which it misses
+# one and that are drawn, and the most kinds that are mended; and codes that stand before it.
+UNMARKED = re.compile(r"missing '(\w+)' subclass in (\w+)\(")
+MARKERS, KINDS_MOST = ("LWPOLYLINE", "SPLINE"), 8
+COMMON = {
+    b"%d" % code for code in (5, 6, 8, 48, 60, 62, 67, 100, 102, 284, 330, 347, 360, 370, 380, 390, 410, 420, 430, 440)
+}
 # Record for values that no entity can hold: the path as a request describes it, the origin, and names by handle. A
 # string of a record has at most 2,049 characters.
 RECORD, CHUNK = "BENCH_DRAGON", 2_000
@@ -54,8 +61,7 @@ def read(data: bytes) -> Drawing:
     # Its messages may hold parts of the file.
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:
-        document, audit = import_module("ezdxf.recover").read(io.BytesIO(data))
-        return _drawing(document, [str(fix.message) for fix in audit.fixes])
+        return _read(data)
     except InvalidValue:
         raise
     # Other errors that ezdxf raises for a faulty drawing.
@@ -65,6 +71,53 @@ def read(data: bytes) -> Drawing:
     ) as error:
         rule, why = "must be DXF that can be read: {why}", str(error)[:200]
         raise InvalidValue("file", rule, why=why) from error
+
+
+def _read(data: bytes) -> Drawing:
+    """The drawing as ezdxf reads it.
+
+    Small programs leave out the markers (code 100) of the parts of an entity. ezdxf does without those of simple ones;
+    those that it misses are written into the file, and entities of other kinds without them are left out.
+    """
+    recover, errors = import_module("ezdxf.recover"), import_module("ezdxf.lldxf.const")
+    missing: list[str] = []
+    attempts = 0
+    while True:
+        try:
+            document, audit = recover.read(io.BytesIO(data))
+            return _drawing(document, [*missing, *(str(fix.message) for fix in audit.fixes)])
+        except errors.DXFStructureError as error:
+            unmarked = UNMARKED.search(str(error))
+            if unmarked is None or attempts == KINDS_MOST:
+                raise
+            marker, kind = unmarked.groups()
+            data, left_out = _marked(data, kind, marker)
+            missing += [f"deleted {kind}(#)"] * left_out
+            attempts += 1
+
+
+def _marked(data: bytes, kind: str, marker: str) -> tuple[bytes, int]:
+    """The file with the marker in every entity of a kind that lacks it; or without these entities, and their number,
+    for kinds that are not drawn."""
+    lines = data.split(b"\n")
+    result: list[bytes] = []
+    begin, left_out = 0, 0
+    starts = [k for k in range(0, len(lines) - 1, 2) if lines[k].strip() == b"0"]
+    for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
+        if lines[start + 1].strip().decode(errors="replace") != kind:
+            continue
+        codes = range(start + 2, end - 1, 2)
+        if any(lines[k].strip() == b"100" and lines[k + 1].strip() == marker.encode() for k in codes):
+            continue
+        result += lines[begin:start]
+        begin = end
+        if kind not in MARKERS:
+            left_out += 1
+            continue
+        own = next((k for k in codes if lines[k].strip() not in COMMON), end)
+        shared = [line for k in range(start + 2, own, 2) if lines[k].strip() != b"100" for line in lines[k : k + 2]]
+        result += [*lines[start : start + 2], b"100", b"AcDbEntity", *shared, b"100", marker.encode(), *lines[own:end]]
+    return b"\n".join([*result, *lines[begin:]]), left_out
 
 
 def _refuse_many(data: bytes) -> None:

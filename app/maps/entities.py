@@ -82,6 +82,8 @@ class Entities:
         if block is None or block.block.dxf.flags & EXTERNAL:
             self.collector.leave_out("missing block" if block is None else "block of another drawing")
             return
+        if not insert.dxf.get("zscale", 1.0):  # a drawing of a plan; ezdxf divides by it
+            insert.dxf.zscale = 1.0
         copies = max(1, int(insert.mcount))
         if copies > 1:
             self._count(copies)

@@ -89,8 +89,8 @@ def _features(
     if kind == "Feature":
         stated = document.get("properties")
         properties = {str(name): value for name, value in stated.items()} if isinstance(stated, Mapping) else {}
-        name, radius = properties.get("name"), properties.get("radius")
-        own, role = name if isinstance(name, str) and name else None, role_of(properties.get("role"), name)
+        name, radius, role, layer = (_property(properties, word) for word in ("name", "radius", "role", "layer"))
+        own, role = name if isinstance(name, str) and name else None, role_of(role, name, layer)
         around = MapFeature("point", (), own, role, float(radius) if _is_number(radius) else None, properties)
         yield from _features(f"{field}.geometry", document.get("geometry"), around, collector, depth + 1)
     elif kind in COLLECTIONS:
@@ -105,6 +105,11 @@ def _features(
     else:
         known = ", ".join([*GEOMETRIES, "Feature", *COLLECTIONS])
         raise InvalidValue(f"{field}.type", "must be one of {known}", got=Given(kind), known=known)
+
+
+def _property(properties: Mapping[str, object], name: str) -> object:
+    """The value of a property, however its name is written: other programs write NAME or Name."""
+    return next((value for word, value in properties.items() if word.lower() == name and value is not None), None)
 
 
 def _parts(field: str, value: object, shape: Shape, deep: int) -> Iterator[tuple[Ring, ...]]:

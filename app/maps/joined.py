@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from math import dist
 
 from app.maps.features import MARK, PATH, MapFeature, drawn_as
@@ -80,17 +81,73 @@ def _chains(lines: Sequence[Sequence[Point]]) -> list[list[tuple[int, bool]]]:
 
 
 class _MeetingPoints:
-    """Numbers of points; points less than APART from one another have the same."""
+    """Numbers of points, `at`, and `places` by these numbers; points less than APART from one another have the same."""
 
     def __init__(self, points: Iterable[Point]) -> None:
         self.at: list[int] = []
+        self.places: list[Point] = []
         cells = defaultdict[tuple[int, int], list[tuple[Point, int]]](list)
-        count = 0
         for point in points:
             x, y = round(point[0] / APART), round(point[1] / APART)
             near = (one for i in (-1, 0, 1) for j in (-1, 0, 1) for one in cells.get((x + i, y + j), ()))
             number = next((k for other, k in near if dist(other, point) < APART), None)
             if number is None:
-                number, count = count, count + 1
+                number = len(self.places)
+                self.places.append(point)
                 cells[x, y].append((point, number))
             self.at.append(number)
+
+
+def merged(areas: Sequence[MapFeature]) -> MapFeature | None:
+    """One area of several that share edges, whose sides may be divided differently; None if they do not make one.
+
+    Sides are divided at the corners of the others that lie on them. What two areas walk in opposite directions is
+    inside. The rest is the outline and holes, which are walked clockwise.
+    """
+    rings = [_counter_clockwise(ring, k > 0) for one in areas for k, ring in enumerate(one.rings)]
+    corners = _MeetingPoints(point for ring in rings for point in ring[:-1])
+    places, at = corners.places, iter(corners.at)
+    ways: set[tuple[int, int]] = set()
+    for ring in rings:
+        numbers = [next(at) for _ in ring[:-1]]
+        for a, b in pairwise([*numbers, numbers[0]]):
+            ways.update(pairwise(_divided(a, b, places)))
+    outer = {(a, b) for (a, b) in ways if (b, a) not in ways and a != b}
+    after = dict(outer)
+    if len(after) < len(outer):  # areas that touch in a corner
+        return None
+    loops: list[tuple[Point, ...]] = []
+    while after:
+        first, following = after.popitem()
+        loop = [first]
+        while following != first:
+            loop.append(following)
+            if following not in after:
+                return None
+            following = after.pop(following)
+        loops.append(tuple(places[k] for k in [*loop, first]))
+    outlines = [loop for loop in loops if _twice_area(loop) > 0.0]
+    if len(outlines) != 1:
+        return None
+    return replace(areas[0], rings=(outlines[0], *(loop for loop in loops if loop is not outlines[0])))
+
+
+def _divided(a: int, b: int, places: Sequence[Point]) -> list[int]:
+    """A side from corner to corner, with the corners on it in order."""
+    (ax, ay), (bx, by) = places[a], places[b]
+    length = dist(places[a], places[b])
+    on: list[tuple[float, int]] = []
+    for k, (x, y) in enumerate(places):
+        along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length if length else 0.0
+        off = abs((x - ax) * (by - ay) - (y - ay) * (bx - ax)) / length if length else 0.0
+        if k not in (a, b) and APART < along < length - APART and off < APART:
+            on.append((along, k))
+    return [a, *(k for _, k in sorted(on)), b]
+
+
+def _twice_area(ring: Sequence[Point]) -> float:
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise(ring))
+
+
+def _counter_clockwise(ring: Sequence[Point], is_hole: bool) -> Sequence[Point]:
+    return ring if (_twice_area(ring) > 0.0) != is_hole else ring[::-1]

@@ -13,6 +13,7 @@ import numpy as np
 from app.files.words import Say
 from app.maps import geojson
 from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, Unit, area_of, holds_any, round_area
+from app.maps.joined import merged
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
 from app.maps.tracks import APART, CHORD, walk_of
 from app.wire.degrees import ACROSS_MAX, GRID_MAX, GeographicOrigin, Plane, middle_of, refuse_wide, unwrapped
@@ -20,7 +21,7 @@ from app.wire.geojson import outlined, read_things, venue_of
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.display import format_count
-from core.errors import COORDINATE_MAX, Quantity, quantities
+from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
 from core.names import NAME_MAX, UNPRINTABLE
 from core.values import Floats, Point
 from core.venue import refuse_many_edges
@@ -102,10 +103,15 @@ class Reading:
         self.assumed = dict[float, list[str]]()
         self.features = [_closed(one) for one in drawing.features if one.role != MARK and any(one.rings)]
         if not self.features:
-            raise InvalidValue("file", "must hold a polygon, a line or a point", got="none of these")
+            hidden = ", ".join(format_count(count, kind) for kind, count in drawing.hidden.items())
+            rule = "must hold a polygon, a line or a point" + (
+                ": {hidden} are hidden; show their layers" if hidden else ""
+            )
+            raise InvalidValue("file", rule, got="none of these", **({"hidden": hidden} if hidden else {}))
         self.origin, self.grid = drawing.origin, drawing.grid
         self.passages: Sequence[Mapping[str, Any]] | None = None
         self._lay_out(units)
+        self._leave_out_small()
         self.features = [self._whole(one) for one in self.features]
         for kind, count in drawing.left_out.items():
             self._note(f"Left out: {format_count(count, kind)}.", f"未读取：{kind}，{count} 个。")
@@ -230,6 +236,22 @@ class Reading:
             f"坐标属于测量坐标系；这里的 x = y = 0 是其中的 x {x:.10g} m，y {y:.10g} m。",
         )
 
+    def _leave_out_small(self) -> None:
+        """Leave out round things that are smaller than anything of a venue, and name them."""
+        small = [one for one in self.features if one.shape == "point" and 0.0 < (one.radius or 1.0) < SIZE_MIN]
+        if not small:
+            return
+        self.features = [one for one in self.features if not any(one is other for other in small)]
+        names = self._listed(one.name or one.role or one.shape for one in small)
+        english = f"{format_count(len(small), 'circle')} with a radius of less than {SIZE_MIN:g} m"
+        self._note(f"Left out: {english}: {names}.", f"未读取：{len(small)} 个半径小于 {SIZE_MIN:g} m 的圆：{names}。")
+
+    @staticmethod
+    def _listed(names: Iterable[str]) -> str:
+        """The first names, and dots for more."""
+        every = list(names)
+        return ", ".join(every[:LISTED_MOST]) + (", …" if len(every) > LISTED_MOST else "")
+
     def _whole(self, one: MapFeature) -> MapFeature:
         """The same feature; a square that is a circle, or a line that is not closed, is a polygon."""
         if one.role != SQUARE or one.shape == "polygon":
@@ -252,6 +274,13 @@ class Reading:
         polygons = [one for one in self.features if one.shape == "polygon"]
         squares = [one for one in polygons if one.role == SQUARE]
         first = next(iter(squares), None)
+        if len(squares) > 1 and (whole := merged(squares)) is not None:
+            self._note(
+                f"The square is drawn in {len(squares)} parts that share edges.",
+                f"广场由 {len(squares)} 个有公共边的部分组成。",
+            )
+            self.features = [whole, *(one for one in self.features if not any(one is part for part in squares))]
+            return whole
         if len(squares) > 1:
             self._note(
                 f"{len(squares)} areas are called square; the first is the square, and the others are obstacles.",
@@ -269,7 +298,7 @@ class Reading:
         """The square and the obstacles."""
         obstacles = [self._obstacle(one) for one in others]
         for radius, without in self.assumed.items():
-            listed = ", ".join(without[:LISTED_MOST]) + (", …" if len(without) > LISTED_MOST else "")
+            listed = self._listed(without)
             english = f"{format_count(len(without), 'thing')} without a radius; {radius:g} m is assumed: {listed}."
             self._note(english, f"{len(without)} 个图形没有给出半径，取 {radius:g} m：{listed}。")
         if square is None:
@@ -311,7 +340,7 @@ class Reading:
             )
         if line.times is not None:
             return self._walked(line)
-        kept, name = thinned(points), line.name or self.say("a line without a name", "未命名的线")
+        (kept, off), name = thinned(points), line.name or self.say("a line without a name", "未命名的线")
         if len(kept) < 2:
             apart = Quantity(POINTS_APART, "m")
             raise InvalidValue("file", "must hold a path with at least two points {apart} apart", apart=apart)
@@ -319,6 +348,11 @@ class Reading:
             f"The path is a smooth curve through {len(kept)} points: {name}.",
             f"路径是通过 {len(kept)} 个点的光滑曲线：{name}。",
         )
+        if off > 0.0:
+            self._note(
+                f"Of its {len(points)} points these are enough to be at most {off:.2f} m from all others.",
+                f"原线有 {len(points)} 个点，其余各点离它至多 {off:.2f} m。",
+            )
         path = {"kind": "waypoints", "points": kept.tolist()}
         checked_path(path)
         return path

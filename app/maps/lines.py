@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from heapq import heapify, heappop, heappush
 from itertools import pairwise
 from typing import Any
 
@@ -44,16 +45,40 @@ def length_of(line: MapFeature) -> float:
     return sum(math.dist(a, b) for a, b in pairwise(line.rings[0]))
 
 
-def thinned(points: Floats) -> Floats:
-    """Points that are far enough apart, evenly along the line, and at most as many as a path may have."""
+def thinned(points: Floats) -> tuple[Floats, float]:
+    """Points of a line that are far enough apart, at most as many as a path may have; and how far the line is from the
+    straight ways between them at most [m].
+
+    Of too many, half are evenly spread, which keeps the curve through them near the line, and the others are those
+    that are furthest from the line through the ones before (Douglas and Peucker).
+    """
     kept = [points[0]]
     for point in points[1:]:
         if np.hypot(*(point - kept[-1])) >= POINTS_APART:
             kept.append(point)
-    if len(kept) <= POINTS_MAX:
-        return np.array(kept)
-    few: Floats = np.array(kept)[np.linspace(0, len(kept) - 1, POINTS_MAX).round().astype(int)]
-    return few
+    every = np.array(kept)
+    if len(every) <= POINTS_MAX:
+        return every, 0.0
+    chosen = np.unique(np.linspace(0, len(every) - 1, POINTS_MAX // 2).round().astype(int)).tolist()
+    parts = [(*_furthest(every, a, b), a, b) for a, b in pairwise(chosen)]
+    heapify(parts)
+    while len(chosen) < POINTS_MAX and parts[0][0] < 0.0:
+        _, middle, a, b = heappop(parts)
+        chosen.append(middle)
+        for ends in ((a, middle), (middle, b)):
+            heappush(parts, (*_furthest(every, *ends), *ends))
+    return every[sorted(chosen)], -parts[0][0]
+
+
+def _furthest(points: Floats, a: int, b: int) -> tuple[float, int]:
+    """The point between two others that is furthest from their line: its negative distance [m], and its number."""
+    if b - a < 2:
+        return 0.0, a
+    way = points[b] - points[a]
+    share = np.clip(((points[a + 1 : b] - points[a]) @ way) / max(float(way @ way), 1e-30), 0.0, 1.0)
+    off = np.hypot(*(points[a] + share[:, None] * way - points[a + 1 : b]).T)
+    k = int(off.argmax())
+    return -float(off[k]), a + 1 + k
 
 
 def is_along(stored: Mapping[str, Any], points: Floats) -> bool:
