@@ -18,46 +18,6 @@ pytestmark = pytest.mark.uncompiled
 
 ROOT = Path(__file__).parent.parent
 
-# The rooms, from the ground up: a module imports from its own room and from those above its line, never from below.
-# A word is a room with all its modules, or a module that stands alone.
-ROOMS = """
-core.kernels
-core.values core.error_free core.errors core.names core.extras core.display core.tables core.sampling
-core.passages core.dragon
-core.paths
-core.dance core.course core.plots
-core.claims
-core.shapes
-core.venue
-core.motion
-core.contact
-core.extremes
-core.design
-core.tolerance
-core.ground
-core.people
-core.failures core.judgement core.breaches
-core.performance
-core.proposal
-core
-core.proof
-app
-app.extras app.logs app.settings app.start
-app.processes
-app.wire
-app.files
-app.grade
-app.maps
-app.plan
-app.cards
-app.contest
-app.questions
-app.sweeps
-app.jobs
-app.service
-app.assistant
-app.command
-"""
 # Arrays whose columns core/kernels/constants.py names.
 TABLES = {"table", "pieces", "frame", "chain", "motion", "placed", "probed", "probed_later", "opening"}
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
@@ -101,7 +61,22 @@ def top_names(module: str) -> set[str]:
     return {name.partition(".")[0] for name in imports(module)}
 
 
-LINE_OF = {room: number for number, line in enumerate(ROOMS.split("\n")) for room in line.split()}
+def rooms_drawn() -> list[list[str]]:
+    """The rooms of core and app in each line of docs/architecture.md, from the ground up."""
+    drawing = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8").split("```")[1]
+    lines: list[list[str]] = []
+    for line in drawing.splitlines():
+        if match := re.match(r"(\w+)/ ", line):
+            package = match[1]
+            lines.append([package])
+        elif match := re.match(r"  ((?:\w+(?:/|\.py)(?:, )?)+)", line):
+            rooms = [f"{package}.{re.split(r'[/.]', word)[0]}" for word in match[1].split(", ")]
+            lines.append([package if room.endswith("__init__") else room for room in rooms])
+    return [rooms for rooms in lines if rooms[0].partition(".")[0] in ("core", "app")]
+
+
+# A package whose own file has a line of its own stands there.
+LINE_OF = {room: number for number, rooms in enumerate(rooms_drawn()) for room in rooms}
 
 
 def line_of(module: str) -> int:
@@ -110,8 +85,10 @@ def line_of(module: str) -> int:
     return LINE_OF.get(package, -1)
 
 
-def test_every_module_has_a_room() -> None:
+def test_every_module_has_a_room_and_every_room_is_there() -> None:
     assert [module for module in MODULES if line_of(module) < 0] == []
+    rooms = {".".join(module.split(".")[:2]) for module in MODULES} | {"app.page"}
+    assert rooms == set(LINE_OF)
 
 
 def test_imports_point_to_rooms_above() -> None:
