@@ -177,9 +177,12 @@ class CardWords:
         since, until = self.clock.words(cue.since), self.clock.words(cue.until)
         if len(met) == 1:
             times = len(cue.meetings)
+            span = (
+                say(f"from {since} to {until}", f"{since} 至 {until}") if since != until else say(f"at {since}", since)
+            )
             return say(
-                f"{who} {side}, {gap} at the nearest of {times} times from {since} to {until}. {how}.",
-                f"{who}{side}，{since} 至 {until} 共 {times} 次，最近 {gap}，与你{how}。",
+                f"{who} {side}, {gap} at the nearest of {times} times {span}. {how}.",
+                f"{who}{side}，{span}，{times} 次，最近 {gap}，与你{how}。",
             )
         hows = "pass you the other way" if nearest.oncoming else "walk your way"
         return say(

@@ -58,7 +58,7 @@ def _contact(solved: Solved, say: Say) -> list[Result]:
     steps = contact.certificate.steps
     how = say(
         f"{pair} touch; {steps} proven steps show that nothing touched earlier",
-        f"{pair}相碰；{steps} 个经过证明的步长表明此前没有碰撞",
+        f"{pair}相碰；{steps} 个经过证明的步表明此前没有碰撞",
     )
     place = say("the head at that time", "该时刻的龙头")
     return [

@@ -136,7 +136,7 @@ def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
     order = np.argsort(time)
     axes.plot(time[order], gap[order], color=BLUE, linewidth=1.2, label=say("clearance", "最小间距"))
     if grazes:
-        label = say("graze (local minimum)", "擦碰（局部极小）")
+        label = say("graze (local minimum)", "擦身而过（局部极小）")
         axes.plot(*np.transpose(grazes), "o", color=VERMILION, markersize=4, label=label)
     axes.axhline(0.0, color="black", linewidth=0.8, linestyle="dashed", label=say("touch", "相碰"))
     axes.set_xlabel(say("time [s]", "时间 [s]"))
@@ -146,12 +146,12 @@ def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
     until = ("first contact", "首次碰撞") if met else ("the end of the run", "运动结束")
     caption = say(
         f"Clearance over time up to {until[0]}, with its grazes; some are only fractions of a millimetre deep.",
-        f"{until[1]}之前的最小间距及其擦碰：有的极小值只低零点几毫米。",
+        f"{until[1]}之前的最小间距及其各次极小值：有的只低零点几毫米。",
     )
     if near := solved.contact.certificate.least_clearance:
         caption += say(
             f" The closest graze before it leaves {1e3 * near.clearance:.3f} mm at {near.time:.3f} s.",
-            f" 此前最近的一次擦碰在 {near.time:.3f} s，间距仅 {1e3 * near.clearance:.3f} mm。",
+            f" 此前最险的一次擦身而过在 {near.time:.3f} s，间距仅 {1e3 * near.clearance:.3f} mm。",
         )
     return figure, caption
 

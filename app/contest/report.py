@@ -102,8 +102,8 @@ def _ratio(solved: Solved, say: Say) -> str:
         f"{shortest.entry_radius:.6f} m to {shortest.exit_radius:.6f} m from the centre the turn is "
         f"{shortest.length:.7f} m long, {turn.length - shortest.length:.7f} m shorter; with this ratio none is shorter "
         f"than {low:.7f} m (proven).",
-        f"问题 4 问调头曲线能否变短。只改变半径之比不能：对任何比例长度都是 {turn.length:.7f} m。"
-        f"（终点与起点相对时）。起点和终点都可在圆内自由选取：距中心 {shortest.entry_radius:.6f} m 处进入、"
+        f"问题 4 问调头曲线能否变短。只改变半径之比不能：终点与起点相对时，任何比例下长度都是 "
+        f"{turn.length:.7f} m。起点和终点都可在圆内自由选取：距中心 {shortest.entry_radius:.6f} m 处进入、"
         f"{shortest.exit_radius:.6f} m 处离开时长度为 {shortest.length:.7f} m，"
         f"缩短 {turn.length - shortest.length:.7f} m；此比例下没有短于 {low:.7f} m 的（已证明）。",
     )

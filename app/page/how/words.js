@@ -60,7 +60,7 @@ export const WORDS = {
   step_dial_length: ["Length of the interval", "区间长度"],
   step_alt: ["The least gap over time, and under it the lowest curve that the bound allows", "最小间距随时间的变化，以及其下方由上界允许的最低曲线"],
 
-  graze_title: ["Why sampling misses a graze", "取样为什么会漏掉擦碰"],
+  graze_title: ["Why sampling misses a graze", "取样为什么会漏掉擦身而过"],
   graze_lead: ["It seems easier to look every {step} whether benches overlap. At a pitch of {pitch} that makes {count} looks in this figure. {looked}",
     "每隔 {step} 看一眼板凳是否重叠，似乎更省事。螺距为 {pitch} 时，图中共看 {count} 次。{looked}"],
   graze_missed: ["Every look finds all benches apart.", "每一次看到的板凳都是分开的。"],
@@ -69,10 +69,10 @@ export const WORDS = {
   graze_touch: ["two benches touch at {time} s, and then overlap by up to {depth} mm.", "{time} s 时两节板凳相碰，随后重叠最多达 {depth} mm。"],
   graze_free: ["nothing touches in the figure; first contact comes at {time} s.", "图中没有相碰；首次碰撞在 {time} s。"],
   graze_more: ["Look every {step=0.4}, and this graze is found; but a pitch of {pitch=0.45033} hides it again, and so on for any interval. Nor does it help to halve an interval between “apart” and “overlapping”: benches that overlap may come apart and overlap again. A step that is a proof leaves no time between two looks.",
-    "改为每隔 {step=0.4} 看一眼，这次擦碰就会被发现；但螺距换成 {pitch=0.45033}，它又躲了过去，如此没有尽头。在“分开”与“重叠”之间二分也无济于事：重叠的板凳会分开，然后再次重叠。而作为证明的步子，两眼之间不留任何空隙。"],
+    "改为每隔 {step=0.4} 看一眼，这次擦身而过就会被发现；但螺距换成 {pitch=0.45033}，它又躲了过去，如此没有尽头。在“分开”与“重叠”之间二分也无济于事：重叠的板凳会分开，然后再次重叠。而作为证明的步子，两眼之间不留任何空隙。"],
   graze_dial_step: ["Time between two looks", "两次查看的间隔"],
   graze_dial_pitch: ["Pitch of the spiral", "螺线的螺距"],
-  graze_alt: ["The least gap over time near a graze, with the instants at which somebody looks", "擦碰附近最小间距随时间的变化，以及查看的各个时刻"],
+  graze_alt: ["The least gap over time near a graze, with the instants at which somebody looks", "擦身而过附近的最小间距随时间的变化，以及查看的各个时刻"],
 
   stray_title: ["How far people may stray", "人可以偏离多远"],
   stray_lead: ["Nobody dances to the millimetre. Let every handle be up to {stray} away from its place, in any direction, at any time. Then each bench stays inside the pale band around it; as long as the bands are apart, nothing can touch.",
@@ -90,5 +90,5 @@ export const WORDS = {
   stray_alt: ["The two benches that come nearest, with the bands that they may cover", "最接近的两节板凳，以及它们可能到达的色带"],
 
   end: ["These five ideas are in every “How it is known” of the dance. There each answer shows its bracket and its proof, and four engines that share no code judge each first contact.",
-    "舞龙画面中的每个“依据”都来自这五个想法。那里的每个答案都给出所在的区间和证明，每次首次碰撞还由四种互不共用代码的引擎判定。"],
+    "舞龙画面中的每个“依据”都来自这五个想法。那里的每个答案都给出所在的区间和证明，每次首次碰撞还由四种互不共用代码的算法判定。"],
 };
