@@ -49,7 +49,7 @@ export class Player {
   }
 
   /**
-   * Play from the beginning at the first movement of a pointer, unless motion is reduced or a key comes first: who reads the
+   * Play from the beginning at the first movement of a pointer or the first touch, unless motion is reduced or a key comes first: who reads the
    * page by keys or by the landmarks of a screen reader starts the dance with its button.
    */
   open() {
@@ -58,7 +58,7 @@ export class Player {
     const listen = (type, act) => addEventListener(type, act, { capture: true, signal: waiting.signal });
     const end = () => waiting.abort();
     for (const type of ["keydown", "focusin", "popstate"]) listen(type, end);
-    for (const type of ["pointermove", "wheel"]) {
+    for (const type of ["pointerdown", "pointermove", "wheel"]) {
       listen(type, () => {
         end();
         if (!this.#playing && this.state.get("time") === 0) this.toggle();
