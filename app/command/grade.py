@@ -151,8 +151,7 @@ def _typed(one: TypedAnswer, language: Language) -> Iterator[show.Part]:
     yield from (f"  {words}" for words in one.notes)
     if one.verdict != "right":
         yield "  " + say("is_right", language, right=f"{one.expected:.9f}", unit=one.unit)
-    if one.verdict == "wrong":
-        yield from _diagnosis([*one.diagnosis, *one.possible], language)
+    yield from _diagnosis([*one.diagnosis, *one.possible], language)
     yield ""
 
 
@@ -161,8 +160,7 @@ def _file(file: FileAnswer, language: Language) -> Iterator[show.Part]:
     yield from (f"  {one}" for one in file.notes)
     for sheet in file.sheets:
         yield from _sheet(sheet, language)
-    if file.diagnosis or file.verdict == "wrong":
-        yield from _diagnosis([*file.diagnosis, *file.possible], language)
+    yield from _diagnosis([*file.diagnosis, *file.possible], language)
     marks = {True: "+", False: "-", None: " "}
     yield from (f"  [{marks[one.met]}] {one.words}" for one in file.rubric)
     yield ""
@@ -186,8 +184,6 @@ def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
 
 
 def _diagnosis(diagnosis: Sequence[DiagnosisAnswer], language: Language) -> Iterator[show.Part]:
-    if not diagnosis:
-        yield "  " + say("nothing_fits", language)
     for one in diagnosis:
         yield f"  > {one.words}"
         yield f"    {one.evidence}"

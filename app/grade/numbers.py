@@ -23,8 +23,8 @@ from app.grade.words import Note, note
 HALF = 1.02
 # Half of the last decimal that the contest asks for: a number is graded to six decimals, if it has more.
 HALF_UNIT_LEAST = 0.5e-6
-# A pitch that is too small by more than this counts as rounded down, which is infeasible [m].
-INFEASIBLE = 1e-5
+# Side to which a limit is rounded [1], and how far on the other side one still counts as the nearest number [m, m/s].
+SAFE_SIDE, INFEASIBLE = {"pitch": 1, "speed": -1}, 1e-5
 # Largest half of the last digit, relative to the number, at which a shortcut is reported [1]: 1.3 has too few digits.
 DIGITS_SHARE = 2e-3
 # Largest chance of a fit at which a shortcut is a diagnosis, and at which it is reported as a guess [1].
@@ -60,26 +60,31 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
     """The grade of one of UNITS. value: in its unit; half_unit: half of its last digit
 
     A number is right if it is the right one to its own digits. One that is off by less than its last digit was rounded
-    the other way, and nothing else follows from that. A pitch is rounded up, because a smaller one is infeasible.
+    the other way, and nothing else follows from that. A limit is rounded to its safe side: the least pitch up, the
+    highest speed down; on the other side benches touch, or somebody is too fast.
     """
     right, half = right_answer(name), max(half_unit, HALF_UNIT_LEAST)
     digits = _decimals_of(half)
     is_nearest, is_near = abs(value - right) <= HALF * half, abs(value - right) < 2.0 * half
     words = {"nearest": f"{right:.{digits}f}", "unit": UNITS[name]}
-    if name == "pitch" and value < right and is_near and not (is_nearest and right - value <= INFEASIBLE):
-        up = math.ceil(right * 10.0**digits) / 10.0**digits
-        return Graded(Rating.ROUNDED, [note("pitch_rounded_down", up=f"{up:.{digits}f}")], [])
+    beyond = SAFE_SIDE.get(name, 0) * (right - value)
+    if is_near and beyond > 0.0 and not (is_nearest and beyond <= INFEASIBLE):
+        unit = 10.0**-digits
+        safe = math.ceil(right / unit) * unit if name == "pitch" else math.floor(right / unit) * unit
+        return Graded(Rating.ROUNDED, [note(f"{name}_rounded_unsafely", safe=f"{safe:.{digits}f}")], [])
     if is_nearest:
         return Graded(Rating.RIGHT, [], [])
     if is_near:
-        if name == "pitch":
-            return Graded(Rating.RIGHT, [note("pitch_rounded_up", **words)], [])
+        if name in SAFE_SIDE:
+            return Graded(Rating.RIGHT, [note(f"{name}_rounded_safely", **words)], [])
         return Graded(Rating.ROUNDED, [note("rounded_otherwise", **words)], [])
     if name == "turn_length" and TURN_LENGTH_LEAST - half_unit <= value < right:
         kind = "possible_turn" if value + half_unit >= TURN_OF_TWO_LEAST else "possible_turn_of_ratio"
         return Graded(Rating.RIGHT, [note(kind, length=f"{right:.7f}")], [])
-    notes = _overlap_of(value) if name == "pitch" and value < right else []
-    return Graded(Rating.WRONG, notes, explained(name, value, half_unit))
+    notes, findings = _overlap_of(value) if name == "pitch" and value < right else [], explained(name, value, half_unit)
+    if not findings:
+        notes.append(note("too_few_digits" if half_unit > DIGITS_SHARE * value else "nothing_fits"))
+    return Graded(Rating.WRONG, notes, findings)
 
 
 def _overlap_of(pitch: float) -> list[Note]:

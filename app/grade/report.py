@@ -186,10 +186,13 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
     notes += [one for grid in grids for one in grid.notes]
     if (match := NAME_OF_WORKBOOK.search(PurePath(name).stem)) and match[1] != workbook.value[-1]:
         notes.append(note("named_otherwise", named=f"result{match[1]}", workbook=workbook.value))
+    verdict = worst_of(sheet.verdict for sheet in sheets)
+    if verdict is Rating.WRONG and not findings:
+        notes.append(note("nothing_fits"))
     return FileAnswer(
         file=name,
         workbook=workbook.value,
-        verdict=worst_of(sheet.verdict for sheet in sheets),
+        verdict=verdict,
         diagnosis=_diagnoses(certain, language),
         possible=_guessed(findings, language),
         sheets=sheets,

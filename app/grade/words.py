@@ -148,6 +148,7 @@ WORDS = ERRORS | PAPER | {
         "首个错误：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}"),
     "quantity_speed": ("speed", "速度"),
     "nothing_fits": ("No known error gives these numbers.", "没有已知错误能得出这些数值。"),
+    "too_few_digits": ("Its digits are too few to tell why.", "位数太少，无法判断原因。"),
     "may_be": ("Possibly: {error}", "可能是：{error}"),
     "chance": ("One in {count} numbers with as many digits fits a known error by chance.",
         "同样位数的数值中，约每 {count} 个有一个会碰巧符合某种已知错误。"),

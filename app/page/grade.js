@@ -127,10 +127,8 @@ function box(title, verdict, content) {
   return make("div", outcome, make("h3", { textContent: title }), value, ...content);
 }
 
-function diagnosis({ verdict, diagnosis: certain, possible }) {
-  const all = [...certain, ...possible];
-  if (!all.length) return verdict === "wrong" ? [paragraph(say("nothingFits"))] : [];
-  return all.flatMap(({ words, evidence }) => [paragraph(words, "finding"), paragraph(evidence, "evidence")]);
+function diagnosis({ diagnosis: certain, possible }) {
+  return [...certain, ...possible].flatMap(({ words, evidence }) => [paragraph(words, "finding"), paragraph(evidence, "evidence")]);
 }
 
 function fileBox(file) {

@@ -83,7 +83,6 @@ export const BELOW = {
   mark_wrong: ["wrong", "错误"],
   mark_missing: ["missing", "缺少"],
   rightIs: ["The right value is {value} {unit}.", "正确值为 {value} {unit}。"],
-  nothingFits: ["No known error gives these numbers.", "没有已知错误能得出这些数值。"],
   rubric: ["The points of the reviewers", "评阅要点"],
   sheetIs: ["{title}: {verdict}, {right} of {cells} cells right", "{title}：{verdict}，{cells} 个单元格中 {right} 个正确"],
   holds_position: ["positions", "位置"],
