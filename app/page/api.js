@@ -7,8 +7,8 @@ import { pending } from "./pending.js";
  * a dragged slider also gets answers from a busy service.
  */
 const [GRACE, GRACE_MOST] = [150, 2_000];
-/** Time between two liveness checks of the service, and longest wait for an answer [ms]: together less than 3 s. */
-const [HEARTBEAT, PATIENCE] = [600, 1_600];
+/** Time between two liveness checks of the service, and longest wait for an answer [ms]; what a person does meanwhile notices a lost one at once. */
+const [HEARTBEAT, PATIENCE] = [5_000, 1_600];
 const [RETRY_FIRST, RETRY_LAST] = [1_000, 8_000];
 const SECOND = 1_000;
 /** Methods that may be repeated without harm; a hanging job is not started again. */

@@ -43,6 +43,11 @@ export class Doors {
     this.state.choosePath(stays ? this.state.get("path") : path, { door, ...example });
   }
 
+  /** An address with a door whose kinds of path do not have that of the address opens as if the door were pressed. */
+  begin() {
+    if (PATHS[this.door] && !PATHS[this.door].includes(this.state.get("path"))) this.#enter(this.door);
+  }
+
   /** Show or hide what stands behind "more". */
   #offerMore(is) {
     $("main").classList.toggle("more", is);

@@ -7,7 +7,7 @@ import { announce } from "./overlays.js";
 import { onBorder, streetLength } from "./square.js";
 import { say } from "./text.js";
 
-/** Largest movement of a press that is not a drag [px]; largest distance from the path of a tap that divides it [px]. */
+/** Largest movement of a press that is not a drag [px]; largest distance from the path, an edge or a thing of a tap that means it [px]. */
 const [TRAVEL, ON_PATH] = [3, 16];
 /** Distance between two points below which the second one is a dot [px]. */
 const NEAR = 24;
@@ -52,6 +52,7 @@ export class Editor {
     onClick("#delete", () => this.#delete());
     addEventListener("keydown", (event) => this.#shortcut(event));
     $("#canvas").addEventListener("keydown", (event) => this.#next(event));
+    $("#canvas").addEventListener("pointerdown", (event) => this.#seize(event), { capture: true });
   }
 
   get #drawing() {
@@ -157,6 +158,29 @@ export class Editor {
     return this.#knots.at(-1);
   }
 
+  /** A press on a tree or a gate, while things are drawn, takes this thing: it is edited, and moves with the pointer. */
+  #seize(event) {
+    if (!this.active || !this.#isRoute || this.tool === "path" || !event.isPrimary || event.button) return;
+    const item = this.#under(event.offsetX, event.offsetY);
+    if (item === null) return;
+    event.stopPropagation();
+    this.edit(item);
+    this.#grab(event);
+  }
+
+  /** The tree or gate at a place of the picture [px], the nearest of several; null without one. */
+  #under(px, py) {
+    const { view } = this.dance;
+    let [best, least] = [null, Infinity];
+    this.#drawing.things.forEach(({ kind, points, radius = 0 }, k) => {
+      if (!ONE_POINT.includes(kind) || !points.length) return;
+      const [x, y] = view.toScreen(...points[0]);
+      const far = Math.hypot(x - px, y - py);
+      if (far <= Math.max(radius * view.scale, ON_PATH) && far < least) [best, least] = [k, far];
+    });
+    return best;
+  }
+
   /** Take the point nearest to the pointer, because buttons of near points overlap. */
   #grab(event) {
     event.preventDefault();
@@ -166,7 +190,7 @@ export class Editor {
     const far = shifts.map(([dx, dy], k) => (this.#knots[k].matches(".near:not(:focus)") ? Infinity : Math.hypot(dx + left, dy + top)));
     const k = far.indexOf(Math.min(...far));
     this.#knots[k].focus({ preventScroll: true });
-    event.currentTarget.setPointerCapture(event.pointerId);
+    this.#knots[k].setPointerCapture(event.pointerId);
     this.dance.view.fitted = false;
     this.#drag = { k, from, shift: shifts[k], base: this.#drawing, far: false };
   }
@@ -265,17 +289,32 @@ export class Editor {
     const point = this.dance.view.toWorld(px, py).map((one) => Math.round(10 * one) / 10);
     this.#last = null;
     this.dance.view.fitted = false;
-    this.#put(point, this.tool === "path" && drawing.points.length > 1 ? this.#onPath(px, py) : null);
+    const spot = this.tool !== "path" ? this.#onEdge(px, py) : drawing.points.length > 1 ? this.#onPath(px, py) : null;
+    this.#put(point, spot);
     return true;
   }
 
-  /** Add a point to what is drawn. spot: where it divides the path; null: after the last one */
+  /** Add a point to what is drawn. spot: where it divides the path or an edge; null: after the last one */
   #put(point, spot = null) {
     const drawing = this.#drawing;
     if (this.tool === "path") this.steps.take(inserted(drawing, null, spot?.k ?? drawing.points.length, spot?.point ?? point));
     else if (this.item === null || ONE_POINT.includes(this.tool)) this.#begin(drawing, point);
-    else this.steps.take(inserted(drawing, this.item, pointsOf(drawing, this.item).length, point));
+    else this.steps.take(inserted(drawing, this.item, spot?.k ?? pointsOf(drawing, this.item).length, point));
     this.chosen();
+  }
+
+  /** The edge of the edited thing that a tap divides: number of the next point; null without one. */
+  #onEdge(px, py) {
+    const points = this.item === null ? [] : pointsOf(this.#drawing, this.item).map((point) => this.dance.view.toScreen(...point));
+    const ends = this.tool === "wall" || points.length < 3 ? points.slice(1) : [...points.slice(1), points[0]];
+    const far = ends.map(([bx, by], k) => {
+      const [ax, ay] = points[k];
+      const share = ((px - ax) * (bx - ax) + (py - ay) * (by - ay)) / (Math.hypot(bx - ax, by - ay) ** 2 || 1);
+      const on = Math.min(Math.max(share, 0), 1);
+      return Math.hypot(ax + on * (bx - ax) - px, ay + on * (by - ay) - py);
+    });
+    const least = Math.min(...far);
+    return least <= ON_PATH ? { k: far.indexOf(least) + 1 } : null;
   }
 
   /** The division of the path by a tap: number of the next point, and place of the new one. */

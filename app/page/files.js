@@ -16,10 +16,9 @@ const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
 /** The times of a FILE; the page shows each dance from its beginning to its end. */
 export const SPAN = ["start", "stop"];
 
-/** Say that a file was opened. unread: what of it the page leaves out; notes: what else it did not take over */
+/** Say that a file was opened, for as long as it takes to read. unread: what of it the page leaves out; notes: what else it did not take over */
 export function announceOpened(name, unread, notes = []) {
-  const stays = notes.length + unread.length > 0;
-  announce(() => [say("opened", { name }), ...(unread.length ? [say("openedWhole", { names: unread.join(say("listed")) })] : []), ...notes].join(" "), stays);
+  announce(() => [say("opened", { name }), ...(unread.length ? [say("openedWhole", { names: unread.join(say("listed")) })] : []), ...notes].join(" "));
 }
 
 export class Files {
@@ -70,7 +69,7 @@ export class Files {
         const { text: csv, notes } = await tableOfFile(file, this.service);
         if (csv === null) return announce(() => notes.join(" "), true);
         this.state.set({ csv });
-        return announce(() => [say("opened", { name: file.name }), ...notes].join(" "), notes.length > 0);
+        return announceOpened(file.name, [], notes);
       }
       announce(() => say("opening", { name: file.name }));
       const content = (await ownDance(file)) ?? (await this.#places(file));
@@ -104,9 +103,10 @@ export class Files {
     if (this.state.get("path") !== "route") this.state.choosePath("route");
     const opened = drawingOf({ ...content, venue: typeof venue === "object" ? venue : null });
     // A map without a path keeps the drawn path, and one without a venue keeps the venue; a dance has its own or none.
-    const { points, straight, radius, begin, path: kept, things, origin, grid } = this.state.get("drawing");
+    const { points, straight, radius, begin, path: kept, things, origin, grid, limit } = this.state.get("drawing");
     if (!path) Object.assign(opened, { points, straight, radius, begin, path: kept });
     if (!venue && !("dragon" in content)) Object.assign(opened, { things, origin, grid });
+    if (!("dragon" in content)) opened.limit = limit;
     const others = {
       ...("dragon" in content && { csv: tableOf(dragon) }),
       ...((content.passages || content.beats) && "dragon" in content && paceTexts(content)),

@@ -488,6 +488,7 @@ async function readDocument() {
 listen();
 showState(new Set([...Object.keys(SHOW_STATE), "pitch"]));
 doors.refuse();
+doors.begin();
 readDocument().catch((error) => {
   // Without the document the page lacks only the limits and units.
   if (!(error instanceof Problem)) throw error;

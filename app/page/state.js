@@ -134,7 +134,8 @@ export class State {
   choosePath(path, more = {}) {
     if (path === this.get("path")) return this.push(more);
     const benches = this.get("benches") === this.initial("benches") ? this.initial("benches", path) : this.get("benches");
-    this.push({ time: null, view: null, ...more, path, benches, pitch: this.initial("pitch", path) });
+    // A turn is seen where it begins, with the head on its circle.
+    this.push({ time: path === "turn" ? 0 : null, view: null, ...more, path, benches, pitch: this.initial("pitch", path) });
   }
 
   /** Change the state so that the browser's back button leads back to the present view. */
