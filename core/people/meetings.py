@@ -141,8 +141,7 @@ def meetings_in(chain: Chain, benches: Sequence[int], travels: Floats, reach: fl
     for first in range(0, len(travels), rows):
         some = travels[first : first + rows]
         poses = bench_poses(chain.place(some, budget))
-        crossings = _crossings(poses, some, benches, (_far(chain, reach), chain.gaps), before)
-        budget.afford(float(len(some) * len(benches)))
+        crossings = _crossings(poses, some, benches, (_far(chain, reach), chain.gaps), before, budget)
         for part in _parts(crossings, at_once):
             parts.append(_met(chain, _zeros(chain, part, budget), reach, budget))
     columns = [np.concatenate(column) for column in zip(*parts, strict=True)]
@@ -174,7 +173,12 @@ class _Before(NamedTuple):
 # |a| is more than EVEN, and a change of sign is one between two rows that count, with none that counts between them.
 # `before` carries the last row that counted from one block of rows to the next.
 def _crossings(
-    poses: Floats, travels: Floats, benches: Sequence[int], limits: tuple[float, Indices], before: dict[int, _Before]
+    poses: Floats,
+    travels: Floats,
+    benches: Sequence[int],
+    limits: tuple[float, Indices],
+    before: dict[int, _Before],
+    budget: Budget,
 ) -> _Crossings:
     """The changes of sign of a in a block of rows, or since the one before it.
 
@@ -185,6 +189,7 @@ def _crossings(
     low, high = middles.min(axis=0) - SPARE, middles.max(axis=0) + SPARE
     rows, columns = np.arange(len(travels) + 1)[:, None], [_NONE]
     for k in benches:
+        budget.afford(float(len(travels)))
         near = np.flatnonzero(((low <= high[k] + far) & (high >= low[k] - far)).all(axis=1))
         near = near[(np.abs(near - k) > 1) & ~np.isin(near, gaps)]
         away = middles[:, near] - middles[:, k, None]
@@ -201,7 +206,8 @@ def _crossings(
         start = last[row, column]
         ends = moments[start, column], travels[row], along[start, column], along[row + 1, column]
         columns.append(_Crossings(np.full(row.size, k, dtype=np.intp), near[column], *ends))
-        before[k] = _Before(near, earlier[-1], np.take_along_axis(moments, last[-1:], axis=0)[0])
+        # A view of the last row would keep the block.
+        before[k] = _Before(near, earlier[-1].copy(), np.take_along_axis(moments, last[-1:], axis=0)[0])
     return _Crossings(*(np.concatenate(column) for column in zip(*columns, strict=True)))
 
 
