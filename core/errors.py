@@ -306,7 +306,7 @@ def question_about(name: str, kind: type, missing: str = "") -> Callable[[Callab
     """Decorator of a question: the first argument must be of this kind, and the end of the budget raises TooMuchWork.
 
     missing: which answer is missing then, as a clause of the message: "the first contact was not decided"; if empty,
-        the question itself raises TooMuchWork
+        the question itself raises TooMuchWork, and whatever else of it ends early has a general clause
     The type is checked before Python checks the number of arguments. Otherwise a call as in 0.1.0, with a dragon and a
     spiral, would get Python's message on that number, which does not say that the first one must be a dance.
     """
@@ -327,17 +327,18 @@ def question_about(name: str, kind: type, missing: str = "") -> Callable[[Callab
             try:
                 return question(*args, **kwargs)
             except (Halted, TooMuchWork) as ended:  # TooMuchWork comes from a part of the question
-                spent = ended.budget if isinstance(ended, Halted) else budget if ended.stopped else None
-                if not missing or spent is None:
+                spent = ended.budget if isinstance(ended, Halted) else budget if missing and ended.stopped else None
+                if spent is None:
                     raise
             arguments = signature(question).bind(*args, **kwargs).arguments
+            what = missing or "the answer was not found"
             result = arguments.get("contact") or arguments.get("encounter")
             if performance := arguments.get("performance") or getattr(result, "performance", None):
-                raise unanswered(spent, "parts", missing, len(performance.parts), "dragons", timed=True)
+                raise unanswered(spent, "parts", what, len(performance.parts), "dragons", timed=True)
             dance = arguments.get("dance") or getattr(result, "dance", None)
-            if dragon := arguments.get("dragon") or (dance and dance.dragon):
-                raise unanswered(spent, "dragon.benches", missing, dragon.benches, timed=bool(dance))
-            raise unanswered(spent, "benches", missing, len(arguments["poses"]))
+            if dragon := arguments.get("dragon") or getattr(dance or next(iter(arguments.values())), "dragon", None):
+                raise unanswered(spent, "dragon.benches", what, dragon.benches, timed=bool(dance))
+            raise unanswered(spent, "benches", what, len(arguments["poses"]))
 
         return answer
 
