@@ -12,6 +12,14 @@ NAME_MAX = 200
 UNPRINTABLE = ("Cc", "Cs", "Zl", "Zp")
 # Characters that turn the direction of writing around for what follows, beyond the name (Unicode, report 9).
 TURNING = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
+# Characters that no text holds, such as U+FFFE, and that XML forbids: two at the end of each plane, and these.
+NONCHARACTERS = range(0xFDD0, 0xFDF0)
+
+
+def is_printable(character: str) -> bool:
+    """True for a character that a line of text may hold."""
+    code = ord(character)
+    return category(character) not in UNPRINTABLE and code & 0xFFFE != 0xFFFE and code not in NONCHARACTERS
 
 
 def checked_name(field: str, name: object, what: str = "") -> None:
@@ -25,7 +33,7 @@ def checked_name(field: str, name: object, what: str = "") -> None:
         rule = "must be a string"
     elif len(name) > NAME_MAX:
         rule, got = "must have at most {most} characters", len(name)
-    elif any(category(one) in UNPRINTABLE or one in TURNING for one in name):
+    elif not all(is_printable(one) and one not in TURNING for one in name):
         rule = "must be one line of plain text"
     else:
         return

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
-from unicodedata import category
 
 import numpy as np
 
@@ -22,7 +21,7 @@ from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.display import format_count
 from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
-from core.names import NAME_MAX, UNPRINTABLE
+from core.names import NAME_MAX, is_printable
 from core.values import Floats, Point
 from core.venue import refuse_many_edges
 
@@ -401,7 +400,7 @@ class _Names:
         self.used: set[str] = set()
 
     def new(self, name: str) -> str:
-        bare = "".join(" " if category(one) in UNPRINTABLE else one for one in name)[: NAME_MAX - 8].strip() or "area"
+        bare = "".join(one if is_printable(one) else " " for one in name)[: NAME_MAX - 8].strip() or "area"
         unique, k = bare, 2
         while unique in self.used:
             unique, k = f"{bare} {k}", k + 1
