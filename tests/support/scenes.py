@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from core import separation
@@ -45,3 +46,27 @@ def unlinked_pairs(pose: Floats, size: Floats, margin: float = 0.0) -> set[tuple
     """Oracle: every pair that shares no handle, one by one, within the margin."""
     gaps = separation(pose[:, None], size[:, None], pose[None], size[None]).separation
     return {(int(a), int(b)) for a, b in np.argwhere(np.triu(gaps <= margin, k=2))}
+
+
+def outside(points: Floats, pose: Floats, size: Floats) -> Floats:
+    """How far a point lies outside a rectangle: 0 on its boundary, negative within. (..., 2) -> (...) [m]."""
+    offset = points - pose[..., :2]
+    cos, sin = np.cos(pose[..., 2]), np.sin(pose[..., 2])
+    along = np.abs(offset[..., 0] * cos + offset[..., 1] * sin) - size[..., 0] / 2
+    across = np.abs(offset[..., 1] * cos - offset[..., 0] * sin) - size[..., 1] / 2
+    return np.maximum(along, across)
+
+
+def shapely_of(polygons: list[list[Floats]]) -> shapely.MultiPolygon:
+    """Polygons, each given by its rings, as one shape of shapely's."""
+    return shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
+
+
+def random_pairs(count: int, seed: int) -> tuple[Floats, Floats, Floats, Floats]:
+    """Rectangles near each other, a third of them at multiples of 45 degrees: poses and sizes of both of each pair."""
+    random = np.random.default_rng(seed)
+    pose = random.uniform(-1.0, 1.0, (2, count, 3)) * [3.0, 3.0, math.pi]
+    square_on = random.random((2, count)) < 1 / 3
+    pose[square_on, 2] = random.integers(0, 8, square_on.sum()) * math.pi / 4
+    size = random.uniform(0.1, 3.0, (2, count, 2))
+    return pose[0], size[0], pose[1], size[1]

@@ -28,6 +28,7 @@ from core import (
 from core.kernels.constants import K_END, K_SLOPE, K_START, PART, S_END, S_START
 from core.paths import pieces
 from tests.support.exact_chain import BITS
+from tests.support.near import assert_near
 from tests.support.slow_route import ALMOST_AN_ARC, SlowRoute, clothoid_points
 
 # Stated accuracy of a place up to 20 m from the origin [m]; one curve written in two ways [m].
@@ -84,25 +85,25 @@ def test_places_and_tangents_are_those_of_scipy(first: float, last: float, lengt
     own = (
         SLOW if slope * length**2 < ALMOST_AN_ARC else max(SLOW, 1e-14 * (abs(first) / slope + 1.0 / math.sqrt(slope)))
     )
-    assert np.abs(route.position(s) - points).max() < own
-    assert np.abs(route.tangent(s) - tangents).max() < SLOW
+    assert_near(route.position(s), points, own)
+    assert_near(route.tangent(s), tangents, SLOW)
     bends = np.clip(first + (last - first) * s / length, min(first, last), max(first, last))
-    assert np.abs(route.curvature(s) - bends).max() < SAME
+    assert_near(route.curvature(s), bends, SAME)
 
 
 def test_a_clothoid_of_one_curvature_is_an_arc_or_a_line() -> None:
     s = np.linspace(-3.0, 12.0, 61)
     arc = Route([Arc((0.0, 2.0), 2.0, -0.5 * math.pi, 4.5)])
-    assert np.abs(Route([Clothoid((0, 0), 0.0, 0.5, 0.5, 9.0)]).position(s) - arc.position(s)).max() < SAME
+    assert_near(Route([Clothoid((0, 0), 0.0, 0.5, 0.5, 9.0)]).position(s), arc.position(s), SAME)
     line = Route([Line((0.0, 0.0), (9.0, 0.0))])
-    assert np.abs(Route([Clothoid((0, 0), 0.0, 0.0, 0.0, 9.0)]).position(s) - line.position(s)).max() < SAME
+    assert_near(Route([Clothoid((0, 0), 0.0, 0.0, 0.0, 9.0)]).position(s), line.position(s), SAME)
 
 
 def test_a_clothoid_danced_back_is_the_same_curve() -> None:
     ramp = CASES["to both sides"]
     back = Clothoid(ramp.end, ramp.end_heading + math.pi, -ramp.end_curvature, -ramp.start_curvature, ramp.length)
     s = np.linspace(0.0, ramp.length, 41)
-    assert np.abs(Route([ramp]).position(s) - Route([back]).position(ramp.length - s)).max() < 1e-9  # its heading's ULP
+    assert_near(Route([ramp]).position(s), Route([back]).position(ramp.length - s), 1e-9)  # its heading's ULP
 
 
 def test_every_row_bounds_its_curvature_and_turns_little() -> None:
@@ -167,8 +168,8 @@ def test_handles_are_those_of_the_slow_route() -> None:
     times = np.linspace(-5.0, route.end, 30)
     rates = np.diff(slow.handles(np.array([3.0 - 1e-5, 3.0 + 1e-5])), axis=0)[0] / 2e-5
     motion = trajectory(Dance(DRAGON, route), times)
-    assert np.abs(motion.position - slow.handles(times)).max() < 1e-10
-    assert np.abs(trajectory(Dance(DRAGON, route), [3.0]).velocity[0] - rates).max() < 1e-5
+    assert_near(motion.position, slow.handles(times), 1e-10)
+    assert_near(trajectory(Dance(DRAGON, route), [3.0]).velocity[0], rates, 1e-5)
 
 
 def test_a_growing_clothoid_at_the_beginning_is_calm() -> None:

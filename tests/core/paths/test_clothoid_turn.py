@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from core import ClothoidTurn, Dance, Dragon, InvalidValue, Outcome, Turn, first_contact, trajectory, turn_time
+from tests.support.near import assert_near
 from tests.support.slow_route import SlowRoute
 
 # A joint as it is accepted [m]; handles of the slow route [m].
@@ -26,19 +27,19 @@ def test_the_curvature_is_continuous_from_coil_to_coil() -> None:
 def test_short_clothoids_leave_the_turn_of_two_arcs(ratio: float) -> None:
     arcs = Turn(1.7, ratio=ratio, entry_radius=4.3, exit_radius=4.4)
     blended = ClothoidTurn(1.7, ratio=ratio, middle=1e-3, entry_radius=4.3, exit_radius=4.4)
-    assert blended.length == pytest.approx(arcs.length, rel=0, abs=1e-5)
-    assert blended.radii == pytest.approx(arcs.radii, rel=0, abs=1e-5)
+    assert_near(blended.length, arcs.length, 1e-5)
+    assert_near(blended.radii, arcs.radii, 1e-5)
     s = np.linspace(-5.0, arcs.length, 101)
-    assert np.abs(blended.position(s) - arcs.position(s)).max() < 1e-5
+    assert_near(blended.position(s), arcs.position(s), 1e-5)
 
 
 def test_it_ends_where_the_coil_outwards_begins() -> None:
     turn = ClothoidTurn(1.7, ratio=1.1, middle=2.0, ends=0.2, entry_radius=3.6, exit_radius=3.5)
     end = turn.position(turn.length)
-    assert math.hypot(*end) == pytest.approx(3.5, rel=0, abs=JOINT)
+    assert_near(math.hypot(*end), 3.5, JOINT)
     arcs = Turn(1.7, ratio=1.1, entry_radius=3.6, exit_radius=3.5)
-    assert end == pytest.approx(arcs.exit, rel=0, abs=JOINT)
-    assert turn.position(0.0) == pytest.approx(arcs.entry, rel=0, abs=JOINT)
+    assert_near(end, arcs.exit, JOINT)
+    assert_near(turn.position(0.0), arcs.entry, JOINT)
 
 
 def test_with_equal_arcs_opposite_ends_the_turn_is_its_own_reflection() -> None:
@@ -52,8 +53,8 @@ def test_its_arcs_and_the_place_between_them_lie_on_it() -> None:
     places, bends = turn.position(s), turn.curvature(s)
     for centre, radius, angle, side in zip(turn.centres, turn.radii, turn.angles, (-1.0, 1.0), strict=True):
         on_arc = np.abs(bends - side / radius) < 1e-12
-        assert on_arc.sum() * (s[1] - s[0]) == pytest.approx(radius * angle, rel=0, abs=2.0 * (s[1] - s[0]))
-        assert np.abs(np.hypot(*(places[on_arc] - centre).T) - radius).max() < JOINT
+        assert_near(on_arc.sum() * (s[1] - s[0]), radius * angle, 2.0 * (s[1] - s[0]))
+        assert_near(np.hypot(*(places[on_arc] - centre).T), radius, JOINT)
     between = int(np.argmin(np.hypot(*(places - turn.tangent_point).T)))
     assert np.hypot(*(places[between] - turn.tangent_point)) < s[1] - s[0]
     assert bends[between - 1] < 0.0 < bends[between + 1]
@@ -65,7 +66,7 @@ def test_handles_on_it_are_those_of_the_slow_route() -> None:
     dragon = Dragon(9)
     slow = SlowRoute.of(dragon, SMOOTH)
     times = np.linspace(0.0, SMOOTH.length + 15.0, 21)
-    assert np.abs(trajectory(Dance(dragon, SMOOTH), times).position - slow.handles(times)).max() < HANDLES
+    assert_near(trajectory(Dance(dragon, SMOOTH), times).position, slow.handles(times), HANDLES)
 
 
 def test_a_clothoid_between_the_arcs_makes_the_turn_quicker() -> None:
@@ -101,7 +102,7 @@ def test_what_is_no_turn_is_refused(ways: dict[str, float], field: str, words: s
 def test_the_extent_is_the_largest_distance_from_the_centre() -> None:
     for turn in (SMOOTH, ClothoidTurn(1.7, ratio=1.07, middle=2.265, entry_radius=3.417, exit_radius=3.57)):
         sampled = np.hypot(*turn.position(np.linspace(0.0, turn.length, 100_001)).T).max()
-        assert turn.extent == pytest.approx(sampled, rel=0, abs=1e-8)
+        assert_near(turn.extent, sampled, 1e-8)
         assert turn.extent <= turn.turning_radius + JOINT
 
 

@@ -15,6 +15,7 @@ from scipy.interpolate import CubicSpline
 from core import InvalidValue, Route, Waypoints
 from core.kernels.constants import CREST, K_END, K_SLOPE, K_START, PIECE_KIND, S_END, S_START
 from core.paths import cubics
+from tests.support.near import assert_near
 
 ARC_ERROR = 1e-10  # [m]
 # A place is an arc length, good to some 1e-15 of all of it; next to a sharp crest it moves the curvature most. Relative
@@ -53,7 +54,7 @@ def fine_length(points: Points) -> float:
 @pytest.mark.parametrize("points", [zigzag(60), zigzag(300), circle(300), wander(7)], ids=len)
 def test_the_length_of_many_legs_is_that_of_a_finer_quadrature(points: Points) -> None:
     route = Route([Waypoints(points)])
-    assert route.end == pytest.approx(fine_length(points), rel=0, abs=ARC_ERROR)
+    assert_near(route.end, fine_length(points), ARC_ERROR)
 
 
 @pytest.mark.parametrize(("points", "most"), [(zigzag(300), 6), (circle(300), 1.01)], ids=["zigzag", "circle"])
@@ -75,7 +76,7 @@ def assert_bounded(route: Route) -> None:
         assert low - error <= bends.min() <= bends.max() <= high + error
         assert (np.abs(np.diff(bends)) <= row[K_SLOPE] * np.diff(places) + 2.0 * error).all()
         if row[PIECE_KIND] != CREST:
-            assert bends[-1] == pytest.approx(row[K_END], rel=0, abs=error)
+            assert_near(bends[-1], row[K_END], error)
             assert (np.diff(bends) * math.copysign(1.0, row[K_END] - row[K_START]) >= -error).all()
         else:
             ends = route.curvature(np.array([row[S_START] + 1e-12, row[S_END]]))

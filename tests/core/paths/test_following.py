@@ -26,6 +26,7 @@ from core import (
 )
 from core.paths.following import ROOM_WIDTH, earliest_travel
 from tests.core.paths.test_route import DRAGON, PLACE_ERROR, SAME, first_behind
+from tests.support.near import assert_near
 
 
 def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place() -> None:
@@ -39,7 +40,7 @@ def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place() -> None:
 def test_a_start_before_the_beginning_of_the_path_is_refused() -> None:
     route = Route([Line((0, 0), (100, 0))])
     length = float(DRAGON.chords.sum())
-    assert trajectory(Dance(DRAGON, route), [length + 1e-6]).position[0, -1, 0] == pytest.approx(1e-6, abs=SAME)
+    assert_near(trajectory(Dance(DRAGON, route), [length + 1e-6]).position[0, -1, 0], 1e-6, SAME)
     with pytest.raises(OutsideRun, match=rf"at least {length:.5f}[01] s, when the whole dragon is on the path"):
         trajectory(Dance(DRAGON, route), [length - 0.001])
     with pytest.raises(OutsideRun) as e:
@@ -85,7 +86,7 @@ def test_a_path_too_short_for_the_dragon_says_so(ask: Callable[[Route], object],
 def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
     length = float(DRAGON.chords.sum())
     path = Route([Line((0, 0), (length + 1e-6, 0))])
-    assert check(Dance(DRAGON, path)).start == pytest.approx(length, abs=1e-6)
+    assert_near(check(Dance(DRAGON, path)).start, length, 1e-6)
 
 
 @pytest.mark.parametrize("begin", [0.0, 3.0])

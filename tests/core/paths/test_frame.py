@@ -26,6 +26,7 @@ from core import (
     venue_clearance,
 )
 from core.values import Floats
+from tests.support.near import assert_near
 
 DRAGON = Dragon(30)
 PLACES = {
@@ -74,7 +75,7 @@ def test_everything_that_has_a_place_is_moved(two: Two) -> None:
     assert (head.radius, head.theta) == (there.radius, there.theta)
     np.testing.assert_allclose([head.x, head.y], move(np.array([there.x, there.y])), **near)
     drawn = elsewhere.path.drawn(new.position)
-    np.testing.assert_allclose(drawn, move(standard.path.drawn(old.position)), rtol=0, atol=10 * ROUNDING)
+    assert_near(drawn, move(standard.path.drawn(old.position)), 10 * ROUNDING)
 
 
 def test_no_time_and_no_distance_depends_on_the_place(two: Two) -> None:
@@ -87,8 +88,7 @@ def test_no_time_and_no_distance_depends_on_the_place(two: Two) -> None:
         old.corner,
     )
     assert new.certificate.method == old.certificate.method
-    assert old.point is not None
-    np.testing.assert_allclose(new.point, move(np.array(old.point)), rtol=0, atol=ROUNDING)
+    assert_near(new.point, move(np.array(old.point)), ROUNDING)
     profile = clearance_profile(elsewhere, [0.0, 200.0])
     assert profile.clearance.tolist() == clearance_profile(standard, [0.0, 200.0]).clearance.tolist()
 
@@ -105,9 +105,9 @@ def test_a_venue_is_met_where_it_is(two: Two) -> None:
     new = venue_clearance(elsewhere, venue(move), stop=200.0)
     for one, other in zip(old.areas, new.areas, strict=True):
         assert (one.outcome, one.bench, one.nearest.bench) == (other.outcome, other.bench, other.nearest.bench)
-        assert other.nearest.distance == pytest.approx(one.nearest.distance, abs=ROUNDING)
-        np.testing.assert_allclose(other.nearest.point, move(np.array(one.nearest.point)), rtol=0, atol=1e-6)
-        np.testing.assert_allclose(other.nearest.wall, move(np.array(one.nearest.wall)), rtol=0, atol=1e-6)
+        assert_near(other.nearest.distance, one.nearest.distance, ROUNDING)
+        assert_near(other.nearest.point, move(np.array(one.nearest.point)), 1e-6)
+        assert_near(other.nearest.wall, move(np.array(one.nearest.wall)), 1e-6)
     assert new.misplaced == old.misplaced
     assert (
         check(elsewhere, venue=venue(move), stop=150.0).verdict
@@ -123,12 +123,11 @@ def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(two
     for rings, others in zip(old.polygons, new.polygons, strict=True):
         for ring, other in zip(rings, others, strict=True):
             flip = 1 if elsewhere.path.frame.clockwise else -1
-            np.testing.assert_allclose(other[::flip], move(ring), rtol=0, atol=ROUNDING)
+            assert_near(other[::flip], move(ring), ROUNDING)
     result = tolerance(elsewhere, **span)
-    assert result.exhibit is not None
     assert result.stray == tolerance(standard, **span).stray
     strays = result.exhibit.handles - trajectory(elsewhere, result.exhibit.time).position
-    assert np.hypot(*strays.T).max() == pytest.approx(result.exhibit.stray, abs=1e-9)
+    assert_near(np.hypot(*strays.T).max(), result.exhibit.stray, 1e-9)
 
 
 def test_a_spiral_lies_as_a_coil_does() -> None:
@@ -136,7 +135,7 @@ def test_a_spiral_lies_as_a_coil_does() -> None:
     spiral, coil = Spiral(0.55, 14.0, centre, rotation), Route([Coil(0.55, 14.0, 3.0, centre, rotation)])
     times = [0.0, 80.0, 200.0]
     ours, theirs = (trajectory(Dance(DRAGON, path), times).position for path in (spiral, coil))
-    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-10)
+    assert_near(ours, theirs, 1e-10)
 
 
 @pytest.mark.parametrize(

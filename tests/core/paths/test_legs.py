@@ -10,6 +10,7 @@ from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
 from core import Arc, Dragon, InvalidValue, Legs, Line, Route, Waypoints, course
+from tests.support.near import assert_near
 
 ON_THE_PATH = 1e-9  # [m]
 CORNER = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0)]
@@ -26,8 +27,8 @@ def test_a_corner_of_straight_legs_is_rounded_by_an_arc_of_the_radius() -> None:
     line, arc, _ = Legs(CORNER, [0, 1], radius=4.0).pieces
     assert isinstance(line, Line)
     assert isinstance(arc, Arc)
-    assert line.end == pytest.approx((16.0, 0.0), abs=ON_THE_PATH)
-    assert (*arc.centre, arc.radius, arc.sweep) == pytest.approx((16.0, 4.0, 4.0, math.pi / 2), abs=ON_THE_PATH)
+    assert_near(line.end, [16.0, 0.0], ON_THE_PATH)
+    assert_near([*arc.centre, arc.radius, arc.sweep], [16.0, 4.0, 4.0, math.pi / 2], ON_THE_PATH)
 
 
 def test_a_radius_too_large_for_a_leg_becomes_smaller() -> None:
@@ -80,7 +81,7 @@ def test_a_bend_is_too_tight_where_its_radius_is_below_what_the_longest_bench_ne
     tight, wide = (course(Legs(CORNER, [0, 1], radius=radius), Dragon(9)) for radius in (1.40, 1.45))
     assert wide.bends == ()
     (bend,) = tight.bends
-    assert (bend.start, bend.end) == pytest.approx((18.6, 18.6 + 1.4 * math.pi / 2), abs=ON_THE_PATH)
+    assert_near([bend.start, bend.end], [18.6, 18.6 + 1.4 * math.pi / 2], ON_THE_PATH)
     assert (bend.radius, bend.bench) == (pytest.approx(1.40), 0)
     assert 1.40 < bend.least_radius < 1.45
     assert np.hypot(*(bend.points - (18.6, 1.4)).T) == pytest.approx(1.4)

@@ -9,6 +9,7 @@ import pytest
 
 from core import Arc, Coil, Line, Route, Spiral, Turn, Waypoints, kernels
 from core.paths.path import Path
+from tests.support.near import assert_near
 
 PATHS: dict[str, Path] = {
     "spiral": Spiral(0.55, 16.0),
@@ -35,8 +36,8 @@ def test_the_tangent_is_the_change_of_the_position_with_arc_length(path: Path) -
     s = places(path)
     tangent = path.tangent(s)
     quotient = (path.position(s + STEP) - path.position(s - STEP)) / (2.0 * STEP)
-    np.testing.assert_allclose(np.linalg.norm(tangent, axis=-1), 1.0, rtol=0, atol=1e-14)
-    np.testing.assert_allclose(quotient, tangent, rtol=0, atol=QUOTIENT_ERROR)
+    assert_near(np.linalg.norm(tangent, axis=-1), 1.0, 1e-14)
+    assert_near(quotient, tangent, QUOTIENT_ERROR)
 
 
 @pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
@@ -45,7 +46,7 @@ def test_the_curvature_is_the_change_of_the_tangent_to_the_left(path: Path) -> N
     tangent = path.tangent(s)
     left = np.stack([-tangent[..., 1], tangent[..., 0]], axis=-1)
     change = (path.tangent(s + STEP) - path.tangent(s - STEP)) / (2.0 * STEP)
-    np.testing.assert_allclose((change * left).sum(axis=-1), path.curvature(s), rtol=0, atol=QUOTIENT_ERROR)
+    assert_near((change * left).sum(axis=-1), path.curvature(s), QUOTIENT_ERROR)
 
 
 @pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
@@ -61,10 +62,8 @@ def test_one_place_has_the_answer_that_it_has_among_many(path: Path) -> None:
 def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path: Path) -> None:
     for s in places(path)[:20].tolist():
         head = path.head(s)
-        np.testing.assert_allclose((head.x, head.y), path.position(s), rtol=0, atol=ON_PATH)
-        assert head.radius == pytest.approx(
-            math.hypot(head.x - path.frame.centre[0], head.y - path.frame.centre[1]), rel=0, abs=ON_PATH
-        )
+        assert_near((head.x, head.y), path.position(s), ON_PATH)
+        assert_near(head.radius, math.hypot(head.x - path.frame.centre[0], head.y - path.frame.centre[1]), ON_PATH)
         assert (head.theta is None) is (path.spiral is None)
 
 
@@ -76,17 +75,17 @@ def test_a_chain_follows_the_head_along_the_path_with_its_chords(path: Path) -> 
     for lag, request in zip(path.lags(s, 0.0).tolist(), s.tolist(), strict=True):
         path.follow(lag, 3, sizes, chain)
         handles = path.along(chain[:, kernels.LAG])
-        assert handles[0] == pytest.approx(request, abs=ON_PATH)
+        assert_near(handles[0], request, ON_PATH)
         assert (np.diff(handles) < 0.0).all()
         chords = np.linalg.norm(np.diff(path.position(handles), axis=0), axis=-1)
-        np.testing.assert_allclose(chords, sizes[:3, kernels.CHORD], rtol=0, atol=ON_PATH)
+        assert_near(chords, sizes[:3, kernels.CHORD], ON_PATH)
 
 
 @pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
 def test_the_path_as_a_route_is_the_same_in_its_own_frame(path: Path) -> None:
     s = places(path)
     route = path.as_route(60.0)
-    np.testing.assert_allclose(path.frame.points(route.position(s)), path.position(s), rtol=0, atol=ON_PATH)
+    assert_near(path.frame.points(route.position(s)), path.position(s), ON_PATH)
     assert route.spiral is None
 
 
@@ -106,5 +105,5 @@ def test_the_curvature_is_below_its_bounds(path: Path) -> None:
 def test_a_drawing_of_the_whole_path_begins_where_its_first_point_is(path: Path) -> None:
     low, high = path.drawn_between(path.begin, path.end)
     assert (low, high) == (path.begin, path.end)
-    assert path.drawn_begin(path.position(np.array([low, low + 5.0]))) == pytest.approx(low, abs=ON_PATH)
+    assert_near(path.drawn_begin(path.position(np.array([low, low + 5.0]))), low, ON_PATH)
     assert path.drawn_between(-1e4, path.end)[0] == (-1e4 if path.spiral else path.begin)

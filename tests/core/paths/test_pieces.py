@@ -17,6 +17,7 @@ from scipy.interpolate import CubicSpline
 from core import Arc, Clothoid, Coil, InvalidValue, Line, Piece, Route, Waypoints
 from core.kernels.constants import K_SLOPE, S_START
 from tests.core.paths.test_route import Pen, legs
+from tests.support.near import assert_near
 
 ARC_ERROR = 1e-10  # [m]: arc length of curves through waypoints
 
@@ -116,9 +117,9 @@ def arc_of(spline: CubicSpline, knots: np.ndarray, end: float) -> float:
 def test_the_arc_length_through_waypoints_is_scipys() -> None:
     route = Route([Waypoints(POINTS)])
     spline, knots = spline_of(POINTS)
-    assert route.end - route.begin == pytest.approx(arc_of(spline, knots, knots[-1]), abs=ARC_ERROR)
+    assert_near(route.end - route.begin, arc_of(spline, knots, knots[-1]), ARC_ERROR)
     for t in np.linspace(0.7, knots[-1] - 0.1, 12):
-        assert np.abs(route.position(arc_of(spline, knots, t)) - spline(t)).max() < ARC_ERROR
+        assert_near(route.position(arc_of(spline, knots, t)), spline(t), ARC_ERROR)
 
 
 @settings(max_examples=25, deadline=None)
@@ -129,31 +130,31 @@ def test_the_arc_length_through_random_waypoints_is_scipys(steps: list[tuple[flo
     points = pen.pieces[0].points
     spline, knots = spline_of(points)
     route = Route([Waypoints(points)])
-    assert route.end - route.begin == pytest.approx(arc_of(spline, knots, knots[-1]), abs=ARC_ERROR)
+    assert_near(route.end - route.begin, arc_of(spline, knots, knots[-1]), ARC_ERROR)
 
 
 def test_the_curve_passes_through_its_waypoints_without_a_jump_of_curvature() -> None:
     route = Route([Waypoints(POINTS)])
     spline, knots = spline_of(POINTS)
     at_knots = [arc_of(spline, knots, t) for t in knots[1:-1]]
-    assert np.abs(route.position(np.array(at_knots)) - POINTS[1:-1]).max() < ARC_ERROR
+    assert_near(route.position(np.array(at_knots)), POINTS[1:-1], ARC_ERROR)
     inner = np.array([*at_knots, *route.table[1:, S_START]])
     step = 1e-7
-    assert np.abs(route.curvature(inner + step) - route.curvature(inner - step)).max() < 1e-6  # slope below 5 / m^2
+    assert_near(route.curvature(inner + step), route.curvature(inner - step), 1e-6)  # slope below 5 / m^2
     assert np.abs(route.curvature(np.array([route.begin, route.end]))).max() < 1e-9  # natural ends
 
 
 def test_waypoints_take_the_headings_at_their_ends() -> None:
     route = Route([Waypoints(POINTS, start_heading=0.3, end_heading=-2.0)])
     ends = route.tangent(np.array([route.begin, route.end]))
-    assert ends == pytest.approx(np.array([[math.cos(a), math.sin(a)] for a in (0.3, -2.0)]), abs=1e-12)
+    assert_near(ends, np.array([[math.cos(a), math.sin(a)] for a in (0.3, -2.0)]), 1e-12)
 
 
 def test_two_waypoints_are_a_line() -> None:
     a, b = Route([Waypoints(((0, 0), (3, 4)))]), Route([Line((0, 0), (3, 4))])
     s = np.linspace(0.0, 5.0, 11)
-    assert a.end == pytest.approx(5.0, abs=1e-14)
-    assert np.abs(a.position(s) - b.position(s)).max() < 1e-13
+    assert_near(a.end, 5.0, 1e-14)
+    assert_near(a.position(s), b.position(s), 1e-13)
 
 
 @settings(deadline=None)

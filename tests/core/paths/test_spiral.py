@@ -13,6 +13,7 @@ from scipy.integrate import quad
 from core import InvalidValue, Spiral
 from core.errors import SIZE_MAX, SIZE_MIN
 from core.paths.spiral import START_TURNS_MAX
+from tests.support.near import assert_near
 
 pytestmark = pytest.mark.uncompiled
 
@@ -24,7 +25,7 @@ STEP = 1e-5
 
 
 def test_the_length_is_that_of_the_paper() -> None:
-    assert Spiral().length == pytest.approx(442.590256, abs=5e-7)
+    assert_near(Spiral().length, 442.590256, 5e-7)
 
 
 @pytest.mark.parametrize("turns", [0.01, 0.7, 3.0, 16.0])
@@ -43,8 +44,8 @@ def test_points_lie_on_the_spiral_at_their_arc_length(spiral: Spiral, share: flo
     x, y = spiral.position(s)
     assert math.hypot(x, y) == pytest.approx(spiral.growth * theta, rel=1e-14)
     back = spiral.length - spiral.growth / 2 * (theta * math.sqrt(1 + theta**2) + math.asinh(theta))
-    assert back == pytest.approx(s, abs=1e-14 * spiral.length)
-    assert math.remainder(math.atan2(y, x) - theta, 2 * math.pi) == pytest.approx(0.0, abs=1e-12)
+    assert_near(back, s, 1e-14 * spiral.length)
+    assert_near(math.remainder(math.atan2(y, x) - theta, 2 * math.pi), 0.0, 1e-12)
 
 
 @given(SPIRALS, st.floats(-0.5, 0.999))
@@ -52,7 +53,7 @@ def test_the_tangent_is_the_difference_quotient_of_the_position(spiral: Spiral, 
     s, h = share * spiral.length, STEP * spiral.length * (1 - share)
     quotient = (spiral.position(s + h) - spiral.position(s - h)) / (2 * h)
     tangent = spiral.tangent(s)
-    assert np.linalg.norm(tangent) == pytest.approx(1.0, abs=1e-14)
+    assert_near(np.linalg.norm(tangent), 1.0, 1e-14)
     np.testing.assert_allclose(quotient, tangent, atol=1e-5)
 
 
@@ -96,7 +97,7 @@ def test_scaling_the_pitch_scales_the_points(spiral: Spiral, k: float, share: fl
     scaled = Spiral(k * spiral.pitch, spiral.start_turns)
     point = k * spiral.position(share * spiral.length)
     size = k * spiral.growth * spiral.start_theta
-    np.testing.assert_allclose(scaled.position(share * scaled.length), point, rtol=0, atol=ROUNDING * 100 * size)
+    assert_near(scaled.position(share * scaled.length), point, ROUNDING * 100 * size)
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,7 @@ from core import (
     trajectory,
 )
 from core.errors import Quantity
+from tests.support.near import assert_near
 from tests.support.reference import reference
 
 REFERENCE = reference("turn")
@@ -97,12 +98,12 @@ def test_a_free_exit_leaves_on_the_coil_outwards_in_its_direction(
 ) -> None:
     turn = Turn(1.7, ratio=ratio, entry_radius=entry, exit_radius=leaving)
     assert (turn.entry_radius, turn.exit_radius) == (entry, leaving)
-    assert turn.length == pytest.approx(length, abs=5e-5)
+    assert_near(turn.length, length, 5e-5)
     assert turn.radii[0] / turn.radii[1] == pytest.approx(ratio, rel=1e-14)
     coil = Route([Coil(1.7, leaving / 1.7, 16.0, rotation=np.pi)])
     s = turn.joints[2] - turn.joints[0]
-    assert turn.position(s) == pytest.approx(coil.position(0.0), abs=1e-12)
-    assert turn.tangent(s) == pytest.approx(coil.tangent(0.0), abs=1e-12)
+    assert_near(turn.position(s), coil.position(0.0), 1e-12)
+    assert_near(turn.tangent(s), coil.tangent(0.0), 1e-12)
     places = np.linspace(0.0, turn.length, 20_001)
     furthest = np.linalg.norm(turn.position(places), axis=-1).max()
     assert furthest <= 4.5 + 1e-9
@@ -113,7 +114,7 @@ def test_a_free_exit_leaves_on_the_coil_outwards_in_its_direction(
 def test_an_exit_equal_to_the_entry_is_the_default() -> None:
     assert Turn(1.7, entry_radius=4.3, exit_radius=4.3) == Turn(1.7, entry_radius=4.3)
     near = Turn(1.7, entry_radius=4.3, exit_radius=4.3 + 1e-9)
-    assert near.length == pytest.approx(Turn(1.7, entry_radius=4.3).length, abs=1e-7)
+    assert_near(near.length, Turn(1.7, entry_radius=4.3).length, 1e-7)
 
 
 @pytest.mark.uncompiled
@@ -134,10 +135,10 @@ def test_arcs_that_leave_the_circle_are_refused_with_their_distance(ratio: float
 @pytest.mark.uncompiled
 def test_the_turn_has_the_reference_arcs() -> None:
     known = REFERENCE["turn"]
-    assert TURN.length == pytest.approx(known["length"], abs=REFERENCE_ERROR)
+    assert_near(TURN.length, known["length"], REFERENCE_ERROR)
     for name in ("radii", "angles", "entry", "exit", "tangent_point"):
         assert getattr(TURN, name) == pytest.approx(known[name], abs=REFERENCE_ERROR), name
-    assert np.array(TURN.centres) == pytest.approx(np.array(known["centres"]), abs=REFERENCE_ERROR)
+    assert_near(np.array(TURN.centres), np.array(known["centres"]), REFERENCE_ERROR)
 
 
 @pytest.mark.uncompiled
@@ -147,8 +148,8 @@ def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
     handles = [row["handle"] for row in table["handles"]]
     known = np.array([[row["x"], row["y"], row["speed"]] for row in table["handles"]])
     assert len(handles) > 5
-    assert np.abs(motion.position[0, handles] - known[:, :2]).max() < REFERENCE_ERROR
-    assert np.abs(motion.speed[0, handles] - known[:, 2]).max() < REFERENCE_ERROR
+    assert_near(motion.position[0, handles], known[:, :2], REFERENCE_ERROR)
+    assert_near(motion.speed[0, handles], known[:, 2], REFERENCE_ERROR)
 
 
 @pytest.mark.uncompiled
@@ -156,15 +157,13 @@ def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
     known = REFERENCE["clearance"]
     start, stop = known["interval"]
     least = least_clearance(Dance(Dragon(), TURN), start=start, stop=stop)
-    assert least is not None
-    assert least.distance == pytest.approx(known["least"], abs=REFERENCE_ERROR)
-    assert least.time == pytest.approx(known["time"], abs=REFERENCE_ERROR)
+    assert_near(least.distance, known["least"], REFERENCE_ERROR)
+    assert_near(least.time, known["time"], REFERENCE_ERROR)
     assert list(least.benches) == known["benches"]
-    assert least.at_least is not None
     assert least.distance - 1.1e-5 < least.at_least <= least.distance
     assert first_contact(Dance(Dragon(), TURN), start=start, stop=stop, margin=known["least"] - 1e-9).time is None
     graze = first_contact(Dance(Dragon(), TURN), start=start, stop=stop, margin=known["least"] + 1e-9)
-    assert graze.time == pytest.approx(known["time"], abs=1e-3)
+    assert_near(graze.time, known["time"], 1e-3)
 
 
 def test_a_free_exit_gives_the_arcs_that_root_finding_gives() -> None:
