@@ -26,82 +26,74 @@ QUOTIENT_ERROR = 1e-6
 ON_PATH = 1e-9
 
 
-def places(path: Path) -> np.ndarray:
+@pytest.fixture(params=PATHS.values(), ids=PATHS)
+def path(request: pytest.FixtureRequest) -> Path:
+    return request.param
+
+
+@pytest.fixture
+def s(path: Path) -> np.ndarray:
     """Arc lengths of the head at random, none so near to a joint of the pieces above that a quotient spans it [m]."""
     return np.random.default_rng(3).uniform(max(path.begin, -30.0) + 0.1, min(path.end, 60.0) - 0.1, 200)
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_the_tangent_is_the_change_of_the_position_with_arc_length(path: Path) -> None:
-    s = places(path)
+def test_the_tangent_is_the_change_of_the_position_and_the_curvature_of_the_tangent(path: Path, s: np.ndarray) -> None:
     tangent = path.tangent(s)
-    quotient = (path.position(s + STEP) - path.position(s - STEP)) / (2.0 * STEP)
-    assert_near(np.linalg.norm(tangent, axis=-1), 1.0, 1e-14)
-    assert_near(quotient, tangent, QUOTIENT_ERROR)
-
-
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_the_curvature_is_the_change_of_the_tangent_to_the_left(path: Path) -> None:
-    s = places(path)
-    tangent = path.tangent(s)
+    ahead, bend = ((ask(s + STEP) - ask(s - STEP)) / (2.0 * STEP) for ask in (path.position, path.tangent))
+    assert_near(np.linalg.norm(tangent, axis=-1), np.ones(s.size), 1e-14)
+    assert_near(ahead, tangent, QUOTIENT_ERROR)
     left = np.stack([-tangent[..., 1], tangent[..., 0]], axis=-1)
-    change = (path.tangent(s + STEP) - path.tangent(s - STEP)) / (2.0 * STEP)
-    assert_near((change * left).sum(axis=-1), path.curvature(s), QUOTIENT_ERROR)
+    assert_near((bend * left).sum(axis=-1), path.curvature(s), QUOTIENT_ERROR)
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_one_place_has_the_answer_that_it_has_among_many(path: Path) -> None:
-    s = places(path)[:20].reshape(4, 5)
+def test_one_place_has_the_answer_that_it_has_among_many(path: Path, s: np.ndarray) -> None:
+    places = s[:20].reshape(4, 5)
     for ask in (path.position, path.tangent, path.curvature):
-        many = ask(s)
+        many = ask(places)
         assert many.shape[:2] == (4, 5)
-        assert many[2, 3].tolist() == np.asarray(ask(float(s[2, 3]))).tolist()
+        assert many[2, 3].tolist() == np.asarray(ask(float(places[2, 3]))).tolist()
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path: Path) -> None:
-    for s in places(path)[:20].tolist():
-        head = path.head(s)
-        assert_near((head.x, head.y), path.position(s), ON_PATH)
-        assert_near(head.radius, math.hypot(head.x - path.frame.centre[0], head.y - path.frame.centre[1]), ON_PATH)
+def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path: Path, s: np.ndarray) -> None:
+    for travel in [*s[:20].tolist(), path.end if math.isfinite(path.end) else 0.0]:
+        head = path.head(travel)
+        assert_near([head.x, head.y], path.position(travel), ON_PATH)
+        assert_near(head.radius, math.dist((head.x, head.y), path.frame.centre), ON_PATH)
         assert (head.theta is None) is (path.spiral is None)
+    assert path.limit >= path.end
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
 def test_a_chain_follows_the_head_along_the_path_with_its_chords(path: Path) -> None:
     sizes, chain = np.zeros((4, kernels.SIZE_COLUMNS)), np.zeros((4, kernels.CHAIN_COLUMNS))
     sizes[:, kernels.CHORD] = 2.86, 1.65, 1.65, 0.0
-    s = np.array([path.begin + 9.0, path.begin + 11.0])
-    for lag, request in zip(path.lags(s, 0.0).tolist(), s.tolist(), strict=True):
+    starts = path.begin + np.array([9.0, 11.0])
+    for lag, start in zip(path.lags(starts, 0.0).tolist(), starts, strict=True):
         path.follow(lag, 3, sizes, chain)
         handles = path.along(chain[:, kernels.LAG])
-        assert_near(handles[0], request, ON_PATH)
+        assert_near(handles[0], start, ON_PATH)
         assert (np.diff(handles) < 0.0).all()
         chords = np.linalg.norm(np.diff(path.position(handles), axis=0), axis=-1)
         assert_near(chords, sizes[:3, kernels.CHORD], ON_PATH)
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_the_path_as_a_route_is_the_same_in_its_own_frame(path: Path) -> None:
-    s = places(path)
+def test_the_path_as_a_route_is_the_same_in_its_own_frame(path: Path, s: np.ndarray) -> None:
     route = path.as_route(60.0)
     assert_near(path.frame.points(route.position(s)), path.position(s), ON_PATH)
     assert route.spiral is None
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
 def test_the_curvature_is_below_its_bounds(path: Path) -> None:
     s = np.linspace(path.begin, path.end, 2_000)[:-1]
     bends = np.abs(path.curvature(s))
-    assert bends.max() <= path.sharpest_before(float(s.max())) * (1.0 + 1e-12)
+    assert bends.max() <= path.sharpest_before(float(s[-1])) * (1.0 + 1e-12)
     if path.spiral is not None:
         gentle = path.along(np.array(path.gentle_lag(0.5)))
         assert bends[s <= gentle].max() <= 0.5 < bends.max()
-    tight = np.array([any(a <= one <= b for a, b, _ in path.tighter(2.5)) for one in s.tolist()])
-    assert path.spiral is not None or (bends[~tight] <= 0.4).all()
+    else:
+        tight = sum((a <= s) & (s <= b) for a, b, _ in path.tighter(2.5))
+        assert (bends[tight == 0] <= 0.4).all()
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
 def test_a_drawing_of_the_whole_path_begins_where_its_first_point_is(path: Path) -> None:
     low, high = path.drawn_between(path.begin, path.end)
     assert (low, high) == (path.begin, path.end)
