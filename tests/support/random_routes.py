@@ -10,7 +10,7 @@ from hypothesis import assume
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from core import Arc, Coil, Dragon, Line, Route, Waypoints
+from core import Arc, Clothoid, Coil, Dragon, Line, Route, Waypoints
 
 DRAGON = Dragon(benches=16, head_length=1.8, body_length=1.4, width=0.3, overhang=0.2)
 
@@ -40,6 +40,10 @@ class Pen:
         self.pieces.append(Coil(pitch, start, end, (centre.real, centre.imag), rotation))
         self.place = centre + cmath.rect(growth * last, last + rotation)
         self.heading = cmath.phase(sign * complex(1.0, last)) + last + rotation
+
+    def clothoid(self, first: float, last: float, length: float) -> None:
+        self.pieces.append(Clothoid((self.place.real, self.place.imag), self.heading, first, last, length))
+        self.place, self.heading = complex(*self.pieces[-1].end), self.pieces[-1].end_heading
 
     def waypoints(self, legs: list[tuple[float, float]]) -> None:
         points, place, heading = [self.place], self.place, self.heading

@@ -18,8 +18,9 @@ from core import (
     least_clearance,
 )
 from core.contact.clearance import PROOF_WIDTHS
-from tests.core.contact.test_first_contact import ROUNDING, random_dance
+from tests.core.contact.test_first_contact import ROUNDING
 from tests.support.near import assert_near
+from tests.support.random_dances import random_dance
 from tests.support.refused import refused
 from tests.support.slow_search import SlowDance
 from tests.support.thorough import thorough
@@ -101,14 +102,12 @@ def test_a_stop_just_before_the_fold_is_proven_as_the_fold_is(dance: Dance, befo
 
 @pytest.mark.parametrize("seed", range(400, 406))
 def test_the_profile_is_the_least_separation_of_all_pairs(seed: int) -> None:
-    dragon, spiral = random_dance(seed, seed % 2 == 0)
-    dance, slow_dance = Dance(dragon, spiral), SlowDance.of(dragon, spiral)
+    dance, slow = random_dance(seed, seed % 2 == 0)
     times = np.linspace(0.0, 0.999 * dance.end.time, 25)
-    profile = clearance_profile(dance, times)
-    slow, pairs = slow_dance.clearance(times)
-    assert_near(profile.clearance, slow, 1e-10)
+    profile, (least, pairs) = clearance_profile(dance, times), slow.clearance(times)
+    assert_near(profile.clearance, least, 1e-10)
     for k in np.flatnonzero((profile.benches != pairs).any(axis=1)):
-        assert_near(slow_dance.pair_gap(times[k], tuple(profile.benches[k])), slow[k], 1e-10)
+        assert_near(slow.pair_gap(times[k], tuple(profile.benches[k])), least[k], 1e-10)
 
 
 def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips() -> None:

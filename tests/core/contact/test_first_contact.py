@@ -16,7 +16,6 @@ from core import (
     Dragon,
     EndReason,
     FailureKind,
-    InvalidValue,
     Judgement,
     Outcome,
     Report,
@@ -34,6 +33,7 @@ from core.contact.search import MARGIN_MAX
 from core.design.pitch_bands import BORDER_WIDTH
 from tests.support.depth import examples, some
 from tests.support.near import assert_near
+from tests.support.random_dances import random_dance
 from tests.support.reference import reference_cases
 from tests.support.refused import refused
 from tests.support.slow_search import SlowDance
@@ -72,36 +72,9 @@ def test_every_case_of_the_reference_is_met(name: str) -> None:
         assert contact.certificate.clear_until == contact.end.time
 
 
-def random_dragon(rng: np.random.Generator, bench_by_bench: bool) -> Dragon:
-    benches = int(rng.choice([3, 4, 6, 10, 20, 40]))
-    chord = 10 ** rng.uniform(-0.3, 0.4)
-    overhang = rng.choice([0.0, rng.uniform(0.0, 0.3)])
-    head, width = chord * 10 ** rng.uniform(-0.3, 0.3), 10 ** rng.uniform(-1.5, -0.3)
-    if not bench_by_bench:
-        return Dragon(benches, head + 2 * overhang, chord + 2 * overhang, width, overhang)
-    chords = np.where(rng.random(benches) < 0.5, chord, chord * 10 ** rng.uniform(-0.3, 0.3, benches))
-    chords[int(rng.integers(1, benches + 1)) :] = chord
-    widths = width * rng.choice([1.0, 2.0], benches)
-    return Dragon.of(chords + 2 * overhang, widths, np.full(benches, overhang))
-
-
-def random_dance(seed: int, bench_by_bench: bool) -> tuple[Dragon, Spiral]:
-    """A dragon that stands apart at the start of a spiral short enough for the slow search."""
-    rng = np.random.default_rng(seed)
-    while True:
-        dragon = random_dragon(rng, bench_by_bench)
-        spiral = Spiral(dragon.widths.max() * rng.uniform(1.2, 4.0), rng.uniform(1.0, 6.0))
-        try:
-            way = Dance(dragon, spiral).end.time
-        except InvalidValue:
-            continue
-        if 2.0 < way / dragon.chords.min() < 60.0 and SlowDance.of(dragon, spiral).clearance([0.0])[0][0] > 0.0:
-            return dragon, spiral
-
-
-def assert_as_slow_search(dragon: Dragon, spiral: Spiral, margin: float = 0.0) -> None:
-    contact = first_contact(Dance(dragon, spiral), margin=margin)
-    slow = SlowDance.of(dragon, spiral)
+def assert_as_slow_search(dance: Dance, margin: float = 0.0) -> None:
+    contact = first_contact(dance, margin=margin)
+    slow = SlowDance.of(dance.dragon, dance.path)
     touch = slow.first_touch(margin)
     if touch is None:
         assert contact.outcome is Outcome.CLEAR
@@ -126,23 +99,8 @@ SEEDS = [
 def test_random_dragons_touch_when_and_where_the_slow_search_says(
     seed: int, bench_by_bench: bool, margin: float
 ) -> None:
-    dragon, spiral = random_dance(seed, bench_by_bench)
-    assert_as_slow_search(dragon, spiral, margin * float(SlowDance.of(dragon, spiral).clearance([0.0])[0][0]))
-
-
-@pytest.mark.parametrize("seed", some(range(300, 312), 6))
-def test_the_general_way_agrees_with_the_family_of_a_uniform_body(seed: int) -> None:
-    """The last bench is longer by a nanometre: no two benches form a family, and nothing else changes."""
-    dragon, spiral = random_dance(seed, False)
-    lengths = np.array(dragon.lengths)
-    lengths[-1] += 1e-9
-    general = Dragon.of(lengths, dragon.widths, dragon.overhangs)
-    assert general.uniform_from == dragon.benches - 1
-    family, general_way = (first_contact(Dance(each, spiral)) for each in (dragon, general))
-    assert family.outcome == general_way.outcome
-    if family.outcome is Outcome.CONTACT and dragon.benches - 1 not in family.benches:
-        assert_near(general_way.time, family.time, ACCURACY)
-        assert general_way.benches == family.benches
+    dance, slow = random_dance(seed, bench_by_bench)
+    assert_as_slow_search(dance, margin * float(slow.clearance([0.0])[0][0]))
 
 
 @pytest.mark.parametrize("benches", [223, 224, 1000, 100_000])
@@ -155,7 +113,7 @@ def test_benches_that_the_contact_does_not_reach_change_nothing(benches: int) ->
 def test_the_last_bench_that_matters_is_found_among_three_hundred() -> None:
     """Short benches on tight spirals, where neighbouring rings meet; a slow search of 60 benches finds the same."""
     many, few = (Dragon(benches, 0.7, 0.7, 0.2, 0.1) for benches in (300, 60))
-    assert_as_slow_search(many, Spiral(0.2055, 5.5))  # at the start
+    assert_as_slow_search(Dance(many, Spiral(0.2055, 5.5)))  # at the start
     contact = first_contact(Dance(many, Spiral(0.2232, 12.0)))
     time, pair = SlowDance.of(few, Spiral(0.2232, 12.0)).first_touch()
     assert contact.benches == pair == (0, 31)
@@ -164,19 +122,19 @@ def test_the_last_bench_that_matters_is_found_among_three_hundred() -> None:
 
 # Start inside the region in which rings can touch: pairs far down the body are met before the body repeats itself.
 @pytest.mark.parametrize(
-    ("dragon", "spiral"),
+    "dance",
     [
-        (Dragon(8, 1.0, 2.0, 0.1, 0.1), Spiral(0.9, 1.4)),
+        Dance(Dragon(8, 1.0, 2.0, 0.1, 0.1), Spiral(0.9, 1.4)),
         *thorough(
-            (Dragon(40, 1.0, 2.0, 0.1, 0.3), Spiral(0.42, 2.6)),
-            (Dragon(60, 0.6, 1.4, 0.2, 0.2), Spiral(0.36, 4.3)),
-            (Dragon(60, 1.4, 1.4, 0.2, 0.2), Spiral(0.38, 2.9)),
+            Dance(Dragon(40, 1.0, 2.0, 0.1, 0.3), Spiral(0.42, 2.6)),
+            Dance(Dragon(60, 0.6, 1.4, 0.2, 0.2), Spiral(0.36, 4.3)),
+            Dance(Dragon(60, 1.4, 1.4, 0.2, 0.2), Spiral(0.38, 2.9)),
         ),
     ],
     ids=["one-turn", "long-overhang", "short-head", "uniform"],
 )
-def test_a_start_near_the_centre_is_searched_with_all_pairs(dragon: Dragon, spiral: Spiral) -> None:
-    assert_as_slow_search(dragon, spiral)
+def test_a_start_near_the_centre_is_searched_with_all_pairs(dance: Dance) -> None:
+    assert_as_slow_search(dance)
 
 
 def test_contact_at_the_start_names_a_touching_pair() -> None:
@@ -375,21 +333,21 @@ DANCES = st.integers(0, 10_000).map(lambda seed: random_dance(seed, seed % 3 == 
 # Three random dances in ten have a contact: about once in a hundred runs fifty without one come before ten with one.
 @settings(max_examples=examples(8, 25), deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 @given(DANCES)
-def test_all_is_clear_just_before_first_contact_and_not_just_after(dance: tuple[Dragon, Spiral]) -> None:
-    contact = first_contact(Dance(*dance))
+def test_all_is_clear_just_before_first_contact_and_not_just_after(both: tuple[Dance, SlowDance]) -> None:
+    dance, slow = both
+    contact = first_contact(dance)
     assume(contact.outcome is Outcome.CONTACT)
     clear, within = contact.time_bracket
-    times = [*(clear * (1.0 - np.array([0.0, 1e-9, 1e-6, 1e-3, 0.01, 0.1, 0.5]))), within]
-    gaps, _ = SlowDance.of(*dance).clearance(times)
+    gaps, _ = slow.clearance([*(clear * (1.0 - np.array([0.0, 1e-9, 1e-6, 1e-3, 0.01, 0.1, 0.5]))), within])
     assert gaps[:-1].min() > -ROUNDING
     assert gaps[-1] <= ROUNDING
 
 
 @settings(max_examples=examples(15, 40), deadline=None)
 @given(DANCES, st.floats(0.1, 10.0), st.floats(0.1, 10.0))
-def test_lengths_and_speed_scale_the_answer(dance: tuple[Dragon, Spiral], k: float, speed: float) -> None:
-    dragon, spiral = dance
-    contact = first_contact(Dance(dragon, spiral))
+def test_lengths_and_speed_scale_the_answer(both: tuple[Dance, SlowDance], k: float, speed: float) -> None:
+    dance, _ = both
+    contact, dragon, spiral = first_contact(dance), dance.dragon, dance.path
     large = Dragon.of(k * dragon.lengths, k * dragon.widths, k * dragon.overhangs)
     scaled = first_contact(Dance(large, Spiral(k * spiral.pitch, spiral.start_turns), speed))
     assert scaled.outcome is contact.outcome

@@ -8,7 +8,8 @@ import pytest
 from core import Dance, Dragon, EndReason, Outcome, Spiral, first_contact
 from core.contact.fold import least_left, least_to_fold
 from core.contact.search import ContactSearch
-from tests.core.contact.test_first_contact import TIED, random_dance
+from tests.core.contact.test_first_contact import TIED
+from tests.support.random_dances import random_dance
 from tests.support.slow_search import SlowDance
 from tests.support.thorough import thorough
 
@@ -42,13 +43,13 @@ def test_the_last_instants_before_a_fold_are_decided(dragon: Dragon, spiral: Spi
 
 @pytest.mark.parametrize("seed", [*range(500, 506), *thorough(*range(511, 520))])
 def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motion_left(seed: int) -> None:
-    dragon, spiral = random_dance(seed, True)
-    end = Dance(dragon, spiral).end
+    dance, slow = random_dance(seed, True)
+    end = dance.end
     assert end.reason is EndReason.FOLD
-    search = ContactSearch(dragon, spiral, 0.0)
+    search = ContactSearch(dance.dragon, dance.path, 0.0)
     for left in (1e-3, 1e-5, 1e-7):
         travel = (1.0 - left) * end.time
         least = least_to_fold(search, travel, end.theta)
-        gaps, _ = SlowDance.of(dragon, spiral).clearance(end.time * (1.0 - left * np.linspace(1.0, 1e-3, 60) ** 2))
+        gaps, _ = slow.clearance(end.time * (1.0 - left * np.linspace(1.0, 1e-3, 60) ** 2))
         assert least <= gaps.min() + TIED
         assert least_left(search, travel - search.travel_rounding(travel), end.theta) <= least

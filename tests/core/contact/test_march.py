@@ -1,4 +1,4 @@
-"""A march: its brackets, and the error of its travels to 50 digits."""
+"""A march: the error of its travels to 50 digits."""
 
 from __future__ import annotations
 
@@ -7,14 +7,9 @@ import pytest
 from flint import arb
 
 from core import Dragon, Spiral
-from core.contact.march import BRACKET, BRACKETS_GRAZING, TRAVEL_ROUNDING
+from core.contact.march import TRAVEL_ROUNDING
 from core.contact.search import ContactSearch
 from tests.support.exact_chain import spiral_place
-
-
-def test_wider_brackets_are_tried_one_after_the_other() -> None:
-    assert list(BRACKETS_GRAZING) == sorted(BRACKETS_GRAZING)
-    assert min(BRACKETS_GRAZING) > BRACKET
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -23,16 +23,17 @@ from core import (
     Spiral,
     Turn,
     Waypoints,
+    bench_poses,
     first_contact,
     minimum_pitch,
     separation,
+    trajectory,
 )
 from core.contact.answer import FirstContact
 from core.contact.decimal_shapes import DIGITS, exact_separation
 from core.contact.near_graze import LAST_BENCH, NEGLIGIBLE, ExactPair, narrow_bracket
 from core.contact.search import ContactSearch
 from core.kernels import Ended
-from core.kernels.constants import HALF_LENGTH, HALF_WIDTH, MX, MY, UX, UY
 from core.kernels.results import Marched
 from tests.support.near import assert_near
 from tests.support.thorough import thorough
@@ -73,11 +74,9 @@ def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: 
     benches = model.benches(Decimal(travel))
     for bench in benches:
         assert abs(bench.along[0] ** 2 + bench.along[1] ** 2 - 1) < PRECISE
-    model.search.clearance(travel)
-    rows, sizes = model.search.placed[list(pair)], model.search.sizes[list(pair)]
-    poses = np.column_stack([rows[:, [MX, MY]], np.arctan2(rows[:, UY], rows[:, UX])])
-    size = 2.0 * sizes[:, [HALF_LENGTH, HALF_WIDTH]]
-    result = separation(poses[0], size[0], poses[1], size[1]).separation
+    poses = bench_poses(trajectory(Dance(DRAGON, path), travel).position)
+    sizes = np.stack([DRAGON.lengths, DRAGON.widths], axis=-1)
+    result = separation(*(column[bench] for bench in pair for column in (poses, sizes))).separation
     assert_near(float(exact_separation(*benches)[0]), result, DOUBLE)
 
 

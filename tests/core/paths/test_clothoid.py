@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 
-import flint
 import numpy as np
 import pytest
-from flint import acb, arb
+from flint import acb
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -29,8 +28,9 @@ from core import (
 from core.errors import Quantity
 from core.kernels.constants import K_END, K_SLOPE, K_START, PART, S_END, S_START
 from core.paths import pieces
-from tests.support.exact_chain import BITS
+from tests.support.exact_chain import clothoid_place
 from tests.support.near import assert_near
+from tests.support.random_routes import Pen
 from tests.support.refused import refused
 from tests.support.slow_route import ALMOST_AN_ARC, SlowRoute, clothoid_points
 
@@ -39,19 +39,6 @@ PLACE, SAME = 1e-11, 1e-12
 # The slow route's own rounding where the curvature hardly changes [m].
 SLOW = 1e-9
 DRAGON = Dragon(12, head_length=1.9, body_length=1.5, width=0.3, overhang=0.2)
-
-
-def exact_place(piece: Clothoid, v: float) -> acb:
-    """Place on a clothoid by Fresnel integrals of its own numbers [m]."""
-    flint.ctx.prec = BITS
-    first, last = arb(piece.start_curvature), arb(piece.end_curvature)
-    slope, turn = (last - first) / arb(piece.length), acb(0, 1)
-    unit = (arb.pi() / abs(slope)).sqrt()
-    begin, end = ((arb(at) + first / slope) / unit for at in (0.0, v))
-    cosines = end.fresnel_c() - begin.fresnel_c()
-    sines = (end.fresnel_s() - begin.fresnel_s()) * (1 if slope > 0 else -1)
-    rotated = (turn * (arb(piece.heading) - first**2 / (2 * slope))).exp()
-    return acb(*piece.start) + acb(cosines, sines) * unit * rotated
 
 
 CASES = {
@@ -69,7 +56,7 @@ CASES = {
 def test_places_are_those_of_fresnel_integrals(piece: Clothoid) -> None:
     route = Route([piece])
     for v in (piece.length * np.linspace(0.0, 1.0, 41)).tolist():
-        exact = exact_place(piece, v)
+        exact = clothoid_place(piece, v)
         assert float(abs(acb(*route.position(v).tolist()) - exact)) < max(PLACE, 1e-12 * float(abs(exact)))
     assert_near(piece.end, route.position(route.end), SAME)
 
@@ -130,13 +117,13 @@ def test_a_spent_budget_ends_the_layout() -> None:
 
 def bend_of(ramps: float) -> Route:
     """A line, a bend by 3 rad of curvature 0.5 / m between two ramps of that length [m], and a line."""
-    pieces: list[Line | Clothoid] = [Line((-30.0, 0.0), (0.0, 0.0))]
-    (x, y), heading = (0.0, 0.0), 0.0
+    pen = Pen(-30.0 + 0j)
+    pen.line(30.0)
     for first, last, length in ((0.0, 0.5, ramps), (0.5, 0.5, 6.0 - ramps), (0.5, 0.0, ramps)):
         if length > 0.0:
-            pieces.append(Clothoid((x, y), heading, first, last, length))
-            (x, y), heading = pieces[-1].end, pieces[-1].end_heading
-    return Route([*pieces, Line((x, y), (x + 30.0 * math.cos(heading), y + 30.0 * math.sin(heading)))], start=30.0)
+            pen.clothoid(first, last, length)
+    pen.line(30.0)
+    return Route(pen.pieces, start=30.0)
 
 
 BLENDED = bend_of(2.0)

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.interpolate import CubicSpline
 
 from core import Route, Waypoints
 from core.kernels.constants import CREST, K_END, K_SLOPE, K_START, PIECE_KIND, S_END, S_START
 from core.paths import cubics
 from tests.support.near import assert_near
 from tests.support.refused import refused
+from tests.support.slow_curve import spline_length, spline_of
 
 ARC_ERROR = 1e-10  # [m]
 # A place is an arc length, good to some 1e-15 of all of it; next to a sharp crest it moves the curvature most. Relative
@@ -43,23 +42,13 @@ def circle(count: int) -> Points:
 WANDER = points_of(*np.cumsum(np.random.default_rng(7).normal(0.0, 4.0, (7, 2)), axis=0).T)
 
 
-def fine_length(points: Points) -> float:
-    """Arc length of the natural spline by 24-point Gauss-Legendre on 64 equal parts of each leg [m]."""
-    knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    speed = CubicSpline(knots, points, bc_type="natural").derivative()
-    stops = np.concatenate([np.linspace(a, b, 65)[:-1] for a, b in pairwise(knots)])
-    widths = np.diff([*stops, knots[-1]])
-    nodes, weights = np.polynomial.legendre.leggauss(24)
-    places = stops[:, None] + 0.5 * widths[:, None] * (1.0 + nodes)
-    return math.fsum((0.5 * widths * (np.linalg.norm(speed(places), axis=-1) @ weights)).tolist())
-
-
 @pytest.mark.parametrize(
     ("points", "most"), [(zigzag(60), 6), (zigzag(300), 6), (circle(300), 1.01), (WANDER, math.inf)]
 )
 def test_the_length_of_many_legs_is_that_of_a_finer_quadrature_in_few_cubics(points: Points, most: float) -> None:
     route = Route([Waypoints(points)])
-    assert_near(route.end, fine_length(points), ARC_ERROR)
+    spline, knots = spline_of(points)
+    assert_near(route.end, spline_length(spline, knots, knots[-1]), ARC_ERROR)
     assert len(route.table) <= most * len(points)
 
 

@@ -11,10 +11,8 @@ import pytest
 
 from core import (
     Area,
-    Coil,
     Dance,
     Dragon,
-    Route,
     Spiral,
     Venue,
     check,
@@ -119,13 +117,6 @@ def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(mov
     assert result.stray == tolerance(STANDARD, **span).stray
     strays = result.exhibit.handles - trajectory(dance, result.exhibit.time).position
     assert_near(np.hypot(*strays.T).max(), result.exhibit.stray, 1e-9)
-
-
-def test_a_spiral_lies_as_a_coil_does() -> None:
-    place = ((7.0, -3.0), 1.1)
-    paths = Spiral(0.55, 14.0, *place), Route([Coil(0.55, 14.0, 3.0, *place)])
-    ours, theirs = (trajectory(Dance(DRAGON, path), [0.0, 80.0, 200.0]).position for path in paths)
-    assert_near(ours, theirs, 1e-10)
 
 
 @pytest.mark.parametrize(

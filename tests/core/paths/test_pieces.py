@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from scipy.integrate import quad
-from scipy.interpolate import CubicSpline
 
 from core import Arc, Clothoid, Coil, InvalidValue, Line, Piece, Route, Waypoints
 from core.kernels.constants import K_SLOPE, S_START
 from tests.support.near import assert_near
 from tests.support.random_routes import Pen, legs
 from tests.support.refused import refused
+from tests.support.slow_curve import spline_length, spline_of
 
 ARC_ERROR = 1e-10  # [m]: arc length of curves through waypoints
 
@@ -84,26 +82,12 @@ def test_a_piece_refuses_an_invalid_field_when_it_is_made(
 POINTS = ((0.0, 0.0), (6.0, 1.0), (11.0, 6.0), (9.0, 13.0), (2.0, 14.0), (-3.0, 9.0))
 
 
-def spline_of(points: tuple[tuple[float, float], ...]) -> tuple[CubicSpline, np.ndarray]:
-    knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    return CubicSpline(knots, points, bc_type="natural"), knots
-
-
-def arc_of(spline: CubicSpline, knots: np.ndarray, end: float) -> float:
-    """Arc length of a spline from its beginning, by adaptive quadrature between the knots."""
-    speed = spline.derivative()
-    return sum(
-        quad(lambda t: float(np.linalg.norm(speed(t))), a, b, epsabs=1e-13, epsrel=1e-13, limit=200)[0]
-        for a, b in pairwise([*knots[knots < end], end])
-    )
-
-
 def test_the_curve_through_waypoints_is_scipys_without_a_jump_of_curvature() -> None:
     route = Route([Waypoints(POINTS)])
     spline, knots = spline_of(POINTS)
     for t in np.linspace(0.7, knots[-1] - 0.1, 12):
-        assert_near(route.position(arc_of(spline, knots, t)), spline(t), ARC_ERROR)
-    at_knots = [arc_of(spline, knots, t) for t in knots[1:-1]]
+        assert_near(route.position(spline_length(spline, knots, t)), spline(t), ARC_ERROR)
+    at_knots = [spline_length(spline, knots, t) for t in knots[1:-1]]
     assert_near(route.position(np.array(at_knots)), POINTS[1:-1], ARC_ERROR)
     inner = np.array([*at_knots, *route.table[1:, S_START]])
     assert_near(route.curvature(inner + 1e-7), route.curvature(inner - 1e-7), 1e-6)  # slope below 5 / m^2
@@ -118,7 +102,7 @@ def test_the_arc_length_through_random_waypoints_is_scipys(steps: list[tuple[flo
     points = pen.pieces[0].points
     spline, knots = spline_of(points)
     route = Route([Waypoints(points)])
-    assert_near(route.end - route.begin, arc_of(spline, knots, knots[-1]), ARC_ERROR)
+    assert_near(route.end - route.begin, spline_length(spline, knots, knots[-1]), ARC_ERROR)
 
 
 def test_waypoints_take_the_headings_at_their_ends() -> None:

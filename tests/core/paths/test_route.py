@@ -30,7 +30,7 @@ from core import (
 from core.errors import Quantity
 from tests.support.depth import examples
 from tests.support.near import assert_near
-from tests.support.random_routes import DRAGON, Pen, first_behind, routes
+from tests.support.random_routes import DRAGON, first_behind, routes
 from tests.support.refused import refused
 
 TURN = Turn(1.7, 4.5, 2.0)
@@ -192,15 +192,6 @@ def test_first_contact_on_any_route_is_that_of_a_slow_search(route: Route) -> No
     assert touching - clear < 1.1e-9
     assert slow[times < clear].min() > 0.0
     assert slow_clearance(route, np.array([touching]))[0] < TOUCHING
-
-
-def test_a_route_that_crosses_itself_is_met_by_its_dragon() -> None:
-    pen = Pen()
-    pen.line(18.0)
-    pen.arc(1.0, 5.5)
-    pen.line(6.0)
-    contact = first_contact(Dance(DRAGON, Route(pen.pieces)), start=17.0)
-    assert contact.outcome is Outcome.CONTACT
 
 
 def test_s_counts_from_the_start_of_the_route() -> None:

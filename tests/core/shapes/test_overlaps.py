@@ -178,16 +178,6 @@ def test_verdicts_on_one_pair_are_what_the_searches_find(seed: int, margin: floa
 # -- many benches ---------------------------------------------------------------------------------------------
 
 
-@settings(deadline=None, max_examples=50)
-@given(st.integers(0, 2**32), st.integers(2, 60))
-def test_numbering_the_benches_otherwise_renumbers_the_pairs(seed: int, count: int) -> None:
-    pose, length, width = crowd(count, seed, side=10.0)
-    order = np.random.default_rng(seed).permutation(count)
-    renumbered = order[overlaps(pose[order], length[order], width[order], chained=False).pairs]
-    expected = overlaps(pose, length, width, chained=False).pairs
-    assert {frozenset(pair) for pair in renumbered.tolist()} == {frozenset(pair) for pair in expected.tolist()}
-
-
 @by_every_engine
 def test_a_hundred_thousand_stacked_benches_are_refused(engine: Engine) -> None:
     count = 100_000
