@@ -22,7 +22,7 @@ def axes() -> Axes:
     return Figure().add_subplot()
 
 
-def test_first_contact_marks_the_two_benches(axes: Axes) -> None:
+def test_first_contact_marks_the_two_benches(axes):
     CONTACT.plot(axes)
     assert legend(axes) == ["bench 0 (head)", "bench 8"]
     outlines = bench_outlines(Dragon(), trajectory(DANCE, CONTACT.time).position)
@@ -30,13 +30,13 @@ def test_first_contact_marks_the_two_benches(axes: Axes) -> None:
     assert np.array_equal(marked, outlines[[0, 8]])
 
 
-def test_the_enlarged_view_is_centred_on_the_contact(axes: Axes) -> None:
+def test_the_enlarged_view_is_centred_on_the_contact(axes):
     CONTACT.plot(axes, enlarged=True)
     assert_near(CONTACT.point, np.mean([axes.get_xlim(), axes.get_ylim()], axis=1), 1e-9)
     assert legend(axes)[2:] == ["inner edge of bench 8", "front-outer corner of bench 0"]
 
 
-def test_without_a_contact_there_is_nothing_to_enlarge(axes: Axes) -> None:
+def test_without_a_contact_there_is_nothing_to_enlarge(axes):
     with refused("enlarged"):
         first_contact(Dance(Dragon(5), Spiral(0.8))).plot(axes, enlarged=True)
 
@@ -52,7 +52,7 @@ TITLES = {
 
 
 @pytest.mark.parametrize("title", TITLES)
-def test_the_title_says_how_the_search_ended(axes: Axes, title: str) -> None:
+def test_the_title_says_how_the_search_ended(axes, title):
     pitch, query = TITLES[title]
     first_contact(Dance(Dragon(30), Spiral(pitch)), **query).plot(axes)
     assert axes.get_title().startswith(title)

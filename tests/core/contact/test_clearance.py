@@ -41,7 +41,7 @@ TURN = Turn(1.7)
     ],
     ids=["default", "wide coil", "turn", "benches of many sizes"],
 )
-def test_the_least_clearance_is_below_dense_samples_and_proven(dance: Dance, start: float, stop: float) -> None:
+def test_the_least_clearance_is_below_dense_samples_and_proven(dance, start, stop):
     least = least_clearance(dance, start=start, stop=stop)
     profile = clearance_profile(dance, np.linspace(start, stop, 800))
     lowest = min(profile.clearance.min(), *(graze.clearance for graze in profile.grazes))
@@ -52,7 +52,7 @@ def test_the_least_clearance_is_below_dense_samples_and_proven(dance: Dance, sta
     assert tuple(there.benches) == least.benches
 
 
-def test_no_least_clearance_is_claimed_where_benches_overlap_at_the_start() -> None:
+def test_no_least_clearance_is_claimed_where_benches_overlap_at_the_start():
     dance = Dance(Dragon(), Spiral(0.3))
     least, there = least_clearance(dance), clearance_profile(dance, 0.0)
     assert least.distance == there.clearance < -0.1
@@ -60,7 +60,7 @@ def test_no_least_clearance_is_claimed_where_benches_overlap_at_the_start() -> N
 
 
 @pytest.mark.parametrize("pitch", [0.5, 0.55])
-def test_a_first_touch_is_a_least_clearance_of_zero(pitch: float) -> None:
+def test_a_first_touch_is_a_least_clearance_of_zero(pitch):
     dance = Dance(Dragon(), Spiral(pitch))
     least, contact = least_clearance(dance), first_contact(dance)
     assert (least.distance, least.at_least, least.benches) == (0.0, 0.0, contact.benches)
@@ -72,7 +72,7 @@ PROOF_ROUNDING = 1e-9
 
 
 @pytest.mark.parametrize("pitch", [0.9, *thorough(0.7, 0.8, 1.2)])
-def test_the_least_clearance_of_a_run_to_its_fold_is_proven(pitch: float) -> None:
+def test_the_least_clearance_of_a_run_to_its_fold_is_proven(pitch):
     dance = Dance(Dragon(), Spiral(pitch))
     least = least_clearance(dance)
     assert dance.end.reason is EndReason.FOLD
@@ -81,7 +81,7 @@ def test_the_least_clearance_of_a_run_to_its_fold_is_proven(pitch: float) -> Non
     assert least.at_least <= clearance_profile(dance, towards_the_fold).clearance.min()
 
 
-def test_a_least_clearance_that_takes_more_steps_than_a_search_may_is_proven_within_a_millimetre() -> None:
+def test_a_least_clearance_that_takes_more_steps_than_a_search_may_is_proven_within_a_millimetre():
     least = least_clearance(Dance(Dragon(20), Spiral(2.0, 6.0)))
     assert 0.0 < least.distance - least.at_least <= PROOF_WIDTHS[1] + PROOF_ROUNDING
 
@@ -90,7 +90,7 @@ def test_a_least_clearance_that_takes_more_steps_than_a_search_may_is_proven_wit
 @pytest.mark.parametrize(
     "dance", [Dance(Dragon(40), Spiral(1.2, 8.0)), Dance(Dragon(), Spiral(0.8))], ids=["short", "default"]
 )
-def test_a_stop_just_before_the_fold_is_proven_as_the_fold_is(dance: Dance, before: float) -> None:
+def test_a_stop_just_before_the_fold_is_proven_as_the_fold_is(dance, before):
     stop = dance.end.time - before
     least = least_clearance(dance, stop=stop)
     assert least.at_least >= least.distance - 1.01 * PROOF_WIDTHS[0]
@@ -101,7 +101,7 @@ def test_a_stop_just_before_the_fold_is_proven_as_the_fold_is(dance: Dance, befo
 
 
 @pytest.mark.parametrize("seed", range(400, 406))
-def test_the_profile_is_the_least_separation_of_all_pairs(seed: int) -> None:
+def test_the_profile_is_the_least_separation_of_all_pairs(seed):
     dance, slow = random_dance(seed, seed % 2 == 0)
     times = np.linspace(0.0, 0.999 * dance.end.time, 25)
     profile, (least, pairs) = clearance_profile(dance, times), slow.clearance(times)
@@ -110,7 +110,7 @@ def test_the_profile_is_the_least_separation_of_all_pairs(seed: int) -> None:
         assert_near(slow.pair_gap(times[k], tuple(profile.benches[k])), least[k], 1e-10)
 
 
-def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips() -> None:
+def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips():
     """At pitch 0.55 the benches overlap from 412.47 to 415.02 s, are clear to 415.375 s and overlap again."""
     profile = clearance_profile(SHORT, np.linspace(405.0, 416.0, 50))
     assert profile.grazes
@@ -122,7 +122,7 @@ def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips() -> None:
         assert tuple(pairs[5]) == graze.benches
 
 
-def test_a_profile_needs_two_benches_that_share_no_handle_and_times_of_the_run() -> None:
+def test_a_profile_needs_two_benches_that_share_no_handle_and_times_of_the_run():
     for benches in (1, 2):
         with refused("dragon.benches"):
             clearance_profile(Dance(Dragon(benches), Spiral()), [0.0])
@@ -130,7 +130,7 @@ def test_a_profile_needs_two_benches_that_share_no_handle_and_times_of_the_run()
         clearance_profile(SHORT, [0.0, 433.0])
 
 
-def test_the_profile_of_one_time_is_that_instant() -> None:
+def test_the_profile_of_one_time_is_that_instant():
     many, single = (clearance_profile(SHORT, times) for times in ([400.0, 410.0], 410.0))
     assert (single.time.shape, single.clearance.shape, single.grazes) == ((), (), ())
     assert single.clearance == many.clearance[1]

@@ -28,9 +28,7 @@ def benches_on(dragon: Dragon, pitch: float, radius: float, turned: float = 0.0)
     ("pitch", "chord", "overhang"),
     [(0.6, 1.65, 0.275), (3.0, 0.5, 0.2), (6.0, 0.5, 0.2), (9.0, 0.5, 0.24), (12.0, 0.5, 0.2), (9.9, 0.3, 0.14)],
 )
-def test_benches_claimed_wholly_outside_a_radius_are_outside(
-    pitch: float, chord: float, overhang: float, radius: float
-) -> None:
+def test_benches_claimed_wholly_outside_a_radius_are_outside(pitch, chord, overhang, radius):
     length = chord + 2.0 * overhang
     dragon = Dragon(4, length, length, 0.05, overhang)
     beyond = wholly_outside(dragon, pitch / (2.0 * math.pi), radius)
@@ -42,7 +40,7 @@ def test_benches_claimed_wholly_outside_a_radius_are_outside(
 # A short head lies between no two benches, so its chord of 0.451 m does not weaken the bound.
 @pytest.mark.parametrize("head_length", [2.2, 1.001])
 @pytest.mark.parametrize("pitch", [0.9, 1.2, 1.7, 3.0])
-def test_two_coils_claimed_apart_are_apart_by_more_than_the_margin(pitch: float, head_length: float) -> None:
+def test_two_coils_claimed_apart_are_apart_by_more_than_the_margin(pitch, head_length):
     coils, dragon, equal = coils_of(Turn(pitch)), Dragon(60, head_length), Dragon(60, 2.2)
     radii = []
     # along a coil, with one between them, two benches are known to be 0.6 m apart

@@ -70,7 +70,7 @@ def random_dragon(random: np.random.Generator) -> Dragon:
 
 
 @as_dragon_and_pair
-def test_all_engines_agree_on_the_default_dance(contact: FirstContact, whole: bool) -> None:
+def test_all_engines_agree_on_the_default_dance(contact, whole):
     check = contact_check(contact, whole=whole)
     assert check.agree
     assert check.judged == (tuple(range(223)) if whole else (0, 8))
@@ -78,7 +78,7 @@ def test_all_engines_agree_on_the_default_dance(contact: FirstContact, whole: bo
     assert (check.together, check.left_out) == ((), ())
 
 
-def test_the_whole_dragon_is_as_reported_on_random_dragons() -> None:
+def test_the_whole_dragon_is_as_reported_on_random_dragons():
     random = np.random.default_rng(1)
     checked = 0
     for _ in range(examples(20, 200)):
@@ -103,7 +103,7 @@ def test_the_whole_dragon_is_as_reported_on_random_dragons() -> None:
 
 
 @as_dragon_and_pair
-def test_a_contact_at_the_start_has_no_before_and_may_have_others_beside_it(whole: bool) -> None:
+def test_a_contact_at_the_start_has_no_before_and_may_have_others_beside_it(whole):
     dance = Dance(Dragon(60), Spiral(0.25, 8.0))
     contact = first_contact(dance)
     assert (contact.outcome, contact.time) == (Outcome.CONTACT_AT_START, 0.0)
@@ -114,7 +114,7 @@ def test_a_contact_at_the_start_has_no_before_and_may_have_others_beside_it(whol
     assert check.together == ()
 
 
-def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact: FirstContact) -> None:
+def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact):
     result = first_contact(DANCE, start=contact.time + 0.5)
     assert result.outcome is Outcome.CONTACT_AT_START
     assert contact_check(result).agree
@@ -124,7 +124,7 @@ def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact: FirstContac
     assert not forged.agree
 
 
-def test_two_benches_of_a_straight_row_that_are_met_at_once_stand_together() -> None:
+def test_two_benches_of_a_straight_row_that_are_met_at_once_stand_together():
     # The head comes back across its own straight row and meets it where two benches overlap around their handle.
     bend = Arc((100.0, 4.0), 4.0, -math.pi / 2, 1.5 * math.pi)
     path = Route([Line((0.0, 0.0), (100.0, 0.0)), bend, Line((96.0, 4.0), (96.0, -30.0))])
@@ -138,7 +138,7 @@ def test_two_benches_of_a_straight_row_that_are_met_at_once_stand_together() -> 
     assert {0, 1} <= set(met)
 
 
-def test_nothing_is_judged_where_nothing_touches() -> None:
+def test_nothing_is_judged_where_nothing_touches():
     clear = first_contact(Dance(DRAGON, Spiral(0.8)))
     assert clear.outcome is Outcome.CLEAR
     assert contact_check(clear) is None
@@ -153,9 +153,7 @@ def test_nothing_is_judged_where_nothing_touches() -> None:
     [(0.0, (0, 9), NEVER), (-WRONG, (0, 8), NEVER), (WRONG, (0, 8), ALWAYS)],
     ids=["wrong pair", "too early", "too late"],
 )
-def test_a_wrong_pair_or_time_is_noticed_by_every_engine(
-    contact: FirstContact, whole: bool, shift: float, benches: tuple[int, int], verdict: Verdict
-) -> None:
+def test_a_wrong_pair_or_time_is_noticed_by_every_engine(contact, whole, shift, benches, verdict):
     check = contact_check(replace(moved(contact, shift), benches=benches), whole=whole)
     assert not check.agree
     assert check.engines == dict.fromkeys(Engine, verdict)
@@ -167,9 +165,7 @@ def test_a_wrong_pair_or_time_is_noticed_by_every_engine(
     ids=["before", "after", "both"],
 )
 @pytest.mark.parametrize("margin", [0.0, 0.02])
-def test_a_third_bench_is_noticed_by_every_engine_but_not_by_the_pair_alone(
-    instants: list[int], verdict: Verdict, margin: float
-) -> None:
+def test_a_third_bench_is_noticed_by_every_engine_but_not_by_the_pair_alone(instants, verdict, margin):
     contact = first_contact(DANCE, margin=margin)
     poses = poses_around(contact, CHECK_TRAVEL)
     poses[instants, 100] = poses[instants, 150] + [0.4, 0.05, 0.3]
@@ -182,7 +178,7 @@ def test_a_third_bench_is_noticed_by_every_engine_but_not_by_the_pair_alone(
 
 
 @pytest.mark.parametrize(("deep", "together"), [(0.5, True), (2.0, False)], ids=["hardly", "deep"])
-def test_a_pair_that_meets_at_the_same_instant_is_hardly_within_the_margin(deep: float, together: bool) -> None:
+def test_a_pair_that_meets_at_the_same_instant_is_hardly_within_the_margin(deep, together):
     # four benches across two others: both pairs side by side, one of them deeper after than it can be by then
     apart = np.array([[0, 0, 0], [50, 9, 0], [0, 0.6, 0], [50, -9, 0], [20, 0, 0], [60, 9, 0], [20, 0.6, 0]], float)
     after = apart.copy()
@@ -193,7 +189,7 @@ def test_a_pair_that_meets_at_the_same_instant_is_hardly_within_the_margin(deep:
     assert check.engines == dict.fromkeys(Engine, AS_REPORTED if together else NEVER)
 
 
-def test_an_engine_that_differs_makes_them_disagree() -> None:
+def test_an_engine_that_differs_makes_them_disagree():
     poses = np.array([[[0.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, y, math.pi / 2]] for y in (5.0, 0.0)])
     check = judged_contact(poses, np.tile([2.0, 0.3], (3, 1)), (0, 2))
     assert [engine for engine, verdict in check.engines.items() if verdict != AS_REPORTED] == [Engine.ANGLE_SUM]
@@ -204,14 +200,14 @@ def test_an_engine_that_differs_makes_them_disagree() -> None:
 
 
 @pytest.mark.parametrize(("benches", "judged"), [(WHOLE_BENCHES, WHOLE_BENCHES), (WHOLE_BENCHES + 1, 119)])
-def test_of_a_longer_dragon_those_near_the_pair_are_judged(benches: int, judged: int) -> None:
+def test_of_a_longer_dragon_those_near_the_pair_are_judged(benches, judged):
     check = contact_check(first_contact(Dance(Dragon(benches), Spiral())))
     assert check.agree
     assert len(check.judged) == judged
     assert {0, 8} < set(check.judged)
 
 
-def test_near_are_all_that_touch_one_of_the_pair() -> None:
+def test_near_are_all_that_touch_one_of_the_pair():
     random = np.random.default_rng(3)
     count, pair = WHOLE_BENCHES + 500, (7, 1500)
     pose = random.uniform([0.0, 0.0, -4.0], [60.0, 60.0, 4.0], (count, 3))
@@ -222,7 +218,7 @@ def test_near_are_all_that_touch_one_of_the_pair() -> None:
     assert set(np.flatnonzero((gaps <= 0.1).any(axis=0)).tolist()) <= set(judged.tolist())
 
 
-def test_of_too_crowded_benches_the_pair_alone_is_judged() -> None:
+def test_of_too_crowded_benches_the_pair_alone_is_judged():
     most = (1 + math.isqrt(1 + 8 * CLOSE_MAX)) // 2
     for count, judged in ((most, most), (most + 1, 2)):
         assert len(judged_benches(np.zeros((count, 3)), np.ones((count, 2)), (0, 2), 0.0)) == judged
@@ -231,7 +227,7 @@ def test_of_too_crowded_benches_the_pair_alone_is_judged() -> None:
     assert check.agree
 
 
-def test_benches_left_out_make_no_neighbours_of_those_beside_them() -> None:
+def test_benches_left_out_make_no_neighbours_of_those_beside_them():
     # In a long straight row only benches near the pair are judged. Bench 1 is far off: 0 and 2 stand side by side.
     count = WHOLE_BENCHES + 1
     poses = np.zeros((2, count, 3))
@@ -243,7 +239,7 @@ def test_benches_left_out_make_no_neighbours_of_those_beside_them() -> None:
 
 
 @as_dragon_and_pair
-def test_the_angle_sum_is_left_out_where_benches_cross_at_the_start_with_no_corner_inside(whole: bool) -> None:
+def test_the_angle_sum_is_left_out_where_benches_cross_at_the_start_with_no_corner_inside(whole):
     dance = Dance(Dragon(59, 3.48, 2.2, 0.08, 0.26), Spiral(0.21, 9.4))
     check = contact_check(first_contact(dance), whole=whole)
     assert check.agree
@@ -251,7 +247,7 @@ def test_the_angle_sum_is_left_out_where_benches_cross_at_the_start_with_no_corn
 
 
 @pytest.mark.parametrize(("stray", "margin", "wrong"), [(0.02, 0.0, WRONG), (0.05, 0.03, 0.2)])
-def test_with_a_stray_the_grounds_of_all_benches_are_judged(stray: float, margin: float, wrong: float) -> None:
+def test_with_a_stray_the_grounds_of_all_benches_are_judged(stray, margin, wrong):
     contact = first_contact(DANCE, margin=margin, stray=stray)
     check = contact_check(contact)
     assert check.agree

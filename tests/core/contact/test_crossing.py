@@ -23,7 +23,7 @@ LOOP = np.stack([12.0 * np.sin(T), 6.0 * np.sin(2.0 * T)], axis=-1)
 EIGHT = Route([Waypoints(tuple(map(tuple, [*np.linspace([-45.0] * 2, [-1.5] * 2, 16), *LOOP])))])
 
 
-def test_the_head_of_a_long_dragon_meets_its_body_on_the_crossing() -> None:
+def test_the_head_of_a_long_dragon_meets_its_body_on_the_crossing():
     dance = Dance(Dragon(30), EIGHT)
     contact = first_contact(dance, start=dance.begin)
     assert (contact.outcome, contact.benches) == (Outcome.CONTACT, (0, 21))
@@ -35,6 +35,6 @@ def test_the_head_of_a_long_dragon_meets_its_body_on_the_crossing() -> None:
     assert met == [[]] * (len(times) - 1) + [[[0, 21]]]
 
 
-def test_a_dragon_that_has_left_the_crossing_before_its_head_is_back_meets_nothing() -> None:
+def test_a_dragon_that_has_left_the_crossing_before_its_head_is_back_meets_nothing():
     dance = Dance(Dragon(15), EIGHT)
     assert first_contact(dance, start=dance.begin).outcome is Outcome.CLEAR

@@ -34,7 +34,7 @@ def bench(x: float | str, y: float | str, heading: float, length: float | str, w
 @given(boxes, boxes)
 # corners that touch but for the last digits: the direction between them is rounding alone
 @example((0.0, 0.0, 0.5, 1.0, 1.0), (-0.479425538604203, 0.8775825618903728, 0.5, 1.0, 1.0))
-def test_rectangles_are_as_far_apart_as_in_doubles(a: Box, b: Box) -> None:
+def test_rectangles_are_as_far_apart_as_in_doubles(a, b):
     pair = bench(*a), bench(*b)
     distance, axis = exact_separation(*pair)
     assert_near(float(distance), separation(a[:3], a[3:], b[:3], b[3:]).separation, DOUBLE)
@@ -43,9 +43,7 @@ def test_rectangles_are_as_far_apart_as_in_doubles(a: Box, b: Box) -> None:
 
 @pytest.mark.parametrize("owner", [0, 1])
 @pytest.mark.parametrize("x", ["0", "3"], ids=["faces", "corners"])
-def test_a_bench_that_passed_through_the_other_is_not_apart_along_the_axis_of_its_former_side(
-    owner: int, x: str
-) -> None:
+def test_a_bench_that_passed_through_the_other_is_not_apart_along_the_axis_of_its_former_side(owner, x):
     """The gap along an axis chosen while the other bench lies to the left is negative once that lies to the right."""
     resting, *sides = (bench(*place, 0.0, "2", "0.4") for place in (("0", "0"), (x, "2"), (x, "-2")))
     left, right = ((resting, side) if owner == 0 else (side, resting) for side in sides)
@@ -60,7 +58,7 @@ def test_a_bench_that_passed_through_the_other_is_not_apart_along_the_axis_of_it
 @pytest.mark.uncompiled
 @settings(max_examples=100, deadline=None)
 @given(boxes, boxes, st.floats(0.0, 1.0))
-def test_a_corner_between_two_instants_is_no_further_out_than_its_bound(a: Box, b: Box, part: float) -> None:
+def test_a_corner_between_two_instants_is_no_further_out_than_its_bound(a, b, part):
     """A rectangle that moves straight: no corner bends, and none is further from the other than at the worse end."""
     resting, start, end = (bench(*place, 0.0, *box[3:]) for place, box in (((0.0, 0.0), a), (a[:2], b), (b[:2], b)))
     between = bench(*(one + part * (other - one) for one, other in zip(a[:2], b[:2], strict=True)), 0.0, *b[3:])

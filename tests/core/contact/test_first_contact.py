@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import cache
 from typing import Any
 
@@ -18,7 +17,6 @@ from core import (
     FailureKind,
     Judgement,
     Outcome,
-    Report,
     Spiral,
     Turn,
     check,
@@ -53,7 +51,7 @@ DANCE = Dance(Dragon(), Spiral())
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("name", CASES)
-def test_every_case_of_the_reference_is_met(name: str) -> None:
+def test_every_case_of_the_reference_is_met(name):
     case: dict[str, Any] = CASES[name]
     dance = Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), case["head_speed"])
     contact = first_contact(dance)
@@ -96,21 +94,19 @@ SEEDS = [
 
 
 @pytest.mark.parametrize(("seed", "bench_by_bench", "margin"), SEEDS)
-def test_random_dragons_touch_when_and_where_the_slow_search_says(
-    seed: int, bench_by_bench: bool, margin: float
-) -> None:
+def test_random_dragons_touch_when_and_where_the_slow_search_says(seed, bench_by_bench, margin):
     dance, slow = random_dance(seed, bench_by_bench)
     assert_as_slow_search(dance, margin * float(slow.clearance([0.0])[0][0]))
 
 
 @pytest.mark.parametrize("benches", [223, 224, 1000, 100_000])
-def test_benches_that_the_contact_does_not_reach_change_nothing(benches: int) -> None:
+def test_benches_that_the_contact_does_not_reach_change_nothing(benches):
     few, many = (first_contact(Dance(Dragon(count), Spiral())) for count in (30, benches))
     assert (many.time, many.benches, many.time_bracket) == (few.time, few.benches, few.time_bracket)
 
 
 @pytest.mark.thorough
-def test_the_last_bench_that_matters_is_found_among_three_hundred() -> None:
+def test_the_last_bench_that_matters_is_found_among_three_hundred():
     """Short benches on tight spirals, where neighbouring rings meet; a slow search of 60 benches finds the same."""
     many, few = (Dragon(benches, 0.7, 0.7, 0.2, 0.1) for benches in (300, 60))
     assert_as_slow_search(Dance(many, Spiral(0.2055, 5.5)))  # at the start
@@ -133,17 +129,17 @@ def test_the_last_bench_that_matters_is_found_among_three_hundred() -> None:
     ],
     ids=["one-turn", "long-overhang", "short-head", "uniform"],
 )
-def test_a_start_near_the_centre_is_searched_with_all_pairs(dance: Dance) -> None:
+def test_a_start_near_the_centre_is_searched_with_all_pairs(dance):
     assert_as_slow_search(dance)
 
 
-def test_contact_at_the_start_names_a_touching_pair() -> None:
+def test_contact_at_the_start_names_a_touching_pair():
     contact = first_contact(Dance(Dragon(), Spiral(0.35)))
     assert (contact.outcome, contact.time, contact.time_bracket) == (Outcome.CONTACT_AT_START, 0.0, None)
     assert SlowDance.of(Dragon(), Spiral(0.35)).pair_gap(0.0, contact.benches) <= 0.0
 
 
-def test_overhangs_that_cross_over_a_short_bench_touch_at_the_start() -> None:
+def test_overhangs_that_cross_over_a_short_bench_touch_at_the_start():
     assert first_contact(Dance(Dragon(3, 1.0, 1.0, 0.1, 0.4), Spiral(2.0, 5.0))).outcome is Outcome.CONTACT_AT_START
 
 
@@ -155,13 +151,13 @@ def test_overhangs_that_cross_over_a_short_bench_touch_at_the_start() -> None:
     ],
     ids=["a lone bench", "two that share a handle", "wide, to its centre"],
 )
-def test_a_dance_without_a_pair_that_meets_is_clear_to_its_end(dance: Dance, reason: EndReason) -> None:
+def test_a_dance_without_a_pair_that_meets_is_clear_to_its_end(dance, reason):
     contact = first_contact(dance)
     assert (contact.outcome, contact.end, contact.end.reason) == (Outcome.CLEAR, dance.end, reason)
 
 
 @pytest.mark.parametrize("pitch", [0.8, 1.2, 1.5])
-def test_a_clear_dance_takes_hardly_more_steps_than_a_colliding_one(pitch: float) -> None:
+def test_a_clear_dance_takes_hardly_more_steps_than_a_colliding_one(pitch):
     colliding, clear = (first_contact(Dance(Dragon(), Spiral(each))) for each in (0.55, pitch))
     assert (colliding.outcome, clear.outcome) == (Outcome.CONTACT, Outcome.CLEAR)
     assert clear.certificate.steps < 1.6 * colliding.certificate.steps
@@ -208,9 +204,7 @@ def jump_between(dragon: Dragon, turns: float, low: float, high: float, margin: 
 
 
 @pytest.mark.parametrize(("dragon", "turns", "low", "high", "margin"), JUMPS)
-def test_a_graze_is_met_just_below_a_jump_and_passed_just_above(
-    dragon: Dragon, turns: float, low: float, high: float, margin: float
-) -> None:
+def test_a_graze_is_met_just_below_a_jump_and_passed_just_above(dragon, turns, low, high, margin):
     pitch = jump_between(dragon, turns, low, high, margin)
     tight, wide = Spiral(pitch - BESIDE, turns), Spiral(pitch + BESIDE, turns)
     met, passed = (first_contact(Dance(dragon, spiral), margin=margin) for spiral in (tight, wide))
@@ -234,7 +228,7 @@ def undecided_dance() -> Dance:
     return Dance(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[1] - BORDER_WIDTH))
 
 
-def test_a_graze_at_the_margin_is_undecided_up_to_the_next_certain_contact() -> None:
+def test_a_graze_at_the_margin_is_undecided_up_to_the_next_certain_contact():
     dance = undecided_dance()
     contact, least = first_contact(dance), least_clearance(dance)
     assert (contact.outcome, contact.time, contact.benches) == (Outcome.UNDECIDED, None, None)
@@ -256,7 +250,7 @@ SLOW = Dragon(20, 1.2, 1.2, 0.8, 0.25)
 
 
 @pytest.mark.parametrize("start", [-194.0, -15.0, -12.1])
-def test_a_slow_contact_before_time_zero_is_decided_as_the_same_one_after_it(start: float) -> None:
+def test_a_slow_contact_before_time_zero_is_decided_as_the_same_one_after_it(start):
     """On the way in a turn is the spiral from the same turns; the benches close by 4 mm per metre."""
     turn, spiral = Dance(SLOW, Turn(1.0, 1.5, start_turns=8.0)), Dance(SLOW, Spiral(1.0, 8.0))
     later, contact, least = first_contact(spiral), first_contact(turn, start=start), least_clearance(turn, start=start)
@@ -270,7 +264,7 @@ def test_a_slow_contact_before_time_zero_is_decided_as_the_same_one_after_it(sta
 
 
 @pytest.mark.parametrize("judge", [check, quick_check])
-def test_a_contact_that_is_certain_but_perhaps_not_the_first_fails(judge: Callable[..., Report]) -> None:
+def test_a_contact_that_is_certain_but_perhaps_not_the_first_fails(judge):
     dance = undecided_dance()
     contact, report = first_contact(dance, start=dance.begin), judge(dance)
     failure = report.failures[0]
@@ -281,7 +275,7 @@ def test_a_contact_that_is_certain_but_perhaps_not_the_first_fails(judge: Callab
     assert "at the latest; up to 216." in failure.message
 
 
-def test_without_a_certain_contact_an_undecided_search_stays_undecided() -> None:
+def test_without_a_certain_contact_an_undecided_search_stays_undecided():
     dance = undecided_dance()
     stop = first_contact(dance).time_bracket[0] + 1.0
     contact, report = first_contact(dance, stop=stop), check(dance, stop=stop)
@@ -291,7 +285,7 @@ def test_without_a_certain_contact_an_undecided_search_stays_undecided() -> None
     assert report.least_clearance.at_least is None
 
 
-def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze() -> None:
+def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze():
     dance = Dance(Dragon(), Spiral(0.4504))
     graze = first_contact(dance).certificate.least_clearance
     above, below = (first_contact(dance, margin=graze.clearance * factor) for factor in (1.001, 0.999))
@@ -304,7 +298,7 @@ def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze() -> None:
 
 @pytest.mark.parametrize("pitch", [0.52, 0.55, 0.62])
 @pytest.mark.parametrize("margin", [1e-6, 0.05, 0.12])
-def test_at_first_contact_with_a_margin_shapely_measures_the_margin(pitch: float, margin: float) -> None:
+def test_at_first_contact_with_a_margin_shapely_measures_the_margin(pitch, margin):
     contact = first_contact(Dance(Dragon(40), Spiral(pitch, 10.0)), margin=margin)
     slow = SlowDance.of(Dragon(40), Spiral(pitch, 10.0))
     if contact.outcome is Outcome.CONTACT_AT_START:
@@ -318,7 +312,7 @@ def test_at_first_contact_with_a_margin_shapely_measures_the_margin(pitch: float
 
 @given(st.floats(0.0, 0.2), st.floats(0.0, 0.2))
 @settings(max_examples=30, deadline=None)
-def test_a_larger_margin_is_never_met_later(one: float, other: float) -> None:
+def test_a_larger_margin_is_never_met_later(one, other):
     dance = Dance(Dragon(30), Spiral(0.6, 8.0))
     less, more = (first_contact(dance, margin=margin).time for margin in sorted((one, other)))
     assert more <= less + ACCURACY
@@ -333,7 +327,7 @@ DANCES = st.integers(0, 10_000).map(lambda seed: random_dance(seed, seed % 3 == 
 # Three random dances in ten have a contact: about once in a hundred runs fifty without one come before ten with one.
 @settings(max_examples=examples(8, 25), deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 @given(DANCES)
-def test_all_is_clear_just_before_first_contact_and_not_just_after(both: tuple[Dance, SlowDance]) -> None:
+def test_all_is_clear_just_before_first_contact_and_not_just_after(both):
     dance, slow = both
     contact = first_contact(dance)
     assume(contact.outcome is Outcome.CONTACT)
@@ -345,7 +339,7 @@ def test_all_is_clear_just_before_first_contact_and_not_just_after(both: tuple[D
 
 @settings(max_examples=examples(15, 40), deadline=None)
 @given(DANCES, st.floats(0.1, 10.0), st.floats(0.1, 10.0))
-def test_lengths_and_speed_scale_the_answer(both: tuple[Dance, SlowDance], k: float, speed: float) -> None:
+def test_lengths_and_speed_scale_the_answer(both, k, speed):
     dance, _ = both
     contact, dragon, spiral = first_contact(dance), dance.dragon, dance.path
     large = Dragon.of(k * dragon.lengths, k * dragon.widths, k * dragon.overhangs)
@@ -356,7 +350,7 @@ def test_lengths_and_speed_scale_the_answer(both: tuple[Dance, SlowDance], k: fl
         assert_near(scaled.point, k * np.array(contact.point), 1e-8 * max(1.0, k))
 
 
-def test_the_bracket_is_as_narrow_as_promised() -> None:
+def test_the_bracket_is_as_narrow_as_promised():
     low, high = first_contact(DANCE).time_bracket
     assert 0.0 < high - low <= 2.1 * BRACKET
 
@@ -365,17 +359,17 @@ def test_the_bracket_is_as_narrow_as_promised() -> None:
 
 
 @pytest.mark.parametrize("margin", [0.0, MARGIN_MAX])
-def test_a_margin_at_its_limits_is_accepted(margin: float) -> None:
+def test_a_margin_at_its_limits_is_accepted(margin):
     assert first_contact(Dance(Dragon(5), Spiral()), margin=margin).outcome is not Outcome.UNDECIDED
 
 
 @pytest.mark.parametrize("margin", [-1e-12, MARGIN_MAX * 1.001, float("nan"), float("inf"), "0", None])
-def test_a_margin_beyond_its_limits_is_refused(margin: object) -> None:
+def test_a_margin_beyond_its_limits_is_refused(margin):
     with refused("margin"):
         first_contact(DANCE, margin=margin)  # type: ignore[arg-type]
 
 
-def test_the_gap_of_a_contact_is_the_margin_and_at_the_start_what_there_is() -> None:
+def test_the_gap_of_a_contact_is_the_margin_and_at_the_start_what_there_is():
     for margin in (0.0, 0.05, 0.15):
         contact = first_contact(DANCE, margin=margin)
         assert contact.outcome is Outcome.CONTACT

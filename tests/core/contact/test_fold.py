@@ -34,7 +34,7 @@ TO_THE_FOLD = {
 
 
 @pytest.mark.parametrize(("dragon", "spiral"), TO_THE_FOLD.values(), ids=TO_THE_FOLD)
-def test_the_last_instants_before_a_fold_are_decided(dragon: Dragon, spiral: Spiral) -> None:
+def test_the_last_instants_before_a_fold_are_decided(dragon, spiral):
     contact, end = first_contact(Dance(dragon, spiral)), Dance(dragon, spiral).end
     assert (contact.outcome, contact.end) == (Outcome.CLEAR, end)
     times = end.time * (1.0 - 1e-9 * np.linspace(1.0, 0.0, 40)[:-1] ** 2)
@@ -42,7 +42,7 @@ def test_the_last_instants_before_a_fold_are_decided(dragon: Dragon, spiral: Spi
 
 
 @pytest.mark.parametrize("seed", [*range(500, 506), *thorough(*range(511, 520))])
-def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motion_left(seed: int) -> None:
+def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motion_left(seed):
     dance, slow = random_dance(seed, True)
     end = dance.end
     assert end.reason is EndReason.FOLD

@@ -13,7 +13,7 @@ from tests.support.exact_chain import spiral_place
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_no_travel_is_off_by_more_than_its_rounding(seed: int) -> None:
+def test_no_travel_is_off_by_more_than_its_rounding(seed):
     rng = np.random.default_rng(seed)
     spiral = Spiral(*10 ** rng.uniform([-1.0, 0.5], [1.0, 3.5]))
     search = ContactSearch(Dragon(3), spiral, 0.0)

@@ -69,7 +69,7 @@ def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> ExactPair:
     ids=["spiral", "near contact", "another", "before the turn", "in the turn", "after the turn", "ramp", "clothoids"],
 )
 @pytest.mark.parametrize("pair", [(0, 2), (0, 19), (7, 31)])
-def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: float, pair: tuple[int, int]) -> None:
+def test_benches_stand_where_the_kernels_put_them(path, travel, pair):
     model = pair_of(path, pair)
     benches = model.benches(Decimal(travel))
     for bench in benches:
@@ -89,7 +89,7 @@ def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: 
     ],
     ids=["550 m", "10 km", "95 km", "arc", "170 km"],
 )
-def test_far_from_a_centre_a_link_is_as_exact_as_near_to_it(path: Spiral | Route) -> None:
+def test_far_from_a_centre_a_link_is_as_exact_as_near_to_it(path):
     for bench in pair_of(path, (0, 10)).benches(Decimal(7)):
         assert abs((bench.along[0] ** 2 + bench.along[1] ** 2).sqrt() - 1) < NEGLIGIBLE
 
@@ -111,7 +111,7 @@ def assert_narrow(contact: FirstContact) -> None:
     ("head_speed", "below"),
     [(1.0, 1e-9), (0.01, 1e-7), *thorough((0.01, 1e-11), (0.01, 1e-9), (2.0, 1e-11), (2.0, 1e-7))],
 )
-def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin: float, below: float, head_speed: float) -> None:
+def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin, below, head_speed):
     spiral = grazing_spiral(margin, below)
     contact = first_contact(Dance(DRAGON, spiral, head_speed), margin=margin)
     assert_narrow(contact)
@@ -124,7 +124,7 @@ def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin: float, belo
 
 
 @pytest.mark.parametrize(("margin", "below"), [(0.0, 1e-9), (0.05, 1e-7), *thorough((0.0, 1e-7))])
-def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin: float, below: float) -> None:
+def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin, below):
     spiral = grazing_spiral(margin, below)
     steady = first_contact(Dance(DRAGON, spiral), margin=margin)
     passages = [Passage(1.5, until_s=30.0), Passage(0.0, until_time=50.0), Passage(1.0, until_s=100.0)]
@@ -156,15 +156,13 @@ def grazing() -> Grazing:
     ],
     ids=["alone", "a second pair is as near", "still within", "apart again"],
 )
-def test_a_bracket_is_narrowed_where_one_pair_is_near_and_not_apart_again(
-    grazing: Grazing, changed: dict, half: float, narrow: bool
-) -> None:
+def test_a_bracket_is_narrowed_where_one_pair_is_near_and_not_apart_again(grazing, changed, half, narrow):
     search, result = grazing
     assert (narrow_bracket(search, result._replace(**changed), half) is not None) is narrow
 
 
 @pytest.mark.parametrize(("margin", "alone"), [(1e-3, False), *thorough((0.0, True))])
-def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(margin: float, alone: bool) -> None:
+def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(margin, alone):
     """Benches 0 and 11 pass each other 0.9 mm apart, 2.6 m of travel before benches 0 and 8 touch."""
     search = ContactSearch(DRAGON, Spiral(), margin)
     assert (narrow_bracket(search, Marched(409.0, 412.48, (0, 8)), BRACKET) is not None) is alone
@@ -172,8 +170,8 @@ def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(marg
 
 @pytest.mark.thorough
 def test_benches_that_graze_between_two_instants_are_not_proven_apart_by_the_gaps_at_both(
-    grazing: Grazing,
-) -> None:
+    grazing,
+):
     search, result = grazing
     pair, (before, after) = ExactPair(search, result.benches), (result.proven - 0.01, result.proven + 0.01)
     assert min(pair.gap(Decimal(before)), pair.gap(Decimal(after))) > 0
@@ -183,14 +181,14 @@ def test_benches_that_graze_between_two_instants_are_not_proven_apart_by_the_gap
 
 @pytest.mark.parametrize(("limit", "earlier"), [("INTERVALS_MAX", 1.0), ("LINK_STEPS", 0.0)])
 def test_where_the_way_takes_too_many_intervals_or_a_link_too_many_steps_the_bracket_stays(
-    monkeypatch: pytest.MonkeyPatch, grazing: Grazing, limit: str, earlier: float
-) -> None:
+    monkeypatch, grazing, limit, earlier
+):
     search, result = grazing
     monkeypatch.setattr(core.contact.near_graze, limit, 2)
     assert narrow_bracket(search, result._replace(proven=result.proven - earlier), 0.4 * BRACKET) is None
 
 
-def test_a_curve_through_waypoints_and_benches_far_behind_are_followed_in_doubles_alone() -> None:
+def test_a_curve_through_waypoints_and_benches_far_behind_are_followed_in_doubles_alone():
     assert not pair_of(Route([Waypoints(((0, 0), (80, 0), (160, 30)))], start=150.0), (0, 2)).can_follow
     assert pair_of(TURN, (0, 2)).can_follow
     assert pair_of(Spiral(), (0, LAST_BENCH)).can_follow
@@ -200,7 +198,7 @@ def test_a_curve_through_waypoints_and_benches_far_behind_are_followed_in_double
     assert contact.benches[1] > LAST_BENCH
 
 
-def test_where_a_travel_is_rounded_to_more_than_the_bracket_decimals_are_not_asked() -> None:
+def test_where_a_travel_is_rounded_to_more_than_the_bracket_decimals_are_not_asked():
     contact = first_contact(Dance(Dragon(20), Spiral(0.3, 1_500), 0.01))
     assert contact.outcome is Outcome.CONTACT
     assert contact.time_bracket[1] - contact.time_bracket[0] > BRACKET

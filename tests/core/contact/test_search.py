@@ -28,19 +28,19 @@ def search() -> ContactSearch:
 
 
 @pytest.mark.parametrize("travel", [-20.0, 0.0, 300.0, 432.0])
-def test_the_head_is_where_a_root_of_the_arc_length_is(search: ContactSearch, travel: float) -> None:
+def test_the_head_is_where_a_root_of_the_arc_length_is(search, travel):
     assert_near(search.theta_at(travel), SLOW.head(travel), ANGLE)
     assert_near(search.travel_at(search.theta_at(travel)), travel, search.travel_rounding(travel))
 
 
 @pytest.mark.parametrize("travel", [100.0, 400.0, 432.0])
-def test_rates_are_difference_quotients_of_arc_lengths(search: ContactSearch, travel: float) -> None:
+def test_rates_are_difference_quotients_of_arc_lengths(search, travel):
     before, after = (arc_length(SLOW.thetas([SLOW.head(t)])[0]) for t in (travel - STEP, travel + STEP))
     expected = SLOW.growth * (before - after) / (2.0 * STEP)
     np.testing.assert_allclose(search.rates(travel), expected, rtol=1e-5, atol=QUOTIENT)
 
 
-def test_a_pair_parts_as_fast_as_its_gap_grows_and_turns_at_the_bottom_of_its_dip(search: ContactSearch) -> None:
+def test_a_pair_parts_as_fast_as_its_gap_grows_and_turns_at_the_bottom_of_its_dip(search):
     _, marched = search.march(CONTACT - 0.1, 0.0, start=405.0, dips=True)
     graze = marched.graze
     assert graze.benches == GRAZING
@@ -52,7 +52,7 @@ def test_a_pair_parts_as_fast_as_its_gap_grows_and_turns_at_the_bottom_of_its_di
     assert_near(search.gap_rate(high, GRAZING), (after - before) / (2.0 * STEP), QUOTIENT)
 
 
-def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_afterwards(search: ContactSearch) -> None:
+def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_afterwards(search):
     stop = CONTACT + 1e-3
     assert not others_clear(search, GRAZING, 400.0, stop)
     assert others_clear(search, PAIR, 400.0, stop)
@@ -63,14 +63,14 @@ def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_after
     assert not search.surely_within(CONTACT - 1e-9, PAIR)
 
 
-def test_a_search_whose_work_is_done_gives_up() -> None:
+def test_a_search_whose_work_is_done_gives_up():
     search = ContactSearch(Dragon(), Turn(1.7), 0.0, work=2e4)
     state, result, _ = search.approach(-50.0, 100.0, 1.0)
     assert state is Ended.STUCK
     assert -50.0 < result.proven < 100.0
 
 
-def test_a_march_that_goes_on_adds_its_steps_and_keeps_the_larger_bound_and_the_lower_graze() -> None:
+def test_a_march_that_goes_on_adds_its_steps_and_keeps_the_larger_bound_and_the_lower_graze():
     earlier = Marched(3.0, None, (0, 0), 5, 0.25, Dip(0.02, 2.0, (0, 9)))
     later = Marched(2.5, 4.0, (0, 8), 2, 0.125, Dip(0.03, 3.5, (1, 9)))
     assert joined(earlier, later) == Marched(3.0, 4.0, (0, 8), 7, 0.25, earlier.graze)

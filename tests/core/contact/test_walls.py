@@ -66,7 +66,7 @@ def shapely_distances(dance: Dance, area: Area, times: float | np.ndarray) -> np
 
 
 @pytest.mark.parametrize("area", VENUE.areas, ids=lambda area: area.name)
-def test_distances_on_sampled_poses_are_shapelys(area: Area) -> None:
+def test_distances_on_sampled_poses_are_shapelys(area):
     search = ContactSearch(DRAGON, LAP, 0.0, area.edges)
     times = np.linspace(0.0, LAP.end, 60)
     for time, row in zip(times.tolist(), shapely_distances(LAPPING, area, times), strict=True):
@@ -77,7 +77,7 @@ def test_distances_on_sampled_poses_are_shapelys(area: Area) -> None:
 
 
 @pytest.mark.parametrize("k", range(3), ids=[area.name for area in VENUE.areas])
-def test_the_least_distance_is_the_least_of_dense_samples(k: int) -> None:
+def test_the_least_distance_is_the_least_of_dense_samples(k):
     area, nearest = VENUE.areas[k], venue_clearance(LAPPING, VENUE).areas[k].nearest
     sampled = shapely_distances(LAPPING, area, np.linspace(0.0, LAP.end, 2_000)).min()
     assert nearest.at_least <= nearest.distance <= sampled + SAME_DISTANCE
@@ -97,9 +97,7 @@ def test_the_least_distance_is_the_least_of_dense_samples(k: int) -> None:
     st.integers(3, 9),
     st.floats(0.0, 0.6),
 )
-def test_any_obstacle_is_met_when_a_slow_search_meets_it(
-    x: float, y: float, radius: float, turned: float, sides: int, margin: float
-) -> None:
+def test_any_obstacle_is_met_when_a_slow_search_meets_it(x, y, radius, turned, sides, margin):
     angles = turned + np.linspace(0.0, 2.0 * math.pi, sides, endpoint=False)
     ring = tuple((x + radius * math.cos(a), y + radius * math.sin(a)) for a in angles)
     post = Area("post", ((*ring, ring[0]),))
@@ -119,7 +117,7 @@ def test_any_obstacle_is_met_when_a_slow_search_meets_it(
         assert shapely_distances(LAPPING, post, touching).min() < margin + AT_MARGIN
 
 
-def test_a_wall_across_the_way_is_met_where_the_head_reaches_it() -> None:
+def test_a_wall_across_the_way_is_met_where_the_head_reaches_it():
     wall = Venue(HALL, (boxed("wall", 20, -1, 21, 1),))
     result = venue_clearance(Dance(DRAGON, STRAIGHT), wall, margin=0.25).areas[1]
     assert (result.outcome, result.bench, result.nearest.distance) == (Outcome.CONTACT, 0, 0.0)
@@ -128,7 +126,7 @@ def test_a_wall_across_the_way_is_met_where_the_head_reaches_it() -> None:
     assert_near(result.point[0], 19.75, AT_MARGIN)
 
 
-def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch() -> None:
+def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch():
     dance = Dance(Dragon.of([2.2] * 6, [0.3, 0.3, 0.3, 0.9, 0.3, 0.3], [0.275] * 6), STRAIGHT)
     square = Venue(HALL, (boxed("post", 20, 0.3, 20.5, 1),))
     result = venue_clearance(dance, square).areas[1]
@@ -140,7 +138,7 @@ def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch() -> None:
 
 
 @pytest.mark.parametrize(("start", "stop"), [(0.0, 400.0), (-60.0, -20.0), (-5.0, 0.0), (0.0, 1e-3)])
-def test_a_spiral_has_its_place_in_the_world_also_before_its_start(start: float, stop: float) -> None:
+def test_a_spiral_has_its_place_in_the_world_also_before_its_start(start, stop):
     dance = Dance(DRAGON, Spiral())
     result = venue_clearance(dance, VENUE_ROUND, start=start, stop=stop)
     distance = result.areas[0].nearest.distance
@@ -155,7 +153,7 @@ TREE_DISTANCE, TREE_TIME = 3.0085432166, 6.5032
 
 
 @pytest.mark.parametrize("stop", [8.36, None])
-def test_a_tree_beside_the_last_metres_before_a_fold_is_seen(stop: float | None) -> None:
+def test_a_tree_beside_the_last_metres_before_a_fold_is_seen(stop):
     dance = Dance(Dragon(1), Spiral(0.8, 2.38))
     tree = venue_clearance(dance, Venue(VENUE_ROUND.square, (TREE,)), stop=stop).areas[1]
     assert tree.outcome is Outcome.CLEAR
@@ -165,7 +163,7 @@ def test_a_tree_beside_the_last_metres_before_a_fold_is_seen(stop: float | None)
 
 
 @pytest.mark.parametrize("before", [1.0, 1e-2, 1e-4, 1e-6])
-def test_a_wall_just_before_the_fold_is_met_when_a_bench_gets_there(before: float) -> None:
+def test_a_wall_just_before_the_fold_is_met_when_a_bench_gets_there(before):
     """A post whose corner is where the outer rear corner of the head stands at some time [s] before the fold."""
     dance = Dance(Dragon(3), Spiral(0.8, 3.0))
     at = dance.end.time - before
@@ -187,9 +185,7 @@ def test_a_wall_just_before_the_fold_is_met_when_a_bench_gets_there(before: floa
 @pytest.mark.parametrize(
     ("passages", "pause"), [([], 0.0), ([Passage(1.0, until_s=10.0), Passage(0.0, until_time=13.0)], 3.0)]
 )
-def test_a_wall_is_met_within_a_nanosecond_however_slowly_a_bench_comes_near(
-    slope: float, passages: list[Passage], pause: float
-) -> None:
+def test_a_wall_is_met_within_a_nanosecond_however_slowly_a_bench_comes_near(slope, passages, pause):
     left, right = ((x, 0.15 + slope * (30.0 - x)) for x in (-50.0, 55.0))
     wall = Area("wall", ((left, right, (55.0, 5.0), (-50.0, 5.0), left),))
     dance = Dance(Dragon(5), STRAIGHT, 1.0, passages)
@@ -202,7 +198,7 @@ def test_a_wall_is_met_within_a_nanosecond_however_slowly_a_bench_comes_near(
     assert clear - rounding <= at <= touching + rounding
 
 
-def test_a_wall_that_stays_at_the_margin_is_undecided_until_a_bench_is_surely_nearer() -> None:
+def test_a_wall_that_stays_at_the_margin_is_undecided_until_a_bench_is_surely_nearer():
     """A parallel wall at the margin but for its last digits, and a step of it further on."""
     ring = ((-50.0, 0.35), (40.0, 0.35), (40.0, 0.3), (50.0, 0.3), (50.0, 5.0), (-50.0, 5.0), (-50.0, 0.35))
     venue = Venue(HALL, (Area("wall", (ring,)),))
@@ -230,13 +226,13 @@ LAKE = box(-32, -1, 3, 1)
     ],
     ids=["inside", "wholly outside", "in a hole", "in an obstacle"],
 )
-def test_a_dragon_that_starts_outside_or_in_an_obstacle_is_misplaced(venue: Venue, misplaced: str | None) -> None:
+def test_a_dragon_that_starts_outside_or_in_an_obstacle_is_misplaced(venue, misplaced):
     result = venue_clearance(LAPPING, venue)
     assert (result.misplaced and (result.misplaced.name, result.misplaced.bench)) == (misplaced and (misplaced, 0))
     assert result.areas[0].outcome is (Outcome.CONTACT if venue.square.rings[1:] else Outcome.CLEAR)
 
 
-def test_the_first_bench_outside_is_named_with_its_place() -> None:
+def test_the_first_bench_outside_is_named_with_its_place():
     misplaced = venue_clearance(LAPPING, Venue(boxed("square", -8, -5, 20, 20))).misplaced
     handles = trajectory(LAPPING, 0.0).position[:, 0]
     centres = 0.5 * (handles[1:] + handles[:-1])
@@ -244,7 +240,7 @@ def test_the_first_bench_outside_is_named_with_its_place() -> None:
     assert_near(misplaced.point, [centres[misplaced.bench], 0.0], SAME_DISTANCE)
 
 
-def test_head_speed_scales_times_and_nothing_else() -> None:
+def test_head_speed_scales_times_and_nothing_else():
     slow, fast = (venue_clearance(Dance(DRAGON, LAP, v), VENUE, margin=0.5) for v in (1.0, 2.5))
     for a, b in zip(slow.areas, fast.areas, strict=True):
         assert (a.outcome, a.bench) == (b.outcome, b.bench)
@@ -252,7 +248,7 @@ def test_head_speed_scales_times_and_nothing_else() -> None:
         assert_near(a.nearest.time, 2.5 * b.nearest.time, 1e-6)  # flat where they are nearest
 
 
-def test_a_coil_with_its_centre_elsewhere_meets_a_post_at_its_centre() -> None:
+def test_a_coil_with_its_centre_elsewhere_meets_a_post_at_its_centre():
     dance = Dance(DRAGON, Route([Coil(1.7, 8, 1.2, centre=(3, -2))]))
     post = Venue(boxed("square", -30, -30, 30, 30), (boxed("post", 2.9, -2.1, 3.1, -1.9),))
     nearest = venue_clearance(dance, post).areas[1].nearest

@@ -28,7 +28,7 @@ def assert_exact(places: np.ndarray, exact: list[tuple[arb, arb]]) -> None:
 
 @pytest.mark.parametrize("speed", [1.0, 1.3])
 @pytest.mark.parametrize(("pitch", "turns"), [(0.55, 16.0), (0.55, 1e3), (0.3, 1e4), (3.0, 1e4), (0.55, 1e5)])
-def test_positions_on_long_spirals_are_as_good_as_stated(pitch: float, turns: float, speed: float) -> None:
+def test_positions_on_long_spirals_are_as_good_as_stated(pitch, turns, speed):
     flint.ctx.prec = BITS  # also for the product of time and speed
     dance = Dance(DRAGON, Spiral(pitch, turns), speed)
     times = [*(dance.end.time * np.array([-0.1, 0.0, 0.3, 0.9, 0.999])).tolist(), dance.end.time - 20.0]
@@ -46,7 +46,7 @@ def test_positions_on_long_spirals_are_as_good_as_stated(pitch: float, turns: fl
     [(1e4, 1.0, 0.0), (1e4, 1.0, 9.4e8), (1.0, 1e4, 0.0)],
     ids=["inwards, s from afar", "inwards, s from near the centre", "outwards"],
 )
-def test_positions_on_long_coils_are_as_good_as_stated(begin: float, end: float, rotation: float, start: float) -> None:
+def test_positions_on_long_coils_are_as_good_as_stated(begin, end, rotation, start):
     path = Route([Coil(3.0, begin, end, rotation=rotation)], start=start)
     dance = Dance(DRAGON, path)
     for share in (0.0, 1e-6, 0.3, 0.9, 0.999999, 1.0):
@@ -56,7 +56,7 @@ def test_positions_on_long_coils_are_as_good_as_stated(begin: float, end: float,
         assert_exact(trajectory(dance, s).position, exact)
 
 
-def test_handles_cross_the_end_of_a_long_coil_as_well_as_they_do_elsewhere() -> None:
+def test_handles_cross_the_end_of_a_long_coil_as_well_as_they_do_elsewhere():
     """A line behind 10,000 turns, where s is 1e8 m: the joint closes and chords keep their lengths."""
     last = Route([Coil(0.4, 4.0, 3.0)])
     end, ahead = last.position(last.end), last.tangent(last.end)
@@ -66,7 +66,7 @@ def test_handles_cross_the_end_of_a_long_coil_as_well_as_they_do_elsewhere() -> 
         assert_near(np.linalg.norm(np.diff(handles, axis=0), axis=-1), DRAGON.chords, CHORD_ERROR)
 
 
-def test_a_pause_changes_no_place_on_a_long_spiral() -> None:
+def test_a_pause_changes_no_place_on_a_long_spiral():
     """The places are those of the times, whose parts before and after the pause are exact."""
     passages = [Passage(0.7, until_time=1e8), Passage(0.0, until_time=1.1e8)]
     dance = Dance(DRAGON, Spiral(0.3, 1e4), 1.0, passages)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import partial
 
 import numpy as np
@@ -29,19 +29,19 @@ def assert_passed(dance: Dance, passing: Passing, places: Iterable[tuple[int, fl
 
 
 @pytest.mark.parametrize("ask", [partial(handle_places, times=[0.0, 1.0]), partial(Passing, start=0.0, stop=9.0)])
-def test_the_end_of_the_budget_is_reported(ask: Callable[..., object]) -> None:
+def test_the_end_of_the_budget_is_reported(ask):
     with pytest.raises(TooMuchWork):
         ask(DANCES["turn"], budget=Budget(1.0))
 
 
 @pytest.mark.parametrize("dance", DANCES.values(), ids=DANCES)
-def test_handles_are_at_their_places_on_the_path(dance: Dance) -> None:
+def test_handles_are_at_their_places_on_the_path(dance):
     times = np.array([0.0, 7.5, 30.0])
     result = dance.path.position(handle_places(dance, times))
     assert_near(result, trajectory(dance, times).position, PLACE_ROUNDING)
 
 
-def test_a_handle_passes_its_place_at_the_answered_time_and_waits_through_a_pause() -> None:
+def test_a_handle_passes_its_place_at_the_answered_time_and_waits_through_a_pause():
     dance = Dance(Dragon(20), Turn(1.7, 4.5), 2.0, [Passage(1.0, until_s=5.0), Passage(0.0, until_time=20.0)])
     passing = Passing(dance, 0.0, 40.0)
     assert_passed(dance, passing, ((0, 3.0), (0, 30.0), (7, 0.0), (20, -20.0)))
@@ -49,7 +49,7 @@ def test_a_handle_passes_its_place_at_the_answered_time_and_waits_through_a_paus
     assert (passing.when(0, -1.0), passing.when(20, 30.0)) == (None, None)
 
 
-def test_on_a_long_way_through_a_stadium_places_are_as_good() -> None:
+def test_on_a_long_way_through_a_stadium_places_are_as_good():
     # Twenty lanes of 100 m, with turns of 2 m between.
     pieces: list[Line | Arc] = []
     for k in range(20):

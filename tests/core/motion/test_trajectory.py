@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from core import Dance, Dragon, OutsideRun, Spiral, Turn, kernels, trajectory
 from core.error_free import paired
 from core.kernels import LANES_PER_BLOCK
-from core.paths.path import Path
 from tests.support import random_dances
 from tests.support.near import assert_near
 from tests.support.reference import reference
@@ -33,7 +32,7 @@ COLUMNS = "time", "position", "velocity", "speed"
 
 
 @pytest.mark.parametrize("table", ["selected", "full"])
-def test_the_handles_are_those_of_the_reference(table: str) -> None:
+def test_the_handles_are_those_of_the_reference(table):
     rows = REFERENCE[table]
     motion = trajectory(DANCE, [row["time"] for row in rows])
     result = np.concatenate([motion.position, motion.speed[..., None]], axis=-1)
@@ -44,7 +43,7 @@ def test_the_handles_are_those_of_the_reference(table: str) -> None:
         assert_near(places[numbers], known, ACCURACY)
 
 
-def test_all_rows_rounded_to_six_decimals_have_the_sha256_of_the_reference() -> None:
+def test_all_rows_rounded_to_six_decimals_have_the_sha256_of_the_reference():
     dance = trajectory(DANCE, np.arange(301.0))
     digest = hashlib.sha256()
     for t in range(301):
@@ -57,7 +56,7 @@ def test_all_rows_rounded_to_six_decimals_have_the_sha256_of_the_reference() -> 
 
 @settings(max_examples=40, deadline=None)
 @given(DANCES, st.floats(-0.5, 1.0))
-def test_chords_keep_their_length_and_handles_stay_on_the_spiral(dance: Dance, share: float) -> None:
+def test_chords_keep_their_length_and_handles_stay_on_the_spiral(dance, share):
     pitch = dance.path.pitch
     position = trajectory(dance, share * dance.end.time).position
     size = ROUNDING * (np.abs(position).max() + pitch)
@@ -70,9 +69,7 @@ def test_chords_keep_their_length_and_handles_stay_on_the_spiral(dance: Dance, s
 
 @settings(max_examples=30, deadline=None)
 @given(DANCES, st.floats(-0.5, 0.999), st.floats(0.1, 10.0))
-def test_handles_are_those_of_the_slow_dance_sooner_with_a_faster_head(
-    dance: Dance, share: float, head_speed: float
-) -> None:
+def test_handles_are_those_of_the_slow_dance_sooner_with_a_faster_head(dance, share, head_speed):
     travel = share * dance.end.time
     slow = SlowDance.of(dance.dragon, dance.path).handles([travel])[0]
     motion = trajectory(Dance(dance.dragon, dance.path, head_speed), travel / head_speed)
@@ -82,7 +79,7 @@ def test_handles_are_those_of_the_slow_dance_sooner_with_a_faster_head(
 
 @settings(max_examples=40, deadline=None)
 @given(DANCES, st.floats(-0.5, 0.9), st.floats(0.2, 5.0))
-def test_velocities_are_the_difference_quotients_of_positions(dance: Dance, share: float, head_speed: float) -> None:
+def test_velocities_are_the_difference_quotients_of_positions(dance, share, head_speed):
     dance = Dance(dance.dragon, dance.path, head_speed)
     end = dance.end.time
     time, h = share * end, 1e-6 * end * (1.0 - share)
@@ -104,7 +101,7 @@ def assert_a_batch_equals_a_loop(dance: Dance, times: list[float]) -> None:
 
 @settings(max_examples=25, deadline=None)
 @given(DANCES, st.lists(st.floats(-0.2, 1.0), max_size=5))
-def test_a_batch_equals_a_loop_to_the_last_bit(dance: Dance, shares: list[float]) -> None:
+def test_a_batch_equals_a_loop_to_the_last_bit(dance, shares):
     assert_a_batch_equals_a_loop(dance, [share * dance.end.time for share in shares])
 
 
@@ -118,9 +115,7 @@ def test_a_batch_equals_a_loop_to_the_last_bit(dance: Dance, shares: list[float]
     ],
     ids=["uniform", "lone bench", "bench by bench", "turn"],
 )
-def test_a_batch_equals_a_loop_whatever_its_place_in_a_block(
-    dragon: Dragon, path: Path, most: float, instants: int
-) -> None:
+def test_a_batch_equals_a_loop_whatever_its_place_in_a_block(dragon, path, most, instants):
     times = np.random.default_rng(instants).permutation(np.linspace(-40.0, most, instants))
     assert_a_batch_equals_a_loop(Dance(dragon, path), times.tolist())
 
@@ -130,7 +125,7 @@ CREST_ROUNDING = 1e-14
 
 
 @pytest.mark.parametrize("delta", [1.0, 2.0, 3.0, 3.1, 3.14, 3.1415])
-def test_a_chord_across_the_whole_coil_ends_where_bisection_says(delta: float) -> None:
+def test_a_chord_across_the_whole_coil_ends_where_bisection_says(delta):
     for theta in np.geomspace(3.0, 1000.0, 300):
         chord = math.sqrt(delta**2 + 4.0 * theta * (theta + delta) * math.sin(0.5 * delta) ** 2)
         row, position = first_folded_row([theta], [chord])
@@ -153,7 +148,7 @@ def first_folded_row(heads: list[float], chords: list[float]) -> tuple[int, np.n
 
 
 @pytest.mark.parametrize("row", range(2 * LANES_PER_BLOCK + 1))
-def test_the_first_row_that_folds_is_found_wherever_it_stands_in_its_block(row: int) -> None:
+def test_the_first_row_that_folds_is_found_wherever_it_stands_in_its_block(row):
     assert first_folded_row([HALF_FOLDED], FOLDING_CHORDS[:1])[0] == 1
     assert first_folded_row([HALF_FOLDED], FOLDING_CHORDS)[0] == 0
     assert first_folded_row([FOLDED], FOLDING_CHORDS[:1])[0] == 0
@@ -173,17 +168,17 @@ def test_the_first_row_that_folds_is_found_wherever_it_stands_in_its_block(row: 
         *((math.inf, "times"), ([0.0, math.nan], "times.1"), ([math.inf], "times.0")),
     ],
 )
-def test_times_that_are_no_flat_list_of_numbers_are_refused(times: object, field: str) -> None:
+def test_times_that_are_no_flat_list_of_numbers_are_refused(times, field):
     with refused(field):
         trajectory(DANCE, times)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("times", "field"), [(500.0, "times"), ([0, 500], "times.1")])
-def test_a_time_after_the_end_is_refused_by_its_place_with_the_end(times: object, field: str) -> None:
+def test_a_time_after_the_end_is_refused_by_its_place_with_the_end(times, field):
     with pytest.raises(OutsideRun, match=r"432\.917924228 s, when bench 0 folds, got 500 s") as caught:
         trajectory(DANCE, times)  # type: ignore[arg-type]
     assert caught.value.field == field
 
 
-def test_no_times_give_an_empty_table() -> None:
+def test_no_times_give_an_empty_table():
     assert trajectory(Dance(Dragon(4), Spiral()), []).position.shape == (0, 5, 2)

@@ -18,7 +18,6 @@ from core import (
     Dragon,
     Judgement,
     Line,
-    Piece,
     Route,
     TooMuchWork,
     check,
@@ -53,7 +52,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("piece", CASES.values(), ids=CASES)
-def test_places_are_those_of_fresnel_integrals(piece: Clothoid) -> None:
+def test_places_are_those_of_fresnel_integrals(piece):
     route = Route([piece])
     for v in (piece.length * np.linspace(0.0, 1.0, 41)).tolist():
         exact = clothoid_place(piece, v)
@@ -63,7 +62,7 @@ def test_places_are_those_of_fresnel_integrals(piece: Clothoid) -> None:
 
 @settings(max_examples=40, deadline=None)
 @given(st.floats(-1.5, 1.5), st.floats(-1.5, 1.5), st.floats(0.01, 30.0), st.floats(-3.0, 3.0))
-def test_places_and_tangents_are_those_of_scipy(first: float, last: float, length: float, heading: float) -> None:
+def test_places_and_tangents_are_those_of_scipy(first, last, length, heading):
     piece = Clothoid((1.0, 2.0), heading, first, last, length)
     route, slope = Route([piece]), abs(last - first) / length
     s = np.linspace(-1.0, length + 1.0, 101)
@@ -79,20 +78,20 @@ def test_places_and_tangents_are_those_of_scipy(first: float, last: float, lengt
     [(0.5, Arc((0.0, 2.0), 2.0, -0.5 * math.pi, 4.5)), (0.0, Line((0.0, 0.0), (9.0, 0.0)))],
     ids=["arc", "line"],
 )
-def test_a_clothoid_of_one_curvature_is_an_arc_or_a_line(curvature: float, same: Piece) -> None:
+def test_a_clothoid_of_one_curvature_is_an_arc_or_a_line(curvature, same):
     s = np.linspace(-3.0, 12.0, 61)
     clothoid = Clothoid((0, 0), 0.0, curvature, curvature, 9.0)
     assert_near(Route([clothoid]).position(s), Route([same]).position(s), SAME)
 
 
-def test_a_clothoid_danced_back_is_the_same_curve() -> None:
+def test_a_clothoid_danced_back_is_the_same_curve():
     ramp = CASES["to both sides"]
     back = Clothoid(ramp.end, ramp.end_heading + math.pi, -ramp.end_curvature, -ramp.start_curvature, ramp.length)
     s = np.linspace(0.0, ramp.length, 41)
     assert_near(Route([ramp]).position(s), Route([back]).position(ramp.length - s), 1e-9)  # its heading's ULP
 
 
-def test_every_row_bounds_its_curvature_and_turns_little() -> None:
+def test_every_row_bounds_its_curvature_and_turns_little():
     table = Route([CASES["to both sides"]]).table
     lengths = table[:, S_END] - table[:, S_START]
     assert (np.abs(table[:, [K_START, K_END]]).max(axis=1) * lengths <= pieces.ROW_TURN * (1.0 + 1e-9)).all()
@@ -102,13 +101,13 @@ def test_every_row_bounds_its_curvature_and_turns_little() -> None:
     assert set(table[:, PART]) == {0.0}
 
 
-def test_a_clothoid_that_turns_too_much_is_refused_before_it_is_laid_out() -> None:
+def test_a_clothoid_that_turns_too_much_is_refused_before_it_is_laid_out():
     assert len(Route([Clothoid((0, 0), 0.0, 0.0, 1.0, 1_000.0)]).table) == 4_000
     with refused("clothoid.length", most=Quantity(1000.0, "m", 6), turn=Quantity(1000.0, "rad", 6)):
         Clothoid((0, 0), 0.0, 0.0, -1.0, 1_000.1)
 
 
-def test_a_spent_budget_ends_the_layout() -> None:
+def test_a_spent_budget_ends_the_layout():
     budget = Budget(1.0)
     budget.spend(2.0)
     with pytest.raises(TooMuchWork, match=r"path\.pieces\[0\]"):
@@ -129,18 +128,18 @@ def bend_of(ramps: float) -> Route:
 BLENDED = bend_of(2.0)
 
 
-def test_a_bend_that_is_blended_has_no_jump_of_curvature() -> None:
+def test_a_bend_that_is_blended_has_no_jump_of_curvature():
     s = np.linspace(-1.0, 9.0, 20_001)
     assert np.abs(np.diff(BLENDED.curvature(s))).max() < 0.5 / 2.0 * (s[1] - s[0]) * 1.001
 
 
-def test_a_ramp_makes_the_fastest_handle_slower() -> None:
+def test_a_ramp_makes_the_fastest_handle_slower():
     """The same angle and the same sharpest curvature, left with a jump or over a ramp."""
     speeds = [highest_speed(Dance(DRAGON, bend_of(ramps)), start=-1.0).speed for ramps in (3.0, 1.0, 0.0)]
     assert speeds == sorted(set(speeds))
 
 
-def test_handles_are_those_of_the_slow_route_and_check_judges_their_dance() -> None:
+def test_handles_are_those_of_the_slow_route_and_check_judges_their_dance():
     dance, slow = Dance(DRAGON, BLENDED), SlowRoute.of(DRAGON, BLENDED)
     times = np.linspace(-5.0, 20.0, 30)
     assert_near(trajectory(dance, times).position, slow.handles(times), 1e-10)
@@ -152,6 +151,6 @@ def test_handles_are_those_of_the_slow_route_and_check_judges_their_dance() -> N
 @pytest.mark.parametrize(
     ("first", "last", "calm"), [(0.1, 0.4, True), (0.0, -0.4, True), (0.4, 0.1, False), (-0.1, 0.4, False)]
 )
-def test_a_growing_clothoid_at_the_beginning_is_calm(first: float, last: float, calm: bool) -> None:
+def test_a_growing_clothoid_at_the_beginning_is_calm(first, last, calm):
     """No handle is faster than its leader where the curvature grows in the direction of travel."""
     assert Route([Clothoid((0, 0), 0.0, first, last, 40.0)]).calm_beginning is calm

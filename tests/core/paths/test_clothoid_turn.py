@@ -15,7 +15,7 @@ JOINT, HANDLES = 1e-9, 1e-9
 SMOOTH = ClothoidTurn(1.7, ratio=1.0, middle=4.0, ends=0.5)
 
 
-def test_the_curvature_is_continuous_from_coil_to_coil() -> None:
+def test_the_curvature_is_continuous_from_coil_to_coil():
     s = np.linspace(-2.0, SMOOTH.length + 2.0, 40_001)
     bends, sharpest = SMOOTH.curvature(s), 1.0 / min(SMOOTH.radii)
     assert np.abs(np.diff(bends)).max() < 2.0 * sharpest / 0.5 * (s[1] - s[0])
@@ -23,7 +23,7 @@ def test_the_curvature_is_continuous_from_coil_to_coil() -> None:
 
 
 @pytest.mark.parametrize("ratio", [0.8, 1.0, 2.0])
-def test_short_clothoids_leave_the_turn_of_two_arcs(ratio: float) -> None:
+def test_short_clothoids_leave_the_turn_of_two_arcs(ratio):
     arcs = Turn(1.7, ratio=ratio, entry_radius=4.3, exit_radius=4.4)
     blended = ClothoidTurn(1.7, ratio=ratio, middle=1e-3, entry_radius=4.3, exit_radius=4.4)
     assert_near([blended.length, *blended.radii], [arcs.length, *arcs.radii], 1e-5)
@@ -31,18 +31,18 @@ def test_short_clothoids_leave_the_turn_of_two_arcs(ratio: float) -> None:
     assert_near(blended.position(s), arcs.position(s), 1e-5)
 
 
-def test_it_ends_where_the_coil_outwards_begins() -> None:
+def test_it_ends_where_the_coil_outwards_begins():
     turn = ClothoidTurn(1.7, ratio=1.1, middle=2.0, ends=0.2, entry_radius=3.6, exit_radius=3.5)
     arcs = Turn(1.7, ratio=1.1, entry_radius=3.6, exit_radius=3.5)
     assert_near(turn.position(np.array([0.0, turn.length])), [arcs.entry, arcs.exit], JOINT)
 
 
-def test_with_equal_arcs_opposite_ends_the_turn_is_its_own_reflection() -> None:
+def test_with_equal_arcs_opposite_ends_the_turn_is_its_own_reflection():
     s = np.linspace(0.0, SMOOTH.length, 201)
     assert_near(SMOOTH.position(s), -SMOOTH.position(SMOOTH.length - s), JOINT)
 
 
-def test_its_arcs_and_the_place_between_them_lie_on_it() -> None:
+def test_its_arcs_and_the_place_between_them_lie_on_it():
     turn = ClothoidTurn(1.7, ratio=1.3, middle=2.0, ends=0.4, entry_radius=4.2, exit_radius=4.4)
     s = np.linspace(0.0, turn.length, 40_001)
     places, bends, step = turn.position(s), turn.curvature(s), s[1] - s[0]
@@ -57,19 +57,19 @@ def test_its_arcs_and_the_place_between_them_lie_on_it() -> None:
     assert (turn.entry, turn.exit) == (tuple(turn.position(0.0)), tuple(turn.position(turn.length)))
 
 
-def test_handles_on_it_are_those_of_the_slow_route() -> None:
+def test_handles_on_it_are_those_of_the_slow_route():
     times = np.linspace(0.0, SMOOTH.length + 15.0, 21)
     slow = SlowRoute.of(Dragon(9), SMOOTH).handles(times)
     assert_near(trajectory(Dance(Dragon(9), SMOOTH), times).position, slow, HANDLES)
 
 
-def test_a_clothoid_between_the_arcs_makes_the_turn_quicker() -> None:
+def test_a_clothoid_between_the_arcs_makes_the_turn_quicker():
     """The values of docs/contest.md."""
     turns = Turn(1.7, ratio=1.0), ClothoidTurn(1.7, ratio=1.0, middle=5.8)
     assert [round(turn_time(Dragon(), turn).time, 2) for turn in turns] == [8.21, 7.28]
 
 
-def test_all_benches_dance_through_it() -> None:
+def test_all_benches_dance_through_it():
     assert first_contact(Dance(Dragon(), SMOOTH), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
 
 
@@ -82,19 +82,19 @@ def test_all_benches_dance_through_it() -> None:
     ],
     ids=["long", "none", "long ends", "negative", "short ends", "ratio", "exit"],
 )
-def test_what_is_no_turn_is_refused(ways: dict[str, float], field: str) -> None:
+def test_what_is_no_turn_is_refused(ways, field):
     with refused(field):
         ClothoidTurn(1.7, **ways)
 
 
-def test_the_extent_is_the_largest_distance_from_the_centre() -> None:
+def test_the_extent_is_the_largest_distance_from_the_centre():
     for turn in (SMOOTH, ClothoidTurn(1.7, ratio=1.07, middle=2.265, entry_radius=3.417, exit_radius=3.57)):
         places = turn.position(np.linspace(0.0, turn.length, 100_001))
         assert_near(turn.extent, np.hypot(*places.T).max(), 1e-8)
         assert turn.extent <= turn.turning_radius + JOINT
 
 
-def test_equal_turns_are_equal_and_repeat_what_made_them() -> None:
+def test_equal_turns_are_equal_and_repeat_what_made_them():
     again = eval(repr(SMOOTH))
     assert again == SMOOTH
     assert hash(again) == hash(SMOOTH)

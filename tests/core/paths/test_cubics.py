@@ -45,7 +45,7 @@ WANDER = points_of(*np.cumsum(np.random.default_rng(7).normal(0.0, 4.0, (7, 2)),
 @pytest.mark.parametrize(
     ("points", "most"), [(zigzag(60), 6), (zigzag(300), 6), (circle(300), 1.01), (WANDER, math.inf)]
 )
-def test_the_length_of_many_legs_is_that_of_a_finer_quadrature_in_few_cubics(points: Points, most: float) -> None:
+def test_the_length_of_many_legs_is_that_of_a_finer_quadrature_in_few_cubics(points, most):
     route = Route([Waypoints(points)])
     spline, knots = spline_of(points)
     assert_near(route.end, spline_length(spline, knots, knots[-1]), ARC_ERROR)
@@ -80,19 +80,19 @@ legs = st.lists(st.tuples(st.floats(0.5, 20.0), st.floats(-2.0, 2.0)), min_size=
 
 @settings(max_examples=40, deadline=None)
 @given(legs)
-def test_the_curvature_of_every_cubic_lies_between_its_bounds(steps: list[tuple[float, float]]) -> None:
+def test_the_curvature_of_every_cubic_lies_between_its_bounds(steps):
     along, turned = np.array(steps).T
     places = np.cumsum(along * np.exp(1j * np.cumsum(turned)))
     assert_bounded(Route([Waypoints(((0.0, 0.0), *points_of(places.real, places.imag)))]))
 
 
-def test_a_zigzag_has_crests_and_they_are_bounded() -> None:
+def test_a_zigzag_has_crests_and_they_are_bounded():
     route = Route([Waypoints(zigzag(8), start_heading=0.0, end_heading=1.0)])
     assert (route.table[:, PIECE_KIND] == CREST).any()
     assert_bounded(route)
 
 
-def test_places_in_any_order_are_found_on_their_pieces() -> None:
+def test_places_in_any_order_are_found_on_their_pieces():
     route = Route([Waypoints(zigzag(200))])
     table, s = route.table, np.random.default_rng(3).uniform(route.begin - 1.0, route.end + 1.0, 2_000)
     in_order = np.argsort(s)
@@ -120,21 +120,21 @@ HOSTILE: dict[str, Points] = {
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("points", STOPPING.values(), ids=STOPPING)
-def test_a_curve_that_comes_to_rest_is_refused(points: Points) -> None:
+def test_a_curve_that_comes_to_rest_is_refused(points):
     with refused("path.pieces.0.points"):
         Route([Waypoints(points)])
 
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("points", HOSTILE.values(), ids=HOSTILE)
-def test_points_far_apart_and_close_together_make_a_finite_path(points: Points) -> None:
+def test_points_far_apart_and_close_together_make_a_finite_path(points):
     table = Route([Waypoints(points)]).table
     assert np.isfinite(table).all()
     assert (table[:, S_END] > table[:, S_START]).all()
     assert len(table) <= 30 * len(points)
 
 
-def test_a_curve_of_too_many_cubics_is_refused(monkeypatch: Any) -> None:
+def test_a_curve_of_too_many_cubics_is_refused(monkeypatch):
     pieces = [Waypoints(zigzag(20))]
     cuts = len(Route(pieces).table)
     monkeypatch.setattr(cubics, "CUBICS_MAX", cuts)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import pytest
 
@@ -37,14 +36,14 @@ def line(length: float) -> Route:
     return Route([Line((0, 0), (length, 0))])
 
 
-def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place() -> None:
+def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place():
     route = Route([Line((-30, 0), (0, 0)), Arc((0, 1.2), 1.2, -0.5 * math.pi, math.pi), Line((0, 2.4), (-30, 2.4))])
     with refused("path", bench=0, bend=Quantity(1.2, "m", 4), s=Quantity(30.0, "m", 4)):
         trajectory(Dance(Dragon(benches=5), route), [20.0])
     assert trajectory(Dance(Dragon(benches=5, head_length=2.2), route), [20.0]).speed.min() > 0.0
 
 
-def test_a_start_before_the_beginning_of_the_path_is_refused() -> None:
+def test_a_start_before_the_beginning_of_the_path_is_refused():
     dance = Dance(DRAGON, line(100))
     assert_near(trajectory(dance, LENGTH + 1e-6).position[-1, 0], 1e-6, SAME)
     with pytest.raises(OutsideRun, match=f"{LENGTH:.5f}[01] s"):
@@ -73,18 +72,18 @@ QUESTIONS = {
 
 @pytest.mark.parametrize("path", TOO_SHORT.values(), ids=TOO_SHORT)
 @pytest.mark.parametrize("ask", QUESTIONS.values(), ids=QUESTIONS)
-def test_a_path_too_short_for_the_dragon_says_so(ask: Callable[[Dance], object], path: Route) -> None:
+def test_a_path_too_short_for_the_dragon_says_so(ask, path):
     length = Quantity(path.end - path.begin, "m", 9)
     with refused("path", least=Quantity(LENGTH, "m", 9), last=16, got=length):
         ask(Dance(DRAGON, path))
 
 
-def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
+def test_a_path_a_hair_longer_than_the_dragon_has_room():
     assert_near(check(Dance(DRAGON, line(LENGTH + 1e-6))).start, LENGTH, 1e-6)
 
 
 @pytest.mark.parametrize("begin", [0.0, 3.0])
-def test_at_its_earliest_travel_the_head_is_a_dragon_ahead_of_the_beginning(begin: float) -> None:
+def test_at_its_earliest_travel_the_head_is_a_dragon_ahead_of_the_beginning(begin):
     route = Route([Waypoints(((0, 0), (8, 1), (12, 6), (9, 12), (0, 14)))])
     s = head = earliest_travel(DRAGON, route, begin)
     for chord in DRAGON.chords.tolist():

@@ -60,7 +60,7 @@ def moved(request: pytest.FixtureRequest) -> Moved:
     return Moved(Dance(DRAGON, Spiral(0.55, 14.0, *request.param)), move)
 
 
-def test_everything_that_has_a_place_is_moved(moved: Moved) -> None:
+def test_everything_that_has_a_place_is_moved(moved):
     dance, move = moved
     times = [0.0, 100.0, 250.0]
     old, new = trajectory(STANDARD, times), trajectory(dance, times)
@@ -74,7 +74,7 @@ def test_everything_that_has_a_place_is_moved(moved: Moved) -> None:
     assert_near(dance.path.drawn(new.position), move(STANDARD.path.drawn(old.position)), 10 * ROUNDING)
 
 
-def test_no_time_and_no_distance_depends_on_the_place(moved: Moved) -> None:
+def test_no_time_and_no_distance_depends_on_the_place(moved):
     old, new = first_contact(STANDARD), first_contact(moved.dance)
     for name in ("time", "time_bracket", "benches", "corner"):
         assert getattr(new, name) == getattr(old, name)
@@ -84,7 +84,7 @@ def test_no_time_and_no_distance_depends_on_the_place(moved: Moved) -> None:
     assert there == here
 
 
-def test_a_venue_is_met_where_it_is(moved: Moved) -> None:
+def test_a_venue_is_met_where_it_is(moved):
     dance, move = moved
 
     def venue(place: Callable[[Floats], Floats]) -> Venue:
@@ -104,7 +104,7 @@ def test_a_venue_is_met_where_it_is(moved: Moved) -> None:
     assert new.verdict is old.verdict
 
 
-def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(moved: Moved) -> None:
+def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(moved):
     dance, move = moved
     span = {"start": 300.0, "stop": 310.0}
     old, new = envelope(STANDARD, excess=0.01, **span), envelope(dance, excess=0.01, **span)
@@ -124,6 +124,6 @@ def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(mov
     [("path.centre", {"centre": (0.0,)}), ("path.centre.1", {"centre": (0.0, 1e9)}),
      ("path.rotation", {"rotation": float("nan")}), ("path.clockwise", {"clockwise": 1})],
 )  # fmt: skip
-def test_an_invalid_place_is_refused_by_name(field: str, place: dict[str, object]) -> None:
+def test_an_invalid_place_is_refused_by_name(field, place):
     with refused(field):
         Spiral(**place)  # type: ignore[arg-type]

@@ -18,13 +18,13 @@ CORNER = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0)]
 POINT = st.tuples(st.integers(-40, 40), st.integers(-40, 40))
 
 
-def test_curves_alone_are_the_curve_through_the_points() -> None:
+def test_curves_alone_are_the_curve_through_the_points():
     points = ((0.0, 0.0), (6.0, 1.0), (11.0, 6.0))
     drawn, known = Legs(points, start_heading=0.5, start=2.0), Route([Waypoints(points, 0.5)], 2.0)
     assert np.array_equal(drawn.table, known.table)
 
 
-def test_a_corner_of_straight_legs_is_rounded_by_an_arc_of_the_radius_or_as_large_as_the_legs_allow() -> None:
+def test_a_corner_of_straight_legs_is_rounded_by_an_arc_of_the_radius_or_as_large_as_the_legs_allow():
     line, arc, _ = Legs(CORNER, [0, 1], radius=4.0).pieces
     assert_near(line.end, [16.0, 0.0], ON_THE_PATH)
     assert_near([*arc.centre, arc.radius, arc.sweep], [16.0, 4.0, 4.0, math.pi / 2], ON_THE_PATH)
@@ -33,7 +33,7 @@ def test_a_corner_of_straight_legs_is_rounded_by_an_arc_of_the_radius_or_as_larg
 
 @settings(max_examples=40, deadline=None)
 @given(st.lists(POINT, min_size=2, max_size=7, unique=True), st.sets(st.integers(0, 5)))
-def test_every_drawn_path_is_smooth_and_goes_through_its_points(points: list[tuple[int, int]], legs: set[int]) -> None:
+def test_every_drawn_path_is_smooth_and_goes_through_its_points(points, legs):
     straight = {leg for leg in legs if leg < len(points) - 1}
     try:
         path = Legs(points, sorted(straight), radius=3.0)  # Route refuses a gap or a kink between two pieces.
@@ -58,19 +58,17 @@ def test_every_drawn_path_is_smooth_and_goes_through_its_points(points: list[tup
     ],
     ids=["one point", "twice the same", "no such leg", "half a leg", "turns back"],
 )
-def test_what_cannot_be_drawn_is_refused_by_its_place(
-    points: list[tuple[float, float]], straight: list[int], field: str
-) -> None:
+def test_what_cannot_be_drawn_is_refused_by_its_place(points, straight, field):
     with refused(field):
         Legs(points, straight)
 
 
-def test_a_curve_that_turns_on_the_spot_is_refused_by_its_points() -> None:
+def test_a_curve_that_turns_on_the_spot_is_refused_by_its_points():
     with pytest.raises(InvalidValue, match=r"^path\.points .* 1 and 2$"):
         Legs([(0.0, 0.0), (20.0, 0.0), (0.0, 0.0)], [0], end_heading=math.pi)
 
 
-def test_a_bend_is_too_tight_where_its_radius_is_below_what_the_longest_bench_needs() -> None:
+def test_a_bend_is_too_tight_where_its_radius_is_below_what_the_longest_bench_needs():
     tight, wide = (course(Legs(CORNER, [0, 1], radius=radius), Dragon(9)) for radius in (1.40, 1.45))
     assert wide.bends == ()
     (bend,) = tight.bends

@@ -37,7 +37,7 @@ def s(path: Path) -> np.ndarray:
     return np.random.default_rng(3).uniform(max(path.begin, -30.0) + 0.1, min(path.end, 60.0) - 0.1, 200)
 
 
-def test_the_tangent_is_the_change_of_the_position_and_the_curvature_of_the_tangent(path: Path, s: np.ndarray) -> None:
+def test_the_tangent_is_the_change_of_the_position_and_the_curvature_of_the_tangent(path, s):
     tangent = path.tangent(s)
     ahead, bend = ((ask(s + STEP) - ask(s - STEP)) / (2.0 * STEP) for ask in (path.position, path.tangent))
     assert_near(np.linalg.norm(tangent, axis=-1), np.ones(s.size), 1e-14)
@@ -46,7 +46,7 @@ def test_the_tangent_is_the_change_of_the_position_and_the_curvature_of_the_tang
     assert_near((bend * left).sum(axis=-1), path.curvature(s), QUOTIENT_ERROR)
 
 
-def test_one_place_has_the_answer_that_it_has_among_many(path: Path, s: np.ndarray) -> None:
+def test_one_place_has_the_answer_that_it_has_among_many(path, s):
     places = s[:20].reshape(4, 5)
     for ask in (path.position, path.tangent, path.curvature):
         many = ask(places)
@@ -54,7 +54,7 @@ def test_one_place_has_the_answer_that_it_has_among_many(path: Path, s: np.ndarr
         assert many[2, 3].tolist() == np.asarray(ask(float(places[2, 3]))).tolist()
 
 
-def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path: Path, s: np.ndarray) -> None:
+def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path, s):
     for travel in [*s[:20].tolist(), path.end if math.isfinite(path.end) else 0.0]:
         head = path.head(travel)
         assert_near([head.x, head.y], path.position(travel), ON_PATH)
@@ -63,7 +63,7 @@ def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path: Path, s
     assert path.limit >= path.end
 
 
-def test_a_chain_follows_the_head_along_the_path_with_its_chords(path: Path) -> None:
+def test_a_chain_follows_the_head_along_the_path_with_its_chords(path):
     sizes, chain = np.zeros((4, kernels.SIZE_COLUMNS)), np.zeros((4, kernels.CHAIN_COLUMNS))
     sizes[:, kernels.CHORD] = 2.86, 1.65, 1.65, 0.0
     starts = path.begin + np.array([9.0, 11.0])
@@ -76,13 +76,13 @@ def test_a_chain_follows_the_head_along_the_path_with_its_chords(path: Path) -> 
         assert_near(chords, sizes[:3, kernels.CHORD], ON_PATH)
 
 
-def test_the_path_as_a_route_is_the_same_in_its_own_frame(path: Path, s: np.ndarray) -> None:
+def test_the_path_as_a_route_is_the_same_in_its_own_frame(path, s):
     route = path.as_route(60.0)
     assert_near(path.frame.points(route.position(s)), path.position(s), ON_PATH)
     assert route.spiral is None
 
 
-def test_the_curvature_is_below_its_bounds(path: Path) -> None:
+def test_the_curvature_is_below_its_bounds(path):
     s = np.linspace(path.begin, path.end, 2_000)[:-1]
     bends = np.abs(path.curvature(s))
     assert bends.max() <= path.sharpest_before(float(s[-1])) * (1.0 + 1e-12)
@@ -94,7 +94,7 @@ def test_the_curvature_is_below_its_bounds(path: Path) -> None:
         assert (bends[tight == 0] <= 0.4).all()
 
 
-def test_a_drawing_of_the_whole_path_begins_where_its_first_point_is(path: Path) -> None:
+def test_a_drawing_of_the_whole_path_begins_where_its_first_point_is(path):
     low, high = path.drawn_between(path.begin, path.end)
     assert (low, high) == (path.begin, path.end)
     assert_near(path.drawn_begin(path.position(np.array([low, low + 5.0]))), low, ON_PATH)

@@ -30,7 +30,7 @@ ARC_ERROR = 1e-10  # [m]: arc length of curves through waypoints
     ],
     ids=["line", "arc", "coil", "waypoints upon each other", "waypoints that stop on the spot"],
 )
-def test_a_piece_of_zero_length_or_that_stops_is_refused(piece: Piece, field: str) -> None:
+def test_a_piece_of_zero_length_or_that_stops_is_refused(piece, field):
     with refused(field):
         Route([piece])
 
@@ -52,7 +52,7 @@ UNITS = {
 
 @pytest.mark.parametrize("number", [math.nan, math.inf])
 @pytest.mark.parametrize("kind", UNITS)
-def test_a_number_that_is_not_finite_is_refused_with_its_unit(kind: Callable[..., Piece], number: float) -> None:
+def test_a_number_that_is_not_finite_is_refused_with_its_unit(kind, number):
     for field, unit in UNITS[kind].items():
         with pytest.raises(InvalidValue) as caught:
             kind(**VALID[kind] | {field: number})
@@ -72,9 +72,7 @@ def test_a_number_that_is_not_finite_is_refused_with_its_unit(kind: Callable[...
         *((Coil, "start_turns", "5", ""), (Coil, "end_turns", -3, "")),
     ],
 )
-def test_a_piece_refuses_an_invalid_field_when_it_is_made(
-    kind: Callable[..., Piece], field: str, value: object, place: str
-) -> None:
+def test_a_piece_refuses_an_invalid_field_when_it_is_made(kind, field, value, place):
     with refused(f"{kind.__name__.lower()}.{field}{place}"):
         kind(**VALID[kind] | {field: value})
 
@@ -82,7 +80,7 @@ def test_a_piece_refuses_an_invalid_field_when_it_is_made(
 POINTS = ((0.0, 0.0), (6.0, 1.0), (11.0, 6.0), (9.0, 13.0), (2.0, 14.0), (-3.0, 9.0))
 
 
-def test_the_curve_through_waypoints_is_scipys_without_a_jump_of_curvature() -> None:
+def test_the_curve_through_waypoints_is_scipys_without_a_jump_of_curvature():
     route = Route([Waypoints(POINTS)])
     spline, knots = spline_of(POINTS)
     for t in np.linspace(0.7, knots[-1] - 0.1, 12):
@@ -96,7 +94,7 @@ def test_the_curve_through_waypoints_is_scipys_without_a_jump_of_curvature() -> 
 
 @settings(max_examples=20, deadline=None)
 @given(legs)
-def test_the_arc_length_through_random_waypoints_is_scipys(steps: list[tuple[float, float]]) -> None:
+def test_the_arc_length_through_random_waypoints_is_scipys(steps):
     pen = Pen()
     pen.waypoints(steps)
     points = pen.pieces[0].points
@@ -105,13 +103,13 @@ def test_the_arc_length_through_random_waypoints_is_scipys(steps: list[tuple[flo
     assert_near(route.end - route.begin, spline_length(spline, knots, knots[-1]), ARC_ERROR)
 
 
-def test_waypoints_take_the_headings_at_their_ends() -> None:
+def test_waypoints_take_the_headings_at_their_ends():
     route = Route([Waypoints(POINTS, start_heading=0.3, end_heading=-2.0)])
     ends = route.tangent(np.array([route.begin, route.end]))
     assert_near(ends, [[math.cos(a), math.sin(a)] for a in (0.3, -2.0)], 1e-12)
 
 
-def test_two_waypoints_are_a_line() -> None:
+def test_two_waypoints_are_a_line():
     a, b = Route([Waypoints(((0, 0), (3, 4)))]), Route([Line((0, 0), (3, 4))])
     s = np.linspace(0.0, 5.0, 11)
     assert_near(a.end, 5.0, 1e-14)
@@ -120,7 +118,7 @@ def test_two_waypoints_are_a_line() -> None:
 
 @settings(max_examples=50, deadline=None)
 @given(st.floats(0.3, 3.0), st.floats(0.0, 12.0), st.floats(0.0, 12.0))
-def test_a_coil_bends_no_faster_than_its_row_says(pitch: float, start: float, end: float) -> None:
+def test_a_coil_bends_no_faster_than_its_row_says(pitch, start, end):
     assume(abs(start - end) > 0.1)
     route = Route([Coil(pitch, start, end)])
     places = np.linspace(route.begin, route.end, 400)

@@ -7,7 +7,6 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-import shapely
 from hypothesis import given, settings
 
 from core import (
@@ -22,7 +21,6 @@ from core import (
     Route,
     Spiral,
     Turn,
-    bench_outlines,
     clearance_profile,
     first_contact,
     trajectory,
@@ -32,6 +30,7 @@ from tests.support.depth import examples
 from tests.support.near import assert_near
 from tests.support.random_routes import DRAGON, first_behind, routes
 from tests.support.refused import refused
+from tests.support.scenes import unlinked_clearance
 
 TURN = Turn(1.7, 4.5, 2.0)
 SAME = 1e-10  # [m], [m/s], [s]: one curve written in two ways
@@ -62,7 +61,7 @@ def way(*points: tuple[float, float]) -> list[Piece]:
     ],
     ids=["a gap", "a kink", "back on itself", "none", "no piece", "None", "a number", "a word", "a lone piece"],
 )
-def test_what_is_no_smooth_way_is_refused_with_its_joint_and_size(pieces: list, field: str, values: dict) -> None:
+def test_what_is_no_smooth_way_is_refused_with_its_joint_and_size(pieces, field, values):
     with refused(field, **values):
         Route(pieces)
 
@@ -85,22 +84,20 @@ STRAIGHT = Route([Line((0, 0), (100, 0))])
     ],
     ids=["line", "started", "long started", "ended", "long", "fast", "turn", "coil", "coil later"],
 )
-def test_default_instants_are_whole_seconds_that_the_run_has(
-    path: Route, head_speed: float, first: int, last: int
-) -> None:
+def test_default_instants_are_whole_seconds_that_the_run_has(path, head_speed, first, last):
     dance = Dance(DRAGON, path, head_speed)
     assert dance.default_times.tolist() == list(range(first, last + 1))
     assert math.ceil(dance.default_start) == first
     assert trajectory(dance, dance.default_times).speed.min() >= 0.0
 
 
-def test_a_run_too_short_for_a_whole_second_has_one_default_instant() -> None:
+def test_a_run_too_short_for_a_whole_second_has_one_default_instant():
     dance = Dance(DRAGON, Route([Line((0, 0), (LENGTH + 0.2, 0))]))
     (time,) = dance.default_times.tolist()
     assert_near([time, trajectory(dance, time).position[-1, 0]], [LENGTH, 0.0], 1e-6)
 
 
-def test_an_instant_after_the_end_of_the_path_is_refused() -> None:
+def test_an_instant_after_the_end_of_the_path_is_refused():
     trajectory(Dance(DRAGON, STRAIGHT), [100.0])
     with refused("times.0", OutsideRun, end=Quantity(100.0, "s", text="100.000000000 s")):
         trajectory(Dance(DRAGON, STRAIGHT), [100.001])
@@ -110,7 +107,7 @@ def test_an_instant_after_the_end_of_the_path_is_refused() -> None:
 
 
 @pytest.mark.parametrize("cuts", [(), (10.0, 4.2)], ids=["one coil", "three coils"])
-def test_a_spiral_as_a_route_has_the_spirals_motion_contact_and_clearance(cuts: tuple[float, ...]) -> None:
+def test_a_spiral_as_a_route_has_the_spirals_motion_contact_and_clearance(cuts):
     as_route = Route([Coil(0.55, a, b) for a, b in pairwise((16.0, *cuts, 3.0))])
     dances = [Dance(Dragon(), path) for path in (Spiral(), as_route)]
     times = np.linspace(-50.0, 412.0, 9)
@@ -138,7 +135,7 @@ def instants(route: Route, count: int) -> np.ndarray:
 
 @settings(max_examples=30, deadline=None)
 @given(routes())
-def test_chords_keep_their_length_and_velocities_are_difference_quotients_on_any_route(route: Route) -> None:
+def test_chords_keep_their_length_and_velocities_are_difference_quotients_on_any_route(route):
     times = instants(route, 15)
     before, motion, after = (
         trajectory(Dance(DRAGON, route), times + step) for step in (-QUOTIENT_STEP, 0.0, QUOTIENT_STEP)
@@ -155,7 +152,7 @@ def test_chords_keep_their_length_and_velocities_are_difference_quotients_on_any
 
 @settings(max_examples=examples(8, 20), deadline=None)
 @given(routes())
-def test_the_next_handle_is_the_first_point_behind_at_chord_distance(route: Route) -> None:
+def test_the_next_handle_is_the_first_point_behind_at_chord_distance(route):
     times = instants(route, 4)
     for handles, s in zip(trajectory(Dance(DRAGON, route), times).position, times.tolist(), strict=True):
         behind = [s]
@@ -164,26 +161,12 @@ def test_the_next_handle_is_the_first_point_behind_at_chord_distance(route: Rout
         assert_near(handles, route.position(np.array(behind)), PLACE_ERROR)
 
 
-def slow_clearance(route: Route, times: np.ndarray) -> np.ndarray:
-    """Least distance of benches that share no handle, by shapely; 0 where two overlap. (T,) [m]
-
-    A pair whose middles are farther apart than the longest diagonal counts as infinitely far.
-    """
-    a, b = np.triu_indices(DRAGON.benches, 2)
-    outlines = bench_outlines(DRAGON, trajectory(Dance(DRAGON, route), times).position)
-    shapes, middles = shapely.polygons(outlines), outlines.mean(axis=-2)
-    near = np.linalg.norm(middles[:, a] - middles[:, b], axis=-1) < np.hypot(DRAGON.lengths, DRAGON.widths).max()
-    least = np.full(near.shape, np.inf)
-    least[near] = shapely.distance(shapes[:, a][near], shapes[:, b][near])
-    return least.min(axis=1)
-
-
 @settings(max_examples=examples(6, 40), deadline=None)
 @given(routes())
-def test_first_contact_on_any_route_is_that_of_a_slow_search(route: Route) -> None:
-    times = np.linspace(1.005 * LENGTH, route.end, 1_000)
-    slow = slow_clearance(route, times)
-    contact = first_contact(Dance(DRAGON, route), start=float(times[0]))
+def test_first_contact_on_any_route_is_that_of_a_slow_search(route):
+    dance, times = Dance(DRAGON, route), np.linspace(1.005 * LENGTH, route.end, 1_000)
+    slow = unlinked_clearance(DRAGON, trajectory(dance, times).position)
+    contact = first_contact(dance, start=float(times[0]))
     if contact.outcome is Outcome.CLEAR:
         assert slow.min() > 0.0
         return
@@ -191,10 +174,10 @@ def test_first_contact_on_any_route_is_that_of_a_slow_search(route: Route) -> No
     clear, touching = contact.time_bracket
     assert touching - clear < 1.1e-9
     assert slow[times < clear].min() > 0.0
-    assert slow_clearance(route, np.array([touching]))[0] < TOUCHING
+    assert unlinked_clearance(DRAGON, trajectory(dance, [touching]).position)[0] < TOUCHING
 
 
-def test_s_counts_from_the_start_of_the_route() -> None:
+def test_s_counts_from_the_start_of_the_route():
     route = Route([Line((0, 0), (5, 0)), Arc((5, 2), 2, -0.5 * math.pi, math.pi)], start=3.0)
     assert (route.begin, route.joints) == (-3.0, (2.0,))
     assert_near(route.end, 2.0 + 2.0 * math.pi, 1e-14)

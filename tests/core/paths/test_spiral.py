@@ -26,12 +26,12 @@ ROUNDING = 1e-12
 STEP = 1e-5
 
 
-def test_the_length_is_that_of_the_paper() -> None:
+def test_the_length_is_that_of_the_paper():
     assert_near(SPIRAL.length, 442.590256, 5e-7)
 
 
 @pytest.mark.parametrize("turns", [0.01, 0.7, 3.0, 16.0])
-def test_the_length_is_the_integral_of_the_speed(turns: float) -> None:
+def test_the_length_is_the_integral_of_the_speed(turns):
     spiral = Spiral(0.8, turns)
     way, _ = quad(lambda theta: math.hypot(1.0, theta), 0.0, spiral.start_theta, epsabs=0.0, epsrel=1e-13)
     assert spiral.length == pytest.approx(spiral.growth * way, rel=2e-13)
@@ -39,9 +39,7 @@ def test_the_length_is_the_integral_of_the_speed(turns: float) -> None:
 
 @settings(max_examples=60, deadline=None)
 @given(SPIRALS, st.floats(-1.0, 1.0), st.floats(0.1, 10.0))
-def test_points_lie_on_the_spiral_at_their_arc_length_and_grow_with_the_pitch(
-    spiral: Spiral, share: float, k: float
-) -> None:
+def test_points_lie_on_the_spiral_at_their_arc_length_and_grow_with_the_pitch(spiral, share, k):
     s, growth = share * spiral.length, spiral.growth
     theta, point = float(spiral.theta(s)), spiral.position(s)
     assert math.hypot(*point) == pytest.approx(growth * theta, rel=1e-14)
@@ -55,7 +53,7 @@ def test_points_lie_on_the_spiral_at_their_arc_length_and_grow_with_the_pitch(
 
 @settings(max_examples=60, deadline=None)
 @given(SPIRALS, st.floats(-0.5, 0.999))
-def test_the_tangent_is_the_difference_quotient_of_the_position(spiral: Spiral, share: float) -> None:
+def test_the_tangent_is_the_difference_quotient_of_the_position(spiral, share):
     s, h = share * spiral.length, STEP * spiral.length * (1 - share)
     tangent = spiral.tangent(s)
     assert_near(np.linalg.norm(tangent), 1.0, 1e-14)
@@ -67,27 +65,27 @@ def test_the_tangent_is_the_difference_quotient_of_the_position(spiral: Spiral, 
 @example(Spiral(1.9033671822025784, 1.4088606096694036), [0.5378478684013417, 0.0])
 @settings(max_examples=50, deadline=None)
 @given(SPIRALS, st.lists(st.floats(-1.0, 1.0), max_size=6))
-def test_a_batch_equals_a_loop(spiral: Spiral, shares: list[float]) -> None:
+def test_a_batch_equals_a_loop(spiral, shares):
     s = np.array(shares) * spiral.length
     for ask in (spiral.theta, spiral.position, spiral.tangent, spiral.curvature):
         batch = ask(s)
         assert np.array_equal(batch, np.array([ask(place) for place in s]).reshape(batch.shape))
 
 
-def test_every_shape_of_s_keeps_its_axes() -> None:
+def test_every_shape_of_s_keeps_its_axes():
     assert SPIRAL.theta(np.zeros((2, 3))).shape == (2, 3)
     assert SPIRAL.position(np.zeros((2, 3))).shape == (2, 3, 2)
     assert SPIRAL.tangent(5.0).shape == (2,)
 
 
-def test_the_centre_is_at_the_full_length() -> None:
+def test_the_centre_is_at_the_full_length():
     off = np.hypot(*SPIRAL.position(SPIRAL.length))
     assert SPIRAL.growth * SPIRAL.theta(SPIRAL.length) == pytest.approx(off)
     assert off <= np.spacing(SPIRAL.length)  # the length is a double
     assert SPIRAL.theta(np.nextafter(SPIRAL.length, np.inf)) == 0.0
 
 
-def test_the_dance_goes_inwards_and_clockwise() -> None:
+def test_the_dance_goes_inwards_and_clockwise():
     x, y = SPIRAL.position(1.0)
     assert math.hypot(x, y) < 8.8
     assert y < 0.0
@@ -97,7 +95,7 @@ def test_the_dance_goes_inwards_and_clockwise() -> None:
     ("pitch", "turns"),
     [(SIZE_MIN, 16.0), (SIZE_MAX, 16.0), (0.55, START_TURNS_MAX), (0.55, 1e-6)],
 )
-def test_a_spiral_at_its_limits_is_accepted(pitch: float, turns: float) -> None:
+def test_a_spiral_at_its_limits_is_accepted(pitch, turns):
     assert 0.0 < Spiral(pitch, turns).length < math.inf
 
 
@@ -108,6 +106,6 @@ def test_a_spiral_at_its_limits_is_accepted(pitch: float, turns: float) -> None:
         *(("start_turns", bad) for bad in (0.0, -1.0, START_TURNS_MAX * 1.001, math.inf, None)),
     ],
 )
-def test_a_spiral_beyond_its_limits_is_refused_by_its_field(name: str, value: object) -> None:
+def test_a_spiral_beyond_its_limits_is_refused_by_its_field(name, value):
     with refused(f"path.{name}"):
         Spiral(**{name: value})  # type: ignore[arg-type]

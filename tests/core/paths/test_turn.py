@@ -34,7 +34,7 @@ INVALID = {
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("name", INVALID)
-def test_an_invalid_turn_names_what_was_asked_and_never_a_piece(name: str) -> None:
+def test_an_invalid_turn_names_what_was_asked_and_never_a_piece(name):
     field, query = INVALID[name]
     with pytest.raises(InvalidValue) as caught:
         Turn(**query)
@@ -47,7 +47,7 @@ def test_an_invalid_turn_names_what_was_asked_and_never_a_piece(name: str) -> No
 
 
 @pytest.mark.uncompiled
-def test_turns_with_the_same_pieces_differ_by_their_turning_circles() -> None:
+def test_turns_with_the_same_pieces_differ_by_their_turning_circles():
     one, same, wider = (Turn(1.7, radius, entry_radius=4.0) for radius in (4.5, 4.5, 5.0))
     assert one == same
     assert one.pieces == wider.pieces
@@ -63,9 +63,7 @@ def test_turns_with_the_same_pieces_differ_by_their_turning_circles() -> None:
         *((1.0, 4.462, 3.900, 8.2271), (0.8, 4.310, 3.828, 8.7917)),
     ],
 )
-def test_a_free_exit_leaves_on_the_coil_outwards_in_its_direction(
-    ratio: float, entry: float, leaving: float, length: float
-) -> None:
+def test_a_free_exit_leaves_on_the_coil_outwards_in_its_direction(ratio, entry, leaving, length):
     turn = Turn(1.7, ratio=ratio, entry_radius=entry, exit_radius=leaving)
     assert (turn.entry_radius, turn.exit_radius) == (entry, leaving)
     assert_near(turn.length, length, 5e-5)
@@ -78,7 +76,7 @@ def test_a_free_exit_leaves_on_the_coil_outwards_in_its_direction(
 
 
 @pytest.mark.uncompiled
-def test_an_exit_equal_to_the_entry_is_the_default() -> None:
+def test_an_exit_equal_to_the_entry_is_the_default():
     default, equal, near = (Turn(1.7, entry_radius=4.3, exit_radius=leaving) for leaving in (None, 4.3, 4.3 + 1e-9))
     assert equal == default
     assert_near(near.length, default.length, 1e-7)
@@ -88,7 +86,7 @@ def test_an_exit_equal_to_the_entry_is_the_default() -> None:
 @pytest.mark.parametrize(
     ("ratio", "entry", "leaving"), [(2.598, 1.853, 4.403), (0.288, 4.395, 1.672), (3.921, 1.557, 4.317)]
 )
-def test_arcs_that_leave_the_circle_are_refused_with_their_distance(ratio: float, entry: float, leaving: float) -> None:
+def test_arcs_that_leave_the_circle_are_refused_with_their_distance(ratio, entry, leaving):
     """On a larger circle the same arcs are accepted, and samples of them say how far they go."""
     arcs = Turn(1.7, 20.0, ratio, entry_radius=entry, exit_radius=leaving)
     furthest = np.linalg.norm(arcs.position(np.linspace(0.0, arcs.length, 200_001)), axis=-1).max()
@@ -99,7 +97,7 @@ def test_arcs_that_leave_the_circle_are_refused_with_their_distance(ratio: float
 
 
 @pytest.mark.uncompiled
-def test_the_turn_has_the_reference_arcs() -> None:
+def test_the_turn_has_the_reference_arcs():
     known = REFERENCE["turn"]
     for name in ("length", "radii", "angles", "entry", "exit", "tangent_point", "centres"):
         assert_near(getattr(TURN, name), known[name], REFERENCE_ERROR)
@@ -107,7 +105,7 @@ def test_the_turn_has_the_reference_arcs() -> None:
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("table", REFERENCE["tables"], ids=lambda table: f"{table['time']:g} s")
-def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
+def test_every_handle_on_the_turn_is_the_reference_one(table):
     motion, rows = trajectory(DANCE, table["time"]), table["handles"]
     handles = [row["handle"] for row in rows]
     assert len(handles) > 5
@@ -116,7 +114,7 @@ def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
 
 
 @pytest.mark.uncompiled
-def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
+def test_the_least_clearance_on_the_turn_is_the_reference_one():
     known = REFERENCE["clearance"]
     span = dict(zip(("start", "stop"), known["interval"], strict=True))
     least = least_clearance(DANCE, **span)
@@ -128,7 +126,7 @@ def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
     assert_near(graze.time, known["time"], 1e-3)
 
 
-def test_a_free_exit_gives_the_arcs_that_root_finding_gives() -> None:
+def test_a_free_exit_gives_the_arcs_that_root_finding_gives():
     """The radius at which the circles touch, from tangents and root finding alone."""
     growth = 1.7 / (2.0 * math.pi)
 

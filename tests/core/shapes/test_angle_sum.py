@@ -29,7 +29,7 @@ SIZE = np.array([LENGTH, WIDTH])
 
 @pytest.mark.parametrize("turn", [0.0, math.pi])
 @pytest.mark.parametrize("heading", [0.0, 0.4, math.pi / 2, 2.5, -1.1])
-def test_paper_corners_are_the_rectangle_whichever_way_its_arctan_points(heading: float, turn: float) -> None:
+def test_paper_corners_are_the_rectangle_whichever_way_its_arctan_points(heading, turn):
     expected = corners(np.array([3.0, 1.0, heading]), SIZE)
     result = paper_corners(np.array([3.0, 1.0, heading + turn]), SIZE)
     apart = np.linalg.norm(result[:, None] - expected[None], axis=-1)
@@ -37,7 +37,7 @@ def test_paper_corners_are_the_rectangle_whichever_way_its_arctan_points(heading
 
 
 @pytest.mark.parametrize("theta", [0.0, 0.4, math.pi / 4, math.pi / 2, 2.5])
-def test_literal_corners_are_those_of_eq_12_as_printed(theta: float) -> None:
+def test_literal_corners_are_those_of_eq_12_as_printed(theta):
     cos, sin = math.cos(theta), math.sin(theta)
     signs = np.array([[1, -1], [1, 1], [-1, 1], [-1, -1]])
     # y = l / 2 sin theta + w / 2 cos theta with the signs of x, where a rectangle has the other sign of w
@@ -59,18 +59,18 @@ SQUARE = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
     ],
     ids=["inside", "on an edge", "on a corner", "just outside", "far away"],
 )
-def test_angle_sum_is_a_full_turn_inside_and_less_outside(point: tuple[float, float], expected: float) -> None:
+def test_angle_sum_is_a_full_turn_inside_and_less_outside(point, expected):
     assert_near(angle_sums(np.array([point]), SQUARE), [expected], ANGLE_TOLERANCE)
 
 
 @pytest.mark.parametrize(("gap", "seen"), [(-1e-9, True), (0.0, True), (1e-13, True), (1e-12, False), (1e-9, False)])
-def test_angle_sum_tolerance_reaches_less_than_a_picometre(gap: float, seen: bool) -> None:
+def test_angle_sum_tolerance_reaches_less_than_a_picometre(gap, seen):
     tip = np.array([[1.0 + gap, 0.0], [2.0, 0.5], [2.0, -0.5]])
     assert angle_sum_overlap(SQUARE, tip) == seen
     assert angle_sum_overlap(tip, SQUARE) == seen
 
 
-def test_angle_sum_misses_a_crossing_without_a_corner_inside() -> None:
+def test_angle_sum_misses_a_crossing_without_a_corner_inside():
     crossing = benches((0, 0, 0), (0, 0, math.pi / 2))
     assert overlaps(*crossing, chained=False).pairs.tolist() == [[0, 1]]
     assert overlaps(*crossing, chained=False, engine=Engine.ANGLE_SUM).pairs.tolist() == []
@@ -78,7 +78,7 @@ def test_angle_sum_misses_a_crossing_without_a_corner_inside() -> None:
 
 @settings(deadline=None, max_examples=50)
 @given(st.integers(0, 2**32), st.integers(2, 40))
-def test_angle_sum_finds_just_the_overlaps_with_a_corner_inside(seed: int, count: int) -> None:
+def test_angle_sum_finds_just_the_overlaps_with_a_corner_inside(seed, count):
     pose, length, width = crowd(count, seed, side=8.0)
     size = np.stack([length, width], axis=-1)
     holds = (outside(corners(pose, size)[:, None], pose[:, None], size[:, None]) <= 0.0).any(axis=-1)
@@ -86,6 +86,6 @@ def test_angle_sum_finds_just_the_overlaps_with_a_corner_inside(seed: int, count
     np.testing.assert_array_equal(result, np.argwhere(np.triu(holds | holds.T, k=1)))
 
 
-def test_the_angle_sum_rule_refuses_a_margin() -> None:
+def test_the_angle_sum_rule_refuses_a_margin():
     with refused("margin"):
         overlaps(*benches((0, 0, 0)), engine=Engine.ANGLE_SUM, margin=0.05)

@@ -25,7 +25,7 @@ def close_pairs(poses: Floats, lengths: Floats, widths: Floats, *, margin: float
 
 @settings(deadline=None, max_examples=50)
 @given(st.integers(0, 2**32), st.integers(0, 60), st.sampled_from([0.0, 1e-9, 0.3]), st.sampled_from([0.0, 1e3, 1e8]))
-def test_broad_phase_is_a_superset_of_the_narrow_phase(seed: int, count: int, margin: float, shift: float) -> None:
+def test_broad_phase_is_a_superset_of_the_narrow_phase(seed, count, margin, shift):
     pose, length, width = crowd(count, seed, side=12.0)
     scene = pose + np.array([shift, -shift, 0.0]), length, width
     narrow = all_pairs(scene, margin)
@@ -52,13 +52,13 @@ LAYOUTS = {
 
 
 @pytest.mark.parametrize("scene", LAYOUTS.values(), ids=LAYOUTS)
-def test_separating_axis_finds_what_all_pairs_finds(scene: Scene) -> None:
+def test_separating_axis_finds_what_all_pairs_finds(scene):
     result = overlaps(*scene, chained=False).pairs
     np.testing.assert_array_equal(result, all_pairs(scene))
     assert len(result) > 100
 
 
-def test_close_benches_that_do_not_overlap_are_refused_when_too_many_must_be_looked_at() -> None:
+def test_close_benches_that_do_not_overlap_are_refused_when_too_many_must_be_looked_at():
     count = 7_000  # their boxes all meet: 24 million pairs
     poses = np.arange(count)[:, None] * [0.25, -0.25, 0.0] + [0.0, 0.0, math.pi / 4]
     with refused("benches", TooLarge, most=20_000_000):
@@ -67,7 +67,7 @@ def test_close_benches_that_do_not_overlap_are_refused_when_too_many_must_be_loo
 
 # n benches in one place are n (n - 1) / 2 pairs
 @pytest.mark.parametrize(("find", "limit"), [(overlaps, PAIRS_MAX), (close_pairs, CROSS_CANDIDATES_MAX)])
-def test_as_many_pairs_as_the_limit_allows_are_found(find: object, limit: int) -> None:
+def test_as_many_pairs_as_the_limit_allows_are_found(find, limit):
     most = (1 + math.isqrt(1 + 8 * limit)) // 2
     poses, sizes = np.zeros((most + 1, 3)), np.ones((2, most + 1))
     result = find(poses[1:], *sizes[:, 1:], chained=False)

@@ -38,7 +38,7 @@ def crowds(count: int) -> list[tuple[Floats, Floats]]:
 
 
 @pytest.mark.parametrize("margin", [0.0, 0.1])
-def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_threads(margin: float) -> None:
+def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_threads(margin):
     scenes = crowds(KEPT_DRAGONS + 4)
     truth = [[unlinked_pairs(pose, size, margin) for pose in poses] for poses, size in scenes]
     assert sum(len(pairs) for instants in truth for pairs in instants) > 1_000
@@ -57,7 +57,7 @@ def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_
 
 
 @pytest.mark.parametrize("engine", Engine)
-def test_many_instants_at_once_are_as_one_by_one(engine: Engine) -> None:
+def test_many_instants_at_once_are_as_one_by_one(engine):
     for poses, size in crowds(5):
         for chained in (True, False):
             together = engine_pairs(engine, poses, size, 0.0, chained=chained)
@@ -73,7 +73,7 @@ def excess_of(polygons: list[list[Floats]], own: shapely.Geometry, spacing: floa
     return shapely.distance(own, shapely.points(shapely.get_coordinates(shapely.segmentize(result.boundary, spacing))))
 
 
-def test_a_union_is_grown_by_what_was_asked_and_hardly_more() -> None:
+def test_a_union_is_grown_by_what_was_asked_and_hardly_more():
     random = np.random.default_rng(4)
     angles = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)[:, None] + [0.0, 0.11, 0.12]  # with shallow dents
     fan = np.stack([np.cos(angles), np.sin(angles)], axis=-1) * (1.0 + 1e-3 * random.uniform(size=(60, 1, 1)))
@@ -100,7 +100,7 @@ WAVES = {
 @pytest.mark.parametrize("wave", WAVES)
 @pytest.mark.parametrize("corners", [3, 4])
 @pytest.mark.parametrize("cells", [1, PIECE - 1, PIECE, 3 * PIECE + 5])
-def test_a_strip_covers_what_its_polygons_cover(wave: str, corners: int, cells: int) -> None:
+def test_a_strip_covers_what_its_polygons_cover(wave, corners, cells):
     line = np.stack(WAVES[wave](np.linspace(0.0, 2.5, cells + 1)), axis=-1)
     if corners == 4:
         side = line + np.gradient(line, axis=0) @ [[0.0, 0.2], [-0.2, 0.0]] * cells / 3.0
@@ -134,9 +134,7 @@ STREET = ring((0, 0), (50, 0), (50, 4), (10, 4), (10, 10), (0, 10))
     ],
     ids=["square", "equally wide, so around the centroid", "not the long street", "all covered", "beside others"],
 )
-def test_the_widest_place_is_the_middle_of_the_largest_circle(
-    outline: list, others: list, middle: tuple[float, float]
-) -> None:
+def test_the_widest_place_is_the_middle_of_the_largest_circle(outline, others, middle):
     x, y, wide = widest_place([outline], others)
     off = 2.0 * WIDEST * np.ptp(outline, axis=0).max()
     assert_near([x, y], middle, off)
@@ -144,6 +142,6 @@ def test_the_widest_place_is_the_middle_of_the_largest_circle(
     assert_near(shapely.Polygon(outline).boundary.distance(shapely.Point(x, y)), wide, 1e-6)
 
 
-def test_the_widest_place_is_in_the_view_if_the_view_shows_some_of_the_polygon() -> None:
+def test_the_widest_place_is_in_the_view_if_the_view_shows_some_of_the_polygon():
     assert_near(widest_place([STREET], view=(20.0, -5.0, 40.0, 50.0))[:2], [30.0, 2.0], 1.0)
     assert widest_place([STREET], view=(60.0, -5.0, 90.0, 50.0)) == widest_place([STREET])

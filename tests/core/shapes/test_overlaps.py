@@ -12,10 +12,9 @@ from hypothesis import strategies as st
 from core import Dance, Dragon, Spiral, bench_poses, trajectory
 from core.errors import SIZE_MAX, SIZE_MIN, TooLarge
 from core.shapes.overlaps import POSITION_MAX, Engine, Verdict, cross_check, overlaps, separation, verdicts
-from core.values import Floats
 from tests.support.depth import examples
 from tests.support.refused import refused
-from tests.support.scenes import LENGTH, WIDTH, Scene, all_pairs, benches, crowd, random_pairs
+from tests.support.scenes import LENGTH, WIDTH, all_pairs, benches, crowd, near_pairs
 
 # Within this of the margin the engines may differ, for each rounds its own corners [m].
 UNDECIDED = 1e-9
@@ -27,24 +26,6 @@ EXACT = (Engine.SEPARATING_AXIS, Engine.FCL, Engine.SHAPELY)
 
 by_every_engine = pytest.mark.parametrize("engine", Engine)
 by_exact_engines = pytest.mark.parametrize("engine", EXACT)
-
-
-def near_pairs(count: int, seed: int, margin: float) -> tuple[Scene, Floats]:
-    """Pairs of rectangles 2 k, 2 k + 1, each pair in its own cell, two thirds of them within NEAR of the margin.
-
-    returns: the scene and the separation of each pair (count,) [m]
-    """
-    pose_a, size_a, pose_b, size_b = random_pairs(count, seed)
-    random = np.random.default_rng(seed)
-    near = random.random(count) < 2 / 3
-    wanted = margin + NEAR * random.choice([0.0, 0.1, -0.1, 0.2, -0.2, 1.0, -1.0], count)
-    result = separation(pose_a, size_a, pose_b, size_b)
-    pose_b[near, :2] -= ((result.separation - wanted)[:, None] * result.normal)[near]
-    cell = 20.0 * np.stack(np.divmod(np.arange(count), math.isqrt(count)), axis=-1)
-    for pose in (pose_a, pose_b):
-        pose[:, :2] += cell
-    poses, sizes = (np.stack(pair, axis=1).reshape(2 * count, -1) for pair in ((pose_a, pose_b), (size_a, size_b)))
-    return (poses, *sizes.T), separation(pose_a, size_a, pose_b, size_b).separation
 
 
 # -- scenes in a table ----------------------------------------------------------------------------------------
@@ -67,13 +48,13 @@ SCENES = {
 
 @by_every_engine
 @pytest.mark.parametrize(("poses", "pairs"), SCENES.values(), ids=SCENES)
-def test_every_engine_finds_the_pairs_of_the_table(poses: tuple, pairs: list, engine: Engine) -> None:
+def test_every_engine_finds_the_pairs_of_the_table(poses, pairs, engine):
     result = overlaps(*benches(*poses), engine=engine, chained=False)
     np.testing.assert_array_equal(result.pairs, np.array(pairs).reshape(-1, 2))
 
 
 @by_every_engine
-def test_neighbours_are_left_out_of_a_chain_only(engine: Engine) -> None:
+def test_neighbours_are_left_out_of_a_chain_only(engine):
     scene = benches((0, 0, 0), (0.5, 0.1, 0.1), (0.2, -0.1, -0.05))
     assert overlaps(*scene, engine=engine).pairs.tolist() == [[0, 2]]
     assert overlaps(*scene, engine=engine, chained=False).pairs.tolist() == [[0, 1], [0, 2], [1, 2]]
@@ -88,13 +69,13 @@ def test_neighbours_are_left_out_of_a_chain_only(engine: Engine) -> None:
     ],
     ids=["at", "below", "above", "below around a corner", "above around a corner"],
 )
-def test_a_gap_counts_up_to_and_with_the_margin(engine: Engine, x: float, y: float, within: bool) -> None:
+def test_a_gap_counts_up_to_and_with_the_margin(engine, x, y, within):
     two = np.array([[0.0, 0.0, 0.0], [x, y, 0.0]])
     assert overlaps(two, [2, 2], [1, 1], engine=engine, margin=0.5, chained=False).pairs.size == 2 * within
 
 
 @by_every_engine
-def test_contact_holds_the_exact_separation_of_each_pair(engine: Engine) -> None:
+def test_contact_holds_the_exact_separation_of_each_pair(engine):
     pose, length, width = crowd(60, seed=1, side=8.0)
     size = np.stack([length, width], axis=-1)
     result = overlaps(pose, length, width, engine=engine)
@@ -108,8 +89,8 @@ def test_contact_holds_the_exact_separation_of_each_pair(engine: Engine) -> None
 
 
 @pytest.mark.parametrize(("count", "margin"), [(examples(4_000, 100_000), 0.0), (examples(2_000, 10_000), 0.05)])
-def test_engines_agree_on_random_and_near_touching_pairs(count: int, margin: float) -> None:
-    scene, gap = near_pairs(count, seed=2, margin=margin)
+def test_engines_agree_on_random_and_near_touching_pairs(count, margin):
+    scene, gap = near_pairs(count, 2, margin, NEAR)
     assert np.mean(np.abs(gap - margin) <= NEAR + UNDECIDED) > 0.6
     for engine in EXACT:
         result = overlaps(*scene, engine=engine, margin=margin, chained=False).pairs
@@ -122,14 +103,14 @@ def test_engines_agree_on_random_and_near_touching_pairs(count: int, margin: flo
 
 @settings(deadline=None, max_examples=25)
 @given(st.integers(0, 2**32), st.integers(2, 40), st.sampled_from([0.0, 0.05, 1.0]))
-def test_exact_engines_agree_on_crowds(seed: int, count: int, margin: float) -> None:
+def test_exact_engines_agree_on_crowds(seed, count, margin):
     scene = crowd(count, seed, side=8.0)
     expected = all_pairs(scene, margin)
     for engine in EXACT:
         np.testing.assert_array_equal(overlaps(*scene, engine=engine, margin=margin, chained=False).pairs, expected)
 
 
-def test_cross_check_names_the_engine_that_differs_and_its_pairs() -> None:
+def test_cross_check_names_the_engine_that_differs_and_its_pairs():
     plus_and_corner = benches((0, 0, 0), (0, 0, math.pi / 2), (9, 0, 0), (10, 0.1, 0.3))
     check = cross_check(*plus_and_corner, chained=False)
     assert (check.agree, check.left_out) == (False, ())
@@ -139,7 +120,7 @@ def test_cross_check_names_the_engine_that_differs_and_its_pairs() -> None:
         assert answer == ([plus + corner, plus, []] if engine in EXACT else [corner, [], plus])
 
 
-def test_cross_check_agrees_when_all_find_the_same() -> None:
+def test_cross_check_agrees_when_all_find_the_same():
     for scene in (benches(), benches((0, 0, 0), (5, 0, 0), (0.5, 0.1, 0.2))):
         check = cross_check(*scene)
         assert check.agree
@@ -147,7 +128,7 @@ def test_cross_check_agrees_when_all_find_the_same() -> None:
         assert all(pairs.shape == (0, 2) for pairs in (*check.only.values(), *check.missing.values()))
 
 
-def test_the_angle_sum_rule_knows_no_margin_and_is_left_out() -> None:
+def test_the_angle_sum_rule_knows_no_margin_and_is_left_out():
     check = cross_check(*benches((0, 0, 0), (0, WIDTH + 0.04, 0)), margin=0.05, chained=False)
     assert (check.agree, check.left_out) == (True, (Engine.ANGLE_SUM,))
     assert {engine: pairs.tolist() for engine, pairs in check.pairs.items()} == {key: [[0, 1]] for key in EXACT}
@@ -156,7 +137,7 @@ def test_the_angle_sum_rule_knows_no_margin_and_is_left_out() -> None:
     assert seen == dict.fromkeys(EXACT, Verdict(before=False, after=True))
 
 
-def test_all_four_see_the_head_touch_bench_8_at_the_verified_time() -> None:
+def test_all_four_see_the_head_touch_bench_8_at_the_verified_time():
     dragon, pair = Dragon(), [0, 8]
     moment = [CONTACT_TIME - UNDECIDED, CONTACT_TIME + UNDECIDED]
     before, after = bench_poses(trajectory(Dance(dragon, Spiral()), moment).position)
@@ -168,7 +149,7 @@ def test_all_four_see_the_head_touch_bench_8_at_the_verified_time() -> None:
 
 @settings(deadline=None, max_examples=50)
 @given(st.integers(0, 2**32), st.sampled_from([0.0, 0.05, 1.0]))
-def test_verdicts_on_one_pair_are_what_the_searches_find(seed: int, margin: float) -> None:
+def test_verdicts_on_one_pair_are_what_the_searches_find(seed, margin):
     (pose, length, width), (other, _, _) = crowd(2, seed, side=3.0), crowd(2, seed + 1, side=3.0)
     seen = verdicts(pose, other, length, width, margin=margin)
     before, after = (cross_check(poses, length, width, margin=margin, chained=False).pairs for poses in (pose, other))
@@ -179,7 +160,7 @@ def test_verdicts_on_one_pair_are_what_the_searches_find(seed: int, margin: floa
 
 
 @by_every_engine
-def test_a_hundred_thousand_stacked_benches_are_refused(engine: Engine) -> None:
+def test_a_hundred_thousand_stacked_benches_are_refused(engine):
     count = 100_000
     with refused("benches", TooLarge):
         overlaps(np.zeros((count, 3)), np.full(count, LENGTH), np.full(count, WIDTH), engine=engine)
@@ -196,66 +177,63 @@ def test_a_hundred_thousand_stacked_benches_are_refused(engine: Engine) -> None:
         *((1, "length", 0.0), (1, "width", -0.3), (0, "width", math.nan), (0, "length", 1e5)),
     ],
 )
-def test_a_bad_bench_is_refused_by_number_and_name(row: int, name: str, value: float, find: object) -> None:
+def test_a_bad_bench_is_refused_by_number_and_name(row, name, value, find):
     table = np.array([[0, 0, 0, LENGTH, WIDTH], [3, 0, 0, LENGTH, WIDTH], [6, 0, 0, LENGTH, WIDTH]])
     table[row, ["x", "y", "heading", "length", "width"].index(name)] = value
     with refused(f"benches.{row}.{name}"):
         find(table[:, :3], table[:, 3], table[:, 4])
 
 
+ONE, POSE, BENCH = ([[0, 0, 0]], [1], [1]), (0.0, 0.0, 0.0), (2.2, 0.3)
+LAST, LEAST, MOST = np.nextafter([-POSITION_MAX, SIZE_MIN, SIZE_MAX], [-math.inf, 0.0, math.inf])
+
+
 @pytest.mark.parametrize(
-    ("poses", "lengths", "widths", "margin", "field"),
+    ("field", "poses", "lengths", "widths"),
     [
-        *(([0, 0, 0], [1], [1], 0, "benches"), ([[0, 0]], [1], [1], 0, "benches"), ([], [], [], 0, "benches")),
-        *(([["here", 0, 0]], [1], [1], 0, "benches"), ([[0, 0, 0]], [1, 1], [1], 0, "lengths")),
-        *(([[0, 0, 0]], [1], [[1]], 0, "widths"), ([[0, 0, 0]], ["long"], [1], 0, "lengths")),
-        *(([[0, 0, 0]], [1], [1], margin, "margin") for margin in (-1e-3, math.nan, math.inf, 1e308)),
+        *(("benches", poses, [1], [1]) for poses in ([0, 0, 0], [[0, 0]], [["here", 0, 0]])),
+        *(("benches", [], [], []), ("lengths", [[0, 0, 0]], [1, 1], [1]), ("lengths", [[0, 0, 0]], ["long"], [1])),
+        ("widths", [[0, 0, 0]], [1], [[1]]),
     ],
 )
-def test_wrong_shapes_and_margins_are_refused(
-    poses: object, lengths: object, widths: object, margin: float, field: str
-) -> None:
+def test_wrong_shapes_are_refused(field, poses, lengths, widths):
     with refused(field):
-        overlaps(poses, lengths, widths, margin=margin)
+        overlaps(poses, lengths, widths)
+
+
+@pytest.mark.parametrize("margin", [-1e-3, math.nan, math.inf, 1e308])
+def test_a_bad_margin_is_refused(margin):
+    with refused("margin"):
+        overlaps(*ONE, margin=margin)
 
 
 @pytest.mark.parametrize(("before", "after"), [(1, 2), (2, 1), (3, 3)])
-def test_verdicts_are_of_two_benches(before: int, after: int) -> None:
+def test_verdicts_are_of_two_benches(before, after):
     with refused("benches"):
         verdicts(np.zeros((before, 3)), np.zeros((after, 3)), [LENGTH] * before, [WIDTH] * before)
 
 
-POSE, BENCH = (0.0, 0.0, 0.0), (2.2, 0.3)
-
-
 @pytest.mark.uncompiled
 @pytest.mark.parametrize(
-    ("pose", "size", "field"),
+    ("field", "pose", "size"),
     [
-        *(((math.nan, 0, 0), BENCH, "poses_a.0.x"), ((0, math.inf, 0), BENCH, "poses_a.0.y")),
-        *(((0, 0, -math.inf), BENCH, "poses_a.0.heading"), ((1e308, 0, 0), BENCH, "poses_a.0.x")),
-        ((0, np.nextafter(-POSITION_MAX, -math.inf), 0), BENCH, "poses_a.0.y"),
-        *((POSE, (2.2, -0.3), "sizes_a.0.width"), (POSE, (0.0, 0.3), "sizes_a.0.length")),
-        (POSE, (np.nextafter(SIZE_MIN, 0), 0.3), "sizes_a.0.length"),
-        (POSE, (np.nextafter(SIZE_MAX, math.inf), 0.3), "sizes_a.0.length"),
-        *(((0, 0), BENCH, "poses_a"), (0.0, BENCH, "poses_a"), (POSE, (2.2, 0.3, 1.0), "sizes_a")),
-        *((("left", 0, 0), BENCH, "poses_a"), ((POSE, (0, 0)), BENCH, "poses_a")),
-        (np.zeros((2, 3)), np.ones((3, 2)), "sizes_a"),
+        *(("poses_a.0.x", (x, 0, 0), BENCH) for x in (math.nan, 1e308)),
+        *(("poses_a.0.y", (0, y, 0), BENCH) for y in (math.inf, LAST)),
+        ("poses_a.0.heading", (0, 0, -math.inf), BENCH),
+        *(("sizes_a.0.length", POSE, (length, 0.3)) for length in (0.0, LEAST, MOST)),
+        ("sizes_a.0.width", POSE, (2.2, -0.3)),
+        *(("poses_a", pose, BENCH) for pose in ((0, 0), 0.0, ("left", 0, 0), (POSE, (0, 0)))),
+        *(("sizes_a", POSE, (2.2, 0.3, 1.0)), ("sizes_a", np.zeros((2, 3)), np.ones((3, 2)))),
+        ("poses_b", np.zeros((2, 3)), BENCH),
     ],
 )
-def test_bad_rectangles_are_refused_by_name(pose: object, size: object, field: str) -> None:
+def test_bad_rectangles_are_refused_by_name(field, pose, size):
     with refused(field):
-        separation(pose, size, POSE, BENCH)
-
-
-@pytest.mark.uncompiled
-def test_pairs_that_do_not_broadcast_are_refused() -> None:
-    with refused("poses_b"):
-        separation(np.zeros((2, 3)), BENCH, np.zeros((3, 3)), BENCH)
+        separation(pose, size, np.zeros((3, 3)) if field == "poses_b" else POSE, BENCH)
 
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("size", [SIZE_MIN, SIZE_MAX])
-def test_sizes_and_positions_at_their_limits_are_accepted(size: float) -> None:
+def test_sizes_and_positions_at_their_limits_are_accepted(size):
     result = separation([-POSITION_MAX, 0, 0], [size, size], [POSITION_MAX, 0, 0], [size, size])
     assert result.separation == pytest.approx(2 * POSITION_MAX - size, rel=1e-15)

@@ -35,7 +35,7 @@ def outline(chord: float, overhang: float, half_width: float) -> np.ndarray:
     return np.stack([x + x, np.repeat([-half_width, half_width], len(x))], axis=-1)
 
 
-def test_a_point_moves_by_what_the_derivation_says() -> None:
+def test_a_point_moves_by_what_the_derivation_says():
     chord, points = 1.65, outline(1.65, 0.275, 0.15)
     strays = random_strays(np.random.default_rng(1), chord, 0.3, 1000)
     assert np.linalg.norm(strays, axis=-1).max() <= 0.3 + ROUNDING
@@ -46,7 +46,7 @@ def test_a_point_moves_by_what_the_derivation_says() -> None:
 
 
 @SHAPES
-def test_every_place_lies_in_one_of_the_hulls(chord: float, overhang: float, half_width: float, stray: float) -> None:
+def test_every_place_lies_in_one_of_the_hulls(chord, overhang, half_width, stray):
     hulls = bench_hulls(supports(chord, overhang, half_width, stray))
     planes = (hulls * directions()).sum(axis=-1)
     strays = random_strays(np.random.default_rng(2), chord, stray, examples(3_000, 20_000))
@@ -56,9 +56,7 @@ def test_every_place_lies_in_one_of_the_hulls(chord: float, overhang: float, hal
 
 
 @SHAPES
-def test_supports_are_hardly_larger_than_what_places_reach(
-    chord: float, overhang: float, half_width: float, stray: float
-) -> None:
+def test_supports_are_hardly_larger_than_what_places_reach(chord, overhang, half_width, stray):
     corners = np.array([[0.5 * chord + overhang, half_width], [0.5 * chord, half_width]])
     strays = random_strays(np.random.default_rng(3), chord, stray, examples(100_000, 400_000))
     ahead = directions()[: DIRECTIONS // 4 + 1]
@@ -71,13 +69,13 @@ def test_supports_are_hardly_larger_than_what_places_reach(
 
 @settings(max_examples=30, deadline=None)
 @given(scale=st.floats(0.1, 10.0), stray=st.floats(0.001, 0.8))
-def test_a_larger_bench_with_a_larger_stray_has_a_larger_ground(scale: float, stray: float) -> None:
+def test_a_larger_bench_with_a_larger_stray_has_a_larger_ground(scale, stray):
     sizes = np.array([1.65, 0.275, 0.15, stray])
     small, large = (bench_hulls(supports(*each)) for each in (sizes, sizes * scale))
     assert large == pytest.approx(small * scale, rel=1e-12, abs=1e-11)
 
 
-def test_corners_go_round_and_the_ends_mirror_each_other() -> None:
+def test_corners_go_round_and_the_ends_mirror_each_other():
     hulls = bench_hulls(supports(1.65, 0.275, 0.15, 0.1))
     edges = np.roll(hulls, -1, axis=1) - hulls
     x, y = np.moveaxis(edges, -1, 0)
@@ -88,7 +86,7 @@ def test_corners_go_round_and_the_ends_mirror_each_other() -> None:
     assert_near(middle[:, 1].max(), 0.25, 1e-4)  # between the holes no side moves further than they do
 
 
-def test_the_bounds_of_a_dragon_hold_its_hulls_on_the_same_chords() -> None:
+def test_the_bounds_of_a_dragon_hold_its_hulls_on_the_same_chords():
     dragon = Dragon.of([3.0, 2.2, 2.4, 2.2, 2.2], [0.3, 0.3, 0.4, 0.3, 0.3], [0.2, 0.275, 0.2, 0.275, 0.275])
     ground = reach(dragon, 0.05)
     bounds = ground.bounds
@@ -102,14 +100,14 @@ def test_the_bounds_of_a_dragon_hold_its_hulls_on_the_same_chords() -> None:
     assert (half > inner + 0.05).all()
 
 
-def test_a_dragon_of_too_many_sizes_is_refused() -> None:
+def test_a_dragon_of_too_many_sizes_is_refused():
     lengths = np.linspace(2.0, 3.0, SIZES_MAX + 2)
     with refused("dragon.lengths", got=SIZES_MAX + 2):
         reach(Dragon.of(lengths, np.full(lengths.size, 0.3), np.full(lengths.size, 0.2)), 0.01)
 
 
 @pytest.mark.parametrize("k", [0, 1])
-def test_a_corner_goes_as_far_as_the_gain_says_and_no_point_further(k: int) -> None:
+def test_a_corner_goes_as_far_as_the_gain_says_and_no_point_further(k):
     dragon, stray = Dragon(2), 0.01
     gain, chord, x = (float(column[k]) for column in (gains(dragon), dragon.chords, 0.5 * dragon.lengths))
     corners = np.array([[x, 0.15], [x, -0.15], [-x, 0.15], [-x, -0.15]])

@@ -17,7 +17,7 @@ from core.shapes.rectangles import bench_poses, corners, frames
 from core.values import Floats
 from tests.support.near import assert_near
 from tests.support.refused import refused
-from tests.support.scenes import outside, random_pairs
+from tests.support.scenes import minkowski_separation, outside, random_pairs
 
 pytestmark = pytest.mark.uncompiled
 
@@ -68,16 +68,8 @@ Pair = tuple[Floats, Floats, Floats, Floats]
 FIELDS = "separation", "witness_a", "witness_b", "normal"
 
 
-def minkowski_separation(a: Floats, b: Floats) -> Floats:
-    """Oracle: signed distance from the origin to the boundary of the Minkowski difference of two corner lists."""
-    difference = (b[:, :, None] - a[:, None, :]).reshape(-1, 16, 2)
-    hull = shapely.convex_hull(shapely.multipoints(difference))
-    origin = shapely.points(0.0, 0.0)
-    return shapely.distance(shapely.boundary(hull), origin) * np.where(shapely.intersects(hull, origin), -1.0, 1.0)
-
-
 @pytest.mark.parametrize("row", TABLE.values(), ids=TABLE)
-def test_separation_witnesses_and_normal_are_those_of_the_table(row: tuple) -> None:
+def test_separation_witnesses_and_normal_are_those_of_the_table(row):
     result = separation(*row[:4])
     for name, expected in zip(FIELDS, row[4:], strict=True):
         if expected is not None:
@@ -86,7 +78,7 @@ def test_separation_witnesses_and_normal_are_those_of_the_table(row: tuple) -> N
 
 @settings(deadline=None, max_examples=60)
 @given(pairs)
-def test_witnesses_lie_on_both_boundaries_and_differ_by_separation_times_unit_normal(pair: Pair) -> None:
+def test_witnesses_lie_on_both_boundaries_and_differ_by_separation_times_unit_normal(pair):
     pose_a, size_a, pose_b, size_b = pair
     result = separation(*pair)
     step = result.separation * result.normal
@@ -100,8 +92,8 @@ def test_witnesses_lie_on_both_boundaries_and_differ_by_separation_times_unit_no
 @settings(deadline=None, max_examples=60)
 @given(pairs, coordinates, coordinates, st.floats(-3.0, 3.0), st.floats(0.1, 1000.0))
 def test_separation_ignores_rigid_motion_and_the_order_of_the_pair_and_grows_with_all_lengths(
-    pair: Pair, dx: float, dy: float, turn: float, scale: float
-) -> None:
+    pair, dx, dy, turn, scale
+):
     pose_a, size_a, pose_b, size_b = pair
     cos, sin = math.cos(turn), math.sin(turn)
     motion = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
@@ -115,7 +107,7 @@ def test_separation_ignores_rigid_motion_and_the_order_of_the_pair_and_grows_wit
 
 @settings(deadline=None, max_examples=60)
 @given(pairs)
-def test_gap_alone_equals_the_separation(pair: Pair) -> None:
+def test_gap_alone_equals_the_separation(pair):
     def gap_within(limit: float) -> float:
         kernels.pair_gaps(frames(*pair[:2])[None], frames(*pair[2:])[None], limit, out := np.empty(1))
         return out[0]
@@ -127,14 +119,14 @@ def test_gap_alone_equals_the_separation(pair: Pair) -> None:
         assert gap / 2 < gap_within(gap / 2) <= gap + ROUNDING
 
 
-def test_separation_equals_the_minkowski_oracle_on_random_pairs() -> None:
+def test_separation_equals_the_minkowski_oracle_on_random_pairs():
     pair = random_pairs(10_000, seed=1)
     result = separation(*pair).separation
     assert np.mean(result < 0) > 0.1
     assert_near(result, minkowski_separation(corners(*pair[:2]), corners(*pair[2:])), ORACLE_ROUNDING)
 
 
-def test_separation_of_extreme_sizes_equals_the_oracle() -> None:
+def test_separation_of_extreme_sizes_equals_the_oracle():
     random = np.random.default_rng(7)
     size = 10 ** random.uniform(math.log10(SIZE_MIN), math.log10(SIZE_MAX), (2, 5_000, 2))
     reach = size.sum(axis=(0, 2))
@@ -144,14 +136,14 @@ def test_separation_of_extreme_sizes_equals_the_oracle() -> None:
     assert_near(result / reach, oracle / reach, ORACLE_ROUNDING)
 
 
-def test_distance_of_far_rectangles_is_exact_in_relative_terms() -> None:
+def test_distance_of_far_rectangles_is_exact_in_relative_terms():
     pose_a, size_a, pose_b, size_b = random_pairs(5_000, seed=2)
     pose_b[:, :2] += np.random.default_rng(3).uniform(-1e7, 1e7, (5_000, 2))
     oracle = shapely.distance(shapely.polygons(corners(pose_a, size_a)), shapely.polygons(corners(pose_b, size_b)))
     np.testing.assert_allclose(separation(pose_a, size_a, pose_b, size_b).separation, oracle, rtol=1e-14, atol=0)
 
 
-def test_rectangles_far_from_the_origin_lose_nothing() -> None:
+def test_rectangles_far_from_the_origin_lose_nothing():
     pose_a, size_a, pose_b, size_b = random_pairs(2_000, seed=4)
     step = 2.0**-20  # coordinates on this grid stay exact when the offset is added
     for pose in (pose_a, pose_b):
@@ -168,7 +160,7 @@ def test_rectangles_far_from_the_origin_lose_nothing() -> None:
 # up to rounding / turn apart along the edge, so a corner may be a little beside the face that seems to decide.
 @pytest.mark.parametrize("turn", [1e-15, 1e-12, 1e-9, 1e-8, 1e-7, -1e-8, 1e-6])
 @pytest.mark.parametrize("gap", [-0.1, -1e-9, 0.0, 1e-9, 1e-6])
-def test_nearly_parallel_edges_keep_their_distance_and_witnesses(turn: float, gap: float) -> None:
+def test_nearly_parallel_edges_keep_their_distance_and_witnesses(turn, gap):
     little = 10 ** np.linspace(-12, -3, 200)
     shift = np.concatenate([np.linspace(-2.5, 2.5, 401), little, -little])
     pose = np.stack([shift, np.full_like(shift, 0.3 + gap), np.full_like(shift, turn)], axis=-1)
@@ -179,14 +171,14 @@ def test_nearly_parallel_edges_keep_their_distance_and_witnesses(turn: float, ga
     assert_near(off, np.zeros((2, shift.size)), ROUNDING)
 
 
-def test_witness_of_parallel_edges_does_not_depend_on_rounding() -> None:
+def test_witness_of_parallel_edges_does_not_depend_on_rounding():
     for tilt in (-1e-16, 0.0, 1e-16):
         result = separation([0, 0, 0.7 + tilt], BENCH, [-math.sin(0.7), math.cos(0.7), 0.7], BENCH)
         middle = [-0.15 * math.sin(0.7), 0.15 * math.cos(0.7)]
         assert_near(result.witness_a, middle, ROUNDING)
 
 
-def test_features_name_the_corner_or_edge_that_holds_each_witness() -> None:
+def test_features_name_the_corner_or_edge_that_holds_each_witness():
     pose_a, size_a, pose_b, size_b = random_pairs(5_000, seed=5)
     out = np.empty((5_000, kernels.SEPARATION_COLUMNS))
     kernels.pair_separations(frames(pose_a, size_a), frames(pose_b, size_b), out)
@@ -204,7 +196,7 @@ def test_features_name_the_corner_or_edge_that_holds_each_witness() -> None:
         assert np.where(is_corner, np.hypot(*to.T), off_edge).max() < ROUNDING
 
 
-def test_batch_equals_a_loop_and_shapes_broadcast() -> None:
+def test_batch_equals_a_loop_and_shapes_broadcast():
     pose_a, size_a, pose_b, size_b = pair = random_pairs(12, seed=6)
     for column in pair:
         column.flags.writeable = False  # no input is changed
@@ -217,7 +209,7 @@ def test_batch_equals_a_loop_and_shapes_broadcast() -> None:
     assert separation(np.empty((0, 3)), BENCH, [0, 0, 0], BENCH).witness_a.shape == (0, 2)
 
 
-def test_corners_run_front_left_front_right_rear_right_rear_left() -> None:
+def test_corners_run_front_left_front_right_rear_right_rear_left():
     result = corners(np.array([[1.0, 2.0, math.pi / 2], [0.0, 0.0, 0.0]]), np.array([4.0, 2.0]))
     assert_near(result[0], [[0, 4], [2, 4], [2, 0], [0, 0]], ROUNDING)
     assert_near(result[1], [[2, 1], [2, -1], [-2, -1], [-2, 1]], 0)
@@ -228,14 +220,14 @@ def test_corners_run_front_left_front_right_rear_right_rear_left() -> None:
     [None, 1.0, [[0.0, 0.0, 0.0]], [0.0, 0.0], "handles", [["a", "b"]]]
     + [[[number, 0.0], [0.0, 0.0]] for number in (math.nan, math.inf)],
 )
-def test_handles_that_are_no_places_are_refused(handles: object) -> None:
+def test_handles_that_are_no_places_are_refused(handles):
     with refused("handles"):
         bench_poses(handles)  # type: ignore[arg-type]
 
 
 @settings(deadline=None, max_examples=60)
 @given(st.integers(1, 6), st.integers(0, 3), st.integers(0, 2**32))
-def test_poses_of_many_instants_equal_those_one_by_one(benches: int, instants: int, seed: int) -> None:
+def test_poses_of_many_instants_equal_those_one_by_one(benches, instants, seed):
     handles = np.random.default_rng(seed).uniform(-100.0, 100.0, (instants, benches + 1, 2))
     handles[:, -1] = handles[:, 0]  # also a bench of no length where it is alone
     poses = bench_poses(handles)
