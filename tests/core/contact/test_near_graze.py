@@ -179,7 +179,7 @@ def test_benches_that_graze_between_two_instants_are_not_proven_apart_by_the_gap
     assert pair.stays_apart(before, result.proven - 0.005)
 
 
-@pytest.mark.parametrize(("limit", "earlier"), [("INTERVALS_MAX", 1.0), ("LINK_STEPS", 0.0)])
+@pytest.mark.parametrize(("limit", "earlier"), [("LINK_STEPS", 0.0), *thorough(("INTERVALS_MAX", 1.0))])
 def test_where_the_way_takes_too_many_intervals_or_a_link_too_many_steps_the_bracket_stays(
     monkeypatch, grazing, limit, earlier
 ):
