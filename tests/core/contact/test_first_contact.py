@@ -228,7 +228,7 @@ def undecided_dance() -> Dance:
     return Dance(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[1] - BORDER_WIDTH))
 
 
-def test_a_graze_at_the_margin_is_undecided_up_to_the_next_certain_contact():
+def test_an_undecided_contact_names_the_pair_that_surely_overlaps_and_carries_no_bound():
     dance = undecided_dance()
     contact, least = first_contact(dance), least_clearance(dance)
     assert (contact.outcome, contact.time, contact.benches) == (Outcome.UNDECIDED, None, None)

@@ -32,7 +32,7 @@ COLUMNS = "time", "position", "velocity", "speed"
 
 
 @pytest.mark.parametrize("table", ["selected", "full"])
-def test_the_handles_are_those_of_the_reference(table):
+def test_every_handle_is_that_of_the_reference(table):
     rows = REFERENCE[table]
     motion = trajectory(DANCE, [row["time"] for row in rows])
     result = np.concatenate([motion.position, motion.speed[..., None]], axis=-1)
