@@ -178,10 +178,11 @@ def test_a_hundred_thousand_stacked_benches_are_refused(engine):
     ],
 )
 def test_a_bad_bench_is_refused_by_number_and_name(row, name, value, find):
-    table = np.array([[0, 0, 0, LENGTH, WIDTH], [3, 0, 0, LENGTH, WIDTH], [6, 0, 0, LENGTH, WIDTH]])
-    table[row, ["x", "y", "heading", "length", "width"].index(name)] = value
+    pose, length, width = benches((0, 0, 0), (3, 0, 0), (6, 0, 0))
+    columns = dict(zip(("x", "y", "heading"), pose.T, strict=True)) | {"length": length, "width": width}
+    columns[name][row] = value
     with refused(f"benches.{row}.{name}"):
-        find(table[:, :3], table[:, 3], table[:, 4])
+        find(pose, length, width)
 
 
 ONE, POSE, BENCH = ([[0, 0, 0]], [1], [1]), (0.0, 0.0, 0.0), (2.2, 0.3)

@@ -70,8 +70,9 @@ FIELDS = "separation", "witness_a", "witness_b", "normal"
 
 @pytest.mark.parametrize("row", TABLE.values(), ids=TABLE)
 def test_separation_witnesses_and_normal_are_those_of_the_table(row):
-    result = separation(*row[:4])
-    for name, expected in zip(FIELDS, row[4:], strict=True):
+    pose_a, size_a, pose_b, size_b, *known = row
+    result = separation(pose_a, size_a, pose_b, size_b)
+    for name, expected in zip(FIELDS, known, strict=True):
         if expected is not None:
             assert_near(getattr(result, name), expected, ROUNDING)
 
