@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from itertools import product
+from typing import Any
 
 import flint
 import numpy as np
@@ -256,3 +257,16 @@ def _corners(own: Box, other: Box) -> arb:
         beyond = [max(abs(x) - own[2], arb(0), key=float), max(abs(y) - own[3], arb(0), key=float)]
         entries.append(middle(beyond[0] * beyond[0] + beyond[1] * beyond[1]).sqrt())
     return min(entries, key=float)
+
+
+def clothoid_place(piece: Any, v: float) -> acb:
+    """Place on a clothoid at a length from its beginning, by Fresnel integrals of its own numbers [m]."""
+    flint.ctx.prec = BITS
+    first, last = arb(piece.start_curvature), arb(piece.end_curvature)
+    slope, turn = (last - first) / arb(piece.length), acb(0, 1)
+    unit = (arb.pi() / abs(slope)).sqrt()
+    begin, end = ((arb(at) + first / slope) / unit for at in (0.0, v))
+    cosines = end.fresnel_c() - begin.fresnel_c()
+    sines = (end.fresnel_s() - begin.fresnel_s()) * (1 if slope > 0 else -1)
+    rotated = (turn * (arb(piece.heading) - first**2 / (2 * slope))).exp()
+    return acb(*piece.start) + acb(cosines, sines) * unit * rotated

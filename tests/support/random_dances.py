@@ -1,10 +1,12 @@
-"""Strategies of hypothesis: dragons, spirals, and dances that run for more than a second."""
+"""Random dragons, spirals and dances: strategies of hypothesis, and dances of a seed beside their slow search."""
 
 from __future__ import annotations
 
+import numpy as np
 from hypothesis import strategies as st
 
 from core import Dance, Dragon, InvalidValue, Spiral
+from tests.support.slow_search import SlowDance
 
 DRAGONS = st.one_of(
     st.builds(
@@ -25,3 +27,32 @@ def stands(dragon: Dragon, spiral: Spiral) -> bool:
 
 
 DANCES = st.tuples(DRAGONS, SPIRALS).filter(lambda dance: stands(*dance))
+
+
+def random_dragon(rng: np.random.Generator, bench_by_bench: bool) -> Dragon:
+    benches = int(rng.choice([3, 4, 6, 10, 20, 40]))
+    chord = 10 ** rng.uniform(-0.3, 0.4)
+    overhang = rng.choice([0.0, rng.uniform(0.0, 0.3)])
+    head, width = chord * 10 ** rng.uniform(-0.3, 0.3), 10 ** rng.uniform(-1.5, -0.3)
+    if not bench_by_bench:
+        return Dragon(benches, head + 2 * overhang, chord + 2 * overhang, width, overhang)
+    chords = np.where(rng.random(benches) < 0.5, chord, chord * 10 ** rng.uniform(-0.3, 0.3, benches))
+    chords[int(rng.integers(1, benches + 1)) :] = chord
+    widths = width * rng.choice([1.0, 2.0], benches)
+    return Dragon.of(chords + 2 * overhang, widths, np.full(benches, overhang))
+
+
+def random_dance(seed: int, bench_by_bench: bool) -> tuple[Dance, SlowDance]:
+    """A dance, and the slow one: its dragon stands apart at the start of a spiral short enough for the slow search."""
+    rng = np.random.default_rng(seed)
+    while True:
+        dragon = random_dragon(rng, bench_by_bench)
+        spiral = Spiral(dragon.widths.max() * rng.uniform(1.2, 4.0), rng.uniform(1.0, 6.0))
+        try:
+            dance = Dance(dragon, spiral)
+            way = dance.end.time
+        except InvalidValue:
+            continue
+        slow = SlowDance.of(dragon, spiral)
+        if 2.0 < way / dragon.chords.min() < 60.0 and slow.clearance([0.0])[0][0] > 0.0:
+            return dance, slow

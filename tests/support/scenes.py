@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
-from core import separation
+from core import Dragon, bench_outlines, separation
 from core.values import Floats
 
 Pairs = NDArray[np.int64]
@@ -45,3 +46,67 @@ def unlinked_pairs(pose: Floats, size: Floats, margin: float = 0.0) -> set[tuple
     """Oracle: every pair that shares no handle, one by one, within the margin."""
     gaps = separation(pose[:, None], size[:, None], pose[None], size[None]).separation
     return {(int(a), int(b)) for a, b in np.argwhere(np.triu(gaps <= margin, k=2))}
+
+
+def outside(points: Floats, pose: Floats, size: Floats) -> Floats:
+    """How far a point lies outside a rectangle: 0 on its boundary, negative within. (..., 2) -> (...) [m]."""
+    offset = points - pose[..., :2]
+    cos, sin = np.cos(pose[..., 2]), np.sin(pose[..., 2])
+    along = np.abs(offset[..., 0] * cos + offset[..., 1] * sin) - size[..., 0] / 2
+    across = np.abs(offset[..., 1] * cos - offset[..., 0] * sin) - size[..., 1] / 2
+    return np.maximum(along, across)
+
+
+def shapely_of(polygons: list[list[Floats]]) -> shapely.MultiPolygon:
+    """Polygons, each given by its rings, as one shape of shapely's."""
+    return shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
+
+
+def random_pairs(count: int, seed: int) -> tuple[Floats, Floats, Floats, Floats]:
+    """Rectangles near each other, a third of them at multiples of 45 degrees: poses and sizes of both of each pair."""
+    random = np.random.default_rng(seed)
+    pose = random.uniform(-1.0, 1.0, (2, count, 3)) * [3.0, 3.0, math.pi]
+    square_on = random.random((2, count)) < 1 / 3
+    pose[square_on, 2] = random.integers(0, 8, square_on.sum()) * math.pi / 4
+    size = random.uniform(0.1, 3.0, (2, count, 2))
+    return pose[0], size[0], pose[1], size[1]
+
+
+def near_pairs(count: int, seed: int, margin: float, within: float) -> tuple[Scene, Floats]:
+    """Pairs of rectangles 2 k, 2 k + 1, each pair in its own cell, two thirds of them within a distance of the margin.
+
+    returns: the scene and the separation of each pair (count,) [m]
+    """
+    pose_a, size_a, pose_b, size_b = random_pairs(count, seed)
+    random = np.random.default_rng(seed)
+    near = random.random(count) < 2 / 3
+    wanted = margin + within * random.choice([0.0, 0.1, -0.1, 0.2, -0.2, 1.0, -1.0], count)
+    result = separation(pose_a, size_a, pose_b, size_b)
+    pose_b[near, :2] -= ((result.separation - wanted)[:, None] * result.normal)[near]
+    cell = 20.0 * np.stack(np.divmod(np.arange(count), math.isqrt(count)), axis=-1)
+    for pose in (pose_a, pose_b):
+        pose[:, :2] += cell
+    poses, sizes = (np.stack(pair, axis=1).reshape(2 * count, -1) for pair in ((pose_a, pose_b), (size_a, size_b)))
+    return (poses, *sizes.T), separation(pose_a, size_a, pose_b, size_b).separation
+
+
+def minkowski_separation(a: Floats, b: Floats) -> Floats:
+    """Oracle: signed distance from the origin to the boundary of the Minkowski difference of two corner lists."""
+    difference = (b[:, :, None] - a[:, None, :]).reshape(-1, 16, 2)
+    hull = shapely.convex_hull(shapely.multipoints(difference))
+    origin = shapely.points(0.0, 0.0)
+    return shapely.distance(shapely.boundary(hull), origin) * np.where(shapely.intersects(hull, origin), -1.0, 1.0)
+
+
+def unlinked_clearance(dragon: Dragon, handles: Floats) -> Floats:
+    """Oracle: least distance of benches that share no handle, by shapely; 0 where two overlap. (T, n + 1, 2) -> (T,)
+
+    A pair whose middles are farther apart than the longest diagonal counts as infinitely far.
+    """
+    a, b = np.triu_indices(dragon.benches, 2)
+    outlines = bench_outlines(dragon, handles)
+    shapes, middles = shapely.polygons(outlines), outlines.mean(axis=-2)
+    near = np.linalg.norm(middles[:, a] - middles[:, b], axis=-1) < np.hypot(dragon.lengths, dragon.widths).max()
+    least = np.full(near.shape, np.inf)
+    least[near] = shapely.distance(shapes[:, a][near], shapes[:, b][near])
+    return least.min(axis=1)

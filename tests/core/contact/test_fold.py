@@ -8,8 +8,10 @@ import pytest
 from core import Dance, Dragon, EndReason, Outcome, Spiral, first_contact
 from core.contact.fold import least_left, least_to_fold
 from core.contact.search import ContactSearch
-from tests.core.contact.test_first_contact import TIED, random_dance
+from tests.core.contact.test_first_contact import TIED
+from tests.support.random_dances import random_dance
 from tests.support.slow_search import SlowDance
+from tests.support.thorough import thorough
 
 # Dances apart to their fold, whose last 1e-9 s were left open: the motion left was that of the longest overhang on the
 # shortest chord, whichever benches they belong to.
@@ -32,28 +34,22 @@ TO_THE_FOLD = {
 
 
 @pytest.mark.parametrize(("dragon", "spiral"), TO_THE_FOLD.values(), ids=TO_THE_FOLD)
-def test_the_last_instants_before_a_fold_are_decided(dragon: Dragon, spiral: Spiral) -> None:
-    contact = first_contact(Dance(dragon, spiral))
-    assert (contact.outcome, contact.end) == (Outcome.CLEAR, Dance(dragon, spiral).end)
-    left = contact.end.time * 1e-9 * np.linspace(1.0, 0.0, 40) ** 2
-    assert SlowDance.of(dragon, spiral).clearance(contact.end.time - left[:-1])[0].min() > 0.0
+def test_the_last_instants_before_a_fold_are_decided(dragon, spiral):
+    contact, end = first_contact(Dance(dragon, spiral)), Dance(dragon, spiral).end
+    assert (contact.outcome, contact.end) == (Outcome.CLEAR, end)
+    times = end.time * (1.0 - 1e-9 * np.linspace(1.0, 0.0, 40)[:-1] ** 2)
+    assert SlowDance.of(dragon, spiral).clearance(times)[0].min() > 0.0
 
 
-# Parts of the travel that are left where the bound is tried [1].
-LEFT = (1e-3, 1e-5, 1e-7)
-
-
-@pytest.mark.parametrize("seed", sorted({*range(500, 520)} - {506, 510}))  # those two reach the centre
-def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motion_left(seed: int) -> None:
-    dragon, spiral = random_dance(seed, True)
-    end = Dance(dragon, spiral).end
+@pytest.mark.parametrize("seed", [*range(500, 506), *thorough(*range(511, 520))])
+def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motion_left(seed):
+    dance, slow = random_dance(seed, True)
+    end = dance.end
     assert end.reason is EndReason.FOLD
-    search = ContactSearch(dragon, spiral, 0.0)
-    for left in LEFT:
+    search = ContactSearch(dance.dragon, dance.path, 0.0)
+    for left in (1e-3, 1e-5, 1e-7):
         travel = (1.0 - left) * end.time
         least = least_to_fold(search, travel, end.theta)
-        assert least is not None
-        gaps, _ = SlowDance.of(dragon, spiral).clearance(end.time - left * end.time * np.linspace(1.0, 1e-3, 60) ** 2)
+        gaps, _ = slow.clearance(end.time * (1.0 - left * np.linspace(1.0, 1e-3, 60) ** 2))
         assert least <= gaps.min() + TIED
-        one = least_left(search, travel - search.travel_rounding(travel), end.theta)
-        assert one <= least
+        assert least_left(search, travel - search.travel_rounding(travel), end.theta) <= least

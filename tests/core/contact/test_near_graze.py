@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from decimal import Decimal, localcontext
+from functools import cache
 
 import numpy as np
 import pytest
@@ -21,30 +23,40 @@ from core import (
     Spiral,
     Turn,
     Waypoints,
+    bench_poses,
     first_contact,
     minimum_pitch,
     separation,
+    trajectory,
 )
-from core.contact.decimal_shapes import DIGITS
-from core.contact.decimal_shapes import exact_separation as precise_separation
+from core.contact.answer import FirstContact
+from core.contact.decimal_shapes import DIGITS, exact_separation
 from core.contact.near_graze import LAST_BENCH, NEGLIGIBLE, ExactPair, narrow_bracket
 from core.contact.search import ContactSearch
 from core.kernels import Ended
-from core.kernels.constants import HALF_LENGTH, HALF_WIDTH, MX, MY, UX, UY
 from core.kernels.results import Marched
+from tests.support.near import assert_near
+from tests.support.thorough import thorough
 
 # Positions of the kernels [m]: on a route a kilometre long an arc length is good to 2e-13 m.
 DOUBLE = 1e-12
 PRECISE = Decimal("1e-30")  # [m]
 BRACKET = 1e-9  # [s]
-TURN = Turn(1.7)
+DRAGON, TURN = Dragon(60), Turn(1.7)
 RAMP = Clothoid((100, 0), 0.0, 0.0, 0.3, 12.0)
 BEND = Route([Line((0, 0), (100, 0)), RAMP, Clothoid(RAMP.end, RAMP.end_heading, 0.3, -0.2, 20.0)], start=100.0)
 
 
+@pytest.fixture(autouse=True)
+def in_decimals() -> Iterator[None]:
+    with localcontext() as context:
+        context.prec = DIGITS
+        yield
+
+
 def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> ExactPair:
-    search = ContactSearch(Dragon(60), path, 0.0)
-    search.resize(60)
+    search = ContactSearch(DRAGON, path, 0.0)
+    search.resize(DRAGON.benches)
     return ExactPair(search, pair)
 
 
@@ -57,20 +69,15 @@ def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> ExactPair:
     ids=["spiral", "near contact", "another", "before the turn", "in the turn", "after the turn", "ramp", "clothoids"],
 )
 @pytest.mark.parametrize("pair", [(0, 2), (0, 19), (7, 31)])
-def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: float, pair: tuple[int, int]) -> None:
+def test_benches_stand_where_the_kernels_put_them(path, travel, pair):
     model = pair_of(path, pair)
-    with localcontext() as context:
-        context.prec = DIGITS
-        benches = model.benches(Decimal(travel))
-        for bench in benches:
-            assert abs(bench.along[0] ** 2 + bench.along[1] ** 2 - 1) < PRECISE
-        distance = precise_separation(*benches)[0]
-    model.search.clearance(travel)
-    rows, sizes = model.search.placed[list(pair)], model.search.sizes[list(pair)]
-    poses = np.column_stack([rows[:, [MX, MY]], np.arctan2(rows[:, UY], rows[:, UX])])
-    size = 2.0 * sizes[:, [HALF_LENGTH, HALF_WIDTH]]
-    result = separation(poses[0], size[0], poses[1], size[1]).separation
-    assert float(distance) == pytest.approx(float(result), rel=0, abs=DOUBLE)
+    benches = model.benches(Decimal(travel))
+    for bench in benches:
+        assert abs(bench.along[0] ** 2 + bench.along[1] ** 2 - 1) < PRECISE
+    poses = bench_poses(trajectory(Dance(DRAGON, path), travel).position)
+    sizes = np.stack([DRAGON.lengths, DRAGON.widths], axis=-1)
+    result = separation(*(column[bench] for bench in pair for column in (poses, sizes))).separation
+    assert_near(float(exact_separation(*benches)[0]), result, DOUBLE)
 
 
 @pytest.mark.parametrize(
@@ -82,106 +89,108 @@ def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: 
     ],
     ids=["550 m", "10 km", "95 km", "arc", "170 km"],
 )
-def test_far_from_a_centre_a_link_is_as_exact_as_near_to_it(path: Spiral | Route) -> None:
-    model = pair_of(path, (0, 10))
-    with localcontext() as context:
-        context.prec = DIGITS
-        for bench in model.benches(Decimal(7)):
-            size = (bench.along[0] ** 2 + bench.along[1] ** 2).sqrt()
-            assert abs(size - 1) < NEGLIGIBLE
+def test_far_from_a_centre_a_link_is_as_exact_as_near_to_it(path):
+    for bench in pair_of(path, (0, 10)).benches(Decimal(7)):
+        assert abs((bench.along[0] ** 2 + bench.along[1] ** 2).sqrt() - 1) < NEGLIGIBLE
 
 
-@pytest.mark.parametrize("margin", [0.0, 0.05])
-@pytest.mark.parametrize("below", [1e-11, 1e-9, 1e-7])
-@pytest.mark.parametrize("head_speed", [0.01, 1.0, 2.0])
-def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin: float, below: float, head_speed: float) -> None:
-    spiral = Spiral(minimum_pitch(Dragon(60), margin=margin).pitch_bracket[0] - below)
-    contact = first_contact(Dance(Dragon(60), spiral, head_speed), margin=margin)
+@cache
+def grazing_spiral(margin: float, below: float) -> Spiral:
+    """A spiral whose pitch is that much below the least one [m]."""
+    return Spiral(minimum_pitch(DRAGON, margin=margin).pitch_bracket[0] - below)
+
+
+def assert_narrow(contact: FirstContact) -> None:
+    clear, within = contact.time_bracket
     assert contact.outcome is Outcome.CONTACT
-    assert contact.time_bracket is not None
-    clear, within = contact.time_bracket
     assert clear < contact.time < within <= clear + BRACKET
-    model = pair_of(spiral, contact.benches)
-    with localcontext() as context:
-        context.prec = DIGITS
-        at = [
-            precise_separation(*model.benches(Decimal(time) * Decimal(head_speed)))[0] - Decimal(margin)
-            for time in (clear, within)
-        ]
-    assert at[0] > 0 >= at[1]
 
 
-@pytest.mark.parametrize("below", [1e-9, 1e-7])
 @pytest.mark.parametrize("margin", [0.0, 0.05])
-def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin: float, below: float) -> None:
-    spiral = Spiral(minimum_pitch(Dragon(60), margin=margin).pitch_bracket[0] - below)
-    steady = first_contact(Dance(Dragon(60), spiral), margin=margin)
+@pytest.mark.parametrize(
+    ("head_speed", "below"),
+    [(1.0, 1e-9), (0.01, 1e-7), *thorough((0.01, 1e-11), (0.01, 1e-9), (2.0, 1e-11), (2.0, 1e-7))],
+)
+def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin, below, head_speed):
+    spiral = grazing_spiral(margin, below)
+    contact = first_contact(Dance(DRAGON, spiral, head_speed), margin=margin)
+    assert_narrow(contact)
+    model = pair_of(spiral, contact.benches)
+    gaps = [
+        exact_separation(*model.benches(Decimal(time) * Decimal(head_speed)))[0] - Decimal(margin)
+        for time in contact.time_bracket
+    ]
+    assert gaps[0] > 0 >= gaps[1]
+
+
+@pytest.mark.parametrize(("margin", "below"), [(0.0, 1e-9), (0.05, 1e-7), *thorough((0.0, 1e-7))])
+def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin, below):
+    spiral = grazing_spiral(margin, below)
+    steady = first_contact(Dance(DRAGON, spiral), margin=margin)
     passages = [Passage(1.5, until_s=30.0), Passage(0.0, until_time=50.0), Passage(1.0, until_s=100.0)]
-    contact = first_contact(Dance(Dragon(60), spiral, 1.0, passages), margin=margin)
-    assert (contact.outcome, contact.benches) == (Outcome.CONTACT, steady.benches)
-    clear, within = contact.time_bracket
-    assert clear < contact.time < within <= clear + BRACKET
-    assert contact.time == pytest.approx(steady.time + 20.0, rel=0, abs=BRACKET)  # 30 m in 50 s instead of 30 s
+    contact = first_contact(Dance(DRAGON, spiral, 1.0, passages), margin=margin)
+    assert_narrow(contact)
+    assert contact.benches == steady.benches
+    assert_near(contact.time, steady.time + 20.0, BRACKET)  # 30 m in 50 s instead of 30 s
 
 
-def grazing() -> tuple[ContactSearch, Marched]:
+Grazing = tuple[ContactSearch, Marched]
+
+
+@pytest.fixture(scope="module")
+def grazing() -> Grazing:
     """A search on a spiral a nanometre of pitch below the least one, and its contact: a graze 2 mm of travel long."""
-    search = ContactSearch(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0] - 1e-9), 0.0)
+    search = ContactSearch(DRAGON, grazing_spiral(0.0, 1e-9), 0.0)
     state, result, half = search.approach(0.0, 300.0, 1.0)
     assert (state, half > 0.5 * BRACKET) == (Ended.TOUCHED, True)
     return search, result
 
 
-def test_where_a_second_pair_is_as_near_the_bracket_stays() -> None:
-    search, result = grazing()
-    assert narrow_bracket(search, result, 0.4 * BRACKET) is not None
-    assert narrow_bracket(search, result._replace(benches=(0, 18)), 0.4 * BRACKET) is None
+@pytest.mark.parametrize(
+    ("changed", "half", "narrow"),
+    [
+        ({}, 0.4 * BRACKET, True),
+        ({"benches": (0, 18)}, 0.4 * BRACKET, False),
+        ({}, 1e-3, True),
+        ({}, 1e-2, False),
+    ],
+    ids=["alone", "a second pair is as near", "still within", "apart again"],
+)
+def test_a_bracket_is_narrowed_where_one_pair_is_near_and_not_apart_again(grazing, changed, half, narrow):
+    search, result = grazing
+    assert (narrow_bracket(search, result._replace(**changed), half) is not None) is narrow
 
 
-@pytest.mark.parametrize(("margin", "alone"), [(0.0, True), (1e-3, False)])
-def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(margin: float, alone: bool) -> None:
+@pytest.mark.parametrize(("margin", "alone"), [(1e-3, False), *thorough((0.0, True))])
+def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(margin, alone):
     """Benches 0 and 11 pass each other 0.9 mm apart, 2.6 m of travel before benches 0 and 8 touch."""
-    search = ContactSearch(Dragon(60), Spiral(), margin)
-    result = Marched(409.0, 412.48, (0, 8))
-    assert (narrow_bracket(search, result, BRACKET) is not None) == alone
+    search = ContactSearch(DRAGON, Spiral(), margin)
+    assert (narrow_bracket(search, Marched(409.0, 412.48, (0, 8)), BRACKET) is not None) is alone
 
 
-def test_benches_that_graze_between_two_instants_are_not_proven_apart_by_the_gaps_at_both() -> None:
-    search, result = grazing()
+@pytest.mark.thorough
+def test_benches_that_graze_between_two_instants_are_not_proven_apart_by_the_gaps_at_both(
+    grazing,
+):
+    search, result = grazing
     pair, (before, after) = ExactPair(search, result.benches), (result.proven - 0.01, result.proven + 0.01)
-    with localcontext() as context:
-        context.prec = DIGITS
-        assert min(pair.gap(Decimal(before)), pair.gap(Decimal(after))) > 0
-        assert not pair.stays_apart(before, after)
-        assert pair.stays_apart(before, result.proven - 0.005)
+    assert min(pair.gap(Decimal(before)), pair.gap(Decimal(after))) > 0
+    assert not pair.stays_apart(before, after)
+    assert pair.stays_apart(before, result.proven - 0.005)
 
 
-def test_where_the_way_before_a_contact_takes_too_many_intervals_the_bracket_stays(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    search, result = grazing()
-    monkeypatch.setattr(core.contact.near_graze, "INTERVALS_MAX", 2)
-    assert narrow_bracket(search, result._replace(proven=result.proven - 1.0), 0.4 * BRACKET) is None
+@pytest.mark.parametrize(("limit", "earlier"), [("LINK_STEPS", 0.0), *thorough(("INTERVALS_MAX", 1.0))])
+def test_where_the_way_takes_too_many_intervals_or_a_link_too_many_steps_the_bracket_stays(
+    monkeypatch, grazing, limit, earlier
+):
+    search, result = grazing
+    monkeypatch.setattr(core.contact.near_graze, limit, 2)
+    assert narrow_bracket(search, result._replace(proven=result.proven - earlier), 0.4 * BRACKET) is None
 
 
-def test_where_a_link_is_not_solved_the_bracket_stays(monkeypatch: pytest.MonkeyPatch) -> None:
-    search, result = grazing()
-    monkeypatch.setattr(core.contact.near_graze, "LINK_STEPS", 2)
-    assert narrow_bracket(search, result, 0.4 * BRACKET) is None
-
-
-@pytest.mark.parametrize(("half", "within"), [(1e-3, True), (1e-2, False)])
-def test_no_bracket_ends_where_the_benches_are_apart_again(half: float, within: bool) -> None:
-    search, result = grazing()
-    assert (narrow_bracket(search, result, half) is not None) == within
-
-
-def test_a_curve_through_waypoints_is_followed_in_doubles_alone() -> None:
+def test_a_curve_through_waypoints_and_benches_far_behind_are_followed_in_doubles_alone():
     assert not pair_of(Route([Waypoints(((0, 0), (80, 0), (160, 30)))], start=150.0), (0, 2)).can_follow
     assert pair_of(TURN, (0, 2)).can_follow
-
-
-def test_benches_far_behind_are_followed_in_doubles_alone() -> None:
     assert pair_of(Spiral(), (0, LAST_BENCH)).can_follow
     assert not pair_of(Spiral(), (0, LAST_BENCH + 1)).can_follow
     contact = first_contact(Dance(Dragon(2_000, width=0.54), Spiral(start_turns=1_000)))
@@ -189,8 +198,7 @@ def test_benches_far_behind_are_followed_in_doubles_alone() -> None:
     assert contact.benches[1] > LAST_BENCH
 
 
-def test_where_a_travel_is_rounded_to_more_than_the_bracket_decimals_are_not_asked() -> None:
+def test_where_a_travel_is_rounded_to_more_than_the_bracket_decimals_are_not_asked():
     contact = first_contact(Dance(Dragon(20), Spiral(0.3, 1_500), 0.01))
     assert contact.outcome is Outcome.CONTACT
-    assert contact.time_bracket is not None
     assert contact.time_bracket[1] - contact.time_bracket[0] > BRACKET

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import pytest
 
@@ -12,7 +11,6 @@ from core import (
     Coil,
     Dance,
     Dragon,
-    InvalidValue,
     Line,
     OutsideRun,
     Route,
@@ -24,72 +22,68 @@ from core import (
     maximum_head_speed,
     trajectory,
 )
+from core.errors import Quantity
 from core.paths.following import ROOM_WIDTH, earliest_travel
-from tests.core.paths.test_route import DRAGON, PLACE_ERROR, SAME, first_behind
+from tests.core.paths.test_route import PLACE_ERROR, SAME
+from tests.support.near import assert_near
+from tests.support.random_routes import DRAGON, first_behind
+from tests.support.refused import refused
+
+LENGTH = float(DRAGON.chords.sum())
 
 
-def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place() -> None:
+def line(length: float) -> Route:
+    return Route([Line((0, 0), (length, 0))])
+
+
+def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place():
     route = Route([Line((-30, 0), (0, 0)), Arc((0, 1.2), 1.2, -0.5 * math.pi, math.pi), Line((0, 2.4), (-30, 2.4))])
-    with pytest.raises(InvalidValue, match=r"bench 0 \(2\.86 m\), got 1\.2 m near \(.*\) m, s = 30 m") as e:
+    with refused("path", bench=0, bend=Quantity(1.2, "m", 4), s=Quantity(30.0, "m", 4)):
         trajectory(Dance(Dragon(benches=5), route), [20.0])
-    assert e.value.field == "path"
     assert trajectory(Dance(Dragon(benches=5, head_length=2.2), route), [20.0]).speed.min() > 0.0
 
 
-def test_a_start_before_the_beginning_of_the_path_is_refused() -> None:
-    route = Route([Line((0, 0), (100, 0))])
-    length = float(DRAGON.chords.sum())
-    assert trajectory(Dance(DRAGON, route), [length + 1e-6]).position[0, -1, 0] == pytest.approx(1e-6, abs=SAME)
-    with pytest.raises(OutsideRun, match=rf"at least {length:.5f}[01] s, when the whole dragon is on the path"):
-        trajectory(Dance(DRAGON, route), [length - 0.001])
-    with pytest.raises(OutsideRun) as e:
-        first_contact(Dance(DRAGON, route), start=0.0)
-    assert e.value.field == "start"
+def test_a_start_before_the_beginning_of_the_path_is_refused():
+    dance = Dance(DRAGON, line(100))
+    assert_near(trajectory(dance, LENGTH + 1e-6).position[-1, 0], 1e-6, SAME)
+    with pytest.raises(OutsideRun, match=f"{LENGTH:.5f}[01] s"):
+        trajectory(dance, [LENGTH - 0.001])
+    with refused("start", OutsideRun):
+        first_contact(dance, start=0.0)
 
 
 TOO_SHORT = {
-    "a line": Route([Line((0, 0), (10, 0))]),
-    "a line a hair shorter than the dragon": Route([Line((0, 0), (float(DRAGON.chords.sum()) - 1e-6, 0))]),
-    "an arc as long as the dragon when straight": Route([Arc((0, 0), 3.7, 0, float(DRAGON.chords.sum()) / 3.7)]),
+    "a line": line(10),
+    "a line a hair shorter than the dragon": line(LENGTH - 1e-6),
+    "an arc as long as the dragon when straight": Route([Arc((0, 0), 3.7, 0, LENGTH / 3.7)]),
     "a hook": Route([Waypoints(((0, 0), (6, 0), (7, 4), (4, 6)))]),
     "a coil outwards": Route([Coil(3.0, 0.5, 1.0)]),
 }
+QUESTIONS = {
+    "check": check,
+    "highest_speed": highest_speed,
+    "maximum_head_speed": lambda dance: maximum_head_speed(dance, 2.0),
+    "trajectory": lambda dance: trajectory(dance, [5.0]),
+    "clearance": lambda dance: clearance_profile(dance, [50.0]),
+    "first_contact": first_contact,
+    "default_times": lambda dance: dance.default_times,
+}
 
 
-@pytest.mark.parametrize("name", TOO_SHORT)
-@pytest.mark.parametrize(
-    "ask",
-    [
-        lambda path: check(Dance(DRAGON, path)),
-        lambda path: highest_speed(Dance(DRAGON, path)),
-        lambda path: maximum_head_speed(Dance(DRAGON, path), 2.0),
-        lambda path: trajectory(Dance(DRAGON, path), [5.0]),
-        lambda path: clearance_profile(Dance(DRAGON, path), [50.0]),
-        lambda path: first_contact(Dance(DRAGON, path)),
-        lambda path: Dance(DRAGON, path).default_times,
-    ],
-    ids=["check", "highest_speed", "maximum_head_speed", "trajectory", "clearance", "first_contact", "default_times"],
-)
-def test_a_path_too_short_for_the_dragon_says_so(ask: Callable[[Route], object], name: str) -> None:
-    path = TOO_SHORT[name]
-    with pytest.raises(InvalidValue) as e:
-        ask(path)
-    length = f"{path.end - path.begin:.9g}"
-    assert e.value.message == (
-        "path is too short for the whole dragon, which takes 16.4 m of it from handle 0 to handle 16 (more along "
-        f"bends), got {length} m"
-    )
-    assert e.value.field == "path"
+@pytest.mark.parametrize("path", TOO_SHORT.values(), ids=TOO_SHORT)
+@pytest.mark.parametrize("ask", QUESTIONS.values(), ids=QUESTIONS)
+def test_a_path_too_short_for_the_dragon_says_so(ask, path):
+    length = Quantity(path.end - path.begin, "m", 9)
+    with refused("path", least=Quantity(LENGTH, "m", 9), last=16, got=length):
+        ask(Dance(DRAGON, path))
 
 
-def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
-    length = float(DRAGON.chords.sum())
-    path = Route([Line((0, 0), (length + 1e-6, 0))])
-    assert check(Dance(DRAGON, path)).start == pytest.approx(length, abs=1e-6)
+def test_a_path_a_hair_longer_than_the_dragon_has_room():
+    assert_near(check(Dance(DRAGON, line(LENGTH + 1e-6))).start, LENGTH, 1e-6)
 
 
 @pytest.mark.parametrize("begin", [0.0, 3.0])
-def test_at_its_earliest_travel_the_head_is_a_dragon_ahead_of_the_beginning(begin: float) -> None:
+def test_at_its_earliest_travel_the_head_is_a_dragon_ahead_of_the_beginning(begin):
     route = Route([Waypoints(((0, 0), (8, 1), (12, 6), (9, 12), (0, 14)))])
     s = head = earliest_travel(DRAGON, route, begin)
     for chord in DRAGON.chords.tolist():

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 from core import (
     Area,
-    Coil,
     Dance,
     Dragon,
-    InvalidValue,
-    Route,
     Spiral,
     Venue,
     check,
@@ -26,8 +24,11 @@ from core import (
     venue_clearance,
 )
 from core.values import Floats
+from tests.support.near import assert_near
+from tests.support.refused import refused
 
 DRAGON = Dragon(30)
+STANDARD = Dance(DRAGON, Spiral(0.55, 14.0))
 PLACES = {
     "shifted": ((120.0, -45.5), 0.0, True),
     "turned": ((0.0, 0.0), 2.2, True),
@@ -40,103 +41,82 @@ SQUARE = ((-9.5, -9.0), (9.2, -9.0), (9.2, 9.4), (-9.5, 9.4), (-9.5, -9.0))
 TREE = ((2.0, 0.5), (2.5, 0.5), (2.5, 1.0), (2.0, 1.0), (2.0, 0.5))
 
 
-def moved(centre: tuple[float, float], rotation: float, clockwise: bool) -> Callable[[Floats], Floats]:
-    """Points of the standard spiral as they should be in the world."""
+class Moved(NamedTuple):
+    """The standard dance elsewhere, and where its points should be in the world."""
+
+    dance: Dance
+    move: Callable[[Floats], Floats]
+
+
+@pytest.fixture(params=PLACES.values(), ids=PLACES)
+def moved(request: pytest.FixtureRequest) -> Moved:
+    centre, rotation, clockwise = request.param
 
     def move(points: Floats) -> Floats:
         own = np.asarray(points) @ [1.0, 1.0j]
         world = complex(*centre) + cmath.exp(1j * rotation) * (own if clockwise else own.conj())
         return np.stack([world.real, world.imag], axis=-1)
 
-    return move
+    return Moved(Dance(DRAGON, Spiral(0.55, 14.0, *request.param)), move)
 
 
-@pytest.fixture(params=PLACES.values(), ids=PLACES)
-def two(request: pytest.FixtureRequest) -> tuple[Dance, Dance, Callable[[Floats], Floats]]:
-    """The standard dance, the same elsewhere, and the way from one to the other."""
-    standard = Spiral(0.55, 14.0)
-    return Dance(DRAGON, standard), Dance(DRAGON, Spiral(0.55, 14.0, *request.param)), moved(*request.param)
-
-
-Two = tuple[Dance, Dance, Callable[[Floats], Floats]]
-
-
-def test_everything_that_has_a_place_is_moved(two: Two) -> None:
-    standard, elsewhere, move = two
+def test_everything_that_has_a_place_is_moved(moved):
+    dance, move = moved
     times = [0.0, 100.0, 250.0]
-    old, new = trajectory(standard, times), trajectory(elsewhere, times)
-    near = {"rtol": 0, "atol": ROUNDING}
-    np.testing.assert_allclose(new.position, move(old.position), **near)
-    np.testing.assert_allclose(new.velocity, move(old.velocity) - move(np.zeros(2)), **near)
+    old, new = trajectory(STANDARD, times), trajectory(dance, times)
+    assert_near(new.position, move(old.position), ROUNDING)
+    assert_near(new.velocity, move(old.velocity) - move(np.zeros(2)), ROUNDING)
     assert (new.speed == old.speed).all()
-    assert (trajectory(elsewhere, times[1]).position == new.position[1]).all()
-    head, there = elsewhere.path.head(100.0), standard.path.head(100.0)
+    assert (trajectory(dance, times[1]).position == new.position[1]).all()
+    head, there = dance.path.head(100.0), STANDARD.path.head(100.0)
     assert (head.radius, head.theta) == (there.radius, there.theta)
-    np.testing.assert_allclose([head.x, head.y], move(np.array([there.x, there.y])), **near)
-    drawn = elsewhere.path.drawn(new.position)
-    np.testing.assert_allclose(drawn, move(standard.path.drawn(old.position)), rtol=0, atol=10 * ROUNDING)
+    assert_near([head.x, head.y], move(np.array([there.x, there.y])), ROUNDING)
+    assert_near(dance.path.drawn(new.position), move(STANDARD.path.drawn(old.position)), 10 * ROUNDING)
 
 
-def test_no_time_and_no_distance_depends_on_the_place(two: Two) -> None:
-    standard, elsewhere, move = two
-    old, new = first_contact(standard), first_contact(elsewhere)
-    assert (new.time, new.time_bracket, new.benches, new.corner) == (
-        old.time,
-        old.time_bracket,
-        old.benches,
-        old.corner,
-    )
+def test_no_time_and_no_distance_depends_on_the_place(moved):
+    old, new = first_contact(STANDARD), first_contact(moved.dance)
+    for name in ("time", "time_bracket", "benches", "corner"):
+        assert getattr(new, name) == getattr(old, name)
     assert new.certificate.method == old.certificate.method
-    assert old.point is not None
-    np.testing.assert_allclose(new.point, move(np.array(old.point)), rtol=0, atol=ROUNDING)
-    profile = clearance_profile(elsewhere, [0.0, 200.0])
-    assert profile.clearance.tolist() == clearance_profile(standard, [0.0, 200.0]).clearance.tolist()
+    assert_near(new.point, moved.move(np.array(old.point)), ROUNDING)
+    there, here = (clearance_profile(dance, [0.0, 200.0]).clearance.tolist() for dance in (moved.dance, STANDARD))
+    assert there == here
 
 
-def test_a_venue_is_met_where_it_is(two: Two) -> None:
-    standard, elsewhere, move = two
+def test_a_venue_is_met_where_it_is(moved):
+    dance, move = moved
 
     def venue(place: Callable[[Floats], Floats]) -> Venue:
-        areas = [Area(name, (tuple(map(tuple, place(np.array(ring)))),)) for name, ring in rings.items()]
-        return Venue(areas[0], tuple(areas[1:]))
+        rings = (tuple(map(tuple, place(np.array(ring)))) for ring in (SQUARE, TREE))
+        square, tree = map(Area, ("square", "tree"), ((ring,) for ring in rings))
+        return Venue(square, (tree,))
 
-    rings = {"square": SQUARE, "tree": TREE}
-    old = venue_clearance(standard, venue(lambda points: points), stop=200.0)
-    new = venue_clearance(elsewhere, venue(move), stop=200.0)
+    both = ((STANDARD, venue(lambda points: points)), (dance, venue(move)))
+    old, new = (venue_clearance(*each, stop=200.0) for each in both)
     for one, other in zip(old.areas, new.areas, strict=True):
         assert (one.outcome, one.bench, one.nearest.bench) == (other.outcome, other.bench, other.nearest.bench)
-        assert other.nearest.distance == pytest.approx(one.nearest.distance, abs=ROUNDING)
-        np.testing.assert_allclose(other.nearest.point, move(np.array(one.nearest.point)), rtol=0, atol=1e-6)
-        np.testing.assert_allclose(other.nearest.wall, move(np.array(one.nearest.wall)), rtol=0, atol=1e-6)
+        assert_near(other.nearest.distance, one.nearest.distance, ROUNDING)
+        for name in ("point", "wall"):
+            assert_near(getattr(other.nearest, name), move(np.array(getattr(one.nearest, name))), 1e-6)
     assert new.misplaced == old.misplaced
-    assert (
-        check(elsewhere, venue=venue(move), stop=150.0).verdict
-        is check(standard, venue=venue(lambda p: p), stop=150.0).verdict
-    )
+    old, new = (check(each, venue=area, stop=150.0) for each, area in both)
+    assert new.verdict is old.verdict
 
 
-def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(two: Two) -> None:
-    standard, elsewhere, move = two
+def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(moved):
+    dance, move = moved
     span = {"start": 300.0, "stop": 310.0}
-    old, new = envelope(standard, excess=0.01, **span), envelope(elsewhere, excess=0.01, **span)
+    old, new = envelope(STANDARD, excess=0.01, **span), envelope(dance, excess=0.01, **span)
     assert new.area == pytest.approx(old.area, rel=1e-9)
+    flip = 1 if dance.path.frame.clockwise else -1
     for rings, others in zip(old.polygons, new.polygons, strict=True):
         for ring, other in zip(rings, others, strict=True):
-            flip = 1 if elsewhere.path.frame.clockwise else -1
-            np.testing.assert_allclose(other[::flip], move(ring), rtol=0, atol=ROUNDING)
-    result = tolerance(elsewhere, **span)
-    assert result.exhibit is not None
-    assert result.stray == tolerance(standard, **span).stray
-    strays = result.exhibit.handles - trajectory(elsewhere, result.exhibit.time).position
-    assert np.hypot(*strays.T).max() == pytest.approx(result.exhibit.stray, abs=1e-9)
-
-
-def test_a_spiral_lies_as_a_coil_does() -> None:
-    centre, rotation = (7.0, -3.0), 1.1
-    spiral, coil = Spiral(0.55, 14.0, centre, rotation), Route([Coil(0.55, 14.0, 3.0, centre, rotation)])
-    times = [0.0, 80.0, 200.0]
-    ours, theirs = (trajectory(Dance(DRAGON, path), times).position for path in (spiral, coil))
-    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-10)
+            assert_near(np.array(other[::flip]), move(ring), ROUNDING)
+    result = tolerance(dance, **span)
+    assert result.stray == tolerance(STANDARD, **span).stray
+    strays = result.exhibit.handles - trajectory(dance, result.exhibit.time).position
+    assert_near(np.hypot(*strays.T).max(), result.exhibit.stray, 1e-9)
 
 
 @pytest.mark.parametrize(
@@ -144,7 +124,6 @@ def test_a_spiral_lies_as_a_coil_does() -> None:
     [("path.centre", {"centre": (0.0,)}), ("path.centre.1", {"centre": (0.0, 1e9)}),
      ("path.rotation", {"rotation": float("nan")}), ("path.clockwise", {"clockwise": 1})],
 )  # fmt: skip
-def test_an_invalid_place_is_refused_by_name(field: str, place: dict[str, object]) -> None:
-    with pytest.raises(InvalidValue) as refused:
+def test_an_invalid_place_is_refused_by_name(field, place):
+    with refused(field):
         Spiral(**place)  # type: ignore[arg-type]
-    assert refused.value.field == field

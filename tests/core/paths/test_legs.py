@@ -9,36 +9,31 @@ import pytest
 from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
-from core import Arc, Dragon, InvalidValue, Legs, Line, Route, Waypoints, course
+from core import Dragon, InvalidValue, Legs, Route, Waypoints, course
+from tests.support.near import assert_near
+from tests.support.refused import refused
 
 ON_THE_PATH = 1e-9  # [m]
 CORNER = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0)]
 POINT = st.tuples(st.integers(-40, 40), st.integers(-40, 40))
 
 
-def test_curves_alone_are_the_curve_through_the_points() -> None:
+def test_curves_alone_are_the_curve_through_the_points():
     points = ((0.0, 0.0), (6.0, 1.0), (11.0, 6.0))
     drawn, known = Legs(points, start_heading=0.5, start=2.0), Route([Waypoints(points, 0.5)], 2.0)
     assert np.array_equal(drawn.table, known.table)
 
 
-def test_a_corner_of_straight_legs_is_rounded_by_an_arc_of_the_radius() -> None:
+def test_a_corner_of_straight_legs_is_rounded_by_an_arc_of_the_radius_or_as_large_as_the_legs_allow():
     line, arc, _ = Legs(CORNER, [0, 1], radius=4.0).pieces
-    assert isinstance(line, Line)
-    assert isinstance(arc, Arc)
-    assert line.end == pytest.approx((16.0, 0.0), abs=ON_THE_PATH)
-    assert (*arc.centre, arc.radius, arc.sweep) == pytest.approx((16.0, 4.0, 4.0, math.pi / 2), abs=ON_THE_PATH)
+    assert_near(line.end, [16.0, 0.0], ON_THE_PATH)
+    assert_near([*arc.centre, arc.radius, arc.sweep], [16.0, 4.0, 4.0, math.pi / 2], ON_THE_PATH)
+    assert 9.0 < Legs(CORNER, [0, 1], radius=400.0).pieces[1].radius < 10.0
 
 
-def test_a_radius_too_large_for_a_leg_becomes_smaller() -> None:
-    arc = Legs(CORNER, [0, 1], radius=400.0).pieces[1]
-    assert isinstance(arc, Arc)
-    assert 9.0 < arc.radius < 10.0
-
-
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(st.lists(POINT, min_size=2, max_size=7, unique=True), st.sets(st.integers(0, 5)))
-def test_every_drawn_path_is_smooth_and_goes_through_its_points(points: list[tuple[int, int]], legs: set[int]) -> None:
+def test_every_drawn_path_is_smooth_and_goes_through_its_points(points, legs):
     straight = {leg for leg in legs if leg < len(points) - 1}
     try:
         path = Legs(points, sorted(straight), radius=3.0)  # Route refuses a gap or a kink between two pieces.
@@ -63,24 +58,21 @@ def test_every_drawn_path_is_smooth_and_goes_through_its_points(points: list[tup
     ],
     ids=["one point", "twice the same", "no such leg", "half a leg", "turns back"],
 )
-def test_what_cannot_be_drawn_is_refused_by_its_place(
-    points: list[tuple[float, float]], straight: list[int], field: str
-) -> None:
-    with pytest.raises(InvalidValue) as refused:
+def test_what_cannot_be_drawn_is_refused_by_its_place(points, straight, field):
+    with refused(field):
         Legs(points, straight)
-    assert refused.value.field == field
 
 
-def test_a_curve_that_turns_on_the_spot_is_refused_by_its_points() -> None:
-    with pytest.raises(InvalidValue, match=r"^path\.points must .* between points 1 and 2$"):
+def test_a_curve_that_turns_on_the_spot_is_refused_by_its_points():
+    with pytest.raises(InvalidValue, match=r"^path\.points .* 1 and 2$"):
         Legs([(0.0, 0.0), (20.0, 0.0), (0.0, 0.0)], [0], end_heading=math.pi)
 
 
-def test_a_bend_is_too_tight_where_its_radius_is_below_what_the_longest_bench_needs() -> None:
+def test_a_bend_is_too_tight_where_its_radius_is_below_what_the_longest_bench_needs():
     tight, wide = (course(Legs(CORNER, [0, 1], radius=radius), Dragon(9)) for radius in (1.40, 1.45))
     assert wide.bends == ()
     (bend,) = tight.bends
-    assert (bend.start, bend.end) == pytest.approx((18.6, 18.6 + 1.4 * math.pi / 2), abs=ON_THE_PATH)
-    assert (bend.radius, bend.bench) == (pytest.approx(1.40), 0)
+    assert_near([bend.start, bend.end, bend.radius], [18.6, 18.6 + 0.7 * math.pi, 1.4], ON_THE_PATH)
+    assert bend.bench == 0
     assert 1.40 < bend.least_radius < 1.45
     assert np.hypot(*(bend.points - (18.6, 1.4)).T) == pytest.approx(1.4)

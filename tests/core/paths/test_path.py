@@ -9,6 +9,7 @@ import pytest
 
 from core import Arc, Coil, Line, Route, Spiral, Turn, Waypoints, kernels
 from core.paths.path import Path
+from tests.support.near import assert_near
 
 PATHS: dict[str, Path] = {
     "spiral": Spiral(0.55, 16.0),
@@ -25,86 +26,76 @@ QUOTIENT_ERROR = 1e-6
 ON_PATH = 1e-9
 
 
-def places(path: Path) -> np.ndarray:
+@pytest.fixture(params=PATHS.values(), ids=PATHS)
+def path(request: pytest.FixtureRequest) -> Path:
+    return request.param
+
+
+@pytest.fixture
+def s(path: Path) -> np.ndarray:
     """Arc lengths of the head at random, none so near to a joint of the pieces above that a quotient spans it [m]."""
     return np.random.default_rng(3).uniform(max(path.begin, -30.0) + 0.1, min(path.end, 60.0) - 0.1, 200)
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_the_tangent_is_the_change_of_the_position_with_arc_length(path: Path) -> None:
-    s = places(path)
+def test_the_tangent_is_the_change_of_the_position_and_the_curvature_of_the_tangent(path, s):
     tangent = path.tangent(s)
-    quotient = (path.position(s + STEP) - path.position(s - STEP)) / (2.0 * STEP)
-    np.testing.assert_allclose(np.linalg.norm(tangent, axis=-1), 1.0, rtol=0, atol=1e-14)
-    np.testing.assert_allclose(quotient, tangent, rtol=0, atol=QUOTIENT_ERROR)
-
-
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_the_curvature_is_the_change_of_the_tangent_to_the_left(path: Path) -> None:
-    s = places(path)
-    tangent = path.tangent(s)
+    ahead, bend = ((ask(s + STEP) - ask(s - STEP)) / (2.0 * STEP) for ask in (path.position, path.tangent))
+    assert_near(np.linalg.norm(tangent, axis=-1), np.ones(s.size), 1e-14)
+    assert_near(ahead, tangent, QUOTIENT_ERROR)
     left = np.stack([-tangent[..., 1], tangent[..., 0]], axis=-1)
-    change = (path.tangent(s + STEP) - path.tangent(s - STEP)) / (2.0 * STEP)
-    np.testing.assert_allclose((change * left).sum(axis=-1), path.curvature(s), rtol=0, atol=QUOTIENT_ERROR)
+    assert_near((bend * left).sum(axis=-1), path.curvature(s), QUOTIENT_ERROR)
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_one_place_has_the_answer_that_it_has_among_many(path: Path) -> None:
-    s = places(path)[:20].reshape(4, 5)
+def test_one_place_has_the_answer_that_it_has_among_many(path, s):
+    places = s[:20].reshape(4, 5)
     for ask in (path.position, path.tangent, path.curvature):
-        many = ask(s)
+        many = ask(places)
         assert many.shape[:2] == (4, 5)
-        assert many[2, 3].tolist() == np.asarray(ask(float(s[2, 3]))).tolist()
+        assert many[2, 3].tolist() == np.asarray(ask(float(places[2, 3]))).tolist()
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path: Path) -> None:
-    for s in places(path)[:20].tolist():
-        head = path.head(s)
-        np.testing.assert_allclose((head.x, head.y), path.position(s), rtol=0, atol=ON_PATH)
-        assert head.radius == pytest.approx(
-            math.hypot(head.x - path.frame.centre[0], head.y - path.frame.centre[1]), rel=0, abs=ON_PATH
-        )
+def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path, s):
+    for travel in [*s[:20].tolist(), path.end if math.isfinite(path.end) else 0.0]:
+        head = path.head(travel)
+        assert_near([head.x, head.y], path.position(travel), ON_PATH)
+        assert_near(head.radius, math.dist((head.x, head.y), path.frame.centre), ON_PATH)
         assert (head.theta is None) is (path.spiral is None)
+    assert path.limit >= path.end
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_a_chain_follows_the_head_along_the_path_with_its_chords(path: Path) -> None:
+def test_a_chain_follows_the_head_along_the_path_with_its_chords(path):
     sizes, chain = np.zeros((4, kernels.SIZE_COLUMNS)), np.zeros((4, kernels.CHAIN_COLUMNS))
     sizes[:, kernels.CHORD] = 2.86, 1.65, 1.65, 0.0
-    s = np.array([path.begin + 9.0, path.begin + 11.0])
-    for lag, request in zip(path.lags(s, 0.0).tolist(), s.tolist(), strict=True):
+    starts = path.begin + np.array([9.0, 11.0])
+    for lag, start in zip(path.lags(starts, 0.0).tolist(), starts, strict=True):
         path.follow(lag, 3, sizes, chain)
         handles = path.along(chain[:, kernels.LAG])
-        assert handles[0] == pytest.approx(request, abs=ON_PATH)
+        assert_near(handles[0], start, ON_PATH)
         assert (np.diff(handles) < 0.0).all()
         chords = np.linalg.norm(np.diff(path.position(handles), axis=0), axis=-1)
-        np.testing.assert_allclose(chords, sizes[:3, kernels.CHORD], rtol=0, atol=ON_PATH)
+        assert_near(chords, sizes[:3, kernels.CHORD], ON_PATH)
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_the_path_as_a_route_is_the_same_in_its_own_frame(path: Path) -> None:
-    s = places(path)
+def test_the_path_as_a_route_is_the_same_in_its_own_frame(path, s):
     route = path.as_route(60.0)
-    np.testing.assert_allclose(path.frame.points(route.position(s)), path.position(s), rtol=0, atol=ON_PATH)
+    assert_near(path.frame.points(route.position(s)), path.position(s), ON_PATH)
     assert route.spiral is None
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_the_curvature_is_below_its_bounds(path: Path) -> None:
+def test_the_curvature_is_below_its_bounds(path):
     s = np.linspace(path.begin, path.end, 2_000)[:-1]
     bends = np.abs(path.curvature(s))
-    assert bends.max() <= path.sharpest_before(float(s.max())) * (1.0 + 1e-12)
+    assert bends.max() <= path.sharpest_before(float(s[-1])) * (1.0 + 1e-12)
     if path.spiral is not None:
         gentle = path.along(np.array(path.gentle_lag(0.5)))
         assert bends[s <= gentle].max() <= 0.5 < bends.max()
-    tight = np.array([any(a <= one <= b for a, b, _ in path.tighter(2.5)) for one in s.tolist()])
-    assert path.spiral is not None or (bends[~tight] <= 0.4).all()
+    else:
+        tight = sum((a <= s) & (s <= b) for a, b, _ in path.tighter(2.5))
+        assert (bends[tight == 0] <= 0.4).all()
 
 
-@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
-def test_a_drawing_of_the_whole_path_begins_where_its_first_point_is(path: Path) -> None:
+def test_a_drawing_of_the_whole_path_begins_where_its_first_point_is(path):
     low, high = path.drawn_between(path.begin, path.end)
     assert (low, high) == (path.begin, path.end)
-    assert path.drawn_begin(path.position(np.array([low, low + 5.0]))) == pytest.approx(low, abs=ON_PATH)
+    assert_near(path.drawn_begin(path.position(np.array([low, low + 5.0]))), low, ON_PATH)
     assert path.drawn_between(-1e4, path.end)[0] == (-1e4 if path.spiral else path.begin)
