@@ -169,8 +169,8 @@ def test_the_name_of_a_square_stands_in_no_street() -> None:
     body = json.loads("""{
         "dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[-68, 0], [8, 0]], "straight": [0]},
         "venue": {"type": "FeatureCollection", "features": [{"type": "Feature",
-            "properties": {"name": "threshing floor"}, "geometry": {"type": "Polygon", "coordinates": [[[-70, -3], [-10, -3], [-10, -10], [10, -10], [10, 10],
-                [-10, 10], [-10, 3], [-70, 3], [-70, -3]]]}}]}
+            "properties": {"name": "threshing floor"}, "geometry": {"type": "Polygon", "coordinates": [[[-70, -3],
+                [-10, -3], [-10, -10], [10, -10], [10, 10], [-10, 10], [-10, 3], [-70, 3], [-70, -3]]]}}]}
     }""")
     page = plan_of(body)[0]
     text = page.get_textpage()
