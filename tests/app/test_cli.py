@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import csv
 import fcntl
 import json
 import os
@@ -349,21 +348,18 @@ def test_output_writes_a_file_and_leaves_standard_output_empty(tmp_path: Path, s
 
 
 def test_output_takes_decimals_and_language(tmp_path: Path) -> None:
-    assert run("trajectory", "--stop", "1", "--decimals", "3", "--output", str(tmp_path / "a.csv")).returncode == 0
-    rows = list(csv.DictReader((tmp_path / "a.csv").read_text().splitlines()))
-    assert (rows[1]["x"], rows[1]["y"]) == ("8.364", "2.827")
-    assert run("trajectory", "--stop", "1", "--language", "zh", "--output", str(tmp_path / "a.xlsx")).returncode == 0
-    assert openpyxl.load_workbook(tmp_path / "a.xlsx")["位置"]["A2"].value == "龙头x (m)"
+    text, book = tmp_path / "a.csv", tmp_path / "a.xlsx"
+    run("trajectory", "--stop", "1", "--decimals", "3", "--output", str(text))
+    assert "0.0,1,8.364,2.827," in text.read_text()
+    run("trajectory", "--stop", "1", "--language", "zh", "--output", str(book))
+    assert openpyxl.load_workbook(book)["位置"]["A2"].value == "龙头x (m)"
 
 
 def test_figures_writes_the_files_that_were_asked_for(tmp_path: Path) -> None:
     done = run("figures", str(tmp_path / "new"), "--benches", "20", "--samples", "5")
     assert (done.returncode, done.stdout) == (0, "")
-    assert sorted(file.name for file in (tmp_path / "new").iterdir()) == [
-        "contact.png",
-        "pitch-scan.png",
-        "trajectory.png",
-    ]
+    names = {file.name for file in (tmp_path / "new").iterdir()}
+    assert names == {"contact.png", "pitch-scan.png", "trajectory.png"}
     done = run("figures", str(tmp_path / "one"), "--kind", "contact", "--format", "svg", "--benches", "20")
     assert (done.returncode, done.stderr) == (0, f"{tmp_path / 'one' / 'contact.svg'}\n")
     assert b"<svg" in (tmp_path / "one" / "contact.svg").read_bytes()
@@ -374,15 +370,23 @@ def headings(text: str) -> list[list[str]]:
     return [line.split()[1::2] for line in text.splitlines() if line.split()[:1] == ["handle"]]
 
 
-def test_up_to_seven_instants_are_shown_and_none_is_dropped_among_them() -> None:
-    six = answer_of("trajectory", "--stop", "300", "--step", "60")
-    assert headings(six) == [["0", "60", "120", "180", "240", "300"]] * 3
-    assert "7 of 224 handles, 6 of 6 instants" in six
-    seven = answer_of("trajectory", "--benches", "5", "--stop", "6")
-    assert headings(seven) == [["0", "1", "2", "3", "4", "5", "6"]] * 3
-    assert (
-        headings(answer_of("trajectory", "--benches", "5", "--stop", "7")) == [["0", "1", "2", "4", "5", "6", "7"]] * 3
-    )
+@pytest.mark.parametrize(
+    "row",
+    [
+        "--stop 300 --step 60 -> 0 60 120 180 240 300 | 7 of 224 handles, 6 of 6 instants",
+        "--benches 5 --stop 6 -> 0 1 2 3 4 5 6 | ",
+        "--benches 5 --stop 7 -> 0 1 2 4 5 6 7 | ",
+        "--times 0,60,120 --handles 51,0,1 -> 0 60 120 | 3 of 224 handles, 3 of 3 instants: --output has all.\n",
+        "--times 0,1 -> 0 1 | : --output has all, --handles chooses.\n",
+        "--handles 0 --benches 3 --stop 6 -> 0 1 2 3 4 5 6 | : --output has all, --times chooses.\n",
+    ],
+)
+def test_up_to_seven_instants_are_shown_and_what_chooses_more_is_named(row: str) -> None:
+    options, _, shown = row.partition(" -> ")
+    instants, _, words = shown.partition(" | ")
+    table = answer_of("trajectory", *options.split())
+    assert headings(table) == [instants.split()] * 3
+    assert words in table
 
 
 def on_terminal(columns: int, *arguments: str) -> str:
@@ -417,14 +421,9 @@ def test_as_many_instants_are_shown_as_fit_the_width() -> None:
     assert "3 of 6 instants" in output.replace("\r\n", " ")
 
 
-def test_handles_and_times_choose_what_is_shown() -> None:
-    output = answer_of("trajectory", "--times", "0,60,120", "--handles", "51,0,1")
-    assert headings(output) == [["0", "60", "120"]] * 3
-    rows = [line.split()[0] for line in output.splitlines() if re.match(r"  \d+ (head|body)", line)]
-    assert rows == ["51", "0", "1"] * 3
-    assert output.endswith("3 of 224 handles, 3 of 3 instants: --output has all.\n")
-    assert answer_of("trajectory", "--times", "0,1").endswith(": --output has all, --handles chooses.\n")
-    assert answer_of("trajectory", "--handles", "0").endswith(": --output has all, --times chooses.\n")
+def test_handles_stand_in_the_order_in_which_they_are_chosen() -> None:
+    table = answer_of("trajectory", "--times", "0,60,120", "--handles", "51,0,1")
+    assert re.findall(r"^  (\d+) (?:head|body)", table, re.MULTILINE) == ["51", "0", "1"] * 3
 
 
 def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take() -> None:
@@ -446,17 +445,15 @@ def test_a_reader_that_stops_early_is_no_error(flags: list[str]) -> None:
         assert process.wait(PATIENCE) in (0, 1)
 
 
-@pytest.mark.thorough
-def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(tmp_path: Path) -> None:
+def interrupted(*arguments: str, until: bytes) -> bytes:
+    """What the command writes on a terminal when Ctrl-C comes as soon as these words stand there."""
     leader, follower = pty.openpty()
-    # The film takes ten times as long as the wait before the bar.
-    arguments = ["film", "--output", str(tmp_path / "dance.mp4")]
     process = subprocess.Popen(
         [COMMAND, *arguments], stdout=subprocess.DEVNULL, stderr=follower, env=ENVIRONMENT, preexec_fn=heed_ctrl_c
     )
     os.close(follower)
     seen = b""
-    while b"film" not in seen:
+    while until not in seen:
         seen += os.read(leader, 1024)
     process.send_signal(signal.SIGINT)
     # Read on, or a full terminal would hold the process up; without a writer its end is an error, not an end of file.
@@ -466,6 +463,24 @@ def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(tmp_path: Path) -> N
     os.close(leader)
     assert process.wait(PATIENCE) == 130
     assert b"Traceback" not in seen
+    return seen
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        # Ten times as long as the wait before the bar, and most of a minute: all pairs of 223 benches.
+        ("film --output dance.mp4", b"film"),
+        ("prove collision-time --every-pair --output proof.json", b"%"),
+    ],
+)
+def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(
+    line: str, words: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    seen = interrupted(*line.split(), until=words)
+    assert "prove" not in line or b"Interrupted: nothing was written." in seen
     assert list(tmp_path.iterdir()) == []
 
 

@@ -1,11 +1,8 @@
-"""bench-dragon prove, run as a user runs it: certificates as files, exit codes, a bar, Ctrl-C."""
+"""bench-dragon prove, run as a user runs it: certificates as files, exit codes."""
 
 from __future__ import annotations
 
 import json
-import os
-import pty
-import signal
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,9 +10,7 @@ from typing import Any
 
 import pytest
 
-from tests.conftest import heed_ctrl_c
 from tests.support import command
-from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE
 from tests.support.refused import assert_refused_in_one_line
 
 FIVE = "--benches 5 --start-turns 6"  # a dragon whose proof takes no time
@@ -184,29 +179,3 @@ def test_without_flint_the_error_names_the_extra(certificate: Path, tmp_path: Pa
     assert (done.returncode, done.stdout) == (2, "")
     assert "python-flint" in done.stderr
     assert done.stderr.endswith(": pip install 'bench-dragon[proof]'\n")
-
-
-@pytest.mark.thorough
-def test_a_bar_shows_and_ctrl_c_ends_the_proof_cleanly(tmp_path: Path) -> None:
-    leader, follower = pty.openpty()
-    # All pairs of 223 benches in their own right take most of a minute.
-    arguments = ["collision-time", "--every-pair", "--output", str(tmp_path / "proof.json")]
-    process = subprocess.Popen(
-        [COMMAND, "prove", *arguments],
-        stdout=subprocess.DEVNULL,
-        stderr=follower,
-        env=ENVIRONMENT,
-        preexec_fn=heed_ctrl_c,
-    )
-    os.close(follower)
-    seen = b""
-    while b"%" not in seen:
-        seen += os.read(leader, 1024)
-    process.send_signal(signal.SIGINT)
-    while b"Interrupted: nothing was written." not in seen:
-        seen += os.read(leader, 1024)
-    assert process.wait(PATIENCE) == 130
-    os.close(leader)
-    assert b"proof" in seen
-    assert b"Traceback" not in seen
-    assert list(tmp_path.iterdir()) == []
