@@ -438,8 +438,6 @@ def test_a_reader_that_stops_early_is_no_error(flags: list[str]) -> None:
     with subprocess.Popen(
         [COMMAND, "trajectory", *flags], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT
     ) as process:
-        assert process.stdout is not None
-        assert process.stderr is not None
         process.stdout.close()
         assert process.stderr.read() == b""
         assert process.wait(PATIENCE) in (0, 1)
@@ -494,7 +492,6 @@ def test_ctrl_c_while_modules_are_imported_ends_without_a_word(tmp_path: Path) -
         env=ENVIRONMENT | {"PYTHONPATH": str(tmp_path)},
         preexec_fn=heed_ctrl_c,
     )
-    assert process.stdout is not None
     assert process.stdout.readline() == b"importing\n"
     process.send_signal(signal.SIGINT)
     assert process.communicate(timeout=PATIENCE) == (b"", b"")
@@ -524,7 +521,6 @@ def serving(
         start_new_session=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, on_sigint),
     )
-    assert process.stderr is not None
     lines: list[str] = []
     expected, running = 1, False
     for line in process.stderr:
@@ -554,7 +550,6 @@ def becomes(url: str, name: str, expected: float) -> bool:
 
 def starts(process: subprocess.Popen[str]) -> bool:
     """True as soon as one more process of the service answers."""
-    assert process.stderr is not None
     return any("Application startup complete" in line for line in process.stderr)
 
 
@@ -575,7 +570,6 @@ def test_serve_answers_replaces_a_process_that_dies_or_hangs_and_keeps_its_count
             time.sleep(2.0)  # all have answered their parent
             os.kill(pids[1], signal.SIGSTOP)
             stopped = time.monotonic()
-            assert process.stderr is not None
             assert any(f"[{pids[1]}] died" in line for line in process.stderr)
             assert SILENT < time.monotonic() - stopped < SILENT_SECONDS < START_SECONDS
             assert starts(process)

@@ -104,7 +104,6 @@ def test_the_last_frame_alone_marks_both_benches_that_touch(ending: str, tmp_pat
     before, last = filmed(tmp_path / f"dance.{ending}", *options.split())
     dance = Dance(Dragon(head_length=1.55), Spiral())
     contact = first_contact(dance)
-    assert contact.time is not None
     assert contact.benches == (1, 8)
     stage = FilmPicture(dance, FilmSpec(0.0, contact.time), None, "")
     for instant, picture, marked in ((0.0, before, {0}), (contact.time, last, {0, 1, 8})):

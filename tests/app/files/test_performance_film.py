@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 from typing import Any
 
 import httpx
@@ -25,17 +26,12 @@ from core import Budget, TooMuchWork, bench_outlines, first_contact, first_encou
 from tests.app.files.test_film import assert_heard
 from tests.support.refused import assert_refused
 
-EAST = {"name": "east", "dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}}
-NORTH = {"dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}, "delay": 2}
-SQUARE = {"type": "Polygon", "coordinates": [[[-5, -25], [35, -25], [35, 25], [-5, 25], [-5, -25]]]}
-TWO: dict[str, Any] = {
-    "dances": [EAST, NORTH],
-    "venue": SQUARE,
-    "seconds": 1,
-    "rate": 4,
-    "height": 180,
-    "start_clock": "19:30",
-}
+TWO: dict[str, Any] = json.loads("""{"dances": [
+    {"name": "east", "dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}},
+    {"dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}, "delay": 2}
+], "venue": {"type": "Polygon", "coordinates": [[[-5, -25], [35, -25], [35, 25], [-5, 25], [-5, -25]]]},
+    "seconds": 1, "rate": 4, "height": 180, "start_clock": "19:30"}""")
+EAST, NORTH = TWO["dances"]
 PERFORMANCE, _ = FilmRequest.model_validate(TWO).to_placed(Settings())
 
 
@@ -90,7 +86,6 @@ def test_the_film_ends_at_the_first_encounter_and_marks_it() -> None:
 def test_the_film_ends_at_the_first_contact_of_a_dragon_by_itself() -> None:
     coiled = {"dragon": {"benches": 12}, "path": {"kind": "spiral", "start_turns": 5}}
     time = first_contact(checked(FilmRequest, coiled).to_dance(100)).time
-    assert time is not None
     far = NORTH | {"path": {"kind": "waypoints", "points": [[90, -20], [90, 20]]}}
     both = TWO | {"dances": [far, coiled | {"delay": 1}], "venue": None}
     own, cut = film_of(both), film_of(both | {"stop": time + 1.0})

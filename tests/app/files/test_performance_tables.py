@@ -23,15 +23,11 @@ from core.values import Floats
 from tests.support.command import run
 from tests.support.refused import assert_refused
 
-FIVE: dict[str, Any] = {"benches": 5, "names": ["Zhou", "Wu", "", 'Zheng, "Wang"', "=Feng"]}
-TWO: dict[str, Any] = {
-    "dances": [
-        {"name": "east", "dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[0, 0], [40, 0]]}},
-        {"dragon": FIVE, "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}, "delay": 12.5},
-    ],
-    "times": [5, 20, 45.25, 60],
-    "start_clock": "19:30",
-}
+TWO: dict[str, Any] = json.loads("""{"dances": [
+    {"name": "east", "dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[0, 0], [40, 0]]}},
+    {"dragon": {"benches": 5, "names": ["Zhou", "Wu", "", "Zheng, \\"Wang\\"", "=Feng"]}, "delay": 12.5,
+     "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}}
+], "times": [5, 20, 45.25, 60], "start_clock": "19:30"}""")
 TIMES = np.array(TWO["times"], dtype=np.float64)
 
 

@@ -50,19 +50,16 @@ def read(space: Any) -> DanceParts:
 
 def things(result: DanceParts) -> list[tuple[str, Any, float | None]]:
     """Form, coordinates and radius of the obstacles."""
-    assert result.geometry is not None
     values = [(one["properties"], one["geometry"]) for one in result.geometry["features"][1:]]
     return [(form["type"], form["coordinates"], own.get("radius")) for own, form in values]
 
 
 def names(result: DanceParts) -> list[str]:
-    assert result.venue is not None
     return [area.name for area in result.venue.areas]
 
 
 def corners(result: DanceParts) -> list[Any]:
     """The outline of the square."""
-    assert result.venue is not None
     return list(result.venue.square.rings[0])
 
 
@@ -252,7 +249,6 @@ def test_lines_and_arcs_of_the_path_are_one_path() -> None:
     space.add_line((10, 10), (0, 10), dxfattribs=on_path)
     space.add_line((30, 30), (40, 40), dxfattribs=on_path)
     result = read(space)
-    assert result.path is not None
     points = np.array(result.path["points"])
     assert {tuple(points[0]), tuple(points[-1])} == {(0.0, 0.0), (0.0, 10.0)}
     assert np.abs(points[:, 0] - 15.0).min() < 0.1
