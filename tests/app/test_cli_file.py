@@ -9,14 +9,21 @@ from typing import Any
 import httpx
 import pytest
 
+from app.maps.dances import read_dance
+from tests.conftest import ROOT
 from tests.support.command import run
+from tests.support.job_service import wait_for
+from tests.support.refusal_rows import assert_refused_in_one_line
 
 DANCE = """
 margin = 0.2
 speed_limit = 1.5
-head_speed = 2.0
 start = 20
 venue = "yard.geojson"
+
+"""
+WAYPOINTS = """
+head_speed = 2.0
 
 [dragon]
 lengths = [3.41, 2.2, 2.0, 2.2, 1.9, 2.2]
@@ -27,87 +34,126 @@ overhangs = [0.275, 0.275, 0.275, 0.275, 0.275, 0.275]
 kind = "waypoints"
 points = [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]
 """
-BODY: dict[str, Any] = {
-    "dragon": {
-        "lengths": [3.41, 2.2, 2.0, 2.2, 1.9, 2.2],
-        "widths": [0.3, 0.3, 0.4, 0.3, 0.3, 0.3],
-        "overhangs": [0.275] * 6,
-    },
+BODY: dict[str, Any] = json.loads("""{
+    "dragon": {"lengths": [3.41, 2.2, 2.0, 2.2, 1.9, 2.2], "widths": [0.3, 0.3, 0.4, 0.3, 0.3, 0.3],
+               "overhangs": [0.275, 0.275, 0.275, 0.275, 0.275, 0.275]},
     "path": {"kind": "waypoints", "points": [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]},
-    "head_speed": 2.0,
-}
+    "head_speed": 2.0
+}""")
 YARD = {"type": "Polygon", "coordinates": [[[-5, -25], [45, -25], [45, 20], [-5, 20], [-5, -25]]]}
+# Two dragons in the lanes of a square.
+TWO: dict[str, Any] = json.loads("""{"dances": [
+    {"name": "east", "dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}},
+    {"dragon": {"benches": 3, "names": ["Zhou", "Wu", "=Li"]}, "delay": 12.5,
+     "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}}
+], "start_clock": "19:30"}""")
+TIMED = TWO | {"times": [5, 20, 45.25]}
+NAMED = {"dragon": {"benches": 24, "names": ["", "Wang", "17", *[""] * 21]}, "start_clock": "19:44:30"}
+NAMED = {"dragon": {"benches": 24, "names": ["", "Wang", "17", *["李家"] * 0, *[""] * 21]}, "start_clock": "19:44:30"}
 
 
 @pytest.fixture
 def file(tmp_path: Path) -> str:
     (tmp_path / "yard.geojson").write_text(json.dumps(YARD))
     dance = tmp_path / "dance.toml"
-    dance.write_text(DANCE)
+    dance.write_text(DANCE + WAYPOINTS)
     return str(dance)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "call", "more"),
-    [
-        (["collision-time"], "collision-time", {"margin": 0.2, "start": 20}),
-        (["collision-time", "--margin", "0.1"], "collision-time", {"margin": 0.1, "start": 20}),
-        (["collision-time", "--cross-check", "none"], "collision-time",
-         {"margin": 0.2, "start": 20, "cross_check": "none"}),
-        (["trajectory"], "trajectory", {"times": [*range(20, 41)]}),
-        (["trajectory", "--times", "10,11.5", "--decimals", "3"], "trajectory", {"times": [10, 11.5], "decimals": 3}),
-        (["trajectory", "--start", "10", "--stop", "12"], "trajectory", {"times": {"start": 10, "stop": 12}}),
-        (["trajectory", "--stop", "22"], "trajectory", {"times": [20, 21, 22]}),
-        (["clearance"], "clearance", {"times": [*range(20, 41)]}),
-        (["clearance", "--step", "10"], "clearance", {"times": [20, 30, 40]}),
-        (["clearance", "--start", "10", "--stop", "12", "--step", "0.5"], "clearance",
-         {"times": {"start": 10, "stop": 12, "step": 0.5}}),
-        (["maximum-head-speed"], "maximum-head-speed", {"speed_limit": 1.5, "start": 20}),
-        (["maximum-head-speed", "--speed-limit", "3"], "maximum-head-speed", {"speed_limit": 3, "start": 20}),
-    ],
-    ids=lambda part: " ".join(part) if isinstance(part, list) else None,
-)  # fmt: skip
-def test_a_file_is_asked_as_a_body_is(
-    client: httpx.Client, file: str, arguments: list[str], call: str, more: dict[str, Any]
-) -> None:
-    done = run(arguments[0], file, *arguments[1:], "--json")
+def answered(line: str, **how: Any) -> str:
+    """What a command prints without a word on standard error."""
+    done = run(*line.split(), **how)
     assert (done.returncode, done.stderr) == (0, "")
-    assert json.loads(done.stdout) == client.post(f"/{call}", json=BODY | more).raise_for_status().json()
+    return done.stdout
+
+
+# A command about the FILE, and what its body has beside the dance.
+QUESTIONS = [
+    'collision-time FILE -> {"margin": 0.2, "start": 20}',
+    'collision-time FILE --margin 0.1 -> {"margin": 0.1, "start": 20}',
+    'collision-time FILE --cross-check none -> {"margin": 0.2, "start": 20, "cross_check": "none"}',
+    'trajectory FILE --times 10,11.5 --decimals 3 -> {"times": [10, 11.5], "decimals": 3}',
+    'trajectory FILE --start 10 --stop 12 -> {"times": {"start": 10, "stop": 12}}',
+    'trajectory FILE --stop 22 -> {"times": [20, 21, 22]}',
+    'clearance FILE --step 10 -> {"times": [20, 30, 40]}',
+    'clearance FILE --start 10 --stop 12 --step 0.5 -> {"times": {"start": 10, "stop": 12, "step": 0.5}}',
+    'maximum-head-speed FILE -> {"speed_limit": 1.5, "start": 20}',
+    'maximum-head-speed FILE --speed-limit 3 -> {"speed_limit": 3, "start": 20}',
+    # These choose the path, and take the dragon of the file.
+    'minimum-pitch FILE --start-turns 6 -> {"margin": 0.2, "start_turns": 6}',
+    'minimum-pitch FILE --margin 0.1 --cross-check none -> {"margin": 0.1, "cross_check": "none"}',
+    'shortest-turn FILE --pitch 2 --exit-opposite -> {"margin": 0.2, "pitch": 2, "exit_opposite": true}',
+    'tolerance-curve FILE --samples 2 -> {"samples": 2}',
+]
+OF_DRAGONS = ("minimum-pitch", "shortest-turn", "tolerance-curve")
+
+
+@pytest.mark.parametrize("row", QUESTIONS)
+def test_a_file_is_asked_as_a_body_is(client: httpx.Client, file: str, row: str) -> None:
+    line, more = row.split(" -> ")
+    call, *_ = line.split()
+    body = {"dragon": BODY["dragon"]} if call in OF_DRAGONS else BODY
+    answer = client.post(f"/{call}", json=body | json.loads(more)).raise_for_status().json()
+    assert json.loads(answered(f"{line.replace('FILE', file)} --json")) == answer
+
+
+ACCEPT = {"csv": "text/csv", "arrow": "application/vnd.apache.arrow.file", "gif": "image/gif", "pdf": "application/pdf",
+          "xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"}  # fmt: skip
+VILLAGE = read_dance(ROOT / "examples" / "village_square.toml")
+# Commands that write a file about a dance on standard input, with the call and what its body has beside the dance.
+FILES: list[tuple[dict[str, Any], str]] = [
+    *((TIMED, f"trajectory two.{ending} -> trajectory") for ending in ("csv", "arrow", "xlsx", "json")),
+    (TWO, 'film two.gif --seconds 0.2 --rate 10 --height 90 -> films {"seconds": 0.2, "rate": 10, "height": 90}'),
+    (TWO, "maps two.geojson -> maps.geojson"),
+    (TWO, "maps two.dxf -> maps.dxf"),
+    (TWO, "cues two.csv -> cues"),
+    (BODY, 'plan plan.pdf --title Lanterns --paper A3 -> plan {"title": "Lanterns", "paper": "A3"}'),
+    (VILLAGE | NAMED, 'cues cards.json --bench Wang --bench 6 --bench 17 -> cues {"cards": ["Wang", "6", "17"]}'),
+    (VILLAGE, 'cues cards.json --last-bench 1 --language zh -> cues {"last_bench": 1, "language": "zh"}'),
+    (VILLAGE | NAMED, 'crew crew.csv --spares 6 --point 6,-8 -> crew {"spares": 6, "points": [{"x": 6, "y": -8}]}'),
+    (VILLAGE, 'crew crew.json --spares 6 -> crew {"spares": 6}'),
+]
+PAPERS: list[tuple[dict[str, Any], str]] = [
+    (TWO, 'plan two.pdf --gate gate,15,0 -> plan {"gates": [{"name": "gate", "x": 15, "y": 0}]}'),
+    (TWO, "cues two.pdf -> cues"),
+    (VILLAGE, 'crew crew.pdf --spares 6 -> crew {"spares": 6}'),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(
-    ("arguments", "more"),
-    [
-        (["minimum-pitch", "--start-turns", "6", "--turning-diameter", "4"],
-         {"margin": 0.2, "start_turns": 6, "turning_diameter": 4}),
-        (["minimum-pitch", "--margin", "0.1", "--cross-check", "none"], {"margin": 0.1, "cross_check": "none"}),
-        (
-            ["shortest-turn", "--pitch", "2", "--ratio", "1", "--exit-opposite"],
-            {"margin": 0.2, "pitch": 2, "ratio": 1, "exit_opposite": True},
-        ),
-        (["tolerance-curve", "--samples", "2"], {"samples": 2}),
-    ],
-    ids=lambda part: " ".join(part) if isinstance(part, list) else None,
-)  # fmt: skip
-def test_a_question_that_chooses_the_path_is_asked_about_the_dragon_of_a_file(
-    client: httpx.Client, file: str, arguments: list[str], more: dict[str, Any]
+    ("body", "row"),
+    [*FILES, *(pytest.param(*paper, marks=pytest.mark.thorough) for paper in PAPERS)],
+    ids=[row.split(" -")[0] for _, row in (*FILES, *PAPERS)],
+)
+def test_a_command_writes_the_file_of_the_service(
+    client: httpx.Client, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, body: dict[str, Any], row: str
 ) -> None:
-    done = run(arguments[0], file, *arguments[1:], "--json")
-    assert (done.returncode, done.stderr) == (0, "")
-    answer = client.post(f"/{arguments[0]}", json={"dragon": BODY["dragon"]} | more).raise_for_status()
-    assert json.loads(done.stdout) == answer.json()
+    monkeypatch.chdir(tmp_path)
+    line, asked = row.split(" -> ")
+    (command, file, *options), (call, _, more) = line.split(), asked.partition(" ")
+    done = run(command, "-", "--output", file, *options, text=json.dumps(body))
+    assert (done.returncode, done.stdout) == (0, ""), done.stderr
+    headers = {"accept": ACCEPT.get(file.partition(".")[2], "*/*")}
+    known = client.post(f"/{call}", json=body | json.loads(more or "{}"), headers=headers).raise_for_status()
+    assert Path(file).read_bytes() == known.content
+
+
+def test_a_job_writes_what_the_service_says(client: httpx.Client) -> None:
+    body = TWO | {"times": [5, 20]}
+    address = client.post("/trajectory", json=body, headers={"Prefer": "respond-async"}).headers["location"]
+    wait_for(lambda: client.get(f"{address}/result").status_code == 200)
+    assert client.get(f"{address}/result").content == client.post("/trajectory", json=body).content
 
 
 @pytest.mark.parametrize(
     ("places", "where"),
-    [(["FILE"], ""), (["FILE", "drawn"], "drawn"), (["drawn", "FILE"], "drawn"), (["-"], ""), (["-", "."], "")],
-    ids=" ".join,
+    [("FILE", ""), ("FILE drawn", "drawn"), ("drawn FILE", "drawn"), ("-", ""), ("- .", "")],
 )
 def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(
-    client: httpx.Client, file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, places: list[str], where: str
+    client: httpx.Client, file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, places: str, where: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    arguments = [file if place == "FILE" else place for place in places]
+    arguments = places.replace("FILE", file).split()
     fields = BODY | {"venue": YARD}
     done = run(
         "figures", *arguments, "--time", "12", "--format", "svg", text=json.dumps(fields | {"margin": 0.2, "start": 20})
@@ -120,101 +166,98 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    "row",
     [
-        (["collision-time", "FILE", "--pitch", "1"], "--pitch cannot be combined with FILE, which describes the dance"),
-        (["trajectory", "FILE", "--head-speed", "1"], "--head-speed cannot be combined with FILE, which describes"),
-        (["minimum-pitch", "FILE", "--width", "1"], "--width cannot be combined with FILE, which describes the dance"),
-        (["trajectory", "FILE", "--times", "10", "--stop", "12"], "--times replaces --stop"),
-        (["clearance", "FILE", "--stop", "1e5"], "stop must be at most"),
-        (["clearance", "FILE", "--stop", "10"], "stop must not be before start (20 s), got 10 s"),
-        (["figures", "FILE", "FILE"], "FOLDER must be a folder, got the file"),
-        (["figures", "FOLDER", "README.md"], "README.md must end in .toml or .json, got .md"),
-        (["figures", "README.md"], "README.md must end in .toml or .json, got .md"),
-        (["figures", "nothing.toml"], "nothing.toml: No such file or directory"),
-        (
-            ["figures", "FILE", "FOLDER", "--samples", "3"],
-            "--samples does not apply to the figure trajectory or contact",
-        ),
-        (["collision-time", "nothing.toml"], "nothing.toml: No such file or directory"),
+        "collision-time FILE --pitch 1 -> --pitch cannot be combined with FILE",
+        "trajectory FILE --head-speed 1 -> --head-speed cannot be combined with FILE",
+        "minimum-pitch FILE --width 1 -> --width cannot be combined with FILE",
+        "trajectory FILE --times 10 --stop 12 -> --times replaces --stop",
+        "clearance FILE --stop 1e5 -> stop",
+        "clearance FILE --stop 10 -> stop ... start (20 s), 10 s",
+        "figures FILE FILE -> FOLDER",
+        "figures FOLDER README.md -> README.md ... .toml .json, .md",
+        "figures README.md -> README.md ... .toml .json, .md",
+        "figures nothing.toml -> nothing.toml: No such file or directory",
+        "figures FILE FOLDER --samples 3 -> --samples ... trajectory contact",
+        "collision-time nothing.toml -> nothing.toml: No such file or directory",
     ],
-    ids=lambda part: " ".join(part) if isinstance(part, list) else None,
 )
-def test_what_does_not_go_with_a_file_is_refused(file: str, tmp_path: Path, arguments: list[str], words: str) -> None:
+def test_what_does_not_go_with_a_file_is_refused(file: str, tmp_path: Path, row: str) -> None:
+    line, words = row.split(" -> ")
     folder = tmp_path / "figures"
-    done = run(*({"FILE": file, "FOLDER": str(folder)}.get(part, part) for part in arguments))
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(f"Error: {words}")
-    assert len(done.stderr.splitlines()) == 1
+    line = line.replace("FILE", file).replace("FOLDER", str(folder))
+    assert_refused_in_one_line(f"{line} -> {words}")
     assert not folder.exists()
 
 
-# Values that questions have for themselves.
-OWN = {("trajectory", "decimals"), ("film", "seconds"), ("tolerance", "turning_diameter"),
-       ("contact-probability", "turning_diameter"), ("contact-probability", "step"),
-       ("minimum-pitch", "turning_diameter"), ("minimum-pitch", "start_turns"), ("shortest-turn", "turning_diameter"),
-       ("shortest-turn", "start_turns"), ("shortest-turn", "pitch"), ("quickest-turn", "turning_diameter"),
-       ("quickest-turn", "start_turns"), ("quickest-turn", "pitch"), ("tolerance-curve", "turning_diameter"),
-       ("tolerance-curve", "start_turns")}  # fmt: skip
-MISPLACED = ("pitch", "start_turns", "turning_diameter", "decimals", "seconds", "step")
-ASKING = ("trajectory", "collision-time", "clearance", "maximum-head-speed", "envelope", "film", "figures", "tolerance",
-          "contact-probability", "minimum-pitch", "shortest-turn", "turn-time", "quickest-turn",
-          "tolerance-curve")  # fmt: skip
+# Questions, and values that other questions or paths have, which `check` would refuse.
+MISPLACED = [
+    "minimum-pitch: pitch decimals seconds step",
+    "film: pitch start_turns turning_diameter decimals step",
+]
+MORE_MISPLACED = [
+    "trajectory: pitch start_turns turning_diameter seconds step",
+    "collision-time: pitch start_turns turning_diameter decimals seconds step",
+    "clearance: pitch start_turns turning_diameter decimals seconds step",
+    "maximum-head-speed: pitch start_turns turning_diameter decimals seconds step",
+    "envelope: pitch start_turns turning_diameter decimals seconds step",
+    "figures: pitch start_turns turning_diameter decimals seconds step",
+    "tolerance: pitch start_turns decimals seconds step",
+    "contact-probability: pitch start_turns decimals seconds",
+    "shortest-turn: decimals seconds step",
+    "turn-time: pitch start_turns turning_diameter decimals seconds step",
+    "quickest-turn: decimals seconds step",
+    "tolerance-curve: pitch decimals seconds step",
+]
 
 
 @pytest.mark.parametrize(
-    ("command", "name"),
-    sorted({(c, n) for c in ASKING for n in MISPLACED} - OWN),
+    "row", [*MISPLACED, *(pytest.param(row, marks=pytest.mark.thorough) for row in MORE_MISPLACED)]
 )
-def test_a_value_that_check_would_refuse_is_no_silent_mistake(tmp_path: Path, command: str, name: str) -> None:
+def test_a_value_that_check_would_refuse_is_no_silent_mistake(tmp_path: Path, row: str) -> None:
+    command, names = row.split(": ")
     file = tmp_path / "flat.toml"
-    file.write_text(f"{name} = 2")
-    done = run(command, str(file))
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(f'Error: "{name}" is unknown here')
+    for name in names.split():
+        file.write_text(f"{name} = 2")
+        assert_refused_in_one_line(f'{command} {file} -> "{name}" is unknown here')
 
 
-@pytest.mark.parametrize(("ends", "times"), [
-    ("start = 430", [430, 431, 432]), ("start = 20.5", [20.5 + k for k in range(301)]), ("stop = 2", [0, 1, 2]),
-    ("start = 7\nstop = 9", [7, 8, 9]), ("start = 7\ntimes = [3]", [3]),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("ends", "options", "times"),
+    [
+        ("start = 430", "", [430, 431, 432]),
+        ("start = 20.5", "", [20.5 + k for k in range(301)]),
+        ("stop = 2", "", [0, 1, 2]),
+        ("start = 7\nstop = 9", "", [7, 8, 9]),
+        ("start = 7\ntimes = [3]", "", [3]),
+        ("start = 7", "--start 20 --step 100", [20, 120, 220, 320]),
+        # The whole dragon is on this path after 6 s.
+        (WAYPOINTS, "--stop 10 --step 2", [6, 8, 10]),
+        (f"stop = 8{WAYPOINTS}", "", [6, 7, 8]),
+    ],
+)
 @pytest.mark.parametrize("command", ["trajectory", "clearance"])
 def test_instants_are_those_of_start_and_stop_in_the_file(
-    tmp_path: Path, command: str, ends: str, times: list[float]
+    tmp_path: Path, command: str, ends: str, options: str, times: list[float]
 ) -> None:
     file = tmp_path / "dance.toml"
     file.write_text(ends)
-    assert json.loads(run(command, str(file), "--json").stdout)["time"] == times
+    assert json.loads(answered(f"{command} {file} {options} --json"))["time"] == times
 
 
-def test_the_stop_of_a_file_with_a_start_is_counted_from_the_start_that_is_given(tmp_path: Path) -> None:
-    file = tmp_path / "dance.toml"
-    file.write_text("start = 7")
-    result = run("trajectory", str(file), "--start", "20", "--step", "100", "--json")
-    assert json.loads(result.stdout)["time"] == [20, 120, 220, 320]
-
-
-@pytest.mark.parametrize("command", ["trajectory", "clearance"])
-def test_instants_that_no_start_is_given_for_begin_when_the_whole_dragon_is_on_the_path(
-    tmp_path: Path, command: str
-) -> None:
-    file = tmp_path / "dance.json"
-    file.write_text(json.dumps(BODY))
-    assert json.loads(run(command, str(file), "--stop", "10", "--step", "2", "--json").stdout)["time"] == [6, 8, 10]
-    file.write_text(json.dumps(BODY | {"stop": 8}))
-    assert json.loads(run(command, str(file), "--json").stdout)["time"] == [6, 7, 8]
-
-
-@pytest.mark.parametrize(("ends", "words"), [
-    ('start = "x"', 'start must be a number [s], got "x"'),
-    ("start = 500", "start must be at most 432.917924228 s, when bench 0 folds, got 500 s"),
-    ("start = 9\nstop = 8", "stop must not be before start (9 s), got 8 s"),
-    ("stop = 500", "stop must be at most 432.917924228 s, when bench 0 folds, got 500 s"),
-])  # fmt: skip
-def test_wrong_ends_in_a_file_are_named_as_there(tmp_path: Path, ends: str, words: str) -> None:
+@pytest.mark.parametrize(
+    ("ends", "named"),
+    [
+        ('start = "x"', 'start ... [s], "x"'),
+        ("start = 500", "start ... 432.917924228 s, bench 0 500 s"),
+        ("start = 9\nstop = 8", "stop ... start (9 s), 8 s"),
+        ("stop = 500", "stop ... 432.917924228 s, bench 0 500 s"),
+    ],
+)
+def test_wrong_ends_in_a_file_are_named_as_there(tmp_path: Path, ends: str, named: str) -> None:
     file = tmp_path / "dance.toml"
     file.write_text(ends)
-    assert run("trajectory", str(file)).stderr == f"Error: {words}\n"
+    assert_refused_in_one_line(f"trajectory {file} -> {named}")
 
 
 def test_the_figure_of_a_file_is_drawn_at_its_start(tmp_path: Path) -> None:
@@ -228,22 +271,12 @@ def test_the_figure_of_a_file_is_drawn_at_its_start(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("stop = 500", "stop must be at most 432.917924228 s, when bench 0 folds, got 500 s"),
-        ("dragon.width = -1", "dragon.width must be at least 0.001 m, got -1 m"),
-    ],
+    ("text", "named"), [("stop = 500", "stop ... 432.917924228 s,"), ("dragon.width = -1", "dragon.width ... -1 m")]
 )
-def test_refused_figures_of_a_file_leave_neither_file_nor_folder(text: str, words: str, tmp_path: Path) -> None:
+def test_refused_figures_of_a_file_leave_neither_file_nor_folder(text: str, named: str, tmp_path: Path) -> None:
     (tmp_path / "dance.toml").write_text(text)
-    done = run("figures", str(tmp_path / "dance.toml"), str(tmp_path / "new"))
-    assert (done.returncode, done.stderr) == (2, f"Error: {words}\n")
+    assert_refused_in_one_line(f"figures {tmp_path}/dance.toml {tmp_path}/new -> {named}")
     assert [one.name for one in tmp_path.iterdir()] == ["dance.toml"]
-
-
-def test_an_empty_name_of_a_file_is_refused_by_name() -> None:
-    done = run("trajectory", "")
-    assert (done.returncode, done.stderr) == (2, "Error: FILE must not be an empty name: the current folder is .\n")
 
 
 def test_the_figure_that_a_file_leaves_out_is_named(tmp_path: Path) -> None:
@@ -256,66 +289,45 @@ def test_the_figure_that_a_file_leaves_out_is_named(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", ['{"path": {"pitch": 0.5}}', "[path]\npitch = 0.5"], ids=["json", "toml"])
 def test_standard_input_is_json_or_toml(client: httpx.Client, text: str) -> None:
-    done = run("collision-time", "-", "--json", text=text)
-    assert json.loads(done.stdout) == client.get("/collision-time?pitch=0.5").raise_for_status().json()
+    answer = client.get("/collision-time?pitch=0.5").raise_for_status().json()
+    assert json.loads(answered("collision-time - --json", text=text)) == answer
 
 
 def test_an_empty_standard_input_is_no_dance() -> None:
-    done = run("collision-time", "-", text=" ")
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("Error: standard input is not JSON: ")
+    assert_refused_in_one_line("collision-time - -> standard input is not JSON", text=" ")
 
 
 @pytest.mark.parametrize("name", ["dance.toml", "dance.json"])
 def test_rectangles_are_asked_for_where_a_dance_is_given(tmp_path: Path, name: str) -> None:
     file = tmp_path / name
     file.write_text("" if name.endswith("toml") else json.dumps(BODY))
-    words = "must be JSON with benches, each a rectangle with x, y, heading, length and width"
-    assert run("overlaps", str(file)).stderr == f"Error: {file} {words}: ask check or clearance about a dance\n"
-
-
-def test_a_name_that_no_question_knows_is_refused(tmp_path: Path) -> None:
-    file = tmp_path / "dance.json"
-    file.write_text(json.dumps(BODY | {"margn": 1}))
-    done = run("collision-time", str(file))
-    assert (done.returncode, done.stderr) == (2, 'Error: "margn" is unknown here: did you mean margin?\n')
+    assert_refused_in_one_line(f"overlaps {file} -> {file} must be JSON with benches ... check clearance")
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "words"),
+    ("name", "text", "named"),
     [
-        ("list.json", "[1]", "list.json must hold a JSON object, got [1]"),
-        ("dance.toml", "dragon = 5", "dragon must be a table, got 5"),
-        ("dance.json", '{"dragon": 5}', "dragon must be a JSON object, got 5"),
-        (
-            "dance.json",
-            '{"dragon": {"lengths": [2], "widths": 0.3, "overhangs": [0.2]}}',
-            "dragon.widths must be a list of numbers [m], got 0.3",
-        ),
-        ("dance.json", '{"dragon": {"names": ["a", 3]}}', "dragon.names[1] must be a string, got 3"),
-        ("dance.json", '{"path": {"pitch": -1}}', "path.pitch must be at least 0.001 m, got -1 m"),
-        (
-            "dance.json",
-            '{"path": {"kind": "waypoints", "points": [[0, 0], [1, "x"]]}}',
-            'path.points[1][1] must be a number [m], got "x"',
-        ),
+        ("list.json", "[1]", "list.json ... [1]"),
+        ("dance.toml", "dragon = 5", "dragon must be a table"),
+        ("dance.json", '{"dragon": 5}', "dragon must be a JSON object"),
+        ("dance.json", '{"margn": 1}', '"margn" is unknown here: did you mean margin?'),
+        ("dance.json", '{"dragon": {"lengths": [2], "widths": 0.3, "overhangs": [0.2]}}', "dragon.widths ... 0.3"),
+        ("dance.json", '{"dragon": {"names": ["a", 3]}}', "dragon.names[1] ... 3"),
+        ("dance.json", '{"path": {"pitch": -1}}', "path.pitch ... 0.001 m, -1 m"),
+        ("dance.json", '{"path": {"kind": "waypoints", "points": [[0, 0], [1, "x"]]}}', 'path.points[1][1] ... "x"'),
         ("dance.json", '{"path": {"kind": "route", "pieces": [{}]}}', "path.pieces[0].kind is missing"),
+        ("dance.json", '{"path": {"kind": "route", "pieces": [{"kind": "arc", "radius": 3}]}}',
+         "path.pieces[0].centre is missing"),
         ("dance.toml", 'venue = "yard.geojson"', "venue of dance.toml: yard.geojson: No such file or directory"),
         ("dance.txt", "", "dance.txt must end in .toml or .json, got .txt"),
-        (
-            "dance.json",
-            '{"path": {"kind": "route", "pieces": [{"kind": "arc", "radius": 3}]}}',
-            "path.pieces[0].centre is missing",
-        ),
     ],
-)
+)  # fmt: skip
 def test_a_message_about_a_file_speaks_of_the_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, text: str, words: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, text: str, named: str
 ) -> None:
     (tmp_path / name).write_text(text)
     monkeypatch.chdir(tmp_path)
-    done = run("check", name)
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {words}\n")
+    assert_refused_in_one_line(f"check {name} -> {named}")
 
 
 def test_an_empty_file_is_the_contests_dance_and_says_so(tmp_path: Path, client: httpx.Client) -> None:
@@ -327,34 +339,34 @@ def test_an_empty_file_is_the_contests_dance_and_says_so(tmp_path: Path, client:
 
 
 def test_a_clearance_is_a_table(file: str) -> None:
-    done = run("clearance", file, "--start", "10", "--stop", "12")
-    assert done.returncode == 0
-    assert "clearance [m]" in done.stdout
-    assert done.stdout.count("\n") > len(("title", "names", "10", "11", "12"))
+    table = answered(f"clearance {file} --start 10 --stop 12")
+    assert "clearance [m]" in table
+    assert table.count("\n") > len(("title", "names", "10", "11", "12"))
+
+
+def test_a_trajectory_of_several_is_a_table_for_each() -> None:
+    table = answered("trajectory - --handles 0,3", text=json.dumps(TIMED))
+    words = ("east: x [m]", "dragon 1: speed [m/s]", "3 =Li (rear)", "2 of 4 handles, 3 of 3 instants")
+    assert [word for word in words if word not in table] == []
+    row = "trajectory - --handles 0,5 -> handles[1] ... 0 3 5"
+    assert_refused_in_one_line(row, text=json.dumps(TIMED))
 
 
 @pytest.mark.parametrize(
-    ("command", "names", "words"),
-    [
-        (
-            "tolerance",
-            "stray, hole, pin",
-            "the answer is the largest stray, by people and by the play of pins together",
-        ),
-        ("contact-probability", "stray", "--lateral and --forward describe how people wobble"),
-    ],
+    ("command", "ignored", "more"),
+    [("tolerance", "stray hole pin", {}), ("contact-probability", "stray", {"samples": 10})],
 )
 def test_a_stray_in_the_file_that_does_not_count_is_named(
-    tmp_path: Path, client: httpx.Client, command: str, names: str, words: str
+    tmp_path: Path, client: httpx.Client, command: str, ignored: str, more: dict[str, float]
 ) -> None:
+    counting = {"dragon": {"benches": 5}, "start": 0, "stop": 10} | more
     strays = {"stray": 0.02, "hole": 0.055, "pin": 0.05}
-    request: dict[str, Any] = {"dragon": {"benches": 5}, "start": 0, "stop": 10}
-    request |= {} if command == "tolerance" else {"samples": 10}
-    values = {} if command == "tolerance" else {name: strays[name] for name in ("hole", "pin")}
     file = tmp_path / "dance.json"
-    file.write_text(json.dumps(request | strays))
+    file.write_text(json.dumps(counting | strays))
     done = run(command, str(file), "--json")
-    assert (done.returncode, done.stderr) == (0, f"{file}: ignored: {names}, because {words}.\n")
-    assert json.loads(done.stdout) == client.post(f"/{command}", json=request | values).raise_for_status().json()
-    file.write_text(json.dumps(request))
-    assert run(command, str(file)).stderr == ""
+    assert done.returncode == 0
+    assert done.stderr.startswith(f"{file}: ignored: {', '.join(ignored.split())}, because ")
+    counting |= {name: value for name, value in strays.items() if name not in ignored}
+    assert json.loads(done.stdout) == client.post(f"/{command}", json=counting).raise_for_status().json()
+    file.write_text(json.dumps(counting))
+    answered(f"{command} {file}")

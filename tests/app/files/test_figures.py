@@ -46,22 +46,20 @@ def test_contact_figure_states_the_time_pair_and_features_that_core_found() -> N
     assert "bench 8" in words
     assert "inner edge of bench 8" in words
     assert "front-outer corner of bench 0" in words
-    assert contact.point is not None
     assert "({:.6f} m, {:.6f} m)".format(*contact.point) in words
 
 
-def test_contact_figure_of_a_clear_run_says_that_it_is_clear() -> None:
-    words = texts(figures.contact_figure(Dance(SMALL, Spiral(pitch=0.8))))
-    assert "No contact, but bench 0 folds at 637.66" in words
-
-
-def test_contact_figure_of_a_run_to_the_centre_says_that_it_is_clear() -> None:
-    words = texts(figures.contact_figure(Dance(Dragon(benches=5), Spiral(9.0, 3.0))))
-    assert "No contact: the run ends clear at the centre, 257.4268" in words
-
-
-def test_contact_figure_at_the_start_says_so() -> None:
-    assert "already at the start" in texts(figures.contact_figure(Dance(Dragon(), Spiral(pitch=0.35))))
+@pytest.mark.parametrize(
+    ("dance", "words"),
+    [
+        (Dance(SMALL, Spiral(pitch=0.8)), "No contact, but bench 0 folds at 637.66"),
+        (Dance(Dragon(benches=5), Spiral(9.0, 3.0)), "No contact: the run ends clear at the centre, 257.4268"),
+        (Dance(Dragon(), Spiral(pitch=0.35)), "already at the start"),
+    ],
+    ids=["fold", "centre", "start"],
+)
+def test_contact_figure_says_how_the_run_ends(dance: Dance, words: str) -> None:
+    assert words in texts(figures.contact_figure(dance))
 
 
 def test_contact_figure_with_a_margin_states_it() -> None:
@@ -98,23 +96,18 @@ def test_contact_figure_of_two_parallel_edges_names_no_corner() -> None:
 @pytest.mark.chinese_font
 def test_figures_in_chinese_have_no_english_word_left_and_the_same_numbers() -> None:
     square = Venue(Area("bench 3", ([(-20, -20), (20, -20), (20, 20), (-20, 20), (-20, -20)],)))
-    dances = [
-        Dance(SMALL, Spiral()),
-        Dance(Dragon(5), Spiral(9.0, 3.0)),
-        Dance(SMALL, Spiral(0.8)),
-        Dance(Dragon(), Spiral(0.35)),
-    ]
-    for dance in some(dances, 2):
+    small = Dance(SMALL, Spiral())
+    dances = [small, Dance(Dragon(5), Spiral(9.0, 3.0)), Dance(SMALL, Spiral(0.8)), Dance(Dragon(), Spiral(0.35))]
+    for dance in some(dances, 1):
         for margin in (0.0, 0.05):
             english, chinese = (figures.contact_figure(dance, margin=margin, language=one) for one in Language)
             assert_translated(texts(english), texts(chinese))
-    english, chinese = (figures.trajectory_figure(dances[0], venue=square, time=20.0, language=one) for one in Language)
+    english, chinese = (figures.trajectory_figure(small, venue=square, time=20.0, language=one) for one in Language)
     assert_translated(texts(english), texts(chinese), "bench 3")
-    for margin in (0.0, 0.05):
-        circle = {"turning_radius": 4.5, "start_turns": 16.0, "margin": margin}
-        result = scan_near_minimum(Dragon(8), samples=5, **circle)
-        english, chinese = (figures.pitch_scan_figure(*result, **circle, language=one) for one in Language)
-        assert_translated(texts(english), texts(chinese))
+    circle = {"turning_radius": 4.5, "start_turns": 16.0, "margin": 0.05}
+    result = scan_near_minimum(Dragon(8), samples=5, **circle)
+    english, chinese = (figures.pitch_scan_figure(*result, **circle, language=one) for one in Language)
+    assert_translated(texts(english), texts(chinese))
 
 
 def assert_translated(english: str, chinese: str, kept: str = "") -> None:

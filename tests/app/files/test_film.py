@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import time
 from pathlib import Path
 
 import av
@@ -37,6 +36,8 @@ from core.people.beats import Bars, Music
 from core.plots import BLUE
 from tests.support.command import run
 from tests.support.depth import some
+from tests.support.job_service import wait_for
+from tests.support.refusal_rows import assert_refused
 
 # Colours of the head and of the body; video keeps them to within a few parts of 255.
 HEAD, BODY, NEAR = (213, 94, 0), (0, 114, 178), 60
@@ -44,6 +45,9 @@ SMALL = {"dragon": {"benches": 12}, "seconds": 1, "rate": 6, "height": 360, "sto
 
 
 def decoded(data: bytes) -> list[np.ndarray]:
+    if data.startswith(b"GIF"):
+        with Image.open(io.BytesIO(data)) as picture:
+            return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(picture)]
     with av.open(io.BytesIO(data)) as file:
         return [frame.to_ndarray(format="rgb24") for frame in file.decode(video=0)]
 
@@ -52,28 +56,39 @@ def is_like(pixel: np.ndarray, colour: tuple[int, int, int]) -> bool:
     return bool(np.abs(pixel.astype(int) - colour).max() < NEAR)
 
 
-def centres(stage: FilmPicture, dance: Dance, instant: float) -> np.ndarray:
-    """Rows and columns of the middle of every bench at one instant."""
-    middle = bench_poses(trajectory(dance, [instant]).position[0])[:, :2]
-    columns, rows = stage.axes.transData.transform(middle).T
+def on_picture(stage: FilmPicture, places: np.ndarray) -> np.ndarray:
+    """Rows and columns of places in metres."""
+    columns, rows = stage.axes.transData.transform(places).T
     return np.rint(np.stack([stage.canvas.get_width_height()[1] - rows, columns], axis=1)).astype(int)
 
 
-@pytest.mark.parametrize("path", [pytest.param(Spiral(), marks=pytest.mark.deep), Turn(1.7)], ids=["spiral", "turn"])
-def test_every_frame_shows_every_bench_where_it_is(path: Spiral | Turn, tmp_path: Path) -> None:
-    dance = Dance(Dragon(benches=30), path)
-    file = tmp_path / "dance.mp4"
-    kind = "turn" if isinstance(path, Turn) else "spiral"
-    request = tmp_path / "request.json"
-    request.write_text(f'{{"dragon": {{"benches": 30}}, "path": {{"kind": "{kind}"}}}}')
-    done = run(
-        "film", str(request), "--output", str(file), "--start", "0", "--stop", "90", "--seconds", "1", "--rate", "5"
-    )
+def centres(stage: FilmPicture, dance: Dance, instant: float) -> np.ndarray:
+    """Rows and columns of the middle of every bench at one instant."""
+    return on_picture(stage, bench_poses(trajectory(dance, [instant]).position[0])[:, :2])
+
+
+def filmed(file: Path, *options: str) -> list[np.ndarray]:
+    """Frames of a film that the command writes."""
+    done = run("film", *options, "--output", str(file))
     assert done.returncode == 0, done.stderr
-    result = decoded(file.read_bytes())
-    spec = FilmSpec(0.0, 90.0, 1.0, 5)
+    return decoded(file.read_bytes())
+
+
+def film_of(client: httpx.Client, form: str = MP4_TYPE, **body: object) -> bytes:
+    return client.post("/films", json=body, headers={"Accept": form}).raise_for_status().content
+
+
+# It has the pitch of the turn, not of the spiral, as in the table of `trajectory --path turn`.
+TURN = (Turn(1.7), "--path turn --start -20 --stop 40")
+
+
+@pytest.mark.parametrize(("path", "options"), [TURN, pytest.param(Spiral(), "--stop 90", marks=pytest.mark.thorough)])
+def test_every_frame_shows_every_bench_where_it_is(path: Spiral | Turn, options: str, tmp_path: Path) -> None:
+    dance = Dance(Dragon(benches=30), path)
+    words = f"{options} --benches 30 --seconds 1 --rate 4"
+    result = filmed(tmp_path / "dance.mp4", *words.split())
+    spec = FilmSpec(*((-20.0, 40.0) if isinstance(path, Turn) else (0.0, 90.0)), 1.0, 4)
     stage = FilmPicture(dance, spec, None, "")
-    assert len(result) == spec.times.size == 5
     for instant, picture in zip(spec.times, result, strict=True):
         assert picture.shape == (1080, 1920, 3)
         places = centres(stage, dance, float(instant))
@@ -83,90 +98,47 @@ def test_every_frame_shows_every_bench_where_it_is(path: Spiral | Turn, tmp_path
         assert np.abs(orange.mean(axis=0) - places[0]).max() < 3.0, instant
 
 
-@pytest.mark.parametrize("ending", ["mp4", "gif"])
+@pytest.mark.parametrize("ending", ["mp4", pytest.param("gif", marks=pytest.mark.thorough)])
 def test_the_last_frame_alone_marks_both_benches_that_touch(ending: str, tmp_path: Path) -> None:
-    file = tmp_path / f"dance.{ending}"
-    done = run(
-        "film", "--output", str(file), "--seconds", "1", "--rate", "2", "--height", "1080", "--head-length", "1.55"
-    )
-    assert done.returncode == 0, done.stderr
+    options = "--seconds 1 --rate 2 --height 1080 --head-length 1.55"
+    before, last = filmed(tmp_path / f"dance.{ending}", *options.split())
     dance = Dance(Dragon(head_length=1.55), Spiral())
     contact = first_contact(dance)
-    assert contact.time is not None
     assert contact.benches == (1, 8)
-    if ending == "mp4":
-        before, last = decoded(file.read_bytes())
-    else:
-        with Image.open(file) as picture:
-            before, last = (np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(picture))
     stage = FilmPicture(dance, FilmSpec(0.0, contact.time), None, "")
     for instant, picture, marked in ((0.0, before, {0}), (contact.time, last, {0, 1, 8})):
         places = centres(stage, dance, instant)
         assert {k for k, place in enumerate(places) if is_like(picture[tuple(place)], HEAD)} == marked
 
 
-def test_the_contest_s_turn_is_filmed_by_its_name(tmp_path: Path) -> None:
-    """It has the pitch of the turn, not of the spiral, as in the table of `trajectory --path turn`."""
-    file = tmp_path / "turn.mp4"
-    times = ("--start", "-20", "--stop", "40", "--seconds", "1", "--rate", "4")
-    done = run("film", "--path", "turn", "--benches", "30", *times, "--output", str(file))
-    assert done.returncode == 0, done.stderr
-    dance, spec = Dance(Dragon(benches=30), Turn(1.7)), FilmSpec(-20.0, 40.0, 1.0, 4)
-    stage = FilmPicture(dance, spec, None, "")
-    for instant, picture in zip(spec.times, decoded(file.read_bytes()), strict=True):
-        places = centres(stage, dance, float(instant))
-        assert is_like(picture[tuple(places[0])], HEAD), instant
-        assert all(is_like(picture[tuple(place)], BODY) for place in places[1:]), instant
-
-
-def test_numbers_of_a_turn_are_refused_on_a_spiral(tmp_path: Path) -> None:
-    done = run("film", "--ratio", "3", "--output", str(tmp_path / "dance.mp4"))
-    assert (done.returncode, done.stderr) == (
-        2,
-        "Error: --ratio belongs to a turn: give --path turn too, or leave it out\n",
-    )
-
-
 def test_a_film_plays_as_long_as_asked_and_a_gif_too(client: httpx.Client) -> None:
-    answer = client.post("/films", json=SMALL).raise_for_status()
-    assert answer.headers["content-type"] == MP4_TYPE
+    data = film_of(client, **SMALL)
     # A player can begin before it has all of it: the table stands before the pictures.
-    assert 0 < answer.content.find(b"moov") < answer.content.find(b"mdat")
-    with av.open(io.BytesIO(answer.content)) as file:
+    assert 0 < data.find(b"moov") < data.find(b"mdat")
+    with av.open(io.BytesIO(data)) as file:
         stream = file.streams.video[0]
         assert (stream.width, stream.height, stream.frames, float(stream.average_rate)) == (640, 360, 6, 6.0)
-    gif = client.post("/films", json=SMALL, headers={"Accept": GIF_TYPE}).raise_for_status()
-    with Image.open(io.BytesIO(gif.content)) as picture:
+        assert len(file.streams.audio) == 0
+    with Image.open(io.BytesIO(film_of(client, GIF_TYPE, **SMALL))) as picture:
         assert (picture.format, picture.size, picture.n_frames) == ("GIF", (640, 360), 6)
         assert 900 <= picture.info["duration"] * picture.n_frames <= 1100
 
 
+@pytest.mark.thorough
 def test_a_job_films_what_the_call_itself_films(client: httpx.Client) -> None:
-    direct = client.post("/films", json=SMALL).raise_for_status()
-    later = client.post("/films", json=SMALL, headers={"Prefer": "respond-async"})
-    assert later.status_code == 202
-    address = later.headers["location"]
-    end = time.monotonic() + 60
-    while client.get(address).json()["status"] not in ("successful", "failed"):
-        assert time.monotonic() < end
-        time.sleep(0.1)
-    assert client.get(f"{address}/result").content == direct.content
+    address = client.post("/films", json=SMALL, headers={"Prefer": "respond-async"}).headers["location"]
+    wait_for(lambda: client.get(address).json()["status"] in ("successful", "failed"))
+    assert client.get(f"{address}/result").content == film_of(client, **SMALL)
 
 
-def test_a_film_that_is_too_large_or_outside_the_run_is_refused(client: httpx.Client) -> None:
-    large = client.post("/films", json={"seconds": 120, "rate": 60, "height": 2160})
-    assert large.status_code == 422
-    assert "must be at most 4000 here" in large.json()["detail"]
-    late = client.post("/films", json={"stop": 500})
-    assert (late.status_code, late.json()["errors"][0]["pointer"]) == (422, "/stop")
+@pytest.mark.parametrize(
+    "row", ['{"seconds": 120, "rate": 60, "height": 2160} -> /seconds 4000', '{"stop": 500} -> /stop']
+)
+def test_a_film_that_is_too_large_or_outside_the_run_is_refused(client: httpx.Client, row: str) -> None:
+    assert_refused(client, "/films", {}, row)
 
 
-def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
-    done = run("film", "--output", str(tmp_path / "dance.avi"))
-    assert (done.returncode, done.stderr) == (2, "Error: --output must end in .mp4 or .gif, got .avi\n")
-
-
-@pytest.mark.parametrize("form", [MP4_TYPE, GIF_TYPE])
+@pytest.mark.parametrize("form", [MP4_TYPE, pytest.param(GIF_TYPE, marks=pytest.mark.thorough)])
 @pytest.mark.parametrize("frames", some(range(0, 20, 2), 2))
 def test_stopping_a_film_harms_no_other(form: str, frames: int) -> None:
     """Its encoder may be writing a frame. The process lives on, and the next film is drawn."""
@@ -176,12 +148,12 @@ def test_stopping_a_film_harms_no_other(form: str, frames: int) -> None:
         if share * spec.times.size >= frames:
             budget.stop()
 
-    spec = FilmSpec(0.0, 60.0, 2.0, 12)
-    with pytest.raises(TooMuchWork, match="the film was not drawn"):
-        film(Dance(Dragon(benches=5), Spiral()), spec, form, budget=budget, progress=stop_after)
-    with pytest.raises(TooMuchWork, match="the film was not drawn"):  # not: the trajectory of the first frames
-        film(Dance(Dragon(benches=5), Spiral()), spec, form, budget=budget)
-    assert len(film(Dance(Dragon(benches=5), Spiral()), FilmSpec(0.0, 1.0, 0.2, 10), form)) > 1000
+    dance, spec = Dance(Dragon(benches=5), Spiral()), FilmSpec(0.0, 60.0, 2.0, 12)
+    # With a spent budget it must not be the trajectory of the first frames that ends it.
+    for progress in (stop_after, lambda share: None):
+        with pytest.raises(TooMuchWork, match="the film was not drawn"):
+            film(dance, spec, form, budget=budget, progress=progress)
+    assert len(film(dance, FilmSpec(0.0, 1.0, 0.2, 10), form)) > 1000
 
 
 # A march of which a film shows a part in slow motion, and the error with which a stroke may be heard [s].
@@ -203,23 +175,24 @@ def onsets(data: bytes) -> list[float]:
     return [float(one) for k, one in enumerate(loud) if k == 0 or one - loud[k - 1] > APART]
 
 
-def test_the_drum_of_a_film_is_on_the_beat(client: httpx.Client) -> None:
-    start, stop, seconds, rate = 1.0, 6.0, 8.0, 10
-    request = {"dragon": {"benches": 3}, "beats": MARCH, "start": start, "stop": stop, "seconds": seconds}
-    data = client.post("/films", json=request | {"rate": rate, "height": 90}).raise_for_status().content
-    beats = [60 / 96 * k for k in range(8)] + [5.0 + 60 / 132 * k for k in range(6)]
+def assert_heard(data: bytes, beats: list[float], spec: FilmSpec) -> None:
+    """A stroke on each of the beats [s of the dance], and none beside them."""
     # Each frame shows its instant as long as it stands; between two of them time goes on evenly.
-    frames = FilmSpec(start, stop, seconds, rate).times
-    heard = np.interp([beat for beat in beats if start <= beat <= stop], frames, np.arange(frames.size) / rate)
-    onset_times = onsets(data)
-    assert len(onset_times) == len(heard) == 9
-    assert np.abs(np.array(onset_times) - heard).max() < HEARD
-    # The pictures are those of the same dance without a sound.
+    heard = np.interp(beats, spec.times, np.arange(spec.times.size) / spec.rate)
+    assert onsets(data) == pytest.approx(heard, abs=HEARD)
+
+
+def test_the_drum_of_a_film_is_on_the_beat(client: httpx.Client) -> None:
+    spec = FilmSpec(1.0, 6.0, 8.0, 10)
+    times = {"start": 1.0, "stop": 6.0, "seconds": 8.0, "rate": 10, "height": 90}
+    request = {"dragon": {"benches": 3}, "beats": MARCH, **times}
+    data = film_of(client, **request)
+    beats = [60 / 96 * k for k in range(2, 8)] + [5.0 + 60 / 132 * k for k in range(3)]
+    assert_heard(data, beats, spec)
     with av.open(io.BytesIO(data)) as file:
-        assert file.streams.video[0].frames == frames.size
-        length = float(file.streams.audio[0].duration * file.streams.audio[0].time_base)
-        assert length == pytest.approx(seconds, abs=0.05)
-    assert client.post("/films", json=request | {"rate": rate, "height": 90}).content == data
+        assert file.streams.video[0].frames == spec.times.size
+        assert float(file.streams.audio[0].duration * file.streams.audio[0].time_base) == pytest.approx(8.0, abs=0.05)
+    assert film_of(client, **request) == data
 
 
 def test_a_film_counts_bars_and_beats(client: httpx.Client) -> None:
@@ -233,13 +206,7 @@ def test_a_film_counts_bars_and_beats(client: httpx.Client) -> None:
     ):
         stage.frame(instant, bench_outlines(dance.dragon, trajectory(dance, [instant]).position)[0])
         assert stage.time.text == words
-    gif = client.post("/films", json={"beats": MARCH, **SMALL}, headers={"Accept": GIF_TYPE}).raise_for_status()
-    assert gif.content.startswith(b"GIF89a")
-
-
-def test_a_film_without_beats_has_no_sound(client: httpx.Client) -> None:
-    with av.open(io.BytesIO(client.post("/films", json=SMALL).raise_for_status().content)) as file:
-        assert len(file.streams.audio) == 0
+    assert film_of(client, GIF_TYPE, **SMALL | {"beats": MARCH}).startswith(b"GIF89a")
 
 
 # White of a number; the picture of one has it where its digits are thick.
@@ -264,9 +231,7 @@ def digits_at(picture: np.ndarray, row: int, column: int, word: str, height: int
 
 def fronts(stage: FilmPicture, outlines: np.ndarray) -> np.ndarray:
     """Rows and columns halfway from the middle of each bench to its front."""
-    places = 0.5 * (outlines.mean(axis=1) + outlines[:, :2].mean(axis=1))
-    columns, rows = stage.axes.transData.transform(places).T
-    return np.rint(np.stack([stage.canvas.get_width_height()[1] - rows, columns], axis=1)).astype(int)
+    return on_picture(stage, 0.5 * (outlines.mean(axis=1) + outlines[:, :2].mean(axis=1)))
 
 
 def test_the_head_and_every_tenth_bench_have_their_numbers() -> None:
@@ -304,7 +269,7 @@ def village(height: int = 540, marked: tuple[tuple[int, int], ...] = ((0, 17),))
     return FilmPicture(dance, FilmSpec(0.0, 119.0, height=height, marked=marked), venue, ""), venue
 
 
-@pytest.mark.parametrize("height", [540, 1080])
+@pytest.mark.parametrize("height", [540, pytest.param(1080, marks=pytest.mark.thorough)])
 def test_a_marked_bench_is_wide_enough_to_be_seen_and_its_number_beside_it(height: int) -> None:
     stage, _ = village(height)
     bench, numbers = 17, stage.layers[0].labels[1]
@@ -363,27 +328,19 @@ def test_marked_benches_stand_out_with_number_and_name(tmp_path: Path) -> None:
     outlines = bench_outlines(dance.dragon, trajectory(dance, [60.0]).position)[0]
     plain, stage = (FilmPicture(dance, FilmSpec(0.0, 60.0, marked=own), None, "") for own in ((), ((0, 7), (0, 11))))
     rear = 0.3 * outlines[:, :2].mean(axis=1) + 0.7 * outlines[:, 2:].mean(axis=1)
-    columns, rows = np.rint(stage.axes.transData.transform(rear)).astype(int).T
-    colours = [stage.frame(60.0, outlines)[1080 - rows[k], columns[k], :3] for k in range(12)]
+    picture = stage.frame(60.0, outlines)
+    colours = [picture[row, column, :3] for row, column in on_picture(stage, rear)]
     assert [k for k in range(12) if is_like(colours[k], (240, 228, 66))] == [7, 11]
     assert stage.layers[0].words == {7: "7", 11: "11 Li"}
     assert plain.layers[0].words == {}
-    body = {"dragon": {"benches": 12, "names": names}, **{name: SMALL[name] for name in SMALL if name != "dragon"}}
-    file, films = tmp_path / "dance.json", {}
-    file.write_text(json.dumps(body))
-    for name, options in {"none": (), "number": ("--bench", "11"), "name": ("--bench", "Li")}.items():
-        films[name] = tmp_path / f"{name}.gif"
-        done = run("film", str(file), *options, "--output", str(films[name]))
-        assert done.returncode == 0, done.stderr
-    assert films["number"].read_bytes() == films["name"].read_bytes() != films["none"].read_bytes()
-    alone = tmp_path / "alone.gif"
-    small = ("--seconds", "1", "--rate", "2", "--height", "90", "--stop", "9")
-    assert run("film", *small, "--bench", "17", "--output", str(alone)).returncode == 0
-    done = run("film", *small, "--bench", "223", "--output", str(alone))
-    assert (done.returncode, done.stderr) == (2, "Error: marked[0] must be at most 222, the tail, got 223\n")
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(SMALL | {"dragon": {"benches": 12, "names": names}}))
+    films = [filmed(tmp_path / "dance.gif", str(file), *bench.split()) for bench in ("--bench 11", "--bench Li", "")]
+    assert np.array_equal(films[0], films[1])
+    assert not np.array_equal(films[0], films[2])
 
 
-@pytest.mark.parametrize("height", [540, 1080])
+@pytest.mark.parametrize("height", [540, pytest.param(1080, marks=pytest.mark.thorough)])
 def test_the_time_stands_where_a_text_of_matplotlib_would(height: int) -> None:
     stage, _ = village(height)
     words, boxes = "benches 3 and 9 touch\n1:23.0 (83.06 s)", []

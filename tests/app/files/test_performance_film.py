@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-from pathlib import Path
 from typing import Any
 
 import httpx
@@ -24,20 +23,15 @@ from app.settings import Settings
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import Budget, TooMuchWork, bench_outlines, first_contact, first_encounter, performance_trajectory
-from tests.app.files.test_film import HEARD, onsets
-from tests.support.command import run
+from tests.app.files.test_film import assert_heard
+from tests.support.refusal_rows import assert_refused
 
-EAST = {"name": "east", "dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}}
-NORTH = {"dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}, "delay": 2}
-SQUARE = {"type": "Polygon", "coordinates": [[[-5, -25], [35, -25], [35, 25], [-5, 25], [-5, -25]]]}
-TWO: dict[str, Any] = {
-    "dances": [EAST, NORTH],
-    "venue": SQUARE,
-    "seconds": 1,
-    "rate": 4,
-    "height": 180,
-    "start_clock": "19:30",
-}
+TWO: dict[str, Any] = json.loads("""{"dances": [
+    {"name": "east", "dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}},
+    {"dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}, "delay": 2}
+], "venue": {"type": "Polygon", "coordinates": [[[-5, -25], [35, -25], [35, 25], [-5, 25], [-5, -25]]]},
+    "seconds": 1, "rate": 4, "height": 180, "start_clock": "19:30"}""")
+EAST, NORTH = TWO["dances"]
 PERFORMANCE, _ = FilmRequest.model_validate(TWO).to_placed(Settings())
 
 
@@ -53,16 +47,19 @@ def film_of(body: dict[str, Any]) -> list[NDArray[np.uint8]]:
 
 def test_every_bench_is_drawn_in_the_colour_of_its_dragon() -> None:
     stage = PerformancePicture(PERFORMANCE, FilmSpec(14.0, 30.0, height=720, start_clock="19:30"), "Lanterns")
-    dragons = [part.dance.dragon for part in PERFORMANCE.parts]
     for time in (14.0, 20.5):  # the second one still stands at the first time
-        results = performance_trajectory(PERFORMANCE, time)
-        outlines = [bench_outlines(dragon, one.position) for dragon, one in zip(dragons, results, strict=True)]
+        outlines = outlines_at(time)
         picture = stage.picture(time, outlines)
         for k, own in enumerate(outlines):
             for x, y in stage.axes.transData.transform(own.mean(axis=1)):
                 colour = picture[round(len(picture) - 1 - y), round(x), :3] / 255.0
                 assert colour == pytest.approx(to_rgb(colour_of(k)), abs=0.02)
     assert stage.time.text == "19:30:20 (20.50 s)"
+
+
+def outlines_at(time: float) -> list[NDArray[np.float64]]:
+    pairs = zip(PERFORMANCE.parts, performance_trajectory(PERFORMANCE, time), strict=True)
+    return [bench_outlines(part.dance.dragon, one.position) for part, one in pairs]
 
 
 @pytest.mark.parametrize(
@@ -74,11 +71,7 @@ def test_every_bench_is_drawn_in_the_colour_of_its_dragon() -> None:
 )
 def test_the_benches_that_touch_are_named(language: Language, words: str) -> None:
     stage = PerformancePicture(PERFORMANCE, FilmSpec(20.0, 30.0, height=180, language=language), "")
-    results = performance_trajectory(PERFORMANCE, 20.5)
-    outlines = [
-        bench_outlines(part.dance.dragon, one.position) for part, one in zip(PERFORMANCE.parts, results, strict=True)
-    ]
-    stage.picture(20.5, outlines, (0, 1), (2, 0))
+    stage.picture(20.5, outlines_at(20.5), (0, 1), (2, 0))
     assert stage.time.text.startswith(words)
 
 
@@ -93,7 +86,6 @@ def test_the_film_ends_at_the_first_encounter_and_marks_it() -> None:
 def test_the_film_ends_at_the_first_contact_of_a_dragon_by_itself() -> None:
     coiled = {"dragon": {"benches": 12}, "path": {"kind": "spiral", "start_turns": 5}}
     time = first_contact(checked(FilmRequest, coiled).to_dance(100)).time
-    assert time is not None
     far = NORTH | {"path": {"kind": "waypoints", "points": [[90, -20], [90, 20]]}}
     both = TWO | {"dances": [far, coiled | {"delay": 1}], "venue": None}
     own, cut = film_of(both), film_of(both | {"stop": time + 1.0})
@@ -108,16 +100,9 @@ def test_a_stopped_budget_ends_the_film() -> None:
         QUESTION.to_bytes(checked(FilmRequest, TWO | {"stop": 30}), Terms(budget=budget), GIF_TYPE)
 
 
-def test_the_command_and_the_service_make_the_same_film(client: httpx.Client, tmp_path: Path) -> None:
-    file, film = tmp_path / "two.json", tmp_path / "two.gif"
-    file.write_text(json.dumps(TWO))
-    assert run("film", str(file), "--output", str(film)).returncode == 0
-    known = client.post("/films", json=TWO, headers={"accept": GIF_TYPE}).raise_for_status()
-    assert film.read_bytes() == known.content
-    refused = client.post("/films", json=TWO | {"head_speed": 1.0})
-    assert refused.json()["errors"][0]["pointer"] == "/head_speed"
-    late = client.post("/films", json=TWO | {"stop": 99})
-    assert late.json()["errors"][0]["detail"].startswith("stop must be at most 41.999")
+@pytest.mark.parametrize("row", ['{"head_speed": 1.0} -> /head_speed', '{"stop": 99} -> /stop 41.999'])
+def test_a_film_that_cannot_be_is_refused(client: httpx.Client, row: str) -> None:
+    assert_refused(client, "/films", TWO, row)
 
 
 BEATS = [{"bars": 8, "tempo": 96, "step": 0.6}]
@@ -136,11 +121,8 @@ def test_the_drum_is_that_of_the_first_dragon_with_beats_on_the_clock_of_all(cli
     data = client.post("/films", json=body).raise_for_status().content
     # The second dragon begins at 2 s.
     beats = [beat for beat in (2.0 + 60 / 96 * k for k in range(32)) if 14.0 <= beat <= 18.0]
-    frames = FilmSpec(14.0, 18.0, 6.0, 10).times
-    heard = np.interp(beats, frames, np.arange(frames.size) / 10)
-    onset_times = onsets(data)
-    assert len(onset_times) == len(heard) == 6
-    assert np.abs(np.array(onset_times) - heard).max() < HEARD
+    assert len(beats) == 6
+    assert_heard(data, beats, FilmSpec(14.0, 18.0, 6.0, 10))
 
 
 def test_the_count_names_its_dragon_unless_all_have_the_same_beats() -> None:

@@ -42,7 +42,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def holding() -> tuple[subprocess.Popen[str], Path]:
     """Another process with a temporary folder."""
     process = subprocess.Popen([sys.executable, "-c", HOLD], stdout=subprocess.PIPE, text=True)
-    assert process.stdout is not None
     return process, Path(process.stdout.readline().strip())
 
 
@@ -87,6 +86,7 @@ def unwritable(environment: Callable[[str, str], None], tmp_path: Path) -> None:
     environment("XDG_CACHE_HOME", str(tmp_path / "home"))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("workers", [1, 2])
 def test_what_a_killed_service_leaves_is_gone_after_the_next_start(
     folder: Path, tmp_path: Path, workers: int, monkeypatch: pytest.MonkeyPatch

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from itertools import pairwise
 from typing import Any
 
 import httpx
@@ -13,8 +14,9 @@ import pytest
 from app.files.tables import Language
 from app.files.words import Say
 from app.maps.gpx import seconds_of
+from app.maps.layout import DanceParts
 from app.maps.places import places_of
-from app.maps.tracks import APART, CHORD, PASSAGES, POINTS_MOST, apart, evenly, passages_of, smoothed, walk_of
+from app.maps.tracks import APART, CHORD, PASSAGES, POINTS_MOST, Walk, apart, evenly, passages_of, smoothed, walk_of
 from app.wire.question import BYTES
 from core import Dragon, InvalidValue, Legs
 from core.paths.following import tightest_bend
@@ -31,6 +33,15 @@ def walked(times: np.ndarray) -> np.ndarray:
     return np.column_stack([np.interp(way, s, axis) for axis in CORNERS.T])
 
 
+def read(data: bytes | str, language: Language = Language.ENGLISH) -> DanceParts:
+    return places_of(data.encode() if isinstance(data, str) else data, None, Say(language))
+
+
+def walk_along(points: np.ndarray, times: np.ndarray | None, *chord: float) -> tuple[Walk, Legs]:
+    walk = walk_of(points, times, *chord)
+    return walk, Legs([tuple(one) for one in walk.points.tolist()])
+
+
 def noisy(seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
     times = np.arange(0.0, 250.0)
     drift = np.random.default_rng(seed).normal(0.0, NOISE, (len(times) + 19, 2))
@@ -41,42 +52,31 @@ def noisy(seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
 @pytest.mark.parametrize("seed", range(4))
 def test_a_noisy_walk_becomes_a_path_that_benches_follow(seed: int) -> None:
     points, times = noisy(seed)
-    walk = walk_of(points, times)
-    assert walk is not None
+    walk, path = walk_along(points, times)
     assert walk.is_easy
-    path = Legs([tuple(one) for one in walk.points.tolist()])
     assert not path.tighter(tightest_bend(Dragon())[0])
     line = path.position(np.linspace(path.begin, path.end, 4_000))
     off = np.hypot(*(points[:, None] - line[None]).transpose(2, 0, 1)).min(axis=1)
     # The distance of a place from the way at its time is never below that from the whole way.
     assert off.max() <= walk.largest + 0.2
     assert walk.largest < 6.0 * NOISE
-    assert walk.points[0] == pytest.approx(points[0], abs=1e-9)
-    assert walk.points[-1] == pytest.approx(points[-1], abs=1e-9)
+    assert walk.points[[0, -1]] == pytest.approx(points[[0, -1]], abs=1e-9)
 
 
 @pytest.mark.parametrize("chord", [1.5, 4.0])
 def test_a_walk_is_smoothed_as_the_longest_bench_needs(chord: float) -> None:
     points, _ = noisy()
-    walk, usual = walk_of(points, None, chord), walk_of(points, None)
-    assert walk is not None
-    assert usual is not None
+    (walk, path), (usual, _) = walk_along(points, None, chord), walk_along(points, None)
     assert (walk.width < usual.width) is (chord < CHORD)
-    path = Legs([tuple(one) for one in walk.points.tolist()])
     assert walk.is_easy
     assert not path.tighter(tightest_bend(Dragon(9, chord, 1.0, overhang=0.0))[0])
 
 
 def test_its_times_are_passages_with_a_pause_where_people_stood() -> None:
     times = np.arange(0.0, 250.0)
-    walk = walk_of(walked(times), times)
-    assert walk is not None
-    assert walk.passages is not None
-    pauses = [
-        (before["until_time"], one["until_time"])
-        for before, one in zip(walk.passages[:-1], walk.passages[1:], strict=True)
-        if one["speed"] == 0.0
-    ]
+    walk, _ = walk_along(walked(times), times)
+    pairs = pairwise(walk.passages)
+    pauses = [(before["until_time"], one["until_time"]) for before, one in pairs if one["speed"] == 0.0]
     assert len(pauses) == 1
     assert pauses[0] == pytest.approx(REST, abs=3.0)
     assert walk.passages[-1]["until_time"] == times[-1]
@@ -88,16 +88,15 @@ def test_its_times_are_passages_with_a_pause_where_people_stood() -> None:
 def test_noise_of_every_point_is_no_change_of_speed(noise: float, seed: int) -> None:
     """One pace, a pause, the same pace: not a passage for each few metres of noise."""
     times = np.arange(0.0, 250.0)
-    walk = walk_of(walked(times) + np.random.default_rng(seed).normal(0.0, noise, (len(times), 2)), times)
-    assert walk is not None
-    assert walk.passages is not None
+    points = walked(times) + np.random.default_rng(seed).normal(0.0, noise, (len(times), 2))
+    walk, _ = walk_along(points, times)
     assert [one["speed"] for one in walk.passages] == pytest.approx([1.0, 0.0, 1.0], abs=0.1)
     assert (walk.passages[0]["until_time"], walk.passages[1]["until_time"]) == pytest.approx(REST, abs=6.0)
 
 
 def test_points_that_are_noise_alone_are_no_path() -> None:
     points = np.random.default_rng(0).normal(0.0, 30.0, (250, 2))
-    with pytest.raises(InvalidValue, match=r"does not turn on the spot, as this one does .* smoothed over 14\.6 m$"):
+    with pytest.raises(InvalidValue, match=r"smoothed over 14\.6 m$"):
         walk_of(points, None)
 
 
@@ -108,7 +107,6 @@ def test_times_that_do_not_grow_are_none_and_many_speeds_become_few() -> None:
     times = np.arange(20_000.0)
     places = np.cumsum(np.repeat(np.random.default_rng(0).uniform(0.5, 1.5, 200), 100))
     passages = passages_of(times, places)
-    assert passages is not None
     assert 10 < len(passages) <= PASSAGES
     assert sum((b - a) * one["speed"] for a, b, one in spans(passages)) == pytest.approx(float(places[-1]), rel=0.01)
 
@@ -125,9 +123,7 @@ def test_thinning_and_smoothing_keep_a_straight_way_and_its_ends() -> None:
     even = evenly(way)
     assert smoothed(even, 4.0) == pytest.approx(even, abs=1e-9)
     assert walk_of(way[:5], None) is None
-    many = walk_of(np.repeat(way, 1 + 2 * POINTS_MOST // len(way), axis=0), None)
-    assert many is not None
-    assert many.largest < 1e-6
+    assert walk_along(np.repeat(way, 1 + 2 * POINTS_MOST // len(way), axis=0), None)[0].largest < 1e-6
 
 
 def track(points: list[str], name: str = "walk") -> str:
@@ -147,21 +143,19 @@ LANE = [point(k, f"2026-11-27T10:{k // 60:02d}:{k % 60:02d}Z") for k in range(70
 
 
 def test_gpx_is_a_path_with_its_waypoints_as_obstacles() -> None:
-    parts = places_of(gpx(LANE), None, Say(Language.ENGLISH))
-    assert parts.path is not None
+    parts = read(gpx(LANE))
     assert parts.path["kind"] == "waypoints"
     assert parts.passages == [{"speed": pytest.approx(1.112, abs=0.02), "until_time": 69.0}]
     assert any("at most 0.0" in note and "what was walked" in note for note in parts.notes)
-    assert parts.venue is not None
     assert len(parts.venue.obstacles) == 1
-    without = places_of(gpx([point(k) for k in range(70)]), None, Say(Language.CHINESE))
+    without = read(gpx([point(k) for k in range(70)]), Language.CHINESE)
     assert without.passages is None
     assert "轨迹没有递增的时间。" in without.notes
 
 
 def test_points_without_a_time_do_not_end_the_times() -> None:
     lane = [re.sub("<time>.*</time>", "", one) if k in (30, 31, 45) else one for k, one in enumerate(LANE)]
-    parts = places_of(gpx(lane), None, Say(Language.ENGLISH))
+    parts = read(gpx(lane))
     assert parts.passages == [{"speed": pytest.approx(1.112, abs=0.02), "until_time": 69.0}]
 
 
@@ -172,10 +166,7 @@ def test_the_service_smooths_a_walk_for_the_longest_bench(client: httpx.Client) 
     assert any(note.endswith("m, which a bench needs whose handles are 40.00 m apart.") for note in notes)
     assert not any("apart" in note for note in client.post("/places", **file).json()["notes"])
     refused = client.post("/places?longest_chord=51", **file)
-    assert (refused.status_code, "longest_chord must be at most 50 m, got 51 m" in refused.json()["detail"]) == (
-        422,
-        True,
-    )
+    assert (refused.status_code, "longest_chord must be at most 50 m, got 51 m" in refused.text) == (422, True)
 
 
 def test_a_track_of_kml_is_a_path_and_a_place_that_is_missing_has_no_time() -> None:
@@ -183,11 +174,10 @@ def test_a_track_of_kml_is_a_path_and_a_place_that_is_missing_has_no_time() -> N
     where = "".join(f"<gx:coord>{'' if k == 30 else f'9 {48 + 1e-5 * k:.6f} 5'}</gx:coord>" for k in range(60))
     space = "xmlns:gx='http://www.google.com/kml/ext/2.2'"
     placed = f"<Placemark><gx:Track>{when}{where}</gx:Track></Placemark>"
-    parts = places_of(f"<kml {space}>{placed}</kml>".encode(), None, Say(Language.ENGLISH))
-    assert parts.passages is not None
+    parts = read(f"<kml {space}>{placed}</kml>")
     assert parts.passages[-1]["until_time"] == 59.0
     hidden = f"<kml {space}>{placed.replace('<gx:Track>', '<visibility>0</visibility><gx:Track>')}{PLACE}</kml>"
-    notes = places_of(hidden.encode(), None, Say(Language.ENGLISH)).notes
+    notes = read(hidden).notes
     assert any("hidden: 1 line" in note for note in notes)
 
 
@@ -196,12 +186,11 @@ PLACE = "<Placemark><Point><coordinates>9,48</coordinates></Point></Placemark>"
 
 def test_of_several_tracks_the_longest_is_danced_and_a_line_called_path_before_all() -> None:
     two = f"<gpx>{track(LANE[:30], 'a')}{track(LANE, 'b')}"
-    notes = places_of(f"{two}</gpx>".encode(), None, Say(Language.ENGLISH)).notes
+    notes = read(f"{two}</gpx>").notes
     assert any("the track b" in note for note in notes)
     assert any("2 lines are paths or tracks" in note for note in notes)
     route = "<rte><name>path</name><rtept lat='48' lon='9'/><rtept lat='48' lon='9.0005'/></rte>"
-    parts = places_of(f"{two}{route}</gpx>".encode(), None, Say(Language.ENGLISH))
-    assert parts.path is not None
+    parts = read(f"{two}{route}</gpx>")
     assert len(parts.path["points"]) == 2
     assert parts.passages is None
 
@@ -210,15 +199,15 @@ def test_of_several_tracks_the_longest_is_danced_and_a_line_called_path_before_a
     ("data", "words"),
     [
         (b"<!DOCTYPE gpx><gpx></gpx>", "document type"),
-        (b"<gpx><trk></gpx>", "must be GPX, got mismatched tag in line 1"),
-        (b"<gpx><wpt lat='north' lon='9'/></gpx>", "must have points with lat and lon in degrees, got 'north'"),
-        (gpx([point(0), point(0)]), "must hold a track with points at least 2 m apart"),
-        (b"<gpx>" + b"<a>" * 70, "must not nest elements deeper than 60"),
+        (b"<gpx><trk></gpx>", "mismatched tag in line 1"),
+        (b"<gpx><wpt lat='north' lon='9'/></gpx>", "got 'north'"),
+        (gpx([point(0), point(0)]), "at least 2 m apart"),
+        (b"<gpx>" + b"<a>" * 70, "deeper than 60"),
     ],
 )
 def test_a_wrong_file_is_refused_in_one_sentence(data: bytes, words: str) -> None:
     with pytest.raises(InvalidValue, match=words):
-        places_of(data, None, Say(Language.ENGLISH))
+        read(data)
 
 
 def test_times_are_read_with_any_offset() -> None:

@@ -1,0 +1,32 @@
+"""Refusals as rows of a table: what is asked, an arrow, and what the refusal names."""
+
+from __future__ import annotations
+
+import json
+import shlex
+from typing import Any
+
+import httpx
+
+from tests.support.command import run
+
+
+def assert_refused(client: httpx.Client, call: str, body: dict[str, Any], row: str) -> None:
+    """A row is `{"what": "is changed in the body"} -> /pointer to what is wrong, and words of the refusal`."""
+    change, named = row.split(" -> ")
+    pointer, *words = named.split()
+    refused = client.post(call, json=body | json.loads(change))
+    assert refused.status_code in (httpx.codes.REQUEST_ENTITY_TOO_LARGE, httpx.codes.UNPROCESSABLE_ENTITY)
+    (error,) = refused.json()["errors"]
+    assert error["pointer"] == pointer, error
+    assert [word for word in words if word not in error["detail"]] == [], error["detail"]
+
+
+def assert_refused_in_one_line(row: str, code: int = 2, begin: str = "Error: ", **how: Any) -> None:
+    """A row is `a command -> the words with which its refusal begins ... words that stand in it`."""
+    line, named = row.split(" -> ")
+    first, _, words = named.partition(" ... ")
+    done = run(*shlex.split(line), **how)
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (code, "", 1), done.stderr
+    assert done.stderr.startswith(f"{begin}{first}"), done.stderr
+    assert [word for word in words.split() if word not in done.stderr] == [], done.stderr
