@@ -38,6 +38,7 @@ class Plain(PathFinder):
 sys.meta_path[:] = [Plain if finder is PathFinder else finder for finder in sys.meta_path]
 sys.argv[0] = "bench-dragon"
 import core
+import app.questions.registry  # Before the forks, each of which would take half a second for it.
 from app.command.main import app
 for name in core.__all__:
     with contextlib.suppress(core.BenchDragonError):
