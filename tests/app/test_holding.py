@@ -171,7 +171,10 @@ def get(service: Service, path: str, host: str | None = "x") -> bytes:
     ],
 )
 def test_a_target_in_absolute_form_is_that_in_origin_form(held: Service, target: str, path: str, status: int) -> None:
-    heads, bodies = zip(*(get(held, place).split(b"\r\n\r\n", 1) for place in (target, path)), strict=True)
+    """Without the setting below any host is served."""
+    heads, bodies = zip(
+        *(get(held, place, "any.example").split(b"\r\n\r\n", 1) for place in (target, path)), strict=True
+    )
     assert heads[0].startswith(f"HTTP/1.1 {status} ".encode())
     assert bodies[0] == bodies[1]
 
@@ -203,17 +206,11 @@ def test_who_asks_for_another_host_is_refused_where_a_setting_names_the_hosts(tm
         assert statuses(f"http://dance.example:{port}/turn", "evil.example") == {200}
 
 
-def test_without_the_setting_any_host_is_served(held: Service) -> None:
-    assert get(held, "/turn", "anything.example").startswith(b"HTTP/1.1 200 ")
-
-
-@pytest.mark.parametrize(
-    "body", [b'{"\\ud800":1}', b'{"dragon":{"a\\u0000":1}}', b'{"path":{"kind":"\\udc00"}}', b'["\\u0000"]']
-)
 @pytest.mark.parametrize("path", ["/trajectory", "/check", "/overlaps", "/figures/trajectory.svg"])
-def test_half_a_character_or_nul_is_refused(held: Service, path: str, body: bytes) -> None:
-    answer = httpx.post(held.url + path, content=body, headers={"Content-Type": "application/json"})
-    assert (answer.status_code, answer.headers["content-type"]) == (422, PROBLEM)
+def test_half_a_character_or_nul_is_refused(held: Service, path: str) -> None:
+    for text in (r'{"\ud800":1}', r'{"dragon":{"a\u0000":1}}', r'{"path":{"kind":"\udc00"}}', r'["\u0000"]'):
+        answer = httpx.post(held.url + path, content=text, headers={"Content-Type": "application/json"})
+        assert (answer.status_code, answer.headers["content-type"]) == (422, PROBLEM)
 
 
 def named(name: str) -> dict[str, Any]:
@@ -333,11 +330,6 @@ def test_any_tag_or_one_on_several_lines_is_unchanged_and_what_is_refused_is_not
         assert httpx.get(f"{held.url}/turn{query}", headers=lines).status_code == status
 
 
-def test_the_refusal_of_a_broken_body_names_the_place(held: Service) -> None:
-    answer = httpx.post(f"{held.url}/turn", content='{"pitch', headers={"Content-Type": "application/json"})
-    assert "character 1" in answer.json()["detail"]
-
-
 def test_a_request_keeps_its_name_and_the_log_has_it(held: Service) -> None:
     answers = [httpx.get(f"{held.url}/turn", headers={"X-Request-ID": name}) for name in ("dance-7", "no name!")]
     assert answers[0].headers["x-request-id"] == "dance-7"
@@ -351,12 +343,6 @@ def test_a_long_path_is_cut_in_the_log(held: Service) -> None:
     assert httpx.get(held.url + path).status_code == 404
     until(lambda: "aaa... (60001 characters)" in held.log.read_text())
     assert max(map(len, held.log.read_text().splitlines())) < 5_000
-
-
-def test_no_python_is_served_and_no_page_frames_another(held: Service) -> None:
-    for path in ("/docs/assets/__init__.py", "/page/__init__.py"):
-        assert httpx.get(held.url + path).status_code == 404
-    assert "frame-ancestors 'none'" in httpx.get(held.url).headers["content-security-policy"]
 
 
 def family(pid: int) -> list[psutil.Process]:

@@ -13,6 +13,7 @@ import pytest
 
 from app.jobs.room import DAY, FRESH
 from app.wire.problem import PROBLEM_TYPE
+from app.wire.question import BYTES
 from tests.support.job_service import ENDLESS, LONG, SHORT, JobService, wait_for
 
 TOKEN = "correct horse"
@@ -30,30 +31,25 @@ def strict(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
         yield service
 
 
-@pytest.mark.parametrize("authorization", ["", "Bearer wrong", TOKEN])
-def test_without_the_token_no_job_is_made_and_none_is_listed(strict: JobService, authorization: str) -> None:
-    stranger = {"Authorization": authorization}
-    for method, call, body in (
-        ("POST", "/jobs", b'{"question": "turn"}'),
-        ("GET", "/jobs", None),
-        ("GET", "/collision-time", None),
-        ("POST", "/grade?name=result1.csv", b"1,2"),
-        ("POST", "/places", b"{}"),
+def test_without_the_token_no_job_is_made_and_none_is_listed_and_no_file_taken(strict: JobService) -> None:
+    later, typed, file = {"Prefer": "respond-async"}, {"Content-Type": "application/json"}, {"Content-Type": BYTES}
+    for method, call, body, headers in (
+        ("POST", "/jobs", b'{"question": "turn"}', typed),
+        ("GET", "/jobs", None, {}),
+        ("GET", "/collision-time", None, later),
+        ("POST", "/grade?name=result1.csv", b"1,2", file),
+        ("POST", "/places", b"{}", file),
     ):
-        more = {"Prefer": "respond-async"} if call == "/collision-time" else {"Content-Type": "application/json"}
-        more |= {} if call == "/jobs" or not body else {"Content-Type": "application/octet-stream"}
-        answer = strict.client.request(method, call, content=body, headers=stranger | more)
-        assert (answer.status_code, answer.headers["content-type"]) == (401, PROBLEM_TYPE), call
-        assert answer.headers["www-authenticate"].startswith("Bearer")
+        for stranger in ("", "Bearer wrong", TOKEN):
+            more = headers | {"Authorization": stranger}
+            answer = strict.client.request(method, call, content=body, headers=more)
+            assert (answer.status_code, answer.headers["content-type"]) == (401, PROBLEM_TYPE), call
+            assert answer.headers["www-authenticate"].startswith("Bearer")
+        if headers == file:
+            assert strict.client.post(call, content=body, headers=headers).status_code in (200, 422)
     # Questions, and answers that are typed and no file, need none.
-    assert strict.client.get("/collision-time", headers=stranger).status_code == 200
-    assert strict.client.post("/grade?pitch=0.45", headers=stranger).status_code == 200
-
-
-@pytest.mark.parametrize(("call", "status"), [("/grade?name=result1.csv", 200), ("/places", 422)])
-def test_who_has_the_token_may_send_a_file(strict: JobService, call: str, status: int) -> None:
-    headers = {"Content-Type": "application/octet-stream"}
-    assert strict.client.post(call, content=b"1,2", headers=headers).status_code == status
+    for method, call in (("GET", "/collision-time"), ("POST", "/grade?pitch=0.45")):
+        assert strict.client.request(method, call, headers={"Authorization": ""}).status_code == 200
 
 
 def test_who_has_the_token_sees_all_jobs_and_who_has_an_address_sees_that_job(strict: JobService) -> None:

@@ -65,15 +65,6 @@ def test_names_of_jobs_are_long_and_never_the_same_and_they_run_in_the_order_of_
     assert list(in_turn(store)) == made
 
 
-def test_another_process_sees_what_this_one_wrote(store: Store) -> None:
-    job = make(store)
-    with closing(Store(store.folder)) as other:
-        assert other.known(job) == store.known(job)
-        assert other.call(job) == b"call"
-        assert other.take() == job
-    assert store.known(job).state is JobState.RUNNING
-
-
 def test_what_was_running_waits_for_a_new_runner_a_sweep_with_its_progress_and_half_results_go(store: Store) -> None:
     made = [make(store, question=question) for question in ("sweep", "turn")]
     for job in made:

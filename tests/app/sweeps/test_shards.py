@@ -53,23 +53,6 @@ def test_a_body_is_swept_by_dotted_names() -> None:
     assert json.loads(row["failures"])[0]["kind"] == "contact"
 
 
-@pytest.mark.parametrize(
-    ("name", "flat", "body"),
-    [
-        ("collision_time", {"pitch": 0.5, "benches": 40}, {"path.pitch": 0.5, "dragon.benches": 40}),
-        ("least_clearance", {"width": 0.2, "benches": 9}, {"dragon": {"width": 0.2, "benches": 9}}),
-        ("turn", {"pitch": 1.6}, {"path": {"kind": "turn", "pitch": 1.6}}),
-    ],
-)
-def test_a_question_is_asked_flat_or_as_a_body(name: str, flat: dict[str, Any], body: dict[str, Any]) -> None:
-    answers = []
-    for request in (flat, body):
-        [row] = rows(name, {}, {place: [value] for place, value in request.items()})
-        answers.append({place: value for place, value in row.items() if place not in {*request, "pitch"}})
-    assert answers[0] == answers[1]
-    assert isinstance(answers[0][question_of(name, body).map_column], float)
-
-
 def test_a_refusal_of_core_uses_the_names_of_the_spec() -> None:
     [row] = rows("least_clearance", {}, {"benches": [2]})
     assert row["error.message"] == "benches must be at least 3, so that two share no handle, got 2"
