@@ -43,12 +43,6 @@ def test_it_is_valid_by_the_specification() -> None:
     assert sorted(compose.service_names()) == ["scheduler", "service", "worker"]
 
 
-def test_a_slip_is_no_valid_file() -> None:
-    for wrong in ({"services": {"service": {"read_onli": True}}}, {"services": {}, "volume": {}}):
-        with pytest.raises(ValueError, match="does not start with"):
-            PyCompose.from_json(json.dumps(wrong))
-
-
 def every(key: str) -> dict[str, Any]:
     """A value of each service."""
     return {name: service.get(key) for name, service in SERVICES.items()}

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
+import runpy
 from pathlib import Path
-from types import ModuleType
+from types import SimpleNamespace
 from typing import Any
 
 import httpx
@@ -18,13 +18,8 @@ from app.service.pages import GUIDE, guide_policy
 SITE = Path(__file__).parents[2] / "docs" / "site"
 
 
-def module(name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(f"docs_site_{name}", SITE / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    loaded = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(loaded)
-    return loaded
+def module(name: str) -> SimpleNamespace:
+    return SimpleNamespace(**runpy.run_path(str(SITE / f"{name}.py")))
 
 
 def test_every_public_name_of_core_stands_on_one_page() -> None:

@@ -70,6 +70,7 @@ def test_what_was_running_waits_for_a_new_runner_a_sweep_with_its_progress_and_h
     for job in made:
         assert store.take() == job
         store.proceed(job, 0.4, 0.1)
+        assert store.known(job).time_left == pytest.approx(6.0)
     half = written(store)
     store.begin()
     assert not half.exists()
@@ -89,7 +90,7 @@ def test_a_result_is_kept_and_reported_again_when_its_state_could_not_be_written
     job = ended(store)
     store.succeed(job, store.results / ".new", "text/plain")
     assert store.result(job).read_bytes() == b"answer"
-    assert store.known(job).state is JobState.SUCCESSFUL
+    assert (store.known(job).state, store.known(job).progress) == (JobState.SUCCESSFUL, 100)
     assert len(store.events(job, 0)) == 3
 
 

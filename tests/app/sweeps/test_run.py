@@ -131,22 +131,6 @@ def test_what_no_worker_can_answer_ends_the_run_with_the_reason(shared: Shared, 
         run(grid_of(UNANSWERABLE, 6), tmp_path, question=UNANSWERABLE, engine=lambda: shared)
 
 
-@pytest.mark.thorough
-def test_no_process_is_left_of_an_interrupted_run(tmp_path: Path) -> None:
-    engine, pids = Processes(2), list[int]()
-
-    def stop(progress: Progress) -> None:
-        if progress.designs:
-            pids.extend(engine.pids)
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        run(grid_of(SLOW, 100), tmp_path / "a", question=SLOW, engine=lambda: engine, progress=stop)
-    assert len(pids) == 2
-    assert not any(map(psutil.pid_exists, pids))
-    assert shards.parts(tmp_path / "a")
-
-
 def test_a_folder_of_something_else_is_refused(shared: Shared, tmp_path: Path) -> None:
     (tmp_path / "letter.txt").write_text("dear")
     with refused("output", folder=str(tmp_path)):
