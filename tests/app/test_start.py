@@ -64,6 +64,7 @@ def test_the_command_does_not_import_the_packages_of_another_program(words: str,
     assert (done.returncode, done.stdout, done.stderr) == (usual.returncode, usual.stdout, usual.stderr)
 
 
+@pytest.mark.thorough
 def test_nor_do_the_processes_of_a_sweep(other_program: str, tmp_path: Path) -> None:
     (tmp_path / "spec.toml").write_text('question = "collision_time"\n[over]\npitch = [0.5, 0.55]\n')
     line = f"sweep run {tmp_path}/spec.toml --output {tmp_path}/table --workers 2"

@@ -67,6 +67,7 @@ def test_a_job_is_listed_shown_answered_and_removed(service: JobService, place: 
     assert (gone.returncode, job in gone.stderr) == (2, True)
 
 
+@pytest.mark.thorough
 def test_all_jobs_or_the_old_ones_are_cancelled(service: JobService, place: list[str]) -> None:
     def listed() -> dict[str, str]:
         return {f"/jobs/{job['jobID']}": job["status"] for job in service.client.get("/jobs").json()["jobs"]}

@@ -157,6 +157,7 @@ def test_one_client_with_eight_long_jobs_keeps_nobody_waiting(tmp_path: Path) ->
         assert {name: float(full[name]) for name in expected} == expected
 
 
+@pytest.mark.thorough
 def test_a_service_with_one_place_runs_the_jobs_of_each_client_in_turn(tmp_path: Path) -> None:
     with JobService(tmp_path, jobs_running_max=1) as service, service.at("127.0.0.2") as other:
         first = service.post(ENDLESS)

@@ -132,6 +132,7 @@ def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_i
     assert answer.content == answered(tmp_path / "a", Spec.of(LONG_SPEC)).compact().read_bytes()
 
 
+@pytest.mark.thorough
 def test_a_dismissed_sweep_leaves_no_shard_nor_process_and_others_are_answered_meanwhile(service: JobService) -> None:
     address, waits = service.post(ENDLESS_SPEC, "/sweeps"), service.post(ENDLESS_SPEC, "/sweeps")
     wait_for(lambda: parts(service))
