@@ -132,7 +132,8 @@ def of_each(blocks: list[tuple[str, str]]) -> pytest.MarkDecorator:
     cases = []
     for place, text in blocks:
         marks = [pytest.mark.curl] if re.search(r"(\$|\|) curl ", text) else []
-        marks += [] if place.startswith(QUICK) or (text.startswith(">>> ") and "sweeps" not in place) else [pytest.mark.thorough]
+        is_quick = place.startswith(QUICK) or (text.startswith(">>> ") and "sweeps" not in place)
+        marks += [] if is_quick else [pytest.mark.thorough]
         cases.append(pytest.param(text, marks=marks, id=place))
     return pytest.mark.parametrize("text", cases)
 
