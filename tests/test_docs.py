@@ -60,25 +60,25 @@ SNIPPETS = blocks("python")
 KITS = [block for block in blocks("console") if block[1].startswith("$ bench-dragon contest kit ")]
 SESSIONS = [block for block in blocks("console") if block not in KITS]
 # The others are sweeps, which tests/app/sweeps/test_spec.py reads.
-WISHES = [block for block in blocks("toml") if re.search(r"^(figures|gates) = ", block[1], re.MULTILINE)]
+WISH = re.compile(r"^(figures|gates) = ", re.MULTILINE)
+WISHES = [block for block in blocks("toml") if WISH.search(block[1])]
 # docs/performances.md asks about its dances by their name in examples/.
 SEVERAL = [block for block in blocks("toml") if "[[dances]]" in block[1]]
 DANCES = [block for block in blocks("toml") if "[over]" not in block[1] and block not in WISHES + SEVERAL]
 
 
-def test_readme_is_short() -> None:
+def linked(page: str) -> set[str]:
+    """The files to which a page leads, from the root."""
+    folder = (ROOT / page).parent
+    return {os.path.relpath(folder / link, ROOT) for other, link in LINKS if other == page}
+
+
+def test_readme_is_short_and_each_readme_leads_to_the_other_and_the_english_one_to_every_page() -> None:
     assert PAGES["README.md"].count("\n") < README_LINES_MOST
-
-
-def test_each_readme_leads_to_the_other_and_the_english_one_to_every_page() -> None:
-    assert ("README.zh.md", "README.md") in LINKS
-    linked = {link for page, link in LINKS if page == "README.md"}
-    assert set(PAGES) - {"README.md", "SECURITY.md"} <= linked
-
-
-def test_the_map_leads_to_every_page() -> None:
-    linked = {f"docs/{link}" for page, link in LINKS if page == "docs/README.md"}
-    assert {page for page in PAGES if page.startswith("docs/")} - {"docs/README.md"} <= linked
+    assert "README.md" in linked("README.zh.md")
+    assert PAGES.keys() - {"README.md", "SECURITY.md"} <= linked("README.md")
+    # And the map to every page.
+    assert {page for page in PAGES if page.startswith("docs/")} - {"docs/README.md"} <= linked("docs/README.md")
 
 
 def test_the_house_is_drawn_as_it_stands() -> None:
@@ -98,21 +98,18 @@ def test_the_house_is_drawn_as_it_stands() -> None:
 
 def test_every_call_command_and_function_stands_on_its_page() -> None:
     calls = {question.path.partition(".")[0] for question in QUESTIONS.values()}
-    assert {call for call in calls if call not in PAGES["docs/http.md"]} == set()
-    assert {command for command in MODULE_OF if f"| `{command}" not in PAGES["docs/command.md"]} == set()
-    functions = {name for name in core.__all__ if inspect.isfunction(getattr(core, name))}
-    assert {name for name in functions if f"`{name}" not in PAGES["docs/library.md"]} == set()
+    functions = {f"`{name}" for name in core.__all__ if inspect.isfunction(getattr(core, name))}
+    commands = {f"| `{command}" for command in MODULE_OF}
+    for page, names in (("http", calls), ("command", commands), ("library", functions)):
+        assert {name for name in names if name not in PAGES[f"docs/{page}.md"]} == set()
 
 
-def test_each_claim_names_a_test() -> None:
+def test_each_claim_names_a_test_and_all_these_exist() -> None:
     rows = [line for line in PAGES["docs/claims.md"].splitlines() if line.startswith("| ")][1:]
     assert len(rows) > 10
     assert all("test_" in row for row in rows)
-
-
-def test_every_test_that_a_claim_names_exists() -> None:
-    texts = {file: (DOCS / file).read_text(encoding="utf-8") for _, file in LINKED_TESTS}
-    assert [test for test, file in LINKED_TESTS if not re.search(rf"^def {test}\(", texts[file], re.MULTILINE)] == []
+    for test, file in LINKED_TESTS:
+        assert f"def {test}(" in (DOCS / file).read_text(encoding="utf-8")
 
 
 def test_every_link_leads_to_a_file() -> None:
@@ -121,58 +118,70 @@ def test_every_link_leads_to_a_file() -> None:
 
 def test_every_limit_of_the_service_stands_with_its_default() -> None:
     rows = re.findall(r"^\| `BENCH_DRAGON_(\w+)` \| (\w+) \|", PAGES["docs/operations.md"], re.MULTILINE)
-    stated = {name.lower(): None if value == "none" else json.loads(value) for name, value in rows}
-    assert stated == {name: None if value == "" else value for name, value in Settings().model_dump().items()}
+    stated = {name.lower(): "" if value == "none" else json.loads(value) for name, value in rows}
+    defaults = Settings().model_dump()
+    assert stated == {name: "" if value is None else value for name, value in defaults.items()}
 
 
-@pytest.mark.parametrize(("place", "source"), SNIPPETS, ids=[place for place, _ in SNIPPETS])
-def test_python_gives_what_is_printed_below_it(place: str, source: str) -> None:
+# The pages whose commands every run tries; those of the others take a minute.
+QUICK = ("README", "docs/command.md", "docs/http.md", "docs/performances.md", "docs/jobs.md")
+
+
+def of_each(blocks: list[tuple[str, str]]) -> pytest.MarkDecorator:
+    """A case for each block, named by its place."""
+    cases = []
+    for place, text in blocks:
+        marks = [pytest.mark.curl] if re.search(r"(\$|\|) curl ", text) else []
+        is_quick = place.startswith(QUICK) or (text.startswith(">>> ") and "sweeps" not in place)
+        marks += [] if is_quick else [pytest.mark.thorough]
+        cases.append(pytest.param(text, marks=marks, id=place))
+    return pytest.mark.parametrize("text", cases)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder from which examples/ is seen as from the root."""
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    return tmp_path
+
+
+@of_each(SNIPPETS)
+def test_python_gives_what_is_printed_below_it(text: str) -> None:
     values: list[str] = []
-    test = doctest.DocTestParser().get_doctest(source, {}, place, place, 0)
-    assert len(test.examples) == source.count(">>> ") > 0
+    test = doctest.DocTestParser().get_doctest(text, {}, "docs", "docs", 0)
+    assert len(test.examples) == text.count(">>> ") > 0
     doctest.DocTestRunner().run(test, out=values.append)
     assert "".join(values) == ""
 
 
-@pytest.mark.parametrize(
-    ("place", "session"),
-    [
-        pytest.param(*each, id=each[0], marks=[pytest.mark.curl] if re.search(r"(\$|\|) curl ", each[1]) else [])
-        for each in SESSIONS
-    ],
-)
-def test_a_command_gives_what_is_printed_below_it(place: str, session: str, server: str, tmp_path: Path) -> None:
-    (tmp_path / "examples").symlink_to(ROOT / "examples")
-    for turn in re.split(r"^\$ ", session, flags=re.MULTILINE)[1:]:
+@of_each(SESSIONS)
+def test_a_command_gives_what_is_printed_below_it(text: str, server: str, folder: Path) -> None:
+    for turn in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
         lines = turn.splitlines()
         length = next(number for number, line in enumerate(lines, 1) if not line.endswith(("\\", "[")))
         command, expected = "\n".join(lines[:length]), "\n".join(lines[length:])
-        done = run(command.replace("localhost:8000", urlsplit(server).netloc), tmp_path)
+        done = run(command.replace("localhost:8000", urlsplit(server).netloc), folder)
         assert (done.returncode != 0) is expected.startswith(("Error: ", "Refused: ")), done.stdout
         assert_alike(done.stdout, expected)
 
 
-@pytest.mark.parametrize(("place", "dance"), DANCES, ids=[place for place, _ in DANCES])
-def test_a_dance_that_is_shown_passes_its_check(place: str, dance: str, tmp_path: Path) -> None:
-    (tmp_path / "dance.toml").write_text(dance, encoding="utf-8")
-    assert run("bench-dragon check dance.toml", tmp_path).stdout.startswith("Passes. ")
+@of_each(DANCES + WISHES)
+def test_a_dance_that_is_shown_passes_its_check_and_a_wish_has_proposals(text: str, folder: Path) -> None:
+    (folder / "shown.toml").write_text(text, encoding="utf-8")
+    if WISH.search(text):
+        assert run("bench-dragon propose shown.toml", folder).stdout.startswith("The best ")
+    else:
+        assert run("bench-dragon check shown.toml", folder).stdout.startswith("Passes. ")
 
 
-@pytest.mark.parametrize(("place", "dances"), SEVERAL, ids=[place for place, _ in SEVERAL])
-def test_dances_that_are_shown_are_those_of_an_example(place: str, dances: str) -> None:
-    assert [path.name for path in (ROOT / "examples").glob("*.toml") if dances in path.read_text("utf-8")] != []
-
-
-@pytest.mark.parametrize(("place", "wish"), WISHES, ids=[place for place, _ in WISHES])
-def test_a_wish_that_is_shown_has_proposals(place: str, wish: str, tmp_path: Path) -> None:
-    (tmp_path / "wish.toml").write_text(wish, encoding="utf-8")
-    assert run("bench-dragon propose wish.toml", tmp_path).stdout.startswith("The best ")
+@of_each(SEVERAL)
+def test_dances_that_are_shown_are_those_of_an_example(text: str) -> None:
+    assert [path.name for path in (ROOT / "examples").glob("*.toml") if text in path.read_text("utf-8")] != []
 
 
 @pytest.mark.parametrize(("values", "command"), RESULTS, ids=[command for _, command in RESULTS])
-def test_a_result_is_printed_by_the_command_beside_it(values: str, command: str, tmp_path: Path) -> None:
-    (tmp_path / "examples").symlink_to(ROOT / "examples")
-    printed = run(command, tmp_path).stdout
+def test_a_result_is_printed_by_the_command_beside_it(values: str, command: str, folder: Path) -> None:
+    printed = run(command, folder).stdout
     for value in NUMBER.findall(values):
         digits = len(value.partition(".")[2])
         assert value in {f"{float(number):.{digits}f}" for number in NUMBER.findall(printed)}, printed

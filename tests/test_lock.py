@@ -12,7 +12,7 @@ import pytest
 from tests.conftest import OUTER
 from tests.support.lock import PROCESSORS, PYTHONS, ROOT, resolved, run_with_index
 
-pytestmark = [pytest.mark.uncompiled, pytest.mark.index]
+pytestmark = [pytest.mark.uncompiled, pytest.mark.index, pytest.mark.thorough]
 
 # What make serve and make test install; of the engines some machines lack some.
 LOCKS = ("requirements.lock", "requirements-test.lock")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import re
 import runpy
 import subprocess
@@ -10,8 +9,8 @@ import sys
 import tomllib
 from collections.abc import Iterable
 from importlib.metadata import version
+from itertools import chain
 from pathlib import Path
-from typing import Any
 
 import pytest
 from packaging.markers import default_environment
@@ -21,8 +20,8 @@ from packaging.utils import canonicalize_name
 import core
 from app.service.workers import process_count
 from app.settings import WORKERS_MAX, usable_cores
-from core import InvalidValue
 from tests.support.lock import PYTHONS
+from tests.support.refused import refused
 
 ROOT = Path(__file__).parent.parent
 SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -45,44 +44,41 @@ pytestmark = pytest.mark.uncompiled
 
 def requirements(system: str, extra: str = "") -> set[str]:
     """Names of what is required on a system, for an extra or without one."""
-    environment = {**default_environment(), "sys_platform": system, "platform_system": SYSTEMS[system]}
+    environment = default_environment() | {"sys_platform": system, "platform_system": SYSTEMS[system], "extra": extra}
     wanted = map(Requirement, PROJECT["optional-dependencies"][extra] if extra else PROJECT["dependencies"])
-    return {one.name for one in wanted if not one.marker or one.marker.evaluate({**environment, "extra": extra})}
+    return {each.name for each in wanted if not each.marker or each.marker.evaluate(environment)}
 
 
-def test_the_version_is_that_of_the_installed_distribution() -> None:
+def output(code: str) -> str:
+    """What a new process prints."""
+    return subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True).strip()
+
+
+def test_the_version_is_that_of_the_installed_distribution_and_read_only_when_it_is_asked_for() -> None:
     assert core.__version__ == version("bench-dragon") == PROJECT["version"]
-
-
-def test_asking_for_the_version_alone_reads_it() -> None:
-    code = "import sys, core; print('importlib.metadata' in sys.modules); core.__version__"
-    assert subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True) == "False\n"
+    assert output("import sys, core; print('importlib.metadata' in sys.modules); core.__version__") == "False"
 
 
 @pytest.mark.parametrize("package", ["app", "core"])
 def test_types_and_data_go_with_the_package(package: str) -> None:
-    package_data = SETTINGS["tool"]["setuptools"]["package-data"]
-    folders = {ROOT / name.replace(".", "/"): patterns for name, patterns in package_data.items()}
-    packaged = {path for folder, patterns in folders.items() for pattern in patterns for path in folder.glob(pattern)}
+    patterns = SETTINGS["tool"]["setuptools"]["package-data"].items()
+    globs = [(ROOT / name.replace(".", "/")).glob(pattern) for name, group in patterns for pattern in group]
     files = {path for path in (ROOT / package).rglob("*") if path.is_file()}
     data = {path for path in files if path.suffix not in (".py", ".pyc", ".so", ".pyd")}
     assert ROOT / package / "py.typed" in data
-    assert data - packaged == set()
+    assert data - set(chain(*globs)) == set()
 
 
 @pytest.mark.parametrize("system", SYSTEMS)
-def test_the_plain_installation_is_the_same_on_every_system(system: str) -> None:
-    names = requirements(system)
+def test_the_plain_installation_is_the_same_on_every_system_and_the_service_takes_uvloop_where_it_is(
+    system: str,
+) -> None:
+    names, service = requirements(system), requirements(system, "service")
     assert names == requirements("linux")
     assert "numpy" in names
     assert names & {"fastapi", "matplotlib", "starlette", "uvicorn", "uvloop", "XlsxWriter"} == set()
-
-
-@pytest.mark.parametrize(("system", "has_uvloop"), [("linux", True), ("darwin", True), ("win32", False)])
-def test_the_service_takes_uvloop_where_there_is_one(system: str, has_uvloop: bool) -> None:
-    names = requirements(system, "service")
-    assert {"fastapi", "uvicorn"} < names
-    assert ("uvloop" in names) is has_uvloop
+    assert {"fastapi", "uvicorn"} < service
+    assert ("uvloop" in service) is (system != "win32")
 
 
 def locked(*files: str) -> dict[str, str]:
@@ -91,11 +87,11 @@ def locked(*files: str) -> dict[str, str]:
     return {canonicalize_name(row[1]): row[2] for row in rows if row}
 
 
-def unfit(wanted: Iterable[Requirement], versions: dict[str, str]) -> list[Requirement]:
+def unfit(wanted: Iterable[str], versions: dict[str, str]) -> list[Requirement]:
     """Requirements, this distribution's own extras left aside, of which no locked version fits."""
-    others = [one for one in wanted if one.name != PROJECT["name"]]
+    others = [each for each in map(Requirement, wanted) if each.name != PROJECT["name"]]
     assert others
-    return [one for one in others if not one.specifier.contains(versions.get(canonicalize_name(one.name), ""))]
+    return [each for each in others if not each.specifier.contains(versions.get(canonicalize_name(each.name), ""))]
 
 
 @pytest.mark.parametrize("file", LOCKS)
@@ -112,13 +108,11 @@ def test_the_digests_are_of_the_versions_in_the_lock() -> None:
 
 def test_the_locks_hold_a_version_that_fits_of_every_requirement() -> None:
     extras, groups = PROJECT["optional-dependencies"], SETTINGS["dependency-groups"]
-    service = [*PROJECT["dependencies"], *groups["tools"]]
-    for extra in ("service", "sweep", "arrow", "dxf", "film", "figures", "xlsx"):
-        service += extras[extra]
-    assert unfit(map(Requirement, service), locked("requirements.lock")) == []
+    service = chain(*map(extras.get, ["service", "sweep", "arrow", "dxf", "film", "figures", "xlsx"]))
+    assert unfit([*PROJECT["dependencies"], *groups["tools"], *service], locked("requirements.lock")) == []
     every = locked("requirements.lock", "requirements-test.lock", "requirements-ccd.lock")
-    assert unfit([one for group in extras.values() for one in map(Requirement, group)], every) == []
-    assert unfit(map(Requirement, groups["dist"]), locked("requirements-dist.lock")) == []
+    assert unfit(chain(*extras.values()), every) == []
+    assert unfit(groups["dist"], locked("requirements-dist.lock")) == []
 
 
 def test_the_service_is_installed_without_what_only_tests_need() -> None:
@@ -132,16 +126,11 @@ def test_every_python_that_is_named_gets_a_wheel() -> None:
 
 
 @pytest.mark.parametrize("compiler", BUILD["FLAGS"])
-def test_no_flag_changes_a_digit(compiler: str) -> None:
-    flags = BUILD["FLAGS"][compiler]
+def test_no_flag_changes_a_digit_and_every_compiler_gets_flags_of_its_own_kind(compiler: str) -> None:
+    flags, for_msvc = BUILD["FLAGS"][compiler], compiler == "msvc"
     assert [flag for flag in flags if flag.startswith(OTHER_DIGITS)] == []
-    assert "/fp:precise" in flags if compiler == "msvc" else "-ffp-contract=off" in flags
-
-
-@pytest.mark.parametrize("compiler", BUILD["FLAGS"])
-def test_every_compiler_gets_flags_of_its_own_kind(compiler: str) -> None:
-    flags = BUILD["FLAGS"][compiler]
-    assert {flag[0] for flag in flags} == {"/" if compiler == "msvc" else "-"}
+    assert ("/fp:precise" if for_msvc else "-ffp-contract=off") in flags
+    assert {flag[0] for flag in flags} == {"/" if for_msvc else "-"}
     assert any(flag.startswith("-finline-limit") for flag in flags) is (compiler == "gcc")
 
 
@@ -157,46 +146,29 @@ def test_every_compiler_gets_flags_of_its_own_kind(compiler: str) -> None:
     ids=["gcc", "mingw", "apple", "another", "msvc"],
 )
 def test_a_compiler_is_known_by_what_it_says(kind: str, says: str, compiler: str) -> None:
-    speaks = [sys.executable, "-c", f"print({says!r})"]
-    assert BUILD["family"](kind, speaks) == compiler
+    assert BUILD["family"](kind, [sys.executable, "-c", f"print({says!r})"]) == compiler
 
 
 def test_without_a_compiler_the_build_goes_on() -> None:
     assert BUILD["family"]("unix", ["no-such-compiler"]) == "clang"
 
 
-@pytest.mark.parametrize(
-    ("platform", "query", "count"),
-    [
-        ("linux", 3, 3),
-        ("darwin", 3, 3),
-        ("win32", 1, 1),
-        ("win32", None, 1),
-        ("linux", None, min(usable_cores(), WORKERS_MAX)),
-    ],
-)
-def test_the_service_has_as_many_processes_as_asked_or_as_cores(platform: str, query: int | None, count: int) -> None:
-    assert process_count(query, platform) == count
-
-
-def test_on_windows_several_processes_are_refused_with_the_reason() -> None:
-    with pytest.raises(InvalidValue, match="--workers must be 1 on Windows, where the service is one process, got 4"):
+def test_the_service_has_as_many_processes_as_asked_or_as_cores() -> None:
+    cores = min(usable_cores(), WORKERS_MAX)
+    for platform, query, count in (("linux", 3, 3), ("darwin", 3, 3), ("win32", 1, 1), ("win32", None, 1)):
+        assert process_count(query, platform) == count
+    assert process_count(None, "linux") == cores
+    with refused("workers"):
         process_count(4, "win32")
 
 
 def test_cores_are_counted_where_the_system_has_no_affinity() -> None:
-    code = "import os; del os.sched_getaffinity; from app.settings import usable_cores; print(usable_cores())"
-    assert int(subprocess.check_output([sys.executable, "-c", code], cwd=ROOT)) >= 1
-
-
-def imported(tree: ast.AST) -> set[str]:
-    """First parts of all imported names."""
-    nodes: list[Any] = [node for node in ast.walk(tree) if isinstance(node, (ast.Import, ast.ImportFrom))]
-    names = [[node.module] if isinstance(node, ast.ImportFrom) else [one.name for one in node.names] for node in nodes]
-    return {name.partition(".")[0] for group in names for name in group if name}
+    assert int(output("import os; del os.sched_getaffinity; from app.settings import *; print(usable_cores())")) >= 1
 
 
 def test_nothing_is_imported_that_windows_lacks() -> None:
     files = [path for package in ("app", "core") for path in (ROOT / package).rglob("*.py")]
     assert len(files) > 50
-    assert {path for path in files if imported(ast.parse(path.read_text(encoding="utf-8"))) & POSIX_ONLY} == set()
+    names = "|".join(POSIX_ONLY)
+    pattern = re.compile(rf"^ *(?:from|import) (?:{names})\b", re.MULTILINE)
+    assert [path for path in files if pattern.search(path.read_text(encoding="utf-8"))] == []

@@ -7,6 +7,7 @@ in tests/support, what runs for minutes or hours in tests/campaigns.
 from __future__ import annotations
 
 import ast
+import re
 from functools import cache
 from pathlib import Path
 
@@ -48,15 +49,15 @@ PUBLIC = {"_asdict", "_exit", "_fields", "_replace"}
 
 def private_names(nodes: list[ast.AST]) -> list[str]:
     """Private names that code imports, asks another object for, or replaces."""
-    used = [one.name for node in nodes if isinstance(node, ast.ImportFrom) for one in node.names]
-    used += [
-        node.attr
-        for node in nodes
-        if isinstance(node, ast.Attribute) and ast.unparse(node.value) not in ("self", "cls")
-    ]
-    calls = [node for node in nodes if isinstance(node, ast.Call) and ast.unparse(node.func).endswith("attr")]
-    used += [str(one.value).rpartition(".")[2] for call in calls for one in call.args if isinstance(one, ast.Constant)]
-    return [name for name in used if name.startswith("_") and not name.endswith("_") and name not in PUBLIC]
+    used: list[str] = []
+    for node in nodes:
+        if isinstance(node, ast.ImportFrom):
+            used += [alias.name for alias in node.names]
+        elif isinstance(node, ast.Attribute) and ast.unparse(node.value) not in ("self", "cls"):
+            used.append(node.attr)
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("attr"):
+            used += [str(each.value).rpartition(".")[2] for each in node.args if isinstance(each, ast.Constant)]
+    return [name for name in used if re.fullmatch(r"_.*[^_]", name) and name not in PUBLIC]
 
 
 def test_no_test_uses_a_private_name() -> None:
@@ -72,19 +73,13 @@ def axis_of_columns(node: ast.expr) -> int | None:
     """Axis of the columns of an array, or of a part of one; None for anything else."""
     if isinstance(node, ast.Subscript):
         axis = axis_of_columns(node.value)
-        return None if axis is None else axis - sum(not isinstance(one, ast.Slice) for one in indices(node)[:axis])
-    if isinstance(node, ast.Attribute):
-        return (COLUMNS | CHAINS if ast.unparse(node.value) == "search" else COLUMNS).get(node.attr)
-    return COLUMNS.get(node.id) if isinstance(node, ast.Name) else None
+        return None if axis is None else axis - sum(not isinstance(index, ast.Slice) for index in indices(node)[:axis])
+    *owner, name = ast.unparse(node).split(".")
+    return (COLUMNS | CHAINS if owner == ["search"] else COLUMNS).get(name)
 
 
 def indices(node: ast.Subscript) -> list[ast.expr]:
     return node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
-
-
-def is_number(part: ast.expr | None) -> bool:
-    part = part.operand if isinstance(part, ast.UnaryOp) else part
-    return isinstance(part, ast.Constant) and type(part.value) is int
 
 
 def numeric_columns(nodes: list[ast.AST]) -> list[str]:
@@ -92,11 +87,9 @@ def numeric_columns(nodes: list[ast.AST]) -> list[str]:
     entries = []
     for node in nodes:
         axis = axis_of_columns(node.value) if isinstance(node, ast.Subscript) else None
-        if axis is None or not 0 <= axis < len(indices(node)):
-            continue
-        column = indices(node)[axis]
-        parts = [column.lower, column.upper] if isinstance(column, ast.Slice) else [column]
-        entries += [ast.unparse(node)] if any(map(is_number, parts)) else []
+        if axis is not None and 0 <= axis < len(indices(node)):
+            parts = ast.unparse(indices(node)[axis]).split(":")
+            entries += [ast.unparse(node)] if any(part.lstrip("-").isdecimal() for part in parts) else []
     return entries
 
 

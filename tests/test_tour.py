@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import jupytext
@@ -30,12 +31,13 @@ def display(source: str, names: dict[str, Any]) -> Any:
 
 
 @pytest.fixture(scope="module")
-def tour() -> Iterator[tuple[dict[str, Any], list[Any]]]:
-    """Names after all cells ran in order, and what each one shows."""
+def tour() -> Iterator[SimpleNamespace]:
+    """Names after all cells ran in order; `answers` are what each one shows."""
     names: dict[str, Any] = {"__name__": "__main__"}
     before = plt.get_backend()
     plt.switch_backend("Agg")
-    yield names, [display(source, names) for source in CODE]
+    names["answers"] = [display(source, names) for source in CODE]
+    yield SimpleNamespace(**names)
     plt.close("all")
     plt.switch_backend(before)
 
@@ -48,25 +50,22 @@ def test_it_is_a_notebook_of_words_and_code() -> None:
     assert jupytext.reads(jupytext.writes(NOTEBOOK, fmt="ipynb"), fmt="ipynb").cells[-1].source == words[-1]
 
 
-def test_every_cell_runs_and_shows_something_short_or_a_picture(tour: tuple[dict[str, Any], list[Any]]) -> None:
-    _, answers = tour
-    assert sum(isinstance(answer, Axes) for answer in answers) >= 4
-    values = [repr(answer) for answer in answers if isinstance(answer, Readable) or hasattr(answer, "to_dataframe")]
+def test_every_cell_runs_and_shows_something_short_or_a_picture(tour: SimpleNamespace) -> None:
+    assert sum(isinstance(answer, Axes) for answer in tour.answers) >= 4
+    values = [repr(each) for each in tour.answers if isinstance(each, Readable) or hasattr(each, "to_dataframe")]
     assert len(values) >= 6
     assert max(map(len, values)) <= DISPLAY_MOST
 
 
-def test_its_sentences_are_so(tour: tuple[dict[str, Any], list[Any]]) -> None:
-    names, _ = tour
-    low, high = names["contact"].time_bracket
+def test_its_sentences_are_so(tour: SimpleNamespace) -> None:
+    low, high = tour.contact.time_bracket
     assert 0.0 < high - low < 1e-9  # "a fraction of a nanosecond apart"
-    assert names["contact"].corner.name == "front-outer"
-    assert names["contact"].corner.bench == 0
-    assert 0.0 < names["profile"].grazes[-1].clearance < 1e-3  # "less than a millimetre"
-    assert names["tightest"].proven_up_to is None  # "every larger one works too"
-    assert names["walk"].speed[-1, -1] < names["walk"].speed[-1, 0]  # "a little slower than the head"
-    radius = names["stairs"].radius
-    assert not ((radius > 4.41) & (radius < 4.57)).any()  # "it never crosses"
-    assert 0.02 < names["stray"].stray < 0.06  # "a few centimetres"
-    assert names["stray"].stray < names["stray"].exhibit.stray == names["stray"].stray_bracket[1]  # "can touch"
-    assert names["kinder"].stray > names["stray"].stray
+    assert (tour.contact.corner.name, tour.contact.corner.bench) == ("front-outer", 0)
+    assert 0.0 < tour.profile.grazes[-1].clearance < 1e-3  # "less than a millimetre"
+    assert tour.tightest.proven_up_to is None  # "every larger one works too"
+    assert tour.walk.speed[-1, -1] < tour.walk.speed[-1, 0]  # "a little slower than the head"
+    assert not ((tour.stairs.radius > 4.41) & (tour.stairs.radius < 4.57)).any()  # "it never crosses"
+    stray = tour.stray.stray
+    assert 0.02 < stray < 0.06  # "a few centimetres"
+    assert stray < tour.stray.exhibit.stray == tour.stray.stray_bracket[1]  # "can touch"
+    assert tour.kinder.stray > stray

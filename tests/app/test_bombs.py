@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
@@ -13,8 +14,9 @@ import psutil
 import pytest
 
 from app.service.graders import Graders
-from core import BenchDragonError, Budget, InvalidValue, TooMuchWork
+from core import BenchDragonError, Budget, TooMuchWork
 from tests.support.bombs import GRADES, MAPS, end, fail, take_memory
+from tests.support.refused import refused
 from tests.support.serving import Service, serving
 
 FILE = {"Content-Type": "application/octet-stream"}
@@ -31,66 +33,62 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
         yield service
 
 
-def readers(pid: int) -> list[psutil.Process]:
-    """The processes that read files for a process."""
+def readers(service: Service) -> list[psutil.Process]:
+    """The processes that read files for a service."""
     entries = []
-    for child in psutil.Process(pid).children():
+    for child in psutil.Process(service.process.pid).children():
         with suppress(psutil.Error):
             entries += [child] if "app.service.graders" in child.cmdline() else []
     return entries
 
 
 @contextmanager
-def watched(pid: int) -> Iterator[list[float]]:
+def watched(service: Service) -> Iterator[list[float]]:
     """The memory of the readers of a service, looked at all the time [MB]."""
     seen, done = [0.0], threading.Event()
 
     def look() -> None:
         while not done.wait(0.02):
-            for reader in readers(pid):
+            for reader in readers(service):
                 with suppress(psutil.Error):
                     seen.append(reader.memory_info().rss / 1e6)
 
-    thread = threading.Thread(target=look)
-    thread.start()
-    try:
-        yield seen
-    finally:
-        done.set()
-        thread.join()
+    with ThreadPoolExecutor() as watcher:
+        watcher.submit(look)
+        try:
+            yield seen
+        finally:
+            done.set()
 
 
 def sent(service: Service, call: str, data: bytes) -> httpx.Response:
     return httpx.post(f"{service.url}/{call}", content=data, headers=FILE, timeout=120)
 
 
-@pytest.mark.parametrize("name", MAPS)
-def test_a_map_that_unfolds_is_refused_within_memory_and_time(service: Service, name: str) -> None:
-    data = MAPS[name]()
-    begun = time.monotonic()
-    with watched(service.process.pid) as memory:
-        answer = sent(service, "places", data)
-    assert answer.status_code == 422, answer.text[:300]
-    assert "must" in answer.json()["detail"]
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[] if name in ("deep_toml", "bzip2_of_a_workbook") else [pytest.mark.thorough])
+        for name in MAPS | GRADES
+    ],
+)
+def test_a_file_that_unfolds_is_refused_within_memory_and_time(service: Service, name: str) -> None:
+    data, begun = (MAPS | GRADES)[name](), time.monotonic()
+    with watched(service) as memory:
+        answer = sent(service, "places" if name in MAPS else "grade", data)
+    if name in MAPS:
+        assert answer.status_code == 422, answer.text[:300]
+        assert "must" in answer.json()["detail"]
+    else:
+        assert [file["verdict"] for file in answer.json()["files"]] == ["unreadable"]
     assert max(memory) < MEMORY_MAX
     assert time.monotonic() - begun < SECONDS_MAX
     assert "Traceback" not in service.log.read_text()
 
 
-@pytest.mark.parametrize("name", GRADES)
-def test_a_workbook_that_unfolds_is_unreadable_within_memory_and_time(service: Service, name: str) -> None:
-    data = GRADES[name]()
-    begun = time.monotonic()
-    with watched(service.process.pid) as memory:
-        [file] = sent(service, "grade", data).raise_for_status().json()["files"]
-    assert file["verdict"] == "unreadable"
-    assert max(memory) < MEMORY_MAX
-    assert time.monotonic() - begun < SECONDS_MAX
-
-
 def test_a_reader_has_a_limit_and_is_the_first_to_end(service: Service) -> None:
     sent(service, "places", b"{}")
-    [reader] = readers(service.process.pid)
+    [reader] = readers(service)
     assert reader.rlimit(psutil.RLIMIT_AS)[0] == LIMIT
     assert Path(f"/proc/{reader.pid}/oom_score_adj").read_text() == "1000\n"
     metrics = httpx.get(f"{service.url}/metrics").text
@@ -98,23 +96,16 @@ def test_a_reader_has_a_limit_and_is_the_first_to_end(service: Service) -> None:
     assert 'bench_dragon_reader_memory_bytes_bucket{le="5e+08"}' in metrics
 
 
+@pytest.mark.thorough
 def test_files_have_places_of_their_own(tmp_path: Path) -> None:
     slow = b"0\nSECTION\n2\nENTITIES\n" + b"0\nPOINT\n10\n0\n20\n0\n" * 150_000 + b"0\nENDSEC\n0\nEOF\n"
-    answers: list[httpx.Response] = []
-    with serving(tmp_path / "log", readers_max=1) as service:
-        clients = [
-            threading.Thread(target=lambda: answers.append(sent(service, "places", slow)), name=str(k))
-            for k in range(3)
-        ]
-        for client in clients:
-            client.start()
+    with serving(tmp_path / "log", readers_max=1) as service, ThreadPoolExecutor() as threads:
+        clients = [threads.submit(sent, service, "places", slow) for _ in range(3)]
         assert httpx.get(f"{service.url}/collision-time", timeout=120).status_code == 200
-        for client in clients:
-            client.join()
-    assert sorted(answer.status_code for answer in answers)[-1] == 503
-    refused = next(answer for answer in answers if answer.status_code == 503)
+        answers = [client.result() for client in clients]
+    refused = max(answers, key=lambda answer: answer.status_code)
+    assert refused.status_code == 503
     assert int(refused.headers["retry-after"]) >= 1
-    assert "1 file computation" in refused.json()["detail"]
 
 
 # -- readers by themselves ----------------------------------------------------------------------------------
@@ -134,14 +125,14 @@ def graders(seen: list[int | None]) -> Iterator[Graders]:
 def test_a_file_that_ended_its_reader_is_not_tried_again(
     graders: Graders, seen: list[int | None], tmp_path: Path
 ) -> None:
-    with pytest.raises(InvalidValue, match="the file must be simpler: reading it ended the process"):
+    with refused("file"):
         graders.read(Budget(), end, tmp_path / "log")
     assert (tmp_path / "log").read_text() == "ended\n"
     assert seen == [None]
 
 
 def test_a_file_that_needs_too_much_memory_is_refused_and_the_next_is_read(graders: Graders) -> None:
-    with pytest.raises(TooMuchWork, match="must be simpler: reading it takes more than 600 MB of memory"):
+    with refused("file", TooMuchWork):
         graders.read(Budget(), take_memory, b"x" * 100_000)
     assert graders.read(Budget(), take_memory, b"x") == 10_000
 
@@ -149,7 +140,7 @@ def test_a_file_that_needs_too_much_memory_is_refused_and_the_next_is_read(grade
 def test_any_fault_of_a_reader_is_an_answer_that_tells_nothing_of_the_file(
     graders: Graders, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    with pytest.raises(BenchDragonError, match=r"the file could not be read \(ZeroDivisionError\)"):
+    with pytest.raises(BenchDragonError, match="ZeroDivisionError"):
         graders.read(Budget(), fail, b"secret")
     log = capfd.readouterr().err
     assert "ZeroDivisionError" in log

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
+import runpy
 from pathlib import Path
-from types import ModuleType
+from types import SimpleNamespace
 from typing import Any
 
 import httpx
@@ -18,13 +18,8 @@ from app.service.pages import GUIDE, guide_policy
 SITE = Path(__file__).parents[2] / "docs" / "site"
 
 
-def module(name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(f"docs_site_{name}", SITE / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    loaded = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(loaded)
-    return loaded
+def module(name: str) -> SimpleNamespace:
+    return SimpleNamespace(**runpy.run_path(str(SITE / f"{name}.py")))
 
 
 def test_every_public_name_of_core_stands_on_one_page() -> None:
@@ -60,20 +55,19 @@ the same entry goes on
 A paragraph.
 
 >>> 1 *1"""
-    assert module("docstrings").as_fields(docstring.split("\n")) == [
-        "What comes back.",
-        "",
-        ":margin: required clearance [m]; `x*y` and a \\* b",
-        "    goes on here",
-        ":pitch, radius: [m]; speed: of a\\_",
-        "    the same entry goes on",
-        "",
-        "A paragraph.",
-        "",
-        "",
-        ">>> 1 *1",
-        "",
-    ]
+    fields = r"""What comes back.
+
+:margin: required clearance [m]; `x*y` and a \* b
+    goes on here
+:pitch, radius: [m]; speed: of a\_
+    the same entry goes on
+
+A paragraph.
+
+
+>>> 1 *1
+"""
+    assert "\n".join(module("docstrings").as_fields(docstring.split("\n"))) == fields
 
 
 def test_a_budget_without_an_entry_gets_one_before_errors_and_examples() -> None:
@@ -89,25 +83,22 @@ def test_a_budget_without_an_entry_gets_one_before_errors_and_examples() -> None
 @pytest.mark.parametrize(
     ("page", "dead"),
     [
-        ('<a href="other.html#here">', []),
-        ('<a href="https://example.org/gone">', []),
-        ('<a href="none.html">', ["none.html does not exist: index.html"]),
-        ('<a href="other.html#gone">', ["other.html#gone has no such anchor: index.html"]),
-        ('<a href="../outside.html">', ["../outside.html does not exist: index.html"]),
-        (
-            '<img src="https://example.org/a.png">',
-            ["https://example.org/a.png is loaded from another host: index.html"],
-        ),
-        ('<link rel="stylesheet" href="none.css">', ["none.css does not exist: index.html"]),
+        ('<a href="other.html#here">', ""),
+        ('<a href="https://example.org/gone">', ""),
+        ('<a href="none.html">', "none.html does not exist"),
+        ('<a href="other.html#gone">', "other.html#gone has no such anchor"),
+        ('<a href="../outside.html">', "../outside.html does not exist"),
+        ('<img src="https://example.org/a.png">', "https://example.org/a.png is loaded from another host"),
+        ('<link rel="stylesheet" href="none.css">', "none.css does not exist"),
     ],
 )
-def test_dead_links_are_named(tmp_path: Path, page: str, dead: list[str]) -> None:
+def test_dead_links_are_named(tmp_path: Path, page: str, dead: str) -> None:
     site = tmp_path / "site"
     site.mkdir()
     (tmp_path / "outside.html").write_text("")
     (site / "index.html").write_text(page)
     (site / "other.html").write_text('<p id="here">')
-    assert module("links").dead_links(site) == dead
+    assert module("links").dead_links(site) == ([f"{dead}: index.html"] if dead else [])
 
 
 def test_a_page_of_the_guide_may_run_its_own_scripts_and_no_others() -> None:
@@ -125,7 +116,4 @@ def test_the_service_shows_the_guide_or_says_that_there_is_none(client: httpx.Cl
         assert "'sha256-" in answer.headers["content-security-policy"]
         assert client.get("/guide/none.html").status_code == 404
     else:
-        assert answer.status_code == 404
-        assert (
-            answer.json()["detail"] == "This installation has no guide: make docs makes it, before the service starts."
-        )
+        assert (answer.status_code, "make docs" in answer.json()["detail"]) == (404, True)

@@ -4,29 +4,28 @@ from __future__ import annotations
 
 import http.client
 import json
-import os
-import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
-from urllib.parse import urlencode, urlsplit
+from functools import partial
+from socket import create_connection
+from urllib.parse import urlsplit
+
+import psutil
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE
 from tests.support.bombs import GRADES, MAPS
 
 Attack = Callable[[str, float], None]  # base URL and how long to go on [s]
-ATTACKS: dict[str, Attack] = {}
+Body = Callable[[], bytes]
 # Longest wait for a short job beside long ones [s].
 JOB_SECONDS = 20.0
 # An error is short [bytes].
 ERROR_BYTES = 20_000
-
-
-def attack(result: Attack) -> Attack:
-    ATTACKS[result.__name__] = result
-    return result
+FILE = "application/octet-stream"
+PATIENCE = 60.0  # [s] of a client that waits for its answer
 
 
 def ask(
@@ -52,12 +51,6 @@ def ask(
         connection.close()
 
 
-def ask_and_leave(url: str, path: str, stay: float) -> None:
-    """A client that hangs up after a while, whether it was answered or not."""
-    with suppress(OSError):
-        ask(url, "GET", path, timeout=stay)
-
-
 def at_once(jobs: list[Callable[[], object]]) -> None:
     """Run each job in a thread of its own. A job may get no answer: the watching client reports what it sees."""
 
@@ -72,158 +65,96 @@ def at_once(jobs: list[Callable[[], object]]) -> None:
         thread.join()
 
 
-def _many(url: str, path: str, count: int, stay: float) -> None:
-    at_once([lambda: ask_and_leave(url, path, stay)] * count)
+def crowd(
+    count: int, path: str, url: str, seconds: float, body: Body | None = None, stay: float = 0.0, **more: str
+) -> None:
+    """Clients that hang up after `stay`, or with the attack, whether they were answered or not."""
+    call = ("POST", path, body()) if body else ("GET", path, None)
+    at_once([lambda: ask(url, *call, timeout=stay or seconds, **more)] * count)
 
 
-@attack
-def heavy_speeds(url: str, seconds: float) -> None:
-    """114 s of work each, their clients gone before the end."""
-    query = {"benches": 2000, "pitch": 10, "start_turns": 200, "turning_diameter": 200}
-    _many(url, "/maximum-head-speed?" + urlencode(query), 40, seconds)
+def once(path: str, body: Body | None, url: str, seconds: float) -> None:
+    """One request, which must be refused or answered."""
+    status, answer = ask(url, "POST" if body else "GET", path, body and body(), max(seconds, 20.0))
+    assert status in (200, 400, 413, 414, 422, 503), (status, answer[:300])
+    assert status == http.client.OK or len(answer) < ERROR_BYTES
 
 
-@attack
-def long_thin_dragon(url: str, seconds: float) -> None:
-    query = {"benches": 6308, "body_length": 0.001, "head_length": 0.001, "overhang": 0}
-    _many(url, "/minimum-pitch?" + urlencode(query), 8, seconds)
-
-
-@attack
-def equal_arcs(url: str, seconds: float) -> None:
-    _many(url, "/shortest-turn?head_length=1.001&ratio=1", 8, seconds)
-
-
-@attack
-def uneven_dragons(url: str, seconds: float) -> None:
-    """Half a minute of work each: 2,000 different benches through a turn."""
+def uneven_dragons() -> bytes:
+    """Half a minute of work: 2,000 different benches through a turn."""
     dragon = {
         "lengths": [2.2 + 0.001 * (k % 97) for k in range(2000)],
         "widths": [0.3] * 2000,
         "overhangs": [0.275] * 2000,
     }
-    body = json.dumps({"dragon": dragon, "path": {"kind": "turn"}}).encode()
-    at_once([lambda: ask(url, "POST", "/check", body, timeout=seconds)] * 8)
+    return json.dumps({"dragon": dragon, "path": {"kind": "turn"}}).encode()
 
 
-@attack
 def near_grazes(url: str, seconds: float) -> None:
     """A tenth of a second each, where a millisecond is expected: two benches pass within 1e-9 m of each other."""
     paths = (f"/collision-time?cross_check=pair&pitch={0.45033739302 + 1e-13 * k:.17g}" for k in range(40))
-    at_once([lambda path=path: ask(url, "GET", path, timeout=seconds) for path in paths])
+    at_once([partial(ask, url, "GET", path, timeout=seconds) for path in paths])
 
 
-@attack
-def polygon_of_holes(url: str, seconds: float) -> None:
-    """140,000 rings of four points, 3.6 MB."""
-    ring = [[0, 0], [1, 0], [0, 1], [0, 0]]
-    venue = {
-        "type": "FeatureCollection",
-        "features": [
-            {
-                "type": "Feature",
-                "properties": {"kind": "area"},
-                "geometry": {"type": "Polygon", "coordinates": [ring] * 140_000},
-            }
-        ],
-    }
-    ask_once(url, "/check", json.dumps({"venue": venue}, separators=(",", ":")).encode(), seconds)
+def polygon(rings: int, **properties: str) -> bytes:
+    """A body with a venue. rings: number of its rings of four points"""
+    geometry = {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]] * rings}
+    venue = {"type": "Feature", "properties": {"kind": "area", **properties}, "geometry": geometry}
+    return json.dumps({"venue": venue}, separators=(",", ":")).encode()
 
 
-def ask_once(url: str, path: str, body: bytes, seconds: float) -> None:
-    """One request with a body, which must be refused or answered."""
-    status, answer = ask(url, "POST", path, body, timeout=max(seconds, 20.0))
-    assert status in (200, 400, 413, 422, 503), (status, answer[:300])
-    assert status == 200 or len(answer) < ERROR_BYTES
+def deep_brackets() -> bytes:
+    return b'{"path": {"kind": [' + b"[]," * 1_330_000 + b"[]]}}"
 
 
-@attack
-def names_twice(url: str, seconds: float) -> None:
-    query = "&".join(f"n{k}=1&n{k}=1" for k in range(5_500))
-    status, answer = ask(url, "GET", f"/collision-time?{query}")
-    assert 400 <= status < 500
-    assert len(answer) < ERROR_BYTES
+def text() -> bytes:
+    """20 MB, read by Python code for a second."""
+    return b"word " * 3_999_000
 
 
-@attack
-def deep_brackets(url: str, seconds: float) -> None:
-    ask_once(url, "/trajectory", b'{"path": {"kind": [' + b"[]," * 1_330_000 + b"[]]}}", seconds)
+def connect(stack: ExitStack, url: str, sent: bytes) -> None:
+    """A connection that has sent this, and stays open."""
+    peer = stack.enter_context(create_connection((urlsplit(url).hostname or "", urlsplit(url).port or 80), 30.0))
+    with suppress(OSError):
+        peer.sendall(sent)
 
 
-@attack
 def tiny_chunks(url: str, seconds: float) -> None:
     """200,000 chunks of one byte."""
-    with socket.create_connection((urlsplit(url).hostname or "", urlsplit(url).port or 80), timeout=30.0) as peer:
-        head = f"POST /trajectory HTTP/1.1\r\nHost: {urlsplit(url).netloc}\r\nContent-Type: application/json\r\n"
-        with suppress(OSError):
-            peer.sendall(
-                (head + "Transfer-Encoding: chunked\r\n\r\n").encode() + b"1\r\n \r\n" * 200_000 + b"0\r\n\r\n"
-            )
-            peer.recv(65536)
+    head = (
+        b"POST /trajectory HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n"
+    )
+    with ExitStack() as stack:
+        connect(stack, url, head + b"1\r\n \r\n" * 200_000 + b"0\r\n\r\n")
 
 
-@attack
+def half_open(url: str, seconds: float) -> None:
+    """200 connections that never send a whole request."""
+    with ExitStack() as stack:
+        for _ in range(200):
+            connect(stack, url, b"GET /healthz HTTP/1.1\r\nX-Slow: ")
+        time.sleep(seconds)
+
+
 def large_csv(url: str, seconds: float) -> None:
     """Tables of a million cells, eight at once for each second, and 24 at most."""
     tables(url, min(round(8 * seconds), 24), CSV_TYPE)
 
 
+def million_cells() -> bytes:
+    return b'{"times": {"start": 0, "stop": 400, "step": 0.09}}'
+
+
 def tables(url: str, count: int, accept: str) -> None:
     """`count` tables of a million cells at once."""
-    body = json.dumps({"times": {"start": 0, "stop": 400, "step": 0.09}}).encode()
-    at_once([lambda: ask(url, "POST", "/trajectory", body, timeout=60.0, accept=accept)] * count)
+    crowd(count, "/trajectory", url, 0.0, million_cells, PATIENCE, accept=accept)
 
 
-@attack
-def workbooks(url: str, seconds: float) -> None:
-    """A second of pure Python each."""
-    at_once([lambda: ask(url, "POST", "/trajectory", b"{}", timeout=60.0, accept=XLSX_TYPE)] * 8)
-
-
-@attack
-def files_to_grade(url: str, seconds: float) -> None:
-    """Texts of 20 MB, each read by Python code for a second."""
-    text = b"word " * 3_999_000
-    kind = "application/octet-stream"
-    at_once([lambda: ask(url, "POST", "/grade", text, timeout=60.0, kind=kind)] * 4)
-
-
-@attack
 def files_that_unfold(url: str, seconds: float) -> None:
     """Archives, drawings and texts of a few bytes to 20 MB that would take gigabytes, or minutes."""
-    kind = "application/octet-stream"
     some = [("/places", MAPS[name]) for name in ("bzip2", "deflated_that_lies", "arc_of_dxf", "brackets_of_json")]
     some += [("/grade", GRADES[name]) for name in ("workbook_that_lies", "attributes")]
-    at_once(
-        [lambda path=path, made=made: ask(url, "POST", path, made(), timeout=60.0, kind=kind) for path, made in some]
-    )
-
-
-@attack
-def long_names(url: str, seconds: float) -> None:
-    """A name of a million characters for a figure."""
-    ring = [[0, 0], [30, 0], [30, 30], [0, 0]]
-    venue = {
-        "type": "Feature",
-        "properties": {"name": "x" * 10**6},
-        "geometry": {"type": "Polygon", "coordinates": [ring]},
-    }
-    ask_once(url, "/figures/trajectory.svg", json.dumps({"venue": venue}).encode(), seconds)
-
-
-@attack
-def half_open(url: str, seconds: float) -> None:
-    """200 connections that never send a whole request."""
-    peers = []
-    try:
-        for _ in range(200):
-            peer = socket.create_connection((urlsplit(url).hostname or "", urlsplit(url).port or 80), timeout=10.0)
-            peer.sendall(b"GET /healthz HTTP/1.1\r\nX-Slow: ")
-            peers.append(peer)
-        time.sleep(seconds)
-    finally:
-        for peer in peers:
-            peer.close()
+    at_once([partial(crowd, 1, path, url, seconds, made, PATIENCE, kind=FILE) for path, made in some])
 
 
 def make_job(url: str, wanted: object, client: str) -> str:
@@ -233,33 +164,32 @@ def make_job(url: str, wanted: object, client: str) -> str:
     return f"/jobs/{json.loads(answer)['jobID']}" if status == http.client.ACCEPTED else ""
 
 
-@attack
+SMALL, MINE, THEIRS = {"question": "turn", "request": {}}, "127.0.0.7", "127.0.0.8"
+
+
 def full_store(url: str, seconds: float) -> None:
     """A client that makes small jobs as long as it may; another one must still get its answer, and keep it."""
-    end, wanted = time.monotonic() + seconds, {"question": "turn", "request": {}}
-    theirs = make_job(url, wanted, "127.0.0.8")
+    end, theirs = time.monotonic() + seconds, make_job(url, SMALL, THEIRS)
     while time.monotonic() < end:
-        if not make_job(url, wanted, "127.0.0.7"):
+        if not make_job(url, SMALL, MINE):
             time.sleep(0.05)  # Its jobs wait for one another.
-    answered(url, theirs, "127.0.0.8")
-    assert make_job(url, wanted, "127.0.0.9")
+    wait_for_answer(url, theirs, THEIRS)
+    assert make_job(url, SMALL, "127.0.0.9")
 
 
-@attack
 def long_jobs(url: str, seconds: float) -> None:
     """Eight jobs of minutes each, and a short one of another client, which must be answered meanwhile."""
     endless = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0.0}
-    wanted = {"question": "minimum_pitch", "request": endless}
-    made = [make_job(url, wanted, "127.0.0.7") for _ in range(8)]
+    made = [make_job(url, {"question": "minimum_pitch", "request": endless}, MINE) for _ in range(8)]
     try:
-        answered(url, make_job(url, {"question": "turn", "request": {}}, "127.0.0.8"), "127.0.0.8")
+        wait_for_answer(url, make_job(url, SMALL, THEIRS), THEIRS)
         time.sleep(min(seconds, 2.0))
     finally:
         for job in filter(None, made):
-            ask(url, "DELETE", job, client="127.0.0.7")
+            ask(url, "DELETE", job, client=MINE)
 
 
-def answered(url: str, job: str, client: str) -> None:
+def wait_for_answer(url: str, job: str, client: str) -> None:
     """Wait until a job has its answer, for JOB_SECONDS at most."""
     end = time.monotonic() + JOB_SECONDS
     while (status := ask(url, "GET", f"{job}/result", client=client)[0]) != http.client.OK:
@@ -268,7 +198,6 @@ def answered(url: str, job: str, client: str) -> None:
         time.sleep(0.05)
 
 
-@attack
 def strange_hosts(url: str, seconds: float) -> None:
     """Names of hosts that are long, odd or of somebody else; a service that knows its names refuses them."""
     for host in ("evil.example", "a" * 30_000, "localhost@evil.example", "[::1", "%00", "dance.example:99999999", "*"):
@@ -276,6 +205,32 @@ def strange_hosts(url: str, seconds: float) -> None:
             status, answer = ask(url, "GET", path, host=host)
             assert status in (200, 400, 403, 404, 421), (host[:50], status)
             assert status == http.client.OK or len(answer) < ERROR_BYTES
+
+
+ATTACKS: dict[str, Attack] = {
+    # 114 s of work each.
+    "heavy_speeds": partial(
+        crowd, 40, "/maximum-head-speed?benches=2000&pitch=10&start_turns=200&turning_diameter=200"
+    ),
+    "long_thin_dragon": partial(crowd, 8, "/minimum-pitch?benches=6308&body_length=0.001&head_length=0.001&overhang=0"),
+    "equal_arcs": partial(crowd, 8, "/shortest-turn?head_length=1.001&ratio=1"),
+    "uneven_dragons": partial(crowd, 8, "/check", body=uneven_dragons),
+    "near_grazes": near_grazes,
+    "polygon_of_holes": partial(once, "/check", partial(polygon, 140_000)),
+    "names_twice": partial(once, "/collision-time?" + "&".join(f"n{k}=1&n{k}=1" for k in range(5_500)), None),
+    "deep_brackets": partial(once, "/trajectory", deep_brackets),
+    "tiny_chunks": tiny_chunks,
+    "large_csv": large_csv,
+    # A second of pure Python each.
+    "workbooks": partial(crowd, 8, "/trajectory", body=partial(bytes, b"{}"), stay=PATIENCE, accept=XLSX_TYPE),
+    "files_to_grade": partial(crowd, 4, "/grade", body=text, stay=PATIENCE, kind=FILE),
+    "files_that_unfold": files_that_unfold,
+    "long_names": partial(once, "/figures/trajectory.svg", partial(polygon, 1, name="x" * 10**6)),
+    "half_open": half_open,
+    "full_store": full_store,
+    "long_jobs": long_jobs,
+    "strange_hosts": strange_hosts,
+}
 
 
 @dataclass
@@ -302,27 +257,21 @@ def watching(url: str, paths: tuple[str, ...] = ("/healthz", "/collision-time"))
                 status, answer = ask(url, "GET", path + query)
             except OSError as error:
                 status, answer = 0, str(error).encode()
-            seconds = time.perf_counter() - started
-            watch.slowest[path] = max(seconds, watch.slowest.get(path, 0.0))
+            watch.slowest[path] = max(time.perf_counter() - started, watch.slowest.get(path, 0.0))
             watch.sent += 1
             if status != http.client.OK:
                 watch.failures.append(f"{path} {status} {answer[:200]!r}")
 
-    threads = [threading.Thread(target=look, args=(path,), daemon=True) for path in paths]
-    for thread in threads:
-        thread.start()
+    watcher = threading.Thread(target=lambda: at_once([partial(look, path) for path in paths]), daemon=True)
+    watcher.start()
     try:
         yield watch
     finally:
         done.set()
-        for thread in threads:
-            thread.join()
+        watcher.join()
 
 
 def memory(pid: int) -> float:
     """Resident memory of a process and its children [MB]."""
-    with open(f"/proc/{pid}/task/{pid}/children") as result:
-        children = [int(child) for child in result.read().split()]
-    with open(f"/proc/{pid}/statm") as pages:
-        own = int(pages.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
-    return own + sum(memory(child) for child in children)
+    parent = psutil.Process(pid)
+    return sum(process.memory_info().rss for process in (parent, *parent.children(recursive=True))) / 1e6

@@ -7,28 +7,16 @@ import os
 import zipfile
 import zlib
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import NoReturn
 
 Bomb = Callable[[], bytes]
-MAPS: dict[str, Bomb] = {}
-GRADES: dict[str, Bomb] = {}
 SHEET = "xl/worksheets/sheet1.xml"
 MAIN = b'<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>'
 END = b"</sheetData></worksheet>"
 # Largest file of a call [bytes].
 FILE_MAX = 20_000_000
-
-
-def of_map(made: Bomb) -> Bomb:
-    MAPS[made.__name__] = made
-    return made
-
-
-def of_grade(made: Bomb) -> Bomb:
-    GRADES[made.__name__] = made
-    return made
 
 
 def zipped(parts: dict[str, bytes], method: int) -> bytes:
@@ -62,28 +50,6 @@ def lying(data: bytes, name: str, length: int, content: bytes) -> bytes:
     return bytes(changed)
 
 
-@of_map
-def bzip2() -> bytes:
-    """700 bytes that become 300 MB."""
-    return zeros("doc.kml", 300_000_000, zipfile.ZIP_BZIP2)
-
-
-@of_map
-def lzma() -> bytes:
-    return zeros("doc.kml", 100_000_000, zipfile.ZIP_LZMA)
-
-
-@of_map
-def deflated() -> bytes:
-    return zeros("doc.kml", 300_000_000, zipfile.ZIP_DEFLATED)
-
-
-@of_map
-def deflated_that_lies() -> bytes:
-    return lying(deflated(), "doc.kml", 100, bytes(100))
-
-
-@of_map
 def many_parts() -> bytes:
     """A directory of 200,000 entries, all of the same part."""
     name = b"doc.kml"
@@ -101,76 +67,16 @@ def many_parts() -> bytes:
     )
 
 
-@of_map
-def attributes_of_kml() -> bytes:
-    """One element with 1.5 million attributes."""
-    return b"<kml><Placemark " + b" ".join(b'a%d=""' % k for k in range(1_500_000)) + b"/></kml>"
-
-
-@of_map
-def tables_of_toml() -> bytes:
-    return b"".join(b"[a%d]\n" % k for k in range(1_400_000))
-
-
-@of_map
-def dotted_toml() -> bytes:
-    return b"a" + b".a" * 5_000_000 + b" = 1\n"
-
-
-@of_map
-def quoted_toml() -> bytes:
-    return b'"a" . ' * 300_000 + b"a = 1"
-
-
-@of_map
-def deep_toml() -> bytes:
-    return b"x = " + b"{a = " * 300 + b"1" + b"}" * 300
-
-
-@of_map
-def deep_json() -> bytes:
-    return b'{"path": null, "x": ' + b"[" * 300 + b"1" + b"]" * 300 + b"}"
-
-
-@of_map
-def integer_of_toml() -> bytes:
-    return b"x = " + b"1" * 19_000_000
-
-
-@of_map
-def brackets_of_json() -> bytes:
-    return b'{"type": "FeatureCollection", "features": [' + b"[]," * 6_600_000 + b"[]]}"
-
-
-@of_map
-def points_of_geojson() -> bytes:
-    return b'{"type": "MultiPoint", "coordinates": [' + b"[1,2]," * 3_300_000 + b"[1,2]]}"
-
-
-@of_map
-def dance_of_lists() -> bytes:
-    return b'{"path": null, "more": [' + b"{}," * 6_600_000 + b"{}]}"
-
-
-@of_map
-def arc_of_dxf() -> bytes:
-    """73 bytes whose arc would be 1e152 straight lines."""
-    return drawn("0\nARC\n10\n0\n20\n0\n40\n1e300\n50\n0\n51\n90")
-
-
-@of_map
 def ellipse_of_dxf() -> bytes:
     middle, axis = "100\nAcDbEntity\n100\nAcDbEllipse\n10\n0\n20\n0", "11\n9e299\n21\n0"
     return drawn(f"0\nELLIPSE\n{middle}\n{axis}\n40\n1.0\n41\n0\n42\n6.28")
 
 
-@of_map
 def bulge_of_dxf() -> bytes:
     corners = "10\n0\n20\n0\n42\n1\n10\n1e8\n20\n0"
     return drawn(f"0\nLWPOLYLINE\n100\nAcDbEntity\n100\nAcDbPolyline\n90\n2\n70\n0\n{corners}")
 
 
-@of_map
 def spline_of_dxf() -> bytes:
     """A spline of degree 3 through places 1e9 m apart."""
     places = "\n".join(f"10\n{1e9 * (k % 2)}\n20\n{1e9 * k}" for k in range(40))
@@ -179,58 +85,30 @@ def spline_of_dxf() -> bytes:
     return drawn(f"0\nSPLINE\n100\nAcDbEntity\n100\nAcDbSpline\n{numbers}\n{knots}\n{places}")
 
 
-@of_map
-def arcs_of_dxf() -> bytes:
-    """5,000 arcs as large as an arc may be."""
-    return drawn("\n".join(["0\nARC\n10\n0\n20\n0\n40\n99999\n50\n0\n51\n359"] * 5_000))
-
-
-@of_map
-def array_of_dxf() -> bytes:
-    """A block that is inserted a thousand million times."""
-    block = "0\nBLOCK\n2\nTREE\n70\n0\n10\n0\n20\n0\n0\nCIRCLE\n10\n0\n20\n0\n40\n1\n0\nENDBLK"
-    inserted = "0\nINSERT\n2\nTREE\n10\n0\n20\n0\n70\n32000\n71\n32000\n44\n5\n45\n5"
-    return (
-        f"0\nSECTION\n2\nBLOCKS\n{block}\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{inserted}\n0\nENDSEC\n0\nEOF\n".encode()
-    )
-
-
-@of_map
-def entities_of_dxf() -> bytes:
-    return drawn("\n".join(["0\nPOINT\n10\n0\n20\n0"] * 900_000))
-
-
-@of_map
-def signed_records_of_dxf() -> bytes:
-    return b"0\nSECTION\n2\nENTITIES\n" + b"+0\nPOINT\n" * 900_000 + b"00\nENDSEC\n0\nEOF\n"
-
-
-@of_map
 def fit_points_of_dxf() -> bytes:
     points = "".join(f"11\n{k % 7}\n21\n{k}\n" for k in range(20_000))
     return drawn(f"0\nSPLINE\n8\nA\n70\n8\n71\n3\n74\n20000\n{points}")
 
 
-@of_map
 def vertices_of_dxf() -> bytes:
     corners = "10\n0\n20\n1\n" * 1_000_000
     return drawn(f"0\nLWPOLYLINE\n100\nAcDbEntity\n100\nAcDbPolyline\n90\n1000000\n70\n0\n{corners}".rstrip())
 
 
+def sections(**records: str) -> bytes:
+    """A drawing with these sections."""
+    return (
+        "".join(f"0\nSECTION\n2\n{name}\n{text}\n0\nENDSEC\n" for name, text in records.items()).encode() + b"0\nEOF\n"
+    )
+
+
 def drawn(entities: str) -> bytes:
     """A drawing of the version of the year 2000."""
-    header = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n0\nENDSEC"
-    return f"{header}\n0\nSECTION\n2\nENTITIES\n{entities}\n0\nENDSEC\n0\nEOF\n".encode()
+    return sections(HEADER="9\n$ACADVER\n1\nAC1015", ENTITIES=entities)
 
 
-@of_grade
-def bzip2_of_a_workbook() -> bytes:
-    return zeros("xl/workbook.xml", 300_000_000, zipfile.ZIP_BZIP2)
-
-
-@of_grade
-def workbook_that_lies() -> bytes:
-    return lying(zeros("xl/workbook.xml", 300_000_000, zipfile.ZIP_DEFLATED), "xl/workbook.xml", 90, bytes(90))
+BLOCK = "0\nBLOCK\n2\nTREE\n70\n0\n10\n0\n20\n0\n0\nCIRCLE\n10\n0\n20\n0\n40\n1\n0\nENDBLK"
+INSERTED = "0\nINSERT\n2\nTREE\n10\n0\n20\n0\n70\n32000\n71\n32000\n44\n5\n45\n5"
 
 
 def workbook(sheet: bytes) -> bytes:
@@ -245,22 +123,56 @@ def workbook(sheet: bytes) -> bytes:
     return zipped(parts | {SHEET: sheet}, zipfile.ZIP_DEFLATED)
 
 
-@of_grade
 def attributes() -> bytes:
     """1.5 million attributes on one element."""
     words = b" ".join(b'a%d=""' % k for k in range(1_500_000))
     return workbook(MAIN + b"<row " + words + b"/>" + END)
 
 
-@of_grade
-def cells() -> bytes:
-    return workbook(MAIN + b"<row>" + b"<c/>" * 1_900_000 + b"</row>" + END)
-
-
-@of_grade
-def styles() -> bytes:
-    """A sheet that is a long text, and one that ends early."""
-    return workbook(MAIN + b"<row><c><v>" + b"1" * 90_000_000)
+MAPS: dict[str, Bomb] = {
+    # 700 bytes that become 300 MB.
+    "bzip2": lambda: zeros("doc.kml", 300_000_000, zipfile.ZIP_BZIP2),
+    "lzma": lambda: zeros("doc.kml", 100_000_000, zipfile.ZIP_LZMA),
+    "deflated": lambda: zeros("doc.kml", 300_000_000, zipfile.ZIP_DEFLATED),
+    "deflated_that_lies": lambda: lying(
+        zeros("doc.kml", 300_000_000, zipfile.ZIP_DEFLATED), "doc.kml", 100, bytes(100)
+    ),
+    # One element with 1.5 million attributes.
+    "attributes_of_kml": lambda: b"<kml><Placemark " + b" ".join(b'a%d=""' % k for k in range(1_500_000)) + b"/></kml>",
+    "tables_of_toml": lambda: b"".join(b"[a%d]\n" % k for k in range(1_400_000)),
+    "dotted_toml": lambda: b"a" + b".a" * 5_000_000 + b" = 1\n",
+    "quoted_toml": lambda: b'"a" . ' * 300_000 + b"a = 1",
+    "deep_toml": lambda: b"x = " + b"{a = " * 300 + b"1" + b"}" * 300,
+    "deep_json": lambda: b'{"path": null, "x": ' + b"[" * 300 + b"1" + b"]" * 300 + b"}",
+    "integer_of_toml": lambda: b"x = " + b"1" * 19_000_000,
+    "brackets_of_json": lambda: b'{"type": "FeatureCollection", "features": [' + b"[]," * 6_600_000 + b"[]]}",
+    "points_of_geojson": lambda: b'{"type": "MultiPoint", "coordinates": [' + b"[1,2]," * 3_300_000 + b"[1,2]]}",
+    "dance_of_lists": lambda: b'{"path": null, "more": [' + b"{}," * 6_600_000 + b"{}]}",
+    # 73 bytes whose arc would be 1e152 straight lines.
+    "arc_of_dxf": lambda: drawn("0\nARC\n10\n0\n20\n0\n40\n1e300\n50\n0\n51\n90"),
+    # 5,000 arcs as large as an arc may be.
+    "arcs_of_dxf": lambda: drawn("\n".join(["0\nARC\n10\n0\n20\n0\n40\n99999\n50\n0\n51\n359"] * 5_000)),
+    "entities_of_dxf": lambda: drawn("\n".join(["0\nPOINT\n10\n0\n20\n0"] * 900_000)),
+    "signed_records_of_dxf": lambda: b"0\nSECTION\n2\nENTITIES\n" + b"+0\nPOINT\n" * 900_000 + b"00\nENDSEC\n0\nEOF\n",
+    "many_parts": many_parts,
+    "ellipse_of_dxf": ellipse_of_dxf,
+    "bulge_of_dxf": bulge_of_dxf,
+    "spline_of_dxf": spline_of_dxf,
+    "fit_points_of_dxf": fit_points_of_dxf,
+    "vertices_of_dxf": vertices_of_dxf,
+    # A block that is inserted a thousand million times.
+    "array_of_dxf": partial(sections, BLOCKS=BLOCK, ENTITIES=INSERTED),
+}
+GRADES: dict[str, Bomb] = {
+    "bzip2_of_a_workbook": lambda: zeros("xl/workbook.xml", 300_000_000, zipfile.ZIP_BZIP2),
+    "workbook_that_lies": lambda: lying(
+        zeros("xl/workbook.xml", 300_000_000, zipfile.ZIP_DEFLATED), "xl/workbook.xml", 90, bytes(90)
+    ),
+    "cells": lambda: workbook(MAIN + b"<row>" + b"<c/>" * 1_900_000 + b"</row>" + END),
+    # A sheet that is a long text, and one that ends early.
+    "styles": lambda: workbook(MAIN + b"<row><c><v>" + b"1" * 90_000_000),
+    "attributes": attributes,
+}
 
 
 def end(file: Path, budget: object) -> NoReturn:

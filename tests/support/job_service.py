@@ -131,6 +131,26 @@ class JobService:
     def finished(self, address: str) -> Any:
         return self.until(address, "successful", "failed", "dismissed")
 
+    def done(self, wanted: Any) -> str:
+        """Address of a new job that is successful by now."""
+        address = self.post(wanted)
+        assert self.finished(address)["status"] == "successful"
+        return address
+
+    def result(self, address: str) -> httpx.Response:
+        return self.client.get(f"{address}/result")
+
+    def remove(self, *addresses: str) -> None:
+        for address in addresses:
+            while self.client.delete(address).status_code == httpx.codes.OK:
+                pass
+
+    def at(self, address: str) -> httpx.Client:
+        """A client at another address of this machine."""
+        transport = httpx.HTTPTransport(local_address=address)
+        headers = self.client.headers
+        return httpx.Client(base_url=self.client.base_url, transport=transport, timeout=PATIENCE, headers=headers)
+
 
 def _has_job(pid: int) -> bool:
     """True if a process for jobs has a job: it opens the store only then."""

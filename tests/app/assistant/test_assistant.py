@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import os
+import re
 import socket
 import subprocess
 import time
@@ -21,6 +22,7 @@ from mcp import Client, MCPError, StdioServerParameters
 
 from app.assistant.guide import PAGES
 from app.wire.question import BYTES
+from tests.support import command
 from tests.support.command import ROOT, bin_folder
 from tests.support.serving import free_port
 
@@ -29,7 +31,8 @@ WORKBOOK = ROOT / "tests" / "reference" / "libreoffice" / "result1.xlsx"
 PNG = b"\x89PNG"
 PATIENCE = 120.0  # [s]
 TOKEN = "a token of this test"
-
+BOOK = WORKBOOK.read_bytes()
+CONTENT = {"content": base64.b64encode(BOOK).decode()}
 LANE = {"kind": "waypoints", "points": [[30, -30], [30, 30]]}
 
 Calls = Callable[[Client], Awaitable[Any]]
@@ -78,61 +81,57 @@ def http_door(log: Path, *options: str, **environment: str) -> Iterator[str]:
         process.wait(PATIENCE)
 
 
+ROUTE = {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}]}
+CROSSING = {"dances": [{"dragon": {"benches": 3}, "path": path} for path in (ROUTE, LANE)]}
+# A tool with arguments that are refused, and what the refusal must name.
+REFUSED: list[tuple[str, dict[str, Any], str]] = [
+    ("check", CROSSING | {"head_speed": 1}, "head_speed"),
+    ("collision_time", {"pitch": 55}, "10 m"),
+    ("collision_time", {"benches": 10**9}, "benches"),
+    ("collision_time", {"pitsch": 1}, "pitsch"),
+    ("trajectory", {}, "100000 characters"),
+    ("grade", {"file": "../outside.xlsx"}, "../outside.xlsx"),
+    ("grade", {"file": "no.xlsx"}, "no.xlsx"),
+    ("grade", {"file": "."}, "404"),
+    ("grade", {"file": "a\0b"}, "404"),
+    ("grade", {}, "file or content"),
+    ("places", {"content": "?"}, "base64"),
+    ("places", {"content": "龙"}, "base64"),
+    *(("job_status", {"job_id": job}, "") for job in ("../healthz", "?", "a/b")),
+]
+
+
 def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path) -> None:
     """ "When do two benches first touch at a pitch of 0.5 m?", "grade this workbook", and wrong units and sizes."""
-    (tmp_path / "mine.xlsx").write_bytes(WORKBOOK.read_bytes())
+    (tmp_path / "mine.xlsx").write_bytes(BOOK)
     outside = tmp_path.parent / "outside.xlsx"
     outside.write_bytes(b"secret")
-
-    file: dict[str, Any] = {"content": WORKBOOK.read_bytes(), "headers": {"Content-Type": BYTES}}
-    graded = client.post("/grade?language=en", **file).raise_for_status().json()
+    file: dict[str, Any] = {"content": BOOK, "headers": {"Content-Type": BYTES}}
+    [graded] = client.post("/grade?language=en", **file).json()["files"]
 
     async def work(door: Client) -> None:
-        contact = await door.call_tool("collision_time", {"pitch": 0.5})
-        assert not contact.is_error
-        assert contact.structured_content == client.get("/collision-time?pitch=0.5").json()
-        assert json.loads(contact.content[0].text) == contact.structured_content
-        route = {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}]}
-        places = await door.call_tool("trajectory", {"dragon": {"benches": 3}, "path": route, "times": [20]})
-        assert len(places.structured_content["x"][0]) == 4
-        crossing = {"dances": [{"dragon": {"benches": 3}, "path": path} for path in (route, LANE)]}
-        verdict = await door.call_tool("check", crossing)
-        assert verdict.structured_content == client.post("/check", json=crossing).json()
-        assert verdict.structured_content["failures"][0]["dragons"] == [0, 1]
+        async def answer(tool: str, **arguments: Any) -> Any:
+            result = await door.call_tool(tool, arguments)
+            assert not result.is_error
+            assert json.loads(result.content[0].text) == result.structured_content
+            return result.structured_content
 
-        by_name = await door.call_tool("grade", {"file": "mine.xlsx", "language": "en"})
-        by_content = await door.call_tool(
-            "grade", {"content": base64.b64encode(WORKBOOK.read_bytes()).decode(), "language": "en"}
-        )
-        (of_path,), (of_content,) = (result.structured_content["files"] for result in (by_name, by_content))
-        assert of_content == graded["files"][0]
-        assert of_path | {"file": of_content["file"]} == of_content
-
+        assert await answer("collision_time", pitch=0.5) == client.get("/collision-time?pitch=0.5").json()
+        places = await answer("trajectory", dragon={"benches": 3}, path=ROUTE, times=[20])
+        assert len(places["x"][0]) == 4
+        verdict = await answer("check", **CROSSING)
+        assert verdict == client.post("/check", json=CROSSING).json()
+        assert verdict["failures"][0]["dragons"] == [0, 1]
+        assert (await answer("grade", language="en", **CONTENT))["files"] == [graded]
+        [by_name] = (await answer("grade", language="en", file="mine.xlsx"))["files"]
+        assert by_name | {"file": graded["file"]} == graded
         (picture,) = (await door.call_tool("contact_figure", {"benches": 20})).content
         assert (picture.type, picture.mime_type) == ("image", "image/png")
         assert base64.b64decode(picture.data).startswith(PNG)
-
-        beside = problem_of(await door.call_tool("check", crossing | {"head_speed": 1}))
-        assert beside["detail"] == "head_speed must stand in each of the dances, got it beside them"
-        centimetres = problem_of(await door.call_tool("collision_time", {"pitch": 55}))
-        assert "must be at most 10 m, got 55 m" in centimetres["detail"]
-        many = problem_of(await door.call_tool("collision_time", {"benches": 10**9}))
-        assert "benches must be at most" in many["detail"]
-        unknown = problem_of(await door.call_tool("collision_time", {"pitsch": 1}))
-        assert "pitsch" in unknown["detail"]
-        large = problem_of(await door.call_tool("trajectory", {}))
-        assert large["detail"].startswith("The answer must have at most 100000 characters, got ")
-
-        for name in ("../outside.xlsx", str(outside), "no.xlsx"):
-            assert name in problem_of(await door.call_tool("grade", {"file": name}))["detail"]
-        neither = problem_of(await door.call_tool("grade", {}))
-        assert neither["detail"] == "file or content must be given, and not both."
-        for content in ("?", "龙"):
-            assert "base64" in problem_of(await door.call_tool("places", {"content": content}))["detail"]
-        for name in (".", "a\0b"):
-            assert problem_of(await door.call_tool("grade", {"file": name}))["status"] == 404
-        for job in ("../healthz", "?", "a/b"):
-            assert problem_of(await door.call_tool("job_status", {"job_id": job}))["status"] in (404, 422)
+        for tool, arguments, words in (*REFUSED, ("grade", {"file": str(outside)}, str(outside))):
+            problem = problem_of(await door.call_tool(tool, arguments))
+            assert problem["status"] in (403, 404, 413, 422)
+            assert words in f"{problem['status']} {problem['detail']}"
         with pytest.raises(MCPError, match="nothing is no tool of this door; it has trajectory, collision_time"):
             await door.call_tool("nothing", {})
 
@@ -142,79 +141,63 @@ def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path
 def test_every_question_is_a_tool(client: httpx.Client) -> None:
     """Under its operation id, with the schema of its query or of its body; the twins with a body when wanted."""
     description = client.get("/openapi.json").json()
-    calls = {
-        operation["operationId"]: operation for path in description["paths"].values() for operation in path.values()
-    }
-    questions = {name for name, operation in calls.items() if operation["tags"][0] not in ("Jobs", "Service")}
+    operations = [operation for path in description["paths"].values() for operation in path.values()]
+    calls = {each["operationId"]: each for each in operations if each["tags"][0] not in ("Jobs", "Service")}
 
     async def tools(door: Client) -> dict[str, Any]:
         return {tool.name: tool.input_schema for tool in (await door.list_tools()).tools}
 
     some, every = with_door(tools), with_door(tools, "--twins")
-    assert questions <= every.keys()
+    assert calls.keys() <= every.keys()
     assert some.keys() == {name for name in every if not (name.endswith("_of") and name.removesuffix("_of") in every)}
-    flat = {parameter["name"] for parameter in calls["collision_time"]["parameters"]}
-    assert set(some["collision_time"]["properties"]) == flat
-    assert some["collision_time"]["properties"]["pitch"]["maximum"] == 10
-    assert "[m]" in some["collision_time"]["properties"]["pitch"]["description"]
-    assert set(some["check"]["properties"]) == set(description["components"]["schemas"]["CheckRequest"]["properties"])
-    text = json.dumps(every)
-    assert "#/components" not in text
+    flat = some["collision_time"]["properties"]
+    assert flat.keys() == {parameter["name"] for parameter in calls["collision_time"]["parameters"]}
+    assert (flat["pitch"]["maximum"], "[m]" in flat["pitch"]["description"]) == (10, True)
+    request = description["components"]["schemas"]["CheckRequest"]
+    assert some["check"]["properties"].keys() == request["properties"].keys()
     for schema in every.values():
-        for name in {word.split('"')[0] for word in json.dumps(schema).split("#/$defs/")[1:]}:
-            assert name in schema["$defs"]
-
-
-def test_without_a_folder_no_file_is_read() -> None:
-    refused = problem_of(with_door(lambda door: door.call_tool("grade", {"file": "/etc/hostname"})))
-    assert (refused["status"], refused["detail"]) == (
-        403,
-        "file must be left out: this door reads no files; give the content.",
-    )
-
-
-def test_a_door_of_a_service_with_named_hosts_answers() -> None:
-    contact = with_door(lambda door: door.call_tool("collision_time", {}), BENCH_DRAGON_HOSTS="dance.example,[::1]")
-    assert contact.structured_content["benches"] == [0, 8]
+        text = json.dumps(schema)
+        assert "#/components" not in text
+        assert set(re.findall(r"#/\$defs/(\w+)", text)) <= schema.get("$defs", {}).keys()
 
 
 def test_over_http_the_token_is_that_of_the_assistant(tmp_path: Path) -> None:
     """Over the standard streams it is that of the process, which whoever started it may use."""
-    grading = {"content": base64.b64encode(WORKBOOK.read_bytes()).decode()}
     settings = {"BENCH_DRAGON_TOKEN": TOKEN}
     with http_door(tmp_path / "log", **settings) as address:
         contact = with_client(address, lambda door: door.call_tool("collision_time", {"pitch": 0.5}))
         assert contact.structured_content["benches"] == [0, 14]
-        refused = problem_of(with_client(address, lambda door: door.call_tool("grade", grading)))
-        assert (refused["status"], refused["title"]) == (401, "Unauthorized")
-    assert not with_door(lambda door: door.call_tool("grade", grading), **settings).is_error
+        refused = problem_of(with_client(address, lambda door: door.call_tool("grade", CONTENT)))
+        assert refused["status"] == 401
+    assert not with_door(lambda door: door.call_tool("grade", CONTENT), **settings).is_error
 
 
-def test_the_pages_of_the_guide_are_resources() -> None:
-    """Where the guide is installed; elsewhere there are none."""
+def test_a_door_without_a_folder_reads_no_file_and_has_the_pages_of_the_guide() -> None:
+    """The pages where the guide is installed; elsewhere there are none. Names of hosts are for HTTP alone."""
 
-    async def pages(door: Client) -> dict[str, str]:
-        listed = (await door.list_resources()).resources
+    async def work(door: Client) -> dict[str, str]:
+        assert (await door.call_tool("collision_time", {})).structured_content["benches"] == [0, 8]
+        refused = problem_of(await door.call_tool("grade", {"file": "/etc/hostname"}))
+        assert (refused["status"], "content" in refused["detail"]) == (403, True)
         with pytest.raises(MCPError, match="no page of the guide"):
             await door.read_resource("bench-dragon://guide/../../pyproject")
-        return {one.name: (await door.read_resource(str(one.uri))).contents[0].text for one in listed}
+        listed = (await door.list_resources()).resources
+        return {page.name: (await door.read_resource(str(page.uri))).contents[0].text for page in listed}
 
-    assert with_door(pages) == {path.stem: path.read_text("utf-8") for path in PAGES.glob("*.md")}
+    pages = with_door(work, BENCH_DRAGON_HOSTS="dance.example,[::1]")
+    assert pages == {path.stem: path.read_text("utf-8") for path in PAGES.glob("*.md")}
 
 
 def test_wrong_options_are_one_line(tmp_path: Path) -> None:
-    file = tmp_path / "a"
-    file.write_text("")
-    for options, message in [
-        (["--port", "99999"], "--port must be from 0 to 65535, got 99999"),
-        (["--folder", str(file)], f"--folder must be a folder, got {file}"),
-        (["--folder", ""], "--folder must not be an empty name: the current folder is ."),
-    ]:
-        done = subprocess.run([COMMAND, "mcp", *options], capture_output=True, text=True, timeout=PATIENCE)
-        assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {message}\n")
+    (tmp_path / "a").touch()
     with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = str(taken.getsockname()[1])
-        done = subprocess.run([COMMAND, "mcp", "--port", port], capture_output=True, text=True, timeout=PATIENCE)
-    assert done.returncode == 2
-    assert "address already in use" in done.stderr
-    assert "Traceback" not in done.stderr
+        port = taken.getsockname()[1]
+        for option, value, words in (
+            ("--port", "99999", "--port must be from 0 to 65535, got 99999"),
+            ("--folder", f"{tmp_path}/a", f"--folder must be a folder, got {tmp_path}/a"),
+            ("--folder", "", "--folder must not be an empty name"),
+            ("--port", str(port), "address already in use"),
+        ):
+            done = command.run("mcp", option, value)
+            assert (done.returncode, done.stdout, words in done.stderr) == (2, "", True)
+            assert "Traceback" not in done.stderr

@@ -47,15 +47,43 @@ def kill(service: JobService, role: str) -> None:
     wait_for(lambda: not killed & {process.pid for process in service.processes()})
 
 
+def assert_same(service: JobService, address: str, wanted: Any) -> None:
+    """The job ends with the bytes of the direct call."""
+    assert service.finished(address)["status"] == "successful"
+    assert service.result(address).content == direct(service.client, wanted).content
+
+
+def test_a_process_does_one_job_after_another_and_a_job_begins_again_when_its_process_is_killed(tmp_path: Path) -> None:
+    with JobService(tmp_path) as service:
+        spare = []
+        for pitch in (0.5, 0.51):
+            service.done(SHORT | {"request": {"pitch": pitch}})
+            wait_for(lambda: service.of("spare"))
+            spare += [process.pid for process in service.of("spare")]
+        assert len(spare) == 2 == 1 + len(set(spare))
+        unfinished = begun(service, ENDLESS)
+        kill(service, "child")
+        wait_for(lambda: service.of("child"))
+        assert service.until(unfinished, "running")["message"] == "Running."
+
+
+@pytest.mark.thorough
+def test_a_process_that_needed_much_memory_takes_no_other_job(tmp_path: Path) -> None:
+    large = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 0.04}}, "accept": ARROW_TYPE}
+    with JobService(tmp_path, cells_max=10**7) as service:
+        service.done(large)
+        wait_for(lambda: not service.of("child") + service.of("spare"), 0.5 * runner.IDLE_SECONDS)
+
+
 @pytest.mark.deep  # The next one kills each of them once.
 def test_processes_may_be_killed_at_any_moment(service: JobService) -> None:
     assert sum(survive(service, KILLS, SEED, pause=0.5, busy=1).values()) == KILLS
 
 
+@pytest.mark.thorough
 def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service: JobService) -> None:
-    done = service.post(SHORT)
-    service.finished(done)  # Its process waits for another job.
-    result = service.client.get(f"{done}/result").content
+    done = service.done(SHORT)  # Its process waits for another job.
+    result = service.result(done).content
     kill(service, "spare")
     unfinished = begun(service)
     for role in ("child", "runner"):  # The job begins again.
@@ -70,50 +98,35 @@ def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service: JobS
     wait_for(lambda: not service.processes(), LINGER)
     service.start()
     assert service.status(done)["status"] == "successful"
-    assert service.client.get(f"{done}/result").content == result
-    for address, call in ((waits, SHORT), (unfinished, SCAN)):
-        assert service.finished(address)["status"] == "successful"
-        assert service.client.get(f"{address}/result").content == direct(service.client, call).content
+    assert service.result(done).content == result
+    assert_same(service, waits, SHORT)
+    assert_same(service, unfinished, SCAN)
 
 
-def test_a_process_does_one_job_after_another_until_one_needs_much_memory(tmp_path: Path) -> None:
-    large = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 0.04}}, "accept": ARROW_TYPE}
-    with JobService(tmp_path, cells_max=10**7) as service:
-        done = set()
-        for pitch in (0.5, 0.51):
-            service.finished(service.post(SHORT | {"request": {"pitch": pitch}}))
-            wait_for(lambda: service.of("spare"))
-            done |= {process.pid for process in service.of("spare")}
-        assert len(done) == 1
-        assert service.finished(service.post(large))["status"] == "successful"
-        wait_for(lambda: not service.of("child") + service.of("spare"), 0.5 * runner.IDLE_SECONDS)
-
-
+@pytest.mark.thorough
 def test_a_job_that_ends_its_process_three_times_has_failed(service: JobService) -> None:
     address = begun(service, ENDLESS)
     for _ in range(3):
         kill(service, "child")
     status = service.finished(address)
-    assert status["status"] == "failed"
-    assert "signal 9" in status["message"]
-    assert service.client.get(f"{address}/result").status_code == 500
-    assert service.finished(service.post(SHORT))["status"] == "successful"
+    assert (status["status"], "signal 9" in status["message"]) == ("failed", True)
+    assert service.result(address).status_code == 500
+    service.done(SHORT)
 
 
+@pytest.mark.thorough
 def test_two_services_with_one_folder_have_one_runner(tmp_path: Path) -> None:
     with JobService(tmp_path) as one, JobService(tmp_path) as two:
-        addresses = [one.post(SHORT), two.post(SHORT | {"request": {"pitch": 0.51}})]
-        for address in addresses:
+        for address in (one.post(SHORT), two.post(SHORT | {"request": {"pitch": 0.51}})):
             assert two.finished(address)["status"] == "successful"
         assert len(one.of("runner") + two.of("runner")) == 1
         one.process.kill()
         one.process.wait()
-        assert two.finished(two.post(SHORT))["status"] == "successful"
+        two.done(SHORT)
         assert len(two.of("runner")) == 1
 
 
-def test_the_processes_of_jobs_log_in_the_form_of_the_service(tmp_path: Path) -> None:
-    code = f"""
+LOGGING = """
 import logging, os, sys
 from app.jobs import runner, work
 runner.follow_parent = lambda: None
@@ -121,16 +134,17 @@ def log_and_end(*arguments):
     logging.getLogger("app.jobs").error(module.__name__)
     raise SystemExit
 runner.Runner.run = work.do = log_and_end
-sys.argv = ["", {str(tmp_path)!r}]
 for module in runner, work:
     if os.fork() == 0:
         module.main()
     os.wait()
 """
-    environment = os.environ | {"BENCH_DRAGON_LOG_JSON": "true"}
-    command = [sys.executable, "-c", code]
+
+
+def test_the_processes_of_jobs_log_in_the_form_of_the_service(tmp_path: Path) -> None:
     pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
-    with subprocess.Popen(command, env=environment, **pipes) as process:
+    command = [sys.executable, "-c", LOGGING, str(tmp_path)]
+    with subprocess.Popen(command, env=os.environ | {"BENCH_DRAGON_LOG_JSON": "true"}, **pipes) as process:
         assert process.stdin is not None
         assert process.stderr is not None
         send(process.stdin, MessageKind.TASK, b"job")
@@ -148,5 +162,5 @@ def test_a_disk_that_stays_full_is_reported_once(
     monkeypatch.setattr(runner, "RETRY_SECONDS", 0.01)
     with closing(Store(tmp_path)) as store:
         runner.Runner(store, Settings()).run()
-    assert len(caplog.records) == 1
-    assert caplog.messages[0].endswith("database or disk is full")
+    [message] = caplog.messages
+    assert message.endswith("database or disk is full")

@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -32,36 +31,35 @@ def pool() -> Iterator[Pool]:
         yield pool
 
 
-def answered(pool: Pool, task: bytes, budget: Budget | None = None) -> tuple[int, int]:
+def answered(pool: Pool, task: bytes = b"a", budget: Budget | None = None) -> tuple[int, int]:
     """Process that answered, and the length of the task."""
     pid, length = map(int, pool.answer(task, budget).split())
     return pid, length
 
 
 def test_one_process_answers_one_task_after_another(pool: Pool) -> None:
-    assert answered(pool, b"a") == (pool.pids[0], 1)
+    assert answered(pool) == (pool.pids[0], 1)
     assert answered(pool, b"", Budget()) == (pool.pids[0], 0)
     assert answered(pool, bytes(30_000_000)) == (pool.pids[0], 30_000_000)
     assert len(pool.pids) == 1
 
 
 def test_tasks_at_the_same_time_have_processes_of_their_own_and_few_wait_afterwards(pool: Pool) -> None:
-    reports: list[int] = []
-    budget = Budget()
+    reports, budget = list[int](), Budget()
 
     def sleep() -> None:
         with pytest.raises(Halted):
             pool.answer(b"sleep", budget, lambda report: reports.append(int(report)))
 
     with ThreadPoolExecutor() as threads:
-        for _ in range(3):
-            threads.submit(sleep)
+        ends = [threads.submit(sleep) for _ in range(3)]
         wait_for(lambda: len(reports) == 3)
         assert len(pool.pids) >= 3
         budget.stop()
+    assert [end.result() for end in ends] == [None] * 3
     wait_for(lambda: all(map(is_gone, reports)))  # The children of the processes end with them.
     with ThreadPoolExecutor() as threads:
-        assert len(list(threads.map(lambda _: answered(pool, b"a"), range(9)))) == 9
+        assert len(list(threads.map(answered, [pool] * 9))) == 9
     assert len(pool.pids) <= 2
 
 
@@ -81,20 +79,17 @@ def test_a_task_that_ends_its_process_is_not_given_to_another(pool: Pool) -> Non
     with pytest.raises(ProcessEnded, match="exit code 11 during its task") as caught:
         pool.answer(b"die")
     assert caught.value.received
-    assert answered(pool, b"a")[1] == 1
+    assert answered(pool)[1] == 1
 
 
-def test_a_process_that_is_killed_while_it_waits_costs_no_answer(pool: Pool) -> None:
+def test_a_process_that_is_killed_while_it_waits_or_needed_much_memory_takes_no_other_task(pool: Pool) -> None:
     for _ in range(3):
-        pid, _ = answered(pool, b"a")
+        pid, _ = answered(pool)
         os.kill(pid, signal.SIGKILL)
-        assert answered(pool, b"a")[0] != pid
-
-
-def test_a_process_that_needed_much_memory_takes_no_other_task(pool: Pool) -> None:
+        assert answered(pool)[0] != pid
     pid, _ = answered(pool, b"memory")
     assert is_gone(pid)
-    assert answered(pool, b"a")[0] != pid
+    assert answered(pool)[0] != pid
 
 
 def test_processes_that_do_not_start_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -106,21 +101,16 @@ def test_processes_that_do_not_start_are_counted(tmp_path: Path, monkeypatch: py
 
 
 def test_a_pool_that_closes_ends_its_processes_and_starts_none() -> None:
-    pool, ends, reports = Pool(MODULE, waiting=1), list[ProcessEnded](), list[bytearray]()
-
-    def sleep() -> None:
-        with pytest.raises(ProcessEnded) as caught:
-            pool.answer(b"sleep", report=reports.append)
-        ends.append(caught.value)
-
-    thread = threading.Thread(target=sleep)
-    thread.start()
-    wait_for(lambda: reports)
-    [pid] = pool.pids
-    pool.close()
-    assert is_gone(pid)
-    thread.join()
-    assert [end.how for end in ends] == ["signal 9"]
+    pool, reports = Pool(MODULE, waiting=1), list[bytearray]()
+    with ThreadPoolExecutor() as threads:
+        answer = threads.submit(pool.answer, b"sleep", None, reports.append)
+        wait_for(lambda: reports)
+        [pid] = pool.pids
+        pool.close()
+        assert is_gone(pid)
+        end = answer.exception()
+    assert isinstance(end, ProcessEnded)
+    assert end.how == "signal 9"
     with pytest.raises(ProcessEnded):
         pool.answer(b"a")
     assert pool.pids == []
@@ -146,7 +136,7 @@ def test_a_process_has_a_session_of_its_own_and_none_of_the_counts_of_the_servic
 ) -> None:
     monkeypatch.setenv("PROMETHEUS_MULTIPROC_DIR", "/counts")
     with closing(Pool(MODULE, waiting=1, environment={"OWN": "variable"})) as fresh:
-        pid, _ = answered(fresh, b"a")
+        pid, _ = answered(fresh)
         assert os.getsid(pid) == pid
         environment = Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
         assert b"OWN=variable" in environment

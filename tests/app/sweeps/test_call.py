@@ -5,22 +5,20 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 import core
 from app.sweeps import Range, Samples, sweep
-from core import InvalidValue
 from tests.support.odd_questions import LAND
+from tests.support.refused import refused
 
 
 def test_a_call_answers_and_the_same_call_goes_on(tmp_path: Path) -> None:
-    pitches = np.linspace(0.5, 0.6, 5)
-    result = sweep("collision_time", {"pitch": pitches}, tmp_path / "a", request={"benches": 40})
+    over, request = {"pitch": np.linspace(0.5, 0.6, 5)}, {"benches": 40}
+    result, again = (sweep("collision_time", over, tmp_path / "a", request=request) for _ in range(2))
     frame = result.to_dataframe(["pitch", "time", "outcome"])
-    for pitch, time in zip(frame["pitch"], frame["time"], strict=True):
-        assert time == core.first_contact(core.Dance(core.Dragon(40), core.Spiral(pitch))).time
-    assert list(frame["pitch"]) == pitches.tolist()
-    again = sweep("collision_time", {"pitch": pitches}, tmp_path / "a", request={"benches": 40})
+    assert list(frame["pitch"]) == over["pitch"].tolist()
+    dances = [core.Dance(core.Dragon(40), core.Spiral(pitch)) for pitch in over["pitch"]]
+    assert list(frame["time"]) == [core.first_contact(dance).time for dance in dances]
     assert again.table().equals(result.table())
 
 
@@ -31,7 +29,7 @@ def test_ranges_and_samples_are_given_as_such(tmp_path: Path) -> None:
     assert (frame["height"] == frame["x"] * frame["y"]).all()
 
 
-def test_an_unknown_question_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InvalidValue, match="question must be one of collision_time"):
+def test_an_unknown_question_is_refused_and_makes_no_folder(tmp_path: Path) -> None:
+    with refused("question"):
         sweep("collision", {"pitch": [0.5]}, tmp_path)
     assert list(tmp_path.iterdir()) == []

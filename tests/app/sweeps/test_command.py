@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import pty
-import shutil
 import signal
 import subprocess
 import time
@@ -15,12 +14,13 @@ from pathlib import Path
 import psutil
 import pytest
 
-from app.sweeps.run import begin
-from app.sweeps.shards import ShardPiece, parts, write_part
+from app.sweeps.shards import parts
 from app.sweeps.spec import Spec
+from app.sweeps.table import Sweep
 from tests.conftest import heed_ctrl_c
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, bin_folder, run
 from tests.support.job_service import is_gone, wait_for
+from tests.support.sweeping import answered
 
 SPEC = """
 question = "collision_time"
@@ -31,43 +31,16 @@ benches = 60
 pitch = { start = 0.42, stop = 0.60, count = 50 }
 width = [0.25, 0.30, 0.35, -1.0]
 """
-SHARDS = 20
 # Four times as long, so that a machine that stands still for a moment does not find it finished.
-LONGER = SPEC.replace("shard_size = 10", "shard_size = 40").replace("count = 50", "count = 200")
-
-
-@pytest.fixture
-def spec(tmp_path: Path) -> Path:
-    """A sweep of 200 designs, a quarter of which are refused."""
-    (tmp_path / "spec.toml").write_text(SPEC)
-    return tmp_path / "spec.toml"
+LONGER, SHARDS = SPEC.replace("shard_size = 10", "shard_size = 40").replace("count = 50", "count = 200"), 20
 
 
 def sweep(*arguments: object) -> subprocess.CompletedProcess[str]:
     return run("sweep", *map(str, arguments))
 
 
-@pytest.fixture(scope="module")
-def answered(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of the sweep, answered in this process and not compacted."""
-    spec, folder = Spec.of(tomllib.loads(SPEC)), tmp_path_factory.mktemp("answered")
-    begin(folder, spec)
-    for shard in range(spec.shards):
-        write_part(folder, spec, shard, [ShardPiece.whole(spec, spec.asks, shard).answer()])
-    return folder
-
-
-def table(spec: Path, folder: Path) -> bytes:
-    """Bytes of the table of a sweep that was continued and compacted."""
-    done = sweep("run", spec, "--output", folder, "--workers", 1)
-    assert (done.returncode, done.stdout) == (0, ""), done.stderr
-    assert done.stderr == f"{folder}: {Spec.of(tomllib.loads(spec.read_text())).designs} designs in {SHARDS} shards\n"
-    assert sweep("compact", folder).returncode == 0
-    return (folder / "sweep.parquet").read_bytes()
-
-
-def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None], workers: int) -> tuple[int, str]:
-    """Exit code and messages of the command, stopped as soon as it has written one part more.
+def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None], workers: int) -> tuple[int, str, int]:
+    """Exit code, messages and number of children of the command, stopped when it has written one part more; they end.
 
     It stands still meanwhile, because to list its children among many processes takes a while.
     """
@@ -78,54 +51,36 @@ def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None], work
     while not (folder.is_dir() and len(parts(folder)) > before) and time.monotonic() < end:
         time.sleep(0.005)
     process.suspend()
+    children = process.children()
     stop(process)
     process.resume()
     _, output = process.communicate(timeout=PATIENCE)
     assert before < len(parts(folder)) < SHARDS
-    return process.returncode, output
+    wait_for(lambda: all(is_gone(child.pid) for child in children))
+    return process.returncode, output, len(children)
 
 
+@pytest.mark.thorough
 def test_after_ctrl_c_and_a_kill_no_worker_is_left_and_the_sweep_continues_to_the_same_bytes(tmp_path: Path) -> None:
-    children: list[psutil.Process] = []
-    spec = tmp_path / "longer.toml"
+    spec, folder = tmp_path / "longer.toml", tmp_path / "a"
     spec.write_text(LONGER)
-
-    def interrupt(process: psutil.Popen) -> None:
-        children.extend(process.children())
-        process.send_signal(signal.SIGINT)
-
-    def kill(process: psutil.Popen) -> None:
-        children.extend(process.children())
-        process.kill()
-
-    text = f"Stopped: the same command continues {tmp_path / 'a'}\n"
-    assert stopped(spec, tmp_path / "a", interrupt, 2) == (130, text)
-    # The second worker may not have begun when the first one has written a part.
-    interrupted = len(children)
-    assert 1 <= interrupted <= 2
-    wait_for(lambda: all(is_gone(child.pid) for child in children))
-    assert stopped(spec, tmp_path / "a", kill, 1)[0] == -signal.SIGKILL
-    assert len(children) == interrupted + 1
-    wait_for(lambda: all(is_gone(child.pid) for child in children))
-    assert table(spec, tmp_path / "a") == table(spec, tmp_path / "undisturbed")
+    *interrupted, children = stopped(spec, folder, lambda process: process.send_signal(signal.SIGINT), 2)
+    assert interrupted == [130, f"Stopped: the same command continues {folder}\n"]
+    assert 1 <= children <= 2  # The second worker may not have begun when the first one has written a part.
+    killed, _, children = stopped(spec, folder, psutil.Popen.kill, 1)
+    assert (killed, children) == (-signal.SIGKILL, 1)
+    done = sweep("run", spec, "--output", folder, "--workers", 1)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", f"{folder}: 800 designs in {SHARDS} shards\n")
+    assert sweep("compact", folder).returncode == 0
+    expected = answered(tmp_path / "undisturbed", Spec.of(tomllib.loads(LONGER))).compact()
+    assert (folder / "sweep.parquet").read_bytes() == expected.read_bytes()
 
 
-def test_a_sweep_is_printed_in_lines_and_drawn(answered: Path, tmp_path: Path) -> None:
-    shutil.copytree(answered, tmp_path / "a")
-    lines = sweep("show", tmp_path / "a").stdout.splitlines()
-    assert lines[0].split() == ["designs", "200", "of", "200"]
-    assert lines[1].split() == ["error", "invalid-value", "50"]
-    assert lines[2].startswith("least time")
-    drawn = sweep("show", tmp_path / "a", "--output", tmp_path / "map.png", "--value", "head.radius")
-    assert (drawn.returncode, drawn.stderr) == (0, f"{tmp_path / 'map.png'}\n")
-    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
-    assert sweep("compact", tmp_path / "a", "--csv", tmp_path / "a.csv").returncode == 0
-    assert len((tmp_path / "a.csv").read_text().splitlines()) == 201
-
-
-def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Path) -> None:
+def test_a_terminal_shows_a_bar_and_the_sweep_is_printed_drawn_and_compacted(tmp_path: Path) -> None:
+    spec, folder = tmp_path / "spec.toml", tmp_path / "a"
+    spec.write_text(SPEC)
     parent, child = pty.openpty()
-    command = [f"{bin_folder()}/bench-dragon", "sweep", "run", spec, "--output", tmp_path / "a", "--workers", "1"]
+    command = [f"{bin_folder()}/bench-dragon", "sweep", "run", spec, "--output", folder, "--workers", "1"]
     process = subprocess.Popen(command, stderr=child, env=ENVIRONMENT | {"TERM": "xterm", "COLUMNS": "120"})
     os.close(child)
     text = b""
@@ -139,17 +94,29 @@ def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Pa
     assert b"of 200, " in text
     assert b"/s, 0:00:" in text
     assert b" left" in text
+    lines = sweep("show", folder).stdout.splitlines()
+    assert lines[0].split() == ["designs", "200", "of", "200"]
+    assert lines[1].split() == ["error", "invalid-value", "50"]
+    assert lines[2].startswith("least time")
+    drawn = sweep("show", folder, "--output", tmp_path / "map.png", "--value", "head.radius")
+    assert (drawn.returncode, drawn.stderr) == (0, f"{tmp_path / 'map.png'}\n")
+    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+    expected = answered(tmp_path / "undisturbed", Sweep.open(folder).spec)
+    expected.to_csv(tmp_path / "expected.csv")
+    assert sweep("compact", folder, "--csv", tmp_path / "a.csv").returncode == 0
+    assert (tmp_path / "a.csv").read_text() == (tmp_path / "expected.csv").read_text()
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
+    ("line", "name"),
     [
-        (["run", "no-such.toml", "--output", "out"], "no-such.toml: No such file or directory"),
-        (["show", "no-such-folder"], "no-such-folder has no sweep: it holds no valid sweep.json"),
-        (["show", "no-such-folder", "--output", "map.pdf"], "--output must end in .svg or .png, got .pdf"),
-        (["compact", "no-such-folder"], "no-such-folder has no sweep: it holds no valid sweep.json"),
+        ("run no-such.toml --output out", "no-such.toml"),
+        ("show no-such-folder", "no-such-folder"),
+        ("show no-such-folder --output map.pdf", "--output"),
+        ("compact no-such-folder", "no-such-folder"),
     ],
 )
-def test_wrong_usage_is_one_line(arguments: list[str], message: str) -> None:
-    done = sweep(*arguments)
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {message}\n")
+def test_wrong_usage_is_one_line(line: str, name: str) -> None:
+    done = sweep(*line.split())
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
+    assert done.stderr.startswith(f"Error: {name}")

@@ -7,75 +7,75 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection, QuadMesh
 
 from app.sweeps import shards
 from app.sweeps.maps import value_map
-from app.sweeps.run import begin
-from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep, summary
-from core import InvalidValue
 from tests.support.odd_questions import LAND
+from tests.support.refused import refused
+from tests.support.sweeping import answered, spec_of
 
 
-def swept(folder: Path, **fields: Any) -> Sweep:
-    spec = Spec.of({"question": LAND.name, "shard_size": 50, **fields}, LAND)
-    begin(folder, spec)
-    for shard in range(spec.shards):
-        shards.write_part(folder, spec, shard, [shards.ShardPiece.whole(spec, LAND, shard).answer()])
-    return Sweep(folder, spec)
+def swept(folder: Path, over: dict[str, Any], **more: Any) -> Sweep:
+    return answered(folder, spec_of(LAND, over, **({"shard_size": 50} | more)), LAND)
+
+
+def drawn(axes: Axes, kind: type) -> Any:
+    """The one collection of this kind, with its values."""
+    [result] = [each for each in axes.collections if isinstance(each, kind)]
+    return result
+
+
+def values(collection: Any) -> Any:
+    return np.ma.filled(collection.get_array(), np.nan)
 
 
 def test_a_map_of_two_lists_has_each_value_in_its_cell(tmp_path: Path) -> None:
     over = {"x": [3.0, 1.0, 13.0, 2.0], "y": {"start": 1.0, "stop": 100.0, "count": 3, "scale": "log"}}
-    axes = value_map(swept(tmp_path, over=over), "height").axes[0]
-    mesh = next(one for one in axes.collections if isinstance(one, QuadMesh))
-    x, y = np.array([1.0, 2.0, 3.0, 13.0]), np.array([1.0, 10.0, 100.0])
-    wanted = y[:, None] * x
-    wanted[:, 3] = np.nan
-    np.testing.assert_allclose(np.ma.filled(mesh.get_array(), np.nan), wanted, rtol=1e-12)
+    axes = value_map(swept(tmp_path, over), "height").axes[0]
+    x, y = np.array([1.0, 2.0, 3.0, np.nan]), np.array([1.0, 10.0, 100.0])
+    np.testing.assert_allclose(values(drawn(axes, QuadMesh)), y[:, None] * x, rtol=1e-12)
     assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_yscale()) == ("x", "y", "log")
     assert len(axes.collections) > 1  # contours
 
 
 def test_a_map_of_part_of_a_sweep_leaves_the_rest_blank(tmp_path: Path) -> None:
-    sweep = swept(tmp_path, over={"x": [1.0, 2.0, 3.0], "y": [1.0, 2.0]}, shard_size=2)
+    sweep = swept(tmp_path, {"x": [1.0, 2.0, 3.0], "y": [1.0, 2.0]}, shard_size=2)
     (tmp_path / shards.part_name(1)).unlink()
-    mesh = next(one for one in value_map(sweep, "height").axes[0].collections if isinstance(one, QuadMesh))
-    result = np.ma.filled(mesh.get_array(), np.nan)
-    np.testing.assert_array_equal(result, [[1.0, np.nan, 3.0], [2.0, np.nan, 6.0]])
+    mesh = drawn(value_map(sweep, "height").axes[0], QuadMesh)
+    np.testing.assert_array_equal(values(mesh), [[1.0, np.nan, 3.0], [2.0, np.nan, 6.0]])
 
 
 def test_a_map_of_samples_has_a_dot_for_each(tmp_path: Path) -> None:
     over = {"x": {"start": 0.0, "stop": 12.0}, "y": {"start": 0.0, "stop": 1.0}}
-    axes = value_map(swept(tmp_path, over=over, samples={"count": 64}), "height").axes[0]
-    dots = next(one for one in axes.collections if isinstance(one, PathCollection))
-    places, values = np.asarray(dots.get_offsets()), dots.get_array()
+    dots = drawn(value_map(swept(tmp_path, over, samples={"count": 64}), "height").axes[0], PathCollection)
+    places = np.asarray(dots.get_offsets())
     assert len(places) == 64
-    np.testing.assert_allclose(values, places.prod(axis=1), rtol=1e-12)
+    np.testing.assert_allclose(values(dots), places.prod(axis=1), rtol=1e-12)
 
 
 def test_a_map_of_one_parameter_is_a_line_in_its_order(tmp_path: Path) -> None:
-    line = value_map(swept(tmp_path, over={"x": [3.0, 13.0, 1.0]}, request={"y": 2.0}), "height").axes[0].lines[0]
-    np.testing.assert_array_equal(line.get_xdata(), [1.0, 3.0, 13.0])
-    np.testing.assert_array_equal(line.get_ydata(), [2.0, 6.0, np.nan])
+    line = value_map(swept(tmp_path, {"x": [3.0, 13.0, 1.0]}, request={"y": 2.0}), "height").axes[0].lines[0]
+    np.testing.assert_array_equal(line.get_xydata(), [[1.0, 2.0], [3.0, 6.0], [13.0, np.nan]])
 
 
 @pytest.mark.parametrize(
-    ("over", "value", "message"),
+    ("over", "value", "field"),
     [
-        ({"x": [1], "y": [1], "word": ["a"]}, "height", "has one or two parameters, and this sweep has 3"),
-        ({"x": [1.0]}, "side", "value must be a column of numbers, got side: design, x, height"),
-        ({"word": ["a", "b"]}, "height", "value must be a column of numbers, got word"),
+        ({"x": [1], "y": [1], "word": ["a"]}, "height", "output"),
+        ({"x": [1.0]}, "side", "value"),
+        ({"word": ["a", "b"]}, "height", "value"),
     ],
 )
-def test_what_cannot_be_drawn_is_said(over: dict[str, Any], value: str, message: str, tmp_path: Path) -> None:
-    with pytest.raises(InvalidValue, match=message):
-        value_map(swept(tmp_path, over=over), value)
+def test_what_cannot_be_drawn_is_refused(over: dict[str, Any], value: str, field: str, tmp_path: Path) -> None:
+    with refused(field):
+        value_map(swept(tmp_path, over), value)
 
 
 def test_a_summary_counts_errors_and_has_both_ends(tmp_path: Path) -> None:
-    sweep = swept(tmp_path, over={"x": [5.0, 13.0, 14.0, -2.0]}, request={"y": 3.0})
+    sweep = swept(tmp_path, {"x": [5.0, 13.0, 14.0, -2.0]}, request={"y": 3.0})
     assert summary(sweep, "height").lines() == [
         ("designs", "4 of 4"),
         ("error internal-error", "1"),
@@ -86,4 +86,4 @@ def test_a_summary_counts_errors_and_has_both_ends(tmp_path: Path) -> None:
 
 
 def test_a_summary_of_errors_alone_has_no_ends(tmp_path: Path) -> None:
-    assert summary(swept(tmp_path, over={"x": [13.0]}), "height").lines()[1:] == [("error invalid-value", "1")]
+    assert summary(swept(tmp_path, {"x": [13.0]}), "height").lines()[1:] == [("error invalid-value", "1")]
