@@ -18,9 +18,9 @@ def square(half: float) -> Venue:
     return Venue(box("square", -half, -half, 2.0 * half, 2.0 * half))
 
 
-def lane(start: tuple[float, float], end: tuple[float, float], **options: Any) -> Route:
+def lane(first: tuple[float, float], last: tuple[float, float], **options: Any) -> Route:
     """A straight route."""
-    return Route([Line(start, end)], **options)
+    return Route([Line(first, last)], **options)
 
 
 def there_and_back(length: float) -> Route:
