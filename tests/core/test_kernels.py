@@ -1,7 +1,5 @@
 """The compiled loops against the same files uncompiled: to the last bit, through the questions of core that use any."""
 
-from __future__ import annotations
-
 import ast
 import re
 import subprocess
@@ -91,7 +89,7 @@ EXPRESSIONS = {
 
 
 @pytest.fixture(scope="module")
-def uncompiled() -> dict[str, str]:
+def uncompiled():
     command = [sys.executable, "-c", UNCOMPILED, *EXPRESSIONS.values()]
     lines = subprocess.check_output(command, cwd=ROOT, text=True).splitlines()
     return dict(zip(EXPRESSIONS, lines, strict=True))
@@ -99,7 +97,7 @@ def uncompiled() -> dict[str, str]:
 
 @needs_compiled
 @pytest.mark.parametrize("module", COMPILED)
-def test_compiled_file_is_not_older_than_its_source(module: str) -> None:
+def test_compiled_file_is_not_older_than_its_source(module):
     compiled = Path(str(sys.modules[f"core.kernels.{module}"].__file__))
     sources = (SOURCES / f"{module}.py", SOURCES / f"{module}.pxd", *(SOURCES / f"{name}.pxd" for name in NAMES))
     assert compiled.suffix != ".py", "all modules are compiled, or none"
@@ -107,7 +105,7 @@ def test_compiled_file_is_not_older_than_its_source(module: str) -> None:
 
 
 @pytest.mark.parametrize("module", COMPILED)
-def test_modules_take_the_same_from_each_other_compiled_and_uncompiled(module: str) -> None:
+def test_modules_take_the_same_from_each_other_compiled_and_uncompiled(module):
     declared = (SOURCES / f"{module}.pxd").read_text(encoding="utf-8")
     compiled = {
         (source, name)
@@ -129,7 +127,7 @@ def test_modules_take_the_same_from_each_other_compiled_and_uncompiled(module: s
 STUB = ast.parse((SOURCES / "__init__.pyi").read_text(encoding="utf-8"))
 
 
-def test_type_checkers_see_every_name_that_the_kernels_offer() -> None:
+def test_type_checkers_see_every_name_that_the_kernels_offer():
     door = ast.parse((SOURCES / "__init__.py").read_text(encoding="utf-8"))
     offered = {name.name for node in door.body if isinstance(node, ast.ImportFrom) for name in node.names}
     declared = {node.name for node in STUB.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
@@ -138,7 +136,7 @@ def test_type_checkers_see_every_name_that_the_kernels_offer() -> None:
 
 
 @needs_compiled
-def test_what_type_checkers_see_of_the_types_is_there() -> None:
+def test_what_type_checkers_see_of_the_types_is_there():
     for node in STUB.body:
         if isinstance(node, ast.ClassDef):
             members = {str(part.target.id) for part in node.body if isinstance(part, ast.AnnAssign)}
@@ -148,7 +146,7 @@ def test_what_type_checkers_see_of_the_types_is_there() -> None:
 
 @needs_compiled
 @pytest.mark.parametrize("name", EXPRESSIONS)
-def test_uncompiled_gives_the_same_to_the_last_bit(name: str, uncompiled: dict[str, str]) -> None:
+def test_uncompiled_gives_the_same_to_the_last_bit(name, uncompiled):
     compiled = every_digit(
         eval(EXPRESSIONS[name], {name: getattr(core, name) for name in core.__all__} | {"core": core, "np": np})
     )
