@@ -2,33 +2,21 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from core import (
-    Clothoid,
-    Coil,
-    Dance,
-    Dragon,
     Outcome,
-    Route,
-    Turn,
     first_contact,
     first_encounter,
-    trajectory,
     venue_clearance,
 )
 from tests.campaigns import hunt_clothoids, hunt_contacts, hunt_encounters, hunt_turns, hunt_venues, hunting
 from tests.support.depth import examples
 from tests.support.further import further
-from tests.support.shared_dances import lane
-from tests.support.slow_route import SlowRoute
 
 CAMPAIGNS = hunt_encounters, hunt_venues, hunt_contacts, hunt_turns, hunt_clothoids
 # Cases of a small part, of which the first ones are those of every run.
 FEW, MANY = 3, examples(25, 200)
-# Places of handles far out on a route [m].
-SAME_PLACE = 1e-10
 
 
 @pytest.mark.parametrize("count", further([FEW, MANY], 1), ids=["few", "many"])
@@ -37,24 +25,6 @@ def test_nothing_false_is_found_in_a_small_part(campaign, count):
     result = hunting.hunt(campaign.fault, 44, 0.0, count)
     assert (result.cases, result.faults) == (count, 0)
     assert len(result.kinds) >= 3 or count == FEW  # contacts, clear dances and others
-
-
-@pytest.mark.parametrize(
-    "route",
-    [
-        Turn(1.0, 1.5, 1.3, start_turns=8.0),
-        Route([Coil(1.7, 9.0, 2.0, (3.0, -2.0), 0.7)], start=40.0),
-        lane((0.0, 0.0), (60.0, 25.0), start=30.0),
-        Route([Clothoid((3.0, -2.0), 0.7, -0.2, 0.7, 40.0)], start=20.0),
-        Route([Clothoid((3.0, -2.0), 0.7, -0.2, -0.2, 40.0)], start=20.0),
-    ],
-    ids=["turn", "coil", "line", "clothoid", "arc as a clothoid"],
-)
-def test_the_slow_route_is_the_route(route):
-    dragon, times = Dragon(9, 1.3, 1.1, 0.3, 0.1), np.linspace(0.0, 0.9 * route.end, 50)
-    slow = SlowRoute.of(dragon, route)
-    assert slow.end() == pytest.approx(route.end, abs=SAME_PLACE)
-    assert slow.handles(times) == pytest.approx(trajectory(Dance(dragon, route), times).position, abs=SAME_PLACE)
 
 
 def first_where(campaign, outcome):

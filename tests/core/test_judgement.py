@@ -1,7 +1,6 @@
 """The verdict: each part agrees with its own search, and failures are in order of time."""
 
 import math
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -11,7 +10,6 @@ from hypothesis import strategies as st
 
 from core import (
     Arc,
-    Coil,
     Dance,
     Dragon,
     FailureKind,
@@ -34,7 +32,6 @@ from core import (
     trajectory,
     venue_clearance,
 )
-from core.contact.search import ContactSearch
 from tests.support.random_squares import box
 from tests.support.reference import reference
 from tests.support.refused import refused
@@ -227,22 +224,6 @@ def test_a_time_that_the_path_does_not_have_is_an_error(field, time):
         check(ALONG, **{field: time})
 
 
-def test_a_check_lays_out_one_search_for_each_question_and_area(monkeypatch):
-    made, lay_out = [], ContactSearch.__init__
-
-    def recording(search, *args, **options):
-        lay_out(search, *args, **options)
-        made.append(len(search.edges))
-
-    monkeypatch.setattr(ContactSearch, "__init__", recording)
-    query = {**around(box("well", 40, 4, 4, 4), box("tree", 50, 4, 1, 1), half=70), "margin": 0.5, "speed_limit": 2.0}
-    check(ALONG, **query)
-    assert made == [0, 0, 4, 4, 4, 0]  # first contact, least clearance, three areas, highest speed
-    made.clear()
-    quick_check(ALONG, **query)
-    assert made == [0, 4, 4, 4, 0]
-
-
 def test_the_default_start_is_when_the_whole_dragon_is_on_the_route():
     dragon = Dragon(5)
     report = check(Dance(dragon, lane((0, 0), (100, 0)), 2.0))
@@ -276,11 +257,3 @@ def test_scaling_every_length_scales_the_verdict(bends, scale):
     assert one.sharpest_bend.angle == pytest.approx(other.sharpest_bend.angle, abs=1e-10)
     assert other.least_clearance.distance == pytest.approx(scale * one.least_clearance.distance, abs=1e-9)
     assert other.highest_speed.speed == pytest.approx(scale * one.highest_speed.speed, rel=1e-9)
-
-
-def test_coils_in_three_pieces_have_the_verdict_of_one():
-    turns = [(14, 4)], pairwise((14, 9, 6.5, 4))
-    routes = (Route([Coil(0.6, *ends) for ends in some]) for some in turns)
-    one, other = (check(Dance(Dragon(60), route), start=0.0) for route in routes)
-    assert one.passed == other.passed
-    assert one.least_clearance.distance == pytest.approx(other.least_clearance.distance, abs=1e-10)

@@ -7,9 +7,6 @@ import pytest
 
 from core import Dance, Dragon, Outcome, Turn, first_contact
 from core.contact.march import BRACKET
-from core.contact.search import ContactSearch
-from core.kernels import FREE, Ended
-from tests.core.contact.test_first_contact import ACCURACY
 from tests.support.depth import some
 
 # Points of a random curve; its angles and chords are sums of that many terms, good to this [rad], relative [1].
@@ -68,28 +65,6 @@ def test_points_of_two_rings_are_apart_by_the_bound_wherever_they_stand_to_each_
 
 
 # -- what is dismissed on coils: core/kernels/rings.py, core/contact/coils.py --
-
-
-@pytest.mark.parametrize("seed", some(range(40), 12))
-def test_on_a_turn_the_search_finds_what_it_finds_when_all_benches_are_followed(seed):
-    rng = np.random.default_rng(seed)
-    benches, overhang = int(rng.integers(4, 120)), rng.uniform(0.0, 0.3)
-    body = 2.0 * overhang + rng.uniform(0.8, 1.8)
-    dragon = Dragon(benches, body * rng.uniform(0.7, 1.3), body, rng.uniform(0.1, 0.5), overhang)
-    if seed % 4 == 0:
-        widths = np.array(dragon.widths)
-        widths[: int(rng.integers(1, benches))] *= 0.9
-        dragon = Dragon.of(dragon.lengths, widths, dragon.overhangs)
-    path = Turn(rng.uniform(0.9, 2.0), 5.0, rng.uniform(0.8, 1.5), start_turns=8.0)
-    margin, start = rng.choice([0.0, 0.1]), rng.choice([-60.0, 0.0, rng.uniform(0.0, 120.0)])
-    quick, every = (ContactSearch(dragon, path, margin) for _ in range(2))
-    assert every.rings.clear_place < FREE
-    every.rings.clear_place, every.rings.end_place = FREE, -FREE
-    every.resize(benches)
-    (ended, met), (slow_end, slow) = (search.approach(start, path.end, 1.0)[:2] for search in (quick, every))
-    assert ended == slow_end
-    if ended is Ended.TOUCHED:
-        assert (met.touching, met.benches) == (pytest.approx(slow.touching, abs=ACCURACY), slow.benches)
 
 
 def test_ten_thousand_benches_through_the_turn_are_decided_as_two_hundred_are():

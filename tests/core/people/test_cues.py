@@ -66,12 +66,6 @@ def test_a_bench_meets_those_that_come_back_and_sees_them_on_its_left():
             assert meeting.gap <= 5.0
 
 
-def test_meetings_stand_at_the_first_time_at_which_the_head_is_there():
-    slow = Dance(STEADY.dragon, STEADY.path, 0.5)
-    times, late = ([one.time for one in bench_cues(dance, [4])[0].meetings] for dance in (STEADY, slow))
-    assert late == pytest.approx([2.0 * time for time in times])
-
-
 @pytest.mark.parametrize("waits", [0.0, 50.0])
 def test_a_clock_that_rounds_puts_no_moment_before_the_dance(waits):
     passages = [Passage(0.0, until_time=waits)] if waits else []

@@ -1,43 +1,9 @@
 """Steps in time: where they break, where they end, and how crossings are found."""
 
-import math
-
-import pytest
-
-from core import Arc, Dance, Dragon, Part, Performance, Route
 from core.kernels import Ended
-from core.performance.march import EncounterMarch, beyond, crossing, least_after, to_fold
+from core.performance.march import EncounterMarch, beyond, least_after, to_fold
 from core.performance.stage import Stage
 from tests.support.shared_dances import EAST, NORTH, on_lanes, side_by_side
-
-# Width of a crossing in these tests [s].
-WIDTH = 1e-12
-
-
-@pytest.mark.parametrize("zero", [0.1, 0.5, 0.999])
-def test_a_crossing_is_never_early_and_late_by_less_than_its_width(zero):
-    looks = []
-
-    def value(time):
-        looks.append(time)
-        return math.exp(zero) - math.exp(time)
-
-    assert zero <= crossing(value, 0.0, 1.0, WIDTH) <= zero + 2.0 * WIDTH
-    assert len(looks) < 40
-    assert crossing(value, 1.0, 2.0, WIDTH) == 1.0  # not above zero where it begins
-
-
-def test_a_margin_just_above_the_least_gap_is_met_and_just_below_is_proven():
-    inner, outer = (Route([Arc((0.0, 0.0), radius, start, 11.0)]) for radius, start in ((14.0, 0.0), (14.6, -1.2)))
-    performance = Performance([Part(Dance(Dragon(4), inner)), Part(Dance(Dragon(4), outer, 1.4), -1.0)])
-
-    def march(margin):
-        return EncounterMarch(Stage(performance, (10.0, 100.0), margin)).run(10.0, 100.0)
-
-    proven = march(0.0)
-    below, above = (march(proven.graze.gap + spare) for spare in (-1e-6, 1e-6))
-    assert (proven.ended, below.ended, above.ended) == (Ended.REACHED, Ended.REACHED, Ended.TOUCHED)
-    assert above.touching <= proven.graze.time + 1e-6
 
 
 def test_a_certain_encounter_is_found_behind_an_undecided_touch():

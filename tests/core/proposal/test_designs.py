@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Budget, Dance, Dragon, Figure, Gate, Venue, trajectory
-from core.proposal.designs import Design, gate_poses, in_world, laid_out, stand_length, street_length, with_gates
+from core.proposal.designs import Design, laid_out, stand_length, street_length, with_gates
 from core.proposal.figures import Shape
 from core.proposal.free_ground import FreeGround
 from core.proposal.gates import with_streets
@@ -58,10 +58,3 @@ def test_a_parade_leads_from_gate_to_gate(ways):
 
 def test_a_figure_that_is_too_short_is_not_laid_out(ways):
     assert laid_out(design(Shape(Figure.RING, (2.0, 2.0, 2.0))), NEEDS, ways) is None
-
-
-def test_poses_at_a_gate_and_beside_another_pose():
-    up = 0.5 * math.pi
-    into, out = gate_poses(Gate((1.0, 2.0), up), 3.0)
-    assert (into, out) == (pytest.approx((1.0, 5.0, up)), pytest.approx((1.0, 5.0, up + math.pi)))
-    assert in_world((1.0, 1.0, up), (2.0, 0.0, 0.1)) == pytest.approx((1.0, 3.0, up + 0.1))
