@@ -38,11 +38,6 @@ def test_a_speed_failure_is_at_the_first_instant_above_the_limit(dance, limit, s
     assert speed[failure.benches[0]] >= speed.max() * (1.0 - SPEED_ROUNDING)  # on one arc handles are equally fast
 
 
-def test_a_head_that_is_too_fast_is_so_from_the_start():
-    failure = first_failure(Dance(Dragon(5), TURN, 1.5), 1.0000001, start=-20.0, stop=0.0)
-    assert (failure.time, failure.time_bracket, failure.benches) == (-20.0, (-20.0, -20.0), (0,))
-
-
 def test_an_excess_so_near_to_the_fold_that_its_proof_ends_is_bracketed():
     dance = Dance(Dragon(40), WIDE)
     failure = first_failure(dance, 5_000.0)

@@ -69,12 +69,9 @@ def test_dances_that_share_no_time_meet_where_one_stands():
     ids=["before", "after", "start after", "empty", "no number"],
 )
 def test_times_outside_a_performance_are_refused(span, kind, field):
-    performance = Performance([Part(WINDING, name="green"), Part(Dance(DRAGON, Spiral(1.1, 4.0, (30.0, 0.0))))])
-    with pytest.raises(kind) as caught:
+    performance = Performance([Part(WINDING), Part(Dance(DRAGON, Spiral(1.1, 4.0, (30.0, 0.0))))])
+    with refused(field, kind):
         performance.span(*span)
-    assert caught.value.field == field
-    late = kind is OutsideRun and span[0] != -50.0
-    assert ("when bench 0 of green folds" in caught.value.message) == late
 
 
 def test_a_performance_tells_its_dragons_and_its_time():

@@ -76,18 +76,14 @@ def performances(seed):
     rng = np.random.default_rng(seed)
     parts = []
     for k in range(int(rng.integers(2, 4))):
-        dragon = Dragon(int(rng.integers(1, 6)), *rng.uniform((2.0, 1.4, 0.1, 0.1), (3.4, 2.2, 0.3, 0.3)))
-        turn = rng.uniform(0.0, 2.0 * np.pi)
-        ahead = 25.0 * np.array([np.cos(turn), np.sin(turn)])
-        aside = rng.uniform(-4.0, 4.0) * np.array([-np.sin(turn), np.cos(turn)])
-        piece = Line(tuple((aside - ahead).tolist()), tuple((aside + ahead).tolist()))
+        turn, (aside, *centre) = rng.uniform(0.0, 2.0 * np.pi), rng.uniform(-4.0, 4.0, 3).tolist()
+        ends = [complex(ahead, aside) * np.exp(1j * turn) for ahead in (-25.0, 25.0)]
+        piece = Line(*((float(end.real), float(end.imag)) for end in ends))
         if rng.random() < 0.4:
-            centre = tuple(rng.uniform(-4.0, 4.0, 2).tolist())
-            piece = Arc(centre, rng.uniform(5.0, 9.0), turn, float(rng.choice([-4.5, 4.5])))
-        pauses = k == 0 and rng.random() < 0.5
-        passages = [Passage(0.5, until_time=14.0), Passage(0.0, until_time=17.0)] if pauses else []
-        dance = Dance(dragon, Route([piece]), rng.uniform(0.6, 1.4), passages)
-        parts.append(Part(dance, rng.uniform(0.0, 8.0)))
+            piece = Arc(tuple(centre), rng.uniform(5.0, 9.0), turn, float(rng.choice([-4.5, 4.5])))
+        pauses = [Passage(0.5, until_time=14.0), Passage(0.0, until_time=17.0)] if k == rng.integers(2) == 0 else []
+        dragon = Dragon(int(rng.integers(1, 6)), *rng.uniform((2.0, 1.4, 0.1, 0.1), (3.4, 2.2, 0.3, 0.3)))
+        parts.append(Part(Dance(dragon, Route([piece]), rng.uniform(0.6, 1.4), pauses), rng.uniform(0.0, 8.0)))
     return Performance(parts), int(rng.integers(len(parts)))
 
 

@@ -1,0 +1,33 @@
+"""The places of front handles against sampled ones, also where handles turn back."""
+
+import numpy as np
+import pytest
+
+from core import Dance, Dragon, Spiral, trajectory
+from core.ground.tracks import REVERSAL, tracks
+
+
+def places(dance, times):
+    """Place s (T, n) of every front handle on a spiral about the origin, from its radius [m]."""
+    path = dance.path
+    theta = np.linalg.norm(trajectory(dance, times).position[:, :-1], axis=-1) / path.growth
+    return path.length - 0.5 * path.growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
+
+
+@pytest.mark.parametrize(
+    "dragon",
+    [Dragon(12), Dragon(6, head_length=5.0), Dragon.of([3.4, 1.0, 4.0, 2.0], [0.3] * 4, [0.2] * 4)],
+    ids=["default", "long head", "one by one"],
+)
+def test_the_places_of_handles_that_turn_back_are_all_in_their_stretch(dragon):
+    dance = Dance(dragon, Spiral())
+    until = dance.end.time
+    seen = places(dance, np.minimum(until - 8.0 * np.linspace(1.0, 0.0, 4001) ** 3, until))
+    assert (np.diff(seen[:, 1:], axis=0) < -1e-6).any()  # some handle turns back
+    for track in tracks(dance, until - 8.0, until):
+        low, high, spare = track.stretches[0][0], track.stretches[-1][1], track.stretches[0][2]
+        alike = seen[:, dragon.lengths == dragon.lengths[track.bench]]
+        least, most = alike.min(), alike.max()
+        assert least - 1e-5 <= low <= least + 1e-9
+        assert most - 1e-9 <= high <= most + 1e-5
+        assert spare < 3.0 * REVERSAL
