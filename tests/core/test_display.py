@@ -14,7 +14,6 @@ import core
 from core import Arc, Area, Coil, Dance, Dragon, Line, Route, Spiral, Turn, Venue, Waypoints
 from core.display import Readable, WithArrays, display, format_range, units_of
 from core.errors import BenchDragonError
-from core.values import Floats, Point
 from tests.support.public_calls import CALLS
 from tests.support.random_squares import closed
 from tests.support.shared_dances import lane, square, there_and_back
@@ -49,10 +48,6 @@ def results():
     yield core.crew(DANCE, [2] * 223, stop=9.0).carried[:1]
     yield core.Misplaced("well", 3, (1.0, 2.0))
     yield core.NearPass(75.06, 0.06, (0, 1), (1, 4))
-    # Of integers, in place of the same ones of doubles.
-    yield from (core.trajectory(DANCE, [0, 300]), core.clearance_profile(DANCE, [400, 401]))
-    yield from (core.first_contact(DANCE, start=410), Dragon.of([3, 2], [1, 1], [0, 0]), Arc((0, 0), 4, 0, 1))
-    yield from (Line((0, 0), (9, 0)), Spiral(centre=(1, 2)))
 
 
 INPUTS = [
@@ -116,16 +111,6 @@ def test_the_fields_of_a_public_result_have_public_types_and_every_number_but_a_
             assert name in units, f"{kind.__name__} needs a unit for {name}, in its _units"
         else:
             assert int not in some or not units.get(name), f"{name} of {kind.__name__} is a count"
-
-
-def test_arrays_hold_doubles_and_points_two_floats_also_of_numbers_given_as_integers(values):
-    for value in filter(is_dataclass, values):
-        for name, hint in hints(type(value)).items():
-            held = getattr(value, name)
-            if hint == Floats:
-                assert (type(held), held.dtype) == (np.ndarray, np.float64)
-            elif hint in (Point, Point | None) and held is not None:
-                assert tuple(map(type, held)) == (float, float)
 
 
 def test_results_with_the_same_numbers_are_equal(values):

@@ -1,9 +1,29 @@
 """Steps in time: where they break, where they end, and how crossings are found."""
 
+import math
+
+import pytest
+
 from core.kernels import Ended
-from core.performance.march import EncounterMarch, beyond, least_after, to_fold
+from core.performance.march import EncounterMarch, beyond, crossing, least_after, to_fold
 from core.performance.stage import Stage
 from tests.support.shared_dances import EAST, NORTH, on_lanes, side_by_side
+
+# Width of a crossing in these tests [s].
+WIDTH = 1e-12
+
+
+@pytest.mark.parametrize("zero", [0.1, 0.5, 0.999])
+def test_a_crossing_is_never_early_and_late_by_less_than_its_width(zero):
+    looks = []
+
+    def value(time):
+        looks.append(time)
+        return math.exp(zero) - math.exp(time)
+
+    assert zero <= crossing(value, 0.0, 1.0, WIDTH) <= zero + 2.0 * WIDTH
+    assert len(looks) < 40
+    assert crossing(value, 1.0, 2.0, WIDTH) == 1.0  # not above zero where it begins
 
 
 def test_a_certain_encounter_is_found_behind_an_undecided_touch():

@@ -4,9 +4,24 @@ import math
 
 import pytest
 
-from core import Dance, Dragon, Part, Performance, Spiral
+from core import Dance, Dragon, Part, Passage, Performance, Spiral
 from core.performance.stage import Stage
-from tests.support.shared_dances import in_one_spiral
+from tests.support.shared_dances import in_one_spiral, lane
+
+STREET = lane((-30.0, 0.0), (30.0, 0.0))
+
+
+def test_steps_break_where_a_speed_changes():
+    slow = Dance(Dragon(3), STREET, 1.0, [Passage(0.5, until_time=20.0), Passage(0.0, until_time=25.0)])
+    other = Part(Dance(Dragon(3), Spiral(1.0, 5.0, (90.0, 0.0)), 1.5))
+    stage = Stage(Performance([Part(slow, 4.0), other]), (0.0, 45.0), 0.0)
+    player = stage.players[0]
+    first = player.begin
+    assert stage.breaks(0.0, 45.0) == [0.0, 4.0, first, 24.0, 29.0, 45.0]  # at 4 s the first passage begins
+    spans = (0.0, first), (first, 24.0), (24.0, 29.0), (29.0, 45.0)
+    assert [player.speed(*span) for span in spans] == [0.0, 0.5, 0.0, 1.0]
+    # Before its delay is over the dragon stands at its beginning.
+    assert player.travel(0.0) == slow.clock.travel(slow.begin)
 
 
 @pytest.mark.parametrize("pitch", [1.1, 2.0])
@@ -38,3 +53,8 @@ def test_rings_prove_nothing_elsewhere(second):
     performance = Performance([Part(Dance(Dragon(80), path)) for path in (Spiral(1.1, 10.0), second)])
     stage = Stage(performance, (0.0, 50.0), 0.0)
     assert (stage.rings, stage.clear_until()) == ({}, 0.0)
+
+
+def test_rows_lead_back_to_dragons_and_benches():
+    performance = Performance([Part(Dance(Dragon(3), STREET)), Part(Dance(Dragon(2), STREET), 90.0)])
+    assert Stage(performance, (10.0, 20.0), 0.0).pair(2, 5) == ((0, 1), (2, 1))
