@@ -30,6 +30,7 @@ from core import (
     trajectory,
 )
 from tests.support.every_digit import every_digit
+from tests.support.further import further
 from tests.support.public_calls import CALLS
 from tests.support.refused import refused
 from tests.support.shared_dances import lane, square
@@ -96,7 +97,11 @@ def test_work_is_zero_or_more(work):
     assert Budget(0.0).left == 0.0
 
 
-@ALL
+# The other calls first: these take more than a second.
+SLOW = ("propose", "shortest_turn", "turn_length_bounds")
+
+
+@pytest.mark.parametrize("name", further(sorted(QUESTIONS, key=SLOW.__contains__), len(QUESTIONS) - len(SLOW)))
 def test_enough_work_changes_no_digit_and_less_ends_in_an_answer_or_in_too_much_work(name):
     budget = Budget(WHOLE)
     assert repr(every_digit(QUESTIONS[name](budget=budget))) == repr(every_digit(QUESTIONS[name](budget=None)))

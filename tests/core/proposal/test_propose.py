@@ -19,10 +19,19 @@ SMALL = Venue(box("yard", 0, 0, 24, 20))
 LIMITS = {"stray": 0.05, "margin": 0.0}
 
 
-@pytest.mark.parametrize("gates", further([(), (WEST, EAST)], 1), ids=["without gates", "with gates"])
-def test_every_figure_of_a_square_with_trees_and_a_stage_is_danced_as_it_says(gates):
+# Gates, figures, and how many dances.
+ASKED = {
+    "two figures": ((), ["ring", "spiral"], 2),
+    "without gates": ((), None, 5),
+    "with gates": ((WEST, EAST), None, 5),
+}
+
+
+@pytest.mark.parametrize("name", further(ASKED, 1))
+def test_every_figure_of_a_square_with_trees_and_a_stage_is_danced_as_it_says(name):
+    gates, asked, count = ASKED[name]
     case = Case(PLACE, Dragon(40, 3.41, 2.0), gates, LIMITS)
-    result = case.proposals(count=5)
+    result = case.proposals(count=count, figures=asked)
     figures = {one.figure for one in result.proposals}
     assert figures >= {Figure.RING, Figure.SPIRAL}
     assert (Figure.PARADE in figures) == bool(gates)
