@@ -163,3 +163,13 @@ def test_a_long_question_ends_soon_after_another_thread_stopped_it(name, after):
     timer.join()
     assert caught.value.stopped
     assert late < ENDS_WITHIN, f"it computed for {late:.3f} s after it was stopped"
+
+
+def test_a_budget_may_be_larger_or_smaller_than_a_question_has_by_itself(monkeypatch):
+    budget = Budget(WHOLE)
+    result = minimum_pitch(Dragon(20), budget=budget)
+    spent = WHOLE - budget.left
+    monkeypatch.setattr(core.design.ways, "PITCH_WORK", 0.5 * spent)
+    with pytest.raises(TooMuchWork):
+        minimum_pitch(Dragon(20))
+    assert every_digit(minimum_pitch(Dragon(20), budget=Budget(2.0 * spent))) == every_digit(result)

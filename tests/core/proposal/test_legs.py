@@ -1,7 +1,9 @@
 """Legs stay on free ground, and go around what stands in their way."""
 
+import math
 from functools import reduce
 
+import numpy as np
 import pytest
 import shapely
 
@@ -34,6 +36,13 @@ def test_a_wall_is_gone_around_with_room_on_both_sides():
     line = shapely.LineString(points_along(BEGIN, steps, 0.05))
     borders = polygon(WALL), polygon(SQUARE).boundary
     assert min(map(line.distance, borders)) >= NEEDS.straight_side + NEEDS.free
+
+
+def test_points_are_close_and_on_the_steps():
+    steps, begin = [(3.0, 0.0), (2.0 * math.pi, 0.5), (1.0, -1.0)], (0.0, 0.0, 0.0)
+    points = points_along(begin, steps)
+    assert np.linalg.norm(np.diff(points, axis=0), axis=1).max() <= 0.35
+    assert points[-1] == pytest.approx(reduce(moved, steps, begin)[:2])
 
 
 def test_the_narrowest_place_is_measured_and_no_leg_leads_through_it():
