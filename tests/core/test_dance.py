@@ -1,10 +1,7 @@
 """A dance: its end, and its allowed head speeds and times."""
 
-from __future__ import annotations
-
 import math
 import pickle
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -13,16 +10,13 @@ from hypothesis import given, settings
 
 import core
 from core import (
-    Area,
     Dance,
     Dragon,
     EndReason,
-    InvalidValue,
     Legs,
     OutsideRun,
     Spiral,
     Turn,
-    Venue,
     first_contact,
     kernels,
     least_clearance,
@@ -33,6 +27,8 @@ from core import (
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN
 from tests.support.random_dances import DANCES
 from tests.support.reference import reference
+from tests.support.refused import refused
+from tests.support.shared_dances import square
 from tests.support.slow_search import SlowDance
 
 pytestmark = pytest.mark.uncompiled
@@ -40,49 +36,43 @@ pytestmark = pytest.mark.uncompiled
 SLOW_END = 1e-8
 
 
-def test_the_default_run_ends_at_the_fold_of_the_head() -> None:
+def test_the_default_run_ends_at_the_fold_of_the_head():
     end = Dance(Dragon(), Spiral()).end
     assert (end.reason, end.bench) == (EndReason.FOLD, 0)
     assert end.time == pytest.approx(432.917924228, abs=1e-8)
-    assert end.theta is not None
     assert end.theta * Spiral().growth == pytest.approx(1.28980, abs=1e-5)
 
 
-def test_a_wide_spiral_is_danced_to_its_centre() -> None:
-    spiral = Spiral(9.0, 3.0)
-    end = Dance(Dragon(5), spiral).end
-    assert (end.reason, end.bench, end.theta) == (EndReason.CENTRE, None, 0.0)
-    assert end.time == spiral.length
-    assert trajectory(Dance(Dragon(5), spiral), [end.time]).position[0, 0].tolist() == [0.0, 0.0]
+def test_a_wide_spiral_is_danced_to_its_centre():
+    dance = Dance(Dragon(5), Spiral(9.0, 3.0))
+    end = dance.end
+    assert (end.reason, end.bench, end.theta, end.time) == (EndReason.CENTRE, None, 0.0, dance.path.length)
+    assert trajectory(dance, end.time).position[0].tolist() == [0.0, 0.0]
 
 
-def test_the_reference_agrees_on_every_fold() -> None:
-    cases = reference("first_contact")["cases"]
-    folding = [case for case in cases if case.get("fold_time")]
-    assert folding
-    for case in folding:
-        end = Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), case["head_speed"]).end
-        assert end.time == pytest.approx(case["fold_time"], rel=0, abs=1e-9), case["name"]
+FOLDING_CASES = [case for case in reference("first_contact")["cases"] if case.get("fold_time")]
 
 
-def sampled_fold(chord2: float) -> float | None:
-    """Value of delta, growing from pi, at which theta first stops falling along f = chord^2; None for none. Two scans,
+@pytest.mark.parametrize("case", FOLDING_CASES, ids=lambda case: case["name"])
+def test_the_reference_agrees_on_every_fold(case):
+    end = Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), case["head_speed"]).end
+    assert end.time == pytest.approx(case["fold_time"], abs=1e-9)
+
+
+def sampled_fold(chord2):
+    """Value of delta, growing from pi, at which theta first stops falling along f = chord^2; 0 for none. Two scans,
     the second around the least slope of the first."""
-
-    def theta_and_slope(delta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        rise = 1.0 - np.cos(delta)
-        theta = np.sqrt(0.25 * delta**2 + np.maximum(chord2 - delta**2, 0.0) / (2.0 * rise)) - 0.5 * delta
-        return theta, delta + theta * rise + theta * (theta + delta) * np.sin(delta)
-
     low, high = math.pi, min(2.0 * math.pi, math.sqrt(chord2))
     for _ in range(2):
         delta = np.linspace(low, high, 200_001)[1:-1]
-        theta, slope = theta_and_slope(delta)
+        rise = 1.0 - np.cos(delta)
+        theta = np.sqrt(0.25 * delta**2 + np.maximum(chord2 - delta**2, 0.0) / (2.0 * rise)) - 0.5 * delta
+        slope = delta + theta * rise + theta * (theta + delta) * np.sin(delta)
         if (slope < 0.0).any():
             return float(theta[int(np.argmax(slope < 0.0))])
         least = int(slope.argmin())
         low, high = delta[max(least - 2, 0)], delta[min(least + 2, delta.size - 1)]
-    return None
+    return 0.0
 
 
 # The chord, in units of growth squared, from which on a bench folds: core/kernels/fold.py [1].
@@ -92,91 +82,77 @@ BESIDE_FOLD = 1e-8
 
 
 @pytest.mark.parametrize("excess", [-20.0, -1.0, -1e-6, 1e-8, 1e-7, 1e-6, 3e-6, 1e-5, 1e-3, 0.1, 1.0, 7.0, 100.0, 1e5])
-def test_a_bench_folds_where_dense_samples_see_theta_stop_falling(excess: float) -> None:
+def test_a_bench_folds_where_dense_samples_see_theta_stop_falling(excess):
     sampled = sampled_fold(FOLDING + excess)
-    assert (sampled is None) == (excess < 0.0)
-    fold = kernels.fold_theta(FOLDING + excess)
-    assert fold == pytest.approx(sampled or 0.0, rel=BESIDE_FOLD, abs=0.0)
+    assert (sampled == 0.0) == (excess < 0.0)
+    assert kernels.fold_theta(FOLDING + excess) == pytest.approx(sampled, rel=BESIDE_FOLD, abs=0.0)
 
 
-def test_a_chord_that_just_folds_ends_the_run_before_the_centre() -> None:
+def test_a_chord_that_just_folds_ends_the_run_before_the_centre():
     """256 samples of delta missed that theta stops falling, and rises, between two of them."""
-    growth = 0.5
-    chord = growth * math.sqrt(FOLDING + 1e-6)
-    end = Dance(Dragon(1, chord, chord, 0.1, 0.0), Spiral(2.0 * math.pi * growth, 3.0)).end
+    chord = 0.5 * math.sqrt(FOLDING + 1e-6)
+    end = Dance(Dragon(1, chord, chord, 0.1, 0.0), Spiral(math.pi, 3.0)).end
     assert end.reason is EndReason.FOLD
     assert end.theta == pytest.approx(sampled_fold(FOLDING + 1e-6), rel=BESIDE_FOLD)
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_a_run_of_unlike_benches_ends_where_the_slow_chain_stops(seed: int) -> None:
+def test_a_run_of_unlike_benches_ends_where_the_slow_chain_stops(seed):
     rng = np.random.default_rng(seed)
     benches = int(rng.integers(1, 8))
     dragon = Dragon.of(10 ** rng.uniform(-0.5, 0.6, benches), [0.1] * benches, [0.05] * benches)
     spiral = Spiral(10 ** rng.uniform(-0.5, 0.8), 4.0)
-    end = Dance(dragon, spiral).end
-    assert end.time == pytest.approx(SlowDance.of(dragon, spiral).end(), abs=SLOW_END)
+    assert Dance(dragon, spiral).end.time == pytest.approx(SlowDance.of(dragon, spiral).end(), abs=SLOW_END)
 
 
 @settings(max_examples=40, deadline=None)
 @given(DANCES)
-def test_the_last_instant_is_danced_and_the_next_is_outside_the_run(dance: tuple[Dragon, Spiral]) -> None:
-    dragon, spiral = dance
-    end = Dance(dragon, spiral).end
-    assert np.isfinite(trajectory(Dance(dragon, spiral), [0.0, end.time]).speed).all()
-    with pytest.raises(OutsideRun) as refused:
-        trajectory(Dance(dragon, spiral), [0.0, math.nextafter(end.time, math.inf)])
-    assert refused.value.field == "times.1"
-    assert ("folds" in str(refused.value)) == (end.reason is EndReason.FOLD)
+def test_the_last_instant_is_danced_and_the_next_is_outside_the_run(of):
+    dance = Dance(*of)
+    end = dance.end
+    assert np.isfinite(trajectory(dance, [0.0, end.time]).speed).all()
+    with pytest.raises(OutsideRun) as caught:
+        trajectory(dance, [0.0, math.nextafter(end.time, math.inf)])
+    assert caught.value.field == "times.1"
+    assert ("folds" in caught.value.message) == (end.reason is EndReason.FOLD)
 
 
-def test_a_start_inside_the_fold_is_refused() -> None:
-    fold = Dance(Dragon(), Spiral()).end.theta
-    assert fold is not None
-    turns = fold / (2 * math.pi)
+def test_a_start_inside_the_fold_is_refused():
+    turns = Dance(Dragon(), Spiral()).end.theta / (2 * math.pi)
     assert Dance(Dragon(), Spiral(0.55, turns * (1 + 1e-9))).end.time > 0.0
-    with pytest.raises(InvalidValue) as refused:
+    with refused("path.start_turns"):
         Dance(Dragon(), Spiral(0.55, turns))
-    assert refused.value.field == "path.start_turns"
 
 
 @pytest.mark.parametrize("head_speed", [HEAD_SPEED_MIN, 1.0, HEAD_SPEED_MAX])
-def test_a_head_speed_at_its_limits_is_accepted(head_speed: float) -> None:
+def test_a_head_speed_at_its_limits_is_accepted(head_speed):
     assert Dance(Dragon(), Spiral(), head_speed).end.time == pytest.approx(432.917924228 / head_speed)
 
 
 @pytest.mark.parametrize(
     "head_speed", [HEAD_SPEED_MIN / 2, HEAD_SPEED_MAX * 2, 0.0, -1.0, math.nan, math.inf, "1", None]
 )
-def test_a_head_speed_beyond_its_limits_is_refused(head_speed: object) -> None:
-    with pytest.raises(InvalidValue) as refused:
-        trajectory(Dance(Dragon(), Spiral(), head_speed), [0.0])  # type: ignore[arg-type]
-    assert refused.value.field == "head_speed"
+def test_a_head_speed_beyond_its_limits_is_refused(head_speed):
+    with refused("head_speed"):
+        Dance(Dragon(), Spiral(), head_speed)
 
 
-SQUARE = Venue(Area("square", (((-50, -50), (150, -50), (150, 150), (-50, 150), (-50, -50)),)))
-QUESTIONS = (first_contact, least_clearance, sharpest_bend, partial(venue_clearance, venue=SQUARE))
+CORNER = partial(Legs, [(0, 0), (60, 0), (60, 60)], [0, 1], radius=5.0)
+QUESTIONS = first_contact, least_clearance, sharpest_bend, partial(venue_clearance, venue=square(150))
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=["contact", "clearance", "bend", "venue"])
 @pytest.mark.parametrize(
     ("path", "start"),
-    [
-        (Legs([(0, 0), (60, 0), (60, 60)], [0, 1], radius=5.0), 17.711),
-        (Legs([(0, 0), (60, 0), (60, 60)], [0, 1], radius=5.0, start=40.0), 0.0),
-        (Spiral(0.9, 6), 0.0),
-        (Turn(1.7, start_turns=4), 0.0),
-    ],
+    [(CORNER(), 17.711), (CORNER(start=40.0), 0.0), (Spiral(0.9, 6), 0.0), (Turn(1.7, start_turns=4), 0.0)],
     ids=["off the path at 0", "on the path at 0", "spiral", "turn"],
 )
-def test_without_a_start_a_question_asks_from_the_default_start(
-    question: Callable[..., object], path: Spiral | Legs | Turn, start: float
-) -> None:
+def test_without_a_start_a_question_asks_from_the_default_start(question, path, start):
     dance = Dance(Dragon(10), path)
-    assert dance.default_start == pytest.approx(start, abs=1e-3)
-    stop = dance.default_start + 20.0
-    assert repr(question(dance, stop=stop)) == repr(question(dance, start=dance.default_start, stop=stop))
-    assert dance.span() == dance.span(None, None) == (dance.default_start, dance.end.time)
+    default = dance.default_start
+    assert default == pytest.approx(start, abs=1e-3)
+    assert repr(question(dance, stop=default + 20.0)) == repr(question(dance, start=default, stop=default + 20.0))
+    assert dance.span() == dance.span(None, None) == (default, dance.end.time)
 
 
 @pytest.mark.parametrize(
@@ -190,7 +166,7 @@ def test_without_a_start_a_question_asks_from_the_default_start(
         ("Legs([(0.0, 0.0), (600.0, 0.0)], start=500.0)", "Legs([(0.0, 0.0), (600.0, 1.0)], start=500.0)"),
     ],
 )
-def test_dances_of_equal_values_are_equal(path: str, other: str) -> None:
+def test_dances_of_equal_values_are_equal(path, other):
     first, second, different = (Dance(Dragon(), eval(source, vars(core))) for source in (path, path, other))
     assert first == second == pickle.loads(pickle.dumps(first))
     assert hash(first) == hash(second)

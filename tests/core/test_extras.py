@@ -1,10 +1,7 @@
 """Optional packages: asked for by name where they are missing, never imported before."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,24 +11,23 @@ from core.extras import wanted
 
 ROOT = Path(__file__).parents[2]
 DANCE = Dance(Dragon(5), Spiral())
+TRAJECTORY, PROFILE, CONTACT = trajectory(DANCE, 0.0), clearance_profile(DANCE, 0.0), first_contact(DANCE)
 
 
 @pytest.mark.parametrize(
     ("package", "extra", "ask"),
     [
-        ("pandas", "data", lambda: trajectory(DANCE, 0.0).to_dataframe()),
-        ("pandas", "data", lambda: clearance_profile(DANCE, 0.0).to_dataframe()),
-        ("polars", "polars", lambda: trajectory(DANCE, 0.0).to_polars()),
-        ("xarray", "data", lambda: trajectory(DANCE, 0.0).to_xarray()),
-        ("xarray", "data", lambda: clearance_profile(DANCE, 0.0).to_xarray()),
-        ("matplotlib", "figures", lambda: trajectory(DANCE, 0.0).plot()),
-        ("matplotlib", "figures", lambda: clearance_profile(DANCE, 0.0).plot()),
-        ("matplotlib", "figures", lambda: first_contact(DANCE).plot()),
+        ("pandas", "data", TRAJECTORY.to_dataframe),
+        ("pandas", "data", PROFILE.to_dataframe),
+        ("polars", "polars", TRAJECTORY.to_polars),
+        ("xarray", "data", TRAJECTORY.to_xarray),
+        ("xarray", "data", PROFILE.to_xarray),
+        ("matplotlib", "figures", TRAJECTORY.plot),
+        ("matplotlib", "figures", PROFILE.plot),
+        ("matplotlib", "figures", CONTACT.plot),
     ],
 )
-def test_a_missing_package_is_named_with_the_extra_that_brings_it(
-    package: str, extra: str, ask: Callable[[], object], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_missing_package_is_named_with_the_extra_that_brings_it(package, extra, ask, monkeypatch):
     # None in sys.modules is Python's own word for a module that cannot be imported.
     for name in [name for name in sys.modules if name.partition(".")[0] == package]:
         monkeypatch.delitem(sys.modules, name)
@@ -41,14 +37,14 @@ def test_a_missing_package_is_named_with_the_extra_that_brings_it(
         ask()
 
 
-def test_a_package_that_lacks_something_itself_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_package_that_lacks_something_itself_says_so(tmp_path, monkeypatch):
     (tmp_path / "half_a_package.py").write_text("import something_else_that_is_missing")
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(ModuleNotFoundError, match="something_else_that_is_missing"):
         wanted("half_a_package", "data", "this test")
 
 
-def test_asking_core_imports_no_optional_package() -> None:
+def test_asking_core_imports_no_optional_package():
     code = """
 import sys
 from core import *

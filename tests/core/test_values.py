@@ -1,7 +1,5 @@
 """Types of arrays and points: results of numbers given as integers hold doubles, as their annotations say."""
 
-from __future__ import annotations
-
 from typing import get_args
 
 import numpy as np
@@ -24,7 +22,7 @@ RESULTS = [
 
 
 @pytest.mark.parametrize("result", RESULTS, ids=lambda result: type(result).__name__)
-def test_arrays_hold_doubles_and_points_two_floats(result: object) -> None:
+def test_arrays_hold_doubles_and_points_two_floats(result):
     values = {name: hint for name, hint in hints(type(result)).items() if hint in (Floats, Point, Point | None)}
     assert values
     for name, hint in values.items():

@@ -1,44 +1,40 @@
 """How first encounters read, and their proofs in both languages."""
 
-from __future__ import annotations
+from dataclasses import replace
 
-from core import Dance, Dragon, Line, Outcome, Part, Performance, Route, first_encounter
+import pytest
+
+from core import Outcome, Performance, first_encounter
+from tests.support.shared_dances import on_lanes
 
 
-def lanes(apart: float) -> Performance:
+def lanes(apart):
     """Two dragons that pass each other on parallel streets."""
-    there, back = Route([Line((-30.0, 0.0), (30.0, 0.0))]), Route([Line((30.0, apart), (-30.0, apart))])
-    return Performance([Part(Dance(Dragon(4), there), name="there"), Part(Dance(Dragon(4), back))])
+    there, back = on_lanes(((-30.0, 0.0), (30.0, 0.0)), ((30.0, apart), (-30.0, apart)), benches=4).parts
+    return Performance([replace(there, name="there"), back])
 
 
-def test_dragons_that_pass_are_clear_until_the_last_path_ends() -> None:
-    met = first_encounter(lanes(0.36))
-    assert repr(met) == "<FirstEncounter: no benches of two dragons touch until 60 s, where the last path ends>"
-    near = met.certificate.least_clearance
-    assert near is None or abs(near.clearance - 0.06) < 1e-9
-    stopped = first_encounter(lanes(0.36), stop=20.0)
-    assert repr(stopped) == "<FirstEncounter: no benches of two dragons touch until 20 s>"
+@pytest.mark.parametrize(
+    ("apart", "query", "words"),
+    [
+        (0.36, {}, "no benches of two dragons touch until 60 s, where the last path ends>"),
+        (0.36, {"stop": 20.0}, "no benches of two dragons touch until 20 s>"),
+        (0.2, {}, "bench 0 of there and bench 0 of dragon 1 touch at 29.725 s>"),
+        (0.36, {"margin": 0.1}, "bench 0 of there and bench 0 of dragon 1 come within 0.1 m at 29.6"),
+        (0.3, {}, "undecided from 29.72"),  # their sides touch, to rounding, all the way
+    ],
+)
+def test_an_encounter_reads_as_a_sentence_with_dragons_benches_and_times(apart, query, words):
+    met = first_encounter(lanes(apart), **query)
+    assert repr(met).startswith(f"<FirstEncounter: {words}")
+    near, bracket = met.certificate.least_clearance, met.time_bracket
+    assert near is None or near.clearance == pytest.approx(0.06, abs=1e-9)
+    if met.outcome is Outcome.UNDECIDED:
+        assert bracket[0] == pytest.approx(29.725, abs=1e-4)
+        assert met.certificate.claim.clear_until == bracket[0]
 
 
-def test_an_encounter_names_dragons_and_benches() -> None:
-    met = first_encounter(lanes(0.2))
-    assert repr(met) == "<FirstEncounter: bench 0 of there and bench 0 of dragon 1 touch at 29.725 s>"
-    within = first_encounter(lanes(0.36), margin=0.1)
-    assert repr(within).startswith(
-        "<FirstEncounter: bench 0 of there and bench 0 of dragon 1 come within 0.1 m at 29.6"
-    )
-
-
-def test_dragons_that_slide_along_each_other_are_undecided() -> None:
-    met = first_encounter(lanes(0.3))  # their sides touch, to rounding, all the way
-    assert met.outcome is Outcome.UNDECIDED
-    assert met.time_bracket is not None
-    assert abs(met.time_bracket[0] - 29.725) < 1e-4
-    assert repr(met).startswith("<FirstEncounter: undecided from 29.72")
-    assert met.certificate.claim.clear_until == met.time_bracket[0]
-
-
-def test_the_proof_has_words_in_both_languages() -> None:
+def test_the_proof_has_words_in_both_languages():
     certificate = first_encounter(lanes(0.36)).certificate
     assert "from 7.8100000" in certificate.method
     assert "no benches of two dragons touch; there the last path ends." in certificate.method

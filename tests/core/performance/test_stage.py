@@ -1,43 +1,41 @@
 """The stage: speeds, breaks, and where rings prove that all is clear."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
 
-from core import Dance, Dragon, Line, Part, Passage, Performance, Route, Spiral
+from core import Dance, Dragon, Part, Passage, Performance, Spiral
 from core.performance.stage import Stage
+from tests.support.shared_dances import in_one_spiral, lane
 
-STREET = Route([Line((-30.0, 0.0), (30.0, 0.0))])
+STREET = lane((-30.0, 0.0), (30.0, 0.0))
 
 
-def test_steps_break_where_a_speed_changes() -> None:
+def test_steps_break_where_a_speed_changes():
     slow = Dance(Dragon(3), STREET, 1.0, [Passage(0.5, until_time=20.0), Passage(0.0, until_time=25.0)])
-    performance = Performance([Part(slow, 4.0), Part(Dance(Dragon(3), Spiral(1.0, 5.0, (90.0, 0.0)), 1.5))])
-    stage = Stage(performance, (0.0, 45.0), 0.0)
-    first = stage.players[0].begin
+    other = Part(Dance(Dragon(3), Spiral(1.0, 5.0, (90.0, 0.0)), 1.5))
+    stage = Stage(Performance([Part(slow, 4.0), other]), (0.0, 45.0), 0.0)
+    player = stage.players[0]
+    first = player.begin
     assert stage.breaks(0.0, 45.0) == [0.0, 4.0, first, 24.0, 29.0, 45.0]  # at 4 s the first passage begins
-    assert [stage.players[0].speed(*span) for span in ((0.0, first), (first, 24.0), (24.0, 29.0), (29.0, 45.0))] == [
-        0.0,
-        0.5,
-        0.0,
-        1.0,
-    ]
+    spans = (0.0, first), (first, 24.0), (24.0, 29.0), (29.0, 45.0)
+    assert [player.speed(*span) for span in spans] == [0.0, 0.5, 0.0, 1.0]
     # Before its delay is over the dragon stands at its beginning.
-    assert stage.players[0].travel(0.0) == slow.clock.travel(slow.begin)
+    assert player.travel(0.0) == slow.clock.travel(slow.begin)
 
 
 @pytest.mark.parametrize("pitch", [1.1, 2.0])
-def test_in_one_spiral_all_is_clear_until_a_head_is_at_the_radius(pitch: float) -> None:
-    parts = [Part(Dance(Dragon(80), Spiral(pitch, 10.0, rotation=turn))) for turn in (0.0, math.pi)]
-    stage = Stage(Performance(parts), (0.0, 45.0), 0.0)
-    radius = stage.rings[0, 1]
-    until = stage.clear_until()
-    for part in parts:
-        assert part.dance.path.head(part.dance.clock.travel(until)).radius >= radius
-    later = Stage(Performance(parts), (0.0, parts[0].end), 0.0).clear_until()
-    reached = parts[0].dance.path.head(parts[0].dance.clock.travel(later)).radius
+def test_in_one_spiral_all_is_clear_until_a_head_is_at_the_radius(pitch):
+    performance = in_one_spiral(80, pitch, 10.0)
+    dance = performance.parts[0].dance
+
+    def radius_when_clear_ends(stop):
+        stage = Stage(performance, (0.0, stop), 0.0)
+        return dance.path.head(dance.clock.travel(stage.clear_until())).radius, stage.rings[0, 1]
+
+    reached, radius = radius_when_clear_ends(45.0)
+    assert reached >= radius
+    reached, radius = radius_when_clear_ends(performance.parts[0].end)
     assert reached == pytest.approx(radius, rel=1e-9)
 
 
@@ -51,14 +49,12 @@ def test_in_one_spiral_all_is_clear_until_a_head_is_at_the_radius(pitch: float) 
     ],
     ids=["the other way", "another centre", "another pitch", "too near"],
 )
-def test_rings_prove_nothing_elsewhere(second: Spiral) -> None:
+def test_rings_prove_nothing_elsewhere(second):
     performance = Performance([Part(Dance(Dragon(80), path)) for path in (Spiral(1.1, 10.0), second)])
     stage = Stage(performance, (0.0, 50.0), 0.0)
-    assert stage.rings == {}
-    assert stage.clear_until() == 0.0
+    assert (stage.rings, stage.clear_until()) == ({}, 0.0)
 
 
-def test_rows_lead_back_to_dragons_and_benches() -> None:
+def test_rows_lead_back_to_dragons_and_benches():
     performance = Performance([Part(Dance(Dragon(3), STREET)), Part(Dance(Dragon(2), STREET), 90.0)])
-    stage = Stage(performance, (10.0, 20.0), 0.0)
-    assert stage.pair(2, 5) == ((0, 1), (2, 1))
+    assert Stage(performance, (10.0, 20.0), 0.0).pair(2, 5) == ((0, 1), (2, 1))

@@ -1,7 +1,5 @@
 """Tolerance of several dragons: random strays on its safe side, verified poses on the other, and its limits."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -9,19 +7,14 @@ import numpy as np
 import pytest
 
 from core import (
-    Area,
-    Budget,
     Dance,
     Dragon,
     Limit,
-    Line,
     Outcome,
     OutsideRun,
     Part,
     Performance,
-    Route,
     Spiral,
-    TooMuchWork,
     Venue,
     first_encounter,
     performance_least_clearance,
@@ -29,7 +22,11 @@ from core import (
     tolerance,
 )
 from core.tolerance.exhibit import CHORD_WITHIN
+from tests.support.further import further
+from tests.support.random_squares import box
 from tests.support.random_strays import random_strays
+from tests.support.refused import refused
+from tests.support.shared_dances import CROSSING, EAST, OPPOSITE, on_lanes
 from tests.support.slow_performance import SlowPerformance
 from tests.support.slow_search import rectangles_gap
 
@@ -37,17 +34,11 @@ from tests.support.slow_search import rectangles_gap
 STRAYS, TIMES, STEP = 4000, 9, 0.05
 # Rounding of a chord that was computed from places of hundreds of metres [m].
 ROUNDED = 1e-12
-OPPOSITE = Performance([Part(Dance(Dragon(60), Spiral(1.1, 8.0, rotation=turn))) for turn in (0.0, math.pi)])
-STREETS = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
-CROSSING = Performance(
-    [Part(Dance(Dragon(5), Route([street]), 1.0 + 0.1 * k), 15.0 * k) for k, street in enumerate(STREETS)]
-)
-LANES = Performance(
-    [
-        Part(Dance(Dragon(5), Route([lane])))
-        for lane in (Line((-40.0, 0.0), (40.0, 0.0)), Line((40.0, 0.5), (-40.0, 0.5)))
-    ]
-)
+ANSWERS = {
+    "crossing": (CROSSING, None),
+    "lanes": (on_lanes(EAST, ((40.0, 0.5), (-40.0, 0.5))), None),
+    "one spiral": (OPPOSITE, 200.0),
+}
 
 
 def rectangle(holes, dragon, bench):
@@ -58,116 +49,85 @@ def rectangle(holes, dragon, bench):
 
 
 def strayed(rng, handles, dragon, bench, stray):
-    """Holes (STRAYS, 2, 2) of a bench that stray by no more than `stray` and keep its chord."""
+    """A bench with two holes (STRAYS, 2, 2) that stray by no more than `stray` and keep its chord."""
     front, rear = handles[bench], handles[bench + 1]
     along = (front - rear) / np.linalg.norm(front - rear)
     turned = np.array([along, [-along[1], along[0]]])
-    return np.stack([front, rear]) + random_strays(rng, float(dragon.chords[bench]), stray, STRAYS) @ turned
+    holes = np.stack([front, rear]) + random_strays(rng, float(dragon.chords[bench]), stray, STRAYS) @ turned
+    return rectangle(holes, dragon, bench)
 
 
-@pytest.mark.parametrize(
-    ("performance", "stop"),
-    [(OPPOSITE, 200.0), (CROSSING, None), (LANES, None)],
-    ids=["one spiral", "crossing", "lanes"],
-)
-def test_no_random_stray_touches_and_the_pose_beyond_does(performance: Performance, stop: float | None) -> None:
+@pytest.mark.parametrize("name", further(ANSWERS, 2))
+def test_no_random_stray_touches_and_the_pose_beyond_does(name):
+    performance, stop = ANSWERS[name]
     answer = performance_tolerance(performance, stop=stop)
-    assert answer.stray > 0.0
-    assert answer.limited_by is Limit.BENCHES
-    assert answer.dragons == (0, 1)
-    assert answer.time is not None
-    assert answer.benches is not None
+    pose = answer.exhibit
+    assert (answer.limited_by, answer.dragons) == (Limit.BENCHES, (0, 1))
     slow, rng, nearest = SlowPerformance(performance.parts), np.random.default_rng(49), math.inf
     times = np.clip(answer.time + STEP * (np.arange(TIMES) - TIMES // 2), answer.start, answer.stop)
     dragons = [part.dance.dragon for part in performance.parts]
-    for places in zip(*(part.handles(times) for part in slow.parts), strict=True):
-        pairs = {answer.benches, *((a, b) for a in range(3) for b in range(3))}
-        for benches in pairs:
-            holes = [
-                strayed(rng, own, dragon, bench, answer.stray)
-                for own, dragon, bench in zip(places, dragons, benches, strict=True)
-            ]
-            one, two = (
-                rectangle(own, dragon, bench) for own, dragon, bench in zip(holes, dragons, benches, strict=True)
+    for one, two in zip(*(part.handles(times) for part in slow.parts), strict=True):
+        for a, b in {answer.benches, *np.ndindex(3, 3)}:
+            gaps = rectangles_gap(
+                *strayed(rng, one, dragons[0], a, answer.stray), *strayed(rng, two, dragons[1], b, answer.stray)
             )
-            gaps = rectangles_gap(*one, *two)
-            assert gaps.min() > 0.0
             nearest = min(nearest, float(gaps.min()))
-    least = performance_least_clearance(performance, stop=stop)
-    assert least is not None
-    assert nearest < 0.5 * least.distance  # these strays do reach far
-    pose = answer.exhibit
-    assert pose is not None
+    # These strays do reach far.
+    assert 0.0 < nearest < 0.5 * performance_least_clearance(performance, stop=stop).distance
     assert answer.stray_bracket == (answer.stray, pose.stray)
     assert 0.0 < pose.stray - answer.stray < 0.02 * answer.stray
     rectangles = []
     for part, dragon, own, bench in zip(slow.parts, dragons, pose.handles, pose.benches, strict=True):
         chords = np.linalg.norm(own[1:] - own[:-1], axis=1)
-        np.testing.assert_allclose(chords, dragon.chords, rtol=0, atol=CHORD_WITHIN + ROUNDED)
+        assert chords == pytest.approx(dragon.chords, abs=CHORD_WITHIN + ROUNDED)
         ways = np.linalg.norm(own - part.handles(np.array([pose.time]))[0], axis=1)
         assert ways.max() <= pose.stray + 1e-9
-        rectangles.append(rectangle(own[None, bench : bench + 2], dragon, bench))
-    assert rectangles_gap(*rectangles[0], *rectangles[1])[0] == pytest.approx(-pose.depth, rel=1e-3)
+        rectangles += rectangle(own[None, bench : bench + 2], dragon, bench)
+    assert rectangles_gap(*rectangles)[0] == pytest.approx(-pose.depth, rel=1e-3)
     assert pose.depth > 0.0
 
 
-def test_the_stray_is_the_one_with_which_no_encounter_comes_about() -> None:
+def test_the_stray_is_the_one_with_which_no_encounter_comes_about():
     answer = performance_tolerance(OPPOSITE, stop=200.0)
-    assert answer.certificate is not None
     claim = answer.certificate.claim
     assert (claim.stray, claim.start, claim.clear_until) == (answer.stray, 0.0, 200.0)
     met = first_encounter(OPPOSITE, stray=answer.stray, stop=200.0)
-    assert met.outcome is Outcome.CLEAR
-    assert met.certificate.claim == claim
+    assert (met.outcome, met.certificate.claim) == (Outcome.CLEAR, claim)
     assert first_encounter(OPPOSITE, stray=1.001 * answer.stray, stop=200.0).outcome is Outcome.CONTACT
 
 
-def test_a_single_dragon_has_its_own_tolerance_to_the_last_bit() -> None:
+def test_a_single_dragon_has_its_own_tolerance_to_the_last_bit():
     alone = Dance(Dragon(30), Spiral(1.1, 8.0))
     answer, own = performance_tolerance(Performance([Part(alone)])), tolerance(alone)
-    assert answer.own == (own,)
+    assert (answer.own, answer.certificate, answer.dragons) == ((own,), None, (0,))
     assert (answer.stray, answer.stray_bracket, answer.limited_by) == (own.stray, own.stray_bracket, own.limited_by)
-    assert (answer.time, answer.benches, answer.dragons) == (own.time, own.benches, (0,))
-    assert answer.certificate is None
+    assert (answer.time, answer.benches) == (own.time, own.benches)
 
 
-def test_the_venue_limits_and_a_delay_shifts_its_time() -> None:
-    venue = Venue(Area("square", (((-50, -0.9), (50, -0.9), (50, 50), (-50, 50), (-50, -0.9)),)))
-    lanes = [Line((-40.0, 0.0), (40.0, 0.0)), Line((40.0, 9.0), (-40.0, 9.0))]
-    parts = [Part(Dance(Dragon(3), Route([lane]))) for lane in lanes]
-    for delay in (0.0, 30.0):
-        performance = Performance([replace(parts[0], delay=delay, name="east"), parts[1]], venue)
-        answer = performance_tolerance(performance)
-        own = tolerance(parts[0].dance, venue)
-        assert (answer.stray, answer.limited_by, answer.area) == (own.stray, Limit.VENUE, "square")
-        assert answer.dragons == (0,)
-        assert answer.own[0] == own
-        assert own.time is not None
-        assert answer.time == own.time + delay
-        assert answer.exhibit is not None
-        assert answer.exhibit.time == answer.time
-        assert "east" in repr(answer)
-        assert answer.certificate is not None
-        assert answer.certificate.claim.stray == answer.stray
+@pytest.mark.parametrize("delay", [0.0, 30.0])
+def test_the_venue_limits_and_a_delay_shifts_its_time(delay):
+    venue = Venue(box("square", -50, -0.9, 100, 50.9))
+    first, second = on_lanes(EAST, ((40.0, 9.0), (-40.0, 9.0)), benches=3).parts
+    answer = performance_tolerance(Performance([replace(first, delay=delay, name="east"), second], venue))
+    own = tolerance(first.dance, venue)
+    assert (answer.stray, answer.limited_by, answer.area) == (own.stray, Limit.VENUE, "square")
+    assert (answer.dragons, answer.own[0]) == ((0,), own)
+    assert answer.time == answer.exhibit.time == own.time + delay
+    assert answer.certificate.claim.stray == answer.stray
+    assert "east" in repr(answer)
 
 
-def test_dragons_that_touch_have_no_safe_stray() -> None:
+def test_dragons_that_touch_have_no_safe_stray():
     met, answer = first_encounter(OPPOSITE), performance_tolerance(OPPOSITE)
-    assert answer.stray == 0.0
-    assert answer.certificate is None
+    assert (answer.stray, answer.certificate) == (0.0, None)
     assert (answer.time, answer.dragons, answer.benches) == (met.time, met.dragons, met.benches)
 
 
-def test_a_dragon_that_stands_all_the_time_has_the_tolerance_of_its_place() -> None:
-    parts = [CROSSING.parts[0], replace(CROSSING.parts[1], delay=500.0)]
-    answer = performance_tolerance(Performance(parts), stop=40.0)
-    assert answer.own[1].start == parts[1].dance.begin
-    assert answer.own[1].stop < parts[1].dance.begin + 0.01
+def test_a_dragon_that_stands_all_the_time_has_the_tolerance_of_its_place():
+    first, second = CROSSING.parts
+    answer = performance_tolerance(Performance([first, replace(second, delay=500.0)]), stop=40.0)
+    begin = second.dance.begin
+    assert begin == answer.own[1].start < answer.own[1].stop < begin + 0.01
     assert answer.dragons == (0, 1) or answer.limited_by is Limit.CHORD
-    with pytest.raises(OutsideRun):
+    with refused("start", OutsideRun):
         performance_tolerance(CROSSING, start=-1.0)
-
-
-def test_a_spent_budget_is_an_error() -> None:
-    with pytest.raises(TooMuchWork):
-        performance_tolerance(OPPOSITE, budget=Budget(2e4))

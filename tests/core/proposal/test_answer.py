@@ -1,7 +1,5 @@
 """The words of reasons and proposals."""
 
-from __future__ import annotations
-
 import pytest
 
 from core import Dragon, Failure, FailureKind, Figure, Reason, ReasonKind, Venue, propose
@@ -9,55 +7,40 @@ from core.proposal.answer import benches_of
 from tests.support.random_squares import box
 
 TOUCH = Failure(FailureKind.CONTACT, 3.0, (1, 9), None, "Benches 1 and 9 touch at 3.000000 s.")
+REASONS = {
+    "The benches cover at least 660.4 m2 at any moment; the square has 480.0 m2.": Reason(
+        ReasonKind.AREA, 0, 480.0, 660.4
+    ),
+    "The widest free circle is at most 4.10 m across; a turn of the head bench needs 5.20 m.": Reason(
+        ReasonKind.WIDTH, 9, 4.1, 5.2, who=(0,)
+    ),
+    "The widest free circle is at most 4.10 m across; a turn of bench 7 needs 5.20 m.": Reason(
+        ReasonKind.WIDTH, 9, 4.1, 5.2, who=(7,)
+    ),
+    "The free ground between gate 0 and gate 2 is 0.20 m wide at its narrowest; the benches need 0.44 m.": Reason(
+        ReasonKind.WAY, 9, 0.2, 0.44, who=(0, 2)
+    ),
+    "People shall be free to stray 0.05 m; the best of 412 tried, a figure eight, allows 0.032 m.": Reason(
+        ReasonKind.STRAY, 412, 0.0321, 0.05, Figure.EIGHT
+    ),
+    "The dragon has 40 benches; the longest dragon that was found to fit, in a spiral, has 1.": Reason(
+        ReasonKind.BENCHES, 30, 1.0, 40.0, Figure.SPIRAL
+    ),
+    "None of 30 tried passes its check; the nearest, a ring: Benches 1 and 9 touch at 3.000000 s.": Reason(
+        ReasonKind.FAILS, 30, figure=Figure.RING, failure=TOUCH
+    ),
+    "No figure was found to fit, not even with one bench: the widest free circle is at most 4.50 m across, "
+    "a turn alone needs 4.25 m, and every figure that was tried needs more.": Reason(ReasonKind.FAILS, 0, 4.5, 4.25),
+}
 
 
-@pytest.mark.parametrize(
-    ("reason", "words"),
-    [
-        (
-            Reason(ReasonKind.AREA, 0, 480.0, 660.4),
-            "The benches cover at least 660.4 m2 at any moment; the square has 480.0 m2.",
-        ),
-        (
-            Reason(ReasonKind.WIDTH, 9, 4.1, 5.2, who=(0,)),
-            "The widest free circle is at most 4.10 m across; a turn of the head bench needs 5.20 m.",
-        ),
-        (
-            Reason(ReasonKind.WIDTH, 9, 4.1, 5.2, who=(7,)),
-            "The widest free circle is at most 4.10 m across; a turn of bench 7 needs 5.20 m.",
-        ),
-        (
-            Reason(ReasonKind.WAY, 9, 0.2, 0.44, who=(0, 2)),
-            "The free ground between gate 0 and gate 2 is 0.20 m wide at its narrowest; the benches need 0.44 m.",
-        ),
-        (
-            Reason(ReasonKind.STRAY, 412, 0.0321, 0.05, Figure.EIGHT),
-            "People shall be free to stray 0.05 m; the best of 412 tried, a figure eight, allows 0.032 m.",
-        ),
-        (
-            Reason(ReasonKind.BENCHES, 30, 1.0, 40.0, Figure.SPIRAL),
-            "The dragon has 40 benches; the longest dragon that was found to fit, in a spiral, has 1.",
-        ),
-        (
-            Reason(ReasonKind.FAILS, 30, figure=Figure.RING, failure=TOUCH),
-            "None of 30 tried passes its check; the nearest, a ring: Benches 1 and 9 touch at 3.000000 s.",
-        ),
-        (
-            Reason(ReasonKind.FAILS, 0, 4.5, 4.25),
-            (
-                "No figure was found to fit, not even with one bench: the widest free circle is at most 4.50 m across, "
-                "a turn alone needs 4.25 m, and every figure that was tried needs more."
-            ),
-        ),
-    ],
-    ids=lambda one: one.kind.value if isinstance(one, Reason) else "",
-)
-def test_a_reason_is_one_sentence_with_its_numbers(reason: Reason, words: str) -> None:
-    assert reason.message == words
-    assert repr(reason) == f"<Reason: {words}>"
+@pytest.mark.parametrize("words", REASONS)
+def test_a_reason_is_one_sentence_with_its_numbers(words):
+    assert REASONS[words].message == words
+    assert repr(REASONS[words]) == f"<Reason: {words}>"
 
 
-def test_a_proposal_says_what_it_is() -> None:
+def test_a_proposal_says_what_it_is():
     (one,) = propose(Venue(box("Yard", 0, 0, 24, 20)), Dragon(1), figures=["ring"], count=1).proposals
     assert one.message.startswith("A ring of 1 bench, ")
     assert one.message.endswith(" from 'Yard'.")
