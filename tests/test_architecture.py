@@ -35,7 +35,6 @@ def module_name(path: Path) -> str:
 
 MODULES = {module_name(path): path for package in ("core", "app") for path in sorted((ROOT / package).rglob("*.py"))}
 CORE = [module for module in MODULES if module.startswith("core")]
-LINE_OF = {room: number for number, line in enumerate(ROOMS.split("\n")) for room in line.split()}
 
 
 @cache
