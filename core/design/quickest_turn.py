@@ -141,8 +141,11 @@ class _Times:
             turn = self._turn(at)
             if turn is None or (best is not None and lowered >= best[0]):
                 continue
-            if contact_in(self.budget, self.dragon, turn, self.circle.margin, 0.0).outcome is Outcome.CLEAR:
+            outcome = contact_in(self.budget, self.dragon, turn, self.circle.margin, 0.0).outcome
+            if outcome is Outcome.CLEAR:
                 best = lowered, turn
+            elif outcome is Outcome.UNDECIDED and best is None and self.budget.left <= 0.0:
+                raise Halted(self.budget)  # that nothing was decided says nothing about the circle
         return None if best is None else best[1]
 
     def _dips(self) -> list[tuple[float, tuple[float, float]]]:
