@@ -36,24 +36,20 @@ def test_the_sizes_are_those_of_the_turn(ratio: float, entry: float, leaving: fl
 def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest: float) -> None:
     rng = np.random.default_rng(3)
     centres, halves = boxes(rng, largest)
-    turns, followed = turns_in(GROWTH, centres, halves), 0
+    turns, every = turns_in(GROWTH, centres, halves), np.ones(centres.shape[1], dtype=bool)
     lows, of_followed = lower_lengths(turns), lower_lengths(turns, LEAST)
     weighted = Multipliers(GROWTH, LEAST, 4.5, np.array([2.0, 5.0, 0.3, 0.1])).lower(turns, centres, halves)
+    spans = (*turns.radii, *turns.angles, turns.length, turns.exit)
+    holds = (every, every, turns.whole, turns.whole, turns.whole, every)
     for _ in range(PLACES):
         at = centres + halves * rng.uniform(-1.0, 1.0, centres.shape)
         sizes = sizes_of(GROWTH, *at)
-        for span, size in zip((*turns.radii, turns.exit), (sizes[0], sizes[1], sizes[5]), strict=True):
-            assert not ((size < span.low - ROUNDED) | (size > span.high + ROUNDED)).any()
-        for span, size in zip((*turns.angles, turns.length), sizes[2:5], strict=True):
-            outside = (size < span.low - ROUNDED) | (size > span.high + ROUNDED)
-            assert not (outside & turns.whole).any()
-        followed += int(turns.whole.sum())
-        assert (sizes[4] >= lows - ROUNDED).all()
-        follows = sizes[:2].min(axis=0) >= LEAST
-        assert (sizes[4] >= of_followed - ROUNDED)[follows].all()
-        counts = follows & (np.maximum(at[0], sizes[5]) <= 4.5)
-        assert (sizes[4] >= weighted - ROUNDED)[counts].all()
-    assert followed > 0.05 * PLACES * centres.shape[1]
+        for span, size, counts in zip(spans, sizes, holds, strict=True):
+            assert not (counts & ((size < span.low - ROUNDED) | (size > span.high + ROUNDED))).any()
+        follows, inside = sizes[:2].min(axis=0) >= LEAST, np.maximum(at[0], sizes[5]) <= 4.5
+        for bound, counts in ((lows, every), (of_followed, follows), (weighted, follows & inside)):
+            assert (sizes[4] >= bound - ROUNDED)[counts].all()
+    assert turns.whole.mean() > 0.05
 
 
 @pytest.mark.uncompiled
