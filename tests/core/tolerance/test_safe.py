@@ -24,7 +24,6 @@ def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch: float, bo
     dance, stop = to_circle(pitch)
     result = tolerance(dance, stop=stop)
     safe, touching = result.stray_bracket
-    assert touching is not None
     assert bound - ROUNDED < safe < touching < contact + ROUNDED
     assert touching < safe * (1.0 + BRACKET)
     assert result.limited_by is Limit.BENCHES
@@ -36,7 +35,6 @@ def test_a_dance_that_touches_as_it_is_allows_none() -> None:
     dance = Dance(Dragon(), Spiral())
     result = tolerance(dance)
     assert result.stray == 0.0
-    assert result.stray_bracket[1] is not None
     assert result.stray_bracket[1] < 1e-6
     assert result.time == pytest.approx(first_contact(dance).time, abs=1e-8)
     assert result.benches == (0, 8)
@@ -56,9 +54,7 @@ def test_a_pose_shows_where_benches_that_the_one_between_holds_apart_meet_after_
     result = tolerance(Dance(Dragon(3, 1.6, 1.6, 1.0, 0.275), line))
     safe, touching = result.stray_bracket
     assert result.independent < safe < 0.5 * 1.05  # half of a chord [m]: more is not asked about
-    assert result.exhibit is not None
     assert result.exhibit.benches == (0, 2)
-    assert touching is not None
     assert safe < touching < 1.2 * safe  # the bound for three benches is not as tight as that for two
 
 
@@ -66,9 +62,6 @@ def test_on_a_wide_spiral_the_next_turn_limits_the_stray_and_not_the_next_bench_
     dance = Dance(Dragon(60), Spiral(2.0))
     result = tolerance(dance, stop=dance.path.travel_to(CIRCLE))
     safe, touching = result.stray_bracket
-    assert touching is not None
-    assert result.benches is not None
-    assert result.benches[1] is not None
     assert result.benches[1] - result.benches[0] > 2
     assert result.independent < safe < touching < 1.03 * safe
 

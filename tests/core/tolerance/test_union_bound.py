@@ -57,7 +57,6 @@ def test_no_chain_within_the_assumption_leaves_its_first_order_by_more_than_the_
     laid, strays, linear, small = chains(Wobble(size, size))
     deviations = 2.5
     bounds = left_out(DANCE.dragon, laid, deviations)
-    assert bounds is not None
     rest = strays - linear
     ways = np.stack([laid.along[-1], laid.across[-1]], axis=1)
     front, rear = (np.einsum("ski,kfi->skf", part, ways) for part in (rest[:, :-1], rest[:, 1:]))
@@ -78,7 +77,6 @@ def test_the_bound_grows_with_the_wobble_and_holds_of_every_sample() -> None:
     span, bounds = {"start": 384.0, "stop": 394.0}, []
     for size in (0.0003, 0.001, 0.002, 0.004, 0.03):
         result = contact_probability(DANCE, Wobble(size, size), 200, 1, **span)
-        assert result.union_bound is not None
         assert result.limits[0] <= result.union_bound
         bounds.append(result.union_bound)
     assert bounds[0] < 1e-9
