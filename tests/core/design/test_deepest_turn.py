@@ -7,7 +7,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-import shapely
 
 import core.design.deepest_turn
 from core import (
@@ -19,20 +18,18 @@ from core import (
     TooMuchWork,
     Turn,
     TurnLimit,
-    bench_poses,
     deepest_turn,
     first_contact,
     least_clearance,
     trajectory,
 )
 from core.design.deepest_turn import ENTRY_STEP, way_followed
-from core.shapes.rectangles import corners
 from tests.support.further import further
+from tests.support.slow_route import SlowRoute
 
 ENTRY_ERROR = 1e-9  # [m]
-STEP = 0.1  # [s], between the instants that shapely sees
+STEP = 0.1  # [s], between the instants that are looked at
 FINE_STEP = 2e-3  # [s], the same around the instant of least clearance
-NEAR = 0.9  # [m], farther pairs are not measured
 DEEPER = 1e-5  # [m], an entry clearly on the other side of the border
 
 # A long head reaches the bend first; as short a head as the body lets benches touch first.
@@ -57,21 +54,20 @@ def answer(name: str) -> DeepestTurn:
     return deepest_turn(dragon.leading(30), **request)
 
 
-def slow_clearance(dragon: Dragon, result: DeepestTurn, entry: float, *span: float) -> float:
-    """Least distance of leading benches that share no handle on the turn with that entry, by shapely; at most NEAR.
+def turn_with(result: DeepestTurn, entry: float, start_turns: float = 16.0) -> Turn:
+    """The turn of an answer with another entry radius [m]."""
+    turn = result.turn
+    return Turn(turn.pitch, turn.turning_radius, turn.ratio, start_turns=start_turns, entry_radius=entry)
 
-    span: start, stop and step [s]; by default from before any bench is in the turn until all are past it
+
+def slow_clearance(dragon: Dragon, turn: Turn, *span: float) -> float:
+    """Least separation of the leading 30 benches that share no handle [m].
+
+    span: start, stop and step [s]; by default from before any of them is in the turn until all are past it
     """
-    dragon = dragon.leading(30)
-    danced = Turn(result.turn.pitch, result.turn.turning_radius, result.turn.ratio, entry_radius=entry)
-    sizes, least = np.stack([dragon.lengths, dragon.widths], axis=-1), NEAR
-    span = span or (-15.0, danced.length + float(dragon.chords.sum()) + 15.0, STEP)
-    poses = bench_poses(trajectory(Dance(dragon, danced), np.arange(*span)).position)
-    for benches in shapely.polygons(corners(poses, np.broadcast_to(sizes, (*poses.shape[:2], 2)))):
-        a, b = shapely.STRtree(benches).query(benches, predicate="dwithin", distance=least)
-        apart = b > a + 1
-        least = min(least, shapely.distance(benches[a[apart]], benches[b[apart]]).min(initial=least))
-    return float(least)
+    slow = SlowRoute.of(dragon.leading(30), turn)
+    span = span or (-15.0, turn.length + float(slow.chords.sum()) + 15.0, STEP)
+    return float(slow.clearance(np.arange(*span))[0].min())
 
 
 @pytest.mark.parametrize("name", further(CONTACT, 1))
@@ -83,10 +79,10 @@ def test_just_deeper_two_benches_come_within_the_margin_and_above_none_do(name: 
     assert 0.0 < feasible - infeasible <= ENTRY_ERROR
     assert result.turn.entry_radius == feasible
     around = (result.time - 0.3, result.time + 0.3, FINE_STEP)
-    assert slow_clearance(dragon, result, infeasible - DEEPER, *around) <= margin
-    assert slow_clearance(dragon, result, feasible + DEEPER, *around) > margin
-    for entry in (feasible, result.turn.turning_radius):
-        assert slow_clearance(dragon, result, entry) > margin
+    assert slow_clearance(dragon, turn_with(result, infeasible - DEEPER), *around) <= margin
+    assert slow_clearance(dragon, turn_with(result, feasible + DEEPER), *around) > margin
+    assert slow_clearance(dragon, turn_with(result, result.turn.turning_radius)) > margin
+    assert slow_clearance(dragon, result.turn) > margin
 
 
 @pytest.mark.parametrize("name", further(BEND, 1))
@@ -97,8 +93,8 @@ def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name
     assert (result.limited_by, result.benches, result.time) == (TurnLimit.BEND, None, None)
     assert 0.0 < feasible - infeasible <= ENTRY_ERROR
     with pytest.raises(InvalidValue, match="must not bend tighter"):
-        slow_clearance(dragon, result, infeasible - ENTRY_ERROR, 0.0, STEP, STEP)
-    assert slow_clearance(dragon, result, feasible) > 0.0
+        trajectory(Dance(dragon, turn_with(result, infeasible - ENTRY_ERROR)), 0.0)
+    assert slow_clearance(dragon, result.turn) > 0.0
     # the sum of both radii is sqrt(entry^2 + growth^2), and the smaller one just fits the longest chord
     smaller = 0.5 * float(dragon.chords.max()) / core.kernels.ROUTE_SINE_LIMIT
     total, growth = smaller * (1.0 + ratio) / min(1.0, ratio), request["pitch"] / math.tau
@@ -107,10 +103,10 @@ def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name
 
 @pytest.mark.parametrize("name", further(["contest", "margin", *CONTACT, *BEND], 2))
 def test_a_long_dragon_on_long_coils_has_no_contact_beyond_the_part_that_is_followed(name: str) -> None:
-    (dragon, request), turn = (CONTACT | BEND)[name], answer(name).turn
-    for entry in (turn.entry_radius, turn.turning_radius):
-        danced = Turn(turn.pitch, turn.turning_radius, turn.ratio, start_turns=30, entry_radius=entry)
-        margin, span = request.get("margin", 0.0), 1.6 * float(dragon.chords.sum())
+    (dragon, request), result = (CONTACT | BEND)[name], answer(name)
+    margin, span = request.get("margin", 0.0), 1.6 * float(dragon.chords.sum())
+    for entry in (result.turn.entry_radius, result.turn.turning_radius):
+        danced = turn_with(result, entry, 30.0)
         way, front = way_followed(dragon, danced, margin)
         assert (way < span, front.benches < dragon.benches) == (True, True)
         in_all = first_contact(Dance(dragon, danced), margin=margin, start=-span, stop=danced.length + span)

@@ -184,39 +184,28 @@ def listed(overhang: float) -> Dragon:
 
 
 @pytest.mark.parametrize(
-    ("dragon", "margin", "field", "most"),
+    ("dragon", "margin", "field", "words"),
     [
-        (Dragon(5, 2.2, 2.2, 0.3, 0.6), 0.0, "dragon.overhang", 0.55),
-        (Dragon(5, 2.0, 2.0, 0.3, 0.5), 0.0, "dragon.overhang", 0.5),
-        (Dragon(), 1.2, "margin", 1.1),
-        (listed(0.9), 0.0, "dragon.overhangs.0", 1.0),
-        (listed(0.5), 0.4, "margin", 0.3),
+        (Dragon(5, 2.2, 2.2, 0.3, 0.6), 0.0, "dragon.overhang", r" 0\.55 m"),
+        (Dragon(5, 2.0, 2.0, 0.3, 0.5), 0.0, "dragon.overhang", r" 0\.5 m"),
+        (Dragon(40), 1.2, "margin", r" 1\.1 m"),
+        (listed(0.9), 0.0, "dragon.overhangs.0", " 1 m"),
+        (listed(0.5), 0.4, "margin", r" 0\.3 m"),
+        (Dragon(5, 2.2, 2.2, 0.3, 0.54999), 0.0, "dragon.overhang", r"got 0\.54999 m.* straight line"),
+        (Dragon(40), 1.0999, "margin", r"got 1\.0999 m.* straight line"),
+        (listed(0.7999999), 0.0, "dragon.overhangs.0", r"got 0\.2 m \+ 0\.7999999 m.* straight line"),
     ],
 )
 def test_benches_that_meet_on_a_straight_line_are_refused(
-    dragon: Dragon, margin: float, field: str, most: float
+    dragon: Dragon, margin: float, field: str, words: str
 ) -> None:
-    """Equality too: any bend brings the inner corners nearer."""
-    with pytest.raises(InvalidValue, match=f"{most:g} m") as caught:
-        minimum_pitch(dragon, turning_radius=1.0, margin=margin)
-    assert caught.value.field == field
+    """Equality too: any bend brings the inner corners nearer.
 
-
-@pytest.mark.parametrize(
-    ("dragon", "margin", "field", "got"),
-    [
-        (Dragon(5, 2.2, 2.2, 0.3, 0.54999), 0.0, "dragon.overhang", "0.54999 m"),
-        (Dragon(40), 1.0999, "margin", "1.0999 m"),
-        (listed(0.7999999), 0.0, "dragon.overhangs.0", "0.2 m + 0.7999999 m"),
-    ],
-)
-def test_benches_that_are_hardly_apart_on_a_straight_line_are_refused_by_what_keeps_them_apart(
-    dragon: Dragon, margin: float, field: str, got: str
-) -> None:
-    """Their inner corners lean to each other on the widest spiral allowed: no circle mends that."""
-    with pytest.raises(InvalidValue, match="straight line") as caught:
+    Those that are hardly apart lean to each other on the widest spiral allowed: no circle mends that.
+    """
+    with pytest.raises(InvalidValue, match=words) as caught:
         minimum_pitch(dragon, turning_radius=1000.0, margin=margin)
-    assert (caught.value.field, str(caught.value.got)) == (field, got)
+    assert caught.value.field == field
     assert SlowWay.of(dragon, WIDEST, 16.0, 1.0).least() <= margin
 
 

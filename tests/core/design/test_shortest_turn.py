@@ -27,7 +27,7 @@ from tests.support.depth import DEEP, some
 from tests.support.further import further
 from tests.support.refused import refused
 
-PITCH, RADIUS = 1.7, 4.5
+WHOLE, PITCH, RADIUS = Dragon(), 1.7, 4.5
 # Lengths that others found with free entry and exit on grids of 2 mm, and bounds by hand: ratio, length [m].
 SHORTEST = {2.0: 11.8105, 1.5: 9.4153, 1.2: 8.6309, 1.0: 8.2271, 0.8: 8.7917}
 RATIOS = further(some(list(SHORTEST), 2), 1)
@@ -47,10 +47,12 @@ def is_clear(turn: Turn) -> bool:
     return first_contact(Dance(Dragon(), turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
 
 
-def compared(low: float, turns: Iterable[tuple[float, float, float]]) -> tuple[int, int]:
+def compared(
+    low: float, turns: Iterable[tuple[float, float, float]], dragon: Dragon = WHOLE, least: float = LEAST
+) -> tuple[int, int]:
     """How many turns of ratio, entry and exit are shorter than `low` and not; benches meet in each shorter one.
 
-    Those count that stay in the circle, and that all benches can follow.
+    Those count that stay in the circle, with no arc tighter than `least` [m].
     """
     shorter = longer = 0
     for ratio, entry, leaving in turns:
@@ -58,13 +60,13 @@ def compared(low: float, turns: Iterable[tuple[float, float, float]]) -> tuple[i
             turn = Turn(PITCH, RADIUS, ratio, entry_radius=entry, exit_radius=leaving)
         except InvalidValue:
             continue
-        if min(turn.radii) < LEAST - ROUNDED:
+        if min(turn.radii) < least - ROUNDED:
             continue
         if turn.length >= low:
             longer += 1
             continue
         shorter += 1
-        assert first_contact(Dance(Dragon(), turn), start=-20.0, stop=60.0).time is not None
+        assert first_contact(Dance(dragon, turn), start=-20.0, stop=60.0).time is not None
     return shorter, longer
 
 

@@ -7,6 +7,8 @@ import pytest
 
 from core.design.spans import Span, angle_slopes, mean_value, parameters
 
+pytestmark = pytest.mark.uncompiled
+
 BOXES, PLACES = 300, 40
 STEP = 1e-6  # of difference quotients [1]
 ROUNDED, QUOTIENT_ERROR = 1e-12, 1e-6  # of values, and of difference quotients of numbers below 100 [1]
@@ -20,7 +22,6 @@ FORMULAS = {
 }
 
 
-@pytest.mark.uncompiled
 @pytest.mark.parametrize("name", FORMULAS)
 def test_spans_hold_the_values_and_slopes_of_a_formula(name: str) -> None:
     known, value = FORMULAS[name]
@@ -42,7 +43,6 @@ def test_spans_hold_the_values_and_slopes_of_a_formula(name: str) -> None:
     assert widest > 0.6  # the spans are not wide for nothing
 
 
-@pytest.mark.uncompiled
 def test_the_slopes_of_an_angle_are_those_of_its_vector() -> None:
     x, y = parameters(np.array([[3.0], [4.0]]), np.zeros((2, 1)))
     slopes = angle_slopes(x, y, Span(np.array([25.0]), np.array([25.0])))

@@ -12,8 +12,9 @@ from core.design.turn_boxes import sizes_of, turns_in
 from tests.core.design.test_turn_boxes import boxes
 from tests.support.boxes_of_turns import GROWTH, LEAST
 
+pytestmark = pytest.mark.uncompiled
 
-@pytest.mark.uncompiled
+
 def test_multipliers_make_the_bound_good_to_the_second_order() -> None:
     """At the shortest turn of ratio 2 both the bend and the circle hold it, and a ten times smaller box is 100 times
     nearer."""
@@ -26,7 +27,6 @@ def test_multipliers_make_the_bound_good_to_the_second_order() -> None:
     assert missing[0] > 50.0 * missing[1] > 2_500.0 * missing[2] > 0.0
 
 
-@pytest.mark.uncompiled
 def test_boxes_that_are_divided_or_joined_cover_the_same_turns() -> None:
     rng = np.random.default_rng(4)
     centres, halves = boxes(rng, 0.1)

@@ -15,6 +15,8 @@ from tests.support.boxes_of_turns import CROSSING, GROWTH, SMALL, box_at, turns_
 from tests.support.depth import examples
 from tests.support.further import further
 
+pytestmark = pytest.mark.uncompiled
+
 BESIDE = [(4.2, 4.3, 1.4), (4.29, 4.4, 2.0)]
 SAMPLES = 400
 STEP = 1e-4  # [m], of the sums of curvatures
@@ -27,7 +29,6 @@ def points(turn: Turn, s: Floats) -> Floats:
     return turn.position(s + turn.radii[0] * turn.angles[0]) @ frame.T
 
 
-@pytest.mark.uncompiled
 @pytest.mark.parametrize("place", [*CROSSING, *BESIDE])
 @pytest.mark.parametrize("size", [0.2, 1.0, 4.0])
 def test_points_at_one_place_are_no_further_apart_than_the_bound(
@@ -43,7 +44,6 @@ def test_points_at_one_place_are_no_further_apart_than_the_bound(
     assert nearest > 0.1  # the bound is not far too wide
 
 
-@pytest.mark.uncompiled
 @pytest.mark.parametrize("place", further([CROSSING[0], CROSSING[3], *BESIDE], 1))
 def test_curvatures_differ_by_no_more_than_the_bound(place: tuple[float, float, float]) -> None:
     box, centre = box_at(*place, SMALL)
@@ -58,7 +58,6 @@ def test_curvatures_differ_by_no_more_than_the_bound(place: tuple[float, float, 
     assert nearest > 0.3
 
 
-@pytest.mark.uncompiled
 def test_the_bend_of_a_coil_is_that_of_the_spiral() -> None:
     spiral = Spiral(1.7, 16.0)
     s = spiral.end - 40.0

@@ -12,12 +12,13 @@ from core.design.turn_places import locally_shortest, starts
 from tests.support.boxes_of_turns import GROWTH, LEAST
 from tests.support.further import further
 
+pytestmark = pytest.mark.uncompiled
+
 INNER, CIRCLE = 1.4, 4.5  # [m]
 APART = 1e-3  # [m], of the neighbours
 ROUNDED = 1e-9  # [m]
 
 
-@pytest.mark.uncompiled
 @pytest.mark.parametrize("ratio", further([2.0, 0.7, 1.3, 1.0], 2))
 def test_a_polished_place_is_followed_and_no_neighbour_is_shorter(ratio: float) -> None:
     count = 0
@@ -37,6 +38,5 @@ def test_a_polished_place_is_followed_and_no_neighbour_is_shorter(ratio: float) 
     assert count
 
 
-@pytest.mark.uncompiled
 def test_a_circle_too_small_for_any_coil_has_no_place() -> None:
     assert list(starts(GROWTH, 4.5, 4.5, 2.0, LEAST)) == []

@@ -7,8 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_poses, trajectory
-from core.paths.following import follows
+from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_poses, sharpest_bend, trajectory
 from core.shapes.rectangles import corners
 from core.tolerance.between import held_apart, sag_pulls, sags_of, smallest_circles, touching_pose
 from core.tolerance.exhibit import exhibit
@@ -119,15 +118,11 @@ def test_three_that_cannot_fold_onto_each_other_have_no_pose() -> None:
 
 @pytest.mark.parametrize("radius", [1.44, 1.6, 2.5])
 def test_two_chords_in_a_row_bend_by_no_more_than_two_half_arcs(radius: float) -> None:
-    dragon = Dragon(12)
-    dance, _ = on_hairpin(dragon, radius)
-    assert follows(dragon, dance.path)
-    handles = trajectory(dance, np.linspace(dance.begin, dance.end.time, 4_000)).position
-    along = np.diff(handles, axis=1) @ [1.0, 1j]
-    bend = abs(np.angle(along[:, 1:] / along[:, :-1])).max(axis=0)
-    leans = np.arcsin(dragon.chords / (2.0 * radius))
-    most = leans[1:] + leans[:-1]
-    assert ((0.85 * most < bend) & (bend <= most + 1e-9)).all()
+    dance, _ = on_hairpin(Dragon(12), radius)
+    bend = sharpest_bend(dance, start=dance.begin)
+    most = float(np.arcsin(dance.dragon.chords[:2] / (2.0 * radius)).sum())
+    assert bend.benches == (0, 1)
+    assert 0.85 * most < bend.angle <= most + 1e-9
 
 
 def test_a_spiral_is_as_bent_as_where_its_head_ends() -> None:

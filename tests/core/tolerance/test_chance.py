@@ -96,28 +96,26 @@ def test_the_probability_of_a_hairpin_is_that_of_its_quadrature() -> None:
 def test_play_and_an_error_of_the_pitch_together_are_those_of_chains_laid_out_one_by_one() -> None:
     """Nobody wobbles; each dragon is laid out in Python, on its own spiral, with the play of its own pins."""
     size, model, dragon = 0.02, Wobble(0.0, 0.0, hole=0.06, pin=0.05, pitch_error=0.02), SPIRAL.dragon
-    still = {"start": LATE["start"], "stop": LATE["start"] + 1e-6}
-    result = contact_probability(SPIRAL, model, 300, 5, **still)
-    radius, touching = float(SPIRAL.path.head(LATE["start"]).radius), []
+    start, touching = LATE["start"], []
+    result = contact_probability(SPIRAL, model, 300, 5, start=start, stop=start + 1e-6)
+    radius = float(SPIRAL.path.head(start).radius)
     sizes = np.stack([dragon.lengths, dragon.widths], axis=1)
     first, second = np.triu_indices(20, 2)
     for sample in range(300):
         spiral = Spiral(0.55 + size * numbers(5, sample, 1).standard_normal(), 20.0)
-        places = trajectory(Dance(dragon, spiral), spiral.travel_to(radius)).position
-        distance, angle = numbers(5, sample, 0).random((2, 20, 2))
-        play = np.stack([np.cos(2.0 * np.pi * angle), np.sin(2.0 * np.pi * angle)], axis=-1)
-        play *= model.play * np.sqrt(distance)[..., None]
+        places = trajectory(Dance(dragon, spiral), spiral.travel_to(radius)).position @ [1.0, 1j]
+        distance, turn = numbers(5, sample, 0).random((2, 20, 2))
+        play = model.play * np.sqrt(distance) * np.exp(2j * np.pi * turn)
         pin, holes = places[0], []
         for k, chord in enumerate(dragon.chords.tolist()):
             front = pin + play[k, 0]
             way = places[k + 1] + play[k, 1] - front
-            rear = front + way * (chord / np.hypot(*way))
-            holes.append([front, rear])
-            pin = rear - play[k, 1]
+            holes.append([front, front + way * (chord / abs(way))])
+            pin = holes[k][1] - play[k, 1]
         held = np.array(holes)
-        strays = np.hypot(*np.moveaxis(held - np.stack([places[:-1], places[1:]], axis=1), -1, 0))
+        strays = abs(held - np.stack([places[:-1], places[1:]], axis=1))
         assert result.strays[sample] == pytest.approx(strays.max(), abs=1e-7)
-        poses = np.concatenate([bench_poses(two) for two in held])
+        poses = bench_poses(np.stack([held.real, held.imag], axis=-1))[:, 0]
         gaps = separation(poses[first], sizes[first], poses[second], sizes[second]).separation
         touching += [sample] if gaps.min() <= 0.0 else []
     assert result.sample.tolist() == touching

@@ -16,7 +16,6 @@ from core import (
     Route,
     Spiral,
     TooMuchWork,
-    Turn,
     Venue,
     tolerance,
 )
@@ -52,19 +51,6 @@ def test_speed_changes_when_but_not_how_far_and_all_lengths_times_k_how_far(defa
     result = tolerance(dance, stop=stop)
     assert result.stray == pytest.approx(2.0 * default.stray, rel=1e-5)
     assert result.time == pytest.approx(default.time / 4.0, rel=1e-6)
-
-
-SIZES = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 8, [0.3, 0.5] * 20, [0.2] * 40)
-
-
-@pytest.mark.parametrize(
-    ("dance", "stop", "least"),
-    [(Dance(Dragon(60), Spiral(0.9)), None, 0.05), (Dance(SIZES, Turn(1.7)), 60.0, 0.01)],
-    ids=["a run to its fold", "benches of many sizes on a route"],
-)
-def test_other_dances_have_their_tolerance_too(dance: Dance, stop: float | None, least: float) -> None:
-    safe, touching = tolerance(dance, stop=stop).stray_bracket
-    assert least < safe < touching < safe * (1.0 + BRACKET)
 
 
 def test_two_benches_on_a_line_have_nothing_to_touch() -> None:
