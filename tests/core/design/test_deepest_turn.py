@@ -49,15 +49,21 @@ BEND = {
 
 @cache
 def answer(name: str) -> DeepestTurn:
-    """Of the leading 30 benches."""
     dragon, request = (CONTACT | BEND)[name]
-    return deepest_turn(dragon.leading(30), **request)
+    return deepest_turn(dragon, **request)
 
 
-def turn_with(result: DeepestTurn, entry: float, start_turns: float = 16.0) -> Turn:
+def assert_all_clear(dragon: Dragon, turn: Turn, margin: float = 0.0) -> None:
+    """All benches pass the turn, although only a part of the dance is followed."""
+    way, front = way_followed(dragon, turn, margin)
+    span = 1.6 * float(dragon.chords.sum())
+    assert (way < span, front.benches < dragon.benches) == (True, True)
+    assert first_contact(Dance(dragon, turn), margin=margin, start=-100.0, stop=span).outcome is Outcome.CLEAR
+
+
+def turn_with(result: DeepestTurn, entry: float) -> Turn:
     """The turn of an answer with another entry radius [m]."""
-    turn = result.turn
-    return Turn(turn.pitch, turn.turning_radius, turn.ratio, start_turns=start_turns, entry_radius=entry)
+    return Turn(result.turn.pitch, result.turn.turning_radius, result.turn.ratio, entry_radius=entry)
 
 
 def slow_clearance(dragon: Dragon, turn: Turn, *span: float) -> float:
@@ -83,6 +89,7 @@ def test_just_deeper_two_benches_come_within_the_margin_and_above_none_do(name: 
     assert slow_clearance(dragon, turn_with(result, feasible + DEEPER), *around) > margin
     assert slow_clearance(dragon, turn_with(result, result.turn.turning_radius)) > margin
     assert slow_clearance(dragon, result.turn) > margin
+    assert_all_clear(dragon, result.turn, margin)
 
 
 @pytest.mark.parametrize("name", further(BEND, 1))
@@ -95,22 +102,11 @@ def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name
     with pytest.raises(InvalidValue, match="must not bend tighter"):
         trajectory(Dance(dragon, turn_with(result, infeasible - ENTRY_ERROR)), 0.0)
     assert slow_clearance(dragon, result.turn) > 0.0
+    assert_all_clear(dragon, result.turn)
     # the sum of both radii is sqrt(entry^2 + growth^2), and the smaller one just fits the longest chord
     smaller = 0.5 * float(dragon.chords.max()) / core.kernels.ROUTE_SINE_LIMIT
     total, growth = smaller * (1.0 + ratio) / min(1.0, ratio), request["pitch"] / math.tau
     assert feasible == pytest.approx(math.sqrt(total**2 - growth**2), abs=2 * ENTRY_ERROR)
-
-
-@pytest.mark.parametrize("name", further(["contest", "margin", *CONTACT, *BEND], 2))
-def test_a_long_dragon_on_long_coils_has_no_contact_beyond_the_part_that_is_followed(name: str) -> None:
-    (dragon, request), result = (CONTACT | BEND)[name], answer(name)
-    margin, span = request.get("margin", 0.0), 1.6 * float(dragon.chords.sum())
-    for entry in (result.turn.entry_radius, result.turn.turning_radius):
-        danced = turn_with(result, entry, 30.0)
-        way, front = way_followed(dragon, danced, margin)
-        assert (way < span, front.benches < dragon.benches) == (True, True)
-        in_all = first_contact(Dance(dragon, danced), margin=margin, start=-span, stop=danced.length + span)
-        assert in_all.outcome is Outcome.CLEAR
 
 
 def bench_by_bench(uniform: Dragon) -> Dragon:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -56,18 +54,16 @@ def is_feasible(dragon: Dragon, pitch: float, radius: float, turns: float = 16.0
 
 
 @pytest.mark.parametrize("case", CASES, ids=[case["name"] for case in CASES])
-def test_every_case_of_the_reference_is_met(case: dict[str, Any]) -> None:
+def test_every_case_of_the_reference_is_met(case: dict) -> None:
     dragon, radius, islands = Dragon(**case["dragon"]), case["turning_diameter"] / 2, case["other_feasible_intervals"]
     result = minimum_pitch(dragon, turning_radius=radius, start_turns=case["start_turns"])
-    assert result.pitch == pytest.approx(case["pitch"], rel=0, abs=ACCURACY)
+    assert result.pitch == pytest.approx(case["pitch"], abs=ACCURACY)
     assert result.limited_by == case["limited_by"]
     assert result.pitch_bracket[0] <= case["pitch"] + ACCURACY
     assert result.pitch_bracket[1] - result.pitch_bracket[0] <= ACCURACY
     assert result.benches == (tuple(case["benches"]) if "benches" in case else None)
-    assert result.head_radius == (
-        pytest.approx(case["head_radius"], rel=0, abs=1e-6) if "head_radius" in case else None
-    )
-    assert np.array(result.other_feasible_intervals) == pytest.approx(np.array(islands), rel=0, abs=ACCURACY)
+    assert result.head_radius == (pytest.approx(case["head_radius"], abs=1e-6) if "head_radius" in case else None)
+    assert np.array(result.other_feasible_intervals) == pytest.approx(np.array(islands), abs=ACCURACY)
 
 
 def test_an_island_has_both_its_ends_between_pitches_that_touch() -> None:
@@ -96,9 +92,9 @@ def test_the_least_separation_at_the_answer_is_the_margin(radius: float, margin:
     result = minimum_pitch(Dragon(60), turning_radius=radius, margin=margin, start_turns=14.0)
     on_circle = result.limited_by is LimitedBy.CIRCLE
     assert on_circle or (result.limited_by, result.head_radius > radius) == (LimitedBy.GRAZE, True)
-    assert not on_circle or result.head_radius == pytest.approx(radius, rel=0, abs=ACCURACY)
+    assert not on_circle or result.head_radius == pytest.approx(radius, abs=ACCURACY)
     least = least_gap(Dragon(60), result, 14.0, 0.0 if on_circle else 0.02)
-    assert least == pytest.approx(margin, rel=0, abs=ACCURACY)
+    assert least == pytest.approx(margin, abs=ACCURACY)
 
 
 @settings(max_examples=3, deadline=None)
@@ -111,13 +107,13 @@ def test_a_margin_or_a_tighter_circle_needs_no_smaller_pitch_and_the_answer_scal
     assert minimum_pitch(dragon, turning_radius=radius, margin=more).pitch >= minimum.pitch - ACCURACY
     assert minimum_pitch(dragon, turning_radius=radius - more).pitch >= minimum.pitch - ACCURACY
     large = minimum_pitch(scaled, turning_radius=k * radius)
-    assert large.pitch == pytest.approx(k * minimum.pitch, rel=0, abs=ACCURACY * max(1.0, k))
+    assert large.pitch == pytest.approx(k * minimum.pitch, abs=ACCURACY * max(1.0, k))
     assert large.limited_by == minimum.limited_by
 
 
 def test_benches_out_of_reach_change_nothing() -> None:
     few, many = (minimum_pitch(Dragon(benches)).pitch for benches in (80, 10_000))
-    assert many == pytest.approx(few, rel=0, abs=1e-12)
+    assert many == pytest.approx(few, abs=1e-12)
 
 
 @pytest.mark.parametrize("changed", [2, -1])
@@ -127,26 +123,8 @@ def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one(changed
     lengths[changed] += 1e-9
     listed = Dragon.of(lengths, uniform.widths, uniform.overhangs)
     one, other = (minimum_pitch(dragon, turning_radius=3.0, start_turns=7.0) for dragon in (uniform, listed))
-    assert other.pitch == pytest.approx(one.pitch, rel=0, abs=ACCURACY)
+    assert other.pitch == pytest.approx(one.pitch, abs=ACCURACY)
     assert (one.justified_by, other.justified_by) == ("bound", "bound")
-
-
-def test_a_short_dragon_is_proven_up_from_its_start_whatever_bounds_hold_at_lower_pitches() -> None:
-    """It goes around less than once, with benches nearly as wide as the circle, so that no ring bound holds."""
-    dragon = Dragon(6, 1.21, 0.93, 0.61, 0.0)
-    result = minimum_pitch(dragon, turning_radius=1.32, start_turns=10.0, margin=0.29)
-    assert result.pitch == 1.32 / 10.0
-    assert (result.limited_by, result.justified_by) == (LimitedBy.START, "bound")
-    assert (result.proven_from, result.proven_up_to) == (result.pitch, None)
-    for pitch in np.geomspace(result.pitch + BESIDE, WIDEST, 20):
-        assert is_feasible(dragon, pitch, 1.32, 10.0, 0.29)
-
-
-def test_benches_far_across_the_circle_are_proven_by_bands_too() -> None:
-    result = minimum_pitch(Dragon(20), turning_radius=1.5, start_turns=12.0)
-    assert (result.justified_by, result.limited_by, result.scan_step) == ("bound", LimitedBy.CIRCLE, None)
-    beside = (result.pitch - BESIDE, result.pitch + BESIDE)
-    assert [is_feasible(Dragon(20), pitch, 1.5, 12.0) for pitch in beside] == [False, True]
 
 
 def test_where_a_handle_turns_back_the_claim_names_the_step_of_the_scan_and_the_begin_of_the_proof() -> None:
@@ -154,27 +132,9 @@ def test_where_a_handle_turns_back_the_claim_names_the_step_of_the_scan_and_the_
     result = minimum_pitch(FOLDING, turning_radius=0.85, start_turns=5.0)
     assert (result.justified_by, result.proven_up_to) == ("scan", None)
     assert result.pitch + result.scan_step < result.proven_from < WIDEST
-    assert result.pitch_bracket == pytest.approx((0.525552677857343, result.pitch), rel=0, abs=ACCURACY)
+    assert result.pitch_bracket == pytest.approx((0.525552677857343, result.pitch), abs=ACCURACY)
     assert (result.limited_by, result.benches, result.bench, result.head_radius) == (LimitedBy.FOLD, None, 0, 0.85)
     assert "limited by fold of bench 0;" in repr(result)
-
-
-def test_a_small_circle_is_reached_at_larger_pitches() -> None:
-    """One bench, which folds before the circle at every pitch up to 2.4 m. With 40 digits: 2.434860824509272."""
-    result = minimum_pitch(Dragon(1), turning_radius=0.7535, start_turns=1.605)
-    assert result.pitch == pytest.approx(2.434860824509272, rel=0, abs=ACCURACY)
-    assert (result.limited_by, result.justified_by, result.proven_up_to) == (LimitedBy.FOLD, "bound", None)
-
-
-@pytest.mark.parametrize("turns", [0.2, 0.3, 0.5])
-def test_a_start_less_than_a_turn_out_is_proven_for_every_larger_pitch(turns: float) -> None:
-    """The tail stands on the outward extension; the head begins on the circle at the least pitch."""
-    result = minimum_pitch(Dragon(), start_turns=turns)
-    assert result.pitch == 4.5 / turns
-    assert (result.limited_by, result.justified_by, result.proven_up_to) == (LimitedBy.START, "bound", None)
-    short = Dragon(40)  # a slow scan of all 223 takes minutes
-    for pitch in np.geomspace(result.pitch, WIDEST, examples(2, 8)):
-        assert SlowWay.of(short, pitch, turns, 4.5).least() > 0.0
 
 
 def listed(overhang: float) -> Dragon:
@@ -209,18 +169,6 @@ def test_benches_that_meet_on_a_straight_line_are_refused(
     assert SlowWay.of(dragon, WIDEST, 16.0, 1.0).least() <= margin
 
 
-def test_benches_nearly_apart_on_a_straight_line_need_a_wide_spiral() -> None:
-    """3 mm are left on the line: the corners of benches lean that far inwards up to a pitch of 1,400 m."""
-    dragon = Dragon(8, 2.0, 2.0, 0.3, 0.49925)
-    result = minimum_pitch(dragon, turning_radius=2.0, start_turns=3.0)
-    assert (result.limited_by, result.justified_by, result.proven_up_to) == (LimitedBy.CIRCLE, "bound", None)
-    low, high = result.pitch_bracket
-    beside = WIDE_BRACKET * high
-    assert high - low <= beside
-    pitches = [low - beside, *np.geomspace(high + beside, WIDEST, 6)]
-    assert [SlowWay.of(dragon, pitch, 3.0, 2.0).least() > 0.0 for pitch in pitches] == [False] + 6 * [True]
-
-
 def test_a_start_inside_a_graze_passes_it_and_names_the_pair_that_repeats_it() -> None:
     """All benches alike: what 0 and 9 would meet before the start, 1 and 10 meet after it, at the same pitch."""
     dragon, margin = Dragon(50, 2.4, 2.4, 0.13, 0.042), 0.343
@@ -229,19 +177,54 @@ def test_a_start_inside_a_graze_passes_it_and_names_the_pair_that_repeats_it() -
     }
     inside, before = results.values()
     assert (before.benches, inside.benches) == ((0, 9), (1, 10))
-    assert inside.pitch == pytest.approx(before.pitch, rel=0, abs=ACCURACY)
+    assert inside.pitch == pytest.approx(before.pitch, abs=ACCURACY)
     assert inside.head_radius < inside.pitch * 4.06 < before.head_radius
     for turns, result in results.items():
-        assert least_gap(dragon, result, turns) == pytest.approx(margin, rel=0, abs=ACCURACY)
+        assert least_gap(dragon, result, turns) == pytest.approx(margin, abs=ACCURACY)
 
 
-@pytest.mark.parametrize(("benches", "radius"), [(223, 6.8), (223, 50.0), (1, 4.5), (2, 4.5)])
-def test_a_wide_circle_or_benches_that_cannot_touch_are_limited_by_the_start(benches: int, radius: float) -> None:
-    """There the dance would begin inside the circle before any benches touch."""
-    result = minimum_pitch(Dragon(benches), turning_radius=radius)
-    assert result.pitch == radius / 16.0
-    assert (result.limited_by, result.benches, result.head_radius) == (LimitedBy.START, None, None)
-    assert result.other_feasible_intervals == ()
+SHORT = Dragon(6, 1.21, 0.93, 0.61, 0.0)
+NEARLY_APART = Dragon(8, 2.0, 2.0, 0.3, 0.49925)
+
+
+@pytest.mark.parametrize(
+    ("dragon", "radius", "turns", "margin", "limited_by"),
+    [
+        # with benches nearly as wide as the circle no ring bound holds at lower pitches
+        (SHORT, 1.32, 10.0, 0.29, LimitedBy.START),
+        # the tail stands on the outward extension
+        *((Dragon(20), 4.5, turns, 0.0, LimitedBy.START) for turns in (0.2, 0.3, 0.5)),
+        # the dance would begin inside the circle before any benches touch, or they cannot
+        *((Dragon(20), radius, 16.0, 0.0, LimitedBy.START) for radius in (6.8, 50.0)),
+        *((Dragon(benches), 4.5, 16.0, 0.0, LimitedBy.START) for benches in (1, 2)),
+        (Dragon(20), 1.5, 12.0, 0.0, LimitedBy.CIRCLE),
+        # with 3 mm left on a straight line the corners of benches lean that far inwards up to a pitch of 1,400 m
+        (NEARLY_APART, 2.0, 3.0, 0.0, LimitedBy.CIRCLE),
+        # one bench, which folds before the circle at every pitch up to 2.4 m
+        (Dragon(1), 0.7535, 1.605, 0.0, LimitedBy.FOLD),
+    ],
+)
+def test_every_larger_pitch_is_proven_by_bounds(
+    dragon: Dragon, radius: float, turns: float, margin: float, limited_by: LimitedBy
+) -> None:
+    result = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
+    assert (result.limited_by, result.justified_by, result.proven_up_to) == (limited_by, "bound", None)
+    assert (result.proven_from, result.scan_step) == (result.pitch, None)
+
+    def least(pitch: float) -> float:
+        return SlowWay.of(dragon, pitch, turns, radius).least() - margin
+
+    low, high = result.pitch_bracket
+    beside = max(BESIDE, high - low)
+    assert high - low <= max(ACCURACY, WIDE_BRACKET * high)
+    assert min(map(least, np.geomspace(high + beside, WIDEST, examples(4, 8)))) > 0.0
+    if limited_by is LimitedBy.START:
+        assert (result.pitch, result.other_feasible_intervals) == (radius / turns, ())
+        assert result.benches is result.head_radius is None
+    else:
+        assert least(low - beside) < 0.0
+    if limited_by is LimitedBy.FOLD:  # by 40 digits
+        assert result.pitch == pytest.approx(2.434860824509272, abs=ACCURACY)
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
@@ -35,9 +34,7 @@ WRONG = 1e-4
     ],
     ids=str,
 )
-def test_engines_agree_on_the_minimum_pitch(
-    dragons: int, options: dict[str, float], radius: float, whole: bool
-) -> None:
+def test_engines_agree_on_the_minimum_pitch(dragons: int, options: dict, radius: float, whole: bool) -> None:
     """With a stray it is the pitch at which grounds meet, which only shapely judges."""
     dragon = DRAGON if dragons == 1 else Dragon(40)
     result = minimum_pitch(dragon, turning_radius=radius, dragons=dragons, **options)
@@ -68,7 +65,7 @@ def test_a_minimum_pitch_that_no_pair_limits_is_not_judged() -> None:
     ],
     ids=["a longer dragon", "more dragons"],
 )
-def test_a_minimum_pitch_of_others_is_refused(dragons: int, dragon: Dragon, field: str, values: dict[str, Any]) -> None:
+def test_a_minimum_pitch_of_others_is_refused(dragons: int, dragon: Dragon, field: str, values: dict) -> None:
     minimum = minimum_pitch(Dragon(40), dragons=dragons)
     with refused(field, **values):
         pitch_check(minimum, dragon)
@@ -77,7 +74,7 @@ def test_a_minimum_pitch_of_others_is_refused(dragons: int, dragon: Dragon, fiel
 def test_a_pitch_limited_at_the_start_is_judged_with_the_head_at_the_start() -> None:
     dragon, turns = Dragon(80), 8.0
 
-    def nearest(pitch: float) -> tuple[float, tuple[int, ...]]:
+    def nearest(pitch: float) -> tuple[float, tuple]:
         profile = clearance_profile(Dance(dragon, Spiral(pitch, turns)), [0.0])
         return float(profile.clearance[0]), tuple(profile.benches[0].tolist())
 

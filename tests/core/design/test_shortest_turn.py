@@ -47,9 +47,7 @@ def is_clear(turn: Turn) -> bool:
     return first_contact(Dance(Dragon(), turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
 
 
-def compared(
-    low: float, turns: Iterable[tuple[float, float, float]], dragon: Dragon = WHOLE, least: float = LEAST
-) -> tuple[int, int]:
+def compared(low: float, turns: Iterable[tuple], dragon: Dragon = WHOLE, least: float = LEAST) -> tuple:
     """How many turns of ratio, entry and exit are shorter than `low` and not; benches meet in each shorter one.
 
     Those count that stay in the circle, with no arc tighter than `least` [m].

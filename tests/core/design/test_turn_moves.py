@@ -31,9 +31,7 @@ def points(turn: Turn, s: Floats) -> Floats:
 
 @pytest.mark.parametrize("place", [*CROSSING, *BESIDE])
 @pytest.mark.parametrize("size", [0.2, 1.0, 4.0])
-def test_points_at_one_place_are_no_further_apart_than_the_bound(
-    place: tuple[float, float, float], size: float
-) -> None:
+def test_points_at_one_place_are_no_further_apart_than_the_bound(place: tuple, size: float) -> None:
     box, centre = box_at(*place, size * SMALL)
     s, nearest = np.linspace(-25.0, 25.0, SAMPLES), 0.0
     most = np.array([displaced(box, at, at) for at in s.tolist()])
@@ -45,7 +43,7 @@ def test_points_at_one_place_are_no_further_apart_than_the_bound(
 
 
 @pytest.mark.parametrize("place", further([CROSSING[0], CROSSING[3], *BESIDE], 1))
-def test_curvatures_differ_by_no_more_than_the_bound(place: tuple[float, float, float]) -> None:
+def test_curvatures_differ_by_no_more_than_the_bound(place: tuple) -> None:
     box, centre = box_at(*place, SMALL)
     nearest = 0.0
     for turn in turns_drawn(centre, SMALL, examples(4, 40), 1.0):

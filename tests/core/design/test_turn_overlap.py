@@ -15,7 +15,7 @@ MOST = 26  # benches of a pose
 
 
 @pytest.mark.parametrize("place", CROSSING)
-def test_every_turn_of_a_box_with_an_exhibited_overlap_has_a_contact(place: tuple[float, float, float]) -> None:
+def test_every_turn_of_a_box_with_an_exhibited_overlap_has_a_contact(place: tuple) -> None:
     box, centre = box_at(*place, SMALL)
     result = OverlapSearch(DRAGON, 0.0, MOST).exhibited(box)
     assert result.shared
@@ -28,7 +28,7 @@ def test_every_turn_of_a_box_with_an_exhibited_overlap_has_a_contact(place: tupl
 
 @pytest.mark.parametrize("place", [*CROSSING, (4.2, 4.3, 1.4)])
 @pytest.mark.parametrize("size", [0.2, 1.0, 2.0])
-def test_handles_stand_between_their_least_and_greatest_places(place: tuple[float, float, float], size: float) -> None:
+def test_handles_stand_between_their_least_and_greatest_places(place: tuple, size: float) -> None:
     box, centre = box_at(*place, size * SMALL)
     overlap, last, moved = OverlapSearch(DRAGON, 0.0, MOST), 14, 0.0
     low, at, high = overlap.chain_within(box, box.nominal.length + 2.0, last)
@@ -41,7 +41,7 @@ def test_handles_stand_between_their_least_and_greatest_places(place: tuple[floa
 
 
 @pytest.mark.parametrize("place", [(4.2904, 4.4999, 2.0), (4.49, 3.94, 1.0)])
-def test_nothing_is_exhibited_where_a_turn_can_be_danced(place: tuple[float, float, float]) -> None:
+def test_nothing_is_exhibited_where_a_turn_can_be_danced(place: tuple) -> None:
     for size in (0.01, 1.0, 10.0):
         box, _ = box_at(*place, size * SMALL)
         if box is not None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
@@ -57,7 +56,7 @@ def gap_of_all_alike(places: Floats, left: Floats, aside: float) -> float:
     return float(separation(poses[:1], (1.65, 2.8), poses[4:], (1.65, 2.8)).separation[0])
 
 
-def chance_to_exceed(limits: list[float], memory: float) -> float:
+def chance_to_exceed(limits: list, memory: float) -> float:
     """The probability that an AR(1) process of variance 1 ever exceeds its limit of the instant, by quadrature."""
     grid = np.linspace(-6.0, 6.0, 2_401)
     width = grid[1] - grid[0]
@@ -176,7 +175,7 @@ def test_clopper_and_pearson_leave_as_much_beyond_either_limit() -> None:
 
 def test_a_dance_is_sampled_to_its_fold_also_on_other_pitches() -> None:
     dance = Dance(Dragon(6), Spiral(1.2, 4.0))
-    shares: list[float] = []
+    shares = []
     result = contact_probability(
         dance, Wobble(0.001, 0.001, pitch_error=0.05), 20, 1, start=dance.end.time - 20.0, progress=shares.append
     )
@@ -200,7 +199,7 @@ def test_a_dance_is_sampled_to_its_fold_also_on_other_pitches() -> None:
     ],
     ids=str,
 )
-def test_what_cannot_be_is_refused(changes: dict[str, Any], field: str) -> None:
+def test_what_cannot_be_is_refused(changes: dict, field: str) -> None:
     with refused(field):
         contact_probability(SPIRAL, **{"model": MODEL, "samples": 1, "seed": 1, **LATE, **changes})
 

@@ -42,7 +42,7 @@ def test_the_head_is_on_the_circle_at_that_time() -> None:
     ],
     ids=["none", "a table", "inside the circle", "on the circle", "a fold before the circle", "a negative pitch"],
 )
-def test_impossible_curves_are_refused(pitches: list[float], options: dict[str, float], field: str) -> None:
+def test_impossible_curves_are_refused(pitches: list, options: dict, field: str) -> None:
     with refused(field):
         tolerance_curve(DRAGON, pitches, **options)
 

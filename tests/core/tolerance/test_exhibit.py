@@ -42,7 +42,7 @@ SIZES = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 8, [0.3, 0.5] * 20, [0.2] * 40)
     ],
 )
 def test_a_pose_strays_little_further_than_is_safe_and_shows_a_contact(
-    dance: Dance, stop: float | None, least: float, part: float, pair: tuple[int, int] | None
+    dance: Dance, stop: float | None, least: float, part: float, pair: tuple | None
 ) -> None:
     result = tolerance(dance, stop=stop)
     safe, touching = result.stray_bracket

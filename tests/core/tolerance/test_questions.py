@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
 from core import (
@@ -47,7 +45,7 @@ def test_a_stray_above_the_tolerance_until_a_time_touches_just_before_it() -> No
     assert known.time - 2.0 < first_contact(DANCE, stray=1.001 * touching).time < known.time
 
 
-QUESTIONS: dict[str, Any] = {
+QUESTIONS: dict = {
     "first contact": lambda **options: first_contact(DANCE, **options),
     "within a margin": lambda **options: first_contact(DANCE, margin=0.05, **options),
     "through the turn": lambda **options: first_contact(Dance(Dragon(30), Turn(0.9)), **options),

@@ -44,7 +44,7 @@ def test_benches_next_but_one_to_each_other_are_held_apart_by_the_one_between() 
     ("dance", "stop", "benches"), [(*to_circle(0.42), None), (Dance(Dragon(), Spiral()), None, (0, 8))]
 )
 def test_where_benches_touch_as_they_are_nothing_is_called_safe(
-    dance: Dance, stop: float | None, benches: tuple[int, int] | None
+    dance: Dance, stop: float | None, benches: tuple | None
 ) -> None:
     result = tolerance(dance, stop=stop)
     assert (result.stray, result.time) == (0.0, pytest.approx(first_contact(dance).time, abs=1e-6))

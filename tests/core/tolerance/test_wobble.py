@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
 from core import Dance, Dragon, Spiral, Turn, Wobble
@@ -25,7 +23,7 @@ from tests.support.refused import refused
     ],
     ids=str,
 )
-def test_a_model_that_cannot_be_is_refused(fields: dict[str, Any], field: str) -> None:
+def test_a_model_that_cannot_be_is_refused(fields: dict, field: str) -> None:
     with refused(f"model.{field}"):
         Wobble(**fields)
     Wobble(step=1.0, hole=0.05, pin=0.05)
