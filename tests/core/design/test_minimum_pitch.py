@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import core.design.ways
 from core import (
     Dance,
     Dragon,
@@ -16,7 +15,6 @@ from core import (
     MinimumPitch,
     Outcome,
     Spiral,
-    TooMuchWork,
     first_contact,
     minimum_pitch,
 )
@@ -270,13 +268,6 @@ def test_tiny_benches_on_wide_spirals_are_answered(dragon: Dragon) -> None:
     assert result.pitch - result.pitch_bracket[0] <= WIDE_BRACKET * result.pitch
     low, high = (SlowWay.of(dragon, pitch, 16.0, 4.5).least() for pitch in result.pitch_bracket)
     assert low < 0.0 < high
-
-
-def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(core.design.ways, "PITCH_WORK", 4e5)
-    with pytest.raises(TooMuchWork, match=r"larger, .* 400000 steps of work, .* 223 chords is 0\.001 m") as caught:
-        minimum_pitch(Dragon(body_length=0.001, overhang=0.0))
-    assert (caught.value.field, str(caught.value.got)) == ("dragon.body_length", "0.001 m")
 
 
 def test_just_above_the_infeasible_end_of_a_bracket_a_pitch_is_feasible() -> None:

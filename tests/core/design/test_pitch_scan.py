@@ -110,7 +110,7 @@ def test_a_run_to_a_fold_and_a_contact_are_distinguished_as_by_first_contact(
 
 def test_work_that_ends_before_the_scan_does_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(core.design.pitch_scan, "SCAN_WORK", 1e4)
-    with pytest.raises(TooMuchWork, match=r"pitches must .* from a pitch of 0\..* m on .* within 10000 steps"):
+    with refused("pitches", TooMuchWork):
         pitch_scan(Dragon(), PITCHES)
     with refused("samples", TooMuchWork, got=7):
         scan_near_minimum(Dragon(), turning_radius=4.5, start_turns=16.0, margin=0.0, samples=7)

@@ -58,7 +58,7 @@ def test_the_quickest_turn_is_quicker_than_its_neighbours_the_shortest_and_the_c
 
 
 def test_a_lower_limit_takes_as_much_longer() -> None:
-    one, two = (quickest_turn(Dragon(12), 1.7, ratio=1.6, speed_limit=limit) for limit in (1.0, 2.0))
+    one, two = (quickest_turn(Dragon(3), 1.7, ratio=1.6, speed_limit=limit) for limit in (1.0, 2.0))
     assert one.turn == two.turn
     assert one.time == pytest.approx(2.0 * two.time, rel=1e-12)
 

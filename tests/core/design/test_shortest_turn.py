@@ -16,7 +16,6 @@ from core import (
     InvalidValue,
     Outcome,
     ShortestTurn,
-    TooMuchWork,
     Turn,
     TurnLimit,
     deepest_turn,
@@ -117,19 +116,12 @@ def test_spent_work_leaves_a_wider_bracket_that_holds_the_narrow_one(ratio: floa
     assert brief.entry_bracket[0] <= whole.turn.entry_radius <= brief.entry_bracket[1]
 
 
-def test_work_that_ends_or_is_stopped_before_a_turn_was_danced_is_an_error() -> None:
-    spent, stopped = Budget(1.0), Budget()
-    stopped.stop()
-    for budget in (spent, stopped):
-        with refused("turning_radius", TooMuchWork):
-            shortest_turn(Dragon(), PITCH, budget=budget)
-
-
 def test_a_circle_in_which_nothing_can_be_danced_is_refused() -> None:
     with refused("turning_radius"):
         shortest_turn(Dragon(), PITCH, 1.4)
 
 
+@pytest.mark.thorough
 def test_every_dance_above_is_proven(monkeypatch: pytest.MonkeyPatch) -> None:
     """A turn that the proof refuses is never the answer, even if it is the shortest by the closed forms."""
     proof, touching, known = core.design.shortest_turn.contact_in, [], answer(2.0)

@@ -12,7 +12,7 @@ from tests.support.refused import refused
 
 pytestmark = pytest.mark.uncompiled
 
-GRID = 0.05  # [m]
+GRID = 0.1  # [m]
 # Lengths that others found [m].
 FOUND = {2.0: (11.7915, 11.8105, 11.8336, 12.9494379, 13.6212449)}
 

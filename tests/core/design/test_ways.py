@@ -57,9 +57,10 @@ def test_a_way_folds_below_the_pitch_at_which_the_head_folds_on_the_circle(more:
     ("dragon", "field"),
     [
         (Dragon(head_length=1.0), "dragon.head_length"),
+        (Dragon(body_length=0.001, overhang=0.0), "dragon.body_length"),
         (Dragon.of([2.2, 2.1, 2.0] * 20, [0.3] * 60, [0.2] * 60), "dragon.lengths.2"),
     ],
-    ids=["a short head", "bench by bench"],
+    ids=["a short head", "a short body", "bench by bench"],
 )
 def test_the_shortest_bench_is_named_where_the_work_ends(
     dragon: Dragon, field: str, monkeypatch: pytest.MonkeyPatch

@@ -88,6 +88,7 @@ def test_no_dense_sample_is_faster(
 
 
 # 200 handles pass the same kink one after the other, each peak a little higher than the one before it.
+@pytest.mark.thorough
 def test_of_many_nearly_equal_peaks_the_highest_is_found() -> None:
     dance = Dance(Dragon(head_length=0.125, overhang=0.0), TURN)
     result = highest_speed(dance)
@@ -205,6 +206,7 @@ def test_a_run_to_a_fold_without_a_stop_asks_for_one() -> None:
         highest_speed(Dance(Dragon(), Spiral()))
 
 
+@pytest.mark.thorough
 def test_near_a_fold_there_is_always_a_handle_that_reaches_the_highest_speed() -> None:
     """There two chains of the same instant differ by more than what counts as equal."""
     dance = Dance(Dragon(1, 900.0, 900.0, 20.0, 0.0), Spiral(300.0, 40.0))

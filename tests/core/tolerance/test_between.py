@@ -91,7 +91,7 @@ def test_sags_are_those_of_the_handles() -> None:
 def test_the_bound_is_not_above_what_a_pose_shows(radius: float) -> None:
     dragon = Dragon(9, 2.2)
     dance, safe = on_hairpin(dragon, radius)
-    for time in np.linspace(40.0, 52.0, examples(3, 7)).tolist():
+    for time in np.linspace(40.0, 52.0, examples(2, 7)).tolist():
         pose = exhibit(dragon, trajectory(dance, time).position, (1, 3), None, 0.0, safe, time)
         assert_contact_shown(dance, pose)
         assert pose.stray > safe
