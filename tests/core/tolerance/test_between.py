@@ -9,7 +9,7 @@ import pytest
 
 from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_poses, sharpest_bend, trajectory
 from core.shapes.rectangles import corners
-from core.tolerance.between import held_apart, sag_pulls, sags_of, smallest_circles, touching_pose
+from core.tolerance.between import held_apart, sag_pulls, sags_of, touching_pose
 from core.tolerance.exhibit import exhibit
 from core.values import Floats
 from tests.support.depth import examples, some
@@ -136,13 +136,3 @@ def test_a_spiral_is_as_bent_as_where_its_head_ends() -> None:
 def test_dragons_of_too_many_sizes_get_no_bound() -> None:
     dragon = Dragon.of(np.linspace(2.0, 2.4, 200), [0.3] * 200, [0.2] * 200)
     assert held_apart(Dance(dragon, Spiral(3.0)), 1.0, FAR, Budget()) == 0.0
-
-
-def test_the_smallest_circle_holds_all_four_and_three_or_two_on_its_edge() -> None:
-    points = np.random.default_rng(0).normal(size=(500, 4, 2)) @ [1.0, 1j]
-    radii, centres = smallest_circles(points)
-    *_, third, second, furthest = np.sort(abs(points - centres[:, None]), axis=1).T
-    assert furthest == pytest.approx(radii, abs=1e-9)
-    assert second == pytest.approx(radii, abs=1e-9)
-    opposite = abs(points[:, :, None] - points[:, None]).max(axis=(1, 2)) > 2.0 * radii * (1.0 - 1e-9)
-    assert (opposite | (abs(third - radii) < 1e-9)).all()

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, Line, Route, Spiral, Turn, tolerance, trajectory
-from core.tolerance.exhibit import body, extended
+from core import Dance, Dragon, Line, Route, Spiral, Turn, tolerance
+from core.tolerance.exhibit import Body
 from tests.campaigns.adversaries import to_circle
 from tests.core.tolerance.test_tolerance import BRACKET
 from tests.support.shown_poses import CHORD_ERROR, assert_contact_shown
@@ -59,15 +61,10 @@ def test_a_pose_strays_little_further_than_is_safe_and_shows_a_contact(
         assert result.benches == result.exhibit.benches
 
 
-def test_the_handles_around_two_benches_follow_and_stray_less_and_less() -> None:
-    dragon, stray = Dragon(12), 0.05
-    handles = trajectory(Dance(dragon, Spiral()), 200.0).position
-    wanted = {k: body(dragon, handles, k).strays(way, 0.02, stray) for k, way in ((2, 0.5), (8, 2.5))}
-    moved = extended(dragon.chords, handles, wanted)
-    assert np.hypot(*np.diff(moved, axis=0).T) == pytest.approx(dragon.chords, abs=CHORD_ERROR)
-    for k, strays in wanted.items():
-        assert np.array_equal(moved[k : k + 2], handles[k : k + 2] + strays)
-    far = np.hypot(*(moved - handles).T)
-    assert far[[2, 3, 8, 9]].max() == pytest.approx(stray, abs=CHORD_ERROR)
-    assert (np.diff(far[:3]) >= 0.0).all()
-    assert (np.diff(far[9:]) <= 0.0).all()
+@pytest.mark.parametrize("rotation", [-0.03, 0.0, 0.02])
+def test_holes_that_move_a_bench_furthest_reach_the_edge_of_their_discs(rotation: float) -> None:
+    chord, stray = 1.65, 0.05
+    for way in np.linspace(0.0, math.tau, 9).tolist():
+        front, rear = Body(0.0, 0.0, 0.0, chord, 1.1, 0.15).strays(way, rotation, stray)
+        assert max(math.hypot(*front), math.hypot(*rear)) == pytest.approx(stray, abs=CHORD_ERROR)
+        assert math.hypot(*(front - rear + [chord, 0.0])) == pytest.approx(chord, abs=CHORD_ERROR)
