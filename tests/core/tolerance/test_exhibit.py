@@ -43,9 +43,10 @@ SIZES = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 8, [0.3, 0.5] * 20, [0.2] * 40)
         *("wide", "less wide", "very wide", "of three in a row"),
     ],
 )
-def test_a_pose_strays_little_further_than_is_safe_and_shows_a_contact(
+def test_the_shown_contact_is_one(
     dance: Dance, stop: float | None, least: float, part: float, pair: tuple | None
 ) -> None:
+    """Its pose strays little further than is proven safe."""
     result = tolerance(dance, stop=stop)
     safe, touching = result.stray_bracket
     assert least < safe < touching < safe * (1.0 + part)
