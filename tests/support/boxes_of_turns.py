@@ -33,3 +33,14 @@ def turn_at(point: np.ndarray) -> Turn | None:
     except InvalidValue:
         return None
     return turn if min(turn.radii) >= LEAST else None
+
+
+def turns_drawn(centre: np.ndarray, half: np.ndarray, count: int, inner: float) -> list[Turn]:
+    """Turns that the benches can follow at random points of a box, of `count`.
+
+    inner: part of the half widths by which the points are at least off the middle [1]
+    """
+    rng = np.random.default_rng(7)
+    off = rng.choice([-1.0, 1.0], (count, 3)) * rng.uniform(inner, 1.0, (count, 3))
+    turns = [turn_at(point) for point in centre + half * off]
+    return [turn for turn in turns if turn is not None]

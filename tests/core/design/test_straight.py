@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from core import Dragon, kernels
 from core.design.straight import Straight, curvature_most
 from tests.campaigns.sweep_pitch import random_case
 from tests.support.depth import some
+from tests.support.further import further
 from tests.support.slow_pitch import SlowWay
 
 # Rounding of a slow clearance on ways of metres [m], and on a wide spiral per metre of its growth [1].
@@ -19,7 +21,7 @@ ROUNDING, ROUNDING_PER_GROWTH = 1e-11, 1e-12
 WIDE = 1e5
 
 
-@pytest.mark.parametrize("seed", some(range(40), 12))
+@pytest.mark.parametrize("seed", further(some(range(40), 12), 4))
 def test_benches_are_no_closer_than_the_bound_at_any_larger_growth(seed: int) -> None:
     dragon, radius, turns, _ = random_case(seed)
     straight = Straight(dragon)
@@ -30,7 +32,7 @@ def test_benches_are_no_closer_than_the_bound_at_any_larger_growth(seed: int) ->
             continue
         bounds += 1
         for wider in growth * np.array([1.0, 1.0 + 10.0 ** rng.uniform(-2.0, 1.0)]):
-            slow = SlowWay.of(dragon, 2.0 * math.pi * wider, max(turns, radius / wider / math.pi), radius).least()
+            slow = SlowWay.of(dragon, math.tau * wider, max(turns, radius / wider / math.pi), radius).least()
             assert slow >= least - ROUNDING - ROUNDING_PER_GROWTH * wider
     assert bounds
 
@@ -43,26 +45,20 @@ def test_the_bound_grows_to_the_gap_on_a_straight_line(seed: int) -> None:
     if dragon.benches < 3:
         assert straight.least(growth, radius) > growth
         return
-    ends = np.cumsum(dragon.chords)  # of the chords, along the line
-    gaps = [
-        ends[j - 1] - ends[i] - dragon.overhangs[i] - dragon.overhangs[j]
-        for i in range(dragon.benches)
-        for j in range(i + 2, dragon.benches)
-    ]
-    if min(gaps) > 0.0:
-        assert straight.gap == pytest.approx(min(gaps), rel=1e-12)
-        assert straight.least(growth, radius) == pytest.approx(min(gaps), abs=4.0 * straight.chord / WIDE)
-    else:
-        assert straight.gap <= 0.0
+    ends, i, j = np.cumsum(dragon.chords), *np.triu_indices(dragon.benches, 2)  # along the line
+    gap = (ends[j - 1] - ends[i] - dragon.overhangs[i] - dragon.overhangs[j]).min()
+    assert (straight.gap <= 0.0) is bool(gap <= 0.0)
+    if gap > 0.0:
+        assert straight.gap == pytest.approx(gap, rel=1e-12)
+        assert straight.least(growth, radius) == pytest.approx(gap, abs=4.0 * straight.chord / WIDE)
 
 
 def test_no_spiral_of_the_growth_or_a_larger_one_is_bent_more() -> None:
-    for radius in (0.1, 1.0, 7.0):
-        for growth in np.geomspace(0.01, 100.0, 60):
-            most = curvature_most(growth, radius)
-            for wider in growth * np.geomspace(1.0, 50.0, 40):
-                for further in radius * np.geomspace(1.0, 9.0, 20):
-                    assert kernels.spiral_curvature(further / wider) / wider <= most * (1.0 + 1e-15)
+    further_out = np.geomspace(1.0, 9.0, 20).tolist()
+    for radius, growth in product((0.1, 1.0, 7.0), np.geomspace(0.01, 100.0, 12).tolist()):
+        most = curvature_most(growth, radius)
+        for wider, factor in product(growth * np.geomspace(1.0, 50.0, 40), further_out):
+            assert kernels.spiral_curvature(factor * radius / wider) / wider <= most * (1.0 + 1e-15)
 
 
 def test_a_long_dragon_needs_no_more_than_its_leading_benches() -> None:

@@ -12,6 +12,8 @@ from core.design.turn_bounds import Multipliers, lower_lengths
 from core.design.turn_boxes import sizes_of, too_tight, turns_in
 from tests.support.boxes_of_turns import GROWTH, LEAST
 
+pytestmark = pytest.mark.uncompiled
+
 BOXES, PLACES = 1_500, 30
 ROUNDED = 1e-9  # [m], [rad]
 
@@ -23,7 +25,6 @@ def boxes(rng: np.random.Generator, largest: float) -> tuple[np.ndarray, np.ndar
     return centres[:, inside], halves[:, inside]
 
 
-@pytest.mark.uncompiled
 @pytest.mark.parametrize(("ratio", "entry", "leaving"), [(2.0, 4.3, 4.5), (0.8, 4.3, 3.83), (1.3, 2.3, 4.4)])
 def test_the_sizes_are_those_of_the_turn(ratio: float, entry: float, leaving: float) -> None:
     turn = Turn(1.7, 9.0, ratio, entry_radius=entry, exit_radius=leaving)
@@ -31,32 +32,26 @@ def test_the_sizes_are_those_of_the_turn(ratio: float, entry: float, leaving: fl
     assert result == pytest.approx([*turn.radii, *turn.angles, turn.length, leaving], abs=ROUNDED)
 
 
-@pytest.mark.uncompiled
 @pytest.mark.parametrize("largest", [0.002, 0.05, 0.3])
 def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest: float) -> None:
     rng = np.random.default_rng(3)
     centres, halves = boxes(rng, largest)
-    turns, followed = turns_in(GROWTH, centres, halves), 0
+    turns, every = turns_in(GROWTH, centres, halves), np.ones(centres.shape[1], dtype=bool)
     lows, of_followed = lower_lengths(turns), lower_lengths(turns, LEAST)
     weighted = Multipliers(GROWTH, LEAST, 4.5, np.array([2.0, 5.0, 0.3, 0.1])).lower(turns, centres, halves)
+    spans = (*turns.radii, *turns.angles, turns.length, turns.exit)
+    holds = (every, every, turns.whole, turns.whole, turns.whole, every)
     for _ in range(PLACES):
         at = centres + halves * rng.uniform(-1.0, 1.0, centres.shape)
         sizes = sizes_of(GROWTH, *at)
-        for span, size in zip((*turns.radii, turns.exit), (sizes[0], sizes[1], sizes[5]), strict=True):
-            assert not ((size < span.low - ROUNDED) | (size > span.high + ROUNDED)).any()
-        for span, size in zip((*turns.angles, turns.length), sizes[2:5], strict=True):
-            outside = (size < span.low - ROUNDED) | (size > span.high + ROUNDED)
-            assert not (outside & turns.whole).any()
-        followed += int(turns.whole.sum())
-        assert (sizes[4] >= lows - ROUNDED).all()
-        follows = sizes[:2].min(axis=0) >= LEAST
-        assert (sizes[4] >= of_followed - ROUNDED)[follows].all()
-        counts = follows & (np.maximum(at[0], sizes[5]) <= 4.5)
-        assert (sizes[4] >= weighted - ROUNDED)[counts].all()
-    assert followed > 0.05 * PLACES * centres.shape[1]
+        for span, size, counts in zip(spans, sizes, holds, strict=True):
+            assert not (counts & ((size < span.low - ROUNDED) | (size > span.high + ROUNDED))).any()
+        follows, inside = sizes[:2].min(axis=0) >= LEAST, np.maximum(at[0], sizes[5]) <= 4.5
+        for bound, counts in ((lows, every), (of_followed, follows), (weighted, follows & inside)):
+            assert (sizes[4] >= bound - ROUNDED)[counts].all()
+    assert turns.whole.mean() > 0.05
 
 
-@pytest.mark.uncompiled
 @pytest.mark.parametrize(("largest", "missed"), [(1e-9, 0.0), (0.01, 0.03), (0.1, 0.3)])
 def test_boxes_that_are_too_tight_have_no_turn_that_benches_can_follow(largest: float, missed: float) -> None:
     """A box is called so where all its turns are, apart from some that are nearly wide enough; also at ratios so far

@@ -2,46 +2,35 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, InvalidValue, Turn, first_contact, shortest_turn, turn_length_bounds
-from core.design.turn_boxes import sizes_of
+from core import Dragon, Turn, shortest_turn, turn_length_bounds
+from tests.core.design.test_shortest_turn import compared
+from tests.support.further import further
+from tests.support.refused import refused
 
-GROWTH = 1.7 / (2.0 * math.pi)
-TIGHTEST = 1.43  # [m], half the chord of the contest's head
-GRID = 0.004  # [m]
+pytestmark = pytest.mark.uncompiled
+
+GRID = 0.1  # [m]
+# Lengths that others found [m].
+FOUND = {2.0: (11.7915, 11.8105, 11.8336, 12.9494379, 13.6212449)}
 
 
-@pytest.mark.uncompiled
-@pytest.mark.parametrize("ratio", [2.0, 1.5, 1.1])
+@pytest.mark.parametrize("ratio", further([2.0, 1.5, 1.1], 1))
 def test_every_turn_on_a_grid_that_is_shorter_than_the_lower_bound_has_a_contact(ratio: float) -> None:
+    """No bend is tighter than half the chord of the contest's head; benches with shorter heads can follow it."""
     low, high = turn_length_bounds(Dragon(), 1.7, ratio=ratio)
     assert high == Turn(1.7, ratio=ratio).length
-    entry, leaving = (axis.ravel() for axis in np.meshgrid(*[np.arange(1.3, 4.5 + 1e-12, GRID)] * 2))
-    sizes = sizes_of(GROWTH, entry, (leaving - entry) / GROWTH, np.full(entry.size, math.log(ratio)))
-    lengths = np.where(sizes[:2].min(axis=0) >= TIGHTEST, sizes[4], np.inf)
-    if ratio > 1.3:  # no contact is shorter
-        assert low <= lengths.min() <= low + 15.0 * GRID
-        return
-    shorter = np.random.default_rng(2).choice(np.flatnonzero(lengths < low), 40)
-    for k in shorter:
-        turn = Turn(1.7, 30.0, ratio, start_turns=30.0, entry_radius=float(entry[k]), exit_radius=float(leaving[k]))
-        assert first_contact(Dance(Dragon(60, 2.2), turn), start=0.0, stop=60.0).time is not None
+    assert [length for length in FOUND.get(ratio, ()) if not low <= length <= high + 5e-8] == []
+    radii = np.arange(1.3, 4.5 + 1e-12, GRID).tolist()
+    turns = [(ratio, entry, leaving) for entry in radii for leaving in radii]
+    shorter, longer = compared(low, turns, Dragon(60, 2.2), 1.43)
+    assert longer
+    assert bool(shorter) is (ratio < 1.3)
     assert low <= shortest_turn(Dragon(), 1.7, ratio=ratio).turn.length <= low + 0.05
 
 
-@pytest.mark.uncompiled
-def test_lengths_that_others_found_are_between() -> None:
-    low, high = turn_length_bounds(Dragon(), 1.7)
-    for length in (11.7915, 11.8105, 11.8336, 12.9494379, 13.6212449):
-        assert low <= length <= high + 5e-8
-    assert low > 11.77
-
-
-@pytest.mark.uncompiled
 def test_a_turn_too_tight_for_any_arc_is_refused() -> None:
-    with pytest.raises(InvalidValue, match="turning_radius"):
+    with refused("turning_radius"):
         turn_length_bounds(Dragon(), 1e-3, 1e-3)

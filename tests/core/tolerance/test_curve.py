@@ -5,28 +5,24 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Budget, Dance, Dragon, InvalidValue, Spiral, TooMuchWork, minimum_pitch, tolerance, tolerance_curve
+from core import Budget, Dance, Dragon, Spiral, TooMuchWork, minimum_pitch, tolerance, tolerance_curve
 from core.tolerance.curve import time_on_circle
+from tests.support.refused import refused
 
-DRAGON = Dragon(benches=60)
-
-
-def test_a_curve_holds_the_tolerance_of_each_pitch() -> None:
-    curve = tolerance_curve(DRAGON, [0.55, 0.8], start_turns=10.0)
-    for pitch, stray in zip(curve.pitch.tolist(), curve.stray.tolist(), strict=True):
-        dance = Dance(DRAGON, Spiral(pitch, 10.0))
-        assert tolerance(dance, stop=time_on_circle(dance, 4.5)).stray == stray
-    frame = curve.to_dataframe()
-    assert list(frame.columns) == ["pitch", "stray", "limited_by"]
-    assert set(frame["limited_by"]) == {"benches"}
+DRAGON = Dragon(benches=30)
 
 
 def test_the_tolerance_rises_with_the_pitch_and_is_the_inverse_of_the_minimum_pitch() -> None:
-    strays = [0.01, 0.03, 0.06]
+    strays = [0.01, 0.03]
     pitches = [minimum_pitch(DRAGON, start_turns=10.0, stray=stray).pitch for stray in strays]
     curve = tolerance_curve(DRAGON, pitches, start_turns=10.0)
     assert (np.diff(curve.stray) > 0.0).all()
     assert curve.stray == pytest.approx(strays, rel=1e-3)
+    dances = [Dance(DRAGON, Spiral(pitch, 10.0)) for pitch in pitches]
+    assert [tolerance(dance, stop=time_on_circle(dance, 4.5)).stray for dance in dances] == curve.stray.tolist()
+    frame = curve.to_dataframe()
+    assert list(frame.columns) == ["pitch", "stray", "limited_by"]
+    assert set(frame["limited_by"]) == {"benches"}
 
 
 def test_the_head_is_on_the_circle_at_that_time() -> None:
@@ -35,24 +31,20 @@ def test_the_head_is_on_the_circle_at_that_time() -> None:
 
 
 @pytest.mark.parametrize(
-    ("pitches", "arguments", "message"),
+    ("pitches", "options", "field"),
     [
-        ([], {}, "pitches must be a list of 1 to 10000 numbers in metres"),
-        ([[0.5]], {}, r"got an array of shape \(1, 1\)"),
-        (
-            [0.5],
-            {"start_turns": 5.0},
-            "turning_radius must be smaller, got 4.5 m: at a pitch of 0.5 m the dance starts inside that circle",
-        ),
-        ([0.5], {"start_turns": 9.0}, "the dance starts on that circle"),
-        ([0.5], {"turning_radius": 0.3}, "turning_radius must be larger, got 0.3 m: bench 0 folds at"),
-        ([-0.5], {}, "pitch must be positive, got -0.5 m"),
+        ([], {}, "pitches"),
+        ([[0.5]], {}, "pitches"),
+        ([0.5], {"start_turns": 5.0}, "turning_radius"),
+        ([0.5], {"start_turns": 9.0}, "turning_radius"),
+        ([0.5], {"turning_radius": 0.3}, "turning_radius"),
+        ([-0.5], {}, "path.pitch"),
     ],
     ids=["none", "a table", "inside the circle", "on the circle", "a fold before the circle", "a negative pitch"],
 )
-def test_impossible_curves_are_refused(pitches: list[float], arguments: dict[str, float], message: str) -> None:
-    with pytest.raises(InvalidValue, match=message):
-        tolerance_curve(DRAGON, pitches, **arguments)  # type: ignore[arg-type]
+def test_impossible_curves_are_refused(pitches: list, options: dict, field: str) -> None:
+    with refused(field):
+        tolerance_curve(DRAGON, pitches, **options)
 
 
 def test_pitches_that_are_too_many_for_the_budget_are_reported_with_how_many_were_answered() -> None:
@@ -61,5 +53,5 @@ def test_pitches_that_are_too_many_for_the_budget_are_reported_with_how_many_wer
     def stop(share: float) -> None:
         budget.stop("in the time given")
 
-    with pytest.raises(TooMuchWork, match="pitches must be fewer, got 3: the tolerance was found for only 1 "):
+    with pytest.raises(TooMuchWork, match=r"pitches must be fewer, got 3: .* for only 1 "):
         tolerance_curve(Dragon(6), [0.5, 0.6, 0.7], progress=stop, budget=budget)

@@ -8,7 +8,7 @@ from core import Dance, Dragon, Line, Outcome, Route, Spiral, first_contact, min
 from core.tolerance.curve import time_on_circle
 from core.tolerance.safe import STRAY_MIN
 from core.tolerance.tolerance import Limit
-from tests.campaigns.adversaries import CIRCLE, to_circle
+from tests.campaigns.adversaries import to_circle
 from tests.core.tolerance.test_tolerance import BRACKET
 
 # pitch [m], a bound by hand and a contact found by hand [m], both sampled in time and rounded to 1e-5.
@@ -24,22 +24,11 @@ def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch: float, bo
     dance, stop = to_circle(pitch)
     result = tolerance(dance, stop=stop)
     safe, touching = result.stray_bracket
-    assert touching is not None
     assert bound - ROUNDED < safe < touching < contact + ROUNDED
     assert touching < safe * (1.0 + BRACKET)
     assert result.limited_by is Limit.BENCHES
     assert result.independent == safe
     assert SIMPLE[pitch] * (1.0 - SIMPLE_SHORT) < result.simple < SIMPLE[pitch] + ROUNDED
-
-
-def test_a_dance_that_touches_as_it_is_allows_none() -> None:
-    dance = Dance(Dragon(), Spiral())
-    result = tolerance(dance)
-    assert result.stray == 0.0
-    assert result.stray_bracket[1] is not None
-    assert result.stray_bracket[1] < 1e-6
-    assert result.time == pytest.approx(first_contact(dance).time, abs=1e-8)
-    assert result.benches == (0, 8)
 
 
 def test_benches_next_but_one_to_each_other_are_held_apart_by_the_one_between() -> None:
@@ -51,32 +40,16 @@ def test_benches_next_but_one_to_each_other_are_held_apart_by_the_one_between() 
     assert "are held apart by it" in result.certificate.method
 
 
-def test_a_pose_shows_where_benches_that_the_one_between_holds_apart_meet_after_all() -> None:
-    line = Route([Line((0.0, 0.0), (60.0, 0.0))])
-    result = tolerance(Dance(Dragon(3, 1.6, 1.6, 1.0, 0.275), line))
-    safe, touching = result.stray_bracket
-    assert result.independent < safe < 0.5 * 1.05  # half of a chord [m]: more is not asked about
-    assert result.exhibit is not None
-    assert result.exhibit.benches == (0, 2)
-    assert touching is not None
-    assert safe < touching < 1.2 * safe  # the bound for three benches is not as tight as that for two
-
-
-def test_on_a_wide_spiral_the_next_turn_limits_the_stray_and_not_the_next_bench_but_one() -> None:
-    dance = Dance(Dragon(60), Spiral(2.0))
-    result = tolerance(dance, stop=dance.path.travel_to(CIRCLE))
-    safe, touching = result.stray_bracket
-    assert touching is not None
-    assert result.benches is not None
-    assert result.benches[1] is not None
-    assert result.benches[1] - result.benches[0] > 2
-    assert result.independent < safe < touching < 1.03 * safe
-
-
-def test_where_benches_touch_as_they_are_nothing_is_called_safe() -> None:
-    dance, stop = to_circle(0.42)
+@pytest.mark.parametrize(
+    ("dance", "stop", "benches"), [(*to_circle(0.42), None), (Dance(Dragon(), Spiral()), None, (0, 8))]
+)
+def test_where_benches_touch_as_they_are_nothing_is_called_safe(
+    dance: Dance, stop: float | None, benches: tuple | None
+) -> None:
     result = tolerance(dance, stop=stop)
     assert (result.stray, result.time) == (0.0, pytest.approx(first_contact(dance).time, abs=1e-6))
+    assert benches in (None, result.benches)
+    assert benches is None or result.stray_bracket[1] < 1e-6
     assert "no stray is known to be safe: a bench touches another with everybody in place." in result.certificate.method
     assert repr(result).startswith("<Tolerance: no stray is known to be safe")
 

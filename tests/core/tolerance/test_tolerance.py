@@ -9,14 +9,11 @@ import pytest
 
 from core import (
     Area,
-    Budget,
     Dance,
     Dragon,
     Line,
     Route,
     Spiral,
-    TooMuchWork,
-    Turn,
     Venue,
     tolerance,
 )
@@ -34,6 +31,7 @@ def default() -> Tolerance:
     return tolerance(dance, stop=stop)
 
 
+@pytest.mark.thorough
 def test_none_of_a_million_poses_that_seek_contact_find_it(default: Tolerance) -> None:
     sought = seek(to_circle(0.55)[0], default)
     assert sought.poses >= 1_000_000
@@ -41,38 +39,17 @@ def test_none_of_a_million_poses_that_seek_contact_find_it(default: Tolerance) -
     assert 0.0 < sought.nearest < 0.005 * default.stray
 
 
+@pytest.mark.thorough
 def test_the_same_search_finds_contacts_with_strays_beyond_the_bracket(default: Tolerance) -> None:
     assert seek(to_circle(0.55)[0], default, part=1.002, draws=2_000).nearest < 0.0
 
 
-def test_all_lengths_times_k_make_the_answer_k_times_as_large(default: Tolerance) -> None:
-    _dance, stop = to_circle(0.55)
-    dragon = Dragon(223, 6.82, 4.40, 0.60, 0.55)
-    result = tolerance(Dance(dragon, Spiral(1.1), 2.0), stop=stop)
+def test_speed_changes_when_but_not_how_far_and_all_lengths_times_k_how_far(default: Tolerance) -> None:
+    stop = to_circle(0.55)[1] / 4.0
+    dance = Dance(Dragon(223, 6.82, 4.40, 0.60, 0.55), Spiral(1.1), 8.0)
+    result = tolerance(dance, stop=stop)
     assert result.stray == pytest.approx(2.0 * default.stray, rel=1e-5)
-
-
-def test_speed_changes_when_but_not_how_far(default: Tolerance) -> None:
-    dance, stop = to_circle(0.55)
-    assert default.time is not None
-    faster = tolerance(Dance(dance.dragon, dance.path, 4.0), stop=stop / 4.0)
-    assert faster.stray == pytest.approx(default.stray, rel=1e-6)
-    assert faster.time == pytest.approx(default.time / 4.0, rel=1e-6)
-
-
-def test_a_run_to_its_fold_has_its_tolerance_too() -> None:
-    result = tolerance(Dance(Dragon(benches=60), Spiral(0.9)))
-    safe, touching = result.stray_bracket
-    assert touching is not None
-    assert 0.05 < safe < touching < safe * (1.0 + BRACKET)
-
-
-def test_benches_of_many_sizes_on_a_route() -> None:
-    dragon = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 8, [0.3, 0.5] * 20, [0.2] * 40)
-    result = tolerance(Dance(dragon, Turn(1.7)), stop=60.0)
-    safe, touching = result.stray_bracket
-    assert touching is not None
-    assert 0.01 < safe < touching < safe * (1.0 + BRACKET)
+    assert result.time == pytest.approx(default.time / 4.0, rel=1e-6)
 
 
 def test_two_benches_on_a_line_have_nothing_to_touch() -> None:
@@ -94,7 +71,6 @@ def test_a_bench_that_passes_a_wall_may_stray_to_it() -> None:
     assert result.limited_by is Limit.VENUE
     assert result.area == "wall"
     safe, touching = result.stray_bracket
-    assert touching is not None
     assert safe <= stray <= touching + 1e-6
     assert touching < safe * (1.0 + BRACKET)
 
@@ -105,7 +81,7 @@ def corner_reach(stray: float) -> float:
     Where the bench is turned by phi the rear hole strays by w more than the front one, so the front hole is in two
     discs; its furthest place to the left is the top of one of them, or where they cross.
     """
-    chord, phi = 2.86, np.linspace(0.0, 2.0 * math.asin(stray / 2.86), 200_001)
+    chord, phi = 2.86, np.linspace(0.0, 2.0 * math.asin(stray / 2.86), 20_001)
     w = chord * (1.0 - np.exp(1j * phi))
     top, other = 1j * stray, 1j * stray - w
     half = np.sqrt(np.maximum(stray**2 - 0.25 * np.abs(w) ** 2, 0.0))
@@ -115,9 +91,3 @@ def corner_reach(stray: float) -> float:
     left = np.where(np.abs(top + w) <= stray, stray, left)
     left = np.where(np.abs(other) <= stray, np.maximum(left, other.imag), left)
     return float((left + (np.exp(1j * phi) * (0.275 + 0.15j)).imag).max())
-
-
-def test_a_budget_that_is_spent_ends_the_question() -> None:
-    dance, stop = to_circle(0.55)
-    with pytest.raises(TooMuchWork, match="how far people may stray was not found"):
-        tolerance(dance, stop=stop, budget=Budget(1000.0))

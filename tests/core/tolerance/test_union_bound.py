@@ -20,23 +20,27 @@ def chains(model: Wobble) -> tuple[FirstOrder, Floats, Floats, Floats]:
     """The first order, then of COUNT chains drawn at random at the last instant: e_k, its first order (COUNT, n + 1, 2)
     and, in first order, the four numbers of every bench that are assumed to be small (COUNT, n, 4) [m]."""
     rng, chords = np.random.default_rng(1), DANCE.dragon.chords
-    places, ahead = PLACED.position[-1], TANGENTS[-1]
-    left = np.stack([-ahead[:, 1], ahead[:, 0]], axis=-1)
+    places, ahead = PLACED.position[-1] @ [1.0, 1j], TANGENTS[-1] @ [1.0, 1j]
     z = rng.standard_normal((COUNT, len(places), 2))
     for k in range(1, len(places)):
         z[:, k] = model.along * z[:, k - 1] + np.sqrt(1.0 - model.along**2) * z[:, k]
-    wants = model.lateral * z[..., :1] * left + model.forward * z[..., 1:] * ahead
+    wants = (z @ [1j * model.lateral, model.forward]) * ahead
     pins, linear, small = [places[0] + wants[:, 0]], [wants[:, 0]], []
     for k, chord in enumerate(chords.tolist()):
-        way = places[k + 1] + wants[:, k + 1] - pins[-1]
-        pins.append(pins[-1] + way * (chord / np.hypot(*way.T))[:, None])
+        way = places[k + 1] + wants[:, k + 1] - pins[k]
+        pins.append(pins[k] + way * (chord / abs(way)))
         u = (places[k] - places[k + 1]) / chord
-        n = np.array([-u[1], u[0]])
-        e, v = linear[-1], wants[:, k + 1] - linear[-1]
-        small.append(np.stack([e @ u, e @ n, v @ u, v @ n], axis=1))
-        linear.append((e @ u)[:, None] * u + (wants[:, k + 1] @ n)[:, None] * n)
+        e, want = linear[k] / u, wants[:, k + 1] / u  # along and across the chord
+        small.append(in_plane(np.stack([e, want - e], axis=1)).reshape(COUNT, 4))
+        linear.append((e.real + 1j * want.imag) * u)
     laid = first_order(DANCE.dragon, model, PLACED.position, TANGENTS)
-    return laid, np.stack(pins, axis=1) - places, np.stack(linear, axis=1), np.stack(small, axis=1)
+    strays = np.stack(pins, axis=1) - places
+    return laid, in_plane(strays), in_plane(np.stack(linear, axis=1)), np.stack(small, axis=1)
+
+
+def in_plane(points: np.ndarray) -> Floats:
+    """Complex numbers as points (..., 2)."""
+    return np.stack([points.real, points.imag], axis=-1)
 
 
 def test_chains_drawn_at_random_have_the_covariances_of_the_first_order() -> None:
@@ -57,7 +61,6 @@ def test_no_chain_within_the_assumption_leaves_its_first_order_by_more_than_the_
     laid, strays, linear, small = chains(Wobble(size, size))
     deviations = 2.5
     bounds = left_out(DANCE.dragon, laid, deviations)
-    assert bounds is not None
     rest = strays - linear
     ways = np.stack([laid.along[-1], laid.across[-1]], axis=1)
     front, rear = (np.einsum("ski,kfi->skf", part, ways) for part in (rest[:, :-1], rest[:, 1:]))
@@ -78,7 +81,6 @@ def test_the_bound_grows_with_the_wobble_and_holds_of_every_sample() -> None:
     span, bounds = {"start": 384.0, "stop": 394.0}, []
     for size in (0.0003, 0.001, 0.002, 0.004, 0.03):
         result = contact_probability(DANCE, Wobble(size, size), 200, 1, **span)
-        assert result.union_bound is not None
         assert result.limits[0] <= result.union_bound
         bounds.append(result.union_bound)
     assert bounds[0] < 1e-9
