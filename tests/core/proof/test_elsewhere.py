@@ -29,7 +29,7 @@ def test_a_pose_that_overlaps_elsewhere_is_proven_in_the_frame_of_the_spiral() -
 
 def test_passages_are_refused_and_the_steady_dance_is_proven() -> None:
     dance = replace(ELSEWHERE, passages=[Passage(0.5, until_s=1.0)])
-    with pytest.raises(InvalidValue, match=r"prove dance\.steady") as refused:
+    with pytest.raises(InvalidValue) as refused:
         prove_clear(dance, 2.0)
     assert refused.value.field == "passages"
     assert prove_clear(dance.steady, 2.0)["digest"] == prove_clear(STANDARD, 2.0)["digest"]
