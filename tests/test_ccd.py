@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flint import acb, arb
+from flint import arb
 
 from benchmarks.ccd.__main__ import main, run
-from benchmarks.ccd.dances import KINDS, dance_of
+from benchmarks.ccd.dances import KINDS
 from benchmarks.ccd.engines import ENGINES, Engine
 from benchmarks.ccd.files import COLUMNS, ENDS, Shard, load, load_shard, save, save_shard
 from benchmarks.ccd.march import least_between
@@ -25,10 +25,7 @@ from benchmarks.ccd.pieces import pieces_of
 from benchmarks.ccd.queries import CONTACT, EXACT, FAR, GRAZE, SAMPLES, dance_queries
 from benchmarks.ccd.report import BEGIN, END, PAGE, SAMPLE, SAMPLED, Results, by_depth, report, score
 from benchmarks.ccd.running import Worker, answers, answers_path, installed, save_answers
-from benchmarks.ccd.series import Expansion
 from benchmarks.ccd.truth import covered, track
-from core import Spiral
-from core.proof.paths import chain_on, recorded_path
 from tests.support.depth import some
 from tests.support.thorough import thorough
 
@@ -36,8 +33,6 @@ SHARD = load_shard(SAMPLE)
 # Largest errors of our own times of contact [s]: the corner comes to a graze of 1e-9 m at 1e-5 m/s, so slowly that what
 # doubles leave of its place, 1e-14 m and more, is 1e-9 s and more.
 OURS, OURS_AT_GRAZES = 1e-9, 1e-8
-# Largest difference of two computations in balls of the same point [m].
-SAME = 1e-11
 
 
 def answered(engine: Engine, shard: Shard, folder: Path) -> Results:
@@ -103,44 +98,23 @@ def test_every_other_engine_answers_and_keeps_what_it_promises(engine: Engine, t
         assert result.late <= OURS < result.early
 
 
+@pytest.mark.parametrize("path", KINDS)
 @pytest.mark.parametrize(("kind", "sign"), [(CONTACT, 0), (GRAZE, -1), (GRAZE, 1), (FAR, 1)])
-def test_the_truth_of_the_sample_is_shown_again_in_balls(kind: int, sign: int) -> None:
+def test_the_truth_of_the_sample_is_shown_again_in_balls(kind: int, sign: int, path: str) -> None:
     columns = SHARD.columns
     rows = np.flatnonzero((columns["kind"] == kind) & ((sign == 0) | (np.sign(columns["depth"]) == sign)))
-    for k in rows[[0, len(rows) // 2]].tolist():
-        query, stage = SHARD.query(k), Stage(SHARD.dances[int(columns["dance"][k])])
-        last = max(query.corner_bench, query.edge_bench) + 1
-        seen = track(covered(stage, pieces_of(stage), query.place, query.span, last), query, stage)
-        low, high, depth = (columns[name][k].item() for name in ("low", "high", "depth"))
-        if math.isfinite(low):
-            assert seen.clear(arb(query.margin), 0.0, low)
-            assert seen.within(arb(query.margin), high)
-            assert not seen.clear(arb(query.margin), 0.0, high)
-        else:
-            assert seen.clear(arb(query.margin + depth * (1.0 - EXACT) - 1e-14), 0.0, query.span)
-            assert not seen.clear(arb(query.margin + depth * (1.0 + 2.0 * EXACT) + 1e-13), 0.0, query.span)
-
-
-@pytest.mark.parametrize("kind", ["spiral", "turn", "arcs"])
-def test_handles_lie_where_the_proofs_of_this_library_have_them(kind: str) -> None:
-    record = next(record for record in SHARD.dances.values() if record["kind"] == kind)
-    stage, dance, count = Stage(record), dance_of(record), 6
-    chain = chain_on(dance.dragon, recorded_path(dance.path), 0.0)
-    travel = 0.5 * (max(dance.begin, 0.0) + dance.end.time) + 0.123
-    place = float(stage.search.place - travel)
-    expansion = Expansion(stage, pieces_of(stage), place, 0.005, count)
-    for shift in (arb(0.0), arb(0.004)):
-        at = shift - arb(place)
-        if isinstance(dance.path, Spiral):
-            at += chain.arc(chain.start)
-        pose = chain.pose_at(0, chain.place_after(at))
-        pose.grow_to(count)
-        own = [
-            acb(*(sum(part[k] * shift**k for k in range(12)) for part in (handle.point.x, handle.point.y)))
-            for handle in expansion.handles[: count + 1]
-        ]
-        for k in range(1, count + 1):  # distances of handles: the frame of a spiral's pose turns with its head
-            assert abs(float(abs(own[k] - own[0])) - float(abs(pose.points[k] - pose.points[0]))) < SAME
+    k = next(k for k in rows.tolist() if SHARD.dances[int(columns["dance"][k])]["kind"] == path)
+    query, stage = SHARD.query(k), Stage(SHARD.dances[int(columns["dance"][k])])
+    last = max(query.corner_bench, query.edge_bench) + 1
+    seen = track(covered(stage, pieces_of(stage), query.place, query.span, last), query, stage)
+    low, high, depth = (columns[name][k].item() for name in ("low", "high", "depth"))
+    if math.isfinite(low):
+        assert seen.clear(arb(query.margin), 0.0, low)
+        assert seen.within(arb(query.margin), high)
+        assert not seen.clear(arb(query.margin), 0.0, high)
+    else:
+        assert seen.clear(arb(query.margin + depth * (1.0 - EXACT) - 1e-14), 0.0, query.span)
+        assert not seen.clear(arb(query.margin + depth * (1.0 + 2.0 * EXACT) + 1e-13), 0.0, query.span)
 
 
 @pytest.mark.thorough
