@@ -35,10 +35,10 @@ def small() -> Certificate:
 
 
 @cache
-def graze() -> Certificate:
+def graze(margin: float = 0.0) -> Certificate:
     """The certificate of a minimum pitch at which benches 0 and 12 graze, as read from a file."""
-    pitch = minimum_pitch(Dragon(14), **GRAZING).pitch_bracket[1]
-    return through_json(prove_minimum_pitch(Dragon(14), pitch, **GRAZING))
+    pitch = minimum_pitch(Dragon(14), **GRAZING, margin=margin).pitch_bracket[1]
+    return through_json(prove_minimum_pitch(Dragon(14), pitch, **GRAZING, margin=margin))
 
 
 def proven_then_only(

@@ -13,7 +13,7 @@ from flint import arb, ctx
 
 from core import Dance, Dragon, Spiral, bench_poses, trajectory
 from core.errors import InvalidValue, ProofRefused
-from core.proof import prove_collision_time, prove_minimum_pitch
+from core.proof import prove_collision_time, prove_minimum_pitch, verify
 from core.proof.chain import Chain
 from core.proof.claims import head_theta, near_pair, verify_near
 from core.proof.pairs import Unproven
@@ -54,10 +54,19 @@ def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time: Any) -> N
     assert refused.value.field == "time"
 
 
-@pytest.mark.parametrize(("more", "reason"), [(-1e-8, "overlap when handle 0"), (1.1e-6, "free of contact too")])
-def test_a_pitch_off_the_smallest_is_refused(more: float, reason: str) -> None:
-    with pytest.raises(ProofRefused, match=reason):
-        prove_minimum_pitch(Dragon(14), graze()["claim"]["pitch"] + more, **GRAZING)
+@pytest.mark.parametrize(
+    ("margin", "below", "above"),
+    [
+        (0.0, "overlap when handle 0", "free of contact too"),
+        *thorough((0.1, "nearer than the margin", "keeps the margin")),
+    ],
+)
+def test_a_minimum_pitch_is_proven_and_one_off_it_refused(margin: float, below: str, above: str) -> None:
+    certificate = graze(margin)
+    assert "says nothing of larger pitches" in verify(certificate).statement
+    for more, reason in ((-1e-8, below), (1.1e-6, above)):
+        with pytest.raises(ProofRefused, match=reason):
+            prove_minimum_pitch(Dragon(14), certificate["claim"]["pitch"] + more, **GRAZING, margin=margin)
 
 
 @pytest.mark.parametrize(
