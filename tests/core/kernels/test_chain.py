@@ -7,6 +7,7 @@ import pytest
 
 from core import Dance, Dragon, Route, Spiral, Turn, kernels, trajectory
 from core.contact.search import ContactSearch
+from core.kernels.constants import MX, MY, RATE
 
 ROUNDING = 1e-11  # [m], and of rates [1]
 
@@ -15,17 +16,11 @@ ROUNDING = 1e-11  # [m], and of rates [1]
 @pytest.mark.parametrize("travel", [0.0, 11.0, 37.5])
 def test_a_chain_stands_and_moves_as_the_trajectory_says(path: Spiral | Route, travel: float) -> None:
     search = ContactSearch(Dragon(30), path, 0.0)
-    chain = search.placed
-    assert kernels.place_chain(search.curve, search.place - travel, 30, search.sizes, chain) == 30
+    assert search.curve.is_spiral == isinstance(path, Spiral)
+    assert kernels.place_chain(search.curve, search.place - travel, 30, search.sizes, search.placed) == 30
     there = trajectory(Dance(Dragon(30), path), travel)
-    assert np.abs(chain[:31, kernels.RATE]) == pytest.approx(there.speed, abs=ROUNDING)
-    centres = 0.5 * (there.position[1:] + there.position[:-1])
-    apart = np.linalg.norm(centres[1:] - centres[:-1], axis=1)  # the frame of a spiral's chain turns with its head
-    middles = chain[:30, kernels.MX : kernels.MY + 1]
-    assert np.linalg.norm(np.diff(middles, axis=0), axis=1) == pytest.approx(apart, abs=ROUNDING)
-
-
-def test_curves_say_what_they_are() -> None:
-    assert kernels.spiral_curve(0.2).is_spiral
-    assert kernels.spiral_curve(0.2).growth == 0.2
-    assert not kernels.route_curve(Turn(1.7).table).is_spiral
+    assert np.abs(search.placed[:31, RATE]) == pytest.approx(there.speed, abs=ROUNDING)
+    handles, centres = there.position @ [1.0, 1.0j], search.placed[:30, [MX, MY]] @ [1.0, 1.0j]
+    # The frame of a spiral's chain turns with its head: distances of neighbours stay.
+    apart = np.abs(np.diff(0.5 * (handles[1:] + handles[:-1])))
+    assert np.abs(np.diff(centres)) == pytest.approx(apart, abs=ROUNDING)

@@ -8,6 +8,7 @@ from scipy.integrate import quad
 
 from core import Dragon, Spiral, kernels
 from core.contact.search import ContactSearch
+from core.kernels.constants import COS, FREE, SIN, THETA
 
 # Arc lengths are good to this part of themselves [1], chords to this [m].
 PART, CHORD_ERROR = 1e-13, 1e-13
@@ -22,10 +23,9 @@ def test_arc_length_is_the_integral_of_the_speed_and_theta_its_inverse(theta: fl
 
 
 def test_every_bench_of_a_chain_is_as_long_as_its_chord() -> None:
-    dragon, spiral = Dragon(60), Spiral()
-    search = ContactSearch(dragon, spiral, 0.0)
-    chain = search.placed
-    kernels.start_chain(spiral.start_theta, chain)
-    assert kernels.extend_chain(spiral.growth, 0, 60, kernels.FREE, search.sizes, chain) == 60
-    places = spiral.growth * chain[:, [kernels.THETA]] * chain[:, kernels.COS : kernels.SIN + 1]
-    assert np.linalg.norm(np.diff(places, axis=0), axis=1) == pytest.approx(dragon.chords, abs=CHORD_ERROR)
+    search = ContactSearch(Dragon(60), Spiral(), 0.0)
+    kernels.start_chain(Spiral().start_theta, search.placed)
+    assert kernels.extend_chain(search.growth, 0, 60, FREE, search.sizes, search.placed) == 60
+    theta, cos, sin = search.placed[:, [THETA, COS, SIN]].T
+    chords = search.growth * np.abs(np.diff(theta * (cos + 1j * sin)))
+    assert chords == pytest.approx(Dragon(60).chords, abs=CHORD_ERROR)
