@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
 from core import Dragon, Route, Spiral, Turn, kernels
@@ -34,13 +33,3 @@ def test_a_gap_changes_as_fast_as_said(path: Spiral | Route, travel: float, pair
     quotient = (gap(search, travel + STEP, pair) - gap(search, travel - STEP, pair)) / (2.0 * STEP)
     rate = kernels.gap_rate_at(search.scene, search.place - travel, *pair, search.tried)
     assert rate == pytest.approx(quotient, abs=QUOTIENT)
-
-
-def test_the_bottom_of_a_dip_is_its_least_gap() -> None:
-    search, pair = ContactSearch(Dragon(45), Spiral(), 0.0), (0, 11)
-    travels = np.linspace(409.0, 410.5, 301)
-    gaps = [gap(search, at, pair) for at in travels]
-    k = int(np.argmin(gaps))
-    assert 0 < k < 300
-    bottom = kernels.bottom_between(search.scene, travels[k - 1], travels[k + 1], *pair, 1e-9, search.tried)
-    assert gap(search, bottom, pair) <= min(gaps)

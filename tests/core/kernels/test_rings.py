@@ -29,26 +29,36 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
         assert (far[1:][outside] >= radius).all()
 
 
+def random_case(seed: int) -> tuple[Dragon, float, float]:
+    """A random dragon on a pitch of some of its widths, whose people do not stray."""
+    rng = np.random.default_rng(seed)
+    chord, (head, pitch) = 10 ** rng.uniform(-0.3, 0.5), 10 ** rng.uniform([-0.4, -1.0], 0.4)
+    width, overhang = chord * 10 ** rng.uniform(-2.5, -0.4), chord * rng.choice([0.0, rng.uniform(0.0, 0.3)])
+    dragon = Dragon(int(rng.integers(20, 70)), chord * head + 2 * overhang, chord + 2 * overhang, width, overhang)
+    return dragon, max(1.2 * width, pitch * chord), 0.0
+
+
 @pytest.mark.parametrize(
     ("dragon", "pitch", "stray"),
     [
         (Dragon(60), 0.45, 0.0),
-        (Dragon(60), 0.6, 0.0),
-        (Dragon(60), 1.0, 0.0),
         (Dragon(60), 5.0, 0.0),  # the nearest benches have one bench between them
         (Dragon(60), 0.5, 0.01),
         (Dragon(60), 0.6, 0.03),
         (Dragon(60), 1.0, 0.15),
         # When these stray far, their ends are wider than their middles, and come nearest to the benches inside them.
         (Dragon(60, 2.2, 2.2, 0.1, 0.24), 1.0, 0.3),
+        *map(random_case, range(20)),
     ],
 )
 def test_no_clearance_falls_below_the_ring_bound_further_out(dragon: Dragon, pitch: float, stray: float) -> None:
     search = ContactSearch(dragon, Spiral(pitch), 0.0, stray=stray)
-    for travel in np.linspace(0.0, 60.0, 7):
-        radius = search.growth * search.theta_at(travel)
-        least = kernels.ring_least(search.growth, search.growth, radius, search.rings)
-        assert search.clearance(travel)[0] >= least > -kernels.FREE
+    bounds = []
+    for travel in np.linspace(0.0, 0.95, 30) * search.travel_at(0.0):
+        at = search.growth, search.growth * search.theta_at(travel), search.rings
+        bounds.append(kernels.ring_least(search.growth, *at) - kernels.ring_rounding(*at))
+        assert search.clearance(travel)[0] >= bounds[-1]
+    assert bounds[0] > 0.0 or search.clear_radius > search.growth * search.theta_at(0.0)
 
 
 @pytest.mark.parametrize("margin", [0.0, 0.1])

@@ -29,21 +29,6 @@ def peak_of(
     return search, peak
 
 
-@pytest.mark.parametrize(
-    ("path", "start", "stop"),
-    [(Spiral(1.2, 3.0), 0.0, 30.0), (TURN, 0.0, 25.0), (TURN, 0.0, 300.0), (TURN, 30.0, 300.0)],
-    ids=["spiral", "turn", "turn and a long way out", "way out alone"],
-)
-def test_the_highest_rate_is_met_and_no_sample_exceeds_its_bound(
-    path: Spiral | Route, start: float, stop: float
-) -> None:
-    search, peak = peak_of(path, start, stop)
-    assert start <= peak.travel <= stop
-    assert np.abs(search.rates(peak.travel)).max() == pytest.approx(peak.rate, abs=ROUNDING)
-    seen = max(np.abs(search.rates(travel)).max() for travel in np.linspace(start, stop, 3_000))
-    assert seen <= peak.upper <= peak.rate + 1e-8
-
-
 @pytest.mark.parametrize("radius", [4.5, 5.2, 6.5])
 @pytest.mark.parametrize("start", [pytest.param(-30.0, id="from before"), pytest.param(18.0, id="from within")])
 def test_what_is_proven_of_the_way_out_is_what_following_all_of_it_proves(radius: float, start: float) -> None:

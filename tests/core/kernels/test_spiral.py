@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from core import Dragon, Spiral, kernels
-from core.contact.search import ContactSearch
-from core.kernels.constants import COS, FREE, SIN, THETA
+from core import kernels
 
 # Arc lengths are good to this part of themselves [1], chords to this [m].
 PART, CHORD_ERROR = 1e-13, 1e-13
@@ -20,12 +18,3 @@ def test_arc_length_is_the_integral_of_the_speed_and_theta_its_inverse(theta: fl
     assert arc == pytest.approx(quad(lambda t: np.hypot(1.0, t), 0.0, theta, epsabs=0.0, epsrel=PART)[0], rel=PART)
     assert kernels.spiral_theta(arc) == pytest.approx(theta, rel=PART)
     assert kernels.spiral_theta(-arc) == 0.0
-
-
-def test_every_bench_of_a_chain_is_as_long_as_its_chord() -> None:
-    search = ContactSearch(Dragon(60), Spiral(), 0.0)
-    kernels.start_chain(Spiral().start_theta, search.placed)
-    assert kernels.extend_chain(search.growth, 0, 60, FREE, search.sizes, search.placed) == 60
-    theta, cos, sin = search.placed[:, [THETA, COS, SIN]].T
-    chords = search.growth * np.abs(np.diff(theta * (cos + 1j * sin)))
-    assert chords == pytest.approx(Dragon(60).chords, abs=CHORD_ERROR)
