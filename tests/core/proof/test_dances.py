@@ -8,31 +8,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flint import arb
 
-from core import Dance, Dragon, Route, Spiral, Turn, bench_poses, first_contact, trajectory
+from core import Dance, Dragon, Route, Spiral, Turn, first_contact
 from core.contact.clearance import least_clearance
 from core.errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused
 from core.proof import Certificate, prove_clear, prove_collision_time, prove_contact, verify
-from core.proof.paths import chain_on, recorded_path
-from core.shapes.rectangles import corners
 from tests.support.depth import examples, some
 from tests.support.forgeries import Change, assert_refused, stretches, through_json
 from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
-from tests.support.proof_shapes import gap_by
 from tests.support.reference_contacts import CONTACTS, OFF, proven_then_only
 from tests.support.thorough import thorough
 
-# Chains in doubles, as trajectory() has them, are this near to the true ones [m].
-DOUBLES = 1e-11
 # A difference of a margin from the least clearance that is refused [m].
 MARGIN_OFF = 1e-6
 # Half of what a run may last beyond the stop of a claim that includes its end [s].
 HALF_BRACKET = 5e-10
-# The dance through the turn: its span and instants of it [s].
-START, STOP = -8.0, 18.0
-INSTANTS = np.linspace(START + 0.1, STOP - 0.1, 40)
-
 SMALL = Dragon(14)
 # Each with the span of a proof [s].
 ROUTES: dict[str, tuple[Route, float, float]] = {
@@ -53,7 +43,7 @@ def reference_dance(name: str) -> Dance:
 def certificate_of(kind: str) -> Certificate:
     """Of a clear dance through the turn, with a margin, or of a head that meets its own tail on a route; proven."""
     if kind == "turn":
-        certificate = prove_clear(Dance(SMALL, Turn(1.7)), STOP, start=START, margin=0.5)
+        certificate = prove_clear(Dance(SMALL, Turn(1.7)), 18.0, start=-8.0, margin=0.5)
     else:
         dance = Dance(Dragon(30), LOOP)
         certificate = prove_contact(dance, first_contact(dance, start=60.0).time or 0.0, start=60.0)
@@ -183,27 +173,6 @@ def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyon
     assert f"nearer to one another than {certificate['claim']['margin']!r} m" in verify(certificate).statement
     with pytest.raises(ProofRefused, match="nearer than the margin"):
         prove_clear(dance, stop, start=start, margin=result.distance + MARGIN_OFF)
-
-
-def test_at_every_instant_each_letter_of_the_turn_s_certificate_keeps_its_pair_apart() -> None:
-    certificate = certificate_of("turn")
-    chain, sizes = chain_on(SMALL, recorded_path(Turn(1.7)), 0.0), np.stack([SMALL.lengths, SMALL.widths], axis=-1)
-    used = set()
-    all_poses = bench_poses(trajectory(Dance(SMALL, Turn(1.7)), INSTANTS).position)
-    for time, poses in zip(INSTANTS, all_poses, strict=True):
-        shapes, chained = corners(poses, sizes), chain.pose_at(0, arb(-time))
-        chained.grow_to(SMALL.benches)
-        for a in range(SMALL.benches - 2):
-            place = float(chained.places[a])
-            tiles = stretches(certificate, min(a, 1))
-            _, _, faces, *rest = next(tile for tile in tiles if tile[1] - DOUBLES <= place <= tile[0] + DOUBLES)
-            directions = iter(rest[0] if rest else [])
-            used.update(faces)
-            for b in range(a + 2, SMALL.benches):
-                face = faces[b - a - 2] if b - a - 2 < len(faces) else "far"
-                direction = next(directions) if face == "8" else 0.0
-                assert gap_by(face, direction, poses, sizes, shapes, a, b) > certificate["claim"]["margin"]
-    assert {"8", "9"} < used
 
 
 def with_direction(change: Callable[[list[float]], Any]) -> Change:

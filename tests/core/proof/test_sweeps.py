@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -10,18 +12,19 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 
-from core import Dance, Dragon, Spiral, Turn, bench_poses, first_contact, trajectory
+from core import Dance, Dragon, Route, Spiral, Turn, bench_poses, first_contact, trajectory
 from core.proof import Certificate, prove_clear, prove_collision_time, prove_tolerance, verify
 from core.proof.chain import Chain
 from core.proof.pairs import Unproven
+from core.proof.paths import chain_on, recorded_path
 from core.proof.sweeps import SweepOverlap, proven_sweeps, recorded_stretches, searched_stretches
 from core.shapes.rectangles import corners
 from tests.support.forgeries import stretches
 from tests.support.proof_shapes import gap_by, polygon
 from tests.support.thorough import thorough
 
-# A place from doubles, where the next handle is steep, is this near to the true one [rad].
-DOUBLES = 1e-9
+# A place that two chains in balls have is the same to this [rad], [m].
+DOUBLES = 1e-11
 # Places between which the head is swept [rad].
 HIGH, LOW = 60.0, 52.0
 
@@ -44,23 +47,46 @@ def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once
     assert verify(each).pair_proofs > verify(once).pair_proofs
 
 
-@pytest.mark.parametrize("benches", [13, *thorough(40)])
-def test_at_every_instant_every_pair_has_a_face_between_it_or_is_rings_apart(benches: int) -> None:
+def turning() -> Certificate:
+    return prove_clear(Dance(Dragon(14), Turn(1.7)), 18.0, start=-8.0, margin=0.5)
+
+
+def until_contact(benches: int) -> Certificate:
     dance = Dance(Dragon(benches), Spiral(0.55, 9.0))
-    time = first_contact(dance).time
-    assert time
-    certificate = prove_collision_time(dance, time)
-    handles = trajectory(dance, np.linspace(0.0, 0.999 * time, 40)).position
-    thetas = np.linalg.norm(handles, axis=-1) / dance.path.growth
-    sizes = np.stack([dance.dragon.lengths, dance.dragon.widths], axis=-1)
-    for poses, fronts in zip(bench_poses(handles), thetas, strict=True):
-        shapes = corners(poses, sizes)
-        for a in range(benches - 2):
+    return prove_collision_time(dance, first_contact(dance).time or math.inf)
+
+
+@pytest.mark.parametrize(
+    ("make", "path", "start", "letters"),
+    [
+        (partial(until_contact, 13), Spiral(0.55, 9.0), 0.0, {"0", "3"}),
+        *thorough((partial(until_contact, 40), Spiral(0.55, 9.0), 0.0, {"0", "3"})),
+        (turning, Turn(1.7), -7.9, {"8", "9"}),
+    ],
+    ids=["13 on a spiral", "40 on a spiral", "turn"],
+)
+def test_at_every_instant_each_letter_of_a_certificate_keeps_its_pair_apart(
+    make: Callable[[], Certificate], path: Spiral | Route, start: float, letters: set[str]
+) -> None:
+    certificate = make()
+    claim, dragon = certificate["claim"], Dragon(sum(run[0] for run in certificate["dragon"]))
+    times = np.linspace(start, claim.get("stop", claim.get("time")) - 0.1, 40)
+    chain, sizes = chain_on(dragon, recorded_path(path), 0.0), np.stack([dragon.lengths, dragon.widths], axis=-1)
+    used = set()
+    for time, poses in zip(times, bench_poses(trajectory(Dance(dragon, path), times).position), strict=True):
+        shapes, chained = corners(poses, sizes), chain.pose_at(0, chain.place_after(arb(time)))
+        chained.grow_to(dragon.benches)
+        for a in range(dragon.benches - 2):
+            place = float(chained.places[a])
             tiles = stretches(certificate, min(a, 1))
-            faces = next(faces for high, low, faces in tiles if low - DOUBLES <= fronts[a] <= high + DOUBLES)
-            for b in range(a + 2, benches):
+            _, _, faces, *rest = next(tile for tile in tiles if tile[1] - DOUBLES <= place <= tile[0] + DOUBLES)
+            directions = iter(rest[0] if rest else [])
+            used.update(faces)
+            for b in range(a + 2, dragon.benches):
                 face = faces[b - a - 2] if b - a - 2 < len(faces) else "far"
-                assert gap_by(face, 0.0, poses, sizes, shapes, a, b) > 0.0
+                direction = next(directions) if face == "8" else 0.0
+                assert gap_by(face, direction, poses, sizes, shapes, a, b) > claim.get("margin", 0.0)
+    assert letters < used
 
 
 @pytest.mark.parametrize("margin", [0.0, 0.05])
