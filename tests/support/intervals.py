@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core import Dance, Dragon, Route, Spiral, Turn, kernels
+from core import Dance, Dragon, Route, Spiral, Turn
 from core.errors import SIZE_MIN
+from core.kernels import Interval, Rings, Scene, chain_rounding, climbs, place_chain, route_curve, spiral_curve
 from core.kernels.constants import (
     CENTRE_SPEED,
     CHAIN_COLUMNS,
@@ -39,7 +40,7 @@ class Sampled(NamedTuple):
 
     dragon: Dragon
     path: Spiral | Route
-    interval: kernels.Interval
+    interval: Interval
     sizes: Floats
     motion: Floats
     centres: NDArray[np.complex128]
@@ -86,8 +87,8 @@ def on_spiral(seed: int) -> Sampled:
         if start + h < end.time:
             break
     sizes, motion = sizes_of(dragon), np.zeros((benches + 1, MOTION_COLUMNS))
-    scene = kernels.Scene(kernels.spiral_curve(spiral.growth), spiral.length, kernels.Rings(), sizes, benches, 0)
-    interval = kernels.Interval(scene, *np.zeros((2, benches + 1, CHAIN_COLUMNS)), motion)
+    scene = Scene(spiral_curve(spiral.growth), spiral.length, Rings(), sizes, benches, 0)
+    interval = Interval(scene, *np.zeros((2, benches + 1, CHAIN_COLUMNS)), motion)
     while not interval.lay_out(spiral.length - start, h, benches):  # too wide for any bound
         h *= 0.5
     times, step = np.linspace(start, start + h, 121, retstep=True)
@@ -112,18 +113,18 @@ def on_route(seed: int) -> Sampled:
             start = rng.choice(path.joints) + rng.uniform(-0.2, 1.0) * dragon.chords.sum()
         if begin <= start and start + h < end:
             break
-    curve, sizes, motion = kernels.route_curve(path.table), sizes_of(dragon), np.zeros((benches + 1, MOTION_COLUMNS))
+    curve, sizes, motion = route_curve(path.table), sizes_of(dragon), np.zeros((benches + 1, MOTION_COLUMNS))
 
     def laid_out(s: float) -> Floats:
         chain = np.zeros((benches + 1, CHAIN_COLUMNS))
-        kernels.place_chain(curve, -s, benches, sizes, chain)
-        kernels.chain_rounding(curve, benches, sizes, chain)
-        kernels.climbs(curve, benches, sizes, chain)
+        place_chain(curve, -s, benches, sizes, chain)
+        chain_rounding(curve, benches, sizes, chain)
+        climbs(curve, benches, sizes, chain)
         return chain
 
-    scene = kernels.Scene(curve, 0.0, kernels.Rings(), sizes, benches, 0)
+    scene = Scene(curve, 0.0, Rings(), sizes, benches, 0)
     while True:
-        interval = kernels.Interval(scene, laid_out(start), laid_out(start + h), motion)
+        interval = Interval(scene, laid_out(start), laid_out(start + h), motion)
         interval.h, interval.handles = h, benches
         if interval.bound(True):
             break

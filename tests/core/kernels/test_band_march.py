@@ -6,15 +6,15 @@ import math
 
 import pytest
 
-from core import Dragon, Spiral, kernels
+from core import Dragon, Spiral
 from core.contact.search import ContactSearch
 from core.design.pitch_bands import Bands
-from core.kernels import Ended
+from core.kernels import BandMarch, Ended, gap_at
 
 CIRCLE, WORK = 4.5, 1e7
 
 
-def band_march_of(pitch: float) -> tuple[ContactSearch, kernels.BandMarch]:
+def band_march_of(pitch: float) -> tuple[ContactSearch, BandMarch]:
     search = ContactSearch(Dragon(60), Spiral(pitch), 0.0)
     return search, Bands(search, CIRCLE, 16.0, 0.0).march_to((pitch + 0.001) / (2.0 * math.pi))
 
@@ -37,4 +37,4 @@ def test_a_band_too_narrow_for_its_benches_touches() -> None:
     result = band.result()
     assert result.touching is not None
     travel = search.travel_at(result.touching / search.growth)
-    assert kernels.gap_at(search.scene, search.place - travel, *result.benches, search.placed) <= 0.0
+    assert gap_at(search.scene, search.place - travel, *result.benches, search.placed) <= 0.0

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from core import kernels
+from core.kernels import Budget, Meetings, grow_tree
+from core.kernels.constants import BOX_COLUMNS
 from core.shapes.rectangles import frames
 
 
 def test_the_search_stops_soon_after_it_found_more_than_asked() -> None:
     rectangles = frames(np.zeros((50, 3)), np.ones((50, 2)))
     boxes = np.tile([-1.0, -1.0, 1.0, 1.0], (50, 1))
-    kernels.grow_tree(boxes, tree := np.empty((32, kernels.BOX_COLUMNS)))
-    meetings = kernels.Meetings(rectangles, boxes, tree, np.arange(50), kernels.Budget())
+    grow_tree(boxes, tree := np.empty((32, BOX_COLUMNS)))
+    meetings = Meetings(rectangles, boxes, tree, np.arange(50), Budget())
     meetings.find(0.0, True, False, 60, 10**9, pairs := np.zeros((100, 2), dtype=np.int64))
     assert 60 < meetings.count < 60 + 50
     assert len(np.unique(pairs[: meetings.count], axis=0)) == meetings.count

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, Route, Spiral, Turn, kernels, trajectory
+from core import Dance, Dragon, Route, Spiral, Turn, trajectory
 from core.contact.search import ContactSearch
+from core.kernels import place_chain
 from core.kernels.constants import MX, MY, RATE
 
 ROUNDING = 1e-11  # [m], and of rates [1]
@@ -17,7 +18,7 @@ ROUNDING = 1e-11  # [m], and of rates [1]
 def test_a_chain_stands_and_moves_as_the_trajectory_says(path: Spiral | Route, travel: float) -> None:
     search = ContactSearch(Dragon(30), path, 0.0)
     assert search.curve.is_spiral == isinstance(path, Spiral)
-    assert kernels.place_chain(search.curve, search.place - travel, 30, search.sizes, search.placed) == 30
+    assert place_chain(search.curve, search.place - travel, 30, search.sizes, search.placed) == 30
     there = trajectory(Dance(Dragon(30), path), travel)
     assert np.abs(search.placed[:31, RATE]) == pytest.approx(there.speed, abs=ROUNDING)
     handles, centres = there.position @ [1.0, 1.0j], search.placed[:30, [MX, MY]] @ [1.0, 1.0j]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from core import Dragon, Route, Spiral, Turn, kernels
+from core import Dragon, Route, Spiral, Turn
 from core.contact.search import ContactSearch
+from core.kernels import clearance_at, gap_at, gap_rate_at
 from tests.support.intervals import checked_pairs
 
 # Step of difference quotients [m], and the error that it leaves in a rate [1].
@@ -14,14 +15,14 @@ PATHS = pytest.mark.parametrize(("path", "travel"), [(Spiral(), 395.0), (Turn(1.
 
 
 def gap(search: ContactSearch, travel: float, pair: tuple[int, int]) -> float:
-    return kernels.gap_at(search.scene, search.place - travel, *pair, search.tried)
+    return gap_at(search.scene, search.place - travel, *pair, search.tried)
 
 
 @PATHS
 def test_the_clearance_is_the_least_gap_of_all_pairs(path: Spiral | Route, travel: float) -> None:
     search = ContactSearch(Dragon(45), path, 0.0)
     for at in (0.0, travel, travel + 7.3):
-        least, *pair = kernels.clearance_at(search.scene, search.place - at, 45, 45, search.placed, search.motion)
+        least, *pair = clearance_at(search.scene, search.place - at, 45, 45, search.placed, search.motion)
         gaps = {each: gap(search, at, each) for each in checked_pairs(45)}
         assert least == min(gaps.values()) == gaps[tuple(pair)]
 
@@ -31,5 +32,5 @@ def test_the_clearance_is_the_least_gap_of_all_pairs(path: Spiral | Route, trave
 def test_a_gap_changes_as_fast_as_said(path: Spiral | Route, travel: float, pair: tuple[int, int]) -> None:
     search = ContactSearch(Dragon(45), path, 0.0)
     quotient = (gap(search, travel + STEP, pair) - gap(search, travel - STEP, pair)) / (2.0 * STEP)
-    rate = kernels.gap_rate_at(search.scene, search.place - travel, *pair, search.tried)
+    rate = gap_rate_at(search.scene, search.place - travel, *pair, search.tried)
     assert rate == pytest.approx(quotient, abs=QUOTIENT)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from flint import acb, arb
 
-from core import kernels
+from core.kernels import clothoid_joints
 from core.kernels.clothoid import clothoid_way
 from core.kernels.constants import POINT_COLUMNS, POINT_CURVATURE, TX, TY, ULP
 from tests.support.exact_chain import BITS
@@ -43,7 +43,7 @@ def test_the_terms_of_a_row_are_as_small_as_the_derivation_says() -> None:
 def test_directions_at_joints_keep_their_digits_after_a_thousand_radians() -> None:
     flint.ctx.prec = BITS
     places = np.linspace(0.0, 1_000.0, 4_001)
-    kernels.clothoid_joints(0.0, 0.0, 0.3, 0.9, -0.7, 1_000.0, places, joints := np.empty((4_001, POINT_COLUMNS)))
+    clothoid_joints(0.0, 0.0, 0.3, 0.9, -0.7, 1_000.0, places, joints := np.empty((4_001, POINT_COLUMNS)))
     for place, joint in zip(places[::100].tolist(), joints[::100], strict=True):
         v = arb(place)
         angle = arb(0.3) + v * (arb(0.9) + (arb(-0.7) - arb(0.9)) / 1_000 * v / 2)

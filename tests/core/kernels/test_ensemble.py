@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from core import Arc, Dance, Dragon, Part, Passage, Performance, Route, Spiral, bench_poses, kernels, trajectory
-from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, MX, MY, OMEGA, UX, UY
+from core import Arc, Dance, Dragon, Part, Passage, Performance, Route, Spiral, bench_poses, trajectory
+from core.kernels import Rings, spirals_least
+from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, FREE, MX, MY, OMEGA, UX, UY
 from core.performance.stage import AFTER, BEFORE, PROBED, Stage, clear_of_each_other
 from core.shapes.rectangles import frames, frames_separation
 from core.values import Floats
@@ -82,7 +83,7 @@ def test_the_motion_in_time_stays_within_its_bounds(begin: float, until: float) 
 def test_no_gap_of_two_dragons_falls_below_the_bound_of_a_step(begin: float, until: float) -> None:
     stage = staged(begin, until)
     least = stage.ensemble.least
-    assert least < kernels.FREE  # some were near enough to be tried
+    assert least < FREE  # some were near enough to be tried
     assert all_gaps(stage, *np.linspace(begin, until, INSTANTS).tolist()).min() >= least
 
 
@@ -97,7 +98,7 @@ def test_a_gap_changes_as_fast_as_said() -> None:
 
 @pytest.mark.parametrize(("count", "pitch"), [(2, 1.1), (3, 1.6), (2, 1.3)])
 def test_further_out_in_one_spiral_no_gap_falls_below_the_ring_bound(count: int, pitch: float) -> None:
-    angle, dragon, rings = 2.0 * math.pi / count, Dragon(60), kernels.Rings()
+    angle, dragon, rings = 2.0 * math.pi / count, Dragon(60), Rings()
     parts = [Part(Dance(dragon, Spiral(pitch, 9.0, rotation=angle * k), 1.0 + 0.1 * k)) for k in range(count)]
     growth = pitch / (2.0 * math.pi)
     columns = (np.ascontiguousarray(getattr(dragon, name)) for name in ("chords", "overhangs", "widths", "lengths"))
@@ -106,8 +107,8 @@ def test_further_out_in_one_spiral_no_gap_falls_below_the_ring_bound(count: int,
     for time in np.linspace(0.0, 30.0, 7).tolist():
         stage.enter(time, 30.0)
         radius = min(float(part.dance.path.head(part.dance.clock.travel(time)).radius) for part in parts)
-        assert stage.nearest()[0] >= kernels.spirals_least(growth, angle, radius, rings) > 0.0
+        assert stage.nearest()[0] >= spirals_least(growth, angle, radius, rings) > 0.0
     clear = clear_of_each_other(growth, angle, (dragon, dragon), 0.05)
     assert clear is not None
-    assert 0.05 < kernels.spirals_least(growth, angle, clear, rings) < 0.052
+    assert 0.05 < spirals_least(growth, angle, clear, rings) < 0.052
     assert clear_of_each_other(growth, angle, (dragon, dragon), 2.0) is None

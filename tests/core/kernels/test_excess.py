@@ -7,9 +7,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core import Dragon, Turn, kernels
+from core import Dragon, Turn
 from core.contact.search import ContactSearch
-from core.kernels import Judged
+from core.kernels import Excess, Judged
 from core.values import Floats
 
 WIDTH, STOP = 1e-9, 25.0
@@ -23,8 +23,8 @@ def highest_rates() -> Floats:
     return np.array([np.abs(SEARCH.rates(travel)).max() for travel in PLACES])
 
 
-def excess_over(limit: float, links: int = 10**6) -> tuple[Judged, kernels.Excess]:
-    excess = kernels.Excess(SEARCH.interval, 0.0)
+def excess_over(limit: float, links: int = 10**6) -> tuple[Judged, Excess]:
+    excess = Excess(SEARCH.interval, 0.0)
     return excess.run(0.0, STOP, 0.5, limit, limit * (1.0 + 1e-9), WIDTH, 1e-13, links), excess
 
 

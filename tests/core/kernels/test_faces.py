@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from core import Dragon, Spiral, kernels
+from core import Dragon, Spiral
 from core.contact.search import ContactSearch
+from core.kernels import gap_at, pair_least, pair_most
 from core.kernels.constants import CENTRE_SPEED, FREE, MX, MY
 
 ROUNDING = 1e-12  # [m]
@@ -22,15 +23,15 @@ def test_over_an_interval_two_benches_that_stray_are_between_their_bounds() -> N
         a = int(rng.integers(0, 3))
         b = int(rng.integers(a + 2, 9))
         h, place = 10 ** rng.uniform(-9.0, -1.0), search.place - rng.uniform(0.0, 6.0)
-        most = kernels.pair_most(search.scene, search.probe, place, h, a, b)
+        most = pair_most(search.scene, search.probe, place, h, a, b)
         places = (place - np.linspace(0.0, h, 9)).tolist()
-        gaps = [kernels.gap_at(search.scene, at, a, b, search.placed) for at in places]
+        gaps = [gap_at(search.scene, at, a, b, search.placed) for at in places]
         assert max(gaps) <= max(most, 0.0)
         touching += most <= 0.0
         if search.probe.lay_out(place, h, b + 1):
             centres = search.probed[[a, b]][:, [MX, MY]]
             distance = np.linalg.norm(centres[1] - centres[0]) + h * search.motion[[a, b], CENTRE_SPEED].sum()
-            least, _ = kernels.pair_least(search.scene, search.probe, a, b, FREE, float(distance))
+            least, _ = pair_least(search.scene, search.probe, a, b, FREE, float(distance))
             assert least <= max(min(gaps), 0.0) + ROUNDING
             proven += least > 0.9 * min(gaps) > 0.0
     assert touching > 5

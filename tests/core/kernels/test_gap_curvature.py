@@ -7,8 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from core import Dragon, Spiral, kernels
+from core import Dragon, Spiral
 from core.contact.search import ContactSearch
+from core.kernels import axis_curvature, pair_curvatures, shift_curvature
 from core.kernels.constants import (
     CENTRE_PULL,
     CENTRE_SPEED,
@@ -63,7 +64,7 @@ def test_gaps_along_body_axes_bend_no_more_than_their_bound(sample: Callable[[in
     rounding = 4.0 * at.rounding / (at.stride * at.step) ** 2
     for pair in checked_pairs(at.dragon.benches):
         for i, j in (pair, pair[::-1]):
-            bound = kernels.axis_curvature(growth, i, j, at.distance(i, j), at.sizes, at.motion)
+            bound = axis_curvature(growth, i, j, at.distance(i, j), at.sizes, at.motion)
             assert bend(at, i, j) <= bound + rounding
 
 
@@ -83,8 +84,8 @@ def test_a_gap_bends_as_much_as_its_bound_where_everything_moves_as_badly_as_it_
     shifts[[0, 2], SHIFT_CORNER], shifts[[0, 2], SHIFT_PULL], shifts[0, SHIFT_OMEGA] = speeds, pulls, turn
     sizes[[0, 2], RADIUS] = radii
     for bound, reach in (
-        (kernels.axis_curvature(1.0, 0, 2, distance, sizes, motion), distance + radii[1]),
-        (kernels.shift_curvature(0, 2, distance, sizes, shifts), distance + sum(radii)),
+        (axis_curvature(1.0, 0, 2, distance, sizes, motion), distance + radii[1]),
+        (shift_curvature(0, 2, distance, sizes, shifts), distance + sum(radii)),
     ):
         assert worst_bend(turn, sum(speeds), sum(pulls), reach) == pytest.approx(bound, rel=1e-5)
 
@@ -123,19 +124,16 @@ def test_a_bound_has_every_term_of_its_derivation(seed: int) -> None:
     motion[:, [RATE_RATE, OMEGA_RATE]] = random.uniform(0.1, 0.3, (8, 2))
     turning = turning_bound(growth, 1, 5, distance + radius, radius, motion)
     motion[:, OMEGA_PULL] = turning  # the bound in the resting frame is then the larger one
-    assert kernels.axis_curvature(growth, 1, 5, distance, sizes, motion) == pytest.approx(turning, rel=1e-12)
+    assert axis_curvature(growth, 1, 5, distance, sizes, motion) == pytest.approx(turning, rel=1e-12)
 
 
 def test_bounds_on_a_pair_reach_as_far_as_its_centres_may_move() -> None:
     search = ContactSearch(Dragon(12), Spiral(), 0.0)
     h, pair = 0.25, (0, 9)
-    result = kernels.pair_curvatures(search.scene, search.probe, search.place - 400.0, h, *pair)
+    result = pair_curvatures(search.scene, search.probe, search.place - 400.0, h, *pair)
     first, second = search.probed[pair, MX] + 1j * search.probed[pair, MY]
     distance = float(abs(second - first) + h * search.motion[pair, CENTRE_SPEED].sum())
     assert result == pytest.approx(
-        [
-            kernels.axis_curvature(search.growth, *each, distance, search.sizes, search.motion)
-            for each in (pair, pair[::-1])
-        ],
+        [axis_curvature(search.growth, *each, distance, search.sizes, search.motion) for each in (pair, pair[::-1])],
         rel=1e-12,
     )

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapely
 
-from core import kernels
+from core.kernels import Rings, Scene, meet, spiral_curve
 from core.kernels.constants import CHAIN_COLUMNS, DIRECTIONS, HALF_LENGTH, MX, MY, RADIUS, SIZE_COLUMNS, UX, UY
 from core.shapes.reach import bench_hulls, directions, supports
 
@@ -19,7 +19,7 @@ ROUNDING = 1e-12  # [m]
 HULLS = np.stack([bench_hulls(supports(chord, 0.275, 0.15, 0.08)) for chord in (2.86, 1.65)])
 
 
-def scene_of(poses: np.ndarray, edges: int) -> tuple[kernels.Scene, np.ndarray]:
+def scene_of(poses: np.ndarray, edges: int) -> tuple[Scene, np.ndarray]:
     """A scene whose benches, or last row as an edge at rest of 3 m, stand at x, y, heading; and its chain."""
     benches = len(poses) - edges
     sizes, chain = np.zeros((len(poses) + 1, SIZE_COLUMNS)), np.zeros((len(poses) + 1, CHAIN_COLUMNS))
@@ -27,7 +27,7 @@ def scene_of(poses: np.ndarray, edges: int) -> tuple[kernels.Scene, np.ndarray]:
     x, y, heading = poses.T
     chain[np.ix_(rows, [MX, MY, UX, UY])] = np.stack([x, y, np.cos(heading), np.sin(heading)], axis=-1)
     sizes[benches + 1 :, [HALF_LENGTH, RADIUS]] = 1.5
-    scene = kernels.Scene(kernels.spiral_curve(0.1), 0.0, kernels.Rings(), sizes, benches, edges)
+    scene = Scene(spiral_curve(0.1), 0.0, Rings(), sizes, benches, edges)
     scene.kinds.lay(HULLS.reshape(-1, 2), np.array([0, 1], dtype=np.int64), directions())
     return scene, chain
 
@@ -44,7 +44,7 @@ def test_the_separation_is_that_of_the_nearest_hulls_in_either_order(edges: int)
     for _ in range(200):
         poses = np.column_stack([rng.uniform(-1.6, 1.6, (2, 2)), rng.uniform(-np.pi, np.pi, 2)])
         scene, chain = scene_of(poses, edges)
-        kernels.meet(scene, 0, 1 + edges, chain)
+        meet(scene, 0, 1 + edges, chain)
         met = scene.met
         along = 1.5 * np.array([math.cos(poses[1, 2]), math.sin(poses[1, 2])])
         line = shapely.LineString([poses[1, :2] - along, poses[1, :2] + along])
@@ -59,6 +59,6 @@ def test_the_separation_is_that_of_the_nearest_hulls_in_either_order(edges: int)
         assert between == pytest.approx(met.separation * np.array([met.nx, met.ny]), abs=ROUNDING)
         if not edges:
             separation = met.separation
-            kernels.meet(scene, 1, 0, chain)
+            meet(scene, 1, 0, chain)
             assert scene.met.separation == pytest.approx(separation, abs=ROUNDING)
     assert 50 < apart < 195

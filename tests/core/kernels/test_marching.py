@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from core import Dragon, Spiral, kernels
+from core import Dragon, Spiral
 from core.contact.search import ContactSearch
-from core.kernels import Ended
+from core.kernels import Ended, March, gap_at
 from core.kernels.results import Marched
 
 HALF_BRACKET, ROUNDING = 1e-10, 1e-12
@@ -18,7 +18,7 @@ def forty() -> ContactSearch:
 
 def marched(search: ContactSearch, start: float = 380.0, work: float = 1e7) -> tuple[Ended, Marched]:
     """The end of a march past the contact, and its result."""
-    march = kernels.March(search.interval, search.probe, search.opening)
+    march = March(search.interval, search.probe, search.opening)
     return march.run(start, 420.0, 2, True, HALF_BRACKET, True, ROUNDING, work), march.result()
 
 
@@ -30,8 +30,8 @@ def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
     assert result.proven <= CONTACT <= result.touching <= result.proven + 3.0 * HALF_BRACKET
     assert result.benches == (0, 8)
     place = search.place - result.proven + 1e-6
-    assert kernels.gap_at(search.scene, place, 0, 8, search.probed) > 0.0
-    assert kernels.gap_at(search.scene, search.place - result.touching, 0, 8, search.probed) <= 0.0
+    assert gap_at(search.scene, place, 0, 8, search.probed) > 0.0
+    assert gap_at(search.scene, search.place - result.touching, 0, 8, search.probed) <= 0.0
     # the dip before it, seen on the way
     assert result.graze is not None
     assert 0.0 < result.graze.gap < 0.001

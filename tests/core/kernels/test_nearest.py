@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dragon, Route, Spiral, Turn, kernels
+from core import Dragon, Route, Spiral, Turn
 from core.contact.search import ContactSearch
-from core.kernels import Ended
+from core.kernels import Ended, March
 
 # Samples of a way [1], and the depth of a dip between two of them below both [m].
 SAMPLES, BETWEEN = 400, 1e-4
@@ -41,7 +41,7 @@ def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and
     search, ended = ContactSearch(Dragon(600), Spiral(), 0.0), set()
     for rows in (3, 9, 60, 120, 160, 300):
         search.resize(rows)
-        march = kernels.March(search.interval, search.probe, search.opening)
+        march = March(search.interval, search.probe, search.opening)
         ended.add(march.run(380.0, 420.0, 2, True, 1e-10, False, 1e-12, 1e7))
         result = march.result()
         assert result.proven < CONTACT

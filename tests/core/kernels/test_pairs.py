@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import kernels
+from core.kernels import pair_least
 from core.kernels.constants import HALF_LENGTH, RADIUS
 from tests.support.depth import some
 from tests.support.intervals import checked_pairs, on_spiral
@@ -20,7 +20,7 @@ def test_no_two_benches_are_nearer_over_an_interval_than_their_bound(seed: int) 
         for k in range(at.dragon.benches)
     ]
     for a, b in checked_pairs(at.dragon.benches):
-        least, _ = kernels.pair_least(at.interval.scene, at.interval, a, b, 0.0, at.distance(a, b))
+        least, _ = pair_least(at.interval.scene, at.interval, a, b, 0.0, at.distance(a, b))
         (ma, ua, first), (mb, ub, second) = benches[a], benches[b]
         gaps = rectangles_gap(ma, ua, first[:, HALF_LENGTH:RADIUS], mb, ub, second[:, HALF_LENGTH:RADIUS])
         assert least <= gaps.min() + at.rounding

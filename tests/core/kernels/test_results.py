@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core import kernels
+from core.kernels import gap_at
 from core.kernels.results import Dip, Marched
 from tests.core.kernels.test_band_march import CIRCLE, WORK, band_march_of
 from tests.core.kernels.test_marching import forty, marched
@@ -21,7 +21,7 @@ def test_a_march_hands_over_numbers_of_python_and_a_graze_that_a_second_look_fin
     assert [type(value) for value in (*result.benches, *graze)] == [int, int, float, float, tuple]
     assert result.steps > 0
     assert result.gap_curvature > 0.0
-    there = kernels.gap_at(search.scene, search.place - graze.travel, *graze.benches, search.placed)
+    there = gap_at(search.scene, search.place - graze.travel, *graze.benches, search.placed)
     assert there == pytest.approx(graze.gap, abs=GAP)
 
 

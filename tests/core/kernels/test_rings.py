@@ -5,10 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dragon, Spiral, kernels
+from core import Dragon, Spiral
 from core.contact.search import ContactSearch
 from core.design.ways import SearchBetween
-from core.kernels.constants import MX, MY, THETA, UX, UY
+from core.kernels import (
+    Budget,
+    clear_radius,
+    leaders_reach,
+    radius_beyond,
+    ring_clears,
+    ring_least,
+    ring_rounding,
+    spirals_least,
+)
+from core.kernels.constants import FREE, MX, MY, THETA, UX, UY
 from core.shapes.rectangles import corners
 
 
@@ -23,9 +33,9 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
     far = np.linalg.norm(corners(poses, sizes), axis=-1)
     handles = spiral.growth * search.placed[:41, THETA]
     for k in range(40):
-        assert far[k].max() <= kernels.leaders_reach(spiral.growth, handles[k], handles[k + 1], search.rings)
+        assert far[k].max() <= leaders_reach(spiral.growth, handles[k], handles[k + 1], search.rings)
     for radius in np.linspace(0.5, handles[-1], 30):
-        outside = handles[1:-1] >= kernels.radius_beyond(spiral.growth, radius, search.rings)
+        outside = handles[1:-1] >= radius_beyond(spiral.growth, radius, search.rings)
         assert (far[1:][outside] >= radius).all()
 
 
@@ -56,7 +66,7 @@ def test_no_clearance_falls_below_the_ring_bound_further_out(dragon: Dragon, pit
     bounds = []
     for travel in np.linspace(0.0, 0.95, 30) * search.travel_at(0.0):
         at = search.growth, search.growth * search.theta_at(travel), search.rings
-        bounds.append(kernels.ring_least(search.growth, *at) - kernels.ring_rounding(*at))
+        bounds.append(ring_least(search.growth, *at) - ring_rounding(*at))
         assert search.clearance(travel)[0] >= bounds[-1]
     assert bounds[0] > 0.0 or search.clear_radius > search.growth * search.theta_at(0.0)
 
@@ -68,20 +78,20 @@ def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_mar
 ) -> None:
     rings, growth = ContactSearch(Dragon(), Spiral(pitch), margin).rings, Spiral(pitch).growth
     radii = np.array([0.998, 1.0, 1.1, 10.0]) * rings.clear_radius
-    clears = [kernels.ring_clears(growth, growth, radius, margin, rings) for radius in radii]
+    clears = [ring_clears(growth, growth, radius, margin, rings) for radius in radii]
     assert clears == [False, True, True, True]
 
 
 def test_no_radius_is_clear_where_rings_are_narrower_than_benches() -> None:
-    assert ContactSearch(Dragon(), Spiral(0.29), 0.0).clear_radius == kernels.FREE
+    assert ContactSearch(Dragon(), Spiral(0.29), 0.0).clear_radius == FREE
 
 
 @pytest.mark.parametrize("angle", [3.0, 2.0])
 def test_the_bound_for_two_spirals_over_a_range_of_growths_is_none_above_that_of_a_growth_in_it(angle: float) -> None:
-    rings = SearchBetween(Dragon(40), Spiral(), 2, 0.0, work=1e7, budget=kernels.Budget(), stray=0.0).rings
+    rings = SearchBetween(Dragon(40), Spiral(), 2, 0.0, work=1e7, budget=Budget(), stray=0.0).rings
     for low, high in ((0.2, 0.21), (0.2, 0.4), (0.5, 0.9)):
-        least = kernels.spirals_least(high, angle, 20.0, rings, low)
-        inside = [kernels.spirals_least(growth, angle, 20.0, rings) for growth in np.linspace(low, high, 9)]
+        least = spirals_least(high, angle, 20.0, rings, low)
+        inside = [spirals_least(growth, angle, 20.0, rings) for growth in np.linspace(low, high, 9)]
         assert 0.0 < least <= min(inside)
-    clear = kernels.clear_radius(0.3, 0.1, rings, angle)
-    assert 0.1 < kernels.spirals_least(0.3, angle, clear, rings) < 0.101
+    clear = clear_radius(0.3, 0.1, rings, angle)
+    assert 0.1 < spirals_least(0.3, angle, clear, rings) < 0.101

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from flint import arb
 
-from core import Arc, Clothoid, Coil, Line, Route, Waypoints, kernels
+from core import Arc, Clothoid, Coil, Line, Route, Waypoints
 from core.error_free import paired
+from core.kernels import route_points
 from core.kernels.constants import POINT_COLUMNS, PX, TX
 from tests.support.exact_chain import ExactRoute
 
@@ -27,7 +28,7 @@ ROUNDING = 1e-13
 )
 def test_points_and_tangents_of_every_kind_of_piece_are_exact(route: Route) -> None:
     s, exact = np.linspace(0.0, route.end, 101), ExactRoute(route.table)
-    kernels.route_points(route.table, paired(s), points := np.empty((s.size, POINT_COLUMNS)))
+    route_points(route.table, paired(s), points := np.empty((s.size, POINT_COLUMNS)))
     for at, row in zip(s.tolist(), points, strict=True):
         point, tangent = exact.point(arb(at))
         assert row[PX : PX + 2] == pytest.approx([*map(float, point)], abs=ROUNDING)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dragon, Spiral, kernels
+from core import Dragon, Spiral
 from core.contact.search import ContactSearch
 from core.design.ways import SearchBetween
+from core.kernels import Budget, Rings, Scene, spiral_curve
 from core.kernels.constants import ERROR, MX, MY, RATE_HIGH, SIZE_COLUMNS, TX, TY, UX, UY
 
 ROUNDING = 1e-10  # of rates [1]
@@ -25,7 +26,7 @@ def test_no_handle_within_an_interval_on_a_spiral_is_faster_than_its_bound(trave
 @pytest.mark.parametrize(("rows", "benches", "edges", "room"), [(41, 223, 0, 40), (41, 10, 0, 10), (41, 30, 10, 30)])
 def test_a_scene_has_room_for_as_many_benches_as_rows(rows: int, benches: int, edges: int, room: int) -> None:
     sizes = np.zeros((rows, SIZE_COLUMNS))
-    assert kernels.Scene(kernels.spiral_curve(0.1), 9.0, kernels.Rings(), sizes, benches, edges).room == room
+    assert Scene(spiral_curve(0.1), 9.0, Rings(), sizes, benches, edges).room == room
 
 
 def test_an_interval_whose_chain_folds_has_no_bounds() -> None:
@@ -34,7 +35,7 @@ def test_an_interval_whose_chain_folds_has_no_bounds() -> None:
 
 @pytest.mark.parametrize("count", [2, 3, 7])
 def test_copies_stand_where_turned_dragons_stand(count: int) -> None:
-    search = SearchBetween(Dragon(12), Spiral(), count, 0.0, work=1e7, budget=kernels.Budget(), stray=0.0)
+    search = SearchBetween(Dragon(12), Spiral(), count, 0.0, work=1e7, budget=Budget(), stray=0.0)
     assert search.interval.lay_out(search.place - 20.0, 0.05, 12)
     assert search.scene.stride == 13
     own = search.placed[:12]

@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dragon, Route, Spiral, Turn, kernels
+from core import Dragon, Route, Spiral, Turn
 from core.contact.search import ContactSearch
+from core.kernels import Peak
+from core.kernels.constants import FREE
 
 ROUNDING = 1e-11
 TURN = Turn(1.7)
@@ -20,10 +22,10 @@ def peak_of(
     alike: int = 1,
     width: float = 1e-3,
     work: int = 10**6,
-) -> tuple[ContactSearch, kernels.Peak]:
+) -> tuple[ContactSearch, Peak]:
     """The search, and the peak between two places of the head, sampled and proven with this width and work."""
     search = ContactSearch(Dragon(benches), path, 0.0)  # no handle is left out as calm
-    peak = kernels.Peak(search.interval, search.probed, kernels.FREE, alike, start, stop, 1e-12)
+    peak = Peak(search.interval, search.probed, FREE, alike, start, stop, 1e-12)
     peak.sample(0.5)
     peak.prove(0.5, 1e-9, width, work)
     return search, peak
@@ -47,4 +49,4 @@ def test_the_way_out_of_the_turn_is_not_followed_to_its_end() -> None:
 
 
 def test_a_proof_without_links_is_given_up() -> None:
-    assert peak_of(TURN, 0.0, 25.0, width=1e-9, work=0)[1].upper == kernels.FREE
+    assert peak_of(TURN, 0.0, 25.0, width=1e-9, work=0)[1].upper == FREE

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from core import kernels
+from core.kernels import spiral_arc, spiral_theta
 
 # Arc lengths are good to this part of themselves [1], chords to this [m].
 PART, CHORD_ERROR = 1e-13, 1e-13
@@ -14,7 +14,7 @@ PART, CHORD_ERROR = 1e-13, 1e-13
 
 @pytest.mark.parametrize("theta", [1e-3, 0.5, 7.0, 300.0])
 def test_arc_length_is_the_integral_of_the_speed_and_theta_its_inverse(theta: float) -> None:
-    arc = kernels.spiral_arc(theta)
+    arc = spiral_arc(theta)
     assert arc == pytest.approx(quad(lambda t: np.hypot(1.0, t), 0.0, theta, epsabs=0.0, epsrel=PART)[0], rel=PART)
-    assert kernels.spiral_theta(arc) == pytest.approx(theta, rel=PART)
-    assert kernels.spiral_theta(-arc) == 0.0
+    assert spiral_theta(arc) == pytest.approx(theta, rel=PART)
+    assert spiral_theta(-arc) == 0.0

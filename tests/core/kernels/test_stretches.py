@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import kernels
+from core.kernels import spiral_arc, spiral_curvature, steepest_curvature
 from core.kernels.constants import CREST, HANDLE_SPEED, OMEGA, PIECE_KIND, PLACE, S_END
 from tests.support.intervals import on_route
 
@@ -33,7 +33,7 @@ def test_no_curvature_of_a_spiral_changes_faster_than_its_bound() -> None:
     theta = np.concatenate([np.linspace(0.0, 3.0, 3_001), np.geomspace(3.0, 300.0, 500)[1:]])
     curvature, arc, bound = (
         np.array([function(at) for at in theta.tolist()])
-        for function in (kernels.spiral_curvature, kernels.spiral_arc, kernels.steepest_curvature)
+        for function in (spiral_curvature, spiral_arc, steepest_curvature)
     )
     slope = np.abs(np.diff(curvature) / np.diff(arc))
     outwards = np.maximum.accumulate(slope[::-1])[::-1]

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from core import Dance, Dragon, Spiral, bench_poses, kernels, overlaps, separation, trajectory
+from core import Dance, Dragon, Spiral, bench_poses, overlaps, separation, trajectory
+from core.kernels import Budget, Wobbler
 from core.kernels.constants import BOX_COLUMNS, MX, MY, UX, UY
 from core.shapes.reach import gains
 from core.values import Floats
@@ -20,9 +21,9 @@ ALONG, MEMORY, MOST = 0.7, 0.9, 0.4
 ROUNDING = 1e-12  # [m]
 
 
-def wobbler(size: float) -> kernels.Wobbler:
+def wobbler(size: float) -> Wobbler:
     chain, boxes, flags = np.zeros((21, UY + 1)), np.zeros((21, BOX_COLUMNS)), np.zeros((2, 21), dtype=np.int8)
-    made = kernels.Wobbler(sizes_of(DRAGON), kernels.Budget(1e9), chain, boxes, *flags)
+    made = Wobbler(sizes_of(DRAGON), Budget(1e9), chain, boxes, *flags)
     made.lateral, made.forward, made.along = size, 0.5 * size, ALONG
     return made
 
