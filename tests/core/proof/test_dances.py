@@ -17,6 +17,7 @@ from tests.support.depth import examples, some
 from tests.support.forgeries import Change, assert_refused, stretches, through_json
 from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
 from tests.support.reference_contacts import CONTACTS, OFF, proven_then_only
+from tests.support.refused import refused
 from tests.support.thorough import thorough
 
 # A difference of a margin from the least clearance that is refused [m].
@@ -155,9 +156,8 @@ def test_a_run_is_proven_clear_until_just_before_its_contact_alone() -> None:
 def test_what_is_no_run_is_refused_by_name(
     dance: Dance, request_: dict[str, float], error: type[BenchDragonError], field: str
 ) -> None:
-    with pytest.raises(error) as refused:
+    with refused(field, error):
         prove_clear(dance, **request_)
-    assert refused.value.field == field
 
 
 @pytest.mark.parametrize("name", ["hairpin", "outwards", *thorough("loop", "inwards", "turn")])

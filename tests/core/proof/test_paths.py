@@ -28,6 +28,7 @@ from core.proof.chain import Chain
 from core.proof.paths import chain_on, core_path, path_words, recorded_path
 from core.proof.route import RouteChain
 from tests.support.forgeries import in_words
+from tests.support.refused import refused
 
 BEND = Arc((30.0, 3.0), 3.0, -math.pi / 2, 1.0)
 PATHS: dict[str, tuple[Spiral | Route, str]] = {
@@ -85,9 +86,9 @@ BENDING, CURVE = Clothoid((0.0, 0.0), 0.0, 0.0, 0.5, 2.0), Waypoints(((0.0, 0.0)
     ],
 )
 def test_a_path_without_a_proof_is_refused_by_its_place(path: Route, field: str, rule: str) -> None:
-    with pytest.raises(InvalidValue, match=rule) as refused:
+    with pytest.raises(InvalidValue, match=rule) as caught:
         recorded_path(path)
-    assert refused.value.field == field
+    assert caught.value.field == field
 
 
 @pytest.mark.parametrize(
@@ -101,6 +102,5 @@ def test_a_path_without_a_proof_is_refused_by_its_place(path: Route, field: str,
 def test_a_number_that_no_path_has_is_refused_by_its_place(name: str, edit: str, field: str) -> None:
     record = recorded_path(PATHS[name][0])
     in_words(edit)(record)
-    with pytest.raises(InvalidValue) as refused:
+    with refused(field):
         core_path(record)
-    assert refused.value.field == field
