@@ -151,7 +151,7 @@ def test_an_engine_that_cannot_be_loaded_is_named_and_left_out(
 
 
 @pytest.mark.thorough
-def test_a_crash_and_a_hang_are_rows_and_a_run_continues_where_it_was(tmp_path: Path) -> None:
+def test_a_crash_and_a_hang_are_rows_of_the_report_and_a_run_continues_where_it_was(tmp_path: Path) -> None:
     shard, worker = SHARD.taken(np.arange(0, len(SHARD), 170)), Worker("ours")
     save_shard(tmp_path / "queries-0000.npz", shard)
     rows = []
@@ -167,6 +167,11 @@ def test_a_crash_and_a_hang_are_rows_and_a_run_continues_where_it_was(tmp_path: 
     run(tmp_path, 0, len(shard), ("ours", "ipctk"))
     assert load(kept)["travel"].tolist() == fields["travel"].tolist()
     assert load(answers_path(tmp_path / "queries-0000.npz", "ours"))["end"].tolist() == [0] * 6
+    save_answers(kept, rows[1])
+    (tmp_path / PAGE).write_text(f"{BEGIN}{END}", encoding="utf-8")
+    page = report(Results(shard, {"ours": load(kept)}), tmp_path)
+    assert "| ours | 0 | 0 | 0 / 0 / 1 |" in page
+    assert {"ccd-time.png", "ccd-depth.png"} <= {path.name for path in tmp_path.iterdir()}
 
 
 @pytest.mark.parametrize(
@@ -202,18 +207,6 @@ def test_an_interrupted_run_says_that_the_same_command_continues(
     assert ended.value.code == 128 + signal.SIGINT
     kept = f"interrupted: the answers so far are in {tmp_path}/seed-2026, and the same command continues\n"
     assert capsys.readouterr().err == kept
-
-
-@pytest.mark.thorough
-def test_an_engine_that_hangs_at_every_query_is_a_row_of_the_report(tmp_path: Path) -> None:
-    shard = SHARD.taken(np.flatnonzero(SHARD.columns["depth"] == -1e-3)[:3])
-    save_answers(tmp_path / "box2d.npz", [(False, math.nan, math.nan, 0, ENDS.index("hang"))] * len(shard))
-    save_answers(tmp_path / "ours.npz", list(answers(ENGINES[0], shard)))
-    (tmp_path / PAGE).write_text(f"{BEGIN}{END}", encoding="utf-8")
-    results = Results(shard, {"ours": load(tmp_path / "ours.npz"), "Box2D": load(tmp_path / "box2d.npz")})
-    page = report(results, tmp_path)
-    assert "| Box2D | 0 | 0 | 0 / 0 / 3 | 0 | 0 | 0 | 0 (0) | 0 |" in page
-    assert {"ccd-time.png", "ccd-depth.png"} <= {path.name for path in tmp_path.iterdir()}
 
 
 def test_scores_count_what_differs_from_the_truth() -> None:

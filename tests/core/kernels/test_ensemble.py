@@ -9,8 +9,8 @@ import pytest
 
 from core import Arc, Dance, Dragon, Part, Passage, Performance, Route, Spiral, bench_poses, trajectory
 from core.kernels import Rings, spirals_least
-from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, FREE, MX, MY, OMEGA, UX, UY
-from core.performance.stage import AFTER, BEFORE, PROBED, Stage, clear_of_each_other
+from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, FREE, OMEGA
+from core.performance.stage import Stage, clear_of_each_other
 from core.shapes.rectangles import frames, frames_separation
 from core.values import Floats
 
@@ -51,17 +51,6 @@ def all_gaps(stage: Stage, *times: float) -> Floats:
     frame, owner = frames(poses(*times), SIZES), stage.owner[rows_of(stage)]
     a, b = np.nonzero(owner[:, None] < owner)
     return frames_separation(frame[:, a], frame[:, b]).separation
-
-
-@pytest.mark.parametrize("which", [BEFORE, AFTER, PROBED])
-def test_every_bench_stands_where_its_own_dance_puts_it(which: int) -> None:
-    begin, until = STEPS[0]
-    stage, time = staged(begin, until), {BEFORE: begin, AFTER: until, PROBED: 22.0}[which]
-    for k in range(len(PARTS) if which == PROBED else 0):
-        stage.stand(k, PROBED, time, 0.0)
-    x, y, heading = poses(time)[0].T
-    result = stage.chains[which][rows_of(stage)][:, [MX, MY, UX, UY]]
-    assert result == pytest.approx(np.stack([x, y, np.cos(heading), np.sin(heading)], axis=-1), rel=0, abs=SAME_PLACE)
 
 
 @pytest.mark.parametrize(("begin", "until"), STEPS)

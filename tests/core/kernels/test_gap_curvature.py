@@ -91,21 +91,18 @@ def test_a_gap_bends_as_much_as_its_bound_where_everything_moves_as_badly_as_it_
 
 
 def worst(a: np.ndarray, b: np.ndarray) -> float:
-    """The largest difference between a number in one range (low, high) and a number in another."""
-    return float(np.abs(a[:, None] - b).max())
+    """The largest difference between a number in a range (low, high) and a number in another; the sum of several."""
+    return float(np.abs(a[..., :, None] - b[..., None, :]).max(axis=(-2, -1)).sum())
 
 
 def turning_bound(growth: float, i: int, j: int, reach: float, radius: float, motion: np.ndarray) -> float:
     """K against the rotation of bench i, term by term as its derivation in gap_curvature.py has it [1/m]."""
-    omega, other = motion[i, [OMEGA_LOW, OMEGA]], motion[j, [OMEGA_LOW, OMEGA]]
-    slips, pulls = [], []
-    for row in motion[[i, i + 1, j, j + 1]]:
-        rate, r = row[[RATE_LOW, RATE_HIGH]], growth * row[[THETA_LOW, THETA_HIGH]]
-        curvature = row[[CURVATURE_LOW, CURVATURE_HIGH]] / growth
-        slips.append(worst(rate, omega * r) + omega[1] * growth)
-        pulls.append(row[RATE_RATE] + worst(curvature * rate**2, omega**2 * r) + omega[1] ** 2 * growth)
-    slip = sum(slips) / 2 + worst(omega, other) * radius
-    pull = sum(pulls) / 2 + (worst(omega**2, other**2) + motion[j, OMEGA_RATE]) * radius
+    omega, other, handles = motion[i, [OMEGA_LOW, OMEGA]], motion[j, [OMEGA_LOW, OMEGA]], motion[[i, i + 1, j, j + 1]]
+    rate, r = handles[:, [RATE_LOW, RATE_HIGH]], growth * handles[:, [THETA_LOW, THETA_HIGH]]
+    curvature = handles[:, [CURVATURE_LOW, CURVATURE_HIGH]] / growth
+    slip = worst(rate, omega * r) / 2 + 2 * omega[1] * growth + worst(omega, other) * radius
+    pull = handles[:, RATE_RATE].sum() / 2 + worst(curvature * rate**2, omega**2 * r) / 2 + 2 * omega[1] ** 2 * growth
+    pull += (worst(omega**2, other**2) + motion[j, OMEGA_RATE]) * radius
     return float(pull + 2 * omega[1] * slip + motion[i, OMEGA_RATE] * reach)
 
 
