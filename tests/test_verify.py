@@ -254,20 +254,12 @@ def test_what_is_no_certificate_is_refused_in_one_line(
     assert reason in errors
 
 
-@pytest.mark.parametrize(
-    ("kind", "edit", "reason", "words"),
-    [
-        # Rectangles without interiors never overlap, although each face has a corner of the other before it.
-        ("contact", "dragon.0.2 = 0.0", r"0\.001 to 10000 m", r"must be from 0\.001"),
-        ("clear", "claim.path = {}", r"claim\.path\.kind is another", "path"),
-    ],
-)
-def test_a_dance_that_cannot_be_is_refused_by_both(kind: str, edit: str, reason: str, words: str) -> None:
-    certificate = forged(made(kind), edit)
-    assert_verdict(certificate, reason)
+def test_a_path_of_nothing_is_refused_by_both() -> None:
+    certificate = forged(made("clear"), "claim.path = {}")
+    assert_verdict(certificate, r"claim\.path\.kind is another")
     proven, refusal = proven_by_core(certificate)
     assert not proven
-    assert re.search(words, refusal)
+    assert "path" in refusal
 
 
 @pytest.mark.parametrize("name", [*QUICK, *thorough(*(name for name in MAKERS if name not in QUICK))])

@@ -1,8 +1,6 @@
-"""The series of clothoids against its integral, and the bounds on its rounding that its derivation gives."""
+"""The series of clothoids against its integral, to the rounding that its derivation gives."""
 
 from __future__ import annotations
-
-import math
 
 import flint
 import numpy as np
@@ -27,17 +25,6 @@ def test_the_way_is_its_integral_to_the_stated_rounding(p: float, q: float) -> N
     x, y = clothoid_way(p, q)
     assert abs(float(exact.real - x)) <= WAY * ULP
     assert abs(float(exact.imag - y)) <= WAY * ULP
-
-
-def test_the_terms_of_a_row_are_as_small_as_the_derivation_says() -> None:
-    """W_n of clothoid.py: coefficients of the integral of e^(x / 4 + x^2 / 4)."""
-    terms, parts = [1.0, 0.125], [(0.25 / (n + 2), 0.5 * n / ((n + 1) * (n + 2))) for n in range(1, 40)]
-    for n, (last, before) in enumerate(parts, 1):
-        terms.append(last * terms[n] + before * terms[n - 1])
-    assert sum((n + 1) * term for n, term in enumerate(terms)) == pytest.approx(math.exp(0.5), rel=1e-15)
-    assert 0.22 < sum(terms[1:]) < 0.25
-    assert terms[28] + terms[29] < 1e-18  # fewer than 30 sums
-    assert max(map(sum, parts)) <= 0.25
 
 
 def test_directions_at_joints_keep_their_digits_after_a_thousand_radians() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
 from core import Dragon, Spiral
@@ -18,9 +17,8 @@ def test_witnesses_lie_the_gap_apart_along_the_normal(travel: float) -> None:
     search.clearance(travel)
     for b in range(2, 40):
         met = bench_separation(0, b, search.sizes, search.placed)
-        apart = np.array([met.bx - met.ax, met.by - met.ay])
-        assert np.hypot(met.nx, met.ny) == pytest.approx(1.0, abs=ROUNDING)
-        assert apart == pytest.approx(met.separation * np.array([met.nx, met.ny]), abs=ROUNDING)
-        assert met.separation == pytest.approx(
-            gap_at(search.scene, search.place - travel, 0, b, search.tried), abs=ROUNDING
-        )
+        normal = complex(met.nx, met.ny)
+        assert abs(normal) == pytest.approx(1.0, abs=ROUNDING)
+        assert complex(met.bx - met.ax, met.by - met.ay) == pytest.approx(met.separation * normal, abs=ROUNDING)
+        gap = gap_at(search.scene, search.place - travel, 0, b, search.tried)
+        assert met.separation == pytest.approx(gap, abs=ROUNDING)

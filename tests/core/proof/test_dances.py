@@ -6,14 +6,13 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-import numpy as np
 import pytest
 
 from core import Dance, Dragon, Route, Spiral, Turn, first_contact
 from core.contact.clearance import least_clearance
 from core.errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused
 from core.proof import Certificate, prove_clear, prove_collision_time, prove_contact, verify
-from tests.support.depth import examples, some
+from tests.support.depth import examples
 from tests.support.forgeries import Change, assert_refused, stretches, through_json
 from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
 from tests.support.reference_contacts import CONTACTS, OFF, proven_then_only
@@ -115,20 +114,6 @@ def test_a_reference_run_is_clear_to_its_end_and_that_is_proven(name: str, until
     ):
         if until == "fold":
             assert_refused(certificate, edit, reason)
-
-
-@pytest.mark.parametrize("seed", some(thorough(*range(4)), 2))
-def test_a_run_to_the_centre_or_a_fold_beside_it_is_clear(seed: int) -> None:
-    random = np.random.default_rng(seed)
-    for _ in range(5):
-        benches = int(random.integers(3, 8))
-        sizes = random.uniform(0.5, 2.0, benches), random.uniform(0.05, 0.2, benches), random.uniform(0.0, 0.1, benches)
-        dance = Dance(Dragon.of(*sizes), Spiral(random.uniform(1.2, 3.5), random.uniform(4.0, 7.0)))
-        contact = first_contact(dance)
-        if contact.end is not None:
-            certificate = through_json(prove_clear(dance))
-            assert certificate["claim"]["until"] == contact.end.reason
-            verify(certificate)
 
 
 def test_a_route_is_clear_to_its_end() -> None:

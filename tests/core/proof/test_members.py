@@ -40,6 +40,8 @@ KINDS = "collision-time, minimum-pitch, clear, contact or tolerance"
         ("dragon.1 = [1, 2, 3]", "dragon.1", "dragon[1] must be a list of 4, got a list of 3"),
         ("dragon.1.0 = 0.5", "dragon.1.0", "must be a whole number, got 0.5"),
         ("dragon.1.3 = 2.0", "dragon.overhangs.1", "than half of dragon.lengths[1] (2.2 m / 2 = 1.1 m), got 2 m"),
+        # Rectangles without interiors never overlap, although each face has a corner of the other before it.
+        ("dragon.0.2 = 0.0", "dragon.widths.0", "must be from 0.001 to 10000 m, got 0 m"),
         ("overlap.benches = [3]", "overlap.benches", "must be a list of 2, got a list of 1"),
         ("overlap.benches.0 = true", "overlap.benches.0", "must be a whole number, got true"),
         ("sweeps.0.stretches.7 = [1, 2]", "sweeps.0.stretches.7", "lowest theta, faces], got a list of 2"),
