@@ -1,4 +1,4 @@
-"""Every claim in English, and in the other language."""
+"""Every claim in English and in Chinese."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(pat
         np.testing.assert_allclose(then[first : first + 41 - i], now[i:], rtol=0, atol=SAME)
 
 
-@pytest.mark.parametrize("seed", thorough(*some(range(12), 5)))
+@pytest.mark.parametrize("seed", [2, *thorough(*some((0, 1, *range(3, 12)), 4))])
 def test_a_body_that_slides_back_behind_its_start_has_the_contacts_of_the_general_way(seed: int) -> None:
     """A head chord far longer than the body's: near its fold the body goes back by many links. The last bench is longer
     by a nanometre in the second dragon, so that all pairs are followed there."""
