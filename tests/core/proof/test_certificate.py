@@ -118,7 +118,6 @@ def test_progress_rises_to_one_and_the_precision_is_left_as_it_was() -> None:
         assert shares[-1] == 1.0
 
 
-@pytest.mark.thorough
 def test_without_flint_the_error_names_the_extra() -> None:
     code = "import sys; sys.modules['flint'] = None; import core.proof"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
