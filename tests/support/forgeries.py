@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import copy
 import json
-import math
+import re
 from collections.abc import Callable
 from typing import Any
 
+import pytest
+
 from core.errors import ProofRefused
 from core.proof import Certificate, digest, verify
+
+Change = Callable[[dict[str, Any]], Any]
+EDIT = re.compile(r"(?:(delete|repeat|reverse|shorten) )?([^ ]+)(?: (\+?)= (.+))?")
 
 
 def through_json(certificate: Certificate) -> Certificate:
@@ -32,7 +37,7 @@ def refusal(certificate: Certificate) -> str:
     return ""
 
 
-def put_at(*place: str | int, put: Any) -> Callable[[dict[str, Any]], None]:
+def put_at(*place: str | int, put: Any) -> Change:
     """The change that puts a value at this place."""
 
     def change(content: dict[str, Any]) -> None:
@@ -44,16 +49,41 @@ def put_at(*place: str | int, put: Any) -> Callable[[dict[str, Any]], None]:
     return change
 
 
-def edit(change: Callable[[dict[str, Any]], Any]) -> Callable[[Certificate], Certificate]:
-    """A forger's edit: the change, and a digest that fits it."""
+def in_words(edits: str) -> Change:
+    """The change that edits say, with `; ` between them: `claim.margin = 0.1`, `claim.time += 1e-9`, and `delete`,
+    `repeat`, `reverse` (a list or a text) or `shorten` (by its last entry or sign) before a place."""
 
-    def edited(certificate: Certificate) -> Certificate:
-        content = copy.deepcopy(certificate)
-        del content["digest"]
-        change(content)
-        return content | {"digest": digest(content)}
+    def change(content: dict[str, Any]) -> None:
+        for edit in edits.split("; "):
+            verb, place, more, text = EDIT.fullmatch(edit).groups()  # type: ignore[union-attr]
+            *path, last = [int(step) if step.lstrip("-").isdigit() else step for step in place.split(".")]
+            inside: Any = content
+            for step in path:
+                inside = inside[step]
+            if verb == "delete":
+                del inside[last]
+            elif verb == "repeat":
+                inside.insert(last, inside[last])
+            elif verb:
+                inside[last] = inside[last][::-1] if verb == "reverse" else inside[last][:-1]
+            else:
+                inside[last] = inside[last] + json.loads(text) if more else json.loads(text)
 
-    return edited
+    return change
+
+
+def forged(certificate: Certificate, change: Change | str) -> Certificate:
+    """A forger's edit: the change, or what in_words() makes of a text, and a digest that fits it."""
+    content = copy.deepcopy(certificate)
+    del content["digest"]
+    (in_words(change) if isinstance(change, str) else change)(content)
+    return content | {"digest": digest(content)}
+
+
+def assert_refused(certificate: Certificate, change: Change | str, reason: str | None = None) -> None:
+    """core.proof.verify refuses the forged certificate, for this reason (a pattern)."""
+    with pytest.raises(ProofRefused, match=reason):
+        verify(forged(certificate, change))
 
 
 def stretches(content: dict[str, Any], bench: int = 0) -> list[Any]:
@@ -67,45 +97,49 @@ def other_face(content: dict[str, Any]) -> None:
 
 def one_for_all(content: dict[str, Any]) -> None:
     tiles = stretches(content)
-    tiles[:] = [[tiles[0][0], tiles[-1][1], tiles[-1][2]]]
+    tiles[:] = [[tiles[0][0], *tiles[-1][1:]]]
 
 
-# name: (change, why core.proof.verify refuses it)
-FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
-    "a stretch dropped": (lambda c: stretches(c).pop(7), "do not join"),
-    "a stretch twice": (lambda c: stretches(c).insert(7, stretches(c)[7]), "do not join"),
-    "the first stretch dropped": (lambda c: stretches(c).pop(0), "do not join"),
-    "the last stretch dropped": (lambda c: stretches(c).pop(), "short of"),
-    "the last stretch of the body dropped": (lambda c: stretches(c, 1).pop(), "short of"),
-    "the first stretch of the body dropped": (lambda c: stretches(c, 1).pop(0), "do not join"),
-    "a stretch that begins later": (lambda c: stretches(c)[7].__setitem__(0, stretches(c)[7][0] - 1e-9), "do not join"),
-    "a stretch that ends earlier": (lambda c: stretches(c)[7].__setitem__(1, stretches(c)[7][1] + 1e-9), "do not join"),
-    "one stretch for all": (one_for_all, "not proven"),
-    "another face": (other_face, "not apart by face"),
-    "a pair left out": (lambda c: stretches(c)[7].__setitem__(2, stretches(c)[7][2][:-1]), "pairs are missing"),
-    "a sweep dropped": (lambda c: c["sweeps"].pop(), "malformed"),
-    "a sweep too many": (lambda c: c["sweeps"].append(c["sweeps"][-1]), "has 3 sweeps"),
-    "sweeps exchanged": (lambda c: c["sweeps"].reverse(), "of another bench"),
-    "a later time": (lambda c: c["claim"].__setitem__("time", c["claim"]["time"] + 1e-9), "short of"),
-    "an earlier time": (lambda c: c["claim"].__setitem__("time", c["claim"]["time"] - 1e-9), "not shown to overlap"),
-    "a faster head": (lambda c: c["claim"].__setitem__("head_speed", 1.0001), "short of"),
-    "a slower head": (lambda c: c["claim"].__setitem__("head_speed", 0.9999), "not shown to overlap"),
-    "a wider pitch": (lambda c: c["claim"].__setitem__("pitch", 0.5501), "not shown to overlap"),
-    "a narrower pitch": (lambda c: c["claim"].__setitem__("pitch", 0.5499), "not proven"),
-    "a start farther out": (lambda c: c["claim"].__setitem__("start_turns", 16.001), "not shown to overlap"),
-    "a start farther in": (lambda c: c["claim"].__setitem__("start_turns", 15.999), "short of"),
-    "another claim": (lambda c: c["claim"].__setitem__("kind", "minimum-pitch"), "malformed"),
-    "a narrower head": (lambda c: c["dragon"][0].__setitem__(2, 0.2999), "not shown to overlap"),
-    "a wider body": (lambda c: c["dragon"][1].__setitem__(2, 0.3001), "not apart by face"),
-    "a shorter dragon": (lambda c: c["dragon"][1].__setitem__(0, 3), "share no handle"),
-    "a dragon of nothing": (lambda c: c["dragon"].clear(), "malformed"),
-    "benches without end": (lambda c: c["dragon"][1].__setitem__(0, 10**12), "1 to 10000000 benches"),
-    "another pair": (lambda c: c["overlap"].__setitem__("benches", [0, 3]), "not shown to overlap"),
-    "neighbours as the pair": (lambda c: c["overlap"].__setitem__("benches", [0, 1]), "share no handle"),
-    "the head taken for a body bench": (lambda c: c.__setitem__("repeats_from", 0), "not alike"),
-    "a repetition beyond the tail": (lambda c: c.__setitem__("repeats_from", 3), "not alike"),
-    "another format": (lambda c: c.__setitem__("format", "bench-dragon proof 0"), "format"),
-    "no overlap": (lambda c: c.pop("overlap"), "malformed"),
-    "no number": (lambda c: stretches(c)[7].__setitem__(1, "30"), "malformed"),
-    "not a number": (lambda c: stretches(c)[7].__setitem__(1, math.nan), "malformed"),
-}
+# (change, why core.proof.verify refuses it), of any certificate with the stretches of a head and of a body.
+DROPPED: list[tuple[Change | str, str]] = [
+    ("delete sweeps.0.stretches.7", "do not join"),
+    ("repeat sweeps.0.stretches.7", "do not join"),
+    ("delete sweeps.0.stretches.-1", "short of"),
+    ("delete sweeps.1.stretches.0", "do not join"),
+    (one_for_all, "not proven"),
+    ("shorten sweeps.0.stretches.7.2", "pairs are missing"),
+    ("delete sweeps.1", r"malformed: sweeps\[1\] is missing"),
+    ("repeats_from = 0", "not alike"),
+]
+# The same of five benches.
+FORGERIES: list[tuple[Change | str, str]] = [
+    *DROPPED,
+    ("delete sweeps.0.stretches.0", "do not join"),
+    ("delete sweeps.1.stretches.-1", "short of"),
+    ("sweeps.0.stretches.7.0 += -1e-9", "do not join"),
+    ("sweeps.0.stretches.7.1 += 1e-9", "do not join"),
+    (other_face, "not apart by face"),
+    ("repeat sweeps.-1", "has 3 sweeps"),
+    ("reverse sweeps", "of another bench"),
+    ("claim.time += 1e-9", "short of"),
+    ("claim.time += -1e-9", "not shown to overlap"),
+    ("claim.head_speed = 1.0001", "short of"),
+    ("claim.head_speed = 0.9999", "not shown to overlap"),
+    ("claim.pitch = 0.5501", "not shown to overlap"),
+    ("claim.pitch = 0.5499", "not proven"),
+    ("claim.start_turns = 16.001", "not shown to overlap"),
+    ("claim.start_turns = 15.999", "short of"),
+    ('claim.kind = "minimum-pitch"', "malformed"),
+    ("dragon.0.2 = 0.2999", "not shown to overlap"),
+    ("dragon.1.2 = 0.3001", "not apart by face"),
+    ("dragon.1.0 = 3", "share no handle"),
+    ("dragon = []", "malformed"),
+    ("dragon.1.0 = 1000000000000", "1 to 10000000 benches"),
+    ("overlap.benches = [0, 3]", "not shown to overlap"),
+    ("overlap.benches = [0, 1]", "share no handle"),
+    ("repeats_from = 3", "not alike"),
+    ('format = "bench-dragon proof 0"', "format"),
+    ("delete overlap", "malformed"),
+    ('sweeps.0.stretches.7.1 = "30"', "malformed"),
+    ("sweeps.0.stretches.7.1 = NaN", "malformed"),
+]

@@ -1,4 +1,4 @@
-"""Every claim in English."""
+"""Every claim in English and in Chinese."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tests.support.every_kind import CLAIMS, SENTENCES
 
 @pytest.mark.parametrize("name", CLAIMS)
 def test_a_claim_has_these_sentences(name: str) -> None:
-    assert claim_words(CLAIMS[name]) == SENTENCES[name][0]
+    assert [claim_words(CLAIMS[name]), claim_words(CLAIMS[name], "zh")] == SENTENCES[name]
 
 
 def test_every_kind_of_claim_is_among_them() -> None:

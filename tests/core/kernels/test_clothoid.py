@@ -1,56 +1,39 @@
-"""The series of clothoids against its integral, and the bounds on its rounding that its derivation gives."""
+"""The series of clothoids against its integral, to the rounding that its derivation gives."""
 
 from __future__ import annotations
-
-import math
 
 import flint
 import numpy as np
 import pytest
 from flint import acb, arb
 
-from core import kernels
+from core.kernels import clothoid_joints
 from core.kernels.clothoid import clothoid_way
+from core.kernels.constants import POINT_COLUMNS, POINT_CURVATURE, TX, TY, ULP
 from tests.support.exact_chain import BITS
 
 # Bound of clothoid.py on an error in either part [ULP of the way].
 WAY = 14.0
 
 
-def integral(p: float, q: float) -> acb:
-    """The integral of e^(i (p x + q x^2 / 2)) from 0 to 1, by quadrature in balls."""
-    flint.ctx.prec = BITS
-    return acb.integral(lambda x, _: (acb(0, 1) * (p * x + q * x * x / 2)).exp(), 0, 1)
-
-
 @pytest.mark.parametrize("p", [0.25, -0.25, 0.1, 1e-9, 0.0])
 @pytest.mark.parametrize("q", [0.5, -0.5, -0.25, 1e-7, 0.0])
 def test_the_way_is_its_integral_to_the_stated_rounding(p: float, q: float) -> None:
-    exact = integral(p, q)
+    """The integral of e^(i (p x + q x^2 / 2)) from 0 to 1, by quadrature in balls."""
+    flint.ctx.prec = BITS
+    exact = acb.integral(lambda x, _: (acb(0, 1) * (p * x + q * x * x / 2)).exp(), 0, 1)
     x, y = clothoid_way(p, q)
-    assert abs(float(exact.real - x)) <= WAY * kernels.ULP
-    assert abs(float(exact.imag - y)) <= WAY * kernels.ULP
-
-
-def test_the_terms_of_a_row_are_as_small_as_the_derivation_says() -> None:
-    """W_n of clothoid.py: coefficients of the integral of e^(x / 4 + x^2 / 4)."""
-    terms = [1.0, 0.125]
-    for n in range(1, 40):
-        terms.append(0.25 / (n + 2) * terms[n] + 0.5 * n / ((n + 1) * (n + 2)) * terms[n - 1])
-    assert sum((n + 1) * term for n, term in enumerate(terms)) == pytest.approx(math.exp(0.5), rel=1e-15)
-    assert 0.22 < sum(terms[1:]) < 0.25
-    assert terms[28] + terms[29] < 1e-18  # fewer than 30 sums
-    assert all(0.25 / (n + 2) + 0.5 * n / ((n + 1) * (n + 2)) <= 0.25 for n in range(1, 40))
+    assert abs(float(exact.real - x)) <= WAY * ULP
+    assert abs(float(exact.imag - y)) <= WAY * ULP
 
 
 def test_directions_at_joints_keep_their_digits_after_a_thousand_radians() -> None:
     flint.ctx.prec = BITS
     places = np.linspace(0.0, 1_000.0, 4_001)
-    joints = np.empty((places.size, kernels.POINT_COLUMNS))
-    kernels.clothoid_joints(0.0, 0.0, 0.3, 0.9, -0.7, 1_000.0, places, joints)
-    for k in range(0, places.size, 100):
-        v = arb(float(places[k]))
+    clothoid_joints(0.0, 0.0, 0.3, 0.9, -0.7, 1_000.0, places, joints := np.empty((4_001, POINT_COLUMNS)))
+    for place, joint in zip(places[::100].tolist(), joints[::100], strict=True):
+        v = arb(place)
         angle = arb(0.3) + v * (arb(0.9) + (arb(-0.7) - arb(0.9)) / 1_000 * v / 2)
-        assert abs(float(angle.cos()) - joints[k, kernels.TX]) < 4.0 * kernels.ULP
-        assert abs(float(angle.sin()) - joints[k, kernels.TY]) < 4.0 * kernels.ULP
-    assert joints[-1, kernels.POINT_CURVATURE] == -0.7
+        assert abs(float(angle.cos()) - joint[TX]) < 4.0 * ULP
+        assert abs(float(angle.sin()) - joint[TY]) < 4.0 * ULP
+    assert joints[-1, POINT_CURVATURE] == -0.7

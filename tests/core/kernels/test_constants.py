@@ -8,8 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from core import Dragon, Spiral, kernels
-from core.contact.search import ContactSearch
 from core.kernels import constants
 
 pytestmark = pytest.mark.uncompiled
@@ -45,11 +43,3 @@ def test_states_have_the_same_names_and_numbers_for_the_compiler() -> None:
         name: dict(states.__members__) for name, states in STATES.items()
     }
     assert set(STATES) == {"Ended", "Step", "Judged"}
-
-
-def test_a_loop_returns_a_member_of_its_states() -> None:
-    search = ContactSearch(Dragon(3), Spiral(), 0.0)
-    march = kernels.March(search.interval, search.probe, search.opening)
-    ended = march.run(10.0, 11.0, 2, True, kernels.NO_BRACKET, False, 0.0, 1e6)
-    judged = kernels.Excess(search.interval, 0.0).run(10.0, 11.0, 1.0, 9.0, 9.0, 1e-9, 0.0, 1000)
-    assert (type(ended), type(judged)) == (kernels.Ended, kernels.Judged)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from flint import arb
 
-from core import kernels
 from core.error_free import paired
+from core.kernels import coil_arc, growth_pair, spiral_thetas
 from core.kernels.constants import HIGH, LOW
 from tests.support.exact_chain import BITS, spiral_place
 
@@ -21,37 +21,34 @@ TURNS = (1e-9, 1e-3, 0.5, 1.0, 3.0, 16.0, 1e3, 1e4, 1e5)
 def test_growth_and_arc_are_those_of_the_pitch_and_the_turns(pitch: float) -> None:
     flint.ctx.prec = BITS
     growth = arb(pitch) / (2 * arb.pi())
-    high, low = kernels.growth_pair(pitch)
+    high, low = growth_pair(pitch)
     assert high == pitch / (2.0 * np.pi)
     assert abs(float((arb(high) + low) / growth - 1)) < 1e-31
     for turns in TURNS:
-        high, low = kernels.coil_arc(pitch, turns)
+        high, low = coil_arc(pitch, turns)
         exact = growth * spiral_place(2 * arb.pi() * turns)
         assert abs(float(arb(high) + low - exact)) <= ARC_ERROR * float(growth) * min(1.0, 2.0 * np.pi * turns)
         assert abs(low) <= np.spacing(high)
 
 
-@pytest.mark.parametrize("turns", [0.5, 16.0, 1e3, 1e4, 1e5])
+@pytest.mark.parametrize("turns", TURNS[-5:])
 def test_an_angle_has_the_arc_length_from_which_it_was_found(turns: float) -> None:
     """From the start to a nanometre from the centre: the error of an arc length stays that of asinh."""
     flint.ctx.prec = BITS
-    pitch = 0.55
-    growth, growth_low = kernels.growth_pair(pitch)
-    length, length_low = kernels.coil_arc(pitch, turns)
-    s = length * np.concatenate([[-0.5, 0.0], 1.0 - np.logspace(0.0, -9.0, 40)])
+    growth, length = growth_pair(0.55), coil_arc(0.55, turns)
+    s = length[0] * np.concatenate([[-0.5, 0.0], 1.0 - np.logspace(0.0, -9.0, 40)])
     s = paired(s, 0.3 * np.spacing(s))
     thetas = np.empty_like(s)
-    kernels.spiral_thetas(growth, growth_low, length, length_low, s, thetas)
-    for (way, rest), (high, low) in zip(s.tolist(), thetas.tolist(), strict=True):
-        left = arb(length) + length_low - way - rest
-        error = (arb(growth) + growth_low) * spiral_place(arb(high) + low) - left
-        assert abs(float(error)) <= 2.0 * ARC_ERROR * growth + 1e-31 * length
+    spiral_thetas(*growth, *length, s, thetas)
+    for way, theta in zip(s.tolist(), thetas.tolist(), strict=True):
+        exact_growth, exact_length, travel, angle = (arb(high) + low for high, low in (growth, length, way, theta))
+        error = exact_growth * spiral_place(angle) - exact_length + travel
+        assert abs(float(error)) <= 2.0 * ARC_ERROR * growth[0] + 1e-31 * length[0]
     assert thetas[:, LOW].any()
     assert (np.abs(thetas[:, LOW]) <= np.spacing(thetas[:, HIGH])).all()
 
 
 def test_beyond_the_centre_there_is_no_angle() -> None:
     s = paired(np.array([10.0, 11.0]))
-    thetas = np.ones_like(s)
-    kernels.spiral_thetas(0.1, 0.0, 10.0, 0.0, s, thetas)
+    spiral_thetas(0.1, 0.0, 10.0, 0.0, s, thetas := np.ones_like(s))
     assert not thetas.any()

@@ -5,30 +5,25 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import kernels
+from core.kernels import first_crest, first_root, fold_theta, previous_theta
+from tests.support.slow_search import chord_squared
 
-# A fold is good to this part of its angle [1].
-PART = 1e-9
-# A root is good to this part of itself [1].
-ROOT_PART = 1e-13
+# A fold is good to this part of its angle, and a root to this part of itself [1].
+PART, ROOT_PART = 1e-9, 1e-13
 
 
 @pytest.mark.parametrize("theta", [0.3, 2.0, 20.0])
 def test_the_first_root_is_a_root_and_none_lies_before_it(theta: float) -> None:
     for chord in np.linspace(0.1, 1.9 * theta, 20):
-        delta = kernels.first_root(theta, chord**2)
-        angles = np.linspace(0.0, delta, 2_000)[1:-1]
-        square = angles**2 + 4.0 * theta * (theta + angles) * np.sin(0.5 * angles) ** 2
-        assert (square < chord**2).all()
-        end = delta**2 + 4.0 * theta * (theta + delta) * np.sin(0.5 * delta) ** 2
-        assert end == pytest.approx(chord**2, rel=ROOT_PART)
+        delta = first_root(theta, chord**2)
+        assert (chord_squared(theta, np.linspace(0.0, delta, 2_000)[1:-1]) < chord**2).all()
+        assert chord_squared(theta, delta) == pytest.approx(chord**2, rel=ROOT_PART)
 
 
 @pytest.mark.parametrize("theta", [0.1, 0.5, 2.0, 20.0])
 def test_a_chord_grows_up_to_the_first_crest_and_not_just_beyond_it(theta: float) -> None:
-    crest = kernels.first_crest(theta)
-    angles = np.append(np.linspace(0.0, crest, 2_000), crest + 1e-6)
-    rise = np.diff(angles**2 + 4.0 * theta * (theta + angles) * np.sin(0.5 * angles) ** 2)
+    crest = first_crest(theta)
+    rise = np.diff(chord_squared(theta, np.append(np.linspace(0.0, crest, 2_000), crest + 1e-6)))
     assert (rise[:-1] > 0.0).all()
     assert crest == 2.0 * np.pi or rise[-1] < 0.0
     assert (crest < 2.0 * np.pi) == (theta > 1.0)
@@ -36,18 +31,18 @@ def test_a_chord_grows_up_to_the_first_crest_and_not_just_beyond_it(theta: float
 
 @pytest.mark.parametrize("chord2", [33.46, 40.0, 100.0, 1e4])
 def test_just_outside_a_fold_a_chord_fits_and_just_inside_it_jumps_or_is_gone(chord2: float) -> None:
-    fold = kernels.fold_theta(chord2)
-    outside = kernels.first_root(fold * (1.0 + PART), chord2)
-    inside = kernels.first_root(fold * (1.0 - 1e3 * PART), chord2)
+    fold = fold_theta(chord2)
+    outside = first_root(fold * (1.0 + PART), chord2)
+    inside = first_root(fold * (1.0 - 1e3 * PART), chord2)
     assert np.pi < outside < 2.0 * np.pi
     assert inside < 0.0 or inside > outside + 1e3 * PART
 
 
 def test_short_chords_never_fold() -> None:
-    assert [kernels.fold_theta(chord2) for chord2 in (0.1, 9.0, 33.4)] == [0.0, 0.0, 0.0]
+    assert [fold_theta(chord2) for chord2 in (0.1, 9.0, 33.4)] == [0.0, 0.0, 0.0]
 
 
 @pytest.mark.parametrize("leader", [3.0, 12.0, 90.0])
 def test_the_leader_of_a_follower_stood_where_that_was_found(leader: float) -> None:
-    delta = kernels.first_root(leader, 20.0)
-    assert kernels.previous_theta(leader + delta, 20.0) == pytest.approx(leader, rel=PART)
+    delta = first_root(leader, 20.0)
+    assert previous_theta(leader + delta, 20.0) == pytest.approx(leader, rel=PART)

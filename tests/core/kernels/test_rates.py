@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import pytest
 
-from core import Dragon, Turn, kernels
+from core import Dragon, Turn
 from core.contact.search import ContactSearch
+from core.kernels import climbs, place_chain
+from core.kernels.constants import CLIMB
 
 
 def test_slopes_of_rates_are_their_difference_quotients() -> None:
     search, step = ContactSearch(Dragon(6), Turn(1.7), 0.0), 1e-5
     travel = 12.0
-    kernels.place_chain(search.curve, search.place - travel, 6, search.sizes, search.tried)
-    kernels.climbs(search.curve, 6, search.sizes, search.tried)
+    place_chain(search.curve, search.place - travel, 6, search.sizes, search.tried)
+    climbs(search.curve, 6, search.sizes, search.tried)
     quotient = (search.rates(travel + step) - search.rates(travel - step)) / (2.0 * step)
-    assert search.tried[:7, kernels.CLIMB] == pytest.approx(quotient, abs=1e-6)
+    assert search.tried[:7, CLIMB] == pytest.approx(quotient, abs=1e-6)

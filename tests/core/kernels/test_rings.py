@@ -5,9 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dragon, Spiral, kernels
+from core import Dragon, Spiral
 from core.contact.search import ContactSearch
 from core.design.ways import SearchBetween
+from core.kernels import (
+    Budget,
+    clear_radius,
+    leaders_reach,
+    radius_beyond,
+    ring_clears,
+    ring_least,
+    ring_rounding,
+    spirals_least,
+)
+from core.kernels.constants import FREE, MX, MY, THETA, UX, UY
 from core.shapes.rectangles import corners
 
 
@@ -17,42 +28,47 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
     dragon, spiral = Dragon(40, 3.4, rng.uniform(0.8, 2.2), 0.3, rng.uniform(0.0, 0.3)), Spiral(rng.uniform(0.3, 1.5))
     search = ContactSearch(dragon, spiral, 0.0)
     search.clearance(rng.uniform(0.0, 100.0))
-    rows = search.placed
-    poses = np.column_stack(
-        [rows[:40, kernels.MX], rows[:40, kernels.MY], np.arctan2(rows[:40, kernels.UY], rows[:40, kernels.UX])]
-    )
-    far = np.linalg.norm(corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1)), axis=-1)
-    handles = spiral.growth * rows[:41, kernels.THETA]
+    x, y, c, s = search.placed[:40, [MX, MY, UX, UY]].T
+    poses, sizes = np.stack([x, y, np.arctan2(s, c)], axis=-1), np.stack([dragon.lengths, dragon.widths], axis=-1)
+    far = np.linalg.norm(corners(poses, sizes), axis=-1)
+    handles = spiral.growth * search.placed[:41, THETA]
     for k in range(40):
-        assert far[k].max() <= kernels.leaders_reach(spiral.growth, handles[k], handles[k + 1], search.rings)
+        assert far[k].max() <= leaders_reach(spiral.growth, handles[k], handles[k + 1], search.rings)
     for radius in np.linspace(0.5, handles[-1], 30):
-        outside = handles[:-1] >= kernels.radius_beyond(spiral.growth, radius, search.rings)
-        assert (far[1:][outside[1:]] >= radius).all()
+        outside = handles[1:-1] >= radius_beyond(spiral.growth, radius, search.rings)
+        assert (far[1:][outside] >= radius).all()
 
 
-# When these stray far, their ends are wider than their middles, and come nearest to the benches inside them.
-SLIM = Dragon(60, 2.2, 2.2, 0.1, 0.24)
+def random_case(seed: int) -> tuple[Dragon, float, float]:
+    """A random dragon on a pitch of some of its widths, whose people do not stray."""
+    rng = np.random.default_rng(seed)
+    chord, (head, pitch) = 10 ** rng.uniform(-0.3, 0.5), 10 ** rng.uniform([-0.4, -1.0], 0.4)
+    width, overhang = chord * 10 ** rng.uniform(-2.5, -0.4), chord * rng.choice([0.0, rng.uniform(0.0, 0.3)])
+    dragon = Dragon(int(rng.integers(20, 70)), chord * head + 2 * overhang, chord + 2 * overhang, width, overhang)
+    return dragon, max(1.2 * width, pitch * chord), 0.0
 
 
 @pytest.mark.parametrize(
     ("dragon", "pitch", "stray"),
     [
         (Dragon(60), 0.45, 0.0),
-        (Dragon(60), 0.6, 0.0),
-        (Dragon(60), 1.0, 0.0),
         (Dragon(60), 5.0, 0.0),  # the nearest benches have one bench between them
         (Dragon(60), 0.5, 0.01),
         (Dragon(60), 0.6, 0.03),
         (Dragon(60), 1.0, 0.15),
-        (SLIM, 1.0, 0.3),
+        # When these stray far, their ends are wider than their middles, and come nearest to the benches inside them.
+        (Dragon(60, 2.2, 2.2, 0.1, 0.24), 1.0, 0.3),
+        *map(random_case, range(20)),
     ],
 )
 def test_no_clearance_falls_below_the_ring_bound_further_out(dragon: Dragon, pitch: float, stray: float) -> None:
     search = ContactSearch(dragon, Spiral(pitch), 0.0, stray=stray)
-    for travel in np.linspace(0.0, 60.0, 7):
-        radius = search.growth * search.theta_at(travel)
-        least = kernels.ring_least(search.growth, search.growth, radius, search.rings)
-        assert search.clearance(travel)[0] >= least > -kernels.FREE
+    bounds = []
+    for travel in np.linspace(0.0, 0.95, 30) * search.travel_at(0.0):
+        at = search.growth, search.growth * search.theta_at(travel), search.rings
+        bounds.append(ring_least(search.growth, *at) - ring_rounding(*at))
+        assert search.clearance(travel)[0] >= bounds[-1]
+    assert bounds[0] > 0.0 or search.clear_radius > search.growth * search.theta_at(0.0)
 
 
 @pytest.mark.parametrize("margin", [0.0, 0.1])
@@ -61,23 +77,21 @@ def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_mar
     pitch: float, margin: float
 ) -> None:
     rings, growth = ContactSearch(Dragon(), Spiral(pitch), margin).rings, Spiral(pitch).growth
-    clears = [
-        kernels.ring_clears(growth, growth, part * rings.clear_radius, margin, rings)
-        for part in (0.998, 1.0, 1.1, 10.0)
-    ]
+    radii = np.array([0.998, 1.0, 1.1, 10.0]) * rings.clear_radius
+    clears = [ring_clears(growth, growth, radius, margin, rings) for radius in radii]
     assert clears == [False, True, True, True]
 
 
 def test_no_radius_is_clear_where_rings_are_narrower_than_benches() -> None:
-    assert ContactSearch(Dragon(), Spiral(0.29), 0.0).clear_radius == kernels.FREE
+    assert ContactSearch(Dragon(), Spiral(0.29), 0.0).clear_radius == FREE
 
 
 @pytest.mark.parametrize("angle", [3.0, 2.0])
 def test_the_bound_for_two_spirals_over_a_range_of_growths_is_none_above_that_of_a_growth_in_it(angle: float) -> None:
-    search = SearchBetween(Dragon(40), Spiral(), 2, 0.0, work=1e7, budget=kernels.Budget(), stray=0.0)
+    rings = SearchBetween(Dragon(40), Spiral(), 2, 0.0, work=1e7, budget=Budget(), stray=0.0).rings
     for low, high in ((0.2, 0.21), (0.2, 0.4), (0.5, 0.9)):
-        least = kernels.spirals_least(high, angle, 20.0, search.rings, low)
-        inside = [kernels.spirals_least(growth, angle, 20.0, search.rings) for growth in np.linspace(low, high, 9)]
+        least = spirals_least(high, angle, 20.0, rings, low)
+        inside = [spirals_least(growth, angle, 20.0, rings) for growth in np.linspace(low, high, 9)]
         assert 0.0 < least <= min(inside)
-    clear = kernels.clear_radius(0.3, 0.1, search.rings, angle)
-    assert 0.1 < kernels.spirals_least(0.3, angle, clear, search.rings) < 0.101
+    clear = clear_radius(0.3, 0.1, rings, angle)
+    assert 0.1 < spirals_least(0.3, angle, clear, rings) < 0.101

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from core import Dragon, Spiral, kernels
-from core.contact.search import ContactSearch
+from core.kernels import spiral_arc, spiral_theta
 
 # Arc lengths are good to this part of themselves [1], chords to this [m].
 PART, CHORD_ERROR = 1e-13, 1e-13
@@ -15,17 +14,7 @@ PART, CHORD_ERROR = 1e-13, 1e-13
 
 @pytest.mark.parametrize("theta", [1e-3, 0.5, 7.0, 300.0])
 def test_arc_length_is_the_integral_of_the_speed_and_theta_its_inverse(theta: float) -> None:
-    arc = kernels.spiral_arc(theta)
+    arc = spiral_arc(theta)
     assert arc == pytest.approx(quad(lambda t: np.hypot(1.0, t), 0.0, theta, epsabs=0.0, epsrel=PART)[0], rel=PART)
-    assert kernels.spiral_theta(arc) == pytest.approx(theta, rel=PART)
-    assert kernels.spiral_theta(-arc) == 0.0
-
-
-def test_every_bench_of_a_chain_is_as_long_as_its_chord() -> None:
-    dragon, spiral = Dragon(60), Spiral()
-    search = ContactSearch(dragon, spiral, 0.0)
-    chain = search.placed
-    kernels.start_chain(spiral.start_theta, chain)
-    assert kernels.extend_chain(spiral.growth, 0, 60, kernels.FREE, search.sizes, chain) == 60
-    places = spiral.growth * chain[:, [kernels.THETA]] * chain[:, kernels.COS : kernels.SIN + 1]
-    assert np.linalg.norm(np.diff(places, axis=0), axis=1) == pytest.approx(dragon.chords, abs=CHORD_ERROR)
+    assert spiral_theta(arc) == pytest.approx(theta, rel=PART)
+    assert spiral_theta(-arc) == 0.0

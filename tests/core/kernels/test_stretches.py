@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import kernels
+from core.kernels import spiral_arc, spiral_curvature, steepest_curvature
 from core.kernels.constants import CREST, HANDLE_SPEED, OMEGA, PIECE_KIND, PLACE, S_END
-from tests.core.kernels.test_bounds import bounded, laid_out, random_interval, sizes_of
+from tests.support.intervals import on_route
 
 # Places next to a joint [m]; change of the curvature over that distance, and other rounding [1/m].
 BESIDE, ROUNDING = 1e-8, 1e-7
@@ -16,28 +16,26 @@ BESIDE, ROUNDING = 1e-8, 1e-7
 @pytest.mark.parametrize("seed", range(200, 230))
 def test_the_sharpest_curvature_of_a_stretch_is_that_of_dense_samples(seed: int) -> None:
     """A bench turns at most as fast as its faster handle on that curvature: OMEGA = sharpest curvature HANDLE_SPEED."""
-    dragon, path, start, h = random_interval(np.random.default_rng(seed))
-    sizes = sizes_of(dragon)
-    motion, h = bounded(path, start, h, sizes)
-    rear, front = (-laid_out(path, s, sizes)[:, PLACE] for s in (start, start + h))
-    joints = path.table[:-1, S_END]
-    for k in range(dragon.benches):
-        beside = np.concatenate([joints - BESIDE, joints + BESIDE])
+    at = on_route(seed)
+    table = at.path.table
+    beside = np.concatenate([table[:-1, S_END] - BESIDE, table[:-1, S_END] + BESIDE])
+    rear, front = -at.chains[[0, -1], :, PLACE]
+    for k in range(at.dragon.benches):
         places = np.concatenate([np.linspace(rear[k + 1], front[k], 500), beside])
         places = places[(rear[k + 1] <= places) & (places <= front[k])]
-        sampled = np.abs(path.curvature(places)).max()
-        sharpest = motion[k, OMEGA] / motion[k, HANDLE_SPEED]
+        sampled = np.abs(at.path.curvature(places)).max()
+        sharpest = at.motion[k, OMEGA] / at.motion[k, HANDLE_SPEED]
         assert sharpest >= sampled - ROUNDING
-        if not (path.table[:, PIECE_KIND] == CREST).any():
-            assert sharpest <= sampled + ROUNDING
+        assert sharpest <= sampled + ROUNDING or (table[:, PIECE_KIND] == CREST).any()
 
 
 def test_no_curvature_of_a_spiral_changes_faster_than_its_bound() -> None:
     theta = np.concatenate([np.linspace(0.0, 3.0, 3_001), np.geomspace(3.0, 300.0, 500)[1:]])
-    curvature = np.array([kernels.spiral_curvature(at) for at in theta.tolist()])
-    arc = np.array([kernels.spiral_arc(at) for at in theta.tolist()])
+    curvature, arc, bound = (
+        np.array([function(at) for at in theta.tolist()])
+        for function in (spiral_curvature, spiral_arc, steepest_curvature)
+    )
     slope = np.abs(np.diff(curvature) / np.diff(arc))
-    bound = np.array([kernels.steepest_curvature(at) for at in theta[:-1].tolist()])
     outwards = np.maximum.accumulate(slope[::-1])[::-1]
-    assert (outwards <= bound).all()
-    assert (bound <= 1.1 * outwards)[theta[:-1] > 0.5].all()
+    assert (outwards <= bound[:-1]).all()
+    assert (bound[:-1] <= 1.1 * outwards)[theta[:-1] > 0.5].all()

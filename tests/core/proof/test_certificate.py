@@ -10,51 +10,40 @@ import pytest
 from flint import ctx
 
 from core import Dragon
-from core.errors import InvalidValue, ProofRefused
-from core.proof import (
-    Certificate,
-    prove_clear,
-    prove_collision_time,
-    prove_contact,
-    prove_minimum_pitch,
-    prove_tolerance,
-    verify,
-)
+from core.errors import ProofRefused
+from core.proof import prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch, prove_tolerance, verify
 from tests.support.depth import examples
-from tests.support.forgeries import FORGERIES, edit, through_json
-from tests.support.forgeries import put_at as at
+from tests.support.forgeries import FORGERIES, Change, assert_refused, forged, through_json
 from tests.support.reference import reference_cases
-from tests.support.reference_contacts import CONTACTS, SMALL, proof_of, random_contact
+from tests.support.reference_contacts import CONTACTS, SMALL, proof_of, proven_then_only, random_contact, small
+from tests.support.refused import refused
+from tests.support.thorough import thorough
 
 ROOT = Path(__file__).parents[3]
 PITCHES = reference_cases("minimum_pitch")
 # The reference pitches are rounded: this much more is free of contact [m].
 PITCH_ROUNDING = 1e-9
-# A delta from doubles, where F is steep, is this near to the true one [rad].
-DOUBLES = 1e-9
-
-
-@pytest.fixture(scope="module")
-def small() -> Certificate:
-    return through_json(proof_of(SMALL))
 
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize(
     ("name", "benches"),
     [
-        ("default", 223),
         ("n_5", 5),
-        ("head_spacing_1.00", examples(20, 223)),
-        ("combo_b", examples(20, 400)),
-        ("combo_e_body_longer_than_head", examples(20, 120)),
+        *thorough(
+            ("default", 223),
+            ("head_spacing_1.00", examples(20, 223)),
+            ("combo_b", examples(20, 400)),
+            ("combo_e_body_longer_than_head", examples(20, 120)),
+        ),
     ],
 )
 def test_a_reference_contact_is_proven_and_checked(name: str, benches: int) -> None:
     """Twenty benches touch where the whole dragon does."""
     case = CONTACTS[name]
-    case = case | {"dragon": case["dragon"] | {"benches": benches}}
-    certificate = through_json(proof_of(case, head_speed=case["head_speed"]))
+    certificate = through_json(
+        proof_of(case | {"dragon": case["dragon"] | {"benches": benches}}, head_speed=case["head_speed"])
+    )
     assert certificate["overlap"] == {"benches": case["benches"]}
     assert f"benches {case['benches'][0]} and {case['benches'][1]} overlap" in verify(certificate).statement
 
@@ -63,64 +52,59 @@ def test_a_reference_contact_is_proven_and_checked(name: str, benches: int) -> N
 @pytest.mark.parametrize(
     ("name", "benches", "start_turns"),
     # Fewer benches, and some that start nearer, are limited by the same two as the whole dragon.
-    [("default R=6.36", examples(27, 223), 16.0), ("default R=7", examples(11, 223), 16.0), ("default R=2", 11, 5.0)],
-    ids=["graze", "start", "circle"],
+    [
+        *thorough(("default R=6.36", examples(27, 223), 16.0)),
+        ("default R=7", examples(11, 223), 16.0),
+        ("default R=2", 11, 5.0),
+    ],
 )
 def test_a_reference_pitch_is_proven_and_checked(name: str, benches: int, start_turns: float) -> None:
     case = PITCHES[name]
-    pitch = case["pitch"] + PITCH_ROUNDING
-    dragon = Dragon(**(case["dragon"] | {"benches": benches}))
-    radius = case["turning_diameter"] / 2
-    certificate = through_json(prove_minimum_pitch(dragon, pitch, turning_radius=radius, start_turns=start_turns))
-    if case["limited_by"] == "start":
-        assert certificate["overlap"] == {"start_within_circle": True}
-    else:
-        assert certificate["overlap"]["benches"] == case["benches"]
+    pitch, dragon = case["pitch"] + PITCH_ROUNDING, Dragon(**(case["dragon"] | {"benches": benches}))
+    certificate = through_json(
+        prove_minimum_pitch(dragon, pitch, turning_radius=case["turning_diameter"] / 2, start_turns=start_turns)
+    )
+    within = case["limited_by"] == "start"
+    overlap = {"start_within_circle": True} if within else {"benches": case["benches"]}
+    assert certificate["overlap"].items() >= overlap.items()
     assert repr(pitch) in verify(certificate).statement
 
 
-@pytest.mark.parametrize("seed", [0, 2, 8, 17, 26, 35, 42, 55])
+@pytest.mark.parametrize("seed", [17, *thorough(0, 2, 8, 26, 35, 42, 55)])
 def test_the_contact_of_a_random_dragon_given_bench_by_bench_is_proven_and_its_neighbourhood_refused(seed: int) -> None:
     dance, time = random_contact(seed)
-    certificate = through_json(prove_collision_time(dance, time))
+    certificate, _ = proven_then_only(prove_collision_time, dance, time)
     assert certificate["repeats_from"] == dance.dragon.benches - 3
-    verify(certificate)
-    for wrong in (time - 1e-8, time + 1e-8):
-        with pytest.raises(ProofRefused):
-            prove_collision_time(dance, wrong)
 
 
-@pytest.mark.parametrize("name", FORGERIES)
-def test_a_forged_certificate_is_refused(small: Certificate, name: str) -> None:
-    change, reason = FORGERIES[name]
-    with pytest.raises(ProofRefused, match=reason):
-        verify(edit(change)(small))
+@pytest.mark.parametrize(("change", "reason"), FORGERIES)
+def test_a_forged_certificate_is_refused(change: Change | str, reason: str) -> None:
+    assert_refused(small(), change, reason)
 
 
-def test_an_edit_of_what_no_proof_needs_is_refused_by_the_digest(small: Certificate) -> None:
-    with pytest.raises(ProofRefused, match="was changed"):
-        verify(small | {"versions": {"python-flint": "0", "flint": "0"}})
-    with pytest.raises(ProofRefused, match="malformed"):
-        verify({name: value for name, value in small.items() if name != "digest"})
+def test_an_edit_of_what_no_proof_needs_is_refused_by_the_digest() -> None:
+    versions = small() | {"versions": {"python-flint": "0", "flint": "0"}}
+    without = {name: value for name, value in small().items() if name != "digest"}
+    for certificate, reason in ((versions, "was changed"), (without, "malformed")):
+        with pytest.raises(ProofRefused, match=reason):
+            verify(certificate)
 
 
 @pytest.mark.parametrize("precision", [53, 4096])
 def test_a_certificate_is_checked_with_the_precision_that_it_states(
-    small: Certificate, precision: int, monkeypatch: pytest.MonkeyPatch
+    precision: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     used: list[int] = []
     monkeypatch.setattr("core.proof.certificate.proven_sweeps", lambda *request: used.append(ctx.prec) or [])
     with pytest.raises(ProofRefused):
-        verify(edit(at("precision", put=precision))(small))
+        verify(forged(small(), f"precision = {precision}"))
     assert used == [precision]
 
 
 def test_what_is_no_dance_and_what_is_no_dragon_are_refused_by_name() -> None:
-    for prove in (prove_clear, prove_collision_time, prove_contact, prove_tolerance):
-        with pytest.raises(InvalidValue, match="dance must be a Dance, got 3"):
+    for prove in (prove_clear, prove_collision_time, prove_contact, prove_tolerance, prove_minimum_pitch):
+        with refused("dragon" if prove is prove_minimum_pitch else "dance"):
             prove(3, 1.0)  # type: ignore[operator]
-    with pytest.raises(InvalidValue, match="dragon must be a Dragon, got 3"):
-        prove_minimum_pitch(3, 0.5)  # type: ignore[arg-type]
 
 
 def test_progress_rises_to_one_and_the_precision_is_left_as_it_was() -> None:

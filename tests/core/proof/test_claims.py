@@ -12,14 +12,16 @@ import shapely
 from flint import arb, ctx
 
 from core import Dance, Dragon, Spiral, bench_poses, trajectory
-from core.errors import InvalidValue, ProofRefused
-from core.proof import Certificate, prove_collision_time, prove_minimum_pitch, verify
+from core.errors import ProofRefused
+from core.proof import prove_collision_time, prove_minimum_pitch, verify
 from core.proof.chain import Chain
 from core.proof.claims import head_theta, near_pair, verify_near
 from core.proof.pairs import Unproven
 from core.shapes.rectangles import corners
-from tests.core.proof.test_certificate import PITCH_ROUNDING, PITCHES, SMALL, proof_of
-from tests.support.forgeries import edit, through_json
+from tests.support.forgeries import assert_refused
+from tests.support.reference_contacts import GRAZING, SMALL, graze, proof_of
+from tests.support.refused import refused
+from tests.support.thorough import thorough
 
 # Distances by shapely [m], and places by bisection in doubles [rad], are this near to the true ones.
 SHAPELY, PLACE = 1e-11, 1e-9
@@ -31,54 +33,53 @@ def test_a_bracket_moved_off_the_contact_is_refused(later: float) -> None:
         proof_of(SMALL, later=later)
 
 
-def test_a_contact_that_is_not_the_first_is_refused() -> None:
-    # At pitch 0.55 the benches part again from 415.02 to 415.375 s: a contact there, but not the first.
-    with pytest.raises(ProofRefused, match="benches 0 and 8 overlap"):
-        prove_collision_time(Dance(Dragon(20), Spiral()), 415.5)
-
-
-@pytest.mark.parametrize(("more", "reason"), [(-1e-9, "overlap when handle 0"), (1.1e-6, "free of contact too")])
-def test_a_pitch_off_the_smallest_is_refused(more: float, reason: str) -> None:
-    with pytest.raises(ProofRefused, match=reason):
-        prove_minimum_pitch(Dragon(27), PITCHES["default R=6.36"]["pitch"] + more, turning_radius=6.36)
-
-
+# At pitch 0.55 the benches part again from 415.02 to 415.375 s: a contact after that is not the first.
 @pytest.mark.parametrize(
-    ("benches", "reason"), [(1, "no two benches overlap"), (2, "no two benches overlap"), (223, "folds")]
+    ("benches", "time", "reason"),
+    [
+        (1, 100.0, "no two benches overlap"),
+        (2, 100.0, "no two benches overlap"),
+        (223, 433.0, "folds"),
+        *thorough((20, 415.5, "benches 0 and 8 overlap")),
+    ],
 )
-def test_a_time_after_which_nothing_touches_is_refused(benches: int, reason: str) -> None:
+def test_a_time_that_is_not_the_first_at_which_two_touch_is_refused(benches: int, time: float, reason: str) -> None:
     with pytest.raises(ProofRefused, match=reason):
-        prove_collision_time(Dance(Dragon(benches), Spiral()), 433.0 if benches == 223 else 100.0)
+        prove_collision_time(Dance(Dragon(benches), Spiral()), time)
 
 
 @pytest.mark.parametrize("time", [-1.0, math.nan, math.inf, 1e9, "412"])
 def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time: Any) -> None:
-    with pytest.raises(InvalidValue, match="time must be"):
+    with refused("time"):
         prove_collision_time(Dance(Dragon(), Spiral()), time)
 
 
-@pytest.fixture(scope="module")
-def grazing() -> Certificate:
-    """A minimum pitch limited by a graze; proven."""
-    pitch = PITCHES["default R=6.36"]["pitch"] + PITCH_ROUNDING
-    certificate = through_json(prove_minimum_pitch(Dragon(27), pitch, turning_radius=6.36))
-    verify(certificate)
-    return certificate
+@pytest.mark.parametrize(
+    ("margin", "below", "above"),
+    [
+        (0.0, "overlap when handle 0", "free of contact too"),
+        *thorough((0.1, "nearer than the margin", "keeps the margin")),
+    ],
+)
+def test_a_minimum_pitch_is_proven_and_one_off_it_refused(margin: float, below: str, above: str) -> None:
+    certificate = graze(margin)
+    assert "says nothing of larger pitches" in verify(certificate).statement
+    for more, reason in ((-1e-8, below), (1.1e-6, above)):
+        with pytest.raises(ProofRefused, match=reason):
+            prove_minimum_pitch(Dragon(14), certificate["claim"]["pitch"] + more, **GRAZING, margin=margin)
 
 
 @pytest.mark.parametrize(
-    ("overlap", "reason"),
+    ("edit", "reason"),
     [
-        ({"benches": [0, 26], "head_theta": 97.0}, "not shown to overlap on the way"),  # within the circle
-        ({"benches": [0, 26], "head_theta": 100.0}, "not shown to overlap on the way"),
-        ({"start_within_circle": True}, "not shown to lie within the circle"),
+        ('overlap = {"benches": [0, 12], "head_theta": 40.0}', "not shown to overlap on the way"),  # within the circle
+        ('overlap = {"benches": [0, 12], "head_theta": 43.0}', "not shown to overlap"),
+        ('overlap = {"benches": [0, 12], "head_theta": 44.5}', "not shown to overlap on the way"),  # before the start
+        ('overlap = {"start_within_circle": true}', "not shown to lie within the circle"),
     ],
 )
-def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(
-    grazing: Certificate, overlap: dict[str, Any], reason: str
-) -> None:
-    with pytest.raises(ProofRefused, match=reason):
-        verify(edit(lambda content: content.__setitem__("overlap", overlap))(grazing))
+def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(edit: str, reason: str) -> None:
+    assert_refused(graze(), edit, reason)
 
 
 # -- pairs that are near --

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import shapely
 from flint import acb, arb
 
 from core.proof.pairs import Benches, Size, stays_positive
+from tests.support.proof_shapes import polygon
 
 # Distances in doubles are this near to the true ones [m].
 DOUBLES = 1e-11
@@ -25,9 +25,8 @@ def test_benches_are_within_a_margin_exactly_when_shapely_says_so(seed: int) -> 
             angle, place = random.uniform(0.0, 7.0), complex(*random.uniform(-1.6, 1.6, 2))
             benches.centres.append(acb(place.real, place.imag))
             benches.along.append((acb(0, 1) * arb(angle)).exp())
-            shapes.append([complex(benches.centres[-1] + benches.along[-1] * corner) for corner in size.corners])
-        polygons = [shapely.Polygon([(z.real, z.imag) for z in shape]) for shape in shapes]
-        distance = polygons[0].distance(polygons[1])
+            shapes.append(polygon(benches.centres[-1], benches.along[-1], size))
+        distance = shapes[0].distance(shapes[1])
         assert benches.nearest(1)[0] == pytest.approx(distance, abs=DOUBLES) or distance == 0.0
         assert benches.within(1, arb(distance + MARGIN_OFF))
         assert distance < MARGIN_OFF or not benches.within(1, arb(distance - MARGIN_OFF))

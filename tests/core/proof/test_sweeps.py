@@ -3,82 +3,87 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import pytest
-import shapely
 from flint import arb, ctx
 
-from core import Dance, Dragon, Spiral, bench_poses, first_contact, trajectory
-from core.proof import prove_collision_time, verify
+from core import Dance, Dragon, Route, Spiral, Turn, bench_poses, first_contact, trajectory
+from core.proof import Certificate, prove_clear, prove_collision_time, prove_tolerance, verify
 from core.proof.chain import Chain
-from core.proof.pairs import Unproven
-from core.proof.sweeps import SweepOverlap, proven_sweeps, recorded_stretches, searched_stretches
+from core.proof.paths import chain_on, recorded_path
+from core.proof.sweeps import SweepOverlap, proven_sweeps, searched_stretches
 from core.shapes.rectangles import corners
-from tests.core.proof.test_certificate import CONTACTS, DOUBLES
 from tests.support.forgeries import stretches
+from tests.support.proof_shapes import gap_by, polygon
+from tests.support.thorough import thorough
 
+# A place that two chains in balls have is the same to this [rad], [m].
+DOUBLES = 1e-11
 # Places between which the head is swept [rad].
 HIGH, LOW = 60.0, 52.0
 
 
-def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once() -> None:
-    case = CONTACTS["combo_e_body_longer_than_head"]
-    dragon, path = Dragon(**(case["dragon"] | {"benches": 12})), Spiral(case["pitch"], 4.0)
-    time = first_contact(Dance(dragon, path)).time
-    assert time is not None
-    once, each = (prove_collision_time(Dance(dragon, path), time, every_pair=every) for every in (False, True))
-    assert (len(once["sweeps"]), len(each["sweeps"])) == (2, 10)
+@pytest.mark.parametrize(
+    ("prove", "dance", "last", "options", "sweeps"),
+    [
+        (prove_clear, Dance(Dragon(8), Turn(1.7)), 15.0, {"start": 8.0}, 6),
+        (prove_tolerance, Dance(Dragon(8), Spiral(0.7, 4.0)), 0.2, {"start": 1.0, "stop": 8.0}, 6),
+        *thorough((prove_collision_time, Dance(Dragon(12, 1.5, 2.2, 0.3, 0.15), Spiral(0.55, 4.0)), None, {}, 10)),
+    ],
+)
+def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once(
+    prove: Callable[..., Certificate], dance: Dance, last: float | None, options: dict[str, float], sweeps: int
+) -> None:
+    last = last or first_contact(dance).time
+    once, each = (prove(dance, last, every_pair=every, **options) for every in (False, True))
+    assert (len(once["sweeps"]), len(each["sweeps"])) == (2, sweeps)
     assert verify(once).statement == verify(each).statement
     assert verify(each).pair_proofs > verify(once).pair_proofs
 
 
-@pytest.mark.parametrize("benches", [13, 40])
-def test_at_every_instant_every_pair_has_a_face_between_it_or_is_rings_apart(benches: int) -> None:
-    dragon, path = Dragon(benches), Spiral(0.55, 9.0)
-    time = first_contact(Dance(dragon, path)).time
-    assert time
-    certificate = prove_collision_time(Dance(dragon, path), time)
-    handles = trajectory(Dance(dragon, path), np.linspace(0.0, 0.999 * time, 40)).position
-    thetas = np.hypot(*np.moveaxis(handles, -1, 0)) / path.growth
-    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
-    for poses, fronts in zip(bench_poses(handles), thetas, strict=True):
-        corners_all = corners(poses, sizes)
-        radii = np.hypot(*np.moveaxis(corners_all, -1, 0)).max(axis=-1)
-        for a in range(benches - 2):
+def turning() -> Certificate:
+    return prove_clear(Dance(Dragon(14), Turn(1.7)), 18.0, start=-8.0, margin=0.5)
+
+
+def until_contact(benches: int) -> Certificate:
+    dance = Dance(Dragon(benches), Spiral(0.55, 9.0))
+    return prove_collision_time(dance, first_contact(dance).time or math.inf)
+
+
+@pytest.mark.parametrize(
+    ("make", "path", "start", "letters"),
+    [
+        (partial(until_contact, 13), Spiral(0.55, 9.0), 0.0, {"0", "3"}),
+        *thorough((partial(until_contact, 40), Spiral(0.55, 9.0), 0.0, {"0", "3", "far"})),
+        (turning, Turn(1.7), -7.9, {"8", "9"}),
+    ],
+    ids=["13 on a spiral", "40 on a spiral", "turn"],
+)
+def test_at_every_instant_each_letter_of_a_certificate_keeps_its_pair_apart(
+    make: Callable[[], Certificate], path: Spiral | Route, start: float, letters: set[str]
+) -> None:
+    certificate = make()
+    claim, dragon = certificate["claim"], Dragon(sum(run[0] for run in certificate["dragon"]))
+    times = np.linspace(start, claim.get("stop", claim.get("time")) - 0.1, 40)
+    chain, sizes = chain_on(dragon, recorded_path(path), 0.0), np.stack([dragon.lengths, dragon.widths], axis=-1)
+    used = set()
+    for time, poses in zip(times, bench_poses(trajectory(Dance(dragon, path), times).position), strict=True):
+        shapes, chained = corners(poses, sizes), chain.pose_at(0, chain.place_after(arb(time)))
+        chained.grow_to(dragon.benches)
+        for a in range(dragon.benches - 2):
+            place = float(chained.places[a])
             tiles = stretches(certificate, min(a, 1))
-            faces = next(faces for high, low, faces in tiles if low - DOUBLES <= fronts[a] <= high + DOUBLES)
-            for b in range(a + 2, benches):
-                if b - a - 2 < len(faces):
-                    owner, other = (a, b) if faces[b - a - 2] < "4" else (b, a)
-                    side = int(faces[b - a - 2]) % 4
-                    heading = poses[owner, 2] + side * math.pi / 2
-                    out = (corners_all[other] - poses[owner, :2]) @ [math.cos(heading), math.sin(heading)]
-                    assert out.min() > sizes[owner, side % 2] / 2
-                else:
-                    assert shapely.Polygon(corners_all[b]).distance(shapely.Point(0.0, 0.0)) > radii[a]
-
-
-@pytest.mark.parametrize("margin", [0.0, 0.05])
-def test_stretches_join_from_the_highest_place_to_the_lowest_and_read_back_as_they_are(margin: float) -> None:
-    shares: list[float] = []
-    with ctx.workprec(128):
-        chain = Chain(Dragon(9), arb(0.55), 16.0, margin)
-        sweeps = proven_sweeps(chain, HIGH, LOW, 1, searched_stretches(chain), shares.append, follows=False)
-        assert (
-            proven_sweeps(chain, HIGH, LOW, 1, recorded_stretches(chain, sweeps), shares.append, follows=False)
-            == sweeps
-        )
-        with pytest.raises(Unproven, match="short of"):
-            proven_sweeps(chain, HIGH, LOW - 0.1, 1, recorded_stretches(chain, sweeps), shares.append, follows=False)
-    assert [sweep["bench"] for sweep in sweeps] == [0, 1]
-    for sweep in sweeps:
-        tiles = sweep["stretches"]
-        assert all(before[1] == after[0] for before, after in pairwise(tiles))
-    assert (sweeps[0]["stretches"][0][0], sweeps[0]["stretches"][-1][1]) == (HIGH, LOW)
-    rears = [float(chain.pose(0, place).places[1]) for place in (HIGH, LOW)]
-    assert sweeps[1]["stretches"][0][0] >= rears[0] > rears[1] >= sweeps[1]["stretches"][-1][1]
+            _, _, faces, *rest = next(tile for tile in tiles if tile[1] - DOUBLES <= place <= tile[0] + DOUBLES)
+            directions = iter(rest[0] if rest else [])
+            for b in range(a + 2, dragon.benches):
+                face = faces[b - a - 2] if b - a - 2 < len(faces) else "far"
+                used.add(face)
+                direction = next(directions) if face == "8" else 0.0
+                assert gap_by(face, direction, poses, sizes, shapes, a, b) > claim.get("margin", 0.0)
+    assert letters < used
 
 
 def test_a_sweep_into_a_contact_names_a_pair_that_overlaps_there() -> None:
@@ -90,11 +95,5 @@ def test_a_sweep_into_a_contact_names_a_pair_that_overlaps_there() -> None:
         a, b = met.value.a, met.value.b
         pose = chain.pose_at(a, arb(met.value.place))
         pose.grow_to(b - a + 1)
-    centres, along = (
-        np.array([complex(value) for value in values]) for values in (pose.centres[:: b - a], pose.along[:: b - a])
-    )
-    poses = np.stack([centres.real, centres.imag, np.angle(along)], axis=-1)
-    dragon = Dragon(14)
-    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)[[a, b]]
-    first, second = shapely.polygons(corners(poses, sizes))
+    first, second = (polygon(pose.centres[k - a], pose.along[k - a], chain.sizes[k]) for k in (a, b))
     assert first.intersection(second).area > 0.0

@@ -1,0 +1,148 @@
+"""Random intervals of head travel on spirals and routes: their bounds, and the dragon at many instants of them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core import Dance, Dragon, Route, Spiral, Turn
+from core.errors import SIZE_MIN
+from core.kernels import Interval, Rings, Scene, chain_rounding, climbs, place_chain, route_curve, spiral_curve
+from core.kernels.constants import (
+    CENTRE_SPEED,
+    CHAIN_COLUMNS,
+    HANDLE_SPEED,
+    MOTION_COLUMNS,
+    MX,
+    MY,
+    SIZE_COLUMNS,
+    UX,
+    UY,
+)
+from core.values import Floats
+from tests.campaigns.rounding_sweep import ROUTES
+from tests.support.slow_search import SlowDance
+
+# Rounding on routes: of a rate or direction on one some hundred metres long [1], and of coordinates there [m]; on
+# spirals: of a projected corner, relative to the largest coordinate [1], and of a travel, relative to the way [1].
+ROUNDING, CORNER, ULP = 2e-13, 2e-14, 2.3e-16
+
+
+class Sampled(NamedTuple):
+    """An interval on a path with its bounds, and the benches at instants `step` [m] apart, as complex numbers.
+
+    sizes, motion: as the kernels have them; centres [m], along [1]: (T, n); rounding: of a coordinate [m]
+    chains: (T, n + 1, columns), on a route; stride: instants over which differences are taken, which are means of the
+    derivative
+    """
+
+    dragon: Dragon
+    path: Spiral | Route
+    interval: Interval
+    sizes: Floats
+    motion: Floats
+    centres: NDArray[np.complex128]
+    along: NDArray[np.complex128]
+    step: float
+    stride: int
+    rounding: float
+    chains: Floats = np.empty((0, 0, 0))
+
+    def differences(self, values: NDArray[np.inexact]) -> NDArray[np.inexact]:
+        """Difference quotients over the stride."""
+        return (values[self.stride :] - values[: -self.stride]) / (self.stride * self.step)
+
+    def distance(self, a: int, b: int) -> float:
+        """Upper bound of the distance of two centres over the interval [m]."""
+        speeds = self.motion[[a, b], CENTRE_SPEED]
+        return float(abs(self.centres[0, b] - self.centres[0, a]) + self.interval.h * speeds.sum())
+
+
+def sizes_of(dragon: Dragon) -> Floats:
+    """The sizes of a dragon as the kernels have them, (n + 1, columns)."""
+    sizes = np.zeros((dragon.benches + 1, SIZE_COLUMNS))
+    half = 0.5 * np.stack([dragon.lengths, dragon.widths, np.hypot(dragon.lengths, dragon.widths)], axis=1)
+    sizes[:-1] = np.column_stack([dragon.chords, half])
+    return sizes
+
+
+def checked_pairs(benches: int) -> list[tuple[int, int]]:
+    return [(a, b) for a in range(benches) for b in range(a + 2, benches)]
+
+
+def on_spiral(seed: int) -> Sampled:
+    """Close to the end of the run or further out; places by the slow search."""
+    rng = np.random.default_rng(seed)
+    while True:
+        benches, growth = int(rng.integers(3, 7)), 10 ** rng.uniform(-1.5, 0.3)
+        chords = growth * 10 ** (rng.uniform(-0.3, 1.0) + rng.uniform(-0.5, 0.7, benches))
+        dragon = _dragon(rng, chords, -1.5)
+        spiral = Spiral(2 * np.pi * growth, 30.0)
+        end = Dance(dragon, spiral).end
+        theta = end.theta + 10 ** rng.uniform(-3.0, 1.3)
+        start = spiral.length - spiral.growth * 0.5 * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
+        h = 10 ** rng.uniform(-3.0, 0.0) * dragon.chords.min()
+        if start + h < end.time:
+            break
+    sizes, motion = sizes_of(dragon), np.zeros((benches + 1, MOTION_COLUMNS))
+    scene = Scene(spiral_curve(spiral.growth), spiral.length, Rings(), sizes, benches, 0)
+    interval = Interval(scene, *np.zeros((2, benches + 1, CHAIN_COLUMNS)), motion)
+    while not interval.lay_out(spiral.length - start, h, benches):  # too wide for any bound
+        h *= 0.5
+    times, step = np.linspace(start, start + h, 121, retstep=True)
+    handles = SlowDance.of(dragon, spiral).handles(times) @ [1.0, 1.0j]
+    centres, along = 0.5 * (handles[:, 1:] + handles[:, :-1]), -np.diff(handles, axis=1) / dragon.chords
+    rounding = CORNER * np.abs(centres).max() + ULP * spiral.length * motion[:, HANDLE_SPEED].max()
+    return Sampled(dragon, spiral, interval, sizes, motion, centres, along, float(step), 20, rounding)
+
+
+def on_route(seed: int) -> Sampled:
+    """At a joint more often than not."""
+    rng = np.random.default_rng(seed)
+    while True:
+        benches = int(rng.integers(3, 9))
+        path = Turn(1.7, 4.5, 2.0) if rng.random() < 0.2 else ROUTES[int(rng.integers(len(ROUTES)))](rng)
+        chords = min(1.9 / path.sharpest[0] if path.sharpest[0] else 2.0, 3.0) * 10 ** rng.uniform(-1.0, -0.02, benches)
+        dragon = _dragon(rng, chords, -1.0)
+        begin, end = max(Dance(dragon, path, 1.0).earliest, path.begin), Dance(dragon, path).end.time
+        h = 10 ** rng.uniform(-2.0, 0.0) * dragon.chords.min()
+        start = rng.uniform(begin, end)
+        if path.joints and rng.random() < 0.6:
+            start = rng.choice(path.joints) + rng.uniform(-0.2, 1.0) * dragon.chords.sum()
+        if begin <= start and start + h < end:
+            break
+    curve, sizes, motion = route_curve(path.table), sizes_of(dragon), np.zeros((benches + 1, MOTION_COLUMNS))
+
+    def laid_out(s: float) -> Floats:
+        chain = np.zeros((benches + 1, CHAIN_COLUMNS))
+        place_chain(curve, -s, benches, sizes, chain)
+        chain_rounding(curve, benches, sizes, chain)
+        climbs(curve, benches, sizes, chain)
+        return chain
+
+    scene = Scene(curve, 0.0, Rings(), sizes, benches, 0)
+    while True:
+        interval = Interval(scene, laid_out(start), laid_out(start + h), motion)
+        interval.h, interval.handles = h, benches
+        if interval.bound(True):
+            break
+        h *= 0.5
+    places, step = np.linspace(start, start + h, 161, retstep=True)
+    chains = np.array([laid_out(s) for s in places])
+    centres, along = (chains[:, :-1, [x, y]] @ [1.0, 1.0j] for x, y in ((MX, MY), (UX, UY)))
+    rounding = ROUNDING * (1.0 + np.abs(centres).max())
+    return Sampled(dragon, path, interval, sizes, motion, centres, along, float(step), 8, rounding, chains)
+
+
+def _dragon(rng: np.random.Generator, chords: Floats, narrowest: float) -> Dragon:
+    """A dragon with these chords, or with a body of equal ones."""
+    if rng.random() < 0.4:
+        chords[1:] = chords[1]
+    chords = np.maximum(chords, 2.0 * SIZE_MIN)
+    overhangs, widths = (
+        chords * rng.uniform(0.0, 0.4, len(chords)),
+        chords * 10 ** rng.uniform(narrowest, 0, len(chords)),
+    )
+    return Dragon.of(chords + 2.0 * overhangs, np.maximum(widths, SIZE_MIN), overhangs)
