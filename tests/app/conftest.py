@@ -1,16 +1,18 @@
-"""Fixtures of the service's tests: one client of the real server."""
+"""Fixtures of the service's tests: clients of real servers, one server for each set of settings."""
 
 from __future__ import annotations
 
 import ssl
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from functools import cache
 from inspect import signature
 
 import httpx
 import pytest
 
-from tests.support.serving import serving
+from tests.support.asking import Asking
+from tests.support.serving import Service, serving
 
 # httpx reads the certificates of all authorities for each client and each httpx.get(), also for http://, which takes
 # 18 ms; the tests that ask in a loop did little else.
@@ -29,7 +31,32 @@ def client(server: str) -> Iterator[httpx.Client]:
 
 
 @pytest.fixture(scope="session")
-def patient(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def ask(client: httpx.Client) -> Asking:
+    """The calls of the real server."""
+    return Asking(client)
+
+
+@pytest.fixture(scope="session")
+def service_with(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Service]]:
+    """A function of settings that gives a real server with them, started once for all tests of this process.
+
+    data: True for a folder of its own
+    """
+    services: dict[str, Service] = {}
+    with ExitStack() as stack:
+
+        def service(**settings: object) -> Service:
+            key = repr(sorted(settings.items()))
+            if key not in services:
+                folder = tmp_path_factory.mktemp("service")
+                own = settings | ({"data": folder / "data"} if settings.get("data") is True else {})
+                services[key] = stack.enter_context(serving(folder / "server.log", **own))
+            return services[key]
+
+        yield service
+
+
+@pytest.fixture(scope="session")
+def patient(service_with: Callable[..., Service]) -> str:
     """Base URL of a real server whose answers may take minutes."""
-    with serving(tmp_path_factory.mktemp("patient") / "server.log", deadline_seconds=600) as service:
-        yield service.url
+    return service_with(deadline_seconds=600).url

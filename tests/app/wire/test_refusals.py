@@ -1,211 +1,510 @@
-"""Each error of core reaches the client with a name that the client used or can use, and with the given value."""
+"""What is wrong in a request of any call is refused by a name that its author used or can use, with the values."""
 
 from __future__ import annotations
 
 import json
 import re
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import httpx
 import pytest
 
+from tests.support.asking import Asking, assert_problem, few
 from tests.support.command import run
 
 # Names of core that no request has.
 INSIDE = re.compile(r"turning_radius|path\.path|pieces|times\[|dragon\.|path\.")
-
-
-class Wrong(NamedTuple):
-    """A question with one wrong value, the name of that value, and what the refusal says."""
-
-    call: str
-    query: dict[str, Any]
-    name: str
-    words: str
-
-
-# Benches i and i + 2 are 4e-9 m apart on a straight line, and overlap on the widest spiral that is allowed.
-HARDLY_APART = {"benches": 5, "head_length": 2.2, "overhang": 0.549999999}
-FLAT = [
-    Wrong("collision-time", {"start_turns": 0.5}, "start_turns", "must be more than 2.345"),
-    Wrong("collision-time", {"overhang": 1.1}, "overhang", "must be less than half of body_length (2.2 m / 2 = 1.1 m)"),
-    Wrong("collision-time", {"head_length": 0.5, "overhang": 0.25}, "overhang", "less than half of head_length"),
-    Wrong("collision-time", {"benches": 100_001}, "benches", "must be at most 100000 here, got 100001"),
-    Wrong(
-        "minimum-pitch", HARDLY_APART, "overhang", "must be smaller, got 0.549999999 m: at a pitch of 10000 m benches"
+# A call with a query -> the name of what is wrong, then the words and numbers of its refusal. Each of these stands in
+# the options of the command too. Benches i and i + 2 of the first dragon are 4e-9 m apart on a straight line, and
+# overlap on the widest spiral that is allowed.
+OPTIONS = {
+    "minimum-pitch?benches=5&head_length=2.2&overhang=0.549999999": "overhang 0.549999999 10000",
+    "minimum-pitch?margin=1.0999999": "margin 1.0999999 10000",
+    "minimum-pitch?margin=1.09": "margin 1.09 708.344074",
+    "minimum-pitch?start_turns=0.2": "start_turns 0.45 0.2 22.5",
+    "minimum-pitch?overhang=0.549": "overhang 0.549",
+    "minimum-pitch?overhang=0.56": "overhang 2.2",
+    "minimum-pitch?margin=1.2": "margin 1.1 1.2",
+    "minimum-pitch?start_turns=1e-05": "start_turns 0.00045",
+    "minimum-pitch?overhang=0.6&body_length=2.2": "overhang 0.55 0.6 straight",
+    "collision-time?start_turns=0.5": "start_turns 2.345",
+    "collision-time?overhang=1.1": "overhang half body_length 2.2 1.1",
+    "collision-time?head_length=0.5&overhang=0.25": "overhang half head_length",
+    "collision-time?benches=100001": "benches 100000 100001 shorten",
+    "shortest-turn?turning_diameter=8": "turning_diameter 2.86",
+    "shortest-turn?margin=0.4": "turning_diameter 0.4",
+    "shortest-turn?pitch=0.8": "turning_diameter 15 13.286258",
+    "shortest-turn?start_turns=2": "start_turns 2.64706",
+    "quickest-turn?turning_diameter=7": "turning_diameter 2.86",
+    "quickest-turn?margin=0.8": "turning_diameter 0.8",
+    "turn?start_turns=2": "start_turns 2.64706",
+    "turn?entry_radius=5": "entry_radius 4.5",
+    "turn?exit_radius=9": "exit_radius 4.5",
+    "turn?pitch=0.001&turning_diameter=0.002": "turning_diameter arcs",
+    "turn?pitch=0.001&turning_diameter=0.01&ratio=0.01": "ratio arcs",
+    "turn?ends=1": "ends middle",
+    "turn?middle=40": "middle 40",
+    "turn-time?entry_radius=2": "entry_radius",
+    "turn-time?ratio=1&middle=6&head_length=4.6": "middle shorter 1.928",
+    "maximum-head-speed?turning_diameter=4": "turning_diameter 0.6727",
+    "maximum-head-speed?entry_radius=2": "entry_radius larger",
+    "maximum-head-speed?ratio=20": "ratio nearer 20",
+    "maximum-head-speed?entry_radius=4.4&ratio=2.1": "entry_radius 4.4",
+    "maximum-head-speed?turning_diameter=8": "turning_diameter larger",
+    "maximum-head-speed?turning_diameter=4&entry_radius=2&ratio=3": "turning_diameter",
+    "maximum-head-speed?pitch=0.55&turning_diameter=8.58": "pitch 0.55",
+    "maximum-head-speed?start_turns=2": "start_turns 2.64706",
+}
+QUERIES = {
+    "collision-time?pitch=NaN": "pitch finite NaN",
+    "collision-time?pitch=inf": "pitch finite inf",
+    "collision-time?pitch=1e400": "pitch finite 1e400",
+    "collision-time?pitch=wide": "pitch wide",
+    "collision-time?pitch=": "pitch [m]",
+    "collision-time?width=-0.3": "width 0.001 -0.3",
+    "collision-time?body_length=0": "body_length 0.001",
+    "collision-time?overhang=-0.1": "overhang -0.1",
+    "collision-time?head_length=1e308": "head_length 50 1e308",
+    "collision-time?pitch=55": "pitch 10 55 0.55",
+    "collision-time?width=30": "width 0.3",
+    "collision-time?head_length=341": "head_length 50 3.41",
+    "collision-time?body_length=220": "body_length 50 2.2",
+    "collision-time?overhang=27.5": "overhang 0.275",
+    "collision-time?margin=5": "margin 2 0.05",
+    "collision-time?head_speed=100": "head_speed 20",
+    "collision-time?benches=0": "benches",
+    "collision-time?benches=2.5": "benches whole 2.5",
+    "collision-time?benches=1000000": "benches 100000 1000000",
+    "collision-time?benches=1000000000000000000000000000000": "benches 10000000",
+    "collision-time?pitch=0.5&pitch=0.6": "pitch once",
+    "collision-time?cross_check=everybody": "cross_check dragon pair none",
+    "collision-time?stray=1": "stray chord",
+    "collision-time?stray=-0.1": "stray -0.1",
+    "minimum-pitch?hole=0.05&pin=0.06": "pin 0.05 0.06",
+    "minimum-pitch?turning_diameter=900": "turning_diameter 200 9",
+    "minimum-pitch?turning_diameter=0": "turning_diameter least",
+    "clearance?stop=440.5": "stop 432.917924228 440.5",
+    "clearance?start=432.9179242284&stop=433": "start 432.917924228 432.9179242284",
+    "clearance?start=435&stop=440": "start 432.917924228",
+    "clearance?start=5&stop=1": "stop before 5",
+    "clearance?step=0.0001": "step 1000000 larger",
+    "clearance?benches=2": "benches",
+    "clearance?step=0": "step",
+    "pitch-scan?benches=5&head_length=2.2&overhang=0.549999999": "overhang 0.549999999 10000",
+    "pitch-scan?turning_diameter=0.036&benches=1&head_length=0.005&overhang=0": "turning_diameter 0.00125 0.036",
+    "pitch-scan?benches=10001": "benches 10000 10001",
+    "figures/trajectory.svg?time=440": "time 432.917924228",
+    "figures/contact.svg?start_turns=0.5": "start_turns 2.345",
+    "figures/contact.svg?benches=50000": "benches 5000",
+    "turn?ratio=0": "ratio 0.01",
+    "turn?middle=0": "middle 0.001",
+    "turn-time?speed_limit=0": "speed_limit 0.001",
+    "shortest-turn?ratio=0": "ratio 0.01",
+    "shortest-turn?exit_opposite=true&any_ratio=true": "any_ratio exit_opposite",
+    "shortest-turn?margin=3": "margin",
+    "shortest-turn?turning_diameter=7.9&exit_opposite=true": "turning_diameter 2.86",
+    "shortest-turn?benches=2001": "benches 2000",
+    "quickest-turn?speed_limit=0": "speed_limit 0.001",
+    "quickest-turn?benches=2001": "benches 2000",
+    "maximum-head-speed?speed_limit=0": "speed_limit 0.001",
+    "maximum-head-speed?benches=2001": "benches 2000",
+    "tolerance?turning_diameter=40": "turning_diameter smaller 40 0.55",
+    "tolerance?turning_diameter=17.6": "turning_diameter starts",
+    "tolerance?turning_diameter=1": "turning_diameter before",
+    "tolerance-curve?from_pitch=0.6&to_pitch=0.6": "to_pitch 0.6",
+}
+UNKNOWN = (
+    *("collision-time?colour=red", "paper?pitch=1", "healthz?pitch=1", "quickest-turn?entry_radius=4"),
+    *("shortest-turn?entry_radius=4", "pitch-scan?cross_check=pair", "clearance?cross_check=pair"),
+    *("figures/contact.svg?cross_check=pair", "collision-time?times=1"),
+)
+# Parts of bodies by short names. EAST and NORTH cross, and LANE is a piece of 60 m.
+PARTS = {
+    "LANE": '{"kind": "line", "start": [0, 0], "end": [60, 0]}',
+    "EAST": '{"dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[-20, 0], [20, 0]]}}',
+    "NORTH": '{"name": "3", "dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[0, -20], [0, 20]]}}',
+    "TIGHT": '{"kind": "turn", "turning_diameter": 4}',
+    "BENCH": '{"x": 0, "y": 0, "heading": 0, "length": 2, "width": 0.3}',
+    "FLAT": '{"type": "Polygon", "coordinates": [[[0, 0], [9, 9], [9, 0], [0, 9], [0, 0]]]}',
+    "TABLE": '"name;length;width;overhang\\nZhou;3,41;x;0,275\\n"',
+    "YARD": '{"type": "Polygon", "coordinates": [[[0, 0], [24, 0], [24, 20], [0, 20], [0, 0]]]}',
+}
+# What stands beside the fields of a body, by a word before them.
+WHOLES = {
+    "SHORT": '{"dragon": {"benches": 4}, "path": {"kind": "route", "pieces": [LANE]}}',
+    "NINE": '{"dragon": {"benches": 9}, "path": {"kind": "route", "pieces": [LANE]}}',
+    "SEVERAL": '{"dances": [EAST, NORTH], "least": -60, "most": 60}',
+    "TWO": '{"dances": [EAST, NORTH]}',
+    "FOUR": '{"dragon": {"lengths": [3, 2, 2, 2], "widths": [0.3, 0.3, 0.3, 0.3], "overhangs": [0, 0, 0, 0]}}',
+    "WOBBLE": '{"dragon": {"benches": 20}, "correlation_time": 4, "hole": 0.055, "pin": 0.05}',
+    "CIRCLE": '{"dragon": {"benches": 40}, "turning_diameter": 12}',
+    "INEXACT": '{"dragon": {"benches": 12}, "turning_diameter": 9, "length_error": 0.01}',
+    "WISH": '{"venue": YARD, "dragon": {"benches": 10}, "figures": ["ring"], "count": 2}',
+    "BARS": '{"dragon": {"benches": 6}, "path": {"kind": "route", "pieces": [LANE]}, "start": 20}',
+}
+# A call with a body -> the pointer to what is wrong, then the words and numbers of its refusal.
+BODIES = {
+    'trajectory {"path": {"start_turns": 0.5}}': "/path/start_turns path.start_turns 2.3",
+    'trajectory {"dragon": {"overhang": 1.1}}': "/dragon/overhang dragon.overhang half",
+    'trajectory {"times": {"stop": 440.5}}': "/times/stop times.stop 432.917924228 440.5",
+    'trajectory {"times": {"start": 435, "stop": 440}}': "/times/start 432.9179",
+    'trajectory {"times": [0, 440]}': "/times/1 times[1] 432.917924228",
+    'trajectory {"path": {"pitch": 0.3, "start_turns": 12}}': "/times/stop 300",
+    'trajectory NINE {"times": {"stop": 5}}': "/times/stop times.stop least 16.0",
+    'trajectory NINE {"times": {"start": 5}}': "/times/start least 16.0",
+    'trajectory NINE {"times": [-100000]}': "/times/0 least",
+    'trajectory SHORT {"times": {"start": 2}}': "/times/start 7.810001 2",
+    'trajectory SHORT {"times": {"stop": 2}}': "/times/stop 7.810001 2",
+    'trajectory SHORT {"times": {"stop": 99}}': "/times/stop 60.000000000 99",
+    'trajectory {"path": {"kind": "turn", "start_turns": 2}}': "/path/start_turns",
+    'trajectory {"path": {"kind": "turn", "turning_diameter": 0.002, "pitch": 0.001}}': "/path/turning_diameter 0.002",
+    'trajectory {"path": {"kind": "turn", "entry_radius": 9}}': "/path/entry_radius",
+    'trajectory {"path": TIGHT}': "/path/turning_diameter 0.6727",
+    'trajectory {"path": {"kind": "route", "pieces": [LANE, LANE]}}': "/path/pieces/1 close",
+    'trajectory {"path": {"kind": "route", "pieces": [LANE]}}': "/path short 369.16 223 60",
+    'trajectory {"path": {"pitch": NaN}}': "/path/pitch finite NaN",
+    'trajectory {"path": {"pitch": Infinity}}': "/path/pitch finite Infinity",
+    'trajectory {"path": {"pitch": 1e400}}': "/path/pitch finite",
+    'trajectory {"path": {"pitch": 1e308}}': "/path/pitch 10",
+    'trajectory {"path": {"pitch": "0.55"}}': '/path/pitch "0.55"',
+    'trajectory {"dragon": {"width": true}}': "/dragon/width true",
+    'trajectory {"dragon": {"width": null}}': "/dragon/width null",
+    'trajectory {"dragon": {"width": 30}}': "/dragon/width 0.3",
+    'trajectory {"dragon": {"benches": 1000000}}': "/dragon/benches 100000",
+    'trajectory {"dragon": {"benches": 2.5}}': "/dragon/benches whole 2.5",
+    'trajectory {"dragon": {"lengths": [2]}}': "/dragon/widths missing",
+    'trajectory {"dragon": {"lengths": [2, 2], "widths": [1], "overhangs": [0, 0]}}': "/dragon/widths 2",
+    'trajectory {"dragon": {"lengths": [2, 2], "widths": [1, 1], "overhangs": [0, 1]}}': "/dragon/overhangs/1 half",
+    'trajectory {"times": {"step": 1e-6}}': "/times/step 1000000",
+    'trajectory {"times": {"stop": 1e9}}': "/times/stop 1000000",
+    'trajectory {"times": {"step": 0}}': "/times/step 1e-06",
+    'trajectory {"times": {"start": 5, "stop": 1}}': "/times/stop 5 1",
+    'trajectory {"times": []}': "/times 1",
+    'trajectory {"times": [0, "1"]}': '/times/1 "1"',
+    'trajectory {"times": "all"}': "/times JSON list",
+    'trajectory {"path": {"kind": "maze"}}': '/path/kind "spiral" "route" maze',
+    'trajectory {"path": {"kind": null}}': '/path/kind "spiral" null',
+    'trajectory {"path": {"kind": 3}}': '/path/kind "spiral" 3',
+    'trajectory {"path": {"kind": []}}': '/path/kind "turn"',
+    'trajectory {"path": {"points": [[0, 0], [9, 9]]}}': '/path/points "spiral" "waypoints"',
+    'trajectory {"path": []}': "/path JSON",
+    'trajectory {"path": {"pich": 0.5}}': "/path/pich pitch",
+    'trajectory {"path": {"kind": "spiral", "pitch": 0.5, "pitch": 0.6}}': ' "pitch" once',
+    'trajectory {"a/b": 1}': "/a~1b",
+    'trajectory {"decimals": 99}': "/decimals 15",
+    'trajectory FOUR {"passages": [{"speed": 1, "until_s": 5}, {"speed": 0, "until_time": 5}]}': (
+        "/passages/1/until_time"
     ),
-    Wrong("minimum-pitch", {"margin": 1.0999999}, "margin", "must be smaller, got 1.0999999 m: at a pitch of 10000 m"),
-    Wrong(
-        "minimum-pitch", {"margin": 1.09}, "margin", "must be smaller, got 1.09 m: the minimum pitch is 708.344074 m"
+    'trajectory FOUR {"passages": [{"speed": 0, "until_s": 5}]}': "/passages/0/until_time",
+    'trajectory FOUR {"passages": [{"speed": 1}]}': "/passages/0",
+    'trajectory FOUR {"passages": [{"speed": 1, "until_s": 5, "duration": 3}]}': "/passages/0/duration",
+    'trajectory FOUR {"passages": [{"speed": 0, "duration": 0}]}': "/passages/0/duration",
+    'trajectory FOUR {"passages": [{"speed": 0, "until_time": 5, "duration": 3}]}': "/passages/0/duration until_time",
+    'trajectory FOUR {"passages": [{"speed": -1, "until_s": 5}]}': "/passages/0/speed",
+    'trajectory {"path": {"kind": "spiral", "centre": [0, 1000000000]}}': "/path/centre/1",
+    'trajectory {"path": {"kind": "spiral", "clockwise": 1}}': "/path/clockwise",
+    'trajectory {"dragon": {"benches": 2, "names": ["Zhou"]}}': "/dragon/names",
+    'trajectory {"dragon": {"benches": 2, "names": ["Zhou", "Li\\nWu"]}}': "/dragon/names/1",
+    'trajectory {"dragon": {"csv": TABLE}}': "/dragon/csv",
+    'trajectory {"start_clock": "24:00"}': "/start_clock",
+    'trajectory {"begin_clock": "7:30"}': "/begin_clock",
+    'check {"cross_check": null}': "/cross_check",
+    'check {"start_clock": "19:30", "begin_clock": "19:31"}': "/begin_clock start_clock",
+    'check {"path": TIGHT}': "/path/turning_diameter",
+    'check {"path": {"kind": "turn", "ratio": 20}}': "/path/ratio 20",
+    'check {"path": {"kind": "turn", "entry_radius": 2}}': "/path/entry_radius",
+    'check {"path": {"kind": "turn"}, "dragon": {"lengths": [4], "widths": [0.3], "overhangs": [0]}}': (
+        "/path/turning_diameter 2.00"
     ),
-    Wrong("minimum-pitch", {"start_turns": 0.2}, "start_turns", "must be at least 0.45 turns, or the turning circle"),
-    Wrong(
-        "minimum-pitch", {"start_turns": 0.2}, "start_turns", "got 0.2 turns: the minimum pitch is 22.5 m, and pitch"
+    'check {"path": {"kind": "turn", "turning_diameter": 0.002, "pitch": 0.001, "entry_radius": 0.001}}': (
+        "/path/entry_radius arcs"
     ),
-    Wrong(
-        "minimum-pitch",
-        {"overhang": 0.549},
-        "overhang",
-        "must be smaller, or the benches narrower, got 0.549 m: the min",
+    'check {"start": 500}': "/start 432.917924228 500",
+    'check {"start": 5, "stop": 5}': "/stop after 5",
+    'check NINE {"stop": 10000}': "/stop 60.0",
+    'check {"path": {"kind": "turn"}, "stop": 100000}': "/stop most",
+    'check TWO {"dragon": {"benches": 9}}': "/dragon dances",
+    'check TWO {"head_speed": 1}': "/head_speed dances",
+    'check {"dances": []}': "/dances",
+    'check {"dances": [{"dragon": {"benches": 0}}]}': "/dances/0/dragon/benches",
+    'check {"dances": [EAST], "stop": 500}': "/stop",
+    'check {"dances": [{"dragon": {"benches": 90000}}]}': "/dances",
+    'check SHORT {"start": 1}': "/start 7.81 whole 1",
+    'check SHORT {"stop": 61}': "/stop 60.0",
+    'check SHORT {"start": 30, "stop": 20}': "/stop 20",
+    'check SHORT {"speed_limit": 0}': "/speed_limit 0.001",
+    'check SHORT {"dragon": {"benches": 2001}}': "/dragon/benches 2000 2001",
+    'check SHORT {"venue": {"type": "Feature", "properties": {"name": "bow"}, "geometry": FLAT}}': (
+        "/venue 'bow' self-intersection (4.5, 4.5)"
     ),
-    Wrong("minimum-pitch", {"overhang": 0.56}, "overhang", "must be less than a quarter of body_length (2.2 m / 4 = "),
-    Wrong("minimum-pitch", {"margin": 1.2}, "margin", "must be less than 1.1 m, got 1.2 m"),
-    Wrong("minimum-pitch", {"start_turns": 1e-5}, "start_turns", "must be at least 0.00045 turns"),
-    Wrong("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "must be larger, got 8 m: a turn that"),
-    Wrong("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "got 8 m"),
-    Wrong("shortest-turn", {"margin": 0.4}, "turning_diameter", "come within 0.4 m"),
-    Wrong("shortest-turn", {"pitch": 0.8}, "turning_diameter", "benches 0 and 15 touch 13.286258 s after the entry"),
-    Wrong(
-        "shortest-turn", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns, so that the coil begins"
+    'check SHORT {"venue": {"type": "Point", "coordinates": [0, 0]}}': "/venue/type Polygon 'Point'",
+    'check SHORT {"venue": {}}': "/venue/type",
+    'check SHORT {"venue": "square"}': "/venue JSON",
+    'check SHORT {"venue": {"type": "Polygon", "coordinates": [[1, 2, 3]]}}': "/venue/coordinates/0/0",
+    'check BARS {"beats": [{"bars": 16, "tempo": 0, "step": 0.6}]}': "/beats/0/tempo 10",
+    'check BARS {"beats": [{"bars": 16, "tempo": 96, "step": 0.001}]}': "/beats/0/step 0",
+    'check BARS {"beats": [{"bars": 0.5, "tempo": 96, "step": 1}]}': "/beats/0/bars whole",
+    'check BARS {"beats": [{"bars": 4, "tempo": 96, "step": 1}], "passages": [{"speed": 1, "until_s": 5}]}': (
+        "/passages beats"
     ),
-    Wrong("turn", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns, so that the coil begins"),
-    Wrong("turn", {"entry_radius": 5}, "entry_radius", "must be at most 4.5 m, got 5 m"),
-    Wrong("turn", {"pitch": 0.001, "turning_diameter": 0.002}, "turning_diameter", "must leave arcs with radii from"),
-    Wrong("turn", {"pitch": 0.001, "turning_diameter": 0.01, "ratio": 0.01}, "ratio", "must leave arcs with radii"),
-    Wrong("maximum-head-speed", {"turning_diameter": 4}, "turning_diameter", "must be larger than 4 m: the turn"),
-    Wrong("maximum-head-speed", {"turning_diameter": 4}, "turning_diameter", "the turn bends to a radius of 0.6727"),
-    Wrong("maximum-head-speed", {"entry_radius": 2}, "entry_radius", "must be larger than 2 m: the turn bends"),
-    Wrong("maximum-head-speed", {"ratio": 20}, "ratio", "must be nearer to 1 than 20: the turn bends to a radius of 0"),
-    Wrong("maximum-head-speed", {"entry_radius": 4.4, "ratio": 2.1}, "entry_radius", "must be larger than 4.4 m: the"),
-    Wrong("maximum-head-speed", {"turning_diameter": 8}, "turning_diameter", "must be larger than 8 m: the turn bends"),
-    Wrong("maximum-head-speed", {"turning_diameter": 4, "entry_radius": 2, "ratio": 3}, "turning_diameter", "than 4 m"),
-    Wrong("maximum-head-speed", {"pitch": 0.55, "turning_diameter": 8.58}, "pitch", "must be larger than 0.55 m"),
-    Wrong("maximum-head-speed", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns"),
-]
-FLAT_GET = [
-    Wrong("clearance", {"stop": 440.5}, "stop", "must be at most 432.917924228 s, when bench 0 folds, got 440.5 s"),
-    Wrong("clearance", {"start": 432.9179242284, "stop": 433}, "start", "must be at most 432.917924228 s, when bench"),
-    Wrong("clearance", {"start": 432.9179242284, "stop": 433}, "start", "got 432.9179242284 s"),
-    Wrong("clearance", {"start": 435, "stop": 440}, "start", "must be at most 432.917924228 s"),
-    Wrong("clearance", {"start": 5, "stop": 1}, "stop", "must not be before start (5 s), got 1 s"),
-    Wrong("clearance", {"step": 1e-4}, "step", "instants x handles must be at most 1000000 here"),
-    Wrong("clearance", {"benches": 2}, "benches", "must be at least 3, so that two share no handle, got 2"),
-    Wrong("pitch-scan", HARDLY_APART, "overhang", "must be smaller, got 0.549999999 m: at a pitch of 10000 m"),
-    Wrong("pitch-scan", {"turning_diameter": 0.036, "benches": 1, "head_length": 0.005, "overhang": 0},
-          "turning_diameter", "must allow pitches of 0.00125 m and more, got 0.036 m"),
-    Wrong("figures/trajectory.svg", {"time": 440}, "time", "must be at most 432.917924228 s, when bench 0"),
-    Wrong("figures/contact.svg", {"start_turns": 0.5}, "start_turns", "must be more than 2.345"),
-]  # fmt: skip
-LINE = {"kind": "line", "start": [0, 0], "end": [60, 0]}
-ROUTE = {"kind": "route", "pieces": [LINE]}
-BODIES = [
-    Wrong("trajectory", {"path": {"start_turns": 0.5}}, "/path/start_turns", "path.start_turns must be more than 2.3"),
-    Wrong("trajectory", {"dragon": {"overhang": 1.1}}, "/dragon/overhang", "dragon.overhang must be less than half of"),
-    Wrong("trajectory", {"times": {"stop": 440.5}}, "/times/stop", "times.stop must be at most 432.917924228 s"),
-    Wrong("trajectory", {"times": {"stop": 440.5}}, "/times/stop", "got 440.5 s"),
-    Wrong("trajectory", {"times": {"start": 435, "stop": 440}}, "/times/start", "times.start must be at most 432.9179"),
-    Wrong("trajectory", {"times": [0, 440]}, "/times/1", "times[1] must be at most 432.917924228 s"),
-    Wrong("trajectory", {"path": {"pitch": 0.3, "start_turns": 12}}, "/times/stop", "times.stop must be at most"),
-    Wrong("trajectory", {"path": {"pitch": 0.3, "start_turns": 12}}, "/times/stop", "got 300 s"),
-    Wrong("trajectory", {"path": ROUTE, "times": {"stop": 5}, "dragon": {"benches": 9}}, "/times/stop",
-          "times.stop must be at least 16.0"),
-    Wrong("trajectory", {"path": ROUTE, "times": {"start": 5}, "dragon": {"benches": 9}}, "/times/start",
-          "times.start must be at least 16.0"),
-    Wrong("trajectory", {"path": ROUTE, "times": [-1e5], "dragon": {"benches": 9}}, "/times/0", "times[0] must be"),
-    Wrong("trajectory", {"path": {"kind": "turn", "start_turns": 2}}, "/path/start_turns", "path.start_turns must be"),
-    Wrong("trajectory", {"path": {"kind": "turn", "turning_diameter": 0.002, "pitch": 0.001}},
-          "/path/turning_diameter", "path.turning_diameter must leave arcs with radii from"),
-    Wrong("trajectory", {"path": {"kind": "turn", "turning_diameter": 0.002, "pitch": 0.001}},
-          "/path/turning_diameter", "got 0.002 m"),
-    Wrong("trajectory", {"path": {"kind": "turn", "entry_radius": 9}}, "/path/entry_radius", "path.entry_radius must"),
-    Wrong("trajectory", {"path": {"kind": "turn", "turning_diameter": 4}}, "/path/turning_diameter",
-          "path.turning_diameter must be larger than 4 m: the turn bends to a radius of 0.6727 m, and bench 0 follows"),
-    Wrong("check", {"path": {"kind": "turn", "turning_diameter": 4}}, "/path/turning_diameter", "must be larger than"),
-    Wrong("check", {"path": {"kind": "turn", "ratio": 20}}, "/path/ratio", "path.ratio must be nearer to 1 than 20"),
-    Wrong("check", {"path": {"kind": "turn", "entry_radius": 2}}, "/path/entry_radius", "must be larger than 2 m: the"),
-    Wrong("check", {"path": {"kind": "turn"}, "dragon": {"lengths": [4], "widths": [0.3], "overhangs": [0]}},
-          "/path/turning_diameter", "bench 0 follows none below 2.00"),
-    Wrong("clearance", {"path": {"kind": "turn", "turning_diameter": 4}}, "/path/turning_diameter", "must be larger"),
-    Wrong("figures/contact.svg", {"path": {"kind": "turn", "turning_diameter": 4}}, "/path/turning_diameter", "larger"),
-    Wrong("trajectory", {"path": {"kind": "waypoints", "points": [[0, 0], [9, 0], [9, 0]]}}, "/path/points/2",
-          "path.points[2] must be at least 0.001 m from the point before it"),
-    Wrong("trajectory", {"path": {"kind": "route", "pieces": [LINE, LINE]}}, "/path/pieces/1", "must close"),
-    Wrong("trajectory", {"path": ROUTE}, "/path", "path is too short for the whole dragon"),
-    Wrong("clearance", {"dragon": {"benches": 2}}, "/dragon/benches", "dragon.benches must be at least 3"),
-    Wrong("check", {"start": 500}, "/start", "start must be before 432.917924228 s, when bench 0 folds, got 500 s"),
-    Wrong("check", {"start": 5, "stop": 5}, "/stop", "stop must be after start (5 s), got 5 s"),
-    Wrong("check", {"path": ROUTE, "dragon": {"benches": 9}, "stop": 1e4}, "/stop", "stop must be at most 60.0"),
-    Wrong("check", {"path": {"kind": "turn"}, "stop": 1e5}, "/stop", "stop must be at most"),
-    Wrong("check", {"path": {"kind": "turn", "turning_diameter": 0.002, "pitch": 0.001, "entry_radius": 0.001}},
-          "/path/entry_radius", "path.entry_radius must leave arcs"),
-    Wrong("maximum-head-speed", {"path": {"kind": "spiral"}}, "/stop",
-          "stop must be given: the run ends at a fold, towards which speeds grow without bound; it must be before 432"),
-    Wrong("maximum-head-speed", {"path": {"kind": "spiral"}, "stop": None}, "/stop", "stop must be given: the run"),
-    Wrong("figures/trajectory.svg", {"time": 440}, "/time", "time must be at most 432.917924228 s, when bench 0"),
-    Wrong("figures/contact.svg", {"path": {"kind": "turn"}, "stop": 1e5}, "/stop", "stop must be at most"),
-]  # fmt: skip
+    'clearance {"path": TIGHT}': "/path/turning_diameter",
+    'clearance {"dragon": {"benches": 2}}': "/dragon/benches 3",
+    'clearance {"dances": [EAST]}': "/dances two",
+    'clearance TWO {"path": {"kind": "spiral"}}': "/path dances",
+    'clearance {"dances": [{}, {"path": {"kind": "spiral", "centre": [50, 0]}}], "times": {"stop": 900, "step": 9}}': (
+        "/times/stop most"
+    ),
+    'clearance TWO {"times": {"stop": 40, "step": 1e-06}}': "/times/step",
+    'figures/contact.svg {"path": TIGHT}': "/path/turning_diameter",
+    'figures/contact.svg {"path": {"kind": "turn"}, "stop": 100000}': "/stop",
+    'figures/contact.svg TWO {"head_speed": 1}': "/head_speed",
+    'figures/trajectory.svg TWO {"head_speed": 1}': "/head_speed",
+    'figures/trajectory.svg {"time": 440}': "/time 432.917924228",
+    'figures/encounter.svg TWO {"head_speed": 1}': "/head_speed",
+    'figures/encounter.png {"dances": [{}], "time": 500}': "/time 432.917924228",
+    'maximum-head-speed {"path": {"kind": "spiral"}}': "/stop 432",
+    'maximum-head-speed {"path": {"kind": "spiral"}, "stop": null}': "/stop fold",
+    "overlaps {}": "/benches",
+    'overlaps {"benches": []}': "/benches 1",
+    'overlaps {"benches": [BENCH, {"x": 0, "y": 0, "heading": 0, "length": 2, "width": 0}]}': "/benches/1/width 0.001",
+    'overlaps {"benches": [{"x": 0, "y": 0, "heading": 0, "length": 220, "width": 1}]}': "/benches/0/length 2.2",
+    'overlaps {"benches": [{"x": 0, "y": 0, "heading": 10000, "length": 2, "width": 0.3}]}': "/benches/0/heading 1000",
+    'overlaps {"benches": [{"x": 0}]}': "/benches/0/y missing",
+    'overlaps {"benches": [BENCH], "chained": 1}': "/chained",
+    'encounter {"dances": []}': "/dances 1",
+    "encounter {}": "/dances missing",
+    'encounter {"dances": [{"name": "a"}, {"name": "b"}, {"name": "a"}]}': "/dances/2/name dances[0].name",
+    'encounter {"dances": [{"name": "a\\nb"}]}': "/dances/0/name line",
+    'encounter {"dances": [{"delay": 1e9}]}': "/dances/0/delay 1000000 1000000000",
+    'encounter {"dances": [{}, {"delay": 1000}]}': "/dances/1/delay 1000 432.917924",
+    'encounter {"dances": [{"dragon": {"benches": 6000}}, {"dragon": {"benches": 6000}}]}': "/dances 10000 12000",
+    'encounter {"dances": [{}, {"dragon": {"width": 30}}]}': "/dances/1/dragon/width 30 0.3",
+    'encounter {"dances": [{}, {"dragon": {"overhang": 1.2}}]}': "/dances/1/dragon/overhang dances[1].dragon.overhang",
+    'encounter {"dances": [{}, {"path": {"kind": "turn", "turning_diameter": 2}}]}': (
+        "/dances/1/path/turning_diameter dances[1].path.turning_diameter 2"
+    ),
+    'encounter {"dances": [{}], "dragon": {}}': '/dragon "dragon" dances',
+    'encounter {"dances": [{"delay": 5}], "start": 1}': "/start 5.000000",
+    'encounter {"dances": [{}], "stop": 500}': "/stop 432.917924228",
+    'encounter {"dances": [{}], "stray": 2}': "/stray",
+    'safe-delay {"dances": []}': "/dances 1",
+    'safe-delay SEVERAL {"part": 2}': "/part below 2",
+    'safe-delay SEVERAL {"part": "west"}': "/part below 2",
+    'safe-delay SEVERAL {"part": true}': "/part order",
+    'safe-delay SEVERAL {"part": 0.5}': "/part order",
+    'safe-delay SEVERAL {"least": 60}': "/most 60",
+    'safe-delay SEVERAL {"most": 1e9}': "/most 1000000 1000000000",
+    'safe-delay {"dances": [{}, NORTH]}': "/stop 432.917924",
+    'envelope SHORT {"start": 12, "stop": 11}': "/stop after 12 11",
+    'envelope SHORT {"stop": 10000}': "/stop",
+    'envelope SHORT {"spectators": []}': "/spectators",
+    'envelope SHORT {"spectators": [[1]]}': "/spectators/0",
+    'envelope SHORT {"excess": 0.1}': '/excess "excess"',
+    'envelope TWO {"start": -500}': "/start least",
+    'envelope TWO {"stop": 10000}': "/stop most",
+    'envelope TWO {"head_speed": 1}': "/head_speed dances",
+    'tolerance INEXACT {"turning_diameter": null}': "/length_error 0",
+    'tolerance INEXACT {"venue": YARD}': "/length_error 0",
+    'tolerance INEXACT {"path": {"kind": "turn"}, "turning_diameter": null}': "/length_error 0",
+    'tolerance INEXACT {"length_error": 0.9}': "/length_error 0.825 0.9",
+    'tolerance CIRCLE {"path": {"kind": "turn"}}': "/turning_diameter spiral stop 12",
+    'tolerance CIRCLE {"stop": 10}': "/turning_diameter spiral stop 12",
+    'tolerance CIRCLE {"start": 300}': "/start 236.721489 300",
+    'tolerance CIRCLE {"turning_diameter": 40}': "/turning_diameter smaller 40",
+    'tolerance TWO {"turning_diameter": 9}': "/turning_diameter",
+    'tolerance TWO {"length_error": 0.01}': "/length_error",
+    'tolerance TWO {"path": {"kind": "spiral"}}': "/path",
+    'tolerance TWO {"start": -9}': "/start",
+    'contact-probability CIRCLE {"path": {"kind": "turn"}}': "/turning_diameter spiral stop 12",
+    'contact-probability CIRCLE {"stop": 10}': "/turning_diameter spiral stop 12",
+    'contact-probability CIRCLE {"start": 300}': "/start 236.721489 300",
+    'contact-probability CIRCLE {"turning_diameter": 40}': "/turning_diameter smaller 40",
+    'contact-probability WOBBLE {"samples": 1000000}': "/samples 100000 1000000",
+    'contact-probability WOBBLE {"samples": 0}': "/samples",
+    'contact-probability WOBBLE {"correlation_time": 0}': "/correlation_time",
+    'contact-probability WOBBLE {"step": 0.9}': "/step 0.8 0.9",
+    'contact-probability WOBBLE {"correlation_benches": 0}': "/correlation_benches",
+    'contact-probability WOBBLE {"lateral": -0.01}': "/lateral -0.01",
+    'contact-probability WOBBLE {"lateral": 0.5}': "/lateral 0.1 bench 1",
+    'contact-probability WOBBLE {"pin": 0.06}': "/pin 0.055 0.06",
+    'contact-probability WOBBLE {"pitch_error": 0.3}': "/pitch_error 0.1",
+    'contact-probability WOBBLE {"stop": 1000}': "/stop",
+    'proposals WISH {"gates": [{"point": [5, 6], "heading": 0}]}': "/gates/0/point border",
+    'proposals WISH {"gates": [{"point": [0, 10], "heading": 3.14}]}': "/gates/0/heading into",
+    'proposals WISH {"figures": ["parade"]}': "/figures two",
+    'proposals WISH {"figures": ["polka"]}': "/figures/0 spiral",
+    'proposals WISH {"count": 0}': "/count",
+    'proposals WISH {"venue": null}': "/venue given",
+    'proposals WISH {"dragon": {"benches": 100000}}': "/dragon/benches most",
+    'proposals WISH {"venue": FLAT}': "/venue self-intersection",
+}
+FILES = [entry for entry in BODIES if entry.startswith("check {") and "dances" not in entry]
+# So much that it is made here.
+MANY = {
+    f'trajectory {{"dragon": {{"benches": {"9" * 4000}}}}}': "/dragon/benches 10000000",
+    f'trajectory {{"path": {{"pitch": 1{"0" * 400}}}}}': "/path/pitch finite",
+    f"trajectory {json.dumps(dict.fromkeys(map(str, range(101)), 0))}": " 100",
+    f'overlaps {{"benches": [{"BENCH, " * 20_000}BENCH]}}': "/benches 20000 20001",
+    f'overlaps {{"chained": false, "benches": [{"BENCH, " * 399}BENCH]}}': "/benches pairs 20000",
+    f'encounter {{"dances": [{"{}, " * 200}{{}}]}}': "/dances 200",
+    f'check SHORT {{"venue": {{"a": {"[" * 900}{"]" * 900}}}}}': "/venue 20",
+    f'proposals WISH {{"venue": {{"type": "Polygon", "coordinates": [[{"[0, 0], " * 50_000}[0, 0]]]}}}}': (
+        "/venue 2000 50000"
+    ),
+}
+# Paths, each refused by every call that takes one, at a pointer into the path.
+PATHS = {
+    '{"kind": "route", "pieces": [LANE, {"kind": "arc", "centre": [60.1, 20], BEND}]}': "/pieces/1 0.1",
+    '{"kind": "route", "pieces": [LANE, {"kind": "arc", "centre": [60, 20.1], BEND}]}': "/pieces/1 close",
+    '{"kind": "route", "pieces": [LANE, {"kind": "line", "start": [60, 0], "end": [60, 9]}]}': "/pieces/1 1.57",
+    '{"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [0, 0]}]}': "/pieces/0 1e-06 0",
+    '{"kind": "route", "pieces": [{"kind": "arc", "centre": [0, 0], "radius": 9, "start_angle": 0, "sweep": 0}]}': (
+        "/pieces/0 0"
+    ),
+    '{"kind": "route", "pieces": [{"kind": "arc", "centre": [0, 0], "radius": 0, "start_angle": 0, "sweep": 1}]}': (
+        "/pieces/0/radius 0.001"
+    ),
+    '{"kind": "route", "pieces": [{"kind": "arc", "centre": [0, 0], "radius": 1, "start_angle": 0, "sweep": 1}]}': (
+        " bench 0 1 near"
+    ),
+    '{"kind": "route", "pieces": []}': "/pieces 1",
+    f'{{"kind": "route", "pieces": [{"LANE, " * 1000}LANE]}}': "/pieces 1000",
+    '{"kind": "route", "pieces": [{"start": [0, 0], "end": [1, 0]}]}': "/pieces/0/kind missing",
+    '{"kind": "route", "pieces": [{"kind": "loop"}]}': '/pieces/0/kind "line" "coil" "loop"',
+    '{"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [1, 0], "pitch": 1}]}': (
+        '/pieces/0/pitch "line" "coil"'
+    ),
+    '{"kind": "route", "pieces": [3]}': "/pieces/0 JSON",
+    '{"kind": "route", "pieces": [{"kind": "line", "start": [0], "end": [60, 0]}]}': "/pieces/0/start 2 1",
+    '{"kind": "route", "pieces": [{"kind": "line", "start": [0, 0, 0], "end": [60, 0]}]}': "/pieces/0/start 2",
+    '{"kind": "route", "pieces": [{"kind": "line", "start": [0, "a"], "end": [1, 0]}]}': "/pieces/0/start/1 start[1]",
+    '{"kind": "waypoints", "points": [[0, 0]]}': "/points 2",
+    '{"kind": "waypoints", "points": [[0, 0], [9, 0], [9, 0]]}': "/points/2 path.points[2] 0.001",
+    f'{{"kind": "waypoints", "points": [{"[0, 0], [1, 0], " * 499}[0, 0]]}}': "/points spot",
+    '{"kind": "route", "pieces": [LANE, {"kind": "waypoints", "points": [[60, 0], [99, 0], [60, 0]]}]}': (
+        "/pieces/1/points path.pieces[1].points 0 1"
+    ),
+    f'{{"kind": "waypoints", "points": {json.dumps([[k, 0] for k in range(1001)])}}}': "/points 1000",
+    f'{{"kind": "route", "pieces": [{{"kind": "waypoints", "points": {json.dumps([[k, 0] for k in range(600)])}}}, '
+    f'{{"kind": "waypoints", "points": {json.dumps([[k, 0] for k in range(600, 1200)])}}}]}}': "/pieces 1000",
+    '{"kind": "route", "pieces": [RAMP, HALF: 2}, {"kind": "line", "start": [1.95, 0.33], "end": [9, 9]}]}': (
+        "/pieces/1 close 1.95057538, 0.3274"
+    ),
+    '{"kind": "route", "pieces": [RAMP, "length": 2, "end_curvature": 10000}]}': "/pieces/0/end_curvature 1000",
+    '{"kind": "route", "pieces": [RAMP, "length": 2, "end_curvature": 3}]}': " bench 0",
+    '{"kind": "route", "pieces": [RAMP, HALF: 2001}]}': "/pieces/0/length 2000 1000",
+    '{"kind": "route", "pieces": [RAMP, HALF: 1999}, RAMP, HALF: 1999}, RAMP, HALF: 1999}]}': ("/pieces 2500 2999"),
+    '{"kind": "route", "pieces": [{"kind": "clothoid", "start": [0, 0], "start_curvature": 0, "end_curvature": 1, '
+    '"length": 2}]}': "/pieces/0/heading missing",
+    '{"kind": "turn", "start_turns": 2}': "/start_turns path.start_turns 2.64706",
+    '{"kind": "turn", "turning_diameter": 2}': "/turning_diameter radius bench 0",
+    '{"kind": "turn", "entry_radius": 5}': "/entry_radius 4.5 5",
+    '{"kind": "turn", "ratio": 1000}': "/ratio 100 1000",
+    '{"kind": "turn", "radius": 4.5}': "/radius",
+    '{"kind": "waypoints", "points": [[0, 0], [20, 0], [40, 0], [60.5, 0]]}': " short 369.16 223 60",
+}
+PARTS |= {
+    "BEND": '"radius": 20, "start_angle": -1.5707963267948966, "sweep": 1.5',
+    "RAMP": '{"kind": "clothoid", "start": [0, 0], "heading": 0, "start_curvature": 0',
+    "HALF": '"end_curvature": 0.5, "length"',
+}
 
 
-def label_of(request: Wrong) -> str:
-    return f"{request.call} {request.name} {request.words[:30]}"
+def request_of(entry: str) -> tuple[str, str]:
+    """The call and the body of an entry."""
+    head, _, fields = expanded(entry).partition(" {")
+    call, *whole = head.split()
+    text = f"{{{fields}"
+    return call, json.dumps(json.loads(expanded(WHOLES[whole[0]])) | json.loads(text)) if whole else text
 
 
-@pytest.mark.parametrize("wanted", FLAT + FLAT_GET, ids=label_of)
-def test_a_query_is_refused_by_its_own_name_and_value(client: httpx.Client, wanted: Wrong) -> None:
-    answer = client.get(f"/{wanted.call}", params=wanted.query)
-    assert answer.status_code == 422
-    ((item,), detail) = answer.json()["errors"], answer.json()["detail"]
-    assert (item["name"], item["detail"]) == (wanted.name, detail)
-    assert wanted.words in detail
-    assert not INSIDE.search(detail)
-    calls = client.get("/openapi.json").json()["paths"]
-    parameters = calls[f"/{wanted.call.replace('.svg', '.{format}')}"]["get"]["parameters"]
-    assert wanted.name in {parameter["name"] for parameter in parameters}
+def expanded(text: str) -> str:
+    for name, part in PARTS.items():
+        text = text.replace(name, part)
+    return text
 
 
-@pytest.mark.parametrize("wanted", FLAT, ids=label_of)
-def test_an_option_is_refused_in_the_same_words(client: httpx.Client, wanted: Wrong) -> None:
-    options = [f"--{name.replace('_', '-')}={value}" for name, value in wanted.query.items()]
-    done = run(wanted.call, *options)
+def post(client: httpx.Client, call: str, body: str) -> httpx.Response:
+    return client.post(f"/{call}", content=body, headers={"Content-Type": "application/json"})
+
+
+def shortened(entry: Any) -> str:
+    return str(entry)[:70]
+
+
+@pytest.fixture(scope="module")
+def parameters(ask: Asking) -> dict[str, set[str]]:
+    """The parameters of each call with a query."""
+    calls = ask("openapi.json")["paths"].items()
+    return {path: {one["name"] for one in call["get"].get("parameters", [])} for path, call in calls if "get" in call}
+
+
+@pytest.mark.parametrize("request_", OPTIONS | QUERIES)
+def test_a_query_is_refused_by_its_own_name_and_value(
+    ask: Asking, parameters: dict[str, set[str]], request_: str
+) -> None:
+    expected = (OPTIONS | QUERIES)[request_]
+    ask.refuses(expected, request_)
+    assert not INSIDE.search(ask.send(request_).json()["detail"])
+    assert expected.split()[0] in parameters["/" + request_.partition("?")[0].replace(".svg", ".{format}")]
+
+
+@pytest.mark.parametrize("request_", UNKNOWN)
+def test_a_name_that_the_call_does_not_take_is_refused(ask: Asking, request_: str) -> None:
+    ask.refuses(f"{request_.partition('?')[2].partition('=')[0]} unknown", request_)
+
+
+@pytest.mark.parametrize("request_", few([*OPTIONS], 9))
+def test_an_option_is_refused_in_the_same_words(ask: Asking, request_: str) -> None:
+    call, _, query = request_.partition("?")
+    done = run(call, *(f"--{one.replace('_', '-')}" for one in query.split("&")))
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == f"Error: {client.get(f'/{wanted.call}', params=wanted.query).json()['detail']}\n"
+    assert done.stderr == f"Error: {ask.send(request_).json()['detail']}\n"
 
 
-@pytest.mark.parametrize("wanted", BODIES, ids=label_of)
-def test_a_body_is_refused_by_a_place_in_it(client: httpx.Client, wanted: Wrong) -> None:
-    answer = client.post(f"/{wanted.call}", json=wanted.query)
-    assert answer.status_code == 422
-    ((item,), detail) = answer.json()["errors"], answer.json()["detail"]
-    assert (item["pointer"], item["detail"]) == (wanted.name, detail)
-    assert wanted.words in detail
-    assert not re.search(r"turning_radius|path\.path", detail)
+@pytest.mark.parametrize("entry", BODIES | MANY, ids=shortened)
+def test_a_body_is_refused_by_a_place_in_it(client: httpx.Client, entry: str) -> None:
+    answer = post(client, *request_of(entry))
+    assert_problem(answer, 422, (BODIES | MANY)[entry])
+    assert not re.search(r"turning_radius|path\.path", answer.json()["detail"])
+
+
+@pytest.mark.parametrize("call", few(["check", "trajectory", "clearance", "figures/trajectory.svg"], 1))
+@pytest.mark.parametrize("path", PATHS, ids=shortened)
+def test_an_invalid_path_is_refused_at_its_place_by_every_call(client: httpx.Client, call: str, path: str) -> None:
+    assert_problem(post(client, call, f'{{"path": {expanded(path)}}}'), 422, f"/path{PATHS[path]}")
+
+
+@pytest.mark.parametrize("entry", few(FILES, 4))
+def test_a_file_of_a_dance_is_refused_as_a_body_is(client: httpx.Client, tmp_path: Path, entry: str) -> None:
+    call, text = request_of(entry)
+    (tmp_path / "dance.json").write_text(text)
+    done = run("check", str(tmp_path / "dance.json"))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"Error: {post(client, call, text).json()['detail']}\n"
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    "line",
     [
-        (["trajectory", "--stop", "440.5"], "stop must be at most 432.917924228 s, when bench 0 folds, got 440.5 s"),
-        (
-            ["trajectory", "--start", "435", "--stop", "440"],
-            "start must be at most 432.917924228 s, when bench 0 folds",
-        ),
-        (["trajectory", "--times", "0,440"], "times[1] must be at most 432.917924228 s, when bench 0 folds, got 440 s"),
-        (["overlaps", "--time", "440"], "time must be at most 432.917924228 s, when bench 0 folds, got 440 s"),
-        (["figures", ".", "--kind", "trajectory", "--time", "440"], "time must be at most 432.917924228 s, when bench"),
+        "trajectory --stop 440.5: stop 440.5",
+        "trajectory --start 435 --stop 440: start 435",
+        "trajectory --times 0,440: times[1] 440",
+        "overlaps --time 440: time 440",
+        "figures . --kind trajectory --time 440: time 440",
+        "check DANCE --figure dance.svg --time 1000: time 1000",
     ],
-    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
 )
-def test_an_instant_is_refused_by_the_option_that_asked_for_it(arguments: list[str], words: str) -> None:
-    done = run(*arguments)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(f"Error: {words}")
-    assert len(done.stderr.splitlines()) == 1
-
-
-@pytest.mark.parametrize("wanted", [one for one in BODIES if one.call == "check"], ids=label_of)
-def test_a_file_of_a_dance_is_refused_as_a_body_is(client: httpx.Client, tmp_path: Path, wanted: Wrong) -> None:
-    file = tmp_path / "dance.json"
-    file.write_text(json.dumps(wanted.query))
-    done = run("check", str(file))
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == f"Error: {client.post('/check', json=wanted.query).json()['detail']}\n"
-
-
-def test_the_instant_of_a_drawn_check_is_named(tmp_path: Path) -> None:
-    file = tmp_path / "dance.json"
-    file.write_text('{"dragon": {"benches": 5}, "stop": 100}')
-    done = run("check", str(file), "--figure", str(tmp_path / "dance.svg"), "--time", "1000")
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("Error: time must be at most 432.917924228 s, when bench 0 folds, got 1000 s")
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["dance.json"]
+def test_an_instant_is_refused_by_the_option_that_asked_for_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "dance.json").write_text('{"dragon": {"benches": 5}, "stop": 100}')
+    words, _, expected = line.replace("DANCE", "dance.json").partition(": ")
+    done = run(*words.split())
+    name, value = expected.split()
+    assert (done.returncode, done.stdout, len(done.stderr.splitlines())) == (2, "", 1)
+    assert done.stderr.startswith(f"Error: {name} must be at most 432.917924228 s")
+    assert f"got {value} s" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["dance.json"]
