@@ -1,18 +1,23 @@
-"""A question over a body gives the same answer as over a query, and for any path and dragon the answer of core."""
+"""Every question has one answer to the byte: over a query and a body, as a job and from a terminal."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
 import core
+from app.command.main import MODULE_OF
 from app.questions.registry import QUESTIONS
+from app.service.examples import EXAMPLES
 from app.wire.dances import TimeSteps, UniformBody
 from app.wire.paths import TurnFields
 from app.wire.question import Question
 from core.tolerance.curve import time_on_circle
+from tests.support.asking import Asking, dance, few, written
+from tests.support.command import run
 
 # A value of each parameter of a query that differs from its default and leaves the answer short.
 VALUES: dict[str, Any] = {
@@ -32,17 +37,35 @@ VALUES: dict[str, Any] = {
     "time": 20,
 }
 BOTH = {name: question for name, question in QUESTIONS.items() if question.flat and question.body}
-LENGTHS, WIDTHS, OVERHANGS = [3.41, 2.2, 2.0, 2.2, 1.9, 2.2], [0.3] * 6, [0.275] * 6
-BENCHES = {"lengths": LENGTHS, "widths": WIDTHS, "overhangs": OVERHANGS}
-POINTS = [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]
-CROSSING = {"kind": "waypoints", "points": POINTS}
+TWO = {
+    "dances": [
+        dance(5, (0, 0), (30, 0), name="east"),
+        dance(5, (15, -20), (15, 20), delay=2),
+    ]
+}
+# Each question over a body: its example, and two dances where it takes several.
+EXAMPLE_BODIES = {name: example.body for name, example in EXAMPLES.items() if example.body}
+BODIES = [
+    (question, EXAMPLE_BODIES[at])
+    for question in QUESTIONS.values()
+    if (at := f"POST {question.path}") in EXAMPLE_BODIES
+]
+BODIES += [(question, TWO) for question in QUESTIONS.values() if question.several]
+# Their commands take options or write files alone.
+NO_JSON = {"turn", "cues"}
+COMMANDS = {name: {"proposals": "propose"}.get(name, name.replace("_", "-")) for name in QUESTIONS.keys() - NO_JSON}
+BENCHES = {"lengths": [3.41, 2.2, 2.0, 2.2, 1.9, 2.2], "widths": [0.3] * 6, "overhangs": [0.275] * 6}
+CROSSING = {"kind": "waypoints", "points": [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]}
+
+
+def label(part: Any) -> str | None:
+    return part[0].name + " of several" * (part[1] is TWO) if isinstance(part, tuple) else None
 
 
 def in_body(question: Question, flat: dict[str, Any]) -> dict[str, Any]:
     """The body that asks what a query asks."""
     assert question.flat is not None
     assert question.body is not None
-    kind = "turn" if issubclass(question.flat, TurnFields) else "spiral"
     body: dict[str, Any] = {}
     for name, value in flat.items():
         if name in question.body.model_fields:
@@ -52,6 +75,7 @@ def in_body(question: Question, flat: dict[str, Any]) -> dict[str, Any]:
         elif name in TimeSteps.model_fields:
             body.setdefault("times", {})[name] = value
         else:
+            kind = "turn" if issubclass(question.flat, TurnFields) else "spiral"
             body.setdefault("path", {"kind": kind})[name] = value
     return body
 
@@ -71,14 +95,6 @@ def test_both_ways_of_asking_have_one_answer(client: httpx.Client, question: Que
     assert over_query.headers["content-type"] == over_body.headers["content-type"]
 
 
-def test_a_circle_ends_the_dance_where_a_time_would(client: httpx.Client) -> None:
-    flat = {"benches": 30, "pitch": 0.6, "start_turns": 9, "turning_diameter": 8}
-    path = {"kind": "spiral", "pitch": 0.6, "start_turns": 9}
-    stop = time_on_circle(core.Dance(core.Dragon(30), core.Spiral(0.6, 9.0)), 4.0)
-    over_body = client.post("/tolerance", json={"dragon": {"benches": 30}, "path": path, "stop": stop})
-    assert over_body.raise_for_status().content == client.get("/tolerance", params=flat).content
-
-
 @pytest.mark.parametrize("question", BOTH.values(), ids=BOTH)
 def test_an_empty_body_asks_what_an_empty_query_asks(question: Question) -> None:
     assert question.flat is not None
@@ -90,36 +106,83 @@ def test_an_empty_body_asks_what_an_empty_query_asks(question: Question) -> None
     assert {name: getattr(flat, name) for name in shared} == {name: getattr(body, name) for name in shared}
 
 
-def test_the_first_contact_of_any_dragon_on_any_path_is_that_of_core(client: httpx.Client) -> None:
-    dragon = core.Dragon.of(LENGTHS, WIDTHS, OVERHANGS)
-    dance = core.Dance(dragon, core.Route([core.Waypoints(tuple((x, y) for x, y in POINTS))]), 2.0)
-    contact = core.first_contact(dance, margin=0.1, start=dance.begin)
-    body = {"dragon": BENCHES, "path": CROSSING, "head_speed": 2, "margin": 0.1}
-    answer = client.post("/collision-time", json=body).raise_for_status().json()
-    assert (answer["outcome"], answer["time"]) == (contact.outcome.value, contact.time)
-    check = client.post("/check", json=body).raise_for_status().json()
-    assert check["first_contact"] == answer
-    until = client.post("/collision-time", json=body | {"stop": 10}).raise_for_status().json()
+@pytest.mark.parametrize("asked", few(BODIES, 5), ids=label)
+def test_a_job_has_the_answer_of_its_call(client: httpx.Client, asked: tuple[Question, Any]) -> None:
+    path, body = asked[0].path, asked[1]
+    job = client.post(path, json=body, headers={"Prefer": "respond-async"})
+    assert (job.status_code, job.headers["preference-applied"]) == (202, "respond-async")
+    assert job.json()["processID"].removesuffix("_of") == asked[0].name
+    address = job.headers["location"]
+    client.get(f"{address}/events").raise_for_status()  # Its events end when it is finished.
+    later, at_once = client.get(f"{address}/result"), client.post(path, json=body)
+    assert later.status_code == at_once.status_code == 200
+    assert later.content == at_once.content
+    assert later.headers["content-type"] == at_once.headers["content-type"]
+
+
+@pytest.mark.parametrize("asked", [one for one in BODIES if COMMANDS.get(one[0].name) in MODULE_OF], ids=label)
+def test_a_command_with_a_file_prints_the_answer_of_the_call(
+    ask: Asking, tmp_path: Path, asked: tuple[Question, Any]
+) -> None:
+    done = run(COMMANDS[asked[0].name], written(tmp_path, asked[1]), "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.encode() == ask.file(asked[0].path[1:], asked[1]) + b"\n"
+
+
+@pytest.mark.parametrize("call", [call for call in EXAMPLES if call.startswith("GET") and call[5:] in MODULE_OF])
+def test_a_command_with_options_prints_the_answer_of_the_call(ask: Asking, call: str) -> None:
+    query = EXAMPLES[call].query
+    done = run(call[5:], *(f"--{name.replace('_', '-')}={value}" for name, value in query.items()), "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.encode() == ask.file(call[5:], **query) + b"\n"
+
+
+@pytest.mark.parametrize("name", [name for name, question in QUESTIONS.items() if question.several])
+def test_several_dances_are_described_beside_one_and_null_stands_for_one(
+    ask: Asking, client: httpx.Client, name: str
+) -> None:
+    question = QUESTIONS[name]
+    operation = ask("openapi.json")["paths"][question.path]["post"]
+    schema = operation["responses"]["200"]["content"]["application/json"]["schema"]
+    models = [question.model.__name__, question.several.__name__] if question.model and question.several else []
+    assert [one["$ref"].rpartition("/")[2] for one in schema["anyOf"]] == models
+    whole = dance(5, (0, 0), (30, 0))
+    assert ask.file(question.path[1:], whole | {"dances": None}) == ask.file(question.path[1:], whole)
+    # The answer is kept by its values, which are the same with a default.
+    ask(question.path[1:], TWO)
+    for field in {"dragon", "path", "head_speed", "passages", "beats"} & question.body.model_fields.keys():
+        ask.refuses(f"/{field}", question.path[1:], TWO | {field: question.body().model_dump(mode="json")[field]})
+
+
+def test_a_circle_ends_the_dance_where_a_time_would(ask: Asking) -> None:
+    flat = {"benches": 30, "pitch": 0.6, "start_turns": 9}
+    path = {"kind": "spiral", "pitch": 0.6, "start_turns": 9}
+    stop = time_on_circle(core.Dance(core.Dragon(30), core.Spiral(0.6, 9.0)), 4.0)
+    body = {"dragon": {"benches": 30}, "path": path}
+    on_circle = ask.file("tolerance", turning_diameter=8, **flat)
+    assert ask.file("tolerance", body | {"stop": stop}) == on_circle
+    assert ask.file("tolerance", body | {"turning_diameter": 8}) == on_circle
+
+
+def test_the_first_contact_of_any_dragon_on_any_path_is_that_of_its_check(ask: Asking) -> None:
+    body = EXAMPLE_BODIES["POST /collision-time"]
+    answer = ask("collision-time", body)
+    assert (answer["outcome"], ask("check", body)["first_contact"]) == ("contact", answer)
+    until = ask("collision-time", body | {"stop": answer["time"] - 9})
     assert (until["outcome"], until["end"]["reason"]) == ("clear", "stop")
 
 
-def test_the_times_of_a_highest_head_speed_are_those_of_the_given_dance(client: httpx.Client) -> None:
+def test_the_times_of_a_highest_head_speed_are_those_of_the_given_dance(ask: Asking) -> None:
     """The same stretch of a path has other times at another head speed."""
     body = {"dragon": BENCHES, "path": CROSSING, "speed_limit": 3}
-    slow = client.post("/maximum-head-speed", json=body | {"start": 20, "stop": 30}).raise_for_status().json()
-    fast = client.post("/maximum-head-speed", json=body | {"head_speed": 2, "start": 10, "stop": 15})
-    assert fast.raise_for_status().json() == slow
-    refused = client.post("/maximum-head-speed", json={"dragon": BENCHES, "path": {"kind": "spiral"}})
-    assert refused.json()["errors"][0]["pointer"] == "/stop"
+    slow = ask("maximum-head-speed", body | {"start": 20, "stop": 30})
+    assert ask("maximum-head-speed", body | {"head_speed": 2, "start": 10, "stop": 15}) == slow
 
 
-def test_only_what_repeats_itself_may_be_long(client: httpx.Client) -> None:
-    long = {"benches": 2_001}
-    assert client.post("/collision-time", json={"dragon": long, "cross_check": "none"}).status_code == 200
-    assert client.post("/minimum-pitch", json={"dragon": long, "cross_check": "none"}).status_code == 200
-    on_a_turn = client.post("/collision-time", json={"dragon": long, "path": {"kind": "turn"}})
-    assert on_a_turn.json()["detail"].startswith("benches must be at most 2000 here")
-    listed = {"lengths": [2.2] * 2_001, "widths": [0.3] * 2_001, "overhangs": [0.275] * 2_001}
+def test_only_what_repeats_itself_may_be_long(ask: Asking) -> None:
+    for call in ("collision-time", "minimum-pitch"):
+        ask(call, {"dragon": {"benches": 2_001}, "cross_check": "none"})
+    ask.refuses("/dragon/benches 2000", "collision-time", {"dragon": {"benches": 2_001}, "path": {"kind": "turn"}})
+    listed = {name: [values[1]] * 2_001 for name, values in BENCHES.items()}
     for call in ("collision-time", "minimum-pitch", "pitch-scan", "shortest-turn", "turn-time", "quickest-turn"):
-        refused = client.post(f"/{call}", json={"dragon": listed})
-        assert refused.json()["errors"][0]["pointer"] == "/dragon/lengths"
+        ask.refuses("/dragon/lengths", call, {"dragon": listed})
