@@ -16,6 +16,12 @@ from core.shapes.rectangles import bench_poses
 # Printed digits of the paper, and how well the reference values are known.
 MICROMETRE = 0.5e-6  # [m]
 NANO = 1e-9  # [s and m]
+LENGTH, TIME, RADIUS, PITCH = (
+    "arc length of the spiral",
+    "time of first contact",
+    "radius of the head at first contact",
+    "minimum pitch",
+)
 
 
 @pytest.fixture(scope="module")
@@ -23,22 +29,21 @@ def rows() -> dict[str, PaperNumber]:
     return {row.quantity: row for row in comparison()}
 
 
-def evidence(row: PaperNumber, start: str) -> list[float]:
-    entries = [fact.value for fact in row.evidence if fact.what.startswith(start)]
-    assert entries, [fact.what for fact in row.evidence]
-    return entries
+def evidence(row: PaperNumber, start: str) -> float:
+    """The one value that begins with these words."""
+    (value,) = (fact.value for fact in row.evidence if fact.what.startswith(start))
+    return value
 
 
-def test_the_paper_reports_four_numbers(rows: dict[str, PaperNumber]) -> None:
+def test_each_row_states_the_number_of_the_paper_its_difference_unit_source_and_reason(
+    rows: dict[str, PaperNumber],
+) -> None:
     assert {name: row.paper for name, row in rows.items()} == {
-        "arc length of the spiral": 442.590256,
-        "time of first contact": 406.43,
-        "radius of the head at first contact": 2.883,
-        "minimum pitch": 0.474924,
+        LENGTH: 442.590256,
+        TIME: 406.43,
+        RADIUS: 2.883,
+        PITCH: 0.474924,
     }
-
-
-def test_each_row_states_difference_unit_source_and_reason(rows: dict[str, PaperNumber]) -> None:
     for row in rows.values():
         assert row.difference == row.ours - row.paper
         assert row.unit in ("m", "s")
@@ -46,34 +51,23 @@ def test_each_row_states_difference_unit_source_and_reason(rows: dict[str, Paper
         assert row.source
 
 
-def test_ours_is_what_core_answers(rows: dict[str, PaperNumber]) -> None:
+def test_ours_is_what_core_answers_and_an_independent_computation_proved(rows: dict[str, PaperNumber]) -> None:
     contact = first_contact(Dance(Dragon(), Spiral()))
     assert contact.head is not None
-    assert rows["time of first contact"].ours == contact.time
-    assert rows["radius of the head at first contact"].ours == contact.head.radius
-    assert rows["minimum pitch"].ours == minimum_pitch(Dragon()).pitch
-
-
-def test_ours_is_what_an_independent_computation_proved(rows: dict[str, PaperNumber]) -> None:
-    assert rows["time of first contact"].ours == pytest.approx(412.47383768211466, abs=NANO)
-    assert rows["radius of the head at first contact"].ours == pytest.approx(2.288742638382156, abs=NANO)
-    assert rows["minimum pitch"].ours == pytest.approx(0.4503373930271955, abs=NANO)
-
-
-def test_the_arc_length_agrees_to_the_digits_of_the_paper(rows: dict[str, PaperNumber]) -> None:
-    assert abs(rows["arc length of the spiral"].difference) <= MICROMETRE
+    ours = [rows[name].ours for name in (TIME, RADIUS, PITCH)]
+    assert ours == [contact.time, contact.head.radius, minimum_pitch(Dragon()).pitch]
+    proven = [412.47383768211466, 2.288742638382156, 0.4503373930271955]
+    assert ours == pytest.approx(proven, rel=0, abs=NANO)
+    assert abs(rows[LENGTH].difference) <= MICROMETRE
 
 
 def test_an_angle_sum_of_359_1_degrees_first_comes_at_the_time_of_the_paper(rows: dict[str, PaperNumber]) -> None:
-    row = rows["time of first contact"]
-    [loose] = evidence(row, "first time of an angle sum of 359.1 degrees")
-    assert round(loose, 2) == 406.43
-    [largest] = evidence(row, "largest angle sum at the paper's time")
-    assert 359.1 < largest < 360.0
+    assert round(evidence(rows[TIME], "first time of an angle sum of 359.1 degrees"), 2) == 406.43
+    assert 359.1 < evidence(rows[TIME], "largest angle sum at the paper's time") < 360.0
 
 
 def test_at_the_time_of_the_paper_the_head_passes_bench_9_without_touching(rows: dict[str, PaperNumber]) -> None:
-    [gap] = evidence(rows["time of first contact"], "clearance at the paper's time, benches 0 and 9")
+    gap = evidence(rows[TIME], "clearance at the paper's time, benches 0 and 9")
     dragon = Dragon()
     poses = bench_poses(trajectory(Dance(dragon, Spiral()), [406.43]).position[0])[[0, 9]]
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)[[0, 9]]
@@ -82,48 +76,39 @@ def test_at_the_time_of_the_paper_the_head_passes_bench_9_without_touching(rows:
 
 
 def test_the_exact_angle_rule_agrees_with_ours_and_eq_12_as_printed_does_not(rows: dict[str, PaperNumber]) -> None:
-    row = rows["time of first contact"]
-    [exact] = evidence(row, "first time of an angle sum of 360 degrees")
-    [literal] = evidence(row, "the same with eq. 12 as printed")
-    assert exact == pytest.approx(row.ours, abs=1e-6)  # [s]: the angle sum nears 360 degrees continuously
-    assert round(literal, 1) == 407.4
+    exact = evidence(rows[TIME], "first time of an angle sum of 360 degrees")
+    assert exact == pytest.approx(rows[TIME].ours, abs=1e-6)  # [s]: the angle sum nears 360 degrees continuously
+    assert round(evidence(rows[TIME], "the same with eq. 12 as printed"), 1) == 407.4
 
 
 def test_the_radius_and_the_time_of_the_paper_exclude_each_other(rows: dict[str, PaperNumber]) -> None:
-    row = rows["radius of the head at first contact"]
-    [radius] = evidence(row, "radius of the head at the paper's time")
-    [passed] = evidence(row, "time at which the head passes the paper's radius")
-    assert abs(radius - 2.883) > 0.1
-    assert np.hypot(*trajectory(Dance(Dragon(benches=1), Spiral()), [passed]).position[0, 0]) == pytest.approx(
-        2.883, abs=NANO
-    )
+    assert abs(evidence(rows[RADIUS], "radius of the head at the paper's time") - 2.883) > 0.1
+    passed = evidence(rows[RADIUS], "time at which the head passes the paper's radius")
+    head = trajectory(Dance(Dragon(benches=1), Spiral()), [passed]).position[0, 0]
+    assert np.hypot(*head) == pytest.approx(2.883, abs=NANO)
 
 
 def test_bisecting_the_radius_ends_at_a_jump_past_the_circle(rows: dict[str, PaperNumber]) -> None:
-    row = rows["minimum pitch"]
-    [pitch] = evidence(row, "pitch at which a bisection of the radius ends")
-    [below] = evidence(row, "radius of first contact just below it")
-    [above] = evidence(row, "radius of first contact just above it")
-    assert pitch == pytest.approx(row.ours, abs=NANO)
-    assert (round(below, 3), round(above, 3)) == (4.573, 4.406)
+    row = rows[PITCH]
+    assert evidence(row, "pitch at which a bisection of the radius ends") == pytest.approx(row.ours, abs=NANO)
+    assert round(evidence(row, "radius of first contact just below it"), 3) == 4.573
+    assert round(evidence(row, "radius of first contact just above it"), 3) == 4.406
 
 
 def test_the_pitch_of_the_paper_is_feasible_but_not_the_smallest(rows: dict[str, PaperNumber]) -> None:
-    [radius] = evidence(rows["minimum pitch"], "radius of first contact at the paper's pitch")
     contact = first_contact(Dance(Dragon(), Spiral(pitch=0.474924)))
     assert contact.outcome is Outcome.CONTACT
     assert contact.head is not None
-    assert radius == contact.head.radius < 4.5
+    assert evidence(rows[PITCH], "radius of first contact at the paper's pitch") == contact.head.radius < 4.5
 
 
 def test_the_pose_on_the_circle_alone_gives_smaller_pitches(rows: dict[str, PaperNumber]) -> None:
-    row = rows["minimum pitch"]
-    [alone] = evidence(row, "largest pitch at which the pose on the circle alone touches")
-    [head] = evidence(row, "the same with the pairs of the head only")
+    alone = evidence(rows[PITCH], "largest pitch at which the pose on the circle alone touches")
+    head = evidence(rows[PITCH], "the same with the pairs of the head only")
     assert (round(alone, 4), round(head, 4)) == (0.4202, 0.4171)
 
 
-def test_in_chinese_the_numbers_are_the_same_and_no_english_word_is_left(rows: dict[str, PaperNumber]) -> None:
+def test_in_chinese_the_numbers_are_the_same_and_no_english_word_is_left() -> None:
     for english, chinese in zip(comparison(), comparison(Language.CHINESE), strict=True):
         assert (chinese.paper, chinese.ours, chinese.unit) == (english.paper, english.ours, english.unit)
         assert [fact.value for fact in chinese.evidence] == [fact.value for fact in english.evidence]
