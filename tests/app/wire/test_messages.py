@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from importlib import import_module
 from pkgutil import walk_packages
-from typing import Any
 
 import httpx
 import pytest
@@ -16,91 +15,84 @@ from app.questions.overlaps import OverlapsRequest
 from app.questions.trajectory import TrajectoryRequest
 from app.wire.messages import names_at, owners
 from app.wire.problem import BYTES_MAX
-from app.wire.question import unit_of
+from app.wire.question import JSON, unit_of
+from tests.support.asking import Asking
+
+# What a call is asked -> the place and the sentence of its refusal.
+QUERIES = {
+    "collision-time?pich=1": '"pich" is unknown here: did you mean pitch?',
+    "collision-time?entry_radus=1": '"entry_radus" is unknown here: leave it out',
+    "collision-time?turning_diameters=1": '"turning_diameters" is unknown here: leave it out',
+    "minimum-pitch?turning_diameters=1": '"turning_diameters" is unknown here: did you mean turning_diameter?',
+    "turn?entry_radus=1": '"entry_radus" is unknown here: did you mean entry_radius?',
+    "turn?head_sped=1": '"head_sped" is unknown here: leave it out',
+    "collision-time?start=1": '"start" is unknown here: leave it out',
+    "collision-time?pitch=55cm": ('pitch must be a number [m], got "55cm": lengths are in metres, and 55 cm is 0.55 m'),
+    "collision-time?width=27.5 cm": (
+        'width must be a number [m], got "27.5 cm": lengths are in metres, and 27.5 cm is 0.275 m'
+    ),
+    "collision-time?head_speed=55cm": 'head_speed must be a number [m/s], got "55cm"',
+    "collision-time?pitch=55in": 'pitch must be a number [m], got "55in"',
+    f"collision-time?pitch={'0' * 3000}55": (
+        "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m"
+    ),
+    "collision-time?head_speed=100": (
+        "head_speed must be at most 20 m/s, got 100 m/s: speeds are in metres per second"
+    ),
+    "collision-time?pitch=5500": "pitch must be at most 10 m, got 5500 m: lengths are in metres",
+    "collision-time?head_speed=0": "head_speed must be at least 0.001 m/s, got 0 m/s",
+    f"collision-time?benches={'x' * 100}": (f'benches must be a whole number, got "{"x" * 59}... (102 characters)'),
+    "collision-time?cross_check=everybody": 'cross_check must be "dragon", "pair" or "none", got "everybody"',
+}
+BODIES = {
+    'trajectory {"path": {"pitch": NaN}}': "/path/pitch: pitch must be a finite number [m], got NaN",
+    'trajectory {"path": {"pitch": Infinity}}': "/path/pitch: pitch must be a finite number [m], got Infinity",
+    'trajectory {"path": {"pitch": -Infinity}}': "/path/pitch: pitch must be a finite number [m], got -Infinity",
+    'trajectory {"head_speed": "1"}': '/head_speed: head_speed must be a number [m/s], got "1"',
+    'trajectory {"time": {}}': '/time: "time" is unknown here: did you mean times?',
+    'trajectory {"times": {"stpo": 4}}': '/times/stpo: "stpo" is unknown here: did you mean stop?',
+    'turn {"pitch": 1.7}': '/pitch: "pitch" is unknown here: it belongs in path',
+    'check {"times": {}}': '/times: "times" is unknown here: leave it out',
+    'check {"path": {"kind": "turn", "entry_radus": 4}}': (
+        '/path/entry_radus: "entry_radus" is unknown here: did you mean entry_radius?'
+    ),
+    'check {"path": {"entry_radus": 4}}': '/path/entry_radus: "entry_radus" is unknown here: leave it out',
+    'check {"dragon": {"lengths": [1], "widths": [1], "overhangs": [0], "width": 1}}': (
+        '/dragon/width: "width" is unknown here: did you mean widths?'
+    ),
+    'check {"dragon": {"widhts": 1}}': '/dragon/widhts: "widhts" is unknown here: did you mean width?',
+    'check {"path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [1, 0], "stat": 0}]}}': (
+        '/path/pieces/0/stat: "stat" is unknown here: did you mean start?'
+    ),
+    'check {"path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [1, 0], "pich": 0}]}}': (
+        '/path/pieces/0/pich: "pich" is unknown here: leave it out'
+    ),
+    'overlaps {"benches": [{"x": 0, "y": 0, "heading": 0, "length": 1, "width": 1, "hedding": 1}]}': (
+        '/benches/0/hedding: "hedding" is unknown here: did you mean heading?'
+    ),
+}
 
 
-def refusals(answer: httpx.Response) -> list[tuple[str, str, str]]:
-    """Kind of the place, place and sentence of each error."""
-    places = (("name" if "name" in one else "pointer", one) for one in answer.json()["errors"])
-    return [(place, one[place], one["detail"]) for place, one in places]
-
-
-@pytest.mark.parametrize(
-    ("call", "name", "words"),
-    [
-        ("collision-time?pich=1", "pich", "did you mean pitch?"),
-        ("collision-time?entry_radus=1", "entry_radus", "leave it out"),
-        ("collision-time?turning_diameters=1", "turning_diameters", "leave it out"),
-        ("minimum-pitch?turning_diameters=1", "turning_diameters", "did you mean turning_diameter?"),
-        ("turn?entry_radus=1", "entry_radus", "did you mean entry_radius?"),
-        ("turn?head_sped=1", "head_sped", "leave it out"),
-        ("collision-time?start=1", "start", "leave it out"),
-    ],
-)
-def test_an_unknown_name_in_a_query_gets_advice_from_its_own_call(
-    client: httpx.Client, call: str, name: str, words: str
+@pytest.mark.parametrize("request_", QUERIES, ids=lambda one: one[:40])
+def test_the_refusal_of_a_query_tells_the_value_the_unit_the_limit_and_what_to_change(
+    ask: Asking, request_: str
 ) -> None:
-    answer = client.get(f"/{call}")
+    answer = ask.send(request_)
+    ((error,), detail) = answer.json()["errors"], answer.json()["detail"]
+    assert (answer.status_code, error["detail"], detail) == (422, QUERIES[request_], QUERIES[request_])
+    assert error["name"] == request_.partition("?")[2].partition("=")[0]
+
+
+@pytest.mark.parametrize("request_", BODIES)
+def test_the_refusal_of_a_body_gives_advice_from_its_own_place(client: httpx.Client, request_: str) -> None:
+    call, _, body = request_.partition(" ")
+    answer = client.post(f"/{call}", content=body, headers={"Content-Type": JSON})
     assert answer.status_code == 422
-    assert refusals(answer) == [("name", name, f'"{name}" is unknown here: {words}')]
+    assert [f"{error['pointer']}: {error['detail']}" for error in answer.json()["errors"]] == [BODIES[request_]]
 
 
-@pytest.mark.parametrize(
-    ("call", "body", "pointer", "words"),
-    [
-        ("check", {"path": {"kind": "turn", "entry_radus": 4}}, "/path/entry_radus", "did you mean entry_radius?"),
-        ("check", {"path": {"entry_radus": 4}}, "/path/entry_radus", "leave it out"),
-        ("check", {"dragon": {"lengths": [1], "widths": [1], "overhangs": [0], "width": 1}}, "/dragon/width",
-         "did you mean widths?"),
-        ("check", {"dragon": {"widhts": 1}}, "/dragon/widhts", "did you mean width?"),
-        ("check", {"path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [1, 0], "stat": 0}]}},
-         "/path/pieces/0/stat", "did you mean start?"),
-        ("check", {"path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [1, 0], "pich": 0}]}},
-         "/path/pieces/0/pich", "leave it out"),
-        ("trajectory", {"time": {}}, "/time", "did you mean times?"),
-        ("trajectory", {"times": {"stpo": 4}}, "/times/stpo", "did you mean stop?"),
-        ("check", {"times": {}}, "/times", "leave it out"),
-        ("turn", {"pitch": 1.7}, "/pitch", "it belongs in path"),
-        ("overlaps", {"benches": [{"x": 0, "y": 0, "heading": 0, "length": 1, "width": 1, "hedding": 1}]},
-         "/benches/0/hedding", "did you mean heading?"),
-    ],
-)  # fmt: skip
-def test_an_unknown_name_in_a_body_gets_advice_from_its_own_place(
-    client: httpx.Client, call: str, body: dict[str, Any], pointer: str, words: str
-) -> None:
-    answer = client.post(f"/{call}", json=body)
-    assert answer.status_code == 422
-    assert refusals(answer) == [("pointer", pointer, f'"{pointer.split("/")[-1]}" is unknown here: {words}')]
-
-
-@pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity"])
-def test_a_number_that_is_not_finite_is_shown_as_it_was_written(client: httpx.Client, number: str) -> None:
-    body, headers = f'{{"path": {{"pitch": {number}}}}}', {"Content-Type": "application/json"}
-    answer = client.post("/trajectory", content=body, headers=headers)
-    assert answer.status_code == 422
-    detail = f"pitch must be a finite number [m], got {number}"
-    assert refusals(answer) == [("pointer", "/path/pitch", detail)]
-
-
-@pytest.mark.parametrize(
-    ("name", "text", "words"),
-    [
-        ("pitch", "55cm", '[m], got "55cm": lengths are in metres, and 55 cm is 0.55 m'),
-        ("width", "27.5 cm", '[m], got "27.5 cm": lengths are in metres, and 27.5 cm is 0.275 m'),
-        ("head_speed", "55cm", '[m/s], got "55cm"'),
-        ("pitch", "55in", '[m], got "55in"'),
-    ],
-)
-def test_the_refusal_of_a_length_in_centimetres_names_it_in_metres(
-    client: httpx.Client, name: str, text: str, words: str
-) -> None:
-    answer = client.get("/collision-time", params={name: text})
-    assert answer.status_code == 422
-    assert refusals(answer) == [("name", name, f"{name} must be a number {words}")]
-
-
-def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(client: httpx.Client) -> None:
-    problem = client.get("/collision-time?pitch=55&benches=x").json()
+def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(ask: Asking) -> None:
+    problem = ask.send("collision-time?pitch=55&benches=x").json()
     benches, pitch = problem["errors"]
     assert pitch == {
         "name": "pitch",
@@ -148,18 +140,12 @@ def test_a_name_has_the_same_unit_in_all_requests() -> None:
 
 
 @pytest.mark.parametrize("text", ["龙" * 500, "\x01" * 300, '"\\' * 300, "{field}"])
-def test_a_problem_stays_short_whatever_its_values_hold(client: httpx.Client, text: str) -> None:
-    answer = client.post("/trajectory", json={f"{k}{text}": 1 for k in range(50)})
+def test_a_problem_stays_short_whatever_its_values_hold(ask: Asking, text: str) -> None:
+    answer = ask.send("trajectory", {f"{k}{text}": 1 for k in range(50)})
     assert answer.status_code == 422
     assert len(answer.content) <= BYTES_MAX
     assert answer.json()["detail"].endswith(" is unknown here: leave it out (and 49 more)") or len(text) > 100
     assert answer.json()["errors"]
-
-
-def test_a_number_of_many_digits_is_reported_by_its_value(client: httpx.Client) -> None:
-    problem = client.get("/collision-time", params={"pitch": f"{'0' * 3000}55"}).json()
-    assert problem["detail"] == "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m"
-    assert problem["got"] == {"text": "55 m", "value": 55.0, "unit": "m"}
 
 
 @pytest.mark.parametrize(
@@ -173,7 +159,7 @@ def test_a_number_of_many_digits_is_reported_by_its_value(client: httpx.Client) 
 def test_a_body_that_cannot_be_read_has_a_template_of_its_own(
     client: httpx.Client, body: bytes, template: str, reason: str
 ) -> None:
-    problem = client.post("/check", content=body, headers={"Content-Type": "application/json"}).json()
+    problem = client.post("/check", content=body, headers={"Content-Type": JSON}).json()
     assert (problem["template"], problem["reason"]) == (template, reason)
     assert problem["values"]["text"]["text"] == "The body"
     assert problem["errors"][0]["pointer"] == ""
