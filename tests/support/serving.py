@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+import httpx
+
 from tests.conftest import STOP_TIMEOUT, wait_until_live
 from tests.support.command import Process, serve
 
@@ -24,6 +26,12 @@ class Service:
     @property
     def address(self) -> tuple[str, int]:
         return "127.0.0.1", int(self.url.rpartition(":")[2])
+
+
+def sample(url: str, name: str) -> float:
+    """Value of one line of /metrics; 0 where it is not there yet."""
+    lines = httpx.get(f"{url}/metrics").text.splitlines()
+    return next((float(line.rpartition(" ")[2]) for line in lines if line.startswith(f"{name} ")), 0.0)
 
 
 def free_port() -> int:

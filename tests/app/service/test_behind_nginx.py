@@ -66,6 +66,7 @@ class Client(threading.Thread):
 
 
 @pytest.mark.nginx
+@pytest.mark.thorough
 def test_a_rolling_restart_loses_no_answer_and_no_job(tmp_path: Path) -> None:
     folder = tmp_path / "data"
     with JobService(folder) as one, JobService(folder) as other, nginx(tmp_path, [one.port, other.port]) as url:

@@ -2,33 +2,30 @@
 
 from __future__ import annotations
 
-import httpx
 from prometheus_client import CollectorRegistry
 
 from app.service.kept_answers import KeptAnswers
-from tests.app.service.test_deadlines import sample
+from tests.support.asking import Asking, dance
+from tests.support.serving import sample
 
 REPEATED = "bench_dragon_repeated_total"
 
 
-def test_a_question_that_is_asked_again_is_answered_from_memory(server: str, client: httpx.Client) -> None:
-    before, request = sample(server, REPEATED), {"samples": 21, "benches": 39}
-    first = client.get("/pitch-scan", params=request)
+def test_a_question_that_is_asked_again_is_answered_from_memory(ask: Asking, server: str) -> None:
+    before, request = sample(server, REPEATED), {"samples": 3, "benches": 39, "locate": False}
+    first = ask.send("pitch-scan", **request)
     assert sample(server, REPEATED) == before
-    again = client.get("/pitch-scan", params=request)
+    again = ask.send("pitch-scan", **request)
     assert (again.content, again.headers["etag"]) == (first.content, first.headers["etag"])
     assert sample(server, REPEATED) == before + 1.0
-    other = client.get("/pitch-scan", params=request | {"margin": 0.01})
-    assert other.content != first.content
+    assert ask.file("pitch-scan", **request, margin=0.01) != first.content
     assert sample(server, REPEATED) == before + 1.0
 
 
-def test_an_end_that_may_be_moved_is_another_question_than_the_same_end_as_a_wish(client: httpx.Client) -> None:
-    line = {"kind": "line", "start": [0, 0], "end": [40, 0]}
-    body = {"dragon": {"benches": 4}, "path": {"kind": "route", "start": 5.0, "pieces": [line]}}
-    moved = client.post("/trajectory", json=body | {"times": {"stop": 20}})
-    assert moved.raise_for_status().json()["time"][0] > 0.0
-    assert client.post("/trajectory", json=body | {"times": {"start": 0, "stop": 20}}).status_code == 422
+def test_an_end_that_may_be_moved_is_another_question_than_the_same_end_as_a_wish(ask: Asking) -> None:
+    body = dance(4, (0, 0), (40, 0))
+    assert ask("trajectory", body | {"times": {"stop": 20}})["time"][0] > 0.0
+    ask.refuses("/times/start", "trajectory", body | {"times": {"start": 0, "stop": 20}})
 
 
 def test_the_answers_kept_stay_within_their_room_and_the_latest_stay() -> None:

@@ -9,16 +9,12 @@ from typing import Any
 import httpx
 import pytest
 from fastapi import FastAPI
-from pydantic import ValidationError
 
 import core
-from app.questions.collision_time import CollisionQuery
-from app.questions.trajectory import TrajectoryRequest
 from app.service.main import create_app
 from app.service.negotiation import accepted
 from app.settings import Settings
 from app.wire.faults import pointer
-from app.wire.messages import fault_of
 
 pytestmark = pytest.mark.uncompiled
 
@@ -39,27 +35,6 @@ pytestmark = pytest.mark.uncompiled
 )
 def test_a_pointer_leads_to_what_is_in_the_body(place: tuple[str | int, ...], body: Any, expected: str) -> None:
     assert pointer(place, body) == expected
-
-
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        ({"pitch": "55"}, "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m"),
-        ({"pitch": "5500"}, "pitch must be at most 10 m, got 5500 m: lengths are in metres"),
-        ({"head_speed": "0"}, "head_speed must be at least 0.001 m/s, got 0 m/s"),
-        ({"benches": "x" * 100}, f'benches must be a whole number, got "{"x" * 59}... (102 characters)'),
-    ],
-)
-def test_a_message_names_the_field_the_value_the_unit_and_the_limit(values: dict[str, str], words: str) -> None:
-    with pytest.raises(ValidationError) as caught:
-        CollisionQuery.model_validate(values)
-    (error,) = caught.value.errors()
-    assert fault_of({**error, "loc": ("query", *error["loc"])}, CollisionQuery).message == words
-
-
-def test_numbers_in_bodies_are_numbers() -> None:
-    with pytest.raises(ValidationError):
-        TrajectoryRequest.model_validate({"head_speed": "1"})
 
 
 @pytest.mark.parametrize(
