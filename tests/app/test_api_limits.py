@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 
 import httpx
@@ -12,8 +11,11 @@ import pytest
 
 from app.files.tables import XLSX_TYPE
 from app.settings import Settings, unknown_variables
+from app.wire.question import JSON
 from core import InvalidValue
-from tests.support.serving import serving
+from tests.support.asking import Asking, assert_problem
+from tests.support.job_service import wait_for
+from tests.support.serving import Service, sample
 
 BODY_BYTES_MAX = 1000
 LIMITS = {
@@ -27,36 +29,27 @@ LIMITS = {
 }
 # Seconds of work, and within the limits.
 SLOW = {"times": {"stop": 400, "step": 0.5}}
-BUSY_TIMEOUT = 60.0  # [s]
+TYPE = {"Content-Type": JSON}
 
 
 @pytest.fixture(scope="module")
-def small(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    """A real server with small limits."""
-    with (
-        serving(tmp_path_factory.mktemp("small") / "server.log", **LIMITS) as service,
-        httpx.Client(base_url=service.url, timeout=BUSY_TIMEOUT) as client,
-    ):
-        yield client
-
-
-def body(size: int) -> bytes:
-    return b"{}".ljust(size)
+def small(service_with: Callable[..., Service]) -> Iterator[Asking]:
+    """The calls of a real server with small limits."""
+    with httpx.Client(base_url=service_with(**LIMITS).url, timeout=60.0) as client:
+        yield Asking(client)
 
 
 @pytest.mark.parametrize(("size", "status"), [(BODY_BYTES_MAX, 200), (BODY_BYTES_MAX + 1, 413)])
 @pytest.mark.parametrize("chunked", [False, True], ids=["stated_length", "chunked"])
-def test_a_body_may_have_as_many_bytes_as_the_limit(small: httpx.Client, size: int, status: int, chunked: bool) -> None:
-    content = iter([body(size)[:600], body(size)[600:]]) if chunked else body(size)
-    answer = small.post("/trajectory", content=content, headers={"Content-Type": "application/json"})
+def test_a_body_may_have_as_many_bytes_as_the_limit(small: Asking, size: int, status: int, chunked: bool) -> None:
+    body = b"{}".ljust(size)
+    answer = small.client.post("/trajectory", content=iter([body[:600], body[600:]]) if chunked else body, headers=TYPE)
     assert answer.status_code == status
     if status == 413:
-        assert answer.headers["content-type"] == "application/problem+json"
-        assert answer.json()["errors"][0]["pointer"] == ""
-        assert f"at most {BODY_BYTES_MAX} bytes" in answer.json()["detail"]
+        assert_problem(answer, 413, f" most {BODY_BYTES_MAX} bytes")
 
 
-def test_an_endless_body_is_cut_off(small: httpx.Client) -> None:
+def test_an_endless_body_is_cut_off(small: Asking) -> None:
     sent = 0
 
     def endless() -> Iterator[bytes]:
@@ -65,51 +58,41 @@ def test_an_endless_body_is_cut_off(small: httpx.Client) -> None:
             sent += 10_000
             yield b" " * 10_000
 
-    headers = {"Content-Type": "application/json"}
     # The server answers and closes while the client still sends; the client may see either first.
     with contextlib.suppress(httpx.WriteError, httpx.RemoteProtocolError, httpx.ReadError):
-        assert small.post("/trajectory", content=endless(), headers=headers).status_code == 413
+        assert small.client.post("/trajectory", content=endless(), headers=TYPE).status_code == 413
     assert sent < 100_000_000
-    assert small.get("/healthz").status_code == 200
+    assert small.send("healthz").status_code == 200
 
 
-@pytest.mark.parametrize(("benches", "status"), [(300, 200), (301, 422)])
-def test_a_dragon_may_have_as_many_benches_as_the_limit(small: httpx.Client, benches: int, status: int) -> None:
-    answer = small.post("/trajectory", json={"dragon": {"benches": benches}, "times": [0]})
-    assert answer.status_code == status
-    assert status == 200 or "at most 300" in answer.json()["detail"]
+def test_a_dragon_may_have_as_many_benches_as_the_limit(small: Asking) -> None:
+    assert small("trajectory", {"dragon": {"benches": 300}, "times": [0]})
+    small.refuses("/dragon/benches 300", "trajectory", {"dragon": {"benches": 301}, "times": [0]})
 
 
-@pytest.mark.parametrize(("instants", "status"), [(1000, 200), (1001, 422)])
-def test_a_table_may_have_as_many_cells_as_the_limit(small: httpx.Client, instants: int, status: int) -> None:
-    times = {"stop": (instants - 1) * 0.1, "step": 0.1}
-    answer = small.post("/trajectory", json={"dragon": {"benches": 199}, "times": times})
-    assert answer.status_code == status
-    assert status == 422 or len(answer.json()["time"]) == instants
+def test_a_table_may_have_as_many_cells_as_the_limit(small: Asking) -> None:
+    body, whole, more = {"dragon": {"benches": 199}}, {"stop": 99.9, "step": 0.1}, {"stop": 100, "step": 0.1}
+    assert len(small("trajectory", body | {"times": whole})["time"]) == 1000
+    small.refuses("/times/step", "trajectory", body | {"times": more})
 
 
-def test_answers_may_be_kept_as_long_as_the_setting_says(small: httpx.Client) -> None:
-    answer = small.post("/trajectory", json={"times": [0]})
-    assert answer.headers["cache-control"] == "public, max-age=60"
+def test_answers_may_be_kept_as_long_as_the_setting_says(small: Asking) -> None:
+    assert small.send("trajectory", {"times": [0]}).headers["cache-control"] == "public, max-age=60"
 
 
-def test_one_computation_too_many_is_asked_to_come_again(small: httpx.Client) -> None:
+def test_one_computation_too_many_is_asked_to_come_again(small: Asking) -> None:
+    running, url = 'bench_dragon_computations{lane="workbook"}', str(small.client.base_url)
     with ThreadPoolExecutor(1) as pool:
-        slow = pool.submit(small.post, "/trajectory", json=SLOW, headers={"Accept": XLSX_TYPE})
-        end = time.monotonic() + BUSY_TIMEOUT
-        while 'bench_dragon_computations{lane="workbook"} 1.0' not in small.get("/metrics").text:
-            assert time.monotonic() < end
-            assert not slow.done()
-        refused = small.post("/trajectory", json=SLOW, headers={"Accept": XLSX_TYPE})
-        cheap = small.post("/trajectory", json={"times": [0]})
-        alive = small.get("/healthz")
+        slow = pool.submit(small.send, "trajectory", SLOW, XLSX_TYPE)
+        wait_for(lambda: slow.done() or sample(url, running) == 1.0)
+        assert not slow.done()
+        refused = small.send("trajectory", SLOW, XLSX_TYPE)
+        assert small("trajectory", {"times": [0]})
+        assert small("healthz")
         assert slow.result().status_code == 200
-    assert refused.status_code == 503
-    assert refused.headers["content-type"] == "application/problem+json"
+    assert_problem(refused, 503)
     assert int(refused.headers["retry-after"]) >= 7
-    assert cheap.status_code == 200
-    assert alive.status_code == 200
-    assert small.post("/trajectory", json={"times": [0]}).status_code == 200
+    assert small("trajectory", {"times": [0]})
 
 
 def test_an_empty_variable_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
