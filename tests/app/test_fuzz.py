@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import httpx
+import pytest
 
 from tests.campaigns.fuzz import ask_mutants
 from tests.campaigns.fuzz_files import ask_files, readers_over
 from tests.support.depth import examples
 
-MUTANTS, FILES, SEED = examples(80, 150), examples(80, 400), 1
+MUTANTS, FILES, SEED = examples(60, 150), examples(80, 400), 1
 
 
 def test_no_odd_request_gets_an_error_of_the_service(server: str) -> None:
@@ -18,6 +19,7 @@ def test_no_odd_request_gets_an_error_of_the_service(server: str) -> None:
     assert statuses[422] > MUTANTS // 4
 
 
+@pytest.mark.thorough
 def test_no_damaged_file_gets_an_error_of_the_service(server: str) -> None:
     statuses = ask_files(server, FILES, SEED).statuses
     assert statuses.total() == FILES

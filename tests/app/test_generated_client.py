@@ -21,21 +21,15 @@ import pytest
 from attrs import evolve
 
 from app.files.tables import XLSX_TYPE
-from app.questions.registry import QUESTIONS
+from app.questions.registry import CALLS, QUESTIONS
 from app.service.examples import EXAMPLES
+from app.wire.question import Call
 from tests.app.conftest import ANSWER_TIMEOUT
-from tests.support.depth import some
+from tests.support.asking import few
 from tests.support.students import CONTACT, contact_workbook, spiral
 
 PACKAGE = "generated_client"
 WARNING = re.compile(r"^(?:WARNING|ERROR) parsing \S+ (\S+)", re.MULTILINE)
-# Every call: its name, its method and its question.
-CALLS = [
-    (f"{question.name}_of" if question.flat and method == "POST" else question.name, method, question)
-    for question in QUESTIONS.values()
-    for method, request in (("GET", question.flat), ("POST", question.body))
-    if request
-]
 
 
 @pytest.fixture(scope="module")
@@ -63,11 +57,24 @@ def call(tag: str, name: str) -> ModuleType:
     return importlib.import_module(f"{PACKAGE}.api.{tag}.{name}")
 
 
-def body_of(module: ModuleType, body: Any) -> Any:
+def with_body(module: ModuleType, body: Any) -> dict[str, Any]:
     """The body as the type that the generated call takes."""
     annotation = inspect.signature(module.sync_detailed, eval_str=True).parameters["body"].annotation
     kind = next(kind for kind in get_args(annotation) or (annotation,) if hasattr(kind, "from_dict"))
-    return kind.from_dict(body)
+    return {"body": kind.from_dict(body)}
+
+
+def finished(own: Any, client: httpx.Client, body: Any, name: str = "ask_later") -> str:
+    """Number of a job made by the generated client, when it has ended."""
+    module = call("jobs", name)
+    job = module.sync(client=own, **with_body(module, body)).job_id
+    client.get(f"/jobs/{job}/events").raise_for_status()  # Its events end when it is finished.
+    return str(job)
+
+
+def result(own: Any, job: str) -> bytes:
+    data: bytes = call("jobs", "job_result").sync(job, client=own).payload.read()
+    return data
 
 
 def test_the_generator_warns_of_nothing_but_pictures_and_files(words: str) -> None:
@@ -77,37 +84,36 @@ def test_the_generator_warns_of_nothing_but_pictures_and_files(words: str) -> No
     assert set(warned) == files - {QUESTIONS["maps"].path}  # Every map comes back as a file of bytes.
 
 
-@pytest.mark.parametrize(
-    ("name", "method", "question"), [c for c in CALLS if c[2].model], ids=[c[0] for c in CALLS if c[2].model]
-)
-def test_every_question_is_answered(own: Any, client: httpx.Client, name: str, method: str, question: Any) -> None:
-    module, example = call("questions", name), EXAMPLES[f"{method} {question.path}"]
-    request = example.query if example.body is None else {"body": body_of(module, example.body)}
-    answer = module.sync(client=own, **request)
-    response = client.request(method, question.path, params=example.query, json=example.body)
+ASKED = [one for one in CALLS.values() if one.question.model]
+DRAWN = [one for one in CALLS.values() if one.question.formats]
+
+
+@pytest.mark.parametrize("asked", few(ASKED, 12), ids=lambda one: one.name)
+def test_every_question_is_answered(own: Any, client: httpx.Client, asked: Call) -> None:
+    module, path = call("questions", asked.name), asked.question.path
+    example = EXAMPLES[f"{asked.method} {path}"]
+    answer = module.sync(client=own, **(with_body(module, example.body) if example.body else example.query))
+    response = client.request(asked.method, path, params=example.query, json=example.body)
     assert answer.to_dict() == response.raise_for_status().json()
 
 
-DRAWN = [c for c in CALLS if c[2].formats]
-
-
-@pytest.mark.parametrize(
-    ("name", "method", "formats"), [(*c[:2], c[2].formats) for c in DRAWN], ids=[c[0] for c in DRAWN]
-)
-def test_every_figure_is_drawn(own: Any, name: str, method: str, formats: Any) -> None:
-    module = call("figures", name)
-    known = importlib.import_module(f"{PACKAGE}.models.{'map_format' if name == 'maps' else 'format_'}")
-    formats = known.MapFormat if name == "maps" else known.Format
-    scan = {"samples": 3} if name.startswith("pitch_scan") else {}
-    small: dict[str, Any] = scan | ({"benches": 9} if method == "GET" else {"dragon": {"benches": 9}})
-    if name == "encounter_figure":
+@pytest.mark.parametrize("asked", few(DRAWN, 2), ids=lambda one: one.name)
+def test_every_figure_is_drawn(own: Any, asked: Call) -> None:
+    module, question = call("figures", asked.name), asked.question
+    is_map = question.name == "maps"
+    known = importlib.import_module(f"{PACKAGE}.models.{'map_format' if is_map else 'format_'}")
+    small: dict[str, Any] = {"benches": 9} if asked.method == "GET" else {"dragon": {"benches": 9}}
+    if question.name == "pitch_scan_figure":
+        small["samples"] = 3
+    if question.name == "encounter_figure":
         small = {"dances": [small]}
-    request = small if method == "GET" else {"body": body_of(module, small)}
+    if is_map:
+        small["origin"] = {"longitude": 8.5, "latitude": 47.4}
     begins = {"svg": b"<?xml", "png": b"\x89PNG", "geojson": b"{", "kml": b"<?xml", "dxf": b"  0\n"}
-    if name == "maps":
-        request = {"body": body_of(module, small | {"origin": {"longitude": 8.5, "latitude": 47.4}})}
-    for ending in formats:
-        answer = module.sync_detailed(formats(ending), client=own, **request)
+    for ending in question.formats or ():
+        form = (known.MapFormat if is_map else known.Format)(ending)
+        request = small if asked.method == "GET" else with_body(module, small)
+        answer = module.sync_detailed(form, client=own, **request)
         assert answer.status_code == 200
         assert answer.content.startswith(begins[ending])
 
@@ -131,76 +137,60 @@ def test_the_service_is_alive_and_ready(own: Any) -> None:
     assert call("service", "readyz").sync(client=own).status == "ready"
 
 
-def test_a_job_comes_back_as_its_status(own: Any) -> None:
-    later = call("jobs", "ask_later")
-    job = later.sync(client=own, body=body_of(later, {"question": "collision_time", "request": {"pitch": 0.5}}))
-    again = call("jobs", "job_status").sync(job.to_dict()["jobID"], client=own)
-    assert (type(again).__name__, again.to_dict()["processID"]) == ("JobStatus", "collision_time")
+def test_a_job_comes_back_as_its_status_and_its_answer(own: Any, client: httpx.Client) -> None:
+    job = finished(own, client, {"question": "minimum_pitch", "request": EXAMPLES["GET /minimum-pitch"].query})
+    again = call("jobs", "job_status").sync(job, client=own)
+    assert (type(again).__name__, again.to_dict()["processID"]) == ("JobStatus", "minimum_pitch")
+    answer = client.get("/minimum-pitch", params=EXAMPLES["GET /minimum-pitch"].query)
+    assert json.loads(result(own, job)) == answer.raise_for_status().json()
 
 
-@pytest.mark.parametrize("method", ["GET", "POST"])
-def test_the_result_of_a_job_comes_back_as_the_direct_answer(own: Any, client: httpx.Client, method: str) -> None:
-    name, example = {"GET": "minimum_pitch", "POST": "minimum_pitch_of"}[method], EXAMPLES[f"{method} /minimum-pitch"]
-    later, request = call("jobs", "ask_later"), example.query if example.body is None else example.body
-    job = later.sync(client=own, body=body_of(later, {"question": name, "request": request}))
-    client.get(f"/jobs/{job.job_id}/events").raise_for_status()  # Its events end when it is finished.
-    answer = client.request(method, "/minimum-pitch", params=example.query, json=example.body)
-    result = call("jobs", "job_result").sync(job.job_id, client=own)
-    assert json.loads(result.payload.read()) == answer.raise_for_status().json()
-
-
-FILM = {"dragon": {"benches": 3}, "start": 1, "stop": 2, "seconds": 1, "height": 240}
+FEW = {"dragon": {"benches": 3}}
+FILM = FEW | {"start": 1, "stop": 2, "seconds": 1, "height": 240}
 
 
 @pytest.mark.parametrize(
-    ("name", "request_", "accept", "begin"),
-    [
-        ("trajectory", {"dragon": {"benches": 3}}, "text/csv", b"time,handle"),
-        ("trajectory", {"dragon": {"benches": 3}}, "application/vnd.apache.arrow.file", b"ARROW1"),
-        ("trajectory_figure", {"benches": 3}, "image/svg+xml", b"<?xml"),
-        ("trajectory_figure", {"benches": 3}, "image/png", b"\x89PNG"),
-        ("maps", {"dragon": {"benches": 3}}, "image/vnd.dxf", b"  0\n"),
-        ("plan", {"dragon": {"benches": 3}}, "application/pdf", b"%PDF"),
-        ("crew", {"dragon": {"benches": 3}, "stop": 9}, "application/pdf", b"%PDF"),
-        ("cues", {"dragon": {"benches": 3}, "stop": 9}, "application/pdf", b"%PDF"),
-        ("films", FILM, "image/gif", b"GIF89a"),
-        ("films", FILM, "video/mp4", b"\x00\x00\x00"),
-        ("trajectory", {"dragon": {"benches": 3}}, XLSX_TYPE, b"PK\x03\x04"),
-    ],
+    "asked",
+    few(
+        [
+            ("trajectory", FEW, "text/csv", b"time,handle"),
+            ("trajectory", FEW, "application/vnd.apache.arrow.file", b"ARROW1"),
+            ("trajectory", FEW, XLSX_TYPE, b"PK\x03\x04"),
+            ("trajectory_figure", {"benches": 3}, "image/svg+xml", b"<?xml"),
+            ("trajectory_figure", {"benches": 3}, "image/png", b"\x89PNG"),
+            ("maps", FEW, "image/vnd.dxf", b"  0\n"),
+            ("plan", FEW, "application/pdf", b"%PDF"),
+            ("crew", FEW | {"stop": 9}, "application/pdf", b"%PDF"),
+            ("cues", FEW | {"stop": 9}, "application/pdf", b"%PDF"),
+            ("films", FILM, "image/gif", b"GIF89a"),
+            ("films", FILM, "video/mp4", b"\x00\x00\x00"),
+        ],
+        1,
+    ),
+    ids=lambda asked: f"{asked[0]} {asked[2]}",
 )
 def test_a_file_made_by_a_job_comes_back_as_its_bytes(
-    own: Any, client: httpx.Client, name: str, request_: dict[str, Any], accept: str, begin: bytes
+    own: Any, client: httpx.Client, asked: tuple[str, Any, str, bytes]
 ) -> None:
-    later = call("jobs", "ask_later")
-    job = later.sync(client=own, body=body_of(later, {"question": name, "request": request_, "accept": accept}))
-    client.get(f"/jobs/{job.job_id}/events").raise_for_status()
-    assert call("jobs", "job_result").sync(job.job_id, client=own).payload.read().startswith(begin)
+    name, request, accept, begin = asked
+    job = finished(own, client, {"question": name, "request": request, "accept": accept})
+    assert result(own, job).startswith(begin)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
-    ("accept", "begin"),
-    some([("text/csv", b'"design","pitch"'), ("application/vnd.apache.parquet", b"PAR1")], 1),
+    ("accept", "begin"), [("text/csv", b'"design","pitch"'), ("application/vnd.apache.parquet", b"PAR1")]
 )
 def test_the_table_of_a_sweep_comes_back_as_its_bytes(
     own: Any, client: httpx.Client, accept: str, begin: bytes
 ) -> None:
-    module = call("jobs", "sweep")
-    request = {
-        "question": "collision_time",
-        "over": {"pitch": [0.5, 0.6]},
-        "request": {"benches": 30},
-        "accept": accept,
-    }
-    job = module.sync(client=own, body=body_of(module, request))
-    client.get(f"/jobs/{job.job_id}/events").raise_for_status()
-    assert call("jobs", "job_result").sync(job.job_id, client=own).payload.read().startswith(begin)
+    body = {"question": "collision_time", "over": {"pitch": [0.5, 0.6]}, "request": {"benches": 30}, "accept": accept}
+    assert result(own, finished(own, client, body, "sweep")).startswith(begin)
 
 
 def test_the_result_of_a_failed_job_comes_back_as_its_problem(own: Any, client: httpx.Client) -> None:
-    later = call("jobs", "ask_later")
-    job = later.sync(client=own, body=body_of(later, {"question": "collision_time", "request": {"overhang": 2.0}}))
-    client.get(f"/jobs/{job.job_id}/events").raise_for_status()
-    problem = call("jobs", "job_result").sync(job.job_id, client=own)
+    job = finished(own, client, {"question": "collision_time", "request": {"overhang": 2.0}})
+    problem = call("jobs", "job_result").sync(job, client=own)
     assert (problem.status, problem.errors[0].name) == (422, "overhang")
     strict = evolve(own, raise_on_unexpected_status=True)  # of a status that the description does not list
-    assert call("jobs", "dismiss_job").sync_detailed(job.job_id, client=strict).status_code == 204
+    assert call("jobs", "dismiss_job").sync_detailed(job, client=strict).status_code == 204
