@@ -9,30 +9,23 @@ from app.questions.collision_time import Certificate
 from app.wire.question import Answer
 
 TOUCHING = re.compile(r"\b(touch|overlap|meet)", re.IGNORECASE)
-# Fields that speak of a touch alone, of both by `nearest`, or of no contact.
-APART_FROM_MARGINS = {
-    ("Turn", "tangent_point"), ("ShortestTurn", "tangent_point"), ("TurnTime", "tangent_point"),
-    ("QuickestTurn", "tangent_point"), ("Overlap", "separation"), ("Nearest", "distance"),
-    ("LeastClearance", "distance"), ("Shown", "depth"), ("DragonsClearance", "distance"), ("ShownTogether", "depth"),
-    ("PerformanceEnvelope", "distance"), ("PerformanceTolerance", "certificate"),
-    *(("ContactProbability", name) for name in ("probability", "contacts", "benches", "tolerance", "strayed")),
-    *(
-        (model, name)
-        for model in ("Tolerance", "PerformanceTolerance")
-        for name in ("stray", "stray_bracket", "limited_by", "time", "exhibit")
-    ),
-    *(("ToleranceCurve", name) for name in ("stray", "touching", "limited_by")),
-    *((model, name) for model in ("CollisionTime", "Encounter") for name in ("margin", "corner", "edge")),
-    ("Encounter", "cross_check"),
-    # Cue cards list who comes near, within a reach and not a margin.
-    *((model, "gap") for model in ("Meeting", "DragonMeeting")),
-    *((model, name) for model in ("CueCard", "DragonCueCard") for name in ("meetings", "least_left_out")),
-    *(
-        (model, name)
-        for model in ("Cue", "DragonCue")
-        for name in ("kind", "time", "since", "until", "x", "nearest")
-    ),
-}  # fmt: skip
+# Fields that speak of a touch alone, of both by `nearest`, or of no contact. Cue cards list who comes near, within a
+# reach and not a margin.
+APART_FROM_MARGINS = """
+Turn.tangent_point ShortestTurn.tangent_point TurnTime.tangent_point QuickestTurn.tangent_point
+Overlap.separation Nearest.distance LeastClearance.distance DragonsClearance.distance PerformanceEnvelope.distance
+Shown.depth ShownTogether.depth PerformanceTolerance.certificate Encounter.cross_check
+ContactProbability.probability ContactProbability.contacts ContactProbability.benches ContactProbability.tolerance
+ContactProbability.strayed
+Tolerance.stray Tolerance.stray_bracket Tolerance.limited_by Tolerance.time Tolerance.exhibit
+PerformanceTolerance.stray PerformanceTolerance.stray_bracket PerformanceTolerance.limited_by PerformanceTolerance.time
+PerformanceTolerance.exhibit ToleranceCurve.stray ToleranceCurve.touching ToleranceCurve.limited_by
+CollisionTime.margin CollisionTime.corner CollisionTime.edge Encounter.margin Encounter.corner Encounter.edge
+Meeting.gap DragonMeeting.gap
+CueCard.meetings CueCard.least_left_out DragonCueCard.meetings DragonCueCard.least_left_out
+Cue.kind Cue.time Cue.since Cue.until Cue.x Cue.nearest
+DragonCue.kind DragonCue.time DragonCue.since DragonCue.until DragonCue.x DragonCue.nearest
+"""
 
 
 def answers(model: type[Answer]) -> list[type[Answer]]:
@@ -49,7 +42,7 @@ FIELDS = [
 
 def speaks_of_what_counts(model: str, name: str, words: str) -> bool:
     """True if a field speaks of the margin where it speaks of a touch, or has nothing to do with margins."""
-    if (model, name) in APART_FROM_MARGINS:
+    if f"{model}.{name}" in APART_FROM_MARGINS.split():
         return TOUCHING.search(words) is not None
     return not TOUCHING.search(words) or re.search(r"margin|nearer", words) is not None
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import httpx
@@ -56,14 +58,6 @@ def assert_turn(ask: Asking, got: Any, **query: Any) -> None:
 def test_the_turn_is_the_known_one(ask: Asking) -> None:
     known = reference("turn")["turn"]
     assert_same(ask("turn", **CONTEST, ratio=2), known, known, REFERENCE_TOLERANCE)
-
-
-@pytest.mark.parametrize("table", reference("turn")["tables"], ids=lambda one: f"{one['time']:g}s")
-def test_trajectory_through_the_turn_has_the_known_handles(ask: Asking, table: dict[str, Any]) -> None:
-    got = ask("trajectory", {"path": TURN, "times": [table["time"]]})
-    rows = {name: [[handle[name] for handle in table["handles"]]] for name in COLUMNS}
-    assert [handle["handle"] for handle in table["handles"]] == list(range(224))
-    assert_same(got, rows, tolerance=REFERENCE_TOLERANCE)
 
 
 def test_the_shortest_turn_is_a_turn_and_what_limits_it(ask: Asking) -> None:
@@ -131,23 +125,6 @@ def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask: Asking) -> None
         assert whole == pieces
 
 
-def test_the_maximum_head_speed_is_the_known_one(ask: Asking) -> None:
-    known, got = reference("maximum_head_speed"), ask("maximum-head-speed", **CONTEST, ratio=2, speed_limit=2)
-    assert_same(got, known, ("head_speed", "speed_ratio", "time_at_unit_head_speed"), REFERENCE_TOLERANCE)
-    assert set(got["handles"]) <= set(known["handles_exactly_tied"])
-    low, high = got["head_speed_bracket"]
-    assert low <= got["head_speed"] <= high
-
-
-def test_the_check_of_the_turn_meets_the_known_clearance_and_passes(ask: Asking) -> None:
-    got = ask("check", {"path": TURN, "start": -100, "stop": 100, "speed_limit": 2})
-    assert (got["passed"], got["failures"], got["venue"]) == (True, [], None)
-    least, known = got["least_clearance"], reference("turn")["clearance"]["least"]
-    assert least["distance"] == pytest.approx(known, abs=REFERENCE_TOLERANCE)
-    assert least["at_least"] <= least["distance"]
-    assert got["first_contact"]["end"] == {"reason": "stop", "time": 100.0, "theta": None, "bench": None}
-
-
 # -- routes and waypoints ------------------------------------------------------------------------------------
 
 
@@ -191,34 +168,39 @@ def test_waypoints_are_a_path_and_a_piece_and_start_as_far_along(ask: Asking, st
     assert chords == pytest.approx(np.tile(core.Dragon(**SHORT).chords, (2, 1)), rel=0, abs=SAME_PATH_TOLERANCE)
 
 
+# A path and times, as far as they are given -> the first and the last instant of the answer, and its step.
+INSTANTS = {
+    "LANE null": (8, 60, 1),
+    "LANE+5 null": (3, 55, 1),
+    "LANE+9 null": (0, 51, 1),
+    "STRAIGHT null": (8, 60, 1),
+    "STRAIGHT+5 null": (3, 55, 1),
+    "LONG null": (8, 308, 1),
+    "TURN null": (0, 300, 1),
+    "SPIRAL null": (0, 300, 1),
+    'LANE {"stop": 20}': (8, 20, 1),
+    'LANE {"start": 20}': (20, 60, 1),
+    'LANE {"step": 10}': (8, 58, 10),
+    'STRAIGHT {"stop": 20, "step": 5}': (8, 18, 5),
+    'LONG {"start": 7.9, "step": 100}': (7.9, 207.9, 100),
+    'TURN {"start": -50, "step": 50}': (-50, 300, 50),
+    'TURN {"stop": 20, "step": 10}': (0, 20, 10),
+}
+PATHS = {"LANE": route(LANE), "STRAIGHT": STRAIGHT, "LONG": LONG_LANE, "TURN": TURN, "SPIRAL": {"kind": "spiral"}}
+
+
 @pytest.mark.parametrize("call", ["trajectory", "clearance"])
-@pytest.mark.parametrize(
-    ("path", "times", "seconds"),
-    [
-        (route(LANE), None, range(8, 61)),
-        (route(LANE, start=5), None, range(3, 56)),
-        (route(LANE, start=9), None, range(52)),
-        (STRAIGHT, None, range(8, 61)),
-        (STRAIGHT | {"start": 5}, None, range(3, 56)),
-        (LONG_LANE, None, range(8, 309)),
-        (TURN, None, range(301)),
-        ({"kind": "spiral"}, None, range(301)),
-        (route(LANE), {"stop": 20}, range(8, 21)),
-        (route(LANE), {"start": 20}, range(20, 61)),
-        (route(LANE), {"step": 10}, range(8, 61, 10)),
-        (STRAIGHT, {"stop": 20, "step": 5}, range(8, 21, 5)),
-        (LONG_LANE, {"start": 7.9, "step": 100}, [7.9, 107.9, 207.9]),
-        (TURN, {"start": -50, "step": 50}, range(-50, 301, 50)),
-        (TURN, {"stop": 20, "step": 10}, range(0, 21, 10)),
-    ],
-)
-def test_a_start_or_stop_that_is_left_out_lies_in_the_run(
-    ask: Asking, call: str, path: Any, times: dict[str, float] | None, seconds: Sequence[float]
-) -> None:
-    body = {"dragon": SHORT, "path": path}
-    assert ask(call, body | {"times": times})["time"] == list(seconds)
+@pytest.mark.parametrize("given", INSTANTS)
+def test_a_start_or_stop_that_is_left_out_lies_in_the_run(ask: Asking, call: str, given: str) -> None:
+    (name, _, start), times = given.partition(" ")[0].partition("+"), json.loads(given.partition(" ")[2])
+    body = {"dragon": SHORT, "path": PATHS[name] | ({"start": int(start)} if start else {})}
+    got = ask(call, body | {"times": times})["time"]
+    assert (got[0], got[-1], {after - before for before, after in pairwise(got)}) == (
+        *INSTANTS[given][:2],
+        {INSTANTS[given][2]},
+    )
     if times is None:
-        assert ask(call, body)["time"] == list(seconds)
+        assert ask(call, body)["time"] == got
 
 
 @pytest.mark.parametrize("start", [0, 9], ids=["late", "past"])

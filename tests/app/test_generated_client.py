@@ -25,9 +25,9 @@ from app.questions.registry import CALLS, QUESTIONS
 from app.service.examples import EXAMPLES
 from app.wire.question import Call
 from tests.app.conftest import ANSWER_TIMEOUT
-from tests.support.asking import few
 from tests.support.students import CONTACT, contact_workbook, spiral
 
+pytestmark = pytest.mark.thorough  # the generator takes seconds
 PACKAGE = "generated_client"
 WARNING = re.compile(r"^(?:WARNING|ERROR) parsing \S+ (\S+)", re.MULTILINE)
 
@@ -88,7 +88,7 @@ ASKED = [one for one in CALLS.values() if one.question.model]
 DRAWN = [one for one in CALLS.values() if one.question.formats]
 
 
-@pytest.mark.parametrize("asked", few(ASKED, 12), ids=lambda one: one.name)
+@pytest.mark.parametrize("asked", ASKED, ids=lambda one: one.name)
 def test_every_question_is_answered(own: Any, client: httpx.Client, asked: Call) -> None:
     module, path = call("questions", asked.name), asked.question.path
     example = EXAMPLES[f"{asked.method} {path}"]
@@ -97,7 +97,7 @@ def test_every_question_is_answered(own: Any, client: httpx.Client, asked: Call)
     assert answer.to_dict() == response.raise_for_status().json()
 
 
-@pytest.mark.parametrize("asked", few(DRAWN, 2), ids=lambda one: one.name)
+@pytest.mark.parametrize("asked", DRAWN, ids=lambda one: one.name)
 def test_every_figure_is_drawn(own: Any, asked: Call) -> None:
     module, question = call("figures", asked.name), asked.question
     is_map = question.name == "maps"
@@ -151,22 +151,19 @@ FILM = FEW | {"start": 1, "stop": 2, "seconds": 1, "height": 240}
 
 @pytest.mark.parametrize(
     "asked",
-    few(
-        [
-            ("trajectory", FEW, "text/csv", b"time,handle"),
-            ("trajectory", FEW, "application/vnd.apache.arrow.file", b"ARROW1"),
-            ("trajectory", FEW, XLSX_TYPE, b"PK\x03\x04"),
-            ("trajectory_figure", {"benches": 3}, "image/svg+xml", b"<?xml"),
-            ("trajectory_figure", {"benches": 3}, "image/png", b"\x89PNG"),
-            ("maps", FEW, "image/vnd.dxf", b"  0\n"),
-            ("plan", FEW, "application/pdf", b"%PDF"),
-            ("crew", FEW | {"stop": 9}, "application/pdf", b"%PDF"),
-            ("cues", FEW | {"stop": 9}, "application/pdf", b"%PDF"),
-            ("films", FILM, "image/gif", b"GIF89a"),
-            ("films", FILM, "video/mp4", b"\x00\x00\x00"),
-        ],
-        1,
-    ),
+    [
+        ("trajectory", FEW, "text/csv", b"time,handle"),
+        ("trajectory", FEW, "application/vnd.apache.arrow.file", b"ARROW1"),
+        ("trajectory", FEW, XLSX_TYPE, b"PK\x03\x04"),
+        ("trajectory_figure", {"benches": 3}, "image/svg+xml", b"<?xml"),
+        ("trajectory_figure", {"benches": 3}, "image/png", b"\x89PNG"),
+        ("maps", FEW, "image/vnd.dxf", b"  0\n"),
+        ("plan", FEW, "application/pdf", b"%PDF"),
+        ("crew", FEW | {"stop": 9}, "application/pdf", b"%PDF"),
+        ("cues", FEW | {"stop": 9}, "application/pdf", b"%PDF"),
+        ("films", FILM, "image/gif", b"GIF89a"),
+        ("films", FILM, "video/mp4", b"\x00\x00\x00"),
+    ],
     ids=lambda asked: f"{asked[0]} {asked[2]}",
 )
 def test_a_file_made_by_a_job_comes_back_as_its_bytes(
@@ -177,7 +174,6 @@ def test_a_file_made_by_a_job_comes_back_as_its_bytes(
     assert result(own, job).startswith(begin)
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("accept", "begin"), [("text/csv", b'"design","pitch"'), ("application/vnd.apache.parquet", b"PAR1")]
 )

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import json
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
 
 import httpx
 import pytest
@@ -19,22 +19,24 @@ from app.wire.faults import pointer
 pytestmark = pytest.mark.uncompiled
 
 
-@pytest.mark.parametrize(
-    ("place", "body", "expected"),
-    [
-        ((), {}, ""),
-        (("path", "pitch"), {"path": {"pitch": 0}}, "/path/pitch"),
-        (("dragon", "uniform", "width"), {"dragon": {"width": 0}}, "/dragon/width"),
-        (("dragon", "bench_by_bench", "widths"), {"dragon": {"lengths": [1]}}, "/dragon/widths"),
-        (("times", "list", 1), {"times": [0, "a"]}, "/times/1"),
-        (("times", 300), {"times": {"stop": 600}}, "/times"),
-        (("times", 300), {}, "/times"),
-        (("times", "range", "step"), {}, "/times/step"),
-        (("a/b~c",), {"a/b~c": 1}, "/a~1b~0c"),
-    ],
-)
-def test_a_pointer_leads_to_what_is_in_the_body(place: tuple[str | int, ...], body: Any, expected: str) -> None:
-    assert pointer(place, body) == expected
+# Steps to a place and the JSON of the body -> the pointer.
+POINTERS = {
+    "[] {}": "",
+    '["path", "pitch"] {"path": {"pitch": 0}}': "/path/pitch",
+    '["dragon", "uniform", "width"] {"dragon": {"width": 0}}': "/dragon/width",
+    '["dragon", "bench_by_bench", "widths"] {"dragon": {"lengths": [1]}}': "/dragon/widths",
+    '["times", "list", 1] {"times": [0, "a"]}': "/times/1",
+    '["times", 300] {"times": {"stop": 600}}': "/times",
+    '["times", 300] {}': "/times",
+    '["times", "range", "step"] {}': "/times/step",
+    '["a/b~c"] {"a/b~c": 1}': "/a~1b~0c",
+}
+
+
+@pytest.mark.parametrize("given", POINTERS)
+def test_a_pointer_leads_to_what_is_in_the_body(given: str) -> None:
+    place, _, body = given.partition(" {")
+    assert pointer(json.loads(place), json.loads(f"{{{body}")) == POINTERS[given]
 
 
 @pytest.mark.parametrize(

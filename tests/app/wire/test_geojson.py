@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import time
 from typing import Any
@@ -60,35 +61,43 @@ def test_heights_and_edges_without_length_are_passed_over() -> None:
     assert read(raw(ring)).square.edges.tolist() == [[0, 0, 9, 0], [9, 0, 9, 9], [9, 9, 0, 0]]
 
 
-@pytest.mark.parametrize(
-    ("geometry", "field"),
-    [
-        ([], "venue"),
-        (None, "venue"),
-        ({}, "venue.type"),
-        ({"type": "Point", "coordinates": [0, 0]}, "venue.type"),
-        ({"type": "Polygon"}, "venue.coordinates"),
-        (raw(), "venue.coordinates"),
-        (raw(3), "venue.coordinates.0"),
-        (raw([[0, 0], [1, 0], 5]), "venue.coordinates.0.2"),
-        (raw([[0, 0], [1], [1, 1], [0, 0]]), "venue.coordinates.0.1"),
-        (raw([[0, 0], [1, math.nan], [1, 1], [0, 0]]), "venue.coordinates.0.1.1"),
-        (raw([[0, 0], [2e5, 0], [1, 1], [0, 0]]), "venue.coordinates.0.1.0"),
-        (raw([[0, 0], [1, 0], [1, 1]]), "venue"),
-        (raw([[0, 0], [1, 0], [1, 1], [0, 1]]), "venue"),
-        (raw([]), "venue.coordinates.0"),
-        (features(), "venue"),
-        (features({"type": "Feature", "properties": None, "geometry": None}), "venue.features.0.geometry"),
-        (features({"type": "Feature", "properties": {"name": 7}, "geometry": raw(RING)}), (
-            "venue.features.0.properties.name"
-        )),
-        (features(box(*SQUARE, name="a"), polygon(WELL, name="a")), "venue"),
-    ],
-)  # fmt: skip
-def test_what_is_no_venue_is_refused_where_it_is_wrong(geometry: object, field: str) -> None:
+# JSON of what is no venue -> the field of its refusal. POLYGON stands for the beginning of a polygon.
+WRONG = {
+    "[]": "venue",
+    "null": "venue",
+    "{}": "venue.type",
+    '{"type": "Point", "coordinates": [0, 0]}': "venue.type",
+    '{"type": "Polygon"}': "venue.coordinates",
+    "POLYGON: []}": "venue.coordinates",
+    "POLYGON: [3]}": "venue.coordinates.0",
+    "POLYGON: [[[0, 0], [1, 0], 5]]}": "venue.coordinates.0.2",
+    "POLYGON: [[[0, 0], [1], [1, 1], [0, 0]]]}": "venue.coordinates.0.1",
+    "POLYGON: [[[0, 0], [1, NaN], [1, 1], [0, 0]]]}": "venue.coordinates.0.1.1",
+    "POLYGON: [[[0, 0], [2e5, 0], [1, 1], [0, 0]]]}": "venue.coordinates.0.1.0",
+    "POLYGON: [[[0, 0], [1, 0], [1, 1]]]}": "venue",
+    "POLYGON: [[[0, 0], [1, 0], [1, 1], [0, 1]]]}": "venue",
+    "POLYGON: [[]]}": "venue.coordinates.0",
+    '{"type": "FeatureCollection", "features": []}': "venue",
+    '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": null, "geometry": null}]}': (
+        "venue.features.0.geometry"
+    ),
+    '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"name": 7}, "geometry": SQUARE}]}': (
+        "venue.features.0.properties.name"
+    ),
+    '{"type": "FeatureCollection", "features": [NAMED, NAMED]}': "venue",
+}
+
+
+@pytest.mark.parametrize("text", WRONG)
+def test_what_is_no_venue_is_refused_where_it_is_wrong(text: str) -> None:
+    parts = {"POLYGON": '{"type": "Polygon", "coordinates"', "SQUARE": json.dumps(box(*SQUARE))}
+    parts["NAMED"] = json.dumps(box(*SQUARE, name="a"))
+    geometry = text
+    for word, part in parts.items():
+        geometry = geometry.replace(word, part)
     with pytest.raises(InvalidValue) as refused:
-        read(geometry)
-    assert refused.value.field == field
+        read(json.loads(geometry))
+    assert refused.value.field == WRONG[text]
 
 
 def test_endless_nesting_is_refused() -> None:
