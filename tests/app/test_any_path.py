@@ -245,22 +245,6 @@ def test_a_dragon_that_starts_outside_the_venue_is_a_verdict(ask: Asking, left: 
     assert got["venue"]["stray"]["name"] == "yard"
 
 
-@pytest.mark.parametrize(
-    ("call", "more"),
-    [
-        ("check", {}),
-        ("clearance", {"times": [20.0]}),
-        ("figures/trajectory.svg", {"time": 20.0}),
-        ("figures/contact.png", {"start": 20.0}),
-    ],
-)
-def test_an_equal_question_is_answered_from_the_cache(ask: Asking, call: str, more: dict[str, Any]) -> None:
-    tag = {"If-None-Match": ask.send(call, ON_LANE | more).headers["etag"]}
-    again = ask.client.post(f"/{call}", json=ON_LANE | more, headers=tag)
-    assert (again.status_code, again.content) == (304, b"")
-    assert ask.client.post(f"/{call}", json=ON_LANE | more | {"head_speed": 1.1}, headers=tag).status_code == 200
-
-
 def test_times_by_default_and_the_same_times_given_have_tags_of_their_own(ask: Asking) -> None:
     assert (
         ask.send("trajectory", ON_LANE).headers["etag"]

@@ -18,7 +18,7 @@ import pytest
 from app.files.tables import ARROW_TYPE, CSV_TYPE, XLSX_TYPE
 from app.service.version import build
 from tests.app.files.test_figures import PNG_SIGNATURE
-from tests.support.asking import Asking
+from tests.support.asking import Asking, line
 
 SMALL: dict[str, Any] = {"dragon": {"benches": 3}, "times": [0.0, 1.5]}
 GETS = ("collision-time", "minimum-pitch", "clearance", "paper", "figures/trajectory.svg", "figures/contact.png")
@@ -181,15 +181,32 @@ def test_every_number_is_finite(ask: Asking, call: str) -> None:
 # -- HTTP ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("call", GETS)
-def test_an_answer_that_the_client_has_is_not_sent_again(ask: Asking, call: str) -> None:
-    first = ask.send(call)
+ON_LANE = {"dragon": {"benches": 4}, "path": line((0, 0), (60, 0))}
+
+
+@pytest.mark.parametrize(
+    ("call", "body"),
+    [
+        *((call, None) for call in GETS),
+        ("check", ON_LANE),
+        ("clearance", ON_LANE | {"times": [20.0]}),
+        ("figures/trajectory.svg", ON_LANE | {"time": 20.0}),
+    ],
+)
+def test_an_answer_that_the_client_has_is_not_sent_again(ask: Asking, call: str, body: Any) -> None:
+    first = ask.send(call, body)
     tag = first.headers["etag"]
     assert re.fullmatch(r'"[0-9a-f]{32}"', tag)
     assert re.fullmatch(r"public, max-age=\d+", first.headers["cache-control"])
-    again, other = (ask.client.get(call, headers={"If-None-Match": tags}) for tags in (f'"other", W/{tag}', '"other"'))
+    method = "POST" if body else "GET"
+    again, other = (
+        ask.client.request(method, call, json=body, headers={"If-None-Match": tags})
+        for tags in (f'"other", W/{tag}', '"other"')
+    )
     assert (again.status_code, again.content, again.headers["etag"]) == (304, b"", tag)
     assert other.content == first.content
+    if body:
+        assert ask.send(call, body | {"head_speed": 1.1}).headers["etag"] != tag
 
 
 def test_the_tag_follows_the_values_and_the_form_and_nothing_else(ask: Asking) -> None:

@@ -49,7 +49,7 @@ REQUESTS: dict[str, tuple[dict[str, Any], Callable[[], Any], str]] = {
     "collision-time": (
         {"dragon": ODD, "path": line(*WINDING), "head_speed": 2, "margin": 0.1},
         lambda: core.first_contact(ODD_DANCE, margin=0.1, start=ODD_DANCE.begin),
-        "outcome time time_bracket benches gap point head end",
+        "outcome time time_bracket benches gap point head end certificate.clear_until certificate.claim",
     ),
     "encounter": (
         TWO | {"margin": 0.1},
@@ -74,7 +74,7 @@ REQUESTS: dict[str, tuple[dict[str, Any], Callable[[], Any], str]] = {
     "envelope": (
         {"dragon": {"benches": 3}, "path": {"kind": "route", "pieces": [RING], "start": 8}, "head_speed": 2, "stop": 3},
         lambda: core.envelope(Dance(Dragon(3), Route([Arc((0.0, 0.0), 5.0, 0.0, 7.0)], start=8.0), 2.0), stop=3.0),
-        "excess area start stop",
+        "excess area start stop certificate.cells certificate.claim",
     ),
     "maximum-head-speed": (
         {"dragon": {"benches": 20}, "speed_limit": 1.5},
@@ -100,7 +100,7 @@ REQUESTS: dict[str, tuple[dict[str, Any], Callable[[], Any], str]] = {
     "tolerance": (
         {"dragon": {"benches": 12}, "path": {"pitch": 0.9, "start_turns": 9}, "stop": 20, "venue": box(-9, -9, 9, 9)},
         lambda: core.tolerance(Dance(Dragon(12), Spiral(0.9, 9.0)), stop=20.0, venue=venue(-9, -9, 9, 9)),
-        "stray stray_bracket time benches limited_by",
+        "stray stray_bracket time benches limited_by certificate.claim",
     ),
     "tolerance of several": (
         TWO,

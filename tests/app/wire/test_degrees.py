@@ -1,4 +1,4 @@
-"""Venues in longitude and latitude: never read as metres, and laid out on a plane as surveyors do it."""
+"""Venues in longitude and latitude, laid out on a plane as surveyors do it; test_refusals.py has what is wrong."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from app.wire.degrees import ACROSS_MAX, GeographicOrigin, Place, Plane, place_of
 from core import Dance, Dragon, InvalidValue, Spiral, check
-from tests.support.asking import Asking, box, polygon, written
+from tests.support.asking import Asking, box, written
 from tests.support.command import run
 
 # The plane that touches the earth shortens a length of 10 km by this part of it [1].
@@ -55,17 +55,9 @@ def refusal(venue: object, coordinates: Any = None) -> str:
 METRES, DEGREES = box(-40, -40, 40, 40), around(40.0)
 DANCE = {"dragon": {"benches": 20}, "path": {"pitch": 1.7, "start_turns": 6}}
 CHECK = DANCE | {"stop": 20}
-CALLS = ["check", "figures/trajectory.svg", "figures/contact.svg"]
 
 
 # -- degrees or metres ----------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("call", CALLS)
-@pytest.mark.parametrize("coordinates", [{}, {"coordinates": None}, {"coordinates": "metres"}])
-def test_degrees_are_never_read_as_metres(ask: Asking, call: str, coordinates: dict[str, Any]) -> None:
-    body = DANCE | {"venue": DEGREES} | coordinates
-    ask.refuses('/venue longitude latitude 3.41 "coordinates": "degrees"', call, body)
 
 
 @pytest.mark.parametrize(
@@ -97,22 +89,8 @@ def test_an_obstacle_far_away_makes_no_square_of_degrees_one_of_metres() -> None
     assert "longitude and latitude" in refusal({"type": "FeatureCollection", "features": [square, stall]})
 
 
-@pytest.mark.parametrize("coordinates", [None, "metres", "degrees"])
-def test_latitude_before_longitude_is_reported(ask: Asking, coordinates: str | None) -> None:
-    swapped = polygon([(y, x) for x, y in DEGREES["coordinates"][0]])
-    answer = ask.send("check", CHECK | {"venue": swapped, "coordinates": coordinates})
-    assert answer.status_code == 422
-    assert "longitude comes first and latitude second, and here they look swapped" in answer.json()["detail"]
-
-
 def test_a_latitude_beyond_90_that_no_order_mends_is_refused_without_that_hint() -> None:
     assert refusal(box(120, 95, 121, 96), "degrees").endswith("must be at most 90 degrees, got 95 degrees")
-
-
-@pytest.mark.parametrize("coordinates", ["metres", "degrees"])
-@pytest.mark.parametrize("call", CALLS)
-def test_coordinates_without_a_venue_are_refused(ask: Asking, call: str, coordinates: str) -> None:
-    ask.refuses(f"/coordinates {coordinates}", call, DANCE | {"coordinates": coordinates})
 
 
 @pytest.mark.parametrize("place", ["features.0", "features.0.geometry"])
@@ -218,31 +196,6 @@ def test_another_crs_is_refused_unless_the_user_says_that_it_is_in_metres(name: 
 
 def test_no_crs_at_all_is_none() -> None:
     assert placed(METRES | {"crs": None}) == placed(METRES)
-
-
-@pytest.mark.parametrize("system", ["EPSG:4326", {"type": "link"}, {"type": "name", "properties": {}}, 4326, []])
-def test_a_crs_that_names_none_is_refused(ask: Asking, system: Any) -> None:
-    ask.refuses("/venue/crs", "check", CHECK | {"venue": METRES | {"crs": system}})
-
-
-# -- what is wrong -------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("ring", "expected"),
-    [
-        (box(28.0, 120.0, 28.001, 120.001), "/venue/coordinates/0/0/1 90 120"),
-        (box(181.0, 0.0, 181.001, 0.001), "/venue/coordinates/0/0/0 180"),
-        (box(120.0, 28.0, 120.3, 28.001), "/venue 20 29.49"),
-        ([[120, 28], [120.001, 28], [120.001]], "/venue/coordinates/0/2 [longitude, latitude]"),
-        ([[120, 28], [120.001, 28.001], [120.001, 28], [120, 28.001], [120, 28]], "/venue self-intersection"),
-        ([[120, 28], [120.001, 28], [120.001, 28.001]], "/venue closed"),
-    ],
-    ids=["latitude first", "longitude", "too wide", "no position", "crossed", "open"],
-)
-def test_what_is_no_venue_in_degrees_is_named(ask: Asking, ring: Any, expected: str) -> None:
-    venue = ring if isinstance(ring, dict) else {"type": "Polygon", "coordinates": [ring]}
-    ask.refuses(expected, "check", CHECK | {"venue": venue, "coordinates": "degrees"})
 
 
 def test_the_limit_of_a_venue_is_where_it_says() -> None:
