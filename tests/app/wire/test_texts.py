@@ -25,46 +25,44 @@ def test_utf_16_is_known_by_its_mark_in_either_order() -> None:
     assert json_of(codecs.BOM_UTF16_BE + DANCE.encode("utf-16-be")) == json_of(DANCE.encode())
 
 
-@pytest.mark.parametrize(
-    ("read", "data", "words"),
-    [
-        (json_of, b'{"a": 1 2}', "is not JSON: Expecting ',' delimiter at character 8"),
-        (json_of, b'{"a', "is not JSON: Unterminated string starting at character 1"),
-        (json_of, b'{"a": \xff}', "is not text in UTF-8: byte 0xff at position 6"),
-        (json_of, b"[" * 100_000, "nests too many objects and lists in one another"),
-        (json_of, b"9" * 5000, "has a whole number of more than 4300 digits"),
-        (toml_of, b"a =", "is not TOML: Invalid value (at end of document)"),
-        (toml_of, b"a = 1\na = 2", "is not TOML: Cannot overwrite a value (at end of document)"),
-        (toml_of, b"a = " + b"[" * 100_000, "nests too many objects and lists in one another"),
-        (toml_of, b"a = " + b"[" * 101 + b"]" * 101, "nests objects and lists more than 100 deep"),
-        (toml_of, b"a." * 20 + b"a = 1", "has a name of more than 20 parts"),
-        (toml_of, b"['a' . " + b'"\\"b" .c.' * 10 + b"d]", "has a name of more than 20 parts"),
-        (toml_of, b"a = " + b"9" * 5000, "has a whole number of more than 4300 digits"),
-        (toml_of, b"a = [{b = 0x" + b"f" * 17 + b"}]", "has a whole number of more than 64 bits"),
-        (toml_of, b"a = '\xff'", "is not text in UTF-8: byte 0xff at position 5"),
-    ],
-)
-def test_an_unreadable_text_is_refused_with_its_fault(read: Callable[[bytes], Any], data: bytes, words: str) -> None:
-    with pytest.raises(Unreadable) as refused:
-        read(data)
-    assert str(refused.value) == f"the text {words}"
-    assert str(refused.value.of("file", "dance.json")) == f"dance.json {words}"
-    assert not isinstance(refused.value, Unfit)
+JSON_FAULTS = {
+    b'{"a": 1 2}': "is not JSON: Expecting ',' delimiter at character 8",
+    b'{"a': "is not JSON: Unterminated string starting at character 1",
+    b'{"a": \xff}': "is not text in UTF-8: byte 0xff at position 6",
+    b"[" * 100_000: "nests too many objects and lists in one another",
+    b"9" * 5000: "has a whole number of more than 4300 digits",
+}
+# JSON that fits no request.
+UNFIT = {
+    b'{"p": {"x": 1, "y": 2, "x": 1}}': 'has an object with the name "x" more than once',
+    b'{"a": ["x\\u0000y"]}': "has a text with NUL or half of a character, near 'x\\x00y'",
+    b'{"\\ud800": 1}': "has a text with NUL or half of a character, near '\\ud800'",
+}
+TOML_FAULTS = {
+    b"a =": "is not TOML: Invalid value (at end of document)",
+    b"a = 1\na = 2": "is not TOML: Cannot overwrite a value (at end of document)",
+    b"a = " + b"[" * 100_000: "nests too many objects and lists in one another",
+    b"a = " + b"[" * 101 + b"]" * 101: "nests objects and lists more than 100 deep",
+    b"a." * 20 + b"a = 1": "has a name of more than 20 parts",
+    b"['a' . " + b'"\\"b" .c.' * 10 + b"d]": "has a name of more than 20 parts",
+    b"a = " + b"9" * 5000: "has a whole number of more than 4300 digits",
+    b"a = [{b = 0x" + b"f" * 17 + b"}]": "has a whole number of more than 64 bits",
+    b"a = '\xff'": "is not text in UTF-8: byte 0xff at position 5",
+}
 
 
 @pytest.mark.parametrize(
-    ("data", "words"),
-    [
-        (b'{"p": {"x": 1, "y": 2, "x": 1}}', 'has an object with the name "x" more than once'),
-        (b'{"a": ["x\\u0000y"]}', "has a text with NUL or half of a character, near 'x\\x00y'"),
-        (b'{"\\ud800": 1}', "has a text with NUL or half of a character, near '\\ud800'"),
-    ],
+    ("read", "faults"),
+    [(json_of, JSON_FAULTS), (json_of, UNFIT), (toml_of, TOML_FAULTS)],
+    ids=["JSON", "unfit", "TOML"],
 )
-def test_json_that_fits_no_request_is_refused(data: bytes, words: str) -> None:
-    with pytest.raises(Unfit) as refused:
-        json_of(data)
-    assert str(refused.value) == f"the text {words}"
-    assert str(refused.value.of("file", "dance.json")) == f"dance.json {words}"
+def test_an_unreadable_text_is_refused_with_its_fault(read: Callable[[bytes], Any], faults: dict[bytes, str]) -> None:
+    for data, words in faults.items():
+        with pytest.raises(Unreadable) as refused:
+            read(data)
+        assert str(refused.value) == f"the text {words}"
+        assert str(refused.value.of("file", "dance.json")) == f"dance.json {words}"
+        assert isinstance(refused.value, Unfit) == (faults is UNFIT)
 
 
 def test_a_whole_character_in_two_escapes_is_text() -> None:
