@@ -30,7 +30,7 @@ SHORT = {"benches": 4}
 COLUMNS = ("x", "y", "speed")
 
 
-def route(*pieces: dict[str, Any], start: float = 0) -> dict[str, Any]:
+def route(*pieces: Any, start: float = 0) -> dict[str, Any]:
     return {"kind": "route", "pieces": list(pieces), "start": start}
 
 
@@ -113,7 +113,7 @@ def test_the_quickest_turn_is_a_turn_with_its_time(ask: Asking) -> None:
 
 def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask: Asking) -> None:
     """As in docs/contest.md, and as its pieces."""
-    shape: dict[str, Any] = {"ratio": 1.0, "middle": 4.0, "ends": 0.5}
+    shape = {"ratio": 1.0, "middle": 4.0, "ends": 0.5}
     path, smooth = TURN | shape, core.ClothoidTurn(1.7, **shape)
     timed = ask("turn-time", {"path": path})
     assert (round(timed["length"], 4), round(timed["head_speed"], 4), round(timed["time"], 2)) == (13.4102, 1.739, 7.71)
@@ -158,7 +158,7 @@ def test_a_clothoid_is_a_piece(ask: Asking) -> None:
 
 @pytest.mark.parametrize("start", [0, 20, -7.5])
 def test_waypoints_are_a_path_and_a_piece_and_start_as_far_along(ask: Asking, start: float) -> None:
-    def asked(path: dict[str, Any], begin: float) -> Any:
+    def asked(path: Any, begin: float) -> Any:
         return ask("trajectory", {"dragon": SHORT, "path": path, "times": [30.0 - begin, 45.0 - begin]})
 
     alone = asked(CURVE | {"start": start}, start)

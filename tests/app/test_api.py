@@ -20,7 +20,7 @@ from app.service.version import build
 from tests.app.files.test_figures import PNG_SIGNATURE
 from tests.support.asking import Asking, line
 
-SMALL: dict[str, Any] = {"dragon": {"benches": 3}, "times": [0.0, 1.5]}
+SMALL = {"dragon": {"benches": 3}, "times": [0.0, 1.5]}
 GETS = ("collision-time", "minimum-pitch", "clearance", "paper", "figures/trajectory.svg", "figures/contact.png")
 # Two benches that cross in the middle of both, and a third apart.
 PLACES = [(0, 0, 0), (9, 9, 0), (0.2, 0.1, math.pi / 2)]

@@ -113,7 +113,7 @@ def test_a_media_type_that_the_call_does_not_offer_is_a_problem(ask: Asking, cal
 
 TURNED = "Li\u202e.csv"
 VILLAGE = {"path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [40, 0]}]}}
-NAMED: dict[str, dict[str, Any]] = {
+NAMED = {
     "plan gate": {"json": VILLAGE | {"gates": [{"name": TURNED, "x": 0, "y": 0}]}},
     **{f"{call} title": {"json": VILLAGE | {"title": TURNED}} for call in ("plan", "cues", "crew", "films")},
     "check bench": {"json": VILLAGE | {"dragon": {"benches": 1, "names": [TURNED]}}},

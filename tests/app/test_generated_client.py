@@ -102,7 +102,7 @@ def test_every_figure_is_drawn(own: Any, asked: Call) -> None:
     module, question = call("figures", asked.name), asked.question
     is_map = question.name == "maps"
     known = importlib.import_module(f"{PACKAGE}.models.{'map_format' if is_map else 'format_'}")
-    small: dict[str, Any] = {"benches": 9} if asked.method == "GET" else {"dragon": {"benches": 9}}
+    small = {"benches": 9} if asked.method == "GET" else {"dragon": {"benches": 9}}
     if question.name == "pitch_scan_figure":
         small["samples"] = 3
     if question.name == "encounter_figure":

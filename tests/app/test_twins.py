@@ -20,7 +20,7 @@ from tests.support.asking import Asking, dance, few, written
 from tests.support.command import run
 
 # A value of each parameter of a query that differs from its default and leaves the answer short.
-VALUES: dict[str, Any] = {
+VALUES = {
     "benches": 9,
     "width": 0.25,
     "start_turns": 12,
@@ -62,11 +62,9 @@ def label(part: Any) -> str | None:
     return part[0].name + " of several" * (part[1] is TWO) if isinstance(part, tuple) else None
 
 
-def in_body(question: Question, flat: dict[str, Any]) -> dict[str, Any]:
+def in_body(question: Question, flat: Any) -> dict[str, Any]:
     """The body that asks what a query asks."""
-    assert question.flat is not None
-    assert question.body is not None
-    body: dict[str, Any] = {}
+    body = {}
     for name, value in flat.items():
         if name in question.body.model_fields:
             body[name] = value
@@ -86,7 +84,6 @@ def test_only_a_question_without_a_dragon_is_asked_one_way_alone() -> None:
 
 @pytest.mark.parametrize("question", BOTH.values(), ids=BOTH)
 def test_both_ways_of_asking_have_one_answer(client: httpx.Client, question: Question) -> None:
-    assert question.flat is not None
     flat = {name: VALUES[name] for name in question.flat.model_fields if name in VALUES}
     path = question.path.format(format="svg")
     over_query, over_body = client.get(path, params=flat), client.post(path, json=in_body(question, flat))
@@ -97,8 +94,6 @@ def test_both_ways_of_asking_have_one_answer(client: httpx.Client, question: Que
 
 @pytest.mark.parametrize("question", BOTH.values(), ids=BOTH)
 def test_an_empty_body_asks_what_an_empty_query_asks(question: Question) -> None:
-    assert question.flat is not None
-    assert question.body is not None
     flat, body = question.flat(), question.body()
     shared = question.flat.model_fields.keys() & question.body.model_fields.keys() - {"time"}
     if question.name == "tolerance":  # over a body any dance, to its own end

@@ -12,7 +12,7 @@ from core.breaches import breaches
 from tests.support.asking import Asking, box, line
 
 CORNERS = {"square": (-9, -9, 39, 9), "tree": (14, 0.2, 16, 2.2)}
-BODY: dict[str, Any] = {
+BODY = {
     "dragon": {"benches": 3},
     "path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [30, 0]}]},
     "venue": {"type": "FeatureCollection", "features": [box(*CORNERS[name], name=name) for name in CORNERS]},

@@ -24,10 +24,10 @@ from tests.support.reference_encounters import CASES, performance_of
 EXAMPLE = str(Path(__file__).parents[3] / "examples" / "two_dragons.toml")
 LANE, BESIDE = dance(3, (0, 0), (30, 0)), dance(3, (0, 2), (30, 2))
 EAST, NORTH = dance(5, (0, 0), (30, 0), name="east"), dance(5, (15, -20), (15, 20), name="north")
-TWO: dict[str, Any] = {"dances": [EAST, NORTH]}
+TWO = {"dances": [EAST, NORTH]}
 
 
-def body_of(case: dict[str, Any]) -> dict[str, Any]:
+def body_of(case: Any) -> dict[str, Any]:
     """The body that asks for the first encounter of a reference case."""
     return {name: case[name] for name in ("dances", "start", "stop")}
 
@@ -169,9 +169,7 @@ def test_the_benches_and_the_path_of_each_dance_may_be_files(tmp_path: Path) -> 
         ("figures --kind pitch-scan", TWO, "{file} holds the dances of several"),
     ],
 )
-def test_a_file_of_several_dragons_is_no_file_of_one(
-    tmp_path: Path, command: str, held: dict[str, Any], words: str
-) -> None:
+def test_a_file_of_several_dragons_is_no_file_of_one(tmp_path: Path, command: str, held: Any, words: str) -> None:
     file = written(tmp_path, held)
     done = run(*command.split(), file)
     assert (done.returncode, done.stdout) == (2, "")
@@ -235,7 +233,7 @@ def test_signs_of_typesetting_in_names_are_drawn_as_they_are() -> None:
     ],
 )
 def test_the_figures_of_one_dance_take_several_in_both_languages(
-    ask: Asking, kind: str, more: dict[str, Any], words: dict[str, str], language: str
+    ask: Asking, kind: str, more: Any, words: dict[str, str], language: str
 ) -> None:
     assert words[language] in texts(ask.file(f"figures/{kind}.svg", TWO | more | {"language": language}))
 

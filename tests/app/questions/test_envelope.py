@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Any
 
 import ezdxf
 import pytest
@@ -20,7 +19,7 @@ from tests.support.command import run
 
 # Rounds on a circle, which leave a hole.
 RING = {"kind": "arc", "centre": [0, 0], "radius": 5, "start_angle": 0, "sweep": 7}
-BODY: dict[str, Any] = {"dragon": {"benches": 3}, "path": {"kind": "route", "pieces": [RING], "start": 8}}
+BODY = {"dragon": {"benches": 3}, "path": {"kind": "route", "pieces": [RING], "start": 8}}
 ENVELOPE = envelope(Dance(Dragon(3), Route([Arc((0.0, 0.0), 5.0, 0.0, 7.0)], start=8.0)))
 OUTLINE = [ring.tolist() for ring in ENVELOPE.polygons[0]]
 SPECTATORS = [[8.0, -3.0], [8.0, 3.0], [9.0, 9.0]]

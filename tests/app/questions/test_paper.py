@@ -16,6 +16,7 @@ from core.shapes.rectangles import bench_poses
 # Printed digits of the paper, and how well the reference values are known.
 MICROMETRE = 0.5e-6  # [m]
 NANO = 1e-9  # [s and m]
+Rows = dict[str, PaperNumber]
 LENGTH, TIME, RADIUS, PITCH = (
     "arc length of the spiral",
     "time of first contact",
@@ -25,7 +26,7 @@ LENGTH, TIME, RADIUS, PITCH = (
 
 
 @pytest.fixture(scope="module")
-def rows() -> dict[str, PaperNumber]:
+def rows() -> Rows:
     return {row.quantity: row for row in comparison()}
 
 
@@ -36,7 +37,7 @@ def evidence(row: PaperNumber, start: str) -> float:
 
 
 def test_each_row_states_the_number_of_the_paper_its_difference_unit_source_and_reason(
-    rows: dict[str, PaperNumber],
+    rows: Rows,
 ) -> None:
     assert {name: row.paper for name, row in rows.items()} == {
         LENGTH: 442.590256,
@@ -51,9 +52,8 @@ def test_each_row_states_the_number_of_the_paper_its_difference_unit_source_and_
         assert row.source
 
 
-def test_ours_is_what_core_answers_and_an_independent_computation_proved(rows: dict[str, PaperNumber]) -> None:
+def test_ours_is_what_core_answers_and_an_independent_computation_proved(rows: Rows) -> None:
     contact = first_contact(Dance(Dragon(), Spiral()))
-    assert contact.head is not None
     ours = [rows[name].ours for name in (TIME, RADIUS, PITCH)]
     assert ours == [contact.time, contact.head.radius, minimum_pitch(Dragon()).pitch]
     proven = [412.47383768211466, 2.288742638382156, 0.4503373930271955]
@@ -75,14 +75,12 @@ ROUNDED = {
 
 
 @pytest.mark.parametrize(("quantity", "what"), ROUNDED)
-def test_the_evidence_has_the_digits_that_the_reasons_tell(
-    rows: dict[str, PaperNumber], quantity: str, what: str
-) -> None:
+def test_the_evidence_has_the_digits_that_the_reasons_tell(rows: Rows, quantity: str, what: str) -> None:
     known = ROUNDED[quantity, what]
     assert f"{evidence(rows[quantity], what):.{len(known.partition('.')[2])}f}" == known
 
 
-def test_the_exact_angle_rule_and_a_bisection_of_the_radius_agree_with_ours(rows: dict[str, PaperNumber]) -> None:
+def test_the_exact_angle_rule_and_a_bisection_of_the_radius_agree_with_ours(rows: Rows) -> None:
     exact = evidence(rows[TIME], "first time of an angle sum of 360 degrees")
     assert exact == pytest.approx(rows[TIME].ours, abs=1e-6)  # [s]: the angle sum nears 360 degrees continuously
     assert 359.1 < evidence(rows[TIME], "largest angle sum at the paper's time") < 360.0
@@ -90,7 +88,7 @@ def test_the_exact_angle_rule_and_a_bisection_of_the_radius_agree_with_ours(rows
     assert ends == pytest.approx(rows[PITCH].ours, abs=NANO)
 
 
-def test_at_the_time_of_the_paper_the_head_passes_bench_9_without_touching(rows: dict[str, PaperNumber]) -> None:
+def test_at_the_time_of_the_paper_the_head_passes_bench_9_without_touching(rows: Rows) -> None:
     gap = evidence(rows[TIME], "clearance at the paper's time, benches 0 and 9")
     dragon = Dragon()
     poses = bench_poses(trajectory(Dance(dragon, Spiral()), [406.43]).position[0])[[0, 9]]
@@ -99,16 +97,15 @@ def test_at_the_time_of_the_paper_the_head_passes_bench_9_without_touching(rows:
     assert round(1000 * gap, 1) == 4.3
 
 
-def test_the_radius_and_the_time_of_the_paper_exclude_each_other(rows: dict[str, PaperNumber]) -> None:
+def test_the_radius_and_the_time_of_the_paper_exclude_each_other(rows: Rows) -> None:
     assert abs(evidence(rows[RADIUS], "radius of the head at the paper's time") - 2.883) > 0.1
     passed = evidence(rows[RADIUS], "time at which the head passes the paper's radius")
     assert Spiral().head(passed).radius == pytest.approx(2.883, abs=NANO)
 
 
-def test_the_pitch_of_the_paper_is_feasible_but_not_the_smallest(rows: dict[str, PaperNumber]) -> None:
+def test_the_pitch_of_the_paper_is_feasible_but_not_the_smallest(rows: Rows) -> None:
     contact = first_contact(Dance(Dragon(), Spiral(pitch=0.474924)))
     assert contact.outcome is Outcome.CONTACT
-    assert contact.head is not None
     assert evidence(rows[PITCH], "radius of first contact at the paper's pitch") == contact.head.radius < 4.5
 
 

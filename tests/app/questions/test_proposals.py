@@ -12,7 +12,7 @@ import pytest
 from tests.support.asking import Asking, box, written
 from tests.support.command import run
 
-BODY: dict[str, Any] = {
+BODY = {
     "venue": box(0, 0, 24, 20),
     "dragon": {"benches": 10},
     "figures": ["ring", "serpentine"],
@@ -35,7 +35,7 @@ TOO_NARROW = "The widest free circle is at most 3.02 m across; a turn of the hea
     ],
     ids=["ring", "square", "gates", "bench by bench", "most benches"],
 )
-def test_every_dance_passes_its_check_as_it_is(ask: Asking, more: dict[str, Any]) -> None:
+def test_every_dance_passes_its_check_as_it_is(ask: Asking, more: Any) -> None:
     answer = ask("proposals", BODY | more)
     assert answer["proposals"]
     assert (answer["reason"], answer["reason_kind"]) == (None, None)

@@ -11,7 +11,7 @@ from tests.support.command import run
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "crossing_streets.toml"
 EAST, NORTH = dance(5, (-20, 0), (20, 0)), dance(5, (0, -20), (0, 20))
-CROSSING: dict[str, Any] = {"dances": [EAST | {"name": "east"}, NORTH | {"name": "3"}], "least": -60, "most": 60}
+CROSSING = {"dances": [EAST | {"name": "east"}, NORTH | {"name": "3"}], "least": -60, "most": 60}
 # The first procession ends on the crossing and stands there.
 BLOCKED = {"dances": [dance(5, (-20, 0), (2, 0)), NORTH], "least": 20, "most": 90}
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +17,7 @@ from tests.support.command import run
 
 SMALL = {"benches": 40, "start_turns": 9}
 DANCES = [dance(4, (0, 0), (30, 0), name="a"), dance(4, (30, 0.8), (0, 0.8), name="b")]
-SEVERAL: dict[str, Any] = {"dances": DANCES}
+SEVERAL = {"dances": DANCES}
 
 
 def test_the_way_to_the_circle_has_the_tolerance_of_core_and_a_pose_that_overlaps(ask: Asking) -> None:
@@ -92,7 +91,6 @@ def test_several_dances_have_the_tolerance_of_core(ask: Asking) -> None:
     assert (got["stray"], got["dragons"], got["names"]) == (result.stray, [0, 1], ["a", "b"])
     assert (got["limited_by"], tuple(got["benches"])) == ("benches", result.benches)
     assert got["own"] == [one.stray for one in result.own]
-    assert result.exhibit is not None
     assert got["exhibit"]["handles"] == [own.tolist() for own in result.exhibit.handles]
     assert got["certificate"]["claim"]["stray"] == got["stray"]
     assert ask("encounter", SEVERAL | {"stray": got["stray"]})["outcome"] == "clear"

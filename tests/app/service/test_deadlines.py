@@ -5,7 +5,6 @@ from __future__ import annotations
 import http.client
 from collections.abc import Callable
 from contextlib import closing
-from typing import Any
 
 import httpx
 import pytest
@@ -38,7 +37,7 @@ DRAWN_PLAN = LONG_PLAN | {"dragon": {"benches": 1000}}
 SHORT_DEADLINE = 0.1  # [s]
 PATIENCE = 60.0  # [s], where an answer alone would take minutes
 SCAN = {"method": "GET", "url": "/pitch-scan", "params": {"samples": 401}}
-TOO_MUCH: dict[str, dict[str, Any]] = {
+TOO_MUCH = {
     "query": {"method": "GET", "url": "/minimum-pitch", "params": HEAVY},
     "long body": {"method": "POST", "url": "/check", "json": LONG_BODY},
     "body": {"method": "POST", "url": "/minimum-pitch", "json": {"dragon": HEAVY}},

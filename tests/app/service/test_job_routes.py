@@ -175,7 +175,7 @@ def test_head_of_events_ends_at_once(service: JobService) -> None:
 
 
 @pytest.fixture(scope="module")
-def followed(service: JobService) -> tuple[str, list[tuple[int, Any]]]:
+def followed(service: JobService) -> Any:
     """The address of a job that takes a moment, and its events after the first one, with which a stream broke."""
     address = service.post(SCAN)
     with service.client.stream("GET", f"{address}/events") as answer:
@@ -184,7 +184,7 @@ def followed(service: JobService) -> tuple[str, list[tuple[int, Any]]]:
 
 
 def test_events_tell_every_change_and_a_stream_that_breaks_is_taken_up_where_it_broke(
-    service: JobService, followed: tuple[str, list[tuple[int, Any]]]
+    service: JobService, followed: Any
 ) -> None:
     address, after_first = followed
     events = events_of(service, address)
@@ -213,15 +213,13 @@ def test_proposals_come_as_they_are_found_and_stay_in_the_answer_alone(service: 
     assert not any("part" in status for _, status in events_of(service, address))
 
 
-def test_a_number_of_no_event_is_no_mistake_of_the_service(
-    service: JobService, followed: tuple[str, list[tuple[int, Any]]]
-) -> None:
+def test_a_number_of_no_event_is_no_mistake_of_the_service(service: JobService, followed: Any) -> None:
     for last in ("9" * 18, "9" * 30, "9" * 5000, "-1", "a"):
         answer = service.client.get(f"{followed[0]}/events", headers={"Last-Event-ID": last})
         assert answer.status_code in (200, 204), last[:9]
 
 
-def test_progress_comes_with_a_rate_and_the_time_left(followed: tuple[str, list[tuple[int, Any]]]) -> None:
+def test_progress_comes_with_a_rate_and_the_time_left(followed: Any) -> None:
     between = [status for _, status in followed[1] if status["rate"] is not None]
     assert between
     for status in between:
@@ -338,7 +336,7 @@ def test_many_removals_keep_no_page_waiting(service: JobService) -> None:
 
 
 SMALL_SWEEP = {"question": "collision_time", "request": {"benches": 20}, "over": {"pitch": [0.5, 0.55]}}
-MAKING: dict[str, dict[str, Any]] = {
+MAKING = {
     "POST /jobs": {"json": SHORT},
     "POST /sweeps": {"json": SMALL_SWEEP},
     "POST /check": {"json": {"path": {"kind": "spiral"}}, "headers": LATER},
