@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
 import httpx
 import numpy as np
 import pytest
-from scipy.special import fresnel
 
 import core
 from app.wire.paths import path_of
@@ -19,15 +17,11 @@ from tests.support.asking import Asking, box, line
 from tests.support.reference import reference
 
 REFERENCE_TOLERANCE = 1e-9  # [m], [rad], [s] and [m/s]
-SAME_PATH_TOLERANCE = 1e-10  # [m] and [m/s]
 BEGIN_TOLERANCE = 1e-7  # [s]: the first place with room for the whole dragon is bisected
 TURN = {"kind": "turn", "pitch": 1.7, "turning_diameter": 9, "ratio": 2}
 CONTEST = {"pitch": 1.7, "turning_diameter": 9}
 LANE = {"kind": "line", "start": [0, 0], "end": [60, 0]}
-RAMP = {"kind": "clothoid", "start": [60, 0], "heading": 0, "start_curvature": 0, "end_curvature": 0.5, "length": 2}
-CURVE = line((0, 0), (20, 3), (40, -3), (60, 0))
 SHORT = {"benches": 4}
-COLUMNS = ("x", "y", "speed")
 
 
 def route(*pieces: Any, start: float = 0) -> dict[str, Any]:
@@ -38,12 +32,6 @@ def route(*pieces: Any, start: float = 0) -> dict[str, Any]:
 STRAIGHT = line((0, 0), (20, 0), (40, 0), (60.5, 0))
 LONG_LANE = route(LANE | {"end": [900, 0]})
 ON_LANE = {"dragon": SHORT, "path": route(LANE)}
-
-
-def assert_same(got: Any, known: Any, names: Sequence[str] = COLUMNS, tolerance: float = SAME_PATH_TOLERANCE) -> None:
-    """The columns of two answers are the same to within the tolerance."""
-    for name in names:
-        assert np.array(got[name]) == pytest.approx(np.array(known[name]), rel=0, abs=tolerance), name
 
 
 def assert_turn(ask: Asking, got: Any, **query: Any) -> None:
@@ -57,7 +45,9 @@ def assert_turn(ask: Asking, got: Any, **query: Any) -> None:
 
 def test_the_turn_is_the_known_one(ask: Asking) -> None:
     known = reference("turn")["turn"]
-    assert_same(ask("turn", **CONTEST, ratio=2), known, known, REFERENCE_TOLERANCE)
+    got = ask("turn", **CONTEST, ratio=2)
+    for name, value in known.items():
+        assert np.array(got[name]) == pytest.approx(np.array(value), rel=0, abs=REFERENCE_TOLERANCE), name
 
 
 def test_the_shortest_turn_is_a_turn_and_what_limits_it(ask: Asking) -> None:
@@ -114,58 +104,55 @@ def test_the_quickest_turn_is_a_turn_with_its_time(ask: Asking) -> None:
 def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask: Asking) -> None:
     """As in docs/contest.md, and as its pieces."""
     shape = {"ratio": 1.0, "middle": 4.0, "ends": 0.5}
-    path, smooth = TURN | shape, core.ClothoidTurn(1.7, **shape)
-    timed = ask("turn-time", {"path": path})
+    timed = ask("turn-time", {"path": TURN | shape})
     assert (round(timed["length"], 4), round(timed["head_speed"], 4), round(timed["time"], 2)) == (13.4102, 1.739, 7.71)
     assert timed == ask("turn-time", **CONTEST, **shape)
-    assert (timed["length"], timed["radii"]) == (smooth.length, list(smooth.radii))
     assert_turn(ask, timed, **shape)
-    for call, more in (("trajectory", {"times": [-5.0, 0.0, 20.0]}), ("check", {"start": -20.0, "stop": 40.0})):
-        whole, pieces = (ask(call, {"dragon": SHORT, "path": one, **more}) for one in (path, path_of(smooth)))
-        assert whole == pieces
+    paths = (TURN | shape, path_of(core.ClothoidTurn(1.7, **shape)))
+    whole, pieces = (ask("check", {"dragon": SHORT, "path": path, "start": -20.0, "stop": 40.0}) for path in paths)
+    assert whole == pieces
 
 
 # -- routes and waypoints ------------------------------------------------------------------------------------
 
 
-def test_a_spiral_as_a_route_gives_the_answers_of_the_spiral(ask: Asking) -> None:
-    times = [-20.0, 0.0, 150.0, 300.0]
-    as_route = route({"kind": "coil", "pitch": 0.55, "start_turns": 16, "end_turns": 3})
-    for call, names in (("trajectory", COLUMNS), ("clearance", ["clearance"])):
-        spiral, same = (ask(call, {"path": path, "times": times}) for path in ({"kind": "spiral"}, as_route))
-        assert_same(same, spiral, names)
-    result, known = (
-        ask("check", {"path": as_route, "margin": 0.05})["first_contact"],
-        ask("collision-time", margin=0.05),
+BEND = ((60.0, 4.0), 4.0, -0.5 * math.pi, 0.5)
+# Every kind of a path and of a piece, with each of its fields -> the path of core.
+KINDS = {
+    '{"kind": "spiral", "pitch": 0.6, "start_turns": 9, "centre": [3, -2], "rotation": 0.4, "clockwise": false}': (
+        core.Spiral(0.6, 9.0, (3.0, -2.0), 0.4, clockwise=False)
+    ),
+    '{"kind": "turn", "pitch": 1.6, "turning_diameter": 8.6, "ratio": 1.5, "start_turns": 12, "entry_radius": 4.2, '
+    '"exit_radius": 4.1}': core.Turn(1.6, 4.3, 1.5, start_turns=12.0, entry_radius=4.2, exit_radius=4.1),
+    '{"kind": "turn", "ratio": 1, "middle": 4, "ends": 0.5}': core.ClothoidTurn(1.7, ratio=1.0, middle=4.0, ends=0.5),
+    '{"kind": "waypoints", "points": [[0, 0], [20, 3], [60, 0]], "start_heading": 0.1, '
+    '"end_heading": -0.2, "start": 9}': (
+        core.Route([core.Waypoints(((0.0, 0.0), (20.0, 3.0), (60.0, 0.0)), 0.1, -0.2)], 9.0)
+    ),
+    '{"kind": "waypoints", "points": [[0, 0], [30, 0], [30, 30]], "straight": [0, 1], "radius": 5}': (
+        core.Legs(((0.0, 0.0), (30.0, 0.0), (30.0, 30.0)), (0, 1), radius=5.0)
+    ),
+    '{"kind": "route", "start": 20, "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}, {"kind": "arc", '
+    '"centre": [60, 4], "radius": 4, "start_angle": -1.5707963267948966, "sweep": 0.5}]}': (
+        core.Route([core.Line((0.0, 0.0), (60.0, 0.0)), core.Arc(*BEND)], 20.0)
+    ),
+    '{"kind": "route", "pieces": [{"kind": "coil", "pitch": 0.55, "start_turns": 16, "end_turns": 3, "centre": [1, 2], '
+    '"rotation": 0.3}]}': core.Route([core.Coil(0.55, 16.0, 3.0, (1.0, 2.0), 0.3)]),
+    '{"kind": "route", "pieces": [{"kind": "clothoid", "start": [1, 2], "heading": 0.3, "start_curvature": 0.1, '
+    '"end_curvature": 0.3, "length": 20}]}': core.Route([core.Clothoid((1.0, 2.0), 0.3, 0.1, 0.3, 20.0)]),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_of_path_and_piece_is_that_of_core(ask: Asking, kind: str) -> None:
+    dance = core.Dance(core.Dragon(**SHORT), KINDS[kind])
+    times = [dance.begin + 1.0, dance.begin + 4.0]
+    got, known = (
+        ask("trajectory", {"dragon": SHORT, "path": json.loads(kind), "times": times}),
+        core.trajectory(dance, times),
     )
-    assert result["time"] == pytest.approx(known["time"], rel=0, abs=REFERENCE_TOLERANCE)
-    assert (result["benches"], result["cross_check"]["agree"]) == (known["benches"], True)
-    assert result["head"]["theta"] is None
-
-
-def test_a_clothoid_is_a_piece(ask: Asking) -> None:
-    """A clothoid of one curvature is an arc, and a ramp ends at its Fresnel integrals."""
-    bend = RAMP | {"start_curvature": 0.25, "end_curvature": 0.25}
-    arc = {"kind": "arc", "centre": [60, 4], "radius": 4, "start_angle": -0.5 * math.pi, "sweep": 0.5}
-    paths = [route(LANE, piece) for piece in (bend, arc)]
-    one, other = (ask("trajectory", {"dragon": SHORT, "path": path, "times": [50.0, 61.5]}) for path in paths)
-    assert_same(one, other)
-    result = ask("trajectory", {"dragon": SHORT, "path": route(LANE, RAMP), "times": [62.0]})
-    unit = 2.0 * math.sqrt(math.pi)
-    sine, cosine = fresnel(2.0 / unit)
-    assert (result["x"][0][0], result["y"][0][0]) == pytest.approx((60 + unit * cosine, unit * sine), abs=1e-11)
-
-
-@pytest.mark.parametrize("start", [0, 20, -7.5])
-def test_waypoints_are_a_path_and_a_piece_and_start_as_far_along(ask: Asking, start: float) -> None:
-    def asked(path: Any, begin: float) -> Any:
-        return ask("trajectory", {"dragon": SHORT, "path": path, "times": [30.0 - begin, 45.0 - begin]})
-
-    alone = asked(CURVE | {"start": start}, start)
-    assert alone == asked(route(CURVE, start=start), start)
-    assert_same(alone, asked(CURVE, 0.0))
-    chords = np.hypot(np.diff(np.array(alone["x"]), axis=1), np.diff(np.array(alone["y"]), axis=1))
-    assert chords == pytest.approx(np.tile(core.Dragon(**SHORT).chords, (2, 1)), rel=0, abs=SAME_PATH_TOLERANCE)
+    assert np.stack([got["x"], got["y"]], axis=-1).tolist() == known.position.tolist()
+    assert got["speed"] == known.speed.tolist()
 
 
 # A path and times, as far as they are given -> the first and the last instant of the answer, and its step.

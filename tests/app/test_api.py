@@ -95,13 +95,6 @@ def test_trajectory_comes_as_arrow_where_pyarrow_is_installed(ask: Asking) -> No
 # -- contacts and their cross-checks -------------------------------------------------------------------------
 
 
-def test_clearance_names_the_pair_that_is_nearest(ask: Asking) -> None:
-    table = ask("clearance", start=412, stop=413, step=0.5)
-    assert table["time"] == [412.0, 412.5, 413.0]
-    assert [clearance > 0 for clearance in table["clearance"]] == [True, False, False]
-    assert table["benches"][1] == [0, 8]
-
-
 def test_a_margin_is_reached_before_contact_and_judged_by_the_engines_that_know_margins(ask: Asking) -> None:
     answer, touch = ask("collision-time", margin=0.05), ask("collision-time")
     assert answer["time"] < touch["time"]

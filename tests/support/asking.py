@@ -30,7 +30,7 @@ def assert_problem(answer: httpx.Response, status: int, expected: str | None = N
         error = problem["errors"][0]
         assert error.get("pointer", error.get("name")) == place, error["detail"]
         assert [word for word in words.split() if word not in error["detail"]] == [], error["detail"]
-        assert problem["detail"].startswith(error["detail"])
+        assert problem["detail"].startswith(error["detail"][:200])
 
 
 class Asking:

@@ -89,18 +89,6 @@ def test_benches_that_overlap_at_the_start_are_both_named(ask: Asking) -> None:
     assert "bench" in got["certificate"]["method"]
 
 
-def test_dances_that_share_no_time_share_the_ground_on_which_they_stand(ask: Asking) -> None:
-    got = ask("encounter", {"dances": [LANE, BESIDE | {"delay": 500}]})
-    assert (got["outcome"], got["end"]) == (
-        "clear",
-        {"reason": "end", "time": pytest.approx(530.0), "dragon": None, "bench": None},
-    )
-    # The second one stands at the beginning of the lane of the first one.
-    assert ask("encounter", {"dances": [LANE, LANE | {"delay": 500}]})["outcome"] == "contact_at_start"
-    alone = ask("encounter", {"dances": [LANE]})
-    assert (alone["outcome"], alone["end"]["time"]) == ("clear", pytest.approx(30.0))
-
-
 def test_an_undecided_encounter_names_the_benches_that_are_certain() -> None:
     case = CASES["streets that cross, both at once"]
     result = first_encounter(performance_of(case), start=case["start"])

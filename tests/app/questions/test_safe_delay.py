@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from app.maps.dances import read_dance
 from tests.support.asking import Asking, dance, written
@@ -14,19 +13,6 @@ EAST, NORTH = dance(5, (-20, 0), (20, 0)), dance(5, (0, -20), (0, 20))
 CROSSING = {"dances": [EAST | {"name": "east"}, NORTH | {"name": "3"}], "least": -60, "most": 60}
 # The first procession ends on the crossing and stands there.
 BLOCKED = {"dances": [dance(5, (-20, 0), (2, 0)), NORTH], "least": 20, "most": 90}
-
-
-def test_two_dragons_meet_at_other_delays_alone(ask: Asking) -> None:
-    got = ask("safe-delay", CROSSING | {"margin": 0.2})
-    (_, before), (after, _) = got["safe"]
-    assert (got["name"], got["first_safe"], got["undecided"], got["stop"]) == ("3", -60.0, [], None)
-
-    def outcome(delay: float) -> Any:
-        waiting = [EAST, NORTH | {"delay": delay}]
-        return ask("encounter", {"dances": waiting, "margin": 0.2, "cross_check": "none"})["outcome"]
-
-    assert [outcome(delay) for delay in (before, after)] == ["clear", "clear"]
-    assert [outcome(delay) for delay in (before + 0.02, 0.0, after - 0.02)] == ["contact"] * 3
 
 
 def test_a_dragon_is_named_by_its_number_or_its_name(ask: Asking) -> None:

@@ -30,13 +30,6 @@ def test_the_way_to_the_circle_has_the_tolerance_of_core_and_a_pose_that_overlap
     assert result.benches in {tuple(pair) for pair in touching.pairs.tolist()}
 
 
-def test_a_wall_leaves_less_tolerance(ask: Asking) -> None:
-    body = {"dragon": {"benches": 12}, "path": {"kind": "spiral", "pitch": 0.9, "start_turns": 9.0}, "stop": 20.0}
-    got, alone = (ask("tolerance", body | {"venue": venue}) for venue in (box(-9, -9, 9, 9), None))
-    assert (got["limited_by"], got["benches"][1]) == ("venue", None)
-    assert 0.0 < got["stray"] < alone["stray"]
-
-
 def test_sizes_may_be_known_only_to_within_an_error(ask: Asking) -> None:
     errors = {"length_error": 0.01, "pitch_error": 0.005}
     got = ask("tolerance", **SMALL, **errors, pitch=0.7)
