@@ -65,6 +65,7 @@ def test_a_venue_in_degrees_keeps_its_place(ask: Asking) -> None:
     assert (report["passed"], report["origin"]) == (True, dance["venue"]["origin"])
 
 
+@pytest.mark.thorough
 def test_the_command_writes_dances_and_pictures(tmp_path: Path) -> None:
     written(tmp_path, BODY["venue"], "yard.geojson")
     file, folder, none = tmp_path / "wish.toml", tmp_path / "proposals", tmp_path / "none"
