@@ -26,8 +26,7 @@ from benchmarks.ccd.queries import CONTACT, EXACT, FAR, GRAZE, SAMPLES, dance_qu
 from benchmarks.ccd.report import BEGIN, END, PAGE, SAMPLE, SAMPLED, Results, by_depth, report, score
 from benchmarks.ccd.running import Worker, answers, answers_path, installed, save_answers
 from benchmarks.ccd.truth import covered, track
-from tests.support.depth import some
-from tests.support.thorough import thorough
+from tests.support.depth import some, thorough
 
 SHARD = load_shard(SAMPLE)
 # Largest errors of our own times of contact [s]: the corner comes to a graze of 1e-9 m at 1e-5 m/s, so slowly that what

@@ -21,11 +21,10 @@ from flint import arb, ctx, fmpz
 from core import Dance, Dragon, Spiral, first_contact
 from core.proof import Certificate, chain, prove_collision_time, prove_minimum_pitch
 from tests.campaigns.differential import MAKERS, hunt, made, proven_by_core, proven_by_second, second
-from tests.support.depth import DEEP, examples, some
+from tests.support.depth import DEEP, examples, some, thorough
 from tests.support.forgeries import DROPPED, FORGERIES, Change, forged, stretches
 from tests.support.reference import reference_cases
 from tests.support.reference_contacts import graze, random_contact, small
-from tests.support.thorough import thorough
 
 VERIFY = Path(__file__).parents[1] / "examples" / "verify.py"
 PATIENCE = 600.0  # [s]: only against a run that would hang

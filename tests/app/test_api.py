@@ -18,7 +18,8 @@ import pytest
 from app.files.tables import ARROW_TYPE, CSV_TYPE, XLSX_TYPE
 from app.service.version import build
 from tests.app.files.test_figures import PNG_SIGNATURE
-from tests.support.asking import Asking, few, line
+from tests.support.asking import Asking, line
+from tests.support.depth import few
 
 SMALL = {"dragon": {"benches": 3}, "times": [0.0, 1.5]}
 GETS = ("collision-time", "minimum-pitch", "clearance", "figures/trajectory.svg", "figures/contact.png?benches=40")

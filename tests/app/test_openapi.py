@@ -19,8 +19,8 @@ from app.settings import Settings
 from app.wire.problem import PROBLEM_TYPE
 from app.wire.question import JSON
 from tests.app.conftest import ANSWER_TIMEOUT
-from tests.support.asking import Asking, few, line
-from tests.support.depth import examples
+from tests.support.asking import Asking, line
+from tests.support.depth import examples, few
 from tests.support.renew_examples import text
 
 EXAMPLES_PER_CALL = examples(5, 25)

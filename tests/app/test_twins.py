@@ -16,8 +16,9 @@ from app.wire.dances import TimeSteps, UniformBody
 from app.wire.paths import TurnFields
 from app.wire.question import Question
 from core.tolerance.curve import time_on_circle
-from tests.support.asking import Asking, dance, few, written
+from tests.support.asking import Asking, dance, written
 from tests.support.command import run
+from tests.support.depth import few
 
 # A value of each parameter of a query that differs from its default and leaves the answer short.
 VALUES = {

@@ -29,8 +29,8 @@ from core import (
     shortest_turn,
     trajectory,
 )
+from tests.support.depth import further
 from tests.support.every_digit import every_digit
-from tests.support.further import further
 from tests.support.public_calls import CALLS
 from tests.support.refused import refused
 from tests.support.shared_dances import lane, square

@@ -11,8 +11,7 @@ from core import (
     venue_clearance,
 )
 from tests.campaigns import hunt_clothoids, hunt_contacts, hunt_encounters, hunt_turns, hunt_venues, hunting
-from tests.support.depth import examples
-from tests.support.further import further
+from tests.support.depth import examples, further
 
 CAMPAIGNS = hunt_encounters, hunt_venues, hunt_contacts, hunt_turns, hunt_clothoids
 # Cases of a small part, of which the first ones are those of every run.

@@ -12,8 +12,8 @@ import pytest
 
 import core
 from core import kernels
+from tests.support.depth import further
 from tests.support.every_digit import every_digit
-from tests.support.further import further
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "core" / "kernels"

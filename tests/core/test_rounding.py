@@ -28,8 +28,8 @@ from core.design.ways import Ways
 from core.extremes.speed import SPEED_ROUNDING, first_excess
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
 from tests.campaigns.rounding_sweep import Errors, compare, sweep
+from tests.support.depth import further
 from tests.support.exact_chain import BITS, coil_handles, distance, middle, next_delta, separation
-from tests.support.further import further
 
 # Gaps compared of every seed; `make rounding` compares 10,000.
 GAPS = 300

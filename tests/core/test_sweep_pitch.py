@@ -4,7 +4,7 @@ import pytest
 
 from core import Dragon
 from tests.campaigns.sweep_pitch import fault
-from tests.support.further import further
+from tests.support.depth import further
 from tests.support.slow_pitch import SlowWay
 
 # Half the width of a reference value, see tests/reference [m].

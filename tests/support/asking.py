@@ -10,7 +10,6 @@ from typing import Any
 
 import httpx
 import numpy as np
-import pytest
 
 from app.wire.problem import PROBLEM_TYPE
 
@@ -70,12 +69,6 @@ def json_like(value: Any) -> Any:
     if isinstance(value, tuple | list):
         return [json_like(part) for part in value]
     return value.value if isinstance(value, Enum) else value
-
-
-def few(cases: Sequence[Any], count: int) -> list[Any]:
-    """All cases as parameters of a test: `count` of them, evenly spread, in every run, and the others as thorough."""
-    first = {k * len(cases) // count for k in range(count)}
-    return [case if k in first else pytest.param(case, marks=pytest.mark.thorough) for k, case in enumerate(cases)]
 
 
 def polygon(*rings: Sequence[Sequence[float]], name: str | None = None) -> dict[str, Any]:

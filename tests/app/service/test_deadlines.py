@@ -9,7 +9,7 @@ from contextlib import closing
 import httpx
 import pytest
 
-from tests.support.asking import few
+from tests.support.depth import few
 from tests.support.job_service import wait_for
 from tests.support.serving import Service, sample
 

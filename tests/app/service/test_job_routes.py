@@ -19,7 +19,8 @@ import pytest
 
 from app.service.job_calls import JOB_CALLS
 from app.wire.problem import PROBLEM_TYPE
-from tests.support.asking import assert_problem, box, few
+from tests.support.asking import assert_problem, box
+from tests.support.depth import few
 from tests.support.job_service import ENDLESS, PATIENCE, SCAN, SHORT, JobService, direct, wait_for
 
 LATER = {"Prefer": "respond-async"}

@@ -10,8 +10,9 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.support.asking import Asking, assert_problem, few
+from tests.support.asking import Asking, assert_problem
 from tests.support.command import run
+from tests.support.depth import few
 
 # Names of core that no request has.
 INSIDE = re.compile(r"turning_radius|path\.path|pieces|times\[|dragon\.|path\.")

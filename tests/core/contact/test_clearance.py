@@ -19,11 +19,11 @@ from core import (
 )
 from core.contact.clearance import PROOF_WIDTHS
 from tests.core.contact.test_first_contact import ROUNDING
+from tests.support.depth import thorough
 from tests.support.near import assert_near
 from tests.support.random_dances import random_dance
 from tests.support.refused import refused
 from tests.support.slow_search import SlowDance
-from tests.support.thorough import thorough
 
 PROVEN = 1.1e-5  # [m]: a least clearance is proven to this
 SAME = 1e-12  # [m], [s]

@@ -29,13 +29,12 @@ from core import (
 from core.contact.march import BRACKET
 from core.contact.search import MARGIN_MAX
 from core.design.pitch_bands import BORDER_WIDTH
-from tests.support.depth import examples, some
+from tests.support.depth import examples, some, thorough
 from tests.support.near import assert_near
 from tests.support.random_dances import random_dance
 from tests.support.reference import reference_cases
 from tests.support.refused import refused
 from tests.support.slow_search import SlowDance
-from tests.support.thorough import thorough
 
 CASES = reference_cases("first_contact")
 # Times are promised to this [s] and places to what the head moves meanwhile [m].

@@ -9,9 +9,9 @@ from core import Dance, Dragon, EndReason, Outcome, Spiral, first_contact
 from core.contact.fold import least_left, least_to_fold
 from core.contact.search import ContactSearch
 from tests.core.contact.test_first_contact import TIED
+from tests.support.depth import thorough
 from tests.support.random_dances import random_dance
 from tests.support.slow_search import SlowDance
-from tests.support.thorough import thorough
 
 # Dances apart to their fold, whose last 1e-9 s were left open: the motion left was that of the longest overhang on the
 # shortest chord, whichever benches they belong to.

@@ -35,8 +35,8 @@ from core.contact.near_graze import LAST_BENCH, NEGLIGIBLE, ExactPair, narrow_br
 from core.contact.search import ContactSearch
 from core.kernels import Ended
 from core.kernels.results import Marched
+from tests.support.depth import thorough
 from tests.support.near import assert_near
-from tests.support.thorough import thorough
 
 # Positions of the kernels [m]: on a route a kilometre long an arc length is good to 2e-13 m.
 DOUBLE = 1e-12

@@ -24,7 +24,7 @@ from core import (
     trajectory,
 )
 from core.design.deepest_turn import ENTRY_STEP, way_followed
-from tests.support.further import further
+from tests.support.depth import further
 from tests.support.slow_route import SlowRoute
 
 ENTRY_ERROR = 1e-9  # [m]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, Outcome, dubins_turn, first_contact, shortest_turn
-from tests.support.further import further
+from tests.support.depth import further
 from tests.support.refused import refused
 
 PITCH = 1.7

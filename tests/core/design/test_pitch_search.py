@@ -12,8 +12,7 @@ from core import (
     LimitedBy,
     minimum_pitch,
 )
-from tests.support.depth import some
-from tests.support.further import further
+from tests.support.depth import further, some
 from tests.support.refused import refused
 from tests.support.slow_pitch import SlowWays
 

@@ -22,8 +22,7 @@ from core import (
     first_contact,
     shortest_turn,
 )
-from tests.support.depth import DEEP, some
-from tests.support.further import further
+from tests.support.depth import DEEP, further, some
 from tests.support.refused import refused
 
 WHOLE, PITCH, RADIUS = Dragon(), 1.7, 4.5

@@ -11,8 +11,7 @@ import pytest
 from core import Dragon, kernels
 from core.design.straight import Straight, curvature_most
 from tests.campaigns.sweep_pitch import random_case
-from tests.support.depth import some
-from tests.support.further import further
+from tests.support.depth import further, some
 from tests.support.slow_pitch import SlowWay
 
 # Rounding of a slow clearance on ways of metres [m], and on a wide spiral per metre of its growth [1].

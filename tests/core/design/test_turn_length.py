@@ -7,7 +7,7 @@ import pytest
 
 from core import Dragon, Turn, shortest_turn, turn_length_bounds
 from tests.core.design.test_shortest_turn import compared
-from tests.support.further import further
+from tests.support.depth import further
 from tests.support.refused import refused
 
 pytestmark = pytest.mark.uncompiled

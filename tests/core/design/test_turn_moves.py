@@ -12,8 +12,7 @@ from core.design.turn_moves import bent, coil_bend, displaced
 from core.paths.spiral import Spiral
 from core.values import Floats
 from tests.support.boxes_of_turns import CROSSING, GROWTH, SMALL, box_at, turns_drawn
-from tests.support.depth import examples
-from tests.support.further import further
+from tests.support.depth import examples, further
 
 pytestmark = pytest.mark.uncompiled
 

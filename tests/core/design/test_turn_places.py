@@ -10,7 +10,7 @@ import pytest
 from core.design.turn_boxes import sizes_of
 from core.design.turn_places import locally_shortest, starts
 from tests.support.boxes_of_turns import GROWTH, LEAST
-from tests.support.further import further
+from tests.support.depth import further
 
 pytestmark = pytest.mark.uncompiled
 

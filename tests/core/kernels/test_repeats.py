@@ -9,8 +9,7 @@ from core import Dance, Dragon, EndReason, Outcome, Route, Spiral, Turn, first_c
 from core.contact.search import ContactSearch
 from core.kernels.constants import THETA
 from core.sampling import bisect
-from tests.support.depth import some
-from tests.support.thorough import thorough
+from tests.support.depth import some, thorough
 
 # Two poses of one bench at one place of a path, found by two ways of the head [m], and two times of contact [s].
 SAME, ACCURACY = 1e-9, 1e-9

@@ -9,7 +9,7 @@ from shapely import Polygon
 
 from core import Arc, Budget, Dance, Dragon, Line, Passage, Route, Spiral, bench_outlines, trajectory
 from core.people.meetings import ABREAST, EVEN, meetings_between, steady_dance, travels_between
-from tests.support.further import further
+from tests.support.depth import further
 from tests.support.shared_dances import there_and_back
 from tests.support.slow_meetings import ahead, same_meetings
 

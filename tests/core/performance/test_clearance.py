@@ -14,7 +14,7 @@ from core import (
 )
 from core.contact.clearance import PROOF_WIDTHS
 from tests.campaigns import hunt_encounters
-from tests.support.further import further
+from tests.support.depth import further
 from tests.support.refused import refused
 from tests.support.shared_dances import CROSSING, EAST, OPPOSITE, on_lanes, side_by_side
 from tests.support.slow_performance import SlowPerformance

@@ -22,8 +22,7 @@ from core import (
     safe_delay,
 )
 from core.performance.safe_delay import END_WIDTH
-from tests.support.depth import some
-from tests.support.further import further
+from tests.support.depth import further, some
 from tests.support.refused import refused
 from tests.support.shared_dances import lane, on_lanes
 from tests.support.slow_performance import SlowPerformance

@@ -22,7 +22,7 @@ from core import (
     tolerance,
 )
 from core.tolerance.exhibit import CHORD_WITHIN
-from tests.support.further import further
+from tests.support.depth import further
 from tests.support.random_squares import box
 from tests.support.random_strays import random_strays
 from tests.support.refused import refused

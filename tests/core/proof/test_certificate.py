@@ -12,12 +12,11 @@ from flint import ctx
 from core import Dragon
 from core.errors import ProofRefused
 from core.proof import prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch, prove_tolerance, verify
-from tests.support.depth import examples
+from tests.support.depth import examples, thorough
 from tests.support.forgeries import FORGERIES, Change, assert_refused, forged, through_json
 from tests.support.reference import reference_cases
 from tests.support.reference_contacts import CONTACTS, SMALL, proof_of, proven_then_only, random_contact, small
 from tests.support.refused import refused
-from tests.support.thorough import thorough
 
 ROOT = Path(__file__).parents[3]
 PITCHES = reference_cases("minimum_pitch")

@@ -18,10 +18,10 @@ from core.proof.chain import Chain
 from core.proof.claims import head_theta, near_pair, verify_near
 from core.proof.pairs import Unproven
 from core.shapes.rectangles import corners
+from tests.support.depth import thorough
 from tests.support.forgeries import assert_refused
 from tests.support.reference_contacts import GRAZING, SMALL, graze, proof_of
 from tests.support.refused import refused
-from tests.support.thorough import thorough
 
 # Distances by shapely [m], and places by bisection in doubles [rad], are this near to the true ones.
 SHAPELY, PLACE = 1e-11, 1e-9

@@ -12,12 +12,11 @@ from core import Dance, Dragon, Route, Spiral, Turn, first_contact
 from core.contact.clearance import least_clearance
 from core.errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused
 from core.proof import Certificate, prove_clear, prove_collision_time, prove_contact, verify
-from tests.support.depth import examples
+from tests.support.depth import examples, thorough
 from tests.support.forgeries import Change, assert_refused, stretches, through_json
 from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
 from tests.support.reference_contacts import CONTACTS, OFF, proven_then_only
 from tests.support.refused import refused
-from tests.support.thorough import thorough
 
 # A difference of a margin from the least clearance that is refused [m].
 MARGIN_OFF = 1e-6

@@ -16,9 +16,9 @@ from core.proof import Certificate, prove_minimum_pitch, verify
 from core.proof.chain import Chain, rises_to
 from core.proof.fold import verify_fold
 from core.proof.pairs import Unproven
+from tests.support.depth import thorough
 from tests.support.forgeries import Change, assert_refused, in_words, stretches, through_json
 from tests.support.slow_search import chord_squared
-from tests.support.thorough import thorough
 
 DRAGONS = {name: Dragon(count, 2.21, 1.47, 0.06, 0.12) for name, count in (("one", 1), ("two", 2), ("many", 14))}
 DRAGON, WAY = DRAGONS["many"], {"turning_radius": 0.85, "start_turns": 5.0}

@@ -11,9 +11,9 @@ import pytest
 from core.errors import ProofRefused
 from core.proof import verify
 from tests.campaigns.differential import made
+from tests.support.depth import thorough
 from tests.support.forgeries import forged, places, put_at, refusal
 from tests.support.reference_contacts import small
-from tests.support.thorough import thorough
 
 KINDS = "collision-time, minimum-pitch, clear, contact or tolerance"
 

@@ -16,9 +16,9 @@ from core.proof.chain import Chain
 from core.proof.paths import chain_on, recorded_path
 from core.proof.sweeps import SweepOverlap, proven_sweeps, searched_stretches
 from core.shapes.rectangles import corners
+from tests.support.depth import thorough
 from tests.support.forgeries import stretches
 from tests.support.proof_shapes import gap_by, polygon
-from tests.support.thorough import thorough
 
 # A place that two chains in balls have is the same to this [rad], [m].
 DOUBLES = 1e-11

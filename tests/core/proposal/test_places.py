@@ -10,7 +10,7 @@ from core.proposal.figures import Shape
 from core.proposal.free_ground import FreeGround
 from core.proposal.needs import Needs
 from core.proposal.places import base_rotation, placements, sampled
-from tests.support.further import further
+from tests.support.depth import further
 from tests.support.random_squares import box, random_case
 
 NEEDS = Needs(Dragon(8), 0.0, 0.0)

@@ -6,8 +6,7 @@ import pytest
 
 from core import Area, Budget, Dragon, Figure, Gate, InvalidValue, Objective, ReasonKind, TooMuchWork, Venue, propose
 from core.proposal.propose import BENCHES_MOST
-from tests.support.depth import some
-from tests.support.further import further
+from tests.support.depth import further, some
 from tests.support.random_squares import Case, box, random_case, refuted, wrong_reason
 from tests.support.refused import refused
 

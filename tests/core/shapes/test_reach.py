@@ -10,11 +10,10 @@ from hypothesis import strategies as st
 from core import Dragon
 from core.kernels.constants import DIRECTIONS
 from core.shapes.reach import SIZES_MAX, bench_hulls, directions, gains, reach, supports
-from tests.support.depth import examples
+from tests.support.depth import examples, thorough
 from tests.support.near import assert_near
 from tests.support.random_strays import moved_points, random_strays
 from tests.support.refused import refused
-from tests.support.thorough import thorough
 
 ROUNDING = 1e-11  # [m]
 TIGHT = 1e-3  # supports exceed what places reach by at most this of the stray [1]

@@ -12,8 +12,7 @@ from core.shapes.rectangles import corners
 from core.tolerance.between import held_apart, sag_pulls, sags_of, touching_pose
 from core.tolerance.exhibit import exhibit
 from core.values import Floats
-from tests.support.depth import examples, some
-from tests.support.further import further
+from tests.support.depth import examples, further, some
 from tests.support.shown_poses import assert_contact_shown, overlap
 
 FAR = 9.0  # a stray above all that are found [m]

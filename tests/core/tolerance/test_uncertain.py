@@ -7,7 +7,7 @@ import pytest
 
 from core import Dance, Dragon, InvalidValue, Spiral, tolerance, uncertain_tolerance
 from core.tolerance.curve import time_on_circle
-from tests.support.further import further
+from tests.support.depth import further
 
 CIRCLE = 4.5  # radius of the turning circle [m]
 
