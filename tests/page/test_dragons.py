@@ -386,3 +386,25 @@ def test_more_dragons_than_an_address_holds_are_there_after_the_page_is_loaded_a
     page.reload()
     expect(page.locator("#dragons li")).to_have_count(171)
     expect(page.locator("#dragon-name-169")).to_have_value(names[169])
+
+
+# Answers the first question about several dragons though the next one is asked meanwhile.
+OVERTAKEN = """() => {
+  const { fetch } = window;
+  window.fetch = (url, options) => {
+    if (url !== "check" || !JSON.parse(options.body).dances) return fetch(url, options);
+    window.fetch = fetch;
+    document.querySelector("[data-dragons=spiral]").click();
+    return fetch(url, { ...options, signal: undefined });
+  };
+}"""
+
+
+def test_a_late_answer_about_other_dragons_asks_nothing_that_is_refused(open_page: Any) -> None:
+    page = open_page("?door=all&lang=en&time=0")
+    settled(page)
+    page.evaluate(OVERTAKEN)
+    page.locator("#several").click()
+    expect(page.locator("#dragons li")).to_have_count(2)
+    settled(page)
+    expect(page.locator("#judgement")).to_contain_text("First meeting at 207.378361 s")
