@@ -366,9 +366,14 @@ def test_a_search_can_be_stopped(open_page: Any) -> None:
 def test_what_takes_longer_than_one_answer_comes_as_a_job(open_page: Any, tmp_path: Any) -> None:
     with serving(tmp_path / "server.log", deadline_seconds=1e-3, data=tmp_path / "data") as service:
         page = open_page(f"{EMPTY}&benches=8&things=a.square..0,0_30,0_30,3_0,3", base=service.url, failing=True)
+        looks: list[Any] = []
+        page.route(re.compile(r"/jobs/[^/]+$"), lambda route: looks.append(route))
+        page.locator("#propose").click()
+        # The search goes on until the first look at it is answered.
+        expect(page.locator("#proposed")).to_have_text(re.compile(r"\d+ s, \d+ % of the kinds of dance tried"))
         with page.expect_request("**/jobs/*/result"):
-            page.locator("#propose").click()
-            expect(page.locator("#proposed")).to_contain_text(re.compile(r"\d+ s, \d+ % of the kinds of dance tried"))
+            looks.pop().continue_()
+            page.unroute_all()
         expect(page.locator("#proposed")).to_contain_text("The widest free circle is at most 3.02 m across")
 
 
