@@ -13,7 +13,9 @@ from typing import Any
 
 PAGE = Path(__file__).parents[2] / "app" / "page"
 OLDEST = (22, 7)  # the first that takes a module of the page for what it is
-MISSING = "they run modules of the page in Node.js: make test-setup installs it, else apt install nodejs (22.7 or later)"
+MISSING = (
+    "they run modules of the page in Node.js: make test-setup installs it, else apt install nodejs (22.7 or later)"
+)
 PATIENCE = 120.0  # longest wait for the version of a Node.js, and for a value [s]
 # Enough of a document to load any module, and to set the language. Then the value for these arguments, in JSON.
 PROGRAM = """
