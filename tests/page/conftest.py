@@ -27,7 +27,7 @@ ARGUMENTS = [
 ]
 WIDE: Any = {"width": 1440, "height": 900}
 HOME, EASY = "?time=end", "?benches=5&time=end"
-TIMEOUT = 30_000  # [ms]; no test waits this long for what is coming, however busy the machine
+TIMEOUT = 60_000  # [ms]; no test waits this long for what is coming, however busy the machine
 
 # Longest computation of one answer [s]: on a busy machine the ten seconds of the default are soon over.
 DEADLINE = 50.0

@@ -119,7 +119,7 @@ def goes_on_in_both_languages(person: Person, cues: dict[str, Any], heading: str
     before = person.picture()
     person.ask(AHEAD, 5)
     expected = next(k for k, cue in enumerate(cues["en"]) if cue["since"] > 27)
-    person.sees({f"{LIST}.following": cues["en"][expected]["words"]}).presses("[data-lang=zh]:visible")
+    person.sees({f"{LIST}.following": cues["en"][expected]["words"]}).presses("role=button[name=中文]")
     person.reads({"#carrier h1": heading}).sees({HINT: "没有网络"})
     assert cues_of(person) == words_of(cues["zh"])
     assert person.ask(MIDDLE) > 100
@@ -153,7 +153,7 @@ def test_with_a_time_of_day_the_card_goes_by_the_clock_and_its_times_are_the_pri
 ) -> None:
     begun = datetime.now() - timedelta(seconds=30)
     clock = begun.strftime("%H:%M:%S")
-    person = held(open_page(f"?benches=20&bench=7&lang=en&start_clock={clock.replace(':', '%3A')}"))
+    person = held(open_page(f"?benches=20&bench=7&lang=en&start_clock={clock.replace(':', '%3A')}", rest=False))
     own = card(server, start_clock=clock)["cues"]
     gone = (datetime.now() - begun).total_seconds()
     assert person.text(CUE) in {cue["words"] for cue in own if gone - 10 < cue["since"]}
@@ -161,11 +161,8 @@ def test_with_a_time_of_day_the_card_goes_by_the_clock_and_its_times_are_the_pri
     person.presses("button:text('Start again')").sees({f"{LIST}.past": 0}).presses("#card-clock")
     person.sees({f"{LIST}.past": True})
     # The times are those of the printed card, in their order.
-    texts = [
-        text.split(":")
-        for text in held(open_page("?benches=20&bench=7", rest=False, **ON_PHONE)).texts(f"{LIST} span:first-child")
-    ]
-    times = [60.0 * float(minutes) + float(rest) for minutes, rest in texts]
+    shown = held(open_page("?benches=20&bench=7", rest=False, **ON_PHONE)).texts(f"{LIST} span:first-child")
+    times = [60.0 * float(minutes) + float(rest) for minutes, rest in (text.split(":") for text in shown)]
     assert times == pytest.approx([cue["time"] for cue in card(server)["cues"]], abs=0.051)
     assert times == sorted(times)
 
@@ -179,7 +176,8 @@ def test_the_view_opens_from_the_page_chooses_benches_and_dragons_and_closes_whe
     person.types({"#card-bench": "12"}).reads({"#carrier h1": "body 12"}).page.wait_for_url("**bench=12**")
     person.reads({"#card-more .beside": "Before you: body 11. Behind you: body 13."}).types({"#card-bench": "300"})
     person.reads({CUE: "This dragon has no bench 300: its tail is bench 19."}).page.go_back()
-    person.presses("#carrier [aria-label=Close]").sees({"#carrier": False}).settles()
+    held(person.sees({"#carrier": False}).presses("#card-follow")).presses("#carrier [aria-label=Close]")
+    person.sees({"#carrier": False}).settles()
     person.reads({"#clock": "100.000000 s"}).sees({"#table-time": "100.000000 s"})
     assert "bench" not in person.address()
     person = held(open_page(f"?{TWO}&bench=7&lang=en")).chooses({"#card-dragon": "A"})

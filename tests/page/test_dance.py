@@ -369,6 +369,7 @@ def test_all_numbers_are_in_view_explained_and_what_answers_offer_is_danced(open
     person.holds({"#pitch": str(answer_of(server, "minimum-pitch", benches=20)["pitch_bracket"][1])})
 
 
+@thorough
 def test_slow_charts_are_asked_for_when_somebody_scrolls_to_them_and_a_click_sets_the_pitch(
     open_page: Any, server: str
 ) -> None:
@@ -463,6 +464,7 @@ def test_a_turn_opens_at_the_pitch_of_the_contest_and_reduced_motion_moves_in_st
     assert times[2] - times[1] >= 0.4
 
 
+@thorough
 def test_everything_can_be_kept_and_every_command_gives_what_the_page_shows(open_page: Any, server: str) -> None:
     person = open_page("?benches=9&pitch=0.5&start_turns=10").reaches()
     answer = collision_time(server, benches=9, pitch=0.5, start_turns=10)

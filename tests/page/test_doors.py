@@ -66,6 +66,7 @@ def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open
     assert numbers(person) == CONTEST
 
 
+@thorough
 def test_behind_a_door_numbers_are_as_people_say_them_and_each_is_one_tab_stop(visit: Any) -> None:
     person = visit("?door=contest&time=end")
     people = {
@@ -139,6 +140,7 @@ def test_an_address_is_shared_without_a_clipboard_and_printed(open_page: Any, qu
         assert person.sees({"#judgement .value": True}).ask(BORDERED) == []
 
 
+@thorough
 def test_a_film_shows_its_progress_on_its_button_and_opens_below(open_page: Any) -> None:
     person = open_page(f"?door=village{ROUTE}").reaches_below()
     names = ["The picture as it is", "Film of the dance", "Plan on paper, true to scale", "Map with chalk marks"]

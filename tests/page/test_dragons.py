@@ -69,8 +69,8 @@ def test_a_late_answer_about_other_dragons_asks_nothing_that_is_refused(open_pag
     person.sees({"#judgement": "First meeting at 207.378361 s"})
 
 
-def test_a_parade_is_judged_as_by_the_service_and_played_kept_and_printed_together(open_page: Any, server: str) -> None:
-    person = begun(open_page, "parade", "?door=village&lang=en&time=0&begin_clock=19%3A30")
+def test_a_parade_is_judged_as_by_the_service_and_played_together(open_page: Any, server: str) -> None:
+    person = begun(open_page, "parade")
     file = file_of(person.sees({"#judgement": ["Can be danced", "No two dragons touch."], "#contact-mark": False}))
     report = polite.post(f"{server}/check", json=file | {"details": False}).raise_for_status().json()
     assert report["verdict"] == "passes"
@@ -79,10 +79,15 @@ def test_a_parade_is_judged_as_by_the_service_and_played_kept_and_printed_togeth
     person.presses("#play").page.wait_for_function("() => Number(document.querySelector('#time').value) > 30")
     assert (person.presses("#play").picture() != before).any()
     assert all(person.coloured(colour) > 20 for colour in COLOURS)
-    person.reaches_below().sees({"#cues": "A cue card for each bench", ":is(#crew, #paper):visible": 0})
+
+
+@thorough
+def test_film_plan_cues_map_and_print_are_of_all_dragons(open_page: Any) -> None:
+    person = begun(open_page, "parade", "?door=village&lang=en&time=0&begin_clock=19%3A30").reaches_below()
+    person.sees({"#cues": "A cue card for each bench", ":is(#crew, #paper):visible": 0})
     assert person.saves("#keepPlan-A3").startswith(b"%PDF")
-    for key in ("keepCues-CSV", "keepMap-GeoJSON"):
-        assert [name for name in (b"red", b"blue", b"green") if name not in person.saves(f"#{key}")] == []
+    for content in (person.saves("#keepCues-CSV"), person.saves("#keepMap-GeoJSON")):
+        assert [name for name in (b"red", b"blue", b"green") if name not in content] == []
     dances: list[int] = []
 
     def small(route: Any) -> None:

@@ -176,6 +176,7 @@ def test_on_a_phone_the_picture_with_its_player_takes_a_third_of_the_height(visi
             shares_the_screen(person)
 
 
+@thorough
 def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(visit: Any) -> None:
     for door, english, chinese in (
         ("contest", "Picture Numbers Answers Save", "画面 参数 结果 保存"),
@@ -291,7 +292,7 @@ def test_a_verdict_is_told_once_with_its_reasons(open_page: Any) -> None:
 @pytest.mark.parametrize(
     ("query", "options"),
     [
-        ("?handle=3&stray=0.02&benches=20", {}),
+        pytest.param("?handle=3&stray=0.02&benches=20", {}, marks=thorough),
         pytest.param("?pitch=2&start_turns=8&benches=20", {"locale": "zh-CN"}, marks=pytest.mark.deep),
         pytest.param("?pitch=55&benches=x", {"viewport": PHONE["viewport"]}, marks=thorough),
     ],

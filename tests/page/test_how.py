@@ -79,8 +79,8 @@ def test_dragged_numbers_get_the_answers_of_the_service(open_page: Any, server: 
     person.sees({"#stray .verdict": f"From {first:.6f} s on benches may touch"})
     # Figure and sentence of a refusal agree: there is no second handle, and the limit is of a number on this page.
     dial(person, "chord", "Place of the head").press("Home")
-    limit = "the head must be more than 2.34509 turns from the centre"
-    person.sees({"#chord .verdict": ["so there is no second handle", limit], "#chord .label": 1, "#chord .bench": 0})
+    limit = re.compile(r".*there is no second handle\. .*the head must be more than 2\.\d+ turns from the centre\. *")
+    person.sees({"#chord .verdict": limit, "#chord .label": 1, "#chord .bench": 0})
 
 
 @thorough
@@ -127,7 +127,7 @@ def test_the_look_is_kept_on_both_pages_and_without_storage_while_a_page_lasts(o
     person.presses("#look-open").page.emulate_media(color_scheme="dark")
     assert [look("Light"), look("As the system")] == [usual, dark]
     person.page.emulate_media(color_scheme="light")
-    assert person.style("body", "backgroundColor") == usual
+    expect(person.at("body")).to_have_css("background-color", usual)
     other = open_page("how?lang=en")
     other.ask("Object.defineProperty(window, 'localStorage', { get() { throw new Error('refused') } })")
     other.presses("#look-open", "#look button:has-text('Dark')").has("html", data_theme="dark")

@@ -92,6 +92,7 @@ def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(op
     person.presses("#csvClear").sees({answer: contact_of(server, dragon={"benches": 5})})
 
 
+@thorough
 def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: Any, server: str) -> None:
     person = visit("?benches=30&time=50", failing=True).presses("#passages summary")
     for k, (until, unit, speed) in enumerate([("20", "m", "0.5"), ("100", "s", "0"), ("60", "m", "1.5")]):

@@ -71,6 +71,7 @@ def test_from_nothing_to_a_certified_dance_on_a_phone(open_page: Any) -> None:
     assert person.address() == chosen
 
 
+@thorough
 def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_a_route_that_is_edited(open_page: Any) -> None:
     person = proposed(open_page(YARD))
     person.sees({"#proposed": re.compile(r"The best \d of \d+ tried; each has passed its check\. .*")})
@@ -106,6 +107,7 @@ def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_a_route_that_is_
     person.presses("#undo").settles().sees({"#judgement": lengths[-2]})
 
 
+@thorough
 def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page: Any) -> None:
     person = open_page(SCALED).presses("[data-add=gate]").sees({"#add-help": "a straight street of about"})
     person.sees({"#draw-help": "Tap the border", "[data-add=gate]": False})

@@ -112,6 +112,7 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(visit: Any) -
     assert file_of(person)["venue"]["features"][1]["geometry"] != kept[1]["geometry"]
 
 
+@thorough
 def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its_address_and_file(
     visit: Any, server: str, tmp_path: Path
 ) -> None:
@@ -219,6 +220,7 @@ def test_the_picture_has_the_drawn_path_alone_whatever_answers_late(open_page: A
     assert in_the_picture()
 
 
+@thorough
 def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit: Any) -> None:
     person = visit("?path=route&benches=24&route=0,0_90,0").sees(YES)
     before = person.picture()
@@ -233,6 +235,7 @@ def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit: Any) 
     assert alike(visit("?path=route&benches=24&route=0,0_90,0").sees(YES).picture(), before)
 
 
+@thorough
 def test_a_verdict_of_before_is_pale_and_says_so_while_the_service_does_not_answer(visit: Any) -> None:
     person = visit(S_CURVE).sees({**YES, "#tolerance .value": True})
     person.page.route("**/check", lambda route: None)
@@ -326,6 +329,7 @@ def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(visit: Any) -
     assert b">119.64" in person.saves("#keepMap-KML")
 
 
+@thorough
 def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(visit: Any) -> None:
     person = visit(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit")
     assert not person.overflows(390)

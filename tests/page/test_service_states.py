@@ -156,6 +156,7 @@ def test_a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_ag
     person.settles().sees({"#turning_diameter-error": False, "#minimum-pitch .value": True})
 
 
+@thorough
 def test_old_answers_turn_pale_while_new_ones_are_computed_and_a_failure_is_told_in_its_own_words(
     visit: Any, server: str
 ) -> None:

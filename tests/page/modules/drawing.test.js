@@ -60,6 +60,10 @@ test("the service gets a drawing as waypoints in a venue", () => {
   assert.equal(drawing.venueOf({ ...EMPTY, things: [THINGS[1]] }).features[0].properties.name, "plain");
   assert.equal(drawing.venueOf({ ...EMPTY, things: [THINGS[4], { kind: "area", name: "", points: YARD.slice(2) }] }), null);
   assert.deepEqual(drawing.placeOf(EMPTY), {});
+  assert.deepEqual(drawing.placeOf({ ...EMPTY, path: { kind: "turn" }, start: 0 }), { start: 0 });
+  assert.deepEqual(drawing.placeOf({ ...EMPTY, start: 3 }), {});
+  const least = { area: 3, block: 3, circle: 1, wall: 2, gate: 1 };
+  for (const [kind, count] of Object.entries(least)) for (const more of [-1, 0]) assert.equal(drawing.isWhole({ kind, points: YARD.slice(0, count + more) }), more === 0, kind);
 });
 
 test("a dance of a file becomes the drawing that it came from", () => {
@@ -71,6 +75,15 @@ test("a dance of a file becomes the drawing that it came from", () => {
   assert.deepEqual([points, straight, path], [[[0, 0], [9, 0], [12, 3], [9, 6], [0, 6]], [0, 3], null]);
   const arcs = { kind: "route", pieces: [{ kind: "arc" }], start: 3 };
   assert.deepEqual([drawing.drawingOf({ path: arcs }).path, drawing.drawingOf({ path: arcs }).begin], [arcs, 3]);
+  // What has a heading of its own at an end is no list of points, unless a line follows there.
+  const curve = (more) => drawing.drawingOf({ path: { kind: "waypoints", points: [[0, 0], [9, 0]], ...more } });
+  assert.deepEqual([curve({}).path, curve({}).begin, curve({ start_heading: null, end_heading: null }).points.length], [null, 0, 2]);
+  for (const end of ["start_heading", "end_heading"]) assert.deepEqual([curve({ [end]: 0 }).path.kind, curve({ [end]: 0 }).begin, curve({ [end]: 0 }).points], ["waypoints", 0, []]);
+  const along = { kind: "waypoints", points: [[9, 0], [12, 3]], start_heading: 0 };
+  assert.equal(drawing.drawingOf({ path: { kind: "route", pieces: [pieces[0], along] } }).path, null);
+  assert.notEqual(drawing.drawingOf({ path: { kind: "route", pieces: [along, pieces[0]] } }).path, null);
+  assert.notEqual(drawing.drawingOf({ path: { kind: "route", pieces: [pieces[0], { ...along, end_heading: 1 }] } }).path, null);
+  assert.equal(drawing.drawingOf({ path: { kind: "route", pieces: [pieces[0], { ...along, end_heading: 1 }, pieces[2]] } }).path, null);
   // Unnamed things get names, and the square is what is called so.
   const polygon = (name, size) => ({ type: "Feature", properties: { name }, geometry: { type: "Polygon", coordinates: [[[0, 0], [size, 0], [size, size], [0, 0]]] } });
   const { things } = drawing.drawingOf({ path: null, venue: { type: "FeatureCollection", features: [polygon("", 2), polygon("square", 9), polygon("", 1)] } });
@@ -82,6 +95,9 @@ test("points are put in, taken away, moved and bent", () => {
   const more = changes.inserted(street, null, 1, [5, 0.00001]);
   assert.deepEqual([more.points[1], more.straight, more.path], [[5, 0], [0, 1, 2], null]);
   assert.deepEqual(changes.removed(more, null, 1), { ...street, path: null });
+  const bend = { ...street, points: [...street.points, [20, 9], [30, 9]], straight: [1, 3] };
+  assert.deepEqual([0, 1, 2, 3, 4, 5].map((k) => changes.inserted(bend, null, k, [1, 1]).straight), [[2, 4], [2, 4], [1, 2, 4], [1, 4], [1, 3, 4], [1, 3]]);
+  assert.deepEqual([0, 1, 2, 3, 4].map((k) => changes.removed(bend, null, k).straight), [[0, 2], [2], [2], [1], [1]]);
   assert.deepEqual(changes.removed({ ...street, straight: [1] }, null, 1).straight, []);
   assert.deepEqual(changes.moved(street, null, 2, [20, 7]).points[2], [20, 7]);
   assert.deepEqual(changes.bent(street, 0).straight, [1]);
@@ -104,6 +120,8 @@ test("gates stay on the border, straight into the square", () => {
 test("a square is drawn by its size, and measured", () => {
   const box = square.rectangle(24, 18, [1, 2]);
   assert.deepEqual(square.extent(box), { width: 24, height: 18, middle: [1, 2] });
+  const round = square.measures(square.circle(26.5, [0, 0]), true).lengths;
+  assert.ok(Math.abs(round.reduce((sum, one) => sum + one, 0) - Math.PI * 26.5) < 0.1 && Math.max(...round) - Math.min(...round) < 1e-3);
   for (const [x, y] of square.circle(26.5, [0, 0])) assert.ok(Math.abs(Math.hypot(x, y) - 13.25) < 1e-4);
   const { lengths, angles } = square.measures(box, true);
   assert.deepEqual(lengths, [24, 18, 24, 18]);

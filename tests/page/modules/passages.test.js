@@ -41,10 +41,13 @@ test("the head is where its passages lead", () => {
     assert.ok(Math.abs(passages.wayAt(time, 1, SOME) - way) < 1e-9, `at ${time} s`);
   for (const [way, time] of [[10, 20], [35, 110], [70, 100 + 80 / 3 + 10]]) assert.ok(Math.abs(passages.timeAfter(way, 1, SOME) - time) < 1e-9, `after ${way} m`);
   assert.equal(passages.wayAt(-3, 2, []), -6);
+  const moving = [{ speed: 2, until_time: 10 }, { speed: 1, until_s: 30 }, { speed: 4, duration: 2 }];
+  assert.deepEqual([5, 10, 15, 20, 21, 25].map((time) => passages.wayAt(time, 3, moving)), [10, 20, 25, 30, 34, 47]);
 });
 
 test("a dance begun later keeps the places and the times that are still to come", () => {
   assert.deepEqual(passages.laterBy(SOME, 15, 30), [{ speed: 0.5, until_s: 5 }, { speed: 0, until_time: 70 }, { speed: 1.5, until_s: 45 }]);
+  assert.deepEqual(passages.laterBy(SOME, 20, 40), [{ speed: 0, until_time: 60 }, { speed: 1.5, until_s: 40 }]);
   assert.deepEqual(passages.laterBy(SOME, 20, 60), [{ speed: 0, until_time: 40 }, { speed: 1.5, until_s: 40 }]);
   assert.deepEqual(passages.laterBy([{ speed: 1, duration: 50 }, { speed: 2, duration: 9 }], 30, 30), [{ speed: 1, until_time: 20 }, { speed: 2, duration: 9 }]);
 });
@@ -68,6 +71,9 @@ test("the time of day is that at time 0, or when the dance begins", () => {
   assert.equal(passages.clockAtZero({ clock: "19:30", beginClock: "" }, -13.9), "19:30");
   assert.equal(passages.clockAtZero({ clock: "", beginClock: "19:30" }, -13.94), "19:30:13.94");
   assert.equal(passages.clockAtZero({ clock: "", beginClock: "00:00:10" }, 16), "23:59:54");
+  assert.equal(passages.clockAtZero({ clock: "", beginClock: "19:30:10" }, 5), "19:30:05");
+  assert.equal(passages.clockAtZero({ clock: "", beginClock: "19:30:10" }, 0), "19:30:10");
+  assert.equal(passages.clockAtZero({ clock: "", beginClock: "00:00:10" }, 10), "00:00:00");
   assert.equal(passages.clockAtZero({ clock: "", beginClock: "" }, 1), null);
 });
 

@@ -60,6 +60,8 @@ test("what a newer page wrote is kept, what cannot be read is named, and the res
   assert.deepEqual([state.get("benches"), state.get("path"), state.get("view"), written(state)], ["5", "spiral", null, "?benches=5&helix=3"]);
   assert.equal(opened("?door=cellar&benches=5").noDoor, "cellar");
   assert.deepEqual(opened("?time=end&benches=5").unread, []);
+  for (const view of ["1,2,0", "1,x,3", "1,2,3,4"]) assert.equal(opened(`?view=${view}`).get("view"), null, view);
+  assert.deepEqual(["true", "yes"].map((text) => opened(`?follow=${text}`).get("follow")), [true, false]);
 });
 
 test("passages are those of the beats until they are changed", () => {

@@ -68,6 +68,9 @@ test("a path of lines and arcs has knots on it, straight where it is", () => {
   const { points, straight } = knotsOf({ x, y });
   assert.deepEqual(straight, [0, points.length - 2]);
   assert.ok(points.length >= 8, `${points.length} knots`);
+  // In parts of equal turn and length between the two lines.
+  const gaps = points.slice(2, -1).map(([px, py], k) => Math.hypot(px - points[k + 1][0], py - points[k + 1][1]));
+  assert.ok(Math.max(...gaps) < 1.3 * Math.min(...gaps), `gaps of ${gaps} m`);
   for (const [k, [px, py]] of points.entries()) {
     const far = px > 12 ? Math.abs(Math.hypot(px - 12, py - 6) - 6) : Math.min(Math.abs(py), Math.abs(py - 12));
     assert.ok(far < 0.02, `knot ${k} is ${far} m beside the path`);
