@@ -12,12 +12,11 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.person import Person
+from tests.support.person import PHONE, Person
 from tests.support.serving import free_port, serving
 
 thorough = pytest.mark.thorough
 PATIENT = 50.0  # longest computation of one answer [s], also on a busy machine
-ON_PHONE: Any = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
 DRAGON = {"benches": 20, "head_length": 3.41, "body_length": 2.2, "width": 0.3, "overhang": 0.275}
 SPIRAL = {"kind": "spiral", "pitch": 0.55, "start_turns": 16}
 SLACK = 45  # from the last press to the cue [s], so that a slow machine is not late
@@ -49,19 +48,19 @@ AHEAD = "presses => { for (let k = 0; k < presses; k++) document.querySelector(\
 
 def card(server: str, language: str = "en", **more: Any) -> Any:
     """The card of bench 7 of the spiral with 20 benches, up to its first contact."""
-    stop = polite.get(f"{server}/collision-time", params={"benches": 20}).json()["time"]
+    stop = polite.answer(server, "collision-time", benches=20)["time"]
     body = {"dragon": DRAGON, "path": SPIRAL, "start": 0, "stop": stop, "cards": [7], "language": language} | more
-    return polite.post(f"{server}/cues", json=body).raise_for_status().json()["cards"][0]
+    return polite.answer(server, "cues", body)["cards"][0]
 
 
 def card_of_two(server: str, dragon: int, language: str) -> Any:
     """The card of bench 7 of one of two dragons, up to their encounter."""
     names = ["A", {"en": "blue", "zh": "蓝龙"}[language]]
     own = [{"name": name, "dragon": DRAGON, "path": path} for name, path in zip(names, SPIRALS, strict=True)]
-    report = polite.post(f"{server}/check", json={"dances": own}).raise_for_status().json()
+    report = polite.answer(server, "check", {"dances": own})
     span = {"start": report["start"], "stop": report["encounter"]["time"] or report["stop"] - 1e-6}
     body = {"dances": own, **span, "cards": [7], "part": dragon, "language": language}
-    return polite.post(f"{server}/cues", json=body).raise_for_status().json()["cards"][0]
+    return polite.answer(server, "cues", body)["cards"][0]
 
 
 def words_of(cues: list[Any]) -> list[str]:
@@ -84,7 +83,7 @@ def seconds(clock: str) -> int:
 
 def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page: Any, server: str) -> None:
     """The language is changed on the way; in both the screen stays on if the browser lets it."""
-    person = held(open_page("?benches=20&bench=7&lang=en", permissions=["screen-wake-lock"], **ON_PHONE))
+    person = held(open_page("?benches=20&bench=7&lang=en", permissions=["screen-wake-lock"], **PHONE))
     own = card(server)
     assert cues_of(person) == words_of(own["cues"])
     steps, mark = abs(own["start"]["steps"]), round(own["start"]["mark"])
@@ -133,8 +132,8 @@ def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(
     port = free_port()
     base = f"http://127.0.0.1:{port}"
     with serving(tmp_path / "gone.log", port=port, deadline_seconds=PATIENT):
-        one = held(open_page("?benches=20&bench=7&lang=en", base=base, failing=True, **ON_PHONE))
-        two = held(open_page(f"?{TWO}&bench=7&lang=en", base=base, failing=True, **ON_PHONE))
+        one = held(open_page("?benches=20&bench=7&lang=en", base=base, failing=True, **PHONE))
+        two = held(open_page(f"?{TWO}&bench=7&lang=en", base=base, failing=True, **PHONE))
         two.reads({"#carrier h1": "blue: body 7"})
     one.sees({"#lost": False}).page.bring_to_front()
     goes_on_in_both_languages(one, {lang: card(server, lang)["cues"] for lang in ("en", "zh")}, "第7节龙身")
@@ -161,7 +160,7 @@ def test_with_a_time_of_day_the_card_goes_by_the_clock_and_its_times_are_the_pri
     person.presses("button:text('Start again')").sees({f"{LIST}.past": 0}).presses("#card-clock")
     person.sees({f"{LIST}.past": True})
     # The times are those of the printed card, in their order.
-    shown = held(open_page("?benches=20&bench=7", rest=False, **ON_PHONE)).texts(f"{LIST} span:first-child")
+    shown = held(open_page("?benches=20&bench=7", rest=False, **PHONE)).texts(f"{LIST} span:first-child")
     times = [60.0 * float(minutes) + float(rest) for minutes, rest in (text.split(":") for text in shown)]
     assert times == pytest.approx([cue["time"] for cue in card(server)["cues"]], abs=0.051)
     assert times == sorted(times)
@@ -173,7 +172,7 @@ def test_the_view_opens_from_the_page_chooses_benches_and_dragons_and_closes_whe
 ) -> None:
     person = open_page("?benches=20&time=100&handle=4&lang=en").reaches_below().presses("#card-follow")
     assert held(person).address()["bench"] == "4"
-    person.types({"#card-bench": "12"}).reads({"#carrier h1": "body 12"}).page.wait_for_url("**bench=12**")
+    person.types({"#card-bench": "12"}).reads({"#carrier h1": "body 12"}).arrives("**bench=12**")
     person.reads({"#card-more .beside": "Before you: body 11. Behind you: body 13."}).types({"#card-bench": "300"})
     person.reads({CUE: "This dragon has no bench 300: its tail is bench 19."}).page.go_back()
     held(person.sees({"#carrier": False}).presses("#card-follow")).presses("#carrier [aria-label=Close]")
@@ -181,7 +180,7 @@ def test_the_view_opens_from_the_page_chooses_benches_and_dragons_and_closes_whe
     person.reads({"#clock": "100.000000 s"}).sees({"#table-time": "100.000000 s"})
     assert "bench" not in person.address()
     person = held(open_page(f"?{TWO}&bench=7&lang=en")).chooses({"#card-dragon": "A"})
-    person.reads({"#carrier h1": "A: body 7"}).page.wait_for_url(lambda url: "dragon=" not in url)
+    person.reads({"#carrier h1": "A: body 7"}).arrives(lambda url: "dragon=" not in url)
     assert cues_of(held(person)) == words_of(card_of_two(server, 0, "en")["cues"])
     # On paper stand the bench, its picture and all cues without buttons.
     person.page.emulate_media(media="print")

@@ -67,7 +67,7 @@ THREE = """() => new Promise((resolve) => {
 
 
 def answer_of(server: str, call: str, **query: Any) -> Any:
-    return polite.get(f"{server}/{call}", params=query).raise_for_status().json()
+    return polite.answer(server, call, **query)
 
 
 def collision_time(server: str, **query: Any) -> Any:
@@ -123,7 +123,7 @@ def test_the_first_view_shows_the_contact_its_proof_and_how_every_answer_is_know
 
 def test_limits_and_units_are_the_services_own(visit: Any, server: str) -> None:
     limits = visit("?benches=5&time=end").ask(LIMITS)
-    schemas = polite.get(f"{server}/openapi.json").json()["paths"]["/collision-time"]["get"]["parameters"]
+    schemas = polite.answer(server, "openapi.json")["paths"]["/collision-time"]["get"]["parameters"]
     for name, schema in ((one["name"], one["schema"]) for one in schemas if "enum" not in one["schema"]):
         scale, unit = (100, "cm") if name in IN_CM else (1, schema.get("x-unit", ""))
         low = schema.get("minimum", schema.get("exclusiveMinimum"))
@@ -297,7 +297,7 @@ def test_strays_margins_and_play_stand_in_one_sentence_and_the_ground_is_drawn(v
     person.sees({"#first-contact": [title, f"May come within 0.03 m from {time}"]})
     person.speaks("zh").sees({"#first-contact": [f"{time} 起可能间距不超过 0.03 m", "每个孔离位不超过 2.5 cm"]})
     body = {"dragon": {"benches": 20}, "path": {"kind": "turn", "pitch": 1.7}, "start": -100, "stop": 100}
-    free = polite.post(f"{server}/tolerance", json=body).raise_for_status().json()["stray"]
+    free = polite.answer(server, "tolerance", body)["stray"]
     visit("?path=turn&benches=20&stray=0.03").sees(
         {
             "#first-contact[data-outcome=clear]": ["Stays clear: nothing can touch", "No two benches can"],
@@ -318,7 +318,7 @@ def test_the_turn_has_the_answers_of_the_service_and_none_of_them_stays_on_a_spi
     person = open_page("?head_speed=1.5&benches=20").presses("[data-path=turn]")
     times = {"start": -100 / 1.5, "stop": 100 / 1.5}
     body = {"dragon": {"benches": 20}, "path": {"kind": "turn", "pitch": 1.7}, "head_speed": 1.5, **times}
-    report = polite.post(f"{server}/check", json=body).raise_for_status().json()
+    report = polite.answer(server, "check", body)
     shortest = answer_of(server, "shortest-turn", pitch=1.7, benches=20)
     quickest, time = (answer_of(server, call, benches=20) for call in ("quickest-turn", "turn-time"))
     assert quickest["time"] < time["time"]
@@ -423,7 +423,7 @@ def test_what_is_chosen_and_changed_is_shared_and_opens_as_the_same_state(open_p
     person.at("#canvas").click(position={"x": box["width"] / 2, "y": box["height"] / 2})
     person.sees({"#rows tr.chosen": "0 · head"}).presses("#rows tr[data-handle='5']")
     person.sees({"#rows tr.chosen": "5 · body 5"}).types({"#pitch": "0.5", "#width": "0.25"}, "Tab").presses("#share")
-    person.page.wait_for_url(re.compile("width=0.25"))
+    person.arrives(re.compile("width=0.25"))
     person.strikes("Escape").speaks("zh").reaches_below()
     assert person.address().items() >= {"pitch": "0.5", "width": "0.25", "handle": "5", "lang": "zh"}.items()
     other = open_page(f"?{person.page.url.partition('?')[2]}").reaches_below()
@@ -441,7 +441,7 @@ def test_two_thousand_benches_are_drawn_and_listed_and_two_cannot_touch(visit: A
     person.at("#rows").press("ArrowUp")
     person.at("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
     body = {"dragon": {"benches": 2000}, "times": [0]}
-    last = polite.post(f"{server}/trajectory", json=body).json()["x"][0][-1]
+    last = polite.answer(server, "trajectory", body)["x"][0][-1]
     person.sees({"#rows tr[data-handle='2000']": f"{last:.6f}"})
     person = visit("?benches=2", failing=True).sees({"#first-contact p:not(.old)": "No two benches touch before."})
     words = polite.get(f"{server}/clearance?benches=2").json()["detail"]
@@ -452,9 +452,9 @@ def test_two_thousand_benches_are_drawn_and_listed_and_two_cannot_touch(visit: A
 @thorough
 def test_a_turn_opens_at_the_pitch_of_the_contest_and_reduced_motion_moves_in_steps(open_page: Any) -> None:
     person = open_page("?path=turn&benches=20", without="**/shortest-turn*", rest=False).holds({"#pitch": "1.7"})
-    person.types({"#pitch": "1.8"}, "Tab").page.wait_for_url(re.compile("pitch=1.8"))
+    person.types({"#pitch": "1.8"}, "Tab").arrives(re.compile("pitch=1.8"))
     person.presses("#reset-all")
-    person.holds({"#pitch": "1.7"}).page.wait_for_url(re.compile("path=turn$"))
+    person.holds({"#pitch": "1.7"}).arrives(re.compile("path=turn$"))
     # The figure of a dance without a contact is of the part that is shown.
     person.at("#keep").scroll_into_view_if_needed()
     request = json.loads(shlex.split(person.chooses({"#curl-of": "keepContact"}).text("#curl"))[5])

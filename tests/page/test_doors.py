@@ -49,9 +49,9 @@ def without(**changes: Any) -> Any:
 def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open_page: Any) -> None:
     person = open_page("", reduced_motion="reduce").sees({"#arrival button": 3})
     assert numbers(person) == []
-    person.presses("#arrival [data-door=contest]").page.wait_for_url("**door=contest**")
+    person.presses("#arrival [data-door=contest]").arrives("**door=contest**")
     assert numbers(person.sees({"#arrival": False})) == CONTEST
-    person.presses("#doors [data-door=village]").page.wait_for_url("**path=route**")
+    person.presses("#doors [data-door=village]").arrives("**path=route**")
     person.sees({"#judgement .value": re.compile("danced"), "#judgement h3": "Verdict on this example"})
     # The end counts from 0 s, the time of the verdict from where the dance begins.
     person.sees({"#run-end": "Times count from 0 s; the dance begins at -"})
@@ -77,7 +77,7 @@ def test_behind_a_door_numbers_are_as_people_say_them_and_each_is_one_tab_stop(v
     person.reads(people).sees({"#minimum-pitch button": False}).presses("#first-contact summary")
     person.presses("#minimum-pitch summary").sees({"#minimum-pitch button": True})
     person.reads({"#first-contact dd": "412.473838 s", "#minimum-pitch dd": "0.450337393 m"})
-    person.at("#pitch").focus()
+    person.focuses("#pitch")
     for name in CONTEST[1:]:
         expect(person.strikes("Tab").at(f"#{name}")).to_be_focused()
     for key, value in (("ArrowUp", "224"), ("ArrowDown", "223"), ("ArrowDown", "222"), ("Escape", "223")):
@@ -200,7 +200,7 @@ def test_what_a_newer_page_wrote_is_named_once_and_the_rest_opens(open_page: Any
         (f"{'x' * 90}=1", f"This page does not know “{'x' * 40}” in the address: here is the rest."),
     ):
         person = open_page(f"{EASY}&{query}", rest=False).reads({"#status": words}).settles()
-        person.holds({"#benches": "5"}).types({"#benches": "6"}).page.wait_for_url("**benches=6**")
+        person.holds({"#benches": "5"}).types({"#benches": "6"}).arrives("**benches=6**")
         # A newer page opens all of it; a value that this one cannot read is left out.
         assert (query in person.page.url) is ("=cel" not in query and "path" not in query)
     # It goes away by itself, and does not come back.
@@ -210,7 +210,7 @@ def test_what_a_newer_page_wrote_is_named_once_and_the_rest_opens(open_page: Any
 @thorough
 def test_a_route_is_drawn_by_keyboard_from_nothing(open_page: Any) -> None:
     person = open_page("?door=village&path=route&benches=3")
-    person.at("#invite .main").focus()
+    person.focuses("#invite .main")
     person.strikes("Enter")
     expect(person.at("#canvas")).to_be_focused()
     for count in range(5):
@@ -219,7 +219,7 @@ def test_a_route_is_drawn_by_keyboard_from_nothing(open_page: Any) -> None:
     assert len(person.address()["route"].split("_")) == 5
     # A square around it, too: four corners turn to the left.
     person.at("[data-tool=area]").press("Enter")
-    person.at("#canvas").focus()
+    person.focuses("#canvas")
     person.strikes(*"nnnn").settles().sees({"#knots .knot": 4, "#judgement .failures li": True})
     person.strikes("Control+z").sees({"#knots .knot": 3})
 
@@ -240,7 +240,7 @@ def test_a_bare_address_moves_with_the_mouse_and_the_wheel_scrolls_until_the_pic
     person = open_page("").sees({"#play": "Play"})
     person.page.mouse.move(300, 300)
     person.sees({"#play": "Pause"}).presses("#doors [data-door=all]").sees({"#clock": re.compile(r"^[1-9].*")})
-    time = polite.get(f"{server}/collision-time").json()["time"]
+    time = polite.answer(server, "collision-time")["time"]
     person.has("#contact-mark", title=f"First contact, at {time:.6f} s").presses("#play")
     slider, mark, canvas = (person.box(place) for place in ("#time", "#contact-mark", "#canvas"))
     assert slider["x"] + slider["width"] - mark["x"] < 20
@@ -251,7 +251,7 @@ def test_a_bare_address_moves_with_the_mouse_and_the_wheel_scrolls_until_the_pic
     person.ask("scrollTo(0, 0)")
     person.page.mouse.click(canvas["x"] + 300, canvas["y"] + 300)
     person.page.mouse.wheel(0, 200)
-    person.page.wait_for_url("**view=**")
+    person.arrives("**view=**")
     assert person.ask("scrollY") == 0
 
 
@@ -264,15 +264,15 @@ def test_nothing_moves_for_keys_nor_with_reduced_motion_and_a_route_stands(open_
         person.settles().sees({"#clock": "0.00 s", "#play": "Play"})
     # The dance on the whole screen has numbers too, and its verdict leads to its reasons, which are not there.
     keys.presses("#full")
-    expect(keys.at("[data-field=pitch] input[type=range]")).to_be_in_viewport()
+    keys.views("[data-field=pitch] input[type=range]")
     person = open_page("?door=contest&benches=60").presses("#full")
     person.page.wait_for_function("() => document.fullscreenElement")
     before = person.sees({"#answers": False}).text("#verdict")
     slide = "one => { one.value = 0.7; one.dispatchEvent(new Event('input', { bubbles: true })); }"
     person.at("[data-field=pitch] input[type=range]").evaluate(slide)
-    expect(person.settles().at("#verdict")).to_be_in_viewport()
+    person.settles().views("#verdict")
     person.misses({"#verdict": before}).presses("#verdict")
-    expect(person.at("#answers")).to_be_in_viewport()
+    person.views("#answers")
     assert person.ask("document.fullscreenElement") is None
     person = open_page("")
     person.page.mouse.move(300, 300)

@@ -10,11 +10,10 @@ from typing import Any
 import pytest
 
 from tests.support import polite
-from tests.support.person import Person
+from tests.support.person import PHONE, Person
 
 thorough = pytest.mark.thorough
 ENCOUNTERS = Path(__file__).parent.parent / "reference" / "encounters.json"
-PHONE: Any = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
 ADDRESS_MOST = 500  # characters, so that chat programs keep it whole
 COLOURS = ("#b3261e", "#0b5cad", "#1a6f33")
 ALERT = "#dragons [role=alert]"
@@ -72,7 +71,7 @@ def test_a_late_answer_about_other_dragons_asks_nothing_that_is_refused(open_pag
 def test_a_parade_is_judged_as_by_the_service_and_played_together(open_page: Any, server: str) -> None:
     person = begun(open_page, "parade")
     file = file_of(person.sees({"#judgement": ["Can be danced", "No two dragons touch."], "#contact-mark": False}))
-    report = polite.post(f"{server}/check", json=file | {"details": False}).raise_for_status().json()
+    report = polite.answer(server, "check", file | {"details": False})
     assert report["verdict"] == "passes"
     assert len(file["dances"]) == person.counts("#dragons li") == 3
     before = person.picture()
@@ -109,7 +108,7 @@ def test_film_plan_cues_map_and_print_are_of_all_dragons(open_page: Any) -> None
 @thorough
 def test_who_waits_is_let_pass_and_the_browser_leads_back(open_page: Any, server: str) -> None:
     person = begun(open_page, "streets").sees({"#judgement": "Cannot be danced"})
-    report = polite.post(f"{server}/check", json=file_of(person) | {"details": False}).raise_for_status().json()
+    report = polite.answer(server, "check", file_of(person) | {"details": False})
     assert (report["verdict"], len(report["failures"])) == ("fails", person.counts(".failures li"))
     person.types({"#dragon-delay-1": "30"}).sees({"#judgement": "Can be danced"})
     assert file_of(person)["dances"][1]["delay"] == 30
@@ -175,13 +174,13 @@ def test_the_list_is_used_on_a_phone_and_by_keys_and_behind_a_door_all_digits_ar
         assert not person.overflows(390)
         assert person.findings("#dragons") == person.ask(SMALL) == []
     person = begun(open_page, "spiral", "?door=look&lang=en&time=0&benches=9")
-    person.at("#dragon-choose-0").focus()
+    person.focuses("#dragon-choose-0")
 
     def after(*keys: str) -> str:
         return str(person.strikes(*keys).ask("document.activeElement.id"))
 
     assert [after("Tab") for _ in range(3)] == ["dragon-choose-1", "dragon-add", "dragons-save"]
-    person.at("#dragon-choose-0").focus()
+    person.focuses("#dragon-choose-0")
     assert [after("ArrowRight") for _ in range(2)] == ["dragon-colour-0", "dragon-name-0"]
     person.page.keyboard.type("east")
     # Within a text they move in the text.
@@ -206,7 +205,7 @@ def test_a_saved_file_opens_again_and_what_the_page_leaves_out_is_named(open_pag
     def opened(content: dict[str, Any], words: str = "Opened two.json", language: str = "en") -> Person:
         file.write_text(json.dumps(content))
         person = open_page(f"?door=all&path=route&lang={language}")
-        person.at("#open-file").set_input_files(str(file))
+        person.takes(file)
         return person.sees({"#status": words}).settles()
 
     person = begun(open_page, "parade").types({"#margin": "0.02"}).settles()
@@ -243,7 +242,7 @@ def test_beats_of_a_drum_are_in_film_address_and_file_until_the_speeds_are_chang
     file = tmp_path / "dance.json"
     file.write_text(json.dumps({"dances": [dance, {**dance, "delay": 90, "beats": BEATS[:1]}]}))
     person = open_page("?door=all&path=route&lang=en")
-    person.at("#open-file").set_input_files(str(file))
+    person.takes(file)
     person.sees({"#dragons li": 2}).reaches_below().sees({"#passages li": 2})
     for body in (film_of(person), file_of(person), film_of(person.presses("#dragon-choose-1").settles())):
         assert [one["beats"] for one in body["dances"]] == [BEATS, BEATS[:1]]

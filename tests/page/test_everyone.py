@@ -8,10 +8,9 @@ from typing import Any
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.person import Person
+from tests.support.person import PHONE, Person
 
 thorough = pytest.mark.thorough
-PHONE: Any = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 FINGER = 44  # [px]: the least width and height of what a finger should hit
 FOUR = {13.1, 15.0, 19.2, 22.4}  # sizes of type [px]
 VILLAGE = (
@@ -46,7 +45,8 @@ SIZES = """() => {
     if (!(isField || hasText) || one.matches("option, .unseen")) continue;
     if (!one.checkVisibility({ visibilityProperty: true })) continue;
     const scale = one.ownerSVGElement?.getScreenCTM().a ?? 1;
-    if (scale) sizes.add(Math.round(10 * scale * Number.parseFloat(getComputedStyle(one).fontSize)) / 10);
+    const size = Math.round(10 * scale * Number.parseFloat(getComputedStyle(one).fontSize)) / 10;
+    if (size) sizes.add(size);
   }
   const { prototype } = CanvasRenderingContext2D;
   const fill = prototype.fillText;
@@ -192,13 +192,13 @@ def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(visit: Any) -> 
             assert person.ask(f"{cut}.length") == 0
         shares_the_screen(person)
         person.presses("#tabs button:visible >> nth=1")
-        expect(person.at("#controls")).to_be_in_viewport()
+        person.views("#controls")
     person = visit(f"{VILLAGE}&door=village", **PHONE).reaches_below()
     for section, within in (("people", ["#tolerance", "#crew", "#cues button"]), ("keep", ["#kept button"])):
         person.at(f"[data-section={section}]:visible").tap()
         person.reads({f"#{section} > h2": person.text(f"[data-section={section}]")})
         for place in (f"#{section} > h2", *(f"#{section} {one}:visible" for one in within)):
-            expect(person.at(place)).to_be_in_viewport()
+            person.views(place)
 
 
 @thorough
@@ -225,15 +225,15 @@ def test_a_swipe_up_that_begins_on_a_slider_scrolls_and_changes_nothing(visit: A
     assert inset["x"] >= legend["x"] + legend["width"] or inset["y"] + inset["height"] <= legend["y"]
     assert knob is not None
     person = visit("?door=contest&benches=20&time=end", **PHONE).presses("[data-section=keep]").sees({"#kept li": True})
-    expect(person.settles().at("#keep-title")).to_be_in_viewport()
+    person.settles().views("#keep-title")
 
 
 def test_the_page_is_used_by_keyboard_alone(open_page: Any) -> None:
     person = open_page("?time=100&benches=20").reaches_below()
     person.ask(FOCUSED)
     assert person.strikes("Tab").ask("focused[0][0]") == "skip"
-    person.strikes("Enter").at("#canvas").focus()
-    person.strikes("]").sees({"tr.chosen": "0 · head"}).strikes("+", "ArrowLeft").page.wait_for_url("**view=**")
+    person.strikes("Enter").focuses("#canvas")
+    person.strikes("]").sees({"tr.chosen": "0 · head"}).strikes("+", "ArrowLeft").arrives("**view=**")
     person.strikes("0", "f").sees({"#follow[aria-pressed=true]": True}).strikes(" ").sees({"#play": "Pause"})
     person.strikes(" ").sees({"#play": "Play"}).ask("focused = []")
     focused = person.strikes(*["Tab"] * 170).ask("focused")
@@ -250,7 +250,7 @@ def test_the_tab_key_goes_through_numbers_and_answers_as_they_stand(visit: Any, 
     last = "answers" if first == "controls" else "controls"
     boxes = [person.settles().box(f"#{one}") for one in (first, last)]
     assert boxes[0]["x"] < boxes[1]["x"] or boxes[0]["y"] < boxes[1]["y"]
-    person.at("#rate").focus()
+    person.focuses("#rate")
     seen = [person.strikes("Tab").ask(COLUMN) for _ in range(40)]
     assert list(dict.fromkeys(filter(None, seen))) == [first, last]
 
@@ -262,7 +262,7 @@ def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_stays_i
     assert [term for term in ("龙头", "龙身", "把手", "螺距", "调头空间") if term not in words] == []
     assert "Pitch" not in person.text("main")
     person.at("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
-    person.sees({"#rows tr:has-text('龙尾（后）')": True}).speaks("en").page.wait_for_url("**lang=en")
+    person.sees({"#rows tr:has-text('龙尾（后）')": True}).speaks("en").arrives("**lang=en")
     person.page.reload()
     person.reads({"h1 a, h1": "Bench Dragon"})
 
@@ -279,7 +279,7 @@ def test_a_verdict_is_told_once_with_its_reasons(open_page: Any) -> None:
     expect(heard).to_have_text(re.compile(r"^Verdict Can be danced The head walks"))
     person.ask(TOLD)
     before = heard.inner_text()
-    person.presses("#edit").at(".knot >> nth=2").focus()
+    person.presses("#edit").focuses(".knot >> nth=2")
     person.strikes(*["Shift+ArrowRight"] * 3)
     expect(heard).not_to_have_text(before)
     # On a slow machine a verdict in between may stay long enough to be told too, but none is told twice.

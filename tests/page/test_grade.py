@@ -40,7 +40,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 
 def test_chosen_files_are_graded_each_for_itself_in_the_language_of_the_page(open_page: Any, files: list[Path]) -> None:
     person = open_page(EASY).reaches_below()
-    person.at("#files").set_input_files(files)
+    person.takes(files, "#files")
     person.sees({BOX: 4, "#grades [role=status]": 0}).sees(
         {
             f"{BOX} >> nth=0 >> .value": "✕wrong",
@@ -90,5 +90,5 @@ def test_typed_answers_and_a_dropped_file_are_graded_and_cleared(open_page: Any,
     assert person.ask(DROP, list(files[1].read_bytes()))
     person.reads({"#grades .value": "✓right"}).presses("#grade-clear")
     person.page.route("**/grade?*", lambda route: None)  # no answer comes
-    person.at("#files").set_input_files(files[:2])
+    person.takes(files[:2], "#files")
     person.reads({"#grades [role=status]": "Grading result1.xlsx (1 of 2) …"})

@@ -9,10 +9,9 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.person import Person
+from tests.support.person import PHONE, Person
 
 thorough = pytest.mark.thorough
-PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 SECTIONS = {"chord", "staircase", "step", "graze", "stray"}
 # A drag by this many pixels moves a number by a quarter of its range.
 QUARTER = 70
@@ -20,7 +19,7 @@ FOUR = {13.1, 15.0, 19.2, 22.4}  # [px], as on the page of the dance
 
 
 def answer_of(server: str, call: str, **request: Any) -> Any:
-    return polite.post(f"{server}/{call}", json=request).raise_for_status().json()
+    return polite.answer(server, call, request)
 
 
 def dial(person: Person, section: str, name: str) -> Any:
@@ -71,7 +70,7 @@ def test_dragged_numbers_get_the_answers_of_the_service(open_page: Any, server: 
         }
     )
     person.presses("#graze .try").sees({"#graze .lead": "In 1 of them benches overlap"})
-    free = int(1e4 * polite.get(f"{server}/tolerance", params={"pitch": 0.55}).json()["stray"]) / 100
+    free = int(1e4 * polite.answer(server, "tolerance", pitch=0.55)["stray"]) / 100
     for _ in range(2):
         dial(person, "stray", "How far every handle may stray").press("PageUp")
     first = answer_of(server, "collision-time", stray=0.05, cross_check="none")["time"]
@@ -90,8 +89,8 @@ def test_an_address_keeps_the_numbers_and_the_language(open_page: Any) -> None:
     assert [dial(person, *one).inner_text() for one in values] == ["0.5000 m", "5.00 turns", "412.40 s"]
     expect(dial(person, "graze", "Time between")).to_have_text("0.3 s")
     dial(person, "staircase", "Pitch of the spiral").press("ArrowUp")
-    person.page.wait_for_url("**staircase_pitch=0.5001**#staircase")
-    person.presses("[data-lang=zh]").page.wait_for_url("**lang=zh**")
+    person.arrives("**staircase_pitch=0.5001**#staircase")
+    person.presses("[data-lang=zh]").arrives("**lang=zh**")
     kept = {"staircase_pitch": "0.5001", "step_time": "412.4", "graze_step": "0.3"}
     assert person.address().items() >= kept.items()
     assert "chord" not in person.page.url
@@ -169,7 +168,7 @@ def test_every_answer_of_the_dance_leads_to_the_idea_behind_it_and_back(open_pag
     assert set(ideas) == SECTIONS - {"graze"}
     assert len(ideas) == person.counts("#answers details")
     person.presses("#tolerance summary", "#tolerance details a").sees({"#stray .ground": True})
-    expect(person.at("#stray h2")).to_be_in_viewport()
+    person.views("#stray h2")
     expect(person.at("#name a")).to_have_attribute("href", re.compile("benches=12"))
     person.presses("#name a").sees({"#first-contact .value": True})
     assert person.address().items() >= {"benches": "12", "pitch": "0.6", "lang": "zh"}.items()

@@ -8,10 +8,9 @@ from typing import Any
 import pytest
 
 from tests.support import polite
-from tests.support.person import alike
+from tests.support.person import PHONE, alike
 
 thorough = pytest.mark.thorough
-PHONE: Any = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
 STREET = "path=route&route=*-40,0_40,0&benches=9"
 CREW = f"?door=village&lang=en&{STREET}&begin=30&time=20&start_clock=19%3A30"
 BODY = {
@@ -26,13 +25,13 @@ RESULT = "#crew-result"
 
 
 def crew(server: str, **fields: Any) -> Any:
-    return polite.post(f"{server}/crew", json=BODY | fields).raise_for_status().json()
+    return polite.answer(server, "crew", BODY | fields)
 
 
 def contact_of(server: str, **request: Any) -> str:
     """Time of first contact by the service, in the words of the page."""
     spiral = {"kind": "spiral", "pitch": 0.55, "start_turns": 16}
-    result = polite.post(f"{server}/collision-time", json={"path": spiral, **request}).raise_for_status().json()
+    result = polite.answer(server, "collision-time", {"path": spiral, **request})
     return f"{result['time'] if result['time'] is not None else result['end']['time']:.6f} s"
 
 
@@ -81,7 +80,7 @@ def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(op
     person.types({"#csv": TABLE}, "Tab").sees({answer: contact_of(server, dragon={"csv": TABLE}), wu: True})
     wide = person.settles().picture()
     # One bench narrower: its chord, and so the whole pose, stays; the picture does not.
-    person.types({"#csv": narrow}, "Tab").page.wait_for_url("**csv=*0.2,0.2*")
+    person.types({"#csv": narrow}, "Tab").arrives("**csv=*0.2,0.2*")
     assert not alike(wide, person.settles().picture())
     person.reaches_below().sees({"#curl": "Wu,1.8,0.2"})
     assert person.saves("#keepTrajectory-CSV").splitlines()[2].endswith(b",Li")
@@ -104,21 +103,21 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: An
     # The head rests, and so does everybody.
     person.sees({**contact, "#clock": re.compile(r"^50.000000 s\s*07:30:50$")})
     person.reads({"#rows tbody td >> nth=3": "0.000000"})
-    person.page.wait_for_url("**passages=0.5@20m_0@100s_1.5@60m*begin_clock=*")
+    person.arrives("**passages=0.5@20m_0@100s_1.5@60m*begin_clock=*")
     person.page.reload()
     person.sees({**contact, "#passages li": 3}).types({"#begin_clock": "25 o'clock"}, "Tab")
     words = "Write the time of day as 19:30 or 19:30:15. Until then it starts at 07:30:00."
     person.reads({"#clock-error": words}).chooses({"#passages li >> nth=1 >> select": "m"})
     person.sees({"#passages .error": "“until, in seconds” must be given."})
     # A pause lies at the instant shown.
-    visit("?benches=30&time=50").presses("#passages summary", "#pauseAdd").page.wait_for_url("**passages=1@50s_0@10d*")
+    visit("?benches=30&time=50").presses("#passages summary", "#pauseAdd").arrives("**passages=1@50s_0@10d*")
 
 
 @thorough
 def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(visit: Any, server: str) -> None:
     limits = {"speed_limit": 0.9, "start_clock": "19:30", "passages": PASSAGES[:2]}
     body = BODY | limits | {"dragon": {"benches": 9}, "head_speed": 1}
-    failure = polite.post(f"{server}/check", json=body).raise_for_status().json()["failures"][0]
+    failure = polite.answer(server, "check", body)["failures"][0]
     person = visit(f"?{STREET}&begin=30&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
     person.reads({".failures button": f"{failure['time']:.6f} s · {failure['clock']}"}).reaches()
     sides = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", person.saves("#keepPlan-A3"))

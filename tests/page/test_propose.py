@@ -11,11 +11,10 @@ import pytest
 
 from app.questions.proposals import Lack
 from core import Dragon, Failure, FailureKind, Figure, Reason, ReasonKind
-from tests.support.person import Person
+from tests.support.person import PHONE, Person
 from tests.support.serving import serving
 
 thorough = pytest.mark.thorough
-PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 EMPTY = "?door=village&path=route"
 NARROW_YARD = f"{EMPTY}&benches=8&things=a.square..0,0_30,0_30,3_0,3"
 # A yard of 24 m by 20 m around the origin, with a tree; and a view whose middle is the origin.
@@ -99,7 +98,7 @@ def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_a_route_that_is_
     chosen = person.presses("#edit").has("[data-tool=path]", aria_pressed="true").settles().address()
     assert ("walk" in chosen, "route" in chosen) == (True, False)
     assert person.counts(".knot") >= 8
-    person.at(".knot >> nth=2").focus()
+    person.focuses(".knot >> nth=2")
     edited = person.strikes("ArrowUp").settles().sees({CLEAR: True}).address()
     assert ("walk" in edited, "route" in edited) == (False, True)
     person.strikes("ControlOrMeta+z").settles()

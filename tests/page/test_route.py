@@ -12,11 +12,10 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.person import Person, alike
+from tests.support.person import PHONE, Person, alike
 
 thorough = pytest.mark.thorough
 ROOT = Path(__file__).parents[2]
-PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 S_CURVE = "?path=route&route=*-80,-16_0,-16_16,-8_0,0_-16,8_*0,16_80,16"
 VILLAGE = (
     "?path=route&route=*-67,-8_-12,-8_-3,-9_6,-8_10.5,-3_7,2.5_0,3.5_-4.5,7_-1,10.5_6,10.5_*12,15_12,62&begin=45&limit=1.1"
@@ -69,7 +68,7 @@ def test_a_dragged_point_brings_a_verdict_that_undo_redo_and_the_browser_take_ba
 def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit: Any) -> None:
     person = visit(S_CURVE).sees(YES).presses("#edit")
     before = points(person)
-    person.at("#delete").focus()
+    person.focuses("#delete")
     assert "Point 2 of 7" in person.strikes("Tab", "Tab", "Tab").ask(LABEL)  # after the picture and the first point
     after = points(person.strikes("ArrowRight", "ArrowRight", "Shift+ArrowUp"))
     assert after[1] == pytest.approx([before[1][0] + 0.2, before[1][1] + 1.0])
@@ -118,11 +117,11 @@ def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its
 ) -> None:
     person = visit(VILLAGE).sees({**NO, "#run-end[aria-busy=false]": True})
     body = file_of(person)
-    answer = polite.post(f"{server}/check", json=body).raise_for_status().json()["failures"]
+    answer = polite.answer(server, "check", body)["failures"]
     assert [one["kind"] for one in answer] == ["venue", "speed"]
     assert person.texts(".failures li button") == [f"{one['time']:.6f} s" for one in answer]
     person.sees({".failures li": "the head touches well", ".failures li >> nth=1": "highest speed is 1.202470 m/s"})
-    person.presses(".failures li button").page.wait_for_url(f"**time={round(answer[0]['time'], 9)}**")
+    person.presses(".failures li button").arrives(f"**time={round(answer[0]['time'], 9)}**")
     marked = person.sees({"#clock": f"{answer[0]['time']:.6f}"}).settles().picture()
     assert alike(marked, person.presses("#on", "#back").settles().picture())
     address = person.page.url
@@ -133,7 +132,7 @@ def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its
     body["path"] |= {"points": [[0.5 * k, 0.01 * (k % 7)] for k in range(900)], "straight": [], "start": 0.0}
     del body["venue"], body["speed_limit"]
     (tmp_path / "long.json").write_text(json.dumps(body))
-    person.at("#open-file").set_input_files(tmp_path / "long.json")
+    person.takes(tmp_path / "long.json")
     person.sees({"#route-note": "too long for an address"})
     assert len(person.page.url) < 8_000
     person.page.reload()
@@ -149,7 +148,7 @@ def test_a_dance_that_starts_in_the_wrong_place_or_is_refused_is_said_to_be_so(o
         open_page(f"?path=route&benches=3&route=*-20,0_20,0&things={things}").sees({**NO, ".failures li": words})
     person = open_page("?path=route&benches=9&route=*-60,0_*0,0_0,40&corner=0.3", failing=True).sees(NO)
     assert "view" not in person.address()
-    person.presses("#judgement button:has-text('Show')").page.wait_for_url("**view=**")
+    person.presses("#judgement button:has-text('Show')").arrives("**view=**")
     x, y, scale = map(float, person.address()["view"].split(","))
     assert abs(x) < 3
     assert -3 < y < 3
@@ -174,7 +173,7 @@ def test_a_point_on_another_one_is_a_dot_until_the_picture_is_enlarged(open_page
     expect(person.at(knot(1))).not_to_have_class(near)
     assert person.box(knot(2))["width"] < person.box(knot(1))["width"]
     # With the keys it has its number, and a press takes the one that shows its number.
-    person.at(knot(2)).focus()
+    person.focuses(knot(2))
     expect(person.at(knot(2))).to_have_css("font-size", person.style(knot(1), "fontSize"))
     person.ask("document.activeElement.blur()")
     assert points(person.drags(knot(2), 40, 0))[2] == [21.0, 0.0]
@@ -239,7 +238,7 @@ def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit: Any) 
 def test_a_verdict_of_before_is_pale_and_says_so_while_the_service_does_not_answer(visit: Any) -> None:
     person = visit(S_CURVE).sees({**YES, "#tolerance .value": True})
     person.page.route("**/check", lambda route: None)
-    person.presses("#edit").at(knot(2)).focus()
+    person.presses("#edit").focuses(knot(2))
     person.strikes("Shift+ArrowUp")
     for box in ("#judgement", "#tolerance"):
         pale = "box => getComputedStyle(document.querySelector(`${box} > .value`)).opacity < 0.7"
@@ -254,7 +253,7 @@ def test_a_verdict_of_before_is_pale_and_says_so_while_the_service_does_not_answ
 def test_a_dance_that_begins_later_can_begin_at_time_0_also_with_a_pause(visit: Any) -> None:
     offer = "#route .hint button:has-text('Begin at time 0: head at')"
     person = visit("?path=route&benches=24&route=0,0_150,0", failing=True).presses(offer)
-    person.page.wait_for_url("**begin=40.9*")
+    person.arrives("**begin=40.9*")
     person.sees({offer: False, **YES}).page.go_back()
     # A path too short for the dragon is refused; the dance does not begin later instead.
     person.sees({offer: True}).types({"#benches": "200"}, "Tab").sees({**NO, offer: False})
@@ -272,21 +271,21 @@ def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(visit: A
     square = {"type": "Polygon", "coordinates": [corners]}
     line = {"type": "LineString", "coordinates": [[499_960, 3_220_000], [500_040, 3_219_990]]}
     grid.write_text(json.dumps({"type": "GeometryCollection", "geometries": [square, line]}))
-    person.at("#open-file").set_input_files(grid)
+    person.takes(grid)
     person.sees({"#status": "x = y = 0 is its x 500000 m, y 3220000 m"})
     assert person.address()["grid"] == "500000,3220000"
     person.page.goto(person.page.url)
     assert file_of(person.settles())["venue"]["grid"] == {"x": 500_000, "y": 3_220_000}
     table.write_bytes("周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n".encode("gb18030"))
-    person.at("#open-file").set_input_files(table)
+    person.takes(table)
     person.sees({"#one-by-one summary": "2"}).holds({"#csv": "周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n"})
     workbook = openpyxl.Workbook()
     workbook.active.append(["吴", 3.41, 0.3, 0.275])
     workbook.save(book)
-    person.at("#csv-file").set_input_files(book)
+    person.takes(book, "#csv-file")
     person.sees({"#one-by-one summary": "1"}).holds({"#csv": "吴,3.41,0.3,0.275\n"})
     old.write_bytes(bytes.fromhex("d0cf11e0a1b11ae1") + bytes(99))
-    person.at("#csv-file").set_input_files(old)
+    person.takes(old, "#csv-file")
     person.sees({"#status": "The workbook is in an old or encrypted form"})
 
 
@@ -307,7 +306,7 @@ def test_a_number_that_cannot_be_used_is_refused_beside_its_field_and_the_dance_
     words = "“Latitude of x = y = 0” must be a number from -90 to 90; you typed “129”. The dance stays as it was."
     person.speaks("en").reads({error: words}).sees(NO).types({latitude: "29.11"}, "Tab").sees({error: 0})
     # A number may be written in any way; a field that needs one takes back its own; an empty limit is none.
-    person.types({speed: ",5", begin: ""}, "Tab").holds({begin: "45"}).page.wait_for_url("**limit=0.5*")
+    person.types({speed: ",5", begin: ""}, "Tab").holds({begin: "45"}).arrives("**limit=0.5*")
     person.types({speed: ""}, "Tab").page.wait_for_function("() => !location.search.includes('limit=')")
 
 
@@ -325,7 +324,7 @@ def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(visit: Any) -
     assert b'"stage"' in person.reaches().saves("#keepMap-GeoJSON")
     # KML needs the place on earth, which the form takes; it is in the address.
     latitude, longitude = (f"#route [data-label={name}]" for name in ("latitude", "longitude"))
-    person.types({latitude: "29,11", longitude: "119.64"}, "Tab").page.wait_for_url("**origin=119.64,29.11*")
+    person.types({latitude: "29,11", longitude: "119.64"}, "Tab").arrives("**origin=119.64,29.11*")
     assert b">119.64" in person.saves("#keepMap-KML")
 
 

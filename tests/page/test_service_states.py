@@ -68,7 +68,7 @@ COUNT_REQUESTS = """() => {
 
 
 def contact(server: str, **query: Any) -> str:
-    return f"{polite.get(f'{server}/collision-time', params=query).raise_for_status().json()['time']:.6f}"
+    return f"{polite.answer(server, 'collision-time', **query)['time']:.6f}"
 
 
 def test_a_lost_service_is_reported_and_what_a_person_does_meanwhile_is_done_when_it_is_back(
@@ -93,7 +93,7 @@ def test_a_lost_service_is_reported_and_what_a_person_does_meanwhile_is_done_whe
 def test_a_file_that_takes_longer_than_an_answer_may_becomes_a_job(open_page: Any, server: str, tmp_path: Path) -> None:
     """The dance is of a patient service; then one in its place ends every longer computation at once."""
     port = free_port()
-    end = polite.get(f"{server}/collision-time", params={"benches": 20, "pitch": 0.5}).json()["time"]
+    end = polite.answer(server, "collision-time", benches=20, pitch=0.5)["time"]
     with serving(tmp_path / "first.log", port=port, deadline_seconds=PATIENT):
         base = f"http://127.0.0.1:{port}"
         person = open_page("?benches=20&pitch=0.5", base=base, failing=True).reaches_below()
@@ -101,10 +101,10 @@ def test_a_file_that_takes_longer_than_an_answer_may_becomes_a_job(open_page: An
     with serving(tmp_path / "hurried.log", port=port, deadline_seconds=1e-9) as hurried:
         person.sees({"#lost": False}).presses("#keepGround-JSON").has("#jobs li", data_state="successful")
         result = person.at("#jobs a[download]").get_attribute("href")
-        ground = polite.get(f"{hurried.url}/{result}").json()
+        ground = polite.answer(hurried.url, result)
     path = {"kind": "spiral", "pitch": 0.5}
     whole = {"dragon": {"benches": 20}, "path": path, "start": 0.0, "stop": end}
-    assert ground == polite.post(f"{server}/envelope", json=whole).raise_for_status().json()
+    assert ground == polite.answer(server, "envelope", whole)
 
 
 def right_again(person: Person, name: str | None) -> None:

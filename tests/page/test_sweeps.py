@@ -64,7 +64,7 @@ def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: A
         assert person.saves(f"#map-save [data-save={form}]").lstrip(b'"').startswith(begin.rstrip(b","))
     person.at(MAP).hover(position=middle(person))
     query = {"pitch": 0.55, "width": 0.25, "benches": 40, "margin": 0.05, "cross_check": "none"}
-    answer = polite.get(f"{base(service)}/collision-time", params=query).json()
+    answer = polite.answer(base(service), "collision-time", **query)
     person.reads({READING: f"Pitch [m] 0.55, Width [m] 0.25: first contact [s] {answer['time']:.6g}"})
     assert person.at(MAP).evaluate(SHADES) > 10
     person.chooses({"#map-value": "head.radius"}).at(MAP).hover(position=middle(person))
@@ -107,7 +107,7 @@ def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum
     begins(person, "minimum_pitch", ("turning_diameter", 8, 10, 3))
     person.sees({f"{DONE}:has-text('最小螺距，变化：调头空间直径')": True, MAP: True}).at(MAP).focus()
     query = {"turning_diameter": 10, "benches": 30, "cross_check": "none"}
-    pitch = polite.get(f"{base(service)}/minimum-pitch", params=query).json()["pitch"]
+    pitch = polite.answer(base(service), "minimum-pitch", **query)["pitch"]
     person.strikes(*["ArrowRight"] * 3).reads({READING: f"调头空间直径 [m] 10：最小螺距 [m] {pitch:.6g}"})
     person.strikes("Enter").holds({"#pitch": str(pitch), "#turning_diameter": "10"})
 
@@ -138,9 +138,9 @@ def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page: Any,
         address = guarded.post(SHORT)
         person = open_page("?benches=12", base=base(guarded), failing=True, viewport=PHONE, is_mobile=True)
         begins(person, "least_clearance", ("pitch", 0.7, 0.9, 2), ("benches", 8, 10, 2))
-        person.sees({"#sweep-error": LOCKED, "#no-jobs": True}).at("#files").set_input_files(SHEET)
+        person.sees({"#sweep-error": LOCKED, "#no-jobs": True}).takes(SHEET, "#files")
         person.sees({"#grades .error": LOCKED}).presses("#sweeps details:has(#token) summary")
-        person.types({"#token": TOKEN}).at("#files").set_input_files(SHEET)
+        person.types({"#token": TOKEN}).takes(SHEET, "#files")
         person.sees({"#grades .answer .value": "unreadable"}).presses("#sweep button").sees(
             {
                 "#jobs li:has-text('First contact with its certificate')": True,

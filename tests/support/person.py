@@ -15,6 +15,7 @@ from playwright.sync_api import Locator, Page, expect
 from tests.support import axe
 from tests.support.pending import REACH, settled
 
+PHONE: Any = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 # A layout that changes the height of the picture lets it be drawn once more.
 IS_SIZED = """() => {
   const { height, clientHeight } = document.querySelector("#canvas");
@@ -74,6 +75,26 @@ class Person:
         """Wait until an element has these attributes; aria_busy stands for aria-busy."""
         for name, value in attributes.items():
             expect(self.at(place)).to_have_attribute(name.replace("_", "-"), value)
+        return self
+
+    def arrives(self, address: Any) -> Person:
+        """Wait for an address of this pattern."""
+        self.page.wait_for_url(address)
+        return self
+
+    def views(self, *places: str) -> Person:
+        """Wait until each place is within the window."""
+        for place in places:
+            expect(self.at(place)).to_be_in_viewport()
+        return self
+
+    def focuses(self, place: str) -> Person:
+        self.at(place).focus()
+        return self
+
+    def takes(self, file: Any, place: str = "#open-file") -> Person:
+        """Choose a file, or files, for a button that opens them."""
+        self.at(place).set_input_files(file)
         return self
 
     def presses(self, *places: str) -> Person:
