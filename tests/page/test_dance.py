@@ -228,8 +228,8 @@ def test_overlaps_margins_and_undecided_searches_are_told_in_both_languages(visi
         person = visit(f"?benches=40&pitch=0.3&margin={margin}").presses("#first-contact summary")
         person.sees({"#clock": "0.000000 s"}).misses({"#first-contact": "up to 0"})
         for language, words in (("en", f"overlap by {depth}"), ("zh", f"重叠 {depth}")):
-            for place in ("#first-contact p:not(.old)", "#inset figcaption", "#clearance .reading"):
-                assert not re.search(r"[-−]\d", person.speaks(language).sees({place: words}).text(place))
+            for place in ("#first-contact p:not(.old, .value)", "#inset figcaption", "#clearance .reading"):
+                assert not re.search(r"[-−]\d+\.\d+ mm", person.speaks(language).sees({place: words}).text(place))
     # With a margin no answer speaks of a touch; with this one no turn can begin on the circle, as it then says.
     for query in ("benches=12&margin=0.2", "path=turn&benches=20&margin=0.35"):
         person, margin = visit(f"?{query}", failing=True), query.rpartition("=")[2]
@@ -443,7 +443,8 @@ def test_two_thousand_benches_are_drawn_and_listed_and_two_cannot_touch(visit: A
     body = {"dragon": {"benches": 2000}, "times": [0]}
     last = polite.answer(server, "trajectory", body)["x"][0][-1]
     person.sees({"#rows tr[data-handle='2000']": f"{last:.6f}"})
-    person = visit("?benches=2", failing=True).sees({"#first-contact p:not(.old)": "No two benches touch before."})
+    person = visit("?benches=2", failing=True)
+    person.sees({"#first-contact p:not(.old, .value)": "No two benches touch before."})
     words = polite.get(f"{server}/clearance?benches=2").json()["detail"]
     words = words.replace("benches must", "“Benches” must", 1).replace(", got 2", "; it is 2.")
     person.sees({"#clearance .reading": words})
