@@ -35,7 +35,7 @@ OUTER = tuple(json.loads(os.environ.setdefault("OUTER_VARIABLES", json.dumps(_DR
 os.environ |= {"LC_ALL": "C.UTF-8", "TERM": "xterm"}
 
 from core import kernels  # noqa: E402
-from tests.support import browser, firefox, lock  # noqa: E402
+from tests.support import browser, firefox, lock, node  # noqa: E402
 from tests.support.depth import DEEP  # noqa: E402
 
 ROOT = Path(__file__).parent.parent
@@ -120,6 +120,8 @@ def _why_left_out(item: pytest.Item) -> str:
         return browser.MISSING
     if item.get_closest_marker("firefox") and not firefox.firefox_path():
         return firefox.MISSING
+    if item.get_closest_marker("node") and not node.node_path():
+        return node.MISSING
     if item.get_closest_marker("chinese_font") and not _has_chinese_font():
         return NO_FONT
     if item.get_closest_marker("root") and os.geteuid() != 0:

@@ -220,7 +220,8 @@ const SHOW = {
     const { answer, dance: of } = questions.answers.fastest;
     if (questions.answers.speeds) SHOW.speeds();
     answers.showHighestSpeed($("#highest-speed"), answer.highest_speed, of.numbers);
-    if (of !== questions.dance) return;
+    // A refusal of the numbers that are entered now stays.
+    if (of !== questions.dance || questions.refusals.has("contact")) return;
     // At rest the engines check the whole dragon; while a slider is dragged, only the pair.
     const { cross_check } = answer.first_contact;
     answers.showFirstContact($("#first-contact"), { ...of.answer, cross_check }, of.numbers);

@@ -139,7 +139,9 @@ export class Questions {
     if (!report) return;
     const { encounter, start: begin, stop, failures, verdict } = report;
     const answer = { ...encounter, end: encounter.time === null ? { reason: "path", time: stop } : null };
-    this.#take({ ...this.#kept, kind: "dances", answer, report, failures, verdict, begin, end: encounter.time ?? stop - BEFORE_END, clock: clockAtZero(kept.extras, begin), track: null });
+    // The chosen one may be another by now; other dances are asked about anew, and this answer is about its own.
+    const own = JSON.stringify(this.#kept.file) === JSON.stringify(kept.file) ? this.#kept : kept;
+    this.#take({ ...own, kind: "dances", answer, report, failures, verdict, begin, end: encounter.time ?? stop - BEFORE_END, clock: clockAtZero(kept.extras, begin), track: null });
     this.tell("dance");
   }
 

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import base64
-import io
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 from urllib.parse import urlsplit
 
-import numpy as np
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, ViewportSize, expect, sync_playwright
 
 from tests.support.browser import browser_path
 from tests.support.pending import settled
+from tests.support.person import Person
 from tests.support.serving import serving
 
 ARGUMENTS = [
@@ -34,15 +32,7 @@ TIMEOUT = 60_000  # [ms]; no test waits this long for what is coming, however bu
 # Longest computation of one answer [s]: on a busy machine the ten seconds of the default are soon over.
 DEADLINE = 50.0
 
-# Share of pixels in which two equal pictures may differ [1]: Chromium does not always smooth an edge in the same way.
-PIXELS_UNLIKE = 1e-3
-
 # Stops playing and drawing, and leads to another address of the page as the browser's back button does.
-# A layout that changes the height of the picture lets it be drawn once more.
-IS_SIZED = """() => {
-  const { height, clientHeight } = document.querySelector("#canvas");
-  return Math.abs(height - clientHeight * devicePixelRatio) < 1;
-}"""
 GO = """(query) => {
   if (document.querySelector("#play").textContent.startsWith("❚❚")) document.querySelector("#play").click();
   if (document.querySelector("#edit[aria-pressed=true]"))
@@ -177,22 +167,30 @@ def tabs(browser: Browser) -> Tabs:
 
 
 @pytest.fixture
-def open_page(tabs: Tabs, server: str) -> Iterator[Callable[..., Page]]:
+def open_page(tabs: Tabs, server: str) -> Iterator[Callable[..., Person]]:
     """open_page(query, failing=False, base=server, without="", **options of the context): a page of this test alone.
 
     query: by default that of the dance at its end, at rest; a bare address opens in motion
+    rest: it has all its answers
     failing: requests of this page are meant to fail, of which the browser itself writes a line
     without: pattern of the requests that get no answer
     """
     pages: list[Watched] = []
 
     def opened(
-        query: str = HOME, *, failing: bool = False, base: str = server, without: str = "", **options: Any
-    ) -> Page:
+        query: str = HOME,
+        *,
+        failing: bool = False,
+        base: str = server,
+        without: str = "",
+        rest: bool = True,
+        **options: Any,
+    ) -> Person:
         one = tabs.opened(query, base, without, **options)
         one.failing = failing
         pages.append(one)
-        return one.page
+        person = Person(one.page)
+        return person.settles() if rest else person
 
     yield opened
     for one in pages:
@@ -206,7 +204,7 @@ def kept() -> dict[str, Watched]:
 
 
 @pytest.fixture
-def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callable[..., Page]]:
+def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callable[..., Person]]:
     """visit(query, failing=False, **options of the context): the page at this address, at rest.
 
     Tests share it: it is loaded once, and goes from address to address as by the browser's buttons. A page whose slow
@@ -214,7 +212,7 @@ def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callabl
     """
     pages: set[str] = set()
 
-    def visited(query: str = HOME, *, failing: bool = False, **options: Any) -> Page:
+    def visited(query: str = HOME, *, failing: bool = False, **options: Any) -> Person:
         key = json.dumps(options, sort_keys=True)
         if key in kept:
             go(kept[key].page, query, options.get("viewport", WIDE))
@@ -223,7 +221,7 @@ def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callabl
             settled(kept[key].page)
         kept[key].failing |= failing
         pages.add(key)
-        return kept[key].page
+        return Person(kept[key].page)
 
     def go(page: Page, query: str, viewport: ViewportSize | None) -> None:
         page.unroute_all()
@@ -243,40 +241,3 @@ def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callabl
             go(one.page, EASY, one.page.viewport_size)
         one.check()
         one.failing = False
-
-
-@pytest.fixture
-def look_at() -> Callable[..., None]:
-    """look_at(page, *kinds): scrolls to these slow charts, curve or scan, until they are drawn to the end."""
-
-    def drawn(page: Page, *kinds: str) -> None:
-        for kind in kinds:
-            settled(page)  # an answer that came after the scrolling would push the chart out of sight again
-            page.locator(f"#{kind} .plot").scroll_into_view_if_needed()
-            page.locator(f"#{kind}:not(.coarse) .uplot").wait_for()
-        settled(page)
-
-    return drawn
-
-
-@pytest.fixture
-def picture() -> Callable[[Page], np.ndarray]:
-    """picture(page): the pixels of the dance (height, width, 4), drawn in the size that its canvas has."""
-    from matplotlib.image import imread  # takes a third of the start of a process, and not every one looks at pictures
-
-    def pixels(page: Page) -> np.ndarray:
-        page.wait_for_function(IS_SIZED)
-        address = page.locator("#canvas").evaluate("canvas => canvas.toDataURL()")
-        return imread(io.BytesIO(base64.b64decode(address.partition(",")[2])))
-
-    return pixels
-
-
-@pytest.fixture
-def alike() -> Callable[[np.ndarray, np.ndarray], bool]:
-    """alike(a, b): two pictures show the same."""
-
-    def pictures_alike(a: np.ndarray, b: np.ndarray) -> bool:
-        return a.shape == b.shape and float((a != b).any(axis=-1).mean()) < PIXELS_UNLIKE
-
-    return pictures_alike

@@ -1,4 +1,4 @@
-"""The page for everyone: two languages, keyboard, phone, dark, reduced motion, screen readers."""
+"""The page for everyone: phones and wide screens, two languages, keyboard, dark, reduced motion, screen readers."""
 
 from __future__ import annotations
 
@@ -8,181 +8,330 @@ from typing import Any
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.axe import findings
-from tests.support.pending import settled, with_below
+from tests.support.person import PHONE, Person
 
-PHONE = {"width": 390, "height": 844}
-
-
+thorough = pytest.mark.thorough
+FINGER = 44  # [px]: the least width and height of what a finger should hit
+FOUR = {13.1, 15.0, 19.2, 22.4}  # sizes of type [px]
+VILLAGE = (
+    "?path=route&route=*-67,-8_-12,-8_-3,-9_6,-8_10.5,-3_7,2.5_0,3.5_-4.5,7_-1,10.5_6,10.5_*12,15_12,62&begin=45&limit=1.1"
+    "&things=a.square..-70,-11_-20,-11_-20,-15_20,-15_20,15_15,15_15,65_9,65_9,15_-20,15_-20,-5_-70,-5"
+    "~c.well.1!5.6!5,-6!5~b.stage..-17,1!5_-6,1!5_-6,9!5_-17,9!5~w.fence.0!2.10!5,3!5_18,4"
+    "&passages=0.5@20m_0@90s&start_clock=19:30"
+)
+NOTHING = "?path=route"
+DANCES = {"spiral": "?benches=12&time=0", "turn": "?path=turn&benches=12&time=0", "route": VILLAGE, "nothing": NOTHING}
+# A point on the picture is hit in a circle around it, a tick or a file in all of its label.
+NARROW = """(least) => [...document.querySelectorAll("button, select, input, textarea, summary, a")]
+  .filter((one) => one.checkVisibility() && !one.matches(".skip, .knot"))
+  .map((one) => [one, one.matches("[type=checkbox], [type=file]") ? one.closest("label") : one])
+  .filter(([one, target]) => {
+    const { width, height, right } = target.getBoundingClientRect();
+    return Math.min(height, one.matches("button") ? width : height) < least - 0.5 || right > innerWidth + 1;
+  })
+  .map(([one]) => one.outerHTML)"""
+# The long list of handles draws only what is in sight of it, and a command is one line as in a terminal.
+SCROLLING = """[...document.querySelectorAll("body *")]
+  .filter((one) => one.checkVisibility() && !one.matches("#rows, pre, textarea"))
+  .filter((one) => /auto|scroll/.test(getComputedStyle(one).overflow))
+  .filter((one) => one.scrollHeight > one.clientHeight + 1 || one.scrollWidth > one.clientWidth + 1)
+  .map((one) => one.id || one.className || one.tagName)"""
+# Sizes of all words in sight, on canvases too, in the usual size of the type [px].
+SIZES = """() => {
+  const sizes = new Set();
+  for (const one of document.querySelectorAll("body *")) {
+    const isField = one.matches("input:not([type=range], [type=color], [type=checkbox]), select, textarea");
+    const hasText = [...one.childNodes].some((node) => node.nodeType === 3 && node.data.trim());
+    if (!(isField || hasText) || one.matches("option, .unseen")) continue;
+    if (!one.checkVisibility({ visibilityProperty: true })) continue;
+    const scale = one.ownerSVGElement?.getScreenCTM().a ?? 1;
+    const size = Math.round(10 * scale * Number.parseFloat(getComputedStyle(one).fontSize)) / 10;
+    if (size) sizes.add(size);
+  }
+  const { prototype } = CanvasRenderingContext2D;
+  const fill = prototype.fillText;
+  prototype.fillText = function (...all) {
+    sizes.add(Math.round(10 * Number.parseFloat(/[\\d.]+px/.exec(this.font)[0])) / 10);
+    return fill.apply(this, all);
+  };
+  dispatchEvent(new Event("look"));
+  prototype.fillText = fill;
+  return [...sizes];
+}"""
+OPEN = "document.querySelectorAll('details').forEach((one) => (one.open = true))"
+EMPTY = "[...document.querySelectorAll('[data-text]')].filter((one) => !one.textContent).length"
 # Records, for every element that gets the focus from now on, its name, and whether an outline shows it.
 FOCUSED = """window.focused = [];
   addEventListener("focusin", ({ target: one }) =>
     focused.push([one.id || one.className || one.tagName, getComputedStyle(one).outlineStyle !== "none"]))"""
+COLUMN = """async () => {
+  await new Promise(requestAnimationFrame);
+  return document.activeElement.closest("#controls, #answers")?.id;
+}"""
+TOLD = """() => {
+  window.told = [];
+  const heard = document.querySelector("#heard");
+  new MutationObserver(() => window.told.push(heard.textContent)).observe(heard, { childList: true });
+}"""
+# What stays in sight above the rest, and what there is of it, in parts of the height of the window.
+PICTURE = """() => {
+  const box = (id) => document.querySelector(id).getBoundingClientRect();
+  const [dance, stage, tools] = ["#dance", "#stage", "#tools"].map(box);
+  const inside = [...document.querySelectorAll("#dance > :not(#tools)")].filter((one) => one.checkVisibility());
+  return {
+    share: dance.height / innerHeight,
+    stage: stage.height / innerHeight,
+    covered: tools.height > 0 && tools.top < stage.bottom - 1 && tools.bottom > stage.top,
+    cut: inside.filter((one) => one.getBoundingClientRect().bottom > dance.bottom + 1).map((one) => one.id),
+    wide: document.documentElement.scrollWidth > screen.width,
+  };
+}"""
+# Every state of the three doors: its address, and what is pressed there.
+STATES: dict[str, tuple[str, list[str]]] = {
+    "contest": ("?door=contest&benches=40&time=end", ["#play"]),
+    "turn": ("?door=contest&path=turn&benches=12&time=0", []),
+    "look": ("?door=look&benches=40&time=0", ["#play"]),
+    "village": (f"{VILLAGE}&door=village", []),
+    "path being drawn": (f"{VILLAGE}&door=village", ["#edit"]),
+    "square being drawn": (f"{VILLAGE}&door=village", ["#edit", "[data-tool=area]"]),
+    "nothing drawn": ("?door=village&path=route", []),
+    "begins to draw": ("?door=village&path=route", ["#invite .main"]),
+    "everything": (VILLAGE, ["#edit"]),
+}
 
 
-def test_chinese_is_the_first_language_of_a_chinese_browser_with_the_terms_of_the_contest(open_page: Any) -> None:
-    page = open_page("?benches=40&time=end", locale="zh-CN")
-    page.locator("#first-contact .value", has_text="时碰撞").wait_for()
-    words = page.locator("body").inner_text()
-    for term in ("龙头", "龙身", "把手", "螺距", "调头空间"):
-        assert term in words
-    page.locator("#rows tr[data-handle]").first.wait_for()
-    page.locator("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
-    page.locator("#rows tr", has_text="龙尾（后）").wait_for()
-    assert page.locator("html").get_attribute("lang") == "zh-Hans"
+def shares_the_screen(person: Person) -> None:
+    """The picture with its player takes a third of the height, and nothing of it is covered or cut off."""
+    picture = person.ask(PICTURE)
+    assert 0.25 < picture["share"] <= 0.351
+    assert picture["stage"] > 0.18
+    assert (picture["covered"], picture["cut"], picture["wide"]) == (False, [], False)
 
 
-def test_the_language_is_switched_on_the_page_and_stays_in_the_address(visit: Any) -> None:
-    page = visit()
-    page.get_by_role("button", name="中文").click()
-    page.locator("h1", has_text="板凳龙").wait_for()
-    page.locator("#minimum-pitch", has_text="最小螺距").wait_for()
-    assert "Pitch" not in page.locator("main").inner_text()
-    page.wait_for_url("**lang=zh")
-    page.reload()
-    page.locator("h1", has_text="板凳龙").wait_for()
-    page.get_by_role("button", name="English").click()
-    page.locator("h1", has_text="Bench Dragon").wait_for()
+def opened(person: Person, query: str) -> Person:
+    """All that can be opened at an address."""
+    if query == NOTHING:
+        person.sees({"#invite": True})
+    else:
+        person.sees({":is(#judgement, #first-contact) .value:visible": True})
+        if query == VILLAGE:
+            person.presses("#edit")
+        person.reaches_below()
+    person.ask(OPEN)
+    if query != NOTHING:
+        person.sees({"#paper table": True})
+    return person.settles()
 
 
-def test_no_text_is_missing_in_either_language(visit: Any) -> None:
-    page = visit()
-    for language in ("English", "中文"):
-        page.get_by_role("button", name=language).click()
-        settled(page)
-        empty = "[...document.querySelectorAll('[data-text]')].filter((one) => !one.textContent).length"
-        assert page.evaluate(empty) == 0
-        assert "undefined" not in page.locator("body").inner_text()
-    keys = page.evaluate(
-        """async () => {
-          const names = ["dance", "answers", "more", "route", "square", "below"];
-          const rooms = await Promise.all(names.map((one) => import(`/page/words/${one}.js`)));
-          return rooms.flatMap(Object.values).flatMap(Object.keys);
-        }"""
-    )
-    assert len(keys) == len(set(keys)) > 300
+@pytest.mark.parametrize("name", ["route", *(pytest.param(one, marks=thorough) for one in DANCES if one != "route")])
+def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(visit: Any, name: str) -> None:
+    query = DANCES[name]
+    person = opened(visit(query, **PHONE), query)
+    # No point lies under the buttons of the picture.
+    views = person.box("#views")
+    lefts = [knot.bounding_box()["x"] for knot in person.all(".knot").all()]
+    assert [left for left in lefts if left < views["x"] + views["width"]] == []
+    for language in ("en", "zh"):
+        person.at(f"[data-lang={language}]").tap()
+        assert person.ask(NARROW, FINGER) == []
+        assert not person.overflows(390)
+        assert person.ask(EMPTY) == 0
+        assert "undefined" not in person.text("body")
+        assert set(person.ask(SIZES)) <= FOUR
+        assert person.box("header")["height"] < 2.5 * FINGER
+    if query != VILLAGE:
+        return
+    for section in ("keep", "answers", "controls", "dance"):
+        person.at(f"[data-section={section}]").tap()
+        top = person.at(f"#{section}").evaluate("one => one.getBoundingClientRect().top")
+        assert -1 <= top < 744, section
+    # The words of a failure stand below a time of day that takes their room.
+    words, button = (person.box(f".failures li >> nth=1 >> {part}") for part in ("span", "button"))
+    assert words["width"] > 150
+    assert words["y"] >= button["y"] + button["height"]
+
+
+@thorough
+@pytest.mark.parametrize("query", DANCES.values(), ids=list(DANCES))
+def test_on_a_wide_screen_nothing_scrolls_inside_and_the_picture_stays_in_sight(visit: Any, query: str) -> None:
+    person = visit(query)
+    person.ask("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
+    for width, height in ((1440, 900), (1920, 1080)):
+        person.page.set_viewport_size({"width": width, "height": height})
+        assert person.settles().ask(SCROLLING) == []
+        person.at("#answers > :not([hidden]) >> nth=-1").evaluate("one => one.scrollIntoView({ block: 'end' })")
+        canvas = person.box("#canvas")
+        assert canvas["y"] >= 0
+        assert canvas["y"] + canvas["height"] <= height
+
+
+@thorough
+@pytest.mark.parametrize("size", [(390, 844), (360, 640)], ids=["390x844", "360x640"])
+def test_on_a_phone_the_picture_with_its_player_takes_a_third_of_the_height(visit: Any, size: tuple[int, int]) -> None:
+    for query, presses in STATES.values():
+        person = visit(query, **{**PHONE, "viewport": {"width": size[0], "height": size[1]}}).settles()
+        person.presses(*presses)
+        for language in ("zh", "en"):
+            person.presses(f"[data-lang={language}]")
+            shares_the_screen(person)
+
+
+@thorough
+def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(visit: Any) -> None:
+    for door, english, chinese in (
+        ("contest", "Picture Numbers Answers Save", "画面 参数 结果 保存"),
+        ("village", "Picture People Answers Save", "画面 人员 结果 保存"),
+        ("look", "Picture Numbers Answers", "画面 参数 结果"),  # Behind this door nothing is kept.
+    ):
+        person = visit(f"?door={door}&path=route&benches=3", **PHONE)
+        for language, words in (("zh", chinese), ("en", english)):
+            assert person.speaks(language).text("#tabs").split() == words.split()
+            assert person.ask(NARROW, FINGER) == []
+            assert set(person.ask(SIZES)) <= FOUR
+            cut = "[...document.querySelectorAll('#tabs button')].filter((one) => one.scrollWidth > one.clientWidth)"
+            assert person.ask(f"{cut}.length") == 0
+        shares_the_screen(person)
+        person.presses("#tabs button:visible >> nth=1")
+        person.views("#controls")
+    person = visit(f"{VILLAGE}&door=village", **PHONE).reaches_below()
+    for section, within in (("people", ["#tolerance", "#crew", "#cues button"]), ("keep", ["#kept button"])):
+        person.at(f"[data-section={section}]:visible").tap()
+        person.reads({f"#{section} > h2": person.text(f"[data-section={section}]")})
+        for place in (f"#{section} > h2", *(f"#{section} {one}:visible" for one in within)):
+            person.views(place)
+
+
+@thorough
+def test_a_swipe_up_that_begins_on_a_slider_scrolls_and_changes_nothing(visit: Any) -> None:
+    person = visit("?benches=40", **PHONE)
+    slider = person.at("[data-field=benches] input[type=range]")
+
+    def swipe(dx: float, dy: float) -> None:
+        slider.evaluate("one => one.scrollIntoView({ block: 'end' })")
+        box = slider.bounding_box()
+        person.swipes(box["x"] + 0.7 * box["width"], box["y"] + box["height"] / 2, dx, dy)
+
+    before = person.ask("scrollY")
+    swipe(6, -150)
+    person.page.wait_for_function("before => scrollY > before + 50", arg=before)
+    assert (person.holds({"#benches": "40"}).at("#benches").input_value(), slider.input_value()) == ("40", "40")
+    swipe(40, 3)
+    assert int(person.at("#benches").input_value()) > 200
+    slider.tap()
+    assert 150 < int(person.at("#benches").input_value()) < 250
+    # The picture stays in sight of what is dragged, beside its inset and its legend.
+    canvas, knob, inset, legend = (person.box(one) for one in ("#canvas", "[data-field=pin]", "#inset", "#legend"))
+    assert canvas["y"] >= 0
+    assert inset["x"] >= legend["x"] + legend["width"] or inset["y"] + inset["height"] <= legend["y"]
+    assert knob is not None
+    person = visit("?door=contest&benches=20&time=end", **PHONE).presses("[data-section=keep]").sees({"#kept li": True})
+    person.settles().views("#keep-title")
 
 
 def test_the_page_is_used_by_keyboard_alone(open_page: Any) -> None:
-    page = open_page("?time=100&benches=20")
-    settled(with_below(page))
-    page.evaluate(FOCUSED)
-    page.keyboard.press("Tab")
-    assert page.evaluate("focused[0][0]") == "skip"
-    page.keyboard.press("Enter")
-    page.locator("#canvas").focus()
-    page.keyboard.press("]")
-    page.locator("tr.chosen", has_text="0 · head").wait_for()
-    page.keyboard.press("+")
-    page.keyboard.press("ArrowLeft")
-    page.wait_for_url("**view=**")
-    page.keyboard.press("0")
-    page.keyboard.press("f")
-    page.locator("#follow[aria-pressed=true]").wait_for()
-    page.keyboard.press(" ")
-    page.locator("#play", has_text="Pause").wait_for()
-    page.keyboard.press(" ")
-    page.locator("#play", has_text="Play").wait_for()
-    page.evaluate("focused = []")
-    for _ in range(170):
-        page.keyboard.press("Tab")
-    focused = page.evaluate("focused")
+    person = open_page("?time=100&benches=20").reaches_below()
+    person.ask(FOCUSED)
+    assert person.strikes("Tab").ask("focused[0][0]") == "skip"
+    person.strikes("Enter").focuses("#canvas")
+    person.strikes("]").sees({"tr.chosen": "0 · head"}).strikes("+", "ArrowLeft").arrives("**view=**")
+    person.strikes("0", "f").sees({"#follow[aria-pressed=true]": True}).strikes(" ").sees({"#play": "Pause"})
+    person.strikes(" ").sees({"#play": "Play"}).ask("focused = []")
+    focused = person.strikes(*["Tab"] * 170).ask("focused")
     assert [name for name, is_outlined in focused if not is_outlined] == []
-    seen = {name for name, _ in focused}
-    assert {"play", "time", "rate", "pitch", "benches", "margin", "rows", "share", "follow"} <= seen
-    assert "keepTrajectory-CSV" in seen
-    page.locator("#pitch").focus()
-    page.keyboard.press("ControlOrMeta+a")
-    page.keyboard.type("0.5")
-    page.locator("#scan .reading", has_text="0.5 m").wait_for()
+    wanted = {"play", "time", "rate", "pitch", "benches", "margin", "rows", "share", "follow", "keepTrajectory-CSV"}
+    assert wanted <= {name for name, _ in focused}
 
 
-def test_nothing_is_cut_off_at_390_pixels(visit: Any) -> None:
-    page = visit("?stray=0.02", viewport=PHONE, locale="zh-CN", has_touch=True, is_mobile=True)
-    settled(page)
-    outside = """(width) => [...document.querySelectorAll("button, input, select, h1, h2, h3, .value")]
-      .filter((one) => one.checkVisibility() && one.getBoundingClientRect().right > width + 1)
-      .map((one) => one.outerHTML)"""
-    for language in ("中文", "English"):
-        page.get_by_role("button", name=language).tap()
-        page.locator("#play", has_text={"中文": "播放", "English": "Play"}[language]).wait_for()
-        assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
-        assert page.evaluate(outside, PHONE["width"]) == []
-    page.locator("#play").tap()
-    page.locator("#play", has_text="❚❚").wait_for()
+@thorough
+@pytest.mark.parametrize(("width", "first"), [(1440, "controls"), (900, "controls"), (390, "answers")])
+def test_the_tab_key_goes_through_numbers_and_answers_as_they_stand(visit: Any, width: int, first: str) -> None:
+    person = visit("?benches=12&time=0")
+    person.page.set_viewport_size({"width": width, "height": 900})
+    last = "answers" if first == "controls" else "controls"
+    boxes = [person.settles().box(f"#{one}") for one in (first, last)]
+    assert boxes[0]["x"] < boxes[1]["x"] or boxes[0]["y"] < boxes[1]["y"]
+    person.focuses("#rate")
+    seen = [person.strikes("Tab").ask(COLUMN) for _ in range(40)]
+    assert list(dict.fromkeys(filter(None, seen))) == [first, last]
 
 
-def test_reduced_motion_moves_in_steps(open_page: Any) -> None:
-    page = open_page("?benches=40&time=0&rate=1", reduced_motion="reduce")
-    settled(page)
-    page.locator("#play").click()
-    count = """() => new Promise((resolve) => {
-      const seen = new Set();
-      const clock = document.querySelector("#clock");
-      const look = () => {
-        seen.add(clock.textContent);
-        if (seen.size < 3) requestAnimationFrame(look);
-        else resolve([...seen]);
-      };
-      look();
-    })"""
-    times = sorted(float(text.removesuffix(" s")) for text in page.evaluate(count))
-    assert times[2] - times[1] >= 0.4
+def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_stays_in_the_address(open_page: Any) -> None:
+    person = open_page("?benches=40&time=end", locale="zh-CN").has("html", lang="zh-Hans")
+    person.sees({"#first-contact .value": "时碰撞", "#minimum-pitch": "最小螺距"})
+    words = person.text("body")
+    assert [term for term in ("龙头", "龙身", "把手", "螺距", "调头空间") if term not in words] == []
+    assert "Pitch" not in person.text("main")
+    person.at("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
+    person.sees({"#rows tr:has-text('龙尾（后）')": True}).speaks("en").arrives("**lang=en")
+    person.page.reload()
+    person.reads({"h1 a, h1": "Bench Dragon"})
 
 
-def test_a_verdict_is_told_with_its_reasons(open_page: Any) -> None:
-    page = open_page("?path=route&route=*-40,0_0,0_30,5&benches=5&things=a.square..-30,-20_9,-20_9,20_-30,20")
-    settled(page)
-    reasons = page.locator("#judgement .failures span").all_text_contents()
+@thorough
+def test_a_verdict_is_told_once_with_its_reasons(open_page: Any) -> None:
+    person = open_page("?path=route&route=*-40,0_0,0_30,5&benches=5&things=a.square..-30,-20_9,-20_9,20_-30,20")
+    reasons = person.all("#judgement .failures span").all_text_contents()
     assert len(reasons) > 1
-    expect(page.locator("#heard")).to_have_text(re.compile(r"^Verdict Cannot be danced"))
-    for reason in reasons:
-        expect(page.locator("#heard")).to_contain_text(reason)
-
-
-def test_no_verdict_is_told_twice(open_page: Any) -> None:
-    page = open_page("?path=route&route=-9,0_9,0_20,9&benches=3")
-    settled(page)
-    heard = page.locator("#heard")
+    expect(person.at("#heard")).to_have_text(re.compile(r"^Verdict Cannot be danced"))
+    person.sees({"#heard": reasons})
+    person = open_page("?path=route&route=-9,0_9,0_20,9&benches=3")
+    heard = person.at("#heard")
     expect(heard).to_have_text(re.compile(r"^Verdict Can be danced The head walks"))
-    page.evaluate("""() => {
-      window.told = [];
-      const heard = document.querySelector("#heard");
-      new MutationObserver(() => window.told.push(heard.textContent)).observe(heard, { childList: true });
-    }""")
+    person.ask(TOLD)
     before = heard.inner_text()
-    page.locator("#edit").click()
-    page.locator(".knot").nth(2).focus()
-    for _ in range(3):
-        page.keyboard.press("Shift+ArrowRight")
+    person.presses("#edit").focuses(".knot >> nth=2")
+    person.strikes(*["Shift+ArrowRight"] * 3)
     expect(heard).not_to_have_text(before)
-    settled(page)
     # On a slow machine a verdict in between may stay long enough to be told too, but none is told twice.
-    told = page.evaluate("window.told")
+    told = person.settles().ask("window.told")
     assert told
     assert len(set(told)) == len(told)
-    assert page.locator("#judgement[aria-live], #first-contact[aria-live]").count() == 0
+    person.sees({"#judgement[aria-live], #first-contact[aria-live]": 0})
 
 
 @pytest.mark.parametrize(
     ("query", "options"),
     [
-        ("?handle=3&stray=0.02&benches=20", {}),
+        pytest.param("?handle=3&stray=0.02&benches=20", {}, marks=thorough),
         pytest.param("?pitch=2&start_turns=8&benches=20", {"locale": "zh-CN"}, marks=pytest.mark.deep),
-        ("?pitch=55&benches=x", {"viewport": PHONE}),
+        pytest.param("?pitch=55&benches=x", {"viewport": PHONE["viewport"]}, marks=thorough),
     ],
     ids=["contact", "clear", "refused on a phone"],
 )
-def test_axe_finds_nothing_in_light_or_dark(open_page: Any, look_at: Any, query: str, options: dict[str, Any]) -> None:
+def test_axe_finds_nothing_in_light_or_dark(open_page: Any, query: str, options: dict[str, Any]) -> None:
     refused = "pitch=55" in query
-    page = open_page(query, failing=refused, color_scheme="light", **options)
-    page.locator("#pitch-error").wait_for() if refused else look_at(page, "curve", "scan")
-    settled(page)
-    opened = "document.querySelectorAll('details').forEach((one) => (one.open = true))"
-    page.evaluate(opened)
-    assert findings(page) == []
-    page.locator("[data-lang=zh]").click()
-    settled(page)
-    page.evaluate(opened)
-    page.emulate_media(color_scheme="dark")
-    assert findings(page, in_colours=True) == []
+    person = open_page(query, failing=refused, color_scheme="light", **options)
+    person.sees({"#pitch-error": True}) if refused else person.looks_at("curve", "scan")
+    person.ask(OPEN)
+    assert person.findings() == []
+    person.speaks("zh").ask(OPEN)
+    person.page.emulate_media(color_scheme="dark")
+    assert person.findings(in_colours=True) == []
+
+
+@thorough
+def test_with_the_colours_of_the_system_marks_and_bars_stay_visible(open_page: Any) -> None:
+    person = open_page("?benches=20&time=end", forced_colors="active").reaches_below()
+    person.presses("#crew summary", "#crew-ask").sees({"#crew .bars i": True})
+    card = person.style("body", "backgroundColor")
+    marks = {person.style(place, "backgroundColor") for place in ("#crew .bars i", "#contact-mark")}
+    assert not marks & {card, "rgba(0, 0, 0, 0)"}
+
+
+@thorough
+def test_the_picture_has_its_direction_and_one_scale_of_colours_and_its_inset_gives_way(visit: Any) -> None:
+    person = visit("?time=0&view=8.8,0,40")
+    # The head is in the middle and moves down: its arrow crosses the row 20 pixels below.
+    seen = "c => [...c.getContext('2d').getImageData(c.width / 2 - 8, c.height / 2 + 20, 16, 1).data]"
+    row = person.at("#canvas").evaluate(seen)
+    assert any(red > 150 > max(green, blue) for red, green, blue in zip(row[::4], row[1::4], row[2::4], strict=True))
+    legend = person.text("#legend")
+    person.at("#time").press("End")
+    corner = person.settles().at("#inset:visible").get_attribute("data-corner")
+    assert person.text("#legend") == legend
+    inset, canvas = person.box("#inset"), person.box("#canvas")
+    # The point of contact moves below the inset.
+    dx, dy = (
+        inset[xy] + inset[size] / 2 - canvas[xy] - canvas[size] / 2 for xy, size in (("x", "width"), ("y", "height"))
+    )
+    visit(f"?view={1.474395 - dx / 40},{2.110665 + dy / 40},40").at(f"#inset:not([data-corner={corner}])").wait_for()

@@ -23,6 +23,12 @@ def post(url: str, **how: Any) -> httpx.Response:
     return _request("POST", url, **how)
 
 
+def answer(base: str, call: str, body: Any = None, **query: Any) -> Any:
+    """The answer of a service to a body, or to a query."""
+    url = f"{base}/{call}"
+    return (get(url, params=query) if body is None else post(url, json=body)).raise_for_status().json()
+
+
 def _request(method: str, url: str, **how: Any) -> httpx.Response:
     end = time.monotonic() + PATIENCE
     while True:

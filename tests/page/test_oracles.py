@@ -1,0 +1,96 @@
+"""Modules of the page against the program in Python, and against a reader of QR codes."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import pytest
+import shapely
+
+from app.service.main import create_app
+from app.sweeps.columns import answer_columns
+from app.sweeps.questions import question_of
+from app.wire.benches import bench_table
+from core import Dragon
+from core.proposal.designs import street_length
+from core.proposal.needs import Needs
+from core.shapes.engines import widest_place
+from tests.support.node import evaluate
+from tests.support.qr_reader import read_qr
+
+pytestmark = pytest.mark.node
+TABLES = [
+    "name,length,width,overhang\nZhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\nHe,2,0.3,0.2",
+    "length\twidth\toverhang\n3,41\t0,3\t0,275\n\n2,2\t0,3\t0,275",
+    'Width [m];NAME;overhang (m);长度\r\n0,3;"a;""b""";0,275;3.41\r\n0,3;;0,275;2,2',
+    ' name , length,width,overhang\n"Zhou, Li",3.41, 0.3 ,0.275\n,,,\n O\'Neil,2.2,.3,2e-1',
+]
+QUESTIONS = ("collision_time", "minimum_pitch", "least_clearance", "shortest_turn", "quickest_turn", "tolerance")
+
+
+def test_the_page_reads_the_sizes_of_a_table_as_the_service_does() -> None:
+    read = evaluate("async (tables) => tables.map((await page('benches.js')).benchesOf)", TABLES)
+    wanted = [bench_table(table)._asdict() for table in TABLES]
+    assert read == [{name: value for name, value in one.items() if name != "lines"} for one in wanted]
+
+
+def test_qr_codes_of_every_length_can_be_read_and_a_too_long_text_has_none() -> None:
+    lengths = (1, 17, 18, 107, 135, 155, 231, 272, 369, 500, 584, 640)
+    texts = ["https://dragon.example/?a=1,2_龙".ljust(length, "x")[:length] for length in lengths]
+    *codes, none = evaluate("async (texts) => texts.map((await page('qr.js')).qrCode)", [*texts, "x" * 1300])
+    assert [read_qr(code) for code in codes] == texts
+    assert none is None
+
+
+def test_a_name_stands_where_an_area_is_widest() -> None:
+    # A square of 40 m with a street of 60 m.
+    street = [[0, 0], [40, 0], [40, 18], [100, 18], [100, 22], [40, 22], [40, 40], [0, 40]]
+    x, y, width = evaluate("async (area) => (await page('venue.js')).widest(area)", street)
+    *_, radius = widest_place([[*street, street[0]]])
+    square = shapely.Polygon(street)
+    assert square.contains(shapely.Point(x, y))
+    room = shapely.distance(square.boundary, shapely.Point(x, y))
+    assert 0.5 * width == pytest.approx(room, rel=0.01)
+    assert room > 0.97 * radius
+
+
+def test_every_value_of_a_map_has_its_own_name_in_chinese() -> None:
+    names: set[str] = set()
+    for question in (question_of(name, ["benches"]) for name in QUESTIONS):
+        columns = answer_columns(question.answer, question.left_out)
+        names |= {one.name for one in columns if one.kind in (int, float) and not one.as_json}
+    assert len(names) > 50
+    script = """async (names) => {
+      const { columnName, setLanguage } = await page("text.js");
+      await page("below.js");
+      setLanguage("zh");
+      return names.map(columnName);
+    }"""
+    words = evaluate(script, sorted(names))
+    assert [one for one in words if re.search("[a-z]{4}|_", one)] == []
+    assert len(set(words)) == len(words)
+
+
+def test_a_route_takes_the_numbers_that_the_service_takes() -> None:
+    schemas = create_app().openapi()["components"]["schemas"]
+    known = evaluate("async () => (await page('route.js')).LIMITS")
+    for key, schema, name in (
+        ("speedLimit", "CheckRequest", "speed_limit"),
+        ("pathBegin", "WaypointsPath", "start"),
+        ("cornerRadius", "WaypointsPath", "radius"),
+    ):
+        field = schemas[schema]["properties"][name]
+        own = field.get("anyOf", [field])[0]
+        assert known[key] == [own["minimum"], own["maximum"]], key
+
+
+@pytest.mark.parametrize(("benches", "stray", "margin"), [(1, 0.0, 0.0), (8, 0.0, 0.0), (24, 0.0, 0.0), (8, 0.05, 1.5)])
+def test_the_street_beyond_a_gate_is_as_long_as_the_service_makes_it(benches: int, stray: float, margin: float) -> None:
+    numbers = {"benches": benches, "stray": stray, "margin": margin, "hole": 0.0, "pin": 0.0}
+    numbers |= {"head_length": 3.41, "body_length": 2.2, "overhang": 0.275}
+    script = """async (numbers) => {
+      const { streetLength } = await page("square.js");
+      return streetLength({ get: (name) => String(numbers[name]), extras: () => ({ csv: "" }) });
+    }"""
+    assert evaluate(script, numbers) == math.ceil(street_length(Needs(Dragon(benches), stray, margin)))

@@ -1,0 +1,133 @@
+"""The people of a dance: their benches one by one, their speeds, the time of day, and who carries when."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+
+from tests.support import polite
+from tests.support.person import PHONE, alike
+
+thorough = pytest.mark.thorough
+STREET = "path=route&route=*-40,0_40,0&benches=9"
+CREW = f"?door=village&lang=en&{STREET}&begin=30&time=20&start_clock=19%3A30"
+BODY = {
+    "dragon": {"benches": 9, "head_length": 3.41, "body_length": 2.2, "width": 0.3, "overhang": 0.275},
+    "path": {"kind": "waypoints", "points": [[-40, 0], [40, 0]], "straight": [0], "start": 30},
+    "start_clock": "19:30",
+}
+TABLE = "name,length,width,overhang\nZhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\nWu,1.8,0.7,0.2\nHe,2,0.3,0.2"
+PASSAGES = [{"speed": 0.5, "until_s": 20}, {"speed": 0, "until_time": 100}, {"speed": 1.5, "until_s": 60}]
+A3_WIDE = 420 / 25.4 * 72  # [points]
+RESULT = "#crew-result"
+
+
+def crew(server: str, **fields: Any) -> Any:
+    return polite.answer(server, "crew", BODY | fields)
+
+
+def contact_of(server: str, **request: Any) -> str:
+    """Time of first contact by the service, in the words of the page."""
+    spiral = {"kind": "spiral", "pitch": 0.55, "start_turns": 16}
+    result = polite.answer(server, "collision-time", {"path": spiral, **request})
+    return f"{result['time'] if result['time'] is not None else result['end']['time']:.6f} s"
+
+
+def test_who_carries_when_and_where_is_as_the_service_says(open_page: Any, server: str) -> None:
+    person = open_page(CREW, failing=True).reaches_below().presses("#crew summary").holds({"#crew-at": "20"})
+    numbers = {"spares": "6", "shift": "15", "rest": "10", "x": "0", "y": "0,5"}
+    person.types({f"#crew-{name}": number for name, number in numbers.items()}, "Tab").presses("#crew-ask")
+    answer = crew(server, spares=6, shift=15, rest=10, points=[{"x": 0, "y": 0.5}], at=20)
+    assert answer["changes"] > 6
+    people = f"{answer['people']} people, 6 of them spare"
+    person.sees({f"{RESULT} p": people, RESULT: "Who is where at 19:30:20", f"{RESULT} table": 2})
+    cells = [person.all(f"{RESULT} table >> nth={k} >> tbody tr").all() for k in range(2)]
+    roll, carriers = ([row.locator("th, td").all_inner_texts() for row in rows] for rows in cells)
+    benches = [[", ".join(one["people"]), f"{one['mark']:g}"] for one in answer["at"]["benches"]]
+    assert [row[1:] for row in roll] == benches
+    carried = [[one["label"], f"{one['way']:.0f}"] for one in answer["carriers"]]
+    assert [[row[0], row[2]] for row in carriers] == carried
+    assert [row.locator("i").count() for row in cells[1]] == [len(one["spells"]) for one in answer["carriers"]]
+    assert person.saves("#crew-PDF").startswith(b"%PDF")
+    assert person.saves("#crew-CSV").startswith(b"person,label")
+    person.types({"#crew-at": "19:30:30", "#crew-shift": "600"}, "Tab").presses("#crew-ask")
+    person.sees({f"{RESULT} .error": "it is 600 s"}).types({"#crew-shift": "20"}, "Tab").presses("#crew-ask")
+    resting = crew(server, spares=6, shift=20, rest=10, points=[{"x": 0, "y": 0.5}], at=30)["at"]["resting"]
+    person.sees({RESULT: ["Who is where at 19:30:30", f"Resting: {', '.join(resting)}."]}).speaks("zh")
+    # Those people were of another dance.
+    person.sees({f"{RESULT} p": "其中替补 6 人"}).types({"#benches": "8"}).sees({f"{RESULT} table": 0})
+
+
+@thorough
+def test_on_a_phone_the_crew_fits_and_a_spiral_has_one_up_to_its_first_contact(open_page: Any) -> None:
+    for query, options in ((CREW, PHONE), ("?benches=5&time=20&lang=en", {})):
+        person = open_page(query, **options).reaches_below().presses("#crew summary", "#crew-ask")
+        person.sees({f"{RESULT} table": 2})
+        if options:
+            assert not person.overflows(390)
+            assert person.findings("#crew") == []
+
+
+def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(open_page: Any, server: str) -> None:
+    person = open_page("?time=0&benches=5&view=8,-3,40", failing=True).presses("#one-by-one summary")
+    answer, narrow, wu = (
+        "#first-contact .value",
+        TABLE.replace("1.8,0.7", "1.8,0.2"),
+        "#rows tr:has-text('body 2 (Wu)')",
+    )
+    person.types({"#csv": TABLE}, "Tab").sees({answer: contact_of(server, dragon={"csv": TABLE}), wu: True})
+    wide = person.settles().picture()
+    # One bench narrower: its chord, and so the whole pose, stays; the picture does not.
+    person.types({"#csv": narrow}, "Tab").arrives("**csv=*0.2,0.2*")
+    assert not alike(wide, person.settles().picture())
+    person.reaches_below().sees({"#curl": "Wu,1.8,0.2"})
+    assert person.saves("#keepTrajectory-CSV").splitlines()[2].endswith(b",Li")
+    person.page.reload()
+    words = "Line 3: “Width” must be from 0.001 to 5 m; it is 30 m. Lengths are in metres, and 30 cm is 0.3 m."
+    person.sees({wu: True}).holds({"#csv": narrow}).types({"#csv": TABLE.replace("2.2,0.3", "2.2,30", 1)}, "Tab")
+    person.reads({"#csv-error": words}).speaks("zh").sees({"#csv-error": "第 3 行：“板宽”应在 0.001 至 5 m 之间"})
+    person.presses("#csvClear").sees({answer: contact_of(server, dragon={"benches": 5})})
+
+
+@thorough
+def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: Any, server: str) -> None:
+    person = visit("?benches=30&time=50", failing=True).presses("#passages summary")
+    for k, (until, unit, speed) in enumerate([("20", "m", "0.5"), ("100", "s", "0"), ("60", "m", "1.5")]):
+        row = f"#passages li >> nth={k}"
+        person.presses("#passageAdd").chooses({f"{row} >> select": unit})
+        person.types({f"{row} >> input >> nth=0": until, f"{row} >> input >> nth=1": speed}, "Tab")
+    person.types({"#begin_clock": "7.30 AM"}, "Tab")
+    contact = {"#first-contact .value": contact_of(server, dragon={"benches": 30}, passages=PASSAGES)}
+    # The head rests, and so does everybody.
+    person.sees({**contact, "#clock": re.compile(r"^50.000000 s\s*07:30:50$")})
+    person.reads({"#rows tbody td >> nth=3": "0.000000"})
+    person.arrives("**passages=0.5@20m_0@100s_1.5@60m*begin_clock=*")
+    person.page.reload()
+    person.sees({**contact, "#passages li": 3}).types({"#begin_clock": "25 o'clock"}, "Tab")
+    words = "Write the time of day as 19:30 or 19:30:15. Until then it starts at 07:30:00."
+    person.reads({"#clock-error": words}).chooses({"#passages li >> nth=1 >> select": "m"})
+    person.sees({"#passages .error": "“until, in seconds” must be given."})
+    # A pause lies at the instant shown.
+    visit("?benches=30&time=50").presses("#passages summary", "#pauseAdd").arrives("**passages=1@50s_0@10d*")
+
+
+@thorough
+def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(visit: Any, server: str) -> None:
+    limits = {"speed_limit": 0.9, "start_clock": "19:30", "passages": PASSAGES[:2]}
+    body = BODY | limits | {"dragon": {"benches": 9}, "head_speed": 1}
+    failure = polite.answer(server, "check", body)["failures"][0]
+    person = visit(f"?{STREET}&begin=30&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
+    person.reads({".failures button": f"{failure['time']:.6f} s · {failure['clock']}"}).reaches()
+    sides = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", person.saves("#keepPlan-A3"))
+    assert max(map(float, sides[0])) == pytest.approx(A3_WIDE, abs=1)
+    # Head and first bench lead by 16 s of the 80 s of the path.
+    person = visit(f"?{STREET}&start_clock=19:30").sees({"#judgement": "It starts at 19:30:16"})
+    words = "The file or the address says 19:30 at 0 s; the dance starts at 19:30:16. It ends at 19:31:20."
+    person.reads({"#clock-help": words}).types({"#begin_clock": "20:00"}, "Tab").settles()
+    person.sees({"#judgement": "It starts at 20:00:00"}).reads({"#clock-help": "It ends at 20:01:03."})
+    assert {"start_clock", "begin_clock"} & person.address().keys() == {"begin_clock"}
+    person = visit("?path=route", locale="zh-CN", **PHONE).sees({"#invite": True, "[aria-busy=true]:visible": 0})
+    person.presses("#one-by-one summary", "#passages summary", "#passageAdd").presses("[data-preset=eight]")
+    assert not person.sees({"#invite": False}).overflows(390)
