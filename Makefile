@@ -51,7 +51,7 @@ setup:
 	@$(MAKE) --silent --no-print-directory --jobs=2 $(VENV)/service $(VENV)/compiled
 
 test-setup:
-	@$(MAKE) --silent --no-print-directory --jobs=2 $(VENV)/tests $(VENV)/engines $(VENV)/compiled
+	@$(MAKE) --silent --no-print-directory --jobs=2 $(VENV)/tests $(VENV)/engines $(VENV)/node $(VENV)/compiled
 
 # uv first, which installs the others, and what compiles the kernels. Without bytecode: Python writes it at the first
 # import, and most installed modules are never imported.
@@ -74,6 +74,11 @@ $(VENV)/tests: $(VENV)/service requirements-test.lock
 # Not every machine and Python has them; the tests of the others run without them.
 $(VENV)/engines: $(VENV)/tests requirements-ccd.lock
 	@$(INSTALL) --each $(VENV) requirements-ccd.lock
+	@touch $@
+
+# Node.js for the tests of the page's modules and for the type check; it comes as a wheel.
+$(VENV)/node: $(VENV)/engines .ci/typescript/node.lock
+	@$(INSTALL) --each $(VENV) .ci/typescript/node.lock
 	@touch $@
 
 # The normal install, editable: it compiles core/kernels in place, or reports why it runs uncompiled.
@@ -109,10 +114,8 @@ rounding: test-setup
 libreoffice: test-setup
 	@$(BIN)/python -m tests.campaigns.libreoffice $(ARGS)
 
-# TypeScript for the types of the page's scripts. Node.js, which runs it, comes as a wheel; it takes the certificates of the
-# system, as uv does.
-$(VENV)/types: .ci/typescript/node.lock .ci/typescript/package-lock.json $(VENV)/tests
-	@$(INSTALL) $(VENV) .ci/typescript/node.lock
+# TypeScript for the types of the page's scripts. Node.js takes the certificates of the system, as uv does.
+$(VENV)/types: .ci/typescript/package-lock.json $(VENV)/node
 	@mkdir -p $(VENV)/typescript
 	@cp .ci/typescript/*.json $(VENV)/typescript
 	@cd $(VENV)/typescript && NODE_OPTIONS=--use-system-ca PATH="$(CURDIR)/$(BIN):$$PATH" npm ci --silent --no-audit --no-fund
