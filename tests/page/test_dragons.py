@@ -68,6 +68,7 @@ def test_a_late_answer_about_other_dragons_asks_nothing_that_is_refused(open_pag
     person.sees({"#judgement": "First meeting at 207.378361 s"})
 
 
+@thorough
 def test_a_parade_is_judged_as_by_the_service_and_played_together(open_page: Any, server: str) -> None:
     person = begun(open_page, "parade")
     file = file_of(person.sees({"#judgement": ["Can be danced", "No two dragons touch."], "#contact-mark": False}))

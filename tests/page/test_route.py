@@ -181,6 +181,7 @@ def test_a_point_on_another_one_is_a_dot_until_the_picture_is_enlarged(open_page
     expect(person.at(knot(2))).not_to_have_class(near)
 
 
+@thorough
 def test_what_comes_late_is_not_shown_without_a_drawing_nor_of_another_kind_of_dance(visit: Any) -> None:
     for late in ("check", "course"):
         person = visit("?path=route&benches=3&route=*-20,0_20,0").sees(YES).presses("#edit")
