@@ -70,7 +70,7 @@ class Reason(Readable):
             return f"No dance was found: the widest free circle is at most {have:.2f} m across, and {turn}."
         if self.kind is ReasonKind.WAY:
             gates = f"gate {self.who[0]} and gate {self.who[1]}"
-            room = f"is at most {have:.2f} m wide at its narrowest" if have else "is closed"
+            room = f"is at most {have:.2f} m wide at its narrowest"
             return f"The free ground between {gates} {room}; the benches need at least {need:.2f} m."
         if self.kind is ReasonKind.STRAY:
             best = f"the best of {self.tried} tried, {figure}, allows {have:.3f} m"

@@ -225,9 +225,7 @@ def _widest_way(search: Search, begin: Gate, end: Gate) -> float:
         search.budget.afford(WAY_WORK)
         return search.ground.is_parted(opening(begin), opening(end), room)
 
-    if not parted(need):
-        return 2.0 * need
-    return 0.0 if parted(0.0) else 2.0 * bisect(parted, 0.0, need, width=WAY_WIDTH)[1]
+    return 2.0 * (bisect(parted, 0.0, need, width=WAY_WIDTH)[1] if parted(need) else need)
 
 
 def _without_stray(

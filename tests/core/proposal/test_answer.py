@@ -11,15 +11,14 @@ REASONS = {
     "The benches cover at least 660.4 m2 at any moment; the square has 480.0 m2.": Reason(
         ReasonKind.AREA, 0, 480.0, 660.4
     ),
-    "The widest free circle is at most 4.10 m across; a turn of the head bench needs 5.20 m.": Reason(
+    "No dance was found: the widest free circle is at most 4.10 m across, "
+    "and the tightest turn of the head bench that is tried takes 5.20 m.": Reason(
         ReasonKind.WIDTH, 9, 4.1, 5.2, who=(0,)
     ),
-    "The widest free circle is at most 4.10 m across; a turn of bench 7 needs 5.20 m.": Reason(
-        ReasonKind.WIDTH, 9, 4.1, 5.2, who=(7,)
-    ),
-    "The free ground between gate 0 and gate 2 is 0.20 m wide at its narrowest; the benches need 0.44 m.": Reason(
-        ReasonKind.WAY, 9, 0.2, 0.44, who=(0, 2)
-    ),
+    "No dance was found: the widest free circle is at most 4.10 m across, "
+    "and the tightest turn of bench 7 that is tried takes 5.20 m.": Reason(ReasonKind.WIDTH, 9, 4.1, 5.2, who=(7,)),
+    "The free ground between gate 0 and gate 2 is at most 0.20 m wide at its narrowest; "
+    "the benches need at least 0.40 m.": Reason(ReasonKind.WAY, 9, 0.2, 0.4, who=(0, 2)),
     "People shall be free to stray 0.05 m; the best of 412 tried, a figure eight, allows 0.032 m.": Reason(
         ReasonKind.STRAY, 412, 0.0321, 0.05, Figure.EIGHT
     ),
@@ -29,8 +28,8 @@ REASONS = {
     "None of 30 tried passes its check; the nearest, a ring: Benches 1 and 9 touch at 3.000000 s.": Reason(
         ReasonKind.FAILS, 30, figure=Figure.RING, failure=TOUCH
     ),
-    "No figure was found to fit, not even with one bench: the widest free circle is at most 4.50 m across, "
-    "a turn alone needs 4.25 m, and every figure that was tried needs more.": Reason(ReasonKind.FAILS, 0, 4.5, 4.25),
+    "No dance was found, not even with one bench: the widest free circle is at most 4.50 m across, "
+    "and the tightest turn that is tried takes 4.25 m.": Reason(ReasonKind.FAILS, 0, 4.5, 4.25),
 }
 
 

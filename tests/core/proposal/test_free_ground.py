@@ -39,3 +39,17 @@ def test_the_area_is_that_of_the_square_without_its_holes():
     whole, hole = box("square", 0, 0, 10, 8), closed([(2, 2), (2, 4), (5, 4), (5, 2)])
     assert FreeGround(Venue(Area("square", (*whole.rings, hole)))).area == pytest.approx(74.0)
     assert FreeGround(Venue(whole, (box("tree", 8, 2, 1, 1),))).area == pytest.approx(80.0)
+
+
+@pytest.mark.parametrize("gap", [0.02, 0.3, 1.7])
+def test_a_way_is_parted_just_where_a_gap_is_too_narrow(gap):
+    walls = box("low", 5, -1, 2, 5.0 - 0.5 * gap), box("high", 5.3, 4.0 + 0.5 * gap, 2, 9)
+    ground = FreeGround(Venue(box("square", 0, 0, 12, 8), walls))
+    begins, ends = np.array([[1.0, 3.0], [1.0, 5.0]]), np.array([[11.0, 1.0], [11.0, 2.0]])
+    assert [ground.is_parted(begins, ends, 0.5 * gap + more) for more in (-0.004, 0.004)] == [False, True]
+    assert not ground.is_parted(begins, ends, 0.0)
+
+
+def test_a_closed_wall_parts_whatever_is_wide():
+    ground = FreeGround(Venue(box("square", 0, 0, 12, 8), (box("wall", 5, -1, 2, 10),)))
+    assert ground.is_parted(np.array([[1.0, 3.0]]), np.array([[11.0, 1.0]]), 0.005)

@@ -196,3 +196,30 @@ def test_what_was_found_before_the_work_ended_is_proposed():
     assert part.tried < every.tried
     with pytest.raises(TooMuchWork):
         within(Budget(1e3))
+
+
+# Squares [m] with what stands in them, and both gates: a channel between blocks, a short square, a narrow street.
+STRAIGHT = {
+    "channel of 0.6 m": ((24, 20), [(6, 0, 12, 9.8), (6, 10.4, 12, 9.6)], [(0, 10.1), (24, 10.1)]),
+    "a square of 5 m": ((5, 9), [], [(0, 4.5), (5, 4.5)]),
+    "a square of 3 m": ((3, 20), [], [(0, 10), (3, 10)]),
+    "a lane of 0.7 m": ((24, 0.7), [], [(0, 0.35), (24, 0.35)]),
+}
+
+
+@pytest.mark.parametrize("name", STRAIGHT)
+def test_whoever_walks_straight_from_gate_to_gate_needs_no_room_to_turn(name):
+    size, blocks, (west, east) = STRAIGHT[name]
+    venue = Venue(box("square", 0, 0, *size), tuple(box(f"block {k}", *block) for k, block in enumerate(blocks)))
+    case = Case(venue, Dragon(4), (Gate(west, 0.0), Gate(east, math.pi)), LIMITS)
+    (one,) = case.proposals(figures=["parade"], count=1).proposals
+    assert refuted(case, one) == ""
+
+
+def test_a_way_is_refused_by_a_bound_that_no_dance_can_do_without():
+    blocks = box("low", 6, 0, 12, 9.81), box("high", 6, 10.19, 12, 9.81)
+    gates = Gate((0.0, 10.0), 0.0), Gate((24.0, 10.0), math.pi)
+    reason = propose(Venue(box("square", 0, 0, 24, 20), blocks), Dragon(2), gates=gates, figures=["parade"]).reason
+    assert (reason.kind, reason.who) == (ReasonKind.WAY, (0, 1))
+    assert 0.38 <= reason.have < 0.39
+    assert reason.need == pytest.approx(0.3 + 2.0 * 0.05)
