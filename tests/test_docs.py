@@ -81,21 +81,6 @@ def test_readme_is_short_and_each_readme_leads_to_the_other_and_the_english_one_
     assert {page for page in PAGES if page.startswith("docs/")} - {"docs/README.md"} <= linked("docs/README.md")
 
 
-def test_the_house_is_drawn_as_it_stands() -> None:
-    picture = re.search(r"^```\n(core/.*?)^```", PAGES["docs/architecture.md"], re.DOTALL | re.MULTILINE)
-    assert picture
-    drawn: dict[str, set[str]] = {}
-    for line in picture[1].splitlines():
-        names = re.findall(r"[\w.]+(?:\.py|/)", re.split(r"(?<=\S)  +", line)[0])
-        if not line.startswith(" "):
-            drawn[floor := names[0]] = set()
-        elif re.match(r"  \S", line):
-            drawn[floor] |= set(names)
-    assert all((ROOT / floor / name).exists() for floor, names in drawn.items() for name in names)
-    rooms = {f"{path.parent.name}/" for path in (ROOT / "core").glob("*/__init__.py")}
-    assert drawn["core/"] == rooms | {path.name for path in (ROOT / "core").glob("*.py")} - {"__init__.py"}
-
-
 def test_every_call_command_and_function_stands_on_its_page() -> None:
     calls = {question.path.partition(".")[0] for question in QUESTIONS.values()}
     functions = {f"`{name}" for name in core.__all__ if inspect.isfunction(getattr(core, name))}

@@ -17,6 +17,10 @@ LONG = "n" * (NAME_MAX + 1)
         ("a\nb", "must be one line of plain text, got 'a\\nb'"),
         ("Li\u202e.csv", "must be one line of plain text, got 'Li\\u202e.csv'"),
         ("\ud800", "must be one line of plain text, got '\\ud800'"),
+        # Noncharacters, which XML cannot hold.
+        ("\ufffe", "must be one line of plain text, got '\\ufffe'"),
+        ("a\ufdd0", "must be one line of plain text, got 'a\\ufdd0'"),
+        ("\U0001ffff", "must be one line of plain text, got '\\U0001ffff'"),
     ],
 )
 @pytest.mark.parametrize(("what", "before"), [("", "venue"), ("the name of a polygon", "the name of a polygon")])

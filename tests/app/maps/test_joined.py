@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import pytest
+import shapely
+
 from app.maps.features import MapFeature
-from app.maps.joined import joined
+from app.maps.joined import joined, merged
 
 Points = list[tuple[float, float]]
 
@@ -66,3 +69,33 @@ def test_two_rings_are_two_areas_in_their_places() -> None:
     result = joined([*lines(*FOUR), between, *lines(*other)])
     assert [one.shape for one in result] == ["polygon", "point", "polygon"]
     assert {x for x, _ in result[2].rings[0]} == {20, 29}
+
+
+# Rings of a square in parts: halves, halves with a corner on the side of the other, four quarters around a hole.
+PARTS = {
+    "halves": [((0, 0, 3, 3),), ((3, 0, 3, 3),)],
+    "a narrow and a wide one": [((0, 0, 3, 3),), ((3, 1, 3, 1),)],
+    "around a hole": [((0, 0, 3, 1),), ((0, 1, 1, 1),), ((2, 1, 1, 1),), ((0, 2, 3, 1),)],
+}
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_parts_that_share_edges_are_one_area(name: str) -> None:
+    boxes = [rings[0] for rings in PARTS[name]]
+    rings = [[(x, y), (x + a, y), (x + a, y + b), (x, y + b), (x, y)] for x, y, a, b in boxes]
+    # Every second one is walked the other way around.
+    areas = [MapFeature("polygon", (tuple(ring[:: 1 - 2 * (k % 2)]),)) for k, ring in enumerate(rings)]
+    whole = merged(areas)
+    assert whole is not None
+    shape = shapely.Polygon(whole.rings[0], whole.rings[1:])
+    assert shape.is_valid
+    assert shape.equals(shapely.union_all([shapely.Polygon(ring) for ring in rings]))
+
+
+@pytest.mark.parametrize(
+    "beside", [(5, 0, 3, 3), (3, 3, 2, 2), (2, 1, 3, 3)], ids=["apart", "at a corner", "overlapping"]
+)
+def test_parts_that_share_no_edge_are_not_one_area(beside: tuple[int, ...]) -> None:
+    boxes = [(0, 0, 3, 3), beside]
+    rings = [((x, y), (x + a, y), (x + a, y + b), (x, y + b), (x, y)) for x, y, a, b in boxes]
+    assert merged([MapFeature("polygon", (ring,)) for ring in rings]) is None

@@ -90,7 +90,7 @@ def test_ten_metres_are_fifty_millimetres_at_one_to_two_hundred(pages: Any) -> N
     assert holds_box(pages[0], 250.0, 120.0)
 
 
-def test_all_that_is_promised_can_be_found_as_words_of(pages: Any) -> None:
+def test_all_that_is_promised_can_be_found_as_words(pages: Any) -> None:
     texts = list(map(words_of, pages))
     assert len(pages) == 5
     first = "Lantern night|kiosk|N|keep clear, 0.3 m|chalk mark every 5 m|Checked: passes|1/5"

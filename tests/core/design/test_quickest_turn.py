@@ -5,7 +5,19 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, InvalidValue, Outcome, Turn, first_contact, quickest_turn, trajectory, turn_time
+from core import (
+    Budget,
+    Dance,
+    Dragon,
+    InvalidValue,
+    Outcome,
+    TooMuchWork,
+    Turn,
+    first_contact,
+    quickest_turn,
+    trajectory,
+    turn_time,
+)
 from tests.support.refused import refused
 
 LIMIT = 2.0  # [m/s]
@@ -66,3 +78,11 @@ def test_a_lower_limit_takes_as_much_longer() -> None:
 def test_a_circle_in_which_nothing_can_be_danced_is_refused() -> None:
     with refused("turning_radius"):
         quickest_turn(Dragon(), 1.7, 3.0)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.9, 0.99])
+def test_work_that_ends_before_a_dance_is_proven_refuses_no_circle(share: float) -> None:
+    whole = Budget(1e9)
+    quickest_turn(Dragon(5), 1.7, budget=whole)
+    with pytest.raises(TooMuchWork):
+        quickest_turn(Dragon(5), 1.7, budget=Budget(share * (1e9 - whole.left)))

@@ -120,6 +120,19 @@ def test_a_circle_in_which_nothing_can_be_danced_is_refused() -> None:
         shortest_turn(Dragon(), PITCH, 1.4)
 
 
+def test_benches_that_cannot_touch_are_limited_by_the_coil_that_they_can_follow() -> None:
+    result = shortest_turn(Dragon(2), 0.5, 6.0, 5.0)
+    assert (result.limited_by, result.evaluations > 0) == (TurnLimit.BEND, True)
+    assert result.entry_bracket[1] - result.entry_bracket[0] < 1e-3
+
+
+@pytest.mark.parametrize("ratio", [1.0, 2.0])
+def test_an_arc_too_short_to_be_drawn_is_no_fault_of_the_request(ratio: float) -> None:
+    """The shorter arc of ever shorter turns has less than a micrometre."""
+    result = shortest_turn(Dragon(1), 0.5, 6.0, ratio, budget=Budget(4e6))
+    assert result.length_bracket[0] < 5.102623 < result.length_bracket[1] + 1e-3
+
+
 @pytest.mark.thorough
 def test_every_dance_above_is_proven(monkeypatch: pytest.MonkeyPatch) -> None:
     """A turn that the proof refuses is never the answer, even if it is the shortest by the closed forms."""

@@ -69,6 +69,10 @@ def test_with_rest_nobody_comes_in_too_early_and_the_others_carry_on():
     assert {one.begin for one in planned(Relief(2, 10.0, rest=25.0)).spells} == {0.0, 10.0, 40.0, 70.0}
 
 
+def test_nobody_comes_in_at_a_moment_that_only_rounding_keeps_from_the_end():
+    assert min(one.end - one.begin for one in planned(Relief(2, STOP / 30.0)).spells) > 1.0
+
+
 def test_a_bench_changes_where_it_passes_the_place_and_the_next_one_after_it():
     passages = (Passage(0.5, until_s=30.0), Passage(0.0, until_time=70.0))
     result = crew(Dance(Dragon(4), THERE_AND_BACK, 1.2, passages), [2, 2, 2, 2], Relief(2, None, [50.0]))

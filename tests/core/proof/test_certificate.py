@@ -12,6 +12,7 @@ from flint import ctx
 from core import Dragon
 from core.errors import ProofRefused
 from core.proof import prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch, prove_tolerance, verify
+from core.proof.certificate import PRECISION
 from tests.support.depth import examples, thorough
 from tests.support.forgeries import FORGERIES, Change, assert_refused, forged, through_json
 from tests.support.reference import reference_cases
@@ -90,14 +91,14 @@ def test_an_edit_of_what_no_proof_needs_is_refused_by_the_digest() -> None:
 
 
 @pytest.mark.parametrize("precision", [53, 4096])
-def test_a_certificate_is_checked_with_the_precision_that_it_states(
+def test_a_certificate_is_checked_with_its_precision_or_with_that_of_our_own_if_that_is_more(
     precision: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     used: list[int] = []
     monkeypatch.setattr("core.proof.certificate.proven_sweeps", lambda *request: used.append(ctx.prec) or [])
     with pytest.raises(ProofRefused):
         verify(forged(small(), f"precision = {precision}"))
-    assert used == [precision]
+    assert used == [max(precision, PRECISION)]
 
 
 def test_what_is_no_dance_and_what_is_no_dragon_are_refused_by_name() -> None:

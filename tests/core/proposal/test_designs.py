@@ -25,7 +25,7 @@ SHAPES = [
 
 @pytest.fixture(scope="module")
 def ways():
-    venue = with_streets(Venue(box("square", 0, 0, 40, 30)), GATES, 3.0, street_length(NEEDS))
+    venue = with_streets(Venue(box("square", 0, 0, 40, 30)), GATES, (3.0, 3.0), street_length(NEEDS))
     return LegFinder(FreeGround(venue, (np.array([0.0, 0.0]), np.array([40.0, 30.0]))), NEEDS, Budget())
 
 

@@ -26,7 +26,7 @@ WAYS_ROUND = pytest.mark.parametrize("venue", [HALL, TURNED], ids=["counter-cloc
 def test_a_street_adds_its_own_ground_and_no_other(venue, heading):
     gate = checked_gates([Gate((0.1, 6.0), heading)], venue)[0]
     assert gate.point == pytest.approx((0.0, 6.0))
-    before, after = polygon(venue.square), polygon(with_streets(venue, [gate], 3.0, 30.0).square)
+    before, after = polygon(venue.square), polygon(with_streets(venue, [gate], (3.0, 3.0), 30.0).square)
     assert after.contains(before)
     # A parallelogram between the border and the street's end, whose middle line is 30 m long.
     assert after.area - before.area == pytest.approx(90.0)
@@ -36,7 +36,7 @@ def test_a_street_adds_its_own_ground_and_no_other(venue, heading):
 
 def test_streets_may_begin_on_several_sides_of_a_round_square_and_stay_within_their_width():
     gates = checked_gates([Gate((9.0, 0.0), math.pi), Gate((0.0, 9.0), -0.5 * math.pi)], ROUND)
-    both, one = (polygon(with_streets(ROUND, some, 4.0, 25.0).square) for some in (gates, gates[:1]))
+    both, one = (polygon(with_streets(ROUND, some, (4.0, 4.0), 25.0).square) for some in (gates, gates[:1]))
     assert both.contains(shapely.MultiPoint([(30.0, 1.9), (-1.9, 30.0)]))
     # Without the slivers that rounding leaves along the border.
     added = one.difference(polygon(ROUND.square)).buffer(-1e-6)
@@ -71,4 +71,4 @@ def test_at_a_corner_a_gate_may_lead_in_over_either_side(venue, heading):
 def test_a_street_without_room_is_refused(venue, point):
     gates = checked_gates([Gate(point, 0.0)], venue)
     with refused("gates.0.point"):
-        with_streets(venue, gates, 3.0, 30.0)
+        with_streets(venue, gates, (3.0, 3.0), 30.0)
