@@ -8,6 +8,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet --quiet
 INSTALL := bash .ci/install
+# Some tests wait for a process or a browser, so one more than there are cores.
+PROCESSES ?= $(shell expr $$(nproc 2>/dev/null || echo 1) + 1)
 HOST ?= 127.0.0.1
 PORT ?= 8000
 # The tests start hundreds of processes: without bytecode each of them compiles all of app and core.
@@ -96,7 +98,7 @@ serve: setup
 test-all: ALL := --all
 test test-all: test-setup
 	@$(BIN)/python tests/support/browser.py
-	@$(BIN)/python -m pytest --numprocesses logical --dist worksteal $(ALL) $(ARGS)
+	@$(BIN)/python -m pytest --numprocesses $(PROCESSES) --dist worksteal $(ALL) $(ARGS)
 
 # Not with the settings of this make, which are for this machine.
 machines:
