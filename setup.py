@@ -16,6 +16,7 @@ from Cython.Build import cythonize
 from setuptools import Extension, setup
 from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_ext import build_ext
+from setuptools.command.editable_wheel import editable_wheel
 
 # Flags of every compiler with gcc's options.
 UNIX_FLAGS = ["-g0", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=off"]
@@ -102,6 +103,17 @@ class HonestWheel(bdist_wheel):
         super().run()
 
 
+class ReadableEditable(editable_wheel):
+    """An editable install by a .pth of this folder, which type checkers read; they cannot follow a finder.
+
+    Python reads a .pth in the encoding of the locale, so a folder whose name needs one keeps the finder.
+    """
+
+    def finalize_options(self) -> None:
+        super().finalize_options()
+        self.mode = self.mode or ("compat" if str(Path.cwd()).isascii() else None)
+
+
 def kernels() -> list[Extension]:
     """The modules of core/kernels, translated to C."""
     declared = {path.stem for path in Path("core/kernels").glob("*.pxd")}
@@ -121,4 +133,5 @@ def kernels() -> list[Extension]:
 
 
 if __name__ == "__main__":
-    setup(ext_modules=kernels(), cmdclass={"build_ext": AllOrNothing, "bdist_wheel": HonestWheel})
+    commands = {"build_ext": AllOrNothing, "bdist_wheel": HonestWheel, "editable_wheel": ReadableEditable}
+    setup(ext_modules=kernels(), cmdclass=commands)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -171,4 +172,4 @@ def test_a_clock_after_midnight_is_in_the_same_night(client: httpx.Client, body:
 
 
 def test_a_point_in_a_terminal_is_two_numbers() -> None:
-    assert_refused_in_one_line(f"crew {VILLAGE} --spares 2 --point 6 -> --point ... X,Y '6'")
+    assert_refused_in_one_line(f"crew {shlex.quote(str(VILLAGE))} --spares 2 --point 6 -> --point ... X,Y '6'")
