@@ -6,6 +6,7 @@ import re
 import runpy
 import subprocess
 import sys
+import sysconfig
 import tomllib
 from collections.abc import Iterable
 from importlib.metadata import version
@@ -172,3 +173,14 @@ def test_nothing_is_imported_that_windows_lacks() -> None:
     names = "|".join(POSIX_ONLY)
     pattern = re.compile(rf"^ *(?:from|import) (?:{names})\b", re.MULTILINE)
     assert [path for path in files if pattern.search(path.read_text(encoding="utf-8"))] == []
+
+
+def test_both_readmes_list_every_extra() -> None:
+    extras = set(SETTINGS["project"]["optional-dependencies"])
+    for name in ("README.md", "README.zh.md"):
+        assert set(re.findall(r"^\| `(\w+)` \|", (ROOT / name).read_text("utf-8"), re.MULTILINE)) == extras - {"dev"}
+
+
+def test_an_editable_install_is_a_path_that_type_checkers_read_unless_its_name_needs_an_encoding() -> None:
+    (path,) = Path(sysconfig.get_path("purelib")).glob("__editable__.bench_dragon-*.pth")
+    assert (path.read_text("utf-8").strip() == str(ROOT)) is str(ROOT).isascii()

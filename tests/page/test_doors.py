@@ -256,6 +256,15 @@ def test_a_bare_address_moves_with_the_mouse_and_the_wheel_scrolls_until_the_pic
 
 
 @thorough
+def test_a_touch_starts_the_dance_and_an_address_opens_its_door(open_page: Any) -> None:
+    person = open_page("", has_touch=True).sees({"#play": "Play"})
+    person.page.touchscreen.tap(300, 300)
+    person.sees({"#play": "Pause"})
+    person = open_page("?door=village").arrives("**path=route**")
+    person.sees({"#judgement h3": "Verdict on this example"})
+
+
+@thorough
 def test_nothing_moves_for_keys_nor_with_reduced_motion_and_a_route_stands(open_page: Any) -> None:
     keys, still = open_page(""), open_page("", reduced_motion="reduce")
     keys.strikes("Tab")

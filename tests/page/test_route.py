@@ -111,6 +111,31 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(visit: Any) -
     assert file_of(person)["venue"]["features"][1]["geometry"] != kept[1]["geometry"]
 
 
+def test_a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(visit: Any) -> None:
+    person = visit(S_CURVE).sees(YES).presses("#zoom-out", "#edit", "[data-tool=circle]").settles()
+    canvas, mouse = person.box("#canvas"), person.page.mouse
+    x, y = canvas["x"] + 200, canvas["y"] + 120
+    mouse.click(x, y)
+    # The tool begins a new tree, as long as it meets none.
+    person.presses("[data-tool=circle]").sees({".knot": 0})
+    before = file_of(person)["venue"]["features"][-1]["geometry"]["coordinates"]
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x + 60, y + 40, steps=3)
+    mouse.up()
+    person.settles().sees({".knot": 1})
+    _, after = (one["geometry"]["coordinates"] for one in file_of(person)["venue"]["features"])
+    assert after[0] > before[0]
+    assert after[1] < before[1]
+    person.presses("[data-tool=area]")
+    left, right, top, low = x - 60, x + 360, y - 40, y + 280
+    for place in ((left, low), (right, low), (right, top), (left, top), (0.5 * (left + right), low + 4)):
+        mouse.click(*place)
+    ring = file_of(person.settles())["venue"]["features"][0]["geometry"]["coordinates"][0]
+    assert len(ring) == 6
+    assert ring[0][0] < ring[1][0] < ring[2][0]
+
+
 @thorough
 def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its_address_and_file(
     visit: Any, server: str, tmp_path: Path
