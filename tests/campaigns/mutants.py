@@ -186,7 +186,8 @@ def covered(file: str, place: Path) -> dict[str, Any]:
     rc = mine / "rc"
     rc.write_text(COVERAGE.format(data=mine / "data", file=file))
     begin = time.monotonic()
-    command = [sys.executable, "-m", "coverage", "run", f"--rcfile={rc}", "-m", "pytest", "-q", "--all", file]
+    every = ["--all"] if has_thorough(ROOT) else []
+    command = [sys.executable, "-m", "coverage", "run", f"--rcfile={rc}", "-m", "pytest", "-q", *every, file]
     subprocess.run(command, cwd=ROOT, capture_output=True)
     seconds = time.monotonic() - begin
     subprocess.run([sys.executable, "-m", "coverage", "combine", f"--rcfile={rc}", "-q"], cwd=mine, capture_output=True)
