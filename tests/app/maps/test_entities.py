@@ -125,6 +125,48 @@ def test_what_cannot_be_seen_or_read_is_left_out_and_said() -> None:
     }  # fmt: skip
 
 
+def test_a_block_of_no_height_is_drawn_with_what_is_in_it() -> None:
+    space = new()
+    space.doc.blocks.new("TREE").add_circle((0, 0), 0.3)
+    space.doc.blocks.new("ROW").add_blockref("TREE", (1, 2))
+    space.add_blockref("ROW", (9, 8), dxfattribs={"zscale": 0.0})
+    assert things(read(space)) == [("Point", [10.0, 10.0], 0.3)]
+
+
+# Entities as small programs write them, without the markers (code 100) of their parts.
+UNMARKED = """0 SECTION 2 HEADER 9 $ACADVER 1 AC1015 9 $INSUNITS 70 6 0 ENDSEC 0 SECTION 2 ENTITIES
+0 LWPOLYLINE 8 square 90 4 70 1 10 0 20 0 10 40 20 0 10 40 20 30 10 0 20 30
+0 SPLINE 8 walls 71 1 72 4 73 2 74 0 40 0 40 0 40 1 40 1 10 5 20 5 10 9 20 5
+0 MULTILEADER 8 words 300 CONTEXT_DATA{ 40 1.0 301 }
+0 CIRCLE 8 trees 10 20 20 15 40 0.5 0 ENDSEC 0 EOF"""
+
+
+def test_entities_without_the_markers_of_their_parts_are_read_or_named_as_left_out() -> None:
+    result = places_of("\n".join(UNMARKED.split()).encode(), None, Say(Language.ENGLISH))
+    assert corners(result)[:4] == [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)]
+    assert things(result)[1] == ("Point", [20.0, 15.0], 0.5)
+    assert things(result)[0][0] == "LineString"
+    assert "Left out: 1 damaged MULTILEADER." in result.notes
+
+
+def test_a_circle_too_small_for_anything_is_left_out_by_its_name() -> None:
+    space = new()
+    for x, radius, layer in ((10, 0.0005, "DOT"), (20, 0.4, "TREES")):
+        space.add_circle((x, 0), radius, dxfattribs={"layer": layer})
+    result = read(space)
+    assert things(result) == [("Point", [20.0, 0.0], 0.4)]
+    assert "Left out: 1 circle with a radius of less than 0.001 m: DOT." in result.notes
+
+
+def test_where_all_is_hidden_the_refusal_says_what() -> None:
+    space = new(square=False)
+    space.doc.layers.add("PLAN").freeze()
+    space.add_line((0, 0), (9, 0), dxfattribs={"layer": "PLAN"})
+    with pytest.raises(InvalidValue) as refused:
+        read(space)
+    assert (refused.value.field, refused.value.values["hidden"]) == ("file", "1 LINE")
+
+
 def test_entities_of_a_block_take_its_layer() -> None:
     space = new(square=False)
     ring(space.doc.blocks.new("BED"), 1, 1, 1)

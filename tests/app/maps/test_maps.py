@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -493,3 +494,49 @@ def test_a_map_of_several_is_read_with_its_first_path_and_a_note(client: httpx.C
 def test_a_map_has_at_most_two_thousand_marks(client: httpx.Client) -> None:
     many = {"spacing": 0.5, "dances": [LANE | {"delay": k} for k in range(40)]}
     assert_refused(client, "/maps.kml", TWO, f"{json.dumps(many)} -> /spacing 2000 2280")
+
+
+def polygon_of(side: float) -> dict[str, Any]:
+    return {"type": "Polygon", "coordinates": [[[0, 0], [side, 0], [side, side], [0, side], [0, 0]]]}
+
+
+def line_of_places(places: list[list[float]]) -> dict[str, Any]:
+    return {"type": "LineString", "coordinates": places}
+
+
+@pytest.mark.parametrize("write", [str.upper, str.title, str.lower])
+def test_properties_are_read_however_their_names_are_written(write: Callable[[str], str]) -> None:
+    name, layer = write("name"), write("layer")
+    features = [
+        {"type": "Feature", "properties": {name: "Market", layer: "square"}, "geometry": polygon_of(40)},
+        {"type": "Feature", "properties": {name: "path"}, "geometry": line_of_places([[5, 5], [35, 25]])},
+        {"type": "Feature", "properties": {name: "well"}, "geometry": {"type": "Point", "coordinates": [10, 25]}},
+    ]
+    result = read(json.dumps({"type": "FeatureCollection", "features": features}).encode(), "metres")
+    assert names(result) == ["Market", "well"]
+    assert result.path == {"kind": "waypoints", "points": [[5, 5], [35, 25]]}
+
+
+def test_a_line_of_many_points_keeps_those_that_matter_and_says_how_near_it_stays() -> None:
+    places = [[0.5 * k, 30.0 if k == 2501 else 0.001 * (k % 2)] for k in range(5003)]
+    feature = {"type": "Feature", "properties": {"name": "path"}, "geometry": line_of_places(places)}
+    result = read(json.dumps(feature).encode(), "metres")
+    points = result.path["points"]
+    assert len(points) == 1000
+    assert max(y for _, y in points) == 30.0
+    (said,) = (one for one in result.notes if "5003 points" in one)
+    assert float(said.split("at most ")[1].split(" m")[0]) <= 0.01
+
+
+def test_a_square_in_parts_that_share_an_edge_is_one_square_also_at_the_date_line() -> None:
+    halves = [
+        [[179.999, 0], [180, 0], [180, 0.001], [179.999, 0.001]],
+        [[-180, 0], [-179.999, 0], [-179.999, 0.001], [-180, 0.001]],
+    ]
+    geometry = {"type": "MultiPolygon", "coordinates": [[[*half, half[0]]] for half in halves]}
+    feature = {"type": "Feature", "properties": {"name": "square"}, "geometry": geometry}
+    result = read(json.dumps(feature).encode(), "degrees")
+    assert names(result) == ["square"]
+    width, height = np.ptp(np.array(result.venue.square.rings[0]), axis=0).tolist()
+    assert width == pytest.approx(2.0 * height, rel=0.02)
+    assert "The square is drawn in 2 parts that share edges." in result.notes

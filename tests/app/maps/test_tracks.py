@@ -63,6 +63,18 @@ def test_a_noisy_walk_becomes_a_path_that_benches_follow(seed: int) -> None:
     assert walk.points[[0, -1]] == pytest.approx(points[[0, -1]], abs=1e-9)
 
 
+def test_a_coil_that_no_smoothing_makes_easy_keeps_its_turns_within_the_noise() -> None:
+    theta = np.sqrt(np.linspace(1.0, (12.0 * np.pi) ** 2, 290))
+    coil = (1.5 / (2.0 * np.pi) * theta)[:, None] * np.column_stack([np.cos(theta), np.sin(theta)])
+    walk, path = walk_along(coil + np.random.default_rng(10).normal(0.0, 0.3, coil.shape), None)
+    length = float(np.hypot(*np.diff(coil, axis=0).T).sum())
+    assert 0.93 * length < walk.length < 1.03 * length
+    assert walk.largest < 2.0
+    assert not walk.is_easy
+    line = path.position(np.linspace(path.begin, path.end, 4_000))
+    assert np.hypot(*(coil[:, None] - line[None]).transpose(2, 0, 1)).min(axis=1).max() < 1.5
+
+
 @pytest.mark.parametrize("chord", [1.5, 4.0])
 def test_a_walk_is_smoothed_as_the_longest_bench_needs(chord: float) -> None:
     points, _ = noisy()
