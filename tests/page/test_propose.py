@@ -176,9 +176,10 @@ NONE = {"proposals": [], "tried": 30, "checked": 5, **WHY}
 @thorough
 def test_why_none_fits_stands_in_one_sentence_and_a_search_can_be_stopped(open_page: Any) -> None:
     person = open_page(NARROW_YARD).presses("#propose")
-    need = "a turn of the head needs 3.77 m. Make the square larger."
-    person.reads({"#proposed": f"The widest free circle is at most 3.02 m across; {need}"}).sees({CARDS: 0})
-    person.speaks("zh").reads({"#proposed": "最大的空地圆直径至多 3.02 m，龙头转弯需要 3.77 m。请加大广场。"})
+    why = "No dance was found: the widest free circle is at most 3.02 m across, and the tightest turn of the head that"
+    person.reads({"#proposed": f"{why} is tried takes 3.77 m. Make the square larger."}).sees({CARDS: 0})
+    person.speaks("zh")
+    person.sees({"#proposed": "最大的空地圆直径至多 3.02 m，而试过的最紧的龙头转弯需要 3.77 m。请加大广场。"})
     person = open_page(YARD)
     person.page.route("**/proposals", lambda route: route.fulfill(json=NONE))
     nearest = "the nearest, “Figure eight”, fails at 12.35 s: body 3 touches linden."
@@ -204,7 +205,7 @@ def test_a_long_search_is_a_job_whose_cards_come_meanwhile_and_keep_their_places
         person.presses("#propose").sees({"#proposed": re.compile(r".*\d+ s, \d+ % of the kinds of dance tried")})
         with person.page.expect_request("**/jobs/*/result"):
             looks.let_go()
-        person.sees({"#proposed": "The widest free circle is at most 3.02 m across"})
+        person.sees({"#proposed": "the widest free circle is at most 3.02 m across"})
         person = open_page(YARD, base=service.url, failing=True)
         person.ask(ORDERS)
         proposed(person).settles("search").sees({"#proposed": "each has passed its check"})
