@@ -116,7 +116,7 @@ export const DANCE = {
   head_speed_is: ["along its path", "沿路径"],
   margin_is: ["gap to keep", "板凳之间须保持的间距"],
   speed_limit_is: ["of every handle", "每个把手"],
-  stray_is: ["of every person", "每人偏离应在位置"],
+  stray_is: ["of every person", "每人距应在位置"],
   hole_is: ["its diameter", "木板上的孔"],
   pin_is: ["its diameter", "孔中的销"],
   sketch: ["A bench from above: length, width, hole, pin, and the distance from the hole to the end", "板凳俯视图：板长、板宽、板孔、插销、孔心距板头"],

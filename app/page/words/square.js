@@ -18,7 +18,7 @@ export const SQUARE = {
   placeWrong: ["“{what}” must be more than 0 m and at most {high} m; you typed “{text}”. The square stays as it was.", "“{what}”应大于 0 m 且不超过 {high} m，现为“{text}”。广场保持不变。"],
   placeDone: ["Done", "完成"],
   strayVillage: ["People may stray up to", "每人最多可离位"],
-  strayVillage_is: ["from their place", "偏离应在位置"],
+  strayVillage_is: ["from their place", "（距应在位置）"],
   verdict_propose: ["Propose a dance", "先设计一场舞龙"],
   firstPropose: ["The square is drawn. “Propose a dance” finds dances that fit into it; or draw a path yourself.", "广场已画好。点击“设计一场舞龙”寻找合适的舞龙，也可自行绘制路径。"],
   objective: ["Best is", "优先考虑"],
