@@ -84,7 +84,7 @@ export const WORDS = {
   stray_may: ["From {time} s on benches may touch. The dashed outlines show how: in one pose of the whole dragon these two do.",
     "从 {time} s 起可能相碰。虚线画出了相碰的方式：在全队的某个姿态中，这两节板凳确实相碰。"],
   stray_more: ["At a pitch of {pitch} people may stray by {low}, but not by {high}. The first number is proven by the same steps, taken for bands instead of benches. The second is not an estimate but an example: a place for every handle, with every chord kept, in which two benches overlap. A wider spiral buys room: at {pitch=0.70} people may stray more than twice as far as at {pitch=0.55}.",
-    "螺距为 {pitch} 时，每人可以离位 {low}，但不能达到 {high}。第一个数由同样的步子证明，只是以色带代替板凳。第二个数不是估计，而是实例：给出每个把手的位置，所有孔距保持不变，而其中两节板凳重叠。螺线越宽，余地越大：螺距 {pitch=0.70} 时可偏离的距离是 {pitch=0.55} 时的两倍多。"],
+    "螺距为 {pitch} 时，每人可以离位 {low}，但不能达到 {high}。第一个数由同样的步子证明，只是以色带代替板凳。第二个数不是估计，而是实例：给出每个把手的位置，所有孔距保持不变，而其中两节板凳重叠。螺线越宽，余地越大：螺距 {pitch=0.70} 时可离位的距离是 {pitch=0.55} 时的两倍多。"],
   stray_dial_stray: ["How far every handle may stray", "每个把手可离位的距离"],
   stray_dial_pitch: ["Pitch of the spiral", "螺线的螺距"],
   stray_alt: ["The two benches that come nearest, with the bands that they may cover", "最接近的两节板凳，以及它们可能到达的色带"],
