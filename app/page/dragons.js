@@ -11,6 +11,7 @@ import { bound, formatNumber, isExact } from "./numbers.js";
 import { announce } from "./overlays.js";
 import { beatsOf, passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
+import { isPresetVenue } from "./presets.js";
 import { benchName, language, learn, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
 import { DRAGONS } from "./words/dragons.js";
@@ -116,7 +117,9 @@ export class Dragons {
   begin(name) {
     const records = PRESETS[name];
     const values = this.#valuesOf(records[0]);
-    const { things, origin, grid, yard, limit } = EMPTY;
+    // A person's own square stays.
+    const drawing = this.state.get("drawing");
+    const { things, origin, grid, yard, limit } = isPresetVenue(drawing) ? EMPTY : drawing;
     this.#take(records, 0, { ...values, drawing: { ...values.drawing, things, origin, grid, yard, limit }, time: null, view: null, follow: false });
   }
 

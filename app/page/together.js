@@ -9,7 +9,7 @@ import { Track } from "./track.js";
 /** Parts of a dance in an address: its numbers, a table of benches, passages, beats, and its path; all else is common to all dragons. */
 const NUMBERS = FIELDS.map(({ name }) => name).filter((name) => !CONTACT.includes(name));
 export const PARTS = [...NUMBERS, "csv", "passages", "beats", "path"];
-export const LEGS = ["route", "corner", "begin", "raw"];
+export const LEGS = ["route", "corner", "begin", "raw", "walk", "start"];
 /** What a dragon has in addition to its dance. */
 export const OWN = ["name", "colour", "delay", "rotation"];
 /** Time before a fold of the last instant that is shown [s]; step of a path [m], and its most samples. */

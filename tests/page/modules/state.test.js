@@ -2,10 +2,11 @@
 
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { EMPTY } from "../../../app/page/drawing.js";
+import { EMPTY, fromAddress } from "../../../app/page/drawing.js";
 import { Steps } from "../../../app/page/history.js";
 import { State } from "../../../app/page/state.js";
-import { PRESETS, isForeign, recordOf, recordText, recordsIn } from "../../../app/page/together.js";
+import { PRESETS, isForeign, legsOf, recordOf, recordText, recordsIn } from "../../../app/page/together.js";
+import { roundedRoute } from "../../../app/page/walk.js";
 
 // What the state needs of a browser: an address, and its entries in the history.
 const listeners = {};
@@ -122,6 +123,16 @@ test("dragons are the same after an address, whatever they are called", () => {
   assert.deepEqual(recordsIn(records.map(recordText).join("~")), records);
   assert.deepEqual(recordsIn("rotation:180!what:ever!pitch:1.1~name:%"), [{ rotation: "180", pitch: "1.1" }, {}]);
   for (const preset of Object.values(PRESETS)) assert.ok(preset.map(recordText).join("~").length < 400);
+});
+
+test("a proposed dance, written as a walk, is the same as one of several", () => {
+  const pieces = [{ kind: "line", start: [0, 0], end: [20, 0] }, { kind: "arc", centre: [20, 5], radius: 5, start_angle: -Math.PI / 2, sweep: Math.PI / 2 }];
+  const drawing = { ...EMPTY, path: roundedRoute({ kind: "route", pieces, start: 8 }), begin: 8, start: 8 };
+  const texts = Object.fromEntries(legsOf(drawing));
+  assert.ok(texts.walk);
+  assert.deepEqual(recordsIn(recordText(texts)), [texts]);
+  const { path, begin, start } = fromAddress(new URLSearchParams(texts));
+  assert.deepEqual({ path, begin, start }, { path: drawing.path, begin: 8, start: 8 });
 });
 
 test("a dance of a file becomes a dragon of an address", () => {
