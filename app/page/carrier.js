@@ -309,6 +309,7 @@ export class Carrier {
     const isGoing = this.#began !== null;
     put(this.clock, dance.clock ? clockNow() : isGoing ? cardTime(Math.floor(Math.max(time, begin))).slice(0, -2) : "");
     hide(this.start, isGoing);
+    hide(this.stand, isGoing && time > begin);
     for (const one of [...this.corrections, this.again]) hide(one, !isGoing);
     const cues = this.#card?.cues ?? [];
     // The card has them by the time at which benches are nearest; who waits for one hears of it when it begins.

@@ -101,7 +101,7 @@ def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page: Any, 
     assert len(sizes | set(person.ask(SIZES))) <= 4
     late = next(cue for cue in own["cues"] if cue["since"] > 100)
     person.ask(AHEAD, int((late["since"] - SLACK) // 5))
-    person.reads({CUE: late["words"]}).sees({"#carrier .when": re.compile(r"^in 0:\d\d$")})
+    person.reads({CUE: late["words"]}).sees({"#carrier .when": re.compile(r"^in 0:\d\d$"), "#card-more .stand": False})
     expect(person.at(f"{LIST} >> nth={own['cues'].index(late)}")).to_have_class("following")
     assert 0 < int(person.text("#carrier .when")[-2:]) <= SLACK + 5
     gone = seconds(person.text("#carrier .clock"))
