@@ -117,9 +117,9 @@ class Proposals(Answer):
     checked: int = Field(description="Of these, dances that a check judged")
     reason: str | None = Field(description="Why there is none, in one sentence; null if there is one")
     reason_kind: core.ReasonKind | None = Field(
-        description="area: the benches cover more than the square has; width: nowhere is room for a turn; way: no way "
-        "between the gates is wide enough; stray: only a smaller stray is possible; benches: only a shorter dragon "
-        "fits; fails: none of the dances that were tried passes"
+        description="area: the benches cover more than the square has; width: nowhere is room for a turn as tight as "
+        "those that are tried; way: no way between the gates is wide enough; stray: only a smaller stray is possible; "
+        "benches: only a shorter dragon fits; fails: none of the dances that were tried passes"
     )
     reason_values: Lack | None = Field(description="The numbers of the reason; null if there is a proposal")
     most_benches: int | None = Field(
