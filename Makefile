@@ -9,7 +9,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet --quiet
 INSTALL := bash .ci/install
 # Some tests wait for a process or a browser, so one more than there are cores.
-PROCESSES ?= $(shell expr $$(nproc 2>/dev/null || echo 1) + 1)
+PROCESSES ?= $(shell expr $$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN) + 1)
 HOST ?= 127.0.0.1
 PORT ?= 8000
 # The tests start hundreds of processes: without bytecode each of them compiles all of app and core.

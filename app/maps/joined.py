@@ -8,8 +8,10 @@ from dataclasses import replace
 from itertools import pairwise
 from math import dist
 
+import numpy as np
+
 from app.maps.features import MARK, PATH, MapFeature, drawn_as
-from core.values import Point
+from core.values import Floats, Point
 
 # Largest distance of two ends that meet [m]; drawing programs write six to sixteen digits.
 APART = 0.005
@@ -107,11 +109,12 @@ def merged(areas: Sequence[MapFeature]) -> MapFeature | None:
     rings = [_counter_clockwise(ring, k > 0) for one in areas for k, ring in enumerate(one.rings)]
     corners = _MeetingPoints(point for ring in rings for point in ring[:-1])
     places, at = corners.places, iter(corners.at)
+    every = np.array(places)
     ways: set[tuple[int, int]] = set()
     for ring in rings:
         numbers = [next(at) for _ in ring[:-1]]
         for a, b in pairwise([*numbers, numbers[0]]):
-            ways.update(pairwise(_divided(a, b, places)))
+            ways.update(pairwise(_divided(a, b, every)))
     outer = {(a, b) for (a, b) in ways if (b, a) not in ways and a != b}
     after = dict(outer)
     if len(after) < len(outer):  # areas that touch in a corner
@@ -132,17 +135,13 @@ def merged(areas: Sequence[MapFeature]) -> MapFeature | None:
     return replace(areas[0], rings=(outlines[0], *(loop for loop in loops if loop is not outlines[0])))
 
 
-def _divided(a: int, b: int, places: Sequence[Point]) -> list[int]:
-    """A side from corner to corner, with the corners on it in order."""
-    (ax, ay), (bx, by) = places[a], places[b]
-    length = dist(places[a], places[b])
-    on: list[tuple[float, int]] = []
-    for k, (x, y) in enumerate(places):
-        along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length if length else 0.0
-        off = abs((x - ax) * (by - ay) - (y - ay) * (bx - ax)) / length if length else 0.0
-        if k not in (a, b) and APART < along < length - APART and off < APART:
-            on.append((along, k))
-    return [a, *(k for _, k in sorted(on)), b]
+def _divided(a: int, b: int, places: Floats) -> list[int]:
+    """A side from corner to corner, with the corners on it in order. places: of all corners (N, 2) [m]"""
+    way, away = places[b] - places[a], places - places[a]
+    length = max(float(np.hypot(*way)), APART)
+    along, off = away @ way / length, np.abs(away @ [way[1], -way[0]]) / length
+    on = np.flatnonzero((along > APART) & (along < length - APART) & (off < APART))
+    return [a, *on[np.argsort(along[on])].tolist(), b]
 
 
 def _twice_area(ring: Sequence[Point]) -> float:

@@ -237,10 +237,14 @@ class Reading:
 
     def _leave_out_small(self) -> None:
         """Leave out round things that are smaller than anything of a venue, and name them."""
-        small = [one for one in self.features if one.shape == "point" and 0.0 < (one.radius or 1.0) < SIZE_MIN]
+
+        def is_small(one: MapFeature) -> bool:
+            return one.shape == "point" and 0.0 < (one.radius or 1.0) < SIZE_MIN
+
+        small = [one for one in self.features if is_small(one)]
         if not small:
             return
-        self.features = [one for one in self.features if not any(one is other for other in small)]
+        self.features = [one for one in self.features if not is_small(one)]
         names = self._listed(one.name or one.role or one.shape for one in small)
         english = f"{format_count(len(small), 'circle')} with a radius of less than {SIZE_MIN:g} m"
         self._note(f"Left out: {english}: {names}.", f"未读取：{len(small)} 个半径小于 {SIZE_MIN:g} m 的圆：{names}。")
@@ -349,8 +353,8 @@ class Reading:
         )
         if off > 0.0:
             self._note(
-                f"Of its {len(points)} points these are enough to be at most {off:.2f} m from all others.",
-                f"原线有 {len(points)} 个点，其余各点离它至多 {off:.2f} m。",
+                f"Of its {len(points)} points the others are at most {off:.2f} m from the lines between these.",
+                f"原线有 {len(points)} 个点，其余各点离这些点之间的直线至多 {off:.2f} m。",
             )
         path = {"kind": "waypoints", "points": kept.tolist()}
         checked_path(path)

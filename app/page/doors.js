@@ -43,9 +43,10 @@ export class Doors {
     this.state.choosePath(stays ? this.state.get("path") : path, { door, ...example });
   }
 
-  /** An address with a door whose kinds of path do not have that of the address opens as if the door were pressed. */
+  /** An address with a door and no path of its own opens as if the door were pressed. */
   begin() {
-    if (PATHS[this.door] && !PATHS[this.door].includes(this.state.get("path"))) this.#enter(this.door);
+    const isOther = PATHS[this.door] && !PATHS[this.door].includes(this.state.get("path"));
+    if (isOther && !new URLSearchParams(location.search).has("path")) this.#enter(this.door);
   }
 
   /** Show or hide what stands behind "more". */

@@ -96,7 +96,7 @@ def annotations(path: Path) -> set[tuple[int, int]]:
     return starts
 
 
-def draw_python(count: int, room: str, chance: random.Random, place: Path) -> Iterator[Fault]:
+def draw_python(room: str, chance: random.Random, place: Path) -> Iterator[Fault]:
     """Faults of the room's Python by cosmic-ray, one at a time and without an end."""
     from cosmic_ray.mutating import mutate_code
     from cosmic_ray.plugins import get_operator
@@ -152,7 +152,7 @@ def draw(count: int, seed: int) -> None:
         place = Path(folder)
         for room, share in SHARES.items():
             chance = random.Random(f"{seed} {room}")
-            drawn = draw_page(chance, place) if room == "app/page" else draw_python(count, room, chance, place)
+            drawn = draw_page(chance, place) if room == "app/page" else draw_python(room, chance, place)
             faults += [fault for fault, _ in zip(drawn, range(round(share * count)), strict=False)]
     FAULTS.write_text(json.dumps([asdict(fault) for fault in faults], indent=1, ensure_ascii=False) + "\n", "utf-8")
 
