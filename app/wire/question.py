@@ -184,13 +184,12 @@ class Wire(BaseModel):
     def _plain_numbers(cls, value: Any) -> Any:
         # Of a query all values are texts, and Pydantic takes 1_000 for a number, as Python does.
         if isinstance(value, dict):
-            wrong = [
-                name for name, text in value.items() if isinstance(text, str) and "_" in text and cls._number(name)
+            faults: list[Any] = [
+                {"type": kind, "loc": (name,), "input": text}
+                for name, text in value.items()
+                if isinstance(text, str) and "_" in text and (kind := cls._number(name))
             ]
-            if wrong:
-                faults: list[Any] = [
-                    {"type": cls._number(name), "loc": (name,), "input": value[name]} for name in wrong
-                ]
+            if faults:
                 raise ValidationError.from_exception_data(cls.__name__, faults)
         return value
 
