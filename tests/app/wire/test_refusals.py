@@ -85,6 +85,8 @@ QUERIES = {
     "minimum-pitch?hole=0.05&pin=0.06": "pin 0.05 0.06",
     "minimum-pitch?turning_diameter=900": "turning_diameter 200 9",
     "minimum-pitch?turning_diameter=0": "turning_diameter least",
+    "minimum-pitch?turning_diameter=1_0": "turning_diameter 1_0",
+    "minimum-pitch?benches=1_0": "benches 1_0",
     "clearance?stop=440.5": "stop 432.917924228 440.5",
     "clearance?start=432.9179242284&stop=433": "start 432.917924228 432.9179242284",
     "clearance?start=435&stop=440": "start 432.917924228",
