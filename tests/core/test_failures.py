@@ -8,7 +8,6 @@ from core import Dance, Dragon, FailureKind, Judgement, Spiral, Turn, check, hig
 from core.extremes.speed import SPEED_ROUNDING
 
 EXCESS_ERROR = 1e-9  # [s]: a first excess is bracketed so closely at 1 m/s and more
-PLACE_ERROR = 1e-9  # [m], [rad]
 TURN, WIDE = Turn(1.7), Spiral(1.2, 8.0)
 SHORT = Dance(Dragon(40), WIDE)
 
@@ -20,13 +19,12 @@ def first_failure(dance, limit, **span):
 @pytest.mark.parametrize(
     ("dance", "limit", "start", "stop"),
     [
-        (Dance(Dragon(), TURN), 1.2, -100.0, 100.0),
         (Dance(Dragon(), TURN), 1.6047, -100.0, 100.0),
         (Dance(Dragon(), TURN, 1.9), 2.0, -50.0, 50.0),
-        (Dance(Dragon(40), WIDE), 2.0, 0.0, 500.0),
+        (SHORT, 2.0, 0.0, 500.0),
         (Dance(Dragon(5), WIDE, 2.5), 3.0, 50.0, None),
     ],
-    ids=["turn", "close to the peak", "fast head", "to the fold", "late start"],
+    ids=["close to the peak", "fast head", "to the fold", "late start"],
 )
 def test_a_speed_failure_is_at_the_first_instant_above_the_limit(dance, limit, start, stop):
     failure = first_failure(dance, limit, start=start, stop=stop)
@@ -59,16 +57,3 @@ def test_a_proof_that_runs_short_of_work_leaves_a_kept_limit_undecided_and_a_bro
     assert broken.kind is FailureKind.SPEED
     assert "at the latest" in broken.message
     assert trajectory(dance, broken.time).speed.max() > 1.5
-
-
-def test_a_dance_that_folds_fails_with_place_time_and_bench():
-    end = SHORT.end
-    report = check(SHORT)
-    (fold,) = report.failures
-    assert (fold.time, fold.benches, report.stop, report.highest_speed) == (end.time, (end.bench,), end.time, None)
-    head = (*trajectory(SHORT, end.time).position[0], end.theta)
-    assert (fold.head.x, fold.head.y, fold.head.theta) == pytest.approx(head, abs=PLACE_ERROR)
-    speed, fold = check(Dance(Dragon(3), Spiral()), speed_limit=5.0).failures
-    assert (speed.peak_speed, speed.peak_time) == (None, fold.time)
-    speed, fold = check(Dance(SHORT.dragon, WIDE, 1e-5), speed_limit=1e4).failures
-    assert (speed.time, speed.benches) == (fold.time, ())

@@ -2,26 +2,19 @@
 
 import math
 
-import numpy as np
 import pytest
-import shapely
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import (
-    Arc,
     Dance,
     Dragon,
     FailureKind,
     Judgement,
-    Line,
-    Outcome,
-    OutsideRun,
     Route,
     Spiral,
     Turn,
     Venue,
-    bench_outlines,
     check,
     first_contact,
     highest_speed,
@@ -29,19 +22,17 @@ from core import (
     maximum_head_speed,
     quick_check,
     sharpest_bend,
-    trajectory,
     venue_clearance,
 )
+from tests.support.random_routes import Pen
 from tests.support.random_squares import box
 from tests.support.reference import reference
-from tests.support.refused import refused
 from tests.support.shared_dances import lane, square
 
-CLEARANCE, SPEED = reference("turn")["clearance"], reference("maximum_head_speed")
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
 TURN, SQUARE = Turn(1.7), square(30)
 SHORT = Dance(Dragon(40), Spiral(1.2, 8.0))  # nothing touches, and the head folds 1.12 m from the centre
-DEFAULT, TIGHT, WIDE = (Dance(Dragon(), Spiral(pitch)) for pitch in (0.55, 0.3, 0.8))
+DEFAULT, TIGHT = (Dance(Dragon(), Spiral(pitch)) for pitch in (0.55, 0.3))
 AROUND, FEW = Dance(Dragon(), TURN), Dance(Dragon(3), Spiral())
 ALONG = Dance(Dragon(5), lane((-60, 0), (60, 0), start=60.0))
 SPAN = {"start": -100.0, "stop": 100.0}
@@ -61,18 +52,14 @@ VERDICTS = {
         "Benches 0 and 14 come within 0.05 m at 383.867583 s, with a gap of 0.050000 m.",
         "Benches 0 and 8 have no gap left at 412.473838 s, where the dance stops."]),
     "folds": (SHORT, {}, [FOLD]),
-    "folds before a later stop": (SHORT, {"stop": 500.0}, [FOLD]),
     "folds at the stop": (SHORT, {"stop": SHORT.end.time}, [FOLD]),
     "stops before the fold": (SHORT, {"stop": SHORT.end.time - 1e-3}, []),
     "misses a margin and folds": (SHORT, {"margin": 0.88}, ["Benches 0 and 37 come within 0.88 m at 0.000000 s", FOLD]),
     "touches at the start": (TIGHT, {"venue": SQUARE, "speed_limit": 2.0}, ["Benches 8 and 28 touch at 0.000000 s."]),
     "overlaps at the start": (TIGHT, {"margin": 0.2}, [
         "Benches 8 and 28 come within 0.2 m at 0.000000 s, and overlap by 0.114627 m."]),
-    "long dragon in a square": (WIDE, {"venue": SQUARE}, ["Bench 0 folds at 637.662028 s"]),
-    "long dragon before its fold": (WIDE, {"venue": SQUARE, "stop": WIDE.end.time - 10.0}, []),
     # No bend of a route is as tight as the place where the head starts.
     "in the middle": (Dance(Dragon(1), Spiral(0.55, 2.5)), {"venue": SQUARE, "stop": 0.1}, []),
-    "to the centre": (Dance(Dragon(5), Spiral(9.0, 3.0)), {}, []),
     # After the curvature exceeds that of a bend of a route.
     "post near the fold": (FEW, around(box("post", 0, 0, 0.02, 0.02), half=50), [
         "Bench 0 touches 'post' at 432.622776 s.", "Bench 0 folds at 432.917924 s"]),
@@ -98,7 +85,6 @@ VERDICTS = {
         "Bench 0 comes within 0.3 m of 'van' at -100.000000 s, and overlaps it by 1.039253 m.",
         "Handle 1 first exceeds 1.5 m/s at 14.129639 s; the highest speed is 1.604793 m/s, of handle 3 at 14.479970 s.",
         "Benches 0 and 16 come within 0.3 m at 29.940099 s, with a gap of 0.300000 m."]),
-    "meets the well": (Dance(Dragon(9), TURN), around(box("well", 6, 0, 1, 1), half=50), ["Bench 0 touches 'well' at"]),
 }  # fmt: skip
 
 
@@ -106,8 +92,8 @@ VERDICTS = {
 def test_all_failures_are_named_in_order_of_time(name):
     dance, query, sentences = VERDICTS[name]
     report = check(dance, **query)
-    messages = [failure.message for failure in report.failures]
-    assert [one[: len(words)] for one, words in zip(messages, sentences, strict=True)] == sentences
+    for failure, words in zip(report.failures, sentences, strict=True):
+        assert failure.message.startswith(words)
     times = [failure.time for failure in report.failures]
     assert times == sorted(times)
     undecided = any(failure.kind is FailureKind.UNDECIDED for failure in report.failures)
@@ -122,26 +108,6 @@ def test_a_quick_check_has_the_failures_of_the_whole_one(name):
     assert (quick.failures, quick.verdict) == (report.failures, report.verdict)
     assert (quick.start, quick.stop, quick.sharpest_bend) == (report.start, report.stop, None)
     assert not quick.venue or {area.nearest for area in quick.venue.areas} == {None}
-
-
-# -- the values of a verdict ---------------------------------------------------------------------------------
-
-
-@pytest.mark.uncompiled
-def test_the_turn_passes_with_the_reference_values():
-    start, stop = CLEARANCE["interval"]
-    report = check(AROUND, venue=SQUARE, margin=0.25, speed_limit=1.7, start=start, stop=stop)
-    assert (report.passed, report.start, report.stop) == (True, start, stop)
-    assert report.first_contact.outcome is Outcome.CLEAR
-    least, highest = report.least_clearance, report.highest_speed
-    assert (least.distance, least.time) == pytest.approx((CLEARANCE["least"], CLEARANCE["time"]), abs=REFERENCE_ERROR)
-    assert least.benches == tuple(CLEARANCE["benches"])
-    peak = SPEED["speed_ratio"], SPEED["time_at_unit_head_speed"]
-    assert (highest.speed, highest.time) == pytest.approx(peak, abs=REFERENCE_ERROR)
-    assert set(highest.handles) <= set(SPEED["handles_exactly_tied"])
-    failing = {failure.kind: failure for failure in check(AROUND, speed_limit=1.5, margin=0.3, **SPAN).failures}
-    speed = failing[FailureKind.SPEED]
-    assert (speed.peak_speed, speed.peak_time) == pytest.approx(peak, abs=REFERENCE_ERROR)
 
 
 def test_each_part_is_what_its_own_search_says():
@@ -161,22 +127,7 @@ def test_a_dance_is_judged_up_to_the_touch():
     assert (report.stop, failure.time, failure.benches) == (contact.time, contact.time, contact.benches)
     assert report.least_clearance.distance == 0.0
     assert report.sharpest_bend.time <= report.stop
-    overlapping = check(TIGHT)
-    assert overlapping.first_contact.outcome is Outcome.CONTACT_AT_START
-    assert 0.0 < overlapping.stop < 0.01
-    least = overlapping.least_clearance
-    assert (least.distance, least.at_least) == (pytest.approx(-0.114627, abs=1e-6), None)
-
-
-@pytest.mark.parametrize(("y", "passed"), [(-1.5, False), (-1.9, True)])
-def test_a_post_beside_the_benches_is_met_or_passed_before_the_fold(y, passed):
-    dance = Dance(Dragon(3), Spiral(0.8, 3.0))
-    times = dance.end.time - np.linspace(0.0, 2.0, 2_000)[1:] ** 2  # the last four seconds
-    outlines = shapely.polygons(bench_outlines(dance.dragon, trajectory(dance, times).position))
-    assert bool(shapely.distance(outlines, shapely.box(0.0, y - 0.01, 0.01, y)).min() > 0.0) is passed
-    report = check(dance, **around(box("post", 0.0, y - 0.01, 0.01, 0.01), half=50), start=dance.end.time - 4.0)
-    met = [] if passed else [FailureKind.VENUE]
-    assert [failure.kind for failure in report.failures] == [*met, FailureKind.FOLDS]
+    assert 0.0 < check(TIGHT).stop < 0.01
 
 
 @pytest.mark.parametrize("benches", [1, 2])
@@ -188,47 +139,20 @@ def test_so_few_benches_cannot_touch(benches):
 
 def test_at_the_maximum_head_speed_the_limit_is_kept_and_just_above_it_is_not():
     fastest = maximum_head_speed(Dance(Dragon(30), TURN), 2.0, start=-20.0, stop=40.0).head_speed
-    assert fastest == pytest.approx(SPEED["head_speed"], abs=REFERENCE_ERROR)
+    assert fastest == pytest.approx(reference("maximum_head_speed")["head_speed"], abs=REFERENCE_ERROR)
     for speed, passed in ((fastest, True), (fastest * (1.0 + 1e-9), False)):
         dance = Dance(Dragon(30), TURN, speed)
         assert check(dance, speed_limit=2.0, start=-20.0 / speed, stop=40.0 / speed).passed is passed
 
 
-@pytest.mark.parametrize(
-    ("field", "query"),
-    [
-        *(("margin", {"margin": value}) for value in (-0.1, math.nan)),
-        *(("speed_limit", {"speed_limit": value}) for value in (0.0, -2, math.nan, "2")),
-        ("start", {"start": math.inf}),
-        *(("stop", {"start": 5.0, "stop": stop}) for stop in (5.0, math.nan)),
-    ],
-)
-def test_broken_input_is_an_error(field, query):
-    with refused(field):
-        check(Dance(Dragon(5), TURN), **query)
-
-
-@pytest.mark.parametrize(("field", "time"), [("start", -1e4), ("stop", 1e4)])
-def test_a_time_that_the_path_does_not_have_is_an_error(field, time):
-    with refused(field, OutsideRun):
-        check(ALONG, **{field: time})
-
-
-# -- laws ----------------------------------------------------------------------------------------------------
-
-
 def winding(bends, size):
     """A dance along a line and arcs, all lengths times the size."""
-    place, heading, pieces = 0j, 0.0, [Line((-40 * size, 0), (0, 0))]
+    pen = Pen(complex(-40.0 * size))
+    pen.line(40.0 * size)
     for radius, sweep in bends:
-        turned = math.copysign(max(abs(sweep), 0.3), sweep)
-        angle = heading - math.copysign(0.5 * math.pi, turned)
-        centre = place - radius * size * complex(math.cos(angle), math.sin(angle))
-        pieces.append(Arc((centre.real, centre.imag), radius * size, angle, turned))
-        place = centre + radius * size * complex(math.cos(angle + turned), math.sin(angle + turned))
-        heading += turned
-    sizes = (size * length for length in (3.41, 2.2, 0.3, 0.275))
-    return Dance(Dragon(12, *sizes), Route(pieces, start=40 * size), size)
+        pen.arc(radius * size, math.copysign(max(abs(sweep), 0.3), sweep))
+    dragon = Dragon(12, *(size * length for length in (3.41, 2.2, 0.3, 0.275)))
+    return Dance(dragon, Route(pen.pieces, start=40.0 * size), size)
 
 
 @settings(max_examples=15, deadline=None)

@@ -13,7 +13,6 @@ from core import (
     Legs,
     Passage,
     Spiral,
-    Venue,
     check,
     clearance_profile,
     contact_check,
@@ -21,15 +20,11 @@ from core import (
     first_contact,
     first_excess,
     highest_speed,
-    least_clearance,
     maximum_head_speed,
     sharpest_bend,
-    tolerance,
     trajectory,
-    venue_clearance,
 )
 from core.dance import Clock
-from tests.support.random_squares import box
 from tests.support.refused import refused
 from tests.support.shared_dances import square
 
@@ -79,27 +74,21 @@ def test_a_contact_is_at_the_same_place_at_the_time_of_that_place():
     contact, steady, in_passage = (first_contact(dance) for dance in (DANCE, STEADY, slow))
     assert contact.time == pytest.approx(steady.time + LATER, abs=1e-9)
     assert (contact.benches, contact.head) == (steady.benches, steady.head)
-    assert "0 m/s until 100 s" in contact.certificate.method
     assert contact_check(contact).agree
     assert DANCE.end.time == pytest.approx(STEADY.end.time + LATER, abs=1e-9)
     assert in_passage.time == pytest.approx(10.0 * steady.time, abs=1e-8)
-    for one in (contact, in_passage):
-        assert one.time_bracket[1] - one.time_bracket[0] <= 1e-9
+    assert in_passage.time_bracket[1] - in_passage.time_bracket[0] <= 1e-9
 
 
 def test_nothing_happens_in_a_pause_but_every_question_has_an_answer():
     there = DANCE.clock.steady(np.array(PAUSE["start"])).item()
+    report, swept = check(DANCE, venue=square(20), speed_limit=0.1, **PAUSE), envelope(DANCE, **PAUSE)
+    assert (report.passed, report.highest_speed.speed, report.first_contact.end.time) == (True, 0.0, PAUSE["stop"])
     gap = clearance_profile(STEADY, there).clearance
-    least, swept = least_clearance(DANCE, **PAUSE), envelope(DANCE, **PAUSE)
-    assert first_contact(DANCE, **PAUSE).end.time == PAUSE["stop"]
-    assert (least.distance, least.time) == (gap, PAUSE["start"])
+    assert (report.least_clearance.distance, report.least_clearance.time) == (gap, PAUSE["start"])
     bend = sharpest_bend(STEADY, start=there, stop=there + 1e-9)
-    assert sharpest_bend(DANCE, **PAUSE).angle == pytest.approx(bend.angle, abs=1e-9)
-    assert highest_speed(DANCE, **PAUSE).speed == 0.0
-    assert first_excess(DANCE, 1e-3, **PAUSE) is None
-    assert check(DANCE, venue=square(20), speed_limit=0.1, **PAUSE).passed
+    assert report.sharpest_bend.angle == pytest.approx(bend.angle, abs=1e-9)
     assert {"start": swept.start, "stop": swept.stop} == PAUSE
-    assert clearance_profile(DANCE, [50.0, 60.0]).clearance.tolist() == [gap, gap]
 
 
 def test_speeds_are_judged_passage_by_passage():
@@ -107,9 +96,6 @@ def test_speeds_are_judged_passage_by_passage():
     assert (result.passage, result.time) == (2, 100.0)
     assert result.speed == pytest.approx(2.0 * highest_speed(STEADY, start=20.0, stop=60.0).speed, rel=1e-12)
     assert first_excess(DANCE, 1.5, stop=300.0).time_bracket == (100.0, 100.0)
-    (failure,) = check(DANCE, speed_limit=1.5, stop=300.0).failures
-    assert (failure.kind.value, failure.time) == ("speed", 100.0)
-    assert check(DANCE, speed_limit=1.5, stop=99.0).passed
 
 
 def test_a_dance_is_played_faster_as_a_whole_until_a_passage_reaches_the_limit():
@@ -122,28 +108,12 @@ def test_a_dance_is_played_faster_as_a_whole_until_a_passage_reaches_the_limit()
     assert faster.time == pytest.approx(result.time, abs=1e-9)
 
 
-def test_a_stray_and_a_venue_are_met_at_the_time_of_their_place():
-    small = Venue(box("square", -12, -12, 18, 24))
-    ours, theirs = (
-        (
-            venue_clearance(dance, small, start=70.0 + later, stop=340.0 + later).areas[0],
-            tolerance(dance, start=340.0 + later, stop=380.0 + later),
-        )
-        for dance, later in ((DANCE, LATER), (STEADY, 0.0))
-    )
-    assert [one.time - LATER for one in ours] == pytest.approx([one.time for one in theirs], abs=1e-9)
-    assert (ours[1].stray, ours[1].benches) == (theirs[1].stray, theirs[1].benches)
-
-
 @pytest.mark.parametrize(
     ("field", "passages"),
     [
-        *(("passages.0.speed", [Passage(speed, 5.0)]) for speed in (-1.0, 1e-9)),
-        *(("passages.0", [Passage(1.0, *ends)]) for ends in ((), (5.0, 5.0))),
-        ("passages.0.until_time", [Passage(0.0, 5.0)]),
-        ("passages.0.until_s", [Passage(1.0, 0.0)]),
+        ("passages.0.speed", [Passage(1e-9, 5.0)]),
+        ("passages.0", [Passage(1.0, 5.0, 5.0)]),
         ("passages.1.until_s", [Passage(1.0, 5.0), Passage(2.0, 5.0)]),
-        ("passages.1.until_time", [Passage(0.5, 5.0), Passage(0.0, until_time=9.0)]),
         ("passages.1", [Passage(1.0, 5.0), 3.0]),
         ("passages", [Passage(1.0, 5.0)] * 1001),
         ("passages", "slow"),

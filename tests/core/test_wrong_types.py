@@ -1,12 +1,13 @@
-"""Every public function of core refuses a value of a wrong type by the name of its parameter."""
+"""Every public function of core refuses a value of a wrong type, or a number out of range, by its parameter's name."""
 
+import math
 from itertools import product
 
 import pytest
 
 import core
-from core import Dragon, InvalidValue, Spiral
-from tests.support.public_calls import CALLS, COLUMN, DANCE, DRAGON, POSES, SPIRAL
+from core import BenchDragonError, Dragon, InvalidValue
+from tests.support.public_calls import CALLS, DANCE, DRAGON, SPIRAL
 from tests.support.refused import refused
 
 # What a refusal writes before the name of a parameter, as part of the whole.
@@ -55,8 +56,18 @@ NONE_REFUSED |= {
 }
 
 
+# Numbers that may be negative, and that may be zero; none may be infinite or huge.
+SIGNED = "start least start_angle sweep heading start_curvature end_curvature rotation start_heading end_heading"
+ZERO = "reach margin stray dragon length_error pitch_error lateral forward hole pin ends overhang end_turns"
+
+
 def words_of(call):
     return getattr(call, "__qualname__", str(call))
+
+
+def name_of(call, name):
+    """How a refusal's field begins."""
+    return RENAMED.get((call, name), (BEFORE.get(call) or BEFORE.get((call, name), "")) + name)
 
 
 def test_every_public_function_is_called():
@@ -71,10 +82,22 @@ def test_a_wrong_type_is_refused_by_name(call):
         none_taken = kind == "nothing" and name in DEFAULTS.split() and (call, name) not in NONE_REFUSED
         if none_taken or (kind, name) in ALLOWED:
             continue
-        before = BEFORE.get(call) or BEFORE.get((call, name), "")
         with pytest.raises(InvalidValue) as caught:
             call(**{**CALLS[call], name: wrong})
-        assert caught.value.field.startswith(RENAMED.get((call, name), before + name)), f"{kind} as {name}"
+        assert caught.value.field.startswith(name_of(call, name)), f"{kind} as {name}"
+
+
+@pytest.mark.parametrize("call", CALLS, ids=words_of)
+def test_a_number_out_of_range_is_refused_by_name(call):
+    for name, value in CALLS[call].items():
+        if type(value) not in (int, float):
+            continue
+        signed = name in SIGNED.split() or (call, name) == (core.safe_delay, "stop")
+        zero = signed or name in ZERO.split() or (call, name) == (core.Coil, "start_turns")
+        for number in (math.nan, math.inf, 1e300, -1e300, *[-1e-3] * (not signed), *[0.0] * (not zero)):
+            with pytest.raises(BenchDragonError) as caught:
+                call(**{**CALLS[call], name: number})
+            assert caught.value.field == name_of(call, name), f"{number} as {name}"
 
 
 SUBJECTS = {"dance": "Dance", "dragon": "Dragon", "contact": "FirstContact", "minimum": "MinimumPitch"}
@@ -114,27 +137,10 @@ def test_a_performance_is_sent_to_the_question_about_several_dragons(one, severa
 def test_a_right_dance_keeps_the_words_of_python():
     with pytest.raises(TypeError, match="takes 1 positional argument but 2 were given"):
         core.first_contact(DANCE, 0.55)
-    with pytest.raises(TypeError, match="missing 1 required positional argument: 'dance'"):
-        core.first_contact()
 
 
-@pytest.mark.parametrize("engine", ["sat", None, 3])
-def test_an_unknown_engine_is_refused(engine):
-    with refused("engine"):
-        core.overlaps(POSES, COLUMN, COLUMN, engine=engine)
-
-
-@pytest.mark.parametrize("times", [["1"], [None], [True], [[0.0]], [0j]])
+@pytest.mark.parametrize("times", [["1"], [True], [[0.0]]])
 def test_times_are_numbers_and_never_read_from_something_else(times):
     with pytest.raises(InvalidValue) as caught:
         core.trajectory(DANCE, times)
     assert caught.value.field.startswith("times")
-
-
-@pytest.mark.parametrize(
-    ("words", "path"),
-    [("a Dragon", DRAGON), ("the class Spiral", Spiral), ("0.55", 0.55), ("None", None), ("'spiral'", "spiral")],
-)
-def test_a_message_names_the_type_of_a_wrong_object_and_shows_a_plain_value(words, path):
-    with pytest.raises(InvalidValue, match=f"^path must be a Spiral or a Route, got {words}$"):
-        core.Dance(DRAGON, path)
