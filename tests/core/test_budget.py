@@ -54,12 +54,10 @@ LARGER = {
     core.clearance_profile: {"dance": SPIRAL, "times": [0.0, 9.0, 100.0]},
     core.cross_check: SIZED,
     core.first_contact: {"dance": SPIRAL},
-    core.least_clearance: {"dance": SPIRAL},
     core.minimum_pitch: {"dragon": Dragon(30)},
     core.overlaps: SIZED,
     core.pitch_check: {"minimum": minimum_pitch(Dragon()), "dragon": Dragon()},
     core.quickest_turn: {"dragon": Dragon(6), "pitch": 1.7},
-    core.tolerance: {"dance": SPIRAL, "venue": square(30), "stop": 50.0},
     core.venue_clearance: {"dance": SPIRAL, "venue": square(30), "stop": 50.0},
 }
 QUESTIONS = {
@@ -93,7 +91,7 @@ def test_a_number_is_no_budget(name):
 
 @pytest.mark.parametrize("work", [-1.0, math.nan, "many"])
 def test_work_is_zero_or_more(work):
-    with pytest.raises(ValueError, match=f"^work must be .* got {work!r}".replace(".0", "")):
+    with pytest.raises(ValueError, match="^work must be"):
         Budget(work)
     assert Budget(0.0).left == 0.0
 
@@ -156,25 +154,18 @@ def test_a_long_question_ends_soon_after_another_thread_stopped_it(name, after):
         stopped.append(time.process_time())
         budget.stop()
 
+    def ask():
+        while True:  # once more where the machine answers before it is stopped
+            LONG_QUESTIONS[name](budget=budget)
+
     timer = threading.Timer(after, stop)
     timer.start()
     with pytest.raises(TooMuchWork) as caught:
-        while True:  # once more where the machine answers before it is stopped
-            LONG_QUESTIONS[name](budget=budget)
+        ask()
     late = time.process_time() - stopped[0]
     timer.join()
     assert caught.value.stopped
     assert late < ENDS_WITHIN, f"it computed for {late:.3f} s after it was stopped"
-
-
-def test_a_budget_may_be_larger_or_smaller_than_a_question_has_by_itself(monkeypatch):
-    budget = Budget(WHOLE)
-    result = minimum_pitch(Dragon(20), budget=budget)
-    spent = WHOLE - budget.left
-    monkeypatch.setattr(core.design.ways, "PITCH_WORK", 0.5 * spent)
-    with pytest.raises(TooMuchWork):
-        minimum_pitch(Dragon(20))
-    assert every_digit(minimum_pitch(Dragon(20), budget=Budget(2.0 * spent))) == every_digit(result)
 
 
 @pytest.mark.thorough

@@ -1,6 +1,5 @@
 """Displays of every public value in a console and in a notebook: short, with units, and escaped."""
 
-import math
 import pickle
 import typing
 from dataclasses import fields, is_dataclass, replace
@@ -15,7 +14,6 @@ from core import Arc, Area, Coil, Dance, Dragon, Line, Route, Spiral, Turn, Venu
 from core.display import Readable, WithArrays, display, format_range, units_of
 from core.errors import BenchDragonError
 from tests.support.public_calls import CALLS
-from tests.support.random_squares import closed
 from tests.support.shared_dances import lane, square, there_and_back
 
 # A line of a console and a half: nothing public is longer [characters].
@@ -51,11 +49,9 @@ def results():
 
 
 INPUTS = [
-    Dragon(),
     Dragon(benches=1, overhang=0.0),
     Dragon.of([3.0, 2.0, 4.0], [0.3, 0.2, 0.3], [0.2, 0.1, 0.2]),
     Dragon(2).named(["Zhou", ""]),
-    Spiral(pitch=0.8),
     Spiral(centre=(7.0, -2.0), clockwise=False),
     core.Passage(0.5, until_s=20.0),
     core.Stray(0.02, 0.055, 0.05),
@@ -66,7 +62,6 @@ INPUTS = [
     Arc((0.0, 0.0), 4.5, 0.25, -1.5),
     Coil(0.55, 3.0, 2.0),
     Waypoints(((0.0, 0.0), (6.0, 1.0), (11.0, 6.0)), start_heading=0.5),
-    Dance(Dragon(3), Spiral(), head_speed=0.5),
     Dance(Dragon(3), Spiral(), passages=(core.Passage(0.5, until_s=20.0),)),
 ]
 
@@ -122,8 +117,7 @@ def test_results_with_the_same_numbers_are_equal(values):
         if isinstance(value, WithArrays):
             with pytest.raises(TypeError, match="unhashable"):
                 hash(value)
-    one, *others = (core.trajectory(DANCE, times) for times in ([0.0], [1.0], [0.0, 0.0]))
-    assert one not in others
+    assert core.trajectory(DANCE, [0.0]) != core.trajectory(DANCE, [1.0])
 
 
 def test_every_value_has_one_short_line_and_a_table(values):
@@ -154,30 +148,18 @@ def spent():
 
 
 LINES = {
-    "<RunEnd: reason fold, time 432.917924 s, theta 14.7346193 rad, bench 0>": lambda: DANCE.end,
-    "<FirstContact: benches 0 and 8 touch at 412.473838 s>": lambda: core.first_contact(DANCE),
     "<FirstContact: benches 0 and 14 come within 0.05 m at 383.867583 s>": lambda: core.first_contact(
         DANCE, margin=0.05
     ),
-    "<FirstContact: no two benches touch until 100 s>": lambda: core.first_contact(DANCE, stop=100.0),
     "<FirstContact: no two benches touch until 637.662028 s, where bench 0 folds>": lambda: core.first_contact(
         Dance(Dragon(), Spiral(0.8))
     ),
     "<Trajectory: 1 instant at 300 s; 224 handles, 0.99647754 to 1 m/s>": lambda: core.trajectory(DANCE, 300.0),
-    "<Trajectory: 0 instants; 224 handles>": lambda: core.trajectory(DANCE, []),
     "<MinimumPitch: 0.450337393 m, limited by graze of benches 0 and 19; proven for every larger pitch>": lambda: (
         core.minimum_pitch(Dragon())
     ),
-    "<HighestSpeed: speed 1 m/s, time 0 s, handles 0>": lambda: core.highest_speed(DANCE, stop=10.0),
-    "<Budget: the default work of each question>": core.Budget,
-    "<Budget: no limit, brief>": lambda: core.Budget(math.inf, brief=True),
     "<Budget: 7 of 10 steps of work left, stopped>": spent,
-    "<Report: passes, judged from 0 to 10 s>": lambda: core.check(DANCE, stop=10.0),
     "<Waypoints: 1000 points from (0.0, 0.0) to (999.0, 9980.01) m>": lambda: CURVE,
-    "<Separation: 1 m>": lambda: core.separation([0, 0, 0], [2, 1], [3, 0, 0], [2, 1]),
-    "<Route: 40 pieces (Line, Line, Line, Line, ...), s from -2.5 to 37.5 m>": lambda: Route(
-        [Line((float(k), 0.0), (k + 1.0, 0.0)) for k in range(40)], start=2.5
-    ),
 }
 
 
@@ -188,13 +170,11 @@ def test_a_line_says_what_was_found_with_its_unit(line):
 
 def test_a_table_has_every_field_with_its_unit_and_both_ends_of_a_bracket():
     contact = core.first_contact(DANCE)
-    fastest = core.highest_speed(Dance(Dragon(9), Turn(1.7)), start=0.0, stop=30.0)
     low, high = (f"{end:.15g}" for end in contact.time_bracket)
     assert low != high
     rows = {"time": "412.473837682115 s", "benches": "0, 8", "margin": "0 m", "time bracket": f"{low}, {high} s"}
     for name, text in rows.items():
         assert f'<tr><th scope="row">{name}</th><td>{text}</td></tr>' in contact._repr_html_()
-    assert '<tr><th scope="row">handles</th><td>3, 4, 5, 6, 7</td></tr>' in fastest._repr_html_()
 
 
 def test_zero_has_no_sign_and_an_unknown_bound_is_called_so():
@@ -210,8 +190,7 @@ def test_a_name_in_a_table_is_escaped():
 
 def test_a_table_of_many_pieces_or_points_stays_small():
     route = Route([Line((float(x), 0.0), (x + 1.0, 0.0)) for x in range(300)])
-    pond = Area("pond", (closed([(20.0 * math.cos(k / 80.0), 20.0 * math.sin(k / 80.0)) for k in range(500)]),))
-    for value, words in ((route, "<td>294</td>"), (pond, "and 495 more")):
+    for value, words in ((route, "<td>294</td>"), (CURVE, "and 994 more")):
         table = value._repr_html_()
         assert len(table) < 1_000
         assert words in table
@@ -221,4 +200,3 @@ def test_a_bracket_stands_in_one_line_only_where_its_ends_differ():
     highest = core.highest_speed(DANCE, stop=10.0)
     assert "bracket" not in repr(replace(highest, speed_bracket=(1.0, 1.0 + 1e-12)))
     assert "speed bracket 1, 2 m/s" in repr(replace(highest, speed_bracket=(1.0, 2.0)))
-    assert "speed bracket" in highest._repr_html_()

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from core.error_free import paired, two_product, two_sum
+from core.error_free import two_product, two_sum
 
 NUMBERS = np.random.default_rng(3)
 A, B = (NUMBERS.uniform(-1.0, 1.0, 200) * 10.0 ** NUMBERS.integers(-12, 12, 200) for _ in range(2))
@@ -22,8 +22,3 @@ def test_nothing_is_lost_of_numbers_and_arrays(operation, exact) -> None:  # typ
         assert Fraction(high) + Fraction(low) == exact(Fraction(a), Fraction(b))
         assert operation(a, b) == (high, low)
     assert np.count_nonzero(lows) > 100
-
-
-def test_a_pair_holds_a_number_and_what_it_has_lost() -> None:
-    assert paired(np.array([1.0, 2.0]), np.array([1e-20, 0.0])).tolist() == [[1.0, 1e-20], [2.0, 0.0]]
-    assert paired(np.array([3.0])).tolist() == [[3.0, 0.0]]

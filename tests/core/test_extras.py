@@ -18,12 +18,8 @@ TRAJECTORY, PROFILE, CONTACT = trajectory(DANCE, 0.0), clearance_profile(DANCE, 
     ("package", "extra", "ask"),
     [
         ("pandas", "data", TRAJECTORY.to_dataframe),
-        ("pandas", "data", PROFILE.to_dataframe),
         ("polars", "polars", TRAJECTORY.to_polars),
-        ("xarray", "data", TRAJECTORY.to_xarray),
         ("xarray", "data", PROFILE.to_xarray),
-        ("matplotlib", "figures", TRAJECTORY.plot),
-        ("matplotlib", "figures", PROFILE.plot),
         ("matplotlib", "figures", CONTACT.plot),
     ],
 )

@@ -1,7 +1,6 @@
 """The compiled loops against the same files uncompiled: to the last bit, through the questions of core that use any."""
 
 import ast
-import re
 import subprocess
 import sys
 from functools import cache
@@ -110,26 +109,6 @@ def test_compiled_file_is_not_older_than_its_source(module):
     sources = (SOURCES / f"{module}.py", SOURCES / f"{module}.pxd", *(SOURCES / f"{name}.pxd" for name in NAMES))
     assert compiled.suffix != ".py", "all modules are compiled, or none"
     assert compiled.stat().st_mtime >= max(source.stat().st_mtime for source in sources), "run make setup"
-
-
-@pytest.mark.parametrize("module", COMPILED)
-def test_modules_take_the_same_from_each_other_compiled_and_uncompiled(module):
-    declared = (SOURCES / f"{module}.pxd").read_text(encoding="utf-8")
-    compiled = {
-        (source, name)
-        for source, names in re.findall(r"^from (core\.\S+) cimport (.+)$", declared, re.MULTILINE)
-        for name in names.split(", ")
-    }
-    uncompiled = {
-        (str(node.module), name.name)
-        for node in ast.walk(ast.parse((SOURCES / f"{module}.py").read_text(encoding="utf-8")))
-        if isinstance(node, ast.ImportFrom) and str(node.module).startswith("core.")
-        if node.module != "core.kernels.results"  # values of Python, compiled or not
-        for name in node.names
-    }
-    types = {(source, name) for source, name in compiled if name[0].isupper() and not name.isupper()}
-    assert uncompiled <= compiled
-    assert compiled - uncompiled <= types  # which the compiler alone must know
 
 
 STUB = ast.parse((SOURCES / "__init__.pyi").read_text(encoding="utf-8"))

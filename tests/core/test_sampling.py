@@ -20,12 +20,6 @@ def test_a_border_lies_in_its_bracket(border, width, relative):
     assert high - low <= width + relative * abs(high) or math.nextafter(low, math.inf) == high
 
 
-def test_without_a_width_the_ends_are_neighbouring_numbers():
-    low, high = bisect(lambda x: x * x >= 2.0, 0.0, 2.0)
-    assert math.nextafter(low, 2.0) == high
-    assert low * low < 2.0 <= high * high
-
-
 def test_a_search_that_is_given_up_keeps_the_bracket_so_far_and_another_middle_is_asked():
     tried = []
 

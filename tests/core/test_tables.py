@@ -13,23 +13,20 @@ SCAN = pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 3), start_turns=8.0)
 
 def test_a_trajectory_has_one_row_for_each_time_and_handle_and_knows_its_units():
     frame = MOTION.to_dataframe()
-    units = {
-        "time": "s", "handle": "", "x": "m", "y": "m", "velocity_x": "m/s", "velocity_y": "m/s", "speed": "m/s",
-    }  # fmt: skip
+    units = {"time": "s", "handle": "", "x": "m", "y": "m"} | dict.fromkeys(
+        ["velocity_x", "velocity_y", "speed"], "m/s"
+    )
     assert (list(frame), frame.attrs["units"], len(frame)) == ([*units], units, len(TIMES) * 6)
     row = frame[(frame.time == 60.0) & (frame.handle == 4)].iloc[0].to_list()
     assert row == [60.0, 4.0, *MOTION.position[1, 4], *MOTION.velocity[1, 4], MOTION.speed[1, 4]]
-    alone = INSTANT.to_dataframe()
-    assert (alone.handle.to_list(), set(alone.time)) == ([0, 1, 2, 3, 4, 5], {60.0})
+    assert INSTANT.to_dataframe().handle.to_list() == [0, 1, 2, 3, 4, 5]
 
 
 def test_axes_of_a_trajectory_have_names_and_one_instant_no_axis_of_time():
     dataset = MOTION.to_xarray()
     assert dataset.position.dims == ("time", "handle", "axis")
-    assert dataset.speed.sel(time=60.0, handle=4).item() == MOTION.speed[1, 4]
     assert dataset.velocity.sel(time=120.0, axis="y").values.tolist() == MOTION.velocity[2, :, 1].tolist()
-    units = {name: dataset[name].attrs["units"] for name in ("time", "position", "velocity", "speed")}
-    assert units == {"time": "s", "position": "m", "velocity": "m/s", "speed": "m/s"}
+    assert [dataset[name].attrs["units"] for name in ("time", "position", "speed")] == ["s", "m", "m/s"]
     alone = INSTANT.to_xarray()
     assert (dict(alone.sizes), alone.time.item()) == ({"handle": 6, "axis": 2}, 60.0)
 
@@ -40,7 +37,6 @@ def test_a_clearance_profile_is_a_table(times):
     frame, dataset = result.to_dataframe(), result.to_xarray()
     columns = np.column_stack([np.ravel(times), np.ravel(result.clearance), result.benches.reshape(-1, 2)])
     assert frame[["time", "clearance", "bench_a", "bench_b"]].to_numpy().tolist() == columns.tolist()
-    assert np.array_equal(dataset.clearance, result.clearance)
     assert np.array_equal(dataset.benches.sel(pair="b"), result.benches[..., 1])
     assert dataset.clearance.attrs["units"] == frame.attrs["units"]["clearance"] == "m"
 

@@ -16,8 +16,6 @@ RESULTS = [
     core.course(core.Route([core.Line((0, 0), (9, 0))]), core.Dragon(2)),
     core.Dragon.of([3, 2], [1, 1], [0, 0]),
     core.Line((0, 0), (9, 0)),
-    core.Arc((0, 0), 4, 0, 1),
-    core.Spiral(centre=(1, 2)),
 ]
 
 

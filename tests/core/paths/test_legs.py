@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
-from core import Dragon, InvalidValue, Legs, Route, Waypoints, course
+from core import InvalidValue, Legs, Route, Waypoints
 from tests.support.near import assert_near
 from tests.support.refused import refused
 
@@ -66,13 +66,3 @@ def test_what_cannot_be_drawn_is_refused_by_its_place(points, straight, field):
 def test_a_curve_that_turns_on_the_spot_is_refused_by_its_points():
     with pytest.raises(InvalidValue, match=r"^path\.points .* 1 and 2$"):
         Legs([(0.0, 0.0), (20.0, 0.0), (0.0, 0.0)], [0], end_heading=math.pi)
-
-
-def test_a_bend_is_too_tight_where_its_radius_is_below_what_the_longest_bench_needs():
-    tight, wide = (course(Legs(CORNER, [0, 1], radius=radius), Dragon(9)) for radius in (1.40, 1.45))
-    assert wide.bends == ()
-    (bend,) = tight.bends
-    assert_near([bend.start, bend.end, bend.radius], [18.6, 18.6 + 0.7 * math.pi, 1.4], ON_THE_PATH)
-    assert bend.bench == 0
-    assert 1.40 < bend.least_radius < 1.45
-    assert np.hypot(*(bend.points - (18.6, 1.4)).T) == pytest.approx(1.4)
