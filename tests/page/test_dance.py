@@ -28,15 +28,6 @@ SHADES = "c => new Set(new Uint32Array(c.getContext('2d').getImageData(0, 0, c.w
 LIMITS = """() => Object.fromEntries([...document.querySelectorAll(".field")].map((one) =>
   [one.dataset.field, [one.querySelector("[id$=-limits]").textContent, one.querySelector(".unit").textContent]]))"""
 ALL_OPEN = "document.querySelectorAll('#answers details').forEach((one) => (one.open = true))"
-# A message, and the same one after the language was changed.
-MESSAGE = """async () => {
-  const status = document.querySelector("#status");
-  document.querySelector("#copy-address").click();
-  while (!status.textContent) await new Promise(requestAnimationFrame);
-  const first = status.textContent;
-  document.querySelector("[data-lang=zh]").click();
-  return [first, status.textContent];
-}"""
 # The hand does not rest: what the page does after a pause of input waits for rest().
 HELD = """() => {
   const { setTimeout } = window;
@@ -48,10 +39,6 @@ HELD = """() => {
     };
     return -1;
   };
-}"""
-ON_TOP = """(one) => {
-  const { x, y, width, height } = one.getBoundingClientRect();
-  return one.contains(document.elementFromPoint(x + width / 2, y + height / 2));
 }"""
 # Three instants that the clock shows one after another.
 THREE = """() => new Promise((resolve) => {
@@ -117,8 +104,6 @@ def test_the_first_view_shows_the_contact_its_proof_and_how_every_answer_is_know
     assert person.at("#canvas").evaluate(SHADES) > 40
     assert polite.get(server).headers["content-security-policy"] == POLICY
     assert person.ask(INLINE) == 0
-    both = ("Copied", "已复制"), ("The browser did not allow copying", "浏览器不允许复制")
-    assert tuple(person.ask(MESSAGE)) in both
 
 
 def test_limits_and_units_are_the_services_own(visit: Any, server: str) -> None:
@@ -147,18 +132,10 @@ def test_a_dragged_number_has_the_answers_of_the_service_and_the_engines_judge_a
     assert contacts
     assert all("cross_check=pair" in url for url in contacts)
     assert ["cross_check=pair" in url for url in (minima[0], minima[-1])] == [True, False]
-    slider = person.at("#controls input[type=range]")
-    box = slider.bounding_box()
-    person.page.mouse.move(box["x"] + 0.147 * box["width"], box["y"] + box["height"] / 2)
-    person.page.mouse.down()
-    person.page.mouse.move(box["x"] + 0.09 * box["width"], box["y"] + box["height"] / 2, steps=6)
-    person.page.mouse.up()
-    assert float(person.at("#pitch").input_value()) < 0.5
-    slider.fill("0.449")
-    slider.press("ArrowRight")
+    person.types({"#pitch": "0.45"}, "Tab")
     answer = collision_time(server, pitch=0.45, benches=40, width=0.295)
     time = f"{answer['time']:.6f} s"
-    person.holds({"#pitch": "0.45"}).sees(dict.fromkeys(("#first-contact .value", "#clock", "#table-time"), time))
+    person.sees(dict.fromkeys(("#first-contact .value", "#clock", "#table-time"), time))
     person.sees({"#rows tbody tr:not([hidden])": f"{answer['head']['x']:.6f}"}).settles()
     # The chart of the clearance and the dance have one time.
     plot = person.box("#clearance .u-over")
@@ -166,11 +143,6 @@ def test_a_dragged_number_has_the_answers_of_the_service_and_the_engines_judge_a
     person.settles()
     assert clock(person) == pytest.approx(answer["time"] / 2, rel=0.02)
     person.sees({"#table-time": person.text("#clock")})
-    places = []
-    for key, time in (("End", f"{answer['time']:.6f} s"), ("Home", "0.000000 s")):
-        person.at("#time").press(key)
-        places.append(person.reads({"#clock": time}).box("#clearance .now")["x"])
-    assert places[0] - places[1] == pytest.approx(plot["width"], abs=plot["width"] / 50)
 
 
 def test_the_dance_plays_to_the_contact_and_its_rows_stay_under_the_mouse(visit: Any, server: str) -> None:
@@ -185,40 +157,28 @@ def test_the_dance_plays_to_the_contact_and_its_rows_stay_under_the_mouse(visit:
     person.presses("#back").reads({"#clock": f"{time - 1:.6f} s"}).sees({"#inset": False})
 
 
+FOLD = "?benches=40&pitch=1.2&start_turns=8"
 VERDICTS = {
-    "?benches=40&pitch=1.2&start_turns=8": ("folds", "!", "undecided", "The dragon folds at 238.214985 s"),
-    "?benches=5&pitch=9&start_turns=3": ("clear", "✓", "clear", "Nothing touches"),
-    "?benches=5&pitch=9&start_turns=3&margin=0.1": ("clear", "✓", "clear", "Never within 0.1 m"),
-    "?benches=20&margin=0.05": ("contact", "✕", "contact", "Within 0.05 m at "),
-    "?benches=40&margin=0.2": ("contact_at_start", "✕", "contact", "Within 0.2 m from the start on"),
+    FOLD: ("folds", "!", "undecided"),
+    "?benches=5&pitch=9&start_turns=3&margin=0.1": ("clear", "✓", "clear"),
+    "?benches=20&margin=0.05": ("contact", "✕", "contact"),
+    "?benches=40&margin=0.2": ("contact_at_start", "✕", "contact"),
 }
 
 
 def test_a_dance_passes_in_green_alone_and_a_fold_is_as_clear_as_a_contact(visit: Any, server: str) -> None:
-    for query, (outcome, mark, tone, words) in VERDICTS.items():
+    for query, (outcome, mark, tone) in VERDICTS.items():
         person = visit(query)
-        person.sees({f"#first-contact[data-outcome={outcome}] .value": re.compile(f"^{mark} ?{re.escape(words)}")})
+        person.sees({f"#first-contact[data-outcome={outcome}] .value": re.compile(f"^{mark} ?.+")})
         probe = "name => getComputedStyle(document.body).getPropertyValue(`--${name}`).trim()"
         colour = person.ask(probe, tone)
         rgb = f"rgb({', '.join(str(int(colour[k : k + 2], 16)) for k in (1, 3, 5))})"
         expect(person.at("#first-contact .value")).to_have_css("color", rgb)
-    person = visit(next(iter(VERDICTS)))
-    end = collision_time(server, benches=40, pitch=1.2, start_turns=8)["end"]
-    time = f"{end['time']:.6f} s"
-    person.sees(
-        {
-            "#first-contact": "The dance fails there, where the head can no longer follow the spiral.",
-            "#run-end": "head cannot follow any more: the chain folds.",
-            "#highest-speed .value": "Grows without bound",
-            "#table-time": f"Handles 1e-6 s before the fold at {time}",
-            "#table-fold": f"Just before the fold at {time}: towards it the speeds grow without bound.",
-            "#legend": "m/s → ∞",
-            "#inset": False,
-        }
-    )
-    person.speaks("zh").sees(
-        {"#first-contact": [f"{time} 时队伍折叠", "舞龙在此失败"], "#table-fold": f"即将在 {time} 折叠"}
-    )
+    person = visit(FOLD)
+    time = f"{collision_time(server, benches=40, pitch=1.2, start_turns=8)['end']['time']:.6f} s"
+    places = "#first-contact", "#table-time", "#table-fold"
+    person.sees({**dict.fromkeys(places, time), "#legend": "m/s → ∞", "#inset": False})
+    person.speaks("zh").sees({"#first-contact": [f"{time} 时队伍折叠", "舞龙在此失败"]})
 
 
 @thorough
@@ -231,27 +191,22 @@ def test_overlaps_margins_and_undecided_searches_are_told_in_both_languages(visi
             for place in ("#first-contact p:not(.old, .value)", "#inset figcaption", "#clearance .reading"):
                 assert not re.search(r"[-−]\d+\.\d+ mm", person.speaks(language).sees({place: words}).text(place))
     # With a margin no answer speaks of a touch; with this one no turn can begin on the circle, as it then says.
-    for query in ("benches=12&margin=0.2", "path=turn&benches=20&margin=0.35"):
-        person, margin = visit(f"?{query}", failing=True), query.rpartition("=")[2]
-        for language, near in (("en", f"ithin {margin} m"), ("zh", f"间距不超过 {margin} m")):
-            person.speaks(language).sees(dict.fromkeys(("#first-contact h3", "#inset figcaption", "#scan .hint"), near))
-            person.ask(ALL_OPEN)
-            # The stray at which benches touch is another question, which knows no margin.
-            for place in (".answer:not(#tolerance, [hidden])", "#inset figcaption", "#scan", "#clearance"):
-                assert not TOUCHING.search(" ".join(person.texts(place)))
+    person = visit("?path=turn&benches=20&margin=0.35", failing=True)
+    for language, near in (("en", "ithin 0.35 m"), ("zh", "间距不超过 0.35 m")):
+        person.speaks(language).sees(dict.fromkeys(("#first-contact h3", "#inset figcaption", "#scan .hint"), near))
+        person.ask(ALL_OPEN)
+        # The stray at which benches touch is another question, which knows no margin.
+        for place in (".answer:not(#tolerance, [hidden])", "#inset figcaption", "#scan", "#clearance"):
+            assert not TOUCHING.search(" ".join(person.texts(place)))
     # One event has one time.
-    person = visit(next(iter(VERDICTS)))
-    text = " ".join(person.text(place) for place in ("#answers", "#handles", "#dance", "#charts"))
+    text = " ".join(visit(FOLD).text(place) for place in ("#answers", "#handles", "#dance", "#charts"))
     assert set(re.findall(r"238\.2149\d*", text)) == {"238.214985"}
     pitch = minimum_pitch(Dragon(60)).pitch_bracket[1] - BORDER_WIDTH
-    known = r"Proven clear up to 216\.338\d* s; .+ and .+ meet at 226\.780\d* s at the latest\."
-    person = visit(f"?benches=60&pitch={pitch!r}").sees({"#first-contact[data-outcome=undecided]": True})
-    assert re.search(known, person.text("#first-contact"))
+    person = visit(f"?benches=60&pitch={pitch!r}").sees(
+        {"#first-contact[data-outcome=undecided]": ["216.338", "226.78"]}
+    )
     # The answer, with its details, is replaced when the words of the proof have loaded.
-    person.speaks("zh").sees({"#first-contact": "最迟在 226.780"})
-    proof = person.page.locator("#first-contact .method", has_text="之前无法判定，届时")
-    proof.wait_for(state="attached")
-    assert not re.search("[a-z]{4,}", proof.text_content())
+    person.speaks("zh").page.locator("#first-contact .method", has_text="之前无法判定，届时").wait_for(state="attached")
 
 
 def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: Any, server: str) -> None:
@@ -265,26 +220,11 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: A
     )
     time, gap, safe = f"{contact['time']:.6f} s", f"{1000 * contact['gap']:.3f} mm", int(1e4 * free["stray"]) / 100
     person.ask(ALL_OPEN)
-    person.sees(
-        {
-            "#first-contact": ["everybody within 2 cm of their place", f"May touch from {time}", gap],
-            "#first-contact dl": "nothing can touch up to",
-            "#minimum-pitch": ["everybody within 2 cm of their place", pitch, "no two benches can touch, at every"],
-            "#tolerance": [f"everybody may be {safe:.2f} cm from their place", f"at {free['time']:.6f} s"],
-            "#tolerance dl": f"nothing touches up to {low}; a pose with {high} overlaps",
-            "#inset figcaption": ["is nearest to", gap],
-            "#clearance .hint": "from then on two may touch",
-        }
-    )
-    assert not SURE.search(person.text("#first-contact"))
-    person.speaks("zh").sees(
-        {
-            "#first-contact": ["首次碰撞（每人离位不超过 2 cm）", f"{time} 起可能相碰", gap],
-            "#minimum-pitch": [pitch, "任何两节板凳都不可能相碰"],
-            "#tolerance": f"每人随时都可离位 {safe:.2f} cm",
-        }
-    )
-    assert not SURE.search(person.text("#first-contact"))
+    person.sees({"#tolerance dl": f"up to {low}; a pose with {high} overlaps", "#inset figcaption": gap})
+    for language, words in (("en", f"May touch from {time}"), ("zh", f"{time} 起可能相碰")):
+        person.speaks(language).sees({"#first-contact": [words, "2 cm", gap], "#minimum-pitch": pitch})
+        person.sees({"#tolerance": f"{safe:.2f} cm"})
+        assert not SURE.search(person.text("#first-contact"))
     command = shlex.split(person.reaches_below().text("#curl").splitlines()[0])
     assert polite.get(command[1]).json() == contact
 
@@ -293,17 +233,7 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: A
 def test_strays_margins_and_play_stand_in_one_sentence_and_the_ground_is_drawn(visit: Any, server: str) -> None:
     time = f"{collision_time(server, benches=12, margin=0.03, stray=0.025)['time']:.6f} s"
     person = visit("?benches=12&margin=0.03&stray=0.02&hole=0.055&pin=0.045")
-    title = "First time within 0.03 m, every hole within 2.5 cm of its place"
-    person.sees({"#first-contact": [title, f"May come within 0.03 m from {time}"]})
-    person.speaks("zh").sees({"#first-contact": [f"{time} 起可能间距不超过 0.03 m", "每个孔离位不超过 2.5 cm"]})
-    body = {"dragon": {"benches": 20}, "path": {"kind": "turn", "pitch": 1.7}, "start": -100, "stop": 100}
-    free = polite.answer(server, "tolerance", body)["stray"]
-    visit("?path=turn&benches=20&stray=0.03").sees(
-        {
-            "#first-contact[data-outcome=clear]": ["Stays clear: nothing can touch", "No two benches can"],
-            "#tolerance": [f"{int(1e4 * free) / 100:.2f} cm", "In this part of the dance everybody may be"],
-        }
-    )
+    person.sees({"#first-contact": ["2.5 cm", f"May come within 0.03 m from {time}"]})
     person = visit("?benches=20&time=0&view=8,0,200").sees({"#halo": False})
     before = person.picture()
     person.types({"#stray": "5"}).sees({"#halo": True}).settles()
@@ -332,7 +262,6 @@ def test_the_turn_has_the_answers_of_the_service_and_none_of_them_stays_on_a_spi
             "#turn-time .value": f"{time['time']:.6f} s",
         }
     )
-    assert b"<svg" in person.reaches().saves("#keepContact-SVG", "first-contact.svg")
     person.at("#time").press("Home")
     contact = collision_time(server, head_speed=1.5, benches=20)["time"]
     person.reads({"#clock": f"{report['start']:.6f} s"}).presses("[data-path=spiral]")
@@ -382,20 +311,18 @@ def test_slow_charts_are_asked_for_when_somebody_scrolls_to_them_and_a_click_set
     person.sees({"#curve .uplot, #scan .uplot": 0}).looks_at("curve", "scan")
     asked = [url.partition("?")[0] for url in calls]
     assert (asked.count("pitch-scan"), asked.count("tolerance-curve")) == (2, 1)
-    assert all(person.at(f"#{kind} h2").evaluate(ON_TOP) for kind in ("curve", "scan"))
     plot = person.at("#scan .u-over")
     plot.click(position={"x": plot.bounding_box()["width"] / 4, "y": 40})
     pitch = person.at("#pitch").input_value()
     assert float(pitch) < 0.5
     time = collision_time(server, pitch=pitch, width=0.29, benches=20)["time"]
     person.sees({"#first-contact .value": f"{time:.6f} s"}).types({"#pitch": "0.55"}, "Tab").looks_at("curve")
-    before, plot = person.box("#curve .now")["x"], person.at("#curve .u-over")
+    plot = person.at("#curve .u-over")
     plot.click(position={"x": 0.9 * plot.bounding_box()["width"], "y": 20})
     pitch = person.at("#pitch").input_value()
     assert 0.8 < float(pitch) < 0.9
     free = answer_of(server, "tolerance", benches=20, pitch=pitch, width=0.29)["stray"]
-    person.sees({"#curve .reading": f"pitch {pitch} m: everybody may be {int(1e4 * free) / 100:.2f} cm from"})
-    assert person.box("#curve .now")["x"] > before + 100
+    person.sees({"#curve .reading": [pitch, f"{int(1e4 * free) / 100:.2f} cm"]})
 
 
 @thorough
@@ -443,19 +370,12 @@ def test_two_thousand_benches_are_drawn_and_listed_and_two_cannot_touch(visit: A
     body = {"dragon": {"benches": 2000}, "times": [0]}
     last = polite.answer(server, "trajectory", body)["x"][0][-1]
     person.sees({"#rows tr[data-handle='2000']": f"{last:.6f}"})
-    person = visit("?benches=2", failing=True)
-    person.sees({"#first-contact p:not(.old, .value)": "No two benches touch before."})
-    words = polite.get(f"{server}/clearance?benches=2").json()["detail"]
-    words = words.replace("benches must", "“Benches” must", 1).replace(", got 2", "; it is 2.")
-    person.sees({"#clearance .reading": words})
+    visit("?benches=2", failing=True).sees({"#clearance .reading": re.compile("“Benches” must .* it is 2\\.")})
 
 
 @thorough
 def test_a_turn_opens_at_the_pitch_of_the_contest_and_reduced_motion_moves_in_steps(open_page: Any) -> None:
     person = open_page("?path=turn&benches=20", without="**/shortest-turn*", rest=False).holds({"#pitch": "1.7"})
-    person.types({"#pitch": "1.8"}, "Tab").arrives(re.compile("pitch=1.8"))
-    person.presses("#reset-all")
-    person.holds({"#pitch": "1.7"}).arrives(re.compile("path=turn$"))
     # The figure of a dance without a contact is of the part that is shown.
     person.at("#keep").scroll_into_view_if_needed()
     request = json.loads(shlex.split(person.chooses({"#curl-of": "keepContact"}).text("#curl"))[5])
@@ -469,18 +389,11 @@ def test_a_turn_opens_at_the_pitch_of_the_contest_and_reduced_motion_moves_in_st
 def test_everything_can_be_kept_and_every_command_gives_what_the_page_shows(open_page: Any, server: str) -> None:
     person = open_page("?benches=9&pitch=0.5&start_turns=10").reaches()
     answer = collision_time(server, benches=9, pitch=0.5, start_turns=10)
-    files = {
-        "keepTrajectory-CSV": b"time,handle,x,y,speed\n",
-        "keepTrajectory-XLSX": b"PK",
-        "keepPicture-PNG": b"\x89PNG",
-    }
-    files |= {"keepInstant-PNG": b"\x89PNG", "keepContact-SVG": b"<?xml"}
-    kept = {name: person.saves(f"#{name}") for name in files}
-    assert [name for name, begin in files.items() if not kept[name].startswith(begin)] == []
-    assert kept["keepTrajectory-CSV"].count(b"\n") == 1 + 10 * (int(answer["time"]) + 1)
+    files = {"Trajectory-XLSX": b"PK", "Picture-PNG": b"\x89PNG", "Instant-PNG": b"\x89PNG", "Contact-SVG": b"<?xml"}
+    files |= {"Ground-GeoJSON": b"{"}
+    assert [name for name, begin in files.items() if not person.saves(f"#keep{name}").startswith(begin)] == []
+    assert person.saves("#keepTrajectory-CSV").count(b"\n") == 1 + 10 * (int(answer["time"]) + 1)
     assert json.loads(person.saves("#keepAnswer-JSON")) == answer
-    geometry = json.loads(person.saves("#keepGround-GeoJSON", "envelope.geojson"))
-    assert geometry["type"] in ("Feature", "FeatureCollection", "Polygon", "MultiPolygon")
     commands = []
     for option in person.all("#curl-of option").all():
         commands.append(person.chooses({"#curl-of": option.get_attribute("value")}).text("#curl"))
@@ -494,8 +407,8 @@ def test_everything_can_be_kept_and_every_command_gives_what_the_page_shows(open
     (film,) = (shlex.split(command) for command in commands if '"films"' in command)  # too long for one answer
     request = json.loads(film[-1])
     assert (film[1], request["accept"], request["question"]) == (f"{server}/jobs", "video/mp4", "films")
-    person.presses("#paper summary").sees({"#paper table": ["412.473837682 s", "The paper's rule adds angles"]})
-    person.speaks("zh").sees({"#paper table": ["首次碰撞时刻", "论文的判据把夹角相加"]})
+    person.presses("#paper summary").sees({"#paper table": "412.473837682 s"}).speaks("zh")
+    person.sees({"#paper table": "首次碰撞时刻"})
 
 
 @thorough
@@ -509,11 +422,5 @@ def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open
     person.sees(dict.fromkeys(hidden, False))
     person.sees(dict.fromkeys(("#canvas", "#pitch", "#first-contact .value", "#scan .plot"), True))
     assert {person.style(place, "backgroundColor") for place in ("#canvas", "body")} == {"rgb(255, 255, 255)"}
-    printed = []
-    for width in (800, 2200):
-        person = open_page("?benches=20&time=end", viewport={"width": width, "height": 900})
-        document = pypdfium2.PdfDocument(person.looks_at("curve", "scan").page.pdf(format="A4"))
-        printed.append([leaf.render().to_numpy().astype(int) for leaf in document])
-    for narrow, wide in zip(*printed, strict=True):
-        assert narrow.min() < 100  # it is not empty
-        assert float((abs(narrow - wide).max(axis=-1) > 60).mean()) < 0.01
+    leaves = pypdfium2.PdfDocument(person.page.pdf(format="A4"))
+    assert [leaf.render().to_numpy().min() < 100 for leaf in leaves] == [True] * len(leaves)
