@@ -1,7 +1,5 @@
 """Certificates carry a claim, and show its sentences."""
 
-from __future__ import annotations
-
 import pytest
 
 import core
@@ -12,7 +10,7 @@ from core.claims.claim import ClaimKind
 DANCE = Dance(Dragon(5), Spiral())
 
 
-def test_every_certificate_shows_the_sentences_of_its_claim() -> None:
+def test_every_certificate_shows_the_sentences_of_its_claim():
     contact, strays = core.first_contact(DANCE, stop=10.0), core.tolerance(DANCE, stop=10.0)
     for certificate in (contact.certificate, strays.certificate, core.envelope(DANCE, stop=1.0).certificate):
         assert isinstance(certificate, WithClaim)
@@ -23,14 +21,14 @@ def test_every_certificate_shows_the_sentences_of_its_claim() -> None:
         assert "method" not in repr(certificate)  # too long for a line
 
 
-def test_a_probability_has_its_claim_too() -> None:
+def test_a_probability_has_its_claim_too():
     result = core.contact_probability(DANCE, core.Wobble(), 3, 1, stop=10.0)
     assert result.claim.kind is ClaimKind.CONTACT_PROBABILITY
     assert result.claim.within == 3 - result.strayed
     assert result.method == claim_words(result.claim)
 
 
-def test_a_certificate_has_words_in_two_languages_and_in_no_other_one() -> None:
+def test_a_certificate_has_words_in_two_languages_and_in_no_other_one():
     certificate = core.first_contact(DANCE, stop=10.0).certificate
     assert certificate.in_words() == certificate.in_words("en") == certificate.method
     assert certificate.in_words("zh").startswith("5 节板凳（龙头长 3.41 m，")

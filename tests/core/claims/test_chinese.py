@@ -1,7 +1,5 @@
 """Every claim in Chinese says what it says in English."""
 
-from __future__ import annotations
-
 import re
 
 import pytest
@@ -14,7 +12,7 @@ NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
 
 @pytest.mark.parametrize(("english", "chinese"), SENTENCES.values(), ids=SENTENCES)
-def test_nothing_is_left_in_english_and_no_number_is_left_out(english: str, chinese: str) -> None:
+def test_nothing_is_left_in_english_and_no_number_is_left_out(english, chinese):
     assert not ENGLISH.search(chinese)
     # A margin counts as once: the Chinese of an undecided search says "or too near" in its place.
     assert set(NUMBER.findall(chinese)) >= set(NUMBER.findall(english)) - {"0.05"}

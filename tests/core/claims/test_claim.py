@@ -1,7 +1,5 @@
 """Claims as values: what a dance is summarised by, and what searches claim."""
 
-from __future__ import annotations
-
 import pickle
 
 import pytest
@@ -13,11 +11,11 @@ SHORT = Route([Line((0.0, 0.0), (60.0, 0.0))])
 
 
 @pytest.mark.parametrize("stray", [0.04654398712345678, 1.0 / 3.0, 0.1 + 0.2, 2.0**-20, 0.825])
-def test_a_printed_stray_is_not_above_the_one_that_is_proven(stray: float) -> None:
+def test_a_printed_stray_is_not_above_the_one_that_is_proven(stray):
     assert 0.0 <= stray - float(format_safe(stray)) <= 1.001e-12
 
 
-def test_a_dragon_is_summarised_by_its_sizes_or_by_its_extents() -> None:
+def test_a_dragon_is_summarised_by_its_sizes_or_by_its_extents():
     assert DragonSummary.of(Dragon(3)) == DragonSummary(3, (2.2, 3.41), (0.3, 0.3), 3.41, 2.2, 0.3, 0.275)
     assert DragonSummary.of(Dragon(1)) == DragonSummary(1, (3.41, 3.41), (0.3, 0.3), 3.41, None, 0.3, 0.275)
     odd = Dragon.of([3.0, 2.0, 2.5], [0.3, 0.2, 0.3], [0.2] * 3)
@@ -27,8 +25,8 @@ def test_a_dragon_is_summarised_by_its_sizes_or_by_its_extents() -> None:
     assert DragonSummary.of(wide_head).head_length is None
 
 
-def test_a_few_passages_are_listed_and_more_are_counted() -> None:
-    def summary(count: int) -> DanceSummary:
+def test_a_few_passages_are_listed_and_more_are_counted():
+    def summary(count):
         return DanceSummary.of(
             Dance(Dragon(5), Spiral(), 1.0, [Passage(1.5, until_time=k + 1.0) for k in range(count)])
         )
@@ -39,7 +37,7 @@ def test_a_few_passages_are_listed_and_more_are_counted() -> None:
     assert (more.passages, more.passage_count) == ((), PASSAGES_LISTED + 1)
 
 
-def test_a_search_claims_what_it_answers() -> None:
+def test_a_search_claims_what_it_answers():
     contact = first_contact(Dance(Dragon(30), Spiral(0.6, 8.0)), margin=0.05, start=10.0)
     claim = contact.certificate.claim
     assert (claim.kind, claim.margin, claim.stray, claim.start) == (ClaimKind.CONTACT, 0.05, 0.0, 10.0)
@@ -54,14 +52,14 @@ def test_a_search_claims_what_it_answers() -> None:
     assert (claim.kind, claim.clear_until, claim.time) == (ClaimKind.CONTACT_AT_START, None, 0.0)
 
 
-def test_a_tolerance_claims_its_stray_and_its_time() -> None:
+def test_a_tolerance_claims_its_stray_and_its_time():
     result = tolerance(Dance(Dragon(5), SHORT), start=20.0)
     claim = result.certificate.claim
     assert (claim.kind, claim.stray, claim.touches) == (ClaimKind.SAFE_STRAY, result.stray, False)
     assert (claim.start, claim.stop, claim.venue) == (20.0, result.stop, False)
 
 
-def test_a_claim_is_plain_values_that_another_process_can_have() -> None:
+def test_a_claim_is_plain_values_that_another_process_can_have():
     claims = [first_contact(Dance(dragon, SHORT), start=20.0).certificate.claim for dragon in (Dragon(5), Dragon(5))]
     assert claims[0] == claims[1]
     assert hash(claims[0]) == hash(claims[1])

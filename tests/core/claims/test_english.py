@@ -1,7 +1,5 @@
 """Every claim in English and in Chinese."""
 
-from __future__ import annotations
-
 import pytest
 
 from core import Dance, Dragon, Spiral
@@ -11,16 +9,16 @@ from tests.support.every_kind import CLAIMS, SENTENCES
 
 
 @pytest.mark.parametrize("name", CLAIMS)
-def test_a_claim_has_these_sentences(name: str) -> None:
+def test_a_claim_has_these_sentences(name):
     assert [claim_words(CLAIMS[name]), claim_words(CLAIMS[name], "zh")] == SENTENCES[name]
 
 
-def test_every_kind_of_claim_is_among_them() -> None:
+def test_every_kind_of_claim_is_among_them():
     assert {claim.kind for claim in CLAIMS.values()} == set(ClaimKind)
     assert SENTENCES.keys() == CLAIMS.keys()
 
 
-def test_numbers_have_all_their_digits_but_a_safe_stray_only_those_that_are_proven() -> None:
+def test_numbers_have_all_their_digits_but_a_safe_stray_only_those_that_are_proven():
     dance = DanceSummary.of(Dance(Dragon(5), Spiral(0.1 + 0.2, 8.0)))
     words = claim_words(StrayClaim(ClaimKind.SAFE_STRAY, dance, False, 0.0, 1.0 / 3.0, 0.0299999999999999, False, None))
     assert "0.30000000000000004 m pitch" in words

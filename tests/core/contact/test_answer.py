@@ -1,10 +1,7 @@
 """Answer of a search for first contact: its drawing, and the title that says how the search ended."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
@@ -18,7 +15,7 @@ CONTACT = first_contact(DANCE)
 
 
 @pytest.fixture
-def axes() -> Axes:
+def axes():
     return Figure().add_subplot()
 
 

@@ -1,7 +1,5 @@
 """What a search for first contact claims; the sentences of a claim are tried with those of every other kind."""
 
-from __future__ import annotations
-
 from core import Dance, Dragon, EndReason, Spiral, Turn, clearance_profile, first_contact, minimum_pitch
 from core.claims.claim import ClaimKind, DanceSummary
 

@@ -1,7 +1,5 @@
 """Clearance along time against a slow search; the least over a stretch below every sample, and proven from below."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Bounds in closed form on coils: benches are as far apart as stated."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -14,7 +12,7 @@ from core.design.deepest_turn import coils_of
 from core.shapes.rectangles import corners
 
 
-def benches_on(dragon: Dragon, pitch: float, radius: float, turned: float = 0.0) -> np.ndarray:
+def benches_on(dragon, pitch, radius, turned=0.0):
     """Polygons of the benches whose head has come to a radius of a coil, which is turned about its centre."""
     dance = Dance(dragon, Spiral(pitch, radius / pitch, rotation=turned))
     poses = bench_poses(trajectory(dance, 0.0).position)

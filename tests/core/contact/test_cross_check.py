@@ -1,7 +1,5 @@
 """Four engines on the whole dragon around a contact: they confirm found contacts, and no forged ones."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -9,7 +7,6 @@ import numpy as np
 import pytest
 
 from core import Arc, Dance, Dragon, Line, Outcome, Route, Spiral, bench_poses, first_contact, separation, trajectory
-from core.contact.answer import FirstContact
 from core.contact.cross_check import (
     CHECK_TRAVEL,
     CLOSE_MAX,
@@ -21,7 +18,6 @@ from core.contact.cross_check import (
 )
 from core.shapes.engines import Engine
 from core.shapes.overlaps import Verdict
-from core.values import Floats
 from tests.support.depth import examples
 from tests.support.scenes import unlinked_pairs
 
@@ -37,27 +33,27 @@ as_dragon_and_pair = pytest.mark.parametrize("whole", [True, False], ids=["drago
 
 
 @pytest.fixture(scope="module")
-def contact() -> FirstContact:
+def contact():
     return first_contact(DANCE)
 
 
-def sizes_of(dragon: Dragon) -> Floats:
+def sizes_of(dragon):
     return np.stack([dragon.lengths, dragon.widths], axis=-1)
 
 
-def poses_around(contact: FirstContact, travel: float) -> Floats:
+def poses_around(contact, travel):
     """Poses before and after a contact, of that travel of the head each."""
     step = travel / contact.dance.head_speed
     return bench_poses(trajectory(contact.dance, [contact.time - step, contact.time + step]).position)
 
 
-def moved(contact: FirstContact, shift: float) -> FirstContact:
+def moved(contact, shift):
     """A contact that is claimed so much later than it is [s]."""
     low, high = contact.time_bracket
     return replace(contact, time=low + shift, time_bracket=(low + shift, high + shift))
 
 
-def random_dragon(random: np.random.Generator) -> Dragon:
+def random_dragon(random):
     count = int(random.integers(10, 60))
     if random.random() < 0.5:
         body = random.uniform(1.0, 2.5)

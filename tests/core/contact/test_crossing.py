@@ -1,7 +1,5 @@
 """A path that crosses itself: a contact of the returning head with the body is found like any other."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core import (

@@ -1,7 +1,5 @@
 """Rectangles in decimals: their separation, and its axis."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal, localcontext
 
@@ -23,7 +21,7 @@ boxes = st.tuples(
 )
 
 
-def bench(x: float | str, y: float | str, heading: float, length: float | str, width: float | str) -> Bench:
+def bench(x, y, heading, length, width):
     place, (ux, uy) = (Decimal(x), Decimal(y)), map(Decimal, (math.cos(heading), math.sin(heading)))
     size = (ux * ux + uy * uy).sqrt()  # a direction in doubles has not quite the length 1
     return Bench(place, (ux / size, uy / size), Decimal(length) / 2, Decimal(width) / 2)

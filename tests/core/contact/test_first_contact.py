@@ -1,9 +1,6 @@
 """First contact: against the reference, against a slow search that shares no code, at grazes, at the edges."""
 
-from __future__ import annotations
-
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
@@ -51,7 +48,7 @@ DANCE = Dance(Dragon(), Spiral())
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("name", CASES)
 def test_every_case_of_the_reference_is_met(name):
-    case: dict[str, Any] = CASES[name]
+    case = CASES[name]
     dance = Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), case["head_speed"])
     contact = first_contact(dance)
     assert contact.outcome == case["outcome"]
@@ -69,7 +66,7 @@ def test_every_case_of_the_reference_is_met(name):
         assert contact.certificate.clear_until == contact.end.time
 
 
-def assert_as_slow_search(dance: Dance, margin: float = 0.0) -> None:
+def assert_as_slow_search(dance, margin=0.0):
     contact = first_contact(dance, margin=margin)
     slow = SlowDance.of(dance.dragon, dance.path)
     touch = slow.first_touch(margin)
@@ -184,10 +181,10 @@ BESIDE = 1e-7
 JUMP = 0.2
 
 
-def jump_between(dragon: Dragon, turns: float, low: float, high: float, margin: float) -> float:
+def jump_between(dragon, turns, low, high, margin):
     """A pitch within 1e-12 m above the largest jump of the head's radius at first contact."""
 
-    def radius(pitch: float) -> float:
+    def radius(pitch):
         contact = first_contact(Dance(dragon, Spiral(pitch, turns)), margin=margin)
         return contact.head.radius if contact.head else 0.0
 
@@ -222,7 +219,7 @@ def test_a_graze_is_met_just_below_a_jump_and_passed_just_above(dragon, turns, l
 
 
 @cache
-def undecided_dance() -> Dance:
+def undecided_dance():
     """Benches 0 and 19 graze to the last digits, and others overlap some seconds later."""
     return Dance(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[1] - BORDER_WIDTH))
 
@@ -365,7 +362,7 @@ def test_a_margin_at_its_limits_is_accepted(margin):
 @pytest.mark.parametrize("margin", [-1e-12, MARGIN_MAX * 1.001, float("nan"), float("inf"), "0", None])
 def test_a_margin_beyond_its_limits_is_refused(margin):
     with refused("margin"):
-        first_contact(DANCE, margin=margin)  # type: ignore[arg-type]
+        first_contact(DANCE, margin=margin)
 
 
 def test_the_gap_of_a_contact_is_the_margin_and_at_the_start_what_there_is():

@@ -1,7 +1,5 @@
 """The last stretch before a fold: the bound on the motion left against a slow search."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """A march: the error of its travels to 50 digits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from flint import arb

@@ -1,8 +1,5 @@
 """Benches in decimals: the model of the kernels, contacts within a nanometre of a graze, and cases left to doubles."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
 from decimal import Decimal, localcontext
 from functools import cache
 
@@ -29,7 +26,6 @@ from core import (
     separation,
     trajectory,
 )
-from core.contact.answer import FirstContact
 from core.contact.decimal_shapes import DIGITS, exact_separation
 from core.contact.near_graze import LAST_BENCH, NEGLIGIBLE, ExactPair, narrow_bracket
 from core.contact.search import ContactSearch
@@ -48,13 +44,13 @@ BEND = Route([Line((0, 0), (100, 0)), RAMP, Clothoid(RAMP.end, RAMP.end_heading,
 
 
 @pytest.fixture(autouse=True)
-def in_decimals() -> Iterator[None]:
+def in_decimals():
     with localcontext() as context:
         context.prec = DIGITS
         yield
 
 
-def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> ExactPair:
+def pair_of(path, pair):
     search = ContactSearch(DRAGON, path, 0.0)
     search.resize(DRAGON.benches)
     return ExactPair(search, pair)
@@ -95,12 +91,12 @@ def test_far_from_a_centre_a_link_is_as_exact_as_near_to_it(path):
 
 
 @cache
-def grazing_spiral(margin: float, below: float) -> Spiral:
+def grazing_spiral(margin, below):
     """A spiral whose pitch is that much below the least one [m]."""
     return Spiral(minimum_pitch(DRAGON, margin=margin).pitch_bracket[0] - below)
 
 
-def assert_narrow(contact: FirstContact) -> None:
+def assert_narrow(contact):
     clear, within = contact.time_bracket
     assert contact.outcome is Outcome.CONTACT
     assert clear < contact.time < within <= clear + BRACKET
@@ -138,7 +134,7 @@ Grazing = tuple[ContactSearch, Marched]
 
 
 @pytest.fixture(scope="module")
-def grazing() -> Grazing:
+def grazing():
     """A search on a spiral a nanometre of pitch below the least one, and its contact: a graze 2 mm of travel long."""
     search = ContactSearch(DRAGON, grazing_spiral(0.0, 1e-9), 0.0)
     state, result, half = search.approach(0.0, 300.0, 1.0)

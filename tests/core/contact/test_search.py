@@ -1,7 +1,5 @@
 """Search: angles, rates, single pairs and marches, against a slow dance that shares no code."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -23,7 +21,7 @@ FLAT, GAP = 1e-5, 1e-11
 
 
 @pytest.fixture
-def search() -> ContactSearch:
+def search():
     return ContactSearch(Dragon(30), Spiral(), 0.0)
 
 

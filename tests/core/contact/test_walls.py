@@ -1,7 +1,5 @@
 """The walls of a venue: distances compared with shapely, first contacts with slow searches, and wrong starts."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -59,7 +57,7 @@ STRAIGHT = Route([Line((-60, 0), (60, 0))], start=60.0)
 HALL = boxed("square", -70, -9, 70, 9)
 
 
-def shapely_distances(dance: Dance, area: Area, times: float | np.ndarray) -> np.ndarray:
+def shapely_distances(dance, area, times):
     """Distance of every bench to the edges of an area, (..., n) [m]; 0 where they cross."""
     shapes = shapely.polygons(bench_outlines(dance.dragon, trajectory(dance, times).position))
     return shapely.distance(shapes, shapely.Polygon(area.rings[0], area.rings[1:]).boundary)

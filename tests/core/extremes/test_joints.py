@@ -1,7 +1,5 @@
 """The sharpest bend between two consecutive benches."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -15,12 +13,12 @@ ROUNDING = 1e-12  # [s]
 TURN = Turn(1.7)
 
 
-def test_there_is_no_bend_on_a_line() -> None:
+def test_there_is_no_bend_on_a_line():
     route = Route([Line((0, 0), (60, 0))])
     assert sharpest_bend(Dance(Dragon(benches=5), route), start=20.0).angle == 0.0
 
 
-def test_a_bend_on_an_arc_is_half_of_both_chords_angles() -> None:
+def test_a_bend_on_an_arc_is_half_of_both_chords_angles():
     route = Route([Line((-60, 0), (0, 0)), Arc((0, 4), 4.0, -0.5 * math.pi, 9.0)], start=60.0)
     dragon = Dragon(benches=8)
     result = sharpest_bend(Dance(dragon, route), start=0.0, stop=30.0)
@@ -31,7 +29,7 @@ def test_a_bend_on_an_arc_is_half_of_both_chords_angles() -> None:
     assert result.time == pytest.approx(4.0 * 2.0 * bend, abs=ONSET_ERROR)
 
 
-def dense_bends(dance: Dance, times: np.ndarray) -> np.ndarray:
+def dense_bends(dance, times):
     along = np.diff(trajectory(dance, times).position, axis=1)
     heading = np.unwrap(np.arctan2(along[..., 1], along[..., 0]), axis=1)
     return np.abs(np.diff(heading, axis=1))
@@ -49,14 +47,14 @@ def dense_bends(dance: Dance, times: np.ndarray) -> np.ndarray:
     ],
     ids=["turn", "turn behind the head", "less than a second", "a short head", "benches of many sizes", "spiral"],
 )
-def test_no_dense_sample_bends_more_sharply(dance: Dance, start: float, stop: float) -> None:
+def test_no_dense_sample_bends_more_sharply(dance, start, stop):
     result = sharpest_bend(dance, start=start, stop=stop)
     assert result.angle >= dense_bends(dance, np.linspace(start, stop, 2_500)).max() - ANGLE_ERROR
     [there] = dense_bends(dance, np.array([result.time]))
     assert there[result.benches[0]] == pytest.approx(result.angle, abs=ANGLE_ERROR)
 
 
-def test_in_a_dance_with_passages_the_same_bend_comes_at_its_own_time() -> None:
+def test_in_a_dance_with_passages_the_same_bend_comes_at_its_own_time():
     steady = Dance(Dragon(12), TURN)
     with_passages = Dance(Dragon(12), TURN, passages=[Passage(2.0, until_s=8.0), Passage(0.0, until_time=10.0)])
     result = sharpest_bend(with_passages, start=0.0, stop=26.0)

@@ -1,7 +1,5 @@
 """The highest speed and the largest head speed: reference, dense samples, nearly equal peaks, and what is left out."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -15,7 +13,6 @@ from core import (
     Dragon,
     EndReason,
     FailureKind,
-    HighestSpeed,
     InvalidValue,
     Line,
     Passage,
@@ -31,7 +28,6 @@ from core import (
 )
 from core.contact.search import ContactSearch
 from core.extremes.speed import RATE_TOLERANCE
-from core.values import Floats
 from tests.support.reference import reference
 
 SPEED = reference("maximum_head_speed")
@@ -40,12 +36,12 @@ ROUNDING = 1e-12  # of a speed ratio, relative [1]
 TURN = Turn(1.7)
 
 
-def sampled(dance: Dance, times: Floats) -> float:
+def sampled(dance, times):
     """The highest speed seen at these times."""
     return float(trajectory(dance, times).speed.max())
 
 
-def assert_highest(dance: Dance, times: Floats, **span: float) -> HighestSpeed:
+def assert_highest(dance, times, **span):
     """The highest speed in a span [s]: no sample is faster than is proven, and there each handle has that speed."""
     result = highest_speed(dance, **span)
     speed, proven = result.speed_bracket
@@ -58,7 +54,7 @@ def assert_highest(dance: Dance, times: Floats, **span: float) -> HighestSpeed:
 
 
 @pytest.mark.uncompiled
-def test_the_turn_has_the_reference_speed_proven_from_both_sides() -> None:
+def test_the_turn_has_the_reference_speed_proven_from_both_sides():
     result = maximum_head_speed(Dance(Dragon(), TURN), SPEED["speed_limit"], start=-100.0, stop=100.0)
     for name in ("head_speed", "speed_ratio", "time_at_unit_head_speed"):
         assert getattr(result, name) == pytest.approx(SPEED[name], abs=REFERENCE_ERROR), name
@@ -76,9 +72,7 @@ def test_the_turn_has_the_reference_speed_proven_from_both_sides() -> None:
     st.floats(0.5, 3.0),
     st.integers(2, 40),
 )
-def test_no_dense_sample_is_faster(
-    head: float, body: float, pitch: float, radius: float, ratio: float, benches: int
-) -> None:
+def test_no_dense_sample_is_faster(head, body, pitch, radius, ratio, benches):
     try:
         dance = Dance(Dragon(benches, head, body, overhang=0.0), Turn(pitch, radius, ratio))
         highest_speed(dance, start=-40.0, stop=60.0)
@@ -89,7 +83,7 @@ def test_no_dense_sample_is_faster(
 
 # 200 handles pass the same kink one after the other, each peak a little higher than the one before it.
 @pytest.mark.thorough
-def test_of_many_nearly_equal_peaks_the_highest_is_found() -> None:
+def test_of_many_nearly_equal_peaks_the_highest_is_found():
     dance = Dance(Dragon(head_length=0.125, overhang=0.0), TURN)
     result = highest_speed(dance)
     assert result.handles == (223,)
@@ -98,7 +92,7 @@ def test_of_many_nearly_equal_peaks_the_highest_is_found() -> None:
     assert result.speed - 1e-3 < before < result.speed
 
 
-def test_benches_that_follow_calmly_change_nothing() -> None:
+def test_benches_that_follow_calmly_change_nothing():
     path = Turn(1.7, start_turns=40.0)
     few, many = (highest_speed(Dance(Dragon(benches), path), start=-60.0, stop=80.0) for benches in (60, 2_000))
     assert (few.speed, few.handles) == (many.speed, many.handles)
@@ -115,7 +109,7 @@ def test_benches_that_follow_calmly_change_nothing() -> None:
     ],
     ids=["line, arc", "arc, line", "coil outwards", "coil inwards", "waypoints"],
 )
-def test_on_every_kind_of_piece_dense_samples_come_up_to_the_highest(path: Route, start: float, stop: float) -> None:
+def test_on_every_kind_of_piece_dense_samples_come_up_to_the_highest(path, start, stop):
     dance, times = Dance(Dragon(8), path), np.linspace(start, stop, 20_001)
     result = assert_highest(dance, times, start=start, stop=stop)
     assert result.speed - sampled(dance, times) < 1e-3
@@ -123,7 +117,7 @@ def test_on_every_kind_of_piece_dense_samples_come_up_to_the_highest(path: Route
 
 
 @pytest.mark.parametrize("gap", [10.0, 0.1, 1e-3])
-def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap: float) -> None:
+def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap):
     dance = Dance(Dragon(), Spiral())
     stop = dance.end.time - gap
     result = assert_highest(dance, np.array([stop]), stop=stop)
@@ -140,7 +134,7 @@ INTERVAL_LINKS = 20
 UNSEEN = 1e-6
 
 
-def intervals_of(dance: Dance, stop: float) -> int:
+def intervals_of(dance, stop):
     """Number of intervals in the proof of the highest speed, the head at 1 m/s."""
     search = ContactSearch(dance.dragon, dance.path, 0.0)
     search.resize(dance.dragon.benches)
@@ -150,7 +144,7 @@ def intervals_of(dance: Dance, stop: float) -> int:
 # The rear handle turns back before its bench could fold, and is 3.7 times as fast as the head on its way outwards: the
 # peak is so sharp, and so near the centre, that a slope alone bounded it by nothing in a hundred thousand intervals.
 @pytest.mark.parametrize(("benches", "pitch"), [(1, 3.82), (4, 3.9), (2, 4.2)])
-def test_a_peak_beside_the_centre_is_proven_in_few_intervals(benches: int, pitch: float) -> None:
+def test_a_peak_beside_the_centre_is_proven_in_few_intervals(benches, pitch):
     dance = Dance(Dragon(benches, 2.2, 2.2, 0.3, 0.0), Spiral(pitch, 5.0))
     end = dance.end.time
     assert dance.end.reason is EndReason.CENTRE
@@ -161,7 +155,7 @@ def test_a_peak_beside_the_centre_is_proven_in_few_intervals(benches: int, pitch
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed: int) -> None:
+def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed):
     rng = np.random.default_rng(seed)
     benches = int(rng.integers(1, 8))
     dragon = Dragon.of(10 ** rng.uniform(-0.5, 0.6, benches), [0.1] * benches, [0.05] * benches)
@@ -172,7 +166,7 @@ def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed: int) -> None
     assert sampled(dance, times) <= assert_highest(dance, times, stop=stop).speed * (1.0 + UNSEEN)
 
 
-def test_a_proof_that_takes_too_long_is_given_up_with_a_message(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_proof_that_takes_too_long_is_given_up_with_a_message(monkeypatch):
     monkeypatch.setattr(core.extremes.speed, "LINKS_BUDGET", 20)
     dance, span = Dance(Dragon(), TURN), {"start": -20.0, "stop": 40.0}
     result = maximum_head_speed(dance, SPEED["speed_limit"], **span)
@@ -187,9 +181,7 @@ def test_a_proof_that_takes_too_long_is_given_up_with_a_message(monkeypatch: pyt
 
 
 @pytest.mark.parametrize(("then", "excess"), [(5.0, 12.0), (0.0, None)], ids=["too fast after it", "a pause"])
-def test_a_proof_given_up_before_another_passage_is_unknown_for_the_whole_dance(
-    monkeypatch: pytest.MonkeyPatch, then: float, excess: float | None
-) -> None:
+def test_a_proof_given_up_before_another_passage_is_unknown_for_the_whole_dance(monkeypatch, then, excess):
     """The bracket of an excess begins where the proof was given up, and ends with an excess or the interval."""
     for name in ("LINKS_BUDGET", "EXCESS_LINKS"):
         monkeypatch.setattr(core.extremes.speed, name, 20)
@@ -201,13 +193,13 @@ def test_a_proof_given_up_before_another_passage_is_unknown_for_the_whole_dance(
     assert (result.time, until) == (excess, excess or 15.0)
 
 
-def test_a_run_to_a_fold_without_a_stop_asks_for_one() -> None:
+def test_a_run_to_a_fold_without_a_stop_asks_for_one():
     with pytest.raises(InvalidValue, match=r"^stop must be given: .* fold, .* before 432\.91792422"):
         highest_speed(Dance(Dragon(), Spiral()))
 
 
 @pytest.mark.thorough
-def test_near_a_fold_there_is_always_a_handle_that_reaches_the_highest_speed() -> None:
+def test_near_a_fold_there_is_always_a_handle_that_reaches_the_highest_speed():
     """There two chains of the same instant differ by more than what counts as equal."""
     dance = Dance(Dragon(1, 900.0, 900.0, 20.0, 0.0), Spiral(300.0, 40.0))
     assert highest_speed(dance, stop=1506595.0796309002).handles == (1,)

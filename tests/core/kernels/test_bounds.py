@@ -1,7 +1,5 @@
 """The bounds on motion along routes against dense samples: rates, turning, second and third derivatives."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -26,7 +24,7 @@ from tests.support.intervals import ROUNDING, on_route
 
 
 @pytest.mark.parametrize("seed", range(60))
-def test_no_sampled_derivative_on_a_route_exceeds_its_bound(seed: int) -> None:
+def test_no_sampled_derivative_on_a_route_exceeds_its_bound(seed):
     at = on_route(seed)
     handles, benches = at.motion[1:].T, at.motion[:-1].T
     chords, radii, smooth = at.dragon.chords, at.sizes[:-1, RADIUS], handles[CROSSED] == 0.0

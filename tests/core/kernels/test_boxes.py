@@ -1,7 +1,5 @@
 """Broad phase: how it ends. Which pairs it finds: tests/core/shapes/test_overlaps.py."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.kernels import Budget, Meetings, grow_tree
@@ -9,7 +7,7 @@ from core.kernels.constants import BOX_COLUMNS
 from core.shapes.rectangles import frames
 
 
-def test_the_search_stops_soon_after_it_found_more_than_asked() -> None:
+def test_the_search_stops_soon_after_it_found_more_than_asked():
     rectangles = frames(np.zeros((50, 3)), np.ones((50, 2)))
     boxes = np.tile([-1.0, -1.0, 1.0, 1.0], (50, 1))
     grow_tree(boxes, tree := np.empty((32, BOX_COLUMNS)))

@@ -1,7 +1,5 @@
 """Budgets: early ends of a loop, and what a process hands to another."""
 
-from __future__ import annotations
-
 import inspect
 import pickle
 
@@ -12,7 +10,7 @@ from core.contact.search import ContactSearch
 from core.kernels import Budget, Halted
 
 
-def test_a_loop_has_to_end_when_its_work_is_done_or_when_it_is_stopped() -> None:
+def test_a_loop_has_to_end_when_its_work_is_done_or_when_it_is_stopped():
     budget = Budget(3.0)
     assert [budget.uses_up(1.0) for _ in range(4)] == [False, False, True, True]
     assert budget.left == -1.0
@@ -23,25 +21,25 @@ def test_a_loop_has_to_end_when_its_work_is_done_or_when_it_is_stopped() -> None
 
 
 @pytest.mark.parametrize("work", ["1", b"1", True, "x", -1.0, float("nan"), [3]])
-def test_what_is_no_amount_of_work_is_refused(work: object) -> None:
+def test_what_is_no_amount_of_work_is_refused(work):
     with pytest.raises(ValueError, match="work must be"):
-        Budget(work)  # type: ignore[arg-type]
+        Budget(work)
 
 
-def test_a_spent_budget_shows_that_nothing_is_left() -> None:
+def test_a_spent_budget_shows_that_nothing_is_left():
     budget = Budget(3.0)
     budget.spend(5.0)
     assert repr(budget) == "<Budget: 0 of 3 steps of work left>"
 
 
-def test_a_brief_budget_refuses_long_work_alone() -> None:
+def test_a_brief_budget_refuses_long_work_alone():
     Budget(brief=True).afford(1.0)
     Budget().take_time()
     with pytest.raises(Halted):
         Budget(brief=True).take_time()
 
 
-def test_a_budget_keeps_its_state_in_another_process() -> None:
+def test_a_budget_keeps_its_state_in_another_process():
     budget = Budget(3.0, brief=True)
     budget.spend(1.0)
     part = Budget().within(5.0)
@@ -53,12 +51,12 @@ def test_a_budget_keeps_its_state_in_another_process() -> None:
     assert type(same.stopped) is bool
 
 
-def test_the_signature_of_a_budget_is_known_compiled_too() -> None:
+def test_the_signature_of_a_budget_is_known_compiled_too():
     assert str(inspect.signature(Budget)) == "(work: 'float | None' = None, *, brief: 'bool' = False)"
     assert (Budget.__doc__ or "").startswith("The remaining work")
 
 
-def test_a_scene_has_the_halt_of_its_search_whatever_path_that_takes() -> None:
+def test_a_scene_has_the_halt_of_its_search_whatever_path_that_takes():
     budget = Budget(5.0)
     search = ContactSearch(Dragon(5), Spiral(), 0.0, budget=budget)
     search.resize(4)

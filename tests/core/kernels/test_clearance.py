@@ -1,10 +1,8 @@
 """The clearance at an instant, against all pairs; rates against difference quotients."""
 
-from __future__ import annotations
-
 import pytest
 
-from core import Dragon, Route, Spiral, Turn
+from core import Dragon, Spiral, Turn
 from core.contact.search import ContactSearch
 from core.kernels import clearance_at, gap_at, gap_rate_at
 from tests.support.intervals import checked_pairs
@@ -14,12 +12,12 @@ STEP, QUOTIENT = 1e-5, 1e-6
 PATHS = pytest.mark.parametrize(("path", "travel"), [(Spiral(), 395.0), (Turn(1.7), 20.0)], ids=["spiral", "turn"])
 
 
-def gap(search: ContactSearch, travel: float, pair: tuple[int, int]) -> float:
+def gap(search, travel, pair):
     return gap_at(search.scene, search.place - travel, *pair, search.tried)
 
 
 @PATHS
-def test_the_clearance_is_the_least_gap_of_all_pairs(path: Spiral | Route, travel: float) -> None:
+def test_the_clearance_is_the_least_gap_of_all_pairs(path, travel):
     search = ContactSearch(Dragon(45), path, 0.0)
     for at in (0.0, travel, travel + 7.3):
         least, *pair = clearance_at(search.scene, search.place - at, 45, 45, search.placed, search.motion)
@@ -29,7 +27,7 @@ def test_the_clearance_is_the_least_gap_of_all_pairs(path: Spiral | Route, trave
 
 @PATHS
 @pytest.mark.parametrize("pair", [(0, 9), (3, 13), (7, 20)])
-def test_a_gap_changes_as_fast_as_said(path: Spiral | Route, travel: float, pair: tuple[int, int]) -> None:
+def test_a_gap_changes_as_fast_as_said(path, travel, pair):
     search = ContactSearch(Dragon(45), path, 0.0)
     quotient = (gap(search, travel + STEP, pair) - gap(search, travel - STEP, pair)) / (2.0 * STEP)
     rate = gap_rate_at(search.scene, search.place - travel, *pair, search.tried)

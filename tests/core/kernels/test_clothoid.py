@@ -1,7 +1,5 @@
 """The series of clothoids against its integral, to the rounding that its derivation gives."""
 
-from __future__ import annotations
-
 import flint
 import numpy as np
 import pytest
@@ -18,7 +16,7 @@ WAY = 14.0
 
 @pytest.mark.parametrize("p", [0.25, -0.25, 0.1, 1e-9, 0.0])
 @pytest.mark.parametrize("q", [0.5, -0.5, -0.25, 1e-7, 0.0])
-def test_the_way_is_its_integral_to_the_stated_rounding(p: float, q: float) -> None:
+def test_the_way_is_its_integral_to_the_stated_rounding(p, q):
     """The integral of e^(i (p x + q x^2 / 2)) from 0 to 1, by quadrature in balls."""
     flint.ctx.prec = BITS
     exact = acb.integral(lambda x, _: (acb(0, 1) * (p * x + q * x * x / 2)).exp(), 0, 1)
@@ -27,7 +25,7 @@ def test_the_way_is_its_integral_to_the_stated_rounding(p: float, q: float) -> N
     assert abs(float(exact.imag - y)) <= WAY * ULP
 
 
-def test_directions_at_joints_keep_their_digits_after_a_thousand_radians() -> None:
+def test_directions_at_joints_keep_their_digits_after_a_thousand_radians():
     flint.ctx.prec = BITS
     places = np.linspace(0.0, 1_000.0, 4_001)
     clothoid_joints(0.0, 0.0, 0.3, 0.9, -0.7, 1_000.0, places, joints := np.empty((4_001, POINT_COLUMNS)))

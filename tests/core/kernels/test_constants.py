@@ -1,7 +1,5 @@
 """The numbers and names that the loops share: the same for the compiler."""
 
-from __future__ import annotations
-
 import inspect
 import re
 from pathlib import Path
@@ -22,11 +20,11 @@ STATES = {
 }
 
 
-def declared(text: str) -> dict[str, float]:
+def declared(text):
     return {name: float(value) for name, value in re.findall(r"(\w+) = (\d+)", text)}
 
 
-def test_constants_are_the_same_for_the_compiler() -> None:
+def test_constants_are_the_same_for_the_compiler():
     unnamed = re.search(r"cdef enum:\n((?:    .*\n)+)", DECLARED)
     assert unnamed is not None
     literals = {name: float(value) for name, value in re.findall(r'(\w+) "([^"]+)"', DECLARED)}
@@ -37,7 +35,7 @@ def test_constants_are_the_same_for_the_compiler() -> None:
     }
 
 
-def test_states_have_the_same_names_and_numbers_for_the_compiler() -> None:
+def test_states_have_the_same_names_and_numbers_for_the_compiler():
     compiled = dict(re.findall(r"cdef enum (\w+):\n((?:    .*\n)+)", DECLARED))
     assert {name: declared(text) for name, text in compiled.items()} == {
         name: dict(states.__members__) for name, states in STATES.items()

@@ -1,7 +1,5 @@
 """Arc lengths of spirals and their inverse in double-double, against ball arithmetic."""
 
-from __future__ import annotations
-
 import flint
 import numpy as np
 import pytest
@@ -18,7 +16,7 @@ TURNS = (1e-9, 1e-3, 0.5, 1.0, 3.0, 16.0, 1e3, 1e4, 1e5)
 
 
 @pytest.mark.parametrize("pitch", [0.3, 0.55, 1.7, 3.0])
-def test_growth_and_arc_are_those_of_the_pitch_and_the_turns(pitch: float) -> None:
+def test_growth_and_arc_are_those_of_the_pitch_and_the_turns(pitch):
     flint.ctx.prec = BITS
     growth = arb(pitch) / (2 * arb.pi())
     high, low = growth_pair(pitch)
@@ -32,7 +30,7 @@ def test_growth_and_arc_are_those_of_the_pitch_and_the_turns(pitch: float) -> No
 
 
 @pytest.mark.parametrize("turns", TURNS[-5:])
-def test_an_angle_has_the_arc_length_from_which_it_was_found(turns: float) -> None:
+def test_an_angle_has_the_arc_length_from_which_it_was_found(turns):
     """From the start to a nanometre from the centre: the error of an arc length stays that of asinh."""
     flint.ctx.prec = BITS
     growth, length = growth_pair(0.55), coil_arc(0.55, turns)
@@ -48,7 +46,7 @@ def test_an_angle_has_the_arc_length_from_which_it_was_found(turns: float) -> No
     assert (np.abs(thetas[:, LOW]) <= np.spacing(thetas[:, HIGH])).all()
 
 
-def test_beyond_the_centre_there_is_no_angle() -> None:
+def test_beyond_the_centre_there_is_no_angle():
     s = paired(np.array([10.0, 11.0]))
     spiral_thetas(0.1, 0.0, 10.0, 0.0, s, thetas := np.ones_like(s))
     assert not thetas.any()

@@ -1,7 +1,5 @@
 """The benches of several dragons in one frame: their places, and bounds on their motion and on their gaps in time."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -12,7 +10,6 @@ from core.kernels import Rings, spirals_least
 from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, FREE, OMEGA
 from core.performance.stage import Stage, clear_of_each_other
 from core.shapes.rectangles import frames, frames_separation
-from core.values import Floats
 
 # Places of benches [m], and directions [1].
 SAME_PLACE = 1e-11
@@ -28,25 +25,25 @@ STEPS = [(20.0, 20.6), (24.0, 24.05), (27.3, 28.5)]
 SIZES = np.concatenate([np.stack([part.dance.dragon.lengths, part.dance.dragon.widths], -1) for part in PARTS])
 
 
-def staged(begin: float, until: float) -> Stage:
+def staged(begin, until):
     """The stage with everyone laid out at both ends of a step, and its bounds."""
     stage = Stage(Performance(PARTS), (10.0, 40.0), 0.0)
     assert stage.step(begin, until, stage.enter(begin, until))
     return stage
 
 
-def poses(*times: float) -> Floats:
+def poses(*times):
     """Poses (T, n, 3) of all benches, by the trajectory of each dance."""
     placed = [bench_poses(trajectory(part.dance, [part.own_time(time) for time in times]).position) for part in PARTS]
     return np.concatenate(placed, axis=1)
 
 
-def rows_of(stage: Stage) -> Floats:
+def rows_of(stage):
     """The row of each bench; the last handle of a dragon has one too."""
     return np.concatenate([np.arange(one.first, one.first + one.benches) for one in stage.players])
 
 
-def all_gaps(stage: Stage, *times: float) -> Floats:
+def all_gaps(stage, *times):
     """Gaps (T, pairs) of the benches of different dragons [m]."""
     frame, owner = frames(poses(*times), SIZES), stage.owner[rows_of(stage)]
     a, b = np.nonzero(owner[:, None] < owner)
@@ -54,7 +51,7 @@ def all_gaps(stage: Stage, *times: float) -> Floats:
 
 
 @pytest.mark.parametrize(("begin", "until"), STEPS)
-def test_the_motion_in_time_stays_within_its_bounds(begin: float, until: float) -> None:
+def test_the_motion_in_time_stays_within_its_bounds(begin, until):
     stage = staged(begin, until)
     step = (until - begin) / (INSTANTS - 1)
     x, y, heading = np.moveaxis(poses(*np.linspace(begin, until, INSTANTS).tolist()), -1, 0)
@@ -69,14 +66,14 @@ def test_the_motion_in_time_stays_within_its_bounds(begin: float, until: float) 
 
 
 @pytest.mark.parametrize(("begin", "until"), STEPS)
-def test_no_gap_of_two_dragons_falls_below_the_bound_of_a_step(begin: float, until: float) -> None:
+def test_no_gap_of_two_dragons_falls_below_the_bound_of_a_step(begin, until):
     stage = staged(begin, until)
     least = stage.ensemble.least
     assert least < FREE  # some were near enough to be tried
     assert all_gaps(stage, *np.linspace(begin, until, INSTANTS).tolist()).min() >= least
 
 
-def test_a_gap_changes_as_fast_as_said() -> None:
+def test_a_gap_changes_as_fast_as_said():
     time, ahead = STEPS[0][0], 1e-5
     stage = staged(*STEPS[0])
     gap, a, b = stage.nearest()
@@ -86,7 +83,7 @@ def test_a_gap_changes_as_fast_as_said() -> None:
 
 
 @pytest.mark.parametrize(("count", "pitch"), [(2, 1.1), (3, 1.6), (2, 1.3)])
-def test_further_out_in_one_spiral_no_gap_falls_below_the_ring_bound(count: int, pitch: float) -> None:
+def test_further_out_in_one_spiral_no_gap_falls_below_the_ring_bound(count, pitch):
     angle, dragon, rings = 2.0 * math.pi / count, Dragon(60), Rings()
     parts = [Part(Dance(dragon, Spiral(pitch, 9.0, rotation=angle * k), 1.0 + 0.1 * k)) for k in range(count)]
     growth = pitch / (2.0 * math.pi)

@@ -1,7 +1,5 @@
 """The first excess over a limit, against samples."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np
@@ -10,7 +8,6 @@ import pytest
 from core import Dragon, Turn
 from core.contact.search import ContactSearch
 from core.kernels import Excess, Judged
-from core.values import Floats
 
 WIDTH, STOP = 1e-9, 25.0
 SEARCH = ContactSearch(Dragon(6), Turn(1.7), 0.0)
@@ -18,18 +15,18 @@ PLACES = np.linspace(0.0, STOP, 3_000)
 
 
 @cache
-def highest_rates() -> Floats:
+def highest_rates():
     """The highest rate at each of these places of the head [1]."""
     return np.array([np.abs(SEARCH.rates(travel)).max() for travel in PLACES])
 
 
-def excess_over(limit: float, links: int = 10**6) -> tuple[Judged, Excess]:
+def excess_over(limit, links=10**6):
     excess = Excess(SEARCH.interval, 0.0)
     return excess.run(0.0, STOP, 0.5, limit, limit * (1.0 + 1e-9), WIDTH, 1e-13, links), excess
 
 
 @pytest.mark.parametrize("part", [0.2, 0.7, 0.99])
-def test_before_the_first_excess_no_sample_exceeds_the_limit_and_there_one_handle_does(part: float) -> None:
+def test_before_the_first_excess_no_sample_exceeds_the_limit_and_there_one_handle_does(part):
     rates = highest_rates()
     limit = 1.0 + part * (rates.max() - 1.0)
     outcome, excess = excess_over(limit)
@@ -39,10 +36,10 @@ def test_before_the_first_excess_no_sample_exceeds_the_limit_and_there_one_handl
     assert abs(SEARCH.rates(excess.exceeded)[excess.handle]) > limit
 
 
-def test_a_limit_above_all_rates_is_kept_to_the_end() -> None:
+def test_a_limit_above_all_rates_is_kept_to_the_end():
     outcome, excess = excess_over(highest_rates().max() + 0.01)
     assert (outcome, excess.proven) == (Judged.KEPT, STOP)
 
 
-def test_a_search_without_links_is_given_up() -> None:
+def test_a_search_without_links_is_given_up():
     assert excess_over(1.2, links=0)[0] is Judged.UNDECIDED

@@ -1,7 +1,5 @@
 """Bounds on the separation of benches that are unions of hulls, against samples of an interval."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core import Dragon, Spiral
@@ -12,7 +10,7 @@ from core.kernels.constants import CENTRE_SPEED, FREE, MX, MY
 ROUNDING = 1e-12  # [m]
 
 
-def test_over_an_interval_two_benches_that_stray_are_between_their_bounds() -> None:
+def test_over_an_interval_two_benches_that_stray_are_between_their_bounds():
     """The nearest they may be, and the most: what may touch for certain stays so."""
     rng = np.random.default_rng(6)
     touching = proven = 0

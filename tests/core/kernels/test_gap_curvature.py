@@ -1,9 +1,5 @@
 """Bounds on the bend of gaps along axes of a bench, on spirals and routes, against differences of dense samples."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -38,13 +34,13 @@ from core.kernels.constants import (
     THETA_LOW,
 )
 from tests.support.depth import some
-from tests.support.intervals import Sampled, checked_pairs, on_route, on_spiral
+from tests.support.intervals import checked_pairs, on_route, on_spiral
 
 # Directions of axes fixed in a bench, from its length [rad].
 AXES = (0.0, 0.7, 0.5 * np.pi, 2.5)
 
 
-def bend(at: Sampled, i: int, j: int) -> float:
+def bend(at, i, j):
     """Largest second difference quotient, over these instants, of a corner of bench j along axes of bench i [1/m]."""
     (x, y), most = at.sizes[j, HALF_LENGTH:RADIUS], 0.0
     for corner in (x + 1j * y, x - 1j * y, -x - 1j * y, -x + 1j * y):
@@ -58,7 +54,7 @@ def bend(at: Sampled, i: int, j: int) -> float:
     ("sample", "seed"),
     [*((on_spiral, seed) for seed in some(range(30), 12)), *((on_route, seed) for seed in range(100, 130))],
 )
-def test_gaps_along_body_axes_bend_no_more_than_their_bound(sample: Callable[[int], Sampled], seed: int) -> None:
+def test_gaps_along_body_axes_bend_no_more_than_their_bound(sample, seed):
     at = sample(seed)
     growth = at.path.growth if isinstance(at.path, Spiral) else 1.0
     rounding = 4.0 * at.rounding / (at.stride * at.step) ** 2
@@ -68,14 +64,14 @@ def test_gaps_along_body_axes_bend_no_more_than_their_bound(sample: Callable[[in
             assert bend(at, i, j) <= bound + rounding
 
 
-def worst_bend(turn: float, speed: float, pull: float, reach: float, step: float = 1e-3) -> float:
+def worst_bend(turn, speed, pull, reach, step=1e-3):
     """Second difference quotient of a gap whose axis turns, while a corner moves across it and is pulled along it."""
     times = np.array([-step, 0.0, step])
     gap = (0.5 * pull * times**2 - reach) * np.cos(turn * times) + speed * times * np.sin(turn * times)
     return float((gap[2] - 2.0 * gap[1] + gap[0]) / step**2)
 
 
-def test_a_gap_bends_as_much_as_its_bound_where_everything_moves_as_badly_as_it_may() -> None:
+def test_a_gap_bends_as_much_as_its_bound_where_everything_moves_as_badly_as_it_may():
     """In time, and across growths."""
     turn, speeds, pulls, distance, radii = 0.7, (1.1, 1.6), (0.4, 0.9), 3.0, (0.5, 0.8)
     motion, shifts, sizes = (np.zeros((3, columns)) for columns in (MOTION_COLUMNS, SHIFT_COLUMNS, SIZE_COLUMNS))
@@ -90,12 +86,12 @@ def test_a_gap_bends_as_much_as_its_bound_where_everything_moves_as_badly_as_it_
         assert worst_bend(turn, sum(speeds), sum(pulls), reach) == pytest.approx(bound, rel=1e-5)
 
 
-def worst(a: np.ndarray, b: np.ndarray) -> float:
+def worst(a, b):
     """The largest difference between a number in a range (low, high) and a number in another; the sum of several."""
     return float(np.abs(a[..., :, None] - b[..., None, :]).max(axis=(-2, -1)).sum())
 
 
-def turning_bound(growth: float, i: int, j: int, reach: float, radius: float, motion: np.ndarray) -> float:
+def turning_bound(growth, i, j, reach, radius, motion):
     """K against the rotation of bench i, term by term as its derivation in gap_curvature.py has it [1/m]."""
     omega, other, handles = motion[i, [OMEGA_LOW, OMEGA]], motion[j, [OMEGA_LOW, OMEGA]], motion[[i, i + 1, j, j + 1]]
     rate, r = handles[:, [RATE_LOW, RATE_HIGH]], growth * handles[:, [THETA_LOW, THETA_HIGH]]
@@ -107,7 +103,7 @@ def turning_bound(growth: float, i: int, j: int, reach: float, radius: float, mo
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_a_bound_has_every_term_of_its_derivation(seed: int) -> None:
+def test_a_bound_has_every_term_of_its_derivation(seed):
     random, growth, distance, radius = np.random.default_rng(seed), 0.09, 2.5, 1.1
     motion, sizes = np.zeros((8, MOTION_COLUMNS)), np.zeros((8, SIZE_COLUMNS))
     sizes[:, RADIUS] = radius
@@ -124,7 +120,7 @@ def test_a_bound_has_every_term_of_its_derivation(seed: int) -> None:
     assert axis_curvature(growth, 1, 5, distance, sizes, motion) == pytest.approx(turning, rel=1e-12)
 
 
-def test_bounds_on_a_pair_reach_as_far_as_its_centres_may_move() -> None:
+def test_bounds_on_a_pair_reach_as_far_as_its_centres_may_move():
     search = ContactSearch(Dragon(12), Spiral(), 0.0)
     h, pair = 0.25, (0, 9)
     result = pair_curvatures(search.scene, search.probe, search.place - 400.0, h, *pair)

@@ -1,7 +1,5 @@
 """Separation of benches that are unions of hulls: shapely's, witnesses that keep their promise, edges at rest."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -21,7 +19,7 @@ EDGE = np.array([[[-1.5, 0.0], [1.5, 0.0]]])
 
 
 @pytest.mark.parametrize("edges", [0, 1], ids=["two benches", "a bench and an edge"])
-def test_the_separation_is_that_of_the_nearest_hulls_in_either_order(edges: int) -> None:
+def test_the_separation_is_that_of_the_nearest_hulls_in_either_order(edges):
     sizes, chain, other = np.zeros((3, SIZE_COLUMNS)), np.zeros((3, CHAIN_COLUMNS)), 1 + edges
     sizes[2, [HALF_LENGTH, RADIUS]] = 1.5
     scene = Scene(spiral_curve(0.1), 0.0, Rings(), sizes, 2 - edges, edges)

@@ -1,28 +1,25 @@
 """A march: how it ends. What it proves of the way: test_nearest.py."""
 
-from __future__ import annotations
-
 from core import Dragon, Spiral
 from core.contact.search import ContactSearch
 from core.kernels import Ended, March, gap_at
-from core.kernels.results import Marched
 
 HALF_BRACKET, ROUNDING = 1e-10, 1e-12
 # The default dance first touches here [m of head travel].
 CONTACT = 412.4738376822
 
 
-def forty() -> ContactSearch:
+def forty():
     return ContactSearch(Dragon(40), Spiral(), 0.0)
 
 
-def marched(search: ContactSearch, start: float = 380.0, work: float = 1e7) -> tuple[Ended, Marched]:
+def marched(search, start=380.0, work=1e7):
     """The end of a march past the contact, and its result."""
     march = March(search.interval, search.probe, search.opening)
     return march.run(start, 420.0, 2, True, HALF_BRACKET, True, ROUNDING, work), march.result()
 
 
-def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
+def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant():
     search = forty()
     ended, result = marched(search)
     assert ended is Ended.TOUCHED
@@ -38,21 +35,21 @@ def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
     assert result.graze.benches == (0, 11)
 
 
-def test_a_march_from_within_a_contact_ends_where_it_starts() -> None:
+def test_a_march_from_within_a_contact_ends_where_it_starts():
     ended, result = marched(forty(), start=413.0)
     assert ended is Ended.TOUCHED_AT_START
     assert result.proven == result.touching == 413.0
     assert result.steps == 0
 
 
-def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven() -> None:
+def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven():
     ended, result = marched(forty(), work=200.0)
     assert ended is Ended.STUCK
     assert 380.0 < result.proven < CONTACT
     assert result.touching is None
 
 
-def test_a_pair_that_is_left_out_is_not_found() -> None:
+def test_a_pair_that_is_left_out_is_not_found():
     search = forty()
     search.scene.left_out, search.scene.left_out_too = 0, 8
     ended, result = marched(search)

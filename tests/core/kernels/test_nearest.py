@@ -1,11 +1,9 @@
 """The least separation over an interval: a way is proven up to the least of its samples, and no further."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
-from core import Dragon, Route, Spiral, Turn
+from core import Dragon, Spiral, Turn
 from core.contact.search import ContactSearch
 from core.kernels import Ended, March
 
@@ -17,7 +15,7 @@ ABOVE = 1e-9
 CONTACT = 412.4738376822
 
 
-def random_dragon(seed: int) -> Dragon:
+def random_dragon(seed):
     rng = np.random.default_rng(seed)
     lengths, overhangs = rng.uniform(1.2, 2.4, 30), rng.uniform(0.0, 0.25, 30)
     return Dragon.of(lengths, rng.uniform(0.1, 0.35, 30), overhangs)
@@ -25,7 +23,7 @@ def random_dragon(seed: int) -> Dragon:
 
 @pytest.mark.parametrize("path", [Spiral(0.7, 7.0), Turn(1.4)], ids=["spiral", "turn"])
 @pytest.mark.parametrize("seed", range(4))
-def test_a_way_is_proven_for_margins_below_its_least_sample_only(seed: int, path: Spiral | Route) -> None:
+def test_a_way_is_proven_for_margins_below_its_least_sample_only(seed, path):
     dragon = random_dragon(seed)
     start = float(np.random.default_rng(seed).uniform(0.0, 40.0))
     search = ContactSearch(dragon, path, -1.0)
@@ -36,7 +34,7 @@ def test_a_way_is_proven_for_margins_below_its_least_sample_only(seed: int, path
     assert above.march(start + 4.0, 0.0, start=start)[0] is not Ended.REACHED
 
 
-def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and_misses_nothing() -> None:
+def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and_misses_nothing():
     """The rings around the head hold some 130 benches: as few rows, and one would be missing from a pair."""
     search, ended = ContactSearch(Dragon(600), Spiral(), 0.0), set()
     for rows in (3, 9, 60, 120, 160, 300):

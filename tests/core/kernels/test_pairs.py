@@ -1,7 +1,5 @@
 """Bounds on the gaps of two benches on an interval, against dense samples. Outside a radius: test_rings.py."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,7 @@ from tests.support.slow_search import rectangles_gap
 
 
 @pytest.mark.parametrize("seed", some(range(30), 12))
-def test_no_two_benches_are_nearer_over_an_interval_than_their_bound(seed: int) -> None:
+def test_no_two_benches_are_nearer_over_an_interval_than_their_bound(seed):
     at = on_spiral(seed)
     benches = [
         (*(np.stack([z[:, k].real, z[:, k].imag], axis=-1) for z in (at.centres, at.along)), at.sizes[k : k + 1])

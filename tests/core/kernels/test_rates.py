@@ -1,7 +1,5 @@
 """Rates of handles, and the slopes of the rates."""
 
-from __future__ import annotations
-
 import pytest
 
 from core import Dragon, Turn
@@ -10,7 +8,7 @@ from core.kernels import climbs, place_chain
 from core.kernels.constants import CLIMB
 
 
-def test_slopes_of_rates_are_their_difference_quotients() -> None:
+def test_slopes_of_rates_are_their_difference_quotients():
     search, step = ContactSearch(Dragon(6), Turn(1.7), 0.0), 1e-5
     travel = 12.0
     place_chain(search.curve, search.place - travel, 6, search.sizes, search.tried)

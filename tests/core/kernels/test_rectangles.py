@@ -1,7 +1,5 @@
 """Two benches of a chain: their gap, and what realises it. Any two rectangles: tests/core/shapes/test_rectangles.py."""
 
-from __future__ import annotations
-
 import pytest
 
 from core import Dragon, Spiral
@@ -12,7 +10,7 @@ ROUNDING = 1e-13  # [m]
 
 
 @pytest.mark.parametrize("travel", [0.0, 400.0, 412.5, 425.0])
-def test_witnesses_lie_the_gap_apart_along_the_normal(travel: float) -> None:
+def test_witnesses_lie_the_gap_apart_along_the_normal(travel):
     search = ContactSearch(Dragon(40), Spiral(), 0.0)
     search.clearance(travel)
     for b in range(2, 40):

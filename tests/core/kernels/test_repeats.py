@@ -1,11 +1,9 @@
 """Benches that repeat what others met: the family lemma, and dances in which a body slides back behind its start."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, EndReason, Outcome, Route, Spiral, Turn, first_contact, trajectory
+from core import Dance, Dragon, EndReason, Outcome, Spiral, Turn, first_contact, trajectory
 from core.contact.search import ContactSearch
 from core.kernels.constants import THETA
 from core.sampling import bisect
@@ -17,7 +15,7 @@ SAME, ACCURACY = 1e-9, 1e-9
 
 @pytest.mark.parametrize("path", [Spiral(0.8, 8.0), Turn(1.7)], ids=["spiral", "turn"])
 @pytest.mark.parametrize("first", [0, 1, 3])
-def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(path: Spiral | Route, first: int) -> None:
+def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(path, first):
     """The family lemma: core/kernels/repeats.py."""
     lengths = np.full(40, 2.2)
     lengths[:first] = np.linspace(3.0, 2.5, first)
@@ -26,7 +24,7 @@ def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(pat
     rng = np.random.default_rng(first)
     search = ContactSearch(dragon, path, 0.0)
 
-    def place(handle: int, time: float) -> float:
+    def place(handle, time):
         search.place_leaders(time, 40)
         return float(search.placed[handle, THETA])
 
@@ -39,7 +37,7 @@ def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(pat
 
 
 @pytest.mark.parametrize("seed", [2, *thorough(*some((0, 1, *range(3, 12)), 4))])
-def test_a_body_that_slides_back_behind_its_start_has_the_contacts_of_the_general_way(seed: int) -> None:
+def test_a_body_that_slides_back_behind_its_start_has_the_contacts_of_the_general_way(seed):
     """A head chord far longer than the body's: near its fold the body goes back by many links. The last bench is longer
     by a nanometre in the second dragon, so that all pairs are followed there."""
     rng = np.random.default_rng(seed)

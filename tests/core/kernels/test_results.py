@@ -1,7 +1,5 @@
 """Results of a march and of a band: numbers of Python that say what a second look finds."""
 
-from __future__ import annotations
-
 import pytest
 
 from core.kernels import gap_at
@@ -12,7 +10,7 @@ from tests.core.kernels.test_marching import forty, marched
 GAP = 1e-9  # [m]: the bottom of a dip is found to this by steps of the march
 
 
-def test_a_march_hands_over_numbers_of_python_and_a_graze_that_a_second_look_finds() -> None:
+def test_a_march_hands_over_numbers_of_python_and_a_graze_that_a_second_look_finds():
     search = forty()
     _, result = marched(search)
     graze = result.graze
@@ -25,7 +23,7 @@ def test_a_march_hands_over_numbers_of_python_and_a_graze_that_a_second_look_fin
     assert there == pytest.approx(graze.gap, abs=GAP)
 
 
-def test_a_band_hands_over_a_radius_and_no_graze() -> None:
+def test_a_band_hands_over_a_radius_and_no_graze():
     _, band = band_march_of(0.42)
     band.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK)
     result = band.result()

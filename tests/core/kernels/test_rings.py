@@ -1,7 +1,5 @@
 """Benches too far out to touch, against chains."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -23,7 +21,7 @@ from core.shapes.rectangles import corners
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_their_reach(seed: int) -> None:
+def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_their_reach(seed):
     rng = np.random.default_rng(seed)
     dragon, spiral = Dragon(40, 3.4, rng.uniform(0.8, 2.2), 0.3, rng.uniform(0.0, 0.3)), Spiral(rng.uniform(0.3, 1.5))
     search = ContactSearch(dragon, spiral, 0.0)
@@ -39,7 +37,7 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
         assert (far[1:][outside] >= radius).all()
 
 
-def random_case(seed: int) -> tuple[Dragon, float, float]:
+def random_case(seed):
     """A random dragon on a pitch of some of its widths, whose people do not stray."""
     rng = np.random.default_rng(seed)
     chord, (head, pitch) = 10 ** rng.uniform(-0.3, 0.5), 10 ** rng.uniform([-0.4, -1.0], 0.4)
@@ -61,7 +59,7 @@ def random_case(seed: int) -> tuple[Dragon, float, float]:
         *map(random_case, range(20)),
     ],
 )
-def test_no_clearance_falls_below_the_ring_bound_further_out(dragon: Dragon, pitch: float, stray: float) -> None:
+def test_no_clearance_falls_below_the_ring_bound_further_out(dragon, pitch, stray):
     search = ContactSearch(dragon, Spiral(pitch), 0.0, stray=stray)
     bounds = []
     for travel in np.linspace(0.0, 0.95, 30) * search.travel_at(0.0):
@@ -73,21 +71,19 @@ def test_no_clearance_falls_below_the_ring_bound_further_out(dragon: Dragon, pit
 
 @pytest.mark.parametrize("margin", [0.0, 0.1])
 @pytest.mark.parametrize("pitch", [0.45, 0.55, 1.7])
-def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_margin(
-    pitch: float, margin: float
-) -> None:
+def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_margin(pitch, margin):
     rings, growth = ContactSearch(Dragon(), Spiral(pitch), margin).rings, Spiral(pitch).growth
     radii = np.array([0.998, 1.0, 1.1, 10.0]) * rings.clear_radius
     clears = [ring_clears(growth, growth, radius, margin, rings) for radius in radii]
     assert clears == [False, True, True, True]
 
 
-def test_no_radius_is_clear_where_rings_are_narrower_than_benches() -> None:
+def test_no_radius_is_clear_where_rings_are_narrower_than_benches():
     assert ContactSearch(Dragon(), Spiral(0.29), 0.0).clear_radius == FREE
 
 
 @pytest.mark.parametrize("angle", [3.0, 2.0])
-def test_the_bound_for_two_spirals_over_a_range_of_growths_is_none_above_that_of_a_growth_in_it(angle: float) -> None:
+def test_the_bound_for_two_spirals_over_a_range_of_growths_is_none_above_that_of_a_growth_in_it(angle):
     rings = SearchBetween(Dragon(40), Spiral(), 2, 0.0, work=1e7, budget=Budget(), stray=0.0).rings
     for low, high in ((0.2, 0.21), (0.2, 0.4), (0.5, 0.9)):
         least = spirals_least(high, angle, 20.0, rings, low)

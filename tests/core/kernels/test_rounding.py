@@ -1,7 +1,5 @@
 """Rounding of the points of a table of pieces; tests/core/test_rounding.py tests whole answers."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,7 @@ from core.kernels import joint_misses
 from core.kernels.constants import LOOSE, MISS_ACROSS, MISS_ALONG, MISS_COLUMNS, MISS_KINK
 
 
-def test_misses_of_a_joint_are_those_that_were_made() -> None:
+def test_misses_of_a_joint_are_those_that_were_made():
     route = Route([Line((0.0, 0.0), (30.0, 0.0)), Line((30.0, 9e-10), (60.0, 9e-10))])
     table, misses = route.table.copy(), np.zeros((2, MISS_COLUMNS))
     table[:, LOOSE] = 0.0  # which holds these misses already

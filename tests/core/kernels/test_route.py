@@ -1,7 +1,5 @@
 """Routes: points on a table of pieces, against ball arithmetic. Curvatures: tests/core/paths/test_path.py."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from flint import arb
@@ -26,7 +24,7 @@ ROUNDING = 1e-13
     ],
     ids=["line and arc", "coil", "clothoid", "waypoints"],
 )
-def test_points_and_tangents_of_every_kind_of_piece_are_exact(route: Route) -> None:
+def test_points_and_tangents_of_every_kind_of_piece_are_exact(route):
     s, exact = np.linspace(0.0, route.end, 101), ExactRoute(route.table)
     route_points(route.table, paired(s), points := np.empty((s.size, POINT_COLUMNS)))
     for at, row in zip(s.tolist(), points, strict=True):

@@ -1,7 +1,5 @@
 """Scenes and intervals of head travel: bounds hold at every instant in between."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -15,7 +13,7 @@ ROUNDING = 1e-10  # of rates [1]
 
 
 @pytest.mark.parametrize("travel", [-30.0, 5.0, 80.0])
-def test_no_handle_within_an_interval_on_a_spiral_is_faster_than_its_bound(travel: float) -> None:
+def test_no_handle_within_an_interval_on_a_spiral_is_faster_than_its_bound(travel):
     search, h = ContactSearch(Dragon(30), Spiral(), 0.0), 0.05
     assert search.interval.lay_out(search.place - travel, h, 30)
     most = search.motion[1:31, RATE_HIGH]
@@ -24,17 +22,17 @@ def test_no_handle_within_an_interval_on_a_spiral_is_faster_than_its_bound(trave
 
 
 @pytest.mark.parametrize(("rows", "benches", "edges", "room"), [(41, 223, 0, 40), (41, 10, 0, 10), (41, 30, 10, 30)])
-def test_a_scene_has_room_for_as_many_benches_as_rows(rows: int, benches: int, edges: int, room: int) -> None:
+def test_a_scene_has_room_for_as_many_benches_as_rows(rows, benches, edges, room):
     sizes = np.zeros((rows, SIZE_COLUMNS))
     assert Scene(spiral_curve(0.1), 9.0, Rings(), sizes, benches, edges).room == room
 
 
-def test_an_interval_whose_chain_folds_has_no_bounds() -> None:
+def test_an_interval_whose_chain_folds_has_no_bounds():
     assert not ContactSearch(Dragon(5), Spiral(), 0.0).interval.lay_out(0.1, 0.01, 5)
 
 
 @pytest.mark.parametrize("count", [2, 3, 7])
-def test_copies_stand_where_turned_dragons_stand(count: int) -> None:
+def test_copies_stand_where_turned_dragons_stand(count):
     search = SearchBetween(Dragon(12), Spiral(), count, 0.0, work=1e7, budget=Budget(), stray=0.0)
     assert search.interval.lay_out(search.place - 20.0, 0.05, 12)
     assert search.scene.stride == 13

@@ -1,7 +1,5 @@
 """Stretches of a route under a bench: the sharpest curvature on them, and how fast a spiral's curvature changes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -14,7 +12,7 @@ BESIDE, ROUNDING = 1e-8, 1e-7
 
 
 @pytest.mark.parametrize("seed", range(200, 230))
-def test_the_sharpest_curvature_of_a_stretch_is_that_of_dense_samples(seed: int) -> None:
+def test_the_sharpest_curvature_of_a_stretch_is_that_of_dense_samples(seed):
     """A bench turns at most as fast as its faster handle on that curvature: OMEGA = sharpest curvature HANDLE_SPEED."""
     at = on_route(seed)
     table = at.path.table
@@ -29,7 +27,7 @@ def test_the_sharpest_curvature_of_a_stretch_is_that_of_dense_samples(seed: int)
         assert sharpest <= sampled + ROUNDING or (table[:, PIECE_KIND] == CREST).any()
 
 
-def test_no_curvature_of_a_spiral_changes_faster_than_its_bound() -> None:
+def test_no_curvature_of_a_spiral_changes_faster_than_its_bound():
     theta = np.concatenate([np.linspace(0.0, 3.0, 3_001), np.geomspace(3.0, 300.0, 500)[1:]])
     curvature, arc, bound = (
         np.array([function(at) for at in theta.tolist()])

@@ -1,16 +1,12 @@
 """Wobbling dragons as they are laid out: joints and chords, how alike people stand, and what safe strays promise."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from core import Dance, Dragon, Spiral, bench_poses, overlaps, separation, trajectory
 from core.kernels import Budget, Wobbler
 from core.kernels.constants import BOX_COLUMNS, MX, MY, UX, UY
 from core.shapes.reach import gains
-from core.values import Floats
 from tests.support.intervals import sizes_of
 
 DRAGON = Dragon.of([3.4, 2.2, 2.0, 2.2, 2.4] * 4, [0.3] * 20, [0.275] * 20)
@@ -21,20 +17,20 @@ ALONG, MEMORY, MOST = 0.7, 0.9, 0.4
 ROUNDING = 1e-12  # [m]
 
 
-def wobbler(size: float) -> Wobbler:
+def wobbler(size):
     chain, boxes, flags = np.zeros((21, UY + 1)), np.zeros((21, BOX_COLUMNS)), np.zeros((2, 21), dtype=np.int8)
     made = Wobbler(sizes_of(DRAGON), Budget(1e9), chain, boxes, *flags)
     made.lateral, made.forward, made.along = size, 0.5 * size, ALONG
     return made
 
 
-def holes(chain: Floats) -> NDArray[np.complex128]:
+def holes(chain):
     """Front and rear holes (2, n) of the benches as laid out [m]."""
     middle, along = (np.asarray(chain)[:-1, [x, y]] @ [1.0, 1.0j] for x, y in ((MX, MY), (UX, UY)))
     return middle + np.array([[0.5], [-0.5]]) * DRAGON.chords * along
 
 
-def test_chords_and_joints_are_kept_and_each_rear_hole_is_where_its_person_wants_it_as_nearly_as_can_be() -> None:
+def test_chords_and_joints_are_kept_and_each_rear_hole_is_where_its_person_wants_it_as_nearly_as_can_be():
     rng = np.random.default_rng(3)
     made, state = wobbler(0.02), np.zeros((21, 2))
     play = rng.uniform(-0.004, 0.004, (20, 4))
@@ -51,7 +47,7 @@ def test_chords_and_joints_are_kept_and_each_rear_hole_is_where_its_person_wants
     assert made.furthest == pytest.approx(strays.max(), abs=ROUNDING)
 
 
-def test_people_stand_alike_as_their_correlations_say() -> None:
+def test_people_stand_alike_as_their_correlations_say():
     rng = np.random.default_rng(4)
     made, stood = wobbler(0.0), []
     memory = np.array([0.0, MEMORY, MEMORY])
@@ -68,7 +64,7 @@ def test_people_stand_alike_as_their_correlations_say() -> None:
     assert abs((samples[:, 0, 5, 0] * samples[:, 0, 5, 1]).mean()) < spread
 
 
-def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them() -> None:
+def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them():
     safe, gain = np.empty((20, 20)), gains(DRAGON)
     wobbler(0.05).measure(MOST, gain, PLACES, safe)
     a, b = np.triu_indices(DRAGON.benches, 2)
@@ -80,12 +76,12 @@ def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them() -> Non
         assert safe[t] == pytest.approx(np.array(least), abs=2e-9)
 
 
-def test_the_first_overlap_is_found_and_safe_strays_change_nothing() -> None:
+def test_the_first_overlap_is_found_and_safe_strays_change_nothing():
     rng = np.random.default_rng(5)
     made, safe, clear = wobbler(0.06), np.empty((20, 20)), []
     made.measure(MOST, gains(DRAGON), PLACES, safe)
 
-    def danced(rows: slice, numbers: Floats, strays: Floats, state: Floats) -> tuple[int, tuple[int, int]]:
+    def danced(rows, numbers, strays, state):
         memory = np.full(rows.stop - rows.start, MEMORY)
         parts = [part[rows] for part in (PLACES, TANGENTS, strays)]
         return made.dance(memory, numbers[rows], NO_PLAY, *parts, state), (made.first, made.second)
@@ -107,7 +103,7 @@ def test_the_first_overlap_is_found_and_safe_strays_change_nothing() -> None:
     assert 5 < clear.count(20) < 35
 
 
-def overlapping(chain: Floats) -> set[tuple[int, ...]]:
+def overlapping(chain):
     """The pairs that overlap as the benches are laid out, from overlaps()."""
     front, rear = holes(chain)
     centre, along = 0.5 * (front + rear), front - rear

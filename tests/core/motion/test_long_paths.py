@@ -1,7 +1,5 @@
 """Positions on spirals and coils of up to 100,000 turns, against 50 digits."""
 
-from __future__ import annotations
-
 import math
 
 import flint
@@ -19,7 +17,7 @@ DRAGON = Dragon(12, head_length=2.5)
 SMALL, CHORD_ERROR = 0.01, 2e-11
 
 
-def assert_exact(places: np.ndarray, exact: list[tuple[arb, arb]]) -> None:
+def assert_exact(places, exact):
     """No point is further from its exact place than a small part of what trajectory() states."""
     for place, there in zip(places, exact, strict=True):
         off = math.hypot(*(float(arb(float(number)) - other) for number, other in zip(place, there, strict=True)))

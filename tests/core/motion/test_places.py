@@ -1,8 +1,5 @@
 """Places of handles along the path, and times at which they pass a place."""
 
-from __future__ import annotations
-
-from collections.abc import Iterable
 from functools import partial
 
 import numpy as np
@@ -22,7 +19,7 @@ DANCES = {
 }
 
 
-def assert_passed(dance: Dance, passing: Passing, places: Iterable[tuple[int, float]]) -> None:
+def assert_passed(dance, passing, places):
     """Each of these handles is at its arc length when it is said to pass that."""
     for handle, s in places:
         assert_near(handle_places(dance, [passing.when(handle, s)])[0, handle], s, PASSED)
@@ -51,7 +48,7 @@ def test_a_handle_passes_its_place_at_the_answered_time_and_waits_through_a_paus
 
 def test_on_a_long_way_through_a_stadium_places_are_as_good():
     # Twenty lanes of 100 m, with turns of 2 m between.
-    pieces: list[Line | Arc] = []
+    pieces = []
     for k in range(20):
         (x, end), y = sorted((0.0, 100.0), reverse=k % 2 == 1), 4.0 * k
         pieces += [Line((x, y), (end, y)), Arc((end, y + 2.0), 2.0, -0.5 * np.pi, np.pi * (1 - k % 2 * 2))]

@@ -1,7 +1,5 @@
 """Handles, velocities, poses and the end of a run."""
 
-from __future__ import annotations
-
 import hashlib
 import math
 
@@ -90,7 +88,7 @@ def test_velocities_are_the_difference_quotients_of_positions(dance, share, head
     np.testing.assert_allclose(moving.speed[:, 0], head_speed, rtol=1e-14)
 
 
-def assert_a_batch_equals_a_loop(dance: Dance, times: list[float]) -> None:
+def assert_a_batch_equals_a_loop(dance, times):
     batch, handles = trajectory(dance, times), dance.dragon.benches + 1
     assert batch.position.shape == (len(times), handles, 2)
     for k, time in enumerate(times):
@@ -137,7 +135,7 @@ def test_a_chord_across_the_whole_coil_ends_where_bisection_says(delta):
 FOLDING_CHORDS, STANDING, HALF_FOLDED, FOLDED = [6.0, 20.0, 1.0], 30.0, 2.0, 1.0
 
 
-def first_folded_row(heads: list[float], chords: list[float]) -> tuple[int, np.ndarray]:
+def first_folded_row(heads, chords):
     position, velocity = np.zeros((2, len(heads), len(chords) + 1, 2))
     speed = np.zeros(position.shape[:2])
     budget = kernels.Budget()
@@ -170,13 +168,13 @@ def test_the_first_row_that_folds_is_found_wherever_it_stands_in_its_block(row):
 )
 def test_times_that_are_no_flat_list_of_numbers_are_refused(times, field):
     with refused(field):
-        trajectory(DANCE, times)  # type: ignore[arg-type]
+        trajectory(DANCE, times)
 
 
 @pytest.mark.parametrize(("times", "field"), [(500.0, "times"), ([0, 500], "times.1")])
 def test_a_time_after_the_end_is_refused_by_its_place_with_the_end(times, field):
     with pytest.raises(OutsideRun, match=r"432\.917924228 s, when bench 0 folds, got 500 s") as caught:
-        trajectory(DANCE, times)  # type: ignore[arg-type]
+        trajectory(DANCE, times)
     assert caught.value.field == field
 
 

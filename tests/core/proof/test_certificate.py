@@ -1,7 +1,5 @@
 """Proofs: claims that hold are proven and checked, claims and certificates that do not are refused."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path
@@ -14,7 +12,7 @@ from core.errors import ProofRefused
 from core.proof import prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch, prove_tolerance, verify
 from core.proof.certificate import PRECISION
 from tests.support.depth import examples, thorough
-from tests.support.forgeries import FORGERIES, Change, assert_refused, forged, through_json
+from tests.support.forgeries import FORGERIES, assert_refused, forged, through_json
 from tests.support.reference import reference_cases
 from tests.support.reference_contacts import CONTACTS, SMALL, proof_of, proven_then_only, random_contact, small
 from tests.support.refused import refused
@@ -38,7 +36,7 @@ PITCH_ROUNDING = 1e-9
         ),
     ],
 )
-def test_a_reference_contact_is_proven_and_checked(name: str, benches: int) -> None:
+def test_a_reference_contact_is_proven_and_checked(name, benches):
     """Twenty benches touch where the whole dragon does."""
     case = CONTACTS[name]
     certificate = through_json(
@@ -58,7 +56,7 @@ def test_a_reference_contact_is_proven_and_checked(name: str, benches: int) -> N
         ("default R=2", 11, 5.0),
     ],
 )
-def test_a_reference_pitch_is_proven_and_checked(name: str, benches: int, start_turns: float) -> None:
+def test_a_reference_pitch_is_proven_and_checked(name, benches, start_turns):
     case = PITCHES[name]
     pitch, dragon = case["pitch"] + PITCH_ROUNDING, Dragon(**(case["dragon"] | {"benches": benches}))
     certificate = through_json(
@@ -71,18 +69,18 @@ def test_a_reference_pitch_is_proven_and_checked(name: str, benches: int, start_
 
 
 @pytest.mark.parametrize("seed", [17, *thorough(0, 2, 8, 26, 35, 42, 55)])
-def test_the_contact_of_a_random_dragon_given_bench_by_bench_is_proven_and_its_neighbourhood_refused(seed: int) -> None:
+def test_the_contact_of_a_random_dragon_given_bench_by_bench_is_proven_and_its_neighbourhood_refused(seed):
     dance, time = random_contact(seed)
     certificate, _ = proven_then_only(prove_collision_time, dance, time)
     assert certificate["repeats_from"] == dance.dragon.benches - 3
 
 
 @pytest.mark.parametrize(("change", "reason"), FORGERIES)
-def test_a_forged_certificate_is_refused(change: Change | str, reason: str) -> None:
+def test_a_forged_certificate_is_refused(change, reason):
     assert_refused(small(), change, reason)
 
 
-def test_an_edit_of_what_no_proof_needs_is_refused_by_the_digest() -> None:
+def test_an_edit_of_what_no_proof_needs_is_refused_by_the_digest():
     versions = small() | {"versions": {"python-flint": "0", "flint": "0"}}
     without = {name: value for name, value in small().items() if name != "digest"}
     for certificate, reason in ((versions, "was changed"), (without, "malformed")):
@@ -91,23 +89,21 @@ def test_an_edit_of_what_no_proof_needs_is_refused_by_the_digest() -> None:
 
 
 @pytest.mark.parametrize("precision", [53, 4096])
-def test_a_certificate_is_checked_with_its_precision_or_with_that_of_our_own_if_that_is_more(
-    precision: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    used: list[int] = []
+def test_a_certificate_is_checked_with_its_precision_or_with_that_of_our_own_if_that_is_more(precision, monkeypatch):
+    used = []
     monkeypatch.setattr("core.proof.certificate.proven_sweeps", lambda *request: used.append(ctx.prec) or [])
     with pytest.raises(ProofRefused):
         verify(forged(small(), f"precision = {precision}"))
     assert used == [max(precision, PRECISION)]
 
 
-def test_what_is_no_dance_and_what_is_no_dragon_are_refused_by_name() -> None:
+def test_what_is_no_dance_and_what_is_no_dragon_are_refused_by_name():
     for prove in (prove_clear, prove_collision_time, prove_contact, prove_tolerance, prove_minimum_pitch):
         with refused("dragon" if prove is prove_minimum_pitch else "dance"):
-            prove(3, 1.0)  # type: ignore[operator]
+            prove(3, 1.0)
 
 
-def test_progress_rises_to_one_and_the_precision_is_left_as_it_was() -> None:
+def test_progress_rises_to_one_and_the_precision_is_left_as_it_was():
     before, proving, checking = ctx.prec, [0.0], [0.0]
     verify(proof_of(SMALL, progress=proving.append), progress=checking.append)
     with pytest.raises(ProofRefused):
@@ -118,7 +114,7 @@ def test_progress_rises_to_one_and_the_precision_is_left_as_it_was() -> None:
         assert shares[-1] == 1.0
 
 
-def test_without_flint_the_error_names_the_extra() -> None:
+def test_without_flint_the_error_names_the_extra():
     code = "import sys; sys.modules['flint'] = None; import core.proof"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 1

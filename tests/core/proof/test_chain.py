@@ -1,7 +1,5 @@
 """Chains in ball arithmetic on a spiral: their enclosures, and the limits of their proofs."""
 
-from __future__ import annotations
-
 from itertools import pairwise, product
 
 import numpy as np
@@ -29,7 +27,7 @@ PLACES = {
 
 
 @pytest.mark.parametrize("name", PLACES)
-def test_a_stretch_encloses_every_pose_in_it_and_every_velocity(name: str) -> None:
+def test_a_stretch_encloses_every_pose_in_it_and_every_velocity(name):
     dragon, path, bench, low, high = PLACES[name]
     chain = Chain(dragon, arb(path.pitch), path.start_turns)
     with ctx.workprec(128):
@@ -53,7 +51,7 @@ def test_a_stretch_encloses_every_pose_in_it_and_every_velocity(name: str) -> No
             assert stretch.rear[0] <= float(before.thetas[1]) <= stretch.rear[1]
 
 
-def test_a_bench_called_far_is_clear_of_the_ring_inside_it() -> None:
+def test_a_bench_called_far_is_clear_of_the_ring_inside_it():
     chain = Chain(Dragon(), arb(0.55), 16.0)
     for theta in (27.0, 60.0, 100.0):
         pose = Pose(chain, 0, arb(theta))
@@ -73,7 +71,7 @@ def test_a_bench_called_far_is_clear_of_the_ring_inside_it() -> None:
         *product(np.linspace(0.97, 1.0, 9).tolist(), [JUST_FOLLOWS]),
     ],
 )
-def test_a_bend_is_the_first_root(theta: float, chord: float) -> None:
+def test_a_bend_is_the_first_root(theta, chord):
     """In units of growth; also beyond pi near the centre, and where a fold has just vanished."""
     needed = arb(chord) ** 2
     result = float(delta(arb(theta), needed))
@@ -81,7 +79,7 @@ def test_a_bend_is_the_first_root(theta: float, chord: float) -> None:
     assert np.all(chord_squared(theta, before) < float(needed))
 
 
-def test_there_is_no_bend_past_the_fold_and_one_beyond_pi_just_before() -> None:
+def test_there_is_no_bend_past_the_fold_and_one_beyond_pi_just_before():
     needed = (arb("2.86") / (arb("0.55") / (2 * arb.pi()))) ** 2
     assert delta(arb("14.735"), needed) > arb.pi()
     for theta, square, reason in ((arb("14.73"), needed, None), (arb(1.0), arb(36.0), "nearest")):
@@ -89,7 +87,7 @@ def test_there_is_no_bend_past_the_fold_and_one_beyond_pi_just_before() -> None:
             delta(theta, square)
 
 
-def test_a_newton_step_that_leaves_its_ball_or_finds_no_slope_proves_nothing() -> None:
+def test_a_newton_step_that_leaves_its_ball_or_finds_no_slope_proves_nothing():
     with ctx.workprec(96):
         near = arb(2.0, 1e-8)
         step = newton(arb(2.0), near, arb(1e-9), arb(4.0, 1e-7))

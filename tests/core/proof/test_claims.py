@@ -1,10 +1,7 @@
 """Claims: those that do not hold are refused, and a pair that is near is found where shapely finds it."""
 
-from __future__ import annotations
-
 import math
 from contextlib import nullcontext
-from typing import Any
 
 import numpy as np
 import pytest
@@ -28,7 +25,7 @@ SHAPELY, PLACE = 1e-11, 1e-9
 
 
 @pytest.mark.parametrize("later", [-1.0, -2.1e-10, 2.1e-10, 1e-6, 1.0])
-def test_a_bracket_moved_off_the_contact_is_refused(later: float) -> None:
+def test_a_bracket_moved_off_the_contact_is_refused(later):
     with pytest.raises(ProofRefused, match="no two benches overlap" if later < 0 else "benches 0 and 4 overlap"):
         proof_of(SMALL, later=later)
 
@@ -43,13 +40,13 @@ def test_a_bracket_moved_off_the_contact_is_refused(later: float) -> None:
         *thorough((20, 415.5, "benches 0 and 8 overlap")),
     ],
 )
-def test_a_time_that_is_not_the_first_at_which_two_touch_is_refused(benches: int, time: float, reason: str) -> None:
+def test_a_time_that_is_not_the_first_at_which_two_touch_is_refused(benches, time, reason):
     with pytest.raises(ProofRefused, match=reason):
         prove_collision_time(Dance(Dragon(benches), Spiral()), time)
 
 
 @pytest.mark.parametrize("time", [-1.0, math.nan, math.inf, 1e9, "412"])
-def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time: Any) -> None:
+def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time):
     with refused("time"):
         prove_collision_time(Dance(Dragon(), Spiral()), time)
 
@@ -61,7 +58,7 @@ def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time: Any) -> N
         *thorough((0.1, "nearer than the margin", "keeps the margin")),
     ],
 )
-def test_a_minimum_pitch_is_proven_and_one_off_it_refused(margin: float, below: str, above: str) -> None:
+def test_a_minimum_pitch_is_proven_and_one_off_it_refused(margin, below, above):
     certificate = graze(margin)
     assert "says nothing of larger pitches" in verify(certificate).statement
     for more, reason in ((-1e-8, below), (1.1e-6, above)):
@@ -78,7 +75,7 @@ def test_a_minimum_pitch_is_proven_and_one_off_it_refused(margin: float, below: 
         ('overlap = {"start_within_circle": true}', "not shown to lie within the circle"),
     ],
 )
-def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(edit: str, reason: str) -> None:
+def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(edit, reason):
     assert_refused(graze(), edit, reason)
 
 
@@ -86,7 +83,7 @@ def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(edit: str, reason:
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_a_near_pair_is_found_where_shapely_finds_one_and_only_it_is_shown(seed: int) -> None:
+def test_a_near_pair_is_found_where_shapely_finds_one_and_only_it_is_shown(seed):
     random = np.random.default_rng(seed)
     dragon, spiral = Dragon(14, 2.4, 1.8, random.uniform(0.2, 0.5), 0.2), Spiral(0.5, 6.0)
     margin = float(random.choice([0.0, random.uniform(0.01, 0.1)]))
@@ -109,7 +106,7 @@ def test_a_near_pair_is_found_where_shapely_finds_one_and_only_it_is_shown(seed:
 
 
 @pytest.mark.parametrize("handle", [0, 1, 5])
-def test_the_head_is_found_from_where_a_handle_stands(handle: int) -> None:
+def test_the_head_is_found_from_where_a_handle_stands(handle):
     with ctx.workprec(128):
         chain = Chain(Dragon(14), arb(0.55), 16.0)
         pose = chain.pose_at(0, arb(40.0))

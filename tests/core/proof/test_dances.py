@@ -1,19 +1,15 @@
 """Proofs with a margin, of clear runs, and on routes: true claims are proven and checked, false ones refused."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from functools import cache
-from typing import Any
 
 import pytest
 
-from core import Dance, Dragon, Route, Spiral, Turn, first_contact
+from core import Dance, Dragon, Spiral, Turn, first_contact
 from core.contact.clearance import least_clearance
-from core.errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused
-from core.proof import Certificate, prove_clear, prove_collision_time, prove_contact, verify
+from core.errors import InvalidValue, OutsideRun, ProofRefused
+from core.proof import prove_clear, prove_collision_time, prove_contact, verify
 from tests.support.depth import examples, thorough
-from tests.support.forgeries import Change, assert_refused, stretches, through_json
+from tests.support.forgeries import assert_refused, stretches, through_json
 from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
 from tests.support.reference_contacts import CONTACTS, OFF, proven_then_only
 from tests.support.refused import refused
@@ -24,7 +20,7 @@ MARGIN_OFF = 1e-6
 HALF_BRACKET = 5e-10
 SMALL = Dragon(14)
 # Each with the span of a proof [s].
-ROUTES: dict[str, tuple[Route, float, float]] = {
+ROUTES = {
     "loop": (LOOP, 85.0, 95.0),
     "hairpin": (HAIRPIN, 42.0, 48.0),
     "outwards": (OUTWARDS, 30.0, 40.0),
@@ -33,13 +29,13 @@ ROUTES: dict[str, tuple[Route, float, float]] = {
 }
 
 
-def reference_dance(name: str) -> Dance:
+def reference_dance(name):
     case = CONTACTS[name]
     return Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]))
 
 
 @cache
-def certificate_of(kind: str) -> Certificate:
+def certificate_of(kind):
     """Of a clear dance through the turn, with a margin, or of a head that meets its own tail on a route; proven."""
     if kind == "turn":
         certificate = prove_clear(Dance(SMALL, Turn(1.7)), 18.0, start=-8.0, margin=0.5)
@@ -63,7 +59,7 @@ def certificate_of(kind: str) -> Certificate:
         ),
     ],
 )
-def test_a_contact_within_a_margin_is_proven_and_its_neighbourhood_refused(dance: Dance, margin: float) -> None:
+def test_a_contact_within_a_margin_is_proven_and_its_neighbourhood_refused(dance, margin):
     time = first_contact(dance, margin=margin).time
     certificate, statement = proven_then_only(prove_collision_time, dance, time, margin=margin)
     assert certificate["claim"]["margin"] == margin
@@ -73,7 +69,7 @@ def test_a_contact_within_a_margin_is_proven_and_its_neighbourhood_refused(dance
     assert_refused(certificate, "claim.margin += 1e-6", "not apart by face")
 
 
-def test_two_corners_within_a_margin_need_a_direction_and_are_proven() -> None:
+def test_two_corners_within_a_margin_need_a_direction_and_are_proven():
     dance, request = Dance(Dragon(18), LOOP), {"start": 60.0, "margin": 1.05}
     contact = first_contact(dance, **request)
     assert contact.edge is None
@@ -82,7 +78,7 @@ def test_two_corners_within_a_margin_need_a_direction_and_are_proven() -> None:
 
 
 @pytest.mark.thorough
-def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference_time() -> None:
+def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference_time():
     """`make deep` takes all benches."""
     dance = Dance(Dragon(benches=examples(20, 223)), Turn(1.7))
     certificate = through_json(prove_clear(dance, 100.0, start=-100.0))
@@ -99,7 +95,7 @@ def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference
         ("n_4", "fold", "it folds"),
     ],
 )
-def test_a_reference_run_is_clear_to_its_end_and_that_is_proven(name: str, until: str, words: str) -> None:
+def test_a_reference_run_is_clear_to_its_end_and_that_is_proven(name, until, words):
     certificate, end = through_json(prove_clear(reference_dance(name))), CONTACTS[name]["end"]["time"]
     stop = certificate["claim"]["stop"]
     assert (certificate["claim"]["until"], "overlap" in certificate) == (until, False)
@@ -115,14 +111,14 @@ def test_a_reference_run_is_clear_to_its_end_and_that_is_proven(name: str, until
             assert_refused(certificate, edit, reason)
 
 
-def test_a_route_is_clear_to_its_end() -> None:
+def test_a_route_is_clear_to_its_end():
     certificate = through_json(prove_clear(Dance(SMALL, HAIRPIN), start=30.0))
     assert certificate["claim"]["stop"] == HAIRPIN.end
     assert "the route ends before" in verify(certificate).statement
     assert_refused(certificate, "claim.stop += -2e-9", "not shown to end")
 
 
-def test_a_run_is_proven_clear_until_just_before_its_contact_alone() -> None:
+def test_a_run_is_proven_clear_until_just_before_its_contact_alone():
     dance, time = reference_dance("n_5"), CONTACTS["n_5"]["time"]
     verify(prove_clear(dance, time - OFF))
     with pytest.raises(ProofRefused, match="benches 0 and 4 overlap"):
@@ -137,9 +133,7 @@ def test_a_run_is_proven_clear_until_just_before_its_contact_alone() -> None:
         (Dance(Dragon(5), Spiral()), {"stop": 1.0, "margin": -0.1}, InvalidValue, "margin"),
     ],
 )
-def test_what_is_no_run_is_refused_by_name(
-    dance: Dance, request_: dict[str, float], error: type[BenchDragonError], field: str
-) -> None:
+def test_what_is_no_run_is_refused_by_name(dance, request_, error, field):
     with refused(field, error):
         prove_clear(dance, **request_)
 
@@ -148,7 +142,7 @@ def test_what_is_no_run_is_refused_by_name(
 @pytest.mark.parametrize(
     "dragon", [SMALL, pytest.param(Dragon(10, 2.0, 1.4, 0.3, 0.2), marks=pytest.mark.deep)], ids=["contest", "short"]
 )
-def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyond(name: str, dragon: Dragon) -> None:
+def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyond(name, dragon):
     path, start, stop = ROUTES[name]
     dance = Dance(dragon, path)
     result = least_clearance(dance, start=start, stop=stop)
@@ -159,12 +153,12 @@ def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyon
         prove_clear(dance, stop, start=start, margin=result.distance + MARGIN_OFF)
 
 
-def with_direction(change: Callable[[list[float]], Any]) -> Change:
+def with_direction(change):
     """A change of the directions of the first stretch that has any."""
     return lambda content: change(next(tile for tile in stretches(content) if "8" in tile[2])[3])
 
 
-FORGERIES: dict[str, list[tuple[Change | str, str]]] = {
+FORGERIES = {
     "turn": [
         ("delete sweeps.0.stretches.5", "do not join"),
         ("delete sweeps.0.stretches.-1", "short of"),
@@ -213,5 +207,5 @@ FORGERIES: dict[str, list[tuple[Change | str, str]]] = {
 @pytest.mark.parametrize(
     ("kind", "change", "reason"), [(kind, *row) for kind, rows in FORGERIES.items() for row in rows]
 )
-def test_a_forged_certificate_of_a_dance_is_refused(kind: str, change: Change | str, reason: str) -> None:
+def test_a_forged_certificate_of_a_dance_is_refused(kind, change, reason):
     assert_refused(certificate_of(kind), change, reason)

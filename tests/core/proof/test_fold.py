@@ -1,7 +1,5 @@
 """Proofs of minimum pitches that a fold limits: true claims are proven and checked, false ones refused."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 
@@ -12,12 +10,12 @@ from flint import arb, ctx
 from core import Dragon, LimitedBy, Spiral, minimum_pitch
 from core.errors import ProofRefused
 from core.paths.spiral import end_theta
-from core.proof import Certificate, prove_minimum_pitch, verify
+from core.proof import prove_minimum_pitch, verify
 from core.proof.chain import Chain, rises_to
 from core.proof.fold import verify_fold
 from core.proof.pairs import Unproven
 from tests.support.depth import thorough
-from tests.support.forgeries import Change, assert_refused, in_words, stretches, through_json
+from tests.support.forgeries import assert_refused, in_words, stretches, through_json
 from tests.support.slow_search import chord_squared
 
 DRAGONS = {name: Dragon(count, 2.21, 1.47, 0.06, 0.12) for name, count in (("one", 1), ("two", 2), ("many", 14))}
@@ -36,16 +34,16 @@ ALONE, VANISHED, DECIDED = Dragon(1, 2.2, 2.2, 0.02, 0.1), 2.1727687945055, 3e-7
 
 
 @cache
-def least_pitch(dragon: Dragon) -> float:
+def least_pitch(dragon):
     return minimum_pitch(dragon, **WAY).pitch_bracket[1]
 
 
 @cache
-def certificate_of(dragon: Dragon) -> Certificate:
+def certificate_of(dragon):
     return through_json(prove_minimum_pitch(dragon, least_pitch(dragon), **WAY))
 
 
-def assert_folds(certificate: Certificate) -> None:
+def assert_folds(certificate):
     """Dense samples show the fold of the head bench.
 
     At the first place its rear handle is more than half a turn behind, and a wall stands behind that: angles at which
@@ -64,7 +62,7 @@ def assert_folds(certificate: Certificate) -> None:
 
 
 @pytest.mark.uncompiled
-def test_a_pitch_limited_by_a_fold_is_proven_and_checked() -> None:
+def test_a_pitch_limited_by_a_fold_is_proven_and_checked():
     certificate = certificate_of(DRAGON)
     pitch = certificate["claim"]["pitch"]
     assert abs(pitch - TRUE) < OFF
@@ -80,12 +78,12 @@ def test_a_pitch_limited_by_a_fold_is_proven_and_checked() -> None:
 
 @pytest.mark.parametrize(("more", "reason"), [(-OFF, "the chain folds"), (1.1e-6, "is free of contact too")])
 @pytest.mark.parametrize("name", ["one", *thorough("two", "many")])
-def test_a_pitch_off_the_one_that_a_fold_limits_is_refused(name: str, more: float, reason: str) -> None:
+def test_a_pitch_off_the_one_that_a_fold_limits_is_refused(name, more, reason):
     with pytest.raises(ProofRefused, match=reason):
         prove_minimum_pitch(DRAGONS[name], least_pitch(DRAGONS[name]) + more, **WAY)
 
 
-def test_one_bench_has_a_certificate_that_it_follows() -> None:
+def test_one_bench_has_a_certificate_that_it_follows():
     """It meets nobody, but it folds."""
     certificate = certificate_of(DRAGONS["one"])
     assert "every bench follows" in verify(certificate).statement
@@ -93,7 +91,7 @@ def test_one_bench_has_a_certificate_that_it_follows() -> None:
     assert {tile[2] for tile in stretches(certificate)} == {""}
 
 
-def random_case(seed: int) -> tuple[Dragon, dict[str, float]]:
+def random_case(seed):
     """A dragon given bench by bench, often with one bench that is twice as long, and its way."""
     random = np.random.default_rng(seed)
     benches = int(random.choice([1, 2, 3, 4, 6, 10]))
@@ -112,7 +110,7 @@ def random_case(seed: int) -> tuple[Dragon, dict[str, float]]:
     ("seed", "bench"),
     [(25, 1), *thorough((11, 0), (15, 0), (62, 0), (113, 0), (3, 1), (121, 1), (70, 2), (92, 2), (135, 2))],
 )
-def test_the_fold_of_any_bench_is_proven(seed: int, bench: int) -> None:
+def test_the_fold_of_any_bench_is_proven(seed, bench):
     dragon, request = random_case(seed)
     result = minimum_pitch(dragon, **request)
     assert result.limited_by is LimitedBy.FOLD
@@ -125,7 +123,7 @@ def test_the_fold_of_any_bench_is_proven(seed: int, bench: int) -> None:
 
 
 @pytest.mark.thorough
-def test_a_fold_that_barely_exists_is_proven_and_the_limit_itself_is_undecided() -> None:
+def test_a_fold_that_barely_exists_is_proven_and_the_limit_itself_is_undecided():
     request = {"turning_radius": 0.2, "start_turns": 2.0}
     certificate = through_json(prove_minimum_pitch(ALONE, VANISHED + DECIDED, **request))
     assert certificate["overlap"]["folds"] == 0
@@ -134,7 +132,7 @@ def test_a_fold_that_barely_exists_is_proven_and_the_limit_itself_is_undecided()
         prove_minimum_pitch(ALONE, VANISHED, **request)
 
 
-def test_no_fold_is_proven_where_every_bench_follows() -> None:
+def test_no_fold_is_proven_where_every_bench_follows():
     certificate = certificate_of(DRAGON)
     before, after = certificate["overlap"]["head_theta"]
     with ctx.workprec(96):
@@ -146,7 +144,7 @@ def test_no_fold_is_proven_where_every_bench_follows() -> None:
                 verify_fold(chain, bench, arb(before + shift), arb(after + shift))
 
 
-def test_a_fold_with_a_shallow_wall_is_proven_only_from_close_to_it() -> None:
+def test_a_fold_with_a_shallow_wall_is_proven_only_from_close_to_it():
     """From farther out the delta might grow past the wall before the wall exists: then nothing is proven."""
     pitch = VANISHED * 0.999
     fold, bench = end_theta(ALONE, Spiral(pitch, 2.0))
@@ -159,7 +157,7 @@ def test_a_fold_with_a_shallow_wall_is_proven_only_from_close_to_it() -> None:
 
 
 @pytest.mark.parametrize("theta", [1.1, 2.0, 10.0, 100.0])
-def test_a_distance_is_proven_to_rise_up_to_its_first_crest_only(theta: float) -> None:
+def test_a_distance_is_proven_to_rise_up_to_its_first_crest_only(theta):
     deltas = np.linspace(math.pi, 4.0 * math.pi, SAMPLES)
     distance = chord_squared(theta, deltas)
     crest = int(np.argmax(np.diff(distance) < 0.0))
@@ -170,18 +168,18 @@ def test_a_distance_is_proven_to_rise_up_to_its_first_crest_only(theta: float) -
         assert not rises_to(arb(theta), arb(float(deltas[later])))
 
 
-def shifted(first: float, last: float) -> Change:
+def shifted(first, last):
     """The change that moves both places of the fold [rad]."""
     return in_words(f"overlap.head_theta.0 += {first}; overlap.head_theta.1 += {last}")
 
 
-def joined(first: int) -> Change:
+def joined(first):
     """The change that joins the stretches from this one on."""
     return lambda c: stretches(c).__setitem__(slice(first, None), [[stretches(c)[first][0], *stretches(c)[-1][1:]]])
 
 
 # (change, why core.proof.verify refuses it)
-FORGERIES: dict[str, list[tuple[Change | str, str]]] = {
+FORGERIES = {
     "many": [
         ("overlap.folds = 1", "not proven"),
         ("overlap.folds = 13", "not proven"),
@@ -232,5 +230,5 @@ OF_BOTH = [
 @pytest.mark.parametrize(
     ("dragon", "change", "reason"), [(name, *row) for name in FORGERIES for row in [*FORGERIES[name], *OF_BOTH]]
 )
-def test_a_forged_certificate_of_a_fold_is_refused(dragon: str, change: Change | str, reason: str) -> None:
+def test_a_forged_certificate_of_a_fold_is_refused(dragon, change, reason):
     assert_refused(certificate_of(DRAGONS[dragon]), change, reason)

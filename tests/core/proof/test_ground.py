@@ -1,7 +1,5 @@
 """The ground of a bench in balls: it holds all places, as tightly as the search's, and its sides keep others off."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from itertools import product
@@ -21,16 +19,14 @@ SHAPES = [(1.65, 0.275, 0.3, 0.05), (2.86, 0.275, 0.3, 0.26), (1.65, 0.275, 0.3,
 IDS = ["body", "head", "half a chord", "no overhang"]
 
 
-def ground_of(chord: float, overhang: float, width: float, stray: float) -> BenchGround:
+def ground_of(chord, overhang, width, stray):
     half = arb(chord) / 2
     with ctx.workprec(96):
         return BenchGround(half, half + arb(overhang), arb(width) / 2, arb(stray))
 
 
 @pytest.mark.parametrize(("chord", "overhang", "width", "stray"), SHAPES, ids=IDS)
-def test_two_derivations_of_the_ground_agree_and_hold_every_place(
-    chord: float, overhang: float, width: float, stray: float
-) -> None:
+def test_two_derivations_of_the_ground_agree_and_hold_every_place(chord, overhang, width, stray):
     ground = ground_of(chord, overhang, width, stray)
     hulls = bench_hulls(supports(chord, overhang, 0.5 * width, stray))
     furthest = (hulls * directions()).sum(axis=-1)
@@ -47,7 +43,7 @@ def test_two_derivations_of_the_ground_agree_and_hold_every_place(
 
 
 @pytest.mark.parametrize("spread", [0.001, 0.05, 0.4, 2.0])
-def test_corners_of_a_side_are_all_that_can_be_nearest_while_a_bench_turns(spread: float) -> None:
+def test_corners_of_a_side_are_all_that_can_be_nearest_while_a_bench_turns(spread):
     ground = ground_of(1.65, 0.275, 0.3, 0.05)
     rng = np.random.default_rng(5)
     for number, hulls in [(3, AT_ONCE[0]), (40, ONE_BY_ONE[1]), (70, ONE_BY_ONE[3]), (100, ONE_BY_ONE[8])]:
@@ -63,7 +59,7 @@ def test_corners_of_a_side_are_all_that_can_be_nearest_while_a_bench_turns(sprea
         assert len(corners) <= 3 + 2.5 * spread * SIDES / math.tau or spread > 1.0
 
 
-def test_a_side_is_found_exactly_where_two_polygons_are_apart() -> None:
+def test_a_side_is_found_exactly_where_two_polygons_are_apart():
     first, second = ground_of(2.86, 0.275, 0.3, 0.05), ground_of(1.65, 0.275, 0.3, 0.05)
     rng, apart = np.random.default_rng(6), 0
     for x, y, heading in rng.uniform([-3.0, -1.2, -3.2], [3.0, 1.2, 3.2], (200, 3)).tolist():

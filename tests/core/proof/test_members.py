@@ -1,10 +1,7 @@
 """The members of a certificate: a malformed one is refused by its name."""
 
-from __future__ import annotations
-
 import math
 import re
-from typing import Any
 
 import pytest
 
@@ -52,7 +49,7 @@ KINDS = "collision-time, minimum-pitch, clear, contact or tolerance"
         ("delete sweeps.1", "sweeps", "sweeps[1] is missing"),
     ],
 )  # fmt: skip
-def test_a_malformed_certificate_is_refused_by_its_member(edit: str, field: str, words: str) -> None:
+def test_a_malformed_certificate_is_refused_by_its_member(edit, field, words):
     with pytest.raises(ProofRefused) as e:
         verify(forged(small(), edit))
     assert e.value.message.startswith("the certificate is malformed: ")
@@ -68,9 +65,9 @@ def test_a_malformed_certificate_is_refused_by_its_member(edit: str, field: str,
         *thorough("contact", "turn with a margin", "minimum pitch at a fold", "clear to the fold", "stray with a pose"),
     ],
 )
-def test_no_change_of_any_member_escapes_or_shows_python(kind: str) -> None:
+def test_no_change_of_any_member_escapes_or_shows_python(kind):
     certificate = made(kind)
-    values: list[Any] = [None, "x", [], {}, -1, 0, 0.5, 1e15, 1e-300, math.nan, True, 10**20, [1], {"a": 1}]
+    values = [None, "x", [], {}, -1, 0, 0.5, 1e15, 1e-300, math.nan, True, 10**20, [1], {"a": 1}]
     for put in values:
         changes = [put_at(*place, put=put) for place in places(certificate)[1:] if place != ("digest",)]
         messages = [refusal(forged(certificate, change)) for change in changes]
@@ -79,6 +76,6 @@ def test_no_change_of_any_member_escapes_or_shows_python(kind: str) -> None:
 
 
 @pytest.mark.parametrize("value", [None, [], {}, "proof", 1.0])
-def test_what_is_no_certificate_is_refused(value: Any) -> None:
+def test_what_is_no_certificate_is_refused(value):
     with pytest.raises(ProofRefused, match="malformed"):
         verify(value)

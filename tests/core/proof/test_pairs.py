@@ -1,7 +1,5 @@
 """Two benches in balls: nearness as shapely measures it, and bounds over a stretch."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from flint import acb, arb
@@ -16,7 +14,7 @@ MARGIN_OFF = 1e-6
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_benches_are_within_a_margin_exactly_when_shapely_says_so(seed: int) -> None:
+def test_benches_are_within_a_margin_exactly_when_shapely_says_so(seed):
     random = np.random.default_rng(seed)
     for _ in range(60):
         sizes = [Size(*random.uniform([0.5, 0.1, 0.0], [3.0, 0.6, 0.2])) for _ in range(2)]
@@ -32,7 +30,7 @@ def test_benches_are_within_a_margin_exactly_when_shapely_says_so(seed: int) -> 
         assert distance < MARGIN_OFF or not benches.within(1, arb(distance - MARGIN_OFF))
 
 
-def test_the_bound_on_a_stretch_never_calls_a_dip_positive() -> None:
+def test_the_bound_on_a_stretch_never_calls_a_dip_positive():
     # g = first + rate x + bow x^2 on [0, width]: with the exact range of g' the bound may only be too careful.
     random = np.random.default_rng(5)
     proven = 0

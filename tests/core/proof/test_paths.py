@@ -1,7 +1,5 @@
 """Paths in certificates: a written path reads back unchanged, and paths without a proof are refused."""
 
-from __future__ import annotations
-
 import json
 import math
 
@@ -31,7 +29,7 @@ from tests.support.forgeries import in_words
 from tests.support.refused import refused
 
 BEND = Arc((30.0, 3.0), 3.0, -math.pi / 2, 1.0)
-PATHS: dict[str, tuple[Spiral | Route, str]] = {
+PATHS = {
     "spiral": (Spiral(0.55, 16.0), "the spiral of pitch 0.55 m inwards from 16 turns"),
     "turn": (Turn(1.7, ratio=1.5, entry_radius=4.2), "the turn of ratio 1.5, which it enters 4.2 m from the centre"),
     "free turn": (
@@ -47,7 +45,7 @@ PATHS: dict[str, tuple[Spiral | Route, str]] = {
 
 
 @pytest.mark.parametrize("name", PATHS)
-def test_a_path_reads_back_from_json_to_the_last_bit_and_has_its_chain(name: str) -> None:
+def test_a_path_reads_back_from_json_to_the_last_bit_and_has_its_chain(name):
     path, words = PATHS[name]
     record = json.loads(json.dumps(recorded_path(path)))
     again = core_path(record)
@@ -60,7 +58,7 @@ def test_a_path_reads_back_from_json_to_the_last_bit_and_has_its_chain(name: str
 
 
 @pytest.mark.parametrize("leaving", [4.49, 3.9, 4.2])
-def test_the_arcs_of_a_turn_with_its_own_exit_are_those_of_core(leaving: float) -> None:
+def test_the_arcs_of_a_turn_with_its_own_exit_are_those_of_core(leaving):
     """The chain in balls has the separations of handles that core computes: it does not depend on the frame."""
     turn, dragon = Turn(1.7, ratio=1.1, entry_radius=4.3, exit_radius=leaving), Dragon(4)
     chain = chain_on(dragon, recorded_path(turn), 0.0)
@@ -85,7 +83,7 @@ BENDING, CURVE = Clothoid((0.0, 0.0), 0.0, 0.0, 0.5, 2.0), Waypoints(((0.0, 0.0)
         (Route([CURVE]), "path.pieces.0", "path must be a spiral, .* got waypoints"),
     ],
 )
-def test_a_path_without_a_proof_is_refused_by_its_place(path: Route, field: str, rule: str) -> None:
+def test_a_path_without_a_proof_is_refused_by_its_place(path, field, rule):
     with pytest.raises(InvalidValue, match=rule) as caught:
         recorded_path(path)
     assert caught.value.field == field
@@ -99,7 +97,7 @@ def test_a_path_without_a_proof_is_refused_by_its_place(path: Route, field: str,
         ("spiral", "pitch = -1.0", "path.pitch"),
     ],
 )
-def test_a_number_that_no_path_has_is_refused_by_its_place(name: str, edit: str, field: str) -> None:
+def test_a_number_that_no_path_has_is_refused_by_its_place(name, edit, field):
     record = recorded_path(PATHS[name][0])
     in_words(edit)(record)
     with refused(field):

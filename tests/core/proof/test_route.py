@@ -1,7 +1,5 @@
 """Chains in ball arithmetic on a route: what they enclose."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from flint import arb, ctx
@@ -18,7 +16,7 @@ ROUTES = {"loop": LOOP, "hairpin": HAIRPIN, "outwards": OUTWARDS, "inwards": TUR
 
 
 @pytest.mark.parametrize("name", ROUTES)
-def test_the_chain_in_balls_is_the_dance_of_core(name: str) -> None:
+def test_the_chain_in_balls_is_the_dance_of_core(name):
     path = ROUTES[name]
     chain = chain_on(SMALL, recorded_path(path), 0.0)
     assert isinstance(chain, RouteChain)

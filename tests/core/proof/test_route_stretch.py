@@ -1,7 +1,5 @@
 """Stretches of routes in ball arithmetic: what they enclose, against poses in between and sampled curves."""
 
-from __future__ import annotations
-
 import itertools
 import math
 
@@ -9,7 +7,6 @@ import numpy as np
 import pytest
 from flint import acb, arb, ctx
 
-from core.proof.pairs import Benches
 from core.proof.paths import chain_on, recorded_path
 from core.proof.route import RouteChain
 from core.proof.route_stretch import RouteStretch, half_angle
@@ -18,7 +15,7 @@ from tests.core.proof.test_route import DOUBLES, ROUTES, SMALL
 
 @pytest.mark.parametrize("name", ROUTES)
 @pytest.mark.parametrize("width", [0.1, 1.0])
-def test_a_stretch_of_a_route_encloses_every_pose_in_it_and_every_velocity(name: str, width: float) -> None:
+def test_a_stretch_of_a_route_encloses_every_pose_in_it_and_every_velocity(name, width):
     chain = chain_on(SMALL, recorded_path(ROUTES[name]), 0.0)
     assert isinstance(chain, RouteChain)
     start = 0.0 if name == "turn" else 42.0
@@ -42,7 +39,7 @@ def test_a_stretch_of_a_route_encloses_every_pose_in_it_and_every_velocity(name:
                     assert (abs(velocity) - abs(middle)).upper() >= 0
 
 
-def assert_seen(stretch: RouteStretch, before: Benches, after: Benches, k: int, step: arb) -> None:
+def assert_seen(stretch, before, after, k, step):
     """Bench k as seen from the first one: place, direction and velocity are enclosed."""
     along, velocity = stretch.relative(k)
     place = stretch.between(k, along, velocity)
@@ -53,7 +50,7 @@ def assert_seen(stretch: RouteStretch, before: Benches, after: Benches, k: int, 
     assert move.overlaps((then - there) / step)
 
 
-def test_the_angles_of_a_chord_stay_within_those_that_the_curvature_allows() -> None:
+def test_the_angles_of_a_chord_stay_within_those_that_the_curvature_allows():
     """Of curves of six arcs, each with the least or the largest curvature."""
     random, decided = np.random.default_rng(7), 0
     for _ in range(300):
@@ -70,7 +67,7 @@ def test_the_angles_of_a_chord_stay_within_those_that_the_curvature_allows() -> 
     assert decided > 150
 
 
-def test_on_a_circle_the_angles_are_exact() -> None:
+def test_on_a_circle_the_angles_are_exact():
     angle = half_angle(arb("0.5"), arb("0.5"), arb("1.65"))
     assert angle.contains((arb("0.5") * arb("1.65") / 2).asin())
     assert float(angle.rad()) < DOUBLES

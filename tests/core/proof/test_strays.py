@@ -1,23 +1,20 @@
 """A claim about strays: both of its ends are proven, and nothing beyond them."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
 import shapely
 from flint import arb, ctx
 
-from core import Dance, Dragon, InvalidValue, Line, Route, Spiral, Tolerance, bench_outlines, tolerance, trajectory
+from core import Dance, Dragon, InvalidValue, Line, Route, Spiral, bench_outlines, tolerance, trajectory
 from core.errors import OutsideRun, ProofRefused
-from core.proof import Certificate, prove_tolerance, verify
+from core.proof import prove_tolerance, verify
 from core.proof.chain import Chain
 from core.sampling import bisect
 from core.tolerance.curve import time_on_circle
-from tests.support.forgeries import DROPPED, Change, assert_refused, stretches, through_json
+from tests.support.forgeries import DROPPED, assert_refused, stretches, through_json
 from tests.support.refused import refused
 
 DANCE = Dance(Dragon(12), Spiral(0.7, 5.0))
@@ -27,16 +24,16 @@ REBUILT = 1e-12
 
 
 @cache
-def known() -> Tolerance:
+def known():
     return tolerance(DANCE, **SPAN)
 
 
 @cache
-def small() -> Certificate:
+def small():
     return through_json(prove_tolerance(DANCE, known().stray, exhibit=known().exhibit, **SPAN))
 
 
-def test_both_ends_of_a_tolerance_are_proven() -> None:
+def test_both_ends_of_a_tolerance_are_proven():
     proof, shown = verify(small()), small()["claim"]["shown"]
     assert f"while every hole is within {known().stray!r} m of its place and every chord keeps its" in proof.statement
     assert f"no two benches except neighbours touch from 40 s to {SPAN['stop']!r} s" in proof.statement
@@ -52,7 +49,7 @@ def test_both_ends_of_a_tolerance_are_proven() -> None:
         prove_tolerance(DANCE, upper, **SPAN)
 
 
-def test_the_pose_of_a_certificate_is_a_contact_in_doubles_too() -> None:
+def test_the_pose_of_a_certificate_is_a_contact_in_doubles_too():
     pose, dragon = small()["overlap"], DANCE.dragon
     headings = np.array(pose["headings"])
     steps = dragon.chords[:, None] * np.stack([np.cos(headings), np.sin(headings)], axis=-1)
@@ -64,7 +61,7 @@ def test_the_pose_of_a_certificate_is_a_contact_in_doubles_too() -> None:
 
 
 @pytest.mark.thorough
-def test_benches_of_many_sizes_are_proven_to_the_end_of_the_run() -> None:
+def test_benches_of_many_sizes_are_proven_to_the_end_of_the_run():
     dragon = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4], [0.3, 0.5, 0.3, 0.3, 0.2], [0.2, 0.2, 0.3, 0.1, 0.2])
     dance = Dance(dragon, Spiral(1.2, 3.0))
     stray = tolerance(dance).stray
@@ -73,7 +70,7 @@ def test_benches_of_many_sizes_are_proven_to_the_end_of_the_run() -> None:
 
 
 @pytest.mark.parametrize("stray", [0.05, 0.3])
-def test_benches_are_far_only_where_no_strays_of_both_can_bring_them_together(stray: float) -> None:
+def test_benches_are_far_only_where_no_strays_of_both_can_bring_them_together(stray):
     with ctx.workprec(96):
         nominal, strayed = (Chain(DANCE.dragon, arb(0.7), 5.0, stray=most) for most in (0.0, stray))
         rear = arb(15.0)
@@ -85,7 +82,7 @@ def test_benches_are_far_only_where_no_strays_of_both_can_bring_them_together(st
     assert second - first == pytest.approx(2.0 * stray, rel=1e-9)
 
 
-def another_side(content: dict[str, Any]) -> None:
+def another_side(content):
     sides = next(sides for tile in stretches(content) for sides in tile[2] if len(sides) == 1)
     sides[0] = (sides[0] + 32) % 64
 
@@ -117,7 +114,7 @@ def another_side(content: dict[str, Any]) -> None:
         ('sweeps.0.stretches.0.2 = "0000"', "highest theta, lowest theta, sides"),
     ],
 )
-def test_a_forged_certificate_of_a_stray_is_refused(change: Change | str, reason: str) -> None:
+def test_a_forged_certificate_of_a_stray_is_refused(change, reason):
     assert_refused(small(), change, reason)
 
 
@@ -132,6 +129,6 @@ LINE = Dance(Dragon(4), Route([Line((0.0, 0.0), (30.0, 0.0))]))
         (DANCE, 0.01, 1e4, "stop"),
     ],
 )
-def test_what_is_no_claim_about_strays_is_refused_by_name(dance: Dance, stray: float, stop: float, field: str) -> None:
+def test_what_is_no_claim_about_strays_is_refused_by_name(dance, stray, stop, field):
     with refused(field, OutsideRun if field == "stop" else InvalidValue):
         prove_tolerance(dance, stray, stop=stop)

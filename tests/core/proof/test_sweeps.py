@@ -1,17 +1,14 @@
 """Sweeps: their stretches join, and over each of them every pair has a face between it."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 import pytest
 from flint import arb, ctx
 
-from core import Dance, Dragon, Route, Spiral, Turn, bench_poses, first_contact, trajectory
-from core.proof import Certificate, prove_clear, prove_collision_time, prove_tolerance, verify
+from core import Dance, Dragon, Spiral, Turn, bench_poses, first_contact, trajectory
+from core.proof import prove_clear, prove_collision_time, prove_tolerance, verify
 from core.proof.chain import Chain
 from core.proof.paths import chain_on, recorded_path
 from core.proof.sweeps import SweepOverlap, proven_sweeps, searched_stretches
@@ -34,9 +31,7 @@ HIGH, LOW = 60.0, 52.0
         *thorough((prove_collision_time, Dance(Dragon(12, 1.5, 2.2, 0.3, 0.15), Spiral(0.55, 4.0)), None, {}, 10)),
     ],
 )
-def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once(
-    prove: Callable[..., Certificate], dance: Dance, last: float | None, options: dict[str, float], sweeps: int
-) -> None:
+def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once(prove, dance, last, options, sweeps):
     last = last or first_contact(dance).time
     once, each = (prove(dance, last, every_pair=every, **options) for every in (False, True))
     assert (len(once["sweeps"]), len(each["sweeps"])) == (2, sweeps)
@@ -44,11 +39,11 @@ def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once
     assert verify(each).pair_proofs > verify(once).pair_proofs
 
 
-def turning() -> Certificate:
+def turning():
     return prove_clear(Dance(Dragon(14), Turn(1.7)), 18.0, start=-8.0, margin=0.5)
 
 
-def until_contact(benches: int) -> Certificate:
+def until_contact(benches):
     dance = Dance(Dragon(benches), Spiral(0.55, 9.0))
     return prove_collision_time(dance, first_contact(dance).time or math.inf)
 
@@ -62,9 +57,7 @@ def until_contact(benches: int) -> Certificate:
     ],
     ids=["13 on a spiral", "40 on a spiral", "turn"],
 )
-def test_at_every_instant_each_letter_of_a_certificate_keeps_its_pair_apart(
-    make: Callable[[], Certificate], path: Spiral | Route, start: float, letters: set[str]
-) -> None:
+def test_at_every_instant_each_letter_of_a_certificate_keeps_its_pair_apart(make, path, start, letters):
     certificate = make()
     claim, dragon = certificate["claim"], Dragon(sum(run[0] for run in certificate["dragon"]))
     times = np.linspace(start, claim.get("stop", claim.get("time")) - 0.1, 40)
@@ -86,7 +79,7 @@ def test_at_every_instant_each_letter_of_a_certificate_keeps_its_pair_apart(
     assert letters < used
 
 
-def test_a_sweep_into_a_contact_names_a_pair_that_overlaps_there() -> None:
+def test_a_sweep_into_a_contact_names_a_pair_that_overlaps_there():
     """The default dance first touches with the head at 26.17 rad, and benches 0 and 8."""
     with ctx.workprec(128):
         chain = Chain(Dragon(14), arb(0.55), 16.0)

@@ -1,7 +1,5 @@
 """The paper's rule: angles that add up to a full turn."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

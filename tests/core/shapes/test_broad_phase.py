@@ -1,7 +1,5 @@
 """The broad phase: it misses no pair, and refuses what is too much."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -12,12 +10,11 @@ from hypothesis import strategies as st
 from core.errors import SIZE_MAX, TooLarge
 from core.shapes.overlaps import overlaps
 from core.shapes.rectangles import CROSS_CANDIDATES_MAX, PAIRS_MAX, frames, meeting_pairs
-from core.values import Floats
 from tests.support.refused import refused
-from tests.support.scenes import WIDTH, Pairs, Scene, all_pairs, crowd
+from tests.support.scenes import WIDTH, all_pairs, crowd
 
 
-def close_pairs(poses: Floats, lengths: Floats, widths: Floats, *, margin: float = 0.0, chained: bool = False) -> Pairs:
+def close_pairs(poses, lengths, widths, *, margin=0.0, chained=False):
     """Pairs whose upright boxes come within the margin."""
     frame = frames(poses, np.stack([lengths, widths], axis=-1))
     return meeting_pairs(frame, margin, chained, exact=False)
@@ -33,7 +30,7 @@ def test_broad_phase_is_a_superset_of_the_narrow_phase(seed, count, margin, shif
     np.testing.assert_array_equal(overlaps(*scene, margin=margin, chained=False).pairs, narrow)
 
 
-def row(heading: float, ahead: float, aside: float) -> Scene:
+def row(heading, ahead, aside):
     poses = np.arange(1_000)[:, None] * [0.7 * ahead, 0.7 * aside, 0.0] + [0.0, 0.0, heading]
     return poses, *np.full((2, 1_000), 0.9)
 

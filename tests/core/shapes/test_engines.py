@@ -1,7 +1,5 @@
 """The engines: boxes kept from pose to pose, many instants at once."""
 
-from __future__ import annotations
-
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -20,13 +18,12 @@ from core.shapes.engines import (
     united,
     widest_place,
 )
-from core.values import Floats
 from tests.support.depth import examples
 from tests.support.near import assert_near
 from tests.support.scenes import shapely_of, unlinked_pairs
 
 
-def crowds(count: int) -> list[tuple[Floats, Floats]]:
+def crowds(count):
     """Dragons more than are kept, each at several instants: poses (T, n, 3) and sizes (n, 2)."""
     random = np.random.default_rng(4)
     scenes = []
@@ -44,7 +41,7 @@ def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_
     assert sum(len(pairs) for instants in truth for pairs in instants) > 1_000
     order = np.random.default_rng(5).integers(0, (len(scenes), 3), (examples(40, 400), 2)).tolist()
 
-    def pairs_of(request: list[int]) -> set[tuple[int, int]]:
+    def pairs_of(request):
         scene, instant = request
         poses, size = scenes[scene]
         (pairs,) = engine_pairs(Engine.FCL, poses[instant : instant + 1], size, margin, chained=True)
@@ -65,7 +62,7 @@ def test_many_instants_at_once_are_as_one_by_one(engine):
                 np.testing.assert_array_equal(pairs, *engine_pairs(engine, pose[None], size, 0.0, chained=chained))
 
 
-def excess_of(polygons: list[list[Floats]], own: shapely.Geometry, spacing: float) -> Floats:
+def excess_of(polygons, own, spacing):
     """Distances from a shape to points of the border of polygons that must cover it [m]."""
     result = shapely_of(polygons)
     assert result.is_valid
@@ -115,7 +112,7 @@ def test_a_strip_covers_what_its_polygons_cover(wave, corners, cells):
     assert away.max() <= GROWTH_MOST * 1e-3 + GRID
 
 
-def ring(*corners: tuple[float, float]) -> list[tuple[float, float]]:
+def ring(*corners):
     return [*corners, corners[0]]
 
 

@@ -1,7 +1,5 @@
 """Four engines that find overlapping benches, and a broad phase that must miss none."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The ground of a bench: every place lies in it, and it is hardly larger than all places."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -28,7 +26,7 @@ SHAPES = pytest.mark.parametrize(
 )
 
 
-def outline(chord: float, overhang: float, half_width: float) -> np.ndarray:
+def outline(chord, overhang, half_width):
     half = 0.5 * chord
     x = [*np.linspace(-half - overhang, half + overhang, 25), -half, half]
     return np.stack([x + x, np.repeat([-half_width, half_width], len(x))], axis=-1)

@@ -1,7 +1,5 @@
 """Exact separation of two rectangles, against tables, its own laws, and shapely."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -109,7 +107,7 @@ def test_separation_ignores_rigid_motion_and_the_order_of_the_pair_and_grows_wit
 @settings(deadline=None, max_examples=60)
 @given(pairs)
 def test_gap_alone_equals_the_separation(pair):
-    def gap_within(limit: float) -> float:
+    def gap_within(limit):
         kernels.pair_gaps(frames(*pair[:2])[None], frames(*pair[2:])[None], limit, out := np.empty(1))
         return out[0]
 
@@ -223,7 +221,7 @@ def test_corners_run_front_left_front_right_rear_right_rear_left():
 )
 def test_handles_that_are_no_places_are_refused(handles):
     with refused("handles"):
-        bench_poses(handles)  # type: ignore[arg-type]
+        bench_poses(handles)
 
 
 @settings(deadline=None, max_examples=60)

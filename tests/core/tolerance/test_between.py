@@ -1,7 +1,5 @@
 """Benches next but one: no pose within the bound touches, chords bend as the bound says, and a pose that does touch."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -11,21 +9,20 @@ from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_poses, s
 from core.shapes.rectangles import corners
 from core.tolerance.between import held_apart, sag_pulls, sags_of, touching_pose
 from core.tolerance.exhibit import exhibit
-from core.values import Floats
 from tests.support.depth import examples, further, some
 from tests.support.shown_poses import assert_contact_shown, overlap
 
 FAR = 9.0  # a stray above all that are found [m]
 
 
-def on_hairpin(dragon: Dragon, radius: float) -> tuple[Dance, float]:
+def on_hairpin(dragon, radius):
     """A dance out and back, and the bound for it."""
     line, back = Line((0.0, 0.0), (40.0, 0.0)), Line((40.0, 2.0 * radius), (0.0, 2.0 * radius))
     dance = Dance(dragon, Route([line, Arc((40.0, radius), radius, -0.5 * math.pi, math.pi), back]))
     return dance, held_apart(dance, 0.0, FAR, Budget())
 
 
-def strayed_threes(rng: np.random.Generator, chords: Floats, places: np.ndarray, stray: float) -> Floats:
+def strayed_threes(rng, chords, places, stray):
     """Handles (N, 4, 2) of poses of three benches within the stray, many of them at its edge; all in [m].
 
     places: (R, 4) nominal ones, as complex numbers
@@ -60,7 +57,7 @@ def strayed_threes(rng: np.random.Generator, chords: Floats, places: np.ndarray,
     ],
     ids=["long head", "equal", "short head", "wide", "of three sizes"],
 )
-def test_no_pose_within_the_bound_touches(radius: float, dragon: Dragon, least: float) -> None:
+def test_no_pose_within_the_bound_touches(radius, dragon, least):
     (dance, safe), rng, count = on_hairpin(dragon, radius), np.random.default_rng(3), 0
     assert safe > least * dragon.chords.min()
     places = trajectory(dance, [41.0, 42.5, 44.0]).position @ [1.0, 1j]
@@ -73,7 +70,7 @@ def test_no_pose_within_the_bound_touches(radius: float, dragon: Dragon, least: 
     assert count > 1_000
 
 
-def test_sags_are_those_of_the_handles() -> None:
+def test_sags_are_those_of_the_handles():
     rng = np.random.default_rng(5)
     chords, joint_angles = rng.uniform(0.5, 3.0, (200, 3)), rng.uniform(-math.pi, math.pi, (200, 2))
     ways = np.insert(np.exp(1j * joint_angles), 1, 1.0, axis=1)
@@ -87,7 +84,7 @@ def test_sags_are_those_of_the_handles() -> None:
 
 
 @pytest.mark.parametrize("radius", further(some([1.6, 2.0, 3.0, 10.0], 2), 1))
-def test_the_bound_is_not_above_what_a_pose_shows(radius: float) -> None:
+def test_the_bound_is_not_above_what_a_pose_shows(radius):
     dragon = Dragon(9, 2.2)
     dance, safe = on_hairpin(dragon, radius)
     for time in np.linspace(40.0, 52.0, examples(2, 7)).tolist():
@@ -99,7 +96,7 @@ def test_the_bound_is_not_above_what_a_pose_shows(radius: float) -> None:
     assert safe > (0.7 if radius >= 3.0 else 0.5) * pose.stray
 
 
-def test_a_pose_on_a_line_strays_little_more_than_must_be() -> None:
+def test_a_pose_on_a_line_strays_little_more_than_must_be():
     """Another search (SLSQP from 30 starts, 2026-11-22) found 1.4326 m on a line, 1.0939 m on an arc of 1.45 m."""
     three, turn = np.array([[1.65, 2.2, 0.3]] * 3), 2.0 * math.asin(0.825 / 1.45)
     for places, least in (
@@ -110,13 +107,13 @@ def test_a_pose_on_a_line_strays_little_more_than_must_be() -> None:
         assert least - 1e-4 < np.hypot(*(touching_pose(three, places) - places).T).max() < 1.02 * least
 
 
-def test_three_that_cannot_fold_onto_each_other_have_no_pose() -> None:
+def test_three_that_cannot_fold_onto_each_other_have_no_pose():
     three = np.array([[1.0, 1.0, 0.1], [9.0, 9.0, 0.1], [1.0, 1.0, 0.1]])
     assert touching_pose(three, np.array([[11.0, 0.0], [10.0, 0.0], [1.0, 0.0], [0.0, 0.0]])) is None
 
 
 @pytest.mark.parametrize("radius", [1.44, 1.6, 2.5])
-def test_two_chords_in_a_row_bend_by_no_more_than_two_half_arcs(radius: float) -> None:
+def test_two_chords_in_a_row_bend_by_no_more_than_two_half_arcs(radius):
     dance, _ = on_hairpin(Dragon(12), radius)
     bend = sharpest_bend(dance, start=dance.begin)
     most = float(np.arcsin(dance.dragon.chords[:2] / (2.0 * radius)).sum())
@@ -124,7 +121,7 @@ def test_two_chords_in_a_row_bend_by_no_more_than_two_half_arcs(radius: float) -
     assert 0.85 * most < bend.angle <= most + 1e-9
 
 
-def test_a_spiral_is_as_bent_as_where_its_head_ends() -> None:
+def test_a_spiral_is_as_bent_as_where_its_head_ends():
     dance, ends = Dance(Dragon(30), Spiral(2.0)), (0.0, 1.5, 2.0, 4.5, 9.0)
     bounds = [held_apart(dance, dance.path.travel_to(radius), FAR, Budget()) for radius in ends]
     assert bounds[0] == 0.0
@@ -132,6 +129,6 @@ def test_a_spiral_is_as_bent_as_where_its_head_ends() -> None:
     assert bounds[1] < bounds[-1] < 1.4326
 
 
-def test_dragons_of_too_many_sizes_get_no_bound() -> None:
+def test_dragons_of_too_many_sizes_get_no_bound():
     dragon = Dragon.of(np.linspace(2.0, 2.4, 200), [0.3] * 200, [0.2] * 200)
     assert held_apart(Dance(dragon, Spiral(3.0)), 1.0, FAR, Budget()) == 0.0

@@ -1,7 +1,5 @@
 """Contact probability: against probabilities solved without sampling, and independence of samples."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np
@@ -30,7 +28,6 @@ from core.sampling import bisect
 from core.tolerance.chance import CONFIDENCE, clopper_pearson
 from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import INSTANTS_PER_TIME
-from core.values import Floats
 from tests.support.every_digit import every_digit
 from tests.support.refused import refused
 
@@ -45,7 +42,7 @@ HAIRPIN = Route([Line((-20, 0), (0, 0)), Arc((0, 1.5), 1.5, -0.5 * np.pi, np.pi)
 OPPOSITE = 20.0 + 1.5 * np.pi + 1.95
 
 
-def gap_of_all_alike(places: Floats, left: Floats, aside: float) -> float:
+def gap_of_all_alike(places, left, aside):
     """Gap of benches 0 and 4 on the hairpin when everybody wants to stand so far to the left [m]."""
     wanted = places + aside * left
     pins = [wanted[0]]
@@ -56,7 +53,7 @@ def gap_of_all_alike(places: Floats, left: Floats, aside: float) -> float:
     return float(separation(poses[:1], (1.65, 2.8), poses[4:], (1.65, 2.8)).separation[0])
 
 
-def chance_to_exceed(limits: list, memory: float) -> float:
+def chance_to_exceed(limits, memory):
     """The probability that an AR(1) process of variance 1 ever exceeds its limit of the instant, by quadrature."""
     grid = np.linspace(-6.0, 6.0, 2_401)
     width = grid[1] - grid[0]
@@ -68,7 +65,7 @@ def chance_to_exceed(limits: list, memory: float) -> float:
     return 1.0 - float(below.sum() * width)
 
 
-def test_the_probability_of_a_hairpin_is_that_of_its_quadrature() -> None:
+def test_the_probability_of_a_hairpin_is_that_of_its_quadrature():
     """With a long correlation along the chain all stand alike, and one number at each instant decides."""
     dance, size, stop = Dance(WIDE, HAIRPIN), 0.05, OPPOSITE + 0.5
     result = contact_probability(dance, Wobble(size, 0.0, 0.625, 1e9), 4_000, 1, start=OPPOSITE, stop=stop)
@@ -92,7 +89,7 @@ def test_the_probability_of_a_hairpin_is_that_of_its_quadrature() -> None:
         assert 0.99 * factor < bound / rare < 1.01 * factor
 
 
-def test_play_and_an_error_of_the_pitch_together_are_those_of_chains_laid_out_one_by_one() -> None:
+def test_play_and_an_error_of_the_pitch_together_are_those_of_chains_laid_out_one_by_one():
     """Nobody wobbles; each dragon is laid out in Python, on its own spiral, with the play of its own pins."""
     size, model, dragon = 0.02, Wobble(0.0, 0.0, hole=0.06, pin=0.05, pitch_error=0.02), SPIRAL.dragon
     start, touching = LATE["start"], []
@@ -121,11 +118,11 @@ def test_play_and_an_error_of_the_pitch_together_are_those_of_chains_laid_out_on
     assert 20 < len(touching) < 200
 
 
-def numbers(seed: int, sample: int, part: int) -> np.random.Generator:
+def numbers(seed, sample, part):
     return np.random.Generator(np.random.Philox(key=seed, counter=[0, part, sample, 0]))
 
 
-def test_a_sample_depends_on_no_other_sample() -> None:
+def test_a_sample_depends_on_no_other_sample():
     whole, *parts, backwards, other = (
         contact_probability(SPIRAL, MODEL, samples, seed, **LATE)
         for samples, seed in ((40, 7), (range(30), 7), (range(30, 40), 7), (range(39, -1, -1), 7), (40, 8))
@@ -138,7 +135,7 @@ def test_a_sample_depends_on_no_other_sample() -> None:
     assert not np.array_equal(other.strays, whole.strays)
 
 
-def test_nobody_wobbles_with_a_size_of_0() -> None:
+def test_nobody_wobbles_with_a_size_of_0():
     touching, clear = (
         contact_probability(SPIRAL, Wobble(0.0, 0.0), 3, 1, **span) for span in ({"start": 400.0, "stop": 420.0}, LATE)
     )
@@ -151,7 +148,7 @@ def test_nobody_wobbles_with_a_size_of_0() -> None:
     assert (clear.contacts, clear.strayed, clear.limits[0]) == (0, 0, 0.0)
 
 
-def test_only_those_who_stray_beyond_the_tolerance_touch() -> None:
+def test_only_those_who_stray_beyond_the_tolerance_touch():
     dance, model = Dance(WIDE, HAIRPIN), Wobble(0.04, 0.02, correlation_benches=20.0)
     result = contact_probability(dance, model, 400, 3, start=OPPOSITE, stop=OPPOSITE + 0.5)
     assert 0 < result.contacts <= result.strayed < 400
@@ -159,7 +156,7 @@ def test_only_those_who_stray_beyond_the_tolerance_touch() -> None:
 
 
 @pytest.mark.parametrize(("time", "step"), [(4.0, None), (100.0, None), (4.0, 0.3), (0.35, 0.07)])
-def test_instants_are_a_fifth_of_the_correlation_time_apart_or_as_asked(time: float, step: float | None) -> None:
+def test_instants_are_a_fifth_of_the_correlation_time_apart_or_as_asked(time, step):
     result = contact_probability(SPIRAL, Wobble(correlation_time=time, step=step), 1, 1, **LATE)
     widest = step or time / INSTANTS_PER_TIME
     assert result.step <= widest
@@ -167,13 +164,13 @@ def test_instants_are_a_fifth_of_the_correlation_time_apart_or_as_asked(time: fl
     assert result.step * (result.instants - 1) == pytest.approx(8.0, abs=1e-12)
 
 
-def test_clopper_and_pearson_leave_as_much_beyond_either_limit() -> None:
+def test_clopper_and_pearson_leave_as_much_beyond_either_limit():
     low, high = clopper_pearson(7, 50)
     assert binom.sf(6, 50, low) == pytest.approx(0.5 * (1.0 - CONFIDENCE), abs=1e-12)
     assert binom.cdf(7, 50, high) == pytest.approx(0.5 * (1.0 - CONFIDENCE), abs=1e-12)
 
 
-def test_a_dance_is_sampled_to_its_fold_also_on_other_pitches() -> None:
+def test_a_dance_is_sampled_to_its_fold_also_on_other_pitches():
     dance = Dance(Dragon(6), Spiral(1.2, 4.0))
     shares = []
     result = contact_probability(
@@ -199,29 +196,29 @@ def test_a_dance_is_sampled_to_its_fold_also_on_other_pitches() -> None:
     ],
     ids=str,
 )
-def test_what_cannot_be_is_refused(changes: dict, field: str) -> None:
+def test_what_cannot_be_is_refused(changes, field):
     with refused(field):
         contact_probability(SPIRAL, **{"model": MODEL, "samples": 1, "seed": 1, **LATE, **changes})
 
 
 @pytest.mark.parametrize(("name", "least"), [("correlation_time", "4e-06 s"), ("step", "8e-07 s")])
-def test_instants_may_not_be_so_close_that_there_are_too_many(name: str, least: str) -> None:
+def test_instants_may_not_be_so_close_that_there_are_too_many(name, least):
     with pytest.raises(InvalidValue, match=f"^model.{name} must be at least {least}, got 1e-07 s: .* 10000000 "):
         contact_probability(SPIRAL, Wobble(**{name: 1e-7}), 1, 1, **LATE)
 
 
-def test_of_one_sample_that_is_too_much_work_the_benches_are_named() -> None:
+def test_of_one_sample_that_is_too_much_work_the_benches_are_named():
     with refused("dragon.benches", TooMuchWork):
         contact_probability(SPIRAL, MODEL, 1, 1, budget=Budget(100.0), start=300.0, stop=400.0)
 
 
-def test_the_answer_in_one_line() -> None:
+def test_the_answer_in_one_line():
     result = contact_probability(SPIRAL, MODEL, 10, 7, **LATE)
     assert repr(result).startswith(f"<ContactProbability: {result.probability:g}, between ")
     assert every_digit(result)["seed"] == 7
 
 
-def test_of_benches_that_touch_as_they_are_nothing_is_called_proven() -> None:
+def test_of_benches_that_touch_as_they_are_nothing_is_called_proven():
     result = contact_probability(Dance(Dragon(20), Spiral()), Wobble(), 2, 1, start=411.0, stop=414.0)
     assert result.tolerance == 0.0
     assert "proven" not in result.method

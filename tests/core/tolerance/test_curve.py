@@ -1,7 +1,5 @@
 """The curve of tolerance against pitch: each of its points, its rise, and what is refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -12,7 +10,7 @@ from tests.support.refused import refused
 DRAGON = Dragon(benches=30)
 
 
-def test_the_tolerance_rises_with_the_pitch_and_is_the_inverse_of_the_minimum_pitch() -> None:
+def test_the_tolerance_rises_with_the_pitch_and_is_the_inverse_of_the_minimum_pitch():
     strays = [0.01, 0.03]
     pitches = [minimum_pitch(DRAGON, start_turns=10.0, stray=stray).pitch for stray in strays]
     curve = tolerance_curve(DRAGON, pitches, start_turns=10.0)
@@ -25,7 +23,7 @@ def test_the_tolerance_rises_with_the_pitch_and_is_the_inverse_of_the_minimum_pi
     assert set(frame["limited_by"]) == {"benches"}
 
 
-def test_the_head_is_on_the_circle_at_that_time() -> None:
+def test_the_head_is_on_the_circle_at_that_time():
     dance = Dance(DRAGON, Spiral(0.6, 10.0), head_speed=2.0)
     assert dance.path.head(2.0 * time_on_circle(dance, 4.0)).radius == pytest.approx(4.0, abs=1e-12)
 
@@ -42,15 +40,15 @@ def test_the_head_is_on_the_circle_at_that_time() -> None:
     ],
     ids=["none", "a table", "inside the circle", "on the circle", "a fold before the circle", "a negative pitch"],
 )
-def test_impossible_curves_are_refused(pitches: list, options: dict, field: str) -> None:
+def test_impossible_curves_are_refused(pitches, options, field):
     with refused(field):
         tolerance_curve(DRAGON, pitches, **options)
 
 
-def test_pitches_that_are_too_many_for_the_budget_are_reported_with_how_many_were_answered() -> None:
+def test_pitches_that_are_too_many_for_the_budget_are_reported_with_how_many_were_answered():
     budget = Budget()
 
-    def stop(share: float) -> None:
+    def stop(share):
         budget.stop("in the time given")
 
     with pytest.raises(TooMuchWork, match=r"pitches must be fewer, got 3: .* for only 1 "):

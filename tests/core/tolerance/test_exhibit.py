@@ -1,7 +1,5 @@
 """Poses that show a contact: they overlap, keep every chord, and stray little further than what is proven safe."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -43,9 +41,7 @@ SIZES = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 8, [0.3, 0.5] * 20, [0.2] * 40)
         *("wide", "less wide", "very wide", "of three in a row"),
     ],
 )
-def test_the_shown_contact_is_one(
-    dance: Dance, stop: float | None, least: float, part: float, pair: tuple | None
-) -> None:
+def test_the_shown_contact_is_one(dance, stop, least, part, pair):
     """Its pose strays little further than is proven safe."""
     result = tolerance(dance, stop=stop)
     safe, touching = result.stray_bracket
@@ -63,7 +59,7 @@ def test_the_shown_contact_is_one(
 
 
 @pytest.mark.parametrize("rotation", [-0.03, 0.0, 0.02])
-def test_holes_that_move_a_bench_furthest_reach_the_edge_of_their_discs(rotation: float) -> None:
+def test_holes_that_move_a_bench_furthest_reach_the_edge_of_their_discs(rotation):
     chord, stray = 1.65, 0.05
     for way in np.linspace(0.0, math.tau, 9).tolist():
         front, rear = Body(0.0, 0.0, 0.0, chord, 1.1, 0.15).strays(way, rotation, stray)

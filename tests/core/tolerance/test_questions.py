@@ -1,7 +1,5 @@
 """Every question with a stray: known answers, messages, and no change by a stray of 0."""
 
-from __future__ import annotations
-
 import pytest
 
 from core import (
@@ -30,7 +28,7 @@ KNOWN = [(0.01, 0.47173, 401.565), (0.02, 0.49313, 389.513), (0.05, 0.55741, 311
 
 
 @pytest.mark.parametrize(("stray", "pitch", "time"), KNOWN)
-def test_known_answers_with_a_stray(stray: float, pitch: float, time: float) -> None:
+def test_known_answers_with_a_stray(stray, pitch, time):
     assert pitch - 4e-4 < minimum_pitch(Dragon(), stray=stray).pitch < pitch + 1e-5
     contact = first_contact(DANCE, stray=stray)
     assert time - 1e-3 < contact.time < time + 0.4
@@ -38,14 +36,14 @@ def test_known_answers_with_a_stray(stray: float, pitch: float, time: float) -> 
     assert 2.0 * stray < contact.gap < 2.2 * stray
 
 
-def test_a_stray_above_the_tolerance_until_a_time_touches_just_before_it() -> None:
+def test_a_stray_above_the_tolerance_until_a_time_touches_just_before_it():
     known = tolerance(DANCE, stop=300.0)
     safe, touching = known.stray_bracket
     assert first_contact(DANCE, stray=safe, stop=300.0).outcome is Outcome.CLEAR
     assert known.time - 2.0 < first_contact(DANCE, stray=1.001 * touching).time < known.time
 
 
-QUESTIONS: dict = {
+QUESTIONS = {
     "first contact": lambda **options: first_contact(DANCE, **options),
     "within a margin": lambda **options: first_contact(DANCE, margin=0.05, **options),
     "through the turn": lambda **options: first_contact(Dance(Dragon(30), Turn(0.9)), **options),
@@ -58,25 +56,25 @@ QUESTIONS: dict = {
 
 
 @pytest.mark.parametrize("name", QUESTIONS)
-def test_a_stray_of_0_changes_no_bit_and_a_negative_one_is_refused(name: str) -> None:
+def test_a_stray_of_0_changes_no_bit_and_a_negative_one_is_refused(name):
     ask = QUESTIONS[name]
     assert ask(stray=0.0) == ask(stray=Stray(0.0, 0.05, 0.05)) == ask()
     with refused("stray"):
         ask(stray=-0.1)
 
 
-def test_a_stray_brings_benches_nearer_to_a_wall_by_it_and_at_most_half_more() -> None:
+def test_a_stray_brings_benches_nearer_to_a_wall_by_it_and_at_most_half_more():
     still, strayed = (venue_clearance(Dance(LAPPING, LAP), VENUE, stray=stray, stop=10.0) for stray in (0.0, 0.02))
     for before, after in zip(still.areas, strayed.areas, strict=True):
         assert 0.02 - 1e-9 < before.nearest.distance - after.nearest.distance < 0.03
 
 
-def test_a_check_says_that_benches_may_touch() -> None:
+def test_a_check_says_that_benches_may_touch():
     report = check(DANCE, stray=0.02)
     assert report.failures[0].message == "Benches 0 and 11 may touch with strays up to 0.02 m at 389.518137 s."
     assert "while every hole is within 0.02 m of its place" in report.first_contact.certificate.method
 
 
-def test_a_stray_that_no_pitch_allows_is_reported_as_such() -> None:
+def test_a_stray_that_no_pitch_allows_is_reported_as_such():
     with pytest.raises(InvalidValue, match=r"^stray must be smaller, got 0\.6 m: on a straight line, "):
         minimum_pitch(Dragon(), stray=0.6)

@@ -1,7 +1,5 @@
 """The largest stray that is safe: known bounds, benches held apart by the one between, benches that touch."""
 
-from __future__ import annotations
-
 import pytest
 
 from core import Dance, Dragon, Line, Outcome, Route, Spiral, first_contact, minimum_pitch, tolerance
@@ -20,7 +18,7 @@ SIMPLE_SHORT = 1e-3
 
 
 @pytest.mark.parametrize(("pitch", "bound", "contact"), KNOWN, ids=[f"{known[0]} m" for known in KNOWN])
-def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch: float, bound: float, contact: float) -> None:
+def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch, bound, contact):
     dance, stop = to_circle(pitch)
     result = tolerance(dance, stop=stop)
     safe, touching = result.stray_bracket
@@ -31,7 +29,7 @@ def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch: float, bo
     assert SIMPLE[pitch] * (1.0 - SIMPLE_SHORT) < result.simple < SIMPLE[pitch] + ROUNDED
 
 
-def test_benches_next_but_one_to_each_other_are_held_apart_by_the_one_between() -> None:
+def test_benches_next_but_one_to_each_other_are_held_apart_by_the_one_between():
     dance = Dance(Dragon(20), Route([Line((0.0, 0.0), (80.0, 0.0))]))
     result = tolerance(dance)
     assert result.limited_by is Limit.CHORD
@@ -43,9 +41,7 @@ def test_benches_next_but_one_to_each_other_are_held_apart_by_the_one_between() 
 @pytest.mark.parametrize(
     ("dance", "stop", "benches"), [(*to_circle(0.42), None), (Dance(Dragon(), Spiral()), None, (0, 8))]
 )
-def test_where_benches_touch_as_they_are_nothing_is_called_safe(
-    dance: Dance, stop: float | None, benches: tuple | None
-) -> None:
+def test_where_benches_touch_as_they_are_nothing_is_called_safe(dance, stop, benches):
     result = tolerance(dance, stop=stop)
     assert (result.stray, result.time) == (0.0, pytest.approx(first_contact(dance).time, abs=1e-6))
     assert benches in (None, result.benches)
@@ -55,7 +51,7 @@ def test_where_benches_touch_as_they_are_nothing_is_called_safe(
 
 
 @pytest.mark.parametrize(("above", "known"), [(1e-9, False), (3e-9, True)], ids=["1 nm", "3 nm"])
-def test_a_stray_of_less_than_a_nanometre_counts_as_none(above: float, known: bool) -> None:
+def test_a_stray_of_less_than_a_nanometre_counts_as_none(above, known):
     """The stray is about half of what the pitch exceeds the least one by."""
     dragon = Dragon(20)
     dance = Dance(dragon, Spiral(minimum_pitch(dragon, turning_radius=3.0, start_turns=8.0).pitch + above, 8.0))
@@ -63,7 +59,7 @@ def test_a_stray_of_less_than_a_nanometre_counts_as_none(above: float, known: bo
     assert stray > STRAY_MIN if known else stray == 0.0
 
 
-def test_on_the_way_to_a_fold_a_stray_that_is_safe_has_no_contact_either() -> None:
+def test_on_the_way_to_a_fold_a_stray_that_is_safe_has_no_contact_either():
     """Benches 0 and 2 are nearest at the fold itself, and approach by 0.08 mm in the last micrometre of travel."""
     dance = Dance(Dragon(3, 1.54, 1.54, 0.14, 0.0), Spiral(0.445, 2.4))
     stray = tolerance(dance).stray

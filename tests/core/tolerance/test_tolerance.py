@@ -1,7 +1,5 @@
 """Tolerance: brackets around known values, a shown contact above, no contact in a million poses below."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -18,7 +16,7 @@ from core import (
     tolerance,
 )
 from core.sampling import bisect
-from core.tolerance.tolerance import Limit, Tolerance
+from core.tolerance.tolerance import Limit
 from tests.campaigns.adversaries import seek, to_circle
 
 # Largest width of a bracket, as a part of its proven end [1].
@@ -26,13 +24,13 @@ BRACKET = 2e-3
 
 
 @pytest.fixture(scope="module")
-def default() -> Tolerance:
+def default():
     dance, stop = to_circle(0.55)
     return tolerance(dance, stop=stop)
 
 
 @pytest.mark.thorough
-def test_none_of_a_million_poses_that_seek_contact_find_it(default: Tolerance) -> None:
+def test_none_of_a_million_poses_that_seek_contact_find_it(default):
     sought = seek(to_circle(0.55)[0], default)
     assert sought.poses >= 1_000_000
     # of twice the stray and more in the nominal places: the search does come near
@@ -40,11 +38,11 @@ def test_none_of_a_million_poses_that_seek_contact_find_it(default: Tolerance) -
 
 
 @pytest.mark.thorough
-def test_the_same_search_finds_contacts_with_strays_beyond_the_bracket(default: Tolerance) -> None:
+def test_the_same_search_finds_contacts_with_strays_beyond_the_bracket(default):
     assert seek(to_circle(0.55)[0], default, part=1.002, draws=2_000).nearest < 0.0
 
 
-def test_speed_changes_when_but_not_how_far_and_all_lengths_times_k_how_far(default: Tolerance) -> None:
+def test_speed_changes_when_but_not_how_far_and_all_lengths_times_k_how_far(default):
     stop = to_circle(0.55)[1] / 4.0
     dance = Dance(Dragon(223, 6.82, 4.40, 0.60, 0.55), Spiral(1.1), 8.0)
     result = tolerance(dance, stop=stop)
@@ -52,7 +50,7 @@ def test_speed_changes_when_but_not_how_far_and_all_lengths_times_k_how_far(defa
     assert result.time == pytest.approx(default.time / 4.0, rel=1e-6)
 
 
-def test_two_benches_on_a_line_have_nothing_to_touch() -> None:
+def test_two_benches_on_a_line_have_nothing_to_touch():
     result = tolerance(Dance(Dragon(benches=2), Route([Line((0.0, 0.0), (30.0, 0.0))])), start=5.0)
     assert result.limited_by is Limit.CHORD
     assert result.stray == pytest.approx(0.825, abs=1e-12)
@@ -60,7 +58,7 @@ def test_two_benches_on_a_line_have_nothing_to_touch() -> None:
     assert result.benches is result.time is result.exhibit is None
 
 
-def test_a_bench_that_passes_a_wall_may_stray_to_it() -> None:
+def test_a_bench_that_passes_a_wall_may_stray_to_it():
     """Between its holes a side moves by the stray, its corner by A: towards a long wall the corner counts."""
     dragon = Dragon(benches=1)
     wall = Area("wall", [[(0.0, 0.5), (40.0, 0.5), (40.0, 1.0), (0.0, 1.0), (0.0, 0.5)]])
@@ -75,7 +73,7 @@ def test_a_bench_that_passes_a_wall_may_stray_to_it() -> None:
     assert touching < safe * (1.0 + BRACKET)
 
 
-def corner_reach(stray: float) -> float:
+def corner_reach(stray):
     """How far to the left the front left corner of a default head can come, by the places of its holes [m].
 
     Where the bench is turned by phi the rear hole strays by w more than the front one, so the front hole is in two

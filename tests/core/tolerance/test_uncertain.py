@@ -1,7 +1,5 @@
 """A stray for sizes that are known only to within an error: safe for every draw of them, and not far too small."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,7 @@ CIRCLE = 4.5  # radius of the turning circle [m]
 
 
 @pytest.mark.parametrize("seed", further(range(12), 4))
-def test_no_benches_and_no_pitch_within_their_errors_allow_less(seed: int) -> None:
+def test_no_benches_and_no_pitch_within_their_errors_allow_less(seed):
     """Half of the draws have benches that are as long or as short as can be, and the narrowest spiral."""
     rng = np.random.default_rng(seed)
     dragon, pitch = Dragon(70, width=rng.uniform(0.2, 0.4), overhang=rng.uniform(0.1, 0.3)), rng.uniform(0.7, 1.0)
@@ -33,9 +31,7 @@ def test_no_benches_and_no_pitch_within_their_errors_allow_less(seed: int) -> No
     [(0.7, CIRCLE, 0.1, 0.0), (0.7, CIRCLE, 0.0, 0.03), (0.7, CIRCLE, 0.1, 0.03), (9.0, 50.0, 0.1, 0.0)],
     ids=["lengths", "pitch", "both", "benches next but one"],
 )
-def test_errors_allow_no_more_than_the_dragons_and_spirals_at_their_ends(
-    pitch: float, radius: float, error: float, spread: float
-) -> None:
+def test_errors_allow_no_more_than_the_dragons_and_spirals_at_their_ends(pitch, radius, error, spread):
     dragon = Dragon()
     safe = uncertain_tolerance(dragon, pitch, length_error=error, pitch_error=spread, turning_radius=radius)
     ends = [
@@ -48,12 +44,12 @@ def test_errors_allow_no_more_than_the_dragons_and_spirals_at_their_ends(
     assert 0.9 * min(ends) < safe <= min(ends) < uncertain_tolerance(dragon, pitch, turning_radius=radius)
 
 
-def test_where_nothing_is_proven_the_stray_is_none() -> None:
+def test_where_nothing_is_proven_the_stray_is_none():
     assert uncertain_tolerance(Dragon(), 0.6, pitch_error=0.2) == 0.0
     assert uncertain_tolerance(Dragon(), 0.45) == 0.0
 
 
-def test_all_lengths_times_k_make_it_k_times_as_large() -> None:
+def test_all_lengths_times_k_make_it_k_times_as_large():
     small = uncertain_tolerance(Dragon(), 0.7, length_error=0.02, pitch_error=0.01)
     large = uncertain_tolerance(
         Dragon(223, 6.82, 4.40, 0.60, 0.55), 1.4, length_error=0.04, pitch_error=0.02, turning_radius=9.0
@@ -61,7 +57,7 @@ def test_all_lengths_times_k_make_it_k_times_as_large() -> None:
     assert large == pytest.approx(2.0 * small, rel=1e-9)
 
 
-def test_no_stray_is_longer_than_half_a_chord() -> None:
+def test_no_stray_is_longer_than_half_a_chord():
     dragon = Dragon(20, head_length=0.5, width=0.1, overhang=0.05)
     assert uncertain_tolerance(dragon, 9.0, length_error=0.02, turning_radius=50.0) == pytest.approx(0.5 * (0.4 - 0.02))
 
@@ -75,7 +71,7 @@ def test_no_stray_is_longer_than_half_a_chord() -> None:
         ("turning_radius", 0.0, None),
     ],
 )
-def test_errors_beyond_all_reason_are_refused(field: str, error: float, words: str | None) -> None:
+def test_errors_beyond_all_reason_are_refused(field, error, words):
     with pytest.raises(InvalidValue, match=words) as caught:
         uncertain_tolerance(Dragon(), 0.7, **{field: error})
     assert caught.value.field == field

@@ -1,13 +1,10 @@
 """The bound without samples: its first order and the remainder, against chains drawn at random."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from core import Budget, Dance, Dragon, Spiral, Wobble, contact_probability, trajectory
-from core.tolerance.union_bound import FirstOrder, first_order, left_out, union_bound
-from core.values import Floats
+from core.tolerance.union_bound import first_order, left_out, union_bound
 
 DANCE = Dance(Dragon(12), Spiral())
 TIMES = np.array([300.0, 340.0])
@@ -16,7 +13,7 @@ TANGENTS = PLACED.velocity / PLACED.speed[..., None]
 COUNT = 10_000
 
 
-def chains(model: Wobble) -> tuple[FirstOrder, Floats, Floats, Floats]:
+def chains(model):
     """The first order, then of COUNT chains drawn at random at the last instant: e_k, its first order (COUNT, n + 1, 2)
     and, in first order, the four numbers of every bench that are assumed to be small (COUNT, n, 4) [m]."""
     rng, chords = np.random.default_rng(1), DANCE.dragon.chords
@@ -38,12 +35,12 @@ def chains(model: Wobble) -> tuple[FirstOrder, Floats, Floats, Floats]:
     return laid, in_plane(strays), in_plane(np.stack(linear, axis=1)), np.stack(small, axis=1)
 
 
-def in_plane(points: np.ndarray) -> Floats:
+def in_plane(points):
     """Complex numbers as points (..., 2)."""
     return np.stack([points.real, points.imag], axis=-1)
 
 
-def test_chains_drawn_at_random_have_the_covariances_of_the_first_order() -> None:
+def test_chains_drawn_at_random_have_the_covariances_of_the_first_order():
     model = Wobble(2e-5, 1e-5)
     laid, strays, linear, small = chains(model)
     # so small that the first order is nearly all
@@ -57,7 +54,7 @@ def test_chains_drawn_at_random_have_the_covariances_of_the_first_order() -> Non
 
 
 @pytest.mark.parametrize("size", [0.002, 0.01])
-def test_no_chain_within_the_assumption_leaves_its_first_order_by_more_than_the_bounds(size: float) -> None:
+def test_no_chain_within_the_assumption_leaves_its_first_order_by_more_than_the_bounds(size):
     laid, strays, linear, small = chains(Wobble(size, size))
     deviations = 2.5
     bounds = left_out(DANCE.dragon, laid, deviations)
@@ -71,13 +68,13 @@ def test_no_chain_within_the_assumption_leaves_its_first_order_by_more_than_the_
     assert beyond.max() > 1.0  # others do leave it
 
 
-def test_nothing_is_claimed_of_steep_turns() -> None:
+def test_nothing_is_claimed_of_steep_turns():
     laid = chains(Wobble(0.1, 0.1))[0]
     assert left_out(DANCE.dragon, laid, 8.0) is None
     assert union_bound(DANCE, Wobble(0.1, 0.1), TIMES, Budget()) == 1.0
 
 
-def test_the_bound_grows_with_the_wobble_and_holds_of_every_sample() -> None:
+def test_the_bound_grows_with_the_wobble_and_holds_of_every_sample():
     span, bounds = {"start": 384.0, "stop": 394.0}, []
     for size in (0.0003, 0.001, 0.002, 0.004, 0.03):
         result = contact_probability(DANCE, Wobble(size, size), 200, 1, **span)
