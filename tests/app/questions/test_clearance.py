@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-from itertools import pairwise
+import math
 from pathlib import Path
-
-import pytest
 
 from app.questions.clearance import ClearanceRequest
 from app.settings import Settings
@@ -18,17 +16,16 @@ PERFORMANCE = ClearanceRequest.model_validate({"dances": DANCES}).to_performance
 
 
 def test_a_start_that_is_left_out_is_the_first_whole_second_of_the_performance(ask: Asking) -> None:
-    got = ask("clearance", {"dances": DANCES, "times": {"stop": 40, "step": 8}})
-    assert list(got) == ["time", "clearance", "dragons", "benches", "grazes"]
-    assert PERFORMANCE.begin > 0.0
-    assert (got["time"][0], got["time"][1] - got["time"][0]) == (pytest.approx(PERFORMANCE.begin, abs=1.0), 8.0)
+    times = ask("clearance", {"dances": DANCES, "times": {"stop": 40, "step": 8}})["time"]
+    assert 0.0 < PERFORMANCE.begin <= times[0] < PERFORMANCE.begin + 1.0
+    assert (times[0] % 1.0, times[1] - times[0]) == (0.0, 8.0)
 
 
 def test_without_times_it_is_every_second_from_the_beginning_to_the_end(ask: Asking) -> None:
     times = ask("clearance", {"dances": DANCES, "times": None})["time"]
-    assert times[0] - 1.0 < PERFORMANCE.begin <= times[0]
+    first = math.ceil(PERFORMANCE.begin)
+    assert times == [*range(first, first + len(times))]
     assert times[-1] <= PERFORMANCE.end.time < times[-1] + 1.0
-    assert {after - before for before, after in pairwise(times)} == {1.0}
 
 
 def test_the_command_shows_the_grazes_and_takes_its_times_from_the_file_and_the_options(
@@ -37,8 +34,6 @@ def test_the_command_shows_the_grazes_and_takes_its_times_from_the_file_and_the_
     body = {"dances": DANCES, "times": {"stop": 40, "step": 8}}
     # A venue is no part of this question.
     done = run("clearance", written(tmp_path, body | {"venue": {"type": "FeatureCollection", "features": []}}))
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "dragons" in done.stdout
     assert f"{ask('clearance', body)['grazes'][0]['time']:.9f}" in done.stdout
     file = written(tmp_path, {"dances": DANCES, "start": 20})
     assert json.loads(run("clearance", file, "--json", "--step", "5").stdout)["time"][:2] == [20.0, 25.0]

