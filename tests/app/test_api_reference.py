@@ -11,13 +11,11 @@ from tests.support.reference import reference
 
 POSITION_TOLERANCE = 1e-11  # [m], and [m/s] for speeds
 TOLERANCE = 1e-9  # of contacts [s] and [m], and of pitches [m]
-BEFORE_AND_AFTER = {"before": False, "after": True}
 
 
-def assert_engines(got: Any) -> None:
-    check = got["cross_check"]
-    assert check["agree"]
-    assert all(word == BEFORE_AND_AFTER for word in check["engines"].values())
+def assert_engines(got: Any, before: bool | None = False) -> None:
+    assert got["cross_check"]["agree"]
+    assert [*got["cross_check"]["engines"].values()] == [{"before": before, "after": True}] * 4
 
 
 @pytest.mark.parametrize("instant", reference("trajectory")["full"], ids=lambda one: f"{one['time']:g}s")
@@ -34,17 +32,18 @@ def test_collision_time_meets_the_reference(ask: Asking, case: Any) -> None:
     got = ask("collision-time", **case["dragon"], **spiral)
     assert got["outcome"] == case["outcome"]
     if case["outcome"] == "contact":
-        assert [got["time"], *got["point"]] == pytest.approx([case["time"], *case["point"]], rel=0, abs=TOLERANCE)
-        head = [got["head"]["theta"], got["head"]["radius"]]
-        assert head == pytest.approx([case["head_theta"], case["head_radius"]], rel=0, abs=TOLERANCE)
-        assert [got["benches"], got["corner"], got["edge"]] == [case["benches"], case["corner"], case["edge"]]
+        numbers = [got["time"], *got["point"], got["head"]["theta"], got["head"]["radius"]]
+        known = [case["time"], *case["point"], case["head_theta"], case["head_radius"]]
+        assert numbers == pytest.approx(known, rel=0, abs=TOLERANCE)
+        assert [got[name] for name in ("benches", "corner", "edge")] == [case["benches"], case["corner"], case["edge"]]
         assert_engines(got)
-    if case["outcome"] == "clear":
+    elif case["outcome"] == "clear":
         assert got["time"] is got["benches"] is got["cross_check"] is None
         assert got["end"]["reason"] == case["end"]["reason"]
         assert got["end"]["time"] == pytest.approx(case["end"]["time"], rel=0, abs=TOLERANCE)
-    if case["outcome"] == "contact_at_start":
+    else:
         assert got["time"] == 0
+        assert_engines(got, before=None)
 
 
 @pytest.mark.parametrize("case", reference("minimum_pitch")["cases"], ids=lambda case: case["name"])
@@ -63,11 +62,9 @@ def test_minimum_pitch_meets_the_reference(ask: Asking, case: Any) -> None:
 def test_a_minimum_pitch_says_from_where_and_up_to_where_every_pitch_is_proven(ask: Asking) -> None:
     """The head of the second dragon folds on its circle: below some pitch only single ones are proven."""
     got = ask("minimum-pitch")
-    assert (got["justified_by"], got["proven_from"], got["proven_up_to"]) == ("bound", got["pitch"], None)
-    assert got["scan_step"] is None
+    assert (got["justified_by"], got["proven_from"], got["scan_step"]) == ("bound", got["pitch"], None)
     folding = {"benches": 14, "head_length": 2.21, "body_length": 1.47, "width": 0.06, "overhang": 0.12}
     got = ask("minimum-pitch", **folding, turning_diameter=1.7, start_turns=5)
     assert got["pitch"] == pytest.approx(0.525552677857343, rel=0, abs=TOLERANCE)
-    assert (got["limited_by"], got["benches"], got["justified_by"]) == ("fold", None, "scan")
-    assert (got["bench"], got["proven_up_to"]) == (0, None)
+    assert (got["limited_by"], got["benches"], got["bench"], got["justified_by"]) == ("fold", None, 0, "scan")
     assert got["pitch"] < got["proven_from"] - got["scan_step"]
