@@ -91,7 +91,7 @@ def test_a_number_is_no_budget(name):
 
 @pytest.mark.parametrize("work", [-1.0, math.nan, "many"])
 def test_work_is_zero_or_more(work):
-    with pytest.raises(ValueError, match="^work must be"):
+    with pytest.raises(ValueError, match="work must be"):
         Budget(work)
     assert Budget(0.0).left == 0.0
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core import Route, Waypoints
+from core import Clothoid, Coil, Route, Waypoints
 from core.kernels.constants import CREST, K_END, K_SLOPE, K_START, PIECE_KIND, S_END, S_START
 from core.paths import cubics
 from tests.support.near import assert_near
@@ -42,9 +42,7 @@ def circle(count: int) -> Points:
 WANDER = points_of(*np.cumsum(np.random.default_rng(7).normal(0.0, 4.0, (7, 2)), axis=0).T)
 
 
-@pytest.mark.parametrize(
-    ("points", "most"), [(zigzag(60), 6), (zigzag(300), 6), (circle(300), 1.01), (WANDER, math.inf)]
-)
+@pytest.mark.parametrize(("points", "most"), [(zigzag(300), 6), (circle(300), 1.01), (WANDER, math.inf)])
 def test_the_length_of_many_legs_is_that_of_a_finer_quadrature_in_few_cubics(points, most):
     route = Route([Waypoints(points)])
     spline, knots = spline_of(points)
@@ -92,22 +90,27 @@ def test_a_zigzag_has_crests_and_they_are_bounded():
     assert_bounded(route)
 
 
+@pytest.mark.parametrize(
+    "piece",
+    [Coil(0.9, 3.0, 0.3), Coil(0.5, 0.0, 4.0), Clothoid((0.0, 0.0), 0.0, -0.6, 0.4, 12.0)],
+    ids=["inwards", "outwards", "clothoid"],
+)
+def test_the_curvature_of_a_spiral_lies_between_its_bounds(piece):
+    assert_bounded(Route([piece]))
+
+
 def test_places_in_any_order_are_found_on_their_pieces():
     route = Route([Waypoints(zigzag(200))])
-    table, s = route.table, np.random.default_rng(3).uniform(route.begin - 1.0, route.end + 1.0, 2_000)
+    s = np.random.default_rng(3).uniform(route.begin - 1.0, route.end + 1.0, 2_000)
     in_order = np.argsort(s)
     assert (route.position(s)[in_order] == route.position(s[in_order])).all()
-    assert (route.position(s[:50]) == [route.position(place) for place in s[:50]]).all()
     # a joint belongs to the piece behind it
-    for joints, behind in ((table[:, S_END], table), (table[::-1, S_END], table[::-1])):
-        smooth = behind[:, PIECE_KIND] != CREST
-        assert_near(route.curvature(joints)[smooth], behind[smooth, K_END], CURVATURE_ERROR)
+    smooth = route.table[::-1][route.table[::-1, PIECE_KIND] != CREST]
+    assert_near(route.curvature(smooth[:, S_END]), smooth[:, K_END], CURVATURE_ERROR)
 
 
 STOPPING: dict[str, Points] = {
     "there and back": zigzag(1_000, 0.0, 1.0),
-    "there and back, almost": zigzag(1_000, 1e-9, 1.0),
-    "there and back, to the limits": zigzag(1_000, 0.0, 1e5),
     "there and almost back, to the limits": zigzag(1_000, 1e-3, 1e5),
 }
 SQUARE = 1e-3 * (np.arange(1_001) // 2 % 2)

@@ -16,10 +16,8 @@ from core import (
     Route,
     Waypoints,
     check,
-    clearance_profile,
     first_contact,
     highest_speed,
-    maximum_head_speed,
     trajectory,
 )
 from core.errors import Quantity
@@ -46,7 +44,7 @@ def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place():
 def test_a_start_before_the_beginning_of_the_path_is_refused():
     dance = Dance(DRAGON, line(100))
     assert_near(trajectory(dance, LENGTH + 1e-6).position[-1, 0], 1e-6, SAME)
-    with pytest.raises(OutsideRun, match=f"{LENGTH:.5f}[01] s"):
+    with refused("times.0", OutsideRun):
         trajectory(dance, [LENGTH - 0.001])
     with refused("start", OutsideRun):
         first_contact(dance, start=0.0)
@@ -59,19 +57,10 @@ TOO_SHORT = {
     "a hook": Route([Waypoints(((0, 0), (6, 0), (7, 4), (4, 6)))]),
     "a coil outwards": Route([Coil(3.0, 0.5, 1.0)]),
 }
-QUESTIONS = {
-    "check": check,
-    "highest_speed": highest_speed,
-    "maximum_head_speed": lambda dance: maximum_head_speed(dance, 2.0),
-    "trajectory": lambda dance: trajectory(dance, [5.0]),
-    "clearance": lambda dance: clearance_profile(dance, [50.0]),
-    "first_contact": first_contact,
-    "default_times": lambda dance: dance.default_times,
-}
 
 
 @pytest.mark.parametrize("path", TOO_SHORT.values(), ids=TOO_SHORT)
-@pytest.mark.parametrize("ask", QUESTIONS.values(), ids=QUESTIONS)
+@pytest.mark.parametrize("ask", [check, highest_speed, first_contact, lambda dance: trajectory(dance, [5.0])])
 def test_a_path_too_short_for_the_dragon_says_so(ask, path):
     length = Quantity(path.end - path.begin, "m", 9)
     with refused("path", least=Quantity(LENGTH, "m", 9), last=16, got=length):

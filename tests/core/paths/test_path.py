@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from core import Arc, Coil, Line, Route, Spiral, Turn, Waypoints, kernels
+from core import Arc, Clothoid, Coil, Line, Route, Spiral, Turn, Waypoints, kernels
 from core.paths.path import Path
 from tests.support.near import assert_near
 
@@ -17,6 +17,7 @@ PATHS: dict[str, Path] = {
     "turn": Turn(1.7),
     "line and arc": Route([Line((0.0, 0.0), (30.0, 0.0)), Arc((30.0, 3.0), 3.0, -math.pi / 2, 2.0)], 12.0),
     "coil": Route([Coil(0.9, 3.0, 9.0)]),
+    "clothoid": Route([Clothoid((1.0, 2.0), 0.4, -0.3, 0.35, 30.0)]),
     "waypoints": Route([Waypoints(((0.0, 0.0), (6.0, 1.0), (11.0, 6.0), (9.0, 13.0)))]),
 }
 # Half of the distance of the points of a difference quotient [m], and what it is off by, far from joints [1], [1/m].

