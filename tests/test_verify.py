@@ -279,8 +279,7 @@ def test_every_kind_of_claim_is_verified_and_no_other_number_of_it(name: str) ->
 @pytest.mark.thorough
 def test_both_checkers_have_one_verdict_on_changed_certificates() -> None:
     """`python -m tests.campaigns.differential` checks 100,000."""
-    count, disagreements = hunt(seed=4, cases=CHANGED)
-    assert (count, disagreements) == (CHANGED, [])
+    assert hunt(4, cases=CHANGED)[:2] == (CHANGED, 0)
 
 
 @pytest.mark.parametrize("arguments", [["--other"], *thorough([], ["a", "b"], ["nowhere"], ["/"])], ids=str)

@@ -15,8 +15,6 @@ import itertools
 import json
 import math
 import random
-import sys
-import time
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
@@ -36,6 +34,7 @@ from core.proof import (
 )
 from core.proof.certificate import digest
 from core.tolerance.tolerance import tolerance
+from tests.campaigns import hunting
 
 VERIFY = Path(__file__).parents[2] / "examples" / "verify.py"
 # Parts of each stretch, where only one of the two proves a certificate.
@@ -251,24 +250,21 @@ def _number(value: float, dice: random.Random) -> float:
     )
 
 
-def hunt(seed: int, seconds: float = math.inf, cases: float = math.inf) -> tuple[int, list[str]]:
-    """Number of changed certificates that were checked, and the disagreements about them."""
-    dice, count, faults, end = random.Random(seed), 0, [], time.monotonic() + seconds
-    while count < cases and time.monotonic() < end:
+def hunt(seed: int, seconds: float = 0.0, cases: int | None = None) -> hunting.Hunted:
+    """Changed certificates, one after the other from one row of random numbers, and the disagreements about them."""
+    dice = random.Random(seed)
+
+    def fault(seed: int, case: int) -> tuple[str, str]:
         name = dice.choice(list(MAKERS))
         certificate = changed(made(name), dice)
-        count += 1
         try:
-            why = disagreement(certificate)
+            return name, disagreement(certificate)
         except Exception as error:  # a checker that ends in any other way is wrong too
-            why = repr(error)
-        if why:
-            faults.append(f"{name}, case {count} of seed {seed}: {why}")
-    return count, faults
+            return name, repr(error)
+
+    return hunting.hunt(fault, seed, seconds, cases)
 
 
 if __name__ == "__main__":
-    arguments = [int(text) for text in sys.argv[1:]]
-    count, faults = hunt(arguments[1] if len(arguments) > 1 else 0, cases=arguments[0] if arguments else 100_000)
-    print(f"{count} changed certificates, {len(faults)} disagreements", *faults, sep="\n")
-    sys.exit(bool(faults))
+    cases, seed = hunting.arguments(100_000, 0)
+    hunting.main(hunt, "changed certificates", seed, 0.0, cases)

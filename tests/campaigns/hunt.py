@@ -1,7 +1,7 @@
 """All random campaigns against slow oracles: python -m tests.campaigns.hunt [SECONDS [SEED]].
 
-The exit code is 1 for any false answer. Each campaign is a module with `hunt(seed, seconds)`, which returns the number
-of cases and, second, the false ones, as a number or a list of sentences. The time is shared out among them.
+The exit code is 1 for any false answer. Each campaign is a module with `hunt(seed, seconds)`, as in hunting.py. Time
+is shared out among them.
 """
 
 from __future__ import annotations
@@ -9,6 +9,8 @@ from __future__ import annotations
 import sys
 import time
 from importlib import import_module
+
+from tests.campaigns import hunting
 
 # Module of each campaign, and what it judges.
 CAMPAIGNS = {
@@ -25,17 +27,12 @@ SECONDS = 1200.0  # of all campaigns together
 
 
 def main() -> None:
-    seconds = float(sys.argv[1]) if len(sys.argv) > 1 else SECONDS
-    seed = int(sys.argv[2]) if len(sys.argv) > 2 else int(time.time())
-    share, false = seconds / len(CAMPAIGNS), 0
+    (seconds, seed), false = hunting.arguments(SECONDS, int(time.time())), 0
     print(f"seed {seed}", flush=True)
     for module, what in CAMPAIGNS.items():
-        cases, faults, *_ = import_module(module).hunt(seed, share)
-        count = faults if isinstance(faults, int) else len(faults)
-        for fault in () if isinstance(faults, int) else faults:
-            print(fault)
-        print(f"{cases:8,d} cases, {count} false: {what}", flush=True)
-        false += count
+        result = import_module(module).hunt(seed, seconds / len(CAMPAIGNS))
+        print(f"{result.cases:8,d} cases, {result.faults} false: {what}", flush=True)
+        false += result.faults
     sys.exit(false > 0)
 
 

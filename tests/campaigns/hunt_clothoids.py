@@ -44,4 +44,4 @@ def fault(seed, case):
 hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
-    hunting.main(fault, "dances on clothoids")
+    hunting.main(hunt, "dances on clothoids")

@@ -248,4 +248,4 @@ def undecided_words(contact):
 hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
-    hunting.main(fault, "dances")
+    hunting.main(hunt, "dances")

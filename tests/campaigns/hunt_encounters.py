@@ -149,4 +149,4 @@ def encounter_fault(met, margin, look):
 hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
-    hunting.main(fault, "encounters")
+    hunting.main(hunt, "encounters")

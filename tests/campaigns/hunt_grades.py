@@ -8,10 +8,8 @@ verdict "wrong" on a number that is right to its digits. With CASES it ends afte
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from functools import cache
-from time import monotonic
 from typing import Any
 
 import numpy as np
@@ -24,6 +22,7 @@ from app.grade.layout import COMPONENTS, HANDLES, SheetTable, TableKind
 from app.grade.report import typed
 from app.grade.shortcuts import UNITS, right_answer
 from core import Budget
+from tests.campaigns import hunting
 
 Floats = np.ndarray[Any, np.dtype[np.float64]]
 Random = np.random.Generator
@@ -165,25 +164,17 @@ def typed_fault(random: Random) -> str:
     return ""
 
 
-def hunt(seed: int, seconds: float = SECONDS, cases: int | None = None) -> tuple[int, list[str]]:
-    """Number of random cases, and the faults found. cases: number of them, instead of the seconds"""
-    random, started, done, faults = np.random.default_rng(seed), monotonic(), 0, []
-    while done < cases if cases is not None else monotonic() - started < seconds:
-        fault = (typed_fault if random.random() < TYPED else sheet_fault)(random)
-        faults += [fault] if fault else []
-        done += 1
-    return done, faults
+def hunt(seed: int, seconds: float = SECONDS, cases: int | None = None) -> hunting.Hunted:
+    """Random cases from one row of random numbers. cases: number of them, instead of the seconds"""
+    random = np.random.default_rng(seed)
 
+    def fault(seed: int, case: int) -> tuple[str, str]:
+        is_typed = random.random() < TYPED
+        return "typed number" if is_typed else "sheet", (typed_fault if is_typed else sheet_fault)(random)
 
-def main() -> None:
-    seed, seconds = int(sys.argv[1]) if len(sys.argv) > 1 else 1, float(sys.argv[2]) if len(sys.argv) > 2 else SECONDS
-    done, faults = hunt(seed, seconds, int(sys.argv[3]) if len(sys.argv) > 3 else None)
-    for fault in faults:
-        print(fault)
-    print(f"{done:,} sheets and typed numbers that are nearly right, seed {seed}: {len(faults)} accused")
-    if faults:
-        raise SystemExit(1)
+    return hunting.hunt(fault, seed, seconds, cases)
 
 
 if __name__ == "__main__":
-    main()
+    seed, seconds, cases = hunting.arguments(1, SECONDS, 0)
+    hunting.main(hunt, "sheets and typed numbers that are nearly right", seed, seconds, cases or None)

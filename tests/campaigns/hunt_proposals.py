@@ -6,7 +6,7 @@ and a dense sampling; where there is none, the reason must be right by other mea
 
 from __future__ import annotations
 
-import sys
+from functools import partial
 
 from core import InvalidValue, TooMuchWork
 from tests.campaigns import hunting
@@ -31,20 +31,8 @@ def fault(seed, case):
     return f"{len(wrong)} proposals", "; ".join(one for one in wrong if one)
 
 
-def hunt(seed, seconds):
-    """(cases, faults) of a campaign of some seconds."""
-    result = hunting.hunt(fault, seed, seconds)
-    return result.cases, result.faults
-
-
-def main():
-    seed, squares = (int(one) for one in [*sys.argv[1:3], *("0", str(SQUARES))[len(sys.argv[1:3]) :]])
-    result = hunting.hunt(fault, seed, 0.0, squares)
-    for kind, times in sorted(result.kinds.items()):
-        print(f"{times:6d}  {kind}")
-    print(f"{result.cases} squares, {result.faults} false")
-    sys.exit(result.faults > 0)
-
+hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
-    main()
+    seed, squares = hunting.arguments(0, SQUARES)
+    hunting.main(hunt, "squares", seed, 0.0, squares)

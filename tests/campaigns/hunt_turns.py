@@ -119,4 +119,4 @@ def fault(seed, case):
 hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
-    hunting.main(fault, "turns, long spirals and boxes")
+    hunting.main(hunt, "turns, long spirals and boxes")

@@ -185,4 +185,4 @@ def area_fault(tree, margin, look):
 hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
-    hunting.main(fault, "venues")
+    hunting.main(hunt, "venues")

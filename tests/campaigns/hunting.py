@@ -29,7 +29,7 @@ def generator(seed, case):
     return np.random.default_rng([seed, case])
 
 
-def hunt(fault, seed, seconds, cases=None):
+def hunt(fault, seed, seconds=SECONDS, cases=None):
     """Judge case after case until the time is over [s], or for a number of cases; prints every fault."""
     kinds: Counter[str] = Counter()
     stop, case, faults = time.monotonic() + seconds, 0, 0
@@ -43,11 +43,15 @@ def hunt(fault, seed, seconds, cases=None):
     return Hunted(case, faults, kinds)
 
 
-def main(fault, what):
-    """Run a campaign from the command line: SEED (0) and SECONDS; exit 1 for any fault."""
-    seed = int(sys.argv[1]) if len(sys.argv) > 1 else 0
-    seconds = float(sys.argv[2]) if len(sys.argv) > 2 else SECONDS
-    result = hunt(fault, seed, seconds)
+def arguments(*defaults):
+    """The numbers of the command line in their order, and the defaults of those that are not there."""
+    words = sys.argv[1:]
+    return [type(value)(words[k]) if k < len(words) else value for k, value in enumerate(defaults)]
+
+
+def main(hunt, what, *how):
+    """Run a campaign from the command line, with SEED and SECONDS unless it says otherwise; exit 1 for any fault."""
+    result = hunt(*(how or arguments(0, SECONDS)))
     for kind, times in sorted(result.kinds.items()):
         print(f"{times:6d}  {kind}")
     print(f"{result.cases} {what}, {result.faults} false")

@@ -6,12 +6,12 @@ bench, also such as overlap on a straight line; starts from 0.2 to 20 turns, cir
 
 from __future__ import annotations
 
-import sys
-from collections import Counter
+from functools import partial
 
 import numpy as np
 
 from core import Dragon, InvalidValue, LimitedBy, minimum_pitch
+from tests.campaigns import hunting
 from tests.support.slow_pitch import SlowWay
 
 # A pitch this much above the answer must be feasible, one this much below the infeasible end must not be [1], and at
@@ -80,21 +80,6 @@ def fault(seed):
     return kind + (", wide bracket" if wide else ""), ""
 
 
-def main(count, first):
-    """Print every fault and how often each kind of answer came."""
-    kinds: Counter[str] = Counter()
-    faults = 0
-    for seed in range(first, first + count):
-        kind, wrong = fault(seed)
-        kinds[kind] += 1
-        if wrong:
-            faults += 1
-            print(f"seed {seed}: {kind}: {wrong}", flush=True)
-    for kind, times in sorted(kinds.items()):
-        print(f"{times:6d}  {kind}")
-    print(f"{count} dragons, {faults} false")
-    return faults
-
-
 if __name__ == "__main__":
-    sys.exit(main(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0) > 0)
+    count, first = hunting.arguments(2_000, 0)
+    hunting.main(partial(hunting.hunt, lambda seed, case: fault(seed + case)), "dragons", first, 0.0, count)

@@ -264,7 +264,7 @@ def test_sparse_instants_do_not_contradict_the_speeds() -> None:
 @pytest.mark.parametrize("cases", [25, pytest.param(150, marks=pytest.mark.thorough)])
 def test_nobody_is_accused_by_chance(cases: int) -> None:
     """Some cases of the campaign; `python -m tests.campaigns.hunt_grades` has as many as there is time for."""
-    assert hunt(20261126, cases=cases) == (cases, [])
+    assert hunt(20261126, cases=cases)[:2] == (cases, 0)
 
 
 @pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.thorough)], ids=["some", "all"])
