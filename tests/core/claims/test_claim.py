@@ -4,10 +4,20 @@ import pickle
 
 import pytest
 
-from core import Dance, Dragon, EndReason, Line, Outcome, Passage, Route, Spiral, Turn, first_contact, tolerance
+from core import (
+    Dance,
+    Dragon,
+    EndReason,
+    Line,
+    Passage,
+    Route,
+    Spiral,
+    Turn,
+    clearance_profile,
+    first_contact,
+    tolerance,
+)
 from core.claims.claim import PASSAGES_LISTED, ClaimKind, DanceSummary, DragonSummary, format_safe
-
-SHORT = Route([Line((0.0, 0.0), (60.0, 0.0))])
 
 
 @pytest.mark.parametrize("stray", [0.04654398712345678, 1.0 / 3.0, 0.1 + 0.2, 2.0**-20, 0.825])
@@ -18,51 +28,48 @@ def test_a_printed_stray_is_not_above_the_one_that_is_proven(stray):
 def test_a_dragon_is_summarised_by_its_sizes_or_by_its_extents():
     assert DragonSummary.of(Dragon(3)) == DragonSummary(3, (2.2, 3.41), (0.3, 0.3), 3.41, 2.2, 0.3, 0.275)
     assert DragonSummary.of(Dragon(1)) == DragonSummary(1, (3.41, 3.41), (0.3, 0.3), 3.41, None, 0.3, 0.275)
-    odd = Dragon.of([3.0, 2.0, 2.5], [0.3, 0.2, 0.3], [0.2] * 3)
-    assert DragonSummary.of(odd) == DragonSummary(3, (2.0, 3.0), (0.2, 0.3))
     wide_head = Dragon.of([3.0, 2.0, 2.0], [0.4, 0.3, 0.3], [0.2] * 3)
-    assert DragonSummary.of(wide_head).widths == (0.3, 0.4)
-    assert DragonSummary.of(wide_head).head_length is None
+    assert DragonSummary.of(wide_head) == DragonSummary(3, (2.0, 3.0), (0.3, 0.4))
 
 
-def test_a_few_passages_are_listed_and_more_are_counted():
-    def summary(count):
-        return DanceSummary.of(
-            Dance(Dragon(5), Spiral(), 1.0, [Passage(1.5, until_time=k + 1.0) for k in range(count)])
-        )
-
-    most = summary(PASSAGES_LISTED)
-    assert (len(most.passages), most.passage_count) == (PASSAGES_LISTED, PASSAGES_LISTED)
-    more = summary(PASSAGES_LISTED + 1)
-    assert (more.passages, more.passage_count) == ((), PASSAGES_LISTED + 1)
+@pytest.mark.parametrize(("more", "listed"), [(0, PASSAGES_LISTED), (1, 0)])
+def test_a_few_passages_are_listed_and_more_are_counted(more, listed):
+    passages = [Passage(1.5, until_time=k + 1.0) for k in range(PASSAGES_LISTED + more)]
+    summary = DanceSummary.of(Dance(Dragon(5), Spiral(), 1.0, passages))
+    assert (len(summary.passages), summary.passage_count) == (listed, PASSAGES_LISTED + more)
 
 
-def test_a_search_claims_what_it_answers():
-    contact = first_contact(Dance(Dragon(30), Spiral(0.6, 8.0)), margin=0.05, start=10.0)
+# Dances, what is asked, and the kind and the end of the claim.
+SEARCHES = {
+    "contact": (Dance(Dragon(30), Spiral(0.6, 8.0)), {"margin": 0.05, "start": 10.0}, ClaimKind.CONTACT, None),
+    "clear to a stop": (Dance(Dragon(3), Turn(1.7)), {"stray": 0.01, "stop": 20.0}, ClaimKind.CLEAR, EndReason.STOP),
+    "clear to a fold": (Dance(Dragon(12), Spiral(0.9, 4.0)), {"start": 3.0}, ClaimKind.CLEAR, EndReason.FOLD),
+    "at the start": (Dance(Dragon(), Spiral(0.35)), {}, ClaimKind.CONTACT_AT_START, None),
+}
+
+
+@pytest.mark.parametrize(("dance", "query", "kind", "end"), SEARCHES.values(), ids=SEARCHES)
+def test_a_search_claims_what_it_answers(dance, query, kind, end):
+    contact = first_contact(dance, **query)
     claim = contact.certificate.claim
-    assert (claim.kind, claim.margin, claim.stray, claim.start) == (ClaimKind.CONTACT, 0.05, 0.0, 10.0)
-    assert (claim.clear_until, claim.time) == contact.time_bracket
-    assert (claim.benches, claim.end) == (contact.benches, None)
-    clear = first_contact(Dance(Dragon(3), Turn(1.7)), stray=0.01, stop=20.0).certificate
-    assert (clear.claim.kind, clear.claim.end) == (ClaimKind.CLEAR, EndReason.STOP)
-    assert clear.claim.clear_until == clear.clear_until == 20.0
-    at_start = first_contact(Dance(Dragon(), Spiral(0.35)))
-    claim = at_start.certificate.claim
-    assert at_start.outcome is Outcome.CONTACT_AT_START
-    assert (claim.kind, claim.clear_until, claim.time) == (ClaimKind.CONTACT_AT_START, None, 0.0)
+    assert (claim.kind, claim.end, claim.dance) == (kind, end, DanceSummary.of(dance))
+    assert [query.get(name, 0.0) for name in ("margin", "stray", "start")] == [claim.margin, claim.stray, claim.start]
+    clear = contact.end.time if contact.end else None
+    assert (claim.clear_until, claim.time) == (contact.time_bracket or (clear, contact.time))
+    assert (claim.benches, contact.certificate.clear_until) == (contact.benches, claim.clear_until)
 
 
-def test_a_tolerance_claims_its_stray_and_its_time():
-    result = tolerance(Dance(Dragon(5), SHORT), start=20.0)
-    claim = result.certificate.claim
-    assert (claim.kind, claim.stray, claim.touches) == (ClaimKind.SAFE_STRAY, result.stray, False)
-    assert (claim.start, claim.stop, claim.venue) == (20.0, result.stop, False)
+def test_a_start_within_rounding_of_the_margin_claims_no_clear_time():
+    dance = Dance(Dragon(), Spiral())
+    margin = float(clearance_profile(dance, 10.0).clearance)
+    claim = first_contact(dance, margin=margin, start=10.0).certificate.claim
+    assert (claim.kind, claim.start, claim.margin, claim.clear_until) == (ClaimKind.UNDECIDED, 10.0, margin, None)
 
 
 def test_a_claim_is_plain_values_that_another_process_can_have():
-    claims = [first_contact(Dance(dragon, SHORT), start=20.0).certificate.claim for dragon in (Dragon(5), Dragon(5))]
-    assert claims[0] == claims[1]
-    assert hash(claims[0]) == hash(claims[1])
-    assert pickle.loads(pickle.dumps(claims[0])) == claims[0]
-    dragon = claims[0].dance.dragon
-    assert {type(one) for one in (*dragon.lengths, *dragon.widths, dragon.head_length, dragon.overhang)} == {float}
+    claim = tolerance(Dance(Dragon(5), Route([Line((0.0, 0.0), (60.0, 0.0))])), start=20.0).certificate.claim
+    assert (claim.kind, claim.touches, claim.start, claim.venue) == (ClaimKind.SAFE_STRAY, False, 20.0, False)
+    again = pickle.loads(pickle.dumps(claim))
+    assert (again, hash(again)) == (claim, hash(claim))
+    dragon = claim.dance.dragon
+    assert {type(size) for size in (*dragon.lengths, *dragon.widths, dragon.head_length, dragon.overhang)} == {float}

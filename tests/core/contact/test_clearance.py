@@ -57,14 +57,6 @@ def test_no_least_clearance_is_claimed_where_benches_overlap_at_the_start():
     assert (least.at_least, least.time, least.benches) == (None, 0.0, tuple(there.benches))
 
 
-@pytest.mark.parametrize("pitch", [0.5, 0.55])
-def test_a_first_touch_is_a_least_clearance_of_zero(pitch):
-    dance = Dance(Dragon(), Spiral(pitch))
-    least, contact = least_clearance(dance), first_contact(dance)
-    assert (least.distance, least.at_least, least.benches) == (0.0, 0.0, contact.benches)
-    assert_near(least.time, contact.time, SAME)
-
-
 # Beyond the width of the proof: its own rounding [m].
 PROOF_ROUNDING = 1e-9
 
@@ -126,10 +118,3 @@ def test_a_profile_needs_two_benches_that_share_no_handle_and_times_of_the_run()
             clearance_profile(Dance(Dragon(benches), Spiral()), [0.0])
     with refused("times.1", OutsideRun):
         clearance_profile(SHORT, [0.0, 433.0])
-
-
-def test_the_profile_of_one_time_is_that_instant():
-    many, single = (clearance_profile(SHORT, times) for times in ([400.0, 410.0], 410.0))
-    assert (single.time.shape, single.clearance.shape, single.grazes) == ((), (), ())
-    assert single.clearance == many.clearance[1]
-    assert single.benches.tolist() == many.benches[1].tolist()

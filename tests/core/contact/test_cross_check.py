@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core import Arc, Dance, Dragon, Line, Outcome, Route, Spiral, bench_poses, first_contact, separation, trajectory
+from core import Dance, Dragon, Outcome, Spiral, bench_poses, first_contact, separation, trajectory
 from core.contact.cross_check import (
     CHECK_TRAVEL,
     CLOSE_MAX,
@@ -98,18 +98,6 @@ def test_the_whole_dragon_is_as_reported_on_random_dragons():
     assert checked > examples(6, 60)
 
 
-@as_dragon_and_pair
-def test_a_contact_at_the_start_has_no_before_and_may_have_others_beside_it(whole):
-    dance = Dance(Dragon(60), Spiral(0.25, 8.0))
-    contact = first_contact(dance)
-    assert (contact.outcome, contact.time) == (Outcome.CONTACT_AT_START, 0.0)
-    check = contact_check(contact, whole=whole)
-    assert check.agree
-    assert check.engines == dict.fromkeys(Engine, AT_ONCE)
-    assert len(unlinked_pairs(bench_poses(trajectory(dance, 0.0).position), sizes_of(dance.dragon))) > 1
-    assert check.together == ()
-
-
 def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact):
     result = first_contact(DANCE, start=contact.time + 0.5)
     assert result.outcome is Outcome.CONTACT_AT_START
@@ -118,26 +106,6 @@ def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact):
     forged = contact_check(replace(result, outcome=Outcome.CONTACT))
     assert all(verdict.before for verdict in forged.engines.values())
     assert not forged.agree
-
-
-def test_two_benches_of_a_straight_row_that_are_met_at_once_stand_together():
-    # The head comes back across its own straight row and meets it where two benches overlap around their handle.
-    bend = Arc((100.0, 4.0), 4.0, -math.pi / 2, 1.5 * math.pi)
-    path = Route([Line((0.0, 0.0), (100.0, 0.0)), bend, Line((96.0, 4.0), (96.0, -30.0))])
-    met = []
-    for overhang in (0.1, 0.2, 0.3, 0.4, 0.5):
-        contact = first_contact(Dance(Dragon(40, 2.2, 2.2, 0.3, overhang), path), start=95.0)
-        check = contact_check(contact)
-        assert check.agree
-        assert {(a - contact.benches[0], abs(b - contact.benches[1])) for a, b in check.together} <= {(0, 1)}
-        met.append(len(check.together))
-    assert {0, 1} <= set(met)
-
-
-def test_nothing_is_judged_where_nothing_touches():
-    clear = first_contact(Dance(DRAGON, Spiral(0.8)))
-    assert clear.outcome is Outcome.CLEAR
-    assert contact_check(clear) is None
 
 
 # -- what is forged -------------------------------------------------------------------------------------------

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from core import (
     Arc,
     Area,
-    Coil,
     Dance,
     Dragon,
     FailureKind,
@@ -26,7 +25,6 @@ from core import (
     trajectory,
     venue_clearance,
 )
-from core.contact.search import ContactSearch
 from tests.core.test_venue import SQUARE, STAGE, WELL, box, boxed
 from tests.support.depth import examples
 from tests.support.near import assert_near
@@ -61,17 +59,6 @@ def shapely_distances(dance, area, times):
     """Distance of every bench to the edges of an area, (..., n) [m]; 0 where they cross."""
     shapes = shapely.polygons(bench_outlines(dance.dragon, trajectory(dance, times).position))
     return shapely.distance(shapes, shapely.Polygon(area.rings[0], area.rings[1:]).boundary)
-
-
-@pytest.mark.parametrize("area", VENUE.areas, ids=lambda area: area.name)
-def test_distances_on_sampled_poses_are_shapelys(area):
-    search = ContactSearch(DRAGON, LAP, 0.0, area.edges)
-    times = np.linspace(0.0, LAP.end, 60)
-    for time, row in zip(times.tolist(), shapely_distances(LAPPING, area, times), strict=True):
-        distance, (bench, _) = search.clearance(time)
-        assert_near(max(distance, 0.0), row.min(), SAME_DISTANCE)
-        if distance > 0.0:
-            assert_near(row[bench], row.min(), SAME_DISTANCE)
 
 
 @pytest.mark.parametrize("k", range(3), ids=[area.name for area in VENUE.areas])
@@ -115,34 +102,17 @@ def test_any_obstacle_is_met_when_a_slow_search_meets_it(x, y, radius, turned, s
         assert shapely_distances(LAPPING, post, touching).min() < margin + AT_MARGIN
 
 
-def test_a_wall_across_the_way_is_met_where_the_head_reaches_it():
-    wall = Venue(HALL, (boxed("wall", 20, -1, 21, 1),))
-    result = venue_clearance(Dance(DRAGON, STRAIGHT), wall, margin=0.25).areas[1]
-    assert (result.outcome, result.bench, result.nearest.distance) == (Outcome.CONTACT, 0, 0.0)
-    reached = 20.0 - 0.275
-    assert_near([result.time, result.nearest.time], [reached - 0.25, reached], TIME_ERROR)
-    assert_near(result.point[0], 19.75, AT_MARGIN)
-
-
 def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch():
     dance = Dance(Dragon.of([2.2] * 6, [0.3, 0.3, 0.3, 0.9, 0.3, 0.3], [0.275] * 6), STRAIGHT)
     square = Venue(HALL, (boxed("post", 20, 0.3, 20.5, 1),))
-    result = venue_clearance(dance, square).areas[1]
-    assert (result.bench, result.nearest.distance) == (3, 0.0)
-    assert_near(result.time, 20.0 + 3 * 1.65 - 0.275, TIME_ERROR)
+    result = venue_clearance(dance, square, margin=0.05).areas[1]
+    assert (result.outcome, result.bench, result.nearest.distance) == (Outcome.CONTACT, 3, 0.0)
+    reached = 20.0 + 3 * 1.65 - 0.275
+    assert_near([result.time, result.nearest.time], [reached - 0.05, reached], TIME_ERROR)
+    assert_near(result.point[0], 19.95, AT_MARGIN)
     clear = venue_clearance(dance, square, stop=20.0).areas[1]
     assert clear.outcome is Outcome.CLEAR
     assert_near(clear.nearest.distance, 0.15, SAME_DISTANCE)
-
-
-@pytest.mark.parametrize(("start", "stop"), [(0.0, 400.0), (-60.0, -20.0), (-5.0, 0.0), (0.0, 1e-3)])
-def test_a_spiral_has_its_place_in_the_world_also_before_its_start(start, stop):
-    dance = Dance(DRAGON, Spiral())
-    result = venue_clearance(dance, VENUE_ROUND, start=start, stop=stop)
-    distance = result.areas[0].nearest.distance
-    least = shapely_distances(dance, VENUE_ROUND.square, np.linspace(start, stop, 1_500)).min()
-    assert result.misplaced is None
-    assert least - 1e-3 <= distance <= least + PROVEN  # the samples are up to 0.27 s apart
 
 
 TREE = Area("tree", (((0.0, -4.723129), (0.1, -5.723129), (-0.1, -5.723129), (0.0, -4.723129)),))
@@ -228,28 +198,3 @@ def test_a_dragon_that_starts_outside_or_in_an_obstacle_is_misplaced(venue, misp
     result = venue_clearance(LAPPING, venue)
     assert (result.misplaced and (result.misplaced.name, result.misplaced.bench)) == (misplaced and (misplaced, 0))
     assert result.areas[0].outcome is (Outcome.CONTACT if venue.square.rings[1:] else Outcome.CLEAR)
-
-
-def test_the_first_bench_outside_is_named_with_its_place():
-    misplaced = venue_clearance(LAPPING, Venue(boxed("square", -8, -5, 20, 20))).misplaced
-    handles = trajectory(LAPPING, 0.0).position[:, 0]
-    centres = 0.5 * (handles[1:] + handles[:-1])
-    assert misplaced.bench == int(np.argmax(centres < -8.0))
-    assert_near(misplaced.point, [centres[misplaced.bench], 0.0], SAME_DISTANCE)
-
-
-def test_head_speed_scales_times_and_nothing_else():
-    slow, fast = (venue_clearance(Dance(DRAGON, LAP, v), VENUE, margin=0.5) for v in (1.0, 2.5))
-    for a, b in zip(slow.areas, fast.areas, strict=True):
-        assert (a.outcome, a.bench) == (b.outcome, b.bench)
-        assert_near(a.nearest.distance, b.nearest.distance, SAME_DISTANCE)
-        assert_near(a.nearest.time, 2.5 * b.nearest.time, 1e-6)  # flat where they are nearest
-
-
-def test_a_coil_with_its_centre_elsewhere_meets_a_post_at_its_centre():
-    dance = Dance(DRAGON, Route([Coil(1.7, 8, 1.2, centre=(3, -2))]))
-    post = Venue(boxed("square", -30, -30, 30, 30), (boxed("post", 2.9, -2.1, 3.1, -1.9),))
-    nearest = venue_clearance(dance, post).areas[1].nearest
-    sampled = shapely_distances(dance, post.obstacles[0], np.linspace(0.0, dance.path.end, 2_000)).min()
-    assert_near(nearest.distance, sampled, 1e-4)
-    assert_near(nearest.time, dance.path.end, 1.0)

@@ -68,12 +68,6 @@ def test_angle_sum_tolerance_reaches_less_than_a_picometre(gap, seen):
     assert angle_sum_overlap(tip, SQUARE) == seen
 
 
-def test_angle_sum_misses_a_crossing_without_a_corner_inside():
-    crossing = benches((0, 0, 0), (0, 0, math.pi / 2))
-    assert overlaps(*crossing, chained=False).pairs.tolist() == [[0, 1]]
-    assert overlaps(*crossing, chained=False, engine=Engine.ANGLE_SUM).pairs.tolist() == []
-
-
 @settings(deadline=None, max_examples=50)
 @given(st.integers(0, 2**32), st.integers(2, 40))
 def test_angle_sum_finds_just_the_overlaps_with_a_corner_inside(seed, count):

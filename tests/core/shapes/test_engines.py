@@ -11,7 +11,6 @@ from core.shapes.engines import (
     GRID,
     GROWTH_MOST,
     KEPT_DRAGONS,
-    PIECE,
     WIDEST,
     Engine,
     engine_pairs,
@@ -84,32 +83,6 @@ def test_a_union_is_grown_by_what_was_asked_and_hardly_more():
     assert away.max() <= GROWTH_MOST * grown + GRID
     rest = united(bar, [bars[1:] + 0.4], grown, 0.3, Budget())
     assert shapely_of(rest).covers(shapely.box(5.4, 5.4, 6.4, 6.4))
-
-
-# Lines through points: a bow, one that crosses itself, one that turns back; and the fans and bands along them.
-WAVES = {
-    "bow": lambda t: (np.cos(t), np.sin(t)),
-    "loop": lambda t: (np.cos(t) * (1.0 + 0.3 * t), np.sin(2.0 * t)),
-    "back": lambda t: (np.sin(3.0 * t), 0.1 * t**2),
-}
-
-
-@pytest.mark.parametrize("wave", WAVES)
-@pytest.mark.parametrize("corners", [3, 4])
-@pytest.mark.parametrize("cells", [1, PIECE - 1, PIECE, 3 * PIECE + 5])
-def test_a_strip_covers_what_its_polygons_cover(wave, corners, cells):
-    line = np.stack(WAVES[wave](np.linspace(0.0, 2.5, cells + 1)), axis=-1)
-    if corners == 4:
-        side = line + np.gradient(line, axis=0) @ [[0.0, 0.2], [-0.2, 0.0]] * cells / 3.0
-        strip = np.stack([line[:-1], side[:-1], side[1:], line[1:]], axis=1)
-    else:  # the place of x on the line of the one before it: line[k] + t (x - line[k])
-        crossings = [line[0] + [0.3, -0.4]]
-        for k in range(1, cells):
-            crossings.append(line[k] + (0.9 + 0.2 * (k % 2)) * (crossings[-1] - line[k]))
-        strip = np.stack([np.array(crossings), line[:-1], line[1:]], axis=1)
-    own = shapely.union_all(shapely.convex_hull(shapely.polygons(strip)))
-    away = excess_of(united([strip], [strip[:1]], 1e-3, 0.0, Budget()), own, 0.01)
-    assert away.max() <= GROWTH_MOST * 1e-3 + GRID
 
 
 def ring(*corners):

@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from core import Dragon
 from core.kernels.constants import DIRECTIONS
@@ -32,16 +30,6 @@ def outline(chord, overhang, half_width):
     return np.stack([x + x, np.repeat([-half_width, half_width], len(x))], axis=-1)
 
 
-def test_a_point_moves_by_what_the_derivation_says():
-    chord, points = 1.65, outline(1.65, 0.275, 0.15)
-    strays = random_strays(np.random.default_rng(1), chord, 0.3, 1000)
-    assert np.linalg.norm(strays, axis=-1).max() <= 0.3 + ROUNDING
-    front, rear = (strays @ [1.0, 1.0j]).T[..., None]
-    z = points @ [1.0, 1.0j]
-    linear = z + front * (0.5 + z / chord) + rear * (0.5 - z / chord)
-    assert_near(moved_points(points, strays, chord) @ [1.0, 1.0j], linear, ROUNDING)
-
-
 @SHAPES
 def test_every_place_lies_in_one_of_the_hulls(chord, overhang, half_width, stray):
     hulls = bench_hulls(supports(chord, overhang, half_width, stray))
@@ -62,14 +50,6 @@ def test_supports_are_hardly_larger_than_what_places_reach(chord, overhang, half
     assert spare.min() >= -ROUNDING
     assert np.median(spare) < TIGHT * stray
     assert spare.max() < 10 * TIGHT * stray
-
-
-@settings(max_examples=30, deadline=None)
-@given(scale=st.floats(0.1, 10.0), stray=st.floats(0.001, 0.8))
-def test_a_larger_bench_with_a_larger_stray_has_a_larger_ground(scale, stray):
-    sizes = np.array([1.65, 0.275, 0.15, stray])
-    small, large = (bench_hulls(supports(*each)) for each in (sizes, sizes * scale))
-    assert large == pytest.approx(small * scale, rel=1e-12, abs=1e-11)
 
 
 def test_corners_go_round_and_the_ends_mirror_each_other():
