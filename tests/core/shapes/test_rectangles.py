@@ -42,7 +42,7 @@ FIELDS = "separation", "witness_a", "witness_b", "normal"
 @settings(deadline=None, max_examples=60)
 @given(pairs)
 def test_witnesses_lie_on_both_boundaries_and_differ_by_separation_times_unit_normal(pair):
-    *_, pose_b, size_b = pair
+    pose_a, size_a, pose_b, size_b = pair
     result = separation(*pair)
     assert_near(
         result.separation, minkowski_separation(corners(*pair[:2])[None], corners(*pair[2:])[None])[0], ROUNDING
