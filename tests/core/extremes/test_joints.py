@@ -1,32 +1,13 @@
 """The sharpest bend between two consecutive benches."""
 
-import math
-
 import numpy as np
 import pytest
 
-from core import Arc, Dance, Dragon, Line, Passage, Route, Spiral, Turn, sharpest_bend, trajectory
+from core import Dance, Dragon, Passage, Spiral, Turn, sharpest_bend, trajectory
 
 ANGLE_ERROR = 1e-12  # [rad]
-ONSET_ERROR = 1e-5  # [s]: some times the square root of ANGLE_ERROR
 ROUNDING = 1e-12  # [s]
 TURN = Turn(1.7)
-
-
-def test_there_is_no_bend_on_a_line():
-    route = Route([Line((0, 0), (60, 0))])
-    assert sharpest_bend(Dance(Dragon(benches=5), route), start=20.0).angle == 0.0
-
-
-def test_a_bend_on_an_arc_is_half_of_both_chords_angles():
-    route = Route([Line((-60, 0), (0, 0)), Arc((0, 4), 4.0, -0.5 * math.pi, 9.0)], start=60.0)
-    dragon = Dragon(benches=8)
-    result = sharpest_bend(Dance(dragon, route), start=0.0, stop=30.0)
-    bend = float(np.arcsin(0.5 * dragon.chords[:2] / 4.0).sum())
-    assert result.angle == pytest.approx(bend, abs=ANGLE_ERROR)
-    assert result.benches == (0, 1)
-    # It is reached when all three handles are on the arc; before, the error is the square of the arc length to go.
-    assert result.time == pytest.approx(4.0 * 2.0 * bend, abs=ONSET_ERROR)
 
 
 def dense_bends(dance, times):

@@ -12,7 +12,6 @@ from core import (
     Dance,
     Dragon,
     EndReason,
-    FailureKind,
     InvalidValue,
     Line,
     Passage,
@@ -20,7 +19,6 @@ from core import (
     Spiral,
     Turn,
     Waypoints,
-    check,
     first_excess,
     highest_speed,
     maximum_head_speed,
@@ -81,17 +79,6 @@ def test_no_dense_sample_is_faster(head, body, pitch, radius, ratio, benches):
     assert_highest(dance, np.linspace(-40.0, 60.0, 4_001), start=-40.0, stop=60.0)
 
 
-# 200 handles pass the same kink one after the other, each peak a little higher than the one before it.
-@pytest.mark.thorough
-def test_of_many_nearly_equal_peaks_the_highest_is_found():
-    dance = Dance(Dragon(head_length=0.125, overhang=0.0), TURN)
-    result = highest_speed(dance)
-    assert result.handles == (223,)
-    assert sampled(dance, result.time + np.linspace(-1.5, 1.5, 2_001)) <= result.speed_bracket[1] * (1.0 + ROUNDING)
-    before = sampled(dance, result.time - np.linspace(3.0, 30.0, 1_001))
-    assert result.speed - 1e-3 < before < result.speed
-
-
 def test_benches_that_follow_calmly_change_nothing():
     path = Turn(1.7, start_turns=40.0)
     few, many = (highest_speed(Dance(Dragon(benches), path), start=-60.0, stop=80.0) for benches in (60, 2_000))
@@ -114,15 +101,6 @@ def test_on_every_kind_of_piece_dense_samples_come_up_to_the_highest(path, start
     result = assert_highest(dance, times, start=start, stop=stop)
     assert result.speed - sampled(dance, times) < 1e-3
     assert result.speed_bracket[1] - result.speed < 1e-6
-
-
-@pytest.mark.parametrize("gap", [10.0, 0.1, 1e-3])
-def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap):
-    dance = Dance(Dragon(), Spiral())
-    stop = dance.end.time - gap
-    result = assert_highest(dance, np.array([stop]), stop=stop)
-    assert result.speed == pytest.approx(sampled(dance, [stop]), rel=ROUNDING)
-    assert result.speed_bracket[1] <= result.speed * (1.0 + 1e-7)
 
 
 # Most intervals in which a peak is proven [1]; most links that a search follows, see LINKS_BUDGET; and the least number
@@ -166,27 +144,15 @@ def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed):
     assert sampled(dance, times) <= assert_highest(dance, times, stop=stop).speed * (1.0 + UNSEEN)
 
 
-def test_a_proof_that_takes_too_long_is_given_up_with_a_message(monkeypatch):
-    monkeypatch.setattr(core.extremes.speed, "LINKS_BUDGET", 20)
-    dance, span = Dance(Dragon(), TURN), {"start": -20.0, "stop": 40.0}
-    result = maximum_head_speed(dance, SPEED["speed_limit"], **span)
-    assert result.head_speed_bracket == (None, result.head_speed)
-    report = check(dance, speed_limit=2.0, **span)
-    assert report.highest_speed.speed_bracket[1] is None
-    # the limit is far above, and proven on its own
-    assert report.passed
-    monkeypatch.setattr(core.extremes.speed, "EXCESS_LINKS", 20)
-    report = check(dance, speed_limit=2.0, **span)
-    assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]
-
-
 @pytest.mark.parametrize(("then", "excess"), [(5.0, 12.0), (0.0, None)], ids=["too fast after it", "a pause"])
 def test_a_proof_given_up_before_another_passage_is_unknown_for_the_whole_dance(monkeypatch, then, excess):
     """The bracket of an excess begins where the proof was given up, and ends with an excess or the interval."""
     for name in ("LINKS_BUDGET", "EXCESS_LINKS"):
         monkeypatch.setattr(core.extremes.speed, name, 20)
     dance = Dance(Dragon(10), TURN, passages=[Passage(1.0, until_time=12.0), Passage(then, until_time=15.0)])
-    assert then or highest_speed(dance, start=0.0, stop=15.0).speed_bracket[1] is None
+    if not then:
+        assert highest_speed(dance, start=0.0, stop=15.0).speed_bracket[1] is None
+        assert maximum_head_speed(dance.steady, 2.0, stop=15.0).head_speed_bracket[0] is None
     result = first_excess(dance, 2.0, start=0.0, stop=15.0)
     proven, until = result.time_bracket
     assert 0.0 < proven < 12.0

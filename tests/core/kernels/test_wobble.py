@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, Spiral, bench_poses, overlaps, separation, trajectory
+from core import Dance, Dragon, Spiral, bench_poses, separation, trajectory
 from core.kernels import Budget, Wobbler
 from core.kernels.constants import BOX_COLUMNS, MX, MY, UX, UY
 from core.shapes.reach import gains
@@ -24,10 +24,19 @@ def wobbler(size):
     return made
 
 
-def holes(chain):
-    """Front and rear holes (2, n) of the benches as laid out [m]."""
-    middle, along = (np.asarray(chain)[:-1, [x, y]] @ [1.0, 1.0j] for x, y in ((MX, MY), (UX, UY)))
-    return middle + np.array([[0.5], [-0.5]]) * DRAGON.chords * along
+def laid_out(wanted, chords, front_play=0.0, rear_play=0.0):
+    """Oracle: front and rear holes (2, n, ...) of benches whose people want their pins here (n + 1, ...) [m].
+
+    Each rear hole is as near to where its person wants it as the chord allows. All places are complex numbers.
+    """
+    front_play, rear_play = (np.broadcast_to(play, len(chords)) for play in (front_play, rear_play))
+    pin, holes = wanted[0], []
+    for want, chord, ahead, behind in zip(wanted[1:], chords, front_play, rear_play, strict=True):
+        front = pin + ahead
+        way = want + behind - front
+        holes.append((front, front + way * (chord / abs(way))))
+        pin = holes[-1][1] - behind
+    return np.moveaxis(holes, 0, 1)
 
 
 def test_chords_and_joints_are_kept_and_each_rear_hole_is_where_its_person_wants_it_as_nearly_as_can_be():
@@ -37,12 +46,10 @@ def test_chords_and_joints_are_kept_and_each_rear_hole_is_where_its_person_wants
     made.dance(np.zeros(1), rng.standard_normal((1, 21, 2)), play, PLACES[:1], TANGENTS[:1], NOT_SAFE[:1], state)
     places, tangents = PLACES[0] @ [1.0, 1.0j], TANGENTS[0] @ [1.0, 1.0j]
     wanted = places + (0.02j * state[:, 0] + 0.01 * state[:, 1]) * tangents
-    (front, rear), front_play, rear_play = holes(made.chain), play[:, :2] @ [1.0, 1.0j], play[:, 2:] @ [1.0, 1.0j]
-    assert np.abs(front - rear) == pytest.approx(DRAGON.chords, abs=ROUNDING)
-    pins = np.concatenate([wanted[:1], rear - rear_play])
-    assert front == pytest.approx(pins[:-1] + front_play, abs=ROUNDING)
-    way = wanted[1:] + rear_play - front
-    assert rear == pytest.approx(front + way * DRAGON.chords / np.abs(way), abs=ROUNDING)
+    middle, along = (np.asarray(made.chain)[:-1, [x, y]] @ [1.0, 1.0j] for x, y in ((MX, MY), (UX, UY)))
+    expected = laid_out(wanted, DRAGON.chords, play[:, :2] @ [1.0, 1.0j], play[:, 2:] @ [1.0, 1.0j])
+    front, rear = middle + np.array([[0.5], [-0.5]]) * DRAGON.chords * along
+    assert [front, rear] == pytest.approx(expected, abs=ROUNDING)
     strays = np.abs([front - places[:-1], rear - places[1:]])
     assert made.furthest == pytest.approx(strays.max(), abs=ROUNDING)
 
@@ -74,38 +81,3 @@ def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them():
         between = separation(poses[a], sizes[a], poses[b], sizes[b]).separation / (gain[a] + gain[b])
         least = [min(MOST, between[(a == k) | (b == k)].min()) for k in range(DRAGON.benches)]
         assert safe[t] == pytest.approx(np.array(least), abs=2e-9)
-
-
-def test_the_first_overlap_is_found_and_safe_strays_change_nothing():
-    rng = np.random.default_rng(5)
-    made, safe, clear = wobbler(0.06), np.empty((20, 20)), []
-    made.measure(MOST, gains(DRAGON), PLACES, safe)
-
-    def danced(rows, numbers, strays, state):
-        memory = np.full(rows.stop - rows.start, MEMORY)
-        parts = [part[rows] for part in (PLACES, TANGENTS, strays)]
-        return made.dance(memory, numbers[rows], NO_PLAY, *parts, state), (made.first, made.second)
-
-    for _ in range(40):
-        numbers = rng.standard_normal((20, 21, 2))
-        instants, pair = danced(slice(0, 20), numbers, safe, np.zeros((21, 2)))
-        again = danced(slice(0, 20), numbers, NOT_SAFE, np.zeros((21, 2)))
-        assert again[0] == instants
-        assert again[1] == pair or instants == 20
-        # Up to the instant before, and one further.
-        state, before = np.zeros((21, 2)), min(instants, 19)
-        for rows in (slice(0, before), slice(before, before + 1)):
-            danced(rows, numbers, safe, state)
-            if rows.stop:
-                result = overlapping(made.chain)
-                assert (pair in result) if rows.stop == instants + 1 else not result
-        clear.append(instants)
-    assert 5 < clear.count(20) < 35
-
-
-def overlapping(chain):
-    """The pairs that overlap as the benches are laid out, from overlaps()."""
-    front, rear = holes(chain)
-    centre, along = 0.5 * (front + rear), front - rear
-    poses = np.stack([centre.real, centre.imag, np.angle(along)], axis=-1)
-    return {tuple(pair) for pair in overlaps(poses, DRAGON.lengths, DRAGON.widths).pairs.tolist()}

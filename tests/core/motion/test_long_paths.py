@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from flint import arb
 
-from core import Coil, Dance, Dragon, Line, Passage, Route, Spiral, trajectory
+from core import Coil, Dance, Dragon, Line, Route, Spiral, trajectory
 from tests.support.exact_chain import BITS, coil_handles
 from tests.support.near import assert_near
 
@@ -62,12 +62,3 @@ def test_handles_cross_the_end_of_a_long_coil_as_well_as_they_do_elsewhere():
     places = trajectory(Dance(DRAGON, path), path.end - np.array([35.0, 22.0, 10.0, 1.0])).position
     for handles in places:
         assert_near(np.linalg.norm(np.diff(handles, axis=0), axis=-1), DRAGON.chords, CHORD_ERROR)
-
-
-def test_a_pause_changes_no_place_on_a_long_spiral():
-    """The places are those of the times, whose parts before and after the pause are exact."""
-    passages = [Passage(0.7, until_time=1e8), Passage(0.0, until_time=1.1e8)]
-    dance = Dance(DRAGON, Spiral(0.3, 1e4), 1.0, passages)
-    time = 1.1e8 + (dance.end.time - 1.1e8) * 0.999
-    way = arb(dance.clock.travels[1]) + (arb(time) - arb(1.1e8))
-    assert_exact(trajectory(dance, time).position, coil_handles(0.3, 1e4, way, DRAGON.chords))

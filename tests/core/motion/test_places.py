@@ -1,11 +1,9 @@
 """Places of handles along the path, and times at which they pass a place."""
 
-from functools import partial
-
 import numpy as np
 import pytest
 
-from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, TooMuchWork, Turn, trajectory
+from core import Arc, Dance, Dragon, Line, Route, Spiral, Turn, trajectory
 from core.motion.places import ROWS_MAX, STEP, Passing, handle_places
 from core.passages import Passage
 from tests.support.near import assert_near
@@ -23,12 +21,6 @@ def assert_passed(dance, passing, places):
     """Each of these handles is at its arc length when it is said to pass that."""
     for handle, s in places:
         assert_near(handle_places(dance, [passing.when(handle, s)])[0, handle], s, PASSED)
-
-
-@pytest.mark.parametrize("ask", [partial(handle_places, times=[0.0, 1.0]), partial(Passing, start=0.0, stop=9.0)])
-def test_the_end_of_the_budget_is_reported(ask):
-    with pytest.raises(TooMuchWork):
-        ask(DANCES["turn"], budget=Budget(1.0))
 
 
 @pytest.mark.parametrize("dance", DANCES.values(), ids=DANCES)

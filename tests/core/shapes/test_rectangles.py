@@ -1,4 +1,4 @@
-"""Exact separation of two rectangles, against tables, its own laws, and shapely."""
+"""Exact separation of two rectangles, against its own laws and shapely."""
 
 import math
 

@@ -18,9 +18,7 @@ def test_the_tolerance_rises_with_the_pitch_and_is_the_inverse_of_the_minimum_pi
     assert curve.stray == pytest.approx(strays, rel=1e-3)
     dances = [Dance(DRAGON, Spiral(pitch, 10.0)) for pitch in pitches]
     assert [tolerance(dance, stop=time_on_circle(dance, 4.5)).stray for dance in dances] == curve.stray.tolist()
-    frame = curve.to_dataframe()
-    assert list(frame.columns) == ["pitch", "stray", "limited_by"]
-    assert set(frame["limited_by"]) == {"benches"}
+    assert set(curve.to_dataframe()["limited_by"]) == {"benches"}
 
 
 def test_the_head_is_on_the_circle_at_that_time():
@@ -36,9 +34,8 @@ def test_the_head_is_on_the_circle_at_that_time():
         ([0.5], {"start_turns": 5.0}, "turning_radius"),
         ([0.5], {"start_turns": 9.0}, "turning_radius"),
         ([0.5], {"turning_radius": 0.3}, "turning_radius"),
-        ([-0.5], {}, "path.pitch"),
     ],
-    ids=["none", "a table", "inside the circle", "on the circle", "a fold before the circle", "a negative pitch"],
+    ids=["none", "a table", "inside the circle", "on the circle", "a fold before the circle"],
 )
 def test_impossible_curves_are_refused(pitches, options, field):
     with refused(field):

@@ -1,15 +1,11 @@
 """Poses that show a contact: they overlap, keep every chord, and stray little further than what is proven safe."""
 
-import math
-
-import numpy as np
 import pytest
 
 from core import Dance, Dragon, Line, Route, Spiral, Turn, tolerance
-from core.tolerance.exhibit import Body
 from tests.campaigns.adversaries import to_circle
 from tests.core.tolerance.test_tolerance import BRACKET
-from tests.support.shown_poses import CHORD_ERROR, assert_contact_shown
+from tests.support.shown_poses import assert_contact_shown
 
 LINE = Route([Line((0.0, 0.0), (50.0, 0.0))])
 WIDE = [Dragon(20, body_length=1.2, width=width) for width in (0.5, 0.4)]
@@ -56,12 +52,3 @@ def test_the_shown_contact_is_one(dance, stop, least, part, pair):
         assert 1.1 * result.independent < safe
     else:
         assert result.benches == result.exhibit.benches
-
-
-@pytest.mark.parametrize("rotation", [-0.03, 0.0, 0.02])
-def test_holes_that_move_a_bench_furthest_reach_the_edge_of_their_discs(rotation):
-    chord, stray = 1.65, 0.05
-    for way in np.linspace(0.0, math.tau, 9).tolist():
-        front, rear = Body(0.0, 0.0, 0.0, chord, 1.1, 0.15).strays(way, rotation, stray)
-        assert max(math.hypot(*front), math.hypot(*rear)) == pytest.approx(stray, abs=CHORD_ERROR)
-        assert math.hypot(*(front - rear + [chord, 0.0])) == pytest.approx(chord, abs=CHORD_ERROR)

@@ -45,7 +45,6 @@ def test_a_stray_above_the_tolerance_until_a_time_touches_just_before_it():
 
 QUESTIONS = {
     "first contact": lambda **options: first_contact(DANCE, **options),
-    "within a margin": lambda **options: first_contact(DANCE, margin=0.05, **options),
     "through the turn": lambda **options: first_contact(Dance(Dragon(30), Turn(0.9)), **options),
     "least clearance": lambda **options: least_clearance(DANCE, stop=300.0, **options),
     "minimum pitch": lambda **options: minimum_pitch(Dragon(), **options),
@@ -67,12 +66,6 @@ def test_a_stray_brings_benches_nearer_to_a_wall_by_it_and_at_most_half_more():
     still, strayed = (venue_clearance(Dance(LAPPING, LAP), VENUE, stray=stray, stop=10.0) for stray in (0.0, 0.02))
     for before, after in zip(still.areas, strayed.areas, strict=True):
         assert 0.02 - 1e-9 < before.nearest.distance - after.nearest.distance < 0.03
-
-
-def test_a_check_says_that_benches_may_touch():
-    report = check(DANCE, stray=0.02)
-    assert report.failures[0].message == "Benches 0 and 11 may touch with strays up to 0.02 m at 389.518137 s."
-    assert "while every hole is within 0.02 m of its place" in report.first_contact.certificate.method
 
 
 def test_a_stray_that_no_pitch_allows_is_reported_as_such():

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, InvalidValue, Spiral, tolerance, uncertain_tolerance
+from core import Dance, Dragon, Spiral, tolerance, uncertain_tolerance
 from core.tolerance.curve import time_on_circle
 from tests.support.depth import further
+from tests.support.refused import refused
 
 CIRCLE = 4.5  # radius of the turning circle [m]
 
@@ -49,29 +50,14 @@ def test_where_nothing_is_proven_the_stray_is_none():
     assert uncertain_tolerance(Dragon(), 0.45) == 0.0
 
 
-def test_all_lengths_times_k_make_it_k_times_as_large():
-    small = uncertain_tolerance(Dragon(), 0.7, length_error=0.02, pitch_error=0.01)
-    large = uncertain_tolerance(
-        Dragon(223, 6.82, 4.40, 0.60, 0.55), 1.4, length_error=0.04, pitch_error=0.02, turning_radius=9.0
-    )
-    assert large == pytest.approx(2.0 * small, rel=1e-9)
-
-
 def test_no_stray_is_longer_than_half_a_chord():
     dragon = Dragon(20, head_length=0.5, width=0.1, overhang=0.05)
     assert uncertain_tolerance(dragon, 9.0, length_error=0.02, turning_radius=50.0) == pytest.approx(0.5 * (0.4 - 0.02))
 
 
 @pytest.mark.parametrize(
-    ("field", "error", "words"),
-    [
-        ("length_error", -0.01, None),
-        ("length_error", 0.83, "at most 0.825 m"),
-        ("pitch_error", 0.4, "at most 0.35 m"),
-        ("turning_radius", 0.0, None),
-    ],
+    ("field", "error"), [("length_error", -0.01), ("length_error", 0.83), ("pitch_error", 0.4), ("turning_radius", 0.0)]
 )
-def test_errors_beyond_all_reason_are_refused(field, error, words):
-    with pytest.raises(InvalidValue, match=words) as caught:
+def test_errors_beyond_all_reason_are_refused(field, error):
+    with refused(field):
         uncertain_tolerance(Dragon(), 0.7, **{field: error})
-    assert caught.value.field == field

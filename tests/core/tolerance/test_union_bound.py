@@ -5,6 +5,7 @@ import pytest
 
 from core import Budget, Dance, Dragon, Spiral, Wobble, contact_probability, trajectory
 from core.tolerance.union_bound import first_order, left_out, union_bound
+from tests.core.kernels.test_wobble import laid_out
 
 DANCE = Dance(Dragon(12), Spiral())
 TIMES = np.array([300.0, 340.0])
@@ -22,16 +23,15 @@ def chains(model):
     for k in range(1, len(places)):
         z[:, k] = model.along * z[:, k - 1] + np.sqrt(1.0 - model.along**2) * z[:, k]
     wants = (z @ [1j * model.lateral, model.forward]) * ahead
-    pins, linear, small = [places[0] + wants[:, 0]], [wants[:, 0]], []
+    linear, small = [wants[:, 0]], []
     for k, chord in enumerate(chords.tolist()):
-        way = places[k + 1] + wants[:, k + 1] - pins[k]
-        pins.append(pins[k] + way * (chord / abs(way)))
         u = (places[k] - places[k + 1]) / chord
         e, want = linear[k] / u, wants[:, k + 1] / u  # along and across the chord
         small.append(in_plane(np.stack([e, want - e], axis=1)).reshape(COUNT, 4))
         linear.append((e.real + 1j * want.imag) * u)
     laid = first_order(DANCE.dragon, model, PLACED.position, TANGENTS)
-    strays = np.stack(pins, axis=1) - places
+    front, rear = laid_out((places + wants).T, chords)
+    strays = np.concatenate([front[:1], rear]).T - places
     return laid, in_plane(strays), in_plane(np.stack(linear, axis=1)), np.stack(small, axis=1)
 
 
