@@ -1,6 +1,5 @@
 """Budgets: early ends of a loop, and what a process hands to another."""
 
-import inspect
 import pickle
 
 import pytest
@@ -26,12 +25,6 @@ def test_what_is_no_amount_of_work_is_refused(work):
         Budget(work)
 
 
-def test_a_spent_budget_shows_that_nothing_is_left():
-    budget = Budget(3.0)
-    budget.spend(5.0)
-    assert repr(budget) == "<Budget: 0 of 3 steps of work left>"
-
-
 def test_a_brief_budget_refuses_long_work_alone():
     Budget(brief=True).afford(1.0)
     Budget().take_time()
@@ -49,11 +42,6 @@ def test_a_budget_keeps_its_state_in_another_process():
     state = (same.left, same.work, same.stopped, same.brief, same.limited, same.then, same.part.stopped)
     assert state == (2.0, 3.0, True, True, True, "before dinner", True)
     assert type(same.stopped) is bool
-
-
-def test_the_signature_of_a_budget_is_known_compiled_too():
-    assert str(inspect.signature(Budget)) == "(work: 'float | None' = None, *, brief: 'bool' = False)"
-    assert (Budget.__doc__ or "").startswith("The remaining work")
 
 
 def test_a_scene_has_the_halt_of_its_search_whatever_path_that_takes():

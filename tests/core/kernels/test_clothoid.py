@@ -1,13 +1,11 @@
 """The series of clothoids against its integral, to the rounding that its derivation gives."""
 
 import flint
-import numpy as np
 import pytest
-from flint import acb, arb
+from flint import acb
 
-from core.kernels import clothoid_joints
 from core.kernels.clothoid import clothoid_way
-from core.kernels.constants import POINT_COLUMNS, POINT_CURVATURE, TX, TY, ULP
+from core.kernels.constants import ULP
 from tests.support.exact_chain import BITS
 
 # Bound of clothoid.py on an error in either part [ULP of the way].
@@ -23,15 +21,3 @@ def test_the_way_is_its_integral_to_the_stated_rounding(p, q):
     x, y = clothoid_way(p, q)
     assert abs(float(exact.real - x)) <= WAY * ULP
     assert abs(float(exact.imag - y)) <= WAY * ULP
-
-
-def test_directions_at_joints_keep_their_digits_after_a_thousand_radians():
-    flint.ctx.prec = BITS
-    places = np.linspace(0.0, 1_000.0, 4_001)
-    clothoid_joints(0.0, 0.0, 0.3, 0.9, -0.7, 1_000.0, places, joints := np.empty((4_001, POINT_COLUMNS)))
-    for place, joint in zip(places[::100].tolist(), joints[::100], strict=True):
-        v = arb(place)
-        angle = arb(0.3) + v * (arb(0.9) + (arb(-0.7) - arb(0.9)) / 1_000 * v / 2)
-        assert abs(float(angle.cos()) - joint[TX]) < 4.0 * ULP
-        assert abs(float(angle.sin()) - joint[TY]) < 4.0 * ULP
-    assert joints[-1, POINT_CURVATURE] == -0.7

@@ -73,15 +73,6 @@ def test_no_gap_of_two_dragons_falls_below_the_bound_of_a_step(begin, until):
     assert all_gaps(stage, *np.linspace(begin, until, INSTANTS).tolist()).min() >= least
 
 
-def test_a_gap_changes_as_fast_as_said():
-    time, ahead = STEPS[0][0], 1e-5
-    stage = staged(*STEPS[0])
-    gap, a, b = stage.nearest()
-    assert gap == pytest.approx(all_gaps(stage, time).min(), rel=0, abs=SAME_PLACE)
-    quotient = (stage.gap(time + ahead, a, b) - stage.gap(time - ahead, a, b)) / (2.0 * ahead)
-    assert stage.gap_rate(time, a, b) == pytest.approx(quotient, rel=1e-5, abs=1e-8)
-
-
 @pytest.mark.parametrize(("count", "pitch"), [(2, 1.1), (3, 1.6), (2, 1.3)])
 def test_further_out_in_one_spiral_no_gap_falls_below_the_ring_bound(count, pitch):
     angle, dragon, rings = 2.0 * math.pi / count, Dragon(60), Rings()

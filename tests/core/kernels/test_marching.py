@@ -47,13 +47,3 @@ def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven():
     assert ended is Ended.STUCK
     assert 380.0 < result.proven < CONTACT
     assert result.touching is None
-
-
-def test_a_pair_that_is_left_out_is_not_found():
-    search = forty()
-    search.scene.left_out, search.scene.left_out_too = 0, 8
-    ended, result = marched(search)
-    assert ended is Ended.TOUCHED
-    assert result.benches != (0, 8)
-    assert result.touching is not None
-    assert result.touching > CONTACT

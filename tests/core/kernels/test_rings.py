@@ -18,6 +18,7 @@ from core.kernels import (
 )
 from core.kernels.constants import FREE, MX, MY, THETA, UX, UY
 from core.shapes.rectangles import corners
+from tests.support.random_dances import random_dragon
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -40,10 +41,9 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
 def random_case(seed):
     """A random dragon on a pitch of some of its widths, whose people do not stray."""
     rng = np.random.default_rng(seed)
-    chord, (head, pitch) = 10 ** rng.uniform(-0.3, 0.5), 10 ** rng.uniform([-0.4, -1.0], 0.4)
-    width, overhang = chord * 10 ** rng.uniform(-2.5, -0.4), chord * rng.choice([0.0, rng.uniform(0.0, 0.3)])
-    dragon = Dragon(int(rng.integers(20, 70)), chord * head + 2 * overhang, chord + 2 * overhang, width, overhang)
-    return dragon, max(1.2 * width, pitch * chord), 0.0
+    dragon = random_dragon(rng, False)
+    chord = float(dragon.chords[-1])
+    return dragon, max(1.2 * float(dragon.widths[0]), chord * 10 ** rng.uniform(-1.0, 0.4)), 0.0
 
 
 @pytest.mark.parametrize(

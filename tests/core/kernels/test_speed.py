@@ -41,10 +41,5 @@ def test_what_is_proven_of_the_way_out_is_what_following_all_of_it_proves(radius
     assert np.abs(search.rates(short.travel)).max() == pytest.approx(short.rate, abs=ROUNDING)
 
 
-def test_the_way_out_of_the_turn_is_not_followed_to_its_end():
-    near, far = (peak_of(TURN, -30.0, stop, 100)[1] for stop in (60.0, 1e4))
-    assert (near.rate, near.upper, near.travel, near.intervals) == (far.rate, far.upper, far.travel, far.intervals)
-
-
 def test_a_proof_without_links_is_given_up():
     assert peak_of(TURN, 0.0, 25.0, width=1e-9, work=0)[1].upper == FREE
