@@ -14,7 +14,6 @@ from typing import Any
 
 import pytest
 
-from app.files.tables import ARROW_TYPE
 from app.jobs import runner
 from app.jobs.store import Store
 from app.processes.messages import MessageKind, send
@@ -65,14 +64,6 @@ def test_a_process_does_one_job_after_another_and_a_job_begins_again_when_its_pr
         kill(service, "child")
         wait_for(lambda: service.of("child"))
         assert service.until(unfinished, "running")["message"] == "Running."
-
-
-@pytest.mark.thorough
-def test_a_process_that_needed_much_memory_takes_no_other_job(tmp_path: Path) -> None:
-    large = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 0.04}}, "accept": ARROW_TYPE}
-    with JobService(tmp_path, cells_max=10**7) as service:
-        service.done(large)
-        wait_for(lambda: not service.of("child") + service.of("spare"), 0.5 * runner.IDLE_SECONDS)
 
 
 @pytest.mark.deep  # The next one kills each of them once.
