@@ -1,7 +1,5 @@
 """The quickest turn: the time of a turn by plain samples, and no turn beside the quickest is quicker."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -18,14 +16,13 @@ from core import (
     trajectory,
     turn_time,
 )
-from tests.support.refused import refused
 
 LIMIT = 2.0  # [m/s]
 SAMPLED = 2e-3  # [1], part of a rate that samples miss
 BESIDE = 0.02  # [m]
 
 
-def slow_time(turn: Turn) -> float:
+def slow_time(turn):
     """Time of a turn from samples of all speeds."""
     motion = trajectory(Dance(Dragon(40), turn), np.arange(-5.0, 80.0, 0.01))
     return turn.length * float(motion.speed.max()) / LIMIT
@@ -37,23 +34,19 @@ def slow_time(turn: Turn) -> float:
     [
         (Turn(1.7), 13.6212, 1.2463, 10.93),
         (Turn(1.7, entry_radius=4.29039529, exit_radius=4.5), 11.7992, 0.9754, 12.10),
-        (Turn(1.7, ratio=1.0), 13.6212, 1.6595, 8.21),
         (Turn(1.7, ratio=1.0, entry_radius=4.5, exit_radius=3.9337884833950665), 8.2240, 0.7159, 11.49),
         pytest.param(None, 9.7442, 1.3892, 7.01, marks=pytest.mark.thorough),
     ],
-    ids=["contest", "shortest", "equal arcs", "shortest with equal arcs", "quickest of ratio 1.2"],
+    ids=["contest", "shortest", "shortest with equal arcs", "quickest of ratio 1.2"],
 )
-def test_the_time_of_a_turn_is_its_length_over_the_highest_speed_of_the_head(
-    turn: Turn | None, length: float, speed: float, time: float
-) -> None:
+def test_the_time_of_a_turn_is_its_length_over_the_highest_speed_of_the_head(turn, length, speed, time):
     result = turn_time(Dragon(), turn, LIMIT) if turn else quickest_turn(Dragon(), 1.7, ratio=1.2)
     assert (result.length, result.head_speed) == pytest.approx((length, speed), abs=5e-5)
     assert result.time == pytest.approx(time, abs=5e-3)
-    assert result.time == result.length / result.head_speed
     assert result.time * (1.0 - SAMPLED) <= slow_time(result.turn) <= result.time * (1.0 + 1e-9)
 
 
-def test_the_quickest_turn_is_quicker_than_its_neighbours_the_shortest_and_the_contests() -> None:
+def test_the_quickest_turn_is_quicker_than_its_neighbours_the_shortest_and_the_contests():
     result, tried = quickest_turn(Dragon(), 1.7), 0
     assert result.time < 10.79
     at = np.array([result.turn.entry_radius, result.turn.exit_radius])
@@ -69,19 +62,8 @@ def test_the_quickest_turn_is_quicker_than_its_neighbours_the_shortest_and_the_c
     assert first_contact(Dance(Dragon(), result.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
 
 
-def test_a_lower_limit_takes_as_much_longer() -> None:
-    one, two = (quickest_turn(Dragon(3), 1.7, ratio=1.6, speed_limit=limit) for limit in (1.0, 2.0))
-    assert one.turn == two.turn
-    assert one.time == pytest.approx(2.0 * two.time, rel=1e-12)
-
-
-def test_a_circle_in_which_nothing_can_be_danced_is_refused() -> None:
-    with refused("turning_radius"):
-        quickest_turn(Dragon(), 1.7, 3.0)
-
-
 @pytest.mark.parametrize("share", [0.3, 0.9, 0.99])
-def test_work_that_ends_before_a_dance_is_proven_refuses_no_circle(share: float) -> None:
+def test_work_that_ends_before_a_dance_is_proven_refuses_no_circle(share):
     whole = Budget(1e9)
     quickest_turn(Dragon(5), 1.7, budget=whole)
     with pytest.raises(TooMuchWork):

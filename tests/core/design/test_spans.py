@@ -1,12 +1,9 @@
 """Intervals with derivatives: they hold every value that a quantity and its derivatives take on a box."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
-from core.design.spans import Span, angle_slopes, mean_value, parameters
-from core.values import Floats
+from core.design.spans import mean_value, parameters
 
 pytestmark = pytest.mark.uncompiled
 
@@ -15,11 +12,11 @@ STEP = 1e-6  # of difference quotients [1]
 ROUNDED, QUOTIENT_ERROR = 1e-12, 1e-6  # of values, and of difference quotients of numbers below 100 [1]
 
 
-def value(x: Floats, y: Floats) -> Floats:
+def value(x, y):
     return np.sin(x) - np.exp(0.3 * x) * np.cos(y) / (y * y + 1.0)
 
 
-def test_spans_hold_the_values_and_slopes_of_a_formula() -> None:
+def test_spans_hold_the_values_and_slopes_of_a_formula():
     """One of all operations but the root, without which the spans of boxes of turns would be false."""
     rng, widest = np.random.default_rng(1), 0.0
     centres, halves = rng.uniform(-4.0, 4.0, (2, BOXES)), rng.uniform(0.0, 0.6, (2, BOXES))
@@ -38,9 +35,3 @@ def test_spans_hold_the_values_and_slopes_of_a_formula() -> None:
             assert ((span.low - error <= inside) & (inside <= span.high + error)).all()
         widest = max(widest, float(((at - form.low) / (form.high - form.low + ROUNDED)).max()))
     assert widest > 0.6  # the spans are not wide for nothing
-
-
-def test_the_slopes_of_an_angle_are_those_of_its_vector() -> None:
-    x, y = parameters(np.array([[3.0], [4.0]]), np.zeros((2, 1)))
-    slopes = angle_slopes(x, y, Span(np.array([25.0]), np.array([25.0])))
-    assert [float(slope.low[0]) for slope in slopes] == pytest.approx([-4.0 / 25.0, 3.0 / 25.0], abs=1e-15)

@@ -1,7 +1,5 @@
 """Spread: the bound for several dragons on wide spirals, against dense samples of their ways."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -18,7 +16,7 @@ ROUNDING, ROUNDING_PER_GROWTH = 1e-11, 1e-12
 
 
 @pytest.mark.parametrize("seed", further(some(range(40), 12), 3))
-def test_dragons_keep_a_cleared_margin_at_every_larger_growth(seed: int) -> None:
+def test_dragons_keep_a_cleared_margin_at_every_larger_growth(seed):
     dragon, radius, turns, _ = random_case(seed)
     radius = max(radius, 2.0 * float(dragon.lengths.max()))
     dragon, rng = dragon.leading(min(dragon.benches, 30)), np.random.default_rng(seed)
@@ -36,7 +34,7 @@ def test_dragons_keep_a_cleared_margin_at_every_larger_growth(seed: int) -> None
     assert bounds
 
 
-def test_a_larger_margin_is_cleared_only_further_out() -> None:
+def test_a_larger_margin_is_cleared_only_further_out():
     spread = Spread(Dragon(), 2)
     assert spread.clears(10.0, 4.5, 0.5)
     assert not spread.clears(10.0, 4.5, 9.0)

@@ -1,7 +1,5 @@
 """Straight: the bound for wide spirals against dense samples, and against its limit on a straight line."""
 
-from __future__ import annotations
-
 import math
 from itertools import product
 
@@ -21,7 +19,7 @@ WIDE = 1e5
 
 
 @pytest.mark.parametrize("seed", further(some(range(40), 12), 4))
-def test_benches_are_no_closer_than_the_bound_at_any_larger_growth(seed: int) -> None:
+def test_benches_are_no_closer_than_the_bound_at_any_larger_growth(seed):
     dragon, radius, turns, _ = random_case(seed)
     straight = Straight(dragon)
     rng, bounds = np.random.default_rng(seed), 0
@@ -37,7 +35,7 @@ def test_benches_are_no_closer_than_the_bound_at_any_larger_growth(seed: int) ->
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_the_bound_grows_to_the_gap_on_a_straight_line(seed: int) -> None:
+def test_the_bound_grows_to_the_gap_on_a_straight_line(seed):
     dragon, radius, _, _ = random_case(seed)
     straight = Straight(dragon)
     growth = WIDE * straight.chord
@@ -52,7 +50,7 @@ def test_the_bound_grows_to_the_gap_on_a_straight_line(seed: int) -> None:
         assert straight.least(growth, radius) == pytest.approx(gap, abs=4.0 * straight.chord / WIDE)
 
 
-def test_no_spiral_of_the_growth_or_a_larger_one_is_bent_more() -> None:
+def test_no_spiral_of_the_growth_or_a_larger_one_is_bent_more():
     further_out = np.geomspace(1.0, 9.0, 20).tolist()
     for radius, growth in product((0.1, 1.0, 7.0), np.geomspace(0.01, 100.0, 12).tolist()):
         most = curvature_most(growth, radius)
@@ -60,6 +58,6 @@ def test_no_spiral_of_the_growth_or_a_larger_one_is_bent_more() -> None:
             assert kernels.spiral_curvature(factor * radius / wider) / wider <= most * (1.0 + 1e-15)
 
 
-def test_a_long_dragon_needs_no_more_than_its_leading_benches() -> None:
+def test_a_long_dragon_needs_no_more_than_its_leading_benches():
     short, long = Straight(Dragon(30)), Straight(Dragon(100_000))
     assert (short.gap, short.between, short.at) == (long.gap, long.between, long.at)

@@ -1,7 +1,5 @@
 """Turns in boxes: every turn of a box has its sizes within the box's, and is not shorter than its lower bounds."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -18,7 +16,7 @@ BOXES, PLACES = 1_500, 30
 ROUNDED = 1e-9  # [m], [rad]
 
 
-def boxes(rng: np.random.Generator, largest: float) -> tuple[np.ndarray, np.ndarray]:
+def boxes(rng, largest):
     middles = [rng.uniform(1.5, 4.5, BOXES), rng.uniform(-6.0, 6.0, BOXES), rng.uniform(-0.6, 0.8, BOXES)]
     centres, halves = np.array(middles), rng.uniform(0.0, largest, (3, BOXES))
     inside = centres[0] + GROWTH * centres[1] > 1.2
@@ -26,14 +24,14 @@ def boxes(rng: np.random.Generator, largest: float) -> tuple[np.ndarray, np.ndar
 
 
 @pytest.mark.parametrize(("ratio", "entry", "leaving"), [(2.0, 4.3, 4.5), (0.8, 4.3, 3.83), (1.3, 2.3, 4.4)])
-def test_the_sizes_are_those_of_the_turn(ratio: float, entry: float, leaving: float) -> None:
+def test_the_sizes_are_those_of_the_turn(ratio, entry, leaving):
     turn = Turn(1.7, 9.0, ratio, entry_radius=entry, exit_radius=leaving)
     result = sizes_of(GROWTH, *np.array([[entry], [(leaving - entry) / GROWTH], [math.log(ratio)]]))[:, 0]
     assert result == pytest.approx([*turn.radii, *turn.angles, turn.length, leaving], abs=ROUNDED)
 
 
 @pytest.mark.parametrize("largest", [0.002, 0.05, 0.3])
-def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest: float) -> None:
+def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest):
     rng = np.random.default_rng(3)
     centres, halves = boxes(rng, largest)
     turns, every = turns_in(GROWTH, centres, halves), np.ones(centres.shape[1], dtype=bool)
@@ -53,7 +51,7 @@ def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest: f
 
 
 @pytest.mark.parametrize(("largest", "missed"), [(1e-9, 0.0), (0.01, 0.03), (0.1, 0.3)])
-def test_boxes_that_are_too_tight_have_no_turn_that_benches_can_follow(largest: float, missed: float) -> None:
+def test_boxes_that_are_too_tight_have_no_turn_that_benches_can_follow(largest, missed):
     """A box is called so where all its turns are, apart from some that are nearly wide enough; also at ratios so far
     from 1 that the radii alone say nothing."""
     rng = np.random.default_rng(8)

@@ -1,14 +1,11 @@
 """Lengths between which the shortest turn is justifiable: what others found is between, what cannot be is not."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from core import Dragon, Turn, shortest_turn, turn_length_bounds
 from tests.core.design.test_shortest_turn import compared
 from tests.support.depth import further
-from tests.support.refused import refused
 
 pytestmark = pytest.mark.uncompiled
 
@@ -18,7 +15,7 @@ FOUND = {2.0: (11.7915, 11.8105, 11.8336, 12.9494379, 13.6212449)}
 
 
 @pytest.mark.parametrize("ratio", further([2.0, 1.5, 1.1], 1))
-def test_every_turn_on_a_grid_that_is_shorter_than_the_lower_bound_has_a_contact(ratio: float) -> None:
+def test_every_turn_on_a_grid_that_is_shorter_than_the_lower_bound_has_a_contact(ratio):
     """No bend is tighter than half the chord of the contest's head; benches with shorter heads can follow it."""
     low, high = turn_length_bounds(Dragon(), 1.7, ratio=ratio)
     assert high == Turn(1.7, ratio=ratio).length
@@ -29,8 +26,3 @@ def test_every_turn_on_a_grid_that_is_shorter_than_the_lower_bound_has_a_contact
     assert longer
     assert bool(shorter) is (ratio < 1.3)
     assert low <= shortest_turn(Dragon(), 1.7, ratio=ratio).turn.length <= low + 0.05
-
-
-def test_a_turn_too_tight_for_any_arc_is_refused() -> None:
-    with refused("turning_radius"):
-        turn_length_bounds(Dragon(), 1e-3, 1e-3)

@@ -1,16 +1,12 @@
 """Moves of a turn within a box: no point and no curvature differs by more than the bounds."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 
-from core import Turn
 from core.design.turn_moves import bent, coil_bend, displaced
 from core.paths.spiral import Spiral
-from core.values import Floats
 from tests.support.boxes_of_turns import CROSSING, GROWTH, SMALL, box_at, turns_drawn
 from tests.support.depth import examples, further
 
@@ -21,7 +17,7 @@ SAMPLES = 400
 STEP = 1e-4  # [m], of the sums of curvatures
 
 
-def points(turn: Turn, s: Floats) -> Floats:
+def points(turn, s):
     """Points of a turn at places from M, in the frame that rotates with the entry."""
     x, y = turn.entry
     frame = np.array([[x, y], [-y, x]]) / math.hypot(x, y)
@@ -30,7 +26,7 @@ def points(turn: Turn, s: Floats) -> Floats:
 
 @pytest.mark.parametrize("place", [*CROSSING, *BESIDE])
 @pytest.mark.parametrize("size", [0.2, 1.0, 4.0])
-def test_points_at_one_place_are_no_further_apart_than_the_bound(place: tuple, size: float) -> None:
+def test_points_at_one_place_are_no_further_apart_than_the_bound(place, size):
     box, centre = box_at(*place, size * SMALL)
     s, nearest = np.linspace(-25.0, 25.0, SAMPLES), 0.0
     most = np.array([displaced(box, at, at) for at in s.tolist()])
@@ -42,7 +38,7 @@ def test_points_at_one_place_are_no_further_apart_than_the_bound(place: tuple, s
 
 
 @pytest.mark.parametrize("place", further([CROSSING[0], CROSSING[3], *BESIDE], 1))
-def test_curvatures_differ_by_no_more_than_the_bound(place: tuple) -> None:
+def test_curvatures_differ_by_no_more_than_the_bound(place):
     box, centre = box_at(*place, SMALL)
     nearest = 0.0
     for turn in turns_drawn(centre, SMALL, examples(4, 40), 1.0):
@@ -55,7 +51,7 @@ def test_curvatures_differ_by_no_more_than_the_bound(place: tuple) -> None:
     assert nearest > 0.3
 
 
-def test_the_bend_of_a_coil_is_that_of_the_spiral() -> None:
+def test_the_bend_of_a_coil_is_that_of_the_spiral():
     spiral = Spiral(1.7, 16.0)
     s = spiral.end - 40.0
     bend = coil_bend(GROWTH, float(np.hypot(*spiral.position(s))))

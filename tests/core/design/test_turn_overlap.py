@@ -1,7 +1,5 @@
 """Overlaps in boxes of turns: wherever one is exhibited, every turn of the box has a contact."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -15,7 +13,7 @@ MOST = 26  # benches of a pose
 
 
 @pytest.mark.parametrize("place", CROSSING)
-def test_every_turn_of_a_box_with_an_exhibited_overlap_has_a_contact(place: tuple) -> None:
+def test_every_turn_of_a_box_with_an_exhibited_overlap_has_a_contact(place):
     box, centre = box_at(*place, SMALL)
     result = OverlapSearch(DRAGON, 0.0, MOST).exhibited(box)
     assert result.shared
@@ -28,7 +26,7 @@ def test_every_turn_of_a_box_with_an_exhibited_overlap_has_a_contact(place: tupl
 
 @pytest.mark.parametrize("place", [*CROSSING, (4.2, 4.3, 1.4)])
 @pytest.mark.parametrize("size", [0.2, 1.0, 2.0])
-def test_handles_stand_between_their_least_and_greatest_places(place: tuple, size: float) -> None:
+def test_handles_stand_between_their_least_and_greatest_places(place, size):
     box, centre = box_at(*place, size * SMALL)
     overlap, last, moved = OverlapSearch(DRAGON, 0.0, MOST), 14, 0.0
     low, at, high = overlap.chain_within(box, box.nominal.length + 2.0, last)
@@ -41,7 +39,7 @@ def test_handles_stand_between_their_least_and_greatest_places(place: tuple, siz
 
 
 @pytest.mark.parametrize("place", [(4.2904, 4.4999, 2.0), (4.49, 3.94, 1.0)])
-def test_nothing_is_exhibited_where_a_turn_can_be_danced(place: tuple) -> None:
+def test_nothing_is_exhibited_where_a_turn_can_be_danced(place):
     for size in (0.01, 1.0, 10.0):
         box, _ = box_at(*place, size * SMALL)
         if box is not None:
@@ -50,6 +48,6 @@ def test_nothing_is_exhibited_where_a_turn_can_be_danced(place: tuple) -> None:
             assert result.depth < 0.0
 
 
-def test_a_dragon_of_two_benches_has_no_pair() -> None:
+def test_a_dragon_of_two_benches_has_no_pair():
     box, _ = box_at(2.3, 4.45, 1.2, SMALL)
     assert not OverlapSearch(Dragon(2), 0.0, MOST).exhibited(box).shared

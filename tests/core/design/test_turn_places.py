@@ -1,7 +1,5 @@
 """Places from which the search for the shortest turn begins: shorter than all their neighbours, and followed."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -20,7 +18,7 @@ ROUNDED = 1e-9  # [m]
 
 
 @pytest.mark.parametrize("ratio", further([2.0, 0.7, 1.3, 1.0], 2))
-def test_a_polished_place_is_followed_and_no_neighbour_is_shorter(ratio: float) -> None:
+def test_a_polished_place_is_followed_and_no_neighbour_is_shorter(ratio):
     count = 0
     for start in starts(GROWTH, INNER, CIRCLE, ratio, LEAST):
         place = locally_shortest(GROWTH, start, INNER, CIRCLE, ratio, LEAST)
@@ -38,5 +36,5 @@ def test_a_polished_place_is_followed_and_no_neighbour_is_shorter(ratio: float) 
     assert count
 
 
-def test_a_circle_too_small_for_any_coil_has_no_place() -> None:
+def test_a_circle_too_small_for_any_coil_has_no_place():
     assert list(starts(GROWTH, 4.5, 4.5, 2.0, LEAST)) == []

@@ -1,13 +1,10 @@
 """Ways to the circle: the statement on a pitch against dense samples of its way."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 import core.design.ways
 from core import Dragon, Spiral, TooMuchWork, minimum_pitch
-from core.contact.march import TOUCHES
 from core.design.ways import CONTACT_WIDTH, Ways
 from core.kernels import Ended
 from tests.core.design.test_minimum_pitch import FOLDING
@@ -23,7 +20,7 @@ GAP = 1e-9
 
 
 @pytest.mark.parametrize("margin", [0.0, 0.07])
-def test_a_way_is_clear_exactly_if_its_dense_samples_are(margin: float) -> None:
+def test_a_way_is_clear_exactly_if_its_dense_samples_are(margin):
     dragon = Dragon(14)
     ways, verdicts = Ways(dragon, RADIUS, TURNS, margin, 0.0, None), []
     for pitch in np.linspace(0.4, 0.7, 6).tolist():
@@ -32,7 +29,7 @@ def test_a_way_is_clear_exactly_if_its_dense_samples_are(margin: float) -> None:
     assert set(verdicts) == {True, False}
 
 
-def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not() -> None:
+def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not():
     ways, pitch = Ways(Dragon(14), RADIUS, TURNS, 0.0, 0.0, None), 0.44
     state, result = ways.march(pitch, CONTACT_WIDTH)
     assert state is Ended.TOUCHED
@@ -43,11 +40,10 @@ def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not() 
     assert not ways.still_touches(1.1 * pitch, radius, *result.benches)
     later = Ways(Dragon(14), RADIUS, 0.999 * radius / pitch, 0.0, 0.0, None)
     assert not later.still_touches(pitch, radius - 1e-6, *result.benches)  # its way begins further in
-    assert ways.march(pitch)[0] in TOUCHES
 
 
 @pytest.mark.parametrize(("more", "ended"), [(-1e-6, Ended.BENCH_FOLDED), (1e-6, Ended.REACHED)])
-def test_a_way_folds_below_the_pitch_at_which_the_head_folds_on_the_circle(more: float, ended: Ended) -> None:
+def test_a_way_folds_below_the_pitch_at_which_the_head_folds_on_the_circle(more, ended):
     ways = Ways(FOLDING, 0.85, 5.0, 0.0, 0.0, None)
     assert ways.march(FOLDS_AT + more)[0] is ended
     assert ways.is_clear(FOLDS_AT + more) is (more > 0.0)
@@ -57,14 +53,11 @@ def test_a_way_folds_below_the_pitch_at_which_the_head_folds_on_the_circle(more:
     ("dragon", "field"),
     [
         (Dragon(head_length=1.0), "dragon.head_length"),
-        (Dragon(body_length=0.001, overhang=0.0), "dragon.body_length"),
         (Dragon.of([2.2, 2.1, 2.0] * 20, [0.3] * 60, [0.2] * 60), "dragon.lengths.2"),
     ],
-    ids=["a short head", "a short body", "bench by bench"],
+    ids=["a short head", "bench by bench"],
 )
-def test_the_shortest_bench_is_named_where_the_work_ends(
-    dragon: Dragon, field: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_shortest_bench_is_named_where_the_work_ends(dragon, field, monkeypatch):
     monkeypatch.setattr(core.design.ways, "PITCH_WORK", 1e2)
     with refused(field, TooMuchWork):
         minimum_pitch(dragon)

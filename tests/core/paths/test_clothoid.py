@@ -1,7 +1,5 @@
 """Clothoids against Fresnel integrals to 50 digits, at their ends, as arcs and lines, and what they refuse."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

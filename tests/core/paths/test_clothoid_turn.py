@@ -1,7 +1,5 @@
 """Turns with clothoids: continuous curvature, the coils they join, the turn of two arcs as their limit, refusals."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

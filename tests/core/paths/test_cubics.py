@@ -1,9 +1,6 @@
 """Curves through waypoints as cubics: exact lengths, true bounds on curvature, few of them, and an end to cutting."""
 
-from __future__ import annotations
-
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,18 +20,16 @@ ARC_ERROR = 1e-10  # [m]
 CURVATURE_ERROR = 1e-9
 SHARPEST = 40.0  # [1/m]
 
-Points = tuple[tuple[float, float], ...]
 
-
-def points_of(x: Any, y: Any) -> Points:
+def points_of(x, y):
     return tuple(map(tuple, np.stack(np.broadcast_arrays(x, y), axis=-1).tolist()))
 
 
-def zigzag(count: int, step: float = 6.0, height: float = 5.0) -> Points:
+def zigzag(count, step=6.0, height=5.0):
     return points_of(step * np.arange(count), height * (np.arange(count) % 2))
 
 
-def circle(count: int) -> Points:
+def circle(count):
     angles = np.linspace(0.0, 6.0, count)
     return points_of(0.7 * count * np.cos(angles), 0.7 * count * np.sin(angles))
 
@@ -50,7 +45,7 @@ def test_the_length_of_many_legs_is_that_of_a_finer_quadrature_in_few_cubics(poi
     assert len(route.table) <= most * len(points)
 
 
-def assert_bounded(route: Route) -> None:
+def assert_bounded(route):
     """The curvature of every row lies between its bounds, and is monotonic where these are its values at the ends."""
     checked = 0
     for row in route.table:
@@ -109,12 +104,12 @@ def test_places_in_any_order_are_found_on_their_pieces():
     assert_near(route.curvature(smooth[:, S_END]), smooth[:, K_END], CURVATURE_ERROR)
 
 
-STOPPING: dict[str, Points] = {
+STOPPING = {
     "there and back": zigzag(1_000, 0.0, 1.0),
     "there and almost back, to the limits": zigzag(1_000, 1e-3, 1e5),
 }
 SQUARE = 1e-3 * (np.arange(1_001) // 2 % 2)
-HOSTILE: dict[str, Points] = {
+HOSTILE = {
     "there and almost back": zigzag(1_000, 1e2, 1e5),
     "in a square of a millimetre": points_of(SQUARE[:-1], SQUARE[1:]),
     "anywhere": points_of(*np.random.default_rng(1).uniform(-1e5, 1e5, (1_000, 2)).T),

@@ -1,7 +1,5 @@
 """A dragon on a route: bends that are too tight for a chord, and room for the whole dragon."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
@@ -30,7 +28,7 @@ from tests.support.refused import refused
 LENGTH = float(DRAGON.chords.sum())
 
 
-def line(length: float) -> Route:
+def line(length):
     return Route([Line((0, 0), (length, 0))])
 
 

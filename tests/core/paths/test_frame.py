@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -21,7 +19,6 @@ from core import (
     trajectory,
     venue_clearance,
 )
-from core.values import Floats
 from tests.support.near import assert_near
 from tests.support.refused import refused
 
@@ -39,23 +36,17 @@ SQUARE = ((-9.5, -9.0), (9.2, -9.0), (9.2, 9.4), (-9.5, 9.4), (-9.5, -9.0))
 TREE = ((2.0, 0.5), (2.5, 0.5), (2.5, 1.0), (2.0, 1.0), (2.0, 0.5))
 
 
-class Moved(NamedTuple):
-    """The standard dance elsewhere, and where its points should be in the world."""
-
-    dance: Dance
-    move: Callable[[Floats], Floats]
-
-
 @pytest.fixture(params=PLACES.values(), ids=PLACES)
-def moved(request: pytest.FixtureRequest) -> Moved:
+def moved(request):
+    """The standard dance elsewhere, and where its points should be in the world."""
     centre, rotation, clockwise = request.param
 
-    def move(points: Floats) -> Floats:
+    def move(points):
         own = np.asarray(points) @ [1.0, 1.0j]
         world = complex(*centre) + cmath.exp(1j * rotation) * (own if clockwise else own.conj())
         return np.stack([world.real, world.imag], axis=-1)
 
-    return Moved(Dance(DRAGON, Spiral(0.55, 14.0, *request.param)), move)
+    return Dance(DRAGON, Spiral(0.55, 14.0, *request.param)), move
 
 
 def test_everything_that_has_a_place_is_moved(moved):
@@ -72,15 +63,16 @@ def test_everything_that_has_a_place_is_moved(moved):
 
 
 def test_no_time_and_no_distance_depends_on_the_place(moved):
-    old, new = first_contact(STANDARD), first_contact(moved.dance)
+    dance, move = moved
+    old, new = first_contact(STANDARD), first_contact(dance)
     assert (new.time_bracket, new.benches, new.corner) == (old.time_bracket, old.benches, old.corner)
-    assert_near(new.point, moved.move(np.array(old.point)), ROUNDING)
+    assert_near(new.point, move(np.array(old.point)), ROUNDING)
 
 
 def test_a_venue_is_met_where_it_is(moved):
     dance, move = moved
 
-    def venue(place: Callable[[Floats], Floats]) -> Venue:
+    def venue(place):
         rings = (tuple(map(tuple, place(np.array(ring)))) for ring in (SQUARE, TREE))
         square, tree = map(Area, ("square", "tree"), ((ring,) for ring in rings))
         return Venue(square, (tree,))
@@ -114,4 +106,4 @@ def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(mov
 )  # fmt: skip
 def test_an_invalid_place_is_refused_by_name(field, place):
     with refused(field):
-        Spiral(**place)  # type: ignore[arg-type]
+        Spiral(**place)

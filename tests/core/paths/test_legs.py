@@ -1,7 +1,5 @@
 """A path through points: smooth everywhere, contains its points, and is straight on straight legs."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,17 +1,14 @@
 """Path: a spiral, a turn and a route answer every question about a path alike."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 
 from core import Arc, Clothoid, Coil, Line, Route, Spiral, Turn, Waypoints, kernels
-from core.paths.path import Path
 from tests.support.near import assert_near
 
-PATHS: dict[str, Path] = {
+PATHS = {
     "spiral": Spiral(0.55, 16.0),
     "spiral elsewhere": Spiral(0.55, 16.0, (40.0, -7.0), 0.3, clockwise=False),
     "turn": Turn(1.7),
@@ -28,12 +25,12 @@ ON_PATH = 1e-9
 
 
 @pytest.fixture(params=PATHS.values(), ids=PATHS)
-def path(request: pytest.FixtureRequest) -> Path:
+def path(request):
     return request.param
 
 
 @pytest.fixture
-def s(path: Path) -> np.ndarray:
+def s(path):
     """Arc lengths of the head at random, none so near to a joint of the pieces above that a quotient spans it [m]."""
     return np.random.default_rng(3).uniform(max(path.begin, -30.0) + 0.1, min(path.end, 60.0) - 0.1, 200)
 

@@ -1,7 +1,5 @@
 """Pieces: what they refuse, and curves through waypoints against SciPy."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

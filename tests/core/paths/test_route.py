@@ -1,7 +1,5 @@
 """Routes: joints, arc length, and the same answers as an independent slow way."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 
@@ -16,7 +14,6 @@ from core import (
     Line,
     Outcome,
     OutsideRun,
-    Piece,
     Route,
     Spiral,
     Turn,
@@ -41,7 +38,7 @@ TOUCHING = 1e-8  # [m]: two benches at the far end of a contact's bracket
 LENGTH = float(DRAGON.chords.sum())  # 16.4 m
 
 
-def way(*points: tuple[float, float]) -> list[Piece]:
+def way(*points):
     return [Line(*ends) for ends in pairwise(points)]
 
 
@@ -106,7 +103,7 @@ def test_a_spiral_as_a_route_has_the_spirals_motion_contact_and_clearance(cuts):
     assert [graze.benches for graze in a.grazes] == [graze.benches for graze in b.grazes]
 
 
-def instants(route: Route, count: int) -> np.ndarray:
+def instants(route, count):
     return np.linspace(1.005 * LENGTH, route.end - QUOTIENT_STEP, count)
 
 

@@ -1,7 +1,5 @@
 """Spiral: points, tangents and limits, against quadrature and difference quotients."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -81,4 +79,4 @@ def test_a_spiral_at_its_limits_is_accepted(pitch, turns):
 )
 def test_a_spiral_beyond_its_limits_is_refused_by_its_field(name, value):
     with refused(f"path.{name}"):
-        Spiral(**{name: value})  # type: ignore[arg-type]
+        Spiral(**{name: value})

@@ -1,7 +1,5 @@
 """The turn: the reference's arcs, places and clearance."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
