@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import io
-import json
 import time
-from pathlib import Path
 from typing import Any
 
 import ezdxf
@@ -18,8 +16,9 @@ from app.files.words import Say
 from app.maps.layout import DanceParts
 from app.maps.places import places_of
 from core import InvalidValue
-from tests.support.command import run
+from core.errors import Quantity
 from tests.support.refusal_rows import assert_refused
+from tests.support.refused import refused
 
 
 def new(unit: int = 6, version: str = "R2010", square: bool = True) -> Any:
@@ -63,30 +62,41 @@ def corners(result: DanceParts) -> list[Any]:
     return list(result.venue.square.rings[0])
 
 
-def posted(client: httpx.Client, data: bytes, kind: str = "application/octet-stream") -> Any:
-    return client.post("/places", content=data, headers={"Content-Type": kind}).raise_for_status().json()
+def posted(client: httpx.Client, data: bytes) -> Any:
+    headers = {"Content-Type": "image/vnd.dxf"}
+    return client.post("/places", content=data, headers=headers).raise_for_status().json()
 
 
-def test_an_array_of_blocks_has_all_of_them_also_for_the_service(client: httpx.Client) -> None:
+def test_an_array_of_blocks_has_all_of_them() -> None:
     space = new()
     space.doc.blocks.new("TREE").add_circle((0, 0), 0.4)
     array = {"row_count": 2, "column_count": 3, "row_spacing": 4.0, "column_spacing": 5.0}
     space.add_blockref("TREE", (0, 0), dxfattribs=array)
-    result = sorted(things(read(space)))
-    assert result == [("Point", [x, y], 0.4) for x in (0.0, 5.0, 10.0) for y in (0.0, 4.0)]
-    assert len(posted(client, drawing(space), "image/vnd.dxf")["venue"]["features"]) == 7
+    assert sorted(things(read(space))) == [("Point", [x, y], 0.4) for x in (0.0, 5.0, 10.0) for y in (0.0, 4.0)]
 
 
-@pytest.mark.parametrize("place", [(3.0, 4.0), (119.64, 29.11)])
-def test_a_drawing_without_a_unit_is_in_metres_however_small_it_is(place: tuple[float, float]) -> None:
-    space = new(unit=0, square=False)
-    space.add_circle(place, 1.5)
-    space.add_circle((place[0] + 0.1, place[1] + 0.05), 0.2)
+@pytest.mark.parametrize("version", ["R12", "R2010"])
+@pytest.mark.parametrize("across", [0.1, 2_000.0, 60_000.0])
+def test_a_drawing_without_a_unit_is_in_metres_or_refused_where_it_cannot_be(version: str, across: float) -> None:
+    space = new(0, version, square=False)
+    for place in ((119.64, 29.11), (119.64 + across, 29.11)):
+        space.add_circle(place, 0.04)
+    if across > 2_000.0:
+        with refused("file", across=Quantity(across, "", 6)):
+            read(space)
+        return
     result = read(space)
-    (_, first, wide), (_, second, narrow) = things(result)
-    assert (*first, wide, narrow) == pytest.approx((*place, 1.5, 0.2))
-    assert np.hypot(*(np.array(second) - first)) == pytest.approx(0.1118, abs=1e-4)
+    (_, first, radius), (_, second, _) = things(result)
+    assert (*first, radius, second[0] - first[0]) == pytest.approx((119.64, 29.11, 0.04, across))
     assert "The file states no unit: its numbers are metres." in result.notes
+
+
+def test_a_map_that_is_too_wide_for_a_dance_is_refused() -> None:
+    space = new(square=False)
+    for x in (500_000.0, 600_000.0):
+        space.add_circle((x, 3_000_000.0), 1.0)
+    with pytest.raises(InvalidValue, match="20 km across, got about 100 km"):
+        read(space)
 
 
 @pytest.mark.parametrize(("unit", "metres"), [(2, 0.3048), (21, 1200 / 3937), (15, 10.0), (8, 2.54e-8)])
@@ -162,9 +172,8 @@ def test_where_all_is_hidden_the_refusal_says_what() -> None:
     space = new(square=False)
     space.doc.layers.add("PLAN").freeze()
     space.add_line((0, 0), (9, 0), dxfattribs={"layer": "PLAN"})
-    with pytest.raises(InvalidValue) as refused:
+    with refused("file", hidden="1 LINE"):
         read(space)
-    assert (refused.value.field, refused.value.values["hidden"]) == ("file", "1 LINE")
 
 
 def test_entities_of_a_block_take_its_layer() -> None:
@@ -191,9 +200,9 @@ def test_only_a_ring_in_an_area_of_its_layer_is_a_hole() -> None:
 
 def test_a_closed_spline_is_the_area_in_it() -> None:
     space = new()
-    wrapped = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0), (10, 0), (10, 10)]
+    sides = [(0, 0, 0), (10, 0, 0), (10, 10, 0), (0, 10, 0)]
     entity = space.add_spline(degree=3, dxfattribs={"layer": "OBSTACLES", "flags": 3})
-    entity.control_points, entity.knots = [(*one, 0) for one in wrapped], range(11)
+    entity.control_points, entity.knots = [*sides, *sides[:3]], range(11)
     [(form, rings, _)] = things(read(space))
     assert form == "Polygon"
     assert (np.min(rings), np.max(rings)) == pytest.approx((0.417, 9.583), abs=0.005)
@@ -205,51 +214,37 @@ def test_a_wide_line_is_a_wall_of_its_width(unit: int, metres: float) -> None:
     points = [(-10 / metres, 0), (10 / metres, 0)]
     space.add_lwpolyline(points, dxfattribs={"const_width": 0.6 / metres})
     # A line of changing width is as wide as its widest place: the safe side.
-    space.add_lwpolyline([(x, 20 / metres, 0.4 / metres, 2.0 / metres) for x, _ in points], format="xyse")
-    result = things(read(space))
-    assert [(form, radius) for form, _, radius in result] == [("LineString", pytest.approx(r)) for r in (0.3, 1.0)]
-
-
-def test_a_wide_line_of_an_old_drawing_is_a_wall_of_its_width() -> None:
-    space = new(version="R12", square=False)
-    space.add_polyline2d([(-10, 0, 2, 2), (10, 0, 2, 2)], format="xyse")
-    assert things(read(space)) == [("LineString", [[-10.0, 0.0], [10.0, 0.0]], 1.0)]
-
-
-def test_a_wide_line_in_a_block_is_as_wide_as_the_block_is_large() -> None:
-    space = new()
-    space.doc.blocks.new("HEDGE").add_lwpolyline([(0, 0), (5, 0)], dxfattribs={"const_width": 0.5})
+    wide = [(x, 20 / metres, 0.4 / metres, 2.0 / metres) for x, _ in points]
+    space.add_lwpolyline(wide, format="xyse")
+    space.add_polyline2d(wide, format="xyse")
+    # In a block it is as wide as the block is large.
+    space.doc.blocks.new("HEDGE").add_lwpolyline(points, dxfattribs={"const_width": 0.5 / metres})
     space.add_blockref("HEDGE", (0, 0), dxfattribs={"xscale": 2.0, "yscale": 2.0, "zscale": 2.0})
-    assert things(read(space)) == [("LineString", [[0.0, 0.0], [10.0, 0.0]], 0.5)]
+    radii = [("LineString", pytest.approx(radius)) for radius in (0.3, 1.0, 1.0, 0.5)]
+    assert [(form, radius) for form, _, radius in things(read(space))] == radii
 
 
-def test_the_outline_of_an_area_reaches_to_both_sides() -> None:
-    space = new()
+def test_the_wide_outline_of_an_area_is_a_wall_around_it() -> None:
+    space = new(square=False)
+    ring(space, 60, const_width=1.0)
     ring(space, 2, const_width=1.0, layer="OBSTACLES")
-    (area, rings, none), (line, places, radius) = things(read(space))
-    assert (area, line, none, radius) == ("Polygon", "LineString", None, 0.5)
+    result = read(space)
+    assert corners(result)[0] == (-60.0, -60.0)
+    (*_, around), (area, rings, none), (line, places, radius) = things(result)
+    assert (area, line, none, radius, around) == ("Polygon", "LineString", None, 0.5, 0.5)
     assert rings[0] == places
 
 
-def test_a_wide_outline_of_the_square_leaves_the_square() -> None:
-    space = new(square=False)
-    ring(space, 60, const_width=1.0)
-    result = read(space)
-    assert corners(result)[0] == (-60.0, -60.0)
-    assert [(form, radius) for form, _, radius in things(result)] == [("LineString", 0.5)]
-
-
-def test_a_text_beside_a_wall_names_the_wall() -> None:
+def test_a_text_names_what_it_stands_in_or_beside() -> None:
     space = new()
     space.add_lwpolyline([(20, 20), (30, 20)], dxfattribs={"layer": "WALL", "const_width": 0.6})
     space.add_text("garden wall", height=2.5, dxfattribs={"insert": (22, 21)})
-    space.add_text("Temple square", height=2.5, dxfattribs={"insert": (-20, -20)})
     space.add_circle((0, 0), 1.0)
     label = space.add_text("old elm", height=0.5)
     label.set_placement((0, 1.5), align=ezdxf.enums.TextEntityAlignment.MIDDLE_CENTER)
     space.add_mtext("bed\nof roses", dxfattribs={"insert": (-30, 30), "char_height": 1.0})
     space.add_lwpolyline([(-32, 25), (-25, 25), (-25, 29), (-32, 29)], close=True)
-    assert names(read(space)) == ["Temple square", "garden wall", "old elm", "bed of roses"]
+    assert names(read(space)) == ["square", "garden wall", "old elm", "bed of roses"]
 
 
 def test_an_attribute_of_a_block_names_what_is_beside_it() -> None:
@@ -264,23 +259,9 @@ def test_an_attribute_of_a_block_names_what_is_beside_it() -> None:
 def test_a_circle_on_the_layer_of_the_square_is_a_round_square() -> None:
     space = new(square=False)
     space.add_circle((5, 0), 30.0, dxfattribs={"layer": "SQUARE"})
-    space.add_circle((5, 5), 1.0, dxfattribs={"layer": "TREES"})
-    result = read(space)
-    away = np.hypot(*(np.array(corners(result)) - (5.0, 0.0)).T)
+    away = np.hypot(*(np.array(corners(read(space))) - (5.0, 0.0)).T)
     assert away == pytest.approx(30.0)
     assert len(away) > 100
-    assert len(things(result)) == 1
-
-
-def test_four_lines_that_close_are_the_square() -> None:
-    ends = [(-60, -60), (60, -60), (60, 60), (-60, 60)]
-    space = new(square=False)
-    for k in (0, 2, 1, 3):
-        space.add_line(ends[k], ends[(k + 1) % 4], dxfattribs={"layer": "SQUARE"})
-    space.add_circle((5, 5), 1.0)
-    result = read(space)
-    assert {*corners(result)} == {*ends}
-    assert len(things(result)) == 1
 
 
 def test_lines_and_arcs_of_the_path_are_one_path() -> None:
@@ -318,15 +299,9 @@ def on_grid(x: float, y: float) -> bytes:
     return drawing(space)
 
 
-def tree_of(data: str) -> Any:
-    """Centre of the one obstacle of a drawing."""
-    [circle] = ezdxf.read(io.StringIO(data)).modelspace().query("CIRCLE[layer=='OBSTACLES']")
-    return tuple(circle.dxf.center)[:2]
-
-
 @pytest.mark.parametrize(("x", "y"), [(500_000.0, 3_220_000.0), (39_500_000.0, 3_220_000.0), (-200_000.0, 1_000.0)])
 def test_a_survey_grid_is_moved_to_its_middle_and_kept(client: httpx.Client, x: float, y: float) -> None:
-    got = posted(client, on_grid(x, y), "image/vnd.dxf")
+    got = posted(client, on_grid(x, y))
     assert got["venue"]["grid"] == {"x": x, "y": y}
     assert got["venue"]["features"][1]["geometry"]["coordinates"] == [5.0, 5.0]
     assert got["path"]["points"] == [[-40.0, 0.0], [40.0, -9.0]]
@@ -335,26 +310,16 @@ def test_a_survey_grid_is_moved_to_its_middle_and_kept(client: httpx.Client, x: 
     body = {"dragon": {"benches": 2}, "path": got["path"], "venue": got["venue"]}
     assert client.post("/check", json=body).status_code == 200
     outs = {form: client.post(f"/maps.{form}", json=body).raise_for_status() for form in ("dxf", "geojson")}
-    assert tree_of(outs["dxf"].text) == (x + 5, y + 5)
+    [circle] = ezdxf.read(io.StringIO(outs["dxf"].text)).modelspace().query("CIRCLE[layer=='OBSTACLES']")
+    assert tuple(circle.dxf.center)[:2] == (x + 5, y + 5)
     assert outs["geojson"].json()["features"][1]["geometry"]["coordinates"] == [x + 5, y + 5]
     for out in outs.values():
         again = posted(client, out.content)
         assert again["venue"]["grid"] == got["venue"]["grid"]
-        assert {name: again["path"][name] for name in got["path"]} == got["path"]
+        assert got["path"].items() <= again["path"].items()
         assert [one["geometry"] for one in again["venue"]["features"]] == [
             one["geometry"] for one in got["venue"]["features"]
         ]
-
-
-def test_the_command_keeps_a_survey_grid(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("grid.dxf").write_bytes(on_grid(500_000.0, 3_220_000.0))
-    assert "is its x 500000 m, y 3220000 m." in run("places", "grid.dxf", "--output", "dance.json").stderr
-    answer = json.loads(Path("dance.json").read_text())
-    Path("dance.json").write_text(json.dumps(answer | {"dragon": {"benches": 2}}))
-    assert run("check", "dance.json").returncode == 0
-    assert run("maps", "dance.json", "--output", "again.dxf").returncode == 0
-    assert tree_of(Path("again.dxf").read_text()) == (500_005.0, 3_220_005.0)
 
 
 @pytest.mark.parametrize("row", ['{"x": 1.0} -> ', '{"x": 1.0, "y": 1e9} -> /y 1e+08', '"here" -> '])
@@ -363,14 +328,6 @@ def test_a_venue_says_its_grid_in_two_numbers(client: httpx.Client, row: str) ->
     square = '"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]'
     change = f'{{"venue": {{{square}, "grid": {grid}}}}}'
     assert_refused(client, "/check", {"dragon": {"benches": 2}}, f"{change} -> /venue/grid{named}")
-
-
-def test_a_map_that_is_too_wide_for_a_dance_is_refused() -> None:
-    space = new(square=False)
-    space.add_circle((600_000.0, 3_000_000.0), 1.0)
-    space.add_circle((500_000.0, 3_000_000.0), 1.0)
-    with pytest.raises(InvalidValue, match="20 km across, got about 100 km"):
-        read(space)
 
 
 def rounded(corner_count: int, place: float = 0.0) -> list[Any]:

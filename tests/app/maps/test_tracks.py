@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from itertools import pairwise
 from typing import Any
 
 import httpx
 import numpy as np
 import pytest
+from scipy.spatial import KDTree
 
 from app.files.tables import Language
 from app.files.words import Say
@@ -20,6 +20,7 @@ from app.maps.tracks import APART, CHORD, PASSAGES, POINTS_MOST, Walk, apart, ev
 from app.wire.question import BYTES
 from core import Dragon, InvalidValue, Legs
 from core.paths.following import tightest_bend
+from tests.support.asking import assert_problem
 
 CORNERS = np.array([(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0), (0.0, 8.0)])
 REST = (80.0, 140.0)  # [s] of standing still
@@ -49,16 +50,20 @@ def noisy(seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
     return walked(times) + smooth, times
 
 
+def farthest(points: np.ndarray, path: Legs) -> float:
+    """How far the points are from a path at most [m]."""
+    line = path.position(np.linspace(path.begin, path.end, 4_000))
+    return float(KDTree(line).query(points)[0].max())
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_noisy_walk_becomes_a_path_that_benches_follow(seed: int) -> None:
     points, times = noisy(seed)
     walk, path = walk_along(points, times)
     assert walk.is_easy
     assert not path.tighter(tightest_bend(Dragon())[0])
-    line = path.position(np.linspace(path.begin, path.end, 4_000))
-    off = np.hypot(*(points[:, None] - line[None]).transpose(2, 0, 1)).min(axis=1)
     # The distance of a place from the way at its time is never below that from the whole way.
-    assert off.max() <= walk.largest + 0.2
+    assert farthest(points, path) <= walk.largest + 0.2
     assert walk.largest < 6.0 * NOISE
     assert walk.points[[0, -1]] == pytest.approx(points[[0, -1]], abs=1e-9)
 
@@ -71,8 +76,7 @@ def test_a_coil_that_no_smoothing_makes_easy_keeps_its_turns_within_the_noise() 
     assert 0.93 * length < walk.length < 1.03 * length
     assert walk.largest < 2.0
     assert not walk.is_easy
-    line = path.position(np.linspace(path.begin, path.end, 4_000))
-    assert np.hypot(*(coil[:, None] - line[None]).transpose(2, 0, 1)).min(axis=1).max() < 1.5
+    assert farthest(coil, path) < 1.5
 
 
 @pytest.mark.parametrize("chord", [1.5, 4.0])
@@ -84,17 +88,6 @@ def test_a_walk_is_smoothed_as_the_longest_bench_needs(chord: float) -> None:
     assert not path.tighter(tightest_bend(Dragon(9, chord, 1.0, overhang=0.0))[0])
 
 
-def test_its_times_are_passages_with_a_pause_where_people_stood() -> None:
-    times = np.arange(0.0, 250.0)
-    walk, _ = walk_along(walked(times), times)
-    pairs = pairwise(walk.passages)
-    pauses = [(before["until_time"], one["until_time"]) for before, one in pairs if one["speed"] == 0.0]
-    assert len(pauses) == 1
-    assert pauses[0] == pytest.approx(REST, abs=3.0)
-    assert walk.passages[-1]["until_time"] == times[-1]
-    assert {one["speed"] for one in walk.passages} - {0.0} <= {round(0.5 + 0.001 * k, 3) for k in range(1_000)}
-
-
 @pytest.mark.parametrize("noise", [0.8, 1.5])
 @pytest.mark.parametrize("seed", range(3))
 def test_noise_of_every_point_is_no_change_of_speed(noise: float, seed: int) -> None:
@@ -103,7 +96,7 @@ def test_noise_of_every_point_is_no_change_of_speed(noise: float, seed: int) -> 
     points = walked(times) + np.random.default_rng(seed).normal(0.0, noise, (len(times), 2))
     walk, _ = walk_along(points, times)
     assert [one["speed"] for one in walk.passages] == pytest.approx([1.0, 0.0, 1.0], abs=0.1)
-    assert (walk.passages[0]["until_time"], walk.passages[1]["until_time"]) == pytest.approx(REST, abs=6.0)
+    assert [one["until_time"] for one in walk.passages] == pytest.approx([*REST, times[-1]], abs=6.0)
 
 
 def test_points_that_are_noise_alone_are_no_path() -> None:
@@ -120,12 +113,8 @@ def test_times_that_do_not_grow_are_none_and_many_speeds_become_few() -> None:
     places = np.cumsum(np.repeat(np.random.default_rng(0).uniform(0.5, 1.5, 200), 100))
     passages = passages_of(times, places)
     assert 10 < len(passages) <= PASSAGES
-    assert sum((b - a) * one["speed"] for a, b, one in spans(passages)) == pytest.approx(float(places[-1]), rel=0.01)
-
-
-def spans(passages: list[dict[str, Any]]) -> list[tuple[float, float, dict[str, Any]]]:
-    begins = [0.0, *(one["until_time"] for one in passages[:-1])]
-    return [(a, one["until_time"], one) for a, one in zip(begins, passages, strict=True)]
+    speeds, ends = zip(*((one["speed"], one["until_time"]) for one in passages), strict=True)
+    assert np.diff([0.0, *ends]) @ speeds == pytest.approx(places[-1], rel=0.01)
 
 
 def test_thinning_and_smoothing_keep_a_straight_way_and_its_ends() -> None:
@@ -155,45 +144,37 @@ LANE = [point(k, f"2026-11-27T10:{k // 60:02d}:{k % 60:02d}Z") for k in range(70
 
 
 def test_gpx_is_a_path_with_its_waypoints_as_obstacles() -> None:
-    parts = read(gpx(LANE))
-    assert parts.path["kind"] == "waypoints"
-    assert parts.passages == [{"speed": pytest.approx(1.112, abs=0.02), "until_time": 69.0}]
-    assert any("at most 0.0" in note and "what was walked" in note for note in parts.notes)
-    assert len(parts.venue.obstacles) == 1
+    # A point without a time does not end the times.
+    lane = [re.sub("<time>.*</time>", "", one) if k in (30, 31, 45) else one for k, one in enumerate(LANE)]
+    for points in (LANE, lane):
+        parts = read(gpx(points))
+        assert parts.path["kind"] == "waypoints"
+        assert parts.passages == [{"speed": pytest.approx(1.112, abs=0.02), "until_time": 69.0}]
+        assert any("at most 0.0" in note and "what was walked" in note for note in parts.notes)
+        assert len(parts.venue.obstacles) == 1
     without = read(gpx([point(k) for k in range(70)]), Language.CHINESE)
     assert without.passages is None
     assert "轨迹没有递增的时间。" in without.notes
 
 
-def test_points_without_a_time_do_not_end_the_times() -> None:
-    lane = [re.sub("<time>.*</time>", "", one) if k in (30, 31, 45) else one for k, one in enumerate(LANE)]
-    parts = read(gpx(lane))
-    assert parts.passages == [{"speed": pytest.approx(1.112, abs=0.02), "until_time": 69.0}]
-
-
 def test_the_service_smooths_a_walk_for_the_longest_bench(client: httpx.Client) -> None:
     bent = [f"<trkpt lat='{48 + 1e-4 * min(k, 20):.6f}' lon='{9 + 1e-4 * max(k - 20, 0):.6f}'/>" for k in range(40)]
     file: dict[str, Any] = {"content": gpx(bent), "headers": {"Content-Type": BYTES}}
-    notes = client.post("/places?longest_chord=40", **file).raise_for_status().json()["notes"]
-    assert any(note.endswith("m, which a bench needs whose handles are 40.00 m apart.") for note in notes)
-    assert not any("apart" in note for note in client.post("/places", **file).json()["notes"])
-    refused = client.post("/places?longest_chord=51", **file)
-    assert (refused.status_code, "longest_chord must be at most 50 m, got 51 m" in refused.text) == (422, True)
+    for query, is_long in (("?longest_chord=40", True), ("", False)):
+        notes = client.post(f"/places{query}", **file).raise_for_status().json()["notes"]
+        assert (
+            any(note.endswith("m, which a bench needs whose handles are 40.00 m apart.") for note in notes) is is_long
+        )
+    assert_problem(client.post("/places?longest_chord=51", **file), 422, "longest_chord 50 51")
 
 
 def test_a_track_of_kml_is_a_path_and_a_place_that_is_missing_has_no_time() -> None:
     when = "".join(f"<when>2026-11-27T10:00:{k:02d}Z</when>" for k in range(60))
     where = "".join(f"<gx:coord>{'' if k == 30 else f'9 {48 + 1e-5 * k:.6f} 5'}</gx:coord>" for k in range(60))
     space = "xmlns:gx='http://www.google.com/kml/ext/2.2'"
-    placed = f"<Placemark><gx:Track>{when}{where}</gx:Track></Placemark>"
-    parts = read(f"<kml {space}>{placed}</kml>")
+    parts = read(f"<kml {space}><Placemark><gx:Track>{when}{where}</gx:Track></Placemark></kml>")
     assert parts.passages[-1]["until_time"] == 59.0
-    hidden = f"<kml {space}>{placed.replace('<gx:Track>', '<visibility>0</visibility><gx:Track>')}{PLACE}</kml>"
-    notes = read(hidden).notes
-    assert any("hidden: 1 line" in note for note in notes)
-
-
-PLACE = "<Placemark><Point><coordinates>9,48</coordinates></Point></Placemark>"
+    assert len(parts.path["points"]) > 1
 
 
 def test_of_several_tracks_the_longest_is_danced_and_a_line_called_path_before_all() -> None:
