@@ -9,11 +9,8 @@ import os
 import pty
 import re
 import signal
-import socket
 import struct
 import subprocess
-import sys
-import tempfile
 import termios
 import time
 from collections.abc import Iterator
@@ -31,25 +28,15 @@ from app.command.main import MODULE_OF, app
 from app.command.show import print_answer
 from app.questions.maximum_head_speed import MaximumHeadSpeed
 from app.questions.registry import QUESTIONS
-from app.service.workers import SILENT_SECONDS, START_SECONDS
+from app.service.workers import START_SECONDS
 from app.settings import Settings
 from core.kernels import COMPILED
 from tests.conftest import heed_ctrl_c
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
+from tests.support.job_service import wait_for
 from tests.support.refusal_rows import assert_refused_in_one_line
+from tests.support.serving import sample, serving
 
-# The service, which replaces a process that is silent for so long [s].
-SILENT = 2.0
-IMPATIENT = (
-    sys.executable,
-    "-c",
-    f"from app.service import workers; workers.SILENT_SECONDS = {SILENT}; from app.command.entry import main; main()",
-)
-HEALTH_COUNT = 'bench_dragon_requests_total{path="/healthz"'
-CROSSED = """{"chained": false, "benches": [
-    {"x": 0.0, "y": 0.0, "heading": 0.0, "length": 2.2, "width": 0.3},
-    {"x": 1.0, "y": 0.5, "heading": 1.5, "length": 2.2, "width": 0.3}
-]}"""
 # Questions besides figures that commands of another name answer, and two that none does: the page draws with course,
 # and a sweep of collision-time over the pitch is the scan.
 OTHERWISE = {"films", "proposals", "contest_kit", "course", "pitch_scan"}
@@ -76,43 +63,6 @@ HELPS = dict(helps())
 cached_output = cache(answer_of)
 
 
-LINES = [
-    "collision-time",
-    "collision-time --pitch 0.45",
-    "collision-time --margin 0.05 --cross-check pair",
-    "collision-time --cross-check none",
-    "minimum-pitch --cross-check none",
-    "minimum-pitch --turning-diameter 6",
-    "clearance --pitch 0.6 --stop 4 --step 2",
-    "turn",
-    "turn --pitch 1.5 --ratio 1 --middle 4",
-    "turn --entry-radius 4.3 --exit-radius 4.5",
-    "shortest-turn --benches 20 --exit-opposite",
-    "shortest-turn --ratio 1 --margin 0.2 --benches 40 --exit-opposite",
-    "turn-time --benches 20 --exit-radius 4.5",
-    "turn-time --benches 20 --ratio 1 --middle 4 --ends 0.5",
-    "quickest-turn --benches 12 --speed-limit 3",
-    "maximum-head-speed --benches 20 --speed-limit 3",
-    "tolerance --benches 12 --turning-diameter 12",
-    "tolerance-curve --benches 9 --samples 2",
-    "paper",
-]
-
-
-@pytest.mark.parametrize("line", LINES)
-def test_json_is_the_answer_of_the_service(client: httpx.Client, line: str) -> None:
-    command, *_ = words = line.split()
-    options = re.findall(r"--([\w-]+)(?: ([^-]\S*))?", line)
-    query = {name.replace("-", "_"): value or "true" for name, value in options}
-    answer = client.get(f"/{command}", params=query).raise_for_status().json()
-    assert json.loads(cached_output(*words, "--json")) == answer
-
-
-def test_every_question_of_a_query_is_asked_by_its_command() -> None:
-    asked = {line.split()[0].replace("-", "_") for line in LINES}
-    assert {name for name, one in QUESTIONS.items() if one.flat and "figure" not in name} - asked == {"pitch_scan"}
-
-
 TRAJECTORIES = [
     '--start 1 --stop 2 --step 0.5 --decimals 6 -> {"times": {"start": 1, "stop": 2, "step": 0.5}, "decimals": 6}',
     '--times 0,9 --head-length 3 -> {"times": [0, 9], "dragon": {"head_length": 3}}',
@@ -133,15 +83,6 @@ def test_times_before_the_dance_warn_on_a_spiral() -> None:
     assert warned.returncode == 0
     assert "begins at 0 s" in warned.stderr
     assert "--path turn" in warned.stderr
-
-
-def test_overlaps_reads_benches_from_a_file_or_a_pipe(client: httpx.Client, tmp_path: Path) -> None:
-    file = tmp_path / "benches.json"
-    file.write_text(CROSSED)
-    answer = client.post("/overlaps", json=json.loads(CROSSED)).raise_for_status().json()
-    assert [one["benches"] for one in answer["overlaps"]] == [[0, 1]]
-    assert json.loads(answer_of("overlaps", str(file), "--json")) == answer
-    assert json.loads(answer_of("overlaps", "-", "--json", text=CROSSED)) == answer
 
 
 def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
@@ -175,13 +116,6 @@ def test_tables_for_people_hold_the_numbers_with_their_units(row: str) -> None:
     assert [word for word in words.split(" | ") if word not in table] == []
 
 
-@pytest.mark.parametrize("command", ["collision-time", "minimum-pitch", "shortest-turn"])
-def test_with_a_margin_the_command_says_within_it(command: str) -> None:
-    text = " ".join(answer_of(command, "--benches", "40", "--margin", "0.05").split())
-    assert "within 0.05 m" in text
-    assert not re.search(r"touch|meet|outcome contact", text)
-
-
 @pytest.mark.parametrize(
     "row",
     [
@@ -213,6 +147,11 @@ def test_with_a_margin_the_command_says_within_it(command: str) -> None:
             "minimum-pitch --body-length 0.001 --overhang 0 -> body_length ... benches 0.001 m",
             marks=pytest.mark.thorough,
         ),
+        "contest '' -> FOLDER must not be an empty name",
+        "figures '' -> FILE must not be an empty name",
+        "trajectory '' -> FILE must not be an empty name",
+        "sweep run spec.toml --output '' -> --output must not be an empty name",
+        "sweep show '' -> FOLDER must not be an empty name",
         "trajectory --times 0,1 --stop 300 -> --times replaces --stop",
         "trajectory --times 0,1 --start 0 -> --times replaces --start",
         "trajectory --step 1 --times 0,1 -> --times replaces --step",
@@ -242,54 +181,6 @@ def test_wrong_use_gets_one_line_on_standard_error_and_exit_code_2(
     monkeypatch.chdir(tmp_path)
     assert_refused_in_one_line(row)
     assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize(
-    "row",
-    [
-        "check dance.json --time 3 -> --time ... --figure",
-        "check dance.json --cross-check '' -> cross_check ... dragon pair none",
-        "overlaps --pitch 1 benches.json -> --pitch ... FILE",
-        "overlaps --margin=0 benches.json -> --margin ... FILE",
-    ],
-)
-def test_an_option_that_does_not_go_with_a_file_is_refused_by_name(
-    row: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "dance.json").write_text('{"head_speed": 1}')
-    (tmp_path / "benches.json").write_text('{"benches": [{"x": 0, "y": 0, "heading": 0, "length": 1, "width": 1}]}')
-    assert_refused_in_one_line(row)
-
-
-@pytest.mark.parametrize(
-    "row",
-    [
-        "contest '' -> FOLDER must not be an empty name",
-        "figures '' -> FILE must not be an empty name",
-        "trajectory '' -> FILE must not be an empty name",
-        "sweep run spec.toml --output '' -> --output must not be an empty name",
-        "sweep show '' -> FOLDER must not be an empty name",
-    ],
-)
-def test_an_empty_name_is_not_the_current_folder(row: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert_refused_in_one_line(row)
-    assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize("form", [[], pytest.param(["--json"], marks=pytest.mark.deep)], ids=["table", "json"])
-def test_a_full_disk_behind_standard_output_is_one_line_and_exit_code_2(form: list[str]) -> None:
-    with Path("/dev/full").open("w") as full:
-        done = subprocess.run(
-            [COMMAND, "collision-time", *form],
-            stdout=full,
-            stderr=subprocess.PIPE,
-            text=True,
-            timeout=PATIENCE,
-            env=ENVIRONMENT,
-        )
-    assert (done.returncode, done.stderr) == (2, "Error: standard output: No space left on device\n")
 
 
 def test_the_limits_are_those_of_the_settings() -> None:
@@ -333,20 +224,6 @@ def test_an_address_of_a_scheduler_is_a_setting(address: str, monkeypatch: pytes
     assert Settings().dask == address
 
 
-@pytest.mark.parametrize("row", ["overlaps - -> standard input is not JSON", "collision-time - -> standard input"])
-def test_standard_input_that_is_not_json_is_named(row: str) -> None:
-    assert_refused_in_one_line(row, text="{benches")
-
-
-@pytest.mark.parametrize("suffix", ["csv", "json", "xlsx", "arrow"])
-def test_output_writes_a_file_and_leaves_standard_output_empty(tmp_path: Path, suffix: str) -> None:
-    file = tmp_path / f"dance.{suffix}"
-    done = run("trajectory", "--stop", "10", "--output", str(file))
-    assert (done.returncode, done.stdout) == (0, "")
-    assert done.stderr == f"{file}: 224 handles at 11 instants\n"
-    assert file.stat().st_size > 10_000  # [bytes]: 224 x 11 numbers and more
-
-
 def test_output_takes_decimals_and_language(tmp_path: Path) -> None:
     text, book = tmp_path / "a.csv", tmp_path / "a.xlsx"
     run("trajectory", "--stop", "1", "--decimals", "3", "--output", str(text))
@@ -360,9 +237,6 @@ def test_figures_writes_the_files_that_were_asked_for(tmp_path: Path) -> None:
     assert (done.returncode, done.stdout) == (0, "")
     names = {file.name for file in (tmp_path / "new").iterdir()}
     assert names == {"contact.png", "pitch-scan.png", "trajectory.png"}
-    done = run("figures", str(tmp_path / "one"), "--kind", "contact", "--format", "svg", "--benches", "20")
-    assert (done.returncode, done.stderr) == (0, f"{tmp_path / 'one' / 'contact.svg'}\n")
-    assert b"<svg" in (tmp_path / "one" / "contact.svg").read_bytes()
 
 
 def headings(text: str) -> list[list[str]]:
@@ -421,16 +295,13 @@ def test_as_many_instants_are_shown_as_fit_the_width() -> None:
     assert "3 of 6 instants" in output.replace("\r\n", " ")
 
 
-def test_handles_stand_in_the_order_in_which_they_are_chosen() -> None:
-    table = answer_of("trajectory", "--times", "0,60,120", "--handles", "51,0,1")
-    assert re.findall(r"^  (\d+) (?:head|body)", table, re.MULTILINE) == ["51", "0", "1"] * 3
-
-
-def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take() -> None:
+def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take_and_handles_in_their_order() -> None:
     times = [str(k) for k in range(20)]
-    result = headings(answer_of("trajectory", "--benches", "3", "--handles", "0", "--times", ",".join(times)))
+    table = answer_of("trajectory", "--benches", "3", "--handles", "2,0,1", "--times", ",".join(times))
+    result = headings(table)
     assert [instant for heading in result[: len(result) // 3] for instant in heading] == times
     assert result == result[: len(result) // 3] * 3
+    assert re.findall(r"^  (\d+) (?:head|body|tail)", table, re.MULTILINE) == ["2", "0", "1"] * len(result)
 
 
 @pytest.mark.parametrize("flags", [pytest.param([], marks=pytest.mark.deep), ["--json"]], ids=["table", "json"])
@@ -498,109 +369,43 @@ def test_ctrl_c_while_modules_are_imported_ends_without_a_word(tmp_path: Path) -
     assert process.returncode == 130
 
 
-@contextlib.contextmanager
-def serving(
-    *options: str, program: tuple[str, ...] = (COMMAND,), on_sigint: signal.Handlers = signal.SIG_DFL
-) -> Iterator[tuple[subprocess.Popen[str], str, list[str]]]:
-    """`bench-dragon serve`, its base URL, and the lines that it wrote up to when all its processes answer.
-
-    on_sigint: what its parent left it to do on Ctrl-C; a shell that starts it in the background has that ignored
-    """
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    command = [*program, "serve", "--port", str(port), *options]
-    scratch = tempfile.TemporaryDirectory()  # what a killed service leaves behind goes with it
-    environment = ENVIRONMENT | {"TMPDIR": scratch.name}
-    process = subprocess.Popen(
-        command,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=environment,
-        start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, on_sigint),
-    )
-    lines: list[str] = []
-    expected, running = 1, False
-    for line in process.stderr:
-        lines.append(line)
-        running |= f"running on http://127.0.0.1:{port}" in line
-        expected = int(match[1]) if (match := re.search(r"in (\d+) processes", line)) else expected
-        if running and sum("Application startup complete" in line for line in lines) == expected:
-            break
-    try:
-        yield process, f"http://127.0.0.1:{port}", lines
-    finally:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.communicate()
-        scratch.cleanup()
-
-
-def becomes(url: str, name: str, expected: float) -> bool:
-    """True if a metric, summed over its labels, reaches a value. Requests are counted just after their answers."""
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        lines = httpx.get(f"{url}/metrics").text.splitlines()
-        if sum(float(line.rpartition(" ")[2]) for line in lines if line.startswith(name)) == expected:
-            return True
-    return False
-
-
-def starts(process: subprocess.Popen[str]) -> bool:
-    """True as soon as one more process of the service answers."""
-    return any("Application startup complete" in line for line in process.stderr)
+def as_from_a_terminal() -> None:
+    """In the process of a service: alone in a session, where Ctrl-C reaches all its processes."""
+    os.setsid()
+    heed_ctrl_c()
 
 
 @pytest.mark.parametrize("workers", [1, pytest.param(2, marks=pytest.mark.thorough)])
-def test_serve_answers_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ctrl_c_ends_it(
-    workers: int,
+def test_serve_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ctrl_c_ends_it(
+    tmp_path: Path, workers: int
 ) -> None:
-    with serving("--workers", str(workers), program=IMPATIENT) as (process, url, lines):
-        pids = [int(one[1]) for line in lines if (one := re.search(r"Started server process \[(\d+)\]", line))]
+    with serving(tmp_path / "log", workers, as_from_a_terminal) as service:
+
+        def all_started(count: int) -> bool:
+            return service.log.read_text().count("Application startup complete") == count
+
+        def counted(count: int) -> bool:
+            return sample(service.url, 'bench_dragon_requests_total{path="/readyz",status="200"}') == count
+
+        wait_for(lambda: all_started(workers))
+        pids = [int(pid) for pid in re.findall(r"Started server process \[(\d+)\]", service.log.read_text())]
         assert len(pids) == workers
         for k in range(1, 4):
-            assert httpx.get(f"{url}/healthz").json()["status"] == "ok"
-            assert becomes(url, HEALTH_COUNT, k)
+            httpx.get(f"{service.url}/readyz").raise_for_status()
+            wait_for(lambda: counted(k))  # noqa: B023 - requests are counted just after their answers
         if workers > 1:
             os.kill(pids[0], signal.SIGKILL)
-            assert starts(process)
-            assert becomes(url, HEALTH_COUNT, 3)
+            wait_for(lambda: all_started(workers + 1))
+            assert counted(3)
             time.sleep(2.0)  # all have answered their parent
             os.kill(pids[1], signal.SIGSTOP)
-            stopped = time.monotonic()
-            assert any(f"[{pids[1]}] died" in line for line in process.stderr)
-            assert SILENT < time.monotonic() - stopped < SILENT_SECONDS < START_SECONDS
-            assert starts(process)
-            assert httpx.get(f"{url}/healthz").json()["status"] == "ok"
-        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
-        _, rest = process.communicate(timeout=PATIENCE)
-        assert process.returncode == 0
-        assert "Traceback" not in rest
-
-
-@pytest.mark.thorough
-def test_a_service_in_the_background_ends_on_sigterm() -> None:
-    with serving(on_sigint=signal.SIG_IGN) as (process, url, lines):
-        assert sum("Started server process" in line for line in lines) == len(os.sched_getaffinity(0))
-        assert httpx.get(f"{url}/healthz").json()["status"] == "ok"
-        process.terminate()
-        _, rest = process.communicate(timeout=PATIENCE)
-        assert process.returncode in (0, -signal.SIGTERM)
-        assert "Traceback" not in rest
-        assert refuses(url)
-
-
-def refuses(url: str) -> bool:
-    """True if nothing listens there any more. A connection may still be taken and dropped while the last one ends."""
-    try:
-        httpx.get(f"{url}/healthz")
-    except httpx.ConnectError:
-        return True
-    except httpx.TransportError:
-        return False
-    return False
+            # It is silent, not slow to start.
+            wait_for(lambda: f"[{pids[1]}] died" in service.log.read_text(), 0.5 * START_SECONDS)
+            wait_for(lambda: all_started(workers + 2))
+            httpx.get(f"{service.url}/readyz").raise_for_status()
+        os.killpg(service.process.pid, signal.SIGINT)
+        assert service.process.wait(PATIENCE) == 0
+        assert "Traceback" not in service.log.read_text()
 
 
 @pytest.mark.parametrize("workers", ["1", pytest.param("2", marks=pytest.mark.thorough)])
@@ -640,10 +445,6 @@ def test_the_shell_completes_commands_and_options() -> None:
     assert answer_of(**request, COMP_WORDS="bench-dragon coll").split() == ["collision-time"]
     request["COMP_CWORD"] = "2"
     assert answer_of(**request, COMP_WORDS="bench-dragon collision-time --pit").split() == ["--pitch"]
-
-
-def test_completion_is_offered_once() -> None:
-    assert answer_of("--help", COLUMNS="100").count("--install-completion") == 1
 
 
 FOLDING = ("trajectory", "--benches", "40", "--pitch", "1.2", "--start-turns", "8")
