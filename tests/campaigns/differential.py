@@ -12,10 +12,9 @@ from __future__ import annotations
 import copy
 import importlib.util
 import itertools
-import json
 import math
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -35,6 +34,7 @@ from core.proof import (
 from core.proof.certificate import digest
 from core.tolerance.tolerance import tolerance
 from tests.campaigns import hunting
+from tests.support.forgeries import places, through_json
 
 VERIFY = Path(__file__).parents[2] / "examples" / "verify.py"
 # Parts of each stretch, where only one of the two proves a certificate.
@@ -53,10 +53,6 @@ def second() -> ModuleType:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
-
-
-def _short(certificate: Certificate) -> Certificate:
-    return json.loads(json.dumps(certificate))  # type: ignore[no-any-return]
 
 
 def _contact(dragon: Dragon, path: Any, before: float, margin: float = 0.0) -> Certificate:
@@ -111,7 +107,7 @@ MAKERS: dict[str, Callable[[], Certificate]] = {
 @cache
 def made(name: str) -> Certificate:
     """A true certificate with few stretches."""
-    return _short(MAKERS[name]())
+    return through_json(MAKERS[name]())
 
 
 def fitted(content: dict[str, Any]) -> Certificate:
@@ -176,14 +172,6 @@ def disagreement(certificate: Certificate) -> str:
     return f"only {who} proves it: {first[1][:300]} | {other[1][:300]}"
 
 
-def places(value: Any, place: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
-    """The places of all members and entries inside a value."""
-    inside = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    for name, entry in inside:
-        yield (*place, name)
-        yield from places(entry, (*place, name))
-
-
 def changed(certificate: Certificate, dice: random.Random) -> Certificate:
     """A certificate with one change, sometimes two, and a digest that fits."""
     content = copy.deepcopy({name: value for name, value in certificate.items() if name != "digest"})
@@ -197,9 +185,8 @@ def changed(certificate: Certificate, dice: random.Random) -> Certificate:
 
 def _change(content: dict[str, Any], dice: random.Random) -> None:
     # Half of the changes are outside of the stretches, which are most of a certificate.
-    result = list(
-        places({name: content[name] for name in content if name != "sweeps"} if dice.random() < 0.5 else content)
-    )
+    outside = {name: content[name] for name in content if name != "sweeps"}
+    result = places(outside if dice.random() < 0.5 else content, most=None)[1:]
     place = dice.choice(result)
     inside: Any = content
     for step in place[:-1]:

@@ -9,11 +9,11 @@ from __future__ import annotations
 import copy
 import json
 import random
-import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ from hypothesis import HealthCheck, given, settings
 
 from app.service.examples import EXAMPLES
 from app.wire.problem import PROBLEM_TYPE
+from tests.campaigns import hunting
 from tests.support.serving import serving
 
 # Nothing takes longer than the deadline of an answer and a busy machine need [s].
@@ -43,14 +44,18 @@ class Tally:
     def __str__(self) -> str:
         return f"answers by status: {dict(sorted(self.statuses.items()))}; slowest {self.slowest}"
 
-    def add(self, status: int, headers: Mapping[str, Any], text: str, seconds: float, request: str) -> None:
-        """Count an answer. raises: AssertionError for a fault of the service, or one without problem details"""
+    def add(self, ask: Callable[[], Any], request: str) -> Any:
+        """An answer, counted. raises: AssertionError for a fault of the service, or one without problem details"""
+        begun = time.monotonic()
+        answer = ask()
+        seconds, status, text = time.monotonic() - begun, answer.status_code, answer.content.decode(errors="replace")
         self.statuses[status] += 1
         self.slowest = max(self.slowest, (seconds, request[:200]))
-        assert status < 500 or (status == 503 and "retry-after" in headers), (request, text[:500])
-        assert status < 400 or PROBLEM_TYPE in headers["content-type"], (request, text[:500])
+        assert status < 500 or (status == 503 and "retry-after" in answer.headers), (request, text[:500])
+        assert status < 400 or PROBLEM_TYPE in answer.headers["content-type"], (request, text[:500])
         assert "Traceback" not in text, request
         assert seconds < SLOWEST, (request, seconds)
+        return answer
 
 
 def mutated(value: Any, chance: random.Random) -> Any:
@@ -95,10 +100,7 @@ def ask_mutants(url: str, count: int, seed: int = 0) -> Tally:
         for number in range(count):
             call = calls[number % len(calls)]
             path, options = mutant(call, chance)
-            begun = time.monotonic()
-            answer = client.request(call.split()[0], path, **options)
-            seconds = time.monotonic() - begun
-            tally.add(answer.status_code, answer.headers, answer.text, seconds, f"{call} {options}")
+            tally.add(partial(client.request, call.split()[0], path, **options), f"{call} {options}")
     return tally
 
 
@@ -110,12 +112,9 @@ def ask_described(url: str, count: int) -> Tally:
     tally = Tally()
 
     def conforms(case: Any) -> None:
-        begun = time.monotonic()
-        answer = case.call(base_url=url, timeout=2.0 * SLOWEST)
-        seconds = time.monotonic() - begun
-        case.validate_response(answer, checks=CHECKED)
         request = f"{case.method} {case.path} {case.query} {case.body}"
-        tally.add(answer.status_code, answer.headers, answer.content.decode(errors="replace"), seconds, request)
+        answer = tally.add(partial(case.call, base_url=url, timeout=2.0 * SLOWEST), request)
+        case.validate_response(answer, checks=CHECKED)
 
     for call, mode in tried:
         cases = CALLS[call].as_strategy(generation_mode=mode)
@@ -128,13 +127,12 @@ def ask_described(url: str, count: int) -> Tally:
 def main() -> None:
     from tests.campaigns.fuzz_files import ask_files, readers_over
 
-    seed = int(sys.argv[3]) if len(sys.argv) > 3 else 0
-    files = int(sys.argv[4]) if len(sys.argv) > 4 else 5_000
+    cases, mutants, seed, files = hunting.arguments(10_000, 12_000, 0, 5_000)
     with tempfile.TemporaryDirectory() as folder, serving(Path(folder) / "log", workers=2) as service:
         print("files:", ask_files(service.url, files, seed, Path(tempfile.gettempdir())), flush=True)
         print("readers over their limit:", readers_over(httpx.get(f"{service.url}/metrics").text, 1e9), flush=True)
-        print(ask_mutants(service.url, int(sys.argv[2]), seed), flush=True)
-        if cases := int(sys.argv[1]):
+        print(ask_mutants(service.url, mutants, seed), flush=True)
+        if cases:
             print(ask_described(service.url, cases))
 
 

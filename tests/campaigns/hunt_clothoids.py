@@ -8,32 +8,27 @@ from __future__ import annotations
 
 from functools import partial
 
-import numpy as np
-
-from core import Clothoid, Line, Route
+from core import Route
 from tests.campaigns import hunt_contacts, hunting
+from tests.support.random_routes import Pen
 
 
 def blended_route(rng, dragon):
     """A line, bends of clothoids and arcs, and a line, each as long as the dragon."""
     chord = float(dragon.chords.max())
     way = float(sum(dragon.chords) + rng.uniform(1.0, 6.0) * chord)
-    pieces, place, heading = [Line((-way, 0.0), (0.0, 0.0))], (0.0, 0.0), 0.0
-    side = float(rng.choice([-1.0, 1.0]))
+    pen, side = Pen(complex(-way)), float(rng.choice([-1.0, 1.0]))
+    pen.line(way)
     for _ in range(int(rng.choice([1, 1, 2]))):
         bend, sweep = side / float(rng.uniform(0.55, 1.5) * chord), float(rng.uniform(1.5, 3.4))
         ramps = rng.uniform(0.0, 0.9, 2) * (rng.uniform(size=2) < 0.8)  # parts of the sweep, half of which is left
         turned = [(0.0, bend, 0.5 * ramps[0] * sweep), (bend, bend, (1.0 - 0.5 * ramps.sum()) * sweep)]
-        turned.append((bend, 0.0, 0.5 * ramps[1] * sweep))
-        for first, last, angle in turned:
-            length = 2.0 * angle / abs(first + last)
-            if length > 1e-2:
-                pieces.append(Clothoid(place, heading, first, last, length))
-                place, heading = pieces[-1].end, pieces[-1].end_heading
+        for first, last, angle in [*turned, (bend, 0.0, 0.5 * ramps[1] * sweep)]:
+            if (length := 2.0 * angle / abs(first + last)) > 1e-2:
+                pen.clothoid(first, last, length)
         side = -side
-    x, y = place
-    pieces.append(Line(place, (x + way * float(np.cos(heading)), y + way * float(np.sin(heading)))))
-    return Route(pieces, start=way)
+    pen.line(way)
+    return Route(pen.pieces, start=way)
 
 
 def fault(seed, case):

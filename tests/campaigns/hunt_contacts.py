@@ -8,18 +8,15 @@ margins are chosen so that benches only graze, and so meet slowly.
 from __future__ import annotations
 
 from functools import partial
-from itertools import pairwise
 
 import numpy as np
 
 from core import (
-    Arc,
     BenchDragonError,
     Coil,
     Dance,
     Dragon,
     Judgement,
-    Line,
     Outcome,
     Passage,
     Route,
@@ -30,8 +27,10 @@ from core import (
     least_clearance,
 )
 from tests.campaigns import hunting
+from tests.support.random_routes import Pen
+from tests.support.slow_performance import travelled
 from tests.support.slow_route import SlowRoute
-from tests.support.slow_search import RUN, SPLIT, STEP, SlowDance
+from tests.support.slow_search import RUN, STEP, Samples, SlowDance
 
 # Accuracy of slow clearances [m], and of times at 1 m/s [s].
 GAP, TIME = 1e-9, 1e-9
@@ -39,22 +38,25 @@ GAP, TIME = 1e-9, 1e-9
 NARROW = 1e-9
 # Largest number of coarse samples of a slow search: longer dances are cut.
 SAMPLES = 2_000
-# Rounds in which the least of the samples is refined, and the number of dips that are.
-REFINED, DIPS = 3, 4
 # A touch this much above 0 or a margin counts as none, because two benches only graze [m].
 SURE = 1e-8
 
 
-def random_dragon(rng):
-    """3 to 16 benches, uniform or bench by bench."""
-    benches, chord = int(rng.integers(3, 17)), 10.0 ** rng.uniform(-0.3, 0.4)
+def random_dragon(rng, benches=None):
+    """3 to 16 benches, or so many, uniform or bench by bench."""
+    benches, chord = benches or int(rng.integers(3, 17)), 10.0 ** rng.uniform(-0.3, 0.4)
     width, overhang = chord * 10.0 ** rng.uniform(-1.0, -0.1), chord * rng.choice([0.0, 0.1, 0.25, 0.4])
     if rng.uniform() < 0.3:
-        chords = chord * 10.0 ** rng.uniform(-0.15, 0.15, benches)
-        overhangs = np.full(benches, overhang) * rng.uniform(0.5, 1.0, benches)
-        return Dragon.of(chords + 2.0 * overhangs, width * rng.uniform(0.7, 1.3, benches), overhangs)
+        return uneven_dragon(rng, benches, chord, width, overhang)
     head = chord * 10.0 ** rng.uniform(-0.2, 0.4)
     return Dragon(benches, head + 2.0 * overhang, chord + 2.0 * overhang, width, overhang)
+
+
+def uneven_dragon(rng, benches, chord, width, overhang):
+    """A dragon given bench by bench, each nearly as large as this."""
+    chords = chord * 10.0 ** rng.uniform(-0.15, 0.15, benches)
+    overhangs = np.full(benches, overhang) * rng.uniform(0.5, 1.0, benches)
+    return Dragon.of(chords + 2.0 * overhangs, width * rng.uniform(0.7, 1.3, benches), overhangs)
 
 
 def random_path(rng, dragon):
@@ -74,10 +76,11 @@ def random_path(rng, dragon):
         return Route([Coil(pitch, float(inner + rng.uniform(2.0, 5.0)), float(inner))])
     radius, sweep = float(rng.uniform(0.55, 1.5) * chord), float(rng.uniform(2.0, 3.1)) * rng.choice([-1, 1])
     way = float(sum(dragon.chords) + rng.uniform(1.0, 6.0) * chord)
-    end = np.array([radius * np.sin(abs(sweep)), np.sign(sweep) * radius * (1.0 - np.cos(sweep))])
-    heading = np.array([np.cos(sweep), np.sin(sweep)])
-    arc = Arc((0.0, float(np.sign(sweep)) * radius), radius, -0.5 * np.pi * float(np.sign(sweep)), float(sweep))
-    return Route([Line((-way, 0.0), (0.0, 0.0)), arc, Line(tuple(end), tuple(end + way * heading))], start=way)
+    pen = Pen(complex(-way))
+    pen.line(way)
+    pen.arc(radius, float(sweep))
+    pen.line(way)
+    return Route(pen.pieces, start=way)
 
 
 def random_passages(rng):
@@ -91,52 +94,16 @@ def random_passages(rng):
     return tuple(passages)
 
 
-def travelled(dance, time):
-    """Travel of the head at a time, by its passages that end at given times [m]."""
-    if time <= 0.0 or not dance.passages:
-        return dance.head_speed * time
-    ends, travel = [0.0, *(passage.until_time for passage in dance.passages)], 0.0
-    for (start, end), passage in zip(pairwise(ends), dance.passages, strict=True):
-        travel += passage.speed * (min(max(time, start), end) - start)
-    return travel + dance.head_speed * max(time - ends[-1], 0.0)
-
-
-class SlowLook:
+class SlowLook(Samples):
     """The slow clearance of a dance between two travels, in samples that are closer around the lowest of them."""
 
     def __init__(self, slow, begin, until):
-        self.slow, self.begin = slow, begin
-        self.until = min(until, begin + SAMPLES * STEP * slow.chords.min())
-        steps = 3 + int((self.until - begin) / (STEP * slow.chords.min()))
-        part = np.linspace(0.0, 1.0, steps)
+        self.begin, self.until = begin, min(until, begin + SAMPLES * STEP * slow.chords.min())
+        part = np.linspace(0.0, 1.0, 3 + int((self.until - begin) / (STEP * slow.chords.min())))
         # handles move as the square root of the way to a fold
         ahead = until - self.until < 1.0 and not isinstance(slow, SlowRoute)
-        self.travels = begin + (self.until - begin) * (1.0 - (1.0 - part) ** 2 if ahead else part)
-        self.gaps = np.concatenate([slow.clearance(part)[0] for part in np.array_split(self.travels, 1 + steps // 400)])
-        for _ in range(REFINED):
-            self._refine()
-
-    def _refine(self):
-        gaps = np.concatenate([[np.inf], self.gaps, [np.inf]])
-        low = np.flatnonzero((gaps[:-2] >= self.gaps) & (self.gaps <= gaps[2:]))
-        known = [self.travels]
-        for k in low[np.argsort(self.gaps[low])][:DIPS]:
-            ends = self.travels[max(k - 1, 0)], self.travels[min(k + 1, len(self.travels) - 1)]
-            known.append(np.linspace(*ends, SPLIT + 1)[1:-1])
-        new = np.concatenate(known[1:])
-        travels, gaps = np.concatenate([self.travels, new]), np.concatenate([self.gaps, self.slow.clearance(new)[0]])
-        order = np.argsort(travels)
-        self.travels, self.gaps = travels[order], gaps[order]
-
-    def least(self, until=np.inf):
-        """Least gap and its travel, up to one."""
-        seen = self.travels <= until
-        k = int(np.argmin(np.where(seen, self.gaps, np.inf)))
-        return (float(self.gaps[k]), float(self.travels[k])) if seen.any() else (np.inf, self.begin)
-
-    def at(self, travel):
-        """The gap at a travel."""
-        return float(self.slow.clearance([travel])[0][0])
+        travels = begin + (self.until - begin) * (1.0 - (1.0 - part) ** 2 if ahead else part)
+        super().__init__(lambda times: slow.clearance(times)[0], travels)
 
 
 def random_case(seed, case, any_path=random_path):
@@ -201,18 +168,25 @@ def is_wide(dance, result):
 
 def contact_fault(dance, result, margin, look, accuracy=GAP):
     """What is wrong with a first contact."""
+    return meeting_fault(result, margin, look, accuracy, accuracy, lambda time: travelled(dance, time))
+
+
+def meeting_fault(result, margin, look, accuracy=GAP, reached=GAP, place=float):
+    """What is wrong with the first contact of any kind.
+
+    accuracy, reached: of slow gaps [m], and where they have reached the margin; place: in the look of a time
+    """
     if result.outcome is Outcome.CONTACT_AT_START:
-        gap = look.at(look.begin)
+        gap = look.at(look.times[0])
         return f"{result!r}, but the gap is {gap}" if gap > margin + accuracy else ""
-    clear = look.until if result.outcome is Outcome.CLEAR else travelled(dance, result.time_bracket[0])
+    clear = look.times[-1] if result.outcome is Outcome.CLEAR else place(result.time_bracket[0])
     least, there = look.least(clear)
     if least < margin - accuracy:
-        return f"proven clear up to {clear} m, but the gap is {least} at {there} m"
+        return f"proven clear up to {clear}, but the gap is {least} at {there}"
     if result.outcome is Outcome.CONTACT or result.overlapping is not None:
-        touching = travelled(dance, result.time_bracket[1])
-        gap = look.at(touching)
-        if gap > margin + accuracy:
-            return f"certain contact at {touching} m, but the gap is {gap}"
+        gap = look.at(place(result.time_bracket[1]))
+        if gap > margin + reached:
+            return f"certain contact at {result.time_bracket[1]} s, but the gap is {gap}"
     return ""
 
 
@@ -236,13 +210,8 @@ def least_fault(dance, least, look, contact, accuracy=GAP):
         and least.distance == 0.0
         and least.at_least is not None
     ):
-        return f"{undecided_words(contact)}, but {least!r}"
+        return f"undecided from {contact.time_bracket[0]} s on, but {least!r}"
     return ""
-
-
-def undecided_words(contact):
-    """An undecided first contact."""
-    return f"undecided from {contact.time_bracket[0]} s on"
 
 
 hunt = partial(hunting.hunt, fault)

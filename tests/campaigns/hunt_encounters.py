@@ -27,12 +27,13 @@ from core import (
     first_encounter,
 )
 from tests.campaigns import hunting
-from tests.campaigns.hunt_contacts import SlowLook, random_passages
+from tests.campaigns.hunt_contacts import SlowLook, random_passages, uneven_dragon
+from tests.campaigns.hunt_contacts import meeting_fault as encounter_fault
 from tests.support.slow_performance import SlowPerformance
 from tests.support.slow_search import RUN
 
-# Accuracy of slow clearances [m]; width of a bracket as promised where benches do not meet slowly [s].
-GAP, NARROW = 1e-9, 1e-9
+# Width of a bracket as promised where benches do not meet slowly [s].
+NARROW = 1e-9
 # Performances that are drawn until no two dragons overlap at the beginning [1].
 TRIALS = 6
 # Longest time that is looked at [s].
@@ -44,9 +45,7 @@ def random_dragon(rng):
     benches, chord = int(rng.integers(1, 10)), float(rng.uniform(0.8, 2.2))
     width, overhang = chord * float(rng.uniform(0.1, 0.4)), chord * float(rng.choice([0.0, 0.1, 0.3]))
     if rng.uniform() < 0.2:
-        chords = chord * 10.0 ** rng.uniform(-0.15, 0.15, benches)
-        overhangs = np.full(benches, overhang) * rng.uniform(0.5, 1.0, benches)
-        return Dragon.of(chords + 2.0 * overhangs, width * rng.uniform(0.7, 1.3, benches), overhangs)
+        return uneven_dragon(rng, benches, chord, width, overhang)
     head = chord * float(rng.uniform(0.8, 1.6))
     return Dragon(benches, head + 2.0 * overhang, chord + 2.0 * overhang, width, overhang)
 
@@ -128,22 +127,6 @@ def fault(seed, case):
         if not wrong and high - low < 1.01 * NARROW and not encounter_check(met).agree:
             kind += ", engines differ"
     return kind, wrong and f"{wrong} in {performance.parts!r}, margin {margin!r}, {start} to {stop}"
-
-
-def encounter_fault(met, margin, look):
-    """What is wrong with a first encounter."""
-    if met.outcome is Outcome.CONTACT_AT_START:
-        gap = look.at(look.begin)
-        return f"{met!r}, but the gap is {gap}" if gap > margin + GAP else ""
-    clear = look.until if met.outcome is Outcome.CLEAR else met.time_bracket[0]
-    least, there = look.least(clear)
-    if least < margin - GAP:
-        return f"proven clear up to {clear} s, but the gap is {least} at {there} s"
-    if met.outcome is Outcome.CONTACT or met.overlapping is not None:
-        gap = look.at(met.time_bracket[1])
-        if gap > margin + GAP:
-            return f"certain encounter at {met.time_bracket[1]} s, but the gap is {gap}"
-    return ""
 
 
 hunt = partial(hunting.hunt, fault)

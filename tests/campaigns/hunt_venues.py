@@ -11,15 +11,13 @@ from functools import partial
 import numpy as np
 import shapely
 
-from core import Area, BenchDragonError, Dance, Dragon, Judgement, Outcome, Spiral, Venue, check, venue_clearance
+from core import Area, BenchDragonError, Dance, Judgement, Outcome, Spiral, Venue, check, venue_clearance
 from tests.campaigns import hunting
-from tests.support.slow_search import RUN, SPLIT, SlowDance
+from tests.campaigns.hunt_contacts import GAP, meeting_fault, random_dragon
+from tests.support.slow_search import RUN, Samples, SlowDance, benches_of
 
-# Accuracy of slow distances [m]: towards a fold handles move without bound for a rounding of the time.
-GAP = 1e-9
-# Number of poses on the way, evenly spaced in time and towards the fold in its square root; rounds and dips in which
-# the least is refined.
-POSES, REFINED, DIPS = 600, 3, 4
+# Number of poses on the way, evenly spaced in time and towards the fold in its square root.
+POSES = 600
 # Largest difference between a distance and its proven bound [m].
 PROVEN = 1.1e-3
 # Width of a bracket as it is promised [s].
@@ -28,59 +26,24 @@ NARROW = 1e-9
 WIDE = 60.0
 
 
-def random_dragon(rng):
-    """1 to 12 benches, uniform or bench by bench."""
-    benches, chord = int(rng.choice([1, 2, 3, 5, 8, 12])), 10.0 ** rng.uniform(-0.3, 0.5)
-    width, overhang = chord * 10.0 ** rng.uniform(-1.2, -0.3), chord * rng.choice([0.0, 0.1, 0.25])
-    if rng.uniform() < 0.3:
-        chords = chord * 10.0 ** rng.uniform(-0.2, 0.2, benches)
-        return Dragon.of(chords + 2.0 * overhang, np.full(benches, width), np.full(benches, overhang))
-    head = chord * 10.0 ** rng.uniform(-0.2, 0.3)
-    return Dragon(benches, head + 2.0 * overhang, chord + 2.0 * overhang, width, overhang)
-
-
-class SlowVenue:
+class SlowVenue(Samples):
     """Distances of all benches from one area at many times, in the frame of the spiral."""
 
     def __init__(self, slow, boundary, times):
-        self.slow, self.boundary, self.times = slow, boundary, times
-        self.rows = self.distances(times)
-        for _ in range(REFINED):
-            self._refine()
+        self.slow, self.boundary = slow, boundary
+        super().__init__(self.distances, times)
 
     def distances(self, times):
         """(T,) least distance at times (T,) [m]; where they cross, minus the length of the boundary in a bench."""
-        handles = self.slow.handles(times)
-        front, rear = handles[:, :-1], handles[:, 1:]
-        middle, along = 0.5 * (front + rear), front - rear
-        along /= np.linalg.norm(along, axis=-1, keepdims=True)
-        ahead = along * (0.5 * self.slow.lengths)[None, :, None]
-        left = np.stack([-along[..., 1], along[..., 0]], axis=-1) * (0.5 * self.slow.widths)[None, :, None]
-        ring = np.stack(
-            [middle + ahead + left, middle + ahead - left, middle - ahead - left, middle - ahead + left], -2
-        )
-        benches = shapely.polygons(ring)
+        middle, along, sides = benches_of(self.slow.handles(times), self.slow.sides)
+        ahead = along * sides[:, :1]
+        left = np.stack([-along[..., 1], along[..., 0]], axis=-1) * sides[:, 1:]
+        corners = [middle + ahead + left, middle + ahead - left, middle - ahead - left, middle - ahead + left]
+        benches = shapely.polygons(np.stack(corners, axis=-2))
         apart = shapely.distance(benches, self.boundary)
         cut = apart <= 0.0
         apart[cut] = -shapely.length(shapely.intersection(benches[cut], self.boundary))
         return apart.min(axis=1)
-
-    def _refine(self):
-        rows = np.concatenate([[np.inf], self.rows, [np.inf]])
-        low = np.flatnonzero((rows[:-2] >= self.rows) & (self.rows <= rows[2:]))
-        new = []
-        for k in low[np.argsort(self.rows[low])][:DIPS]:
-            ends = self.times[max(k - 1, 0)], self.times[min(k + 1, len(self.times) - 1)]
-            new.append(np.linspace(*ends, SPLIT + 1)[1:-1])
-        times = np.concatenate([self.times, *new])
-        rows = np.concatenate([self.rows, self.distances(np.concatenate(new))])
-        order = np.argsort(times)
-        self.times, self.rows = times[order], rows[order]
-
-    def least(self, until=np.inf):
-        """Least distance and its time, up to one."""
-        k = int(np.argmin(np.where(self.times <= until, self.rows, np.inf)))
-        return float(self.rows[k]), float(self.times[k])
 
 
 def random_obstacle(rng, slow, times):
@@ -108,7 +71,7 @@ def random_obstacle(rng, slow, times):
 def random_case(seed, case):
     """dance, venue, margin, start, stop, and the slow look at the tree; raises: BenchDragonError for what is refused"""
     rng = hunting.generator(seed, case)
-    dragon, turns = random_dragon(rng), float(rng.uniform(1.2, 5.0))
+    dragon, turns = random_dragon(rng, int(rng.choice([1, 2, 3, 5, 8, 12]))), float(rng.uniform(1.2, 5.0))
     pitch = float(rng.uniform(0.15, 1.2) * dragon.chords.max())
     centre, rotation, clockwise = rng.uniform(-20.0, 20.0, 2), float(rng.uniform(-4.0, 4.0)), bool(rng.uniform() < 0.5)
     dance = Dance(dragon, Spiral(pitch, turns, tuple(centre), rotation, clockwise))
@@ -167,19 +130,9 @@ def area_fault(tree, margin, look):
         return f"{nearest!r}, but the distance is {low} at {there} s"
     if max(low, 0.0) < nearest.distance - PROVEN:
         return f"{nearest!r}, but the distance is {low} at {there} s"
-    if look.distances([nearest.time])[0] > nearest.distance + 1e3 * GAP:
-        return f"{nearest!r}, but there it is {look.distances([nearest.time])[0]}"
-    if tree.outcome is Outcome.CONTACT_AT_START:
-        return f"{tree!r}, but it is {look.rows[0]}" if look.rows[0] > margin + GAP else ""
-    clear = np.inf if tree.outcome is Outcome.CLEAR else tree.time_bracket[0]
-    low, there = look.least(clear)
-    if low < margin - GAP:
-        return f"clear up to {clear} s, but the distance is {low} at {there} s"
-    if tree.outcome is Outcome.CONTACT or tree.overlapping is not None:
-        gap = look.distances([tree.time_bracket[1]])[0]
-        if gap > margin + 1e2 * GAP:
-            return f"{tree!r}, but there it is {gap}"
-    return ""
+    if look.at(nearest.time) > nearest.distance + 1e3 * GAP:
+        return f"{nearest!r}, but there it is {look.at(nearest.time)}"
+    return meeting_fault(tree, margin, look, GAP, 1e2 * GAP)
 
 
 hunt = partial(hunting.hunt, fault)

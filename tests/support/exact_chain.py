@@ -1,8 +1,8 @@
 """Chains and gaps to 50 digits: a second solution of the kernels' model, which shares only names of columns with core.
 
 The doubles of a dragon, a spiral's growth and the table of a route are taken as exact, all else is python-flint's ball
-arithmetic at 200 bits, of which the rounding of this file itself takes a few. Next handles are found by bisection in
-doubles, then by Newton's iteration.
+arithmetic at 200 bits, of which the rounding of this file itself takes a few. Next handles are found in doubles, then
+by Newton's iteration.
 """
 
 from __future__ import annotations
@@ -18,10 +18,9 @@ from flint import acb, arb
 from numpy.typing import NDArray
 
 from core.kernels import constants as c
+from tests.support.slow_search import next_delta as nearly_delta
 
 BITS = 200
-# The first crest of a chord's length is looked for in steps of delta as wide as this [rad].
-CREST_STEP = 1e-3
 # Newton's iteration doubles the digits, from 1e-15 beyond 50 in two steps; near a crest it begins with fewer digits.
 NEWTON_STEPS = 6
 # On a route it starts from the chord, which is up to half as long as the arc.
@@ -53,34 +52,9 @@ def spiral_place(theta: arb) -> arb:
     return (theta * (1 + theta * theta).sqrt() + theta.asinh()) / 2
 
 
-def chord_squared(theta: float, delta: float) -> float:
-    return delta**2 + 4.0 * theta * (theta + delta) * math.sin(0.5 * delta) ** 2
-
-
-def first_crest(theta: float) -> float:
-    """Value of delta beyond pi at which chord_squared() first stops growing."""
-
-    def grows(delta: float) -> bool:
-        return delta + theta * (1.0 - math.cos(delta)) + theta * (theta + delta) * math.sin(delta) > 0.0
-
-    low = math.pi
-    while grows(low + CREST_STEP):
-        low += CREST_STEP
-    high = low + CREST_STEP
-    while (delta := 0.5 * (low + high)) not in (low, high):
-        low, high = (delta, high) if grows(delta) else (low, delta)
-    return low
-
-
 def next_delta(theta: arb, reach: arb) -> arb:
     """The first root of delta^2 + 4 theta (theta + delta) sin^2(delta / 2) = reach^2."""
-    near, square = float(theta), float(reach) ** 2
-    low, high = 0.0, math.pi
-    if chord_squared(near, high) < square:
-        low, high = high, first_crest(near)
-    while (delta := 0.5 * (low + high)) not in (low, high):
-        low, high = (delta, high) if chord_squared(near, delta) < square else (low, delta)
-    root = arb(high)
+    root = arb(float(nearly_delta(np.array([float(theta)]), float(reach))[0]))
     for _ in range(NEWTON_STEPS):
         sine, cosine = (root / 2).sin(), (root / 2).cos()
         value = root**2 + 4 * theta * (theta + root) * sine**2 - reach**2
@@ -89,15 +63,30 @@ def next_delta(theta: arb, reach: arb) -> arb:
     return root
 
 
+def spiral_angle(arc: arb) -> arb:
+    """The angle at an arc length from the centre; negative lengths have negative angles."""
+    at = arb(math.copysign(math.sqrt(2.0 * abs(float(arc))), float(arc)))
+    for _ in range(ROUTE_STEPS):
+        at = middle(at - (spiral_place(at) - arc) / (1 + at * at).sqrt())
+    return at
+
+
+def angles_behind(head: arb, growth: arb, chords: Floats) -> list[arb]:
+    """Angles of all handles behind the first one."""
+    angles = [head]
+    for chord in chords.tolist():
+        angles.append(middle(angles[-1] + next_delta(angles[-1], arb(chord) / growth)))
+    return angles
+
+
+def on_spiral(growth: arb, radius: arb, angle: arb) -> Point:
+    return growth * radius * angle.cos(), growth * radius * angle.sin()
+
+
 def spiral_handles(growth: float, theta: float, chords: Floats) -> list[Point]:
     """Handles of a dragon on a spiral in the frame in which the head stands at polar angle 0 [m]."""
     flint.ctx.prec = BITS
-    head = at = arb(theta)
-    handles = [(growth * at, arb(0))]
-    for chord in chords.tolist():
-        at = middle(at + next_delta(at, arb(chord) / growth))
-        handles.append((growth * at * (at - head).cos(), growth * at * (at - head).sin()))
-    return handles
+    return [on_spiral(arb(growth), at, at - theta) for at in angles_behind(arb(theta), arb(growth), chords)]
 
 
 def coil_handles(pitch: float, begin: float, way: arb, chords: Floats, rotation: float = 0.0) -> list[Point]:
@@ -106,16 +95,21 @@ def coil_handles(pitch: float, begin: float, way: arb, chords: Floats, rotation:
     The coil runs inwards, or outwards if `begin` is negative: angles and arc lengths from its centre are negative then.
     """
     flint.ctx.prec = BITS
-    growth, start = arb(pitch) / (2 * arb.pi()), 2 * arb.pi() * begin
-    arc = spiral_place(start) - way / growth
-    at = middle((2 * abs(arc)).sqrt() * (1 if arc > 0 else -1))
-    for _ in range(ROUTE_STEPS):
-        at = middle(at - (spiral_place(at) - arc) / (1 + at * at).sqrt())
-    handles = []
-    for chord in [*chords.tolist(), 0.0]:
-        handles.append((growth * abs(at) * (abs(at) + rotation).cos(), growth * abs(at) * (abs(at) + rotation).sin()))
-        at = middle(at + next_delta(at, arb(chord) / growth)) if chord else at
-    return handles
+    growth = arb(pitch) / (2 * arb.pi())
+    head = spiral_angle(spiral_place(2 * arb.pi() * begin) - way / growth)
+    return [on_spiral(growth, abs(at), abs(at) + rotation) for at in angles_behind(head, growth, chords)]
+
+
+def fresnel_way(first: arb, slope: arb, length: arb) -> acb:
+    """Way on a curve that begins to the right with this curvature, which has this slope.
+
+    k v + c v^2 / 2 is c (v + k / c)^2 / 2 less k^2 / (2 c).
+    """
+    unit = (arb.pi() / abs(slope)).sqrt()
+    begin, end = ((v + first / slope) / unit for v in (arb(0), length))
+    sines = (end.fresnel_s() - begin.fresnel_s()) * (1 if slope > 0 else -1)
+    rotated = (acb(0, -1) * first * first / (2 * slope)).exp()
+    return acb(end.fresnel_c() - begin.fresnel_c(), sines) * unit * rotated
 
 
 class ExactRoute:
@@ -142,7 +136,7 @@ class ExactRoute:
             return (row[c.CENTRE_X] + radius * cos, row[c.CENTRE_Y] + radius * sin), (-sign * sin, sign * cos)
         if row[c.PIECE_KIND] == c.SPIRAL:
             growth = arb(row[c.COIL_GROWTH]) + row[c.COIL_GROWTH_LOW]
-            theta = self._theta((arb(row[c.COIL_ARC]) + row[c.COIL_ARC_LOW] + sign * u) / growth)
+            theta = spiral_angle((arb(row[c.COIL_ARC]) + row[c.COIL_ARC_LOW] + sign * u) / growth)
             angle = theta + row[c.COIL_ROTATION]
             cos, sin = angle.cos(), angle.sin()
             radius, scale = growth * theta, sign / (1 + theta * theta).sqrt()
@@ -153,26 +147,14 @@ class ExactRoute:
         return self._cubic(row, u)
 
     @staticmethod
-    def _theta(arc: arb) -> arb:
-        theta = arb(math.sqrt(2.0 * float(arc)))
-        for _ in range(ROUTE_STEPS):
-            theta = middle(theta - (spiral_place(theta) - arc) / (1 + theta * theta).sqrt())
-        return theta
-
-    @staticmethod
     def _clothoid(row: list[float], u: arb) -> tuple[Point, Point]:
-        """By Fresnel integrals: k v + c v^2 / 2 is c (v + k / c)^2 / 2 less k^2 / (2 c)."""
         k, slope = arb(row[c.K_START]), arb(row[c.K_RATE])
         first = acb(row[c.LINE_DX], row[c.LINE_DY])
         along = first * (acb(0, 1) * (k * u + slope * u * u / 2)).exp()
         if slope == 0:
             way = ((acb(0, 1) * k * u).exp() - 1) / (acb(0, 1) * k) if k != 0 else acb(u)
         else:
-            unit = (arb.pi() / abs(slope)).sqrt()
-            ends = [(v + k / slope) / unit for v in (arb(0), u)]
-            cosines, sines = ([getattr(end, name)() for end in ends] for name in ("fresnel_c", "fresnel_s"))
-            way = acb(cosines[1] - cosines[0], (sines[1] - sines[0]) * (1 if slope > 0 else -1)) * unit
-            way = way * (acb(0, -1) * k * k / (2 * slope)).exp()
+            way = fresnel_way(k, slope, u)
         point = acb(row[c.LINE_X], row[c.LINE_Y]) + first * way
         return (middle(point.real), middle(point.imag)), (middle(along.real), middle(along.imag))
 
@@ -263,10 +245,5 @@ def clothoid_place(piece: Any, v: float) -> acb:
     """Place on a clothoid at a length from its beginning, by Fresnel integrals of its own numbers [m]."""
     flint.ctx.prec = BITS
     first, last = arb(piece.start_curvature), arb(piece.end_curvature)
-    slope, turn = (last - first) / arb(piece.length), acb(0, 1)
-    unit = (arb.pi() / abs(slope)).sqrt()
-    begin, end = ((arb(at) + first / slope) / unit for at in (0.0, v))
-    cosines = end.fresnel_c() - begin.fresnel_c()
-    sines = (end.fresnel_s() - begin.fresnel_s()) * (1 if slope > 0 else -1)
-    rotated = (turn * (arb(piece.heading) - first**2 / (2 * slope))).exp()
-    return acb(*piece.start) + acb(cosines, sines) * unit * rotated
+    way = fresnel_way(first, (last - first) / arb(piece.length), arb(v))
+    return acb(*piece.start) + way * (acb(0, 1) * arb(piece.heading)).exp()

@@ -22,10 +22,10 @@ def through_json(certificate: Certificate) -> Certificate:
     return json.loads(json.dumps(certificate, allow_nan=False))  # type: ignore[no-any-return]
 
 
-def places(value: Any, place: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
-    """Every member of a certificate, and the first entries of every list."""
-    entries = list(value) if isinstance(value, dict) else range(min(2, len(value))) if isinstance(value, list) else ()
-    return [place, *(result for entry in entries for result in places(value[entry], (*place, entry)))]
+def places(value: Any, place: tuple[str | int, ...] = (), most: int | None = 2) -> list[tuple[str | int, ...]]:
+    """Every member of a certificate, and the first entries of every list, or all of them."""
+    entries = list(value) if isinstance(value, dict) else range(len(value))[:most] if isinstance(value, list) else ()
+    return [place, *(result for entry in entries for result in places(value[entry], (*place, entry), most))]
 
 
 def refusal(certificate: Certificate) -> str:

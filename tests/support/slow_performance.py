@@ -6,13 +6,13 @@ at which a dance begins and ends are those of core.
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 
 from core import Spiral
 from tests.support.slow_route import SlowRoute
-from tests.support.slow_search import SlowDance, rectangles_gap
+from tests.support.slow_search import SlowDance, benches_of, nearest
 
 
 def travelled(dance, times):
@@ -50,34 +50,15 @@ class SlowPerformance:
         self.parts = [SlowPart(part) for part in parts]
         fastest = max(max([p.speed for p in part.dance.passages] + [part.dance.head_speed]) for part in parts)
         self.chords = np.concatenate([part.slow.chords for part in self.parts]) / fastest
-        self.sides = [np.stack([part.slow.lengths, part.slow.widths], axis=-1) / 2.0 for part in self.parts]
 
     def clearance(self, times):
         """(T,) least separation of benches of two dragons [m], and (T, 4) its dragons and benches."""
         times = np.asarray(times, dtype=float)
         best, pairs = np.full(len(times), np.inf), np.zeros((len(times), 4), dtype=int)
-        placed = []
-        for part in self.parts:
-            handles = part.handles(times)
-            along = handles[:, :-1] - handles[:, 1:]
-            placed.append((0.5 * (handles[:, 1:] + handles[:, :-1]), along / np.linalg.norm(along, axis=-1)[..., None]))
-        for i, (centres, along) in enumerate(placed):
-            for j, (others, along_others) in enumerate(placed[:i]):
-                apart = np.linalg.norm(centres[:, :, None] - others[:, None, :], axis=-1)
-                radii = [np.linalg.norm(self.sides[k], axis=-1) for k in (i, j)]
-                gap = apart - radii[0][:, None] - radii[1][None, :]
-                # no pair can be nearer than the gap of its circles, nor the nearest one further than their centres
-                near = np.minimum(best, apart.reshape(len(times), -1).min(axis=1))
-                t, a, b = np.nonzero(gap <= np.maximum(near, 0.0)[:, None, None])
-                exact = np.full(gap.shape, np.inf)
-                exact[t, a, b] = rectangles_gap(
-                    centres[t, a], along[t, a], self.sides[i][a], others[t, b], along_others[t, b], self.sides[j][b]
-                )
-                flat = exact.reshape(len(times), -1)
-                least = flat.argmin(axis=1)
-                value = flat[np.arange(len(times)), least]
-                closer = value < best
-                best[closer] = value[closer]
-                a, b = np.unravel_index(least, gap.shape[1:])
-                pairs[closer] = np.stack([np.full_like(a, j), np.full_like(a, i), b, a], axis=-1)[closer]
+        placed = [benches_of(part.handles(times), part.slow.sides) for part in self.parts]
+        for i, j in combinations(range(len(placed)), 2):
+            gaps, benches = nearest(placed[i], placed[j])
+            closer = gaps < best
+            best[closer] = gaps[closer]
+            pairs[closer] = np.hstack([np.broadcast_to([i, j], benches.shape), benches])[closer]
         return best, pairs

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.special import fresnel
 
 from core import Arc, Clothoid, Coil, Line
-from tests.support.slow_search import SlowDance, arc_length
+from tests.support.slow_search import SlowDance, arc_length, head_angle
 
 # Steps of Newton's towards a handle, then of a bisection if those do not suffice, and the distance that does [m].
 NEWTON_STEPS, HALVINGS, CLOSE = 12, 60, 1e-11
@@ -21,16 +21,6 @@ LONGEST = 0.5 * np.pi
 # Change of a clothoid's curvature over its length, times its length, below which its mean curvature serves [1]: the
 # difference of its Fresnel integrals would have lost more digits.
 ALMOST_AN_ARC = 1e-12
-# Steps of Newton's to the angle of an arc length, which double the digits from a first guess that is good to 0.2 rad.
-ANGLE_STEPS = 6
-
-
-def coil_angle(arc):
-    """Angle of the spiral r = theta at a length from the centre."""
-    theta = np.sqrt(2.0 * arc)
-    for _ in range(ANGLE_STEPS):
-        theta = theta - (arc_length(theta) - arc) / np.hypot(1.0, theta)
-    return theta
 
 
 def piece_length(piece):
@@ -84,7 +74,7 @@ def piece_points(piece, u):
     if isinstance(piece, Clothoid):
         return clothoid_points(piece, u)
     growth, sign = piece.pitch / (2.0 * np.pi), np.sign(piece.end_turns - piece.start_turns)
-    theta = coil_angle(arc_length(2.0 * np.pi * piece.start_turns) + sign * u / growth)
+    theta = head_angle(arc_length(2.0 * np.pi * piece.start_turns) + sign * u / growth)
     out = np.stack([np.cos(theta + piece.rotation), np.sin(theta + piece.rotation)], axis=-1)
     tangents = sign * (out + theta[:, None] * np.stack([-out[:, 1], out[:, 0]], axis=-1))
     tangents /= np.hypot(1.0, theta)[:, None]

@@ -21,8 +21,8 @@ ROUNDS = 8
 # Steps of the head in the coarse pass, in shortest chords [1]; the smaller ones have SPLIT in two of these.
 STEP = 0.12
 SPLIT = 40
-# Local minima of the clearance that are looked at again.
-DIPS = 5
+# Local minima of the clearance that are looked at again, in the search and in samples, and how often there.
+DIPS, LOWEST, REFINED = 5, 4, 3
 # The last part of a run, where speeds grow without bound, is left out [1].
 RUN = 1.0 - 1e-7
 
@@ -123,10 +123,14 @@ class SlowDance:
             columns.append(columns[-1] + next_delta(columns[-1], chord / self.growth))
         return np.stack(columns, axis=1)
 
+    def handles_behind(self, heads, benches=None):
+        """(T, n + 1, 2) for (T,) angles of the head [m]"""
+        theta = self.thetas(heads, benches)
+        return self.growth * theta[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+
     def handles(self, times, benches=None):
         """(T, n + 1, 2) [m]"""
-        theta = self.thetas(self.head(np.asarray(times)), benches)
-        return self.growth * theta[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+        return self.handles_behind(self.head(np.asarray(times)), benches)
 
     def folds(self, times):
         """(T,) whether a chord finds no place any more."""
@@ -142,39 +146,22 @@ class SlowDance:
         k = int(folds.argmax())
         return first_time(times[k - 1], times[k], self.folds)
 
+    @property
+    def sides(self):
+        """Half lengths and half widths (n, 2) [m]."""
+        return 0.5 * np.stack([self.lengths, self.widths], axis=-1)
+
     def clearance(self, times):
         """(T,) least separation [m] and (T, 2) its pair."""
-        handles = self.handles(times)
-        best, pairs = np.full(len(times), np.inf), np.zeros((len(times), 2), dtype=int)
-        centres = 0.5 * (handles[:, 1:] + handles[:, :-1])
-        along = handles[:, :-1] - handles[:, 1:]
-        along /= np.linalg.norm(along, axis=-1, keepdims=True)
-        radii = 0.5 * np.hypot(self.lengths, self.widths)
-        for apart in range(2, len(self.chords)):
-            gap = np.linalg.norm(centres[:, apart:] - centres[:, :-apart], axis=-1) - radii[apart:] - radii[:-apart]
-            t, a = np.nonzero(gap < np.maximum(best, 0.0)[:, None])
-            if not t.size:
-                continue
-            b = a + apart
-            sides = [np.stack([self.lengths[k], self.widths[k]], axis=-1) / 2.0 for k in (a, b)]
-            exact = np.full(gap.shape, np.inf)
-            exact[t, a] = rectangles_gap(centres[t, a], along[t, a], sides[0], centres[t, b], along[t, b], sides[1])
-            least = exact.argmin(axis=1)
-            value = exact[np.arange(len(times)), least]
-            closer = value < best
-            best[closer] = value[closer]
-            pairs[closer] = np.stack([least, least + apart], axis=-1)[closer]
-        return best, pairs
+        return nearest(benches_of(self.handles(times), self.sides))
 
     def pair_gap(self, time, pair):
         """Separation of one pair [m], distances by shapely."""
-        handles = self.handles([time], max(pair) + 1)[0]
-        shapes = [self.polygon(handles, bench) for bench in pair]
+        handles = self.handles([time], max(pair) + 1)
+        shapes = [self.polygon(handles[0], bench) for bench in pair]
         if shapes[0].intersection(shapes[1]).area > 0.0:
-            centres = [0.5 * (handles[k] + handles[k + 1])[None] for k in pair]
-            along = [(handles[k] - handles[k + 1])[None] / self.chords[k] for k in pair]
-            sides = [np.array([[self.lengths[k], self.widths[k]]]) / 2.0 for k in pair]
-            return float(rectangles_gap(centres[0], along[0], sides[0], centres[1], along[1], sides[1])[0])
+            ends = [benches_of(handles[:, k : k + 2], self.sides[[k]]) for k in pair]
+            return float(nearest(*ends)[0][0])
         return float(shapes[0].distance(shapes[1]))
 
     def polygon(self, handles, bench):
@@ -230,6 +217,67 @@ def first_time(low, high, holds):
         k = max(1, int(np.argmax(holds(times))))
         low, high = times[k - 1], times[k]
     return high
+
+
+def benches_of(handles, sides):
+    """Middles and directions (T, n, 2) of benches between handles (T, n + 1, 2), and their half lengths and widths."""
+    along = handles[:, :-1] - handles[:, 1:]
+    along /= np.linalg.norm(along, axis=-1, keepdims=True)
+    return 0.5 * (handles[:, 1:] + handles[:, :-1]), along, sides
+
+
+def nearest(dragon, other=None):
+    """(T,) least separation of benches of two dragons, or of one that share no handle [m], and (T, 2) the pair."""
+    (middles, along, sides), (middles_b, along_b, sides_b) = dragon, other or dragon
+    best, pairs = np.full(len(middles), np.inf), np.zeros((len(middles), 2), dtype=int)
+    rows = np.arange(len(middles))
+    for a in range(len(sides)):
+        first = 0 if other else a + 2
+        radii = np.linalg.norm(sides[a]) + np.linalg.norm(sides_b[first:], axis=-1)
+        apart = np.linalg.norm(middles_b[:, first:] - middles[:, a, None], axis=-1)
+        # No pair is nearer than its circles, nor the nearest one further than its middles.
+        limit = np.fmin.reduce(apart, axis=1, initial=np.inf)
+        t, b = np.nonzero(apart - radii < np.maximum(np.minimum(best, limit), 0.0)[:, None])
+        if not t.size:
+            continue
+        exact = np.full(apart.shape, np.inf)
+        box_a, b_of_all = (middles[t, a], along[t, a], sides[[a]]), b + first
+        exact[t, b] = rectangles_gap(*box_a, middles_b[t, b_of_all], along_b[t, b_of_all], sides_b[b_of_all])
+        least = exact.argmin(axis=1)
+        closer = exact[rows, least] < best
+        best[closer] = exact[rows, least][closer]
+        pairs[closer] = np.stack([np.full_like(least, a), least + first], axis=-1)[closer]
+    return best, pairs
+
+
+class Samples:
+    """A function of time in samples that are closer around the lowest of them, and at the steepest ones if asked."""
+
+    def __init__(self, measure, times, split=SPLIT, steepest=0):
+        self.measure, self.times, self.values = measure, np.asarray(times), measure(times)
+        for _ in range(REFINED):
+            self._refine(split, steepest)
+
+    def _refine(self, split, steepest):
+        edges, last = np.concatenate([[np.inf], self.values, [np.inf]]), len(self.times) - 1
+        low = np.flatnonzero((edges[:-2] >= self.values) & (self.values <= edges[2:]) & np.isfinite(self.values))
+        brackets = [(max(k - 1, 0), min(k + 1, last)) for k in low[np.argsort(self.values[low])][:LOWEST]]
+        steps = np.abs(np.diff(np.where(np.isfinite(self.values), self.values, 0.0)))
+        brackets += [(k, k + 1) for k in np.argsort(steps)[len(steps) - steepest :]]
+        if not low.size:
+            return
+        new = np.concatenate([np.linspace(*self.times[[*ends]], split + 1)[1:-1] for ends in brackets])
+        self.times, first = np.unique(np.append(self.times, new), return_index=True)
+        self.values = np.append(self.values, self.measure(new))[first]
+
+    def least(self, until=np.inf):
+        """Least value and its time, up to one."""
+        k = int(np.argmin(np.where(self.times <= until, self.values, np.inf)))
+        return float(self.values[k]), float(self.times[k])
+
+    def at(self, time):
+        """The value at a time."""
+        return float(self.measure(np.array([time]))[0])
 
 
 def rectangles_gap(ma, ua, ha, mb, ub, hb):
