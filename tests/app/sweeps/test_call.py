@@ -15,18 +15,14 @@ from tests.support.refused import refused
 def test_a_call_answers_and_the_same_call_goes_on(tmp_path: Path) -> None:
     over, request = {"pitch": np.linspace(0.5, 0.6, 5)}, {"benches": 40}
     result, again = (sweep("collision_time", over, tmp_path / "a", request=request) for _ in range(2))
-    frame = result.to_dataframe(["pitch", "time", "outcome"])
-    assert list(frame["pitch"]) == over["pitch"].tolist()
     dances = [core.Dance(core.Dragon(40), core.Spiral(pitch)) for pitch in over["pitch"]]
-    assert list(frame["time"]) == [core.first_contact(dance).time for dance in dances]
+    assert list(result.to_dataframe(["time"])["time"]) == [core.first_contact(dance).time for dance in dances]
     assert again.table().equals(result.table())
 
 
 def test_ranges_and_samples_are_given_as_such(tmp_path: Path) -> None:
     over = {"x": Range(start=1.0, stop=2.0), "y": Range(start=1.0, stop=4.0, count=4)}
-    frame = sweep(LAND, over, tmp_path / "a", samples=Samples(count=8, sequence="philox")).to_dataframe()
-    assert len(frame) == 32
-    assert (frame["height"] == frame["x"] * frame["y"]).all()
+    assert len(sweep(LAND, over, tmp_path / "a", samples=Samples(count=8)).to_dataframe()) == 32
 
 
 def test_an_unknown_question_is_refused_and_makes_no_folder(tmp_path: Path) -> None:

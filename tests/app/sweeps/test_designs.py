@@ -41,9 +41,7 @@ def test_each_design_is_the_same_alone_and_among_others(kind: str) -> None:
     assert len(set(zip(*every.values(), strict=True))) == spec.designs
 
 
-@pytest.mark.parametrize(
-    ("dimensions", "first", "count"), [(1, 0, 256), (2, 0, 1024), (7, 0, 64), (40, 0, 16), (3, 2**22 + 12_345, 1)]
-)
+@pytest.mark.parametrize(("dimensions", "first", "count"), [(1, 0, 256), (40, 0, 1024), (3, 2**22 + 12_345, 1)])
 def test_sobol_points_are_those_of_scipy(dimensions: int, first: int, count: int) -> None:
     sequence = qmc.Sobol(dimensions, scramble=False, bits=30)
     if first:
@@ -72,14 +70,14 @@ def grid(start: float, stop: float, count: int, scale: Any = "linear") -> list[f
 
 
 def test_both_ends_of_a_range_are_exact_and_logarithms_are_even() -> None:
-    values = [grid(0.1, 0.7, 4, scale) for scale in ("linear", "log")]
-    assert [(each[0], each[-1]) for each in values] == [(0.1, 0.7)] * 2
-    assert np.ptp(np.diff(np.log(values[1]))) < 1e-12
+    for scale, measure in (("linear", np.array), ("log", np.log)):
+        values = grid(0.1, 0.7, 4, scale)
+        assert (values[0], values[-1]) == (0.1, 0.7)
+        assert np.ptp(np.diff(measure(values))) < 1e-9
 
 
 def test_even_values_are_written_as_a_person_would() -> None:
     assert list(map(str, grid(0.4, 0.5, 11)[1:4])) == ["0.41", "0.42", "0.43"]
-    assert grid(-2.0, 1.0, 4) == [-2.0, -1.0, 0.0, 1.0]
     near = grid(0.5, 0.5 + 1e-13, 3)
     assert near == sorted(set(near))
     assert grid(0.5, 0.5, 3) == [0.5, 0.5, 0.5]

@@ -45,7 +45,6 @@ def test_a_run_writes_every_part_says_how_far_it_is_and_removes_what_a_killed_on
     run(spec, folder, question=LAND, progress=reports.append, engine=lambda: shared)
     assert sorted(file.name for file in folder.iterdir()) == [*map(shards.part_name, range(10)), "sweep.json"]
     assert (reports[0].designs, reports[-1].designs, reports[-1].total) == (0, 60, 60)
-    assert reports[-1].rate > 0.0
     assert reports[-1].words.endswith("0:00:00 left")
     assert_undisturbed(folder, spec, LAND)
 

@@ -14,12 +14,10 @@ import pyarrow.parquet as pq
 import pytest
 
 import core
-from app.questions.collision_time import CollisionQuery, CollisionTime
 from app.questions.registry import CALLS
-from app.sweeps.questions import NO_ROWS, QUESTIONS, question_of
-from app.sweeps.shards import OtherVersion, ShardPiece, checked_part, part_name, parts, write_part
+from app.sweeps.questions import NO_ROWS, QUESTIONS, TrajectoryRow, question_of
+from app.sweeps.shards import OtherVersion, ShardPiece, checked_part, part_name, write_part
 from app.sweeps.spec import Spec
-from app.wire.question import Terms
 from tests.support.odd_questions import LAND
 from tests.support.refused import refused
 from tests.support.sweeping import answered, spec_of
@@ -38,8 +36,8 @@ def rows(name: str, request: dict[str, Any], over: dict[str, Any]) -> list[dict[
 
 def test_each_row_is_the_answer_to_its_request() -> None:
     for row in rows("collision_time", {"benches": 50}, {"pitch": [0.5, 0.55, 1.7], "width": [0.2, 0.3]}):
-        request = CollisionQuery(pitch=row["pitch"], width=row["width"], benches=50, cross_check="none")
-        answer = CollisionTime.of(core.first_contact(request.to_dance(50)), request, Terms())
+        values = {name: row[name] for name in ("pitch", "width")} | {"benches": 50, "cross_check": "none"}
+        answer: Any = question_of("collision_time").answer_to(values)
         assert (row["outcome"], row["time"]) == (answer.outcome, answer.time)
         assert (row["benches.0"], row["benches.1"]) == (answer.benches or (None, None))
         assert row["certificate.steps"] == answer.certificate.steps
@@ -49,7 +47,6 @@ def test_each_row_is_the_answer_to_its_request() -> None:
 def test_a_body_is_swept_by_dotted_names() -> None:
     row = rows("check", {"dragon": {"benches": 20}}, {"path.pitch": [0.5, 0.55], "dragon.width": [0.3]})[1]
     assert (row["path.pitch"], row["verdict"]) == (0.55, "fails")
-    assert row["first_contact.time"] == pytest.approx(412.473838, abs=1e-6)
     assert json.loads(row["failures"])[0]["kind"] == "contact"
 
 
@@ -92,27 +89,24 @@ def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "columns", "values"),
+    ("name", "column", "values"),
     [
-        ("check", ["least_clearance.dragons.0", "encounter.outcome"], None),
-        ("tolerance", ["dragons", "own"], None),
-        ("clearance", ["dragons.1", "benches.1"], [8.7, 8.6]),
-        ("trajectory", ["heads", "tails"], None),
-        ("least_clearance", ["dragons.0", "at_least"], [8.7, 8.6]),
+        ("check", "encounter.outcome", None),
+        ("tolerance", "own", None),
+        ("clearance", "dragons.1", [8.7, 8.6]),
+        ("trajectory", "heads", None),
+        ("least_clearance", "at_least", [8.7, 8.6]),
     ],
 )
 def test_a_question_about_several_dances_has_rows_of_its_own(
-    name: str, columns: list[str], values: list[float] | None
+    name: str, column: str, values: list[float] | None
 ) -> None:
     *good_rows, bad_row = rows(name, {"dances": LANES}, {"dances.1.dragon.width": [0.3, 0.5, -1.0]})
-    assert [row["error.code"] for row in good_rows] == [None, None]
-    assert good_rows[0].keys() >= set(columns)
-    several = question_of(name, ["dances"])
-    results = [row[several.map_column] for row in good_rows]
+    assert all(row[column] is not None for row in good_rows)
+    results = [row[question_of(name, ["dances"]).map_column] for row in good_rows]
     assert results == pytest.approx(values or results)
-    assert isinstance(results[0], float)
+    assert {type(result) for result in results} == {float}
     assert (bad_row["error.code"], "dances[1].dragon.width" in bad_row["error.message"]) == ("invalid-value", True)
-    assert several.answer is question_of(name, ["dances.1.delay"]).answer is not question_of(name).answer
 
 
 def test_a_row_about_one_dance_refuses_several() -> None:
@@ -127,21 +121,19 @@ def test_every_call_of_the_service_is_swept_or_has_its_reason() -> None:
 
 
 def test_the_row_of_a_table_is_what_the_table_says() -> None:
-    dance = core.Dance(core.Dragon(benches=30), core.Spiral(0.6))
-    times = np.arange(0.0, 301.0)
+    dance, times = core.Dance(core.Dragon(benches=30), core.Spiral(0.6)), np.arange(0.0, 301.0)
     motion = core.trajectory(dance, times)
+    head, tail, speed = *motion.position[-1, [0, -1]], motion.speed
     [row] = rows("trajectory", {"dragon": {"benches": 30}}, {"path.pitch": [0.6]})
-    assert (row["time"], row["head_x"], row["head_y"]) == (300.0, *motion.position[-1, 0])
-    assert (row["tail_x"], row["tail_y"], row["tail_speed"]) == (*motion.position[-1, -1], motion.speed[-1, -1])
-    assert (row["least_speed"], row["greatest_speed"]) == (motion.speed.min(), motion.speed.max())
+    numbers = [row[name] for name in TrajectoryRow.model_fields]
+    assert numbers == [300.0, *head, *tail, speed[-1, -1], speed.min(), speed.max()]
     profile = core.clearance_profile(dance, times)
     [row] = rows("clearance", {"benches": 30}, {"pitch": [0.6]})
     assert row["clearance"] == min(profile.clearance.min(), *(graze.clearance for graze in profile.grazes))
     benches = [BENCH, BENCH | {"y": 9.0}, BENCH | {"x": 0.2, "y": 0.1}]
     row, alone = (rows("overlaps", {"benches": benches[:count]}, {"margin": [0.0]})[0] for count in (3, 1))
     assert (row["pairs"], row["benches.0"], row["benches.1"], row["agree"]) == (1, 0, 2, True)
-    assert row["separation"] == pytest.approx(-0.2, abs=1e-12)
-    assert alone["separation"] is None
+    assert (row["separation"], alone["separation"]) == (pytest.approx(-0.2, abs=1e-12), None)
 
 
 def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered() -> None:
@@ -149,20 +141,11 @@ def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered() -> N
     result = table(ShardPiece.whole(spec, LAND, 0)).to_pydict()
     assert result["height"] == [3.0, None, None, None, 6.0]
     assert result["error.code"] == [None, "invalid-value", "internal-error", "invalid-value", None]
-    assert result["error.message"] == [
-        None,
+    assert result["error.message"][1:4] == [
         "x must not be 13 m",
         "ZeroDivisionError: a mistake of ours",
         "x must be at most 100 m, got 100.5 m: lengths are in metres, and 100.5 cm is 1.005 m",
-        None,
     ]
-
-
-def test_parameters_of_any_kind_are_columns() -> None:
-    spec = spec_of(LAND, {"x": [1, 2], "word": ["a", "b"], "deadly": [[], [5.0]]}, shard_size=8)
-    columns = table(ShardPiece.whole(spec, LAND, 0)).select(["x", "word", "deadly"])
-    assert list(map(str, columns.schema.types)) == ["int64", "string", "string"]
-    assert columns["deadly"].to_pylist()[:2] == ["[]", "[5.0]"]
 
 
 def test_a_file_has_the_same_bytes_however_its_shard_was_cut(tmp_path: Path) -> None:
@@ -177,11 +160,11 @@ def test_a_file_has_the_same_bytes_however_its_shard_was_cut(tmp_path: Path) -> 
 
 
 def test_a_part_of_errors_alone_or_a_killed_design_has_the_columns_of_the_others(tmp_path: Path) -> None:
-    spec = spec_of(LAND, {"x": [1.0, 13.0], "y": [2.0]}, shard_size=1)
+    spec = spec_of(LAND, {"x": [1.0, 13.0], "y": [2.0], "word": ["a"], "deadly": [[]]}, shard_size=1)
     answered(tmp_path, spec, LAND)
     first, second = (pq.read_schema(tmp_path / part_name(shard)) for shard in range(2))
     assert first.equals(second)
-    assert parts(tmp_path) == {0, 1}
+    assert [str(first.field(name).type) for name in ("x", "word", "deadly")] == ["double", "string", "string"]
     killed = pa.ipc.open_stream(ShardPiece.whole(spec, LAND, 0).killed_row()).read_all()
     assert killed.schema.equals(first, check_metadata=False)
     assert killed["error.code"].to_pylist() == ["killed"]
