@@ -14,8 +14,6 @@ from tests.support.near import assert_near
 DOUBLE = 1e-12  # [m]
 PRECISE = Decimal("1e-30")  # [m]
 
-# Position, heading, length and width.
-Box = tuple[float, ...]
 boxes = st.tuples(
     *(st.floats(-2, 2), st.floats(-2, 2), st.floats(-math.pi, math.pi), st.floats(0.5, 3), st.floats(0.1, 1))
 )

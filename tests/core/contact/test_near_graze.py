@@ -130,9 +130,6 @@ def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin, below):
     assert_near(contact.time, steady.time + 20.0, BRACKET)  # 30 m in 50 s instead of 30 s
 
 
-Grazing = tuple[ContactSearch, Marched]
-
-
 @pytest.fixture(scope="module")
 def grazing():
     """A search on a spiral a nanometre of pitch below the least one, and its contact: a graze 2 mm of travel long."""

@@ -11,8 +11,6 @@ from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, FREE, OMEGA
 from core.performance.stage import Stage, clear_of_each_other
 from core.shapes.rectangles import frames, frames_separation
 
-# Places of benches [m], and directions [1].
-SAME_PLACE = 1e-11
 # Instants within a step at which gaps and motions are measured [1], and what a difference quotient may miss [1].
 INSTANTS, QUOTIENT = 41, 1e-4
 PARTS = [

@@ -9,8 +9,6 @@ from core.design.ways import SearchBetween
 from core.kernels import Budget, Rings, Scene, spiral_curve
 from core.kernels.constants import ERROR, MX, MY, SIZE_COLUMNS, TX, TY, UX, UY
 
-ROUNDING = 1e-10  # of rates [1]
-
 
 @pytest.mark.parametrize(("rows", "benches", "edges", "room"), [(41, 223, 0, 40), (41, 10, 0, 10), (41, 30, 10, 30)])
 def test_a_scene_has_room_for_as_many_benches_as_rows(rows, benches, edges, room):

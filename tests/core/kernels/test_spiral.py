@@ -7,7 +7,7 @@ from scipy.integrate import quad
 from core.kernels import spiral_arc, spiral_theta
 
 # Arc lengths are good to this part of themselves [1], chords to this [m].
-PART, CHORD_ERROR = 1e-13, 1e-13
+PART = 1e-13
 
 
 @pytest.mark.parametrize("theta", [1e-3, 0.5, 7.0, 300.0])

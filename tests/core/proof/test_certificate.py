@@ -9,13 +9,12 @@ from flint import ctx
 
 from core import Dragon
 from core.errors import ProofRefused
-from core.proof import prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch, prove_tolerance, verify
+from core.proof import prove_collision_time, prove_minimum_pitch, verify
 from core.proof.certificate import PRECISION
 from tests.support.depth import examples, thorough
 from tests.support.forgeries import FORGERIES, assert_refused, forged, through_json
 from tests.support.reference import reference_cases
 from tests.support.reference_contacts import CONTACTS, SMALL, proof_of, proven_then_only, random_contact, small
-from tests.support.refused import refused
 
 ROOT = Path(__file__).parents[3]
 PITCHES = reference_cases("minimum_pitch")
@@ -95,12 +94,6 @@ def test_a_certificate_is_checked_with_its_precision_or_with_that_of_our_own_if_
     with pytest.raises(ProofRefused):
         verify(forged(small(), f"precision = {precision}"))
     assert used == [max(precision, PRECISION)]
-
-
-def test_what_is_no_dance_and_what_is_no_dragon_are_refused_by_name():
-    for prove in (prove_clear, prove_collision_time, prove_contact, prove_tolerance, prove_minimum_pitch):
-        with refused("dragon" if prove is prove_minimum_pitch else "dance"):
-            prove(3, 1.0)
 
 
 def test_progress_rises_to_one_and_the_precision_is_left_as_it_was():

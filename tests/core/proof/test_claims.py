@@ -1,27 +1,22 @@
 """Claims: those that do not hold are refused, and a pair that is near is found where shapely finds it."""
 
 import math
-from contextlib import nullcontext
 
-import numpy as np
 import pytest
-import shapely
 from flint import arb, ctx
 
-from core import Dance, Dragon, Spiral, bench_poses, trajectory
+from core import Dance, Dragon, Spiral
 from core.errors import ProofRefused
 from core.proof import prove_collision_time, prove_minimum_pitch, verify
 from core.proof.chain import Chain
-from core.proof.claims import head_theta, near_pair, verify_near
-from core.proof.pairs import Unproven
-from core.shapes.rectangles import corners
+from core.proof.claims import head_theta
 from tests.support.depth import thorough
 from tests.support.forgeries import assert_refused
 from tests.support.reference_contacts import GRAZING, SMALL, graze, proof_of
 from tests.support.refused import refused
 
 # Distances by shapely [m], and places by bisection in doubles [rad], are this near to the true ones.
-SHAPELY, PLACE = 1e-11, 1e-9
+PLACE = 1e-9
 
 
 @pytest.mark.parametrize("later", [-1.0, -2.1e-10, 2.1e-10, 1e-6, 1.0])
@@ -80,29 +75,6 @@ def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(edit, reason):
 
 
 # -- pairs that are near --
-
-
-@pytest.mark.parametrize("seed", range(8))
-def test_a_near_pair_is_found_where_shapely_finds_one_and_only_it_is_shown(seed):
-    random = np.random.default_rng(seed)
-    dragon, spiral = Dragon(14, 2.4, 1.8, random.uniform(0.2, 0.5), 0.2), Spiral(0.5, 6.0)
-    margin = float(random.choice([0.0, random.uniform(0.01, 0.1)]))
-    time = float(random.uniform(0.2, 0.85) * spiral.length)
-    poses = bench_poses(trajectory(Dance(dragon, spiral), time).position)
-    shapes = shapely.polygons(corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1)))
-    pairs = [(a, b) for a in range(14) for b in range(a + 2, 14)]
-    near = [pair for pair in pairs if shapely.distance(*shapes[list(pair)]) < max(margin, SHAPELY)]
-    with ctx.workprec(128):
-        chain = Chain(dragon, arb(spiral.pitch), spiral.start_turns, margin)
-        head = chain.place_after(arb(time))
-        if near:
-            assert tuple(near_pair(chain, head, time)) in near
-        else:
-            with pytest.raises(ProofRefused, match=r"no two benches .* at .* \+ 1e-10 s"):
-                near_pair(chain, head, time)
-        for pair in pairs:
-            with nullcontext() if pair in near else pytest.raises(Unproven, match="are not shown to"):
-                verify_near(chain, head, *pair, "then")
 
 
 @pytest.mark.parametrize("handle", [0, 1, 5])

@@ -6,7 +6,7 @@ import pytest
 
 from core import Dance, Dragon, Spiral, Turn, first_contact
 from core.contact.clearance import least_clearance
-from core.errors import InvalidValue, OutsideRun, ProofRefused
+from core.errors import OutsideRun, ProofRefused
 from core.proof import prove_clear, prove_collision_time, prove_contact, verify
 from tests.support.depth import examples, thorough
 from tests.support.forgeries import assert_refused, stretches, through_json
@@ -125,17 +125,10 @@ def test_a_run_is_proven_clear_until_just_before_its_contact_alone():
         prove_clear(dance, time + OFF)
 
 
-@pytest.mark.parametrize(
-    ("dance", "request_", "error", "field"),
-    [
-        (Dance(Dragon(5), Spiral()), {"stop": 1e4}, OutsideRun, "stop"),
-        (Dance(SMALL, HAIRPIN), {"stop": 50.0, "start": 5.0}, OutsideRun, "start"),
-        (Dance(Dragon(5), Spiral()), {"stop": 1.0, "margin": -0.1}, InvalidValue, "margin"),
-    ],
-)
-def test_what_is_no_run_is_refused_by_name(dance, request_, error, field):
-    with refused(field, error):
-        prove_clear(dance, **request_)
+@pytest.mark.parametrize(("field", "query"), [("start", {"start": 5.0}), ("stop", {"stop": 1e4})])
+def test_what_is_no_run_is_refused_by_name(field, query):
+    with refused(field, OutsideRun):
+        prove_clear(Dance(SMALL, HAIRPIN), **({"stop": 50.0, "start": 40.0} | query))
 
 
 @pytest.mark.parametrize("name", ["hairpin", "outwards", *thorough("loop", "inwards", "turn")])

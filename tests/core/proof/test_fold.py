@@ -20,8 +20,6 @@ from tests.support.slow_search import chord_squared
 
 DRAGONS = {name: Dragon(count, 2.21, 1.47, 0.06, 0.12) for name, count in (("one", 1), ("two", 2), ("many", 14))}
 DRAGON, WAY = DRAGONS["many"], {"turning_radius": 0.85, "start_turns": 5.0}
-# The minimum pitch of this dragon, by mpmath to 40 digits [m].
-TRUE = 0.52555267785787
 # This much below the true pitch the dragon folds before the circle; this much above it there is a certificate [m].
 OFF = 1e-11
 # The step below a minimum pitch [m].
@@ -43,39 +41,6 @@ def certificate_of(dragon):
     return through_json(prove_minimum_pitch(dragon, least_pitch(dragon), **WAY))
 
 
-def assert_folds(certificate):
-    """Dense samples show the fold of the head bench.
-
-    At the first place its rear handle is more than half a turn behind, and a wall stands behind that: angles at which
-    the distance is too short again. At the second place every angle up to that wall is too short.
-    """
-    claim, (before, after) = certificate["claim"], certificate["overlap"]["head_theta"]
-    growth = (claim["pitch"] - STEP) / (2.0 * math.pi)
-    assert claim["turning_radius"] / growth <= after < before <= 2.0 * math.pi * claim["start_turns"]
-    _, length, _, overhang = certificate["dragon"][0]
-    needed, deltas = ((length - 2.0 * overhang) / growth) ** 2, np.linspace(0.0, 2.0 * math.pi, SAMPLES)
-    reached = int(np.argmax(chord_squared(before, deltas) >= needed))
-    assert deltas[reached] > math.pi
-    wall = reached + int(np.argmax(chord_squared(before, deltas[reached:]) < needed))
-    assert wall > reached
-    assert np.all(chord_squared(after, deltas[: wall + 1]) < needed)
-
-
-@pytest.mark.uncompiled
-def test_a_pitch_limited_by_a_fold_is_proven_and_checked():
-    certificate = certificate_of(DRAGON)
-    pitch = certificate["claim"]["pitch"]
-    assert abs(pitch - TRUE) < OFF
-    assert certificate["overlap"]["folds"] == 0
-    assert_folds(certificate)
-    statement = verify(certificate).statement
-    for words in (
-        f"with pitch {pitch!r} m every bench follows and no two benches except neighbours touch until the head is",
-        "and with 1e-6 m less bench 0 cannot follow so far (it folds). This says nothing of larger pitches.",
-    ):
-        assert words in statement
-
-
 @pytest.mark.parametrize(("more", "reason"), [(-OFF, "the chain folds"), (1.1e-6, "is free of contact too")])
 @pytest.mark.parametrize("name", ["one", *thorough("two", "many")])
 def test_a_pitch_off_the_one_that_a_fold_limits_is_refused(name, more, reason):
@@ -83,41 +48,32 @@ def test_a_pitch_off_the_one_that_a_fold_limits_is_refused(name, more, reason):
         prove_minimum_pitch(DRAGONS[name], least_pitch(DRAGONS[name]) + more, **WAY)
 
 
-def test_one_bench_has_a_certificate_that_it_follows():
-    """It meets nobody, but it folds."""
-    certificate = certificate_of(DRAGONS["one"])
-    assert "every bench follows" in verify(certificate).statement
-    assert_folds(certificate)
-    assert {tile[2] for tile in stretches(certificate)} == {""}
+# Dragons whose ways end with a fold of this bench.
+FOLDING = {
+    "head": (DRAGON, WAY, 0),
+    "alone": (DRAGONS["one"], WAY, 0),
+    "long bench": (
+        Dragon.of([1.2, 2.9, 1.2, 1.2], [0.05] * 4, [0.1] * 4),
+        {"turning_radius": 1.2, "start_turns": 5.0},
+        1,
+    ),
+    "behind": (Dragon.of([1.2, 1.2, 2.9], [0.05] * 3, [0.1] * 3), {"turning_radius": 1.2, "start_turns": 5.0}, 2),
+}
 
 
-def random_case(seed):
-    """A dragon given bench by bench, often with one bench that is twice as long, and its way."""
-    random = np.random.default_rng(seed)
-    benches = int(random.choice([1, 2, 3, 4, 6, 10]))
-    chords = random.uniform(0.6, 2.0, benches)
-    if benches > 1 and random.uniform() < 0.5:
-        chords[int(random.integers(1, benches))] *= 2.0
-    overhangs, widths = random.uniform(0.0, 0.1, benches), random.uniform(0.01, 0.06, benches)
-    dragon = Dragon.of(chords + 2.0 * overhangs, widths, overhangs)
-    radius = float(chords.max() * 10.0 ** random.uniform(-0.6, 0.1))
-    turns = float(random.choice([random.uniform(0.5, 2.0), random.uniform(2.0, 8.0)]))
-    return dragon, {"turning_radius": radius, "start_turns": turns, "margin": float(random.choice([0.0, 0.02]))}
-
-
-# Seeds of random_case() with a fold, and the bench that folds.
-@pytest.mark.parametrize(
-    ("seed", "bench"),
-    [(25, 1), *thorough((11, 0), (15, 0), (62, 0), (113, 0), (3, 1), (121, 1), (70, 2), (92, 2), (135, 2))],
-)
-def test_the_fold_of_any_bench_is_proven(seed, bench):
-    dragon, request = random_case(seed)
-    result = minimum_pitch(dragon, **request)
+@pytest.mark.parametrize("name", ["head", "alone", "long bench", *thorough("behind")])
+@pytest.mark.parametrize("margin", [0.0, *thorough(0.02)])
+def test_the_fold_of_any_bench_is_proven_and_of_no_other_one(name, margin):
+    dragon, way, bench = FOLDING[name]
+    result = minimum_pitch(dragon, **way, margin=margin)
     assert result.limited_by is LimitedBy.FOLD
-    certificate = through_json(prove_minimum_pitch(dragon, result.pitch_bracket[1], **request))
-    assert f"bench {bench} cannot follow so far (it folds)" in verify(certificate).statement
+    certificate = through_json(prove_minimum_pitch(dragon, result.pitch_bracket[1], **way, margin=margin))
+    assert certificate["overlap"]["folds"] == bench
+    statement = verify(certificate).statement
+    assert f"with pitch {result.pitch_bracket[1]!r} m every bench follows" in statement
+    assert f"bench {bench} cannot follow so far (it folds)" in statement
     with pytest.raises(ProofRefused, match="folds"):
-        prove_minimum_pitch(dragon, result.pitch_bracket[0] - OFF * (1.0 + result.pitch), **request)
+        prove_minimum_pitch(dragon, result.pitch_bracket[0] - OFF * (1.0 + result.pitch), **way, margin=margin)
     for other in {bench - 1, bench + 1, dragon.benches} - {-1}:
         assert_refused(certificate, f"overlap.folds = {other}")
 

@@ -5,14 +5,12 @@ import math
 
 import numpy as np
 import pytest
-from flint import arb
 
 from core import (
     Arc,
     Clothoid,
     ClothoidTurn,
     Coil,
-    Dance,
     Dragon,
     InvalidValue,
     Line,
@@ -20,7 +18,6 @@ from core import (
     Spiral,
     Turn,
     Waypoints,
-    trajectory,
 )
 from core.proof.chain import Chain
 from core.proof.paths import chain_on, core_path, path_words, recorded_path
@@ -55,19 +52,6 @@ def test_a_path_reads_back_from_json_to_the_last_bit_and_has_its_chain(name):
     assert recorded_path(again) == record
     assert words in path_words(record)
     assert type(chain_on(Dragon(5), record, 0.0)) is (Chain if name == "spiral" else RouteChain)
-
-
-@pytest.mark.parametrize("leaving", [4.49, 3.9, 4.2])
-def test_the_arcs_of_a_turn_with_its_own_exit_are_those_of_core(leaving):
-    """The chain in balls has the separations of handles that core computes: it does not depend on the frame."""
-    turn, dragon = Turn(1.7, ratio=1.1, entry_radius=4.3, exit_radius=leaving), Dragon(4)
-    chain = chain_on(dragon, recorded_path(turn), 0.0)
-    times = np.array([-3.0, 2.0, 6.0, 9.0, 14.0])
-    for time, known in zip(times, trajectory(Dance(dragon, turn), times).position, strict=True):
-        pose = chain.pose_at(0, arb(-time))
-        pose.grow_to(dragon.benches)
-        places = np.array([-float(place) for place in pose.places[: dragon.benches + 1]])
-        assert turn.position(places) == pytest.approx(known, abs=1e-9)
 
 
 FIRST = Line((-9.0, 0.0), (0.0, 0.0))

@@ -12,7 +12,15 @@ from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
 # Chains in doubles, as trajectory() has them, are this near to the true ones [m].
 DOUBLES = 1e-11
 SMALL = Dragon(14)
-ROUTES = {"loop": LOOP, "hairpin": HAIRPIN, "outwards": OUTWARDS, "inwards": TURNED, "turn": Turn(1.7)}
+FREE = Turn(1.7, ratio=1.1, entry_radius=4.3, exit_radius=3.9)
+ROUTES = {
+    "loop": LOOP,
+    "hairpin": HAIRPIN,
+    "outwards": OUTWARDS,
+    "inwards": TURNED,
+    "turn": Turn(1.7),
+    "free turn": FREE,
+}
 
 
 @pytest.mark.parametrize("name", ROUTES)
@@ -21,7 +29,7 @@ def test_the_chain_in_balls_is_the_dance_of_core(name):
     chain = chain_on(SMALL, recorded_path(path), 0.0)
     assert isinstance(chain, RouteChain)
     with ctx.workprec(128):
-        for time in np.linspace(30.0, 55.0, 26) - (35.0 if name == "turn" else 0.0):
+        for time in np.linspace(30.0, 55.0, 26) - (35.0 if name in ("turn", "free turn") else 0.0):
             pose = chain.pose_at(0, arb(-time))
             pose.grow_to(SMALL.benches)
             there = trajectory(Dance(SMALL, path), [float(time)]).position[0]

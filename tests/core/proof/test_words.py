@@ -1,9 +1,7 @@
 """Claims in words: every number that matters, as it stands in the certificate."""
 
-import pytest
-
 from core import Dragon
-from core.proof.words import RUNS_LISTED, apart_words, contact_words, dragon_words, near_words, runs
+from core.proof.words import RUNS_LISTED, contact_words, dragon_words, runs
 
 
 def mixed(kinds):
@@ -24,22 +22,7 @@ def test_a_dragon_is_described_run_by_run_until_there_are_too_many():
     assert more == "A dragon of 10 benches with the sizes that the certificate lists"
 
 
-@pytest.mark.parametrize(
-    ("margin", "apart", "near"),
-    [
-        (0.0, "no two benches except neighbours touch", "benches 0 and 8 overlap"),
-        (
-            0.1 + 0.2,
-            "no two benches except neighbours come nearer to one another than 0.30000000000000004 m",
-            "benches 0 and 8 are nearer than 0.30000000000000004 m",
-        ),
-    ],
-    ids=["touching", "margin"],
-)
-def test_a_margin_is_named_with_all_its_digits(margin, apart, near):
-    assert (apart_words(margin), near_words([0, 8], margin)) == (apart, near)
-    clear = contact_words([0, 8], margin, -3.0, 9.5, "1e-10", clear=True)
-    assert clear == f"{apart} from -3 s to 9.5 - 1e-10 s, and {near} at 9.5 + 1e-10 s."
-    at_start = contact_words([0, 8], margin, 0.0, 0.0, "1e-10", clear=False)
-    assert at_start.startswith(f"{near} at 0 + 1e-10 s, within 2e-10 s of the start")
-    assert at_start.endswith("no time before is claimed to be clear.")
+def test_a_contact_at_the_start_claims_no_time_before_and_a_margin_has_all_its_digits():
+    words = contact_words([0, 8], 0.1 + 0.2, 0.0, 0.0, "1e-10", clear=False)
+    assert words.startswith("benches 0 and 8 are nearer than 0.30000000000000004 m at 0 + 1e-10 s")
+    assert words.endswith("no time before is claimed to be clear.")

@@ -17,8 +17,6 @@ from tests.support.scenes import LENGTH, WIDTH, all_pairs, benches, crowd, near_
 UNDECIDED = 1e-9
 # Distance from the margin at which most random pairs are put: there engines could err without being undecided [m].
 NEAR = 1e-8
-# First contact of the default dragon, computed in 256-bit ball arithmetic [s].
-CONTACT_TIME = 412.473837682
 EXACT = (Engine.SEPARATING_AXIS, Engine.FCL, Engine.SHAPELY)
 
 by_every_engine = pytest.mark.parametrize("engine", Engine)

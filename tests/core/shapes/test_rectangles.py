@@ -22,7 +22,6 @@ ROUNDING = 2e-14
 # shapely's polygons have rounded corners and its distance squares coordinates: measured 4e-15 m, here with room [m].
 ORACLE_ROUNDING = 2e-14
 
-SQUARE = (2.0, 2.0)
 BENCH = (2.2, 0.3)
 
 
