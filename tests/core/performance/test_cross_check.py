@@ -18,7 +18,6 @@ def test_other_benches_that_meet_at_the_same_time_are_named():
     # Half a turn apart everything happens twice.
     assert {met.benches, check.together[0][1]} == {(3, 0), (0, 3)}
     assert [len(judged) for judged in check.judged] == [60, 60]
-    assert repr(check) == "<EncounterCheck: 4 engines agree on 120 benches>"
 
 
 def test_what_a_dragon_does_by_itself_does_not_count():

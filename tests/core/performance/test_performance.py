@@ -1,12 +1,10 @@
 """Performances: what they refuse, and when they begin and end."""
 
-import math
-
 import pytest
 
 from core import Dance, Dragon, EndReason, InvalidValue, OutsideRun, Part, Performance, Spiral, first_encounter
 from tests.support.refused import refused
-from tests.support.shared_dances import lane, square
+from tests.support.shared_dances import lane
 
 DRAGON = Dragon(3)
 STREET = Dance(DRAGON, lane((0.0, 0.0), (40.0, 0.0)))
@@ -18,7 +16,6 @@ WINDING = Dance(DRAGON, Spiral(1.1, 4.0))
     [
         ("parts", lambda: Performance([])),
         ("parts", lambda: Performance([Part(STREET)] * 1000)),
-        ("parts", lambda: Performance(3)),
         ("parts.0", lambda: Performance([STREET])),
         ("parts.2.name", lambda: Performance([Part(STREET, name="east"), Part(WINDING), Part(STREET, name="east")])),
         ("delay", lambda: Part(STREET, 1e9)),
@@ -42,8 +39,6 @@ def test_a_performance_ends_at_the_first_fold_or_with_the_last_path():
     end = Performance([Part(STREET), Part(WINDING, 3.0), Part(WINDING, 1.0)]).end
     fold = WINDING.end
     assert (end.reason, end.time, end.dragon, end.bench) == (EndReason.FOLD, fold.time + 1.0, 2, fold.bench)
-    last = Part(STREET, fold.time - STREET.begin - 1e-6)
-    assert Performance([last, Part(WINDING)]).end.dragon == 1
 
 
 def test_dances_that_share_no_time_meet_where_one_stands():
@@ -62,19 +57,11 @@ def test_dances_that_share_no_time_meet_where_one_stands():
     [
         ((-50.0, None), OutsideRun, "start"),
         ((None, 1e6), OutsideRun, "stop"),
-        ((1e5, None), OutsideRun, "start"),
         ((20.0, 20.0), InvalidValue, "stop"),
-        ((math.nan, None), InvalidValue, "start"),
     ],
-    ids=["before", "after", "start after", "empty", "no number"],
+    ids=["before", "after", "empty"],
 )
 def test_times_outside_a_performance_are_refused(span, kind, field):
     performance = Performance([Part(WINDING), Part(Dance(DRAGON, Spiral(1.1, 4.0, (30.0, 0.0))))])
     with refused(field, kind):
         performance.span(*span)
-
-
-def test_a_performance_tells_its_dragons_and_its_time():
-    performance = Performance([Part(STREET, name="east"), Part(WINDING)], square(50.0))
-    times = f"{performance.begin:.9g} to {performance.end.time:.9g} s"
-    assert repr(performance) == f"<Performance: 2 dragons (east, dragon 1), from {times}>"

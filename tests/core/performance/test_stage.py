@@ -53,8 +53,3 @@ def test_rings_prove_nothing_elsewhere(second):
     performance = Performance([Part(Dance(Dragon(80), path)) for path in (Spiral(1.1, 10.0), second)])
     stage = Stage(performance, (0.0, 50.0), 0.0)
     assert (stage.rings, stage.clear_until()) == ({}, 0.0)
-
-
-def test_rows_lead_back_to_dragons_and_benches():
-    performance = Performance([Part(Dance(Dragon(3), STREET)), Part(Dance(Dragon(2), STREET), 90.0)])
-    assert Stage(performance, (10.0, 20.0), 0.0).pair(2, 5) == ((0, 1), (2, 1))
