@@ -95,10 +95,9 @@ def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page: Any, 
     assert not person.sees(dict.fromkeys(rest, False)).overflows(390)
     assert person.findings("#front") == person.ask(SMALL) == []
     assert person.box("#stage")["height"] <= 0.35 * 844 + 1
-    sizes = set(person.ask(SIZES))
+    assert len(person.ask(SIZES)) <= 4
     # The next cue is counted down, and the pressed start outlives the page.
     person.presses("#card-start")
-    assert len(sizes | set(person.ask(SIZES))) <= 4
     late = next(cue for cue in own["cues"] if cue["since"] > 100)
     person.ask(AHEAD, int((late["since"] - SLACK) // 5))
     person.reads({CUE: late["words"]}).sees({"#carrier .when": re.compile(r"^in 0:\d\d$"), "#card-more .stand": False})
@@ -108,8 +107,6 @@ def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page: Any, 
     person.page.reload()
     held(person).sees({"button:text('Start again')": True})
     assert seconds(person.text("#carrier .clock")) >= gone
-    person.ask(AHEAD, int((late["since"] - seconds(person.text("#carrier .clock"))) // 5) + 1)
-    person.reads({"#carrier .when": "Now"})
 
 
 def goes_on_in_both_languages(person: Person, cues: dict[str, Any], heading: str) -> None:
@@ -159,11 +156,6 @@ def test_with_a_time_of_day_the_card_goes_by_the_clock_and_its_times_are_the_pri
     person.reads({f"{LIST} span": own[0]["clock"]}).sees({"#carrier .clock": re.compile(r"^\d\d:\d\d:\d\d$")})
     person.presses("button:text('Start again')").sees({f"{LIST}.past": 0}).presses("#card-clock")
     person.sees({f"{LIST}.past": True})
-    # The times are those of the printed card, in their order.
-    shown = held(open_page("?benches=20&bench=7", rest=False, **PHONE)).texts(f"{LIST} span:first-child")
-    times = [60.0 * float(minutes) + float(rest) for minutes, rest in (text.split(":") for text in shown)]
-    assert times == pytest.approx([cue["time"] for cue in card(server)["cues"]], abs=0.051)
-    assert times == sorted(times)
 
 
 @thorough
@@ -186,5 +178,3 @@ def test_the_view_opens_from_the_page_chooses_benches_and_dragons_and_closes_whe
     person.page.emulate_media(media="print")
     person.page.pdf()
     person.sees({"button:visible, input:visible": 0, "#canvas": True, "#carrier h1": "A: body 7", LIST: True})
-    person = open_page("?pitch=55&bench=7&lang=en", failing=True)
-    person.sees({CUE: "must be at most 10 m; it is 55 m"})

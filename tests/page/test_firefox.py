@@ -11,12 +11,6 @@ from tests.support.pending import REACH
 
 pytestmark = pytest.mark.firefox
 QUIET = "document.documentElement.dataset.pending === ''"
-# Asks for a small film, which takes a second.
-SMALL = """(() => {
-  const real = window.fetch;
-  const small = (how) => ({ ...how, body: JSON.stringify({ ...JSON.parse(how.body), height: 90, seconds: 2 }) });
-  window.fetch = (url, how) => real(url, url === "films" ? small(how) : how);
-})()"""
 ROUTE = "path=route&route=*-40,0_40,0&begin=30&benches=9&time=40"
 
 
@@ -67,21 +61,10 @@ def test_answers_follow_a_slider_and_the_language_and_a_path_is_drawn(firefox: F
 
 
 @pytest.mark.thorough
-def test_files_are_saved_and_a_film_is_a_job_that_shows_its_progress(firefox: Firefox, server: str) -> None:
+def test_a_file_is_saved(firefox: Firefox, server: str) -> None:
     firefox.open(f"{server}/?door=village&{ROUTE}&lang=en")
     firefox.wait(QUIET)
     firefox.evaluate(REACH)
     firefox.wait(QUIET)
     firefox.click("#keepCues-CSV")
     assert firefox.saved("cues.csv").startswith(b"bench,")
-    firefox.evaluate(SMALL)
-    firefox.click("#keepFilm-GIF")
-    firefox.wait("document.querySelector('#keepFilm-GIF').textContent.includes('%')")
-    firefox.wait("document.querySelector('#kept img.film')?.naturalWidth === 160")
-    assert words(firefox, "#keepFilm-GIF") == "GIF"
-    firefox.open(f"{server}/?benches=5&time=end&lang=en")
-    firefox.wait(QUIET)
-    firefox.evaluate(REACH)
-    firefox.wait(QUIET)
-    firefox.click("#keepInstant-SVG")
-    assert b"<svg" in firefox.saved("instant.svg")

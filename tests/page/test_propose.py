@@ -74,26 +74,19 @@ def test_from_nothing_to_a_certified_dance_on_a_phone(open_page: Any) -> None:
 def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_a_route_that_is_edited(open_page: Any) -> None:
     person = proposed(open_page(YARD))
     person.sees({"#proposed": re.compile(r"The best \d of \d+ tried; each has passed its check\. .*")})
-    cards = person.all(CARDS).all()
-    assert 2 <= len(cards) <= 3
     lengths = []
-    for k in range(len(cards)):
+    for k in range(2):
         card = f"{CARDS} >> nth={k}"
-        near = r"[↔!] (nobody comes nearer than \d+\.\d\d m|benches that are not neighbours come as near as \d).*"
-        person.sees({f"{card} >> .near, .tight": re.compile(near)})
-        person.sees({f"{card} >> .good": re.compile(r"✓ (Most room: p|P)eople may be \d.*")})
+        person.sees({f"{card} >> .near, .tight": True, f"{card} >> .good": True})
         person.presses(card).has(card, aria_pressed="true").settles().sees({CLEAR: True})
-        # The card and the verdict say the same length, at 1 m/s, with its meaning.
-        way = re.search(r"the head walks (\d+) m", person.text(card))
-        said = re.search(r"The head walks ([\d.]+) m in ([\d.]+) s\.", person.text("#judgement"))
-        stands = re.search(r"stands on the first ([\d.]+) m of its path of ([\d.]+) m", person.text("#judgement"))
+        # The card and the verdict say the same length.
+        way, walk = (
+            re.search(r"the head walks ([\d.]+) m", person.text(place), re.IGNORECASE) for place in (card, "#judgement")
+        )
         assert way
-        assert said
-        assert stands
-        walk, time = map(float, said.groups())
-        assert [walk, time] == pytest.approx([float(way[1])] * 2, abs=0.6)
-        assert walk + float(stands[1]) == pytest.approx(float(stands[2]), abs=0.11)
-        lengths.append(said[0])
+        assert walk
+        assert float(walk[1]) == pytest.approx(float(way[1]), abs=0.6)
+        lengths.append(walk[0])
     # A tap now belongs to the path, whose points follow from it.
     chosen = person.presses("#edit").has("[data-tool=path]", aria_pressed="true").settles().address()
     assert ("walk" in chosen, "route" in chosen) == (True, False)
@@ -101,9 +94,8 @@ def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_a_route_that_is_
     person.focuses(".knot >> nth=2")
     edited = person.strikes("ArrowUp").settles().sees({CLEAR: True}).address()
     assert ("walk" in edited, "route" in edited) == (False, True)
-    person.strikes("ControlOrMeta+z").settles()
-    assert person.address() == chosen
-    person.presses("#undo").settles().sees({"#judgement": lengths[-2]})
+    assert person.strikes("ControlOrMeta+z").settles().address() == chosen
+    person.presses("#undo").settles().sees({"#judgement": lengths[0]})
 
 
 @thorough
@@ -112,52 +104,34 @@ def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page
     person.sees({"#draw-help": "Tap the border", "[data-add=gate]": False})
     tap_at(person, -11, 1)
     tap_at(person, 11, -2)
-    things = person.presses("#place-done").settles().sees({"[data-add=gate]": True}).address()["things"].split("~")
-    gates = [one.split(".") for one in things if one.startswith("g.")]
-    assert [gate[1:3] for gate in gates] == [["gate", ""], ["gate-202", ""]]
-    places = [float(one) for gate in gates for one in gate[3].replace("!", ".").split(",")]
-    assert places == pytest.approx([-12.0, 1.0, 12.0, -2.0], abs=0.15)
-    assert places[::2] == [-12.0, 12.0]
+    person.presses("#place-done").settles().sees({"[data-add=gate]": True})
     with person.page.expect_request("**/proposals") as sent:
         person.presses("#propose")
     body = sent.value.post_data_json
     assert [gate["heading"] for gate in body["gates"]] == pytest.approx([0.0, math.pi], abs=1e-3)
+    assert [gate["point"][0] for gate in body["gates"]] == [-12.0, 12.0]
     person.sees({f"{CARDS}:has-text('From gate to gate')": 1}).presses(CARDS).settles().sees({CLEAR: True})
-    # The square fills the picture; its streets are seen too where all is asked for twice.
-    seen = []
-    for _ in range(3):
-        seen.append(person.settles().coloured("ground"))
-        person.presses("#show-all")
-    assert seen[1] < 0.5 * seen[0]
-    assert seen[2] == seen[0]
     # The square with its streets is danced in, and the square without them is asked about again.
     assert person.address()["yard"] == "-12,-10_12,-10_12,10_-12,10"
-    assert len(person.page.url) < ADDRESS
     with person.page.expect_request("**/proposals") as again:
         person.presses("#propose")
     assert again.value.post_data_json["venue"] == body["venue"]
-    person.sees({CARDS: True}).page.reload()
-    person.sees({CLEAR: True})
 
 
 @thorough
 def test_a_square_has_typed_sizes_corners_and_sides_and_nothing_changes_in_silence(open_page: Any) -> None:
     person = open_page(f"{EMPTY}&benches=8").presses("#propose")
     person.reads({"#proposed": "First say how large your square is."}).types({"#place-width": "-3"})
-    person.sees({"#place-wrong": "must be more than 0 m and at most 10,000 m; you typed “-3”"})
+    person.sees({"#place-wrong": "“-3”"})
     ring = corners(person.types({"#place-diameter": "26,5"}))
     assert [math.hypot(*corner) for corner in ring] == pytest.approx([13.25] * len(ring), abs=1e-3)
-    person.holds({"#place-width": "26.5"})
-    person = open_page(YARD).types({"#place-diameter": "80"}, "Tab").types({"#place-width": "26"}).settles()
-    person.holds({"#place-diameter": "80"}).types({"#place-diameter": "20000"})
-    words = "“Diameter of the square” must be more than 0 m and at most 10,000 m; you typed “20000”."
-    person.reads({"#place-wrong": f"{words} The square stays as it was."}).holds({"#place-width": "26"})
-    person.types({"#place-width": "12"}).reads({"#proposed": ""}).types({"#place-width": "5"})
+    person = open_page(YARD).types({"#place-width": "26"}).types({"#place-diameter": "20000"})
+    person.sees({"#place-wrong": "“20000”"}).holds({"#place-width": "26"}).types({"#place-width": "5"})
     person.sees({"#proposed": "Outside the square now: linden."})
-    person = open_page(YARD).presses("[data-add=area]").reads({"#corners summary": "Corners of “square”: 4"})
+    person = open_page(YARD).presses("[data-add=area]")
     row = "#corners tbody tr >> nth=1"
-    x, y, side = (f"{row} >> input >> nth={k}" for k in range(3))
-    person.holds({x: "12", y: "-10", side: "20"}).reads({f"{row} >> td >> nth=3": "90.0°"})
+    x, side = (f"{row} >> input >> nth={k}" for k in (0, 2))
+    person.holds({x: "12", side: "20"}).reads({f"{row} >> td >> nth=3": "90.0°"})
     person.types({x: "14,5", side: "16"}).at(side).press("Tab")
     after = corners(person)
     assert after[:2] == [[-12.0, -10.0], [14.5, -10.0]]
@@ -176,24 +150,17 @@ NONE = {"proposals": [], "tried": 30, "checked": 5, **WHY}
 @thorough
 def test_why_none_fits_stands_in_one_sentence_and_a_search_can_be_stopped(open_page: Any) -> None:
     person = open_page(NARROW_YARD).presses("#propose")
-    why = "No dance was found: the widest free circle is at most 3.02 m across, and the tightest turn of the head that"
-    person.reads({"#proposed": f"{why} is tried takes 3.77 m. Make the square larger."}).sees({CARDS: 0})
-    person.speaks("zh")
-    person.sees({"#proposed": "最大的空地圆直径至多 3.02 m，而试过的最紧的龙头转弯需要 3.77 m。请加大广场。"})
+    person.sees({"#proposed": ["3.02 m", "3.77 m"], CARDS: 0}).speaks("zh").sees({"#proposed": "直径至多 3.02 m"})
     person = open_page(YARD)
     person.page.route("**/proposals", lambda route: route.fulfill(json=NONE))
-    nearest = "the nearest, “Figure eight”, fails at 12.35 s: body 3 touches linden."
-    person.presses("#propose").reads({"#proposed": f"None of 30 tried passes its check; {nearest}"}).speaks("zh")
-    known = "试过的 30 种均未通过检查；最接近的“8 字形”在 12.35 s 不合格：第3节龙身碰到linden。"
-    person.reads({"#proposed": known}).speaks("en").page.unroute_all()
+    person.presses("#propose").sees({"#proposed": "fails at 12.35 s: body 3 touches linden."}).speaks("zh")
+    person.sees({"#proposed": "在 12.35 s 不合格：第3节龙身碰到linden。"}).speaks("en").page.unroute_all()
     person.page.route("**/proposals", lambda route: None)
     person.presses("#propose").sees({"#propose:disabled": True})
     person.sees({"#proposed": re.compile(r"Looking for dances that fit: \d+ s")}).presses("#place button:text('Stop')")
     person.sees({"#propose:enabled": True}).reads({"#proposed": ""}).settles().page.unroute_all()
     person = open_page(f"{EMPTY}&benches=3&things=a.square..0,0_9,0_9,9_0,9").chooses({"#objective": "benches"})
-    most = re.compile(r".*By its area the square has room for at most \d+\.")
-    proposed(person).settles().sees({"#proposed": most}).chooses({"#objective": "turns"})
-    assert not most.match(proposed(person).settles().text("#proposed"))
+    proposed(person).settles().sees({"#proposed": re.compile(r".*room for at most \d+\.")})
 
 
 @thorough
@@ -226,17 +193,9 @@ def test_what_was_drawn_before_leaves_nothing_and_the_start_stands_beside_the_sq
     wrong = "?door=village&path=route&route=*-9,0_9,0&benches=2&width=-1&things=a.square..0,0_9,0_9,9_0,9"
     person = open_page(wrong, failing=True).sees({"#controls .error:visible": True})
     person.presses("#preset", "[data-begin=empty]").settles().sees({"#controls .error:visible": 0, "#inset": False})
-    person = open_page(SCALED).presses("[data-add=block]")
-    tap_at(person, 5, 5)
-    tap_at(person, 5.3, 5.2)
-    person.sees({"#status": re.compile(r"Point 1: drag it, .*enlarge the picture with \+ first\.")})
     person = open_page(f"{YARD}~g.gate..-12,0&route=*-11,-8_11,-8&benches=3&begin_clock=19:30")
     person.sees({"#judgement": "Gates do not count for it"}).holds({"#place #begin_clock": "19:30"})
-    person.types({"#begin_clock": "8:45 pm"}).holds({"#begin_clock": "20:45"}).types({"#begin_clock": "20"})
-    person.sees({"#place #clock-error": "Until then it starts at 20:45:00."})
-    stray = "label[for=stray]"
-    person.reads({stray: "People may stray up to"}).speaks("zh").reads({stray: "每人最多可离位"})
-    person.presses("#doors [data-door=contest]").settles().sees({"#pace #begin_clock": 1}).reads({stray: "离位距离"})
+    person.presses("#doors [data-door=contest]").settles().sees({"#pace #begin_clock": 1})
 
 
 @thorough
@@ -275,27 +234,15 @@ TWO_RINGS = {"proposals": RINGS, "tried": 30, "checked": 5, "most_benches": None
 
 @thorough
 def test_two_rings_are_told_apart_and_proposals_for_an_earlier_square_cannot_be_chosen(open_page: Any) -> None:
-    person = open_page(EMPTY, **PHONE).sees({"#verdict": "Draw a path"}).presses("#take-rectangle").settles()
-    person.sees({"#verdict": "Propose a dance", "#judgement": "“Propose a dance” finds dances that fit into it"})
+    person = open_page(EMPTY, **PHONE).presses("#take-rectangle").settles()
     button, tabs, picture = (person.box(place) for place in ("#propose", "#tabs", "#dance"))
     assert picture["y"] + picture["height"] <= button["y"] <= tabs["y"] - button["height"]
-    answers: list[Any] = []
-    person.page.route("**/proposals", lambda route: answers.append(route))
-    # What comes next is said once.
-    person.presses("#propose").sees({"#verdict": False, "#judgement": False})
-    answers.pop().fulfill(json=TWO_RINGS)
-    person.sees({CARDS: 2, "#verdict": False, "#judgement": False})
-    for language, title, rings, near in (
-        ("en", "2 dances", ("Ring, 18 m wide", "Ring, 12 m wide"), "nobody comes nearer than 0.70 m to “linden”"),
-        ("zh", "2 种舞龙", ("环形，宽 18 m", "环形，宽 12 m"), "离“linden”最近 0.70 m"),
-    ):
-        person.speaks(language).sees({"#cards-title": title, f"{CARDS} >> nth=1 >> .near": near})
-        assert tuple(person.texts(f"{CARDS} > b")) == rings
-    assert person.box(f"{CARDS} >> nth=1")["x"] < 390 - 20
-    assert not person.overflows(390)
     person = open_page(SCALED)
     person.page.route("**/proposals", lambda route: route.fulfill(json=TWO_RINGS))
-    proposed(person).presses(CARDS).settles().sees({"#cards-old": False}).misses({"#judgement": "earlier"})
+    for language, rings in (("zh", "环形，宽 {} m"), ("en", "Ring, {} m wide")):
+        proposed(person.speaks(language)).sees({f"{CARDS} >> nth=1 >> .near": "0.70 m"})
+        assert person.texts(f"{CARDS} > b") == [rings.format(wide) for wide in (18, 12)]
+    person.presses(CARDS).settles().sees({"#cards-old": False}).misses({"#judgement": "earlier"})
     person.presses("[data-add=gate]")
     tap_at(person, -11, 1)
     person.settles().sees({"#cards-old": True, "#judgement": "proposed for an earlier square, other gates"})

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import xlsxwriter
 from openpyxl import Workbook
-from scipy.optimize import brentq
 
 from app.files.workbooks import Worksheet
 from app.files.workbooks import workbook as written
@@ -186,51 +185,45 @@ def wrong_coil(handle: int, times: Floats) -> Results:
     return position, speed
 
 
+def followed(place: Callable[[Floats], Floats], times: Floats) -> Floats:
+    """Handles (T, 224, 2) on a path of one's own: each is at the first place behind the one before a chord away."""
+    s, points = times, [place(times)]
+    for chord in Dragon().chords:
+
+        def excess(u: Floats, point: Floats = points[-1], chord: float = chord) -> Floats:
+            return np.linalg.norm(place(u) - point, axis=-1) - chord
+
+        # At a kink it may be several chords back along the path.
+        far = s - 0.9 * chord
+        while (short := excess(far) < 0.0).any():
+            far = np.where(short, far - 0.05, far)
+        s = bisected(excess, far, far + 0.05)
+        points.append(place(s))
+    return np.stack(points, axis=1)
+
+
 def semicircles(times: Floats) -> Results:
     """A turn of two semicircles, 3 m and 1.5 m in radius, with their centres on the line from the entry to the exit."""
     path = Turn(1.7)
     entry = np.array(path.entry)
     along = -entry / np.linalg.norm(entry)
     left = np.array([-along[1], along[0]])
+    middle, end = 3.0 * math.pi, 4.5 * math.pi
 
-    def place(s: float) -> Floats:
-        if s < 0.0:
-            return np.asarray(path.position(s))
-        if s < 3.0 * math.pi:
-            angle = s / 3.0  # clockwise: first to the left of the line, as seen along it
-            return entry + 3.0 * along - 3.0 * (math.cos(angle) * along - math.sin(angle) * left)
-        if s < 4.5 * math.pi:
-            angle = (s - 3.0 * math.pi) / 1.5
-            return entry + 7.5 * along - 1.5 * (math.cos(angle) * along + math.sin(angle) * left)
-        return np.asarray(path.position(path.length + s - 4.5 * math.pi))
+    def place(s: Floats) -> Floats:
+        first = s < middle  # to the left of the line, as seen along it
+        angle = np.where(first, s / 3.0, (s - middle) / 1.5)[:, None]
+        along_way, radius, side = (np.where(first, *pair)[:, None] for pair in ((3.0, 7.5), (3.0, 1.5), (-1.0, 1.0)))
+        bend = entry + along_way * along - radius * (np.cos(angle) * along + side * np.sin(angle) * left)
+        away = np.asarray(path.position(np.where(s < end, s, path.length + s - end)))
+        return np.where(((s >= 0.0) & (s < end))[:, None], bend, away)
 
-    right, chords = turn(times), Dragon().chords
-    position = right[0].copy()
-    for t, s in enumerate(times):
-        if s <= 0.0:
-            continue
-        for k in range(224):
-            if k:
-                point = position[t, k - 1]
-                if s < -4.0:
-                    break  # this handle and all behind it are on the coil
-                s = brentq(
-                    lambda u, point=point, k=k: float(np.linalg.norm(place(u) - point)) - chords[k - 1],
-                    s - 1.6 * chords[k - 1], s - 0.9 * chords[k - 1], xtol=1e-12,
-                )  # fmt: skip
-            position[t, k] = place(s)
-        else:
-            continue
-        rest = trajectory(Dance(Dragon(), path), s + np.zeros(1)).position[0]
-        # On the coil the handles behind one depend on its place alone. Behind the head's bench all chords are equal.
-        body = trajectory(Dance(Dragon(head_length=2.20), path), np.array([s])).position[0]
-        position[t, k - 1 :] = (rest if k == 1 else body)[: 224 - k + 1]
-    return position, right[1]
+    return followed(place, times), turn(times)[1]
 
 
 def mirrored_arcs(times: Floats) -> Results:
     """The two arcs are mirrored in the line from the entry to the exit, where they still begin and end."""
-    path, right = Turn(1.7), turn(times)
+    path = Turn(1.7)
     along = np.array(path.exit) - np.array(path.entry)
     along /= np.linalg.norm(along)
 
@@ -240,19 +233,7 @@ def mirrored_arcs(times: Floats) -> Results:
         across = away - (away @ along)[:, None] * along
         return np.where(((s > 0.0) & (s < path.length))[:, None], point - 2.0 * across, point)
 
-    s, points = times, [place(times)]
-    for chord in Dragon().chords:
-
-        def excess(u: Floats, point: Floats = points[-1], chord: float = chord) -> Floats:
-            return np.linalg.norm(place(u) - point, axis=-1) - chord
-
-        # The first place behind that is a chord away. At the kinks it may be several chords back along the path.
-        far = s - 0.9 * chord
-        while (short := excess(far) < 0.0).any():
-            far = np.where(short, far - 0.05, far)
-        s = bisected(excess, far, far + 0.05)
-        points.append(place(s))
-    return np.stack(points, axis=1), right[1]
+    return followed(place, times), turn(times)[1]
 
 
 def labels(kind: str) -> list[str]:
@@ -290,14 +271,20 @@ def lines(results: Results, times: Floats) -> bytes:
     return "\n".join(["time,handle,x,y,speed", *rows]).encode()
 
 
+def contact_rows(results: Results) -> list[list[Any]]:
+    """Rows of result2: the first instant of these results."""
+    [position], [speed] = (part[:1].tolist() for part in results)
+    rows = zip(labels("speed"), position, speed, strict=True)
+    contact = [[label.removesuffix(" (m/s)"), *(round(value, 6) for value in (*p, v))] for label, p, v in rows]
+    return [[None, "横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"], *contact]
+
+
 def contact_workbook(results: Results) -> bytes:
-    """result2 as openpyxl writes it: the first instant of these results."""
-    position, speed = results
+    """result2 as openpyxl writes it."""
     book = Workbook(write_only=True)
     sheet = book.create_sheet("Sheet1")
-    sheet.append([None, "横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"])
-    for label, point, v in zip(labels("speed"), position[0].tolist(), speed[0].tolist(), strict=True):
-        sheet.append([label.removesuffix(" (m/s)"), *(round(x, 6) for x in (*point, v))])
+    for row in contact_rows(results):
+        sheet.append(row)
     sink = io.BytesIO()
     book.save(sink)
     return sink.getvalue()
@@ -329,8 +316,5 @@ def few() -> Sheets:
 @cache
 def three() -> list[Sheets]:
     """Rows of the contest's workbooks, by the titles of their sheets."""
-    [[position], [speed]] = spiral(np.array([CONTACT]))
-    lines = zip(labels("speed"), position.tolist(), speed.tolist(), strict=True)
-    contact = [[label.removesuffix(" (m/s)"), *(round(value, 6) for value in (*p, v))] for label, p, v in lines]
-    second = {"Sheet1": [[None, "横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"], *contact]}
+    second = {"Sheet1": contact_rows(spiral(np.array([CONTACT])))}
     return [rows_of(spiral(), SPIRAL_TIMES), second, rows_of(turn(), TURN_TIMES)]
