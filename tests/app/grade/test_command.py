@@ -34,18 +34,22 @@ def class_of_three(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+def verdicts_in(summary: Path) -> list[str]:
+    with summary.open(encoding="utf-8-sig", newline="") as lines:
+        return [f"{Path(row['file']).parent.name} {row['verdict']}" for row in csv.DictReader(lines)]
+
+
 def test_a_folder_is_graded_by_path_with_exit_code_0(class_of_three: Path, tmp_path: Path) -> None:
     summary = tmp_path / "summary.csv"
     done = run("grade", str(class_of_three), "--json", "--summary", str(summary))
     assert done.returncode == 0
     assert done.stderr.splitlines() == ["grading: 25 %", "grading: 50 %", "grading: 100 %"]
     files = json.loads(done.stdout)["files"]
-    assert [Path(file["file"]).parent.name for file in files] == ["li", "wang", "zhao"]
-    assert [file["verdict"] for file in files] == ["wrong", "right", "unreadable"]
-    assert [one["error"] for one in files[0]["diagnosis"]] == ["other_instant", "time_steps"]
+    verdicts = ["li wrong", "wang right", "zhao unreadable"]
+    assert [f"{Path(file['file']).parent.name} {file['verdict']}" for file in files] == verdicts
+    assert [error["error"] for error in files[0]["diagnosis"]] == ["other_instant", "time_steps"]
     assert "in steps of 0.01 / 0.02 / 0.04 / 0.08 s" in files[0]["diagnosis"][1]["words"]
-    with summary.open(encoding="utf-8-sig", newline="") as lines:
-        assert [row["verdict"] for row in csv.DictReader(lines)] == ["wrong", "right", "unreadable"]
+    assert verdicts_in(summary) == verdicts
 
 
 def test_files_stand_in_the_order_given_and_a_missing_one_is_reported(class_of_three: Path) -> None:
@@ -71,13 +75,10 @@ ELSEWHERE = [pytest.param(coding, marks=pytest.mark.thorough) for coding in ("ut
 @pytest.mark.parametrize("coding", ["gbk", *ELSEWHERE])
 def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path: Path, coding: str) -> None:
     """Folders of a ZIP from Chinese Windows, unpacked on Linux, one that is text in no encoding, and one that turns."""
-    names = ["李".encode("gbk"), "王".encode(), b"\xff\xfe\x81", "Li\u202e".encode()]
-    for name in names:
-        folder = os.path.join(os.fsencode(tmp_path), b"class", name)
-        os.makedirs(folder)
-        Path(os.fsdecode(os.path.join(folder, b"result2.xlsx"))).write_bytes(
-            contact_workbook(spiral(np.array([CONTACT])))
-        )
+    for name in ("李".encode("gbk"), "王".encode(), b"\xff\xfe\x81", "Li\u202e".encode()):
+        folder = Path(os.fsdecode(os.path.join(os.fsencode(tmp_path), b"class", name)))
+        folder.mkdir(parents=True)
+        (folder / "result2.xlsx").write_bytes(contact_workbook(spiral(np.array([CONTACT]))))
     summary = tmp_path / "summary.csv"
 
     def graded_class(*options: str) -> bytes:
@@ -85,13 +86,11 @@ def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path: Path, co
         command = [COMMAND, "grade", str(tmp_path / "class"), *options]
         return subprocess.run(command, check=True, capture_output=True, timeout=PATIENCE, env=environment).stdout
 
-    answer = graded_class("--json", "--summary", str(summary))
-    files, folders = json.loads(answer)["files"], ["Li\\u202e", "王", "李", "\\xff\\xfe\\x81"]
-    assert [Path(file["file"]).parent.name for file in files] == folders
-    assert {file["verdict"] for file in files} == {"right"}
+    files = json.loads(graded_class("--json", "--summary", str(summary)))["files"]
+    verdicts = ["Li\\u202e right", "王 right", "李 right", "\\xff\\xfe\\x81 right"]
+    assert [f"{Path(file['file']).parent.name} {file['verdict']}" for file in files] == verdicts
     assert [len(file["notes"]) for file in files] == [0, 0, 1, 1]
-    with summary.open(encoding="utf-8-sig", newline="") as lines:
-        assert [Path(row["file"]).parent.name for row in csv.DictReader(lines)] == folders
+    assert verdicts_in(summary) == verdicts
     assert "\\xff" in graded_class("--language", "zh").decode(coding)
 
 

@@ -7,7 +7,6 @@ import re
 import zipfile
 from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 from threading import Timer
 from typing import Any, cast
 
@@ -23,9 +22,19 @@ from core import Budget, TooMuchWork
 from tests.campaigns.libreoffice import FEW, SMALL
 from tests.support.bombs import zipped
 from tests.support.depth import some
-from tests.support.students import ALL_CELLS, TURN_TIMES, Sheets, by_xlsxwriter, few, rows_of, three, turn
+from tests.support.students import (
+    ALL_CELLS,
+    SPIRAL_TIMES,
+    TURN_TIMES,
+    Sheets,
+    by_xlsxwriter,
+    few,
+    rows_of,
+    spiral,
+    three,
+    turn,
+)
 
-ROOT = Path(__file__).parents[3]
 SHEETS = ("xl/worksheets/sheet1.xml", "xl/worksheets/sheet2.xml")
 
 
@@ -63,28 +72,17 @@ def test_workbooks_of_other_tools_are_right_in_all_cells(writer: Callable[[Sheet
     assert sum(sheet.right for sheet in sheets) == sum(sheet.cells for sheet in sheets) == ALL_CELLS
 
 
-@pytest.mark.parametrize("writer", [by_openpyxl, by_pandas])
-def test_a_few_instants_of_other_tools_are_right(writer: Callable[[Sheets], bytes]) -> None:
-    """`make deep` takes all instants."""
-    contact, turned = three()[1], rows_of(turn(TURN_TIMES[:FEW]), TURN_TIMES[:FEW])
-    entries = [grade(writer(sheets), "upload") for sheets in (few(), contact, turned)]
-    assert [file.workbook for file in entries] == ["result1", "result2", "result4"]
-    assert [[sheet.right for sheet in file.sheets] for file in entries] == [
-        [4 * 448, 4 * 224],
-        [3 * 224],
-        [448 * FEW, 224 * FEW],
-    ]
-    assert all(sheet.right + sheet.missing == sheet.cells for file in entries for sheet in file.sheets)
-
-
-@pytest.mark.parametrize("name", ["result1", "result2", "result4"])
-def test_workbooks_of_libreoffice_are_right_in_all_cells(name: str) -> None:
-    """A few instants; `make libreoffice` has it write all of them."""
-    result = grade((SMALL / f"{name}.xlsx").read_bytes(), "upload.xlsx")
-    wanted = [3 * 224] if name == "result2" else [448 * FEW, 224 * FEW]
-    assert (result.workbook, [sheet.right for sheet in result.sheets]) == (name, wanted)
-    assert all(sheet.right + sheet.missing == sheet.cells for sheet in result.sheets)
-    assert result.verdict == ("right" if name == "result2" else "incomplete")
+@pytest.mark.parametrize("writer", [by_openpyxl, by_pandas, None], ids=["openpyxl", "pandas", "libreoffice"])
+def test_a_few_instants_of_other_tools_are_right(writer: Callable[[Sheets], bytes] | None) -> None:
+    """`make deep` takes all instants, and `make libreoffice` has LibreOffice write all of them."""
+    spiralled = rows_of(spiral(SPIRAL_TIMES[:FEW]), SPIRAL_TIMES[:FEW])
+    turned = rows_of(turn(TURN_TIMES[:FEW]), TURN_TIMES[:FEW])
+    for name, sheets in {"result1": spiralled, "result2": three()[1], "result4": turned}.items():
+        result = grade(writer(sheets) if writer else (SMALL / f"{name}.xlsx").read_bytes(), "upload")
+        rights, verdict = ([3 * 224], "right") if name == "result2" else ([448 * FEW, 224 * FEW], "incomplete")
+        assert (result.workbook, [sheet.right for sheet in result.sheets]) == (name, rights)
+        assert result.verdict == verdict
+        assert all(sheet.right + sheet.missing == sheet.cells for sheet in result.sheets)
 
 
 @cache
@@ -117,10 +115,8 @@ def in_sheets(old: bytes, new: bytes) -> Callable[[str, bytes], bytes]:
 
 def test_a_few_right_instants_are_incomplete() -> None:
     result = grade(small())
-    assert result.verdict == "incomplete"
     position, speed = result.sheets
-    assert (position.right, position.missing) == (4 * 448, 297 * 448)
-    assert (speed.right, speed.missing) == (4 * 224, 297 * 224)
+    assert (result.verdict, position.missing, speed.missing) == ("incomplete", 297 * 448, 297 * 224)
     assert position.picture == ["." * 4] * 14
 
 
@@ -229,17 +225,13 @@ def test_macros_are_reported_and_not_run() -> None:
     assert result.notes == ["The workbook holds macros: they were not run."]
 
 
-def test_formulas_count_with_the_value_stored_with_them() -> None:
-    result = grade(repacked(small(), in_sheets(b'<c r="C2" t="n"><v>', b'<c r="C2"><f>4.4*2</f><v>')))
+def test_formulas_count_with_the_value_stored_with_them_or_are_reported() -> None:
+    formula, number = b'<c r="C2"><f>4.4*2</f><v>', b'<c r="C2" t="n"><v>'
+    result = grade(repacked(small(), in_sheets(number, formula)))
     # One in each sheet.
     assert result.notes == 2 * ["Cells with formulas: 1, the first is C2. The values stored with them were read."]
     assert result.sheets[0].right == 4 * 448
-
-
-def test_a_formula_without_a_stored_value_is_reported() -> None:
-    result = grade(
-        repacked(small(), in_sheets(b'<c r="C2" t="n"><v>', b'<c r="C2"><f>4.4*2</f><v></v></c><c r="Z2"><v>'))
-    )
+    result = grade(repacked(small(), in_sheets(number, formula + b'</v></c><c r="Z2"><v>')))
     assert result.notes[0].startswith("Cells with formulas but no stored value: 1, the first is C2. Open and save")
     assert result.sheets[0].right == 4 * 448 - 1
 
@@ -263,13 +255,19 @@ def test_merged_cells_are_reported() -> None:
     assert result.sheets[0].right == 4 * 448 - 2
 
 
-def test_text_in_number_cells_is_reported_with_its_place() -> None:
-    def change(book: Any) -> None:
-        book["位置"]["C3"] = "—"
-        book["位置"]["D3"] = str(book["位置"]["D3"].value)
-        book["位置"]["E3"] = str(book["位置"]["E3"].value).replace(".", ",")
+def with_cells(cells: dict[str, object]) -> Any:
+    """The grade of the positions with other values in some cells."""
 
-    sheet = grade(small(change)).sheets[0]
+    def change(book: Any) -> None:
+        for place, value in cells.items():
+            cell = book["位置"][place]
+            cell.value = value(cell.value) if callable(value) else value
+
+    return grade(small(change)).sheets[0]
+
+
+def test_text_in_number_cells_is_reported_with_its_place() -> None:
+    sheet = with_cells({"C3": "—", "D3": str, "E3": lambda value: str(value).replace(".", ",")})
     assert "C3 should hold a number, but holds the text “—”." in sheet.notes
     assert "Numbers that are stored as text: 2, the first is in D3." in sheet.notes
     assert sheet.right == 4 * 448 - 1
@@ -277,23 +275,13 @@ def test_text_in_number_cells_is_reported_with_its_place() -> None:
 
 @pytest.mark.parametrize("word", ["NaN", "#N/A", "无"])
 def test_text_in_many_cells_is_reported_once_with_its_count(word: str) -> None:
-    def change(book: Any) -> None:
-        for row in book["位置"].iter_rows(min_row=404, min_col=2):
-            for cell in row:
-                cell.value = word
-
-    sheet = grade(small(change)).sheets[0]
+    sheet = with_cells({f"{column}{row}": word for row in range(404, 450) for column in "BCDE"})
     assert sheet.notes[0] == f"184 cells hold the text “{word}” instead of a number, the first is B404."
-    assert len(sheet.notes) == 2
-    assert sheet.right == 4 * 402
+    assert (len(sheet.notes), sheet.right) == (2, 4 * 402)
 
 
 def test_many_texts_are_counted_and_not_all_quoted() -> None:
-    def change(book: Any) -> None:
-        for k, word in enumerate(("a", "b", "c", "d", "e", "e")):
-            book["位置"].cell(3 + k, 3).value = word
-
-    notes = grade(small(change)).sheets[0].notes
+    notes = with_cells({f"C{3 + k}": word for k, word in enumerate("abcdee")}).notes
     assert [note[:2] for note in notes[:3]] == ["C3", "C4", "C5"]
     assert notes[3] == "Further cells with text: 3."
 

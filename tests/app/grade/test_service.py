@@ -10,6 +10,7 @@ import httpx
 import numpy as np
 import pytest
 
+from tests.support.asking import assert_problem
 from tests.support.command import run
 from tests.support.serving import Service, serving
 from tests.support.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
@@ -79,17 +80,20 @@ def test_a_file_beyond_the_limit_or_the_deadline_is_refused_and_nothing_of_it_is
 
 
 @pytest.mark.parametrize(
-    ("query", "kind", "status", "words"),
+    ("query", "kind", "content", "status", "words"),
     [
-        ("", "application/json", 415, "the file itself"),
-        ("?pitch=wide", FILE["Content-Type"], 422, "pitch"),
-        ("?language=fr", FILE["Content-Type"], 422, "language"),
-        ("?colour=red", FILE["Content-Type"], 422, '"colour" is unknown'),
+        ("", "application/json", b"a,b", 415, "the file itself"),
+        ("?pitch=wide", FILE["Content-Type"], b"a,b", 422, "pitch"),
+        ("?language=fr", FILE["Content-Type"], b"a,b", 422, "language"),
+        ("?colour=red", FILE["Content-Type"], b"a,b", 422, '"colour" is unknown'),
+        ("", FILE["Content-Type"], b"", 422, "Send a workbook or CSV as the body"),
     ],
 )
-def test_wrong_requests_get_a_clear_word(client: httpx.Client, query: str, kind: str, status: int, words: str) -> None:
-    answer = client.post(f"/grade{query}", content=b"a,b", headers={"Content-Type": kind})
-    assert (answer.status_code, answer.headers["content-type"]) == (status, "application/problem+json")
+def test_wrong_requests_get_a_clear_word(
+    client: httpx.Client, query: str, kind: str, content: bytes, status: int, words: str
+) -> None:
+    answer = client.post(f"/grade{query}", content=content, headers={"Content-Type": kind})
+    assert_problem(answer, status)
     assert words in answer.json()["detail"]
 
 
@@ -104,9 +108,3 @@ def test_a_guess_stands_beside_the_diagnosis(client: httpx.Client) -> None:
     [guess] = answer["possible"]
     assert (answer["verdict"], answer["diagnosis"], guess["error"]) == ("wrong", [], "pose_on_circle")
     assert 0.01 < guess["probability"] < 0.05
-
-
-def test_nothing_to_grade_is_refused(client: httpx.Client) -> None:
-    answer = client.post("/grade")
-    assert answer.status_code == 422
-    assert answer.json()["detail"].startswith("Send a workbook or CSV as the body")
