@@ -10,8 +10,6 @@ import random
 import shlex
 import shutil
 import signal
-import socket
-import subprocess
 import sys
 import time
 from collections.abc import Generator, Iterator
@@ -201,26 +199,11 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
 
 @pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Base URL of the real service: uvicorn in its own process, on a free port, with the default settings."""
-    log = tmp_path_factory.mktemp("server") / "server.log"
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("BENCH_DRAGON_")}
-    command = [sys.executable, "-m", "uvicorn", "--factory", "app.service.main:create_app", "--port", str(port)]
-    with log.open("wb") as output:
-        process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=output)
-    try:
-        wait_until_live(process, port, log)
-        yield f"http://127.0.0.1:{port}"
-    finally:
-        process.terminate()
-        try:
-            process.wait(STOP_TIMEOUT)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-            raise
+    """Base URL of the real service with the default settings, in its own process."""
+    from tests.support.serving import serving  # which needs this file
+
+    with serving(tmp_path_factory.mktemp("server") / "server.log") as service:
+        yield service.url
 
 
 def heed_ctrl_c() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
-import socket
 import tempfile
 import time
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ import psutil
 from app.files.tables import XLSX_TYPE
 from tests.conftest import STOP_TIMEOUT, wait_until_live
 from tests.support.command import serve
+from tests.support.serving import environment_of, free_port
 
 PATIENCE = 60.0  # [s] for what is coming
 LINGER = 10.0  # [s] until whoever follows a process has ended after it, on a busy machine
@@ -51,13 +51,9 @@ class JobService:
 
     def __init__(self, folder: Path, workers: int = 1, **settings: object) -> None:
         self.folder, self.workers = folder, workers
-        own = {f"BENCH_DRAGON_{name.upper()}": str(value) for name, value in settings.items()}
-        outer = {name: value for name, value in os.environ.items() if not name.startswith("BENCH_DRAGON_")}
         self.mark = f"{os.getpid()}-{id(self)}"
-        self.environment = outer | own | {"BENCH_DRAGON_DATA": str(folder), "TEST_MARK": self.mark}
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            self.port = free.getsockname()[1]
+        self.environment = environment_of({**settings, "data": folder}) | {"TEST_MARK": self.mark}
+        self.port = free_port()
         self.client = httpx.Client(base_url=f"http://127.0.0.1:{self.port}", timeout=PATIENCE)
 
     def __enter__(self) -> Self:

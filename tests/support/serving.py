@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import socket
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -40,16 +40,19 @@ def free_port() -> int:
         return int(free.getsockname()[1])
 
 
+def environment_of(settings: Mapping[str, object]) -> dict[str, str]:
+    """The environment of a service with these settings, by their names in app/settings.py."""
+    outer = {name: value for name, value in os.environ.items() if not name.startswith("BENCH_DRAGON_")}
+    return outer | {f"BENCH_DRAGON_{name.upper()}": str(value) for name, value in settings.items()}
+
+
 @contextmanager
 def serving(
     log: Path, workers: int = 1, limit: Callable[[], object] | None = None, port: int = 0, **settings: object
 ) -> Iterator[Service]:
-    """limit: called in the service's process before it starts; port: 0 for a free one; settings: by their names in
-    app/settings.py
-    """
+    """limit: called in the service's process before it starts; port: 0 for a free one"""
     port = port or free_port()
-    variables = {f"BENCH_DRAGON_{name.upper()}": str(value) for name, value in settings.items()}
-    process = serve(port, workers, os.environ | variables, log, limit)
+    process = serve(port, workers, environment_of(settings), log, limit)
     try:
         wait_until_live(process, port, log)
         yield Service(f"http://127.0.0.1:{port}", process, log)
