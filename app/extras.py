@@ -8,7 +8,7 @@ from core import BenchDragonError
 from core.extras import not_installed
 
 _DXF, _FIGURES, _SWEEP, _XLSX = ("ezdxf",), ("matplotlib",), ("pyarrow",), ("xlsxwriter", "openpyxl")
-_CALLS = ("fastapi", "fastapi_swagger", "prometheus_client", "starlette", "uplot", "uvicorn")
+_CALLS = ("fastapi", "fastapi_swagger", "mcp", "prometheus_client", "starlette", "uplot", "uvicorn")
 _SERVICE = (*_CALLS, "av", *_DXF, *_FIGURES, *_SWEEP, *_XLSX)
 # Modules that each extra of pyproject.toml installs, as far as this program imports them.
 MODULES = {
@@ -19,7 +19,6 @@ MODULES = {
     "dxf": _DXF,
     "figures": _FIGURES,
     "film": ("av", *_FIGURES),
-    "mcp": ("mcp", *_SERVICE),
     "polars": ("polars",),
     "proof": ("flint",),
     "service": _SERVICE,

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import base64
 import json
+from collections.abc import Callable, Coroutine
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlencode
+from urllib.parse import unquote, urlencode
 
-import httpx2
 from mcp import types
+from starlette.datastructures import Headers
+from starlette.types import ASGIApp, Message, Receive, Scope
 
 from app.assistant.tools import ToolCall, path_of
 from app.wire.problem import PROBLEM_TYPE, Problem, problem_of
@@ -20,9 +23,70 @@ ANSWER_MAX = 100_000
 # Larger files of an answer are not sent [bytes].
 FILE_MAX = 30_000_000
 # What a client accepts of calls that make files, where a question has them in several forms.
-ACCEPT = f"{JSON}, image/png;q=0.9, */*;q=0.8"
-# Seconds are the limit of the service; this one is for a service that hangs.
-HANGS = 3600.0
+ACCEPT = f"{JSON}, image/png;q=0.9, */*;q=0.8".encode()
+# Parts and headers of the assistant's request that its calls have too.
+CONNECTION = ("type", "asgi", "http_version", "scheme", "client", "server")
+KEPT = (b"host", b"authorization", b"x-request-id")
+
+
+@dataclass(frozen=True)
+class ServiceRequest:
+    """A request to the service. target: path and query, quoted; content_type: of the content, empty without one"""
+
+    method: str
+    target: str
+    content: bytes = b""
+    content_type: str = ""
+
+
+@dataclass
+class ServiceResponse:
+    """The response of the service. kind: media type without parameters, empty if none is stated"""
+
+    status: int = 0
+    kind: str = ""
+    content: bytearray = field(default_factory=bytearray)
+
+
+Ask = Callable[[ServiceRequest], Coroutine[Any, Any, ServiceResponse]]
+
+
+def asker(service: ASGIApp, connection: Scope, receive: Receive) -> Ask:
+    """A function that sends requests to the service of this process, through all layers around its calls.
+
+    connection: scope of the assistant's request, whose client, host, token and name its calls have too
+    receive: waits for the end of the connection
+    """
+    kept = [header for header in connection["headers"] if header[0] in KEPT]
+
+    async def ask(request: ServiceRequest) -> ServiceResponse:
+        target, response, is_read = request.target.encode("ascii"), ServiceResponse(), False
+        path, _, query = target.partition(b"?")
+        headers = [*kept, (b"accept", ACCEPT), (b"content-length", str(len(request.content)).encode())]
+        if request.content_type:
+            headers.append((b"content-type", request.content_type.encode()))
+        root = connection.get("root_path", "")
+        scope = {name: connection[name] for name in CONNECTION}
+        scope |= {"method": request.method, "root_path": root, "path": root + unquote(path.decode())}
+        scope |= {"raw_path": root.encode() + path, "query_string": query, "headers": headers, "state": {}}
+
+        async def receive_content() -> Message:
+            nonlocal is_read
+            if is_read:
+                return await receive()
+            is_read = True
+            return {"type": "http.request", "body": request.content, "more_body": False}
+
+        async def send(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                response.status = message["status"]
+                response.kind = Headers(raw=message["headers"]).get("content-type", "").partition(";")[0]
+            response.content += message.get("body", b"")
+
+        await service(scope, receive_content, send)
+        return response
+
+    return ask
 
 
 class RefusedCall(Exception):
@@ -69,39 +133,31 @@ def file_content(arguments: dict[str, Any], folder: Path | None, most: int) -> b
 
 
 async def answer(
-    app: Any,
-    call: ToolCall,
-    arguments: dict[str, Any],
-    headers: dict[str, str],
-    client: tuple[str, int],
-    folder: Path | None,
+    ask: Ask, call: ToolCall, arguments: dict[str, Any], folder: Path | None, most: int
 ) -> types.CallToolResult:
     """The answer of the service to a tool call; a problem of the service is an error of the tool, with all its parts.
 
-    app: the service; headers: of the request, such as the token; client: address that limits of a client count
+    ask: sends a request to the service; folder, most: as file_content() has them
     """
-    settings = app.state.settings
     try:
         rest = dict(arguments)
         path = path_of(call, rest)
         for name in [name for name in rest if f"{{{name}}}" in call.path]:
             del rest[name]
-        content = None
+        content, content_type = b"", ""
         if call.takes_file:
-            most = max(settings.grade_bytes_max, settings.places_bytes_max)
-            content, headers = file_content(rest, folder, most), headers | {"Content-Type": BYTES}
+            content, content_type = file_content(rest, folder, most), BYTES
         elif call.in_body:
             body = {name: value for name, value in rest.items() if name not in call.query}
             rest = {name: value for name, value in rest.items() if name in call.query}
-            content, headers = json.dumps(body).encode(), headers | {"Content-Type": JSON}
-        query = urlencode({name: _query_value(value) for name, value in rest.items() if value is not None}, doseq=True)
-        transport = httpx2.ASGITransport(app=app, client=client, raise_app_exceptions=False)
-        host = settings.hosts.split(",")[0] or "127.0.0.1"
-        async with httpx2.AsyncClient(transport=transport, base_url=f"http://{host}", timeout=HANGS) as service:
-            response = await service.request(
-                call.method, f"{path}?{query}" if query else path, content=content, headers={"Accept": ACCEPT} | headers
-            )
-        return _result(call, response)
+            content, content_type = json.dumps(body).encode(), JSON
+        query = urlencode(
+            {name: _query_value(value) for name, value in rest.items() if value is not None},
+            doseq=True,
+            errors="surrogatepass",
+        )
+        request = ServiceRequest(call.method, f"{path}?{query}" if query else path, content, content_type)
+        return _result(call, await ask(request))
     except RefusedCall as refused:
         return _problem(json.loads(refused.problem.to_json()))
 
@@ -115,24 +171,25 @@ def _problem(problem: Any) -> types.CallToolResult:
     return types.CallToolResult(content=content, structured_content=problem, is_error=True)
 
 
-def _result(call: ToolCall, response: httpx2.Response) -> types.CallToolResult:
-    kind = response.headers.get("content-type", BYTES).partition(";")[0]
-    if response.status_code >= 400:
+def _result(call: ToolCall, response: ServiceResponse) -> types.CallToolResult:
+    kind, content = response.kind or BYTES, response.content
+    if response.status >= 400:
         if kind != PROBLEM_TYPE:
-            return _problem({"title": "The service failed", "status": response.status_code})
-        return _problem(response.json())
+            return _problem({"title": "The service failed", "status": response.status})
+        return _problem(json.loads(content))
     if kind == JSON:
-        if len(response.content) > ANSWER_MAX:
+        text = content.decode()
+        if len(text) > ANSWER_MAX:
             words, advice = "The answer must have at most {most} characters", "ask for fewer times or benches."
-            raise _refused(413, "too-large", words, got=len(response.content), reason=advice, most=ANSWER_MAX)
-        value = response.json()
+            raise _refused(413, "too-large", words, got=len(text), reason=advice, most=ANSWER_MAX)
+        value = json.loads(text)
         structured = value if isinstance(value, dict) else {"result": value}
-        return types.CallToolResult(content=[types.TextContent(text=response.text)], structured_content=structured)
-    if len(response.content) > FILE_MAX:
+        return types.CallToolResult(content=[types.TextContent(text=text)], structured_content=structured)
+    if len(content) > FILE_MAX:
         raise _refused(413, "too-large", "The file must have at most {most} bytes.", most=FILE_MAX)
-    if not response.content:
-        return types.CallToolResult(content=[types.TextContent(text=f"Done: {response.status_code}")])
-    data = base64.b64encode(response.content).decode()
+    if not content:
+        return types.CallToolResult(content=[types.TextContent(text=f"Done: {response.status}")])
+    data = base64.b64encode(content).decode()
     if kind.startswith("image/"):
         return types.CallToolResult(content=[types.ImageContent(data=data, mime_type=kind)])
     uri = f"bench-dragon:/{call.name}"

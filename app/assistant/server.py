@@ -1,22 +1,27 @@
-"""The server of the Model Context Protocol, over the standard streams or over HTTP."""
+"""The server of the Model Context Protocol: what an assistant may ask, over the standard streams or in one message."""
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator
+import logging
+from collections.abc import AsyncIterator, Iterable
 from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import uvicorn
+import anyio
 from mcp import MCPError, types
-from mcp.server import Server, ServerRequestContext
+from mcp.server import Server
 from mcp.server.stdio import stdio_server
+from mcp.server.streamable_http_manager import StreamableHTTPSessionManager
+from starlette.types import Message, Scope
 
 from app.assistant import guide
-from app.assistant.requests import answer
-from app.assistant.tools import calls_of
-from app.service.main import create_app
-from app.service.version import VERSION
+from app.assistant.requests import Ask, answer
+from app.assistant.tools import ToolCall, calls_of
+
+# Each message over HTTP has a manager of its own, which would write three lines.
+logging.getLogger("mcp.server.streamable_http_manager").setLevel(logging.WARNING)
 
 INSTRUCTIONS = (
     "Bench Dragon checks a dance of benches joined by handles that follow a curve: where everyone is and how fast, "
@@ -25,20 +30,33 @@ INSTRUCTIONS = (
     "2024. Each answer says how it is known (certificate). Errors name the argument, its value, unit and limit. "
     "Long questions: ask_later gives a job, job_status and job_result its answer."
 )
-# Address under which calls over the standard streams count.
-LOCAL = ("127.0.0.1", 0)
 INVALID_PARAMS, NO_RESOURCE = -32602, -32002
 
 
-def create_server(*, folder: Path | None = None, twins: bool = False) -> Server[Any]:
-    """A server whose tools are the calls of the service.
+@dataclass(frozen=True)
+class Toolbox:
+    """What an assistant may call.
 
-    folder: where tools may read files by name; None: nowhere. twins: see calls_of()
+    description: OpenAPI document of the service; twins: see calls_of()
+    folder: where tools may read files by name, None: nowhere; file_bytes_max: longest file [bytes]
     """
-    service = create_app()
-    calls = calls_of(service.openapi(), twins=twins)
-    tools = [
-        types.Tool(
+
+    description: dict[str, Any]
+    file_bytes_max: int
+    folder: Path | None = None
+    twins: bool = False
+    calls: dict[str, ToolCall] = field(init=False)
+    tools: list[types.Tool] = field(init=False)
+
+    def __post_init__(self) -> None:
+        calls = calls_of(self.description, twins=self.twins)
+        object.__setattr__(self, "calls", calls)
+        object.__setattr__(self, "tools", list(_tools_of(calls.values())))
+
+
+def _tools_of(calls: Iterable[ToolCall]) -> Iterable[types.Tool]:
+    for call in calls:
+        yield types.Tool(
             name=call.name,
             title=call.title,
             description=call.description,
@@ -47,27 +65,24 @@ def create_server(*, folder: Path | None = None, twins: bool = False) -> Server[
                 read_only_hint=call.reads_only, idempotent_hint=call.reads_only, open_world_hint=False
             ),
         )
-        for call in calls.values()
-    ]
+
+
+@asynccontextmanager
+async def _no_lifespan(_server: Server[Any]) -> AsyncIterator[None]:
+    yield
+
+
+def create_server(toolbox: Toolbox, ask: Ask, lifespan: Any = _no_lifespan) -> Server[Any]:
+    """A server whose tools are the calls of the service. ask: sends their requests; lifespan: around all of them"""
 
     async def list_tools(_context: Any, _parameters: Any) -> types.ListToolsResult:
-        return types.ListToolsResult(tools=tools)
+        return types.ListToolsResult(tools=toolbox.tools)
 
-    async def call_tool(
-        context: ServerRequestContext[Any], parameters: types.CallToolRequestParams
-    ) -> types.CallToolResult:
-        if parameters.name not in calls:
-            raise MCPError(INVALID_PARAMS, f"{parameters.name} is no tool of this door; it has {', '.join(calls)}")
-        headers: dict[str, str] = {}
-        client = LOCAL
-        if context.request is not None:  # over HTTP: the token and the address are those of the assistant
-            if "authorization" in context.request.headers:
-                headers["Authorization"] = context.request.headers["authorization"]
-            client = tuple(context.request.client or LOCAL)
-        elif token := service.state.settings.token:
-            headers["Authorization"] = f"Bearer {token}"
-        call = calls[parameters.name]
-        return await answer(service, call, parameters.arguments or {}, headers, client, folder)
+    async def call_tool(_context: Any, parameters: types.CallToolRequestParams) -> types.CallToolResult:
+        if (call := toolbox.calls.get(parameters.name)) is None:
+            names = ", ".join(toolbox.calls)
+            raise MCPError(INVALID_PARAMS, f"{parameters.name} is no tool of this door; it has {names}")
+        return await answer(ask, call, parameters.arguments or {}, toolbox.folder, toolbox.file_bytes_max)
 
     async def list_resources(_context: Any, _parameters: Any) -> types.ListResourcesResult:
         return types.ListResourcesResult(resources=guide.resources())
@@ -79,14 +94,9 @@ def create_server(*, folder: Path | None = None, twins: bool = False) -> Server[
         content = types.TextResourceContents(uri=parameters.uri, mime_type=guide.MARKDOWN, text=text)
         return types.ReadResourceResult(contents=[content])
 
-    @asynccontextmanager
-    async def lifespan(_server: Server[Any]) -> AsyncIterator[None]:
-        async with service.router.lifespan_context(service):
-            yield
-
     return Server(
         "bench-dragon",
-        version=VERSION,
+        version=toolbox.description["info"]["version"],
         title="Bench Dragon",
         instructions=INSTRUCTIONS,
         lifespan=lifespan,
@@ -103,6 +113,29 @@ async def serve_streams(server: Server[Any]) -> None:
         await server.run(incoming, outgoing, server.create_initialization_options())
 
 
-def serve_http(server: Server[Any], host: str, port: int) -> None:
-    """Answer assistants at /mcp until a signal ends this process."""
-    uvicorn.run(server.streamable_http_app(host=host, stateless_http=True, json_response=True), host=host, port=port)
+def exchange(server: Server[Any], scope: Scope, body: bytes) -> tuple[int, list[tuple[bytes, bytes]], bytes]:
+    """Status, headers and body of the response to one message over HTTP, in an event loop of this thread.
+
+    scope: of the request that brought the message, whose body has been read
+    """
+    status, headers = 500, list[tuple[bytes, bytes]]()
+    parts: list[bytes] = []
+
+    async def receive() -> Message:
+        return {"type": "http.request", "body": body, "more_body": False}
+
+    async def send(message: Message) -> None:
+        nonlocal status, headers
+        if message["type"] == "http.response.start":
+            status, headers = message["status"], list(message["headers"])
+        parts.append(message.get("body", b""))
+
+    async def run() -> None:
+        manager = StreamableHTTPSessionManager(
+            server, json_response=True, stateless=True, max_request_body_size=max(len(body), 1)
+        )
+        async with manager.run():
+            await manager.handle_request(scope, receive, send)
+
+    anyio.run(run)
+    return status, headers, b"".join(parts)

@@ -153,6 +153,6 @@ def path_of(call: ToolCall, arguments: dict[str, Any]) -> str:
 
     def value(match: re.Match[str]) -> str:
         schema = call.schema["properties"][match[1]]
-        return quote(str(arguments.get(match[1], schema.get("default", ""))), safe="")
+        return quote(str(arguments.get(match[1], schema.get("default", ""))), safe="", errors="surrogatepass")
 
     return re.sub(r"\{(\w+)\}", value, call.path)

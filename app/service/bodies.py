@@ -73,17 +73,24 @@ class BodyRoute(WatchedRoute):
             body = await request.body()
             if len(body) <= LARGE:
                 return await small(request)
-            settings: Settings = request.app.state.settings
-            parts = body.count(b"[") + body.count(b"{")
-            if parts > settings.parts_max:
-                words = "The body must hold at most {most} objects and lists, got about {parts}."
-                raise Refused(422, words, {"pointer": ""}, most=settings.parts_max, parts=parts)
+            refuse_parts(request, body)
             lanes: Lanes = request.app.state.lanes
             with lanes.large_bodies.place(LARGE_COST, client_of(request)):
                 # Threads separate from those that answer small requests.
                 return await to_thread.run_sync(asyncio.run, in_thread(request), limiter=CapacityLimiter(1))
 
         return handled
+
+
+def refuse_parts(request: Request, body: bytes, *, values: bool = False) -> None:
+    """raises: Refused (422) for a body of more objects and lists than the service reads. values: count these too"""
+    settings: Settings = request.app.state.settings
+    parts = sum(map(body.count, (b"[", b"{", b",") if values else (b"[", b"{")))
+    if parts > settings.parts_max:
+        words = "The body must hold at most {most} objects and lists, got about {parts}."
+        if values:
+            words = "The body must hold at most {most} objects, lists and values, got about {parts}."
+        raise Refused(422, words, {"pointer": ""}, most=settings.parts_max, parts=parts)
 
 
 def content_type(request: Request) -> str:

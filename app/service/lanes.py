@@ -95,6 +95,7 @@ class Lanes:
         self._cheap = lane("cheap", settings.cheap_max, settings.cheap_max)
         self._heavy = lane("heavy", settings.heavy_max, part(settings.heavy_max, settings.heavy_client_max))
         self._workbook = lane("workbook", settings.workbooks_max, settings.workbooks_max)
+        self.assistants = lane("assistant", settings.cheap_max, part(settings.cheap_max, None))
         self.files = lane("file", settings.readers_max, part(settings.readers_max, settings.readers_client_max))
         self.large_bodies = lane("large body", settings.large_bodies_max, part(settings.large_bodies_max, None))
 

@@ -28,6 +28,7 @@ from app.jobs.keeper import kept
 from app.service import job_routes as jobs
 from app.service import middleware as layers
 from app.service import problems, routes, uploads
+from app.service.assistants import add_assistants
 from app.service.bodies import refuse_query
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
@@ -182,6 +183,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(jobs.router)
     app.add_exception_handler(sqlite3.Error, jobs.store_problem)
     _add_health(app)
+    add_assistants(app)
     add_pages(app)
     return app
 

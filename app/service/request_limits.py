@@ -14,6 +14,8 @@ from core.errors import Quantity
 
 # Larger bodies are read and answered in a thread of their own [bytes]; smaller ones take under 2 ms to read.
 LARGE = 64_000
+# Path of the messages of assistants, which may hold a file in base64.
+MESSAGES = "/mcp"
 
 
 class RequestLimits(Layer):
@@ -29,6 +31,7 @@ class RequestLimits(Layer):
         self.held, self.held_max, self.retry_after = 0, settings.bodies_bytes_max, settings.retry_after
         # Paths of the calls that take a file, which have limits of their own.
         self.files_max = {"/grade": settings.grade_bytes_max, "/places": settings.places_bytes_max}
+        self.files_max[MESSAGES] = max(self.files_max.values()) * 4 // 3 + LARGE
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         read, most = 0, self.files_max.get(scope["path"], self.bytes_max)
