@@ -80,7 +80,7 @@ dxf      ezdxf         maps no-such-file.toml --output dance.dxf
 figures  matplotlib    plan no-such-file.toml
 figures  matplotlib    cues no-such-file.toml
 figures  matplotlib    crew no-such-file.toml --output crew.pdf
-mcp      mcp           mcp
+service  fastapi       mcp
 sweep    pyarrow       sweep run no-such-spec.toml --output folder
 proof    python-flint  prove collision-time
 """

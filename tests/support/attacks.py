@@ -107,6 +107,12 @@ def deep_brackets() -> bytes:
     return b'{"path": {"kind": [' + b"[]," * 1_330_000 + b"[]]}}"
 
 
+def message_of_brackets() -> bytes:
+    """A message of an assistant, of 3.9 MB."""
+    call = b'{"jsonrpc":"2.0","id":1,"method":"tools/call","params":{"name":"turn","arguments":{"x":[%s]}}}'
+    return call % (b"[]," * 1_300_000 + b"[]")
+
+
 def text() -> bytes:
     """20 MB, read by Python code for a second."""
     return b"word " * 3_999_000
@@ -219,6 +225,7 @@ ATTACKS: dict[str, Attack] = {
     "polygon_of_holes": partial(once, "/check", partial(polygon, 140_000)),
     "names_twice": partial(once, "/collision-time?" + "&".join(f"n{k}=1&n{k}=1" for k in range(5_500)), None),
     "deep_brackets": partial(once, "/trajectory", deep_brackets),
+    "messages": partial(crowd, 16, "/mcp", body=message_of_brackets, stay=PATIENCE),
     "tiny_chunks": tiny_chunks,
     "large_csv": large_csv,
     # A second of pure Python each.

@@ -6,12 +6,11 @@ import base64
 import json
 import os
 import re
-import socket
-import subprocess
 import time
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Awaitable, Callable
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -21,10 +20,10 @@ import pytest
 from mcp import Client, MCPError, StdioServerParameters
 
 from app.assistant.guide import PAGES
-from app.wire.question import BYTES
+from app.wire.question import BYTES, JSON
 from tests.support import command
 from tests.support.command import ROOT, bin_folder
-from tests.support.serving import free_port
+from tests.support.serving import sample, serving
 
 COMMAND = str(bin_folder() / "bench-dragon")
 WORKBOOK = ROOT / "tests" / "reference" / "libreoffice" / "result1.xlsx"
@@ -58,27 +57,6 @@ def problem_of(result: Any) -> dict[str, Any]:
     problem: dict[str, Any] = result.structured_content
     assert json.loads(result.content[0].text) == problem
     return problem
-
-
-@contextmanager
-def http_door(log: Path, *options: str, **environment: str) -> Iterator[str]:
-    """Address of the command over HTTP."""
-    port = free_port()
-    with log.open("wb") as output:
-        words = [COMMAND, "mcp", "--port", str(port), *options]
-        process = subprocess.Popen(words, env=dict(os.environ) | environment, stdout=output, stderr=output)
-    try:
-        while True:
-            try:
-                socket.create_connection(("127.0.0.1", port)).close()
-                break
-            except ConnectionRefusedError:
-                assert process.poll() is None, log.read_text()
-                time.sleep(0.1)
-        yield f"http://127.0.0.1:{port}/mcp"
-    finally:
-        process.terminate()
-        process.wait(PATIENCE)
 
 
 ROUTE = {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}]}
@@ -163,13 +141,53 @@ def test_every_question_is_a_tool(client: httpx.Client) -> None:
 
 def test_over_http_the_token_is_that_of_the_assistant(tmp_path: Path) -> None:
     """Over the standard streams it is that of the process, which whoever started it may use."""
-    settings = {"BENCH_DRAGON_TOKEN": TOKEN}
-    with http_door(tmp_path / "log", **settings) as address:
+    with serving(tmp_path / "log", token=TOKEN) as service:
+        address = f"{service.url}/mcp"
         contact = with_client(address, lambda door: door.call_tool("collision_time", {"pitch": 0.5}))
         assert contact.structured_content["benches"] == [0, 14]
         refused = problem_of(with_client(address, lambda door: door.call_tool("grade", CONTENT)))
         assert refused["status"] == 401
-    assert not with_door(lambda door: door.call_tool("grade", CONTENT), **settings).is_error
+        assert sample(service.url, 'bench_dragon_requests_total{path="/grade",status="401"}') == 1.0
+    assert not with_door(lambda door: door.call_tool("grade", CONTENT), BENCH_DRAGON_TOKEN=TOKEN).is_error
+
+
+# A message, and the status and code of its answer.
+MESSAGES = [
+    ({}, 400, -32602),
+    ({"method": "tools/call", "params": {"name": "turn", "arguments": []}}, 200, -32602),
+    ({"method": "tools/call", "params": {"name": "nothing"}}, 200, -32602),
+    ({"method": "nothing"}, 200, -32601),
+]
+
+
+@pytest.mark.parametrize(("message", "status", "code"), MESSAGES)
+def test_a_message_that_asks_for_nothing_has_an_error_of_the_protocol(client, message, status, code):
+    response = client.post("/mcp", json={"jsonrpc": "2.0", "id": 1, **message}, headers={"Accept": JSON})
+    assert (response.status_code, response.json()["error"]["code"]) == (status, code)
+
+
+def test_the_edge_refuses_a_message_as_any_other_request(tmp_path, client):
+    call = {"method": "tools/call", "params": {"name": "turn", "arguments": {"x": [0] * 200_000}}}
+    assert client.post("/mcp", json=call).json()["values"]["most"]["value"] == 200_000
+    assert client.post("/mcp", content=b"{}").status_code == 415
+    assert client.get("/mcp").headers["Allow"] == "OPTIONS, POST"
+    with serving(tmp_path / "log", hosts="dance.example") as service:
+        ask = partial(httpx.post, f"{service.url}/mcp", json=call)
+        assert ask().status_code == 421
+        assert ask(headers={"Host": "dance.example"}).status_code == 422
+
+
+def test_a_computation_ends_with_the_assistant_that_asked_for_it(tmp_path):
+    call = {"jsonrpc": "2.0", "id": 1, "method": "tools/call"}
+    thin = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0}  # a minute of work
+    call["params"] = {"name": "minimum_pitch", "arguments": thin}
+    with serving(tmp_path / "log") as service:
+        with suppress(httpx.ReadTimeout):
+            httpx.post(f"{service.url}/mcp", json=call, timeout=1.0, headers={"Accept": JSON})
+        while not sample(service.url, 'bench_dragon_stopped_total{reason="client gone"}'):
+            assert not sample(service.url, 'bench_dragon_stopped_total{reason="deadline"}')
+            time.sleep(0.05)
+    assert "Traceback" not in service.log.read_text()
 
 
 def test_a_door_without_a_folder_reads_no_file_and_has_the_pages_of_the_guide() -> None:
@@ -190,14 +208,7 @@ def test_a_door_without_a_folder_reads_no_file_and_has_the_pages_of_the_guide() 
 
 def test_wrong_options_are_one_line(tmp_path: Path) -> None:
     (tmp_path / "a").touch()
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        for option, value, words in (
-            ("--port", "99999", "--port must be from 0 to 65535, got 99999"),
-            ("--folder", f"{tmp_path}/a", f"--folder must be a folder, got {tmp_path}/a"),
-            ("--folder", "", "--folder must not be an empty name"),
-            ("--port", str(port), "address already in use"),
-        ):
-            done = command.run("mcp", option, value)
-            assert (done.returncode, done.stdout, words in done.stderr) == (2, "", True)
-            assert "Traceback" not in done.stderr
+    for folder, words in ((f"{tmp_path}/a", f"--folder must be a folder, got {tmp_path}/a"), ("", "an empty name")):
+        done = command.run("mcp", "--folder", folder)
+        assert (done.returncode, done.stdout, words in done.stderr) == (2, "", True)
+        assert "Traceback" not in done.stderr
