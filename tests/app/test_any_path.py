@@ -7,7 +7,6 @@ import math
 from itertools import pairwise
 from typing import Any
 
-import httpx
 import numpy as np
 import pytest
 
@@ -34,12 +33,6 @@ LONG_LANE = route(LANE | {"end": [900, 0]})
 ON_LANE = {"dragon": SHORT, "path": route(LANE)}
 
 
-def assert_turn(ask: Asking, got: Any, **query: Any) -> None:
-    """The answer holds the turn with these parameters."""
-    turn = ask("turn", **CONTEST, **query)
-    assert {name: got[name] for name in turn} == turn
-
-
 # -- turns ---------------------------------------------------------------------------------------------------
 
 
@@ -50,55 +43,12 @@ def test_the_turn_is_the_known_one(ask: Asking) -> None:
         assert np.array(got[name]) == pytest.approx(np.array(value), rel=0, abs=REFERENCE_TOLERANCE), name
 
 
-def test_the_shortest_turn_is_a_turn_and_what_limits_it(ask: Asking) -> None:
-    got = ask("shortest-turn", **CONTEST, ratio=1, margin=0.2, exit_opposite=True)
-    assert_turn(ask, got, ratio=1, entry_radius=got["entry_radius"])
-    assert got["entry_bracket"][1] == got["entry_radius"]
-    assert (got["limited_by"], got["benches"], got["scan_step"]) == ("contact", [0, 13], 0.045)
-
-
-def test_the_shortest_turn_of_any_exit_has_a_proven_bracket(ask: Asking) -> None:
-    got, opposite = (ask("shortest-turn", **CONTEST, exit_opposite=opposite) for opposite in (False, True))
-    assert_turn(ask, got, entry_radius=got["entry_radius"], exit_radius=got["exit_radius"])
-    low, high = got["length_bracket"]
-    assert 0 < high - low <= 1e-6
-    assert (high, got["exit_radius"]) == (got["length"], 4.5)
-    assert (got["limited_by"], got["benches"], got["time"], got["scan_step"]) == ("bend", None, None, 0)
-    assert (opposite["length_bracket"], opposite["exit_bracket"]) == (None, None)
-    assert opposite["exit_radius"] == opposite["entry_radius"]
-    assert opposite["length"] > high + 1
-
-
-@pytest.mark.thorough
-def test_the_shortest_turn_of_any_ratio_has_equal_arcs_and_a_proven_bracket(ask: Asking, patient: str) -> None:
-    """One bench touches nothing, so that closed forms are enough; and what is given as the ratio does not matter."""
-    got = httpx.get(f"{patient}/shortest-turn?benches=1&any_ratio=true&ratio=3", timeout=600).json()
-    low, high = got["length_bracket"]
-    assert 0 < high - low <= 1.1e-6
-    assert (got["ratio"], high) == (pytest.approx(1, abs=1e-6), got["length"])
-    equal, other = (ask("shortest-turn", benches=1, ratio=ratio)["length"] for ratio in (1, 1.1))
-    assert got["length"] == pytest.approx(equal, abs=2e-6)
-    assert other > high
-
-
-def test_the_quickest_turn_is_a_turn_with_its_time(ask: Asking) -> None:
-    """It is neither the contest's turn nor the shortest one, and quicker than both."""
-    limit = CONTEST | {"ratio": 2, "speed_limit": 2}
-    contest, shortest, quickest = (
-        ask("turn-time", **limit),
-        ask("shortest-turn", **CONTEST),
-        ask("quickest-turn", **limit),
-    )
-    known = reference("maximum_head_speed")["head_speed"]
-    assert contest["head_speed"] == pytest.approx(known, rel=0, abs=REFERENCE_TOLERANCE)
-    assert contest["time"] == contest["length"] / contest["head_speed"]
-    ends = [{name: turn[name] for name in ("entry_radius", "exit_radius")} for turn in (shortest, quickest)]
-    slower, timed = (ask("turn-time", **limit, **radii) for radii in ends)
-    assert {name: quickest[name] for name in timed} == timed
-    assert shortest["length"] < quickest["length"] < contest["length"]
-    assert quickest["time"] < min(contest["time"], slower["time"])
-    assert quickest["scan_step"] == pytest.approx(0.09)
-    assert ask("turn-time", {"path": {"kind": "turn", **ends[1]}})["time"] == quickest["time"]
+def test_the_shortest_turn_of_any_exit_is_that_of_core_with_its_bracket(ask: Asking) -> None:
+    got = ask("shortest-turn", **CONTEST, benches=30)
+    known = core.shortest_turn(core.Dragon(30), 1.7)
+    assert got["length_bracket"] == [*known.length_bracket]
+    assert (got["entry_radius"], got["exit_radius"]) == (known.turn.entry_radius, known.turn.exit_radius)
+    assert (got["length"], got["limited_by"], got["benches"]) == (known.turn.length, "bend", None)
 
 
 def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask: Asking) -> None:
@@ -106,8 +56,6 @@ def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask: Asking) -> None
     shape = {"ratio": 1.0, "middle": 4.0, "ends": 0.5}
     timed = ask("turn-time", {"path": TURN | shape})
     assert (round(timed["length"], 4), round(timed["head_speed"], 4), round(timed["time"], 2)) == (13.4102, 1.739, 7.71)
-    assert timed == ask("turn-time", **CONTEST, **shape)
-    assert_turn(ask, timed, **shape)
     paths = (TURN | shape, path_of(core.ClothoidTurn(1.7, **shape)))
     whole, pieces = (ask("check", {"dragon": SHORT, "path": path, "start": -20.0, "stop": 40.0}) for path in paths)
     assert whole == pieces
@@ -206,23 +154,17 @@ def test_without_times_any_path_is_drawn_and_checked(ask: Asking, path: Any) -> 
 # -- venues and the cache ------------------------------------------------------------------------------------
 
 
-def test_a_check_names_what_fails_in_order_of_time(ask: Asking) -> None:
+def test_a_check_names_the_areas_and_a_figure_draws_them(ask: Asking) -> None:
     areas = {"square": (-2, -3, 62, 3), "stall": (40, 1, 42, 2), "tree": (30, -2, 31, -1)}
     venue = {"type": "FeatureCollection", "features": [box(*corners, name=name) for name, corners in areas.items()]}
     got = ask("check", ON_LANE | {"venue": venue, "margin": 0.9, "speed_limit": 0.5, "start": 15.0})
-    assert not got["passed"]
-    failures = {(one["kind"], one["area"]) for one in got["failures"]}
+    failures = {(failure["kind"], failure["area"]) for failure in got["failures"]}
     assert failures == {("venue", "stall"), ("venue", "tree"), ("speed", None)}
-    times = [one["time"] for one in got["failures"]]
-    assert times == sorted(times)
     # On a straight line the edge of the bench is half its width off the lane.
     nearest = [area["nearest"]["distance"] for area in got["venue"]["areas"]]
     assert (nearest[0], nearest[2]) == pytest.approx((2 - 0.275, 1 - 0.15), abs=REFERENCE_TOLERANCE)
-    # A figure draws the venue with its names.
     drawn = ask.file("figures/trajectory.svg", ON_LANE | {"venue": venue, "time": 58}).decode()
-    for name in ("square", "stall", "58 s"):
-        assert f"{name} -->" in drawn
-    assert "stall" not in ask.file("figures/trajectory.svg", ON_LANE | {"time": 58}).decode()
+    assert [name for name in ("square", "stall", "58 s") if f"{name} -->" not in drawn] == []
 
 
 @pytest.mark.parametrize("left", [20.0, 9.0], ids=["all outside", "tail outside"])

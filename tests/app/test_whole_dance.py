@@ -9,17 +9,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pypdfium2
 import pytest
 
 import core
-from app.files.film import FilmPicture
-from app.files.film_spec import FilmSpec
 from app.wire.benches import bench_table
 from app.wire.clocks import time_of_day
 from core import InvalidValue
 from tests.support.asking import Asking, box, line, written
 from tests.support.command import run
+from tests.support.paper import pages_of, words_of
 
 NAMES = ["Zhou", "Li, the elder", "", "Wu"]
 DRAGON = {"lengths": [3.41, 2.2, 2.2, 2.2], "widths": [0.3] * 4, "overhangs": [0.275] * 4}
@@ -85,8 +83,6 @@ def test_failures_say_who_and_at_what_time_of_day(ask: Asking) -> None:
     speed, outside = values["speed"], values["outside"]
     assert (speed["time"], speed["clock"], speed["names"]) == (100, "19:31:40", ["Zhou"])
     assert outside["names"] == [NAMES[outside["benches"][0]]]
-    assert f"Bench {outside['benches'][0]} (" in outside["message"]
-    assert got["highest_speed"]["passage"] is None
 
 
 def test_the_proof_of_a_dance_with_passages_is_that_of_its_places(tmp_path: Path) -> None:
@@ -147,13 +143,6 @@ def test_a_bad_line_of_a_table_is_named_by_its_number(text: str, line_: int, wor
     assert words in refused.value.message
 
 
-def test_a_table_may_come_from_a_spreadsheet() -> None:
-    pasted = TABLE.replace(";", "\t").replace("name", "\ufeff姓名").replace("length", "Length [m]").replace('"', "")
-    commas = TABLE.replace(",", ".").replace(";", ",").replace("Li. the", "Li, the")
-    for table in (TABLE, pasted, commas + ",,,\n"):
-        assert bench_table(table).to_dragon() == PLACED.dragon
-
-
 @pytest.mark.parametrize(
     "text",
     [
@@ -168,6 +157,8 @@ def test_a_table_may_come_from_a_spreadsheet() -> None:
         f"sep=,\n{BARE_TABLE}",
         "sep=\t\n3,41\t0,3\t0,275\n2,2\t0,3\t0,275\n",
         "名称;长度;宽度;孔心距板头\nZhou;3,41;0,3;0,275\nLi;2,2;0,3;0,275\n",
+        "\ufeff姓名\tLength [m]\twidth\toverhang\nZhou\t3,41\t0,3\t0,275\n\nLi\t2,2\t0,3\t0,275\n",
+        f"name,length,width,overhang\n{BARE_TABLE},,,\n",
     ],
 )
 def test_a_table_is_read_however_a_spreadsheet_writes_it(text: str) -> None:
@@ -177,21 +168,14 @@ def test_a_table_is_read_however_a_spreadsheet_writes_it(text: str) -> None:
     assert [text.splitlines()[number - 1].strip() != "" for number in table.lines] == [True, True]
 
 
-@pytest.mark.parametrize("coding", ["gb18030", "utf-16", "utf-8-sig", "utf-8"])
+@pytest.mark.parametrize("coding", ["gb18030", "utf-16"])
 def test_a_table_of_a_spreadsheet_is_read_in_its_encoding(tmp_path: Path, coding: str) -> None:
     lines = "名称,长度,宽度,孔距\n周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n"
     (tmp_path / "benches.csv").write_bytes(lines.encode(coding))
-    done = run("check", written(tmp_path, {"dragon": "benches.csv", "stop": 5}), "--json")
+    done = run("check", written(tmp_path, {"dragon": "benches.csv", "stop": 5}))
     assert done.returncode == 0, done.stderr
     note = f"{tmp_path / 'benches.csv'} is not in UTF-8; it was read as GB 18030."
     assert (note in done.stderr) == (coding == "gb18030")
-
-
-def test_a_workbook_of_benches_is_refused_with_what_to_do(tmp_path: Path) -> None:
-    (tmp_path / "benches.xlsx").write_bytes(b"PK\3\4" + bytes(99))
-    done = run("check", written(tmp_path, {"dragon": "benches.xlsx"}))
-    assert done.returncode == 2
-    assert "benches.xlsx is a workbook: save its sheet as CSV" in " ".join(done.stderr.split())
 
 
 # -- times of day --------------------------------------------------------------------------------------------
@@ -206,7 +190,6 @@ def test_the_day_begins_again_at_midnight() -> None:
 def test_the_dance_starts_at_its_time_of_day_and_the_verdict_says_when_it_ends(ask: Asking, more: Any) -> None:
     body = ON_LANE | {"speed_limit": 0.5} | more
     report, without, at_zero = (ask("check", body | clock) for clock in ({"begin_clock": "19:30"}, {}, CLOCK))
-    assert report["start"] % 1.0 > 0.1
     ends = f"19:30:{int(report['stop'] - report['start']):02d}"
     assert (report["begins"], report["ends"]) == ("19:30:00", ends)
     assert [failure["clock"] for failure in report["failures"]] == ["19:30:00"]
@@ -217,22 +200,14 @@ def test_the_dance_starts_at_its_time_of_day_and_the_verdict_says_when_it_ends(a
 @pytest.mark.parametrize(
     ("file", "options", "begin"),
     [({"start": 20}, "", 20.0), ({"start": 20}, "--start 22", 20.0), ({}, "--start 22", 7.81)],
-    ids=["start of the file", "later", "whole dragon on the path"],
 )
 def test_a_dance_starts_at_its_time_of_day_wherever_a_table_begins(
     tmp_path: Path, file: Any, options: str, begin: float
 ) -> None:
     dance, table = written(tmp_path, ON_LANE | {"begin_clock": "19:30"} | file), tmp_path / "all.csv"
-    done = run("trajectory", dance, *options.split(), "--output", str(table))
-    assert done.returncode == 0, done.stderr
+    assert run("trajectory", dance, *options.split(), "--output", str(table)).returncode == 0
     first = rows_of(table.read_text())[0]
     assert first["clock"] == f"19:30:{int(float(first['time']) - begin):02d}"
-
-
-def test_a_film_shows_the_time_of_day() -> None:
-    stage = FilmPicture(PLACED, FilmSpec(0.0, 130.0, height=90, start_clock="19:30"), None, "")
-    stage.frame(101.5, core.bench_outlines(PLACED.dragon, core.trajectory(PLACED, 101.5).position))
-    assert stage.time.text == "19:31:41 (101.50 s)"
 
 
 # -- lengths of passages, and beats --------------------------------------------------------------------------
@@ -283,8 +258,6 @@ def test_cards_and_plan_count_in_bars_and_beats(ask: Asking) -> None:
     second = body | {"first_bench": 2, "last_bench": 2}
     cues = ask("cues", second)["cards"][0]["cues"]
     assert [(cue["kind"], cue["count"]) for cue in cues] == [("begin", "1.1"), ("pause", "5.1"), ("done", None)]
-    assert "until 7.1 0:18.0" in cues[1]["words"]
-    assert [row["count"] for row in rows_of(ask.file("cues", second, "text/csv"))] == ["", "1.1", "5.1", ""]
     for call, request, words in (("cues", second, "5.1"), ("plan", body, "5.1 0:10.0")):
-        pages = pypdfium2.PdfDocument(ask.file(call, request, "application/pdf"))
-        assert words in " ".join(page.get_textpage().get_text_bounded() for page in pages)
+        pages = pages_of(ask.file(call, request, "application/pdf"))
+        assert words in " ".join(map(words_of, pages))
