@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 import struct
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from xml.etree import ElementTree
 
 import pytest
@@ -63,17 +65,14 @@ def test_contact_figure_says_how_the_run_ends(dance: Dance, words: str) -> None:
 
 
 def test_contact_figure_with_a_margin_states_it() -> None:
-    near = texts(figures.contact_figure(Dance(SMALL, Spiral()), margin=0.05))
-    assert "First within 0.05 m: " in near
-    assert "Within 0.05 m: a gap of 0.050000 m at (" in near
-    from_start = texts(figures.contact_figure(Dance(Dragon(), Spiral()), margin=0.2))
-    assert "Within 0.2 m from the start on" in from_start
-    assert "a gap of 0.169279 m" in from_start
-    scan = texts(*scan_figures(Dragon(benches=8), "svg", margin=0.05, samples=5))
-    assert "radius of the head when two benches are first within 0.05 m of each other [m]" in scan
-    never = texts(figures.contact_figure(Dance(Dragon(benches=5), Spiral(9.0, 3.0)), margin=0.1))
-    assert "Never within 0.1 m: the run ends clear at the centre" in never
-    for words in (near, from_start, scan, never):
+    coil, five = Dance(Dragon(), Spiral()), Dance(Dragon(benches=5), Spiral(9.0, 3.0))
+    for words, part in (
+        (texts(figures.contact_figure(Dance(SMALL, Spiral()), margin=0.05)), "Within 0.05 m: a gap of 0.050000 m at ("),
+        (texts(figures.contact_figure(coil, margin=0.2)), "a gap of 0.169279 m"),
+        (texts(*scan_figures(Dragon(benches=8), "svg", margin=0.05, samples=5)), "first within 0.05 m of each other"),
+        (texts(figures.contact_figure(five, margin=0.1)), "Never within 0.1 m: the run ends clear at the centre"),
+    ):
+        assert part in words
         assert not re.search("contact|touch|meet|overlap", words, re.IGNORECASE)
 
 
@@ -100,18 +99,15 @@ def test_figures_in_chinese_have_no_english_word_left_and_the_same_numbers() -> 
     dances = [small, Dance(Dragon(5), Spiral(9.0, 3.0)), Dance(SMALL, Spiral(0.8)), Dance(Dragon(), Spiral(0.35))]
     for dance in some(dances, 1):
         for margin in (0.0, 0.05):
-            english, chinese = (figures.contact_figure(dance, margin=margin, language=one) for one in Language)
-            assert_translated(texts(english), texts(chinese))
-    english, chinese = (figures.trajectory_figure(small, venue=square, time=20.0, language=one) for one in Language)
-    assert_translated(texts(english), texts(chinese), "bench 3")
+            assert_translated(partial(figures.contact_figure, dance, margin=margin))
+    assert_translated(partial(figures.trajectory_figure, small, venue=square, time=20.0), "bench 3")
     circle = {"turning_radius": 4.5, "start_turns": 16.0, "margin": 0.05}
-    result = scan_near_minimum(Dragon(8), samples=5, **circle)
-    english, chinese = (figures.pitch_scan_figure(*result, **circle, language=one) for one in Language)
-    assert_translated(texts(english), texts(chinese))
+    assert_translated(partial(figures.pitch_scan_figure, *scan_near_minimum(Dragon(8), samples=5, **circle), **circle))
 
 
-def assert_translated(english: str, chinese: str, kept: str = "") -> None:
+def assert_translated(draw: Callable[..., bytes], kept: str = "") -> None:
     """No word of English is left but units, axes and names; the same numbers stand in both."""
+    english, chinese = (texts(draw(language=language)) for language in Language)
     assert re.findall(r"[A-Za-z]{2,}", chinese.replace(kept, "")) == []
     assert kept in chinese
     numbers = [sorted(re.findall(r"\d+\.\d+", words)) for words in (english, chinese)]
@@ -125,22 +121,19 @@ def test_pitch_scan_figure_marks_minimum_pitch_and_circle() -> None:
     assert "turning circle, 4.5 m" in words
 
 
-def drawn(kind: str, *formats: str) -> list[bytes]:
-    """A figure in each format."""
-    if kind == "trajectory":
-        return [figures.trajectory_figure(Dance(SMALL, Spiral()), format=form) for form in formats]
-    if kind == "contact":
-        return [figures.contact_figure(Dance(SMALL, Spiral()), format=form) for form in formats]
-    return scan_figures(SMALL, *formats, samples=5)
+def drawn(kind: str) -> list[bytes]:
+    """A figure as SVG and as PNG."""
+    if kind == "scan":
+        return scan_figures(SMALL, "svg", "png", samples=5)
+    draw = figures.contact_figure if kind == "contact" else figures.trajectory_figure
+    return [draw(Dance(SMALL, Spiral()), format=form) for form in ("svg", "png")]
 
 
 def test_equal_questions_give_equal_bytes_also_in_threads() -> None:
     kinds = some(("trajectory", "contact", "scan"), 2)
-    alone = [drawn(kind, "svg", "png") for kind in kinds]
-    forms = ("svg", "png", "svg")[: len(kinds)]
+    alone = list(map(drawn, kinds))
     with ThreadPoolExecutor(len(kinds)) as pool:
-        again = list(pool.map(drawn, kinds, forms))
-    assert again == [[svg if form == "svg" else png] for (svg, png), form in zip(alone, forms, strict=True)]
+        assert list(pool.map(drawn, kinds)) == alone
     for svg, png in alone:
         assert png[:8] == PNG_SIGNATURE
         assert min(struct.unpack(">II", png[16:24])) > 500  # pixels

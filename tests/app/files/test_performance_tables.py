@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-from pathlib import Path
 from typing import Any
 
 import httpx
@@ -20,7 +19,6 @@ from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
 from core import TooLarge, performance_trajectory
 from core.values import Floats
-from tests.support.command import run
 from tests.support.refusal_rows import assert_refused
 
 TWO: dict[str, Any] = json.loads("""{"dances": [
@@ -53,54 +51,37 @@ def test_json_has_a_table_for_each_dragon(client: httpx.Client) -> None:
     assert rounded["dances"][0]["x"] == np.round(results()[0][0][..., 0], 2).tolist()
 
 
-def test_one_of_several_alone_has_the_numbers_of_one_dance(client: httpx.Client) -> None:
-    east = TWO["dances"][0]
-    several = client.post("/trajectory", json={"dances": [east], "times": [15, 20]}).raise_for_status().json()
-    alone = {name: east[name] for name in ("dragon", "path")} | {"times": [15, 20]}
-    one = client.post("/trajectory", json=alone).raise_for_status().json()
-    assert several == {"time": one.pop("time"), "dances": [{"name": "east"} | one]}
-
-
 def test_csv_has_the_dragon_before_each_line(client: httpx.Client) -> None:
-    lines = list(csv.reader(io.StringIO(ask(client, CSV_TYPE).text)))
-    assert lines[0] == ["dragon", "dragon_name", "time", "handle", "x", "y", "speed", "name", "clock"]
+    heads, *lines = csv.reader(io.StringIO(ask(client, CSV_TYPE).text))
+    assert heads == ["dragon", "dragon_name", "time", "handle", "x", "y", "speed", "name", "clock"]
     names = ["head", "body 1", "body 2", "tail", "tail (rear)"], [
         "Zhou", "Wu", "body 2", 'Zheng, "Wang"', "'=Feng", "'=Feng (rear)",
     ]  # fmt: skip
     clocks = ["19:30:05", "19:30:20", "19:30:45", "19:31:00"]
-    assert [[*line[:2], *map(float, line[2:7]), *line[7:]] for line in lines[1:]] == [
+    assert [[*line[:2], *map(float, line[2:7]), *line[7:]] for line in lines] == [
         [*own, time, handle, *position[t, handle], speed[t, handle], name, clocks[t]]
         for own, (position, speed), labels in zip((["0", "east"], ["1", ""]), results(), names, strict=True)
         for t, time in enumerate(TIMES.tolist())
         for handle, name in enumerate(labels)
     ]
-    part = TWO["dances"][0] | {"name": None}
-    body = {"dances": [part, part], "times": [20]}
-    text = client.post("/trajectory", json=body, headers={"accept": CSV_TYPE}).raise_for_status().text
-    assert text.splitlines()[0] == "dragon,time,handle,x,y,speed"
-    assert [line[:2] for line in text.splitlines()[1:]] == ["0,"] * 5 + ["1,"] * 5
 
 
-def test_arrow_has_the_columns_of_the_csv(client: httpx.Client) -> None:
-    table = pa.ipc.open_file(pa.BufferReader(ask(client, ARROW_TYPE).content)).read_all()
-    assert table.column_names == ["dragon", "time", "handle", "x", "y", "speed"]
-    assert table["dragon"].to_pylist() == [0] * 20 + [1] * 24
-    for first, (position, speed) in zip((0, 20), results(), strict=True):
-        own = table.slice(first, speed.size)
-        assert own["x"].to_pylist() == position[..., 0].ravel().tolist()
-        assert own["speed"].to_pylist() == speed.ravel().tolist()
+def test_without_names_and_clock_csv_has_no_columns_for_them_and_arrow_has_the_same(client: httpx.Client) -> None:
+    simple: dict[str, Any] = {"dances": [TWO["dances"][0] | {"name": None}] * 2, "start_clock": None}
+    lines = list(csv.reader(io.StringIO(ask(client, CSV_TYPE, **simple).text)))
+    assert lines[0] == ["dragon", "time", "handle", "x", "y", "speed"]
+    table = pa.ipc.open_file(pa.BufferReader(ask(client, ARROW_TYPE, **simple).content)).read_all()
+    assert table.column_names == lines[0]
+    assert table.to_pydict() == {name: [float(line[k]) for line in lines[1:]] for k, name in enumerate(lines[0])}
 
 
-def test_a_workbook_has_two_sheets_for_each_dragon(client: httpx.Client) -> None:
+def test_a_workbook_has_two_sheets_for_each_dragon_and_refuses_too_many_columns(client: httpx.Client) -> None:
     book = openpyxl.load_workbook(io.BytesIO(ask(client, XLSX_TYPE).content))
     assert book.sheetnames == ["positions 0", "speeds 0", "positions 1", "speeds 1"]
     position, _ = results()[1]
     rows = list(book["positions 1"].values)
     assert [row[0] for row in rows[1:5]] == ["Zhou x (m)", "Zhou y (m)", "Wu x (m)", "Wu y (m)"]
     assert rows[1][1:] == tuple(np.round(position[:, 0, 0], 6).tolist())
-
-
-def test_a_workbook_may_be_chinese_and_refuses_too_many_columns() -> None:
     performance = TrajectoryRequest.model_validate(TWO).to_performance(Settings())
     table = PerformanceTable(performance, performance_trajectory(performance, TIMES), language=Language.CHINESE)
     assert "位置 0" in openpyxl.load_workbook(io.BytesIO(performance_file(".xlsx", table))).sheetnames
@@ -119,13 +100,3 @@ def test_a_workbook_may_be_chinese_and_refuses_too_many_columns() -> None:
 )
 def test_a_wrong_value_is_refused(client: httpx.Client, row: str) -> None:
     assert_refused(client, "/trajectory", TWO, row)
-
-
-def test_check_writes_every_second_of_the_judged_time(tmp_path: Path) -> None:
-    file, table = tmp_path / "two.json", tmp_path / "two.csv"
-    file.write_text(json.dumps({name: TWO[name] for name in ("dances", "start_clock")} | {"start": 20, "stop": 24.5}))
-    assert run("check", str(file), "--output", str(table)).returncode == 0
-    rows = list(csv.DictReader(table.read_text().splitlines()))
-    times = [float(row["time"]) for row in rows if (row["dragon"], row["handle"]) == ("1", "0")]
-    assert times == [20, 21, 22, 23, 24]
-    assert rows[0]["clock"] == "19:30:20"
