@@ -98,12 +98,6 @@ def test_random_dragons_touch_when_and_where_the_slow_search_says(seed, bench_by
     assert_as_slow_search(dance, margin * float(slow.clearance([0.0])[0][0]))
 
 
-@pytest.mark.parametrize("benches", [223, 224, 1000, 100_000])
-def test_benches_that_the_contact_does_not_reach_change_nothing(benches):
-    few, many = (first_contact(Dance(Dragon(count), Spiral())) for count in (30, benches))
-    assert (many.time, many.benches, many.time_bracket) == (few.time, few.benches, few.time_bracket)
-
-
 # Start inside the region in which rings can touch: pairs far down the body are met before the body repeats itself.
 @pytest.mark.parametrize(
     "dance",

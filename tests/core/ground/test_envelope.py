@@ -103,9 +103,7 @@ def test_a_round_dance_keeps_its_hole_and_sweeps_the_ring_between_two_circles():
     assert area < result.area < area + 2.0 * math.pi * (outside + inner) * result.excess
 
 
-def test_the_cost_follows_the_track_and_the_excess_and_not_the_number_of_benches():
-    few, many = (envelope(Dance(Dragon(benches), Spiral()), stop=300.0, excess=0.01) for benches in (3, 60))
-    assert many.certificate.cells < 1.4 * few.certificate.cells
+def test_a_larger_excess_costs_less():
     fine, rough = (envelope(Dance(Dragon(5), Spiral()), stop=30.0, excess=excess) for excess in (1e-3, 0.05))
     assert rough.certificate.cells < 0.3 * fine.certificate.cells
     assert fine.area < rough.area

@@ -15,20 +15,6 @@ ARC_ERROR = 4e-15
 TURNS = (1e-9, 1e-3, 0.5, 1.0, 3.0, 16.0, 1e3, 1e4, 1e5)
 
 
-@pytest.mark.parametrize("pitch", [0.3, 0.55, 1.7, 3.0])
-def test_growth_and_arc_are_those_of_the_pitch_and_the_turns(pitch):
-    flint.ctx.prec = BITS
-    growth = arb(pitch) / (2 * arb.pi())
-    high, low = growth_pair(pitch)
-    assert high == pitch / (2.0 * np.pi)
-    assert abs(float((arb(high) + low) / growth - 1)) < 1e-31
-    for turns in TURNS:
-        high, low = coil_arc(pitch, turns)
-        exact = growth * spiral_place(2 * arb.pi() * turns)
-        assert abs(float(arb(high) + low - exact)) <= ARC_ERROR * float(growth) * min(1.0, 2.0 * np.pi * turns)
-        assert abs(low) <= np.spacing(high)
-
-
 @pytest.mark.parametrize("turns", TURNS[-5:])
 def test_an_angle_has_the_arc_length_from_which_it_was_found(turns):
     """From the start to a nanometre from the centre: the error of an arc length stays that of asinh."""

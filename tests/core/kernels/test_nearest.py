@@ -1,37 +1,11 @@
-"""The least separation over an interval: a way is proven up to the least of its samples, and no further."""
+"""The least separation over an interval, with too few rows. Bounds: tests/core/contact/test_clearance.py."""
 
-import numpy as np
-import pytest
-
-from core import Dragon, Spiral, Turn
+from core import Dragon, Spiral
 from core.contact.search import ContactSearch
 from core.kernels import Ended, March
 
-# Samples of a way [1], and the depth of a dip between two of them below both [m].
-SAMPLES, BETWEEN = 400, 1e-4
-# A margin above the least sample by this is met there [m].
-ABOVE = 1e-9
 # The default dance first touches here, benches 0 and 8 [m of head travel].
 CONTACT = 412.4738376822
-
-
-def random_dragon(seed):
-    rng = np.random.default_rng(seed)
-    lengths, overhangs = rng.uniform(1.2, 2.4, 30), rng.uniform(0.0, 0.25, 30)
-    return Dragon.of(lengths, rng.uniform(0.1, 0.35, 30), overhangs)
-
-
-@pytest.mark.parametrize("path", [Spiral(0.7, 7.0), Turn(1.4)], ids=["spiral", "turn"])
-@pytest.mark.parametrize("seed", range(4))
-def test_a_way_is_proven_for_margins_below_its_least_sample_only(seed, path):
-    dragon = random_dragon(seed)
-    start = float(np.random.default_rng(seed).uniform(0.0, 40.0))
-    search = ContactSearch(dragon, path, -1.0)
-    search.resize(dragon.benches)
-    least = min(search.clearance(travel)[0] for travel in np.linspace(start, start + 4.0, SAMPLES))
-    below, above = (ContactSearch(dragon, path, least + more) for more in (-BETWEEN, ABOVE))
-    assert below.march(start + 4.0, 0.0, start=start)[0] is Ended.REACHED
-    assert above.march(start + 4.0, 0.0, start=start)[0] is not Ended.REACHED
 
 
 def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and_misses_nothing():

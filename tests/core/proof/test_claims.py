@@ -1,22 +1,16 @@
-"""Claims: those that do not hold are refused, and a pair that is near is found where shapely finds it."""
+"""Claims: those that do not hold are refused, and an overlap on the way is shown or not."""
 
 import math
 
 import pytest
-from flint import arb, ctx
 
 from core import Dance, Dragon, Spiral
 from core.errors import ProofRefused
 from core.proof import prove_collision_time, prove_minimum_pitch, verify
-from core.proof.chain import Chain
-from core.proof.claims import head_theta
 from tests.support.depth import thorough
 from tests.support.forgeries import assert_refused
 from tests.support.reference_contacts import GRAZING, SMALL, graze, proof_of
 from tests.support.refused import refused
-
-# Distances by shapely [m], and places by bisection in doubles [rad], are this near to the true ones.
-PLACE = 1e-9
 
 
 @pytest.mark.parametrize("later", [-1.0, -2.1e-10, 2.1e-10, 1e-6, 1.0])
@@ -75,13 +69,3 @@ def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(edit, reason):
 
 
 # -- pairs that are near --
-
-
-@pytest.mark.parametrize("handle", [0, 1, 5])
-def test_the_head_is_found_from_where_a_handle_stands(handle):
-    with ctx.workprec(128):
-        chain = Chain(Dragon(14), arb(0.55), 16.0)
-        pose = chain.pose_at(0, arb(40.0))
-        pose.grow_to(handle + 1)
-        there = float(pose.places[handle])
-        assert head_theta(chain, handle, there, 20.0, 90.0) == pytest.approx(40.0, abs=PLACE)

@@ -8,7 +8,7 @@ from core import Dance, Dragon, Spiral, Turn, first_contact
 from core.contact.clearance import least_clearance
 from core.errors import OutsideRun, ProofRefused
 from core.proof import prove_clear, prove_collision_time, prove_contact, verify
-from tests.support.depth import examples, thorough
+from tests.support.depth import thorough
 from tests.support.forgeries import assert_refused, stretches, through_json
 from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
 from tests.support.reference_contacts import CONTACTS, OFF, proven_then_only
@@ -75,17 +75,6 @@ def test_two_corners_within_a_margin_need_a_direction_and_are_proven():
     assert contact.edge is None
     certificate, _ = proven_then_only(prove_contact, dance, contact.time, **request)
     assert stretches(certificate)[-1][2][0] == "8"
-
-
-@pytest.mark.thorough
-def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference_time():
-    """`make deep` takes all benches."""
-    dance = Dance(Dragon(benches=examples(20, 223)), Turn(1.7))
-    certificate = through_json(prove_clear(dance, 100.0, start=-100.0))
-    assert "no two benches except neighbours touch from -100 s to 100 s" in verify(certificate).statement
-    time = first_contact(dance, start=-100.0, margin=0.33).time
-    assert time == pytest.approx(13.741349327226573, abs=1e-9)  # docs/proofs.md
-    proven_then_only(prove_contact, dance, time, start=-100.0, margin=0.33)
 
 
 @pytest.mark.parametrize(

@@ -6,10 +6,9 @@ from itertools import product
 
 import numpy as np
 import pytest
-import shapely
 from flint import acb, arb, ctx
 
-from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, BenchGround, PolygonSide, best_side
+from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, BenchGround, PolygonSide
 from core.shapes.reach import bench_hulls, directions, supports
 from tests.support.random_strays import moved_points, random_strays
 
@@ -57,18 +56,3 @@ def test_corners_of_a_side_are_all_that_can_be_nearest_while_a_bench_turns(sprea
             nearest = min((axis * corner).real for corner in corners)
             assert nearest == pytest.approx((axis * everyone).real.min(), abs=ROUNDING)
         assert len(corners) <= 3 + 2.5 * spread * SIDES / math.tau or spread > 1.0
-
-
-def test_a_side_is_found_exactly_where_two_polygons_are_apart():
-    first, second = ground_of(2.86, 0.275, 0.3, 0.05), ground_of(1.65, 0.275, 0.3, 0.05)
-    rng, apart = np.random.default_rng(6), 0
-    for x, y, heading in rng.uniform([-3.0, -1.2, -3.2], [3.0, 1.2, 3.2], (200, 3)).tolist():
-        to, axis = complex(x, y), cmath.rect(1.0, heading)
-        a, b = rng.integers(4, size=2).tolist()
-        placed = [first.rough_corners[a], to + axis * second.rough_corners[b]]
-        one, other = (shapely.Polygon(np.stack([z.real, z.imag], axis=-1)).convex_hull for z in placed)
-        gap = best_side(first, second, (a, b), [(to, axis)])[1]
-        assert (gap > 0.0) == (one.distance(other) > 0.0)
-        assert gap <= one.distance(other) + ROUNDING
-        apart += gap > 0.0
-    assert 20 < apart < 180

@@ -9,9 +9,7 @@ from hypothesis import strategies as st
 
 from core.shapes.overlaps import Engine, overlaps
 from core.shapes.rectangles import (
-    ANGLE_TOLERANCE,
     angle_sum_overlap,
-    angle_sums,
     corners,
     literal_corners,
     paper_corners,
@@ -44,21 +42,6 @@ def test_literal_corners_are_those_of_eq_12_as_printed(theta):
 
 
 SQUARE = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
-
-
-@pytest.mark.parametrize(
-    ("point", "expected"),
-    [
-        ((0.2, -0.3), 2 * math.pi),
-        ((1.0, 0.3), 2 * math.pi),
-        ((1.0, 1.0), 2 * math.pi),
-        ((1 + 1e-3, 0.0), 4 * math.atan(1e3)),
-        ((1e4, 0.0), 4 * math.atan(1 / (1e4 - 1))),
-    ],
-    ids=["inside", "on an edge", "on a corner", "just outside", "far away"],
-)
-def test_angle_sum_is_a_full_turn_inside_and_less_outside(point, expected):
-    assert_near(angle_sums(np.array([point]), SQUARE), [expected], ANGLE_TOLERANCE)
 
 
 @pytest.mark.parametrize(("gap", "seen"), [(-1e-9, True), (0.0, True), (1e-13, True), (1e-12, False), (1e-9, False)])

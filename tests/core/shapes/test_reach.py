@@ -7,7 +7,6 @@ from core import Dragon
 from core.kernels.constants import DIRECTIONS
 from core.shapes.reach import SIZES_MAX, bench_hulls, directions, gains, reach, supports
 from tests.support.depth import examples, thorough
-from tests.support.near import assert_near
 from tests.support.random_strays import moved_points, random_strays
 from tests.support.refused import refused
 
@@ -50,17 +49,6 @@ def test_supports_are_hardly_larger_than_what_places_reach(chord, overhang, half
     assert spare.min() >= -ROUNDING
     assert np.median(spare) < TIGHT * stray
     assert spare.max() < 10 * TIGHT * stray
-
-
-def test_corners_go_round_and_the_ends_mirror_each_other():
-    hulls = bench_hulls(supports(1.65, 0.275, 0.15, 0.1))
-    edges = np.roll(hulls, -1, axis=1) - hulls
-    x, y = np.moveaxis(edges, -1, 0)
-    next_x, next_y = np.moveaxis(np.roll(edges, -1, axis=1), -1, 0)
-    assert (x * next_y - y * next_x >= -ROUNDING).all()
-    front, middle, rear = hulls
-    assert (np.roll(-rear, DIRECTIONS // 2, axis=0) == front).all()
-    assert_near(middle[:, 1].max(), 0.25, 1e-4)  # between the holes no side moves further than they do
 
 
 def test_the_bounds_of_a_dragon_hold_its_hulls_on_the_same_chords():

@@ -9,11 +9,9 @@ from core import (
     Outcome,
     Spiral,
     Stray,
-    Turn,
     check,
     deepest_turn,
     first_contact,
-    least_clearance,
     minimum_pitch,
     tolerance,
     venue_clearance,
@@ -45,8 +43,6 @@ def test_a_stray_above_the_tolerance_until_a_time_touches_just_before_it():
 
 QUESTIONS = {
     "first contact": lambda **options: first_contact(DANCE, **options),
-    "through the turn": lambda **options: first_contact(Dance(Dragon(30), Turn(0.9)), **options),
-    "least clearance": lambda **options: least_clearance(DANCE, stop=300.0, **options),
     "minimum pitch": lambda **options: minimum_pitch(Dragon(), **options),
     "shortest turn": lambda **options: deepest_turn(Dragon(3), 1.7, **options).turn.entry_radius,
     "venue": lambda **options: venue_clearance(Dance(LAPPING, LAP), VENUE, **options),
