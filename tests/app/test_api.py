@@ -155,12 +155,6 @@ def test_head_has_the_headers_of_get_and_no_body(client: httpx.Client, path: str
     assert head.headers["content-length"] == get.headers["content-length"] == str(sent)
 
 
-@pytest.mark.parametrize(("path", "allowed"), [("/overlaps", "OPTIONS, POST"), ("/paper", "GET, HEAD, OPTIONS")])
-def test_options_names_the_methods(client: httpx.Client, path: str, allowed: str) -> None:
-    answer = client.options(path)
-    assert (answer.status_code, answer.headers["allow"]) == (204, allowed)
-
-
 def test_the_service_is_alive_and_ready(ask: Asking) -> None:
     assert ask("healthz") == {"status": "ok"}
     assert ask("readyz") == {"status": "ready"}

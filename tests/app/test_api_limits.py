@@ -4,31 +4,23 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 
 import httpx
 import pytest
 
-from app.files.tables import XLSX_TYPE
 from app.settings import Settings, unknown_variables
 from app.wire.question import JSON
 from core import InvalidValue
 from tests.support.asking import Asking, assert_problem
-from tests.support.job_service import wait_for
-from tests.support.serving import Service, sample
+from tests.support.serving import Service
 
 BODY_BYTES_MAX = 1000
 LIMITS = {
     "body_bytes_max": BODY_BYTES_MAX,
     "benches_max": 300,
     "cells_max": 200000,
-    "cheap_max": 1,
-    "heavy_max": 1,
-    "retry_after": 7,
     "cache_seconds": 60,
 }
-# Seconds of work, and within the limits.
-SLOW = {"times": {"stop": 400, "step": 0.5}}
 TYPE = {"Content-Type": JSON}
 
 
@@ -78,21 +70,6 @@ def test_a_table_may_have_as_many_cells_as_the_limit(small: Asking) -> None:
 
 def test_answers_may_be_kept_as_long_as_the_setting_says(small: Asking) -> None:
     assert small.send("trajectory", {"times": [0]}).headers["cache-control"] == "public, max-age=60"
-
-
-def test_one_computation_too_many_is_asked_to_come_again(small: Asking) -> None:
-    running, url = 'bench_dragon_computations{lane="workbook"}', str(small.client.base_url)
-    with ThreadPoolExecutor(1) as pool:
-        slow = pool.submit(small.send, "trajectory", SLOW, XLSX_TYPE)
-        wait_for(lambda: slow.done() or sample(url, running) == 1.0)
-        assert not slow.done()
-        refused = small.send("trajectory", SLOW, XLSX_TYPE)
-        assert small("trajectory", {"times": [0]})
-        assert small("healthz")
-        assert slow.result().status_code == 200
-    assert_problem(refused, 503)
-    assert int(refused.headers["retry-after"]) >= 7
-    assert small("trajectory", {"times": [0]})
 
 
 def test_an_empty_variable_is_none(monkeypatch: pytest.MonkeyPatch) -> None:

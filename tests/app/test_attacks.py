@@ -36,7 +36,10 @@ def slowest(url: str, name: str) -> float:
     return max(watch.slowest.values())
 
 
-@pytest.mark.parametrize("name", ["deep_brackets", "half_open", "long_thin_dragon", "strange_hosts"])
+@pytest.mark.parametrize(
+    "name",
+    ["deep_brackets", "half_open", "long_jobs", "long_names", "long_thin_dragon", "names_twice", "strange_hosts"],
+)
 def test_another_client_is_answered_meanwhile(attacked: str, name: str) -> None:
     assert slowest(attacked, name) > 0.0
 

@@ -96,18 +96,6 @@ def test_a_reader_has_a_limit_and_is_the_first_to_end(service: Service) -> None:
     assert 'bench_dragon_reader_memory_bytes_bucket{le="5e+08"}' in metrics
 
 
-@pytest.mark.thorough
-def test_files_have_places_of_their_own(tmp_path: Path) -> None:
-    slow = b"0\nSECTION\n2\nENTITIES\n" + b"0\nPOINT\n10\n0\n20\n0\n" * 150_000 + b"0\nENDSEC\n0\nEOF\n"
-    with serving(tmp_path / "log", readers_max=1) as service, ThreadPoolExecutor() as threads:
-        clients = [threads.submit(sent, service, "places", slow) for _ in range(3)]
-        assert httpx.get(f"{service.url}/collision-time", timeout=120).status_code == 200
-        answers = [client.result() for client in clients]
-    refused = max(answers, key=lambda answer: answer.status_code)
-    assert refused.status_code == 503
-    assert int(refused.headers["retry-after"]) >= 1
-
-
 # -- readers by themselves ----------------------------------------------------------------------------------
 
 

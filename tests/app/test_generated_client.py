@@ -17,7 +17,6 @@ from typing import Any, get_args
 import httpx
 import numpy as np
 import pytest
-from attrs import evolve
 
 from app.questions.registry import CALLS, QUESTIONS
 from app.service.examples import EXAMPLES
@@ -132,11 +131,3 @@ def test_the_table_of_a_sweep_comes_back_as_its_bytes(own: Any, client: httpx.Cl
     body = {"question": "collision_time", "over": {"pitch": [0.5, 0.6]}, "request": {"benches": 30}}
     job = finished(own, client, body | {"accept": "application/vnd.apache.parquet"}, "sweep")
     assert result(own, job).startswith(b"PAR1")
-
-
-def test_the_result_of_a_failed_job_comes_back_as_its_problem(own: Any, client: httpx.Client) -> None:
-    job = finished(own, client, {"question": "collision_time", "request": {"overhang": 2.0}})
-    problem = call("jobs", "job_result").sync(job, client=own)
-    assert (problem.status, problem.errors[0].name) == (422, "overhang")
-    strict = evolve(own, raise_on_unexpected_status=True)  # of a status that the description does not list
-    assert call("jobs", "dismiss_job").sync_detailed(job, client=strict).status_code == 204

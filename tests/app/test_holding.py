@@ -163,20 +163,16 @@ def get(service: Service, path: str, host: str | None = "x") -> bytes:
 @pytest.mark.parametrize(
     ("target", "path", "status"),
     [
-        ("http://service:80/healthz", "/healthz", 200),
         ("HTTPS://service/turn?pitch=1.7", "/turn?pitch=1.7", 200),
         ("http://service", "/", 200),
-        ("http://service/paper%2F", "/paper%2F", 404),
         ("http:///healthz", "http:///healthz", 404),
     ],
 )
 def test_a_target_in_absolute_form_is_that_in_origin_form(held: Service, target: str, path: str, status: int) -> None:
     """Without the setting below any host is served."""
-    heads, bodies = zip(
-        *(get(held, place, "any.example").split(b"\r\n\r\n", 1) for place in (target, path)), strict=True
-    )
-    assert heads[0].startswith(f"HTTP/1.1 {status} ".encode())
-    assert bodies[0] == bodies[1]
+    answers = [get(held, place, "any.example") for place in (target, path)]
+    assert answers[0].startswith(f"HTTP/1.1 {status} ".encode())
+    assert answers[0].partition(b"\r\n\r\n")[2] == answers[1].partition(b"\r\n\r\n")[2]
 
 
 @pytest.mark.parametrize("workers", [1, pytest.param(2, marks=pytest.mark.thorough)])
@@ -206,44 +202,12 @@ def test_who_asks_for_another_host_is_refused_where_a_setting_names_the_hosts(tm
         assert statuses(f"http://dance.example:{port}/turn", "evil.example") == {200}
 
 
-@pytest.mark.parametrize("path", ["/trajectory", "/check", "/overlaps", "/figures/trajectory.svg"])
-def test_half_a_character_or_nul_is_refused(held: Service, path: str) -> None:
-    for text in (r'{"\ud800":1}', r'{"dragon":{"a\u0000":1}}', r'{"path":{"kind":"\udc00"}}', r'["\u0000"]'):
-        answer = httpx.post(held.url + path, content=text, headers={"Content-Type": "application/json"})
-        assert (answer.status_code, answer.headers["content-type"]) == (422, PROBLEM)
-
-
-def named(name: str) -> dict[str, Any]:
-    """A request with a venue of this name."""
-    return {"venue": {"type": "Feature", "properties": {"name": name}, "geometry": SQUARE}}
-
-
-@pytest.mark.parametrize("name", ["a$\\frac{$", "$$", "<&>", "龙", "_^{}"])
+@pytest.mark.parametrize("name", ["a$\\frac{$", "<&>", "龙", "_^{}"])
 def test_a_name_is_drawn_as_it_is(held: Service, name: str) -> None:
-    answer = httpx.post(f"{held.url}/figures/trajectory.svg", json=named(name), timeout=SOON).raise_for_status()
+    venue = {"type": "Feature", "properties": {"name": name}, "geometry": SQUARE}
+    answer = httpx.post(f"{held.url}/figures/trajectory.svg", json={"venue": venue}, timeout=SOON).raise_for_status()
     # matplotlib writes every text of a figure into a comment beside its outlines.
     assert any(escape(name) in comment for comment in re.findall("<!--(.*?)-->", answer.text, re.DOTALL))
-
-
-@pytest.mark.parametrize("name", ["x" * 201, "a\u0007", "a\nb"])
-def test_a_name_is_one_line_of_plain_text(held: Service, name: str) -> None:
-    answer = httpx.post(f"{held.url}/check", json=named(name))
-    assert answer.status_code == 422
-    assert answer.json()["errors"][0]["pointer"] == "/venue/properties/name"
-
-
-def test_a_problem_is_short_and_one_about_a_query_speaks_of_no_body(held: Service) -> None:
-    with httpx.Client(base_url=held.url) as client:
-        answers = [
-            client.post("/trajectory", json={f"{'n' * 1000}{k}": 1 for k in range(90)}),
-            client.post("/trajectory", json={"x" * 1_000_000: 1}),
-            client.post("/check", json={"venue": {"type": "x" * 1_000_000}}),
-            client.get("/turn?" + "&".join(f"n{k}=1&n{k}=1" for k in range(400))),
-            client.get("/turn?" + "&".join(f"n{k}=1" for k in range(150))),
-        ]
-    assert [answer.status_code for answer in answers] == [422] * 5
-    assert max(len(answer.content) for answer in answers) < 20_000
-    assert "body" not in answers[-1].text
 
 
 @contextmanager
@@ -284,29 +248,23 @@ def test_who_finds_no_place_for_heavy_work_hears_when_to_come_again_and_others_p
 
 @pytest.mark.thorough
 def test_by_default_one_client_cannot_take_all_places(tmp_path: Path) -> None:
-    """Of two heavy places, of two for files, and of two for large bodies."""
+    """Of two for files, and of two for large bodies."""
     text, large = b"word " * 3_999_000, b'{"pitch": [' + b"0," * 1_900_000
-    with serving(tmp_path / "log", heavy_max=2, large_bodies_max=2, parts_max=10**8) as service:
-        with client_at("127.0.0.1") as client, client_at("127.0.0.2") as other, working(service, "127.0.0.1"):
-            assert client.get(service.url + HEAVY).status_code == 429
-            assert other.get(f"{service.url}/maximum-head-speed?benches=20").status_code == 200
 
-        def post(address: str, path: str, kind: str, body: bytes) -> int:
-            with client_at(address, ANSWER_TIMEOUT) as client:
-                return client.post(service.url + path, content=body, headers={"Content-Type": kind}).status_code
+    def post(address: str, call: str, kind: str, body: bytes) -> int:
+        with client_at(address, ANSWER_TIMEOUT) as client:
+            return client.post(call, content=body, headers={"Content-Type": kind}).status_code
 
-        for lane, *call in (
+    with serving(tmp_path / "log", large_bodies_max=2, parts_max=10**8) as service, ThreadPoolExecutor() as threads:
+        for lane, path, *file in (
             ("file", "/grade", "application/octet-stream", text),
             ("large body", "/check", "application/json", large),
         ):
-            with ThreadPoolExecutor() as threads:
-                mine = [threads.submit(post, "127.0.0.1", *call) for _ in range(4)]
-                none = f'refused_total{{lane="{lane}"}} 0.0'
-                until(lambda none=none: none not in metrics(service))
-                theirs = threads.submit(post, "127.0.0.2", *call).result()
-            statuses = {each.result() for each in mine}
-            assert {429} <= statuses <= {200, 400, 422, 429}
-            assert theirs in {200, 400, 422}
+            mine = [threads.submit(post, "127.0.0.1", service.url + path, *file) for _ in range(4)]
+            none = f'refused_total{{lane="{lane}"}} 0.0'
+            until(lambda none=none: none not in metrics(service))
+            assert post("127.0.0.2", service.url + path, *file) in {200, 400, 422}
+            assert {429} <= {each.result() for each in mine} <= {200, 400, 422, 429}
 
 
 @pytest.mark.parametrize("accept", ["*/*", CSV_TYPE])
@@ -316,10 +274,8 @@ def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held: Service, accept: s
         return httpx.post(f"{held.url}/trajectory", json=body, headers={"Accept": accept, **headers}, timeout=SOON)
 
     simple, zipped = answer(**{"Accept-Encoding": "identity"}), answer(**{"Accept-Encoding": "gzip"})
-    assert "content-encoding" not in simple.headers
-    assert zipped.headers["content-encoding"] == "gzip"
-    assert simple.content == zipped.content
-    assert simple.headers["etag"] != zipped.headers["etag"]
+    assert ("content-encoding" in simple.headers, zipped.headers["content-encoding"]) == (False, "gzip")
+    assert (simple.content, simple.headers["etag"] != zipped.headers["etag"]) == (zipped.content, True)
     assert answer(**{"If-None-Match": zipped.headers["etag"]}).status_code == 304
 
 
@@ -339,8 +295,7 @@ def test_a_request_keeps_its_name_and_the_log_has_it(held: Service) -> None:
 
 
 def test_a_long_path_is_cut_in_the_log(held: Service) -> None:
-    path = "/" + "a" * 60_000
-    assert httpx.get(held.url + path).status_code == 404
+    assert httpx.get(f"{held.url}/{'a' * 60_000}").status_code == 404
     until(lambda: "aaa... (60001 characters)" in held.log.read_text())
     assert max(map(len, held.log.read_text().splitlines())) < 5_000
 
@@ -420,10 +375,8 @@ def test_figures_whose_clients_leave_keep_no_file_open_in_each_thread(tmp_path: 
         with ThreadPoolExecutor(24) as clients:
             list(clients.map(leave, range(240)))
         until(lambda: httpx.get(figure, timeout=SOON).status_code == 200)
-        files = [file.path for file in psutil.Process(service.process.pid).open_files()]
-        fonts = [name for name in files if name.endswith(".ttf")]
-        assert fonts
-        assert len(fonts) == len(set(fonts))
+        files = [file.path for file in psutil.Process(service.process.pid).open_files() if file.path.endswith(".ttf")]
+        assert len(files) == len(set(files)) > 0
 
 
 @pytest.mark.thorough

@@ -50,12 +50,6 @@ def other_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     return os.pathsep.join([".", str(other), str(library), ""])
 
 
-def test_an_empty_folder_of_the_search_path_is_the_current_one(other_program: str) -> None:
-    library = other_program.split(os.pathsep)[2]
-    done = run("collision-time", "--benches", "3", "--json", PYTHONPATH=os.pathsep + library)
-    assert (done.returncode, done.stderr) == (0, "")
-
-
 @pytest.mark.parametrize(
     "words", ["--version", "collision-time --benches 3 --json", "check --benches 3 --json", "no-such-command"]
 )

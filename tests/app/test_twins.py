@@ -87,8 +87,8 @@ def test_only_a_question_without_a_dragon_is_asked_one_way_alone() -> None:
 def test_both_ways_of_asking_have_one_answer(client: httpx.Client, question: Question) -> None:
     flat = {name: VALUES[name] for name in question.flat.model_fields if name in VALUES}
     path = question.path.format(format="svg")
-    over_query, over_body = client.get(path, params=flat), client.post(path, json=in_body(question, flat))
-    assert over_query.status_code == over_body.status_code == 200
+    over_query = client.get(path, params=flat).raise_for_status()
+    over_body = client.post(path, json=in_body(question, flat))
     assert over_query.content == over_body.content
     assert over_query.headers["content-type"] == over_body.headers["content-type"]
 
@@ -110,10 +110,8 @@ def test_a_job_has_the_answer_of_its_call(client: httpx.Client, asked: tuple[Que
     assert job.json()["processID"].removesuffix("_of") == asked[0].name
     address = job.headers["location"]
     client.get(f"{address}/events").raise_for_status()  # Its events end when it is finished.
-    later, at_once = client.get(f"{address}/result"), client.post(path, json=body)
-    assert later.status_code == at_once.status_code == 200
-    assert later.content == at_once.content
-    assert later.headers["content-type"] == at_once.headers["content-type"]
+    later, at_once = client.get(f"{address}/result").raise_for_status(), client.post(path, json=body)
+    assert (later.content, later.headers["content-type"]) == (at_once.content, at_once.headers["content-type"])
 
 
 @pytest.mark.parametrize("asked", [one for one in BODIES if COMMANDS.get(one[0].name) in MODULE_OF], ids=label)
@@ -134,20 +132,18 @@ def test_a_command_with_options_prints_the_answer_of_the_call(ask: Asking, call:
 
 
 @pytest.mark.parametrize("name", [name for name, question in QUESTIONS.items() if question.several])
-def test_several_dances_are_described_beside_one_and_null_stands_for_one(
-    ask: Asking, client: httpx.Client, name: str
-) -> None:
+def test_several_dances_are_described_beside_one_and_null_stands_for_one(ask: Asking, name: str) -> None:
     question = QUESTIONS[name]
-    operation = ask("openapi.json")["paths"][question.path]["post"]
+    call, operation = question.path[1:], ask("openapi.json")["paths"][question.path]["post"]
     schema = operation["responses"]["200"]["content"]["application/json"]["schema"]
-    models = [question.model.__name__, question.several.__name__] if question.model and question.several else []
+    models = [model.__name__ for model in (question.model, question.several) if model]
     assert [one["$ref"].rpartition("/")[2] for one in schema["anyOf"]] == models
     whole = dance(5, (0, 0), (30, 0))
-    assert ask.file(question.path[1:], whole | {"dances": None}) == ask.file(question.path[1:], whole)
+    assert ask.file(call, whole | {"dances": None}) == ask.file(call, whole)
     # The answer is kept by its values, which are the same with a default.
-    ask(question.path[1:], TWO)
+    ask(call, TWO)
     for field in {"dragon", "path", "head_speed", "passages", "beats"} & question.body.model_fields.keys():
-        ask.refuses(f"/{field}", question.path[1:], TWO | {field: question.body().model_dump(mode="json")[field]})
+        ask.refuses(f"/{field}", call, TWO | {field: question.body().model_dump(mode="json")[field]})
 
 
 def test_a_circle_ends_the_dance_where_a_time_would(ask: Asking) -> None:

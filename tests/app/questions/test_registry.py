@@ -24,6 +24,12 @@ TWO = {"dances": [dance(5, *EAST, name="east"), dance(5, *NORTH, delay=LATE)]}
 RING = {"kind": "arc", "centre": [0, 0], "radius": 5, "start_angle": 0, "sweep": 7}
 WOBBLE = {"lateral": 0.02, "forward": 0.005, "correlation_time": 4.0, "step": 0.5, "hole": 0.055, "pin": 0.05}
 YARD = (0, 0, 24, 20)
+# Its head folds on its circle: below some pitch only single ones are proven.
+FOLDING = {"benches": 14, "head_length": 2.21, "body_length": 1.47, "width": 0.06, "overhang": 0.12}
+PITCH = (
+    "pitch pitch_bracket limited_by benches bench justified_by proven_from proven_up_to scan_step "
+    "other_feasible_intervals"
+)
 # The first and the third cross in the middle of both.
 PLACES = [(0.0, 0.0, 0.0), (9.0, 9.0, 0.0), (0.2, 0.1, math.pi / 2), (0.6, 1.3, 0.3)]
 
@@ -31,6 +37,10 @@ PLACES = [(0.0, 0.0, 0.0), (9.0, 9.0, 0.0), (0.2, 0.1, math.pi / 2), (0.6, 1.3, 
 def two() -> Performance:
     ways = [Route([Waypoints(points)]) for points in (EAST, NORTH)]
     return Performance([Part(Dance(Dragon(5), ways[0]), name="east"), Part(Dance(Dragon(5), ways[1]), LATE)])
+
+
+def columns(motion: core.Trajectory) -> tuple[Any, Any, Any]:
+    return motion.position[..., 0], motion.position[..., 1], motion.speed
 
 
 def venue(left: float, low: float, right: float, high: float) -> Venue:
@@ -53,6 +63,27 @@ REQUESTS: dict[str, tuple[dict[str, Any], Callable[[], Any], str]] = {
         {"dragon": ODD, "path": line(*WINDING), "head_speed": 2, "margin": 0.1},
         lambda: core.first_contact(ODD_DANCE, margin=0.1, start=ODD_DANCE.begin),
         "outcome time time_bracket benches gap point head end certificate.clear_until certificate.claim",
+    ),
+    "collision-time that does not come": (
+        {"dragon": {"benches": 40}, "path": {"pitch": 1.7}},
+        lambda: core.first_contact(Dance(Dragon(40), Spiral(1.7))),
+        "outcome time benches end.reason end.time end.bench",
+    ),
+    "collision-time at the start": (
+        {"dragon": {"benches": 60}, "path": {"pitch": 0.25, "start_turns": 8}},
+        lambda: {"cross_check": core.contact_check(core.first_contact(Dance(Dragon(60), Spiral(0.25, 8.0))))},
+        "cross_check.agree cross_check.engines cross_check.together cross_check.judged",
+    ),
+    "trajectory": (
+        {"dragon": {"benches": 40}, "path": {"pitch": 0.5, "start_turns": 8}, "times": [10, 20.5]},
+        lambda: dict(zip(("x", "y", "speed"), columns(core.trajectory(CLOSE, [10.0, 20.5])), strict=True)),
+        "x y speed",
+    ),
+    "minimum-pitch": ({"dragon": {"benches": 30}}, lambda: core.minimum_pitch(Dragon(30)), PITCH),
+    "minimum-pitch of a dragon that folds": (
+        {"dragon": FOLDING, "turning_diameter": 1.7, "start_turns": 5},
+        lambda: core.minimum_pitch(Dragon(**FOLDING), turning_radius=0.85, start_turns=5.0),
+        PITCH,
     ),
     "encounter": (
         TWO | {"margin": 0.1},

@@ -15,8 +15,6 @@ from tests.support.serving import Service, sample
 
 # Minutes of work.
 HEAVY = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0}
-# At this pitch two benches graze to 1e-10 m, which takes exact decimals.
-GRAZE = {"pitch": 0.45033739302602777}
 # More than a small body: the service reads it in a thread of its own.
 LONG_BODY = {
     "dragon": {
@@ -84,22 +82,6 @@ def test_a_computation_ends_when_its_client_is_gone(patient: str, name: str) -> 
         connection.request(request.method, request.url.raw_path.decode(), request.read(), dict(request.headers))
         wait_for(lambda: sample(patient, RUNNING) == 1.0)
     wait_for(lambda: (sample(patient, GONE), sample(patient, RUNNING)) == (before + 1.0, 0.0))
-
-
-def test_a_client_that_waits_is_answered(patient: str) -> None:
-    """The watch ends no computation of a client that is there, also of one that has asked before."""
-    with httpx.Client(base_url=patient, timeout=PATIENCE) as client:
-        times = {client.get("/collision-time", params={"benches": benches}).json()["time"] for benches in (40, 60, 223)}
-        assert client.post("/trajectory", json={"times": {"stop": 3}}).status_code == 200
-    assert None not in times
-
-
-def test_what_takes_longer_than_expected_is_answered_all_the_same(patient: str) -> None:
-    """The event loop gives up, and a thread answers to the last digit."""
-    with httpx.Client(base_url=patient, timeout=PATIENCE) as client:
-        got = client.get("/collision-time", params=GRAZE | {"cross_check": "none"})
-        body = {"path": {"kind": "spiral"} | GRAZE, "cross_check": "none"}
-        assert client.post("/collision-time", json=body).json() == got.raise_for_status().json()
 
 
 @pytest.mark.thorough

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 import httpx
 import pytest
 from fastapi import FastAPI
 from prometheus_client import CollectorRegistry
 
+from app.files.tables import XLSX_TYPE
 from app.service import routes
 from app.service.lanes import Lanes
 from app.service.main import create_app
+from app.service.problems import Refused
 from app.service.short_tries import SHORT
 from app.settings import Settings
 from app.wire.question import JSON, UNKNOWN_COST, Answer, Question, Terms, Wire, calls_of
@@ -147,6 +149,15 @@ def test_what_goes_on_for_longer_ends_where_no_place_is_free(app: FastAPI) -> No
         assert (answer.status_code, running(app, "cheap"), running(app, "heavy")) == (503, 0.0, 1.0)
     assert "limit of 1 heavy computation at once" in answer.json()["detail"]
     assert (counting.estimated, counting.computed) == (1, 2)
+
+
+def test_workbooks_have_places_of_their_own() -> None:
+    lanes = create_app(Settings(workbooks_max=1, retry_after=7)).state.lanes
+    with ExitStack() as places, pytest.raises(Refused) as refused:
+        for cost, form in ((0.0, XLSX_TYPE), (0.0, JSON), (UNKNOWN_COST, JSON), (0.0, XLSX_TYPE)):
+            places.enter_context(lanes.place(cost, form, ""))
+    assert "workbook" in refused.value.detail
+    assert (refused.value.status_code, int((refused.value.headers or {})["Retry-After"]) >= 7) == (503, True)
 
 
 def running(app: FastAPI, lane: str) -> float:

@@ -132,6 +132,8 @@ PARTS = {
     "FLAT": '{"type": "Polygon", "coordinates": [[[0, 0], [9, 9], [9, 0], [0, 9], [0, 0]]]}',
     "DEGREES": '{"type": "Polygon", "coordinates": [[[120, 28], [120.001, 28], [120.001, 28.001], [120, 28]]]}',
     "SWAPPED": '{"type": "Polygon", "coordinates": [[[28, 120], [28, 120.001], [28.001, 120.001], [28, 120]]]}',
+    "WITHIN": '"venue": {"type": "Polygon", "coordinates"',
+    "NAMED": '{"type": "Feature", "geometry": YARD, "properties": {"name"',
     "RING": '"coordinates": "degrees", "venue": {"type": "Polygon", "coordinates"',
     "SYSTEM": '"venue": {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]], "crs"',
     "TABLE": '"name;length;width;overhang\\nZhou;3,41;x;0,275\\n"',
@@ -276,6 +278,46 @@ BODIES = {
     'check {SYSTEM: {"type": "name", "properties": {}}}}': "/venue/crs",
     "check {SYSTEM: 4326}}": "/venue/crs",
     "check {SYSTEM: []}}": "/venue/crs",
+    'check {SYSTEM: {"type": "name", "properties": {"name": "EPSG:43260"}}}}': "/venue/crs CRS84 EPSG:43260",
+    'check {"coordinates": "degrees", SYSTEM: {"type": "name", "properties": {"name": "EPSG:3857"}}}}': "/coordinates",
+    'check {"coordinates": "metres", SYSTEM: {"type": "name", "properties": {"name": "EPSG:4326"}}}}': "/coordinates",
+    'check {"venue": {"type": "FeatureCollection", "features": [{"type": "Feature", "crs": {}, "geometry": YARD}]}}': (
+        "/venue/features/0/crs venue.crs"
+    ),
+    'check {"venue": {"type": "GeometryCollection", "geometries": [{"crs": {}}]}}': "/venue/geometries/0/crs venue.crs",
+    'check {"venue": {"type": "FeatureCollection", "features": [{"type": "Feature", "geometry": {"crs": 1}}]}}': (
+        "/venue/features/0/geometry/crs venue.crs"
+    ),
+    "check {WITHIN: [[[0, 0], [3.4, 0], [3.4, 3.4], [0, 3.4], [0, 0]]]}}": "/venue longitude latitude",
+    "check {WITHIN: [[[-180, -90], [-178, -90], [-178, -88], [-180, -90]]]}}": "/venue longitude latitude",
+    'check {"venue": {"type": "GeometryCollection", "geometries": [DEGREES, YARD]}}': "/venue longitude latitude",
+    'check {"venue": []}': "/venue",
+    'check {"venue": {"type": "Polygon"}}': "/venue/coordinates",
+    "check {WITHIN: []}}": "/venue/coordinates",
+    "check {WITHIN: [3]}}": "/venue/coordinates/0",
+    "check {WITHIN: [[[0, 0], [1, 0], 5]]}}": "/venue/coordinates/0/2",
+    "check {WITHIN: [[[0, 0], [1], [1, 1], [0, 0]]]}}": "/venue/coordinates/0/1",
+    "check {WITHIN: [[[0, 0], [1, NaN], [1, 1], [0, 0]]]}}": "/venue/coordinates/0/1/1",
+    "check {WITHIN: [[[0, 0], [2e5, 0], [1, 1], [0, 0]]]}}": "/venue/coordinates/0/1/0",
+    "check {WITHIN: [[[0, 0], [9, 0], [9, 9]]]}}": "/venue closed",
+    "check {WITHIN: [[]]}}": "/venue/coordinates/0",
+    'check {"venue": {"type": "GeometryCollection", "geometries": [{"type": "Polygon", "coordinates": [[]]}, YARD]}}': (
+        "/venue/geometries/0/coordinates/0"
+    ),
+    'check {"venue": {"type": "FeatureCollection", "features": []}}': "/venue",
+    'check {"venue": {"type": "FeatureCollection", "features": [{"type": "Feature", "geometry": null}]}}': (
+        "/venue/features/0/geometry"
+    ),
+    'check {"venue": {"type": "FeatureCollection", "features": [NAMED: 7}}, NAMED: "a"}}]}}': (
+        "/venue/features/0/properties/name"
+    ),
+    'check {"venue": {"type": "FeatureCollection", "features": [NAMED: "a"}}, NAMED: "a"}}]}}': "/venue",
+    'check {"venue": {"type": "FeatureCollection", "features": [NAMED: "a\\nb"}}]}}': (
+        "/venue/features/0/properties/name line"
+    ),
+    f'check {{"venue": {{"type": "FeatureCollection", "features": [NAMED: "{"x" * 201}"}}}}]}}}}': (
+        "/venue/features/0/properties/name 200"
+    ),
     'check {"coordinates": "metres"}': "/coordinates metres",
     'check {"coordinates": "degrees"}': "/coordinates degrees",
     'figures/trajectory.svg {"coordinates": "degrees"}': "/coordinates degrees",
