@@ -19,6 +19,8 @@ from core import Dance, Dragon, Spiral, Turn, trajectory
 Floats = np.ndarray[Any, np.dtype[np.float64]]
 # Positions (T, 224, 2) [m] and speeds (T, 224) [m/s].
 Results = tuple[Floats, Floats]
+# Ends of the stretch where a handle is, by the distance of the one before from the centre and the usual ends [m].
+Elsewhere = Callable[[Floats, Floats, Floats], tuple[Floats, Floats]]
 # Rows of sheets by their titles.
 Sheets = dict[str, list[list[Any]]]
 SPIRAL_TIMES, TURN_TIMES = np.arange(301.0), np.arange(-100.0, 101.0)
@@ -41,8 +43,9 @@ def turn(times: Floats = TURN_TIMES, dragon: Dragon | None = None, **path: float
     return of(Dance(dragon or Dragon(), Turn(1.7, **path)), times)
 
 
-def arc(theta: float) -> float:
-    return 0.5 * B * (theta * math.hypot(1.0, theta) + math.asinh(theta))
+def arc(theta: Any) -> Any:
+    """Arc length of the contest's spiral from its centre [m]."""
+    return 0.5 * B * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
 
 
 def head_at(theta_of: Callable[[float], float]) -> Results:
@@ -66,18 +69,7 @@ def steady_angle() -> Results:
 def equal_arcs() -> Results:
     """Every handle is a chord's length behind the one before along the path, instead of in a straight line."""
     back = np.concatenate([[0.0], np.cumsum(Dragon().chords)])
-    position = np.empty((301, 224, 2))
-    # One table of arc lengths serves all times, because the body follows the head.
-    reach = np.linspace(0.1, 1.2 * math.sqrt(2.0 * (arc(START) + back[-1]) / B), 400_000)
-    arcs = 0.5 * B * (reach * np.hypot(1.0, reach) + np.arcsinh(reach))
-    for t in range(301):
-        theta = np.interp(arc(START) - t + back, arcs, reach)
-        for _ in range(3):
-            theta -= (0.5 * B * (theta * np.hypot(1.0, theta) + np.arcsinh(theta)) - (arc(START) - t + back)) / (
-                B * np.hypot(1.0, theta)
-            )
-        position[t] = B * theta[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
-    return position, np.ones((301, 224))
+    return np.asarray(Spiral().position(SPIRAL_TIMES[:, None] - back)), np.ones((301, 224))
 
 
 def mirrored(results: Results) -> Results:
@@ -119,19 +111,13 @@ def on_line() -> Results:
     position, speed = spiral()
     beyond = is_outside(position)
     back = np.array([math.cos(math.atan(START)), math.sin(math.atan(START))])
-    for t in range(len(position)):
-        first = int(beyond[t].argmax()) if beyond[t].any() else 224
-        start = np.array([8.8, 0.0])
-        for k in range(first, 224):
-            chord = Dragon().chords[k - 1]
-            if k == first:
-                away = start - position[t, k - 1]
-                across = back @ away
-                position[t, k] = start + (-across + math.sqrt(across**2 - away @ away + chord**2)) * back
-            else:
-                position[t, k] = position[t, k - 1] + chord * back
-            speed[t, k] = 1.0
-    return position, speed
+    for row, is_beyond in zip(position, beyond, strict=True):
+        for k in np.flatnonzero(is_beyond).tolist():
+            start = row[k - 1] if is_beyond[k - 1] else np.array([8.8, 0.0])
+            away = start - row[k - 1]
+            across = back @ away
+            row[k] = start + (-across + math.sqrt(across**2 - away @ away + Dragon().chords[k - 1] ** 2)) * back
+    return position, np.where(beyond, 1.0, speed)
 
 
 def bisected(excess: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
@@ -144,45 +130,41 @@ def bisected(excess: Callable[[Floats], Floats], low: Floats, high: Floats) -> F
     return high
 
 
-def wrong_ring(handle: int) -> Results:
-    """One handle takes the next root of the chord equation; those behind it follow on that ring."""
-    right = spiral()
-    theta = np.hypot(right[0][..., 0], right[0][..., 1]) / B
-    for k, chord in enumerate(Dragon().chords[handle - 1 :], start=handle):
-        before = theta[:, k - 1]
-
-        def excess(delta: Floats, before: Floats = before, chord: float = chord) -> Floats:
-            after = before + delta
-            return before**2 + after**2 - 2.0 * before * after * np.cos(delta) - (chord / B) ** 2
-
-        ends = (math.pi, 2.0 * math.pi) if k == handle else (1e-6, 1.5)
-        theta[:, k] = before + bisected(excess, *(np.full(before.shape, end) for end in ends))
-    position = B * theta[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
-    return position, right[1]
-
-
-def wrong_coil(handle: int, times: Floats) -> Results:
-    """One handle is on the other coil while the one before it is outside the turn; those behind it follow it."""
-    path, (position, speed) = Turn(1.7), turn(times)
-    growth, s = 1.7 / (2.0 * math.pi), times
-    position = position.copy()
+def strayed(path: Spiral | Turn, results: Results, times: Floats, handle: int, elsewhere: Elsewhere) -> Results:
+    """Right results but for one handle, which is elsewhere on the path; those behind it follow it."""
+    position, s = results[0].copy(), times
     for k, chord in enumerate(Dragon().chords, start=1):
         point = position[:, k - 1]
 
         def excess(u: Floats, point: Floats = point, chord: float = chord) -> Floats:
             return np.linalg.norm(path.position(u) - point, axis=-1) - chord
 
-        low, high = s - 1.6 * chord, s - 0.9 * chord
-        if k == handle:
-            # In the same direction from the centre the other coil is half a ring further out.
-            theta = np.linalg.norm(point, axis=-1) / growth + math.pi
-            first = 4.5 / growth
-            outside = [0.5 * growth * (t * np.hypot(1.0, t) + np.arcsinh(t)) for t in (theta, first)]
-            near = path.length + outside[0] - outside[1]
-            low, high = np.where(s < -3.0, near + 2.5, low), np.where(s < -3.0, near, high)
-        s = bisected(excess, low, high)
+        ends = s - 1.6 * chord, s - 0.9 * chord
+        s = bisected(excess, *(elsewhere(np.linalg.norm(point, axis=-1), *ends) if k == handle else ends))
         position[:, k] = path.position(s)
-    return position, speed
+    return position, results[1]
+
+
+def wrong_ring(handle: int) -> Results:
+    """One handle takes the next root of the chord equation, half a turn to a turn behind the one before."""
+
+    def elsewhere(radius: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+        return arc(START) - arc(radius / B + 2.0 * math.pi), arc(START) - arc(radius / B + math.pi)
+
+    return strayed(Spiral(), spiral(), SPIRAL_TIMES, handle, elsewhere)
+
+
+def wrong_coil(handle: int, times: Floats) -> Results:
+    """One handle is on the other coil while the one before it is outside the turn."""
+    path, growth = Turn(1.7), 1.7 / (2.0 * math.pi)
+
+    def elsewhere(radius: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+        # In the same direction from the centre the other coil is half a ring further out.
+        near = path.length + growth / B * (arc(radius / growth + math.pi) - arc(4.5 / growth))
+        is_outside = high < -4.5
+        return np.where(is_outside, near + 2.5, low), np.where(is_outside, near, high)
+
+    return strayed(path, turn(times), times, handle, elsewhere)
 
 
 def followed(place: Callable[[Floats], Floats], times: Floats) -> Floats:
