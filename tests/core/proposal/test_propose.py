@@ -67,17 +67,6 @@ def test_a_dance_for_people_who_never_stray_is_proposed_where_it_allows_the_stra
     assert refuted(case, one) == ""
 
 
-@pytest.mark.parametrize("margin", further([0.0, 0.02], 1))
-def test_the_largest_stray_of_a_reason_has_a_dance(margin):
-    def at(stray):
-        return propose(SMALL, Dragon(12), stray=stray, margin=margin, figures=["ring"], count=1)
-
-    reason = at(0.8).reason
-    assert reason.kind is ReasonKind.STRAY
-    assert at(0.999 * reason.have).proposals[0].report.passed
-    assert at(1.1 * reason.have).reason is not None
-
-
 def test_one_figure_gives_several_different_dances_and_the_same_question_the_same_ones():
     first, again = (propose(SMALL, Dragon(6), figures=["ring"], count=3) for _ in range(2))
     dances = [one.dance for one in first.proposals]
