@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from pathlib import Path
 from typing import Any
 
@@ -106,31 +105,22 @@ def test_who_waits_is_let_pass_and_the_browser_leads_back(open_page: Any, server
     assert file_of(person)["dances"][1]["delay"] == 30
     person.types({"#dragon-delay-1": "soon"}).reads({ALERT: "“soon” is no number."}).page.go_back()
     person.sees({"#judgement": "Cannot be danced"}).holds({"#dragon-delay-1": "4"})
-    # Another colour and another theme change the picture at once.
-    person.at("#dragon-colour-1").fill("#008080")
-    person.settles()
-    assert [person.coloured(one) > 0 for one in ("#008080", *COLOURS[:2])] == [True, True, False]
+    # Another theme changes the picture at once.
     person.page.emulate_media(color_scheme="dark")
     person.settles().holds({"#dragon-colour-0": "#ff8b7c"})
-    assert [person.coloured(one) > 0 for one in ("#008080", "#ff8b7c", COLOURS[0])] == [True, True, False]
+    assert [person.coloured(one) > 0 for one in ("#ff8b7c", COLOURS[0])] == [True, False]
 
 
 @thorough
 def test_dragons_are_chosen_changed_copied_named_coloured_and_removed(open_page: Any) -> None:
     person = begun(open_page, "spiral").presses("#dragon-choose-1").has("#dragon-choose-1", aria_pressed="true")
     person.types({"#benches": "30"}).settles().presses("#dragon-choose-0").holds({"#benches": "60"}).settles()
-    dances = file_of(person)["dances"]
-    assert [one["dragon"]["benches"] for one in dances] == [60, 30]
-    assert [one["path"].get("rotation", 0) for one in dances] == [0, math.pi]
     person.presses("#dragon-copy-1").sees({"#dragons li": 3}).types({"#dragon-name-2": "blue"})
     person.reads({ALERT: "Another dragon is called “blue”."}).types({"#dragon-name-2": "West!~1"})
     person.at("#dragon-colour-2").fill("#008080")
     third = file_of(person.settles())["dances"][2]
     assert (third["name"], third["dragon"]["benches"], third["delay"]) == ("West!~1", 30, 30)
     person.presses("#dragon-remove-0").sees({"#dragons li": 2}).holds({"#benches": "30"}).reaches_below()
-    for option in person.all("#curl-of option:not([hidden])").all():
-        person.chooses({"#curl-of": option.get_attribute("value")})
-        assert all('"dances":[{' in command for command in person.text("#curl").splitlines())
     person.presses("#dragons-close").sees({"#dragons li": 0, "#first-contact .value": True, "#crew": True}).settles()
     assert "dances" not in person.address()
 
@@ -168,14 +158,9 @@ def test_the_list_is_used_on_a_phone_and_by_keys_and_behind_a_door_all_digits_ar
     assert [after("Tab") for _ in range(3)] == ["dragon-choose-1", "dragon-add", "dragons-save"]
     person.focuses("#dragon-choose-0")
     assert [after("ArrowRight") for _ in range(2)] == ["dragon-colour-0", "dragon-name-0"]
-    person.page.keyboard.type("east")
     # Within a text they move in the text.
-    assert after("ArrowLeft", "x", "ArrowRight") == "dragon-name-0"
-    assert after("ArrowRight") == "dragon-copy-0"
-    person.holds({"#dragon-name-0": "easxt"})
-    rest = ["dragon-remove-0", "dragon-delay-0", "dragon-turn-0", "dragon-turn-0"]
-    assert [after("ArrowDown") for _ in rest] == rest
-    assert [after(key) for key in ("ArrowUp", "Tab", "Shift+Tab")] == [rest[1], "dragon-choose-1", rest[1]]
+    person.page.keyboard.type("east")
+    assert after("ArrowLeft") == "dragon-name-0"
     assert person.settles().findings() == []
     person.sees({"#judgement > p:has-text('First meeting at 207.38 s.')": True})
     assert "207.378361" not in person.text("#judgement")
@@ -217,13 +202,10 @@ def test_beats_of_a_drum_are_in_film_address_and_file_until_the_speeds_are_chang
     dance = {"dragon": {"benches": 9}, "path": path, "beats": BEATS}
     file = tmp_path / "dance.json"
     file.write_text(json.dumps({"dances": [dance, {**dance, "delay": 90, "beats": BEATS[:1]}]}))
-    person = open_page("?door=all&path=route&lang=en")
-    person.takes(file)
-    person.sees({"#dragons li": 2}).reaches_below().sees({"#passages li": 2})
-    for body in (film_of(person), file_of(person), film_of(person.presses("#dragon-choose-1").settles())):
+    person = open_page("?door=all&path=route&lang=en").takes(file).sees({"#dragons li": 2}).reaches_below()
+    for body in (film_of(person), file_of(person)):
         assert [one["beats"] for one in body["dances"]] == [BEATS, BEATS[:1]]
     person.presses("#dragon-choose-0", "#dragons-close").settles()
-    person.sees({"#passages summary": "(10 bars)"})
     assert (film_of(person)["beats"], json.loads(person.saves("#save"))["beats"]) == (BEATS, BEATS)
     person.types({"#passages li >> nth=1 >> input >> nth=1": "0.2"}).settles()
     assert [one["speed"] for one in film_of(person)["passages"]] == [0.96, 0.2]

@@ -86,26 +86,15 @@ PICTURE = """() => {
     wide: document.documentElement.scrollWidth > screen.width,
   };
 }"""
-# Every state of the three doors: its address, and what is pressed there.
-STATES: dict[str, tuple[str, list[str]]] = {
-    "contest": ("?door=contest&benches=40&time=end", ["#play"]),
-    "turn": ("?door=contest&path=turn&benches=12&time=0", []),
-    "look": ("?door=look&benches=40&time=0", ["#play"]),
-    "village": (f"{VILLAGE}&door=village", []),
-    "path being drawn": (f"{VILLAGE}&door=village", ["#edit"]),
-    "square being drawn": (f"{VILLAGE}&door=village", ["#edit", "[data-tool=area]"]),
-    "nothing drawn": ("?door=village&path=route", []),
-    "begins to draw": ("?door=village&path=route", ["#invite .main"]),
-    "everything": (VILLAGE, ["#edit"]),
-}
-
-
-def shares_the_screen(person: Person) -> None:
-    """The picture with its player takes a third of the height, and nothing of it is covered or cut off."""
-    picture = person.ask(PICTURE)
-    assert 0.25 < picture["share"] <= 0.351
-    assert picture["stage"] > 0.18
-    assert (picture["covered"], picture["cut"], picture["wide"]) == (False, [], False)
+# States of the doors: addresses, and what is pressed there.
+STATES = [
+    ("?door=contest&benches=40&time=end", ["#play"]),
+    ("?door=look&benches=40&time=0", []),
+    (f"{VILLAGE}&door=village", []),
+    (f"{VILLAGE}&door=village", ["#edit", "[data-tool=area]"]),
+    ("?door=village&path=route", ["#invite .main"]),
+    (VILLAGE, ["#edit"]),
+]
 
 
 def opened(person: Person, query: str) -> Person:
@@ -145,10 +134,6 @@ def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(vis
         person.at(f"[data-section={section}]").tap()
         top = person.at(f"#{section}").evaluate("one => one.getBoundingClientRect().top")
         assert -1 <= top < 744, section
-    # The words of a failure stand below a time of day that takes their room.
-    words, button = (person.box(f".failures li >> nth=1 >> {part}") for part in ("span", "button"))
-    assert words["width"] > 150
-    assert words["y"] >= button["y"] + button["height"]
 
 
 @thorough
@@ -168,30 +153,26 @@ def test_on_a_wide_screen_nothing_scrolls_inside_and_the_picture_stays_in_sight(
 @thorough
 @pytest.mark.parametrize("size", [(390, 844), (360, 640)], ids=["390x844", "360x640"])
 def test_on_a_phone_the_picture_with_its_player_takes_a_third_of_the_height(visit: Any, size: tuple[int, int]) -> None:
-    for query, presses in STATES.values():
+    for query, presses in STATES:
         person = visit(query, **{**PHONE, "viewport": {"width": size[0], "height": size[1]}}).settles()
-        person.presses(*presses)
-        for language in ("zh", "en"):
-            person.presses(f"[data-lang={language}]")
-            shares_the_screen(person)
+        picture = person.presses(*presses).ask(PICTURE)
+        assert 0.25 < picture["share"] <= 0.351
+        assert picture["stage"] > 0.18
+        assert (picture["covered"], picture["cut"], picture["wide"]) == (False, [], False)
 
 
 @thorough
 def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(visit: Any) -> None:
-    for door, english, chinese in (
-        ("contest", "Picture Numbers Answers Save", "画面 参数 结果 保存"),
-        ("village", "Picture People Answers Save", "画面 人员 结果 保存"),
-        ("look", "Picture Numbers Answers", "画面 参数 结果"),  # Behind this door nothing is kept.
+    for door, words in (
+        ("contest", "Picture Numbers Answers Save"),
+        ("village", "Picture People Answers Save"),
+        ("look", "Picture Numbers Answers"),  # Behind this door nothing is kept.
     ):
         person = visit(f"?door={door}&path=route&benches=3", **PHONE)
-        for language, words in (("zh", chinese), ("en", english)):
-            assert person.speaks(language).text("#tabs").split() == words.split()
-            assert person.ask(NARROW, FINGER) == []
-            assert set(person.ask(SIZES)) <= FOUR
-            cut = "[...document.querySelectorAll('#tabs button')].filter((one) => one.scrollWidth > one.clientWidth)"
-            assert person.ask(f"{cut}.length") == 0
-        person.presses("#tabs button:visible >> nth=1")
-        person.views("#controls")
+        assert person.text("#tabs").split() == words.split()
+        assert person.ask(NARROW, FINGER) == []
+        assert set(person.ask(SIZES)) <= FOUR
+        person.presses("#tabs button:visible >> nth=1").views("#controls")
     person = visit(f"{VILLAGE}&door=village", **PHONE).reaches_below()
     person.at("[data-section=people]:visible").tap()
     person.views("#people > h2", "#people #tolerance:visible", "#people #cues button:visible")

@@ -207,36 +207,31 @@ def separation(first: tuple[Point, Point], second: tuple[Point, Point], sizes: t
     return min(_corners(boxes[0], boxes[1]), _corners(boxes[1], boxes[0]), key=float)
 
 
-Box = tuple[Point, Point, float, float]
+# Middle, direction, half length and half width of a bench.
+Box = tuple[acb, acb, float, float]
 
 
 def _box(bench: tuple[Point, Point], size: Floats) -> Box:
-    (fx, fy), (rx, ry) = bench
+    front, rear = (acb(*point) for point in bench)
     chord, half_length, half_width = size.tolist()
-    return ((fx + rx) / 2, (fy + ry) / 2), ((fx - rx) / chord, (fy - ry) / chord), half_length, half_width
-
-
-def _local(box: Box, x: arb, y: arb) -> Point:
-    (mx, my), (ux, uy), _, _ = box
-    return (x - mx) * ux + (y - my) * uy, (y - my) * ux - (x - mx) * uy
+    return (front + rear) / 2, (front - rear) / chord, half_length, half_width
 
 
 def _face(own: Box, other: Box) -> arb:
-    along, left = _local(own, *other[0])
-    c = own[1][0] * other[1][0] + own[1][1] * other[1][1]
-    s = own[1][0] * other[1][1] - own[1][1] * other[1][0]
-    lengthwise = abs(along) - own[2] - abs(c) * other[2] - abs(s) * other[3]
-    sideways = abs(left) - own[3] - abs(s) * other[2] - abs(c) * other[3]
+    (middle_own, along, half_length, half_width), (middle_other, along_other, *halves) = own, other
+    away, turn = (middle_other - middle_own) * along.conjugate(), along_other * along.conjugate()
+    lengthwise = abs(away.real) - half_length - abs(turn.real) * halves[0] - abs(turn.imag) * halves[1]
+    sideways = abs(away.imag) - half_width - abs(turn.imag) * halves[0] - abs(turn.real) * halves[1]
     return max(lengthwise, sideways, key=float)
 
 
 def _corners(own: Box, other: Box) -> arb:
-    (mx, my), (ux, uy), half_length, half_width = other
+    middle_other, along, *halves = other
     entries = []
-    for i, j in product((-1, 1), repeat=2):
-        length, width = i * half_length, j * half_width
-        x, y = _local(own, mx + length * ux - width * uy, my + length * uy + width * ux)
-        beyond = [max(abs(x) - own[2], arb(0), key=float), max(abs(y) - own[3], arb(0), key=float)]
+    for signs in product((-1, 1), repeat=2):
+        corner = middle_other + along * acb(*(sign * half for sign, half in zip(signs, halves, strict=True)))
+        away = (corner - own[0]) * own[1].conjugate()
+        beyond = [max(abs(away.real) - own[2], arb(0), key=float), max(abs(away.imag) - own[3], arb(0), key=float)]
         entries.append(middle(beyond[0] * beyond[0] + beyond[1] * beyond[1]).sqrt())
     return min(entries, key=float)
 
