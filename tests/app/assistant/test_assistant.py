@@ -20,8 +20,11 @@ import pytest
 from mcp import Client, MCPError, StdioServerParameters
 
 from app.assistant.guide import PAGES
+from app.questions.check import CheckRequest
+from app.questions.registry import CALLS
 from app.wire.question import BYTES, JSON
 from tests.support import command
+from tests.support.asking import dance
 from tests.support.command import ROOT, bin_folder
 from tests.support.serving import sample, serving
 
@@ -32,7 +35,6 @@ PATIENCE = 120.0  # [s]
 TOKEN = "a token of this test"
 BOOK = WORKBOOK.read_bytes()
 CONTENT = {"content": base64.b64encode(BOOK).decode()}
-LANE = {"kind": "waypoints", "points": [[30, -30], [30, 30]]}
 
 Calls = Callable[[Client], Awaitable[Any]]
 
@@ -59,31 +61,33 @@ def problem_of(result: Any) -> dict[str, Any]:
     return problem
 
 
-ROUTE = {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}]}
-CROSSING = {"dances": [{"dragon": {"benches": 3}, "path": path} for path in (ROUTE, LANE)]}
+CROSSING = {
+    "dances": [dance(3, (0, 0), (60, 0)), dance(3, (30, -30), (30, 30))],
+}
 # A tool with arguments that are refused, and what the refusal must name.
-REFUSED: list[tuple[str, dict[str, Any], str]] = [
-    ("check", CROSSING | {"head_speed": 1}, "head_speed"),
-    ("collision_time", {"pitch": 55}, "10 m"),
-    ("collision_time", {"benches": 10**9}, "benches"),
-    ("collision_time", {"pitsch": 1}, "pitsch"),
-    ("trajectory", {}, "100000 characters"),
-    ("grade", {"file": "../outside.xlsx"}, "../outside.xlsx"),
-    ("grade", {"file": "no.xlsx"}, "no.xlsx"),
-    ("grade", {"file": "."}, "404"),
-    ("grade", {"file": "a\0b"}, "404"),
-    ("grade", {}, "file or content"),
-    ("places", {"content": "?"}, "base64"),
-    ("places", {"content": "龙"}, "base64"),
-    *(("job_status", {"job_id": job}, "") for job in ("../healthz", "?", "a/b")),
-]
+REFUSED = """
+check           {"head_speed": 1, "dances": [{}]}   head_speed
+collision_time  {"pitch": 55}                       10 m
+collision_time  {"benches": 1000000000}             benches
+collision_time  {"pitsch": 1}                       pitsch
+trajectory      {}                                  100000 characters
+grade           {"file": "../outside.xlsx"}         ../outside.xlsx
+grade           {"file": "PARENT/outside.xlsx"}     PARENT/outside.xlsx
+grade           {"file": "no.xlsx"}                 no.xlsx
+grade           {"file": "."}                       404
+grade           {"file": "a\\u0000b"}                404
+grade           {}                                  file or content
+places          {"content": "?"}                    base64
+places          {"content": "龙"}                   base64
+job_status      {"job_id": "../healthz"}            404
+job_status      {"job_id": "?"}                     404
+"""
 
 
 def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path) -> None:
     """ "When do two benches first touch at a pitch of 0.5 m?", "grade this workbook", and wrong units and sizes."""
     (tmp_path / "mine.xlsx").write_bytes(BOOK)
-    outside = tmp_path.parent / "outside.xlsx"
-    outside.write_bytes(b"secret")
+    (tmp_path.parent / "outside.xlsx").write_bytes(b"secret")
     file: dict[str, Any] = {"content": BOOK, "headers": {"Content-Type": BYTES}}
     [graded] = client.post("/grade?language=en", **file).json()["files"]
 
@@ -95,21 +99,17 @@ def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path
             return result.structured_content
 
         assert await answer("collision_time", pitch=0.5) == client.get("/collision-time?pitch=0.5").json()
-        places = await answer("trajectory", dragon={"benches": 3}, path=ROUTE, times=[20])
-        assert len(places["x"][0]) == 4
-        verdict = await answer("check", **CROSSING)
-        assert verdict == client.post("/check", json=CROSSING).json()
-        assert verdict["failures"][0]["dragons"] == [0, 1]
+        assert await answer("check", **CROSSING) == client.post("/check", json=CROSSING).json()
         assert (await answer("grade", language="en", **CONTENT))["files"] == [graded]
         [by_name] = (await answer("grade", language="en", file="mine.xlsx"))["files"]
         assert by_name | {"file": graded["file"]} == graded
         (picture,) = (await door.call_tool("contact_figure", {"benches": 20})).content
         assert (picture.type, picture.mime_type) == ("image", "image/png")
         assert base64.b64decode(picture.data).startswith(PNG)
-        for tool, arguments, words in (*REFUSED, ("grade", {"file": str(outside)}, str(outside))):
-            problem = problem_of(await door.call_tool(tool, arguments))
-            assert problem["status"] in (403, 404, 413, 422)
-            assert words in f"{problem['status']} {problem['detail']}"
+        for row in REFUSED.replace("PARENT", str(tmp_path.parent)).strip().splitlines():
+            tool, arguments, words = re.split(" {2,}", row)
+            problem = problem_of(await door.call_tool(tool, json.loads(arguments)))
+            assert words in f"{problem['status']} {problem['detail']}", row
         with pytest.raises(MCPError, match="nothing is no tool of this door; it has trajectory, collision_time"):
             await door.call_tool("nothing", {})
 
@@ -118,21 +118,19 @@ def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path
 
 def test_every_question_is_a_tool(client: httpx.Client) -> None:
     """Under its operation id, with the schema of its query or of its body; the twins with a body when wanted."""
-    description = client.get("/openapi.json").json()
-    operations = [operation for path in description["paths"].values() for operation in path.values()]
-    calls = {each["operationId"]: each for each in operations if each["tags"][0] not in ("Jobs", "Service")}
+    paths = client.get("/openapi.json").json()["paths"].values()
+    calls = {each["operationId"]: each for path in paths for each in path.values()}
 
     async def tools(door: Client) -> dict[str, Any]:
         return {tool.name: tool.input_schema for tool in (await door.list_tools()).tools}
 
     some, every = with_door(tools), with_door(tools, "--twins")
-    assert calls.keys() <= every.keys()
+    assert CALLS.keys() | {"grade", "places"} <= every.keys()
     assert some.keys() == {name for name in every if not (name.endswith("_of") and name.removesuffix("_of") in every)}
     flat = some["collision_time"]["properties"]
     assert flat.keys() == {parameter["name"] for parameter in calls["collision_time"]["parameters"]}
     assert (flat["pitch"]["maximum"], "[m]" in flat["pitch"]["description"]) == (10, True)
-    request = description["components"]["schemas"]["CheckRequest"]
-    assert some["check"]["properties"].keys() == request["properties"].keys()
+    assert some["check"]["properties"].keys() == CheckRequest.model_fields.keys()
     for schema in every.values():
         text = json.dumps(schema)
         assert "#/components" not in text
