@@ -93,18 +93,6 @@ def test_every_question_is_answered(own: Any, client: httpx.Client, asked: Call)
     assert answer.to_dict() == response.raise_for_status().json()
 
 
-@pytest.mark.parametrize("name", ["trajectory_figure", "maps"])
-def test_a_picture_comes_back_as_its_bytes(own: Any, name: str) -> None:
-    module = call("figures", name)
-    known = importlib.import_module(f"{PACKAGE}.models.{'map_format' if name == 'maps' else 'format_'}")
-    if name == "maps":
-        body = {"dragon": {"benches": 9}, "origin": {"longitude": 8.5, "latitude": 47.4}}
-        form, request, begin = known.MapFormat.KML, with_body(module, body), b"<?xml"
-    else:
-        form, request, begin = known.Format.PNG, {"benches": 9}, b"\x89PNG"
-    assert module.sync_detailed(form, client=own, **request).content.startswith(begin)
-
-
 def test_a_refusal_comes_back_as_a_problem(own: Any) -> None:
     problem = call("questions", "collision_time").sync(client=own, overhang=2.0)
     assert (problem.status, type(problem).__name__) == (422, "Problem")

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-import socketserver
+import re
+import socket
 import subprocess
 import time
 from collections.abc import Iterator
@@ -54,9 +55,7 @@ def place(request: pytest.FixtureRequest, service: JobService) -> list[str]:
 
 def test_a_job_is_listed_shown_answered_and_removed(service: JobService, place: list[str], tmp_path: Path) -> None:
     job = service.done(SHORT).rpartition("/")[2]
-    listed = run("list", *place).stdout
-    assert job in listed
-    assert "successful" in listed
+    assert re.search(rf"{job}.*successful", run("list", *place).stdout)
     assert json.loads(run("show", job, "--json", *place).stdout)["processID"] == "collision_time"
     answer, output = direct(service.client, SHORT), tmp_path / "answer.json"
     assert run("result", job, "--output", str(output), *place).returncode == 0
@@ -69,9 +68,6 @@ def test_a_job_is_listed_shown_answered_and_removed(service: JobService, place: 
 
 @pytest.mark.thorough
 def test_all_jobs_or_the_old_ones_are_cancelled(service: JobService, place: list[str]) -> None:
-    def listed() -> dict[str, str]:
-        return {f"/jobs/{job['jobID']}": job["status"] for job in service.client.get("/jobs").json()["jobs"]}
-
     def cancelled(*options: str) -> tuple[str, ...]:
         """Numbers of jobs dismissed and removed."""
         words = run("cancel", *options, *place).stdout.split()
@@ -80,18 +76,16 @@ def test_all_jobs_or_the_old_ones_are_cancelled(service: JobService, place: list
 
     cancelled("--all")
     cancelled("--all")
-    assert listed() == {}
-    old = service.done(SHORT)
-    created = datetime.fromisoformat(service.status(old)["created"]).timestamp()
+    created = datetime.fromisoformat(service.status(service.done(SHORT))["created"]).timestamp()
     wait_for(lambda: time.time() > created + 2.0)
-    endless, short = service.post(ENDLESS), service.done(SHORT)
+    endless = service.post(ENDLESS)
+    service.done(SHORT)
     assert cancelled("--older-than", "1h") == ("0", "0")
     assert cancelled("--older-than", f"{time.time() - created - 1:.3f}s") == ("0", "1")
-    assert listed().keys() == {endless, short}
     assert cancelled("--all") == ("1", "1")
-    assert listed() == {endless: "dismissed"}
+    [job] = service.client.get("/jobs").json()["jobs"]
+    assert (endless.endswith(job["jobID"]), job["status"]) == (True, "dismissed")
     wait_for(lambda: not service.of("child"))
-    assert list((service.folder / "results").iterdir()) == []
 
 
 @pytest.mark.parametrize("row", WRONG.strip().splitlines())
@@ -105,26 +99,26 @@ def test_what_is_wrong_is_one_line(row: str) -> None:
 @pytest.mark.parametrize(
     ("answer", "words"),
     [
-        (b"HTTP/1.1 200 OK\r\nContent-Length: 13\r\n\r\n<html></html>", "as Bench Dragon does"),
         (b'HTTP/1.1 200 OK\r\nContent-Length: 13\r\n\r\n{"jobs": [{}]}', "as Bench Dragon does"),
         (b"HTTP/1.1 200 OK\r\nContent-Length: 99\r\n\r\n{", "IncompleteRead"),
         (b"HTTP/1.1 520 Odd\r\nContent-Length: 0\r\n\r\n", "520 Odd"),
         (b"SSH-2.0-OpenSSH_9.2\r\n", "SSH-2.0-OpenSSH_9.2"),
         (b"", "Remote end closed connection without response"),
     ],
-    ids=["page", "no_jobs", "broken_off", "odd_status", "no_http", "nothing"],
+    ids=["no_jobs", "broken_off", "odd_status", "no_http", "nothing"],
 )
 def test_an_address_of_something_else_is_refused_in_one_line(answer: bytes, words: str) -> None:
-    class Answering(socketserver.StreamRequestHandler):
-        def handle(self) -> None:
-            while self.rfile.readline().strip():
+    def reply(server: socket.socket) -> None:
+        peer, _ = server.accept()
+        with peer, peer.makefile("rb") as lines:
+            while lines.readline().strip():
                 pass
-            self.wfile.write(answer)
+            peer.sendall(answer)
 
-    with socketserver.TCPServer(("127.0.0.1", 0), Answering) as other, ThreadPoolExecutor() as beside:
-        beside.submit(other.handle_request)
+    with socket.create_server(("127.0.0.1", 0)) as server, ThreadPoolExecutor() as beside:
+        beside.submit(reply, server)
         with pytest.raises(BenchDragonError, match=words) as refused:
-            OfService(f"http://127.0.0.1:{other.server_address[1]}", "").list()
+            OfService(f"http://127.0.0.1:{server.getsockname()[1]}", "").list()
     assert "\n" not in refused.value.message
 
 

@@ -151,10 +151,3 @@ def test_the_figures_of_one_dance_take_several_in_both_languages(
     drawn = texts(ask.file(f"figures/{kind}.svg", request))
     assert words[language] in drawn
     assert "square" in drawn
-
-
-def test_the_command_draws_both_figures_of_several(ask: Asking, tmp_path: Path) -> None:
-    done = run("figures", written(tmp_path, TWO), str(tmp_path), "--format", "svg")
-    assert done.returncode == 0, done.stderr
-    for kind in ("trajectory", "contact"):
-        assert (tmp_path / f"{kind}.svg").read_bytes() == ask.file(f"figures/{kind}.svg", TWO)

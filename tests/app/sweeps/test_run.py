@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
-import psutil
 import pytest
 
 from app.sweeps import shards
@@ -16,7 +13,7 @@ from app.sweeps.processes import CannotStart, Processes
 from app.sweeps.questions import SweepQuestion
 from app.sweeps.run import Progress, missing_shards, run
 from app.sweeps.table import Sweep
-from tests.support.odd_questions import INTERRUPTED, LAND, SLOW, UNANSWERABLE
+from tests.support.odd_questions import INTERRUPTED, LAND, UNANSWERABLE
 from tests.support.refused import refused
 from tests.support.sweeping import assert_undisturbed, grid_of, spec_of
 
@@ -75,28 +72,6 @@ def test_a_sweep_of_one_shard_starts_one_process(tmp_path: Path) -> None:
     engine, pids = Processes(3), set[int]()
     run(grid_of(LAND, 6), tmp_path, question=LAND, engine=lambda: engine, progress=lambda _: pids.update(engine.pids))
     assert len(pids) == 1
-
-
-@pytest.mark.thorough
-def test_killed_workers_change_no_byte_and_no_process_is_left(tmp_path: Path) -> None:
-    spec, engines, chance = grid_of(SLOW, 80, 10), list[Processes](), random.Random(5)
-    killed, pids = set[int](), set[int]()
-
-    def engine() -> Processes:
-        engines.append(Processes(2))
-        return engines[-1]
-
-    def kill(progress: Progress) -> None:
-        alive = [pid for each in engines for pid in each.pids]  # none yet just after the engine has begun
-        pids.update(alive)
-        if alive and len(killed) < 2 and progress.designs >= 20 * len(killed):
-            killed.add(pid := chance.choice(alive))
-            psutil.Process(pid).kill()
-
-    run(spec, tmp_path / "a", question=SLOW, progress=kill, engine=engine)
-    assert (len(killed), len(pids)) == (2, 4)
-    assert not any(map(psutil.pid_exists, pids))
-    assert_undisturbed(tmp_path / "a", spec, replace(SLOW, ask=LAND.ask))
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import pickle
 from pathlib import Path
@@ -42,12 +41,6 @@ def test_each_row_is_the_answer_to_its_request() -> None:
         assert (row["benches.0"], row["benches.1"]) == (answer.benches or (None, None))
         assert row["certificate.steps"] == answer.certificate.steps
         assert "certificate.method" not in row
-
-
-def test_a_body_is_swept_by_dotted_names() -> None:
-    row = rows("check", {"dragon": {"benches": 20}}, {"path.pitch": [0.5, 0.55], "dragon.width": [0.3]})[1]
-    assert (row["path.pitch"], row["verdict"]) == (0.55, "fails")
-    assert json.loads(row["failures"])[0]["kind"] == "contact"
 
 
 def test_a_refusal_of_core_uses_the_names_of_the_spec() -> None:
