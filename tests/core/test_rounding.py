@@ -5,7 +5,7 @@ import math
 import flint
 import numpy as np
 import pytest
-from flint import acb, arb
+from flint import arb
 
 from core import (
     Dance,
@@ -28,7 +28,7 @@ from core.extremes.speed import SPEED_ROUNDING, first_excess
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
 from tests.campaigns.rounding_sweep import Errors, compare, sweep
 from tests.support.depth import further
-from tests.support.exact_chain import BITS, coil_handles, distance, middle, next_delta, separation
+from tests.support.exact_chain import BITS, angles_behind, coil_handles, distance, middle, separation, spiral_place
 
 # Gaps compared of every seed; `make rounding` compares 10,000.
 GAPS = 300
@@ -37,6 +37,8 @@ NEAR = 1e-14
 # Instants between the ends of an interval.
 INSTANTS = 31
 NO_CHORDS = np.empty(0)
+# What the head turns by for a difference quotient [rad], of which 60 digits leave 40.
+TURNED = arb(1e-20)
 
 
 @pytest.mark.parametrize("seed", further(range(4), 2))
@@ -155,29 +157,16 @@ def test_what_a_chain_does_not_write_is_never_read(path, until):
 
 
 def exact_climbs(growth, theta, chords):
-    """Rates of the handles of a spiral and their slopes [1/m], by twice differentiating |P_a - P_b| = chord."""
+    """Rates of the handles of a spiral and their slopes [1/m]: difference quotients of their places, to 50 digits."""
     flint.ctx.prec = BITS
-    at, rate, slope = arb(theta), arb(1), arb(0)
-    rates, slopes = [rate], [slope]
-
-    def handle(theta):
-        """Point, tangent along the way of the head, and curvature, which is to the right."""
-        turned, length = acb(theta.cos(), theta.sin()), (1 + theta * theta).sqrt()
-        return growth * theta * turned, -turned * acb(1, theta) / length, -(2 + theta**2) / length**3 / growth
-
-    for chord in chords.tolist():
-        a, tangent_a, bend_a = handle(at)
-        at = middle(at + next_delta(at, arb(chord) / growth))
-        b, tangent_b, bend_b = handle(at)
-        # In the frame of the bench: the real part is along it, the imaginary part to its left.
-        front, rear = (tangent * chord / (a - b) for tangent in (tangent_a, tangent_b))
-        before, rate = rate, rate * front.real / rear.real
-        apart = abs(before * tangent_a - rate * tangent_b) ** 2
-        turned = rate**2 * bend_b * rear.imag - before**2 * bend_a * front.imag
-        slope = (apart / chord + slope * front.real + turned) / rear.real
-        rates.append(rate)
-        slopes.append(slope)
-    return rates, slopes
+    before, at, after = (
+        [growth * spiral_place(angle) for angle in angles_behind(arb(theta) + turned, arb(growth), chords)]
+        for turned in (-TURNED, arb(0), TURNED)
+    )
+    first, second = at[0] - before[0], after[0] - at[0]
+    pairs = [((b - a) / first, (c - b) / second) for a, b, c in zip(before, at, after, strict=True)]
+    # The head walks towards the centre, from which places are counted.
+    return [(low + high) / 2 for low, high in pairs], [2 * (low - high) / (first + second) for low, high in pairs]
 
 
 @pytest.mark.parametrize("beyond", [1e-7, 1e-5, 1e-3, 1e-1, 1.0])
