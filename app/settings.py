@@ -38,6 +38,18 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+# Path under which a proxy shows the service.
+ROOT_PATH = re.compile(r"(/[A-Za-z0-9._~-]+)*")
+
+
+def _root_path(path: str) -> str:
+    """The path without a slash at its end."""
+    path = path.rstrip("/")
+    if not ROOT_PATH.fullmatch(path):
+        raise PydanticCustomError("rule", "must be a path of letters, digits, '.', '_', '~' and '-', as /dance")
+    return path
+
+
 # A host name or an address, without a port.
 HOST_NAME = re.compile(r"[a-z0-9]([a-z0-9.-]*[a-z0-9])?|\[[0-9a-f:.]+\]")
 
@@ -205,6 +217,9 @@ class Settings(BaseModel):
     )
     hosts: Annotated[str, AfterValidator(_hosts)] = Field(
         "", description="Names and addresses under which the service answers, with commas between; empty: under any"
+    )
+    root_path: Annotated[str, AfterValidator(_root_path)] = Field(
+        "", description="Path under which a proxy shows the service, as /dance; empty: none"
     )
     published: str = Field(
         "",

@@ -54,6 +54,8 @@ NO_DISK = "they mount a small disk, which only root may do: run make test as roo
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
 NO_CURL = "they run the commands of the documentation as they stand: apt install curl"
 NO_NGINX = "they restart services behind a proxy: apt install nginx-light"
+NO_CADDY = "they ask a service behind a proxy: apt install caddy"
+NO_SYSTEMD = "they check a unit of systemd: apt install systemd"
 NO_FONT = "they draw Chinese words, and there is no font for them: apt install fonts-wqy-microhei"
 NO_INDEX = "they ask the package index, which does not answer"
 NO_ENGINE = "they compare an engine that cannot be had for this machine and its Python: {}"
@@ -128,6 +130,10 @@ def _why_left_out(item: pytest.Item) -> str:
         return NO_CURL
     if item.get_closest_marker("nginx") and not nginx_path():
         return NO_NGINX
+    if item.get_closest_marker("caddy") and not shutil.which("caddy"):
+        return NO_CADDY
+    if item.get_closest_marker("systemd") and not shutil.which("systemd-analyze"):
+        return NO_SYSTEMD
     if item.get_closest_marker("index") and not lock.index_answers(OUTER):
         return NO_INDEX
     if (mark := item.get_closest_marker("engine")) and (missing := [name for name in mark.args if not find_spec(name)]):

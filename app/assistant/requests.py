@@ -67,8 +67,8 @@ def asker(service: ASGIApp, connection: Scope, receive: Receive) -> Ask:
             headers.append((b"content-type", request.content_type.encode()))
         root = connection.get("root_path", "")
         scope = {name: connection[name] for name in CONNECTION}
-        scope |= {"method": request.method, "root_path": root, "path": root + unquote(path.decode())}
-        scope |= {"raw_path": root.encode() + path, "query_string": query, "headers": headers, "state": {}}
+        scope |= {"method": request.method, "root_path": root, "path": unquote(path.decode())}
+        scope |= {"raw_path": path, "query_string": query, "headers": headers, "state": {}}
 
         async def receive_content() -> Message:
             nonlocal is_read

@@ -38,6 +38,7 @@ from app.service.job_metrics import JobMetrics
 from app.service.kept_answers import KeptAnswers
 from app.service.lanes import Lanes
 from app.service.pages import add_pages
+from app.service.proxies import Proxies, WholePath
 from app.service.request_limits import RequestLimits
 from app.service.short_tries import ShortTries
 from app.service.version import VERSION, build
@@ -155,12 +156,15 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redirect_slashes=False,
         lifespan=_lifespan,
         middleware=[
-            *map(Middleware, (OriginForm, layers.RequestId, layers.SafetyHeaders, layers.HeadAsGet)),
+            Middleware(OriginForm),
+            Middleware(Proxies, settings=settings),
+            *map(Middleware, (layers.RequestId, layers.SafetyHeaders, layers.HeadAsGet)),
             Middleware(layers.Metrics, registry=registry),
             Middleware(layers.Mistakes),
             Middleware(Hosts, settings=settings),
             Middleware(RequestLimits, settings=settings),
             Middleware(JobCalls, settings=settings),
+            Middleware(WholePath),
         ],
     )
     app.state.settings = settings

@@ -13,7 +13,7 @@ import json
 import os
 import re
 from base64 import b64encode
-from functools import cache, lru_cache
+from functools import lru_cache
 from mimetypes import guess_type
 from pathlib import Path
 
@@ -105,6 +105,8 @@ TOO_LONG_PAGE = """<!doctype html>
 </body>
 </html>
 """
+# Descriptions kept in memory, one for each path under which proxies show the service.
+ROOTS = 8
 # Files kept in memory: those of the page, of uPlot and of Swagger UI are about 70.
 KEPT_FILES = 256
 
@@ -245,7 +247,11 @@ def guide_policy(page: bytes) -> str:
 
 def add_pages(app: FastAPI) -> None:
     """The pages for people and where their files are, and the description of all calls."""
-    description = cache(lambda: orjson.dumps(app.openapi()))
+
+    @lru_cache(ROOTS)
+    def description(root: str) -> bytes:
+        servers = [{**server, "url": root or server["url"]} for server in app.servers]
+        return orjson.dumps(app.openapi() | {"servers": servers})
 
     @app.get("/docs", include_in_schema=False)
     async def docs(request: Request) -> Response:
@@ -259,7 +265,7 @@ def add_pages(app: FastAPI) -> None:
 
     @app.get("/openapi.json", include_in_schema=False)
     async def described(request: Request) -> Response:
-        return reply_with(request.headers, description(), JSON)
+        return reply_with(request.headers, description(request.scope["root_path"]), JSON)
 
     files = Page(directory=PAGE, packages=[("uplot", "static")])
 

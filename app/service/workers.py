@@ -224,6 +224,7 @@ def serve(host: str, port: int, workers: int) -> None:
         "http": PARSER,
         "ws": "none",  # An upgrade is a request like others, whatever packages are installed.
         "log_config": log_config(settings.log_json),
+        "proxy_headers": False,  # app/service/proxies.py
         "server_header": False,
         "timeout_graceful_shutdown": settings.grace_seconds,
         "timeout_worker_healthcheck": START_SECONDS,

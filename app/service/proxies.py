@@ -1,0 +1,50 @@
+"""What a proxy in front says of a request: its client and scheme, and the path under which the service stands there.
+
+A proxy passes /dance/jobs on as /jobs; addresses in answers need the whole path. It follows from the setting
+root_path, or from X-Forwarded-Prefix of a proxy that is trusted as for X-Forwarded-For (FORWARDED_ALLOW_IPS). A proxy
+that passes on the whole path is understood where the setting names it.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from starlette.datastructures import Headers
+from starlette.types import ASGIApp, Receive, Scope, Send
+from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
+
+from app.service.middleware import Layer
+from app.settings import ROOT_PATH, Settings
+
+
+class Proxies(ProxyHeadersMiddleware):
+    """The outermost layer: takes the client, scheme and root path of a request from its proxy.
+
+    The layers below see the path without the root; WholePath adds it for the router.
+    """
+
+    def __init__(self, app: ASGIApp, settings: Settings) -> None:
+        super().__init__(app, os.environ.get("FORWARDED_ALLOW_IPS", "127.0.0.1"))  # type: ignore[arg-type]
+        self.root = settings.root_path
+
+    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+        if scope["type"] == "http":
+            root = scope.get("root_path") or self.root
+            client = scope.get("client")
+            if client and client[0] in self.trusted_hosts:
+                prefix = Headers(scope=scope).get("x-forwarded-prefix", "").rstrip("/")
+                root = prefix if prefix and ROOT_PATH.fullmatch(prefix) else root
+            scope = {**scope, "root_path": root}
+            if self.root and scope["path"].startswith(f"{self.root}/"):
+                scope["path"] = scope["path"].removeprefix(self.root)
+                scope["raw_path"] = scope["raw_path"].removeprefix(self.root.encode())
+        await super().__call__(scope, receive, send)
+
+
+class WholePath(Layer):
+    """The innermost layer: gives the router the whole path, from which it takes the root away again."""
+
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        scope["path"] = scope["root_path"] + scope["path"]
+        await self.app(scope, receive, send)
