@@ -70,16 +70,6 @@ A paragraph.
     assert "\n".join(module("docstrings").as_fields(docstring.split("\n"))) == fields
 
 
-def test_a_budget_without_an_entry_gets_one_before_errors_and_examples() -> None:
-    with_budget, entry = module("docstrings").with_budget, module("docstrings").BUDGET
-    assert with_budget(["What.", "", "stop: [s]", "raises: TooMuchWork"]) == [
-        "What.", "", "stop: [s]", entry, "raises: TooMuchWork",
-    ]  # fmt: skip
-    assert with_budget(["What.", "", ">>> 1"]) == ["What.", entry, "", ">>> 1"]
-    for named in ("budget: default: PITCH_WORK", "stop: [s]; budget: of both together"):
-        assert with_budget(["What.", named]) == ["What.", named]
-
-
 @pytest.mark.parametrize(
     ("page", "dead"),
     [

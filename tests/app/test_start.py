@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import os
 import subprocess
 import sys
@@ -11,22 +10,9 @@ from pathlib import Path
 import httpx
 import pytest
 
-from app.start import importing
 from tests.conftest import wait_until_live
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.support.serving import free_port
-
-
-def test_the_garbage_collector_rests_during_imports_and_leaves_what_they_made_alone() -> None:
-    before = gc.get_freeze_count()
-    with importing():
-        assert not gc.isenabled()
-        made = [[] for _ in range(1000)]
-    assert gc.isenabled()
-    assert gc.get_freeze_count() >= before + len(made)
-    with pytest.raises(ModuleNotFoundError), importing():
-        raise ModuleNotFoundError
-    assert gc.isenabled()
 
 
 def test_a_module_is_called_with_its_own_arguments(tmp_path: Path) -> None:

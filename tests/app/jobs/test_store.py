@@ -143,15 +143,10 @@ def test_no_job_is_taken_where_there_is_no_room(store: Store, limit: str, most: 
     make(store, limits=room)
 
 
-def test_a_folder_of_another_layout_and_a_broken_file_are_not_touched(store: Store) -> None:
-    file = store.folder / "jobs.sqlite"
-    with closing(sqlite3.connect(file, isolation_level=None)) as connection:
+def test_a_folder_of_another_layout_is_not_touched(store: Store) -> None:
+    with closing(sqlite3.connect(store.folder / "jobs.sqlite", isolation_level=None)) as connection:
         connection.execute("PRAGMA user_version = 99")
     with pytest.raises(OSError, match="to another version"):
-        Store(store.folder)
-    store.close()
-    file.write_bytes(b"no database" * 1000)
-    with pytest.raises(sqlite3.DatabaseError):
         Store(store.folder)
 
 

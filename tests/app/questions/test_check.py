@@ -49,13 +49,6 @@ def test_each_report_is_the_answer_about_that_dance_alone(ask: Asking, verdict: 
     assert verdict["encounter"] == ask("encounter", {"dances": TWO["dances"], "margin": 0.05})
 
 
-def test_a_single_dragon_passes_or_fails_as_it_does_alone(ask: Asking) -> None:
-    venue = {"venue": LIMITS["venue"]}
-    got, alone = ask("check", venue | {"dances": [EAST]}), ask("check", venue | EAST)
-    assert got["reports"] == [alone]
-    assert [failure["message"] for failure in got["failures"]] == [one["message"] for one in alone["failures"]]
-
-
 def test_without_details_the_verdict_is_the_same(ask: Asking, verdict: Any) -> None:
     quick = ask("check", TWO | {"details": False})
     assert quick["failures"] == verdict["failures"]

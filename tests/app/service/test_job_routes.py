@@ -207,15 +207,6 @@ def test_a_number_of_no_event_is_no_mistake_of_the_service(service: JobService, 
         assert answer.status_code in (200, 204), last[:9]
 
 
-def test_progress_comes_with_a_rate_and_the_time_left(followed: Any) -> None:
-    between = [status for _, status in followed[1] if status["rate"] is not None]
-    assert between
-    for status in between:
-        left = (100 - status["progress"]) / status["rate"]
-        assert 0 <= status["progress"] < 100  # whole percents, rounded down
-        assert status["time_left"] == pytest.approx(left, abs=1.5 / status["rate"])
-
-
 def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(service: JobService) -> None:
     wait_for(lambda: not service.of("child"))
     address = service.post(ENDLESS)
