@@ -38,7 +38,6 @@ def test_a_bench_beside_a_tree_marks_the_stretch_between_its_handles():
     assert 14.0 - 2.9 - 0.35 < one.start < 14.0
     assert 16.0 < one.end < 16.0 + 2.9 + 0.35
     assert one.points[[0, -1]] == pytest.approx(np.array([[one.start, 0.0], [one.end, 0.0]]))
-    assert kinds(LANE, TREE, stray=0.06) == {BreachKind.STRAY}
     assert kinds(LANE, TREE, margin=0.06, stray=0.06) == {BreachKind.MARGIN, BreachKind.STRAY}
 
 

@@ -105,20 +105,6 @@ def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name
     assert feasible == pytest.approx(math.sqrt(total**2 - growth**2), abs=2 * ENTRY_ERROR)
 
 
-def bench_by_bench(uniform):
-    """The same dragon, whose last bench is a nanometre narrower."""
-    return Dragon.of(uniform.lengths, [*uniform.widths[:-1], uniform.widths[-1] - 1e-9], uniform.overhangs)
-
-
-@pytest.mark.thorough
-def test_the_answer_depends_on_neither_the_tail_nor_the_coil():
-    known = answer("margin")
-    for dragon, start_turns in ((bench_by_bench(Dragon(30)), 80.0), (Dragon(1_000), 3.0)):
-        other = deepest_turn(dragon, **CONTACT["margin"][1], start_turns=start_turns)
-        assert other.turn.entry_radius == pytest.approx(known.turn.entry_radius, abs=ENTRY_ERROR)
-        assert (other.limited_by, other.benches) == (known.limited_by, known.benches)
-
-
 def test_nothing_limits_a_tiny_dragon_down_to_the_centre():
     result, step = deepest_turn(Dragon(5, 0.1, 0.1, 0.01, 0.01), 1.7), ENTRY_STEP * 4.5
     assert (result.limited_by, result.entry_bracket) == (TurnLimit.CENTRE, (0.0, step))

@@ -86,17 +86,6 @@ def test_benches_out_of_reach_change_nothing():
     assert many == pytest.approx(few, abs=1e-12)
 
 
-@pytest.mark.parametrize("changed", [2, -1])
-def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one(changed):
-    uniform = Dragon(14)
-    lengths = np.array(uniform.lengths)
-    lengths[changed] += 1e-9
-    listed = Dragon.of(lengths, uniform.widths, uniform.overhangs)
-    one, other = (minimum_pitch(dragon, turning_radius=3.0, start_turns=7.0) for dragon in (uniform, listed))
-    assert other.pitch == pytest.approx(one.pitch, abs=ACCURACY)
-    assert (one.justified_by, other.justified_by) == ("bound", "bound")
-
-
 def test_where_a_handle_turns_back_the_claim_names_the_step_of_the_scan_and_the_begin_of_the_proof():
     """The fold of its head limits the pitch; with 40 digits: 0.525552677857343."""
     result = minimum_pitch(FOLDING, turning_radius=0.85, start_turns=5.0)

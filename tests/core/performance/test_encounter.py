@@ -54,14 +54,12 @@ def test_the_reference_is_met(name):
     assert sum(map(len, check.judged)) == sum(one["dragon"]["benches"] for one in case["dances"])
 
 
-def test_another_clock_and_another_order_of_the_dragons_change_nothing():
+def test_another_clock_changes_nothing():
     known, parts = first_of(CASES["random 0"]), performance_of(CASES["random 0"]).parts
     late = Performance([replace(part, delay=part.delay + 1000.0) for part in parts])
     met = first_encounter(late, start=CASES["random 0"]["start"] + 1000.0, stop=known.time + 1010.0)
     assert met.time == pytest.approx(known.time + 1000.0, abs=SAME_TIME)
     assert (met.dragons, met.benches) == (known.dragons, known.benches)
-    met = first_encounter(Performance(performance_of(CASES[OPPOSITE]).parts[::-1]), start=1e-6)
-    assert met.time == pytest.approx(first_of(CASES[OPPOSITE]).time, abs=SAME_TIME)
 
 
 @pytest.mark.parametrize("offset", [-1e-6, 1e-6])

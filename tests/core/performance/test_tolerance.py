@@ -75,12 +75,11 @@ def test_no_random_stray_touches_and_the_pose_beyond_does(name):
     assert answer.stray_bracket == (answer.stray, pose.stray)
     assert 0.0 < pose.stray - answer.stray < 0.02 * answer.stray
     rectangles = []
-    for part, dragon, own, bench in zip(slow.parts, dragons, pose.handles, pose.benches, strict=True):
-        chords = np.linalg.norm(own[1:] - own[:-1], axis=1)
+    for part, dragon, handles, bench in zip(slow.parts, dragons, pose.handles, pose.benches, strict=True):
+        chords = np.linalg.norm(np.diff(handles, axis=0), axis=1)
         assert chords == pytest.approx(dragon.chords, abs=CHORD_WITHIN + ROUNDED)
-        ways = np.linalg.norm(own - part.handles(np.array([pose.time]))[0], axis=1)
-        assert ways.max() <= pose.stray + 1e-9
-        rectangles += rectangle(own[None, bench : bench + 2], dragon, bench)
+        assert np.linalg.norm(handles - part.handles(np.array([pose.time]))[0], axis=1).max() <= pose.stray + 1e-9
+        rectangles += rectangle(handles[None, bench : bench + 2], dragon, bench)
     assert rectangles_gap(*rectangles)[0] == pytest.approx(-pose.depth, rel=1e-3)
     assert pose.depth > 0.0
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Budget, Dance, Dragon, Figure, Gate, Venue, trajectory
-from core.proposal.designs import Design, laid_out, stand_length, street_length, with_gates
+from core.proposal.designs import Design, laid_out, street_length, with_gates
 from core.proposal.figures import Shape
 from core.proposal.free_ground import FreeGround
 from core.proposal.gates import with_streets
@@ -47,13 +47,6 @@ def test_without_gates_the_whole_dragon_is_on_the_path_and_with_gates_it_begins_
     for route in filter(None, gated):
         assert handles_at(route, 0.0)[1:, 0].max() < 0.0
         assert handles_at(route, route.end)[:, 0].min() > 40.0
-
-
-def test_a_parade_leads_from_gate_to_gate(ways):
-    route = laid_out(Design(Figure.PARADE, None, (0.0, 0.0, 0.0), GATES), NEEDS, ways)
-    far = stand_length(NEEDS)
-    assert route.position(route.begin) == pytest.approx([-far, 15.0], abs=1e-9)
-    assert route.position(route.end) == pytest.approx([40.0 + far, 10.0], abs=1e-9)
 
 
 def test_a_figure_that_is_too_short_is_not_laid_out(ways):

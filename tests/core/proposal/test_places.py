@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from core import Dragon, Figure, Route, Venue
+from core import Dragon, Figure, Route
 from core.proposal.figures import Shape
 from core.proposal.free_ground import FreeGround
 from core.proposal.needs import Needs
 from core.proposal.places import base_rotation, placements, sampled
 from tests.support.depth import further
-from tests.support.random_squares import box, random_case
+from tests.support.random_squares import random_case
 
 NEEDS = Needs(Dragon(8), 0.0, 0.0)
 OVAL = Shape(Figure.RING, (5.0, 3.0, 3.0))
@@ -39,9 +39,3 @@ def test_no_place_of_a_fine_grid_has_much_more_room(seed):
         ((room, (*place, angle)),) = best
         assert room >= most - 2.0 * ground.node_error
         assert room == pytest.approx(room_of(place + turned(angle)), abs=2.0 * ground.node_error)
-
-
-def test_a_ring_runs_around_a_well():
-    ground = FreeGround(Venue(box("square", 0, 0, 16, 12), (box("well", 7, 5, 2, 2),)))
-    ((_, pose),) = placements(ground, NEEDS, OVAL, 1)
-    assert math.dist(pose[:2], (8.0, 6.0)) < 1.5

@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import Route
-from core.proposal.walks import along, dubins, joined, length_of, mirrored, moved, pieces_of, stretch
+from core.proposal.walks import along, dubins, length_of, mirrored, moved, pieces_of, stretch
 from tests.support.depth import examples
 
 PLACE = 1e-9  # [m], [rad]: rounding of a few steps
@@ -51,7 +51,6 @@ def test_pieces_join_and_have_the_length_of_the_steps():
     route = Route(pieces)
     assert route.end - route.begin == pytest.approx(length_of(steps), abs=PLACE)
     assert route.position(route.end) == pytest.approx(np.array(end[:2]), abs=PLACE)
-    assert joined(steps) == [(3.0, 0.0), (3.0, 0.4), (4.0, -0.25)]
 
 
 def test_a_stretch_goes_round_a_closed_path():
