@@ -6,17 +6,15 @@ import numpy as np
 import pytest
 import shapely
 
-from core import Dance, Dragon, Spiral, Turn, bench_poses, trajectory
+from core import Dance, Dragon, Spiral, Turn, bench_outlines, trajectory
 from core.contact.coils import rings_clear, wholly_outside
 from core.design.deepest_turn import coils_of
-from core.shapes.rectangles import corners
 
 
 def benches_on(dragon, pitch, radius, turned=0.0):
     """Polygons of the benches whose head has come to a radius of a coil, which is turned about its centre."""
     dance = Dance(dragon, Spiral(pitch, radius / pitch, rotation=turned))
-    poses = bench_poses(trajectory(dance, 0.0).position)
-    return shapely.polygons(corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1)))
+    return shapely.polygons(bench_outlines(dragon, trajectory(dance, 0.0).position))
 
 
 # If the growth exceeds the chord, the foot of the perpendicular from the centre lies in front of the inner handle,

@@ -190,7 +190,6 @@ def test_a_slow_contact_before_time_zero_is_decided_as_the_same_one_after_it(sta
     assert_near([contact.time, least.time], [later.time + turn.begin] * 2, ACCURACY)
     assert contact.benches == later.benches
     assert (least.distance, least.at_least, least.benches) == (0.0, 0.0, contact.benches)
-    assert check(turn, start=start).verdict is Judgement.FAILS
 
 
 @pytest.mark.parametrize("judge", [check, quick_check])

@@ -59,12 +59,12 @@ def pair_of(path, pair):
 @pytest.mark.parametrize(
     ("path", "travel"),
     [
-        *((Spiral(), 10.0), (Spiral(), 412.4), (Spiral(0.45, 20.0), 300.0)),
-        *((TURN, -30.0), (TURN, 14.0), (TURN, 60.0), (BEND, 2.0), (BEND, 25.0)),
+        *((Spiral(), 412.4), (Spiral(0.45, 20.0), 300.0), (TURN, -30.0), (TURN, 14.0), (TURN, 60.0)),
+        *((BEND, 2.0), (BEND, 25.0)),
     ],
-    ids=["spiral", "near contact", "another", "before the turn", "in the turn", "after the turn", "ramp", "clothoids"],
+    ids=["near contact", "another", "before the turn", "in the turn", "after the turn", "ramp", "clothoids"],
 )
-@pytest.mark.parametrize("pair", [(0, 2), (0, 19), (7, 31)])
+@pytest.mark.parametrize("pair", [(0, 19), (7, 31)])
 def test_benches_stand_where_the_kernels_put_them(path, travel, pair):
     model = pair_of(path, pair)
     benches = model.benches(Decimal(travel))

@@ -90,11 +90,10 @@ def test_benches_that_follow_calmly_change_nothing():
     [
         (Route([Line((-60, 0), (0, 0)), Arc((0, 4), 4.0, -np.pi / 2, 2.0)], start=60.0), 0.0, 8.0),
         (Route([Arc((0, -5), 5.0, 4.0, np.pi / 2 - 4.0), Line((0, 0), (30, 0))], start=10.0), 5.0, 25.0),
-        (Route([Coil(1.5, 3.0, 9.0)]), 60.0, 200.0),
         (Route([Coil(1.5, 9.0, 3.0)]), 10.0, 200.0),
         (Route([Waypoints(((0, 0), (15, 0), (25, 8), (35, 0), (50, 0)))]), 25.0, 45.0),
     ],
-    ids=["line, arc", "arc, line", "coil outwards", "coil inwards", "waypoints"],
+    ids=["line, arc", "arc, line", "coil inwards", "waypoints"],
 )
 def test_on_every_kind_of_piece_dense_samples_come_up_to_the_highest(path, start, stop):
     dance, times = Dance(Dragon(8), path), np.linspace(start, stop, 20_001)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core import Dragon, Spiral
+from core import Dance, Dragon, Spiral, bench_outlines, trajectory
 from core.contact.search import ContactSearch
 from core.design.ways import SearchBetween
 from core.kernels import (
@@ -16,8 +16,7 @@ from core.kernels import (
     ring_rounding,
     spirals_least,
 )
-from core.kernels.constants import FREE, MX, MY, THETA, UX, UY
-from core.shapes.rectangles import corners
+from core.kernels.constants import FREE
 from tests.support.random_dances import random_dragon
 
 
@@ -26,11 +25,8 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
     rng = np.random.default_rng(seed)
     dragon, spiral = Dragon(40, 3.4, rng.uniform(0.8, 2.2), 0.3, rng.uniform(0.0, 0.3)), Spiral(rng.uniform(0.3, 1.5))
     search = ContactSearch(dragon, spiral, 0.0)
-    search.clearance(rng.uniform(0.0, 100.0))
-    x, y, c, s = search.placed[:40, [MX, MY, UX, UY]].T
-    poses, sizes = np.stack([x, y, np.arctan2(s, c)], axis=-1), np.stack([dragon.lengths, dragon.widths], axis=-1)
-    far = np.linalg.norm(corners(poses, sizes), axis=-1)
-    handles = spiral.growth * search.placed[:41, THETA]
+    position = trajectory(Dance(dragon, spiral), rng.uniform(0.0, 100.0)).position
+    far, handles = (np.linalg.norm(points, axis=-1) for points in (bench_outlines(dragon, position), position))
     for k in range(40):
         assert far[k].max() <= leaders_reach(spiral.growth, handles[k], handles[k + 1], search.rings)
     for radius in np.linspace(0.5, handles[-1], 30):

@@ -24,14 +24,14 @@ def wobbler(size):
     return made
 
 
-def laid_out(wanted, chords, front_play=0.0, rear_play=0.0):
+def laid_out(wanted, chords, front_play=None, rear_play=None):
     """Oracle: front and rear holes (2, n, ...) of benches whose people want their pins here (n + 1, ...) [m].
 
     Each rear hole is as near to where its person wants it as the chord allows. All places are complex numbers.
     """
-    front_play, rear_play = (np.broadcast_to(play, len(chords)) for play in (front_play, rear_play))
-    pin, holes = wanted[0], []
-    for want, chord, ahead, behind in zip(wanted[1:], chords, front_play, rear_play, strict=True):
+    still, pin, holes = np.zeros(len(chords)), wanted[0], []
+    plays = [still if play is None else play for play in (front_play, rear_play)]
+    for want, chord, ahead, behind in zip(wanted[1:], chords, *plays, strict=True):
         front = pin + ahead
         way = want + behind - front
         holes.append((front, front + way * (chord / abs(way))))

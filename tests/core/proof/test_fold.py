@@ -22,8 +22,6 @@ DRAGONS = {name: Dragon(count, 2.21, 1.47, 0.06, 0.12) for name, count in (("one
 DRAGON, WAY = DRAGONS["many"], {"turning_radius": 0.85, "start_turns": 5.0}
 # This much below the true pitch the dragon folds before the circle; this much above it there is a certificate [m].
 OFF = 1e-11
-# The step below a minimum pitch [m].
-STEP = 1e-6
 # Number of samples of a delta, and a little more than the distance between two of them [rad].
 SAMPLES, SAMPLED = 200_001, 1e-4
 # From this pitch on the head of one bench with a chord of 2 m reaches the centre: CREST_DELTA of core/kernels/fold.py.
@@ -77,18 +75,6 @@ def test_the_fold_of_any_bench_is_proven_and_of_no_other_one(name, margin):
         assert_refused(certificate, f"overlap.folds = {other}")
 
 
-def test_no_fold_is_proven_where_every_bench_follows():
-    certificate = certificate_of(DRAGON)
-    before, after = certificate["overlap"]["head_theta"]
-    with ctx.workprec(96):
-        chain = Chain(DRAGON, certificate["claim"]["pitch"] - arb(STEP), WAY["start_turns"])
-        verify_fold(chain, 0, arb(before), arb(after))
-        shifted_places = [(0, shift) for shift in (before - after, 1e-3, 1.0, 10.0)]
-        for bench, shift in [*shifted_places, *((bench, 0.0) for bench in range(1, 14))]:
-            with pytest.raises(Unproven):
-                verify_fold(chain, bench, arb(before + shift), arb(after + shift))
-
-
 def test_a_fold_with_a_shallow_wall_is_proven_only_from_close_to_it():
     """From farther out the delta might grow past the wall before the wall exists: then nothing is proven."""
     pitch = VANISHED * 0.999
@@ -127,29 +113,22 @@ def joined(first):
 FORGERIES = {
     "many": [
         ("overlap.folds = 1", "not proven"),
-        ("overlap.folds = 13", "not proven"),
         ("overlap.folds = 14", "bench 14 is not shown to fold on the way"),
         ("reverse overlap.head_theta", "not shown to fold on the way"),
         (shifted(-2.1e-8, 0.0), "not shown to fold"),
         (shifted(1e-7, 1e-7), "not shown to fold|no bound is found"),
-        (shifted(-1e-3, -1e-3), "not shown to fold on the way"),
         (shifted(0.0, -1e-3), "not shown to fold on the way"),
         (shifted(30.0, 0.0), "not shown to fold on the way"),
-        ("overlap.head_theta = [0.0, 0.0]", "not shown to fold on the way"),
         ("overlap.head_theta = [10.0]", "must be a list of 2"),
         ("overlap.folds = true", "must be a whole number"),
-        ("overlap.folds = -1", "must be a whole number"),
         ("overlap.benches = [0, 5]", "overlap.benches is unknown"),
         ('overlap = {"benches": [0, 5], "head_theta": 11.0}', "not shown to overlap"),
         ('overlap = {"start_within_circle": true}', "not shown to lie within the circle"),
-        ("claim.pitch += 1e-9", "not proven"),
         ("claim.pitch += 1.1e-6", "not proven"),
         ("claim.turning_radius += -1e-9", "short of"),
-        ("claim.turning_radius += 1e-2", "not shown to fold on the way"),
         ("claim.start_turns += 0.01", "do not join"),
         ("claim.start_turns = 1.6", "not shown to fold on the way"),
         ("dragon.0.1 = 2.2101", "not proven"),
-        ("dragon.0.1 = 2.2099", "not proven"),
         ("dragon.1.2 = 0.9", "not apart by face"),
         ("claim.margin = 0.6", "not apart by face"),
         (joined(-20), "not proven"),

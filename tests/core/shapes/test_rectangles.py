@@ -122,12 +122,10 @@ def test_witness_of_parallel_edges_does_not_depend_on_rounding():
 
 def test_batch_equals_a_loop_and_shapes_broadcast():
     pose_a, size_a, pose_b, size_b = random_pairs(12, seed=6)
-    batch = separation(pose_a.reshape(3, 4, 3), size_a.reshape(3, 4, 2), pose_b.reshape(3, 4, 3), size_b[0])
-    for k in range(12):
-        single = separation(pose_a[k], size_a[k], pose_b[k], size_b[0])
-        for name in FIELDS:
-            np.testing.assert_array_equal(getattr(batch, name)[k // 4, k % 4], getattr(single, name))
-    assert separation(pose_a[:, None], BENCH, pose_b[:5], BENCH).normal.shape == (12, 5, 2)
+    batch = separation(pose_a[:, None], size_a[:, None], pose_b[:5], size_b[0])
+    for j, k in np.ndindex(12, 5):
+        single = separation(pose_a[j], size_a[j], pose_b[k], size_b[0])
+        assert all(np.array_equal(getattr(batch, name)[j, k], getattr(single, name)) for name in FIELDS)
     assert separation(np.empty((0, 3)), BENCH, [0, 0, 0], BENCH).witness_a.shape == (0, 2)
 
 

@@ -4,18 +4,17 @@ import numpy as np
 import pytest
 
 from core import (
-    Area,
     Dance,
     Dragon,
-    Line,
-    Route,
     Spiral,
     Venue,
     tolerance,
 )
 from core.tolerance.tolerance import Limit
 from tests.campaigns.adversaries import seek, to_circle
+from tests.support.random_squares import box
 from tests.support.random_strays import moved_points, random_strays
+from tests.support.shared_dances import lane, square
 
 # Largest width of a bracket, as a part of its proven end [1].
 BRACKET = 2e-3
@@ -49,7 +48,7 @@ def test_speed_changes_when_but_not_how_far_and_all_lengths_times_k_how_far(defa
 
 
 def test_two_benches_on_a_line_have_nothing_to_touch():
-    result = tolerance(Dance(Dragon(benches=2), Route([Line((0.0, 0.0), (30.0, 0.0))])), start=5.0)
+    result = tolerance(Dance(Dragon(2), lane((0.0, 0.0), (30.0, 0.0))), start=5.0)
     assert result.limited_by is Limit.CHORD
     assert result.stray == pytest.approx(0.825, abs=1e-12)
     assert result.stray_bracket == (result.stray, None)
@@ -58,11 +57,8 @@ def test_two_benches_on_a_line_have_nothing_to_touch():
 
 def test_a_bench_that_passes_a_wall_may_stray_to_it():
     """Towards a long wall the corner counts, which moves further than the holes."""
-    dragon = Dragon(benches=1)
-    wall = Area("wall", [[(0.0, 0.5), (40.0, 0.5), (40.0, 1.0), (0.0, 1.0), (0.0, 0.5)]])
-    square = Area("square", [[(-20.0, -20.0), (60.0, -20.0), (60.0, 20.0), (-20.0, 20.0), (-20.0, -20.0)]])
-    line = Route([Line((0.0, 0.0), (30.0, 0.0))])
-    result = tolerance(Dance(dragon, line), Venue(square, [wall]), start=5.0, stop=25.0)
+    venue = Venue(square(60.0).square, [box("wall", 0.0, 0.5, 40.0, 0.5)])
+    result = tolerance(Dance(Dragon(1), lane((0.0, 0.0), (30.0, 0.0))), venue, start=5.0, stop=25.0)
     assert result.limited_by is Limit.VENUE
     assert result.area == "wall"
     safe, touching = result.stray_bracket
