@@ -24,6 +24,8 @@ OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic
 OVERLAP_ENGINES = {"fcl", "shapely"}
 # Engines of continuous collision detection, only for comparison.
 OTHER_ENGINES = {"Box2D", "ipctk"}
+# No function is longer, docstring included, or takes more parameters.
+LINES_MOST, PARAMETERS_MOST = 80, 8
 HEAVY = ("fcl", "flint", "matplotlib", "pandas", "scipy", "shapely", "xarray")
 
 
@@ -185,3 +187,13 @@ def test_public_names_are_sorted_and_exist() -> None:
         sorted(name for module, names in lines if module for name in names)
     ]  # a literal, for star imports
     assert (None, ["proof"]) in lines
+
+
+def test_functions_are_short_and_take_few_parameters() -> None:
+    for module, path in MODULES.items():
+        for node in nodes(path):
+            if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+                place = f"{module}, {node.name}"
+                assert (node.end_lineno or 0) - node.lineno < LINES_MOST, place
+                names = {part.arg for part in ast.walk(node.args) if isinstance(part, ast.arg)} - {"self", "cls"}
+                assert len(names) <= PARAMETERS_MOST or module.startswith("app.command"), place  # options of a command

@@ -85,17 +85,11 @@ CERTIFICATES: dict[str, tuple[Callable[[], Certificate], str]] = {
         lambda: contact_of(Dance(Dragon(12, 3.61, 2.4, 0.12, 0.1), Spiral(0.48, 4.0), 0.7)),
         "its head at 0.7 m/s: no two benches except neighbours touch",
     ),
-    "each pair in its own right": (
-        lambda: contact_of(Dance(Dragon(12, 1.5, 2.2, 0.3, 0.15), Spiral(0.55, 4.0)), every_pair=True),
-        "A dragon of 12 benches (1 of 1.5 m by 0.3 m, overhang 0.15 m; 11 of ",
-    ),
     "bench by bench": (lambda: prove_collision_time(*random_contact(17)), "overlap at"),
-    "bench by bench, another": (lambda: prove_collision_time(*random_contact(42)), "overlap at"),
     "a contact at the start": (
         lambda: prove_collision_time(*random_contact(7)), "m/s: within 2e-10 s of the start benches "
     ),
     "a pitch limited by a graze": (graze, "with a pitch 1e-6 m smaller benches 0 and 12 overlap on the way"),
-    "one bench, limited by the start": (lambda: prove_minimum_pitch(Dragon(1), 0.28125), "A dragon of 1 bench (1 of "),
     "a pitch limited by the start": (lambda: reference_pitch("default R=7", 11), "smaller the head starts nearer."),
     "a pitch limited on the circle": (lambda: reference_pitch("default R=2", 11, 5.0), "until the head is 2 m from"),
 }  # fmt: skip

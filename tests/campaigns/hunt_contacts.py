@@ -12,7 +12,6 @@ from functools import partial
 import numpy as np
 
 from core import (
-    BenchDragonError,
     Coil,
     Dance,
     Dragon,
@@ -94,6 +93,14 @@ def random_passages(rng):
     return tuple(passages)
 
 
+def random_margin(rng, size, low):
+    """A part of a size, or half of the time one near the least gap: benches that just graze meet slowly [m]."""
+    margin = float(rng.choice([0.0, 0.0, 0.05, 0.2]) * size)
+    if rng.uniform() < 0.5 and 0.0 < low < 1e3:
+        margin = max(low + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-11.0, -2.0), 0.0)
+    return margin
+
+
 class SlowLook(Samples):
     """The slow clearance of a dance between two travels, in samples that are closer around the lowest of them."""
 
@@ -122,19 +129,13 @@ def random_case(seed, case, any_path=random_path):
     )
     if look.until < ends - 1.0:  # only so much is looked at
         stop = float(dance.clock.time(look.until))
-    margin = float(rng.choice([0.0, 0.0, 0.05, 0.2]) * dragon.widths.max())
-    low = look.least()[0]
-    if rng.uniform() < 0.5 and 0.0 < low < 1e3:  # benches that just graze meet slowly
-        margin = max(low + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-11.0, -2.0), 0.0)
+    margin = random_margin(rng, dragon.widths.max(), look.least()[0])
     return dance, margin, start, stop, look
 
 
 def fault(seed, case, any_path=random_path):
     """The kind of one random answer, and its fault in words ('' for none)."""
-    try:
-        return judged(*random_case(seed, case, any_path))
-    except BenchDragonError as refused:
-        return f"refused: {type(refused).__name__}", ""
+    return hunting.unless_refused(lambda: judged(*random_case(seed, case, any_path)))
 
 
 def judged(dance, margin, start, stop, look, accuracy=GAP):

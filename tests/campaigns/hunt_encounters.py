@@ -13,7 +13,6 @@ import numpy as np
 
 from core import (
     Arc,
-    BenchDragonError,
     Coil,
     Dance,
     Dragon,
@@ -27,7 +26,7 @@ from core import (
     first_encounter,
 )
 from tests.campaigns import hunting
-from tests.campaigns.hunt_contacts import SlowLook, random_passages, uneven_dragon
+from tests.campaigns.hunt_contacts import SlowLook, random_margin, random_passages, uneven_dragon
 from tests.campaigns.hunt_contacts import meeting_fault as encounter_fault
 from tests.support.slow_performance import SlowPerformance
 from tests.support.slow_search import RUN
@@ -104,19 +103,17 @@ def random_case(seed, case):
         end = begin + RUN * (end - begin)
     start = begin + (end - begin) * float(rng.choice([0.0, rng.uniform(0.0, 0.8)]))
     look = SlowLook(SlowPerformance(performance.parts), start, min(end, start + LONGEST))
-    margin = float(rng.choice([0.0, 0.0, 0.05, 0.2]))
-    low = look.least()[0]
-    if rng.uniform() < 0.5 and 0.0 < low < 1e3:  # benches that just graze meet slowly
-        margin = max(low + float(rng.choice([-1.0, 1.0])) * 10.0 ** float(rng.uniform(-11.0, -2.0)), 0.0)
+    margin = random_margin(rng, 1.0, look.least()[0])
     return performance, margin, start, look.until, look
 
 
 def fault(seed, case):
     """The kind of one random answer, and its fault in words ('' for none)."""
-    try:
-        performance, margin, start, stop, look = random_case(seed, case)
-    except BenchDragonError as refused:
-        return f"refused: {type(refused).__name__}", ""
+    return hunting.unless_refused(lambda: judged(*random_case(seed, case)))
+
+
+def judged(performance, margin, start, stop, look):
+    """The kind of a first encounter, and its fault in words."""
     met = first_encounter(performance, margin=margin, start=start, stop=stop)
     wrong = encounter_fault(met, margin, look)
     kind = met.outcome.value

@@ -12,12 +12,13 @@ from functools import partial
 
 import numpy as np
 
-from core import BenchDragonError, Dance, Dragon, InvalidValue, Spiral, Turn
-from core.design.turn_boxes import sizes_of, turns_in
+from core import Dance, Dragon, Spiral, Turn
+from core.design.turn_boxes import turns_in
 from core.design.turn_moves import box_of, least_bend
 from core.design.turn_overlap import OverlapSearch
 from tests.campaigns import hunting
-from tests.campaigns.hunt_contacts import GAP, SlowLook, judged, random_dragon
+from tests.campaigns.hunt_contacts import GAP, SlowLook, judged, random_dragon, random_margin
+from tests.support.boxes_of_turns import turn_at
 from tests.support.slow_route import SlowRoute
 from tests.support.slow_search import STEP, SlowDance, arc_length
 
@@ -44,13 +45,6 @@ def random_turn(rng, dragon):
     )  # fmt: skip
 
 
-def random_margin(rng, dragon, low):
-    """None, a part of a width, or one near the least gap, so that benches graze [m]."""
-    if rng.uniform() < 0.5 and 0.0 < low < 1e3:
-        return max(low + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-8.0, -2.0), 0.0)
-    return float(rng.choice([0.0, 0.0, 0.05, 0.2]) * dragon.widths.max())
-
-
 def turn_case(rng):
     """dance, margin, start, stop, the slow look at it, its accuracy; raises: InvalidValue for what core refuses"""
     dragon = random_dragon(rng)
@@ -58,7 +52,7 @@ def turn_case(rng):
     slow = SlowRoute.of(dragon, dance.path)
     look = SlowLook(slow, dance.begin, slow.end())
     stop = look.until if look.until < slow.end() - 1.0 else None
-    return dance, random_margin(rng, dragon, look.least()[0]), dance.begin, stop, look, GAP
+    return dance, random_margin(rng, dragon.widths.max(), look.least()[0]), dance.begin, stop, look, GAP
 
 
 def spiral_case(rng):
@@ -72,7 +66,7 @@ def spiral_case(rng):
     start = float(max(fold - left, 0.0))
     look = SlowLook(slow, start, float(max(fold - BEFORE_FOLD * slow.chords.min(), start)))
     accuracy = GAP + OF_PATH * slow.way
-    return dance, random_margin(rng, dragon, look.least()[0]), start, look.until, look, accuracy
+    return dance, random_margin(rng, dragon.widths.max(), look.least()[0]), start, look.until, look, accuracy
 
 
 def box_fault(rng):
@@ -85,35 +79,25 @@ def box_fault(rng):
     half = 10.0 ** rng.uniform(-3.0, -1.3, 3)
     box = box_of(pitch, turns_in(growth, centre[:, None], half[:, None]), 0, centre, half, least)
     if box is None or not OverlapSearch(dragon, 0.0, 26).exhibited(box).shared:
-        return "box without a shared overlap", ""
-    for _ in range(LAID_OUT):
-        a, v, log_ratio = centre + half * rng.choice([-1.0, 1.0], 3) * rng.uniform(0.0, 1.0, 3)
-        if sizes_of(growth, *np.array([[a], [v], [log_ratio]]))[:2].min() < least:
-            continue
-        about = {"start_turns": 40.0, "entry_radius": float(a), "exit_radius": float(a + growth * v)}
-        try:
-            turn = Turn(pitch, 30.0, math.exp(log_ratio), **about)
-        except InvalidValue:
+        return "without a shared overlap", ""
+    for off in rng.choice([-1.0, 1.0], (LAID_OUT, 3)) * rng.uniform(0.0, 1.0, (LAID_OUT, 3)):
+        turn = turn_at(centre + half * off, pitch, least)
+        if turn is None:
             continue
         slow = SlowRoute.of(dragon, turn)
         times = np.arange(0.0, turn.length + 40.0, STEP * slow.chords.min())
         gap = float(slow.clearance(times)[0].min())
         if gap > 0.0:
-            return "box with a shared overlap", f"the gap is {gap} in {turn!r} of {dragon!r}, box {centre} +- {half}"
-    return "box with a shared overlap", ""
+            return "with a shared overlap", f"the gap is {gap} in {turn!r} of {dragon!r}, box {centre} +- {half}"
+    return "with a shared overlap", ""
 
 
 def fault(seed, case):
     """The kind of one random answer, and its fault in words ('' for none)."""
-    rng = hunting.generator(seed, case)
-    kind = ("turn", "long spiral", "box")[case % 3]
-    try:
-        if kind == "box":
-            return box_fault(rng)
-        outcome, wrong = judged(*(turn_case if kind == "turn" else spiral_case)(rng))
-    except BenchDragonError as refused:
-        return f"{kind}, refused: {type(refused).__name__}", ""
-    return f"{kind}: {outcome}", wrong
+    rng, kinds = hunting.generator(seed, case), ("turn", "long spiral", "box")
+    answers = (lambda: judged(*turn_case(rng)), lambda: judged(*spiral_case(rng)), lambda: box_fault(rng))
+    outcome, wrong = hunting.unless_refused(answers[case % 3])
+    return f"{kinds[case % 3]}: {outcome}", wrong
 
 
 hunt = partial(hunting.hunt, fault)

@@ -11,9 +11,9 @@ from functools import partial
 import numpy as np
 import shapely
 
-from core import Area, BenchDragonError, Dance, Judgement, Outcome, Spiral, Venue, check, venue_clearance
+from core import Area, Dance, Judgement, Outcome, Spiral, Venue, check, venue_clearance
 from tests.campaigns import hunting
-from tests.campaigns.hunt_contacts import GAP, meeting_fault, random_dragon
+from tests.campaigns.hunt_contacts import GAP, meeting_fault, random_dragon, random_margin
 from tests.support.slow_search import RUN, Samples, SlowDance, benches_of
 
 # Number of poses on the way, evenly spaced in time and towards the fold in its square root.
@@ -90,19 +90,17 @@ def random_case(seed, case):
     square = [(-WIDE, -WIDE), (WIDE, -WIDE), (WIDE, WIDE), (-WIDE, WIDE), (-WIDE, -WIDE)]
     venue = Venue(Area("square", (tuple(square),)), (Area("tree", (tuple(ring),)),))
     look = SlowVenue(slow, shapely.Polygon(triangle).boundary, times)
-    margin = float(rng.choice([0.0, 0.0, 0.1]) * dragon.widths.max())
-    low = look.least()[0]
-    if rng.uniform() < 0.3 and low > 0.0:  # a margin that is hardly reached
-        margin = max(low + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-10.0, -3.0), 0.0)
+    margin = random_margin(rng, dragon.widths.max(), look.least()[0])
     return dance, venue, margin, start, stop, look
 
 
 def fault(seed, case):
     """The kind of one random answer, and its fault in words ('' for none)."""
-    try:
-        dance, venue, margin, start, stop, look = random_case(seed, case)
-    except BenchDragonError as refused:
-        return f"refused: {type(refused).__name__}", ""
+    return hunting.unless_refused(lambda: judged(*random_case(seed, case)))
+
+
+def judged(dance, venue, margin, start, stop, look):
+    """The kind of a clearance from the tree, and its fault in words."""
     tree = venue_clearance(dance, venue, margin=margin, start=start, stop=stop).areas[1]
     wrong = area_fault(tree, margin, look)
     report = check(dance, venue=venue, margin=margin, start=start, stop=stop)

@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from core import BenchDragonError
+
 # Time that a campaign runs by default [s].
 SECONDS = 300.0
 
@@ -27,6 +29,14 @@ class Hunted(NamedTuple):
 def generator(seed, case):
     """The random numbers of one case: a case can be repeated alone."""
     return np.random.default_rng([seed, case])
+
+
+def unless_refused(answer):
+    """Kind and fault of an answer; what core refuses is a kind too."""
+    try:
+        return answer()
+    except BenchDragonError as refused:
+        return f"refused: {type(refused).__name__}", ""
 
 
 def hunt(fault, seed, seconds=SECONDS, cases=None):

@@ -113,23 +113,24 @@ def draw(rows: list[tuple[float, ...]], picture: Path) -> None:
 
     seconds, megabytes, answered, busy, _, healthz, collision_time = zip(*rows, strict=True)
     minutes = [one / 60.0 for one in seconds]
-    step = seconds[1] - seconds[0]
+
+    def rate(counts: tuple[float, ...]) -> list[float]:
+        return [count / (seconds[1] - seconds[0]) for count in counts]
+
+    panels = (
+        ("memory [MB]", {"": megabytes}),
+        ("answers a second", {"200": rate(answered), "429 or 503 with Retry-After": rate(busy)}),
+        ("slowest answer to\none more client [s]", {"/healthz": healthz, "/collision-time": collision_time}),
+    )
     figure = Figure((8.0, 6.0), layout="constrained")
-    above, middle, below = figure.subplots(3, sharex=True)
-    above.plot(minutes, megabytes)
-    above.set_ylabel("memory [MB]")
-    middle.plot(minutes, [count / step for count in answered], label="200")
-    middle.plot(minutes, [count / step for count in busy], label="429 or 503 with Retry-After")
-    middle.set_ylabel("answers a second")
-    below.plot(minutes, healthz, label="/healthz")
-    below.plot(minutes, collision_time, label="/collision-time")
-    below.set_ylabel("slowest answer to\none more client [s]")
-    below.set_xlabel("minutes of all attacks in turn beside 64 clients")
-    for axes in (middle, below):
-        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False)
-    for axes in (above, middle, below):
-        axes.set_ylim(bottom=0.0)
+    for axes, (label, curves) in zip(figure.subplots(3, sharex=True), panels, strict=True):
+        for name, values in curves.items():
+            axes.plot(minutes, values, label=name)
+        axes.set(ylabel=label, ylim=(0.0, None))
         axes.grid(alpha=0.3)
+        if len(curves) > 1:
+            axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False)
+    axes.set_xlabel("minutes of all attacks in turn beside 64 clients")
     figure.savefig(picture, dpi=120)
 
 

@@ -23,16 +23,14 @@ def box_at(entry: float, leaving: float, ratio: float, half: np.ndarray) -> tupl
     return box_of(1.7, turns, 0, centre, half, LEAST), centre
 
 
-def turn_at(point: np.ndarray) -> Turn | None:
+def turn_at(point: np.ndarray, pitch: float = 1.7, least: float = LEAST) -> Turn | None:
     """The turn at a point of a box that the benches can follow; None if there is none."""
+    entry, leaving = float(point[0]), float(point[0] + pitch / (2.0 * math.pi) * point[1])
     try:
-        turn = Turn(
-            1.7, 30.0, math.exp(point[2]), start_turns=30.0, entry_radius=float(point[0]),
-            exit_radius=float(point[0] + GROWTH * point[1]),
-        )  # fmt: skip
+        turn = Turn(pitch, 30.0, math.exp(point[2]), start_turns=40.0, entry_radius=entry, exit_radius=leaving)
     except InvalidValue:
         return None
-    return turn if min(turn.radii) >= LEAST else None
+    return turn if min(turn.radii) >= least else None
 
 
 def turns_drawn(centre: np.ndarray, half: np.ndarray, count: int, inner: float) -> list[Turn]:

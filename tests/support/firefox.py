@@ -27,8 +27,6 @@ MISSING = "no Firefox starts here: apt install firefox-esr, or set FIREFOX to th
 # Longest wait for the browser, and for what is coming on a page [s].
 PATIENCE = 120.0
 LISTENS = re.compile(r"WebDriver BiDi listening on ws://127\.0\.0\.1:(\d+)")
-# Keys of WebDriver.
-KEYS = {"Enter": "\ue007", "ArrowUp": "\ue013"}
 # Files are saved without a question, and Firefox asks nobody else for anything.
 SETTINGS = {
     "browser.download.folderList": 2,
@@ -117,18 +115,17 @@ class Firefox:
         moves = steps if right or down else []
         press = [{"type": "pointerMove", "x": x, "y": y}, {"type": "pointerDown", "button": 0}]
         actions = [*press, *moves, {"type": "pointerUp", "button": 0}]
-        mouse = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": actions}
-        self._ask("input.performActions", context=self._tab, actions=[mouse])
+        self._act({"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": actions})
 
     def click(self, selector: str, at: tuple[int, int] = (0, 0)) -> None:
         self.drag(selector, at=at)
 
-    def press(self, *keys: str) -> None:
-        """Keys by their names, one after another."""
-        actions = [{"type": kind, "value": KEYS.get(key, key)} for key in keys for kind in ("keyDown", "keyUp")]
-        self._ask(
-            "input.performActions", context=self._tab, actions=[{"type": "key", "id": "keys", "actions": actions}]
-        )
+    def press(self, key: str) -> None:
+        actions = [{"type": kind, "value": key} for kind in ("keyDown", "keyUp")]
+        self._act({"type": "key", "id": "keys", "actions": actions})
+
+    def _act(self, actions: dict[str, Any]) -> None:
+        self._ask("input.performActions", context=self._tab, actions=[actions])
 
     def saved(self, name: str) -> bytes:
         """The content of a file that the page saves, once it is there."""
