@@ -40,7 +40,6 @@ TOO_MUCH = {
     "long body": {"method": "POST", "url": "/check", "json": LONG_BODY},
     "body": {"method": "POST", "url": "/minimum-pitch", "json": {"dragon": HEAVY}},
     "scan": SCAN,
-    "figure": SCAN | {"url": "/figures/pitch-scan.svg"},
     "plan": {"method": "POST", "url": "/plan", "json": LONG_PLAN},
 }
 RUNNING, GONE = 'bench_dragon_computations{lane="heavy"}', 'bench_dragon_stopped_total{reason="client gone"}'
