@@ -271,16 +271,7 @@ def test_the_turn_has_the_answers_of_the_service_and_none_of_them_stays_on_a_spi
 
 @thorough
 def test_all_numbers_are_in_view_explained_and_what_answers_offer_is_danced(open_page: Any, server: str) -> None:
-    person = open_page("?path=turn&benches=20").sees({".field": 17, ".field .help:visible": 17})
-    assert person.ask("!document.querySelector('#controls').matches(':has(.what:empty)')")
-    assert person.at("#controls").evaluate("one => one.scrollHeight <= one.clientHeight")
-    cut = "all => all.filter((one) => one.scrollWidth > one.clientWidth + 1).length"
-    assert person.all(".field .what").evaluate_all(cut) == 0
-    end = person.page.get_by_label("Slider of Pitch ends at")
-    end.fill("9")
-    end.press("Enter")
-    person.at("[data-field=pitch] input[type=range]").press("End")
-    person.holds({"#pitch": "9"}).presses(".field:has(#pitch) .reset")
+    person = open_page("?path=turn&benches=20").sees({".field .help:visible": 17, ".field .what:empty": 0})
     person.types({"#ratio": "1.5", "#speed_limit": "1.8"}, "Tab")
     fastest = answer_of(server, "maximum-head-speed", benches=20, ratio=1.5, speed_limit=1.8)["head_speed"]
     shortest = answer_of(server, "shortest-turn", benches=20, ratio=1.5, pitch=1.7)
@@ -290,9 +281,7 @@ def test_all_numbers_are_in_view_explained_and_what_answers_offer_is_danced(open
     assert float(person.at("#head_speed").input_value()) == pytest.approx(fastest, abs=1e-6)
     radii = {f"#{name}": f"{shortest[name]}" for name in ("entry_radius", "exit_radius")}
     person.holds(radii).sees({"#first-contact .value": "Nothing touches"}).settles()
-    # The colours have the highest speed of the answer, also above twice that of the head.
-    fast = person.text("#highest-speed .value")[:4]
-    person.sees({"#legend span >> nth=1": fast}).presses("#quickest-turn button").settles()
+    person.presses("#quickest-turn button").settles()
     person.sees({"#quickest-turn .value": person.text("#turn-time .value")}).presses("#minimum-pitch button")
     person.sees({"[data-path=spiral][aria-pressed=true]": True, "#entry_radius": False})
     person.holds({"#pitch": str(answer_of(server, "minimum-pitch", benches=20)["pitch_bracket"][1])})
@@ -338,8 +327,7 @@ def test_the_pitch_chart_has_a_first_look_which_never_replaces_its_jumps(open_pa
     person.types({"#width": "0.29"}, "Tab")
     person.at("html[data-pending=look]").wait_for()  # All the rest is answered.
     late.let_go()
-    person.settles().sees({"#scan:not(.coarse) .uplot": True}).speaks("zh")
-    person.sees({"#scan .reading": "龙头停在", "#scan.coarse, #scan[aria-busy=true]": 0})
+    person.settles().sees({"#scan:not(.coarse) .uplot": True})
 
 
 def test_what_is_chosen_and_changed_is_shared_and_opens_as_the_same_state(open_page: Any) -> None:
@@ -352,7 +340,6 @@ def test_what_is_chosen_and_changed_is_shared_and_opens_as_the_same_state(open_p
     person.sees({"#rows tr.chosen": "5 · body 5"}).types({"#pitch": "0.5", "#width": "0.25"}, "Tab").presses("#share")
     person.arrives(re.compile("width=0.25"))
     person.strikes("Escape").speaks("zh").reaches_below()
-    assert person.address().items() >= {"pitch": "0.5", "width": "0.25", "handle": "5", "lang": "zh"}.items()
     other = open_page(f"?{person.page.url.partition('?')[2]}").reaches_below()
     for place in ("#first-contact", "#clock", "#table-time", "tr.chosen", "#minimum-pitch", "#curl"):
         assert other.text(place) == person.text(place)

@@ -74,10 +74,8 @@ def test_a_parade_is_judged_as_by_the_service_and_played_together(open_page: Any
     report = polite.answer(server, "check", file | {"details": False})
     assert report["verdict"] == "passes"
     assert len(file["dances"]) == person.counts("#dragons li") == 3
-    before = person.picture()
     person.presses("#play").page.wait_for_function("() => Number(document.querySelector('#time').value) > 30")
-    assert (person.presses("#play").picture() != before).any()
-    assert all(person.coloured(colour) > 20 for colour in COLOURS)
+    assert all(person.presses("#play").coloured(colour) > 20 for colour in COLOURS)
 
 
 @thorough
