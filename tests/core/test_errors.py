@@ -6,7 +6,6 @@ Numbers of users: in range they become floats, else the error names the value, i
 import copy
 import math
 import pickle
-from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
@@ -100,13 +99,10 @@ def number(name="time", value=3.5, unit="s", low=1.0, **options):
         ("time must be at least 1 s, got 0.5 s", number(value=0.5)),
         ("time must be a finite number, got nan s", number(value=math.nan)),
         ("time must be a number, got True", number(value=True)),
-        ("time must be a number, got Decimal('2')", number(value=Decimal(2))),
         ("time must be from 1 to 3 s, got 1e308 or more", number(value=10**400)),
         ("turns must be positive, got 0 turns", number("turns", 0.0, "turns", 0.0, open_low=True)),
-        ("ratio must be at most 3, got 4", number("ratio", 4.0, "")),
         ("width must be positive, got -0.3 m", lambda: checked_size("width", -0.3)),
         ("width must be at least 0.001 m, got 0.0005 m", lambda: checked_size("width", 0.5 * SIZE_MIN)),
-        ("width must be at most 10000 m, got 20000 m", lambda: checked_size("width", 2.0 * SIZE_MAX)),
         ("path must be a Spiral or a dict, got 'spiral'", lambda: checked_type("path", "spiral", (Spiral, dict))),
         ("path must be a Spiral, got the class Spiral", lambda: checked_type("path", Spiral, Spiral)),
     ],

@@ -1,6 +1,5 @@
 """The compiled loops against the same files uncompiled: to the last bit, through the questions of core that use any."""
 
-import ast
 import subprocess
 import sys
 from functools import cache
@@ -109,26 +108,6 @@ def test_compiled_file_is_not_older_than_its_source(module):
     sources = (SOURCES / f"{module}.py", SOURCES / f"{module}.pxd", *(SOURCES / f"{name}.pxd" for name in NAMES))
     assert compiled.suffix != ".py", "all modules are compiled, or none"
     assert compiled.stat().st_mtime >= max(source.stat().st_mtime for source in sources), "run make setup"
-
-
-STUB = ast.parse((SOURCES / "__init__.pyi").read_text(encoding="utf-8"))
-
-
-def test_type_checkers_see_every_name_that_the_kernels_offer():
-    door = ast.parse((SOURCES / "__init__.py").read_text(encoding="utf-8"))
-    offered = {name.name for node in door.body if isinstance(node, ast.ImportFrom) for name in node.names}
-    declared = {node.name for node in STUB.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
-    declared |= {str(node.target.id) for node in STUB.body if isinstance(node, ast.AnnAssign)}
-    assert declared == offered - {"*"}
-
-
-@needs_compiled
-def test_what_type_checkers_see_of_the_types_is_there():
-    for node in STUB.body:
-        if isinstance(node, ast.ClassDef):
-            members = {str(part.target.id) for part in node.body if isinstance(part, ast.AnnAssign)}
-            members |= {part.name for part in node.body if isinstance(part, ast.FunctionDef)}
-            assert members <= set(dir(getattr(kernels, node.name))), node.name
 
 
 @needs_compiled

@@ -26,6 +26,7 @@ from core.contact.search import ContactSearch
 from core.design.ways import Ways
 from core.extremes.speed import SPEED_ROUNDING, first_excess
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
+from core.sampling import bisect
 from tests.campaigns.rounding_sweep import Errors, compare, sweep
 from tests.support.depth import further
 from tests.support.exact_chain import BITS, angles_behind, coil_handles, distance, middle, separation, spiral_place
@@ -213,15 +214,12 @@ def test_a_pitch_at_which_rounding_hides_whether_benches_graze_is_not_called_inf
     """Pitches around that at which benches 0 and 19 graze by the doubles, nearer than gaps are proven good to."""
     dragon, result = Dragon(60), minimum_pitch(Dragon(60))
     ways = Ways(dragon, 4.5, 16.0, 0.0, 0.0, None)
-    bands = ways.bands
-    bands.graze = result.benches, result.head_radius
+    ways.bands.graze = result.benches, result.head_radius
 
     def dip(pitch):
-        return bands.dip(pitch, *reversed(bands.graze))
+        return ways.bands.dip(pitch, result.head_radius, result.benches)
 
-    low, high = result.pitch_bracket
-    while low < (pitch := 0.5 * (low + high)) < high:
-        low, high = (pitch, high) if dip(pitch)[0] <= 0.0 else (low, pitch)
+    _, high = bisect(lambda pitch: dip(pitch)[0] > 0.0, *result.pitch_bracket)
     grazes = []
     for pitch in np.concatenate([high + NEAR * np.linspace(-4.0, 4.0, 41), result.pitch_bracket]).tolist():
         grazes.append(ways.grazes(pitch))

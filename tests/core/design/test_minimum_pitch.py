@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from core import (
     Dance,
@@ -69,16 +67,6 @@ def test_the_least_separation_at_the_answer_is_the_margin(radius, margin):
     assert not on_circle or result.head_radius == pytest.approx(radius, abs=ACCURACY)
     least = least_gap(Dragon(60), result, 14.0, 0.0 if on_circle else 0.02)
     assert least == pytest.approx(margin, abs=ACCURACY)
-
-
-@settings(max_examples=3, deadline=None)
-@given(st.floats(2.5, 5.0), st.floats(0.01, 0.3), st.floats(0.2, 5.0))
-def test_the_answer_scales_with_every_length(radius, margin, k):
-    scaled = Dragon(40, k * 3.41, k * 2.2, k * 0.3, k * 0.275)
-    minimum = minimum_pitch(Dragon(40), turning_radius=radius, margin=margin)
-    large = minimum_pitch(scaled, turning_radius=k * radius, margin=k * margin)
-    assert large.pitch == pytest.approx(k * minimum.pitch, abs=ACCURACY * max(1.0, k))
-    assert large.limited_by == minimum.limited_by
 
 
 def test_benches_out_of_reach_change_nothing():

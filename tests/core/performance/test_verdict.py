@@ -6,17 +6,13 @@ import numpy as np
 import pytest
 
 from core import (
-    Budget,
     Dance,
     Dragon,
     FailureKind,
     Judgement,
-    Line,
     Part,
     Performance,
-    Route,
     Spiral,
-    TooMuchWork,
     Venue,
     bench_outlines,
     check,
@@ -121,12 +117,3 @@ def test_the_ground_of_each_dragon_is_that_of_its_dance_and_of_the_place_where_i
 def test_impossible_times_are_refused(times, field):
     with refused(field):
         performance_trajectory(CROSSING, times)
-
-
-@pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
-def test_wherever_the_work_ends_the_user_is_told(share):
-    performance = Performance([Part(Dance(Dragon(9), Route([Line((0, 3 * k), (40, 3 * k))]))) for k in range(9)])
-    whole = Budget(1e9)
-    performance_check(performance, budget=whole)
-    with pytest.raises(TooMuchWork):
-        performance_check(performance, budget=Budget(share * (1e9 - whole.left)))
