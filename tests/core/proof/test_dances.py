@@ -11,7 +11,7 @@ from core.proof import prove_clear, prove_collision_time, prove_contact, verify
 from tests.support.depth import thorough
 from tests.support.forgeries import assert_refused, stretches, through_json
 from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
-from tests.support.reference_contacts import CONTACTS, OFF, proven_then_only
+from tests.support.reference_contacts import CONTACTS, proven_then_only
 from tests.support.refused import refused
 
 # A difference of a margin from the least clearance that is refused [m].
@@ -105,13 +105,6 @@ def test_a_route_is_clear_to_its_end():
     assert certificate["claim"]["stop"] == HAIRPIN.end
     assert "the route ends before" in verify(certificate).statement
     assert_refused(certificate, "claim.stop += -2e-9", "not shown to end")
-
-
-def test_a_run_is_proven_clear_until_just_before_its_contact_alone():
-    dance, time = reference_dance("n_5"), CONTACTS["n_5"]["time"]
-    verify(prove_clear(dance, time - OFF))
-    with pytest.raises(ProofRefused, match="benches 0 and 4 overlap"):
-        prove_clear(dance, time + OFF)
 
 
 @pytest.mark.parametrize(("field", "query"), [("start", {"start": 5.0}), ("stop", {"stop": 1e4})])

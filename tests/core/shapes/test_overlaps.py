@@ -11,7 +11,7 @@ from core.errors import SIZE_MAX, SIZE_MIN
 from core.shapes.overlaps import POSITION_MAX, Engine, Verdict, cross_check, overlaps, separation, verdicts
 from tests.support.depth import examples
 from tests.support.refused import refused
-from tests.support.scenes import LENGTH, WIDTH, all_pairs, benches, crowd, near_pairs
+from tests.support.scenes import LENGTH, WIDTH, benches, crowd, near_pairs
 
 # Within this of the margin the engines may differ, for each rounds its own corners [m].
 UNDECIDED = 1e-9
@@ -91,15 +91,6 @@ def test_engines_agree_on_random_and_near_touching_pairs(count, margin):
         differs = within != (gap <= margin)
         assert np.abs(gap[differs] - margin).max(initial=0.0) <= UNDECIDED, engine
         assert engine is not Engine.SEPARATING_AXIS or not differs.any()
-
-
-@settings(deadline=None, max_examples=25)
-@given(st.integers(0, 2**32), st.integers(2, 40), st.sampled_from([0.0, 0.05, 1.0]))
-def test_exact_engines_agree_on_crowds(seed, count, margin):
-    scene = crowd(count, seed, side=8.0)
-    expected = all_pairs(scene, margin)
-    for engine in EXACT:
-        np.testing.assert_array_equal(overlaps(*scene, engine=engine, margin=margin, chained=False).pairs, expected)
 
 
 def test_cross_check_names_the_engine_that_differs_and_its_pairs():
