@@ -267,11 +267,10 @@ def test_by_default_one_client_cannot_take_all_places(tmp_path: Path) -> None:
             assert {429} <= {each.result() for each in mine} <= {200, 400, 422, 429}
 
 
-@pytest.mark.parametrize("accept", ["*/*", CSV_TYPE])
-def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held: Service, accept: str) -> None:
+def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held: Service) -> None:
     def answer(**headers: str) -> httpx.Response:
         body = {"times": {"stop": 400, "step": 2.0}}
-        return httpx.post(f"{held.url}/trajectory", json=body, headers={"Accept": accept, **headers}, timeout=SOON)
+        return httpx.post(f"{held.url}/trajectory", json=body, headers={"Accept": CSV_TYPE} | headers, timeout=SOON)
 
     simple, zipped = answer(**{"Accept-Encoding": "identity"}), answer(**{"Accept-Encoding": "gzip"})
     assert ("content-encoding" in simple.headers, zipped.headers["content-encoding"]) == (False, "gzip")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 from typing import Any
@@ -80,14 +79,3 @@ def test_the_command_writes_dances_and_pictures(tmp_path: Path) -> None:
     assert run("check", str(folder / "2-ring.json")).stdout.startswith("Passes.")
     result = run("propose", written(tmp_path, {"dragon": {"benches": 4}, "venue": LANE}), "--output", str(none))
     assert (result.returncode, " ".join(result.stdout.split()), list(none.iterdir())) == (0, TOO_NARROW, [])
-
-
-@pytest.mark.thorough
-def test_the_command_says_how_many_benches_fit_and_what_the_area_bounds(tmp_path: Path) -> None:
-    body = {"venue": box(0, 0, 9, 9), "dragon": {"benches": 3}, "figures": ["ring"], "objective": "benches", "count": 1}
-    file = written(tmp_path, body)
-    answer = json.loads(run("propose", file, "--json").stdout)
-    table = run("propose", file).stdout.splitlines()
-    head, row = (next(line.split() for line in table if word in line) for word in ("figure", "ring"))
-    assert row[head.index("benches")] == str(answer["proposals"][0]["dance"]["dragon"]["benches"])
-    assert f"no dragon of this kind has more than {answer['most_benches']} benches" in " ".join(table)
