@@ -101,10 +101,3 @@ def test_wrong_requests_get_a_clear_word(
 def test_a_name_in_another_encoding_is_no_obstacle(client: httpx.Client, name: str) -> None:
     answer = client.post(f"/grade?name={name}", content=b"a,b", headers=FILE).raise_for_status()
     assert answer.json()["files"][0]["verdict"] == "unreadable"
-
-
-def test_a_guess_stands_beside_the_diagnosis(client: httpx.Client) -> None:
-    [answer] = client.post("/grade?pitch=0.4202").raise_for_status().json()["answers"]
-    [guess] = answer["possible"]
-    assert (answer["verdict"], answer["diagnosis"], guess["error"]) == ("wrong", [], "pose_on_circle")
-    assert 0.01 < guess["probability"] < 0.05

@@ -58,18 +58,15 @@ def test_a_mirrored_arc_is_mirrored() -> None:
 
 @pytest.mark.parametrize("bulge", [0.2, -0.2, 1.0, -1.0, 3.0, 1e-5, 1e-9, -0.5])
 def test_a_bulge_is_the_arc_that_it_says(bulge: float) -> None:
-    line = SPACE.add_lwpolyline([(0, 0, bulge), (10, 5, 0)], format="xyb")
-    points = points_of(line, 1.0)
-    assert (points[0].tolist(), points[-1].tolist()) == ([0.0, 0.0], [10.0, 5.0])
-    chord, left = hypot(10, 5), np.array([-5.0, 10.0]) / hypot(10, 5)
-    # A positive bulge turns to the left, so its top is to the right of the straight line.
-    top = np.array([5.0, 2.5]) - left * 0.5 * chord * bulge
+    points = points_of(SPACE.add_lwpolyline([(0, 0, bulge), (10, 5, 0)], format="xyb"), 1.0)
+    assert points[[0, -1]].tolist() == [[0.0, 0.0], [10.0, 5.0]]
     if abs(bulge) < 1e-3:
         assert len(points) == 2
         return
-    # The middle of the circle is as far from the beginning as from the end and the top.
-    centre = np.linalg.solve([[10.0, 5.0], top], [62.5, 0.5 * top @ top])
-    radius = hypot(*centre)
+    # A positive bulge turns to the left, so its top is to the right of the straight line.
+    middle, left = np.array([5.0, 2.5]), np.array([-5.0, 10.0])
+    top, centre = middle - 0.5 * bulge * left, middle + (1.0 - bulge**2) / (4.0 * bulge) * left
+    radius = hypot(*(top - centre))
     assert np.hypot(*(points - centre).T) == pytest.approx(radius)
     assert abs(circle_of(points, *centre) - radius).max() <= SAG
     assert np.hypot(*(points - top).T).min() < 0.5
@@ -80,7 +77,7 @@ def test_a_squeezed_circle_is_an_ellipse_and_a_part_of_it() -> None:
     x, y = (middles(whole) - (1.0, 2.0)).T
     assert abs(np.hypot(x, 2.0 * y) - 30.0).max() <= 2.0 * SAG
     assert whole[0] == pytest.approx(whole[-1])
-    half = points_of(SPACE.add_ellipse((0, 0), major_axis=(0, 4), ratio=0.5, start_param=0.0, end_param=pi), 1.0)
+    half = points_of(SPACE.add_ellipse((0, 0), major_axis=(0, 4), ratio=0.5, end_param=pi), 1.0)
     assert half[[0, -1]] == pytest.approx(np.array([(0.0, 4.0), (0.0, -4.0)]), abs=ROUNDING)
     assert half[:, 0].min() == pytest.approx(-2.0, abs=SAG)
 

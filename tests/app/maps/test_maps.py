@@ -22,7 +22,7 @@ from app.questions.maps import MapFormat, MapsRequest
 from app.settings import Settings
 from core import InvalidValue
 from tests.conftest import ROOT
-from tests.support.asking import assert_problem
+from tests.support.asking import assert_problem, box
 from tests.support.command import run
 from tests.support.refusal_rows import assert_refused
 
@@ -45,6 +45,10 @@ def read(data: bytes, units: Any = None) -> DanceParts:
     return places_of(data, units, SAY)
 
 
+def read_json(value: Any, units: Any = None) -> DanceParts:
+    return read(json.dumps(value).encode(), units)
+
+
 def rings(result: DanceParts) -> list[Any]:
     return [np.array(ring) for area in result.venue.areas for ring in area.rings]
 
@@ -62,59 +66,44 @@ def posted(client: httpx.Client, data: bytes | str, kind: str = "application/oct
 
 
 def assert_alike(features: list[Any], others: list[Any]) -> None:
-    """The same shapes with the same names, at the same places."""
+    """The same shapes with the same names and radii, at the same places."""
     for one, other in zip(features, others, strict=True):
-        assert one["properties"]["name"] == other["properties"]["name"]
+        assert [one["properties"].get(name) for name in ("name", "radius")] == [
+            other["properties"].get(name) for name in ("name", "radius")
+        ]
         assert one["geometry"]["type"] == other["geometry"]["type"]
         places, expected = (np.array(each["geometry"]["coordinates"]) for each in (one, other))
         assert places == pytest.approx(expected, rel=0, abs=ROUNDING)
 
 
-@pytest.mark.parametrize("format", MapFormat)
-@pytest.mark.parametrize("path", PATHS, ids=lambda path: path["kind"])
-def test_what_goes_out_comes_in_as_it_was(client: httpx.Client, format: str, path: dict[str, Any]) -> None:
-    got = posted(client, map_of(client, format, path=path, venue=VILLAGE, origin=ORIGIN).content)
-    assert {name: value for name, value in got["path"].items() if path.get(name) is not None} == path
-    assert got["venue"]["origin"] == ORIGIN
-    assert_alike(got["venue"]["features"], VILLAGE["features"])
-    # The answer can be sent back, and knows where it is.
-    assert map_of(client, "kml", path=got["path"], venue=got["venue"]).content.startswith(b"<?xml")
-
-
-def thing(name: str, kind: str, coordinates: Any) -> dict[str, Any]:
-    return {"type": "Feature", "properties": {"name": name}, "geometry": {"type": kind, "coordinates": coordinates}}
-
-
-COLLECTION = json.loads("""{"type": "FeatureCollection", "features": [
-    {"type": "Feature", "properties": {"name": "square"}, "geometry":
-        {"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]}},
+THINGS = VILLAGE["features"] + json.loads("""[
     {"type": "Feature", "properties": {"name": "elm", "radius": 0.7}, "geometry":
         {"type": "Point", "coordinates": [10.5, 4.25]}},
     {"type": "Feature", "properties": {"name": "wall", "radius": 0.15}, "geometry":
         {"type": "LineString", "coordinates": [[-20, 10], [-10, 12], [0, 10]]}},
     {"type": "Feature", "properties": {"name": "ring wall", "radius": 0.2}, "geometry":
-        {"type": "LineString", "coordinates": [[20, 20], [25, 20], [25, 25], [20, 20]]}},
-    {"type": "Feature", "properties": {"name": "stage"}, "geometry":
-        {"type": "Polygon", "coordinates": [[[-20, -20], [-15, -20], [-15, -15], [-20, -20]]]}}
-]}""")
-THINGS = COLLECTION["features"]
+        {"type": "LineString", "coordinates": [[20, 20], [25, 20], [25, 25], [20, 20]]}}
+]""")
+COLLECTION = {"type": "FeatureCollection", "features": THINGS}
 
 
-@pytest.mark.parametrize(
-    ("format", "origin"),
-    [("geojson", None), ("geojson", ORIGIN), ("kml", ORIGIN), ("dxf", None), ("dxf", ORIGIN)],
-    ids=lambda part: part if isinstance(part, str) else "degrees" if part else "metres",
-)
-def test_trees_and_walls_come_back_as_they_were(
-    client: httpx.Client, format: str, origin: dict[str, float] | None
-) -> None:
-    result = read(map_of(client, format, path=CORNER, venue=COLLECTION, origin=origin).content)
-    assert not any("without a radius" in note for note in result.notes)
-    assert_alike(result.geometry["features"], THINGS)
-    assert [one["properties"] for one in result.geometry["features"]] == [one["properties"] for one in THINGS]
-    # So they do from a file that describes the dance.
-    again = read(json.dumps({"venue": result.geometry}).encode())
-    assert (again.geometry, again.venue) == (result.geometry, result.venue)
+@pytest.mark.parametrize("format", MapFormat)
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path["kind"])
+def test_what_goes_out_comes_in_as_it_was(client: httpx.Client, format: str, path: dict[str, Any]) -> None:
+    for origin in (ORIGIN, None)[: 1 if format == "kml" else 2]:
+        got = posted(client, map_of(client, format, path=path, venue=COLLECTION, origin=origin).content)
+        assert {name: value for name, value in got["path"].items() if path.get(name) is not None} == path
+        assert got["venue"].get("origin") == origin
+        assert_alike(got["venue"]["features"], THINGS)
+        assert not any("without a radius" in note for note in got["notes"])
+        # The answer can be sent back, and knows where it is; so it can as a file that describes the dance.
+        again = {"path": got["path"], "venue": got["venue"]}
+        assert origin is None or map_of(client, "kml", **again).content.startswith(b"<?xml")
+        assert_alike(read_json(again).geometry["features"], THINGS)
+
+
+def thing(name: str, kind: str, coordinates: Any) -> dict[str, Any]:
+    return {"type": "Feature", "properties": {"name": name}, "geometry": {"type": kind, "coordinates": coordinates}}
 
 
 def test_walls_of_a_drawing_are_drawn_as_wide_as_they_are(client: httpx.Client) -> None:
@@ -139,7 +128,7 @@ def test_a_path_whose_line_was_moved_goes_through_the_line() -> None:
     straight = {"kind": "waypoints", "points": [[0.0, 0.0], [20.0, 0.0]]}
     feature = {"type": "Feature", "properties": {"name": "path", "path": straight},
                "geometry": {"type": "LineString", "coordinates": line}}  # fmt: skip
-    result = read(json.dumps(feature).encode())
+    result = read_json(feature)
     assert result.path == {"kind": "waypoints", "points": line}
     assert "edited" in result.notes[1]
 
@@ -180,14 +169,14 @@ def test_a_map_drawn_on_a_phone_is_understood() -> None:
 
 def test_what_has_no_square_and_no_radius_gets_both() -> None:
     lines = [[[100.0, 0.0], [104.0, 0.0]], [[100.0, 9.0], [104.0, 9.0]]]
-    forms = [("Point", [0.0, 0.0]), ("Point", [300.0, 40.0]), *(("LineString", line) for line in lines)]
-    geometries = [{"type": kind, "coordinates": place} for kind, place in forms]
-    result = read(json.dumps({"type": "GeometryCollection", "geometries": geometries}).encode())
+    forms = [("Point", [0.0, 0.0], 0.5), ("Point", [300.0, 40.0], 0.5), *(("LineString", line, 0.1) for line in lines)]
+    collection = {"type": "FeatureCollection", "features": [thing("", kind, places) for kind, places, _ in forms]}
+    result = read_json(collection)
     assert rings(result)[0].min(axis=0).tolist() == [-20.0, -20.0]
     # They stay points and lines with a radius, for a request and for whoever moves them.
-    things = [(one["geometry"], one["properties"]) for one in result.geometry["features"][1:]]
-    radii = zip(geometries, (0.5, 0.5, 0.1, 0.1), strict=True)
-    assert things == [(one, {"name": f"obstacle {k}", "radius": r}) for k, (one, r) in enumerate(radii, start=1)]
+    things = [(*one["geometry"].values(), one["properties"]["radius"]) for one in result.geometry["features"][1:]]
+    assert things == forms
+    assert names(result)[1:] == [f"obstacle {k}" for k in range(1, 5)]
     assert sum("without a radius" in note for note in result.notes) == 2
 
 
@@ -266,17 +255,15 @@ def test_what_is_empty_or_hidden_is_left_out_and_reported() -> None:
 
 @pytest.mark.parametrize("across", [0.0003, 0.1, 0.3, 3.0, 3.5, 60.0])
 def test_places_and_check_agree_about_degrees(client: httpx.Client, across: float) -> None:
-    x, y = 119.5, 29.0
-    ring = [[x, y], [x + across, y], [x + across, y + across], [x, y + across], [x, y]]
-    square = {"type": "Polygon", "coordinates": [ring]}
+    square = box(119.5, 29.0, 119.5 + across, 29.0 + across)
     checked = client.post("/check", json={"dragon": {"benches": 2}, "venue": square})
     taken_for_degrees = "looks like longitude and latitude" in checked.text
     if across in (0.3, 3.0):
         with pytest.raises(InvalidValue, match=r"20 km across.*if they are metres, give the units metres"):
-            read(json.dumps(square).encode())
+            read_json(square)
         assert taken_for_degrees
         return
-    result = read(json.dumps(square).encode())
+    result = read_json(square)
     assert (result.origin is not None) == taken_for_degrees
     again = client.post("/check", json={"dragon": {"benches": 2}, "venue": result.geometry})
     assert again.status_code == 200, again.text
@@ -284,7 +271,7 @@ def test_places_and_check_agree_about_degrees(client: httpx.Client, across: floa
 
 def test_a_square_that_check_refuses_is_noted() -> None:
     square = {"type": "Polygon", "coordinates": [[[0, 0], [2, 0], [2, 2], [0, 0]]]}
-    result = read(json.dumps(square).encode(), "metres")
+    result = read_json(square, "metres")
     assert any("narrower than a bench of 3.41 m: check refuses it" in note for note in result.notes)
 
 
@@ -339,11 +326,9 @@ def test_the_command_takes_a_map_for_a_dance_and_gives_one(tmp_path: Path, monke
     Path("temple.kml").write_text(KML)
     Path("dance.toml").write_text('venue = "temple.kml"\npath = "temple.kml"\nmargin = 0.2\ndragon.benches = 4\n')
     checked = run("check", "dance.toml", "--json")
-    assert checked.returncode == 0, checked.stderr
     assert json.loads(checked.stdout)["origin"] == pytest.approx({"longitude": 120.0002, "latitude": 30.00015})
     assert "temple.kml: Longitude and latitude were converted to metres" in checked.stderr
-    done = run("maps", "dance.toml", "--output", "dance.dxf")
-    assert (done.returncode, done.stdout) == (0, "")
+    assert run("maps", "dance.toml", "--output", "dance.dxf").returncode == 0
     assert "camphor" in run("places", "dance.dxf", "--output", "again.json").stdout
     again = json.loads(Path("again.json").read_text())
     assert (again["path"]["kind"], len(again["venue"]["features"])) == ("waypoints", 2)
@@ -357,23 +342,21 @@ LOW = {"name": "low", "dragon": {"benches": 2}, "path": CORNER}
 TWO: dict[str, Any] = {"dances": [LOW, LANE], "venue": VILLAGE, "origin": ORIGIN, "spacing": 2}
 
 
-def of_role(features: list[Any], role: str) -> list[Any]:
-    return [one for one in features if one["properties"]["role"] == role]
-
-
 def test_a_map_of_several_dances_has_the_path_and_the_marks_of_each(client: httpx.Client) -> None:
     performance, _ = MapsRequest.model_validate(TWO).to_placed(Settings())
     features = client.post("/maps.geojson", json=TWO).raise_for_status().json()["features"]
     for k, (dance, name) in enumerate(zip(TWO["dances"], ("low", "1"), strict=True)):
         start, stop = performance.parts[k].own_span(*performance.span())
-        alone = {"venue": VILLAGE, "origin": ORIGIN, "spacing": 2, "start": start, "stop": stop}
-        own = map_of(client, "geojson", **alone, dragon=dance["dragon"], path=dance["path"]).json()["features"]
-        for role in ("path", "mark"):
-            some = [one for one in of_role(features, role) if one["properties"]["dragon"] == k]
-            for one, known in zip(some, of_role(own, role), strict=True):
-                assert one["geometry"] == known["geometry"]
-                assert one["properties"]["name"] == f"{name} {known['properties']['name']}"
-                assert one["properties"]["dragon_name"] == dance.get("name")
+        alone = TWO | {"dances": None, "start": start, "stop": stop, "dragon": dance["dragon"], "path": dance["path"]}
+        roles = {"path", "mark"}
+        known = [
+            one for one in map_of(client, "geojson", **alone).json()["features"] if one["properties"]["role"] in roles
+        ]
+        some = [one for one in features if one["properties"].get("dragon") == k]
+        assert [one["geometry"] for one in some] == [one["geometry"] for one in known]
+        words = [f"{name} {one['properties']['name']}" for one in known]
+        assert [one["properties"]["name"] for one in some] == words
+        assert {one["properties"]["dragon_name"] for one in some} == {dance.get("name")}
 
 
 @pytest.mark.parametrize("format", MapFormat)
@@ -389,33 +372,25 @@ def test_a_map_has_at_most_two_thousand_marks(client: httpx.Client) -> None:
     assert_refused(client, "/maps.kml", TWO, f"{json.dumps(many)} -> /spacing 2000 2280")
 
 
-def polygon_of(side: float) -> dict[str, Any]:
-    return {"type": "Polygon", "coordinates": [[[0, 0], [side, 0], [side, side], [0, side], [0, 0]]]}
-
-
-def line_of_places(places: list[list[float]]) -> dict[str, Any]:
-    return {"type": "LineString", "coordinates": places}
-
-
 @pytest.mark.parametrize("write", [str.upper, str.title, str.lower])
 def test_properties_are_read_however_their_names_are_written(write: Callable[[str], str]) -> None:
+    path, well = thing("path", "LineString", [[5, 5], [35, 25]]), thing("well", "Point", [10, 25])
     features = [
-        thing("Market", "Polygon", polygon_of(40)["coordinates"]),
-        thing("path", "LineString", [[5, 5], [35, 25]]),
-        thing("well", "Point", [10, 25]),
+        {"type": "Feature", "properties": {"name": "Market", "layer": "square"}, "geometry": SQUARE},
+        path,
+        well,
     ]
-    features[0]["properties"]["layer"] = "square"
     for one in features:
         one["properties"] = {write(name): value for name, value in one["properties"].items()}
-    result = read(json.dumps({"type": "FeatureCollection", "features": features}).encode(), "metres")
+    result = read_json({"type": "FeatureCollection", "features": features}, "metres")
     assert names(result) == ["Market", "well"]
     assert result.path == {"kind": "waypoints", "points": [[5, 5], [35, 25]]}
 
 
 def test_a_line_of_many_points_keeps_those_that_matter_and_says_how_near_it_stays() -> None:
     places = [[0.5 * k, 30.0 if k == 2501 else 0.001 * (k % 2)] for k in range(5003)]
-    feature = {"type": "Feature", "properties": {"name": "path"}, "geometry": line_of_places(places)}
-    result = read(json.dumps(feature).encode(), "metres")
+    feature = thing("path", "LineString", places)
+    result = read_json(feature, "metres")
     points = result.path["points"]
     assert len(points) == 1000
     assert max(y for _, y in points) == 30.0
@@ -424,13 +399,8 @@ def test_a_line_of_many_points_keeps_those_that_matter_and_says_how_near_it_stay
 
 
 def test_a_square_in_parts_that_share_an_edge_is_one_square_also_at_the_date_line() -> None:
-    halves = [
-        [[179.999, 0], [180, 0], [180, 0.001], [179.999, 0.001]],
-        [[-180, 0], [-179.999, 0], [-179.999, 0.001], [-180, 0.001]],
-    ]
-    geometry = {"type": "MultiPolygon", "coordinates": [[[*half, half[0]]] for half in halves]}
-    feature = {"type": "Feature", "properties": {"name": "square"}, "geometry": geometry}
-    result = read(json.dumps(feature).encode(), "degrees")
+    halves = box(179.999, 0, 180, 0.001), box(-180, 0, -179.999, 0.001)
+    result = read_json(thing("square", "MultiPolygon", [half["coordinates"] for half in halves]), "degrees")
     assert names(result) == ["square"]
     width, height = np.ptp(np.array(result.venue.square.rings[0]), axis=0).tolist()
     assert width == pytest.approx(2.0 * height, rel=0.02)

@@ -109,12 +109,11 @@ def test_times_that_do_not_grow_are_none_and_many_speeds_become_few() -> None:
     assert passages_of(np.zeros(5), np.arange(5.0)) is None
     assert passages_of(np.array([math.nan, 1.0, 2.0]), np.arange(3.0)) is None
     assert passages_of(np.array([0.0, math.nan, 2.0]), np.arange(3.0)) == [{"speed": 1.0, "until_time": 2.0}]
-    times = np.arange(20_000.0)
     places = np.cumsum(np.repeat(np.random.default_rng(0).uniform(0.5, 1.5, 200), 100))
-    passages = passages_of(times, places)
+    passages = passages_of(np.arange(20_000.0), places)
     assert 10 < len(passages) <= PASSAGES
-    speeds, ends = zip(*((one["speed"], one["until_time"]) for one in passages), strict=True)
-    assert np.diff([0.0, *ends]) @ speeds == pytest.approx(places[-1], rel=0.01)
+    speeds, ends = np.array([(one["speed"], one["until_time"]) for one in passages]).T
+    assert np.diff(ends, prepend=0.0) @ speeds == pytest.approx(places[-1], rel=0.01)
 
 
 def test_thinning_and_smoothing_keep_a_straight_way_and_its_ends() -> None:
