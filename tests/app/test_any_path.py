@@ -154,19 +154,6 @@ def test_without_times_any_path_is_drawn_and_checked(ask: Asking, path: Any) -> 
 # -- venues and the cache ------------------------------------------------------------------------------------
 
 
-def test_a_check_names_the_areas_and_a_figure_draws_them(ask: Asking) -> None:
-    areas = {"square": (-2, -3, 62, 3), "stall": (40, 1, 42, 2), "tree": (30, -2, 31, -1)}
-    venue = {"type": "FeatureCollection", "features": [box(*corners, name=name) for name, corners in areas.items()]}
-    got = ask("check", ON_LANE | {"venue": venue, "margin": 0.9, "speed_limit": 0.5, "start": 15.0})
-    failures = {(failure["kind"], failure["area"]) for failure in got["failures"]}
-    assert failures == {("venue", "stall"), ("venue", "tree"), ("speed", None)}
-    # On a straight line the edge of the bench is half its width off the lane.
-    nearest = [area["nearest"]["distance"] for area in got["venue"]["areas"]]
-    assert (nearest[0], nearest[2]) == pytest.approx((2 - 0.275, 1 - 0.15), abs=REFERENCE_TOLERANCE)
-    drawn = ask.file("figures/trajectory.svg", ON_LANE | {"venue": venue, "time": 58}).decode()
-    assert [name for name in ("square", "stall", "58 s") if f"{name} -->" not in drawn] == []
-
-
 @pytest.mark.parametrize("left", [20.0, 9.0], ids=["all outside", "tail outside"])
 def test_a_dragon_that_starts_outside_the_venue_is_a_verdict(ask: Asking, left: float) -> None:
     got = ask("check", ON_LANE | {"venue": box(left, -3, 70, 3, name="yard"), "start": 15.0})

@@ -66,6 +66,7 @@ def answered(line: str, **how: Any) -> str:
     return done.stdout
 
 
+CHECKED = {"margin": 0.2, "speed_limit": 1.5, "start": 20, "venue": YARD, "cross_check": "none"}
 # A command about the FILE, and what its body has beside the dance.
 QUESTIONS = [
     'collision-time FILE -> {"margin": 0.2, "start": 20}',
@@ -76,6 +77,7 @@ QUESTIONS = [
     'trajectory FILE --stop 22 -> {"times": [20, 21, 22]}',
     'clearance FILE --step 10 -> {"times": [20, 30, 40]}',
     'clearance FILE --start 10 --stop 12 --step 0.5 -> {"times": {"start": 10, "stop": 12, "step": 0.5}}',
+    f"check FILE --cross-check none -> {json.dumps(CHECKED)}",
     'maximum-head-speed FILE -> {"speed_limit": 1.5, "start": 20}',
     'maximum-head-speed FILE --speed-limit 3 -> {"speed_limit": 3, "start": 20}',
     # These choose the path, and take the dragon of the file.

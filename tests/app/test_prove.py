@@ -60,13 +60,6 @@ def test_a_malformed_certificate_is_one_line_that_names_the_member(text: str, na
     assert_wrong("--check -", f"the certificate is malformed: {named}", text=text)
 
 
-@pytest.mark.parametrize("name", ["claim", "overlap", "sweeps", "dragon", "precision", "digest"])
-def test_a_certificate_without_a_member_is_one_line_that_names_it(certificate: Path, name: str) -> None:
-    content = json.loads(certificate.read_text())
-    del content[name]
-    assert_wrong("--check -", f"the certificate is malformed: {name}", text=json.dumps(content))
-
-
 @pytest.mark.parametrize(("time", "when"), [((), "0"), (("--time", "1e-11"), "1e-11")], ids=["searched", "stated"])
 def test_a_contact_at_the_start_claims_no_time_before(tmp_path: Path, time: tuple[str, ...], when: str) -> None:
     words = f"benches 0 and 33 are nearer than 0.2 m at {when} + 1e-10 s, within 2e-10 s of the start, so that no time"
@@ -171,11 +164,3 @@ def test_a_dance_along_waypoints_has_no_proof(tmp_path: Path) -> None:
 )
 def test_wrong_usage_gets_exit_code_2(row: str) -> None:
     assert_refused_in_one_line(row, text="{")
-
-
-def test_without_flint_the_error_names_the_extra(certificate: Path, tmp_path: Path) -> None:
-    (tmp_path / "flint.py").write_text("raise ImportError\n")
-    done = run("--check", str(certificate), PYTHONPATH=str(tmp_path))
-    assert (done.returncode, done.stdout) == (2, "")
-    assert "python-flint" in done.stderr
-    assert done.stderr.endswith(": pip install 'bench-dragon[proof]'\n")
