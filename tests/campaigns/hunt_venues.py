@@ -56,11 +56,9 @@ def random_obstacle(rng, slow, times):
     left = np.array([-along[1], along[0]]) * rng.choice([-1.0, 1.0])
     length, width = 0.5 * slow.lengths[bench], 0.5 * slow.widths[bench]
     gap = 10.0 ** rng.uniform(-6.0, 0.0)
-    if rng.uniform() < 0.5:
-        corner = 0.5 * (front + rear) + along * length * rng.uniform(-1.0, 1.0) + left * (width + gap)
-        away = left
-    else:
-        corner, away = 0.5 * (front + rear) + along * (length + gap) + left * width * rng.uniform(-1.0, 1.0), along
+    is_beside, part = rng.uniform() < 0.5, rng.uniform(-1.0, 1.0)
+    ahead, aside = (length * part, width + gap) if is_beside else (length + gap, width * part)
+    corner, away = 0.5 * (front + rear) + along * ahead + left * aside, left if is_beside else along
     if rng.uniform() < 0.2:
         corner = rng.uniform(-1.0, 1.0, 2) * np.linalg.norm(handles[0]) * 1.5
     size = 10.0 ** rng.uniform(-2.5, 0.1)

@@ -42,17 +42,16 @@ def read_qr(rows: Sequence[Sequence[bool]]) -> str:
     """Its text. rows: the modules, True where dark, without a light edge; raises: AssertionError for a damaged code"""
     size = len(rows)
     version = (size - 17) // 4
-    fixed = [
-        [(x < 9 and y < 9) or (x > size - 9 and y < 9) or (x < 9 and y > size - 9) for x in range(size)]
-        for y in range(size)
-    ]
-    middles = MIDDLES.get(version, [])
-    for y in range(size):
-        for x in range(size):
-            near = [(a, b) for a in middles for b in middles if abs(x - a) < 3 and abs(y - b) < 3]
-            corners = [(6, 6), (6, size - 7), (size - 7, 6)]
-            fixed[y][x] |= 6 in (x, y) or any(one not in corners for one in near)
-            fixed[y][x] |= version > 6 and ((x < 6 and y > size - 12) or (y < 6 and x > size - 12))
+    middles, corners = MIDDLES.get(version, []), ((6, 6), (6, size - 7), (size - 7, 6))
+    patterns = [(a, b) for a in middles for b in middles if (a, b) not in corners]
+
+    def is_fixed(x: int, y: int) -> bool:
+        """Whether a module holds a pattern, the version or the format instead of the text."""
+        at_corner = (x < 9 and y < 9) or (x > size - 9 and y < 9) or (x < 9 and y > size - 9)
+        is_version = version > 6 and min(x, y) < 6 and max(x, y) > size - 12
+        in_pattern = any(abs(x - a) < 3 and abs(y - b) < 3 for a, b in patterns)
+        return at_corner or is_version or in_pattern or 6 in (x, y)
+
     along = [0, 1, 2, 3, 4, 5, 7, 8]
     written = [rows[8][x] for x in along] + [rows[y][8] for y in reversed(along[:-1])]
     assert "".join("01"[one] for one in written) == LEVEL_L_MASK_0
@@ -60,7 +59,7 @@ def read_qr(rows: Sequence[Sequence[bool]]) -> str:
     columns = [x for x in range(size - 1, 0, -2) if x > 6] + [5, 3, 1]
     for k, right in enumerate(columns):
         for y in range(size) if k % 2 else reversed(range(size)):
-            bits += [rows[y][x] ^ ((x + y) % 2 == 0) for x in (right, right - 1) if not fixed[y][x]]
+            bits += [rows[y][x] ^ ((x + y) % 2 == 0) for x in (right, right - 1) if not is_fixed(x, y)]
     words = [int("".join("01"[one] for one in bits[k : k + 8]), 2) for k in range(0, len(bits) - 7, 8)]
     checks, count = LAYOUT[version]
     room = len(words) - checks * count
