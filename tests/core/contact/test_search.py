@@ -2,7 +2,7 @@
 
 import pytest
 
-from core import Dragon, Spiral, Turn
+from core import Dragon, Spiral
 from core.contact.near_graze import others_clear
 from core.contact.search import ContactSearch, joined
 from core.kernels import Ended
@@ -48,13 +48,6 @@ def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_after
     assert_near(result.touching, CONTACT, 1e-9)
     assert search.surely_within(CONTACT + 1e-9, PAIR)
     assert not search.surely_within(CONTACT - 1e-9, PAIR)
-
-
-def test_a_search_whose_work_is_done_gives_up():
-    search = ContactSearch(Dragon(), Turn(1.7), 0.0, work=2e4)
-    state, result, _ = search.approach(-50.0, 100.0, 1.0)
-    assert state is Ended.STUCK
-    assert -50.0 < result.proven < 100.0
 
 
 def test_a_march_that_goes_on_adds_its_steps_and_keeps_the_larger_bound_and_the_lower_graze():

@@ -12,7 +12,6 @@ from core import (
     ClothoidTurn,
     Coil,
     Dragon,
-    InvalidValue,
     Line,
     Route,
     Spiral,
@@ -59,18 +58,15 @@ BENDING, CURVE = Clothoid((0.0, 0.0), 0.0, 0.0, 0.5, 2.0), Waypoints(((0.0, 0.0)
 
 
 @pytest.mark.parametrize(
-    ("path", "field", "rule"),
+    ("path", "place"),
     [
-        (ClothoidTurn(1.7, ratio=1.0, middle=4.0), "path.pieces.1", "path must be a turn of two arcs,.* got clothoid"),
-        (Route([FIRST, BENDING]), "path.pieces.1", r"path.pieces\[1\] must be a line,.* got clothoid"),
-        (Route([FIRST, CURVE]), "path.pieces.1", r"path.pieces\[1\] must be a line,.* got waypoints"),
-        (Route([CURVE]), "path.pieces.0", "path must be a spiral, .* got waypoints"),
+        *((ClothoidTurn(1.7, ratio=1.0, middle=4.0), 1), (Route([FIRST, BENDING]), 1)),
+        *((Route([FIRST, CURVE]), 1), (Route([CURVE]), 0)),
     ],
 )
-def test_a_path_without_a_proof_is_refused_by_its_place(path, field, rule):
-    with pytest.raises(InvalidValue, match=rule) as caught:
+def test_a_path_without_a_proof_is_refused_by_its_place(path, place):
+    with refused(f"path.pieces.{place}"):
         recorded_path(path)
-    assert caught.value.field == field
 
 
 @pytest.mark.parametrize(

@@ -1,13 +1,15 @@
 """Claims in words: every number that matters, as it stands in the certificate."""
 
+import numpy as np
+
 from core import Dragon
 from core.proof.words import RUNS_LISTED, contact_words, dragon_words, runs
 
 
 def mixed(kinds):
     """A dragon with two benches of each of these lengths."""
-    lengths = [2.0 + 0.1 * (k // 2) for k in range(2 * kinds)]
-    return Dragon.of(lengths, [0.3] * len(lengths), [0.2] * len(lengths))
+    lengths = 2.0 + 0.1 * np.arange(kinds).repeat(2)
+    return Dragon.of(lengths, 0.3 * np.ones(2 * kinds), 0.2 * np.ones(2 * kinds))
 
 
 def test_runs_of_equal_benches_are_counted():

@@ -125,18 +125,14 @@ def test_verdicts_on_one_pair_are_what_the_searches_find(seed, margin):
 
 
 @pytest.mark.parametrize(
-    ("row", "name", "value"),
-    [
-        *((1, "x", math.nan), (0, "y", math.inf), (2, "x", 1e308), (2, "heading", -math.inf)),
-        *((1, "length", 0.0), (1, "width", -0.3), (0, "length", 1e5)),
-    ],
+    ("row", "column", "value"),
+    [(1, "x", math.nan), (0, "y", 1e308), (2, "heading", -math.inf), (1, "length", 0.0), (0, "width", 1e5)],
 )
-def test_a_bad_bench_is_refused_by_number_and_name(row, name, value):
-    pose, length, width = benches((0, 0, 0), (3, 0, 0), (6, 0, 0))
-    columns = dict(zip(("x", "y", "heading"), pose.T, strict=True)) | {"length": length, "width": width}
-    columns[name][row] = value
-    with refused(f"benches.{row}.{name}"):
-        overlaps(pose, length, width)
+def test_a_bad_bench_is_refused_by_number_and_name(row, column, value):
+    scene = np.array([[0.0, 0.0, 0.0, LENGTH, WIDTH]] * 3)
+    scene[row, ("x", "y", "heading", "length", "width").index(column)] = value
+    with refused(f"benches.{row}.{column}"):
+        overlaps(scene[:, :3], *scene[:, 3:].T)
 
 
 @pytest.mark.parametrize(

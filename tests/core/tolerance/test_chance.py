@@ -25,7 +25,6 @@ from core import (
 from core.sampling import bisect
 from core.tolerance.chance import CONFIDENCE, clopper_pearson
 from core.tolerance.union_bound import union_bound
-from core.tolerance.wobble import INSTANTS_PER_TIME
 from tests.core.kernels.test_wobble import laid_out
 from tests.support.refused import refused
 
@@ -138,13 +137,13 @@ def test_nobody_wobbles_with_a_size_of_0():
     assert (result.probability, result.limits[1]) == (1.0, 1.0)
 
 
-@pytest.mark.parametrize(("time", "step"), [(4.0, None), (100.0, None), (4.0, 0.3), (0.35, 0.07)])
-def test_instants_are_a_fifth_of_the_correlation_time_apart_or_as_asked(time, step):
+@pytest.mark.parametrize(
+    ("time", "step", "instants"), [(4.0, None, 11), (100.0, None, 2), (4.0, 0.3, 28), (0.35, 0.07, 116)]
+)
+def test_instants_are_a_fifth_of_the_correlation_time_apart_or_as_asked(time, step, instants):
     result = contact_probability(SPIRAL, Wobble(correlation_time=time, step=step), 1, 1, **LATE)
-    widest = step or time / INSTANTS_PER_TIME
-    assert result.step <= widest
-    assert result.instants == 2 or result.step > 0.9 * widest
-    assert result.step * (result.instants - 1) == pytest.approx(8.0, abs=1e-12)
+    assert result.instants == instants
+    assert result.step == pytest.approx(8.0 / (instants - 1), abs=1e-12)
 
 
 def test_clopper_and_pearson_leave_as_much_beyond_either_limit():
