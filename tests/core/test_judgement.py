@@ -54,12 +54,9 @@ VERDICTS = {
     "folds": (SHORT, {}, [FOLD]),
     "folds at the stop": (SHORT, {"stop": SHORT.end.time}, [FOLD]),
     "stops before the fold": (SHORT, {"stop": SHORT.end.time - 1e-3}, []),
-    "misses a margin and folds": (SHORT, {"margin": 0.88}, ["Benches 0 and 37 come within 0.88 m at 0.000000 s", FOLD]),
     "touches at the start": (TIGHT, {"venue": SQUARE, "speed_limit": 2.0}, ["Benches 8 and 28 touch at 0.000000 s."]),
     "overlaps at the start": (TIGHT, {"margin": 0.2}, [
         "Benches 8 and 28 come within 0.2 m at 0.000000 s, and overlap by 0.114627 m."]),
-    # No bend of a route is as tight as the place where the head starts.
-    "in the middle": (Dance(Dragon(1), Spiral(0.55, 2.5)), {"venue": SQUARE, "stop": 0.1}, []),
     # After the curvature exceeds that of a bend of a route.
     "post near the fold": (FEW, around(box("post", 0, 0, 0.02, 0.02), half=50), [
         "Bench 0 touches 'post' at 432.622776 s.", "Bench 0 folds at 432.917924 s"]),

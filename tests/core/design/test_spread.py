@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from core import Dragon
 from core.design.spread import Spread
 from tests.campaigns.sweep_pitch import random_case
 from tests.support.depth import further, some
@@ -32,11 +31,3 @@ def test_dragons_keep_a_cleared_margin_at_every_larger_growth(seed):
             slow = SlowWays.of(dragon, math.tau * wider, begin, radius, count).least()
             assert slow >= margins[-1] - ROUNDING - ROUNDING_PER_GROWTH * wider
     assert bounds
-
-
-def test_a_larger_margin_is_cleared_only_further_out():
-    spread = Spread(Dragon(), 2)
-    assert spread.clears(10.0, 4.5, 0.5)
-    assert not spread.clears(10.0, 4.5, 9.0)
-    assert spread.clears(10.0, 9.0, 9.0)
-    assert not spread.clears(0.01, 9.0, 0.0)

@@ -1,6 +1,5 @@
 """Ways to the circle: the statement on a pitch against dense samples of its way."""
 
-import numpy as np
 import pytest
 
 import core.design.ways
@@ -9,7 +8,6 @@ from core.design.ways import CONTACT_WIDTH, Ways
 from core.kernels import Ended
 from tests.core.design.test_minimum_pitch import FOLDING
 from tests.support.refused import refused
-from tests.support.slow_pitch import SlowWay
 from tests.support.slow_search import SlowDance
 
 RADIUS, TURNS = 3.0, 9.0
@@ -17,16 +15,6 @@ RADIUS, TURNS = 3.0, 9.0
 FOLDS_AT = 0.525552677857343
 # A pair at a computed place of the head is within this of its gap there [m].
 GAP = 1e-9
-
-
-@pytest.mark.parametrize("margin", [0.0, 0.07])
-def test_a_way_is_clear_exactly_if_its_dense_samples_are(margin):
-    dragon = Dragon(14)
-    ways, verdicts = Ways(dragon, RADIUS, TURNS, margin, 0.0, None), []
-    for pitch in np.linspace(0.4, 0.7, 6).tolist():
-        verdicts.append(ways.is_clear(pitch))
-        assert verdicts[-1] == (SlowWay.of(dragon, pitch, TURNS, RADIUS).least() > margin), pitch
-    assert set(verdicts) == {True, False}
 
 
 def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not():

@@ -1,14 +1,11 @@
 """A dragon on a route: bends that are too tight for a chord, and room for the whole dragon."""
 
-import math
-
 import pytest
 
 from core import (
     Arc,
     Coil,
     Dance,
-    Dragon,
     Line,
     OutsideRun,
     Route,
@@ -30,13 +27,6 @@ LENGTH = float(DRAGON.chords.sum())
 
 def line(length):
     return Route([Line((0, 0), (length, 0))])
-
-
-def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place():
-    route = Route([Line((-30, 0), (0, 0)), Arc((0, 1.2), 1.2, -0.5 * math.pi, math.pi), Line((0, 2.4), (-30, 2.4))])
-    with refused("path", bench=0, bend=Quantity(1.2, "m", 4), s=Quantity(30.0, "m", 4)):
-        trajectory(Dance(Dragon(benches=5), route), [20.0])
-    assert trajectory(Dance(Dragon(benches=5, head_length=2.2), route), [20.0]).speed.min() > 0.0
 
 
 def test_a_start_before_the_beginning_of_the_path_is_refused():

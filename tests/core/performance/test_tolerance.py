@@ -116,11 +116,3 @@ def test_dragons_that_touch_have_no_safe_stray():
     met, answer = first_encounter(OPPOSITE), performance_tolerance(OPPOSITE)
     assert (answer.stray, answer.certificate) == (0.0, None)
     assert (answer.time, answer.dragons, answer.benches) == (met.time, met.dragons, met.benches)
-
-
-def test_a_dragon_that_stands_all_the_time_has_the_tolerance_of_its_place():
-    first, second = CROSSING.parts
-    answer = performance_tolerance(Performance([first, replace(second, delay=500.0)]), stop=40.0)
-    begin = second.dance.begin
-    assert begin == answer.own[1].start < answer.own[1].stop < begin + 0.01
-    assert answer.dragons == (0, 1) or answer.limited_by is Limit.CHORD

@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import Route
-from core.proposal.walks import along, dubins, length_of, mirrored, moved, pieces_of, stretch
+from core.proposal.walks import along, dubins, joined, length_of, mirrored, moved, pieces_of, stretch
 from tests.support.depth import examples
 
 PLACE = 1e-9  # [m], [rad]: rounding of a few steps
@@ -43,6 +43,12 @@ def test_no_path_of_at_most_that_curvature_is_shorter(begin, steps, radius):
     walk = [(length, share / radius) for length, share in steps]
     shortest = dubins(begin, reduce(moved, walk, begin), radius)[0]
     assert length_of(shortest) <= length_of(walk) + PLACE
+
+
+@pytest.mark.parametrize("curvature", [0.5, -0.5])
+def test_the_shortest_path_along_one_arc_is_that_arc(curvature):
+    begin = (1.0, -2.0, 0.3)
+    assert joined(dubins(begin, moved(begin, (2.5, curvature)), 2.0)[0]) == [(pytest.approx(2.5), curvature)]
 
 
 def test_pieces_join_and_have_the_length_of_the_steps():
