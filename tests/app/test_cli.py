@@ -197,25 +197,23 @@ NO_SCHEDULERS = ("foo", "tcp://", "tcp://foo", "tcp://foo:x", "tcp://foo:70000",
 
 
 @pytest.mark.parametrize(
-    ("name", "setting", "limit"),
+    "row",
     [
-        ("BENCHES_MAX", "0", " 1,"),
-        ("SWEEP_PROCESSES", "65", " 64,"),
-        ("JOB_DAYS_MAX", "0", " 0,"),
-        ("JOB_DAYS_MAX", "{gt}", "number"),
-        ("LOG_JSON", "maybe", "true or false"),
-        *(("DASK", address, "tcp://scheduler:8786") for address in NO_SCHEDULERS),
+        "BENCHES_MAX 0 -> 1,",
+        "SWEEP_PROCESSES 65 -> 64,",
+        "JOB_DAYS_MAX 0 -> 0,",
+        "JOB_DAYS_MAX {gt} -> number",
+        "LOG_JSON maybe -> true or false",
+        *(f"DASK {address} -> tcp://scheduler:8786" for address in NO_SCHEDULERS),
     ],
 )
-def test_the_refusal_of_a_setting_names_its_limit(
-    name: str, setting: str, limit: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_refusal_of_a_setting_names_its_limit(row: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    line, limit = row.split(" -> ")
+    name, setting = line.split()
     monkeypatch.setenv(f"BENCH_DRAGON_{name}", setting)
-    with pytest.raises(core.InvalidValue) as refused:
+    with pytest.raises(core.InvalidValue, match=rf" {re.escape(limit)}.*{re.escape(repr(setting))}") as refused:
         Settings()
     assert refused.value.field == f"BENCH_DRAGON_{name}"
-    assert limit in refused.value.message
-    assert repr(setting) in refused.value.message
 
 
 @pytest.mark.parametrize("address", ["", "local", "tcp://10.0.0.1:8786", "scheduler:8786", "tls://[::1]:1"])

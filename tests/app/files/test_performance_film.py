@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 from typing import Any
 
@@ -11,7 +10,6 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
-from PIL import Image
 
 from app.files.film_spec import GIF_TYPE, FilmSpec
 from app.files.performance_film import PerformancePicture
@@ -23,7 +21,7 @@ from app.settings import Settings
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import Budget, TooMuchWork, bench_outlines, first_contact, first_encounter, performance_trajectory
-from tests.app.files.test_film import assert_heard
+from tests.app.files.test_film import assert_heard, decoded
 from tests.support.refusal_rows import assert_refused
 
 TWO: dict[str, Any] = json.loads("""{"dances": [
@@ -37,12 +35,7 @@ PERFORMANCE, _ = FilmRequest.model_validate(TWO).to_placed(Settings())
 
 def film_of(body: dict[str, Any]) -> list[NDArray[np.uint8]]:
     """Pictures of a film as GIF."""
-    film = Image.open(io.BytesIO(QUESTION.to_bytes(checked(FilmRequest, body), Terms(), GIF_TYPE)))
-    pictures = []
-    for k in range(film.n_frames):
-        film.seek(k)
-        pictures.append(np.asarray(film.convert("RGB")))
-    return pictures
+    return decoded(QUESTION.to_bytes(checked(FilmRequest, body), Terms(), GIF_TYPE))
 
 
 def test_every_bench_is_drawn_in_the_colour_of_its_dragon() -> None:

@@ -40,15 +40,12 @@ def ask(client: httpx.Client, form: str = "application/json", **more: Any) -> ht
 
 
 def test_json_has_a_table_for_each_dragon(client: httpx.Client) -> None:
-    got = ask(client).json()
-    assert got["time"] == TIMES.tolist()
-    assert [one["name"] for one in got["dances"]] == ["east", None]
-    for one, (position, speed) in zip(got["dances"], results(), strict=True):
-        assert (one["x"], one["y"]) == (position[..., 0].tolist(), position[..., 1].tolist())
-        assert one["speed"] == speed.tolist()
-    assert got["dances"][1]["speed"][0] == [0.0] * 6  # it waits
-    rounded = ask(client, decimals=2).json()
-    assert rounded["dances"][0]["x"] == np.round(results()[0][0][..., 0], 2).tolist()
+    for decimals in (None, 2):
+        got = ask(client, decimals=decimals).json()
+        assert (got["time"], [one["name"] for one in got["dances"]]) == (TIMES.tolist(), ["east", None])
+        for one, (position, speed) in zip(got["dances"], results(), strict=True):
+            known = np.stack([position[..., 0], position[..., 1], speed])
+            assert [one["x"], one["y"], one["speed"]] == (known.round(decimals) if decimals else known).tolist()
 
 
 def test_csv_has_the_dragon_before_each_line(client: httpx.Client) -> None:
