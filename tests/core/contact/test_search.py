@@ -13,7 +13,6 @@ from tests.support.slow_search import SlowDance
 SLOW = SlowDance.of(Dragon(30), Spiral())
 # The default dance first touches here, benches 0 and 8, and would have grazed with 0 and 11 before [m of head travel].
 CONTACT, PAIR, GRAZING = 412.4738376822, (0, 8), (0, 11)
-ANGLE = 1e-10  # of the slow dance [rad]
 # The bottom of a dip is flat: places in it [m], gaps there [m].
 FLAT, GAP = 1e-5, 1e-11
 
@@ -21,12 +20,6 @@ FLAT, GAP = 1e-5, 1e-11
 @pytest.fixture
 def search():
     return ContactSearch(Dragon(30), Spiral(), 0.0)
-
-
-@pytest.mark.parametrize("travel", [-20.0, 0.0, 300.0, 432.0])
-def test_the_head_is_where_a_root_of_the_arc_length_is(search, travel):
-    assert_near(search.theta_at(travel), SLOW.head(travel), ANGLE)
-    assert_near(search.travel_at(search.theta_at(travel)), travel, search.travel_rounding(travel))
 
 
 def test_a_pair_turns_at_the_bottom_of_its_dip(search):

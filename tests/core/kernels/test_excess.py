@@ -36,10 +36,5 @@ def test_before_the_first_excess_no_sample_exceeds_the_limit_and_there_one_handl
     assert abs(SEARCH.rates(excess.exceeded)[excess.handle]) > limit
 
 
-def test_a_limit_above_all_rates_is_kept_to_the_end():
-    outcome, excess = excess_over(highest_rates().max() + 0.01)
-    assert (outcome, excess.proven) == (Judged.KEPT, STOP)
-
-
 def test_a_search_without_links_is_given_up():
     assert excess_over(1.2, links=0)[0] is Judged.UNDECIDED

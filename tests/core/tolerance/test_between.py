@@ -7,7 +7,7 @@ import pytest
 
 from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_poses, sharpest_bend, trajectory
 from core.shapes.rectangles import corners
-from core.tolerance.between import held_apart, touching_pose
+from core.tolerance.between import held_apart, sag_pulls, sags_of, touching_pose
 from core.tolerance.exhibit import exhibit
 from tests.support.depth import examples, further, some
 from tests.support.shown_poses import assert_contact_shown, overlap
@@ -68,6 +68,17 @@ def test_no_pose_within_the_bound_touches(radius, dragon, least):
         assert overlap(first, last).max() == 0.0
         count += len(poses)
     assert count > 1_000
+
+
+def test_sags_are_those_of_the_handles():
+    rng = np.random.default_rng(5)
+    chords, joint_angles = rng.uniform(0.5, 3.0, (200, 3)), rng.uniform(-math.pi, math.pi, (200, 2))
+    steps = chords * np.exp(1j * np.insert(joint_angles, 1, 0.0, axis=1))
+    handles, along = (np.insert(part.cumsum(axis=1), 0, 0.0, axis=1).T for part in (-steps, chords))
+    sags = sags_of(sag_pulls(chords), joint_angles).T
+    for sag, (i, j, k) in zip(sags, [(0, 1, 2), (1, 2, 3), (0, 1, 3), (0, 2, 3)], strict=True):
+        line = handles[i] + (along[j] - along[i]) / (along[k] - along[i]) * (handles[k] - handles[i])
+        assert sag == pytest.approx(abs(handles[j] - line), abs=1e-12)
 
 
 @pytest.mark.parametrize("radius", further(some([1.6, 2.0, 3.0, 10.0], 2), 1))
