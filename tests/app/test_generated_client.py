@@ -107,14 +107,6 @@ def test_a_file_is_graded(own: Any) -> None:
     assert (answer.answers[0].verdict, answer.answers[0].unit) == ("right", "m")
 
 
-def test_a_job_comes_back_as_its_status_and_its_answer(own: Any, client: httpx.Client) -> None:
-    query = EXAMPLES["GET /minimum-pitch"].query
-    job = finished(own, client, {"question": "minimum_pitch", "request": query})
-    again = call("jobs", "job_status").sync(job, client=own)
-    assert (type(again).__name__, again.to_dict()["processID"]) == ("JobStatus", "minimum_pitch")
-    assert result(own, job) == client.get("/minimum-pitch", params=query).content
-
-
 def test_the_table_of_a_sweep_comes_back_as_its_bytes(own: Any, client: httpx.Client) -> None:
     body = {"question": "collision_time", "over": {"pitch": [0.5, 0.6]}, "request": {"benches": 30}}
     job = finished(own, client, body | {"accept": "application/vnd.apache.parquet"}, "sweep")

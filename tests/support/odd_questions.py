@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import time
 
 from pydantic import BaseModel, Field
 
@@ -44,12 +43,6 @@ def height(request: OddRequest) -> Height:
     )
 
 
-def slow_height(request: OddRequest) -> Height:
-    """The same after a while, long enough to be killed in between."""
-    time.sleep(0.02)
-    return height(request)
-
-
 def interrupted_height(request: OddRequest) -> Height:
     """Killed by another one at the deadly places, as by the kernel of a machine that is out of memory."""
     if request.x in request.deadly:
@@ -74,6 +67,5 @@ def _missing(what: str) -> None:
 
 
 LAND = SweepQuestion("height", OddRequest, Height, height, 1e-3, "height")
-SLOW = SweepQuestion("slow_height", OddRequest, Height, slow_height, 2e-2, "height")
 UNANSWERABLE = SweepQuestion("height", OddRequest, Height, Unanswerable(), 1e-3, "height")
 INTERRUPTED = SweepQuestion("interrupted_height", OddRequest, Height, interrupted_height, 1e-3, "height")
