@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 from concurrent.futures import ThreadPoolExecutor
 
 import httpx
@@ -14,29 +13,8 @@ import core
 from app.service.main import create_app
 from app.service.negotiation import accepted
 from app.settings import Settings
-from app.wire.faults import pointer
 
 pytestmark = pytest.mark.uncompiled
-
-
-# Steps to a place and the JSON of the body -> the pointer.
-POINTERS = {
-    "[] {}": "",
-    '["path", "pitch"] {"path": {"pitch": 0}}': "/path/pitch",
-    '["dragon", "uniform", "width"] {"dragon": {"width": 0}}': "/dragon/width",
-    '["dragon", "bench_by_bench", "widths"] {"dragon": {"lengths": [1]}}': "/dragon/widths",
-    '["times", "list", 1] {"times": [0, "a"]}': "/times/1",
-    '["times", 300] {"times": {"stop": 600}}': "/times",
-    '["times", 300] {}': "/times",
-    '["times", "range", "step"] {}': "/times/step",
-    '["a/b~c"] {"a/b~c": 1}': "/a~1b~0c",
-}
-
-
-@pytest.mark.parametrize("given", POINTERS)
-def test_a_pointer_leads_to_what_is_in_the_body(given: str) -> None:
-    place, _, body = given.partition(" {")
-    assert pointer(json.loads(place), json.loads(f"{{{body}")) == POINTERS[given]
 
 
 @pytest.mark.parametrize(
@@ -98,15 +76,6 @@ def test_a_limit_on_defaults_points_to_the_value_to_give() -> None:
     answer = ask(create_app(Settings(benches_max=10)), "/trajectory", "POST")
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["pointer"] == "/dragon/benches"
-
-
-@pytest.mark.parametrize(
-    ("query", "more"),
-    [("pitch=x", ""), ("pitch=x&width=x", " (and 1 more)"), ("pitch=x&width=x&overhang=x", " (and 2 more)")],
-)
-def test_a_problem_counts_the_faults_after_the_first(query: str, more: str) -> None:
-    problem = ask(create_app(Settings()), f"/collision-time?{query}").json()
-    assert problem["detail"] == problem["errors"][0]["detail"] + more
 
 
 def test_readiness_waits_for_the_self_test() -> None:

@@ -45,6 +45,7 @@ BODIES = {
     'trajectory {"path": {"pitch": Infinity}}': "/path/pitch: pitch must be a finite number [m], got Infinity",
     'trajectory {"path": {"pitch": -Infinity}}': "/path/pitch: pitch must be a finite number [m], got -Infinity",
     'trajectory {"head_speed": "1"}': '/head_speed: head_speed must be a number [m/s], got "1"',
+    'trajectory {"a/b~c": 1}': '/a~1b~0c: "a/b~c" is unknown here: leave it out',
     'trajectory {"time": {}}': '/time: "time" is unknown here: did you mean times?',
     'trajectory {"times": {"stpo": 4}}': '/times/stpo: "stpo" is unknown here: did you mean stop?',
     'turn {"pitch": 1.7}': '/pitch: "pitch" is unknown here: it belongs in path',
@@ -94,6 +95,7 @@ def test_the_refusal_of_a_body_gives_advice_from_its_own_place(client: httpx.Cli
 def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(ask: Asking) -> None:
     problem = ask.send("collision-time?pitch=55&benches=x").json()
     benches, pitch = problem["errors"]
+    assert problem["detail"] == f"{benches['detail']} (and 1 more)"
     assert pitch == {
         "name": "pitch",
         "detail": "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m",

@@ -293,6 +293,9 @@ BODIES = {
     'check {"venue": {"type": "GeometryCollection", "geometries": [DEGREES, YARD]}}': "/venue longitude latitude",
     'check {"venue": []}': "/venue",
     'check {"venue": {"type": "Polygon"}}': "/venue/coordinates",
+    'check {"venue": {"type": "FeatureCollection", "features": [{"geometry": {"geometries": [{"crs": 1}]}}]}}': (
+        "/venue/features/0/geometry/geometries/0/crs venue.crs"
+    ),
     "check {WITHIN: []}}": "/venue/coordinates",
     "check {WITHIN: [3]}}": "/venue/coordinates/0",
     "check {WITHIN: [[[0, 0], [1, 0], 5]]}}": "/venue/coordinates/0/2",
