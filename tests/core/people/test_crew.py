@@ -96,7 +96,6 @@ def test_the_places_near_a_point_are_those_of_a_fine_scan(path, point):
     [
         ("relief.shift", Relief(2, 100.0), NEEDED),
         *(("relief.spares", Relief(spares, 10.0), NEEDED) for spares in (0, 1.5)),
-        ("relief.rest", Relief(2, 10.0, rest=-1.0), NEEDED),
         ("relief.places.1", Relief(2, None, [0.0, math.nan]), NEEDED),
         ("needed", Relief(), [8, 2]),
         ("needed.3", Relief(), [8, 2, 2, 0, 2, 2]),
