@@ -12,7 +12,7 @@ import shutil
 import signal
 import sys
 import time
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -113,34 +113,6 @@ def _lacking(config: pytest.Config) -> bool:
     return STRICT and bool(config.stash.get(LEFT_OUT, {}).keys() - {THOROUGH})
 
 
-def _why_left_out(item: pytest.Item) -> str:
-    """What this machine lacks for the test and how to get it; empty: it runs."""
-    fixtures = getattr(item, "fixturenames", ())
-    if "browser" in fixtures and not browser.browser_path():
-        return browser.MISSING
-    if item.get_closest_marker("firefox") and not firefox.firefox_path():
-        return firefox.MISSING
-    if item.get_closest_marker("node") and not node.node_path():
-        return node.MISSING
-    if item.get_closest_marker("chinese_font") and not _has_chinese_font():
-        return NO_FONT
-    if item.get_closest_marker("root") and os.geteuid() != 0:
-        return NO_DISK
-    if item.get_closest_marker("curl") and not shutil.which("curl"):
-        return NO_CURL
-    if item.get_closest_marker("nginx") and not nginx_path():
-        return NO_NGINX
-    if item.get_closest_marker("caddy") and not shutil.which("caddy"):
-        return NO_CADDY
-    if item.get_closest_marker("systemd") and not shutil.which("systemd-analyze"):
-        return NO_SYSTEMD
-    if item.get_closest_marker("index") and not lock.index_answers(OUTER):
-        return NO_INDEX
-    if (mark := item.get_closest_marker("engine")) and (missing := [name for name in mark.args if not find_spec(name)]):
-        return NO_ENGINE.format(", ".join(missing))
-    return "" if kernels.COMPILED or item.get_closest_marker("uncompiled") else UNCOMPILED
-
-
 def nginx_path() -> str | None:
     """Path of nginx, which Debian installs where an ordinary user does not look."""
     return shutil.which("nginx", path=f"{os.environ['PATH']}{os.pathsep}/usr/sbin")
@@ -156,6 +128,31 @@ def _has_chinese_font() -> bool:
     except MissingPackage:
         return False
     return True
+
+
+# What tests with a mark need: what is true where they can run, and how to get it.
+NEEDS: dict[str, tuple[Callable[[], object], str]] = {
+    "firefox": (firefox.firefox_path, firefox.MISSING),
+    "node": (node.node_path, node.MISSING),
+    "chinese_font": (_has_chinese_font, NO_FONT),
+    "root": (lambda: os.geteuid() == 0, NO_DISK),
+    "curl": (lambda: shutil.which("curl"), NO_CURL),
+    "nginx": (nginx_path, NO_NGINX),
+    "index": (lambda: lock.index_answers(OUTER), NO_INDEX),
+}
+
+
+def _why_left_out(item: pytest.Item) -> str:
+    """What this machine lacks for the test and how to get it; empty: it runs."""
+    if "browser" in getattr(item, "fixturenames", ()) and not browser.browser_path():
+        return browser.MISSING
+    for mark, (can_run, reason) in NEEDS.items():
+        if item.get_closest_marker(mark) and not can_run():
+            return reason
+    engine = item.get_closest_marker("engine")
+    if engine and (missing := [name for name in engine.args if not find_spec(name)]):
+        return NO_ENGINE.format(", ".join(missing))
+    return "" if kernels.COMPILED or item.get_closest_marker("uncompiled") else UNCOMPILED
 
 
 def _note_left_out(config: pytest.Config, left_out: dict[str, int]) -> None:

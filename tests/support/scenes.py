@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from core import Dragon, bench_outlines, separation
+from core import separation
 from core.values import Floats
 
 Pairs = NDArray[np.int64]
@@ -96,17 +96,3 @@ def minkowski_separation(a: Floats, b: Floats) -> Floats:
     hull = shapely.convex_hull(shapely.multipoints(difference))
     origin = shapely.points(0.0, 0.0)
     return shapely.distance(shapely.boundary(hull), origin) * np.where(shapely.intersects(hull, origin), -1.0, 1.0)
-
-
-def unlinked_clearance(dragon: Dragon, handles: Floats) -> Floats:
-    """Oracle: least distance of benches that share no handle, by shapely; 0 where two overlap. (T, n + 1, 2) -> (T,)
-
-    A pair whose middles are farther apart than the longest diagonal counts as infinitely far.
-    """
-    a, b = np.triu_indices(dragon.benches, 2)
-    outlines = bench_outlines(dragon, handles)
-    shapes, middles = shapely.polygons(outlines), outlines.mean(axis=-2)
-    near = np.linalg.norm(middles[:, a] - middles[:, b], axis=-1) < np.hypot(dragon.lengths, dragon.widths).max()
-    least = np.full(near.shape, np.inf)
-    least[near] = shapely.distance(shapes[:, a][near], shapes[:, b][near])
-    return least.min(axis=1)
