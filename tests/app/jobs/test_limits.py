@@ -42,10 +42,8 @@ def test_without_the_token_no_job_is_made_and_none_is_listed_and_no_file_taken(s
         ("POST", "/places", b"{}", file),
     ):
         for stranger in ("", "Bearer wrong", TOKEN):
-            more = headers | {"Authorization": stranger}
-            answer = strict.client.request(method, call, content=body, headers=more)
-            assert (answer.status_code, answer.headers["content-type"]) == (401, PROBLEM_TYPE), call
-            assert answer.headers["www-authenticate"].startswith("Bearer")
+            answer = strict.client.request(method, call, content=body, headers=headers | {"Authorization": stranger})
+            assert (answer.status_code, answer.headers["www-authenticate"][:6]) == (401, "Bearer"), call
         if headers == file:
             assert strict.client.post(call, content=body, headers=headers).status_code in (200, 422)
     # Questions, and answers that are typed and no file, need none.
