@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 from collections.abc import Iterator
@@ -9,7 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 # Size of the reserve and of its pieces [bytes]: the removal of a job with 100 events writes 0.1 MB ahead.
-RESERVED, PIECE = 1 << 18, 1 << 12
+RESERVED, PIECE = 1 << 19, 1 << 12
 
 
 class Reserve:
@@ -19,13 +20,23 @@ class Reserve:
         self.file = file
         self._fill()
 
+    @property
+    def is_needed(self) -> bool:
+        """True if the disk has too little room for a change that is larger than most."""
+        return shutil.disk_usage(self.file.parent).free < RESERVED
+
+    def keep(self, size: int) -> None:
+        """See that a change leaves the reserve whole. size: of what it writes [bytes]; raises: OSError on a full disk"""
+        if shutil.disk_usage(self.file.parent).free < size:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
     @contextmanager
-    def released(self) -> Iterator[None]:
-        """Context of a change that must be possible on a full disk."""
-        if shutil.disk_usage(self.file.parent).free < RESERVED:
+    def released(self) -> Iterator[bool]:
+        """Context of a change that must be possible on a full disk; its value: whether it is one."""
+        if is_full := self.is_needed:
             self.file.unlink(missing_ok=True)
         try:
-            yield
+            yield is_full
         finally:
             self._fill()
 

@@ -92,19 +92,19 @@ class Runner:
         self.runs: dict[str, Run] = {}
         self._pool = Pool("app.jobs.work", str(store.folder), waiting=settings.jobs_running_max)
         self._events: queue.Queue[Event] = queue.Queue()
-        # Changes that are not in the store yet, because a full disk may refuse them for some time.
+        self._faults = Faults(logger, "The store of the jobs failed, and is tried again each second: %s")
+        # Ends of jobs that are not in the store yet, because a failing disk may refuse them for some time.
         self._pending: deque[Event] = deque()
 
     def run(self) -> None:
         """Run jobs until none has waited for a while."""
         self.store.begin()
         idle_since = time.monotonic()
-        faults = Faults(logger, "The store of the jobs failed, and is tried again each second: %s")
         while self.runs or time.monotonic() - idle_since < IDLE_SECONDS:
             try:
                 self.step()
             except (OSError, sqlite3.Error) as error:
-                faults.log(str(error))  # A disk may be full for hours.
+                self._faults.log(str(error))  # A disk may be full for hours.
                 time.sleep(RETRY_SECONDS)
             if self.runs:
                 idle_since = time.monotonic()
@@ -118,7 +118,13 @@ class Runner:
         self.store.check()
         self._listen()
         while self._pending:
-            self._process(*self._pending[0])
+            run, event = self._pending[0]
+            try:
+                self._process(run, event)
+            except (OSError, sqlite3.Error) as error:
+                if not is_report(event):
+                    raise
+                self._faults.log(str(error))
             self._pending.popleft()
         needed = self.store.running()
         for run in self.runs.values():
@@ -184,6 +190,11 @@ class Runner:
             case OSError():
                 self.store.die(job, died(event.strerror or str(event)))
         del self.runs[job]
+
+
+def is_report(event: dict[str, Any] | Exception) -> bool:
+    """True for a message of a job that goes on; a full disk has no room for it, but for the end of the job."""
+    return isinstance(event, dict) and not event.keys() & {"written", "problem"}
 
 
 def too_long(seconds: float) -> bytes:

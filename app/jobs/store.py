@@ -49,6 +49,9 @@ REWRITTEN_MAX = 1 << 26
 COST_MAX = 1e9
 # What is left of a job whose call and result are removed.
 GONE: dict[str, Any] = {"call_size": 0, "size": 0, "client": ""}
+# Length from which the log is copied into the database at once, so that it never holds more that has no room there than
+# the reserve has [pages of 4 kB].
+LOG_PAGES = 32
 COLUMNS = ", ".join(field.name for field in fields(Job))
 
 
@@ -70,7 +73,8 @@ class Store:
         self._file, self._inode = file, os.stat(file).st_ino
         self._connection = sqlite3.connect(file, timeout=PATIENCE, isolation_level=None, check_same_thread=False)
         try:
-            self._open()
+            with self._possible_on_full_disk():
+                self._open()
         except BaseException:
             self._connection.close()
             raise
@@ -93,6 +97,7 @@ class Store:
         run("PRAGMA foreign_keys = ON")
         run("PRAGMA secure_delete = ON")  # Removed calls are overwritten on the disk; clear() removes their copies.
         run("PRAGMA temp_store = MEMORY")
+        run(f"PRAGMA wal_autocheckpoint = {LOG_PAGES}")
         with self._change():
             self._key = prepare(self._connection, self.folder)
 
@@ -130,6 +135,34 @@ class Store:
                     self._connection.execute("ROLLBACK")
                 raise
 
+    @contextmanager
+    def _possible_on_full_disk(self) -> Iterator[None]:
+        """Context of a change that has the room of the reserve, which it gives back, as the log begins anew.
+
+        On a full disk what it removes is overwritten later, by clear(): the log would need as much room as a call has.
+        """
+        with self._reserve.released() as is_full:
+            if not is_full:
+                yield
+                return
+            self._read("PRAGMA secure_delete = FAST")
+            try:
+                yield
+            finally:
+                self._read("PRAGMA secure_delete = ON")
+                self._empty_log()
+
+    def _empty_log(self) -> None:
+        """Copy the write-ahead log into the database; while another process does, SQLite refuses without waiting."""
+        end = time.monotonic() + PATIENCE
+        while self._read("PRAGMA wal_checkpoint(TRUNCATE)")[0][0] and time.monotonic() < end:
+            time.sleep(0.01)
+
+    @property
+    def is_full(self) -> bool:
+        """True if the disk has little room beside the reserve."""
+        return self._reserve.is_needed
+
     def _read(self, question: str, *values: Any) -> list[Any]:
         with self._lock, closing(self._connection.execute(question, values)) as rows:
             return rows.fetchall()
@@ -157,6 +190,7 @@ class Store:
         client: its address; cost: estimated time of the run [s]
         raises: Full if there is no room for it; OSError if the folder is gone
         """
+        self._reserve.keep(2 * len(call))  # in the log, and in the database
         now, job, name = time.time(), secrets.token_hex(ID_BYTES), client_name(client, self._key)
         with self._change() as run:
             gone: list[str] = []
@@ -239,14 +273,13 @@ class Store:
     def dismiss(self, job: str) -> bool:
         """Dismiss an unfinished job: True if it was unfinished. The runner ends its process."""
         dismissed, words = {"time_left": None, "size": 0}, "Dismissed before it was finished."
-        with self._reserve.released():
-            return self._finish(job, JobState.DISMISSED, words, dismissed, "state IN ('accepted', 'running')")
+        return self._finish(job, JobState.DISMISSED, words, dismissed, "state IN ('accepted', 'running')")
 
     def remove(self, *jobs: str) -> None:
         """Remove jobs with their events and their results; clear() then removes their last bytes."""
         for job in jobs:
             self.result(job).unlink(missing_ok=True)  # First, because on a full disk this makes room for the rest.
-        with self._reserve.released(), self._change() as run:
+        with self._possible_on_full_disk(), self._change() as run:
             run.executemany("DELETE FROM jobs WHERE id = ?", [(job,) for job in jobs])
             run.execute("UPDATE removals SET made = made + 1")
 
@@ -263,17 +296,14 @@ class Store:
         pages = "pragma_page_count, pragma_freelist_count, pragma_page_size"
         [(size,)] = self._read(f"SELECT (page_count - freelist_count) * page_size FROM {pages}")
         with self._reserve.released():
-            if size <= REWRITTEN_MAX:
-                try:
+            try:
+                if size <= REWRITTEN_MAX:
                     self._read("VACUUM")
-                except sqlite3.OperationalError:  # The disk is full, or another process holds the store for long.
-                    return
-            with self._change() as run:
-                run.execute("UPDATE removals SET cleared = ?", (made,))
-            # While another process copies the write-ahead log, SQLite refuses without waiting.
-            end = time.monotonic() + PATIENCE
-            while self._read("PRAGMA wal_checkpoint(TRUNCATE)")[0][0] and time.monotonic() < end:
-                time.sleep(0.01)
+                with self._change() as run:
+                    run.execute("UPDATE removals SET cleared = ?", (made,))
+            except sqlite3.OperationalError:  # The disk is full, or another process holds the store for long.
+                pass
+            self._empty_log()
 
     def has_work(self, days: float) -> bool:
         """True if a runner has work. days: time for which finished jobs are kept"""
@@ -286,7 +316,7 @@ class Store:
 
     def begin(self) -> None:
         """Prepare for a runner: jobs left running wait again, and half-written files are removed."""
-        with self._change() as run:
+        with self._possible_on_full_disk(), self._change() as run:
             words = "Its process was killed; the job continues."
             for (job,) in run.execute("SELECT id FROM jobs WHERE state = 'running'").fetchall():
                 self._move(run, job, "1", state=JobState.ACCEPTED, message=words, rate=None, time_left=None)
@@ -376,7 +406,7 @@ class Store:
     ) -> bool:
         """End a job if the condition `where` holds; True if it held."""
         ended = more | {"state": state, "finished": time.time(), "message": message}
-        with self._change() as run:
+        with self._possible_on_full_disk(), self._change() as run:
             moved = self._move(run, job, where, **ended)
             if moved:
                 # The answer has its parts too.

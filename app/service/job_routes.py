@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import difflib
+import errno
 import io
 import math
 import os
@@ -110,6 +111,8 @@ def fault_of(jobs: Keeper | str) -> str:
         return "the data folder cannot be used"
     try:
         jobs.store.check()
+        if jobs.store.is_full:
+            return "the disk of the data folder is full"
     except OSError as error:
         return error.strerror or type(error).__name__
     except sqlite3.Error as error:
@@ -134,6 +137,8 @@ def take(request: Request, task: Task, cost: float) -> Response:
 
 def store_refusal(keeper: Keeper, error: OSError) -> Refused:
     """The refusal of a call while the store cannot be used, without the names of folders; the fault is logged."""
+    if error.errno == errno.ENOSPC:
+        return Refused(507, f"The disk of the data folder is full: {MAKE_ROOM}.")
     keeper.faults.log(str(error))
     return Refused(503, "This service takes no jobs now: the store of the jobs failed.", None, COME_AGAIN)
 

@@ -9,10 +9,15 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.job_service import ENDLESS, SHORT, JobService
+from tests.support.job_service import ENDLESS, SHORT, JobService, wait_for
 
-# About 1.3 MB of JSON, which the disk of one megabyte does not hold.
-BIG = {"question": "trajectory", "request": {"times": {"stop": 100, "step": 1}}}
+BENCH = {"y": 0.0, "heading": 0.1, "length": 2.2, "width": 0.3}
+# About 5 MB of JSON, which the disk of four megabytes does not hold.
+BIG = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 1}}}
+# A call of half a megabyte, whose removal would write as much into the log.
+LONG = {"question": "overlaps", "request": {"benches": [BENCH | {"x": 5.0 * k} for k in range(6_000)]}}
+
+JOB_SECONDS = 5.0
 
 pytestmark = [pytest.mark.root, pytest.mark.thorough]
 
@@ -22,7 +27,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
     """A disk of one megabyte, which only root may mount."""
     folder = tmp_path / "disk"
     folder.mkdir()
-    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1000000", "tmpfs", folder], check=True)
+    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4000000", "tmpfs", folder], check=True)
     try:
         yield folder
     finally:
@@ -55,15 +60,24 @@ def test_a_full_disk_is_reported_and_freed_space_is_used(small_disk: Path) -> No
         assert service.result(again).content == service.result(first).content
 
 
-def test_jobs_can_be_removed_one_after_the_other_while_the_disk_stays_full(small_disk: Path) -> None:
-    with JobService(small_disk / "data") as service:
-        made = [service.post(BIG) for _ in range(3)]  # They fail, so that no result is removed with them.
-        for address in made:
-            assert service.finished(address)["status"] == "failed"
-        made.append(service.post(ENDLESS))
-        for address in made:
+def test_on_a_full_disk_every_job_ends_and_can_be_removed_and_readiness_says_it(small_disk):
+    with JobService(small_disk / "data", job_seconds_max=JOB_SECONDS) as service:
+        made = [service.done(SHORT) for _ in range(12)] + [service.done(LONG)]
+        ends_by_itself, waits = service.post(ENDLESS), service.post(ENDLESS)
+        service.until(ends_by_itself, "running")
+        filler = fill(small_disk)
+        ready = service.client.get("/readyz")
+        assert (ready.status_code, "disk" in ready.json()["detail"]) == (503, True)
+        assert service.finished(ends_by_itself)["status"] == "failed"
+        service.stop()
+        service.start()
+        for address in [*made, ends_by_itself]:
             fill(small_disk, address.rpartition("/")[2])
             answer = service.client.delete(address)
-            assert answer.status_code == (200 if address == made[-1] else 204), answer.text
-        assert service.client.delete(made[-1]).status_code == 204
-        assert {service.client.get(address).status_code for address in made} == {404}
+            assert answer.status_code == 204, answer.text
+        service.remove(waits)
+        assert {service.client.get(address).status_code for address in (*made, ends_by_itself, waits)} == {404}
+        for file in (filler, *small_disk.glob("?" * 48)):
+            file.unlink()
+        wait_for(lambda: service.client.get("/readyz").status_code == 200)
+        wait_for(lambda: b'"heading"' not in (small_disk / "data" / "jobs.sqlite").read_bytes())
