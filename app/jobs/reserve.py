@@ -26,7 +26,7 @@ class Reserve:
         return shutil.disk_usage(self.file.parent).free < RESERVED
 
     def keep(self, size: int) -> None:
-        """See that a change leaves the reserve whole. size: of what it writes [bytes]; raises: OSError if it does not"""
+        """Leave the reserve whole. size: of what a change writes [bytes]; raises: OSError if there is no room"""
         if shutil.disk_usage(self.file.parent).free < size:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 

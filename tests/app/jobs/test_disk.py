@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.job_service import ENDLESS, SHORT, JobService, wait_for
+from tests.support.serving import environment_of
 
 BENCH = {"y": 0.0, "heading": 0.1, "length": 2.2, "width": 0.3}
 # About 5 MB of JSON, which the disk of four megabytes does not hold.
@@ -61,8 +62,11 @@ def test_a_full_disk_is_reported_and_freed_space_is_used(small_disk: Path) -> No
 
 
 def test_on_a_full_disk_every_job_ends_and_can_be_removed_and_readiness_says_it(small_disk):
-    with JobService(small_disk / "data", job_seconds_max=JOB_SECONDS) as service:
+    with JobService(small_disk / "data") as service:
         made = [service.done(SHORT) for _ in range(12)] + [service.done(LONG)]
+        service.stop()
+        service.environment |= environment_of({"job_seconds_max": JOB_SECONDS})
+        service.start()
         ends_by_itself, waits = service.post(ENDLESS), service.post(ENDLESS)
         service.until(ends_by_itself, "running")
         filler = fill(small_disk)
