@@ -20,7 +20,6 @@ SIZES = st.floats(0.5, 10.0)
     [
         ("benches", 1),
         pytest.param("benches", BENCHES_MAX, marks=pytest.mark.thorough),
-        ("body_length", SIZE_MAX),
         ("width", SIZE_MIN),
         ("width", SIZE_MAX),
         ("overhang", 0.0),

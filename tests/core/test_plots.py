@@ -11,7 +11,6 @@ from core import (
     Dance,
     Dragon,
     Spiral,
-    Turn,
     bench_outlines,
     clearance_profile,
     pitch_scan,
@@ -75,10 +74,3 @@ def test_a_scan_is_a_staircase_with_its_jumps(axes):
     stairs, falls = (one.get_segments() for one in axes.collections if isinstance(one, LineCollection))
     assert [len(part) for part in stairs] == [end - start for start, end in result.pieces]
     assert len(falls) == len(result.pieces) - 1
-
-
-def test_a_turn_is_drawn_whole(axes):
-    turn = Turn(1.7, start_turns=4.0)
-    trajectory(Dance(Dragon(5), turn), 0.0).plot(axes)
-    ends = axes.lines[0].get_xydata()[[0, -1]]
-    assert np.array_equal(ends, turn.position([turn.begin, turn.end]))

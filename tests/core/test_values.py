@@ -11,7 +11,6 @@ from tests.core.test_display import DANCE, hints
 
 RESULTS = [
     core.trajectory(DANCE, [0, 300]),
-    core.clearance_profile(DANCE, [400, 401]),
     core.first_contact(DANCE, start=410),
     core.course(core.Route([core.Line((0, 0), (9, 0))]), core.Dragon(2)),
     core.Dragon.of([3, 2], [1, 1], [0, 0]),

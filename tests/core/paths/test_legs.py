@@ -7,19 +7,13 @@ import pytest
 from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
-from core import InvalidValue, Legs, Route, Waypoints
+from core import InvalidValue, Legs
 from tests.support.near import assert_near
 from tests.support.refused import refused
 
 ON_THE_PATH = 1e-9  # [m]
 CORNER = [(0.0, 0.0), (16.0, 12.0), (4.0, 28.0)]
 POINT = st.tuples(st.integers(-40, 40), st.integers(-40, 40))
-
-
-def test_curves_alone_are_the_curve_through_the_points():
-    points = ((0.0, 0.0), (6.0, 1.0), (11.0, 6.0))
-    drawn, known = Legs(points, start_heading=0.5, start=2.0), Route([Waypoints(points, 0.5)], 2.0)
-    assert np.array_equal(drawn.table, known.table)
 
 
 def test_a_corner_of_straight_legs_is_rounded_by_an_arc_of_the_radius_or_as_large_as_the_legs_allow():

@@ -55,8 +55,8 @@ def test_beats_between_two_times_are_those_of_the_sum_and_bars_begin_with_the_fi
 @pytest.mark.parametrize(
     ("field", "bars"),
     [
-        *(("beats.0.tempo", [Bars(16, tempo, 0.6)]) for tempo in (math.nan, 500.0)),
-        *(("beats.0.bars", [Bars(bars, 96.0, 0.6)]) for bars in (0, 1.5)),
+        ("beats.0.tempo", [Bars(16, math.nan, 0.6)]),
+        ("beats.0.bars", [Bars(0, 96.0, 0.6)]),
         ("beats.0.step", [Bars(16, 96.0, 0.001)]),
         ("beats.0.beats", [Bars(16, 96.0, 0.6, beats=17)]),
         ("beats", []),

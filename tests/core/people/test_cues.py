@@ -32,9 +32,8 @@ def test_begin_pauses_and_end_are_those_of_the_clock():
         assert (one.start.time, one.begin.time, one.head_speed) == (2.0, 5.0, 0.5)
         assert [(pause.begin, pause.end) for pause in one.pauses] == [(9.0, 12.0), (20.0, 24.5)]
         assert one.done.time == pytest.approx(DONE, abs=ROUNDING)
-        stands = [*((at, at.time) for at in (one.start, one.begin, one.done)), *((at, at.begin) for at in one.pauses)]
-        for at, time in stands:
-            assert (at.x, at.y) == pytest.approx(trajectory(PAUSED, time).position[one.bench], abs=ROUNDING)
+        for at in (one.start, one.begin, one.done):
+            assert (at.x, at.y) == pytest.approx(trajectory(PAUSED, at.time).position[one.bench], abs=ROUNDING)
         assert one.start.s == handle_places(PAUSED, [2.0])[0, one.bench]
         before, after = trajectory(PAUSED, [5.0, 5.001]).position[:, one.bench]
         assert one.direction == pytest.approx(math.atan2(*(after - before)[::-1]), abs=1e-6)

@@ -90,8 +90,6 @@ def test_one_dragon_alone_has_no_clearance_to_others():
     assert performance_least_clearance(alone) is None
     with refused("parts"):
         performance_clearance(alone, 20.0)
-    with refused("stop", OutsideRun):
-        performance_least_clearance(alone, stop=1e4)
 
 
 def test_everyone_stands_before_and_after_and_no_times_give_no_rows():

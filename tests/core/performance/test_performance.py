@@ -17,10 +17,7 @@ WINDING = Dance(DRAGON, Spiral(1.1, 4.0))
         ("parts", lambda: Performance([])),
         ("parts", lambda: Performance([Part(STREET)] * 1000)),
         ("parts.0", lambda: Performance([STREET])),
-        ("parts.2.name", lambda: Performance([Part(STREET, name="east"), Part(WINDING), Part(STREET, name="east")])),
-        ("delay", lambda: Part(STREET, 1e9)),
         ("dance", lambda: Part(DRAGON)),
-        ("name", lambda: Part(STREET, name="two\nlines")),
         ("venue", lambda: Performance([Part(STREET)], venue=3)),
         # It begins when another one has folded.
         ("parts.0.delay", lambda: Performance([Part(STREET, WINDING.end.time), Part(WINDING)])),

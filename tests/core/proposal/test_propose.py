@@ -6,7 +6,7 @@ import pytest
 
 from core import Area, Budget, Dragon, Figure, Gate, InvalidValue, Objective, ReasonKind, TooMuchWork, Venue, propose
 from core.proposal.propose import BENCHES_MOST
-from tests.support.depth import further, some
+from tests.support.depth import further, some, thorough
 from tests.support.random_squares import Case, box, random_case, refuted, wrong_reason
 from tests.support.refused import refused
 
@@ -18,19 +18,10 @@ SMALL = Venue(box("yard", 0, 0, 24, 20))
 LIMITS = {"stray": 0.05, "margin": 0.0}
 
 
-# Gates, figures, and how many dances.
-ASKED = {
-    "two figures": ((), ["ring", "spiral"], 2),
-    "without gates": ((), None, 5),
-    "with gates": ((WEST, EAST), None, 5),
-}
-
-
-@pytest.mark.parametrize("name", further(ASKED, 1))
-def test_every_figure_of_a_square_with_trees_and_a_stage_is_danced_as_it_says(name):
-    gates, asked, count = ASKED[name]
+@pytest.mark.parametrize(("gates", "asked"), [((), ["ring", "spiral"]), *thorough(((WEST, EAST), None))])
+def test_every_figure_of_a_square_with_trees_and_a_stage_is_danced_as_it_says(gates, asked):
     case = Case(PLACE, Dragon(40, 3.41, 2.0), gates, LIMITS)
-    result = case.proposals(count=count, figures=asked)
+    result = case.proposals(count=len(asked or Figure), figures=asked)
     figures = {one.figure for one in result.proposals}
     assert figures >= {Figure.RING, Figure.SPIRAL}
     assert (Figure.PARADE in figures) == bool(gates)
