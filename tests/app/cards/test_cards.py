@@ -61,16 +61,6 @@ def text_of(client: httpx.Client, request: dict[str, Any]) -> str:
     return " ".join(map(words_of, pages_of(answer_of(client, request, "application/pdf"))))
 
 
-def test_chalk_marks_of_a_route_are_counted_from_its_tail_at_the_start(client: httpx.Client, body: Any) -> None:
-    path = checked(CuesRequest, body).to_dance(100).path
-    for card in cards_of(client, body):
-        for at in (card["start"], card["done"]):
-            place = path.position(path.tail_begin + at["mark"] + at["past_mark"])
-            assert (at["x"], at["y"]) == pytest.approx(place, abs=ROUNDING)
-            assert at["mark"] % 5.0 == 0.0
-        assert card["direction"] == card["start"]["heading"] == 0.0
-
-
 def cells_of(one: dict[str, Any], names: str) -> list[str]:
     return ["" if one[name] is None else str(one[name]) for name in names.split()]
 
@@ -103,7 +93,7 @@ def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(client: httpx.C
         place = f"x {card['start']['x']:.2f} m, y {card['start']['y']:.2f} m"
         verdict = "The whole dance was checked: nobody touches another bench"
         words = (NAMES[card["bench"]], place, verdict, "Lantern night", *(cue["clock"] for cue in card["cues"]))
-        assert [one for one in words if one.replace(" ", "") not in text] == []
+        assert [word for word in words if word.replace(" ", "") not in text] == []
     picture = second.render(scale=2.0).to_numpy()[..., :3].min(axis=-1)
     y, x = picture.shape[0] // 2, picture.shape[1] // 2
     for row, column in ((y, x + 20), (y + 20, x), (4, x), (y, 4)):

@@ -45,8 +45,8 @@ def pairs(client: httpx.Client) -> list[tuple[dict[str, Any], int, Card]]:
     """Each card of the answer, with the dragon and the card of core."""
     performance, _ = CuesRequest.model_validate(TWO).to_placed(Settings())
     answer = client.post("/cues", json=TWO).raise_for_status().json()["cards"]
-    several = [(k, card_of(one)) for k in (0, 1) for one in core.performance_cues(performance, k, stop=TWO["stop"])]
-    return [(card, *one) for card, one in zip(answer, several, strict=True)]
+    several = [(k, card_of(cues)) for k in (0, 1) for cues in core.performance_cues(performance, k, stop=TWO["stop"])]
+    return [(card, k, of_core) for card, (k, of_core) in zip(answer, several, strict=True)]
 
 
 def name_of(dragon: int, bench: int) -> str:
@@ -73,7 +73,7 @@ def test_every_card_has_the_cues_of_its_bench(pairs: Any) -> None:
     for card, dragon, known in pairs:
         bench = known.bench
         assert (card["dragon"], card["bench"], card["name"]) == (dragon, bench.bench, name_of(dragon, bench.bench))
-        near = [one and (one["bench"], one["name"]) for one in (card["ahead"], card["behind"])]
+        near = [other and (other["bench"], other["name"]) for other in (card["ahead"], card["behind"])]
         assert near == [k if k is None else (k, name_of(dragon, k)) for k in (bench.ahead, bench.behind)]
         assert (card["direction"], card["least_left_out"]) == (bench.direction, known.least_left_out)
         assert card["left_out"] == len(known.left_out)
@@ -83,7 +83,7 @@ def test_every_card_has_the_cues_of_its_bench(pairs: Any) -> None:
             assert_met(met, meeting)
         for answer, cue in zip(card["cues"], known.cues, strict=True):
             assert_same(answer, cue, "kind time since until x y")
-            assert answer["others"] == [one.bench for one in cue.meetings]
+            assert answer["others"] == [met.bench for met in cue.meetings]
             if cue.nearest:
                 assert_met(answer["nearest"], cue.nearest)
     assert any(card["left_out"] for card, *_ in pairs)
@@ -104,7 +104,7 @@ def test_a_bench_stands_where_its_chalk_marks_say(pairs: Any) -> None:
 
 def numbers_in(runs: str) -> set[int]:
     """The numbers that a text such as 3-5, 7 names."""
-    ends = [[int(one) for one in part.split("-")] for part in runs.split(", ")]
+    ends = [[int(number) for number in part.split("-")] for part in runs.split(", ")]
     return {number for part in ends for number in range(part[0], part[-1] + 1)}
 
 

@@ -318,10 +318,10 @@ def test_the_time_stands_where_a_text_of_matplotlib_would() -> None:
     stage, _ = village()
     height, words = 540, "benches 3 and 9 touch\n1:23.0 (83.06 s)"
     stage.time.text = words
-    own = stage.axes.text(0.985, 0.03, words, animated=True, transform=stage.axes.transAxes, ha="right", va="bottom")
-    own.set_fontsize(TYPE_SHARE * height * 72 / DPI)
+    text = stage.axes.text(0.985, 0.03, words, animated=True, transform=stage.axes.transAxes, ha="right", va="bottom")
+    text.set_fontsize(TYPE_SHARE * height * 72 / DPI)
     boxes = []
-    for artist in (stage.time, own):
+    for artist in (stage.time, text):
         stage.canvas.restore_region(stage.still)
         stage.axes.draw_artist(artist)
         dark = np.argwhere(np.asarray(stage.canvas.buffer_rgba())[int(0.85 * height) :, int(1.2 * height) :, 0] < 100)

@@ -42,10 +42,10 @@ def ask(client: httpx.Client, form: str = "application/json", **more: Any) -> ht
 def test_json_has_a_table_for_each_dragon(client: httpx.Client) -> None:
     for decimals in (None, 2):
         got = ask(client, decimals=decimals).json()
-        assert (got["time"], [one["name"] for one in got["dances"]]) == (TIMES.tolist(), ["east", None])
-        for one, (position, speed) in zip(got["dances"], results(), strict=True):
+        assert (got["time"], [table["name"] for table in got["dances"]]) == (TIMES.tolist(), ["east", None])
+        for table, (position, speed) in zip(got["dances"], results(), strict=True):
             known = np.stack([position[..., 0], position[..., 1], speed])
-            assert [one["x"], one["y"], one["speed"]] == (known.round(decimals) if decimals else known).tolist()
+            assert [table["x"], table["y"], table["speed"]] == (known.round(decimals) if decimals else known).tolist()
 
 
 def test_csv_has_the_dragon_before_each_line(client: httpx.Client) -> None:

@@ -311,9 +311,9 @@ def test_a_survey_grid_is_moved_to_its_middle_and_kept(client: httpx.Client, x: 
     for out in (drawn, features):
         again = posted(client, out.content)
         assert got["path"].items() <= again["path"].items()
-        assert [again["venue"]["grid"], *(one["geometry"] for one in again["venue"]["features"])] == [
+        assert [again["venue"]["grid"], *(feature["geometry"] for feature in again["venue"]["features"])] == [
             got["venue"]["grid"],
-            *(one["geometry"] for one in got["venue"]["features"]),
+            *(feature["geometry"] for feature in got["venue"]["features"]),
         ]
 
 

@@ -67,12 +67,12 @@ def posted(client: httpx.Client, data: bytes | str, kind: str = "application/oct
 
 def assert_alike(features: list[Any], others: list[Any]) -> None:
     """The same shapes with the same names and radii, at the same places."""
-    for one, other in zip(features, others, strict=True):
-        assert [one["properties"].get(name) for name in ("name", "radius")] == [
+    for feature, other in zip(features, others, strict=True):
+        assert [feature["properties"].get(name) for name in ("name", "radius")] == [
             other["properties"].get(name) for name in ("name", "radius")
         ]
-        assert one["geometry"]["type"] == other["geometry"]["type"]
-        places, expected = (np.array(each["geometry"]["coordinates"]) for each in (one, other))
+        assert feature["geometry"]["type"] == other["geometry"]["type"]
+        places, expected = (np.array(each["geometry"]["coordinates"]) for each in (feature, other))
         assert places == pytest.approx(expected, rel=0, abs=ROUNDING)
 
 
@@ -109,17 +109,17 @@ def thing(name: str, kind: str, coordinates: Any) -> dict[str, Any]:
 def test_walls_of_a_drawing_are_drawn_as_wide_as_they_are(client: httpx.Client) -> None:
     data = map_of(client, "dxf", path=CORNER, venue=COLLECTION).text
     lines = ezdxf.read(io.StringIO(data)).modelspace().query("LWPOLYLINE")
-    assert [one.dxf.const_width for one in lines if one.dxf.hasattr("const_width")] == [0.3, 0.4]
+    assert [wall.dxf.const_width for wall in lines if wall.dxf.hasattr("const_width")] == [0.3, 0.4]
 
 
 def test_marks_stand_every_five_metres_of_the_path(client: httpx.Client) -> None:
     features = map_of(client, "geojson", path=CORNER).json()["features"]
-    marks = [one for one in features if one["properties"]["role"] == "mark"]
-    assert [one["properties"]["name"] for one in marks] == ["0", "5", "10", "15"]
+    marks = [feature for feature in features if feature["properties"]["role"] == "mark"]
+    assert [feature["properties"]["name"] for feature in marks] == ["0", "5", "10", "15"]
     # 15 m along: 3 m into the arc of radius 5 m around (0, -3).
     x, y = marks[3]["geometry"]["coordinates"]
     assert (x, y) == pytest.approx((5.0 * np.sin(0.6), -3.0 - 5.0 * np.cos(0.6)))
-    assert [one["geometry"]["coordinates"] for one in marks[:3]] == [[-12, -8], [-7, -8], [-2, -8]]
+    assert [feature["geometry"]["coordinates"] for feature in marks[:3]] == [[-12, -8], [-7, -8], [-2, -8]]
     assert_refused(client, "/maps.kml", {"dragon": {"benches": 2}, "path": CORNER}, "{} -> /origin")
 
 
@@ -174,7 +174,9 @@ def test_what_has_no_square_and_no_radius_gets_both() -> None:
     result = read_json(collection)
     assert rings(result)[0].min(axis=0).tolist() == [-20.0, -20.0]
     # They stay points and lines with a radius, for a request and for whoever moves them.
-    things = [(*one["geometry"].values(), one["properties"]["radius"]) for one in result.geometry["features"][1:]]
+    things = [
+        (*feature["geometry"].values(), feature["properties"]["radius"]) for feature in result.geometry["features"][1:]
+    ]
     assert things == forms
     assert names(result)[1:] == [f"obstacle {k}" for k in range(1, 5)]
     assert sum("without a radius" in note for note in result.notes) == 2
@@ -350,13 +352,15 @@ def test_a_map_of_several_dances_has_the_path_and_the_marks_of_each(client: http
         alone = TWO | {"dances": None, "start": start, "stop": stop, "dragon": dance["dragon"], "path": dance["path"]}
         roles = {"path", "mark"}
         known = [
-            one for one in map_of(client, "geojson", **alone).json()["features"] if one["properties"]["role"] in roles
+            feature
+            for feature in map_of(client, "geojson", **alone).json()["features"]
+            if feature["properties"]["role"] in roles
         ]
-        some = [one for one in features if one["properties"].get("dragon") == k]
-        assert [one["geometry"] for one in some] == [one["geometry"] for one in known]
-        words = [f"{name} {one['properties']['name']}" for one in known]
-        assert [one["properties"]["name"] for one in some] == words
-        assert {one["properties"]["dragon_name"] for one in some} == {dance.get("name")}
+        some = [feature for feature in features if feature["properties"].get("dragon") == k]
+        assert [feature["geometry"] for feature in some] == [feature["geometry"] for feature in known]
+        words = [f"{name} {feature['properties']['name']}" for feature in known]
+        assert [feature["properties"]["name"] for feature in some] == words
+        assert {feature["properties"]["dragon_name"] for feature in some} == {dance.get("name")}
 
 
 @pytest.mark.parametrize("format", MapFormat)
@@ -380,8 +384,8 @@ def test_properties_are_read_however_their_names_are_written(write: Callable[[st
         path,
         well,
     ]
-    for one in features:
-        one["properties"] = {write(name): value for name, value in one["properties"].items()}
+    for feature in features:
+        feature["properties"] = {write(name): value for name, value in feature["properties"].items()}
     result = read_json({"type": "FeatureCollection", "features": features}, "metres")
     assert names(result) == ["Market", "well"]
     assert result.path == {"kind": "waypoints", "points": [[5, 5], [35, 25]]}

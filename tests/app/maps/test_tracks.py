@@ -95,8 +95,9 @@ def test_noise_of_every_point_is_no_change_of_speed(noise: float, seed: int) -> 
     times = np.arange(0.0, 250.0)
     points = walked(times) + np.random.default_rng(seed).normal(0.0, noise, (len(times), 2))
     walk, _ = walk_along(points, times)
-    assert [one["speed"] for one in walk.passages] == pytest.approx([1.0, 0.0, 1.0], abs=0.1)
-    assert [one["until_time"] for one in walk.passages] == pytest.approx([*REST, times[-1]], abs=6.0)
+    assert [passage["speed"] for passage in walk.passages] == pytest.approx([1.0, 0.0, 1.0], abs=0.1)
+    assert [passage["until_time"] for passage in walk.passages] == pytest.approx([*REST, times[-1]], abs=6.0)
+    assert walk.passages[1]["speed"] == 0.0
 
 
 def test_points_that_are_noise_alone_are_no_path() -> None:
@@ -112,7 +113,7 @@ def test_times_that_do_not_grow_are_none_and_many_speeds_become_few() -> None:
     places = np.cumsum(np.repeat(np.random.default_rng(0).uniform(0.5, 1.5, 200), 100))
     passages = passages_of(np.arange(20_000.0), places)
     assert 10 < len(passages) <= PASSAGES
-    speeds, ends = np.array([(one["speed"], one["until_time"]) for one in passages]).T
+    speeds, ends = np.array([(passage["speed"], passage["until_time"]) for passage in passages]).T
     assert np.diff(ends, prepend=0.0) @ speeds == pytest.approx(places[-1], rel=0.01)
 
 
@@ -159,11 +160,8 @@ def test_gpx_is_a_path_with_its_waypoints_as_obstacles() -> None:
 def test_the_service_smooths_a_walk_for_the_longest_bench(client: httpx.Client) -> None:
     bent = [f"<trkpt lat='{48 + 1e-4 * min(k, 20):.6f}' lon='{9 + 1e-4 * max(k - 20, 0):.6f}'/>" for k in range(40)]
     file: dict[str, Any] = {"content": gpx(bent), "headers": {"Content-Type": BYTES}}
-    for query, is_long in (("?longest_chord=40", True), ("", False)):
-        notes = client.post(f"/places{query}", **file).raise_for_status().json()["notes"]
-        assert (
-            any(note.endswith("m, which a bench needs whose handles are 40.00 m apart.") for note in notes) is is_long
-        )
+    notes = client.post("/places?longest_chord=40", **file).raise_for_status().json()["notes"]
+    assert any(note.endswith("m, which a bench needs whose handles are 40.00 m apart.") for note in notes)
     assert_problem(client.post("/places?longest_chord=51", **file), 422, "longest_chord 50 51")
 
 
