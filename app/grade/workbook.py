@@ -179,7 +179,7 @@ def _survey(part: str, pieces: Iterator[bytes], most: int) -> tuple[list[Note], 
 
 def _sheets(book: Workbook, budget: Budget) -> list[Grid]:
     grids: list[Grid] = []
-    cells = 0
+    cells, characters = 0, 0
     for sheet in book.worksheets[:SHEETS_MAX]:
         # The cells decide the length of a row, because the stated size of a sheet may be wrong.
         sheet.reset_dimensions()
@@ -190,6 +190,10 @@ def _sheets(book: Workbook, budget: Budget) -> list[Grid]:
             if cells > CELLS_MAX:
                 grid.notes.append(note("cut", title=sheet.title, rows=f"{len(grid.rows):,}"))
                 break
+            # One text that is stored once may stand in every cell.
+            characters += sum(len(value) for value in row[:COLUMNS_MAX] if isinstance(value, str))
+            if characters > UNPACKED_MAX:
+                raise BadArchive("bomb")
             grid.rows.append([_cell(value) for value in row[:COLUMNS_MAX]])
         grids.append(grid)
     if not grids:

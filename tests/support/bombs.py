@@ -111,16 +111,23 @@ BLOCK = "0\nBLOCK\n2\nTREE\n70\n0\n10\n0\n20\n0\n0\nCIRCLE\n10\n0\n20\n0\n40\n1\
 INSERTED = "0\nINSERT\n2\nTREE\n10\n0\n20\n0\n70\n32000\n71\n32000\n44\n5\n45\n5"
 
 
-def workbook(sheet: bytes) -> bytes:
-    """A workbook with this sheet."""
+def workbook(sheet: bytes, text: bytes = b"") -> bytes:
+    """A workbook with this sheet. text: the first text that its cells share"""
     import xlsxwriter
 
     sink = io.BytesIO()
     with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
-        book.add_worksheet().write(0, 0, 1.0)
+        book.add_worksheet().write(0, 0, "text")
     with zipfile.ZipFile(sink) as archive:
         parts = {name: archive.read(name) for name in archive.namelist()}
-    return zipped(parts | {SHEET: sheet}, zipfile.ZIP_DEFLATED)
+    shared = parts["xl/sharedStrings.xml"].replace(b"text", text or b"text")
+    return zipped(parts | {SHEET: sheet, "xl/sharedStrings.xml": shared}, zipfile.ZIP_DEFLATED)
+
+
+def shared_text() -> bytes:
+    """A text of 10 MB in 200,000 cells."""
+    row = b"<row>" + b'<c t="s"><v>0</v></c>' * 500 + b"</row>"
+    return workbook(MAIN + row * 400 + END, b" x" * 5_000_000)
 
 
 def attributes() -> bytes:
@@ -172,6 +179,7 @@ GRADES: dict[str, Bomb] = {
     # A sheet that is a long text, and one that ends early.
     "styles": lambda: workbook(MAIN + b"<row><c><v>" + b"1" * 90_000_000),
     "attributes": attributes,
+    "shared_text": shared_text,
 }
 
 
