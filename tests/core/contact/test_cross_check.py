@@ -194,11 +194,18 @@ def test_benches_left_out_make_no_neighbours_of_those_beside_them():
 
 
 @as_dragon_and_pair
-def test_the_angle_sum_is_left_out_where_benches_cross_at_the_start_with_no_corner_inside(whole):
-    dance = Dance(Dragon(59, 3.48, 2.2, 0.08, 0.26), Spiral(0.21, 9.4))
+@pytest.mark.parametrize(
+    ("dance", "left_out"),
+    [
+        (Dance(Dragon(59, 3.48, 2.2, 0.08, 0.26), Spiral(0.21, 9.4)), (Engine.ANGLE_SUM,)),
+        (Dance(Dragon(60), Spiral(0.25, 8.0)), ()),
+    ],
+)
+def test_the_angle_sum_is_left_out_where_benches_cross_at_the_start_with_no_corner_inside(dance, left_out, whole):
     check = contact_check(first_contact(dance), whole=whole)
     assert check.agree
-    assert check.left_out == (Engine.ANGLE_SUM,)
+    assert check.left_out == left_out
+    assert set(check.engines.values()) == {AT_ONCE}
 
 
 @pytest.mark.parametrize(("stray", "margin", "wrong"), [(0.02, 0.0, WRONG), (0.05, 0.03, 0.2)])
