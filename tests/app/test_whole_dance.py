@@ -149,7 +149,7 @@ def test_a_bad_line_of_a_table_is_named_by_its_number(text: str, line_: int, wor
         "sep=\t\n3,41\t0,3\t0,275\n2,2\t0,3\t0,275\n",
         "名称;长度;宽度;孔心距板头\nZhou;3,41;0,3;0,275\nLi;2,2;0,3;0,275\n",
         "\ufeff姓名\tLength [m]\twidth\toverhang\nZhou\t3,41\t0,3\t0,275\n\nLi\t2,2\t0,3\t0,275\n",
-        f"name,length,width,overhang\n{BARE_TABLE},,,\n",
+        "name,length,width,overhang\nZhou,3.41,0.3,0.275,,\nLi,2.2,0.3,0.275\n,,,\n",
     ],
 )
 def test_a_table_is_read_however_a_spreadsheet_writes_it(text: str) -> None:
