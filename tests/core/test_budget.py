@@ -52,7 +52,6 @@ SMALL = {"bench_outlines", "bench_poses", "card_of", "course", "separation", "ve
 LARGER = {
     core.check: {"dance": SPIRAL, "venue": square(30)},
     core.clearance_profile: {"dance": SPIRAL, "times": [0.0, 9.0, 100.0]},
-    core.cross_check: SIZED,
     core.first_contact: {"dance": SPIRAL},
     core.minimum_pitch: {"dragon": Dragon(30)},
     core.overlaps: SIZED,

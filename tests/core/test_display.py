@@ -2,7 +2,7 @@
 
 import pickle
 import typing
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import fields, is_dataclass
 from enum import Enum
 from itertools import chain
 
@@ -194,9 +194,3 @@ def test_a_table_of_many_pieces_or_points_stays_small():
         table = value._repr_html_()
         assert len(table) < 1_000
         assert words in table
-
-
-def test_a_bracket_stands_in_one_line_only_where_its_ends_differ():
-    highest = core.highest_speed(DANCE, stop=10.0)
-    assert "bracket" not in repr(replace(highest, speed_bracket=(1.0, 1.0 + 1e-12)))
-    assert "speed bracket 1, 2 m/s" in repr(replace(highest, speed_bracket=(1.0, 2.0)))

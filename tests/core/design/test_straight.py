@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from core import Dragon, kernels
+from core import kernels
 from core.design.straight import Straight, curvature_most
 from tests.campaigns.sweep_pitch import random_case
 from tests.support.depth import further, some
@@ -56,8 +56,3 @@ def test_no_spiral_of_the_growth_or_a_larger_one_is_bent_more():
         most = curvature_most(growth, radius)
         for wider, factor in product(growth * np.geomspace(1.0, 50.0, 40), further_out):
             assert kernels.spiral_curvature(factor * radius / wider) / wider <= most * (1.0 + 1e-15)
-
-
-def test_a_long_dragon_needs_no_more_than_its_leading_benches():
-    short, long = Straight(Dragon(30)), Straight(Dragon(100_000))
-    assert (short.gap, short.between, short.at) == (long.gap, long.between, long.at)

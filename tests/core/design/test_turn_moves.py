@@ -5,9 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from core.design.turn_moves import bent, coil_bend, displaced
-from core.paths.spiral import Spiral
-from tests.support.boxes_of_turns import CROSSING, GROWTH, SMALL, box_at, turns_drawn
+from core.design.turn_moves import bent, displaced
+from tests.support.boxes_of_turns import CROSSING, SMALL, box_at, turns_drawn
 from tests.support.depth import examples, further
 
 pytestmark = pytest.mark.uncompiled
@@ -49,10 +48,3 @@ def test_curvatures_differ_by_no_more_than_the_bound(place):
             assert total <= most + 3.0 * STEP  # a sum may count one sample of a jump too many
             nearest = max(nearest, total / most)
     assert nearest > 0.3
-
-
-def test_the_bend_of_a_coil_is_that_of_the_spiral():
-    spiral = Spiral(1.7, 16.0)
-    s = spiral.end - 40.0
-    bend = coil_bend(GROWTH, float(np.hypot(*spiral.position(s))))
-    assert bend == pytest.approx(abs(float(spiral.curvature(s))), rel=1e-9)

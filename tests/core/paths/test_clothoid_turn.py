@@ -54,12 +54,10 @@ def test_all_benches_dance_through_it():
 @pytest.mark.parametrize(
     ("ways", "field"),
     [
-        ({"middle": 40.0}, "middle"),
         ({"middle": 1e-3, "ends": 100.0}, "middle"),
         ({"middle": 1.0, "ends": 1e-4}, "ends"),
-        ({"middle": 1.0, "exit_radius": 4.6}, "exit_radius"),
     ],
-    ids=["long", "long ends", "short ends", "exit"],
+    ids=["long ends", "short ends"],
 )
 def test_what_is_no_turn_is_refused(ways, field):
     with refused(field):

@@ -42,7 +42,6 @@ TOO_SHORT = {
     "a line": line(10),
     "a line a hair shorter than the dragon": line(LENGTH - 1e-6),
     "an arc as long as the dragon when straight": Route([Arc((0, 0), 3.7, 0, LENGTH / 3.7)]),
-    "a hook": Route([Waypoints(((0, 0), (6, 0), (7, 4), (4, 6)))]),
     "a coil outwards": Route([Coil(3.0, 0.5, 1.0)]),
 }
 

@@ -20,7 +20,6 @@ from core import (
     venue_clearance,
 )
 from tests.support.near import assert_near
-from tests.support.refused import refused
 
 DRAGON = Dragon(30)
 STANDARD = Dance(DRAGON, Spiral(0.55, 14.0))
@@ -97,12 +96,3 @@ def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(mov
     assert result.stray == tolerance(STANDARD, **span).stray
     strays = result.exhibit.handles - trajectory(dance, result.exhibit.time).position
     assert_near(np.hypot(*strays.T).max(), result.exhibit.stray, 1e-9)
-
-
-@pytest.mark.parametrize(
-    ("field", "place"),
-    [("path.centre", {"centre": (0.0,)}), ("path.rotation", {"rotation": float("nan")})],
-)  # fmt: skip
-def test_an_invalid_place_is_refused_by_name(field, place):
-    with refused(field):
-        Spiral(**place)

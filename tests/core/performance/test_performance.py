@@ -2,7 +2,7 @@
 
 import pytest
 
-from core import Dance, Dragon, EndReason, InvalidValue, OutsideRun, Part, Performance, Spiral, first_encounter
+from core import Dance, Dragon, EndReason, Part, Performance, Spiral, first_encounter
 from tests.support.refused import refused
 from tests.support.shared_dances import lane
 
@@ -47,18 +47,3 @@ def test_dances_that_share_no_time_meet_where_one_stands():
     assert (met.dragons, met.benches) == ((0, 1), (2, 0))
     # 60 m from the beginning of the second street to x = 0
     assert met.time == pytest.approx(delay + 60.0 + tail - float(DRAGON.overhangs[0]), abs=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("span", "kind", "field"),
-    [
-        ((-50.0, None), OutsideRun, "start"),
-        ((None, 1e6), OutsideRun, "stop"),
-        ((20.0, 20.0), InvalidValue, "stop"),
-    ],
-    ids=["before", "after", "empty"],
-)
-def test_times_outside_a_performance_are_refused(span, kind, field):
-    performance = Performance([Part(WINDING), Part(Dance(DRAGON, Spiral(1.1, 4.0, (30.0, 0.0))))])
-    with refused(field, kind):
-        performance.span(*span)

@@ -3,13 +3,11 @@
 import math
 from functools import reduce
 
-import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from core import Route
-from core.proposal.walks import along, dubins, joined, length_of, mirrored, moved, pieces_of, stretch
+from core.proposal.walks import along, dubins, joined, length_of, mirrored, moved, stretch
 from tests.support.depth import examples
 
 PLACE = 1e-9  # [m], [rad]: rounding of a few steps
@@ -49,14 +47,6 @@ def test_no_path_of_at_most_that_curvature_is_shorter(begin, steps, radius):
 def test_the_shortest_path_along_one_arc_is_that_arc(curvature):
     begin = (1.0, -2.0, 0.3)
     assert joined(dubins(begin, moved(begin, (2.5, curvature)), 2.0)[0]) == [(pytest.approx(2.5), curvature)]
-
-
-def test_pieces_join_and_have_the_length_of_the_steps():
-    steps = [(3.0, 0.0), (2.0, 0.4), (1.0, 0.4), (0.0, -1.0), (4.0, -0.25)]
-    pieces, end = pieces_of((1.0, 2.0, 0.5), steps)
-    route = Route(pieces)
-    assert route.end - route.begin == pytest.approx(length_of(steps), abs=PLACE)
-    assert route.position(route.end) == pytest.approx(np.array(end[:2]), abs=PLACE)
 
 
 def test_a_stretch_goes_round_a_closed_path():
