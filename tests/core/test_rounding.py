@@ -134,7 +134,7 @@ def test_what_is_within_a_margin_for_certain_stays_so_over_the_interval(seed):
         assert kernels.gap_at(search.scene, place - part * h, a, b, search.placed) <= max(most, 0.0)
 
 
-@pytest.mark.parametrize(("x", "y"), [(0.0, 0.0), (-9e-10, 0.0), (0.0, 9e-10)], ids=["closed", "overlapping", "aside"])
+@pytest.mark.parametrize(("x", "y"), [(-9e-10, 0.0), (0.0, 9e-10)], ids=["overlapping", "aside"])
 def test_pieces_that_miss_each_other_count_as_rounding(x, y):
     """A line whose second half begins up to 1e-9 m off its first."""
     route = Route([Line((0.0, 0.0), (30.0, 0.0)), Line((30.0 + x, y), (60.0, y))])

@@ -105,11 +105,9 @@ def test_dragons_that_fold_are_judged_until_before_that():
 
 
 def test_no_delay_is_safe_while_two_others_meet_and_all_are_without_others():
-    third = Part(Dance(Dragon(2), lane((100.0, 0.0), (120.0, 0.0))), name="third")
-    delays = safe_delay(Performance([*streets(4, 4).parts, third]), "third", 0.0, 20.0)
-    assert (delays.safe, delays.undecided, delays.part) == ((), (), 2)
-    alone = safe_delay(Performance([third]), "third", 0.0, 20.0)
-    assert alone.safe == ((0.0, 20.0),)
+    third = Part(Dance(Dragon(2), lane((100.0, 0.0), (120.0, 0.0))))
+    assert safe_delay(Performance([*streets(4, 4).parts, third]), 2, 0.0, 20.0).safe == ()
+    assert safe_delay(Performance([third]), 0, 0.0, 20.0).safe == ((0.0, 20.0),)
 
 
 @pytest.mark.parametrize("step", [1, -1], ids=["beginning", "end"])
