@@ -82,7 +82,7 @@ def test_the_edition_depends_on_the_files_alone(tmp_path: Path) -> None:
             (tmp_path / place / "words" / name.replace("_", ".")).write_text(text)
         return Files(directory=tmp_path / place).edition()
 
-    assert edition("a", main_js="1", b_py="") == edition("b", main_js="1") != edition("c", main_js="2")
+    assert edition("a", main_js="1", b_py="x") == edition("b", main_js="1") != edition("c", main_js="2")
     assert edition("c", main_js="1, as before") not in (edition("a"), edition("c", main_js="2"))
 
 

@@ -13,8 +13,13 @@ import core
 from app.service.main import create_app
 from app.service.negotiation import accepted
 from app.settings import Settings
+from app.wire.faults import pointer
 
 pytestmark = pytest.mark.uncompiled
+
+
+def test_an_index_into_what_is_no_list_in_the_body_is_left_out_of_a_pointer() -> None:
+    assert pointer(["times", 300], {"times": {"stop": 600}}) == pointer(["times", 300], {}) == "/times"
 
 
 @pytest.mark.parametrize(
