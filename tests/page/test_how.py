@@ -14,7 +14,6 @@ thorough = pytest.mark.thorough
 SECTIONS = {"chord", "staircase", "step", "graze", "stray"}
 # A drag by this many pixels moves a number by a quarter of its range.
 QUARTER = 70
-FOUR = {13.1, 15.0, 19.2, 22.4}  # [px], as on the page of the dance
 
 
 def answer_of(server: str, call: str, **request: Any) -> Any:

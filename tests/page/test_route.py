@@ -176,11 +176,6 @@ def test_what_comes_late_is_not_shown_without_a_drawing_nor_of_another_kind_of_d
 
 @thorough
 def test_the_picture_has_the_drawn_path_alone_whatever_answers_late(open_page: Any) -> None:
-    person = open_page("?benches=60&time=end&route=-200,0_0,0_40,10").sees({"#inset": True})
-    held = person.holds_back("**/check")
-    person.presses("[data-path=route]").settles("pose", "course", "drawing").sees({"#inset": False})
-    held.let_go()
-    person.settles().sees({**YES, "#inset": False})
     person = open_page("?benches=5&time=end")
     held = person.holds_back("**/trajectory")
     with person.page.expect_request(lambda one: '"decimals":4' in (one.post_data or "")):  # the path of the spiral
@@ -217,7 +212,7 @@ def test_a_dance_that_begins_later_can_begin_at_time_0(visit: Any) -> None:
 def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(visit: Any, tmp_path: Path) -> None:
     person = visit("?path=route", failing=True)
     corners = [[499_950, 3_219_950], [500_050, 3_219_950], [500_050, 3_220_050], [499_950, 3_219_950]]
-    grid, table, book, old = (tmp_path / f"one.{ending}" for ending in ("geojson", "csv", "xlsx", "xls"))
+    grid, table, book = (tmp_path / f"one.{ending}" for ending in ("geojson", "csv", "xlsx"))
     square = {"type": "Polygon", "coordinates": [corners]}
     line = {"type": "LineString", "coordinates": [[499_960, 3_220_000], [500_040, 3_219_990]]}
     grid.write_text(json.dumps({"type": "GeometryCollection", "geometries": [square, line]}))
@@ -232,9 +227,6 @@ def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(visit: A
     workbook.active.append(["吴", 3.41, 0.3, 0.275])
     workbook.save(book)
     person.takes(book, "#csv-file").holds({"#csv": "吴,3.41,0.3,0.275\n"})
-    old.write_bytes(bytes.fromhex("d0cf11e0a1b11ae1") + bytes(99))
-    person.takes(old, "#csv-file")
-    person.sees({"#status": "The workbook is in an old or encrypted form"})
 
 
 @thorough
