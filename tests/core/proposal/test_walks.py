@@ -3,11 +3,13 @@
 import math
 from functools import reduce
 
+import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from core.proposal.walks import along, dubins, joined, length_of, mirrored, moved, stretch
+from core import Coil, Route
+from core.proposal.walks import along, dubins, joined, length_of, mirrored, moved, placed, stretch
 from tests.support.depth import examples
 
 PLACE = 1e-9  # [m], [rad]: rounding of a few steps
@@ -56,3 +58,9 @@ def test_a_stretch_goes_round_a_closed_path():
     assert stretch(loop, round_once, 1.0) == [(1.0, -1.0)]
     assert apart(along(ORIGIN, loop, 2.0 * round_once + 1.0), moved(ORIGIN, (1.0, 1.0))) < PLACE
     assert mirrored(loop) == loop[::-1]
+
+
+def test_pieces_are_placed_as_a_whole():
+    pieces, s, plane = [Coil(1.0, 4.0, 2.0)], np.linspace(0.0, 20.0, 7), np.array([1.0, 1.0j])
+    expected = Route(pieces).position(s) @ plane * np.exp(0.7j) + (3.0 - 1.0j)
+    assert Route(placed(pieces, (3.0, -1.0, 0.7))).position(s) @ plane == pytest.approx(expected, abs=PLACE)
