@@ -8,7 +8,6 @@ from core import (
     Dragon,
     EndReason,
     Outcome,
-    OutsideRun,
     Spiral,
     Turn,
     clearance_profile,
@@ -106,9 +105,7 @@ def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips():
         assert tuple(pairs[5]) == graze.benches
 
 
-def test_a_profile_needs_two_benches_that_share_no_handle_and_times_of_the_run():
+def test_a_profile_needs_two_benches_that_share_no_handle():
     for benches in (1, 2):
         with refused("dragon.benches"):
             clearance_profile(Dance(Dragon(benches), Spiral()), [0.0])
-    with refused("times.1", OutsideRun):
-        clearance_profile(SHORT, [0.0, 433.0])

@@ -157,14 +157,6 @@ def test_an_engine_that_differs_makes_them_disagree():
 # -- whom the engines judge -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("benches", "judged"), [(WHOLE_BENCHES, WHOLE_BENCHES), (WHOLE_BENCHES + 1, 119)])
-def test_of_a_longer_dragon_those_near_the_pair_are_judged(benches, judged):
-    check = contact_check(first_contact(Dance(Dragon(benches), Spiral())))
-    assert check.agree
-    assert len(check.judged) == judged
-    assert {0, 8} < set(check.judged)
-
-
 def test_near_are_all_that_touch_one_of_the_pair():
     random = np.random.default_rng(3)
     count, pair = WHOLE_BENCHES + 500, (7, 1500)

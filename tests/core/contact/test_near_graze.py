@@ -105,7 +105,7 @@ def assert_narrow(contact):
 @pytest.mark.parametrize("margin", [0.0, 0.05])
 @pytest.mark.parametrize(
     ("head_speed", "below"),
-    [(1.0, 1e-9), (0.01, 1e-7), *thorough((0.01, 1e-11), (0.01, 1e-9), (2.0, 1e-11), (2.0, 1e-7))],
+    [(1.0, 1e-9), (0.01, 1e-7), *thorough((0.01, 1e-11), (2.0, 1e-11))],
 )
 def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin, below, head_speed):
     spiral = grazing_spiral(margin, below)

@@ -32,13 +32,6 @@ def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant():
     assert result.graze.benches == (0, 11)
 
 
-def test_a_march_from_within_a_contact_ends_where_it_starts():
-    ended, result = marched(forty(), start=413.0)
-    assert ended is Ended.TOUCHED_AT_START
-    assert result.proven == result.touching == 413.0
-    assert result.steps == 0
-
-
 def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven():
     ended, result = marched(forty(), work=200.0)
     assert ended is Ended.STUCK
