@@ -139,12 +139,12 @@ def test_the_dance_that_is_judged_is_written_as_a_table(dance: Path) -> None:
 
 @pytest.mark.parametrize("more", [LANES[0], {"dances": LANES}], ids=["one", "several"])
 def test_the_last_second_of_a_table_is_not_after_the_end_of_a_path(tmp_path: Path, more: dict[str, Any]) -> None:
-    table, text = tmp_path / "lane.csv", json.dumps({"start": 10, **more})
+    table, text = tmp_path / "lane.csv", json.dumps({"start": 10, "start_clock": "19:30", **more})
     assert run("check", "-", "--output", str(table), text=text).stderr == f"{table}\n"
     stop = json.loads(answer_of("check", "-", "--json", text=text))["stop"]
     assert stop % 1.0 > 0.999
-    times = [float(row["time"]) for row in csv.DictReader(table.read_text().splitlines())]
-    assert (times[0], times[-1]) == (10.0, stop)
+    first, *_, last = csv.DictReader(table.read_text().splitlines())
+    assert (float(first["time"]), first["clock"], float(last["time"])) == (10.0, "19:30:10", stop)
 
 
 def test_a_file_that_windows_saved_is_read(dance: Path) -> None:
