@@ -144,7 +144,7 @@ def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service: Jo
     whole = service.result(address).content
     assert len(whole) > 1_000_001
     parts = {"bytes=5-9": whole[5:10], "bytes=1000000-": whole[1_000_000:]}
-    for wanted in (*parts, "bytes=5-1", "lines=1-2", "bytes=99999999999-", "bytes=1-2,5-6", "x"):
+    for wanted in (*parts, "bytes=5-1", "lines=1-2", "bytes=99999999998-99999999999", "bytes=1-2,5-6", "x"):
         answer = service.client.get(f"{address}/result", headers={"Range": wanted})
         assert answer.content == parts.get(wanted, whole), wanted
         assert answer.status_code == (206 if wanted in parts else 200)
