@@ -21,6 +21,13 @@ RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check
     && /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check --no-build-isolation \
         -c /src/requirements.lock -c /src/requirements-test.lock "/src[${EXTRAS}]" \
     && /opt/bench-dragon/bin/python -c "import core.kernels; assert core.kernels.COMPILED"
+# The guide, which the service shows at /guide/.
+COPY *.md requirements-docs.lock /src/
+COPY docs /src/docs
+RUN python -m venv /opt/docs \
+    && /opt/docs/bin/pip install --no-cache-dir --disable-pip-version-check -r /src/requirements-docs.lock \
+    && place=$(cd /tmp && /opt/bench-dragon/bin/python -c "import app; print(*app.__path__)") \
+    && cd /src/docs && PYTHONPATH=$(dirname "$place") /opt/docs/bin/python site/build.py "$place/guide"
 # What the service never reads: pip and what compiles, IPython (for plots of uplot-python in notebooks), tests, sources
 # and symbols of compiled modules, and the parts of pyarrow that talk to other servers.
 RUN cd /opt/bench-dragon/lib/python3*/site-packages \

@@ -166,9 +166,9 @@ $(VENV)/docs: $(VENV)/tests requirements-docs.lock
 figures: test-setup
 	@$(BIN)/bench-dragon figures docs
 
-# The wheel is built from the sdist; both pass the checks of a package index. A wheel is for one platform if, and only
+# The wheel is built from the sdist, and holds the guide; both pass the checks of a package index. A wheel is for one platform if, and only
 # if, it holds compiled loops; on Linux it then needs no library beside those of manylinux.
-dist: test-setup
+dist: docs
 	@rm -rf dist && mkdir -p build
 	@$(BIN)/python -c 'from setuptools.build_meta import build_sdist; build_sdist("dist")' >build/sdist.log
 	@$(PIP) wheel --no-build-isolation --no-deps --wheel-dir dist dist/*.tar.gz

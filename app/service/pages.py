@@ -13,6 +13,7 @@ import json
 import os
 import re
 from base64 import b64encode
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from mimetypes import guess_type
 from pathlib import Path
@@ -84,23 +85,33 @@ TOO_LONG = {
         "从头打开页面",
     ),
 }
-TOO_LONG_PAGE = """<!doctype html>
+# The same of an installation whose guide is not made.
+NO_GUIDE = {
+    "en": (
+        "This installation has no guide",
+        "The command “make docs” makes it in a minute or two.",
+        "Then load this page again.",
+        "Open Bench Dragon",
+    ),
+    "zh": ("尚未生成使用指南", "运行命令“make docs”，一两分钟即可生成。", "然后重新载入本页。", "打开板凳龙"),
+}
+SENTENCES = """<!doctype html>
 <html lang="{tag}">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
 <title>{0}</title>
-<script src="page/theme.js"></script>
-<link rel="stylesheet" href="page/style.css">
-<link rel="stylesheet" href="page/how.css">
+<script src="{up}page/theme.js"></script>
+<link rel="stylesheet" href="{up}page/style.css">
+<link rel="stylesheet" href="{up}page/how.css">
 </head>
 <body>
 <main class="article">
 <h1>{0}</h1>
 <p>{1}</p>
 <p>{2}</p>
-<p><a href=".">{3}</a></p>
+<p><a href="{up}">{3}</a></p>
 </main>
 </body>
 </html>
@@ -216,18 +227,43 @@ def long_address(request: Request, got: int, most: int) -> Response | None:
 
     got: length of the query; most: the largest one that is read
     """
-    kind = accepted(request.headers.get("accept"), [PROBLEM_TYPE, "text/html"])
-    if request.url.path not in FOLLOWED or kind != "text/html":
+    if request.url.path not in FOLLOWED or not is_person(request):
         return None
+    return sentences_page(request, 414, TOO_LONG, CLOSE, got=got, most=most)
+
+
+def is_person(request: Request) -> bool:
+    """True if a page answers the request better than a problem."""
+    return accepted(request.headers.get("accept"), [PROBLEM_TYPE, "text/html"]) == "text/html"
+
+
+def sentences_page(
+    request: Request, status: int, words: Mapping[str, Sequence[str]], headers: Mapping[str, str], **values: int
+) -> Response:
+    """A page of some sentences. words: in each language, as TOO_LONG has them; values: in them"""
     language = language_of(request)
-    words = [sentence.format(got=got, most=most) for sentence in TOO_LONG[language]]
-    text = TOO_LONG_PAGE.format(*words, tag="zh-Hans" if language == "zh" else "en")
-    headers = {**CLOSE, "Cache-Control": "no-store", "Vary": "Accept, Accept-Language"}
-    return Response(text, 414, headers, media_type="text/html")
+    sentences = [sentence.format(**values) for sentence in words[language]]
+    path = request.scope["path"].removeprefix(request.scope["root_path"].removesuffix("/guide"))
+    up = "../" * (path.count("/") - 1) or "./"
+    text = SENTENCES.format(*sentences, tag="zh-Hans" if language == "zh" else "en", up=up)
+    kept = {**headers, "Cache-Control": "no-store", "Vary": "Accept, Accept-Language"}
+    return Response(text, status, kept, media_type="text/html")
 
 
 class Guide(Files):
-    """The pages of the documentation as `make docs` makes them."""
+    """The pages of the documentation as `make docs` makes them, also while the service runs."""
+
+    async def check_config(self) -> None:
+        """Nothing: get_response() says where there is no guide."""
+
+    async def get_response(self, path: str, scope: Scope) -> Response:
+        """raises: HTTPException 404 for a path that is not a file, with the command that makes the guide"""
+        if GUIDE.is_dir():
+            return await super().get_response(path, scope)
+        request = Request(scope)
+        if is_person(request):
+            return sentences_page(request, 404, NO_GUIDE, {})
+        raise Refused(404, "This installation has no guide: make docs makes it.")
 
     def _response(self, path: str, headers: Headers, edition: str | None) -> Response:
         content, kind = self.content("index.html" if path == "." else path)
@@ -286,14 +322,7 @@ def add_pages(app: FastAPI) -> None:
     async def guide() -> Response:
         return RedirectResponse("guide/")
 
-    if GUIDE.is_dir():
-        app.mount("/guide", Guide(directory=GUIDE))
-    else:
-
-        @app.get("/guide/{path:path}", include_in_schema=False)
-        async def no_guide(path: str) -> Response:
-            raise Refused(404, "This installation has no guide: make docs makes it, before the service starts.")
-
+    app.mount("/guide", Guide(directory=GUIDE, check_dir=False))
     app.mount("/docs/assets", Files(packages=[("fastapi_swagger", "resources")]))
     app.mount("/page-{edition}", files)
     app.mount("/page", files)

@@ -1,4 +1,4 @@
-"""What the names of wheels promise: python -m tests.support.wheels WHEEL...
+"""What wheels hold, and what their names promise: python -m tests.support.wheels WHEEL...
 
 make dist runs it, with auditwheel and patchelf. A wheel for one platform holds compiled loops, and one for every
 platform none. On Linux a wheel with compiled loops needs no library beside those of manylinux.
@@ -15,8 +15,10 @@ from zipfile import ZipFile
 
 
 def fault(wheel: Path) -> str:
-    """What is false about the name of a wheel; empty: nothing is."""
+    """What is wrong with a wheel; empty: nothing is."""
     names = ZipFile(wheel).namelist()
+    if "app/guide/index.html" not in names:
+        return "it lacks the guide, which make docs makes"
     compiled = [name for name in names if name.startswith("core/kernels") and name.endswith((".so", ".pyd"))]
     for_all = wheel.name.endswith("-none-any.whl")
     if for_all and compiled:
@@ -38,7 +40,7 @@ def fault(wheel: Path) -> str:
 def main() -> None:
     faults = {name: fault(Path(name)) for name in sys.argv[1:]}
     for name, words in faults.items():
-        print(f"{name}: {words or 'its name is true'}")
+        print(f"{name}: {words or 'it holds what its name says'}")
     sys.exit(any(faults.values()))
 
 
