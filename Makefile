@@ -2,7 +2,7 @@
 # what the service needs, `make test` also what the tests need.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup test-setup serve test test-all machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd docs examples figures dist wheels install-time lock versions clean
+.PHONY: help setup test-setup serve test test-all machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz mutants bench ccd docs examples figures dist wheels install-time lock versions clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -35,6 +35,8 @@ help:
 	@echo 'make job-kills  50 processes of the service killed at random while it works on jobs, 5 minutes (KILLS=, SEED=)'
 	@echo 'make soak     each attack alone, then all in turn beside 64 clients, 8 minutes (SECONDS=, FOLDER= for its curve)'
 	@echo 'make fuzz     10,000 requests from the service description, 12,000 odd ones, 5,000 files (CASES=, MUTANTS=, SEED=, FILES=)'
+	@echo 'make mutants  80 random faults put into the program, one at a time: how many do the tests notice? Some hours, continued'
+	@echo '              after an interruption'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make ccd      100,000 queries of continuous collision detection to every engine, into docs/dragon-ccd.md: some'
 	@echo '              hours, continued after an interruption (QUERIES=, SEED=)'
@@ -145,6 +147,13 @@ soak: test-setup
 fuzz: test-setup
 	@$(BIN)/python -m tests.campaigns.fuzz $(or $(CASES),10000) $(or $(MUTANTS),12000) $(or $(SEED),0) $(or $(FILES),5000)
 
+mutants: test-setup $(VENV)/mutants
+	@$(BIN)/python -m tests.campaigns.mutants try
+
+$(VENV)/mutants: $(VENV)/tests requirements-mutants.lock
+	@$(INSTALL) $(VENV) requirements-mutants.lock
+	@touch $@
+
 bench: test-setup
 	@$(BIN)/python -m benchmarks.report docs/performance.md
 
@@ -203,9 +212,11 @@ lock: setup
 	@$(RESOLVE) pyproject.toml --extra ccd --constraint build/all.lock --output-file build/ccd.lock
 	@$(RESOLVE) --group docs --constraint build/all.lock --output-file build/docs.lock
 	@$(RESOLVE) --group dist --output-file build/requirements-dist.lock
+	@$(RESOLVE) --group mutants --constraint build/all.lock --output-file build/mutants.lock
 	@sed -i "/ == 'none'$$/d" build/*.lock
 	@grep -vxFf build/requirements.lock build/all.lock >build/requirements-test.lock
 	@grep -vxFf build/all.lock build/docs.lock >build/requirements-docs.lock
+	@grep -vxFf build/all.lock build/mutants.lock >build/requirements-mutants.lock
 	@grep -vxFf build/requirements.lock build/ccd.lock | grep -vxFf build/all.lock >build/requirements-ccd.lock
 	@for file in requirements*.lock; do \
 		{ sed -n '/^#/p' $$file; cat build/$$file; } >build/commented && mv build/commented $$file; done

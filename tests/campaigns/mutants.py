@@ -1,49 +1,42 @@
-"""How many of some random faults in core, app and the page the tests notice.
+"""How many of some random faults in core, app and the page the tests notice: make mutants.
 
 python -m tests.campaigns.mutants draw COUNT SEED   makes the list of faults, FAULTS (cosmic-ray; StrykerJS by npm)
-python -m tests.campaigns.mutants cover             which test file runs which line, into build/cover.json
-python -m tests.campaigns.mutants try [PROCESSES]   puts one fault after another into a clone, runs the tests that run
-                                                    its line until the first fails, and prints a table
+python -m tests.campaigns.mutants try               puts one fault after another into a clone, and prints a table
 
 A fault changes one thing: an operator, a number, a comparison, a block. Draws are uniform over the places where a
 tool can change something, in proportion to the weight of core, app and the page; changes of annotations, which Python
-never computes, are left out. Faults of the page are tried by all tests of the page, those of compiled loops by the
-tests that run a line of core which calls them. A test that fails is repeated without the fault: only if it passes then
-has it noticed something. What was found is kept in build/, so that a run goes on after an interruption.
+never computes, are left out. A fault is tried by the tests of its module and its room, then by all tests that run its
+line, those of every day first, until one fails; faults of the page by all tests of the page. A test that fails is
+repeated without the fault: only if it passes then has it noticed something. What is known is kept in build/mutants, so
+that a run goes on after an interruption.
 """
-
-from __future__ import annotations
 
 import ast
 import difflib
 import json
 import os
-import queue
 import random
 import re
-import shutil
 import signal
 import sqlite3
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
+from functools import cache
 from pathlib import Path
-from typing import Any
 
 ROOT = Path(__file__).parents[2]
-FAULTS = ROOT / "tests" / "campaigns" / "mutants.json"
-COVER = ROOT / "build" / "cover.json"
+FAULTS = Path(__file__).with_suffix(".json")
+CLONE, TRIED = ROOT / "build" / "mutants" / "clone", ROOT / "build" / "mutants" / "tried.json"
+COVERED = CLONE / ".coverage"
 SHARES = {"core": 0.45, "app": 0.38, "app/page": 0.17}  # of syntax nodes (2026-11-28)
-TRIED = ROOT / "build" / "tried.json"
-EVERY_DAY, THOROUGH = ["-m", "not thorough"], ["-m", "thorough"]
-BATCH = 40.0  # [s] of tests that share a process
-SLOWER = 8.0  # [1] a test that takes this many times as long under a fault has noticed it
-LEAST = 60.0  # [s] the least time that a file of tests may take
-CORES = 2
+STRYKER = "@stryker-mutator/instrumenter@9.6.1"
+EVERY_DAY, THOROUGH = "not thorough", "thorough"
+# Longest time of the tests of one fault [s]: a fault may make a search endless.
+MOST = 1_800.0
+# A run without what a test needs has another reason to fail.
+PYTEST = (".venv/bin/python", "-m", "pytest", "-x", "-q", "--color=no", "-p", "no:cacheprovider", "-n", "2")
 
 
 @dataclass(frozen=True)
@@ -56,7 +49,7 @@ class Fault:
     before: list[str]
     after: list[str]
 
-    def put_into(self, checkout: Path) -> None:
+    def put_into(self, checkout):
         """Change the file. raises: LookupError where the lines stand there no more"""
         file = checkout / self.path
         lines = file.read_text("utf-8").splitlines(keepends=True) if file.exists() else []
@@ -71,7 +64,7 @@ class Fault:
 # -- draw ----------------------------------------------------------------------------------------------------
 
 
-def fault_of(path: str, kind: str, text: str, changed: str) -> Fault | None:
+def fault_of(path, kind, text, changed):
     """The fault that makes `changed` of a file's text; None if it changes nothing."""
     old, new = text.splitlines(keepends=True), changed.splitlines(keepends=True)
     spans = [code for code in difflib.SequenceMatcher(None, old, new, False).get_opcodes() if code[0] != "equal"]
@@ -84,9 +77,9 @@ def fault_of(path: str, kind: str, text: str, changed: str) -> Fault | None:
     return Fault(path, i + 1, kind, old[i:end], new[j:stop])
 
 
-def annotations(path: Path) -> set[tuple[int, int]]:
+def annotations(path):
     """Lines and columns at which some part of an annotation begins."""
-    starts: set[tuple[int, int]] = set()
+    starts = set()
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         for name in ("annotation", "returns"):
             if (note := getattr(node, name, None)) is not None:
@@ -96,7 +89,7 @@ def annotations(path: Path) -> set[tuple[int, int]]:
     return starts
 
 
-def draw_python(room: str, chance: random.Random, place: Path) -> Iterator[Fault]:
+def draw_python(room, chance, place):
     """Faults of the room's Python by cosmic-ray, one at a time and without an end."""
     from cosmic_ray.mutating import mutate_code
     from cosmic_ray.plugins import get_operator
@@ -109,7 +102,7 @@ def draw_python(room: str, chance: random.Random, place: Path) -> Iterator[Fault
     subprocess.run([Path(sys.executable).with_name("cosmic-ray"), "init", config, session], cwd=ROOT, check=True)
     columns = "module_path, operator_name, occurrence, start_pos_row, start_pos_col"
     rows = sqlite3.connect(session).execute(f"select {columns} from mutation_specs order by {columns}").fetchall()
-    kept: dict[tuple[str, int, int, str], list[tuple[str, int]]] = {}
+    kept = {}
     noted = {path: annotations(ROOT / path) for path in {path for path, *_ in rows}}
     for path, operator, occurrence, row, column in rows:
         if not any(row == line and 0 <= column - end <= 1 for line, end in noted[path]):
@@ -124,11 +117,11 @@ def draw_python(room: str, chance: random.Random, place: Path) -> Iterator[Fault
             yield fault
 
 
-def draw_page(chance: random.Random, place: Path) -> Iterator[Fault]:
+def draw_page(chance, place):
     """Faults of the page's scripts by StrykerJS."""
-    subprocess.run(["npm", "install", "--silent", "--prefix", place, "@stryker-mutator/instrumenter"], check=True)
+    subprocess.run(["npm", "install", "--silent", "--prefix", place, STRYKER], check=True)
     script = Path(__file__).with_suffix(".mjs")
-    every: list[tuple[str, Any]] = []
+    every = []
     for file in sorted((ROOT / "app" / "page").rglob("*.js")):
         made = subprocess.run(["node", script, file], cwd=place, capture_output=True, text=True, check=True)
         every += [(file.relative_to(ROOT).as_posix(), mutant) for mutant in json.loads(made.stdout)]
@@ -144,10 +137,10 @@ def draw_page(chance: random.Random, place: Path) -> Iterator[Fault]:
             yield fault
 
 
-def draw(count: int, seed: int) -> None:
+def draw(count, seed):
     """Write FAULTS: so many faults, the same ones for the same seed and tree."""
     print(f"seed {seed}")
-    faults: list[Fault] = []
+    faults = []
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
         for room, share in SHARES.items():
@@ -157,261 +150,136 @@ def draw(count: int, seed: int) -> None:
     FAULTS.write_text(json.dumps([asdict(fault) for fault in faults], indent=1, ensure_ascii=False) + "\n", "utf-8")
 
 
-# -- cover ---------------------------------------------------------------------------------------------------
-
-COVERAGE = """
-[run]
-source = core, app
-data_file = {data}
-context = {file}
-dynamic_context = test_function
-parallel = true
-sigterm = true
-patch = subprocess, _exit, fork
-disable_warnings = no-data-collected, module-not-measured, module-not-imported
-"""
-
-
-def test_files() -> list[str]:
-    """All files of tests, and the modules of core with examples in their docstrings as one entry, `core`."""
-    return [*(path.relative_to(ROOT).as_posix() for path in sorted((ROOT / "tests").rglob("test_*.py"))), "core"]
-
-
-def covered(file: str, place: Path) -> dict[str, Any]:
-    """Lines of core and app that the tests of a file run, by test where they run in its process; and its seconds."""
-    import coverage
-
-    mine = place / file.replace("/", "-")
-    mine.mkdir()
-    rc = mine / "rc"
-    rc.write_text(COVERAGE.format(data=mine / "data", file=file))
-    begin = time.monotonic()
-    every = ["--all"] if has_thorough(ROOT) else []
-    command = [sys.executable, "-m", "coverage", "run", f"--rcfile={rc}", "-m", "pytest", "-q", *every, file]
-    subprocess.run(command, cwd=ROOT, capture_output=True)
-    seconds = time.monotonic() - begin
-    subprocess.run([sys.executable, "-m", "coverage", "combine", f"--rcfile={rc}", "-q"], cwd=mine, capture_output=True)
-    data = coverage.CoverageData(mine / "data")
-    data.read()
-    lines: dict[str, dict[str, list[int]]] = {}
-    for path in data.measured_files():
-        name = Path(path).relative_to(ROOT).as_posix()
-        for line, contexts in data.contexts_by_lineno(path).items():
-            for context in contexts:
-                lines.setdefault(name, {}).setdefault(context.partition("|")[2], []).append(line)
-    shutil.rmtree(mine)
-    return {"seconds": seconds, "lines": lines}
-
-
-def cover() -> None:
-    """Write COVER, one entry for each test file; entries that it has are kept."""
-    COVER.parent.mkdir(exist_ok=True)
-    known = json.loads(COVER.read_text()) if COVER.exists() else {}
-    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(CORES) as pool:
-        files = [file for file in test_files() if file not in known]
-        for file, result in zip(files, pool.map(lambda file: covered(file, Path(folder)), files), strict=True):
-            known[file] = result
-            print(f"{file}: {result['seconds']:.1f} s", flush=True)
-            COVER.write_text(json.dumps(known))
-
-
 # -- try -----------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Batch:
-    """Tests that one process runs: words for pytest, and how long they take without a fault [s]."""
-
-    words: list[str]
-    seconds: float
+def run(*words, **options):
+    return subprocess.run(words, cwd=CLONE, capture_output=True, text=True, **options)
 
 
-def functions_of_loops() -> dict[str, set[str]]:
-    """For each module of compiled loops the functions of it and of all modules that call it, directly or not."""
-    texts = {path.stem: path.read_text("utf-8") for path in (ROOT / "core" / "kernels").glob("*.py")}
-    names = {stem: set(re.findall(r"^(?:def|class) (\w+)", text, re.MULTILINE)) for stem, text in texts.items()}
-    users = {
-        stem: {
-            other for other, text in texts.items() if re.search(rf"kernels\.{stem}\b|kernels import .*\b{stem}\b", text)
-        }
-        for stem in texts
-    }
-    result: dict[str, set[str]] = {}
-    for stem in texts:
-        reached, new = {stem}, {stem}
-        while new:
-            new = {user for one in new for user in users[one]} - reached - {"__init__"}
-            reached |= new
-        result[stem] = {name for one in reached for name in names[one]}
-    return result
+def prepare():
+    """A clone of the last commit with its tests, and which of them run which lines."""
+    if not CLONE.exists():
+        subprocess.run(["git", "clone", "--quiet", "--no-local", ROOT, CLONE], check=True)
+        run("make", "test-setup", check=True)
+        run("make", "--silent", ".venv/mutants", check=True)
+    if not COVERED.exists():
+        (CLONE / ".coveragerc").write_text("[run]\npatch = subprocess\nsource = core, app\n")
+        words = ("-n", "3", "--all", "--cov", "--cov-context=test", "--cov-report=")
+        run(".venv/bin/python", "-m", "pytest", "-q", *words)
 
 
-def lines_that_call(names: set[str]) -> dict[str, set[int]]:
-    """Lines of core outside its loops that name one of these functions of a loop."""
-    result: dict[str, set[int]] = {}
-    pattern = re.compile(rf"\bkernels\.({'|'.join(sorted(names))})\b")
-    for path in (ROOT / "core").rglob("*.py"):
-        if path.parent.name != "kernels":
-            lines = {k for k, line in enumerate(path.read_text("utf-8").splitlines(), 1) if pattern.search(line)}
-            if lines:
-                result[path.relative_to(ROOT).as_posix()] = lines
-    return result
+def near(fault):
+    """Files of tests that are named as the module of a fault, that import it, or that stand in its room."""
+    path = Path(fault.path)
+    room, stem = path.parent.name, path.stem
+    files = {file.relative_to(CLONE).as_posix(): file for file in sorted((CLONE / "tests").rglob("test_*.py"))}
+    if room == "page" or "page" in path.parts:
+        word = re.compile(rf"\b{re.escape(stem)}\b|import node")
+        return [name for name, file in files.items() if "/page/" in name and word.search(file.read_text("utf-8"))]
+    named = [name for name in files if name.endswith(f"/test_{stem}.py")]
+    words = re.compile(rf"\b{room}\.{stem}\b|from [\w.]*\b{room} import [^\n]*\b{stem}\b")
+    uses = [name for name, file in files.items() if "/page/" not in name and words.search(file.read_text("utf-8"))]
+    beside = [name for name in files if name.startswith(f"tests/{path.parent}/")]
+    return list(dict.fromkeys([*named, *uses, *beside]))
 
 
-def tests_for(fault: Fault, known: dict[str, Any]) -> list[Batch]:
-    """The tests that may notice a fault, the likely and quick ones first."""
-    if fault.path.startswith("app/page/"):
-        word = Path(fault.path).stem
-        files = [file for file in known if file.startswith("tests/page/")]
-        chosen = {file: [file] for file in files}
-        near = {file for file in files if word in (ROOT / file).read_text("utf-8") or file.endswith("test_modules.py")}
-    else:
-        lines = {fault.path: set(range(fault.line, fault.line + max(len(fault.before), 1)))}
-        stem = Path(fault.path).stem
-        if fault.path.startswith("core/kernels/"):
-            lines = lines_that_call(functions_of_loops()[stem])
-        chosen = {}
-        for file, entry in known.items():
-            contexts = {
-                context
-                for path, wanted in lines.items()
-                for context, run in entry["lines"].get(path, {}).items()
-                if wanted & set(run)
-            }
-            if "" in contexts or (contexts and file == "core"):
-                chosen[file] = [file]
-            elif contexts:
-                chosen[file] = sorted({f"{file}::{context.rpartition('.')[2]}" for context in contexts})
-        for file in known:
-            if fault.path.startswith("core/kernels/") and file.startswith("tests/core/kernels/"):
-                chosen[file] = [file]
-        mirror = re.compile(rf"test_{re.escape(stem)}\.py$|/{re.escape(Path(fault.path).parent.name)}/")
-        near = {file for file in chosen if mirror.search(file)}
-    order = sorted(chosen, key=lambda file: (file not in near, known[file]["seconds"]))
-    batches: list[Batch] = []
-    for file in order:
-        last = batches[-1] if batches else None
-        if last and last.seconds + known[file]["seconds"] < BATCH:
-            batches[-1] = Batch(last.words + chosen[file], last.seconds + known[file]["seconds"])
-        else:
-            batches.append(Batch(chosen[file], known[file]["seconds"]))
-    return batches
+@cache
+def coverage_of(path):
+    """The tests that run each line of a module; an empty name stands for those that run it in another process."""
+    import coverage
+
+    data = coverage.CoverageData(COVERED)
+    data.read()
+    return data.contexts_by_lineno(str(CLONE / path))
 
 
-def failed_test(checkout: Path, batch: Batch, *options: str) -> str:
-    """Name of the first test of a batch that fails; empty if all pass. A run without an end has failed."""
-    command = [
-        ".venv/bin/python",
-        "-m",
-        "pytest",
-        "-x",
-        "-q",
-        "--color=no",
-        "-p",
-        "no:cacheprovider",
-        *options,
-        *batch.words,
-    ]
+def covering(fault):
+    """All tests that may notice a fault."""
+    if "page/" in fault.path:
+        return ["tests/page"]
+    lines = range(fault.line, fault.line + max(len(fault.before), 1))
+    tests = {test.partition("|")[0] for line in lines for test in coverage_of(fault.path).get(line, ["", "core"])}
+    if "core/kernels" in fault.path:  # what is compiled has no lines
+        return ["tests", "core"]
+    if "" in tests:
+        tests = tests - {""} | {"tests/app", "tests/page"}
+    return sorted(test for test in tests if test.partition("[")[0].partition("::")[0] not in tests - {test})
+
+
+def failing(tests, kind):
+    """The first of the tests of a kind that fails; empty if all pass. A run without an end has failed."""
     with tempfile.TemporaryFile("w+") as output:
-        process = subprocess.Popen(command, cwd=checkout, stdout=output, stderr=output, start_new_session=True)
+        words = [*PYTEST, "-m", kind, *tests]
+        process = subprocess.Popen(words, cwd=CLONE, stdout=output, stderr=output, start_new_session=True)
         try:
-            code = process.wait(LEAST + SLOWER * batch.seconds)
+            code = process.wait(MOST)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
-            process.wait()
             return "no end"
         output.seek(0)
-        text = output.read()
+        match = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", output.read(), re.MULTILINE)
     if code in (0, 5):  # all pass; none is left of those that were chosen
         return ""
-    match = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", text, re.MULTILINE)
     return match[1] if match else "no start"
 
 
-def compiled(checkout: Path) -> bool:
-    """Whether the loops compile; compiles them."""
-    command = [".venv/bin/python", "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "-e", "."]
-    for old in (checkout / "core" / "kernels").glob("*.so"):
-        old.touch()
-    subprocess.run(command, cwd=checkout, capture_output=True)
-    done = subprocess.run([".venv/bin/python", "-c", "from core import kernels; assert kernels.COMPILED"], cwd=checkout)
-    return done.returncode == 0
+def compiled():
+    """Whether the loops compile."""
+    for file in (CLONE / "core" / "kernels").glob("*.so"):
+        file.unlink()
+    run(".venv/bin/python", "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "-e", ".")
+    return run(".venv/bin/python", "-c", "from core import kernels; assert kernels.COMPILED").returncode == 0
 
 
-def tried(fault: Fault, checkout: Path, known: dict[str, Any]) -> dict[str, Any]:
-    """Who notices a fault: of the tests of every day first, of all others then."""
-    begin = time.monotonic()
-    batches = tests_for(fault, known)
-    fault.put_into(checkout)
-    is_loop = fault.path.startswith("core/kernels/")
-    result = {"noticed_by": "", "every_day": False}
+def tried(fault):
+    """Who notices a fault, and whether this is a test of every day."""
+    is_loop = "core/kernels" in fault.path
     try:
-        if is_loop and not compiled(checkout):
-            return {"noticed_by": "the compiler", "every_day": True, "seconds": time.monotonic() - begin}
-        for options in (EVERY_DAY, THOROUGH) if has_thorough(checkout) else ([],):
-            for batch in batches:
-                if name := failed_test(checkout, batch, *options):
-                    result = {"noticed_by": name, "every_day": options is not THOROUGH}
-                    break
-            if result["noticed_by"]:
-                break
+        fault.put_into(CLONE)
+    except LookupError:
+        return {"gone": True}
+    result = {"noticed_by": ""}
+    try:
+        if is_loop and not compiled():
+            return {"noticed_by": "the compiler", "every_day": True}
+        for kind in (EVERY_DAY, THOROUGH):
+            for tests in (near(fault), covering(fault)):
+                if tests and not result["noticed_by"]:
+                    result = {"noticed_by": failing(tests, kind), "every_day": kind == EVERY_DAY}
     finally:
-        subprocess.run(["git", "checkout", "--quiet", "."], cwd=checkout, check=True)
+        run("git", "checkout", "--quiet", ".", check=True)
         if is_loop:
-            compiled(checkout)
-    if "::" in str(result["noticed_by"]) and failed_test(checkout, Batch([str(result["noticed_by"])], LEAST)):
-        result["unsure"] = True
-    return result | {"seconds": time.monotonic() - begin}
+            compiled()
+    if "::" in result["noticed_by"] and failing([result["noticed_by"]], ""):
+        result["unsure"] = True  # it fails without the fault too
+    return result
 
 
-def has_thorough(checkout: Path) -> bool:
-    return "thorough:" in (checkout / "pyproject.toml").read_text("utf-8")
-
-
-def try_all(processes: int) -> None:
-    """Try each fault that was not tried yet, in so many clones at once, and print the table."""
-    faults = [Fault(**one) for one in json.loads(FAULTS.read_text("utf-8"))]
-    known = json.loads(COVER.read_text())
+def try_all():
+    """Try each fault that was not tried yet, and print the table."""
+    prepare()
     results = json.loads(TRIED.read_text()) if TRIED.exists() else {}
-    clones = [ROOT / "build" / f"clone{k}" for k in range(processes)]
-    for clone in clones:
-        if not clone.exists():
-            subprocess.run(["git", "clone", "--quiet", "--no-local", ROOT, clone], check=True)
-            subprocess.run(["make", "test-setup"], cwd=clone, check=True)
-    free: queue.SimpleQueue[Path] = queue.SimpleQueue()
-    for clone in clones:
-        free.put(clone)
-
-    def one(key: str, fault: Fault) -> None:
-        clone = free.get()
-        try:
-            results[key] = tried(fault, clone, known)
-        except LookupError:
-            results[key] = {"noticed_by": "", "gone": True}
-        finally:
-            free.put(clone)
-        TRIED.write_text(json.dumps(results, indent=1))
-        print(key, fault.path, fault.line, fault.kind, results[key], flush=True)
-
-    with ThreadPoolExecutor(processes) as pool:
-        keys = [(str(k), fault) for k, fault in enumerate(faults) if str(k) not in results]
-        for future in [pool.submit(one, *key) for key in keys]:
-            future.result()
-    noticed = [result for result in results.values() if result["noticed_by"]]
+    for key, row in enumerate(json.loads(FAULTS.read_text("utf-8"))):
+        if str(key) not in results:
+            fault = Fault(**row)
+            results[str(key)] = tried(fault)
+            TRIED.write_text(json.dumps(results, indent=1))
+            print(key, fault.path, fault.line, fault.kind, results[str(key)], flush=True)
+    noticed = [result for result in results.values() if result.get("noticed_by")]
+    gone = sum("gone" in result for result in results.values())
     every_day = sum(result["every_day"] for result in noticed)
-    print(f"{len(results)} faults: {len(noticed)} noticed by all tests, {every_day} by make test")
+    print(f"{len(results) - gone} faults: {len(noticed)} noticed by all tests, {every_day} by make test; {gone} gone")
 
 
-def main() -> None:
-    words = sys.argv[1:]
-    if words[:1] == ["draw"]:
-        draw(int(words[1]), int(words[2]))
-    elif words[:1] == ["cover"]:
-        cover()
-    elif words[:1] == ["try"]:
-        try_all(int(words[1]) if words[1:] else CORES)
-    else:
-        sys.exit(__doc__)
+def main():
+    match sys.argv[1:]:
+        case ["draw", count, seed]:
+            draw(int(count), int(seed))
+        case ["try"]:
+            try_all()
+        case _:
+            sys.exit(__doc__)
 
 
 if __name__ == "__main__":
