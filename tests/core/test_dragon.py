@@ -30,6 +30,10 @@ def test_a_size_at_its_limit_is_accepted(name, value):
     assert Dragon(**{"benches": 3, name: value}).chords.min() >= SIZE_MIN
 
 
+def test_the_shortest_chord_is_accepted():
+    assert Dragon.of([2.0], [0.3], [0.9995]).chords[0] >= SIZE_MIN
+
+
 REFUSED = {
     "benches": [BENCHES_MAX + 1, 2.5, True],
     "width": [SIZE_MIN / 2, SIZE_MAX * 1.001],

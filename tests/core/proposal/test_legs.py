@@ -1,7 +1,9 @@
 """Legs stay on free ground, and go around what stands in their way."""
 
+import math
 from functools import reduce
 
+import numpy as np
 import pytest
 import shapely
 
@@ -29,6 +31,14 @@ def test_a_wall_is_gone_around_with_room_on_both_sides():
     line = shapely.LineString(points_along(BEGIN, steps, 0.05)[0])
     borders = polygon(WALL), polygon(SQUARE).boundary
     assert min(map(line.distance, borders)) >= NEEDS.straight_side + NEEDS.free
+
+
+def test_points_are_on_the_steps():
+    steps = [(3.0, 0.0), (2.0 * math.pi, 0.5), (1.0, -1.0)]
+    points, travel = points_along(BEGIN, steps)
+    assert travel[-1] == pytest.approx(4.0 + 2.0 * math.pi)
+    assert np.linalg.norm(np.diff(points, axis=0), axis=1).max() <= 0.35
+    assert points[-1] == pytest.approx(reduce(moved, steps, BEGIN)[:2])
 
 
 def test_no_leg_leads_through_a_gap_that_is_too_narrow():

@@ -21,6 +21,10 @@ def test_the_sides_on_a_circle_are_those_of_the_benches(radius):
     assert Needs(DRAGON, 0.0, 0.0).sides(np.array([1.0 / radius, -1.0 / radius])) == pytest.approx(most, abs=1e-6)
 
 
+def test_a_straight_path_needs_half_a_width():
+    assert Needs(DRAGON, 0.1, 0.2).straight_side == pytest.approx(0.15)
+
+
 def test_the_length_along_a_circle_is_that_of_the_arcs_under_the_chords():
     needs, route = Needs(Dragon(30), 0.0, 0.0), Route([Arc((0.0, 0.0), 5.0, 0.0, 4.0 * math.pi)])
     assert needs.length_along(5.0) == pytest.approx(Dance(Dragon(30), route).begin, abs=1e-6)
