@@ -31,7 +31,7 @@ def test_a_size_at_its_limit_is_accepted(name, value):
 
 
 def test_the_shortest_chord_is_accepted():
-    assert Dragon.of([2.0], [0.3], [0.9995]).chords[0] >= SIZE_MIN
+    assert Dragon.of([2.0], [0.3], [0.9994]).chords[0] >= SIZE_MIN
 
 
 REFUSED = {
