@@ -87,7 +87,7 @@ def test_a_zigzag_has_crests_and_they_are_bounded():
 
 @pytest.mark.parametrize(
     "piece",
-    [Coil(9.0, 3.0, 0.3), Coil(0.5, 0.0, 4.0), Clothoid((0.0, 0.0), 0.0, -0.6, 0.4, 12.0)],
+    [Coil(40.0, 3.0, 0.3), Coil(0.5, 0.0, 4.0), Clothoid((0.0, 0.0), 0.0, -0.6, 0.4, 12.0)],
     ids=["inwards", "outwards", "clothoid"],
 )
 def test_the_curvature_of_a_spiral_lies_between_its_bounds(piece):
