@@ -136,11 +136,13 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
 
 def _allowed(request: Request) -> set[str]:
     """Every method that some call at this path knows."""
+    # A folder of files has made its own path part of the root.
+    root = request.scope.get("app_root_path", request.scope.get("root_path", ""))
     methods = {
         "GET" if isinstance(route, Mount) else method
         for method in METHODS
         for route in request.app.routes
-        if route.matches({**request.scope, "method": method})[0] is Match.FULL
+        if route.matches({**request.scope, "root_path": root, "method": method})[0] is Match.FULL
     }
     return methods | {"OPTIONS"} | ({"HEAD"} if "GET" in methods else set())
 

@@ -69,6 +69,7 @@ def test_a_query_on_a_call_with_a_body_is_a_problem(ask: Asking) -> None:
         ("GET /trajectory/", 404, ""),
         ("GET /trajectory", 405, "OPTIONS, POST"),
         ("BREW /collision-time", 405, HEADS),
+        ("POST /page/main.js", 405, "GET, HEAD, OPTIONS"),
     ],
 )
 def test_a_wrong_path_or_method_is_a_problem(client: httpx.Client, request_: str, status: int, allowed: str) -> None:
