@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, Spiral, bench_poses, separation, trajectory
+from core import Dance, Dragon, Spiral, bench_poses, overlaps, separation, trajectory
 from core.kernels import Budget, Wobbler
 from core.kernels.constants import BOX_COLUMNS, MX, MY, UX, UY
 from core.shapes.reach import gains
@@ -81,3 +81,19 @@ def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them():
         between = separation(poses[a], sizes[a], poses[b], sizes[b]).separation / (gain[a] + gain[b])
         least = [min(MOST, between[(a == k) | (b == k)].min()) for k in range(DRAGON.benches)]
         assert safe[t] == pytest.approx(np.array(least), abs=2e-9)
+
+
+def test_the_first_overlap_is_found_and_safe_strays_change_nothing():
+    rng, made, safe, ends = np.random.default_rng(5), wobbler(0.06), np.empty((20, 20)), []
+    made.measure(MOST, gains(DRAGON), PLACES, safe)
+    for _ in range(40):
+        numbers, results = rng.standard_normal((20, 21, 2)), []
+        for strays in (safe, NOT_SAFE):
+            state = np.zeros((21, 2))
+            ends.append(made.dance(np.full(20, MEMORY), numbers, NO_PLAY, PLACES, TANGENTS, strays, state))
+            results.append((ends[-1], ends[-1] < 20 and [made.first, made.second]))
+        assert results[0] == results[1]
+        x, y, ux, uy = np.asarray(made.chain)[:-1, [MX, MY, UX, UY]].T
+        pairs = overlaps(np.stack([x, y, np.arctan2(uy, ux)], axis=-1), DRAGON.lengths, DRAGON.widths).pairs.tolist()
+        assert results[0][1] in pairs if ends[-1] < 20 else pairs == []
+    assert 10 < ends.count(20) < 70

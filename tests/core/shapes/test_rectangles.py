@@ -120,6 +120,24 @@ def test_witness_of_parallel_edges_does_not_depend_on_rounding():
         assert_near(result.witness_a, middle, ROUNDING)
 
 
+def test_features_name_the_corner_or_edge_that_holds_each_witness():
+    pose_a, size_a, pose_b, size_b = random_pairs(1_000, seed=5)
+    out = np.empty((1_000, kernels.SEPARATION_COLUMNS))
+    kernels.pair_separations(frames(pose_a, size_a), frames(pose_b, size_b), out)
+    rows = np.arange(1_000)
+    for column, x, corner in (
+        (kernels.FEATURE_A, kernels.WITNESS_AX, corners(pose_a, size_a)),
+        (kernels.FEATURE_B, kernels.WITNESS_BX, corners(pose_b, size_b)),
+    ):
+        feature = out[:, column].astype(int)
+        start, end = corner[rows, feature % 4], corner[rows, (feature + 1) % 4]
+        along, to = end - start, out[:, x : x + 2] - start
+        off_edge = np.abs(along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]) / np.hypot(*along.T)
+        is_corner = feature < 4
+        assert 0.1 < is_corner.mean() < 0.9
+        assert np.where(is_corner, np.hypot(*to.T), off_edge).max() < ROUNDING
+
+
 def test_batch_equals_a_loop_and_shapes_broadcast():
     pose_a, size_a, pose_b, size_b = random_pairs(12, seed=6)
     batch = separation(pose_a[:, None], size_a[:, None], pose_b[:5], size_b[0])
