@@ -1,15 +1,11 @@
 """Cue cards on paper, as CSV and of several dragons; their times, places and meetings: test_two_dragons.py."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
 import re
 from pathlib import Path
-from typing import Any
 
-import httpx
 import numpy as np
 import pytest
 
@@ -31,7 +27,7 @@ FESTIVE = {
     "start_clock": "19:45", "language": "en", "title": "Lantern night", "dragon": {"benches": 24, "names": NAMES},
     "passages": [{"speed": 0, "until_time": 4}, {"speed": 1, "until_s": 30}, {"speed": 0, "until_time": 50}],
 }  # fmt: skip
-TWO: dict[str, Any] = json.loads("""{"dances": [
+TWO = json.loads("""{"dances": [
     {"name": "east", "dragon": {"benches": 4, "names": ["Zhou", "Wu", "", "Wang"]},
      "path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [30, 0]}]}},
     {"dragon": {"benches": 3}, "delay": 3,
@@ -40,32 +36,31 @@ TWO: dict[str, Any] = json.loads("""{"dances": [
 
 
 @pytest.fixture(scope="module")
-def body() -> dict[str, Any]:
+def body():
     return read_dance(VILLAGE)
 
 
-def answer_of(client: httpx.Client, request: dict[str, Any], accept: str) -> bytes:
+def answer_of(client, request, accept):
     return client.post("/cues", json=request, headers={"accept": accept}).raise_for_status().content
 
 
-def cards_of(client: httpx.Client, request: dict[str, Any]) -> list[dict[str, Any]]:
-    cards: list[dict[str, Any]] = json.loads(answer_of(client, request, "application/json"))["cards"]
-    return cards
+def cards_of(client, request):
+    return json.loads(answer_of(client, request, "application/json"))["cards"]
 
 
-def table_of(client: httpx.Client, request: dict[str, Any]) -> list[dict[str, str]]:
+def table_of(client, request):
     return list(csv.DictReader(io.StringIO(answer_of(client, request, "text/csv").decode())))
 
 
-def text_of(client: httpx.Client, request: dict[str, Any]) -> str:
+def text_of(client, request):
     return " ".join(map(words_of, pages_of(answer_of(client, request, "application/pdf"))))
 
 
-def cells_of(one: dict[str, Any], names: str) -> list[str]:
+def cells_of(one, names):
     return ["" if one[name] is None else str(one[name]) for name in names.split()]
 
 
-def test_the_table_has_the_same_numbers_and_runs_in_no_spreadsheet(client: httpx.Client, body: Any) -> None:
+def test_the_table_has_the_same_numbers_and_runs_in_no_spreadsheet(client, body):
     lines = table_of(client, body | FESTIVE)
     assert {line["name"] for line in lines if line["bench"] == "0"} == {"'=1+1"}
     assert not any(cell.startswith(("=", "+", "@")) for line in lines for cell in line.values())
@@ -80,7 +75,7 @@ def test_the_table_has_the_same_numbers_and_runs_in_no_spreadsheet(client: httpx
                 assert cells_of(line, "other gap side") == cells_of(met, "bench gap side")
 
 
-def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(client: httpx.Client, body: Any) -> None:
+def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(client, body):
     request = body | FESTIVE | {"first_bench": 15, "last_bench": 20}
     data = answer_of(client, request, "application/pdf")
     assert_fonts_are_within(data)
@@ -102,13 +97,13 @@ def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(client: httpx.C
 
 
 @pytest.mark.chinese_font
-def test_cards_are_written_in_chinese(client: httpx.Client, body: Any) -> None:
+def test_cards_are_written_in_chinese(client, body):
     text = text_of(client, body | FESTIVE | {"language": "zh", "last_bench": 1, "title": "元宵"}).replace(" ", "")
     cues = "前面：无后面：1号（Wang）", "起步，方向：图上向右（0°）。", "停下，至19:45:50（16秒）。"
     assert [words for words in (*cues, "元宵", "整场舞龙已检查：板凳互不相碰") if words not in text] == []
 
 
-def test_cards_are_chosen_by_name_and_by_number(client: httpx.Client, body: Any) -> None:
+def test_cards_are_chosen_by_name_and_by_number(client, body):
     request = body | {"dragon": {"benches": 24, "names": ["", "Wang", "17", *[""] * 21]}}  # bench 2 is named 17
     cards = cards_of(client, request | {"cards": ["Wang", 5, "17", "6"]})
     assert [card["bench"] for card in cards] == [1, 5, 2, 6]
@@ -131,11 +126,11 @@ def test_cards_are_chosen_by_name_and_by_number(client: httpx.Client, body: Any)
         '{"beats": [{"bars": 4, "tempo": 0, "step": 0.5}]} -> /beats/0/tempo 10 0',
     ],
 )
-def test_cards_that_cannot_be_are_refused(client: httpx.Client, body: Any, row: str) -> None:
+def test_cards_that_cannot_be_are_refused(client, body, row):
     assert_refused(client, "/cues", body, row)
 
 
-def test_a_card_of_a_dance_that_fails_says_so(client: httpx.Client) -> None:
+def test_a_card_of_a_dance_that_fails_says_so(client):
     spiral = {"kind": "spiral", "pitch": 0.45}
     request = {"dragon": {"benches": 60}, "path": spiral, "stop": 330, "last_bench": 0}
     assert "Checked: benches touch" in text_of(client, request)
@@ -144,7 +139,7 @@ def test_a_card_of_a_dance_that_fails_says_so(client: httpx.Client) -> None:
 # -- several dances ------------------------------------------------------------------------------------------
 
 
-def test_cards_of_several_name_the_dragon_in_words_and_table(client: httpx.Client) -> None:
+def test_cards_of_several_name_the_dragon_in_words_and_table(client):
     cards, lines = cards_of(client, TWO), table_of(client, TWO)
     met = next(cue for cue in cards[4]["cues"] if cue["kind"] == "meeting")
     assert re.match(r"Bench \d (Zhou|Wu|Wang)? ?of east straight on your left, 1\.70 m\. Benches \d", met["words"])
@@ -158,7 +153,7 @@ def test_cards_of_several_name_the_dragon_in_words_and_table(client: httpx.Clien
     assert pairs >= {("meeting", "0", "1"), ("meeting", "1", "0"), ("begin", "0", "")}
 
 
-def test_paper_of_several_has_the_sheets_of_each_dragon(client: httpx.Client) -> None:
+def test_paper_of_several_has_the_sheets_of_each_dragon(client):
     first, second = map(words_of, pages_of(answer_of(client, TWO, "application/pdf")))
     assert "Lantern night: east" in first
     assert "Lantern night: dragon 1" in second
@@ -166,7 +161,7 @@ def test_paper_of_several_has_the_sheets_of_each_dragon(client: httpx.Client) ->
     assert all("The whole dance was checked: nobody touches another bench" in sheet for sheet in (first, second))
 
 
-def test_one_of_several_gets_cards_by_its_name_or_its_number(client: httpx.Client) -> None:
+def test_one_of_several_gets_cards_by_its_name_or_its_number(client):
     whole = cards_of(client, TWO)
     for part, some in (("east", whole[:4]), (1, whole[4:]), ("1", whole[4:])):
         assert cards_of(client, TWO | {"part": part}) == some
@@ -174,14 +169,14 @@ def test_one_of_several_gets_cards_by_its_name_or_its_number(client: httpx.Clien
 
 
 @pytest.mark.parametrize("several", [pytest.param(False, marks=pytest.mark.thorough), True], ids=["one", "several"])
-def test_a_deadline_while_cards_are_drawn_is_a_refusal(body: dict[str, Any], several: bool) -> None:
+def test_a_deadline_while_cards_are_drawn_is_a_refusal(body, several):
     budget = Budget()
     terms = Terms(budget=budget, progress=lambda _: budget.stop("within 2 s"))
     with pytest.raises(TooMuchWork, match="within 2 s"):
         CUES.to_bytes(checked(CuesRequest, TWO if several else body), terms, PDF_TYPE)
 
 
-def test_each_of_several_counts_its_own_beats_from_its_delay_on(client: httpx.Client) -> None:
+def test_each_of_several_counts_its_own_beats_from_its_delay_on(client):
     beats = [{"bars": 6, "tempo": 60, "step": 1}, {"bars": 2, "tempo": 60, "step": 0}]
     drummed = TWO | {"dances": [TWO["dances"][0], TWO["dances"][1] | {"beats": beats}]}
     cards = cards_of(client, drummed)
@@ -207,11 +202,11 @@ def test_each_of_several_counts_its_own_beats_from_its_delay_on(client: httpx.Cl
         '{"stop": 9, "dances": [{}, {"dragon": {"benches": 2, "names": ["a", "a"]}}]} -> /dances/1/dragon/names/1 [0]',
     ],
 )
-def test_what_is_wrong_with_cards_of_several_is_refused(client: httpx.Client, row: str) -> None:
+def test_what_is_wrong_with_cards_of_several_is_refused(client, row):
     assert_refused(client, "/cues", TWO, row)
 
 
-def test_crosses_stand_at_the_chalk_marks_of_start_and_end(client: httpx.Client, body: Any) -> None:
+def test_crosses_stand_at_the_chalk_marks_of_start_and_end(client, body):
     request = body | {"cards": [17]}
     (card,) = cards_of(client, request)
     boxes = np.array(shapes_of(pages_of(answer_of(client, request, "application/pdf"))[0]))

@@ -1,15 +1,11 @@
 """The crew over HTTP, on paper and from a terminal: the same people at the same benches, minutes and metres."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
 import shlex
 from pathlib import Path
-from typing import Any
 
-import httpx
 import numpy as np
 import pytest
 
@@ -32,27 +28,25 @@ PEOPLE = {"spares": 6, "shift": 40, "rest": 10, "points": [{"x": 6, "y": -8}], "
 
 
 @pytest.fixture(scope="module")
-def body() -> dict[str, Any]:
+def body():
     return read_dance(VILLAGE)
 
 
 @pytest.fixture(scope="module")
-def dance(body: dict[str, Any]) -> core.Dance:
+def dance(body):
     return checked(CrewRequest, body).to_dance(100)
 
 
-def of_form(client: httpx.Client, request: dict[str, Any], accept: str) -> httpx.Response:
+def of_form(client, request, accept):
     return client.post("/crew", json=request, headers={"accept": accept}).raise_for_status()
 
 
 @pytest.fixture(scope="module")
-def answer(client: httpx.Client, body: dict[str, Any]) -> Any:
+def answer(client, body):
     return of_form(client, body | PEOPLE | {"at_clock": "19:45"}, "application/json").json()
 
 
-def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has_the_bench(
-    answer: Any, dance: core.Dance
-) -> None:
+def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has_the_bench(answer, dance):
     roll = answer["at"]
     assert (roll["time"], roll["clock"]) == (30.0, "19:45:00")
     assert [len(entry["people"]) for entry in roll["benches"]] == [8] + [2] * 23
@@ -66,7 +60,7 @@ def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has
     }
 
 
-def test_minutes_and_the_longest_time_of_all_are_those_of_their_spells(answer: Any) -> None:
+def test_minutes_and_the_longest_time_of_all_are_those_of_their_spells(answer):
     carriers = answer["carriers"]
     assert sum(person["time"] for person in carriers) == pytest.approx(
         54 * (answer["stop"] - answer["start"]), abs=ROUNDING
@@ -81,7 +75,7 @@ def test_minutes_and_the_longest_time_of_all_are_those_of_their_spells(answer: A
     assert answer["longest"] == max(person["longest"] for person in carriers)
 
 
-def test_people_change_where_the_front_handle_is_nearest_to_the_point(answer: Any) -> None:
+def test_people_change_where_the_front_handle_is_nearest_to_the_point(answer):
     (place,) = answer["places"]
     assert place["distance"] == pytest.approx(np.hypot(place["x"] - 6, place["y"] + 8), abs=ROUNDING)
     changes = [spell for person in answer["carriers"] for spell in person["spells"] if spell["relieves"]]
@@ -92,7 +86,7 @@ def test_people_change_where_the_front_handle_is_nearest_to_the_point(answer: An
     assert max(away) < AT_PLACE
 
 
-def test_the_table_has_the_same_spells(client: httpx.Client, answer: Any, body: dict[str, Any]) -> None:
+def test_the_table_has_the_same_spells(client, answer, body):
     names = ["=1+1", *[f"family {k}" for k in range(1, 24)]]
     request = body | PEOPLE | {"dragon": {"benches": 24, "names": names}}
     lines = list(csv.DictReader(io.StringIO(of_form(client, request, "text/csv").text)))
@@ -104,7 +98,7 @@ def test_the_table_has_the_same_spells(client: httpx.Client, answer: Any, body: 
     assert {line["name"] for line in lines if line["bench"] == "0"} == {"'=1+1"}
 
 
-def test_the_timeline_on_paper_names_everybody_and_every_change(client: httpx.Client, answer: Any, body: Any) -> None:
+def test_the_timeline_on_paper_names_everybody_and_every_change(client, answer, body):
     request = body | PEOPLE | {"at_clock": "19:45", "title": "Lantern night"}
     data = of_form(client, request, "application/pdf").content
     assert_fonts_are_within(data)
@@ -116,12 +110,12 @@ def test_the_timeline_on_paper_names_everybody_and_every_change(client: httpx.Cl
 
 
 @pytest.mark.chinese_font
-def test_the_timeline_is_written_in_chinese(client: httpx.Client, body: Any) -> None:
+def test_the_timeline_is_written_in_chinese(client, body):
     data = of_form(client, body | PEOPLE | {"language": "zh"}, "application/pdf").content
     assert "谁在何时抬哪节板凳" in words_of(pages_of(data)[0]).replace(" ", "")
 
 
-def test_a_terminal_shows_who_is_where(body: Any) -> None:
+def test_a_terminal_shows_who_is_where(body):
     text = json.dumps(body | {"start_clock": "19:44:30", "at": 30})
     table = run("crew", "-", "--spares", "6", "--point", "6,-8", text=text).stdout
     assert "60 people, 6 of them spares" in table
@@ -146,14 +140,14 @@ def test_a_terminal_shows_who_is_where(body: Any) -> None:
         '{"head_people": 0} -> /head_people',
     ],
 )
-def test_a_crew_that_cannot_be_is_refused(client: httpx.Client, body: Any, row: str) -> None:
+def test_a_crew_that_cannot_be_is_refused(client, body, row):
     assert_refused(client, "/crew", body, row)
 
 
-def test_a_deadline_while_the_timeline_is_drawn_is_a_refusal(body: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_deadline_while_the_timeline_is_drawn_is_a_refusal(body, monkeypatch):
     budget = Budget()
 
-    def late(draw: Any) -> Any:
+    def late(draw):
         budget.stop("within 2 s")
         return draw()
 
@@ -162,11 +156,11 @@ def test_a_deadline_while_the_timeline_is_drawn_is_a_refusal(body: Any, monkeypa
         CREW.to_bytes(checked(CrewRequest, body | PEOPLE), Terms(budget=budget), PDF_TYPE)
 
 
-def test_a_clock_after_midnight_is_in_the_same_night(client: httpx.Client, body: Any) -> None:
+def test_a_clock_after_midnight_is_in_the_same_night(client, body):
     request = body | {"start_clock": "23:59:15", "at_clock": "00:00:10"}
     roll = of_form(client, request, "application/json").json()["at"]
     assert (roll["time"], roll["clock"]) == (55.0, "00:00:10")
 
 
-def test_a_point_in_a_terminal_is_two_numbers() -> None:
+def test_a_point_in_a_terminal_is_two_numbers():
     assert_refused_in_one_line(f"crew {shlex.quote(str(VILLAGE))} --spares 2 --point 6 -> --point ... X,Y '6'")

@@ -4,13 +4,9 @@ That these cues are all there are is tried in tests/core/performance/test_cues.p
 tests/core/people/test_cards.py.
 """
 
-from __future__ import annotations
-
 import math
 import re
-from typing import Any
 
-import httpx
 import pytest
 
 import core
@@ -20,14 +16,14 @@ from app.questions.plan import PDF_TYPE
 from app.settings import Settings
 from app.wire.messages import checked
 from app.wire.question import Terms
-from core.people.cards import Card, card_of
+from core.people.cards import card_of
 from tests.support.asking import json_like
 from tests.support.paper import pages_of, words_of
 
 # Both wind into one spiral from opposite sides. The second one begins later, hurries, pauses, and goes on slowly.
 NAMES = ["Zhou", "Wu", "", "Wang", *[f"family {k}" for k in range(4, 20)]]
 SPIRAL = {"kind": "spiral", "pitch": 1.7, "start_turns": 5.0}
-TWO: dict[str, Any] = {
+TWO = {
     "dances": [
         {"name": "blue", "dragon": {"benches": 20, "names": NAMES}, "path": SPIRAL},
         {"name": "red", "delay": 6, "head_speed": 0.95, "dragon": {"benches": 11},
@@ -41,7 +37,7 @@ SPACING, STEP = 5.0, 0.75  # of the chalk marks, of a step [m]
 
 
 @pytest.fixture(scope="module")
-def pairs(client: httpx.Client) -> list[tuple[dict[str, Any], int, Card]]:
+def pairs(client):
     """Each card of the answer, with the dragon and the card of core."""
     performance, _ = CuesRequest.model_validate(TWO).to_placed(Settings())
     answer = client.post("/cues", json=TWO).raise_for_status().json()["cards"]
@@ -49,27 +45,27 @@ def pairs(client: httpx.Client) -> list[tuple[dict[str, Any], int, Card]]:
     return [(card, k, of_core) for card, (k, of_core) in zip(answer, several, strict=True)]
 
 
-def name_of(dragon: int, bench: int) -> str:
+def name_of(dragon, bench):
     return "" if dragon else NAMES[bench]
 
 
-def clock(time: float) -> str:
+def clock(time):
     return f"19:{45 + int(time) // 60:02d}:{int(time) % 60:02d}"
 
 
-def assert_same(answer: dict[str, Any], value: Any, names: str) -> None:
+def assert_same(answer, value, names):
     """The answer has these values of a result of core, and the time of the day."""
     known = json_like(value)
     assert [answer[name] for name in names.split()] == [known[name] for name in names.split()]
     assert answer.get("clock", clock(value.time)) == clock(value.time)
 
 
-def assert_met(answer: dict[str, Any], met: Any) -> None:
+def assert_met(answer, met):
     assert_same(answer, met, "time dragon bench side gap oncoming x y")
     assert (answer["dragon_name"], answer["name"]) == (("blue", "red")[met.dragon], name_of(met.dragon, met.bench))
 
 
-def test_every_card_has_the_cues_of_its_bench(pairs: Any) -> None:
+def test_every_card_has_the_cues_of_its_bench(pairs):
     for card, dragon, known in pairs:
         bench = known.bench
         assert (card["dragon"], card["bench"], card["name"]) == (dragon, bench.bench, name_of(dragon, bench.bench))
@@ -89,7 +85,7 @@ def test_every_card_has_the_cues_of_its_bench(pairs: Any) -> None:
     assert any(card["left_out"] for card, *_ in pairs)
 
 
-def test_a_bench_stands_where_its_chalk_marks_say(pairs: Any) -> None:
+def test_a_bench_stands_where_its_chalk_marks_say(pairs):
     # Mark 0 is the last one behind both handles of the last bench at the start.
     zeros = [SPACING * math.floor(known.bench.start.s / SPACING) for _, _, known in (pairs[19], pairs[30])]
     for card, dragon, known in pairs:
@@ -102,13 +98,13 @@ def test_a_bench_stands_where_its_chalk_marks_say(pairs: Any) -> None:
             assert at["steps"] == round(at["past_mark"] / STEP)
 
 
-def numbers_in(runs: str) -> set[int]:
+def numbers_in(runs):
     """The numbers that a text such as 3-5, 7 names."""
     ends = [[int(number) for number in part.split("-")] for part in runs.split(", ")]
     return {number for part in ends for number in range(part[0], part[-1] + 1)}
 
 
-def test_the_words_of_a_meeting_name_all_benches_and_the_paper_has_them(pairs: Any) -> None:
+def test_the_words_of_a_meeting_name_all_benches_and_the_paper_has_them(pairs):
     paper = CUES.to_bytes(checked(CuesRequest, TWO), Terms(), PDF_TYPE)  # which no deadline ends
     text = "".join(map(words_of, pages_of(paper))).replace(" ", "")
     again = 0

@@ -1,16 +1,13 @@
 """Twenty-six results with one known error each are diagnosed; five with errors of no known kind are not."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np
 import pytest
 
 from app.files.tables import Language
-from app.grade.report import FileAnswer, graded
+from app.grade.report import graded
 from core import Budget, Dragon
-from core.values import Floats
 from tests.campaigns.hunt_grades import hunt
 from tests.support import students
 from tests.support.students import CONTACT, SPIRAL_TIMES, TURN_TIMES, spiral, turn
@@ -25,15 +22,15 @@ TENTH = slice(None, None, 10)
 FEWER = TURN_TIMES[TENTH]
 
 
-def first(results: students.Results, *, whole: bool = False) -> bytes:
+def first(results, *, whole=False):
     return students.lines(results, SPIRAL_TIMES) if whole else tenth(results, SPIRAL_TIMES)
 
 
-def fourth(results: students.Results, *, whole: bool = False) -> bytes:
+def fourth(results, *, whole=False):
     return students.lines(results, TURN_TIMES) if whole else tenth(results, TURN_TIMES)
 
 
-def tenth(results: students.Results, times: Floats) -> bytes:
+def tenth(results, times):
     return students.lines((results[0][TENTH], results[1][TENTH]), times[TENTH])
 
 
@@ -76,28 +73,28 @@ UNKNOWN = {
 }
 
 
-def one_cell() -> students.Results:
+def one_cell():
     position, speed = spiral()
     position[120, 40, 0] += 0.7
     return position, speed
 
 
-def noise() -> students.Results:
+def noise():
     position, speed = spiral()
     return position + np.random.default_rng(4).normal(0.0, 0.01, position.shape), speed
 
 
-def swapped() -> students.Results:
+def swapped():
     position, speed = spiral()
     return np.concatenate([position[:, :100], position[:, 99::-1], position[:, 200:]], axis=1), speed
 
 
-def grade(data: bytes) -> FileAnswer:
+def grade(data):
     return graded("upload.xlsx", data, Language.ENGLISH, Budget())
 
 
 @cache
-def known(name: str) -> FileAnswer:
+def known(name):
     return grade(KNOWN[name]())
 
 
@@ -110,7 +107,7 @@ OFTEN = ("anticlockwise", "equal_arcs", "overhang_once", "wrong_ring", "forward_
 @pytest.mark.parametrize(
     "name", [one if one in OFTEN else pytest.param(one, marks=pytest.mark.thorough) for one in KNOWN]
 )
-def test_a_known_error_is_diagnosed_with_its_numbers(name: str) -> None:
+def test_a_known_error_is_diagnosed_with_its_numbers(name):
     result = known(name)
     # Speeds hardly differ from one another, so that wrong ones may count as rounded; what is left out is missing.
     assert result.verdict in ("wrong", "rounded") or (name, result.verdict) == ("outside_blank", "incomplete")
@@ -119,12 +116,12 @@ def test_a_known_error_is_diagnosed_with_its_numbers(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", UNKNOWN)
-def test_an_error_of_no_known_kind_is_not_diagnosed(name: str) -> None:
+def test_an_error_of_no_known_kind_is_not_diagnosed(name):
     result = grade(UNKNOWN[name]())
     assert (result.verdict, result.diagnosis) == ("wrong", [])
 
 
-def test_the_numbers_of_an_error_are_reported() -> None:
+def test_the_numbers_of_an_error_are_reported():
     [one] = known("forward_difference").diagnosis
     assert one.words == "The speeds are forward difference quotients with a step of 0.1 s."
     inverted, *_ = known("ratio_inverted").diagnosis
@@ -133,12 +130,12 @@ def test_the_numbers_of_an_error_are_reported() -> None:
     assert rounded.words == "A number was rounded before it was used: theta of the head, 3 decimals."
 
 
-def met(result: FileAnswer, criterion: str) -> bool | None:
+def met(result, criterion):
     """Whether a point of the rubric is met."""
     return {point.criterion: point.met for point in result.rubric}[criterion]
 
 
-def test_a_handle_on_the_wrong_coil_of_the_turn_is_reported() -> None:
+def test_a_handle_on_the_wrong_coil_of_the_turn_is_reported():
     result = grade(students.lines(students.wrong_coil(7, FEWER), FEWER))
     [one] = result.diagnosis
     assert (result.workbook, one.error) == ("result4", "wrong_ring")
@@ -148,15 +145,15 @@ def test_a_handle_on_the_wrong_coil_of_the_turn_is_reported() -> None:
     assert met(result, "branch") is False
 
 
-def errors(result: FileAnswer) -> list[str]:
+def errors(result):
     return [one.error for one in result.diagnosis]
 
 
-def test_a_wrong_instant_is_traced_to_its_steps() -> None:
+def test_a_wrong_instant_is_traced_to_its_steps():
     assert errors(known("contact: other_instant")) == ["other_instant", "time_steps"]
 
 
-def test_a_right_instant_that_was_rounded_is_called_so_and_contradicts_no_point_of_the_rubric() -> None:
+def test_a_right_instant_that_was_rounded_is_called_so_and_contradicts_no_point_of_the_rubric():
     # It is also the last step of 0.01 s before the contact, and nothing shows that it was found so.
     result = grade(students.contact_workbook(spiral(np.array([412.47]))))
     assert errors(result) == ["other_instant", "rounded_instant"]
@@ -164,7 +161,7 @@ def test_a_right_instant_that_was_rounded_is_called_so_and_contradicts_no_point_
     assert met(result, "refined") is None
 
 
-def test_a_rounded_instant_that_fits_a_shortcut_is_only_a_guess() -> None:
+def test_a_rounded_instant_that_fits_a_shortcut_is_only_a_guess():
     result = grade(students.contact_workbook(spiral(np.array([406.43]))))
     assert errors(result) == ["other_instant"]
     [guess] = result.possible
@@ -173,20 +170,20 @@ def test_a_rounded_instant_that_fits_a_shortcut_is_only_a_guess() -> None:
     assert met(result, "refined") is not True
 
 
-def test_equal_speeds_do_not_belong_to_the_positions() -> None:
+def test_equal_speeds_do_not_belong_to_the_positions():
     result = known("equal_speeds")
     assert met(result, "speeds") is False
     assert (result.sheets[1].verdict, result.sheets[1].decimals) == ("wrong", None)
 
 
-def test_equal_speeds_of_two_decimals_are_right_ones_rounded() -> None:
+def test_equal_speeds_of_two_decimals_are_right_ones_rounded():
     """Where all numbers of a workbook have two decimals, all speeds of 1.00 are the right ones."""
     position, _ = spiral(SPIRAL_TIMES[:4])
     result = grade(students.by_xlsxwriter(students.rows_of((position.round(2), np.ones((4, 224))), SPIRAL_TIMES[:4])))
     assert (result.sheets[1].verdict, result.diagnosis) == ("incomplete", [])
 
 
-def test_two_errors_are_reported_beside_each_other() -> None:
+def test_two_errors_are_reported_beside_each_other():
     """Zeros outside the spiral, and quotients for the speeds."""
     position, speed = students.outside(0.0)
     speed = np.where(speed == 0.0, 0.0, students.quotient(-1.0, 0.0)[1])
@@ -195,7 +192,7 @@ def test_two_errors_are_reported_beside_each_other() -> None:
 
 
 @pytest.mark.parametrize("size", [1e-3, pytest.param(1e-6, marks=pytest.mark.thorough)])
-def test_quotients_are_reported_beside_positions_with_noise(size: float) -> None:
+def test_quotients_are_reported_beside_positions_with_noise(size):
     """Noise of the last digit, and noise that no known error explains."""
     position, speed = students.quotient(-1.0, 0.0, turn)
     noisy = position + np.random.default_rng(5).uniform(-size, size, position.shape)
@@ -203,7 +200,7 @@ def test_quotients_are_reported_beside_positions_with_noise(size: float) -> None
     assert one.words == "The speeds are backward difference quotients with a step of 1 s."
 
 
-def test_quotients_of_the_own_places_are_reported() -> None:
+def test_quotients_of_the_own_places_are_reported():
     """Whatever is wrong with the places."""
     position, speed = spiral(pitch=0.6, start_turns=8.8 / 0.6)
     position = np.round(position, 6)
@@ -212,7 +209,7 @@ def test_quotients_of_the_own_places_are_reported() -> None:
     assert one.error == "backward_difference"
 
 
-def test_quotients_that_give_the_same_digits_are_named_together() -> None:
+def test_quotients_that_give_the_same_digits_are_named_together():
     """On the spiral the speeds hardly change in 0.1 s: with a little noise three quotients agree with them."""
     position, speed = students.quotient(0.0, 0.1)
     noisy = speed + np.random.default_rng(3).uniform(-1e-6, 1e-6, speed.shape)
@@ -221,7 +218,7 @@ def test_quotients_that_give_the_same_digits_are_named_together() -> None:
     assert one.words == f"The speeds are difference quotients. These all give the same digits: {spans}."
 
 
-def test_speeds_with_a_small_bias_are_no_quotients() -> None:
+def test_speeds_with_a_small_bias_are_no_quotients():
     """Those over 0.01 s are too large by 5e-6 m/s at nearly all handles, as any speeds with such a bias are."""
     position, speed = spiral(AT_CONTACT)
     result = grade(students.contact_workbook((position, speed + 4.8e-6)))
@@ -232,7 +229,7 @@ def test_speeds_with_a_small_bias_are_no_quotients() -> None:
     assert one.words == "The speeds are backward difference quotients with a step of 0.01 s."
 
 
-def test_sparse_instants_do_not_contradict_the_speeds() -> None:
+def test_sparse_instants_do_not_contradict_the_speeds():
     """Over a minute a handle turns: its way is far from its speed times the time."""
     position, speed = spiral(SPIRAL_TIMES[::60])
     wrong = position.copy()
@@ -241,13 +238,13 @@ def test_sparse_instants_do_not_contradict_the_speeds() -> None:
 
 
 @pytest.mark.parametrize("cases", [25, pytest.param(150, marks=pytest.mark.thorough)])
-def test_nobody_is_accused_by_chance(cases: int) -> None:
+def test_nobody_is_accused_by_chance(cases):
     """Some cases of the campaign; `python -m tests.campaigns.hunt_grades` has as many as there is time for."""
     assert hunt(20261126, cases=cases)[:2] == (cases, 0)
 
 
 @pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.thorough)], ids=["some", "all"])
-def test_right_results_have_nothing_to_diagnose(whole: bool) -> None:
+def test_right_results_have_nothing_to_diagnose(whole):
     for data in (first(spiral(), whole=whole), fourth(turn(), whole=whole)):
         result = grade(data)
         assert (result.verdict, result.diagnosis) == ("right" if whole else "incomplete", [])

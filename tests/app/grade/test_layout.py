@@ -1,17 +1,13 @@
 """Sheets in other layouts, units and formats are recognised."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from app.files.tables import Language
-from app.grade.report import FileAnswer, graded
+from app.grade.report import graded
 from core import Budget
 from tests.support import students
 from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral
@@ -19,97 +15,89 @@ from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral
 ROOT = Path(__file__).parents[3]
 
 
-def grade(data: bytes, name: str = "result1.xlsx") -> FileAnswer:
+def grade(data, name="result1.xlsx"):
     return graded(name, data, Language.ENGLISH, Budget())
 
 
-def changed(change: Callable[[list[list[Any]]], list[list[Any]]]) -> bytes:
+def changed(change):
     return by_xlsxwriter({title: change(rows) for title, rows in few().items()})
 
 
-def transposed(rows: list[list[Any]]) -> list[list[Any]]:
+def transposed(rows):
     return [list(row) for row in zip(*rows, strict=True)]
 
 
-def full_width(rows: list[list[Any]]) -> list[list[Any]]:
-    return [[str(row[0] or "").replace("(", "（ ").replace(")", " ）"), *row[1:]] for row in rows]
-
-
-def bare_times(rows: list[list[Any]]) -> list[list[Any]]:
+def bare_times(rows):
     return [[None, *range(len(rows[0]) - 1)], *rows[1:]]
 
 
-def below_a_title(rows: list[list[Any]]) -> list[list[Any]]:
-    return [["问题一的结果"], [], *rows]
-
-
-def transposed_bare(rows: list[list[Any]]) -> list[list[Any]]:
+def transposed_bare(rows):
     return transposed(bare_times(rows))
 
 
-def by_wps(rows: list[list[Any]]) -> list[list[Any]]:
+def by_wps(rows):
     """A title, a head of two lines, labels without blanks and with full-width brackets, a note below."""
     labels = [[str(row[0]).replace(" ", "").replace("(", "（").replace(")", "）"), *row[1:]] for row in rows[1:]]
     heads = [["把手", "时间（s）"], [None, *range(len(rows[0]) - 1)]]
     return [["表1 问题一结果"], *heads, *labels, [], ["注：保留六位小数"]]
 
 
-def by_google(rows: list[list[Any]]) -> list[list[Any]]:
+def by_google(rows):
     """Blanks to the end of a sheet that nobody filled: 1,000 lines of 26 columns, times as text."""
     wide = [[*row, *[None] * (26 - len(row))] for row in rows]
     return [*wide, *[[""] * 26] * (1000 - len(rows))]
 
 
-def by_pandas_without_index(rows: list[list[Any]]) -> list[list[Any]]:
+def by_pandas_without_index(rows):
     return [["Unnamed: 0", *rows[0][1:]], *rows[1:]]
 
 
-def by_pandas_with_numbers(rows: list[list[Any]]) -> list[list[Any]]:
+def by_pandas_with_numbers(rows):
     """The labels are a column of the table, and its own index stands before them."""
     return [[None, "handle", *rows[0][1:]], *([k, *row] for k, row in enumerate(rows[1:]))]
 
 
 @cache
-def contest_labels() -> dict[int, list[str]]:
+def contest_labels():
     """The first column of the contest's sheets of positions and speeds, by its length."""
     sheets = json.loads((ROOT / "tests/reference/contest_workbooks.json").read_text())["workbooks"]["result1"]
     return {len(sheet["first_column"]): sheet["first_column"] for sheet in sheets}
 
 
-def by_the_contest(rows: list[list[Any]]) -> list[list[Any]]:
+def by_the_contest(rows):
     return [[label, *row[1:]] for label, row in zip(contest_labels()[len(rows)], rows, strict=True)]
 
 
 LAYOUTS = [by_the_contest, by_wps, by_google, by_pandas_without_index, by_pandas_with_numbers, transposed,
-           transposed_bare, full_width, bare_times, below_a_title]  # fmt: skip
+           transposed_bare, bare_times]  # fmt: skip
 # Right cells of positions and of speeds, of few instants.
 FEW = [4 * 448, 4 * 224]
 
 
-def right(result: FileAnswer) -> list[int]:
+def right(result):
     return [sheet.right for sheet in result.sheets]
 
 
-def assert_right(data: bytes) -> None:
+def assert_right(data):
     """A whole result1 of positions, as CSV, right in every cell."""
     [sheet] = grade(data, "result1.csv").sheets
     assert (sheet.verdict, sheet.right) == ("right", 301 * 448)
 
 
 @pytest.mark.parametrize("change", LAYOUTS, ids=lambda change: change.__name__)
-def test_other_layouts_are_recognised(change: Any) -> None:
+def test_other_layouts_are_recognised(change):
     result = grade(changed(change))
     assert right(result) == FEW, result
 
 
-def test_a_whole_result1_may_stand_on_its_side() -> None:
+def test_a_whole_result1_may_stand_on_its_side():
     # It has more instants than handles, so that its last lines are as many as the handles.
     lines = [line.split(",") for line in wide_csv().splitlines()]
     assert_right("\n".join(",".join(line) for line in zip(*lines, strict=True)).encode())
 
 
 @pytest.mark.parametrize(("title", "factor"), [("位置", 100.0), ("速度", 100.0), ("速度", 1000.0)])
-def test_numbers_in_smaller_units_are_read_as_such(title: str, factor: float) -> None:
+def test_numbers_in_smaller_units_are_read_as_such(title, factor):
     heads, *rows = few()[title]
     small = [[row[0].replace(" (m/s)", ""), *(factor * value for value in row[1:])] for row in rows]
     result = grade(by_xlsxwriter(few() | {title: [heads, *small]}))
@@ -117,7 +105,7 @@ def test_numbers_in_smaller_units_are_read_as_such(title: str, factor: float) ->
     assert title == "速度" or "The numbers are in cm, and were converted." in result.sheets[0].notes
 
 
-def test_a_handle_too_many_is_left_out_and_one_too_few_is_missing() -> None:
+def test_a_handle_too_many_is_left_out_and_one_too_few_is_missing():
     sheets = few()
     for title, lines in (("位置", 2), ("速度", 1)):
         sheets[title] += [
@@ -130,19 +118,19 @@ def test_a_handle_too_many_is_left_out_and_one_too_few_is_missing() -> None:
     assert (position.verdict, position.right) == ("incomplete", 4 * 446)
 
 
-def test_a_missing_sheet_makes_the_workbook_incomplete() -> None:
+def test_a_missing_sheet_makes_the_workbook_incomplete():
     result = grade(by_xlsxwriter({"位置": few()["位置"]}))
     assert result.sheets[1].notes == ["The sheet of the speeds is missing."]
     assert result.verdict == "incomplete"
 
 
 @pytest.mark.parametrize("coding", ["gb18030", pytest.param("utf-16", marks=pytest.mark.thorough)])
-def test_csv_of_a_sheet_is_graded(coding: str) -> None:
+def test_csv_of_a_sheet_is_graded(coding):
     assert_right(wide_csv().encode(coding))
 
 
 @pytest.mark.parametrize("separator", [";", pytest.param("\t", marks=pytest.mark.thorough)])
-def test_csv_with_decimal_commas_is_graded(separator: str) -> None:
+def test_csv_with_decimal_commas_is_graded(separator):
     assert_right(wide_csv().replace(",", separator).replace(".", ",").encode())
 
 
@@ -161,20 +149,20 @@ HEADS = {
 
 @pytest.mark.parametrize("heads", HEADS)
 @pytest.mark.parametrize("title", ["问题一的结果,,,,\n", pytest.param("", marks=pytest.mark.thorough)])
-def test_lists_are_recognised_under_other_names(heads: str, title: str) -> None:
+def test_lists_are_recognised_under_other_names(heads, title):
     lines = [",".join(map(str, row)) for row in list_of(3, HEADS[heads])]
     result = grade((title + "\n".join([heads, *lines])).encode(), "dance.csv")
     assert [(sheet.holds, sheet.right) for sheet in result.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
 
 
-def list_of(instants: int, name: Callable[[int], Any]) -> list[list[Any]]:
+def list_of(instants, name):
     position, speed = spiral(SPIRAL_TIMES[:instants])
     lines = [(t, h) for t in range(instants) for h in range(224)]
     return [[t, name(h), *map(float, position[t, h].round(6)), float(speed[t, h].round(6))] for t, h in lines]
 
 
 @pytest.mark.parametrize("below", [[], [[None] * 5], [["注：保留六位小数"]]], ids=["nothing", "a blank", "a remark"])
-def test_a_sheet_of_speeds_is_no_sheet_of_positions(below: list[list[Any]]) -> None:
+def test_a_sheet_of_speeds_is_no_sheet_of_positions(below):
     """Its title says that it holds speeds; below its last handle there may be a line without a label."""
     heads, *rows = few()["速度"]
     rows = [[row[0].removesuffix(" (m/s)"), *row[1:]] for row in rows]
@@ -182,27 +170,27 @@ def test_a_sheet_of_speeds_is_no_sheet_of_positions(below: list[list[Any]]) -> N
     assert (sheet.holds, sheet.right) == ("speed", 4 * 224)
 
 
-def in_angles(rows: list[list[Any]]) -> list[list[Any]]:
+def in_angles(rows):
     """The polar angle of every handle instead of its speed."""
     theta = [[100.0 + 0.3 * k - 0.1 * t for t in range(4)] for k in range(224)]
     return [rows[0], *([row[0].removesuffix(" (m/s)"), *angles] for row, angles in zip(rows[1:], theta, strict=True))]
 
 
 @pytest.mark.parametrize("title", ["极角", "theta", "角度 (rad)"])
-def test_angles_are_not_graded(title: str) -> None:
+def test_angles_are_not_graded(title):
     sheets = few()
     result = grade(by_xlsxwriter({**sheets, title: in_angles(sheets["速度"])}))
     assert right(result) == FEW
     assert result.notes == [f"The sheet {title} holds angles, which the contest does not ask for: it was not graded."]
 
 
-def test_angles_without_a_name_are_no_centimetres() -> None:
+def test_angles_without_a_name_are_no_centimetres():
     sheets = grade(by_xlsxwriter({"Sheet1": in_angles(few()["速度"])})).sheets
     [notes] = [sheet.notes for sheet in sheets if sheet.holds == "speed"]
     assert not any("were converted" in note for note in notes)
 
 
-def test_empty_columns_and_rows_count_as_missing_instants_and_handles() -> None:
+def test_empty_columns_and_rows_count_as_missing_instants_and_handles():
     rows = [line.split(",") for line in wide_csv().splitlines()]
     for row in rows[1:]:
         row[202:] = [""] * 100
@@ -215,7 +203,7 @@ def test_empty_columns_and_rows_count_as_missing_instants_and_handles() -> None:
 @pytest.mark.parametrize(
     ("name", "count"), [("result1.xlsx", 1), ("Result_1.xlsx", 1), ("result4.xlsx", 0), ("li.xlsx", 0)]
 )
-def test_a_file_with_the_name_of_another_question_is_reported(name: str, count: int) -> None:
+def test_a_file_with_the_name_of_another_question_is_reported(name, count):
     times = students.TURN_TIMES[:4]
     result = grade(by_xlsxwriter(students.rows_of(students.turn(times), times)), name)
     assert (result.workbook, right(result)) == ("result4", FEW)
@@ -223,7 +211,7 @@ def test_a_file_with_the_name_of_another_question_is_reported(name: str, count: 
     assert result.notes == [words] * count
 
 
-def wide_csv(decimals: int = 6) -> str:
+def wide_csv(decimals=6):
     """The positions of result1 as CSV."""
     lines = [",".join(["", *(f"{t:g} s" for t in SPIRAL_TIMES)])]
     points = spiral()[0].transpose(1, 2, 0).reshape(-1, 301)
@@ -232,7 +220,7 @@ def wide_csv(decimals: int = 6) -> str:
 
 
 @pytest.mark.parametrize("decimals", [5, 2, 1, *(pytest.param(k, marks=pytest.mark.thorough) for k in (3, 4))])
-def test_rounded_results_are_named_with_their_decimals(decimals: int) -> None:
+def test_rounded_results_are_named_with_their_decimals(decimals):
     result = grade(wide_csv(decimals).encode(), "result1.csv")
     [sheet] = result.sheets
     if decimals == 1:

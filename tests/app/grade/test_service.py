@@ -1,10 +1,6 @@
 """POST /grade on the real service: a file as the body, numbers in the query, a limit of its own, nothing kept."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Iterator
-from pathlib import Path
 
 import httpx
 import numpy as np
@@ -12,32 +8,30 @@ import pytest
 
 from tests.support.asking import assert_problem
 from tests.support.command import run
-from tests.support.serving import Service, serving
+from tests.support.serving import serving
 from tests.support.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
 
 FILE = {"Content-Type": "application/octet-stream"}
 
 
-def graded(client: httpx.Client, data: bytes, **query: str) -> dict[str, object]:
+def graded(client, data, **query):
     answer = client.post("/grade", content=data, params=query, headers=FILE).raise_for_status()
     assert answer.headers["cache-control"] == "no-store"
     return dict(answer.json())
 
 
 @pytest.fixture(scope="module")
-def second() -> bytes:
+def second():
     return contact_workbook(spiral(np.array([CONTACT])))
 
 
 @pytest.fixture(scope="module")
-def first() -> bytes:
+def first():
     return workbook(spiral(), SPIRAL_TIMES)
 
 
 @pytest.mark.parametrize("language", ["en", pytest.param("zh", marks=pytest.mark.thorough)])
-def test_the_service_answers_what_the_command_answers(
-    client: httpx.Client, second: bytes, tmp_path: Path, language: str
-) -> None:
+def test_the_service_answers_what_the_command_answers(client, second, tmp_path, language):
     file = tmp_path / "result2.xlsx"
     file.write_bytes(second)
     answer = json.loads(run("grade", str(file), "--pitch", "0.4202", "--language", language, "--json").stdout)
@@ -46,29 +40,27 @@ def test_the_service_answers_what_the_command_answers(
 
 
 @pytest.mark.thorough
-def test_a_file_longer_than_other_bodies_is_taken(client: httpx.Client) -> None:
+def test_a_file_longer_than_other_bodies_is_taken(client):
     # A full result1 of 17 digits, stored rather than packed tightly, and padded beyond the limit of other bodies.
     data = workbook(spiral(), SPIRAL_TIMES, 15)
-    assert graded(client, data, name="result1.xlsx")["files"][0]["verdict"] == "right"  # type: ignore[index]
-    [file] = graded(client, b"text " * 1_000_000)["files"]  # type: ignore[misc]
+    assert graded(client, data, name="result1.xlsx")["files"][0]["verdict"] == "right"
+    [file] = graded(client, b"text " * 1_000_000)["files"]
     assert file["verdict"] == "unreadable"
 
 
 @pytest.fixture(scope="module")
-def strict(tmp_path_factory: pytest.TempPathFactory, first: bytes) -> Iterator[Service]:
+def strict(tmp_path_factory, first):
     """A service that takes files of one length at most, and grades for a moment only."""
     log = tmp_path_factory.mktemp("strict") / "log"
     with serving(log, grade_bytes_max=len(first), grade_seconds=0.2) as service:
         yield service
 
 
-def posted(service: Service, content: bytes, query: str = "") -> httpx.Response:
+def posted(service, content, query=""):
     return httpx.post(f"{service.url}/grade{query}", content=content, headers=FILE, timeout=60)
 
 
-def test_a_file_beyond_the_limit_or_the_deadline_is_refused_and_nothing_of_it_is_logged(
-    strict: Service, first: bytes
-) -> None:
+def test_a_file_beyond_the_limit_or_the_deadline_is_refused_and_nothing_of_it_is_logged(strict, first):
     large, late = posted(strict, first + b"x"), posted(strict, first)
     assert (large.status_code, late.status_code) == (413, 422)
     assert f"at most {len(first)} bytes, got {len(first) + 1}" in large.json()["detail"]
@@ -89,15 +81,13 @@ def test_a_file_beyond_the_limit_or_the_deadline_is_refused_and_nothing_of_it_is
         ("", FILE["Content-Type"], b"", 422, "Send a workbook or CSV as the body"),
     ],
 )
-def test_wrong_requests_get_a_clear_word(
-    client: httpx.Client, query: str, kind: str, content: bytes, status: int, words: str
-) -> None:
+def test_wrong_requests_get_a_clear_word(client, query, kind, content, status, words):
     answer = client.post(f"/grade{query}", content=content, headers={"Content-Type": kind})
     assert_problem(answer, status)
     assert words in answer.json()["detail"]
 
 
 @pytest.mark.parametrize("name", ["%C0%EE.csv", "%ED%B2%80.csv", "%FF"])
-def test_a_name_in_another_encoding_is_no_obstacle(client: httpx.Client, name: str) -> None:
+def test_a_name_in_another_encoding_is_no_obstacle(client, name):
     answer = client.post(f"/grade?name={name}", content=b"a,b", headers=FILE).raise_for_status()
     assert answer.json()["files"][0]["verdict"] == "unreadable"

@@ -1,7 +1,5 @@
 """Everything that the grader can say has words in both languages."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -21,7 +19,7 @@ USE_OF_WORDS = re.compile(r'\b(?:note|say)\(\s*"(\w+)"')
 
 
 @pytest.mark.parametrize("language", Language)
-def test_every_known_error_has_words(language: Language) -> None:
+def test_every_known_error_has_words(language):
     heads = {Workbook.RESULT1: [[8.25, 0.0]], Workbook.RESULT4: [[0.0, 9.0]]}
     known = [
         (model.error, model.values)
@@ -36,7 +34,7 @@ def test_every_known_error_has_words(language: Language) -> None:
         assert "{" not in text
 
 
-def test_every_name_in_the_code_has_words() -> None:
+def test_every_name_in_the_code_has_words():
     used = {name for file in GRADE.glob("*.py") for name in USE_OF_WORDS.findall(file.read_text(encoding="utf-8"))}
     assert len(used) > 20
     assert used <= words.WORDS.keys()

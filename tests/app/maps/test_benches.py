@@ -1,12 +1,8 @@
 """Tables of benches in workbooks: for the command, over HTTP, and refused where they cannot be read."""
 
-from __future__ import annotations
-
 import io
 import json
-from pathlib import Path
 
-import httpx
 import openpyxl
 import pytest
 
@@ -25,7 +21,7 @@ ROWS = [
 CSV = '名称,长度,宽度,孔距\n"周, 一",3.41,0.3,0.275\n12,2.2,0.3,0.275\n'
 
 
-def saved(*sheets: list[list[object]]) -> bytes:
+def saved(*sheets):
     book = openpyxl.Workbook()
     for k, rows in enumerate(sheets):
         sheet = book.create_sheet(f"表{k}")
@@ -36,7 +32,7 @@ def saved(*sheets: list[list[object]]) -> bytes:
     return sink.getvalue()
 
 
-def test_a_workbook_is_the_table_that_a_spreadsheet_would_save_as_csv(client: httpx.Client) -> None:
+def test_a_workbook_is_the_table_that_a_spreadsheet_would_save_as_csv(client):
     data = saved(ROWS[:3], [["spare", 2.2, 0.3, 0.275]])
     answer = client.post("/places?language=zh", content=data, headers={"Content-Type": XLSX_TYPE})
     assert answer.status_code == 200, answer.text
@@ -47,7 +43,7 @@ def test_a_workbook_is_the_table_that_a_spreadsheet_would_save_as_csv(client: ht
     assert client.post("/check", json=request).json()["first_contact"]["outcome"]
 
 
-def test_a_formula_without_a_value_is_reported(client: httpx.Client) -> None:
+def test_a_formula_without_a_value_is_reported(client):
     answer = client.post("/places", content=saved(ROWS), headers={"Content-Type": XLSX_TYPE}).json()
     assert answer["dance"]["dragon"]["csv"] == CSV + "吴,,0.3,0.275\n"
     assert answer["notes"] == [
@@ -55,7 +51,7 @@ def test_a_formula_without_a_value_is_reported(client: httpx.Client) -> None:
     ]
 
 
-def test_a_dance_may_name_a_workbook(tmp_path: Path) -> None:
+def test_a_dance_may_name_a_workbook(tmp_path):
     (tmp_path / "benches.xlsx").write_bytes(saved([["a", 3.41, 0.3, 0.275], ["b", 2.2, 0.3, 0.275]], [["left"]]))
     (tmp_path / "benches.csv").write_text("a,3.41,0.3,0.275\nb,2.2,0.3,0.275\n")
     answers = []
@@ -67,7 +63,7 @@ def test_a_dance_may_name_a_workbook(tmp_path: Path) -> None:
     assert answers[1].stderr == ""
 
 
-def test_a_damaged_workbook_of_a_dance_is_refused_by_its_name(tmp_path: Path) -> None:
+def test_a_damaged_workbook_of_a_dance_is_refused_by_its_name(tmp_path):
     (tmp_path / "benches.xlsx").write_bytes(saved(ROWS)[:-300])
     (tmp_path / "dance.json").write_text('{"dragon": "benches.xlsx"}')
     done = run("check", str(tmp_path / "dance.json"))
@@ -84,6 +80,6 @@ def test_a_damaged_workbook_of_a_dance_is_refused_by_its_name(tmp_path: Path) ->
     ],
     ids=["empty", "truncated", "old"],
 )
-def test_a_workbook_without_benches_is_refused(data: bytes, words: str) -> None:
+def test_a_workbook_without_benches_is_refused(data, words):
     with pytest.raises(InvalidValue, match=words):
         places_of(data, None, Say(Language.ENGLISH))

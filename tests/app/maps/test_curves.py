@@ -1,10 +1,7 @@
 """Curves as points: within 5 mm of the true curve, on it at both ends, and counted before they are made."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from math import hypot, pi
-from typing import Any
 
 import ezdxf
 import numpy as np
@@ -16,23 +13,23 @@ from app.maps.curves import SAG, Damaged, points_of
 from core import InvalidValue
 
 ROUNDING = 1e-9  # of places [m]
-SPACE: Any = ezdxf.new("R2010").modelspace()
+SPACE = ezdxf.new("R2010").modelspace()
 
 
-def middles(points: np.ndarray) -> np.ndarray:
+def middles(points):
     """Points along the straight lines between points."""
     shares = np.linspace(0.0, 1.0, 9)[:, None]
     return np.concatenate([a + shares * (b - a) for a, b in pairwise(points)])
 
 
-def circle_of(points: np.ndarray, x: float, y: float) -> np.ndarray:
+def circle_of(points, x, y):
     """Distances of the lines between points from a place."""
     return np.hypot(*(middles(points) - (x, y)).T)
 
 
 @pytest.mark.parametrize("radius", [0.01, 1.0, 100.0, 5_000.0])
 @pytest.mark.parametrize(("start", "end"), [(0.0, 90.0), (350.0, 20.0), (10.0, 370.0), (0.0, 0.0)])
-def test_an_arc_is_as_round_as_it_is(radius: float, start: float, end: float) -> None:
+def test_an_arc_is_as_round_as_it_is(radius, start, end):
     points = points_of(SPACE.add_arc((3, 4), radius, start, end), 1.0)
     away = circle_of(points, 3.0, 4.0)
     assert abs(away - radius).max() <= SAG
@@ -44,20 +41,20 @@ def test_an_arc_is_as_round_as_it_is(radius: float, start: float, end: float) ->
     assert swept[-1] - swept[0] == pytest.approx((end - start) % 360 * pi / 180 or 2 * pi)
 
 
-def test_the_unit_of_a_drawing_does_not_change_the_number_of_points() -> None:
+def test_the_unit_of_a_drawing_does_not_change_the_number_of_points():
     metres = points_of(SPACE.add_arc((0, 0), 20.0, 0, 90), 1.0)
     millimetres = points_of(SPACE.add_arc((0, 0), 20_000.0, 0, 90), 0.001)
     assert millimetres == pytest.approx(metres)
 
 
-def test_a_mirrored_arc_is_mirrored() -> None:
+def test_a_mirrored_arc_is_mirrored():
     arc = SPACE.add_arc((3, 4), 2.0, 0, 90, dxfattribs={"extrusion": (0, 0, -1)})
     points = points_of(arc, 1.0)
     assert points[[0, -1]] == pytest.approx(np.array([(-5.0, 4.0), (-3.0, 6.0)]))
 
 
 @pytest.mark.parametrize("bulge", [0.2, -0.2, 1.0, -1.0, 3.0, 1e-5, 1e-9, -0.5])
-def test_a_bulge_is_the_arc_that_it_says(bulge: float) -> None:
+def test_a_bulge_is_the_arc_that_it_says(bulge):
     points = points_of(SPACE.add_lwpolyline([(0, 0, bulge), (10, 5, 0)], format="xyb"), 1.0)
     assert points[[0, -1]].tolist() == [[0.0, 0.0], [10.0, 5.0]]
     if abs(bulge) < 1e-3:
@@ -72,7 +69,7 @@ def test_a_bulge_is_the_arc_that_it_says(bulge: float) -> None:
     assert np.hypot(*(points - top).T).min() < 0.5
 
 
-def test_a_squeezed_circle_is_an_ellipse_and_a_part_of_it() -> None:
+def test_a_squeezed_circle_is_an_ellipse_and_a_part_of_it():
     whole = points_of(SPACE.add_ellipse((1, 2), major_axis=(30, 0), ratio=0.5), 1.0)
     x, y = (middles(whole) - (1.0, 2.0)).T
     assert abs(np.hypot(x, 2.0 * y) - 30.0).max() <= 2.0 * SAG
@@ -82,9 +79,7 @@ def test_a_squeezed_circle_is_an_ellipse_and_a_part_of_it() -> None:
     assert half[:, 0].min() == pytest.approx(-2.0, abs=SAG)
 
 
-def spline(
-    points: list[tuple[float, float]], degree: int, knots: list[float], weights: list[float] | None = None
-) -> Any:
+def spline(points, degree, knots, weights=None):
     entity = SPACE.add_spline(degree=degree)
     entity.control_points, entity.knots = [(*point, 0.0) for point in points], knots
     if weights:
@@ -103,7 +98,7 @@ CURVES = {
 
 
 @pytest.mark.parametrize("name", CURVES)
-def test_a_spline_is_where_another_program_computes_it(name: str) -> None:
+def test_a_spline_is_where_another_program_computes_it(name):
     control, degree, knots = CURVES[name]
     points = points_of(spline(control, degree, knots), 1.0)
     low, high = knots[degree], knots[len(control)]
@@ -114,7 +109,7 @@ def test_a_spline_is_where_another_program_computes_it(name: str) -> None:
 
 
 @pytest.mark.parametrize("place", [0.0, 3_220_000.0])
-def test_a_spline_with_weights_is_a_circle(place: float) -> None:
+def test_a_spline_with_weights_is_a_circle(place):
     root = 0.5**0.5
     corners = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)]
     control = [(place + 30.0 * x, place + 30.0 * y) for x, y in corners]
@@ -124,7 +119,7 @@ def test_a_spline_with_weights_is_a_circle(place: float) -> None:
     assert len(points) < 3_000
 
 
-def test_a_spline_whose_numbers_do_not_fit_is_damaged() -> None:
+def test_a_spline_whose_numbers_do_not_fit_is_damaged():
     ends, clamped = [0, 0, 0, 0, 1], [0, 0, 0, 0, 1, 1, 1]
     # Too few knots, knots that fall, a weight of zero.
     for knots, weights in ((ends, None), ([*clamped, 0.5], None), ([*clamped, 1], [1, 0, 1, 1])):
@@ -144,12 +139,12 @@ def test_a_spline_whose_numbers_do_not_fit_is_damaged() -> None:
     ],
     ids=["arc", "no number", "large arc", "bulge", "ellipse", "spline"],
 )
-def test_a_curve_that_takes_too_many_points_is_refused_before_one_is_made(entity: Any, words: str) -> None:
+def test_a_curve_that_takes_too_many_points_is_refused_before_one_is_made(entity, words):
     with pytest.raises(InvalidValue, match=words):
         points_of(entity, 1.0)
 
 
-def test_control_points_of_a_smoothed_polyline_are_no_places() -> None:
+def test_control_points_of_a_smoothed_polyline_are_no_places():
     line = SPACE.add_polyline2d([(0, 0), (5, 9), (5, 5), (10, 0)])
     line.vertices[1].dxf.flags = 16
     assert points_of(line, 1.0).tolist() == [[0, 0], [5, 5], [10, 0]]

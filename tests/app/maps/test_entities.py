@@ -1,19 +1,14 @@
 """Drawings of other programs: nothing in them is lost, and nothing is invented."""
 
-from __future__ import annotations
-
 import io
 import time
-from typing import Any
 
 import ezdxf
-import httpx
 import numpy as np
 import pytest
 
 from app.files.tables import Language
 from app.files.words import Say
-from app.maps.layout import DanceParts
 from app.maps.places import places_of
 from core import InvalidValue
 from core.errors import Quantity
@@ -21,7 +16,7 @@ from tests.support.refusal_rows import assert_refused
 from tests.support.refused import refused
 
 
-def new(unit: int = 6, version: str = "R2010", square: bool = True) -> Any:
+def new(unit=6, version="R2010", square=True):
     """The space of a new drawing, with a square of 100 m around (0, 0)."""
     document = ezdxf.new(version)
     document.header["$INSUNITS"] = unit
@@ -31,43 +26,43 @@ def new(unit: int = 6, version: str = "R2010", square: bool = True) -> Any:
     return space
 
 
-def ring(space: Any, half: float, x: float = 0.0, y: float = 0.0, close: bool = True, **attributes: Any) -> None:
+def ring(space, half, x=0.0, y=0.0, close=True, **attributes):
     """The sides of a square around a place."""
     corners = [(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)]
     space.add_lwpolyline(corners, close=close, dxfattribs=attributes)
 
 
-def drawing(space: Any) -> bytes:
+def drawing(space):
     sink = io.StringIO()
     space.doc.write(sink)
     return sink.getvalue().encode(space.doc.output_encoding)
 
 
-def read(space: Any) -> DanceParts:
+def read(space):
     return places_of(drawing(space), None, Say(Language.ENGLISH))
 
 
-def things(result: DanceParts) -> list[tuple[str, Any, float | None]]:
+def things(result):
     """Form, coordinates and radius of the obstacles."""
     values = [(one["properties"], one["geometry"]) for one in result.geometry["features"][1:]]
     return [(form["type"], form["coordinates"], own.get("radius")) for own, form in values]
 
 
-def names(result: DanceParts) -> list[str]:
+def names(result):
     return [area.name for area in result.venue.areas]
 
 
-def corners(result: DanceParts) -> list[Any]:
+def corners(result):
     """The outline of the square."""
     return list(result.venue.square.rings[0])
 
 
-def posted(client: httpx.Client, data: bytes) -> Any:
+def posted(client, data):
     headers = {"Content-Type": "image/vnd.dxf"}
     return client.post("/places", content=data, headers=headers).raise_for_status().json()
 
 
-def test_an_array_of_blocks_has_all_of_them() -> None:
+def test_an_array_of_blocks_has_all_of_them():
     space = new()
     space.doc.blocks.new("TREE").add_circle((0, 0), 0.4)
     array = {"row_count": 2, "column_count": 3, "row_spacing": 4.0, "column_spacing": 5.0}
@@ -77,7 +72,7 @@ def test_an_array_of_blocks_has_all_of_them() -> None:
 
 @pytest.mark.parametrize("version", ["R12", "R2010"])
 @pytest.mark.parametrize("across", [0.1, 2_000.0, 60_000.0])
-def test_a_drawing_without_a_unit_is_in_metres_or_refused_where_it_cannot_be(version: str, across: float) -> None:
+def test_a_drawing_without_a_unit_is_in_metres_or_refused_where_it_cannot_be(version, across):
     space = new(0, version, square=False)
     for place in ((120.0, 29.0), (120.0 + across, 29.0)):
         space.add_circle(place, 0.04)
@@ -91,7 +86,7 @@ def test_a_drawing_without_a_unit_is_in_metres_or_refused_where_it_cannot_be(ver
     assert "The file states no unit: its numbers are metres." in result.notes
 
 
-def test_a_map_that_is_too_wide_for_a_dance_is_refused() -> None:
+def test_a_map_that_is_too_wide_for_a_dance_is_refused():
     space = new(square=False)
     for x in (500_000.0, 600_000.0):
         space.add_circle((x, 3_000_000.0), 1.0)
@@ -100,13 +95,13 @@ def test_a_map_that_is_too_wide_for_a_dance_is_refused() -> None:
 
 
 @pytest.mark.parametrize(("unit", "metres"), [(2, 0.3048), (21, 1200 / 3937), (15, 10.0), (8, 2.54e-8)])
-def test_every_unit_of_a_drawing_is_known(unit: int, metres: float) -> None:
+def test_every_unit_of_a_drawing_is_known(unit, metres):
     space = new(unit=unit, square=False)
     space.add_circle((30 / metres, 0), 2 / metres)
     assert things(read(space)) == [("Point", [pytest.approx(30.0), 0.0], pytest.approx(2.0))]
 
 
-def test_what_cannot_be_seen_or_read_is_left_out_and_said() -> None:
+def test_what_cannot_be_seen_or_read_is_left_out_and_said():
     space = new()
     document = space.doc
     document.layers.add("TREES").off()
@@ -133,7 +128,7 @@ def test_what_cannot_be_seen_or_read_is_left_out_and_said() -> None:
     }  # fmt: skip
 
 
-def test_a_block_of_no_height_is_drawn_with_what_is_in_it() -> None:
+def test_a_block_of_no_height_is_drawn_with_what_is_in_it():
     space = new()
     space.doc.blocks.new("TREE").add_circle((0, 0), 0.3)
     space.doc.blocks.new("ROW").add_blockref("TREE", (1, 2))
@@ -149,7 +144,7 @@ UNMARKED = """0 SECTION 2 HEADER 9 $ACADVER 1 AC1015 9 $INSUNITS 70 6 0 ENDSEC 0
 0 CIRCLE 8 trees 10 20 20 15 40 0.5 0 ENDSEC 0 EOF"""
 
 
-def test_entities_without_the_markers_of_their_parts_are_read_or_named_as_left_out() -> None:
+def test_entities_without_the_markers_of_their_parts_are_read_or_named_as_left_out():
     result = places_of("\n".join(UNMARKED.split()).encode(), None, Say(Language.ENGLISH))
     assert corners(result)[:4] == [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)]
     assert things(result)[1] == ("Point", [20.0, 15.0], 0.5)
@@ -157,7 +152,7 @@ def test_entities_without_the_markers_of_their_parts_are_read_or_named_as_left_o
     assert "Left out: 1 damaged MULTILEADER." in result.notes
 
 
-def test_a_circle_too_small_for_anything_is_left_out_by_its_name() -> None:
+def test_a_circle_too_small_for_anything_is_left_out_by_its_name():
     space = new()
     for x, radius, layer in ((10, 0.0005, "DOT"), (20, 0.4, "TREES")):
         space.add_circle((x, 0), radius, dxfattribs={"layer": layer})
@@ -166,7 +161,7 @@ def test_a_circle_too_small_for_anything_is_left_out_by_its_name() -> None:
     assert "Left out: 1 circle with a radius of less than 0.001 m: DOT." in result.notes
 
 
-def test_where_all_is_hidden_the_refusal_says_what() -> None:
+def test_where_all_is_hidden_the_refusal_says_what():
     space = new(square=False)
     space.doc.layers.add("PLAN").freeze()
     space.add_line((0, 0), (9, 0), dxfattribs={"layer": "PLAN"})
@@ -174,7 +169,7 @@ def test_where_all_is_hidden_the_refusal_says_what() -> None:
         read(space)
 
 
-def test_entities_of_a_block_take_its_layer() -> None:
+def test_entities_of_a_block_take_its_layer():
     space = new(square=False)
     ring(space.doc.blocks.new("BED"), 1, 1, 1)
     space.add_blockref("BED", (5, 5), dxfattribs={"layer": "障碍"})
@@ -184,7 +179,7 @@ def test_entities_of_a_block_take_its_layer() -> None:
     assert [form for form, *_ in things(result)] == ["Polygon"]
 
 
-def test_only_a_ring_in_an_area_of_its_layer_is_a_hole() -> None:
+def test_only_a_ring_in_an_area_of_its_layer_is_a_hole():
     space = new()
     ring(space, 5, layer="HOUSE")
     for x in (0, 30):
@@ -196,7 +191,7 @@ def test_only_a_ring_in_an_area_of_its_layer_is_a_hole() -> None:
     assert round_ones == [("Point", [0.0, 30.0], 0.4), ("Point", [0.0, 0.0], 0.3)]
 
 
-def test_a_closed_spline_is_the_area_in_it() -> None:
+def test_a_closed_spline_is_the_area_in_it():
     space = new()
     sides = [(0, 0, 0), (10, 0, 0), (10, 10, 0), (0, 10, 0)]
     entity = space.add_spline(degree=3, dxfattribs={"layer": "OBSTACLES", "flags": 3})
@@ -207,7 +202,7 @@ def test_a_closed_spline_is_the_area_in_it() -> None:
 
 
 @pytest.mark.parametrize(("unit", "metres"), [(6, 1.0), (4, 0.001)])
-def test_a_wide_line_is_a_wall_of_its_width(unit: int, metres: float) -> None:
+def test_a_wide_line_is_a_wall_of_its_width(unit, metres):
     space = new(unit, square=False)
     points = [(-10 / metres, 0), (10 / metres, 0)]
     space.add_lwpolyline(points, dxfattribs={"const_width": 0.6 / metres})
@@ -222,7 +217,7 @@ def test_a_wide_line_is_a_wall_of_its_width(unit: int, metres: float) -> None:
     assert [(form, radius) for form, _, radius in things(read(space))] == radii
 
 
-def test_the_wide_outline_of_an_area_is_a_wall_around_it() -> None:
+def test_the_wide_outline_of_an_area_is_a_wall_around_it():
     space = new(square=False)
     ring(space, 60, const_width=1.0)
     ring(space, 2, const_width=1.0, layer="OBSTACLES")
@@ -233,7 +228,7 @@ def test_the_wide_outline_of_an_area_is_a_wall_around_it() -> None:
     assert rings[0] == places
 
 
-def test_a_text_names_what_it_stands_in_or_beside() -> None:
+def test_a_text_names_what_it_stands_in_or_beside():
     space = new()
     space.add_lwpolyline([(20, 20), (30, 20)], dxfattribs={"layer": "WALL", "const_width": 0.6})
     space.add_text("garden wall", height=2.5, dxfattribs={"insert": (22, 21)})
@@ -245,7 +240,7 @@ def test_a_text_names_what_it_stands_in_or_beside() -> None:
     assert names(read(space)) == ["square", "garden wall", "old elm", "bed of roses"]
 
 
-def test_an_attribute_of_a_block_names_what_is_beside_it() -> None:
+def test_an_attribute_of_a_block_names_what_is_beside_it():
     space = new()
     block = space.doc.blocks.new("TREE")
     block.add_circle((0, 0), 0.4)
@@ -254,7 +249,7 @@ def test_an_attribute_of_a_block_names_what_is_beside_it() -> None:
     assert names(read(space))[1:] == ["camphor"]
 
 
-def test_a_circle_on_the_layer_of_the_square_is_a_round_square() -> None:
+def test_a_circle_on_the_layer_of_the_square_is_a_round_square():
     space = new(square=False)
     space.add_circle((5, 0), 30.0, dxfattribs={"layer": "SQUARE"})
     away = np.hypot(*(np.array(corners(read(space))) - (5.0, 0.0)).T)
@@ -262,7 +257,7 @@ def test_a_circle_on_the_layer_of_the_square_is_a_round_square() -> None:
     assert len(away) > 100
 
 
-def test_lines_and_arcs_of_the_path_are_one_path() -> None:
+def test_lines_and_arcs_of_the_path_are_one_path():
     space, on_path = new(), {"layer": "PATH"}
     for ends in ([(0, 0), (10, 0)], [(10, 10), (0, 10)], [(30, 30), (40, 40)]):
         space.add_line(*ends, dxfattribs=on_path)
@@ -275,7 +270,7 @@ def test_lines_and_arcs_of_the_path_are_one_path() -> None:
     assert "2 lines are called path; the first is the path, and the others are left out." in result.notes
 
 
-def test_the_line_of_a_square_that_is_not_closed_is_closed_and_said() -> None:
+def test_the_line_of_a_square_that_is_not_closed_is_closed_and_said():
     space = new(square=False)
     ring(space, 60, close=False, layer="SQUARE")
     space.add_circle((5, 5), 1.0)
@@ -287,7 +282,7 @@ def test_the_line_of_a_square_that_is_not_closed_is_closed_and_said() -> None:
 # -- survey grids ------------------------------------------------------------------------------------------------
 
 
-def on_grid(x: float, y: float) -> bytes:
+def on_grid(x, y):
     space = new(square=False)
     ring(space, 50, x, y, layer="SQUARE")
     space.add_circle((x + 5, y + 5), 1.0, dxfattribs={"layer": "TREES"})
@@ -296,7 +291,7 @@ def on_grid(x: float, y: float) -> bytes:
 
 
 @pytest.mark.parametrize(("x", "y"), [(500_000.0, 3_220_000.0), (39_500_000.0, 3_220_000.0), (-200_000.0, 1_000.0)])
-def test_a_survey_grid_is_moved_to_its_middle_and_kept(client: httpx.Client, x: float, y: float) -> None:
+def test_a_survey_grid_is_moved_to_its_middle_and_kept(client, x, y):
     got = posted(client, on_grid(x, y))
     assert got["venue"]["grid"] == {"x": x, "y": y}
     assert got["venue"]["features"][1]["geometry"]["coordinates"] == [5.0, 5.0]
@@ -318,20 +313,20 @@ def test_a_survey_grid_is_moved_to_its_middle_and_kept(client: httpx.Client, x: 
 
 
 @pytest.mark.parametrize("row", ['{"x": 1.0} -> ', '{"x": 1.0, "y": 1e9} -> /y 1e+08', '"here" -> '])
-def test_a_venue_says_its_grid_in_two_numbers(client: httpx.Client, row: str) -> None:
+def test_a_venue_says_its_grid_in_two_numbers(client, row):
     grid, named = row.split(" -> ")
     square = '"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]'
     change = f'{{"venue": {{{square}, "grid": {grid}}}}}'
     assert_refused(client, "/check", {"dragon": {"benches": 2}}, f"{change} -> /venue/grid{named}")
 
 
-def rounded(corner_count: int, place: float = 0.0) -> list[Any]:
+def rounded(corner_count, place=0.0):
     angles = np.linspace(0.0, 2 * np.pi, corner_count, endpoint=False)
     return list((20.0 * np.stack([np.cos(angles), np.sin(angles)], axis=-1) + place).tolist())
 
 
 @pytest.mark.parametrize("square", [True, False])
-def test_many_edges_are_refused_before_they_are_compared(square: bool) -> None:
+def test_many_edges_are_refused_before_they_are_compared(square):
     space = new(square=square)
     for place in (0.0, 200.0):
         space.add_lwpolyline(rounded(16_000, place), close=True)
@@ -341,7 +336,7 @@ def test_many_edges_are_refused_before_they_are_compared(square: bool) -> None:
     assert time.process_time() - begun < 10.0  # It took 20 s.
 
 
-def test_a_long_path_beside_the_square_is_compared() -> None:
+def test_a_long_path_beside_the_square_is_compared():
     space = new(square=False)
     space.add_lwpolyline(rounded(1_900), close=True)
     line = [(300.0 + 0.001 * k, 300.0) for k in range(15_000)]
@@ -352,7 +347,7 @@ def test_a_long_path_beside_the_square_is_compared() -> None:
 
 
 @pytest.mark.parametrize("version", ["R2000", "R2010"])
-def test_names_of_a_chinese_drawing_are_read(version: str) -> None:
+def test_names_of_a_chinese_drawing_are_read(version):
     space = new(version=version)
     if version == "R2000":
         space.doc.encoding = "gbk"
@@ -362,7 +357,7 @@ def test_names_of_a_chinese_drawing_are_read(version: str) -> None:
     assert names(read(space))[1:] == ["樟树"]
 
 
-def test_more_texts_than_can_be_compared_name_nothing_and_are_said() -> None:
+def test_more_texts_than_can_be_compared_name_nothing_and_are_said():
     space = new()
     for k in range(3_000):
         space.add_text("x", height=0.1, dxfattribs={"insert": (0, 0.01 * k)})

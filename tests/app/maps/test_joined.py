@@ -1,28 +1,24 @@
 """Lines that meet: those that close are an area, those of the path one line, and all others stay."""
 
-from __future__ import annotations
-
 import pytest
 import shapely
 
 from app.maps.features import MapFeature
 from app.maps.joined import joined, merged
 
-Points = list[tuple[float, float]]
 
-
-def lines(*all_points: Points, layer: str = "0", role: str | None = None) -> list[MapFeature]:
+def lines(*all_points, layer="0", role=None):
     return [MapFeature("line", (tuple(points),), None, role, properties={"layer": layer}) for points in all_points]
 
 
-def shapes(features: list[MapFeature]) -> list[tuple[str, Points]]:
+def shapes(features):
     return [(one.shape, list(one.rings[0])) for one in features]
 
 
-FOUR: list[Points] = [[(0, 0), (9, 0)], [(9, 9), (9, 0)], [(0, 9), (0, 0)], [(9, 9), (0, 9)]]
+FOUR = [[(0, 0), (9, 0)], [(9, 9), (9, 0)], [(0, 9), (0, 0)], [(9, 9), (0, 9)]]
 
 
-def test_four_lines_that_close_are_an_area_whatever_their_order_and_direction() -> None:
+def test_four_lines_that_close_are_an_area_whatever_their_order_and_direction():
     [(shape, ring)] = shapes(joined(lines(*FOUR)))
     assert shape == "polygon"
     assert ring[0] == ring[-1]
@@ -31,31 +27,31 @@ def test_four_lines_that_close_are_an_area_whatever_their_order_and_direction() 
 
 
 @pytest.mark.parametrize(("apart", "kinds"), [(0.0048, ["polygon"]), (0.0052, ["line"] * 3)])
-def test_ends_within_five_millimetres_meet(apart: float, kinds: list[str]) -> None:
-    near: list[Points] = [[(0, 0), (9, 0)], [(9 + apart, 0), (9, 9)], [(9, 9.003), (0, 0.003)]]
+def test_ends_within_five_millimetres_meet(apart, kinds):
+    near = [[(0, 0), (9, 0)], [(9 + apart, 0), (9, 9)], [(9, 9.003), (0, 0.003)]]
     assert [shape for shape, _ in shapes(joined(lines(*near)))] == kinds
 
 
-def test_lines_of_two_layers_do_not_meet() -> None:
+def test_lines_of_two_layers_do_not_meet():
     mixed = [*lines(*FOUR[:3]), *lines(FOUR[3], layer="WALL")]
     assert joined(mixed) == mixed
 
 
-def test_lines_that_do_not_close_stay() -> None:
+def test_lines_that_do_not_close_stay():
     assert joined(lines(*FOUR[:3])) == lines(*FOUR[:3])
 
 
-def test_where_three_lines_meet_all_stay() -> None:
+def test_where_three_lines_meet_all_stay():
     crossing = lines(*FOUR, [(0, 0), (9, 9)])
     assert joined(crossing) == crossing
 
 
-def test_a_path_that_closes_stays_a_line() -> None:
+def test_a_path_that_closes_stays_a_line():
     [(shape, ring)] = shapes(joined(lines(*FOUR, role="path")))
     assert (shape, ring[0]) == ("line", ring[-1])
 
 
-def test_two_rings_are_two_areas_in_their_places() -> None:
+def test_two_rings_are_two_areas_in_their_places():
     other = [[(x + 20, y) for x, y in points] for points in FOUR]
     result = shapes(joined([*lines(*FOUR), MapFeature("point", (((1, 1),),), "tree"), *lines(*other)]))
     assert [shape for shape, _ in result] == ["polygon", "point", "polygon"]
@@ -75,7 +71,7 @@ SEPARATE = ("apart", "at a corner", "overlapping")
 
 
 @pytest.mark.parametrize("name", PARTS)
-def test_parts_that_share_edges_are_one_area_and_no_others(name: str) -> None:
+def test_parts_that_share_edges_are_one_area_and_no_others(name):
     rings = [[(x, y), (x + a, y), (x + a, y + b), (x, y + b), (x, y)] for x, y, a, b in PARTS[name]]
     # Every second one is walked the other way around.
     whole = merged([MapFeature("polygon", (tuple(ring[:: 1 - 2 * (k % 2)]),)) for k, ring in enumerate(rings)])

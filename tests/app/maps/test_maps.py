@@ -1,22 +1,16 @@
 """Maps: written files read back unchanged, files of other programs are understood, hostile ones refused at once."""
 
-from __future__ import annotations
-
 import io
 import json
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import ezdxf
-import httpx
 import numpy as np
 import pytest
 
 from app.files.tables import Language
 from app.files.words import Say
-from app.maps.layout import DanceParts
 from app.maps.places import places_of
 from app.questions.maps import MapFormat, MapsRequest
 from app.settings import Settings
@@ -31,7 +25,7 @@ SAY = Say(Language.ENGLISH)
 ROUNDING = 1e-7
 ORIGIN = {"longitude": 120.123, "latitude": 30.25}
 VILLAGE = json.loads((ROOT / "examples" / "village_square.geojson").read_text())
-PATHS: list[dict[str, Any]] = json.loads("""[
+PATHS = json.loads("""[
     {"kind": "route", "start": 9.0, "pieces": [
         {"kind": "line", "start": [-12.0, -8.0], "end": [0.0, -8.0]},
         {"kind": "arc", "centre": [0.0, -3.0], "radius": 5.0, "start_angle": -1.5707963267948966, "sweep": 1.5}]},
@@ -41,31 +35,31 @@ PATHS: list[dict[str, Any]] = json.loads("""[
 CORNER = PATHS[0]
 
 
-def read(data: bytes, units: Any = None) -> DanceParts:
+def read(data, units=None):
     return places_of(data, units, SAY)
 
 
-def read_json(value: Any, units: Any = None) -> DanceParts:
+def read_json(value, units=None):
     return read(json.dumps(value).encode(), units)
 
 
-def rings(result: DanceParts) -> list[Any]:
+def rings(result):
     return [np.array(ring) for area in result.venue.areas for ring in area.rings]
 
 
-def names(result: DanceParts) -> list[str]:
+def names(result):
     return [area.name for area in result.venue.areas]
 
 
-def map_of(client: httpx.Client, form: str, **body: Any) -> httpx.Response:
+def map_of(client, form, **body):
     return client.post(f"/maps.{form}", json={"dragon": {"benches": 2}, **body}).raise_for_status()
 
 
-def posted(client: httpx.Client, data: bytes | str, kind: str = "application/octet-stream") -> Any:
+def posted(client, data, kind="application/octet-stream"):
     return client.post("/places", content=data, headers={"Content-Type": kind}).raise_for_status().json()
 
 
-def assert_alike(features: list[Any], others: list[Any]) -> None:
+def assert_alike(features, others):
     """The same shapes with the same names and radii, at the same places."""
     for feature, other in zip(features, others, strict=True):
         assert [feature["properties"].get(name) for name in ("name", "radius")] == [
@@ -89,7 +83,7 @@ COLLECTION = {"type": "FeatureCollection", "features": THINGS}
 
 @pytest.mark.parametrize("format", MapFormat)
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path["kind"])
-def test_what_goes_out_comes_in_as_it_was(client: httpx.Client, format: str, path: dict[str, Any]) -> None:
+def test_what_goes_out_comes_in_as_it_was(client, format, path):
     for origin in (ORIGIN, None)[: 1 if format == "kml" else 2]:
         got = posted(client, map_of(client, format, path=path, venue=COLLECTION, origin=origin).content)
         assert {name: value for name, value in got["path"].items() if path.get(name) is not None} == path
@@ -102,17 +96,17 @@ def test_what_goes_out_comes_in_as_it_was(client: httpx.Client, format: str, pat
         assert_alike(read_json(again).geometry["features"], THINGS)
 
 
-def thing(name: str, kind: str, coordinates: Any) -> dict[str, Any]:
+def thing(name, kind, coordinates):
     return {"type": "Feature", "properties": {"name": name}, "geometry": {"type": kind, "coordinates": coordinates}}
 
 
-def test_walls_of_a_drawing_are_drawn_as_wide_as_they_are(client: httpx.Client) -> None:
+def test_walls_of_a_drawing_are_drawn_as_wide_as_they_are(client):
     data = map_of(client, "dxf", path=CORNER, venue=COLLECTION).text
     lines = ezdxf.read(io.StringIO(data)).modelspace().query("LWPOLYLINE")
     assert [wall.dxf.const_width for wall in lines if wall.dxf.hasattr("const_width")] == [0.3, 0.4]
 
 
-def test_marks_stand_every_five_metres_of_the_path(client: httpx.Client) -> None:
+def test_marks_stand_every_five_metres_of_the_path(client):
     features = map_of(client, "geojson", path=CORNER).json()["features"]
     marks = [feature for feature in features if feature["properties"]["role"] == "mark"]
     assert [feature["properties"]["name"] for feature in marks] == ["0", "5", "10", "15"]
@@ -123,7 +117,7 @@ def test_marks_stand_every_five_metres_of_the_path(client: httpx.Client) -> None
     assert_refused(client, "/maps.kml", {"dragon": {"benches": 2}, "path": CORNER}, "{} -> /origin")
 
 
-def test_a_path_whose_line_was_moved_goes_through_the_line() -> None:
+def test_a_path_whose_line_was_moved_goes_through_the_line():
     line = [[0.0, 0.0], [10.0, 1.0], [20.0, 0.0]]
     straight = {"kind": "waypoints", "points": [[0.0, 0.0], [20.0, 0.0]]}
     feature = {"type": "Feature", "properties": {"name": "path", "path": straight},
@@ -133,7 +127,7 @@ def test_a_path_whose_line_was_moved_goes_through_the_line() -> None:
     assert "edited" in result.notes[1]
 
 
-def archived(data: bytes, name: str = "doc.kml") -> bytes:
+def archived(data, name="doc.kml"):
     sink = io.BytesIO()
     with zipfile.ZipFile(sink, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr(name, data)
@@ -152,7 +146,7 @@ KML = """<kml xmlns="http://www.opengis.net/kml/2.2"><Document><name>Temple</nam
 <Placemark><GroundOverlay/></Placemark></Document></kml>"""
 
 
-def test_a_map_drawn_on_a_phone_is_understood() -> None:
+def test_a_map_drawn_on_a_phone_is_understood():
     for data in (KML.encode(), archived(KML.encode())):
         result = read(data)
         assert names(result) == ["square", "camphor"]
@@ -167,7 +161,7 @@ def test_a_map_drawn_on_a_phone_is_understood() -> None:
         assert "Left out: 1 GroundOverlay." in result.notes
 
 
-def test_what_has_no_square_and_no_radius_gets_both() -> None:
+def test_what_has_no_square_and_no_radius_gets_both():
     lines = [[[100.0, 0.0], [104.0, 0.0]], [[100.0, 9.0], [104.0, 9.0]]]
     forms = [("Point", [0.0, 0.0], 0.5), ("Point", [300.0, 40.0], 0.5), *(("LineString", line, 0.1) for line in lines)]
     collection = {"type": "FeatureCollection", "features": [thing("", kind, places) for kind, places, _ in forms]}
@@ -182,13 +176,13 @@ def test_what_has_no_square_and_no_radius_gets_both() -> None:
     assert sum("without a radius" in note for note in result.notes) == 2
 
 
-def placemark(inner: str, before: str = "") -> str:
+def placemark(inner, before=""):
     return (
         f'<kml xmlns="http://www.opengis.net/kml/2.2"><Document>{before}<Placemark>{inner}</Placemark></Document></kml>'
     )
 
 
-def outline(coordinates: str) -> str:
+def outline(coordinates):
     ring = f"<LinearRing><coordinates>{coordinates}</coordinates></LinearRing>"
     return f"<Polygon><outerBoundaryIs>{ring}</outerBoundaryIs></Polygon>"
 
@@ -216,16 +210,14 @@ KML_SQUARE = placemark(f"<name>广场</name>{outline(CORNERS)}")
     ],
     ids=["kml", "kmz", "gb18030", "utf-16"],
 )
-def test_a_map_that_states_no_encoding_is_read_as_chinese_and_windows_programs_write_it(
-    data: bytes, guessed: bool
-) -> None:
+def test_a_map_that_states_no_encoding_is_read_as_chinese_and_windows_programs_write_it(data, guessed):
     result = read(data)
     assert names(result) == ["广场"]
     assert (GUESSED in result.notes) is guessed
 
 
 @pytest.mark.parametrize("coding", ["utf-16", "gb18030"])
-def test_a_dance_of_chinese_and_windows_programs_is_read(coding: str) -> None:
+def test_a_dance_of_chinese_and_windows_programs_is_read(coding):
     result = read('path = {kind = "spiral", pitch = 1.5}\nname = "龙"\n'.encode(coding))
     assert result.dance == {"name": "龙"}
     assert (GUESSED in result.notes) is (coding == "gb18030")
@@ -236,13 +228,13 @@ def test_a_dance_of_chinese_and_windows_programs_is_read(coding: str) -> None:
     [outline(" "), "<Point><coordinates/></Point>", "<LineString><coordinates></coordinates></LineString>", ""],
     ids=["polygon", "point", "line", "nothing"],
 )
-def test_a_map_of_nothing_is_refused(inner: str) -> None:
+def test_a_map_of_nothing_is_refused(inner):
     with pytest.raises(InvalidValue, match="polygon, a line or a point") as refused:
         read(placemark(inner).encode())
     assert refused.value.field == "file"
 
 
-def test_what_is_empty_or_hidden_is_left_out_and_reported() -> None:
+def test_what_is_empty_or_hidden_is_left_out_and_reported():
     point = "<Point><coordinates>119.6405,29.1105</coordinates></Point>"
     # A name in the data is the name where there is no other.
     data = '<ExtendedData><Data name="name"><value>old elm</value></Data></ExtendedData>'
@@ -256,7 +248,7 @@ def test_what_is_empty_or_hidden_is_left_out_and_reported() -> None:
 
 
 @pytest.mark.parametrize("across", [0.0003, 0.1, 0.3, 3.0, 3.5, 60.0])
-def test_places_and_check_agree_about_degrees(client: httpx.Client, across: float) -> None:
+def test_places_and_check_agree_about_degrees(client, across):
     square = box(119.5, 29.0, 119.5 + across, 29.0 + across)
     checked = client.post("/check", json={"dragon": {"benches": 2}, "venue": square})
     taken_for_degrees = "looks like longitude and latitude" in checked.text
@@ -271,7 +263,7 @@ def test_places_and_check_agree_about_degrees(client: httpx.Client, across: floa
     assert again.status_code == 200, again.text
 
 
-def test_a_square_that_check_refuses_is_noted() -> None:
+def test_a_square_that_check_refuses_is_noted():
     square = {"type": "Polygon", "coordinates": [[[0, 0], [2, 0], [2, 2], [0, 0]]]}
     result = read_json(square, "metres")
     assert any("narrower than a bench of 3.41 m: check refuses it" in note for note in result.notes)
@@ -284,7 +276,7 @@ SWAPPED = [[[29.1, 119.6], [29.101, 119.6], [29.101, 119.601], [29.1, 119.6]]]
 COMMAS = "119.6402,29.1102,0,119.6403,29.1103,0\n119.6405,29.1104,0,119.6406,29.1105,0\n119.6408,29.1108,0"
 POINTS = {"type": "MultiPoint", "coordinates": [[k, k] for k in range(20_000)]}
 # The words tell apart what a caller cannot by the field, which is the file.
-REFUSED: list[tuple[bytes | str, str]] = [
+REFUSED = [
     (BOMB, "document type"),
     ('<!DOCTYPE k SYSTEM "file:///etc/passwd"><kml/>', "document type"),
     ("<kml>" + "<Folder>" * 100_000, "deeper than 60"),
@@ -310,7 +302,7 @@ REFUSED: list[tuple[bytes | str, str]] = [
 
 
 @pytest.mark.parametrize(("data", "words"), REFUSED)
-def test_a_file_that_cannot_be_used_is_refused_in_words(data: bytes | str, words: str) -> None:
+def test_a_file_that_cannot_be_used_is_refused_in_words(data, words):
     with pytest.raises(InvalidValue, match=words) as refused:
         read(data.encode() if isinstance(data, str) else data)
     assert refused.value.field.partition(".")[0] == "file"
@@ -319,11 +311,11 @@ def test_a_file_that_cannot_be_used_is_refused_in_words(data: bytes | str, words
 @pytest.mark.parametrize(
     ("query", "kind", "status"), [("", "image/png", 415), ("?units=feet", KML_TYPE, 422), ("", KML_TYPE, 422)]
 )
-def test_the_service_refuses_what_it_cannot_read(client: httpx.Client, query: str, kind: str, status: int) -> None:
+def test_the_service_refuses_what_it_cannot_read(client, query, kind, status):
     assert_problem(client.post(f"/places{query}", content=BOMB, headers={"Content-Type": kind}), status)
 
 
-def test_the_command_takes_a_map_for_a_dance_and_gives_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_command_takes_a_map_for_a_dance_and_gives_one(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("temple.kml").write_text(KML)
     Path("dance.toml").write_text('venue = "temple.kml"\npath = "temple.kml"\nmargin = 0.2\ndragon.benches = 4\n')
@@ -341,10 +333,10 @@ def test_the_command_takes_a_map_for_a_dance_and_gives_one(tmp_path: Path, monke
 LANE = json.loads("""{"dragon": {"benches": 3}, "delay": 9,
     "path": {"kind": "route", "pieces": [{"kind": "line", "start": [-14.0, 6.0], "end": [14.0, 6.0]}]}}""")
 LOW = {"name": "low", "dragon": {"benches": 2}, "path": CORNER}
-TWO: dict[str, Any] = {"dances": [LOW, LANE], "venue": VILLAGE, "origin": ORIGIN, "spacing": 2}
+TWO = {"dances": [LOW, LANE], "venue": VILLAGE, "origin": ORIGIN, "spacing": 2}
 
 
-def test_a_map_of_several_dances_has_the_path_and_the_marks_of_each(client: httpx.Client) -> None:
+def test_a_map_of_several_dances_has_the_path_and_the_marks_of_each(client):
     performance, _ = MapsRequest.model_validate(TWO).to_placed(Settings())
     features = client.post("/maps.geojson", json=TWO).raise_for_status().json()["features"]
     for k, (dance, name) in enumerate(zip(TWO["dances"], ("low", "1"), strict=True)):
@@ -364,20 +356,20 @@ def test_a_map_of_several_dances_has_the_path_and_the_marks_of_each(client: http
 
 
 @pytest.mark.parametrize("format", MapFormat)
-def test_a_map_of_several_is_read_with_its_first_path_and_a_note(client: httpx.Client, format: str) -> None:
+def test_a_map_of_several_is_read_with_its_first_path_and_a_note(client, format):
     result = read(client.post(f"/maps.{format}", json=TWO).raise_for_status().content)
     assert CORNER.items() <= result.path.items()
     assert "2 lines are called path; the first is the path, and the others are left out." in result.notes
     assert len(names(result)) == len(VILLAGE["features"])
 
 
-def test_a_map_has_at_most_two_thousand_marks(client: httpx.Client) -> None:
+def test_a_map_has_at_most_two_thousand_marks(client):
     many = {"spacing": 0.5, "dances": [LANE | {"delay": k} for k in range(40)]}
     assert_refused(client, "/maps.kml", TWO, f"{json.dumps(many)} -> /spacing 2000 2280")
 
 
 @pytest.mark.parametrize("write", [str.upper, str.title, str.lower])
-def test_properties_are_read_however_their_names_are_written(write: Callable[[str], str]) -> None:
+def test_properties_are_read_however_their_names_are_written(write):
     path, well = thing("path", "LineString", [[5, 5], [35, 25]]), thing("well", "Point", [10, 25])
     features = [
         {"type": "Feature", "properties": {"name": "Market", "layer": "square"}, "geometry": SQUARE},
@@ -391,7 +383,7 @@ def test_properties_are_read_however_their_names_are_written(write: Callable[[st
     assert result.path == {"kind": "waypoints", "points": [[5, 5], [35, 25]]}
 
 
-def test_a_line_of_many_points_keeps_those_that_matter_and_says_how_near_it_stays() -> None:
+def test_a_line_of_many_points_keeps_those_that_matter_and_says_how_near_it_stays():
     places = [[0.5 * k, 30.0 if k == 2501 else 0.001 * (k % 2)] for k in range(5003)]
     feature = thing("path", "LineString", places)
     result = read_json(feature, "metres")
@@ -402,7 +394,7 @@ def test_a_line_of_many_points_keeps_those_that_matter_and_says_how_near_it_stay
     assert float(said.split("at most ")[1].split(" m")[0]) <= 0.01
 
 
-def test_a_square_in_parts_that_share_an_edge_is_one_square_also_at_the_date_line() -> None:
+def test_a_square_in_parts_that_share_an_edge_is_one_square_also_at_the_date_line():
     halves = box(179.999, 0, 180, 0.001), box(-180, 0, -179.999, 0.001)
     result = read_json(thing("square", "MultiPolygon", [half["coordinates"] for half in halves]), "degrees")
     assert names(result) == ["square"]

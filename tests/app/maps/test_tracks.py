@@ -1,12 +1,8 @@
 """Walked tracks: thinned and smoothed to what benches follow, at most so far from the walk, with times as passages."""
 
-from __future__ import annotations
-
 import math
 import re
-from typing import Any
 
-import httpx
 import numpy as np
 import pytest
 from scipy.spatial import KDTree
@@ -14,9 +10,8 @@ from scipy.spatial import KDTree
 from app.files.tables import Language
 from app.files.words import Say
 from app.maps.gpx import seconds_of
-from app.maps.layout import DanceParts
 from app.maps.places import places_of
-from app.maps.tracks import APART, CHORD, PASSAGES, POINTS_MOST, Walk, apart, evenly, passages_of, smoothed, walk_of
+from app.maps.tracks import APART, CHORD, PASSAGES, POINTS_MOST, apart, evenly, passages_of, smoothed, walk_of
 from app.wire.question import BYTES
 from core import Dragon, InvalidValue, Legs
 from core.paths.following import tightest_bend
@@ -27,37 +22,37 @@ REST = (80.0, 140.0)  # [s] of standing still
 NOISE = 1.2  # [m]
 
 
-def walked(times: np.ndarray) -> np.ndarray:
+def walked(times):
     """Places of somebody who walks around a square at 1 m/s, and stands still for a minute."""
     way = times - np.clip(times - REST[0], 0.0, REST[1] - REST[0])
     s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(CORNERS, axis=0).T))])
     return np.column_stack([np.interp(way, s, axis) for axis in CORNERS.T])
 
 
-def read(data: bytes | str, language: Language = Language.ENGLISH) -> DanceParts:
+def read(data, language=Language.ENGLISH):
     return places_of(data.encode() if isinstance(data, str) else data, None, Say(language))
 
 
-def walk_along(points: np.ndarray, times: np.ndarray | None, *chord: float) -> tuple[Walk, Legs]:
+def walk_along(points, times, *chord):
     walk = walk_of(points, times, *chord)
     return walk, Legs([tuple(one) for one in walk.points.tolist()])
 
 
-def noisy(seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
+def noisy(seed=1):
     times = np.arange(0.0, 250.0)
     drift = np.random.default_rng(seed).normal(0.0, NOISE, (len(times) + 19, 2))
     smooth = np.column_stack([np.convolve(axis, np.full(20, 20**-0.5), "valid") for axis in drift.T])
     return walked(times) + smooth, times
 
 
-def farthest(points: np.ndarray, path: Legs) -> float:
+def farthest(points, path):
     """How far the points are from a path at most [m]."""
     line = path.position(np.linspace(path.begin, path.end, 4_000))
     return float(KDTree(line).query(points)[0].max())
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_a_noisy_walk_becomes_a_path_that_benches_follow(seed: int) -> None:
+def test_a_noisy_walk_becomes_a_path_that_benches_follow(seed):
     points, times = noisy(seed)
     walk, path = walk_along(points, times)
     assert walk.is_easy
@@ -68,7 +63,7 @@ def test_a_noisy_walk_becomes_a_path_that_benches_follow(seed: int) -> None:
     assert walk.points[[0, -1]] == pytest.approx(points[[0, -1]], abs=1e-9)
 
 
-def test_a_coil_that_no_smoothing_makes_easy_keeps_its_turns_within_the_noise() -> None:
+def test_a_coil_that_no_smoothing_makes_easy_keeps_its_turns_within_the_noise():
     theta = np.sqrt(np.linspace(1.0, (12.0 * np.pi) ** 2, 290))
     coil = (1.5 / (2.0 * np.pi) * theta)[:, None] * np.column_stack([np.cos(theta), np.sin(theta)])
     walk, path = walk_along(coil + np.random.default_rng(10).normal(0.0, 0.3, coil.shape), None)
@@ -80,7 +75,7 @@ def test_a_coil_that_no_smoothing_makes_easy_keeps_its_turns_within_the_noise() 
 
 
 @pytest.mark.parametrize("chord", [1.5, 4.0])
-def test_a_walk_is_smoothed_as_the_longest_bench_needs(chord: float) -> None:
+def test_a_walk_is_smoothed_as_the_longest_bench_needs(chord):
     points, _ = noisy()
     (walk, path), (usual, _) = walk_along(points, None, chord), walk_along(points, None)
     assert (walk.width < usual.width) is (chord < CHORD)
@@ -90,7 +85,7 @@ def test_a_walk_is_smoothed_as_the_longest_bench_needs(chord: float) -> None:
 
 @pytest.mark.parametrize("noise", [0.8, 1.5])
 @pytest.mark.parametrize("seed", range(3))
-def test_noise_of_every_point_is_no_change_of_speed(noise: float, seed: int) -> None:
+def test_noise_of_every_point_is_no_change_of_speed(noise, seed):
     """One pace, a pause, the same pace: not a passage for each few metres of noise."""
     times = np.arange(0.0, 250.0)
     points = walked(times) + np.random.default_rng(seed).normal(0.0, noise, (len(times), 2))
@@ -100,13 +95,13 @@ def test_noise_of_every_point_is_no_change_of_speed(noise: float, seed: int) -> 
     assert walk.passages[1]["speed"] == 0.0
 
 
-def test_points_that_are_noise_alone_are_no_path() -> None:
+def test_points_that_are_noise_alone_are_no_path():
     points = np.random.default_rng(0).normal(0.0, 30.0, (250, 2))
     with pytest.raises(InvalidValue, match=r"smoothed over 14\.6 m$"):
         walk_of(points, None)
 
 
-def test_times_that_do_not_grow_are_none_and_many_speeds_become_few() -> None:
+def test_times_that_do_not_grow_are_none_and_many_speeds_become_few():
     assert passages_of(np.zeros(5), np.arange(5.0)) is None
     assert passages_of(np.array([math.nan, 1.0, 2.0]), np.arange(3.0)) is None
     assert passages_of(np.array([0.0, math.nan, 2.0]), np.arange(3.0)) == [{"speed": 1.0, "until_time": 2.0}]
@@ -117,7 +112,7 @@ def test_times_that_do_not_grow_are_none_and_many_speeds_become_few() -> None:
     assert np.diff(ends, prepend=0.0) @ speeds == pytest.approx(places[-1], rel=0.01)
 
 
-def test_thinning_and_smoothing_keep_a_straight_way_and_its_ends() -> None:
+def test_thinning_and_smoothing_keep_a_straight_way_and_its_ends():
     way = np.column_stack([np.linspace(0.0, 50.0, 501), np.full(501, 3.0)])
     assert (np.hypot(*np.diff(apart(way), axis=0).T) >= 0.5 * APART).all()
     assert apart(way)[-1].tolist() == [50.0, 3.0]
@@ -127,15 +122,15 @@ def test_thinning_and_smoothing_keep_a_straight_way_and_its_ends() -> None:
     assert walk_along(np.repeat(way, 1 + 2 * POINTS_MOST // len(way), axis=0), None)[0].largest < 1e-6
 
 
-def track(points: list[str], name: str = "walk") -> str:
+def track(points, name="walk"):
     return f"<trk><name>{name}</name><trkseg>{''.join(points)}</trkseg></trk>"
 
 
-def gpx(points: list[str]) -> bytes:
+def gpx(points):
     return f"<gpx><wpt lat='48.0001' lon='9.0003'/>{track(points)}</gpx>".encode()
 
 
-def point(k: int, time: str | None = None) -> str:
+def point(k, time=None):
     stamp = "" if time is None else f"<time>{time}</time>"
     return f"<trkpt lat='{48 + 1e-5 * k:.6f}' lon='9'>{stamp}</trkpt>"
 
@@ -143,7 +138,7 @@ def point(k: int, time: str | None = None) -> str:
 LANE = [point(k, f"2026-11-27T10:{k // 60:02d}:{k % 60:02d}Z") for k in range(70)]
 
 
-def test_gpx_is_a_path_with_its_waypoints_as_obstacles() -> None:
+def test_gpx_is_a_path_with_its_waypoints_as_obstacles():
     # A point without a time does not end the times.
     lane = [re.sub("<time>.*</time>", "", one) if k in (30, 31, 45) else one for k, one in enumerate(LANE)]
     for points in (LANE, lane):
@@ -157,15 +152,15 @@ def test_gpx_is_a_path_with_its_waypoints_as_obstacles() -> None:
     assert "轨迹没有递增的时间。" in without.notes
 
 
-def test_the_service_smooths_a_walk_for_the_longest_bench(client: httpx.Client) -> None:
+def test_the_service_smooths_a_walk_for_the_longest_bench(client):
     bent = [f"<trkpt lat='{48 + 1e-4 * min(k, 20):.6f}' lon='{9 + 1e-4 * max(k - 20, 0):.6f}'/>" for k in range(40)]
-    file: dict[str, Any] = {"content": gpx(bent), "headers": {"Content-Type": BYTES}}
+    file = {"content": gpx(bent), "headers": {"Content-Type": BYTES}}
     notes = client.post("/places?longest_chord=40", **file).raise_for_status().json()["notes"]
     assert any(note.endswith("m, which a bench needs whose handles are 40.00 m apart.") for note in notes)
     assert_problem(client.post("/places?longest_chord=51", **file), 422, "longest_chord 50 51")
 
 
-def test_a_track_of_kml_is_a_path_and_a_place_that_is_missing_has_no_time() -> None:
+def test_a_track_of_kml_is_a_path_and_a_place_that_is_missing_has_no_time():
     when = "".join(f"<when>2026-11-27T10:00:{k:02d}Z</when>" for k in range(60))
     where = "".join(f"<gx:coord>{'' if k == 30 else f'9 {48 + 1e-5 * k:.6f} 5'}</gx:coord>" for k in range(60))
     space = "xmlns:gx='http://www.google.com/kml/ext/2.2'"
@@ -174,7 +169,7 @@ def test_a_track_of_kml_is_a_path_and_a_place_that_is_missing_has_no_time() -> N
     assert len(parts.path["points"]) > 1
 
 
-def test_of_several_tracks_the_longest_is_danced_and_a_line_called_path_before_all() -> None:
+def test_of_several_tracks_the_longest_is_danced_and_a_line_called_path_before_all():
     two = f"<gpx>{track(LANE[:30], 'a')}{track(LANE, 'b')}"
     notes = read(f"{two}</gpx>").notes
     assert any("the track b" in note for note in notes)
@@ -195,11 +190,11 @@ def test_of_several_tracks_the_longest_is_danced_and_a_line_called_path_before_a
         (b"<gpx>" + b"<a>" * 70, "deeper than 60"),
     ],
 )
-def test_a_wrong_file_is_refused_in_one_sentence(data: bytes, words: str) -> None:
+def test_a_wrong_file_is_refused_in_one_sentence(data, words):
     with pytest.raises(InvalidValue, match=words):
         read(data)
 
 
-def test_times_are_read_with_any_offset() -> None:
+def test_times_are_read_with_any_offset():
     assert seconds_of("2026-11-27T08:00:00+08:00") == seconds_of("2026-11-27T00:00:00Z")
     assert math.isnan(seconds_of("noon"))
