@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, ViewportSize, expect, sync_playwright
+from playwright.sync_api import Page, expect, sync_playwright
 
 from tests.support.browser import browser_path
 from tests.support.pending import settled
@@ -25,7 +23,7 @@ ARGUMENTS = [
     "--disable-component-update",
     "--disable-sync",
 ]
-WIDE: Any = {"width": 1440, "height": 900}
+WIDE = {"width": 1440, "height": 900}
 HOME, EASY = "?time=end", "?benches=5&time=end"
 TIMEOUT = 60_000  # [ms]; no test waits this long for what is coming, however busy the machine
 
@@ -60,7 +58,7 @@ BUSY = (f"{REFUSED}503 (Service Unavailable)", f"{REFUSED}429 (Too Many Requests
 
 
 @pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
+def browser():
     """One browser for all tests of a process: starting one costs two seconds of a core."""
     expect.set_options(timeout=TIMEOUT)
     with sync_playwright() as playwright:
@@ -70,7 +68,7 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="session")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def server(tmp_path_factory):
     """Base URL of the real service of these tests, which is patient."""
     with serving(tmp_path_factory.mktemp("page") / "server.log", deadline_seconds=DEADLINE) as service:
         yield service.url
@@ -80,7 +78,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 READBACK = "Canvas2D: Multiple readback operations"
 
 
-def is_fault(message: Any) -> bool:
+def is_fault(message):
     """Whether a message on the console is an error or a warning of the page."""
     return message.type in ("error", "warning") and not message.text.startswith(READBACK)
 
@@ -99,7 +97,7 @@ class Watched:
     requests: list[str] = field(default_factory=list)
     failing: bool = False  # requests of this page are meant to fail
 
-    def check(self) -> None:
+    def check(self):
         lines, request = [line for line in self.messages if line not in BUSY], list(self.requests)
         self.messages.clear()
         self.requests.clear()
@@ -109,7 +107,7 @@ class Watched:
         ]
         assert strangers == []
 
-    def leave(self) -> None:
+    def leave(self):
         """Empty the tab, so that it is like a new one."""
         options = json.loads(self.way)
         self.page.unroute_all()
@@ -125,12 +123,12 @@ class Watched:
 class Tabs:
     """Tabs of the browser, of which the empty ones are used again; tabs with the same options share a cache."""
 
-    def __init__(self, browser: Browser) -> None:
+    def __init__(self, browser):
         self.browser = browser
-        self._contexts: dict[str, BrowserContext] = {}
-        self._empty: dict[str, list[Watched]] = {}
+        self._contexts = {}
+        self._empty = {}
 
-    def opened(self, address: str, base: str, without: str = "", **options: Any) -> Watched:
+    def opened(self, address, base, without="", **options):
         """A page that loads anew. In an empty tab it takes three quarters of the processor time of one in a new tab."""
         way = json.dumps({"viewport": WIDE, "locale": "en-GB", **options}, sort_keys=True)
         one = self._empty[way].pop() if self._empty.get(way) else self._new(way)
@@ -140,7 +138,7 @@ class Tabs:
         one.page.goto(f"{base}/{address}")
         return one
 
-    def _new(self, way: str) -> Watched:
+    def _new(self, way):
         if way not in self._contexts:
             self._contexts[way] = self.browser.new_context(**json.loads(way))
             self._contexts[way].set_default_timeout(TIMEOUT)
@@ -151,7 +149,7 @@ class Tabs:
         page.on("request", lambda request: one.requests.append(request.url))
         return one
 
-    def take_back(self, one: Watched, base: str) -> None:
+    def take_back(self, one, base):
         """Take a tab back, and check its page. base: of the service to which tabs return; others are closed"""
         if one.base == base:
             one.leave()
@@ -162,12 +160,12 @@ class Tabs:
 
 
 @pytest.fixture(scope="session")
-def tabs(browser: Browser) -> Tabs:
+def tabs(browser):
     return Tabs(browser)
 
 
 @pytest.fixture
-def open_page(tabs: Tabs, server: str) -> Iterator[Callable[..., Person]]:
+def open_page(tabs, server):
     """open_page(query, failing=False, base=server, without="", **options of the context): a page of this test alone.
 
     query: by default that of the dance at its end, at rest; a bare address opens in motion
@@ -175,17 +173,9 @@ def open_page(tabs: Tabs, server: str) -> Iterator[Callable[..., Person]]:
     failing: requests of this page are meant to fail, of which the browser itself writes a line
     without: pattern of the requests that get no answer
     """
-    pages: list[Watched] = []
+    pages = []
 
-    def opened(
-        query: str = HOME,
-        *,
-        failing: bool = False,
-        base: str = server,
-        without: str = "",
-        rest: bool = True,
-        **options: Any,
-    ) -> Person:
+    def opened(query=HOME, *, failing=False, base=server, without="", rest=True, **options):
         one = tabs.opened(query, base, without, **options)
         one.failing = failing
         pages.append(one)
@@ -198,21 +188,21 @@ def open_page(tabs: Tabs, server: str) -> Iterator[Callable[..., Person]]:
 
 
 @pytest.fixture(scope="session")
-def kept() -> dict[str, Watched]:
+def kept():
     """The pages of `visit`, each by its options."""
     return {}
 
 
 @pytest.fixture
-def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callable[..., Person]]:
+def visit(tabs, kept, server):
     """visit(query, failing=False, **options of the context): the page at this address, at rest.
 
     Tests share it: it is loaded once, and goes from address to address as by the browser's buttons. A page whose slow
     charts were looked at asks for them at every address, so a new one takes its place.
     """
-    pages: set[str] = set()
+    pages = set()
 
-    def visited(query: str = HOME, *, failing: bool = False, **options: Any) -> Person:
+    def visited(query=HOME, *, failing=False, **options):
         key = json.dumps(options, sort_keys=True)
         if key in kept:
             go(kept[key].page, query, options.get("viewport", WIDE))
@@ -223,7 +213,7 @@ def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callabl
         pages.add(key)
         return Person(kept[key].page)
 
-    def go(page: Page, query: str, viewport: ViewportSize | None) -> None:
+    def go(page, query, viewport):
         page.unroute_all()
         if viewport and page.viewport_size != viewport:
             page.set_viewport_size(viewport)

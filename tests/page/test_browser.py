@@ -1,7 +1,5 @@
 """The search of the page tests for a browser, and the message of a run without one."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -19,14 +17,14 @@ LEFT_OUT = "tests are left out: no Chrome or Chromium starts here"
 pytestmark = pytest.mark.uncompiled
 
 
-def program(path: Path, says: str, code: int = 0) -> str:
+def program(path, says, code=0):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(f"#!/bin/sh\nprintf '%s' '{says}'\nexit {code}\n")
     path.chmod(0o755)
     return str(path)
 
 
-def bare(folder: Path) -> dict[str, str]:
+def bare(folder):
     """An environment that names no browser."""
     unset = ("CHROME", "EVERY_TEST", "PLAYWRIGHT_BROWSERS_PATH", "XDG_CACHE_HOME")
     kept = {name: value for name, value in os.environ.items() if name not in unset}
@@ -43,15 +41,15 @@ def bare(folder: Path) -> dict[str, str]:
     ],
     ids=["chromium", "stub", "another"],
 )
-def test_a_browser_is_what_says_that_it_is_one(tmp_path: Path, says: str, code: int, works: bool) -> None:
+def test_a_browser_is_what_says_that_it_is_one(tmp_path, says, code, works):
     assert starts(program(tmp_path / "chromium", says, code)) is works
 
 
-def test_what_is_missing_is_no_browser(tmp_path: Path) -> None:
+def test_what_is_missing_is_no_browser(tmp_path):
     assert not starts(str(tmp_path / "nothing"))
 
 
-def without_browser(folder: Path, *arguments: str, **more: str) -> subprocess.CompletedProcess[str]:
+def without_browser(folder, *arguments, **more):
     """A run of pytest on a machine without a browser, in every process that it starts."""
     (folder / "without_browser.py").write_text(WITHOUT)
     environment = bare(folder) | {"PYTEST_PLUGINS": "without_browser", "PYTHONPATH": f"{folder}:{ROOT}"} | more
@@ -59,12 +57,12 @@ def without_browser(folder: Path, *arguments: str, **more: str) -> subprocess.Co
     return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
 
 
-def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path: Path) -> None:
+def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path):
     done = without_browser(tmp_path, "--collect-only", "tests/page", DEEP="1")
     assert (done.stdout.count(LEFT_OUT), "test_everyone.py" in done.stdout) == (1, False)
 
 
-def test_where_every_test_must_run_a_missing_browser_is_an_error(tmp_path: Path) -> None:
+def test_where_every_test_must_run_a_missing_browser_is_an_error(tmp_path):
     # Of modules that import little.
     here = "tests/page/test_browser.py::test_what_is_missing_is_no_browser"
     done = without_browser(tmp_path, "tests/page/test_everyone.py", here, EVERY_TEST="1")

@@ -1,18 +1,14 @@
 """The view of one carrier: its bench, its cues, its clock, and a network that goes away."""
 
-from __future__ import annotations
-
 import math
 import re
 from datetime import datetime, timedelta
-from pathlib import Path
-from typing import Any
 
 import pytest
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.person import PHONE, Person
+from tests.support.person import PHONE
 from tests.support.serving import free_port, serving
 
 thorough = pytest.mark.thorough
@@ -46,14 +42,14 @@ SIZES = """() => [...new Set([...document.querySelectorAll("body *")].filter((on
 AHEAD = "presses => { for (let k = 0; k < presses; k++) document.querySelector(\"[data-correct='5']\").click(); }"
 
 
-def card(server: str, language: str = "en", **more: Any) -> Any:
+def card(server, language="en", **more):
     """The card of bench 7 of the spiral with 20 benches, up to its first contact."""
     stop = polite.answer(server, "collision-time", benches=20)["time"]
     body = {"dragon": DRAGON, "path": SPIRAL, "start": 0, "stop": stop, "cards": [7], "language": language} | more
     return polite.answer(server, "cues", body)["cards"][0]
 
 
-def card_of_two(server: str, dragon: int, language: str) -> Any:
+def card_of_two(server, dragon, language):
     """The card of bench 7 of one of two dragons, up to their encounter."""
     names = ["A", {"en": "blue", "zh": "蓝龙"}[language]]
     own = [{"name": name, "dragon": DRAGON, "path": path} for name, path in zip(names, SPIRALS, strict=True)]
@@ -63,25 +59,25 @@ def card_of_two(server: str, dragon: int, language: str) -> Any:
     return polite.answer(server, "cues", body)["cards"][0]
 
 
-def words_of(cues: list[Any]) -> list[str]:
+def words_of(cues):
     return [cue["words"] for cue in cues]
 
 
-def cues_of(person: Person) -> list[str]:
+def cues_of(person):
     return person.texts(f"{LIST} span:last-child")
 
 
-def held(person: Person) -> Person:
+def held(person):
     person.at("#carrier[data-held=true]").wait_for()
     return person
 
 
-def seconds(clock: str) -> int:
+def seconds(clock):
     """A duration such as 6:06 in seconds."""
     return sum(int(part) * 60**k for k, part in enumerate(reversed(clock.split(":"))))
 
 
-def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page: Any, server: str) -> None:
+def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page, server):
     """The language is changed on the way; in both the screen stays on if the browser lets it."""
     person = held(open_page("?benches=20&bench=7&lang=en", permissions=["screen-wake-lock"], **PHONE))
     own = card(server)
@@ -110,9 +106,7 @@ def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page: Any, 
 
 
 @thorough
-def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(
-    open_page: Any, server: str, tmp_path: Path
-) -> None:
+def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(open_page, server, tmp_path):
     port = free_port()
     base = f"http://127.0.0.1:{port}"
     with serving(tmp_path / "gone.log", port=port, deadline_seconds=PATIENT):
@@ -129,9 +123,7 @@ def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(
 
 
 @thorough
-def test_with_a_time_of_day_the_card_goes_by_the_clock_and_its_times_are_the_printed_ones(
-    open_page: Any, server: str
-) -> None:
+def test_with_a_time_of_day_the_card_goes_by_the_clock_and_its_times_are_the_printed_ones(open_page, server):
     begun = datetime.now() - timedelta(seconds=30)
     clock = begun.strftime("%H:%M:%S")
     person = held(open_page(f"?benches=20&bench=7&lang=en&start_clock={clock.replace(':', '%3A')}", rest=False))
@@ -144,9 +136,7 @@ def test_with_a_time_of_day_the_card_goes_by_the_clock_and_its_times_are_the_pri
 
 
 @thorough
-def test_the_view_opens_from_the_page_chooses_benches_and_dragons_and_closes_where_it_was(
-    open_page: Any, server: str
-) -> None:
+def test_the_view_opens_from_the_page_chooses_benches_and_dragons_and_closes_where_it_was(open_page, server):
     person = open_page("?benches=20&time=100&handle=4&lang=en").reaches_below().presses("#card-follow")
     assert held(person).address()["bench"] == "4"
     person.types({"#card-bench": "12"}).reads({"#carrier h1": "body 12"}).arrives("**bench=12**")

@@ -1,12 +1,9 @@
 """A spiral and a turn on the page: what a person sees, moves and keeps, against the service's own answers."""
 
-from __future__ import annotations
-
 import json
 import re
 import shlex
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
-from typing import Any
 
 import pypdfium2
 import pytest
@@ -15,7 +12,7 @@ from playwright.sync_api import expect
 from core import Dragon, minimum_pitch
 from core.design.pitch_bands import BORDER_WIDTH
 from tests.support import polite
-from tests.support.person import Person, alike
+from tests.support.person import alike
 
 thorough = pytest.mark.thorough
 TOUCHING = re.compile(r"touch|meet|contact|overlap|碰|重叠", re.IGNORECASE)
@@ -53,31 +50,31 @@ THREE = """() => new Promise((resolve) => {
 })"""
 
 
-def answer_of(server: str, call: str, **query: Any) -> Any:
+def answer_of(server, call, **query):
     return polite.answer(server, call, **query)
 
 
-def collision_time(server: str, **query: Any) -> Any:
+def collision_time(server, **query):
     return answer_of(server, "collision-time", **query)
 
 
-def bounded(value: float, decimals: int, way: str) -> str:
+def bounded(value, decimals, way):
     """A bound rounded to one side."""
     return str(Decimal(value).quantize(Decimal(1).scaleb(-decimals), way))
 
 
-def clock(person: Person) -> float:
+def clock(person):
     return float(person.text("#clock").removesuffix(" s"))
 
 
-def watched(person: Person, server: str) -> list[str]:
+def watched(person, server):
     """Calls of the service from now on."""
-    calls: list[str] = []
+    calls = []
     person.page.on("request", lambda request: calls.append(request.url.removeprefix(f"{server}/")))
     return calls
 
 
-def test_the_first_view_shows_the_contact_its_proof_and_how_every_answer_is_known(visit: Any, server: str) -> None:
+def test_the_first_view_shows_the_contact_its_proof_and_how_every_answer_is_known(visit, server):
     person, answer, least = visit(), collision_time(server), answer_of(server, "minimum-pitch")
     low, high = (
         bounded(end, 10, way) for end, way in zip(answer["time_bracket"], (ROUND_FLOOR, ROUND_CEILING), strict=True)
@@ -106,7 +103,7 @@ def test_the_first_view_shows_the_contact_its_proof_and_how_every_answer_is_know
     assert person.ask(INLINE) == 0
 
 
-def test_limits_and_units_are_the_services_own(visit: Any, server: str) -> None:
+def test_limits_and_units_are_the_services_own(visit, server):
     limits = visit("?benches=5&time=end").ask(LIMITS)
     schemas = polite.answer(server, "openapi.json")["paths"]["/collision-time"]["get"]["parameters"]
     for name, schema in ((one["name"], one["schema"]) for one in schemas if "enum" not in one["schema"]):
@@ -117,9 +114,7 @@ def test_limits_and_units_are_the_services_own(visit: Any, server: str) -> None:
         assert limits[name][1] == unit
 
 
-def test_a_dragged_number_has_the_answers_of_the_service_and_the_engines_judge_all_when_the_hand_rests(
-    visit: Any, server: str
-) -> None:
+def test_a_dragged_number_has_the_answers_of_the_service_and_the_engines_judge_all_when_the_hand_rests(visit, server):
     person = visit("?benches=40&time=end").presses("#minimum-pitch summary", "#first-contact summary")
     person.sees({"#minimum-pitch caption": "judged all 40 benches. They agree."})
     calls = watched(person, server)
@@ -145,7 +140,7 @@ def test_a_dragged_number_has_the_answers_of_the_service_and_the_engines_judge_a
     person.sees({"#table-time": person.text("#clock")})
 
 
-def test_the_dance_plays_to_the_contact_and_its_rows_stay_under_the_mouse(visit: Any, server: str) -> None:
+def test_the_dance_plays_to_the_contact_and_its_rows_stay_under_the_mouse(visit, server):
     person = visit("?benches=40&time=400&rate=10").reads({"#clock": "400.000000 s"}).sees({"#inset": False})
     row = person.at("#rows tr[data-handle='5']").element_handle()
     text = row.inner_text()
@@ -166,7 +161,7 @@ VERDICTS = {
 }
 
 
-def test_a_dance_passes_in_green_alone_and_a_fold_is_as_clear_as_a_contact(visit: Any, server: str) -> None:
+def test_a_dance_passes_in_green_alone_and_a_fold_is_as_clear_as_a_contact(visit, server):
     for query, (outcome, mark, tone) in VERDICTS.items():
         person = visit(query)
         person.sees({f"#first-contact[data-outcome={outcome}] .value": re.compile(f"^{mark} ?.+")})
@@ -182,7 +177,7 @@ def test_a_dance_passes_in_green_alone_and_a_fold_is_as_clear_as_a_contact(visit
 
 
 @thorough
-def test_overlaps_margins_and_undecided_searches_are_told_in_both_languages(visit: Any, server: str) -> None:
+def test_overlaps_margins_and_undecided_searches_are_told_in_both_languages(visit, server):
     for margin in (0, 0.2):
         depth = f"{-1000 * collision_time(server, benches=40, pitch=0.3, margin=margin)['gap']:.3f} mm"
         person = visit(f"?benches=40&pitch=0.3&margin={margin}").presses("#first-contact summary")
@@ -209,7 +204,7 @@ def test_overlaps_margins_and_undecided_searches_are_told_in_both_languages(visi
     person.speaks("zh").page.locator("#first-contact .method", has_text="之前无法判定，届时").wait_for(state="attached")
 
 
-def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: Any, server: str) -> None:
+def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit, server):
     person = visit("?benches=40&stray=0.02")
     contact = collision_time(server, benches=40, stray=0.02)
     pitch = f"{answer_of(server, 'minimum-pitch', benches=40, stray=0.02)['pitch']:.9f} m"
@@ -228,7 +223,7 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: A
 
 
 @thorough
-def test_strays_margins_and_play_stand_in_one_sentence_and_the_ground_is_drawn(visit: Any, server: str) -> None:
+def test_strays_margins_and_play_stand_in_one_sentence_and_the_ground_is_drawn(visit, server):
     time = f"{collision_time(server, benches=12, margin=0.03, stray=0.025)['time']:.6f} s"
     person = visit("?benches=12&margin=0.03&stray=0.02&hole=0.055&pin=0.045")
     person.sees({"#first-contact": ["2.5 cm", f"May come within 0.03 m from {time}"]})
@@ -240,9 +235,7 @@ def test_strays_margins_and_play_stand_in_one_sentence_and_the_ground_is_drawn(v
     assert alike(person.picture(), before)
 
 
-def test_the_turn_has_the_answers_of_the_service_and_none_of_them_stays_on_a_spiral(
-    open_page: Any, server: str
-) -> None:
+def test_the_turn_has_the_answers_of_the_service_and_none_of_them_stays_on_a_spiral(open_page, server):
     person = open_page("?head_speed=1.5&benches=20").presses("[data-path=turn]")
     times = {"start": -100 / 1.5, "stop": 100 / 1.5}
     body = {"dragon": {"benches": 20}, "path": {"kind": "turn", "pitch": 1.7}, "head_speed": 1.5, **times}
@@ -268,7 +261,7 @@ def test_the_turn_has_the_answers_of_the_service_and_none_of_them_stays_on_a_spi
 
 
 @thorough
-def test_all_numbers_are_in_view_explained_and_what_answers_offer_is_danced(open_page: Any, server: str) -> None:
+def test_all_numbers_are_in_view_explained_and_what_answers_offer_is_danced(open_page, server):
     person = open_page("?path=turn&benches=20").sees({".field .help:visible": 17, ".field .what:empty": 0})
     person.types({"#ratio": "1.5", "#speed_limit": "1.8"}, "Tab")
     fastest = answer_of(server, "maximum-head-speed", benches=20, ratio=1.5, speed_limit=1.8)["head_speed"]
@@ -286,9 +279,7 @@ def test_all_numbers_are_in_view_explained_and_what_answers_offer_is_danced(open
 
 
 @thorough
-def test_slow_charts_are_asked_for_when_somebody_scrolls_to_them_and_a_click_sets_the_pitch(
-    open_page: Any, server: str
-) -> None:
+def test_slow_charts_are_asked_for_when_somebody_scrolls_to_them_and_a_click_sets_the_pitch(open_page, server):
     person = open_page("?benches=20&time=end")
     calls = watched(person, server)
     person.types({"#width": "0.29"}, "Tab").settles()
@@ -313,7 +304,7 @@ def test_slow_charts_are_asked_for_when_somebody_scrolls_to_them_and_a_click_set
 
 
 @thorough
-def test_the_pitch_chart_has_a_first_look_which_never_replaces_its_jumps(open_page: Any) -> None:
+def test_the_pitch_chart_has_a_first_look_which_never_replaces_its_jumps(open_page):
     person = open_page("?benches=12")
     person.page.route(lambda url: "/pitch-scan" in url and "locate" not in url, lambda route: None)
     person.at("#scan .plot").scroll_into_view_if_needed()
@@ -328,7 +319,7 @@ def test_the_pitch_chart_has_a_first_look_which_never_replaces_its_jumps(open_pa
     person.settles().sees({"#scan:not(.coarse) .uplot": True})
 
 
-def test_what_is_chosen_and_changed_is_shared_and_opens_as_the_same_state(open_page: Any) -> None:
+def test_what_is_chosen_and_changed_is_shared_and_opens_as_the_same_state(open_page):
     person = open_page("?benches=12&time=0&view=8.8,0,40").sees({"#table-time": "0.000000"})
     # Rows that move or are drawn anew under the mouse take no click: the charts above them are drawn first.
     person.reaches("#handles")
@@ -348,7 +339,7 @@ def test_what_is_chosen_and_changed_is_shared_and_opens_as_the_same_state(open_p
 
 
 @thorough
-def test_two_thousand_benches_are_drawn_and_listed_and_two_cannot_touch(visit: Any, server: str) -> None:
+def test_two_thousand_benches_are_drawn_and_listed_and_two_cannot_touch(visit, server):
     person = visit("?benches=2000&time=0").sees({"#table-time": "0.000000"})
     person.at("#rows").press("ArrowUp")
     person.at("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
@@ -359,7 +350,7 @@ def test_two_thousand_benches_are_drawn_and_listed_and_two_cannot_touch(visit: A
 
 
 @thorough
-def test_a_turn_opens_at_the_pitch_of_the_contest_and_reduced_motion_moves_in_steps(open_page: Any) -> None:
+def test_a_turn_opens_at_the_pitch_of_the_contest_and_reduced_motion_moves_in_steps(open_page):
     person = open_page("?path=turn&benches=20", without="**/shortest-turn*", rest=False).holds({"#pitch": "1.7"})
     # The figure of a dance without a contact is of the part that is shown.
     person.at("#keep").scroll_into_view_if_needed()
@@ -371,7 +362,7 @@ def test_a_turn_opens_at_the_pitch_of_the_contest_and_reduced_motion_moves_in_st
 
 
 @thorough
-def test_everything_can_be_kept_and_every_command_gives_what_the_page_shows(open_page: Any, server: str) -> None:
+def test_everything_can_be_kept_and_every_command_gives_what_the_page_shows(open_page, server):
     person = open_page("?benches=9&pitch=0.5&start_turns=10").reaches()
     answer = collision_time(server, benches=9, pitch=0.5, start_turns=10)
     files = {"Trajectory-XLSX": b"PK", "Picture-PNG": b"\x89PNG", "Instant-PNG": b"\x89PNG", "Contact-SVG": b"<?xml"}
@@ -397,7 +388,7 @@ def test_everything_can_be_kept_and_every_command_gives_what_the_page_shows(open
 
 
 @thorough
-def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open_page: Any) -> None:
+def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open_page):
     person = open_page("?benches=20", color_scheme="dark")
     person.page.emulate_media(media="print", color_scheme="dark")
     # Charts that nobody has looked at are missing in the first print, and are there in the next one.

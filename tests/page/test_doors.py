@@ -1,17 +1,13 @@
 """Doors to the page: what a person came for decides which numbers and answers stand there; the village has most."""
 
-from __future__ import annotations
-
 import json
 import re
-from typing import Any
 from zipfile import ZipFile
 
 import pytest
 from playwright.sync_api import expect
 
 from tests.support.job_service import wait_for
-from tests.support.person import Person
 from tests.support.qr_reader import read_qr
 
 thorough = pytest.mark.thorough
@@ -30,21 +26,21 @@ MODULES = """canvas => {
 }"""
 
 
-def numbers(person: Person) -> list[str]:
+def numbers(person):
     """Names of the numbers in sight."""
     return person.all(".field:visible").evaluate_all("all => all.map((one) => one.dataset.field)")
 
 
-def without(**changes: Any) -> Any:
+def without(**changes):
     """A handler of a request that changes its body."""
 
-    def changed(route: Any) -> None:
+    def changed(route):
         route.continue_(post_data=json.dumps({**route.request.post_data_json, **changes}))
 
     return changed
 
 
-def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open_page: Any) -> None:
+def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open_page):
     person = open_page("", reduced_motion="reduce").sees({"#arrival button": 3})
     assert numbers(person) == []
     person.presses("#arrival [data-door=contest]").arrives("**door=contest**")
@@ -65,7 +61,7 @@ def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open
 
 
 @thorough
-def test_behind_a_door_numbers_are_as_people_say_them_and_each_is_one_tab_stop(visit: Any) -> None:
+def test_behind_a_door_numbers_are_as_people_say_them_and_each_is_one_tab_stop(visit):
     person = visit("?door=contest&time=end")
     people = {
         "#first-contact .value": "✕Contact at 412.47 s",
@@ -89,7 +85,7 @@ def test_behind_a_door_numbers_are_as_people_say_them_and_each_is_one_tab_stop(v
     assert len(numbers(visit(EASY).sees({"#more": False}))) == 13
 
 
-def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(visit: Any) -> None:
+def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(visit):
     person = visit(f"?door=village{ROUTE}&limit=0.5").sees(
         {
             "#judgement[data-outcome=contact]": "It starts at 19:29:46 and ends at 19:30:50",
@@ -115,7 +111,7 @@ def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(visit: Any
 @pytest.mark.parametrize(
     "query", [f"?door=village{ROUTE}", pytest.param("?benches=5&time=1", marks=thorough)], ids=["village", "short"]
 )
-def test_an_address_is_shared_without_a_clipboard_and_printed(open_page: Any, query: str) -> None:
+def test_an_address_is_shared_without_a_clipboard_and_printed(open_page, query):
     person = open_page(query).presses("#share").sees({"#qr": True})
     address = person.at("#address").input_value()
     assert address == person.page.url
@@ -133,7 +129,7 @@ def test_an_address_is_shared_without_a_clipboard_and_printed(open_page: Any, qu
 
 
 @thorough
-def test_a_film_shows_its_progress_on_its_button_and_opens_below(open_page: Any) -> None:
+def test_a_film_shows_its_progress_on_its_button_and_opens_below(open_page):
     person = open_page(f"?door=village{ROUTE}").reaches_below()
     person.sees({"#kept li:visible": 4, "#people #cues": True})
     assert person.saves("#keepCues-PDF", "cues.pdf").startswith(b"%PDF")
@@ -144,7 +140,7 @@ def test_a_film_shows_its_progress_on_its_button_and_opens_below(open_page: Any)
 
 
 @thorough
-def test_a_film_is_cancelled_and_the_cue_card_is_said_to_be_made(open_page: Any) -> None:
+def test_a_film_is_cancelled_and_the_cue_card_is_said_to_be_made(open_page):
     person = open_page(f"?door=village{ROUTE}").reaches_below()
     person.page.route("**/films", without(seconds=60.0))  # it is not whole before it is cancelled
     person.presses("#keepFilm-GIF", "#jobs li button").sees({"#jobs li": "cancelled", "#sweep": False})
@@ -156,7 +152,7 @@ def test_a_film_is_cancelled_and_the_cue_card_is_said_to_be_made(open_page: Any)
 
 
 @thorough
-def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_page: Any, visit: Any) -> None:
+def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_page, visit):
     person = open_page("?door=contest&benches=5&turning_diameter=8.5&margin=0.01&stray=0.02&time=end").reaches_below()
     person.page.route("**/contest-kit", without(films=False))  # which take a minute, and are tested elsewhere
     with person.page.expect_request("**/contest-kit") as sent, person.page.expect_download(timeout=KIT) as download:
@@ -174,7 +170,7 @@ def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_pag
 
 
 @thorough
-def test_what_a_newer_page_wrote_is_named_once_and_the_rest_opens(open_page: Any) -> None:
+def test_what_a_newer_page_wrote_is_named_once_and_the_rest_opens(open_page):
     for query, words in (
         (f"door=cel%3Cb%3Elar{'x' * 200}", f"“cel<b>lar{'x' * 31}”"),
         (f"{'x' * 90}=1", f"“{'x' * 40}”"),
@@ -185,7 +181,7 @@ def test_what_a_newer_page_wrote_is_named_once_and_the_rest_opens(open_page: Any
 
 
 @thorough
-def test_a_route_is_drawn_by_keyboard_from_nothing(open_page: Any) -> None:
+def test_a_route_is_drawn_by_keyboard_from_nothing(open_page):
     person = open_page("?door=village&path=route&benches=3")
     person.focuses("#invite .main")
     person.strikes("Enter")
@@ -201,16 +197,14 @@ def test_a_route_is_drawn_by_keyboard_from_nothing(open_page: Any) -> None:
 
 @thorough
 @pytest.mark.chinese_font
-def test_figures_have_the_language_of_the_page(visit: Any) -> None:
+def test_figures_have_the_language_of_the_page(visit):
     for language, words in (("zh", ("没有碰撞", "首次碰撞", "各把手")), ("en", ())):
         person = visit(f"{EASY}&lang={language}").reaches_below()
         text = person.saves("#keepContact-SVG").decode()
         assert any(one in text for one in words) is (language == "zh")
 
 
-def test_a_bare_address_moves_with_the_mouse_and_the_wheel_scrolls_until_the_picture_is_clicked(
-    open_page: Any, server: str
-) -> None:
+def test_a_bare_address_moves_with_the_mouse_and_the_wheel_scrolls_until_the_picture_is_clicked(open_page, server):
     person = open_page("").sees({"#play": "Play"})
     person.page.mouse.move(300, 300)
     person.sees({"#play": "Pause"}).presses("#doors [data-door=all]").sees({"#clock": re.compile(r"^[1-9].*")})
@@ -226,7 +220,7 @@ def test_a_bare_address_moves_with_the_mouse_and_the_wheel_scrolls_until_the_pic
 
 
 @thorough
-def test_a_touch_starts_the_dance_and_an_address_opens_its_door(open_page: Any) -> None:
+def test_a_touch_starts_the_dance_and_an_address_opens_its_door(open_page):
     person = open_page("", has_touch=True).sees({"#play": "Play"})
     person.page.touchscreen.tap(300, 300)
     person.sees({"#play": "Pause"})
@@ -234,7 +228,7 @@ def test_a_touch_starts_the_dance_and_an_address_opens_its_door(open_page: Any) 
 
 
 @thorough
-def test_nothing_moves_for_keys_nor_with_reduced_motion_and_a_route_stands(open_page: Any) -> None:
+def test_nothing_moves_for_keys_nor_with_reduced_motion_and_a_route_stands(open_page):
     keys, still = open_page(""), open_page("", reduced_motion="reduce")
     keys.strikes("Tab")
     for person in (keys, still):
@@ -251,7 +245,7 @@ def test_nothing_moves_for_keys_nor_with_reduced_motion_and_a_route_stands(open_
 
 
 @thorough
-def test_a_reading_beside_an_instant_says_so_and_a_link_leads_to_the_files(open_page: Any) -> None:
+def test_a_reading_beside_an_instant_says_so_and_a_link_leads_to_the_files(open_page):
     person = open_page("?door=contest&benches=20&time=100.2")
     person.sees({"#clearance .reading": "s, the nearest time of the curve: gap"})
     person.presses("#to-end").settles().misses({"#clearance .reading": "nearest"}).presses("#to-keep")

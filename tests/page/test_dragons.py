@@ -1,15 +1,12 @@
 """Several dragons on the page: their list, their common verdict, picture and clock, and their address."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from tests.support import polite
-from tests.support.person import PHONE, Person
+from tests.support.person import PHONE
 
 thorough = pytest.mark.thorough
 ENCOUNTERS = Path(__file__).parent.parent / "reference" / "encounters.json"
@@ -30,22 +27,22 @@ OVERTAKEN = """() => {
 }"""
 
 
-def begun(open_page: Any, preset: str, query: str = "?door=all&lang=en&time=0&benches=9", **options: Any) -> Person:
+def begun(open_page, preset, query="?door=all&lang=en&time=0&benches=9", **options):
     """The page with a performance to begin with."""
     person = open_page(query, **options).presses("#several").settles()
     return person.presses(f"[data-dragons={preset}]").settles()
 
 
-def file_of(person: Person) -> Any:
+def file_of(person):
     return json.loads(person.saves("#dragons-save"))
 
 
-def again(open_page: Any, person: Person) -> Person:
+def again(open_page, person):
     """The same address, opened by somebody else."""
     return open_page(f"?{person.page.url.partition('?')[2]}")
 
 
-def test_two_in_one_spiral_meet_when_the_reference_says(open_page: Any) -> None:
+def test_two_in_one_spiral_meet_when_the_reference_says(open_page):
     cases = json.loads(ENCOUNTERS.read_text("utf-8"))["cases"]
     time = next(f"{one['time']:.6f} s" for one in cases if one["name"] == "two dragons in one spiral, opposite")
     person = begun(open_page, "spiral")
@@ -60,7 +57,7 @@ def test_two_in_one_spiral_meet_when_the_reference_says(open_page: Any) -> None:
     other.speaks("zh").sees({"#judgement": "红龙的第3节龙身与蓝龙的龙头相碰。"})
 
 
-def test_a_late_answer_about_other_dragons_asks_nothing_that_is_refused(open_page: Any) -> None:
+def test_a_late_answer_about_other_dragons_asks_nothing_that_is_refused(open_page):
     person = open_page("?door=all&lang=en&time=0")
     person.ask(OVERTAKEN)
     person.presses("#several").sees({"#dragons li": 2}).settles()
@@ -68,7 +65,7 @@ def test_a_late_answer_about_other_dragons_asks_nothing_that_is_refused(open_pag
 
 
 @thorough
-def test_a_parade_is_judged_as_by_the_service_and_played_together(open_page: Any, server: str) -> None:
+def test_a_parade_is_judged_as_by_the_service_and_played_together(open_page, server):
     person = begun(open_page, "parade")
     file = file_of(person.sees({"#judgement": ["Can be danced", "No two dragons touch."], "#contact-mark": False}))
     report = polite.answer(server, "check", file | {"details": False})
@@ -79,7 +76,7 @@ def test_a_parade_is_judged_as_by_the_service_and_played_together(open_page: Any
 
 
 @thorough
-def test_film_plan_cues_map_and_print_are_of_all_dragons(open_page: Any) -> None:
+def test_film_plan_cues_map_and_print_are_of_all_dragons(open_page):
     person = begun(open_page, "parade", "?door=village&lang=en&time=0&begin_clock=19%3A30").reaches_below()
     person.sees({"#cues": "A cue card for each bench", ":is(#crew, #paper):visible": 0})
     assert person.saves("#keepPlan-A3").startswith(b"%PDF")
@@ -95,7 +92,7 @@ def test_film_plan_cues_map_and_print_are_of_all_dragons(open_page: Any) -> None
 
 
 @thorough
-def test_who_waits_is_let_pass_and_the_browser_leads_back(open_page: Any, server: str) -> None:
+def test_who_waits_is_let_pass_and_the_browser_leads_back(open_page, server):
     person = begun(open_page, "streets").sees({"#judgement": "Cannot be danced"})
     report = polite.answer(server, "check", file_of(person) | {"details": False})
     assert (report["verdict"], len(report["failures"])) == ("fails", person.counts(".failures li"))
@@ -110,7 +107,7 @@ def test_who_waits_is_let_pass_and_the_browser_leads_back(open_page: Any, server
 
 
 @thorough
-def test_dragons_are_chosen_changed_copied_named_coloured_and_removed(open_page: Any) -> None:
+def test_dragons_are_chosen_changed_copied_named_coloured_and_removed(open_page):
     person = begun(open_page, "spiral").presses("#dragon-choose-1").has("#dragon-choose-1", aria_pressed="true")
     person.types({"#benches": "30"}).settles().presses("#dragon-choose-0").holds({"#benches": "60"}).settles()
     person.presses("#dragon-copy-1").sees({"#dragons li": 3}).types({"#dragon-name-2": "blue"})
@@ -124,7 +121,7 @@ def test_dragons_are_chosen_changed_copied_named_coloured_and_removed(open_page:
 
 
 @thorough
-def test_a_refusal_names_the_dragon_and_an_address_opens_what_can_be_read(open_page: Any) -> None:
+def test_a_refusal_names_the_dragon_and_an_address_opens_what_can_be_read(open_page):
     few = "?benches=9&pitch=1.1&start_turns=6&lang=en&dances="
     person = open_page(f"{few}~pitch:55!benches:9", failing=True)
     person.sees({"#judgement": "blue: “Pitch” must be at most 10 m; it is 55 m"})
@@ -140,9 +137,7 @@ def test_a_refusal_names_the_dragon_and_an_address_opens_what_can_be_read(open_p
 
 
 @thorough
-def test_the_list_is_used_on_a_phone_and_by_keys_and_behind_a_door_all_digits_are_with_the_evidence(
-    open_page: Any,
-) -> None:
+def test_the_list_is_used_on_a_phone_and_by_keys_and_behind_a_door_all_digits_are_with_the_evidence(open_page):
     for language in ("en", "zh"):
         person = begun(open_page, "parade", f"?door=all&lang={language}&time=0&benches=9", **PHONE)
         assert not person.overflows(390)
@@ -150,7 +145,7 @@ def test_the_list_is_used_on_a_phone_and_by_keys_and_behind_a_door_all_digits_ar
     person = begun(open_page, "spiral", "?door=look&lang=en&time=0&benches=9")
     person.focuses("#dragon-choose-0")
 
-    def after(*keys: str) -> str:
+    def after(*keys):
         return str(person.strikes(*keys).ask("document.activeElement.id"))
 
     assert [after("Tab") for _ in range(3)] == ["dragon-choose-1", "dragon-add", "dragons-save"]
@@ -166,10 +161,10 @@ def test_the_list_is_used_on_a_phone_and_by_keys_and_behind_a_door_all_digits_ar
 
 
 @thorough
-def test_a_saved_file_opens_again_and_what_the_page_leaves_out_is_named(open_page: Any, tmp_path: Path) -> None:
+def test_a_saved_file_opens_again_and_what_the_page_leaves_out_is_named(open_page, tmp_path):
     file = tmp_path / "two.json"
 
-    def opened(content: dict[str, Any], words: str = "Opened two.json", language: str = "en") -> Person:
+    def opened(content, words="Opened two.json", language="en"):
         file.write_text(json.dumps(content))
         person = open_page(f"?door=all&path=route&lang={language}")
         person.takes(file)
@@ -188,10 +183,8 @@ BEATS = [{"bars": 4, "tempo": 96, "step": 0.6, "beats": 4}, {"bars": 6, "tempo":
 
 
 @thorough
-def test_beats_of_a_drum_are_in_film_address_and_file_until_the_speeds_are_changed(
-    open_page: Any, tmp_path: Path
-) -> None:
-    def film_of(person: Person) -> Any:
+def test_beats_of_a_drum_are_in_film_address_and_file_until_the_speeds_are_changed(open_page, tmp_path):
+    def film_of(person):
         """The body of the request for a film, as the command that the page shows."""
         text = person.chooses({"#curl-of": "keepFilm"}).all("#curl").text_content()
         return json.loads(text.partition("-d '")[2].rpartition("'")[0])["request"]

@@ -1,14 +1,11 @@
 """The page for everyone: phones and wide screens, two languages, keyboard, dark, reduced motion, screen readers."""
 
-from __future__ import annotations
-
 import re
-from typing import Any
 
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.person import PHONE, Person
+from tests.support.person import PHONE
 
 thorough = pytest.mark.thorough
 FINGER = 44  # [px]: the least width and height of what a finger should hit
@@ -97,7 +94,7 @@ STATES = [
 ]
 
 
-def opened(person: Person, query: str) -> Person:
+def opened(person, query):
     """All that can be opened at an address."""
     if query == NOTHING:
         person.sees({"#invite": True})
@@ -113,7 +110,7 @@ def opened(person: Person, query: str) -> Person:
 
 
 @pytest.mark.parametrize("name", ["route", *(pytest.param(one, marks=thorough) for one in DANCES if one != "route")])
-def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(visit: Any, name: str) -> None:
+def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(visit, name):
     query = DANCES[name]
     person = opened(visit(query, **PHONE), query)
     # No point lies under the buttons of the picture.
@@ -138,7 +135,7 @@ def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(vis
 
 @thorough
 @pytest.mark.parametrize("query", DANCES.values(), ids=list(DANCES))
-def test_on_a_wide_screen_nothing_scrolls_inside_and_the_picture_stays_in_sight(visit: Any, query: str) -> None:
+def test_on_a_wide_screen_nothing_scrolls_inside_and_the_picture_stays_in_sight(visit, query):
     person = visit(query)
     person.ask("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
     for width, height in ((1440, 900), (1920, 1080)):
@@ -152,7 +149,7 @@ def test_on_a_wide_screen_nothing_scrolls_inside_and_the_picture_stays_in_sight(
 
 @thorough
 @pytest.mark.parametrize("size", [(390, 844), (360, 640)], ids=["390x844", "360x640"])
-def test_on_a_phone_the_picture_with_its_player_takes_a_third_of_the_height(visit: Any, size: tuple[int, int]) -> None:
+def test_on_a_phone_the_picture_with_its_player_takes_a_third_of_the_height(visit, size):
     for query, presses in STATES:
         person = visit(query, **{**PHONE, "viewport": {"width": size[0], "height": size[1]}}).settles()
         picture = person.presses(*presses).ask(PICTURE)
@@ -162,7 +159,7 @@ def test_on_a_phone_the_picture_with_its_player_takes_a_third_of_the_height(visi
 
 
 @thorough
-def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(visit: Any) -> None:
+def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(visit):
     for door, words in (
         ("contest", "Picture Numbers Answers Save"),
         ("village", "Picture People Answers Save"),
@@ -179,11 +176,11 @@ def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(visit: Any) -> 
 
 
 @thorough
-def test_a_swipe_up_that_begins_on_a_slider_scrolls_and_changes_nothing(visit: Any) -> None:
+def test_a_swipe_up_that_begins_on_a_slider_scrolls_and_changes_nothing(visit):
     person = visit("?benches=40", **PHONE)
     slider = person.at("[data-field=benches] input[type=range]")
 
-    def swipe(dx: float, dy: float) -> None:
+    def swipe(dx, dy):
         slider.evaluate("one => one.scrollIntoView({ block: 'end' })")
         box = slider.bounding_box()
         person.swipes(box["x"] + 0.7 * box["width"], box["y"] + box["height"] / 2, dx, dy)
@@ -198,7 +195,7 @@ def test_a_swipe_up_that_begins_on_a_slider_scrolls_and_changes_nothing(visit: A
     assert person.box("#canvas")["y"] >= 0
 
 
-def test_the_page_is_used_by_keyboard_alone(open_page: Any) -> None:
+def test_the_page_is_used_by_keyboard_alone(open_page):
     person = open_page("?time=100&benches=20").reaches_below()
     person.ask(FOCUSED)
     assert person.strikes("Tab").ask("focused[0][0]") == "skip"
@@ -214,7 +211,7 @@ def test_the_page_is_used_by_keyboard_alone(open_page: Any) -> None:
 
 @thorough
 @pytest.mark.parametrize(("width", "first"), [(1440, "controls"), (900, "controls"), (390, "answers")])
-def test_the_tab_key_goes_through_numbers_and_answers_as_they_stand(visit: Any, width: int, first: str) -> None:
+def test_the_tab_key_goes_through_numbers_and_answers_as_they_stand(visit, width, first):
     person = visit("?benches=12&time=0")
     person.page.set_viewport_size({"width": width, "height": 900})
     last = "answers" if first == "controls" else "controls"
@@ -225,7 +222,7 @@ def test_the_tab_key_goes_through_numbers_and_answers_as_they_stand(visit: Any, 
     assert list(dict.fromkeys(filter(None, seen))) == [first, last]
 
 
-def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_stays_in_the_address(open_page: Any) -> None:
+def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_stays_in_the_address(open_page):
     person = open_page("?benches=40&time=end", locale="zh-CN").has("html", lang="zh-Hans")
     person.sees({"#first-contact .value": "时碰撞", "#minimum-pitch": "最小螺距"})
     assert "Pitch" not in person.text("main")
@@ -236,7 +233,7 @@ def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_stays_i
 
 
 @thorough
-def test_a_verdict_is_told_once_with_its_reasons(open_page: Any) -> None:
+def test_a_verdict_is_told_once_with_its_reasons(open_page):
     person = open_page("?path=route&route=*-40,0_0,0_30,5&benches=5&things=a.square..-30,-20_9,-20_9,20_-30,20")
     reasons = person.all("#judgement .failures span").all_text_contents()
     assert len(reasons) > 1
@@ -265,7 +262,7 @@ def test_a_verdict_is_told_once_with_its_reasons(open_page: Any) -> None:
     ],
     ids=["contact", "clear", "refused on a phone"],
 )
-def test_axe_finds_nothing_in_light_or_dark(open_page: Any, query: str, options: dict[str, Any]) -> None:
+def test_axe_finds_nothing_in_light_or_dark(open_page, query, options):
     refused = "pitch=55" in query
     person = open_page(query, failing=refused, color_scheme="light", **options)
     person.sees({"#pitch-error": True}) if refused else person.looks_at("curve", "scan")
@@ -277,7 +274,7 @@ def test_axe_finds_nothing_in_light_or_dark(open_page: Any, query: str, options:
 
 
 @thorough
-def test_with_the_colours_of_the_system_marks_and_bars_stay_visible(open_page: Any) -> None:
+def test_with_the_colours_of_the_system_marks_and_bars_stay_visible(open_page):
     person = open_page("?benches=20&time=end", forced_colors="active").reaches_below()
     person.presses("#crew summary", "#crew-ask").sees({"#crew .bars i": True})
     card = person.style("body", "backgroundColor")
@@ -286,7 +283,7 @@ def test_with_the_colours_of_the_system_marks_and_bars_stay_visible(open_page: A
 
 
 @thorough
-def test_the_picture_has_its_direction_and_one_scale_of_colours_and_its_inset_gives_way(visit: Any) -> None:
+def test_the_picture_has_its_direction_and_one_scale_of_colours_and_its_inset_gives_way(visit):
     person = visit("?time=0&view=8.8,0,40")
     # The head is in the middle and moves down: its arrow crosses the row 20 pixels below.
     seen = "c => [...c.getContext('2d').getImageData(c.width / 2 - 8, c.height / 2 + 20, 16, 1).data]"

@@ -1,12 +1,8 @@
 """The page in Firefox: drawing, dragging, saving, the language and a job."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-
 import pytest
 
-from tests.support.firefox import Firefox, running_firefox
+from tests.support.firefox import running_firefox
 from tests.support.pending import REACH
 
 pytestmark = pytest.mark.firefox
@@ -15,24 +11,24 @@ ROUTE = "path=route&route=*-40,0_40,0&begin=30&benches=9&time=40"
 
 
 @pytest.fixture(scope="module")
-def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Firefox]:
+def running(tmp_path_factory):
     with running_firefox(tmp_path_factory.mktemp("firefox")) as firefox:
         yield firefox
 
 
 @pytest.fixture
-def firefox(running: Firefox) -> Iterator[Firefox]:
+def firefox(running):
     """The browser of this file; a page must stay without errors."""
     running.errors.clear()
     yield running
     assert running.errors == []
 
 
-def words(firefox: Firefox, selector: str) -> str:
+def words(firefox, selector):
     return str(firefox.evaluate(f"document.querySelector({selector!r}).textContent"))
 
 
-def test_answers_follow_a_slider_and_the_language_and_a_path_is_drawn(firefox: Firefox, server: str) -> None:
+def test_answers_follow_a_slider_and_the_language_and_a_path_is_drawn(firefox, server):
     firefox.open(f"{server}/?benches=20&time=end&lang=en")
     firefox.wait(QUIET)
     before = words(firefox, "#first-contact .value")
@@ -61,7 +57,7 @@ def test_answers_follow_a_slider_and_the_language_and_a_path_is_drawn(firefox: F
 
 
 @pytest.mark.thorough
-def test_a_file_is_saved(firefox: Firefox, server: str) -> None:
+def test_a_file_is_saved(firefox, server):
     firefox.open(f"{server}/?door=village&{ROUTE}&lang=en")
     firefox.wait(QUIET)
     firefox.evaluate(REACH)

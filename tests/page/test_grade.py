@@ -1,10 +1,5 @@
 """The page grades dropped workbooks and typed answers, in both languages, on a phone, and forgets them on request."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -25,7 +20,7 @@ DROP = """data => {
 
 
 @pytest.fixture(scope="module")
-def files(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+def files(tmp_path_factory):
     folder = tmp_path_factory.mktemp("student")
     contents = {
         "result1.xlsx": workbook(spiral(FEW, Dragon(overhang=0.0)), FEW),
@@ -38,7 +33,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     return [folder / name for name in contents]
 
 
-def test_chosen_files_are_graded_each_for_itself_in_the_language_of_the_page(open_page: Any, files: list[Path]) -> None:
+def test_chosen_files_are_graded_each_for_itself_in_the_language_of_the_page(open_page, files):
     person = open_page(EASY).reaches_below()
     person.takes(files, "#files")
     person.sees({BOX: 4, "#grades [role=status]": 0}).sees(
@@ -58,7 +53,7 @@ def test_chosen_files_are_graded_each_for_itself_in_the_language_of_the_page(ope
 
 
 @thorough
-def test_typed_answers_and_a_dropped_file_are_graded_and_cleared(open_page: Any, files: list[Path]) -> None:
+def test_typed_answers_and_a_dropped_file_are_graded_and_cleared(open_page, files):
     person = open_page(EASY, failing=True).reaches_below()
     for pitch, results in (
         ("0,4202", {f"{BOX} >> nth=0": "Possibly: Only the pose", f"{BOX} >> nth=1": "✓right"}),

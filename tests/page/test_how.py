@@ -1,14 +1,10 @@
 """The page "How it works": its figures show the service's own numbers while they are dragged, in both languages."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import pytest
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.person import PHONE, Person
+from tests.support.person import PHONE
 
 thorough = pytest.mark.thorough
 SECTIONS = {"chord", "staircase", "step", "graze", "stray"}
@@ -16,21 +12,21 @@ SECTIONS = {"chord", "staircase", "step", "graze", "stray"}
 QUARTER = 70
 
 
-def answer_of(server: str, call: str, **request: Any) -> Any:
+def answer_of(server, call, **request):
     return polite.answer(server, call, request)
 
 
-def dial(person: Person, section: str, name: str) -> Any:
+def dial(person, section, name):
     return person.page.locator(f"#{section}").get_by_role("slider", name=name)
 
 
-def drawn(person: Person) -> Person:
+def drawn(person):
     """The page, once all its figures are drawn to the end."""
     expect(person.settles().at("#staircase .jump")).to_be_attached()
     return person
 
 
-def test_dragged_numbers_get_the_answers_of_the_service(open_page: Any, server: str) -> None:
+def test_dragged_numbers_get_the_answers_of_the_service(open_page, server):
     person = drawn(open_page("how?lang=en", failing=True))
     length = dial(person, "chord", "Chord of the head bench")
     length.scroll_into_view_if_needed()
@@ -68,7 +64,7 @@ def test_dragged_numbers_get_the_answers_of_the_service(open_page: Any, server: 
 
 
 @thorough
-def test_an_address_keeps_the_numbers_and_the_language(open_page: Any) -> None:
+def test_an_address_keeps_the_numbers_and_the_language(open_page):
     person = drawn(open_page("how?lang=en&staircase_pitch=0.5&chord_turns=soup&step_time=1e9&graze_step=0.26"))
     values = [(section, name) for section, name in (("staircase", "Pitch"), ("chord", "Place"), ("step", "Start"))]
     assert [dial(person, *one).inner_text() for one in values] == ["0.5000 m", "5.00 turns", "412.40 s"]
@@ -82,10 +78,10 @@ def test_an_address_keeps_the_numbers_and_the_language(open_page: Any) -> None:
 
 
 @thorough
-def test_the_look_is_kept_on_both_pages(open_page: Any, server: str) -> None:
+def test_the_look_is_kept_on_both_pages(open_page, server):
     person = drawn(open_page("how?lang=en", viewport={"width": 1366, "height": 768}))
 
-    def look(name: str) -> str:
+    def look(name):
         """The ground of the page with a look of this name."""
         person.presses(f"#look button:has-text('{name}')")
         return person.style("body", "backgroundColor")
@@ -106,9 +102,7 @@ def test_the_look_is_kept_on_both_pages(open_page: Any, server: str) -> None:
 
 
 @thorough
-def test_a_phone_in_chinese_a_dark_and_a_wide_screen_are_served_and_a_lost_service_is_reported(
-    open_page: Any,
-) -> None:
+def test_a_phone_in_chinese_a_dark_and_a_wide_screen_are_served_and_a_lost_service_is_reported(open_page):
     person = drawn(open_page("how", locale="zh-CN", color_scheme="dark", **PHONE)).reads({"h1": "原理"})
     person.at("#staircase .try >> nth=-1").tap()
     person.sees({"#staircase .lead": "第16节龙身"})
@@ -130,7 +124,7 @@ def test_a_phone_in_chinese_a_dark_and_a_wide_screen_are_served_and_a_lost_servi
 
 
 @thorough
-def test_every_answer_of_the_dance_leads_to_the_idea_behind_it_and_back(open_page: Any) -> None:
+def test_every_answer_of_the_dance_leads_to_the_idea_behind_it_and_back(open_page):
     person = open_page("?lang=zh&benches=12&time=end&pitch=0.6&door=all")
     expect(person.at("#run-end details a")).to_be_attached()
     hashes = "links => links.map((link) => new URL(link.href).hash.slice(1))"

@@ -1,7 +1,5 @@
 """Modules of the page against the program in Python, and against a reader of QR codes."""
 
-from __future__ import annotations
-
 import math
 import re
 
@@ -29,13 +27,13 @@ TABLES = [
 QUESTIONS = ("collision_time", "minimum_pitch", "least_clearance", "shortest_turn", "quickest_turn", "tolerance")
 
 
-def test_the_page_reads_the_sizes_of_a_table_as_the_service_does() -> None:
+def test_the_page_reads_the_sizes_of_a_table_as_the_service_does():
     read = evaluate("async (tables) => tables.map((await page('benches.js')).benchesOf)", TABLES)
     wanted = [bench_table(table)._asdict() for table in TABLES]
     assert read == [{name: value for name, value in one.items() if name != "lines"} for one in wanted]
 
 
-def test_qr_codes_of_every_length_can_be_read_and_a_too_long_text_has_none() -> None:
+def test_qr_codes_of_every_length_can_be_read_and_a_too_long_text_has_none():
     lengths = (1, 17, 18, 107, 135, 155, 231, 272, 369, 500, 584, 640)
     texts = ["https://dragon.example/?a=1,2_龙".ljust(length, "x")[:length] for length in lengths]
     *codes, none = evaluate("async (texts) => texts.map((await page('qr.js')).qrCode)", [*texts, "x" * 1300])
@@ -43,7 +41,7 @@ def test_qr_codes_of_every_length_can_be_read_and_a_too_long_text_has_none() -> 
     assert none is None
 
 
-def test_a_name_stands_where_an_area_is_widest() -> None:
+def test_a_name_stands_where_an_area_is_widest():
     # A square of 40 m with a street of 60 m.
     street = [[0, 0], [40, 0], [40, 18], [100, 18], [100, 22], [40, 22], [40, 40], [0, 40]]
     x, y, width = evaluate("async (area) => (await page('venue.js')).widest(area)", street)
@@ -55,8 +53,8 @@ def test_a_name_stands_where_an_area_is_widest() -> None:
     assert room > 0.97 * radius
 
 
-def test_every_value_of_a_map_has_its_own_name_in_chinese() -> None:
-    names: set[str] = set()
+def test_every_value_of_a_map_has_its_own_name_in_chinese():
+    names = set()
     for question in (question_of(name, ["benches"]) for name in QUESTIONS):
         columns = answer_columns(question.answer, question.left_out)
         names |= {one.name for one in columns if one.kind in (int, float) and not one.as_json}
@@ -72,7 +70,7 @@ def test_every_value_of_a_map_has_its_own_name_in_chinese() -> None:
     assert len(set(words)) == len(words)
 
 
-def test_a_route_takes_the_numbers_that_the_service_takes() -> None:
+def test_a_route_takes_the_numbers_that_the_service_takes():
     schemas = create_app().openapi()["components"]["schemas"]
     known = evaluate("async () => (await page('route.js')).LIMITS")
     for key, schema, name in (
@@ -86,7 +84,7 @@ def test_a_route_takes_the_numbers_that_the_service_takes() -> None:
 
 
 @pytest.mark.parametrize(("benches", "stray", "margin"), [(1, 0.0, 0.0), (8, 0.0, 0.0), (24, 0.0, 0.0), (8, 0.05, 1.5)])
-def test_the_street_beyond_a_gate_is_as_long_as_the_service_makes_it(benches: int, stray: float, margin: float) -> None:
+def test_the_street_beyond_a_gate_is_as_long_as_the_service_makes_it(benches, stray, margin):
     numbers = {"benches": benches, "stray": stray, "margin": margin, "hole": 0.0, "pin": 0.0}
     numbers |= {"head_length": 3.41, "body_length": 2.2, "overhang": 0.275}
     script = """async (numbers) => {

@@ -1,9 +1,6 @@
 """The people of a dance: their benches one by one, their speeds, the time of day, and who carries when."""
 
-from __future__ import annotations
-
 import re
-from typing import Any
 
 import pytest
 
@@ -24,18 +21,18 @@ A3_WIDE = 420 / 25.4 * 72  # [points]
 RESULT = "#crew-result"
 
 
-def crew(server: str, **fields: Any) -> Any:
+def crew(server, **fields):
     return polite.answer(server, "crew", BODY | fields)
 
 
-def contact_of(server: str, **request: Any) -> str:
+def contact_of(server, **request):
     """Time of first contact by the service, in the words of the page."""
     spiral = {"kind": "spiral", "pitch": 0.55, "start_turns": 16}
     result = polite.answer(server, "collision-time", {"path": spiral, **request})
     return f"{result['time'] if result['time'] is not None else result['end']['time']:.6f} s"
 
 
-def test_who_carries_when_and_where_is_as_the_service_says(open_page: Any, server: str) -> None:
+def test_who_carries_when_and_where_is_as_the_service_says(open_page, server):
     person = open_page(CREW, failing=True).reaches_below().presses("#crew summary").holds({"#crew-at": "20"})
     numbers = {"spares": "6", "shift": "15", "rest": "10", "x": "0", "y": "0,5"}
     person.types({f"#crew-{name}": number for name, number in numbers.items()}, "Tab").presses("#crew-ask")
@@ -60,13 +57,13 @@ def test_who_carries_when_and_where_is_as_the_service_says(open_page: Any, serve
 
 
 @thorough
-def test_on_a_phone_the_crew_of_a_spiral_up_to_its_first_contact_fits(open_page: Any) -> None:
+def test_on_a_phone_the_crew_of_a_spiral_up_to_its_first_contact_fits(open_page):
     person = open_page("?benches=5&time=20&lang=en", **PHONE).reaches_below().presses("#crew summary", "#crew-ask")
     assert not person.sees({f"{RESULT} table": 2}).overflows(390)
     assert person.findings("#crew") == []
 
 
-def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(open_page: Any, server: str) -> None:
+def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(open_page, server):
     person = open_page("?time=0&benches=5&view=8,-3,40", failing=True).presses("#one-by-one summary")
     answer, narrow, wu = (
         "#first-contact .value",
@@ -87,7 +84,7 @@ def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(op
 
 
 @thorough
-def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: Any, server: str) -> None:
+def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit, server):
     person = visit("?benches=30&time=50", failing=True).presses("#passages summary")
     for k, (until, unit, speed) in enumerate([("20", "m", "0.5"), ("100", "s", "0"), ("60", "m", "1.5")]):
         row = f"#passages li >> nth={k}"
@@ -108,7 +105,7 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: An
 
 
 @thorough
-def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(visit: Any, server: str) -> None:
+def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(visit, server):
     limits = {"speed_limit": 0.9, "start_clock": "19:30", "passages": PASSAGES[:2]}
     body = BODY | limits | {"dragon": {"benches": 9}, "head_speed": 1}
     failure = polite.answer(server, "check", body)["failures"][0]

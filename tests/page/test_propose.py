@@ -1,17 +1,14 @@
 """From a square to a dance: its size, its corners and gates, proposals on cards, and the chosen one edited."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import re
-from typing import Any
 
 import pytest
 
 from app.questions.proposals import Lack
 from core import Dragon, Failure, FailureKind, Figure, Reason, ReasonKind
-from tests.support.person import PHONE, Person
+from tests.support.person import PHONE
 from tests.support.serving import serving
 
 thorough = pytest.mark.thorough
@@ -36,23 +33,23 @@ ORDERS = """() => {
 }"""
 
 
-def proposed(person: Person) -> Person:
+def proposed(person):
     return person.presses("#propose").sees({CARDS: True})
 
 
-def tap_at(person: Person, x: float, y: float) -> None:
+def tap_at(person, x, y):
     """A tap at a place in metres, in the view of SCALED."""
     box = person.settles().box("#canvas")
     person.page.mouse.click(box["x"] + box["width"] / 2 + SCALE * x, box["y"] + box["height"] / 2 - SCALE * y)
 
 
-def corners(person: Person) -> list[list[float]]:
+def corners(person):
     """Corners of the first thing in the address."""
     text = person.settles().address()["things"].split("~")[0].split(".")[3].replace("!", ".")
     return [[float(one) for one in corner.split(",")] for corner in text.split("_")]
 
 
-def test_from_nothing_to_a_certified_dance_on_a_phone(open_page: Any) -> None:
+def test_from_nothing_to_a_certified_dance_on_a_phone(open_page):
     person = open_page("", reduced_motion="reduce", **PHONE).presses("#arrival [data-door=village]")
     person.types({"#place-width": "30", "#place-height": "40"}, "Tab").presses("#take-rectangle")
     proposed(person).presses(CARDS).reads({f"{CLEAR} .value": "✓Can be danced"}).has(CARDS, aria_pressed="true")
@@ -71,7 +68,7 @@ def test_from_nothing_to_a_certified_dance_on_a_phone(open_page: Any) -> None:
 
 
 @thorough
-def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_a_route_that_is_edited(open_page: Any) -> None:
+def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_a_route_that_is_edited(open_page):
     person = proposed(open_page(YARD))
     person.sees({"#proposed": re.compile(r"The best \d of \d+ tried; each has passed its check\. .*")})
     lengths = []
@@ -99,7 +96,7 @@ def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_a_route_that_is_
 
 
 @thorough
-def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page: Any) -> None:
+def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page):
     person = open_page(SCALED).presses("[data-add=gate]").sees({"#add-help": "a straight street of about"})
     person.sees({"#draw-help": "Tap the border", "[data-add=gate]": False})
     tap_at(person, -11, 1)
@@ -119,7 +116,7 @@ def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page
 
 
 @thorough
-def test_a_square_has_typed_sizes_corners_and_sides_and_nothing_changes_in_silence(open_page: Any) -> None:
+def test_a_square_has_typed_sizes_corners_and_sides_and_nothing_changes_in_silence(open_page):
     person = open_page(f"{EMPTY}&benches=8").presses("#propose")
     person.reads({"#proposed": "First say how large your square is."}).types({"#place-width": "-3"})
     person.sees({"#place-wrong": "“-3”"})
@@ -148,7 +145,7 @@ NONE = {"proposals": [], "tried": 30, "checked": 5, **WHY}
 
 
 @thorough
-def test_why_none_fits_stands_in_one_sentence_and_a_search_can_be_stopped(open_page: Any) -> None:
+def test_why_none_fits_stands_in_one_sentence_and_a_search_can_be_stopped(open_page):
     person = open_page(NARROW_YARD).presses("#propose")
     person.sees({"#proposed": ["3.02 m", "3.77 m"], CARDS: 0}).speaks("zh").sees({"#proposed": "直径至多 3.02 m"})
     person = open_page(YARD)
@@ -164,7 +161,7 @@ def test_why_none_fits_stands_in_one_sentence_and_a_search_can_be_stopped(open_p
 
 
 @thorough
-def test_a_long_search_is_a_job_whose_cards_come_meanwhile_and_keep_their_places(open_page: Any, tmp_path: Any) -> None:
+def test_a_long_search_is_a_job_whose_cards_come_meanwhile_and_keep_their_places(open_page, tmp_path):
     with serving(tmp_path / "server.log", deadline_seconds=1e-3, data=tmp_path / "data") as service:
         person = open_page(YARD, base=service.url, failing=True)
         person.ask(ORDERS)
@@ -182,7 +179,7 @@ def test_a_long_search_is_a_job_whose_cards_come_meanwhile_and_keep_their_places
 
 
 @thorough
-def test_what_was_drawn_before_leaves_nothing_and_the_start_stands_beside_the_square(open_page: Any) -> None:
+def test_what_was_drawn_before_leaves_nothing_and_the_start_stands_beside_the_square(open_page):
     wrong = "?door=village&path=route&route=*-9,0_9,0&benches=2&width=-1&things=a.square..0,0_9,0_9,9_0,9"
     person = open_page(wrong, failing=True).sees({"#controls .error:visible": True})
     person.presses("#preset", "[data-begin=empty]").settles().sees({"#controls .error:visible": 0, "#inset": False})
@@ -192,7 +189,7 @@ def test_what_was_drawn_before_leaves_nothing_and_the_start_stands_beside_the_sq
 
 
 @thorough
-def test_while_a_point_is_dragged_the_stretches_that_fail_are_coloured(open_page: Any) -> None:
+def test_while_a_point_is_dragged_the_stretches_that_fail_are_coloured(open_page):
     person = open_page(f"{YARD}&route=*-11,-8_11,-8&benches=3&stray=0.05").presses("#edit", "[data-tool=path]")
     before, knot = person.settles().coloured("head"), person.box(".knot >> nth=1")
     x, y = knot["x"] + knot["width"] / 2, knot["y"] + knot["height"] / 2
@@ -208,7 +205,7 @@ def test_while_a_point_is_dragged_the_stretches_that_fail_are_coloured(open_page
     assert during > before + 300
 
 
-def proposal_of(radius: float, name: str, distance: float) -> dict[str, Any]:
+def proposal_of(radius, name, distance):
     """A proposal of 8 benches once around the origin, as the service writes it."""
     turns = [2.0 * math.pi * k / 12.0 for k in range(13)]
     ring = [[round(radius * math.cos(turn), 3), round(radius * math.sin(turn), 3)] for turn in turns]
@@ -225,7 +222,7 @@ TWO_RINGS = {"proposals": RINGS, "tried": 30, "checked": 5, "most_benches": None
 
 
 @thorough
-def test_two_rings_are_told_apart_and_proposals_for_an_earlier_square_cannot_be_chosen(open_page: Any) -> None:
+def test_two_rings_are_told_apart_and_proposals_for_an_earlier_square_cannot_be_chosen(open_page):
     person = open_page(SCALED)
     person.page.route("**/proposals", lambda route: route.fulfill(json=TWO_RINGS))
     for language, rings in (("zh", "环形，宽 {} m"), ("en", "Ring, {} m wide")):

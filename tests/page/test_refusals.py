@@ -1,14 +1,11 @@
 """Refusals and proofs of the real service in the words of the page: sentences in both languages, with its labels."""
 
-from __future__ import annotations
-
 import ast
 import asyncio
 import json
 import re
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import httpx
 import pytest
@@ -37,11 +34,11 @@ REQUESTS = Path(__file__).with_name("wrong_requests.jsonl")
 COMB = [[x / 10, x % 2 / 10] for x in range(6000)]
 
 
-def late() -> httpx.Response:
+def late():
     """An answer that takes longer than it may: here a moment, while the service gives it ten seconds."""
     transport = httpx.ASGITransport(create_app(Settings(deadline_seconds=0.2)))
 
-    async def late_answer() -> httpx.Response:
+    async def late_answer():
         async with httpx.AsyncClient(transport=transport, base_url="http://here") as client:
             return await client.get("/minimum-pitch", params={"benches": 9, "turning_diameter": 0.01})
 
@@ -50,7 +47,7 @@ def late() -> httpx.Response:
         return other.submit(asyncio.run, late_answer()).result()
 
 
-def refusals(server: str) -> list[dict[str, Any]]:
+def refusals(server):
     """Refusals of the service, and each of their errors."""
     octets = {"Content-Type": "application/octet-stream"}
     comb = {"type": "Polygon", "coordinates": [[*COMB, [0, 9], [0, 0]]]}
@@ -59,7 +56,7 @@ def refusals(server: str) -> list[dict[str, Any]]:
     long = [way | more for way, more in zip(ways, ({}, {"venue": comb}), strict=True)]
     with httpx.Client(base_url=server, timeout=60.0) as client:
 
-        def answered(path: str, body: Any = None) -> httpx.Response:
+        def answered(path, body=None):
             if isinstance(body, str):
                 return client.post(path, content=body.encode("latin-1"), headers=octets)
             return client.post(path, json=body) if body is not None else client.get(path)
@@ -72,7 +69,7 @@ def refusals(server: str) -> list[dict[str, Any]]:
 
 
 @pytest.fixture(scope="module")
-def refused(server: str) -> list[dict[str, Any]]:
+def refused(server):
     return refusals(server)
 
 
@@ -84,18 +81,18 @@ WORDS = """async (refusals) => {
 }"""
 
 
-def test_every_refusal_is_a_sentence_in_both_languages(refused: list[dict[str, Any]]) -> None:
+def test_every_refusal_is_a_sentence_in_both_languages(refused):
     assert len(refused) > 100
     chinese, english = evaluate(WORDS, refused)
     assert [words for words in chinese if ENGLISH.search(QUOTED.sub("", words)) or not words.endswith("。")] == []
     assert [words for words in english if INSIDE.search(words) or not words.endswith(".")] == []
 
 
-def test_a_refusal_is_its_template_with_the_values(refused: list[dict[str, Any]]) -> None:
+def test_a_refusal_is_its_template_with_the_values(refused):
     for problem in refused:
         values = problem["values"]
 
-        def fill(text: str, values: dict[str, Any] = values) -> str:
+        def fill(text, values=values):
             return re.sub(r"\{(\w+)\}", lambda word: values[word[1]]["text"] if word[1] in values else word[0], text)
 
         value_in_words = f", got {problem['got']['text']}" if "got" in problem else ""
@@ -109,7 +106,7 @@ def test_a_refusal_is_its_template_with_the_values(refused: list[dict[str, Any]]
             assert "parameter" in value or len(value["text"]) < 4 or value["text"] not in problem["template"], problem
 
 
-def test_the_page_knows_only_templates_that_the_program_has() -> None:
+def test_the_page_knows_only_templates_that_the_program_has():
     known = evaluate(
         """async () => {
           const { REASONS, RULES, WHOLE } = await page("words/refusals.js");
@@ -126,14 +123,14 @@ def test_the_page_knows_only_templates_that_the_program_has() -> None:
     assert [(key, part) for key, part in parts if len(part) > 2 and not _is_in(part, text)] == []
 
 
-def _is_in(part: str, text: str) -> bool:
+def _is_in(part, text):
     """Whether nearly all pairs of words of a template stand in the texts of the program: some are joined there."""
     words = part.split()
     pairs = [" ".join(words[k : k + 2]) for k in range(max(1, len(words) - 1))]
     return all(word in text for word in words) and sum(pair not in text for pair in pairs) <= 3
 
 
-def test_every_proof_has_the_chinese_words_of_the_library() -> None:
+def test_every_proof_has_the_chinese_words_of_the_library():
     claims = {name: claim for name, claim in CLAIMS.items() if isinstance(claim, (ContactClaim, StrayClaim))}
     values = [
         getattr(wire, type(claim).__name__).model_validate(claim).model_dump(mode="json") for claim in claims.values()

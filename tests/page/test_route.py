@@ -1,16 +1,13 @@
 """A dance drawn on the picture by mouse, touch and keys: its verdict, its address and its files."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
-from typing import Any
 
 import openpyxl
 import pytest
 
 from tests.support import polite
-from tests.support.person import PHONE, Person, alike
+from tests.support.person import PHONE, alike
 
 thorough = pytest.mark.thorough
 ROOT = Path(__file__).parents[2]
@@ -31,22 +28,22 @@ DROP = """([name, text]) => {
 }"""
 
 
-def points(person: Person) -> list[list[float]]:
+def points(person):
     """The points of the path as the page shares them, once it has written its address and drawn the path."""
     person.settles("course")
     text = person.address().get("route", "")
     return [[float(one) for one in point.lstrip("*").split(",")] for point in text.split("_") if point]
 
 
-def file_of(person: Person) -> Any:
+def file_of(person):
     return json.loads(person.saves("#save"))
 
 
-def knot(k: int) -> str:
+def knot(k):
     return f".knot >> nth={k}"
 
 
-def test_a_dragged_point_brings_a_verdict_that_undo_redo_and_the_browser_take_back(open_page: Any) -> None:
+def test_a_dragged_point_brings_a_verdict_that_undo_redo_and_the_browser_take_back(open_page):
     person = open_page(failing=True).presses("[data-path=route]").sees({**YES, ".knot": 7})
     before = points(person)
     bend, corner = person.box(knot(2)), person.box(knot(3))
@@ -59,7 +56,7 @@ def test_a_dragged_point_brings_a_verdict_that_undo_redo_and_the_browser_take_ba
     assert points(person.sees(YES)) == before
 
 
-def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit: Any) -> None:
+def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit):
     person = visit(S_CURVE).sees(YES).presses("#edit")
     before = points(person)
     person.focuses("#delete")
@@ -79,7 +76,7 @@ def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit: Any) -> 
     assert points(person.types({"#points tbody tr >> nth=8 >> input": "75.5"}))[8][0] == 75.5
 
 
-def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(visit: Any) -> None:
+def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(visit):
     person = visit(S_CURVE).sees(YES).presses("#zoom-out", "#edit").settles()
     canvas = person.box("#canvas")
     left, top, right, low = (canvas["x"] + 120, canvas["y"] + 60, canvas["x"] + canvas["width"] - 30, canvas["y"] + 480)
@@ -99,12 +96,12 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(visit: Any) -
     assert shapes == [("square", "Polygon"), ("old oak", "Point"), ("wall", "LineString")]
 
 
-def test_a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(visit: Any) -> None:
+def test_a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(visit):
     person = visit(S_CURVE).sees(YES).presses("#zoom-out", "#edit", "[data-tool=circle]").settles()
     canvas, mouse = person.box("#canvas"), person.page.mouse
     x, y = canvas["x"] + 200, canvas["y"] + 120
 
-    def drawn() -> list[Any]:
+    def drawn():
         return [one["geometry"]["coordinates"] for one in file_of(person.settles())["venue"]["features"]]
 
     mouse.click(x, y)
@@ -123,9 +120,7 @@ def test_a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(vis
 
 
 @thorough
-def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its_address_and_file(
-    visit: Any, server: str
-) -> None:
+def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its_address_and_file(visit, server):
     person = visit(VILLAGE).sees({**NO, "#run-end[aria-busy=false]": True})
     body = file_of(person)
     answer = polite.answer(server, "check", body)["failures"]
@@ -142,7 +137,7 @@ def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its
 
 
 @thorough
-def test_a_dance_that_starts_in_the_wrong_place_or_is_refused_is_said_to_be_so(open_page: Any) -> None:
+def test_a_dance_that_starts_in_the_wrong_place_or_is_refused_is_said_to_be_so(open_page):
     for things, words in (
         ("a.court..-9,-9_30,-9_30,9_-9,9", "starts outside court."),
         ("a.court..-30,-9_30,-9_30,9_-30,9~c.elm.2.-18,0", "starts inside elm."),
@@ -162,7 +157,7 @@ def test_a_dance_that_starts_in_the_wrong_place_or_is_refused_is_said_to_be_so(o
 
 
 @thorough
-def test_what_comes_late_is_not_shown_without_a_drawing_nor_of_another_kind_of_dance(visit: Any) -> None:
+def test_what_comes_late_is_not_shown_without_a_drawing_nor_of_another_kind_of_dance(visit):
     for late in ("check", "course"):
         person = visit("?path=route&benches=3&route=*-20,0_20,0").sees(YES).presses("#edit")
         held = person.holds_back(f"**/{late}")
@@ -175,7 +170,7 @@ def test_what_comes_late_is_not_shown_without_a_drawing_nor_of_another_kind_of_d
 
 
 @thorough
-def test_the_picture_has_the_drawn_path_alone_whatever_answers_late(open_page: Any) -> None:
+def test_the_picture_has_the_drawn_path_alone_whatever_answers_late(open_page):
     person = open_page("?benches=5&time=end")
     held = person.holds_back("**/trajectory")
     with person.page.expect_request(lambda one: '"decimals":4' in (one.post_data or "")):  # the path of the spiral
@@ -189,7 +184,7 @@ def test_the_picture_has_the_drawn_path_alone_whatever_answers_late(open_page: A
 
 
 @thorough
-def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit: Any) -> None:
+def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit):
     person = visit("?path=route&benches=24&route=0,0_90,0").sees(YES)
     for name in ("inout", "eight", "street", "village", "s"):
         person.presses("#preset", f"[data-begin={name}]").sees({"#presets": False}).settles().sees(YES)
@@ -199,7 +194,7 @@ def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit: Any) 
 
 
 @thorough
-def test_a_dance_that_begins_later_can_begin_at_time_0(visit: Any) -> None:
+def test_a_dance_that_begins_later_can_begin_at_time_0(visit):
     offer = "#route .hint button:has-text('Begin at time 0: head at')"
     person = visit("?path=route&benches=24&route=0,0_150,0", failing=True).presses(offer)
     person.arrives("**begin=40.9*")
@@ -209,7 +204,7 @@ def test_a_dance_that_begins_later_can_begin_at_time_0(visit: Any) -> None:
 
 
 @thorough
-def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(visit: Any, tmp_path: Path) -> None:
+def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(visit, tmp_path):
     person = visit("?path=route", failing=True)
     corners = [[499_950, 3_219_950], [500_050, 3_219_950], [500_050, 3_220_050], [499_950, 3_219_950]]
     grid, table, book = (tmp_path / f"one.{ending}" for ending in ("geojson", "csv", "xlsx"))
@@ -230,7 +225,7 @@ def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(visit: A
 
 
 @thorough
-def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(visit: Any) -> None:
+def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(visit):
     person = visit(S_CURVE + "&things=c.well.1!5.0,-40").sees(YES)
     for name in ("village_square.toml", "village_square.geojson"):
         person.ask(DROP, [name, (ROOT / "examples" / name).read_text()])
@@ -245,7 +240,7 @@ def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(visit: Any) -
 
 
 @thorough
-def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(visit: Any) -> None:
+def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(visit):
     person = visit(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit")
     before, box = points(person), person.box(knot(2))
     person.swipes(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0, -6)

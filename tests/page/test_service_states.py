@@ -1,9 +1,5 @@
 """The page and the states of the service: refusals, slow answers, superseded questions, loss, parts, weight."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
 from urllib.parse import urlencode, urlsplit
 
 import pytest
@@ -66,13 +62,13 @@ COUNT_REQUESTS = """() => {
 }"""
 
 
-def contact(server: str, **query: Any) -> str:
+def contact(server, **query):
     return f"{polite.answer(server, 'collision-time', **query)['time']:.6f}"
 
 
 def test_a_lost_service_is_reported_and_what_a_person_does_meanwhile_is_done_when_it_is_back(
-    open_page: Any, server: str, tmp_path: Path
-) -> None:
+    open_page, server, tmp_path
+):
     numbers, port = {"benches": 20, "stray": 0.02}, free_port()
     with serving(tmp_path / "first.log", port=port, deadline_seconds=PATIENT):
         person = open_page(f"?{urlencode(numbers)}", base=f"http://127.0.0.1:{port}", failing=True)
@@ -88,7 +84,7 @@ def test_a_lost_service_is_reported_and_what_a_person_does_meanwhile_is_done_whe
 
 
 @thorough
-def test_a_file_that_takes_longer_than_an_answer_may_becomes_a_job(open_page: Any, server: str, tmp_path: Path) -> None:
+def test_a_file_that_takes_longer_than_an_answer_may_becomes_a_job(open_page, server, tmp_path):
     """The dance is of a patient service; then one in its place ends every longer computation at once."""
     port = free_port()
     with serving(tmp_path / "first.log", port=port, deadline_seconds=PATIENT):
@@ -100,14 +96,14 @@ def test_a_file_that_takes_longer_than_an_answer_may_becomes_a_job(open_page: An
         assert polite.answer(hurried.url, person.at("#jobs a[download]").get_attribute("href"))["area"] > 0.0
 
 
-def right_again(person: Person, name: str | None) -> None:
+def right_again(person, name):
     """Reset the number that was wrong before the present one: no dance is computed between two refusals."""
     if name:
         person.at(f".field:has(#{name}) .reset").press("Enter")
         person.sees({f"#{name}-error": False})
 
 
-def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(visit: Any) -> None:
+def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(visit):
     person = visit(SHORT, failing=True)
     before = None
     for name, text, words in (
@@ -130,9 +126,9 @@ def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(visit: 
 
 
 @thorough
-def test_a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_again(open_page: Any) -> None:
+def test_a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_again(open_page):
     person = open_page(SHORT, failing=True)
-    held: list[Any] = []
+    held = []
     person.page.route("**/minimum-pitch*", lambda one: held.append(one))
     with person.page.expect_request("**/minimum-pitch*"):
         person.types({"#turning_diameter": "wide"}, "Tab")
@@ -146,9 +142,7 @@ def test_a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_ag
 
 
 @thorough
-def test_old_answers_turn_pale_while_new_ones_are_computed_and_a_failure_is_told_in_its_own_words(
-    visit: Any, server: str
-) -> None:
+def test_old_answers_turn_pale_while_new_ones_are_computed_and_a_failure_is_told_in_its_own_words(visit, server):
     person = visit(SHORT, failing=True)
     assert {person.style(place, "opacity") for place in OLD} == {"1"}
     person.page.route("**/collision-time*", lambda route: None)
@@ -169,7 +163,7 @@ def test_old_answers_turn_pale_while_new_ones_are_computed_and_a_failure_is_told
 
 
 @thorough
-def test_superseded_questions_are_aborted_and_a_dragged_slider_does_not_wait(open_page: Any, server: str) -> None:
+def test_superseded_questions_are_aborted_and_a_dragged_slider_does_not_wait(open_page, server):
     person = open_page(SHORT)
     person.ask(SLOW, 400)
     assert person.ask(DRAGGED) >= 2
@@ -181,7 +175,7 @@ def test_superseded_questions_are_aborted_and_a_dragged_slider_does_not_wait(ope
 
 
 @thorough
-def test_a_dance_whose_samples_are_refused_says_so_and_is_not_played_for_ever(open_page: Any, tmp_path: Path) -> None:
+def test_a_dance_whose_samples_are_refused_says_so_and_is_not_played_for_ever(open_page, tmp_path):
     with serving(tmp_path / "small.log", cells_max=1_500) as small:
         person = open_page("?benches=100&time=10", base=small.url, failing=True).presses("#play")
         words = ["The dance cannot be played: step through it, or move the time."]
@@ -189,9 +183,7 @@ def test_a_dance_whose_samples_are_refused_says_so_and_is_not_played_for_ever(op
 
 
 @thorough
-def test_one_check_at_a_time_asks_whether_a_hanging_service_lives_and_the_next_try_counts_down(
-    open_page: Any,
-) -> None:
+def test_one_check_at_a_time_asks_whether_a_hanging_service_lives_and_the_next_try_counts_down(open_page):
     person = open_page("?benches=5&time=end", failing=True)
     person.ask(COUNT_REQUESTS)
     person.page.route("**/{collision-time*,healthz}", lambda route: route.abort())
@@ -200,9 +192,9 @@ def test_one_check_at_a_time_asks_whether_a_hanging_service_lives_and_the_next_t
     assert person.ask("most") == 1
     person = open_page("?benches=20", failing=True)
     person.page.clock.install()
-    tries: list[Any] = []
+    tries = []
 
-    def hang(route: Any) -> None:
+    def hang(route):
         """Neither an answer nor an end; but the second try is refused at once."""
         tries.append(route)
         if len(tries) == 2:
@@ -216,18 +208,18 @@ def test_one_check_at_a_time_asks_whether_a_hanging_service_lives_and_the_next_t
     person.sees({"#lost": False, "#status": "The service is back."})
 
 
-def test_the_page_is_light_and_its_parts_load_when_a_person_first_needs_them(browser: Any, server: str) -> None:
+def test_the_page_is_light_and_its_parts_load_when_a_person_first_needs_them(browser, server):
     """Bytes as a browser with an empty cache counts them."""
     context = browser.new_context(viewport={"width": 1440, "height": 900}, locale="en-GB")
     person = Person(context.new_page())
     wire = context.new_cdp_session(person.page)
     wire.send("Network.enable")
-    urls: dict[str, str] = {}
-    weights: dict[str, int] = {}
+    urls = {}
+    weights = {}
     wire.on("Network.requestWillBeSent", lambda event: urls.update({event["requestId"]: event["request"]["url"]}))
     wire.on("Network.loadingFinished", lambda event: weights.update({event["requestId"]: event["encodedDataLength"]}))
 
-    def later() -> set[str]:
+    def later():
         return LATER & {urlsplit(url).path.rpartition("/")[2] for url in urls.values()}
 
     person.page.goto(f"{server}/?benches=5&time=end")

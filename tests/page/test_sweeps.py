@@ -1,17 +1,11 @@
 """Sweeps on the page: the form starts a job of the real service, the list follows it, the map shows its table."""
 
-from __future__ import annotations
-
 import subprocess
-from collections.abc import Iterator
-from pathlib import Path
-from typing import Any
 
 import pytest
 
 from tests.support import polite
 from tests.support.job_service import PATIENCE, SHORT, JobService
-from tests.support.person import Person
 
 thorough = pytest.mark.thorough
 PHONE = {"width": 390, "height": 844}
@@ -28,20 +22,20 @@ SHADES = """canvas => {
 OUTSIDE = """(width) => [...document.querySelectorAll("#sweeps *")]
   .filter((one) => one.checkVisibility() && one.getBoundingClientRect().right > width + 1)
   .map((one) => one.outerHTML)"""
-SHEET: Any = {"name": "result1.csv", "mimeType": "text/csv", "buffer": b"1,2"}
+SHEET = {"name": "result1.csv", "mimeType": "text/csv", "buffer": b"1,2"}
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
+def service(tmp_path_factory):
     with JobService(tmp_path_factory.mktemp("page"), sweep_processes=1, deadline_seconds=50) as service:
         yield service
 
 
-def base(service: JobService) -> str:
+def base(service):
     return f"http://127.0.0.1:{service.port}"
 
 
-def begins(person: Person, question: str, *axes: tuple[str, float, float, int]) -> Person:
+def begins(person, question, *axes):
     """Fill the form and start the sweep."""
     person.reaches_below().chooses({"#sweep-question": question})
     person.chooses({f"#sweep-name-{k}": axes[k][0] if k < len(axes) else "" for k in range(2)})
@@ -51,12 +45,12 @@ def begins(person: Person, question: str, *axes: tuple[str, float, float, int]) 
     return person.presses("#sweep button")
 
 
-def middle(person: Person) -> Any:
+def middle(person):
     box = person.box(MAP)
     return {"x": (box["width"] + LEFT - RIGHT) / 2, "y": (box["height"] + TOP - BOTTOM) / 2}
 
 
-def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: Any, service: JobService) -> None:
+def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page, service):
     person = open_page("?benches=40&margin=0.05", base=base(service))
     begins(person, "collision_time", ("pitch", 0.5, 0.6, 5), ("width", 0.2, 0.3, 3))
     person.sees({f"{DONE}:has-text('First contact over Pitch and Width')": True})
@@ -76,9 +70,7 @@ def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: A
 
 @thorough
 @pytest.mark.curl
-def test_the_commands_of_a_sweep_save_the_table_of_the_page(
-    open_page: Any, service: JobService, tmp_path: Path
-) -> None:
+def test_the_commands_of_a_sweep_save_the_table_of_the_page(open_page, service, tmp_path):
     person = open_page("?benches=12", base=base(service))
     begins(person, "collision_time", ("pitch", 0.5, 0.52, 3), ("width", 0.2, 0.3, 2)).sees({DONE: True})
     commands = person.presses("#sweep summary").sees({"#sweep code": "-o sweep.csv"}).text("#sweep code")
@@ -89,9 +81,7 @@ def test_the_commands_of_a_sweep_save_the_table_of_the_page(
 
 
 @thorough
-def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum_pitch_is_danced(
-    open_page: Any, service: JobService
-) -> None:
+def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum_pitch_is_danced(open_page, service):
     person = open_page("?benches=30", base=base(service), locale="zh-CN").reaches_below()
     # A switch of the question keeps the axes that it can.
     person.chooses({"#sweep-question": "collision_time", "#sweep-name-0": "pitch", "#sweep-name-1": "width"})
@@ -109,7 +99,7 @@ def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum
 
 
 @thorough
-def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page: Any, service: JobService) -> None:
+def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page, service):
     person = open_page("?benches=41", base=base(service), timezone_id="UTC")
     begins(person, "shortest_turn", ("pitch", 1.6, 1.8, 90))
     running, gone = "#jobs li[data-state=running]", "#jobs li[data-state=dismissed]"
@@ -124,7 +114,7 @@ def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page
 
 
 @thorough
-def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page: Any, tmp_path: Path) -> None:
+def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page, tmp_path):
     limits = {"token": TOKEN, "sweep_processes": 1, "sweep_designs_max": 100, "deadline_seconds": 50}
     with JobService(tmp_path, **limits) as guarded:
         guarded.client.headers["Authorization"] = f"Bearer {TOKEN}"
