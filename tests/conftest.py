@@ -1,7 +1,5 @@
 """Fixtures that several kinds of tests share."""
 
-from __future__ import annotations
-
 import gc
 import http.client
 import json
@@ -12,11 +10,9 @@ import shutil
 import signal
 import sys
 import time
-from collections.abc import Callable, Generator, Iterator
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -54,36 +50,34 @@ NO_DISK = "they mount a small disk, which only root may do: run make test as roo
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
 NO_CURL = "they run the commands of the documentation as they stand: apt install curl"
 NO_NGINX = "they restart services behind a proxy: apt install nginx-light"
-NO_CADDY = "they ask a service behind a proxy: apt install caddy"
-NO_SYSTEMD = "they check a unit of systemd: apt install systemd"
 NO_FONT = "they draw Chinese words, and there is no font for them: apt install fonts-wqy-microhei"
 NO_INDEX = "they ask the package index, which does not answer"
 NO_ENGINE = "they compare an engine that cannot be had for this machine and its Python: {}"
 
 
 @pytest.fixture(autouse=True)
-def usual_precision() -> Iterator[None]:
+def usual_precision():
     """No test computes with the digits that another one asked of python-flint."""
     yield
     if flint := sys.modules.get("flint"):
         flint.ctx.prec = FLINT_BITS
 
 
-def pytest_make_parametrize_id(val: object) -> str | None:
+def pytest_make_parametrize_id(val):
     """A name for archives, whose bytes hold the time at which they were made: every process names its tests alike."""
     return "archive" if isinstance(val, bytes) and val.startswith(b"PK") else None
 
 
-def pytest_addoption(parser: pytest.Parser) -> None:
+def pytest_addoption(parser):
     parser.addoption("--all", action="store_true", help="run the thorough tests too")
 
 
-def pytest_report_header() -> str:
+def pytest_report_header():
     return f"random order: SHUFFLE={SHUFFLE}" if SHUFFLE else ""
 
 
 @pytest.hookimpl(trylast=True)  # after -m and -k
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(config, items):
     """Leave the deep tests to `make deep`; leave out what this machine cannot run, in a line for each reason.
 
     Thorough tests run where they are named: with --all, by their node ids, or by -m.
@@ -91,8 +85,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if not DEEP:
         config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("deep")])
         items[:] = [item for item in items if not item.get_closest_marker("deep")]
-    kept: list[pytest.Item] = []
-    groups: dict[str, list[pytest.Item]] = {}
+    kept = []
+    groups = {}
     named = config.getoption("--all") or config.getoption("-m") or any("::" in word for word in config.args)
     for item in items:
         reason = THOROUGH if item.get_closest_marker("thorough") and not named else _why_left_out(item)
@@ -108,18 +102,18 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items[:] = [] if _lacking(config) else kept
 
 
-def _lacking(config: pytest.Config) -> bool:
+def _lacking(config):
     """Whether the machine lacks what a test needs, where each must be able to run."""
     return STRICT and bool(config.stash.get(LEFT_OUT, {}).keys() - {THOROUGH})
 
 
-def nginx_path() -> str | None:
+def nginx_path():
     """Path of nginx, which Debian installs where an ordinary user does not look."""
     return shutil.which("nginx", path=f"{os.environ['PATH']}{os.pathsep}/usr/sbin")
 
 
 @cache
-def _has_chinese_font() -> bool:
+def _has_chinese_font():
     from app.files.fonts import MissingPackage, families  # Most tests do without.
     from app.files.tables import Language
 
@@ -131,7 +125,7 @@ def _has_chinese_font() -> bool:
 
 
 # What tests with a mark need: what is true where they can run, and how to get it.
-NEEDS: dict[str, tuple[Callable[[], object], str]] = {
+NEEDS = {
     "firefox": (firefox.firefox_path, firefox.MISSING),
     "node": (node.node_path, node.MISSING),
     "chinese_font": (_has_chinese_font, NO_FONT),
@@ -142,7 +136,7 @@ NEEDS: dict[str, tuple[Callable[[], object], str]] = {
 }
 
 
-def _why_left_out(item: pytest.Item) -> str:
+def _why_left_out(item):
     """What this machine lacks for the test and how to get it; empty: it runs."""
     if "browser" in getattr(item, "fixturenames", ()) and not browser.browser_path():
         return browser.MISSING
@@ -155,23 +149,23 @@ def _why_left_out(item: pytest.Item) -> str:
     return "" if kernels.COMPILED or item.get_closest_marker("uncompiled") else UNCOMPILED
 
 
-def _note_left_out(config: pytest.Config, left_out: dict[str, int]) -> None:
+def _note_left_out(config, left_out):
     config.stash[LEFT_OUT] = config.stash.get(LEFT_OUT, {}) | left_out
 
 
 @pytest.hookimpl(optionalhook=True)
-def pytest_testnodedown(node: Any) -> None:
+def pytest_testnodedown(node):
     """Keep what a process left out: all collect the same tests."""
     _note_left_out(node.config, getattr(node, "workeroutput", {}).get(LEFT_OUT_OUTPUT, {}))
 
 
-def pytest_sessionfinish(session: pytest.Session) -> None:
+def pytest_sessionfinish(session):
     if _lacking(session.config):
         session.exitstatus = pytest.ExitCode.USAGE_ERROR
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_collection() -> Generator[None, object, object]:
+def pytest_collection():
     """Free the garbage collector from the modules and 6,000 tests, all of which stay.
 
     Going through them again and again takes a third of the processor time of the collection, and then a tenth of
@@ -186,7 +180,7 @@ def pytest_collection() -> Generator[None, object, object]:
         gc.set_threshold(20_000)
 
 
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+def pytest_terminal_summary(terminalreporter, config):
     failed = [report.nodeid for kind in ("failed", "error") for report in terminalreporter.stats.get(kind, [])]
     if failed:
         terminalreporter.section("to repeat each alone")
@@ -201,7 +195,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
 
 
 @pytest.fixture(scope="session")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def server(tmp_path_factory):
     """Base URL of the real service with the default settings, in its own process."""
     from tests.support.serving import serving  # which needs this file
 
@@ -209,12 +203,12 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield service.url
 
 
-def heed_ctrl_c() -> None:
+def heed_ctrl_c():
     """preexec_fn of a child that a test interrupts; under a script's `make test &` the child would ignore SIGINT."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def wait_until_live(process: Any, port: int, log: Path) -> None:
+def wait_until_live(process, port, log):
     """Return when /healthz answers 200; fail with the server's log if it cannot start."""
     end = time.monotonic() + START_TIMEOUT
     while process.poll() is None and time.monotonic() < end:

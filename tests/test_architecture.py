@@ -1,7 +1,5 @@
 """The architecture: allowed imports between rooms, and the cost of importing core."""
 
-from __future__ import annotations
-
 import ast
 import re
 import subprocess
@@ -29,7 +27,7 @@ LINES_MOST, PARAMETERS_MOST = 80, 8
 HEAVY = ("fcl", "flint", "matplotlib", "pandas", "scipy", "shapely", "xarray")
 
 
-def module_name(path: Path) -> str:
+def module_name(path):
     return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
 
 
@@ -38,14 +36,14 @@ CORE = [module for module in MODULES if module.startswith("core")]
 
 
 @cache
-def nodes(path: Path) -> list[ast.AST]:
+def nodes(path):
     return list(ast.walk(ast.parse(path.read_text("utf-8"))))
 
 
 @cache
-def imports(path: Path) -> set[str]:
+def imports(path):
     """Every module named by an import statement anywhere in the file, also inside functions."""
-    entries: set[str] = set()
+    entries = set()
     for node in nodes(path):
         if isinstance(node, ast.Import):
             entries |= {alias.name for alias in node.names}
@@ -56,14 +54,14 @@ def imports(path: Path) -> set[str]:
     return entries
 
 
-def top_names(path: Path) -> set[str]:
+def top_names(path):
     return {name.partition(".")[0] for name in imports(path)}
 
 
-def rooms_drawn() -> list[list[str]]:
+def rooms_drawn():
     """The rooms of core and app in each line of docs/architecture.md, from the ground up."""
     drawing = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8").split("```")[1]
-    lines: list[list[str]] = []
+    lines = []
     for line in drawing.splitlines():
         if match := re.match(r"(\w+)/ ", line):
             package = match[1]
@@ -78,7 +76,7 @@ def rooms_drawn() -> list[list[str]]:
 LINE_OF = {room: number for number, rooms in enumerate(rooms_drawn()) for room in rooms}
 
 
-def importers(names: set[str], paths: dict[str, Path]) -> set[str]:
+def importers(names, paths):
     """The modules, by their names, that import one of these packages."""
     return {module for module, path in paths.items() if top_names(path) & names}
 
@@ -86,23 +84,23 @@ def importers(names: set[str], paths: dict[str, Path]) -> set[str]:
 OURS = {module: imports(path) & MODULES.keys() for module, path in MODULES.items()}
 
 
-def line_of(module: str) -> int:
+def line_of(module):
     """The line of a module's room; -1 for a module without one."""
     return LINE_OF.get(".".join(module.split(".")[:2]), -1)
 
 
-def test_every_module_has_a_room_and_imports_point_to_rooms_above() -> None:
+def test_every_module_has_a_room_and_imports_point_to_rooms_above():
     assert [module for module in MODULES if line_of(module) < 0] == []
     assert {".".join(module.split(".")[:2]) for module in MODULES} | {"app.page"} == set(LINE_OF)
     assert [(module, name) for module in MODULES for name in OURS[module] if line_of(name) > line_of(module)] == []
 
 
-def test_no_modules_import_one_another_in_a_circle() -> None:
+def test_no_modules_import_one_another_in_a_circle():
     # A package stands for its own file, which its modules do not import.
     TopologicalSorter({module: OURS[module] - {module} for module in MODULES}).prepare()  # CycleError names the circle
 
 
-def test_no_scripts_of_the_page_import_one_another_in_a_circle() -> None:
+def test_no_scripts_of_the_page_import_one_another_in_a_circle():
     pattern = re.compile(r"""(?:from|import|import\() ?"(\.{1,2}/[\w./-]+\.js)\"""")
     scripts = {path: path.read_text("utf-8") for path in (ROOT / "app" / "page").rglob("*.js")}
     used = {path: {(path.parent / name).resolve() for name in pattern.findall(text)} for path, text in scripts.items()}
@@ -111,7 +109,7 @@ def test_no_scripts_of_the_page_import_one_another_in_a_circle() -> None:
     TopologicalSorter(used).prepare()
 
 
-def test_core_knows_no_http_json_files_or_clocks_and_only_the_engines_import_fcl_and_shapely() -> None:
+def test_core_knows_no_http_json_files_or_clocks_and_only_the_engines_import_fcl_and_shapely():
     assert importers(OUTSIDE_CORE, {module: MODULES[module] for module in CORE}) == set()
     assert importers(OVERLAP_ENGINES, MODULES) == {"core.shapes.engines"}
     others = {module_name(path): path for room in ("benchmarks", "examples") for path in (ROOT / room).rglob("*.py")}
@@ -119,7 +117,7 @@ def test_core_knows_no_http_json_files_or_clocks_and_only_the_engines_import_fcl
     assert importers({"fcl"}, others | MODULES) == {"benchmarks.ccd.engines", "core.shapes.engines"}
 
 
-def numbered(index: ast.expr) -> bool:
+def numbered(index):
     """True if the last index is a number, or a slice between numbers."""
     entries = [one for one in index.elts if ast.unparse(one) != "None"] if isinstance(index, ast.Tuple) else [None]
     last = entries[-1]
@@ -127,7 +125,7 @@ def numbered(index: ast.expr) -> bool:
     return any(isinstance(part, ast.Constant) and isinstance(part.value, int) for part in parts)
 
 
-def without_name(index: ast.expr) -> bool:
+def without_name(index):
     """True if the last index is a number; or the first one, unless the last is the name of a column."""
     if not isinstance(index, ast.Tuple):
         return False
@@ -136,7 +134,7 @@ def without_name(index: ast.expr) -> bool:
     return numbered(index) or (isinstance(first, ast.Constant) and not has_column_name)
 
 
-def test_columns_have_names() -> None:
+def test_columns_have_names():
     for module in CORE:
         in_kernels = module.startswith("core.kernels")  # whatever the array
         for node in nodes(MODULES[module]):
@@ -145,7 +143,7 @@ def test_columns_have_names() -> None:
                 assert not is_wrong(node.slice), f"{module}, line {node.lineno}"
 
 
-def names_in(node: ast.AST) -> set[str]:
+def names_in(node):
     """The names and the last parts of dotted names in a part of a file."""
     parts = list(ast.walk(node))
     names = {part.id for part in parts if isinstance(part, ast.Name)}
@@ -172,11 +170,11 @@ def names_in(node: ast.AST) -> set[str]:
         "proofs are loaded when they are asked for",
     ],
 )
-def test_importing_core_loads_what_is_asked_for(code: str, output: str) -> None:
+def test_importing_core_loads_what_is_asked_for(code, output):
     assert subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True).strip() == output
 
 
-def test_public_names_are_sorted_and_exist() -> None:
+def test_public_names_are_sorted_and_exist():
     assert core.__all__ == sorted(core.__all__)
     assert set(dir(core)) == {*core.__all__, "__version__", "proof"}
     assert all(hasattr(core, name) for name in core.__all__)
@@ -189,7 +187,7 @@ def test_public_names_are_sorted_and_exist() -> None:
     assert (None, ["proof"]) in lines
 
 
-def test_functions_are_short_and_take_few_parameters() -> None:
+def test_functions_are_short_and_take_few_parameters():
     for module, path in MODULES.items():
         for node in nodes(path):
             if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):

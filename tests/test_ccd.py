@@ -1,12 +1,9 @@
 """Engines of continuous collision detection on the committed sample, whose truth stands on ball arithmetic alone."""
 
-from __future__ import annotations
-
 import importlib
 import math
 import os
 import signal
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -31,7 +28,7 @@ SHARD = load_shard(SAMPLE)
 OURS, OURS_AT_GRAZES = 1e-9, 1e-8
 
 
-def answered(engine: Engine, shard: Shard, folder: Path) -> Results:
+def answered(engine, shard, folder):
     """The answers of an engine, read back from the file that a run writes.
 
     An engine in a new process for every file answers here as this process has it: docs/dragon-ccd.md.
@@ -40,7 +37,7 @@ def answered(engine: Engine, shard: Shard, folder: Path) -> Results:
     return Results(shard, {engine.name: load(folder / "answers.npz")})
 
 
-def test_the_sample_has_every_class_kind_and_depth() -> None:
+def test_the_sample_has_every_class_kind_and_depth():
     kinds = SHARD.columns["kind"]
     assert len(SHARD) == SAMPLED
     assert all((kinds == kind).sum() > 0.3 * SAMPLED for kind in (CONTACT, GRAZE, FAR))
@@ -51,7 +48,7 @@ def test_the_sample_has_every_class_kind_and_depth() -> None:
 
 
 @pytest.mark.parametrize("count", [150, *thorough(len(SHARD))])
-def test_our_own_engine_misses_nothing_invents_nothing_and_is_exact(count: int, tmp_path: Path) -> None:
+def test_our_own_engine_misses_nothing_invents_nothing_and_is_exact(count, tmp_path):
     results = answered(ENGINES[0], SHARD.taken(np.arange(count)), tmp_path)
     result = score(results, "ours", np.ones(count, dtype=bool))
     assert (result.missed, result.invented, result.other) == (0, 0, (0, 0, 0))
@@ -67,7 +64,7 @@ OTHERS = [pytest.param(one, id=one.name, marks=PACKAGES.get(one.package, [])) fo
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("engine", OTHERS)
-def test_every_other_engine_answers_and_keeps_what_it_promises(engine: Engine, tmp_path: Path) -> None:
+def test_every_other_engine_answers_and_keeps_what_it_promises(engine, tmp_path):
     results = answered(engine, SHARD.taken(np.array(some(range(len(SHARD)), 40))), tmp_path)
     everything = np.ones(len(results.queries), dtype=bool)
     result = score(results, engine.name, everything)
@@ -81,7 +78,7 @@ def test_every_other_engine_answers_and_keeps_what_it_promises(engine: Engine, t
 
 @pytest.mark.parametrize("path", KINDS)
 @pytest.mark.parametrize(("kind", "sign"), [(CONTACT, 0), (GRAZE, -1), (GRAZE, 1), (FAR, 1)])
-def test_the_truth_of_the_sample_is_shown_again_in_balls(kind: int, sign: int, path: str) -> None:
+def test_the_truth_of_the_sample_is_shown_again_in_balls(kind, sign, path):
     columns = SHARD.columns
     rows = np.flatnonzero((columns["kind"] == kind) & ((sign == 0) | (np.sign(columns["depth"]) == sign)))
     k = next(k for k in rows.tolist() if SHARD.dances[int(columns["dance"][k])]["kind"] == path)
@@ -99,7 +96,7 @@ def test_the_truth_of_the_sample_is_shown_again_in_balls(kind: int, sign: int, p
 
 
 @pytest.mark.thorough
-def test_queries_of_a_dance_are_the_same_again() -> None:
+def test_queries_of_a_dance_are_the_same_again():
     number = int(SHARD.columns["dance"][0])
     record, known = dance_queries(2026, number)
     rows = np.flatnonzero(SHARD.columns["dance"] == number)
@@ -107,17 +104,17 @@ def test_queries_of_a_dance_are_the_same_again() -> None:
     assert {SHARD.query(k) for k in rows.tolist()} <= {one.query for one in known}
 
 
-def absent() -> None:
+def absent():
     importlib.import_module("no_such_package")
 
 
-def test_an_engine_that_cannot_be_loaded_is_named_and_left_out(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_engine_that_cannot_be_loaded_is_named_and_left_out(capsys):
     assert list(installed((Engine("nobody", "no-such-package", "", absent), ENGINES[0]))) == ["ours"]
     assert "nobody" in capsys.readouterr().out
 
 
 @pytest.mark.thorough
-def test_a_crash_and_a_hang_are_rows_of_the_report_and_a_run_continues_where_it_was(tmp_path: Path) -> None:
+def test_a_crash_and_a_hang_are_rows_of_the_report_and_a_run_continues_where_it_was(tmp_path):
     shard, worker = SHARD.taken(np.arange(0, len(SHARD), 170)), Worker("ours")
     save_shard(tmp_path / "queries-0000.npz", shard)
     rows = []
@@ -137,7 +134,7 @@ def test_a_crash_and_a_hang_are_rows_of_the_report_and_a_run_continues_where_it_
     assert "| ours | 0 | 0 | 0 / 0 / 1 |" in report(Results(shard, {"ours": load(kept)}), tmp_path)
 
 
-def test_scores_count_what_differs_from_the_truth() -> None:
+def test_scores_count_what_differs_from_the_truth():
     columns = dict.fromkeys(COLUMNS, np.zeros(5)) | {"kind": np.full(5, GRAZE), "depth": np.full(5, 1e-3)}
     columns |= {"low": np.array([0.1, 0.1, 0.1, np.nan, np.nan]), "high": np.array([0.2, 0.2, 0.2, np.nan, np.nan])}
     fields = {
@@ -157,7 +154,7 @@ def test_scores_count_what_differs_from_the_truth() -> None:
 @pytest.mark.parametrize(
     ("start", "end", "bend", "h"), [(1.0, 1.0, 8.0, 1.0), (1.0, 3.0, 1.0, 1.0), (2.0, 1.5, 8.0, 1.0)]
 )
-def test_the_least_between_two_ends_is_that_of_the_parabola(start: float, end: float, bend: float, h: float) -> None:
+def test_the_least_between_two_ends_is_that_of_the_parabola(start, end, bend, h):
     x = np.linspace(0.0, h, 100_001)
     parabola = start + (end - start) * x / h - 0.5 * bend * x * (h - x)
     assert least_between(start, end, bend, h) == pytest.approx(parabola.min(), abs=1e-9)

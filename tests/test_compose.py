@@ -1,16 +1,12 @@
 """compose.yaml: valid by the Compose specification, and the commands of its services work together."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
 import socket
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import httpx
 import pytest
@@ -32,23 +28,23 @@ BIN = Path(sys.executable).parent
 BYTES_MAX = 100_000
 
 
-def interpolated(text: str, **variables: str) -> str:
+def interpolated(text, **variables):
     """A value as Compose fills it: ${NAME:-default}, of which the default counts for an empty variable too."""
     return re.sub(r"\$\{(\w+):-([^}]*)\}", lambda result: variables.get(result[1]) or result[2], text)
 
 
-def test_it_is_valid_by_the_specification() -> None:
+def test_it_is_valid_by_the_specification():
     compose = PyCompose.from_json(interpolated(json.dumps(FILE)))
     compose.validate()
     assert sorted(compose.service_names()) == ["scheduler", "service", "worker"]
 
 
-def every(key: str) -> dict[str, Any]:
+def every(key):
     """A value of each service."""
     return {name: service.get(key) for name, service in SERVICES.items()}
 
 
-def test_the_cluster_is_of_its_profile_and_nothing_is_written_but_in_the_volume() -> None:
+def test_the_cluster_is_of_its_profile_and_nothing_is_written_but_in_the_volume():
     assert every("profiles") == {"service": None, "scheduler": ["cluster"], "worker": ["cluster"]}
     assert every("volumes") == {"service": ["data:/data"], "scheduler": None, "worker": None}
     assert SERVICES["worker"]["deploy"]["replicas"] == 2
@@ -57,7 +53,7 @@ def test_the_cluster_is_of_its_profile_and_nothing_is_written_but_in_the_volume(
         assert line in DOCKERFILE
 
 
-def test_memory_holds_what_files_and_jobs_may_take_on_two_cores() -> None:
+def test_memory_holds_what_files_and_jobs_may_take_on_two_cores():
     gigabytes = int(SERVICES["service"]["mem_limit"].removesuffix("g"))
     settings, workers = Settings(), 2
     files = workers * settings.readers_max * settings.reader_memory_max
@@ -65,7 +61,7 @@ def test_memory_holds_what_files_and_jobs_may_take_on_two_cores() -> None:
     assert all(one["pids_limit"] == 512 for one in SERVICES.values())
 
 
-def test_its_settings_are_settings() -> None:
+def test_its_settings_are_settings():
     assert set(SERVICES["service"]["environment"]) <= {f"BENCH_DRAGON_{name.upper()}" for name in Settings.model_fields}
 
 
@@ -80,9 +76,7 @@ THOROUGH = pytest.mark.thorough
         pytest.param("0.0.0.0", "x", True, marks=THOROUGH),
     ],
 )
-def test_the_port_is_open_to_this_machine_alone_unless_a_token_is_set(
-    published: str, token: str, runs: bool, tmp_path: Path
-) -> None:
+def test_the_port_is_open_to_this_machine_alone_unless_a_token_is_set(published, token, runs, tmp_path):
     [port], names = SERVICES["service"]["ports"], SERVICES["service"]["environment"]
     variables = {"BENCH_DRAGON_PUBLISHED": published, "BENCH_DRAGON_TOKEN": token}
     assert interpolated(port, **variables) == f"{published or '127.0.0.1'}:8000:8000"
@@ -100,13 +94,13 @@ def test_the_port_is_open_to_this_machine_alone_unless_a_token_is_set(
         process.wait(STOP_TIMEOUT)
 
 
-def test_the_base_of_the_image_is_named_by_its_digest() -> None:
+def test_the_base_of_the_image_is_named_by_its_digest():
     bases = re.findall(r"^FROM (\S+)(?: AS (\w+))?$", DOCKERFILE, re.MULTILINE)
     [image] = {image for image, _ in bases} - {stage for _, stage in bases}
     assert re.fullmatch(r"python:3\.13-slim-trixie@sha256:[0-9a-f]{64}", image)
 
 
-def start(name: str, places: dict[str, str], folder: Path, environment: dict[str, str]) -> subprocess.Popen[bytes]:
+def start(name, places, folder, environment):
     """The command of a service, with places of this machine for those inside of the containers."""
     program, *words = SERVICES[name]["command"]
     for place, here in places.items():
@@ -117,13 +111,13 @@ def start(name: str, places: dict[str, str], folder: Path, environment: dict[str
         )
 
 
-def listens(port: str) -> bool:
+def listens(port):
     with socket.socket() as peer:
         return peer.connect_ex(("127.0.0.1", int(port))) == 0
 
 
 @pytest.fixture
-def started(tmp_path: Path) -> Iterator[httpx.Client]:
+def started(tmp_path):
     """A client of the service, which runs with the scheduler and one worker."""
     scheduler, port = str(free_port()), str(free_port())
     places = {
@@ -135,7 +129,7 @@ def started(tmp_path: Path) -> Iterator[httpx.Client]:
     }
     variables = {"BENCH_DRAGON_DATA": str(tmp_path / "data"), "BENCH_DRAGON_DASK": f"tcp://127.0.0.1:{scheduler}"}
     variables["BENCH_DRAGON_SWEEP_BYTES_MAX"] = str(BYTES_MAX)
-    running: list[subprocess.Popen[bytes]] = []
+    running = []
     try:
         running += [start(name, places, tmp_path, variables) for name in ("scheduler", "service")]
         wait_for(lambda: listens(scheduler))  # A worker that comes too early tries again only after some seconds.
@@ -155,8 +149,8 @@ def started(tmp_path: Path) -> Iterator[httpx.Client]:
 
 @pytest.mark.thorough
 def test_the_commands_run_and_the_worker_answers_a_sweep_of_the_service_unless_it_takes_too_much_room(
-    started: httpx.Client, tmp_path: Path
-) -> None:
+    started, tmp_path
+):
     fields = SPEC | {"shard_size": 30}
     address = started.post("/sweeps", json=fields).headers["location"]
     status, events = followed(started, address)

@@ -1,7 +1,5 @@
 """README and docs/ are true: links lead to files, claims name tests, Python and commands print what is shown."""
 
-from __future__ import annotations
-
 import doctest
 import inspect
 import json
@@ -45,10 +43,10 @@ RESULTS = re.findall(r"^\|[^|]+\| ([^|]+) \| `(bench-dragon [^`]+)` \|$", PAGES[
 NUMBER = re.compile(r"-?\d+\.\d+(?:e-?\d+)?")
 
 
-def blocks(language: str) -> list[tuple[str, str]]:
+def blocks(language):
     """Every fenced block of a language, also in a list, with its page and line; the first of equal ones."""
     fences = re.compile(rf"^( *)```{language}\n(.*?)^\1```", re.DOTALL | re.MULTILINE)
-    places: dict[str, str] = {}
+    places = {}
     for page, text in PAGES.items():
         for result in fences.finditer(text):
             places.setdefault(textwrap.dedent(result[2]), f"{page}:{text.count(chr(10), 0, result.start()) + 2}")
@@ -67,13 +65,13 @@ SEVERAL = [block for block in blocks("toml") if "[[dances]]" in block[1]]
 DANCES = [block for block in blocks("toml") if "[over]" not in block[1] and block not in WISHES + SEVERAL]
 
 
-def linked(page: str) -> set[str]:
+def linked(page):
     """The files to which a page leads, from the root."""
     folder = (ROOT / page).parent
     return {os.path.relpath(folder / link, ROOT) for other, link in LINKS if other == page}
 
 
-def test_readme_is_short_and_each_readme_leads_to_the_other_and_the_english_one_to_every_page() -> None:
+def test_readme_is_short_and_each_readme_leads_to_the_other_and_the_english_one_to_every_page():
     assert PAGES["README.md"].count("\n") < README_LINES_MOST
     assert "README.md" in linked("README.zh.md")
     assert PAGES.keys() - {"README.md", "SECURITY.md"} <= linked("README.md")
@@ -81,7 +79,7 @@ def test_readme_is_short_and_each_readme_leads_to_the_other_and_the_english_one_
     assert {page for page in PAGES if page.startswith("docs/")} - {"docs/README.md"} <= linked("docs/README.md")
 
 
-def test_every_call_command_and_function_stands_on_its_page() -> None:
+def test_every_call_command_and_function_stands_on_its_page():
     calls = {question.path.partition(".")[0] for question in QUESTIONS.values()}
     functions = {f"`{name}" for name in core.__all__ if inspect.isfunction(getattr(core, name))}
     commands = {f"| `{command}" for command in MODULE_OF}
@@ -89,7 +87,7 @@ def test_every_call_command_and_function_stands_on_its_page() -> None:
         assert {name for name in names if name not in PAGES[f"docs/{page}.md"]} == set()
 
 
-def test_each_claim_names_a_test_and_all_these_exist() -> None:
+def test_each_claim_names_a_test_and_all_these_exist():
     rows = [line for line in PAGES["docs/claims.md"].splitlines() if line.startswith("| ")][1:]
     assert len(rows) > 10
     assert all("test_" in row for row in rows)
@@ -97,11 +95,11 @@ def test_each_claim_names_a_test_and_all_these_exist() -> None:
         assert f"def {test}(" in (DOCS / file).read_text(encoding="utf-8")
 
 
-def test_every_link_leads_to_a_file() -> None:
+def test_every_link_leads_to_a_file():
     assert [(page, link) for page, link in LINKS if not (ROOT / page).parent.joinpath(link).exists()] == []
 
 
-def test_every_limit_of_the_service_stands_with_its_default() -> None:
+def test_every_limit_of_the_service_stands_with_its_default():
     rows = re.findall(r"^\| `BENCH_DRAGON_(\w+)` \| (\w+) \|", PAGES["docs/operations.md"], re.MULTILINE)
     stated = {name.lower(): "" if value == "none" else json.loads(value) for name, value in rows}
     defaults = Settings().model_dump()
@@ -112,7 +110,7 @@ def test_every_limit_of_the_service_stands_with_its_default() -> None:
 QUICK = ("README", "docs/command.md", "docs/http.md", "docs/performances.md", "docs/jobs.md")
 
 
-def of_each(blocks: list[tuple[str, str]]) -> pytest.MarkDecorator:
+def of_each(blocks):
     """A case for each block, named by its place."""
     cases = []
     for place, text in blocks:
@@ -124,15 +122,15 @@ def of_each(blocks: list[tuple[str, str]]) -> pytest.MarkDecorator:
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path):
     """A folder from which examples/ is seen as from the root."""
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     return tmp_path
 
 
 @of_each(SNIPPETS)
-def test_python_gives_what_is_printed_below_it(text: str) -> None:
-    values: list[str] = []
+def test_python_gives_what_is_printed_below_it(text):
+    values = []
     test = doctest.DocTestParser().get_doctest(text, {}, "docs", "docs", 0)
     assert len(test.examples) == text.count(">>> ") > 0
     doctest.DocTestRunner().run(test, out=values.append)
@@ -140,7 +138,7 @@ def test_python_gives_what_is_printed_below_it(text: str) -> None:
 
 
 @of_each(SESSIONS)
-def test_a_command_gives_what_is_printed_below_it(text: str, server: str, folder: Path) -> None:
+def test_a_command_gives_what_is_printed_below_it(text, server, folder):
     for turn in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
         lines = turn.splitlines()
         length = next(number for number, line in enumerate(lines, 1) if not line.endswith(("\\", "[")))
@@ -151,7 +149,7 @@ def test_a_command_gives_what_is_printed_below_it(text: str, server: str, folder
 
 
 @of_each(DANCES + WISHES)
-def test_a_dance_that_is_shown_passes_its_check_and_a_wish_has_proposals(text: str, folder: Path) -> None:
+def test_a_dance_that_is_shown_passes_its_check_and_a_wish_has_proposals(text, folder):
     (folder / "shown.toml").write_text(text, encoding="utf-8")
     if WISH.search(text):
         assert run("bench-dragon propose shown.toml", folder).stdout.startswith("The best ")
@@ -160,19 +158,19 @@ def test_a_dance_that_is_shown_passes_its_check_and_a_wish_has_proposals(text: s
 
 
 @of_each(SEVERAL)
-def test_dances_that_are_shown_are_those_of_an_example(text: str) -> None:
+def test_dances_that_are_shown_are_those_of_an_example(text):
     assert [path.name for path in (ROOT / "examples").glob("*.toml") if text in path.read_text("utf-8")] != []
 
 
 @pytest.mark.parametrize(("values", "command"), RESULTS, ids=[command for _, command in RESULTS])
-def test_a_result_is_printed_by_the_command_beside_it(values: str, command: str, folder: Path) -> None:
+def test_a_result_is_printed_by_the_command_beside_it(values, command, folder):
     printed = run(command, folder).stdout
     for value in NUMBER.findall(values):
         digits = len(value.partition(".")[2])
         assert value in {f"{float(number):.{digits}f}" for number in NUMBER.findall(printed)}, printed
 
 
-def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
+def run(command, folder):
     """A command of a shell, with errors among its output, as a reader types it."""
     path = os.pathsep.join([str(bin_folder()), str(Path(sys.executable).parent), os.environ["PATH"]])
     environment = {**os.environ, "PATH": path, "COLUMNS": WIDTH}
@@ -187,7 +185,7 @@ def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
     )
 
 
-def assert_alike(output: str, expected: str) -> None:
+def assert_alike(output, expected):
     """The same text and, but for rounding, the same numbers; `...` stands for anything, and spaces do not count."""
     patterns, numbers = [], []
     for part in re.split(r"(\.\.\.|\s+|-?\d+\.\d+(?:e-?\d+)?)", expected.strip()):

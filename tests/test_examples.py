@@ -1,7 +1,5 @@
 """Every file under examples/ is a request that runs, with the verdict that its comment promises."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -10,14 +8,14 @@ import pytest
 import core
 from app.maps.dances import read_dance
 from app.questions.check import CheckRequest
-from core import FailureKind, Report, check
+from core import FailureKind, check
 from tests.support.reference import reference, reference_cases
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
 
 
-def report(name: str) -> Report:
+def report(name):
     """The verdict on an example, read as the command reads it."""
     request = CheckRequest.model_validate(read_dance(EXAMPLES / f"{name}.toml"))
     dance = request.to_dance(1000)
@@ -29,14 +27,14 @@ def report(name: str) -> Report:
 DANCES = "paper_dance contest_turn clothoid_turn village_square two_dragons crossing_streets sweep"
 
 
-def test_every_example_has_its_test() -> None:
+def test_every_example_has_its_test():
     assert {path.stem for path in EXAMPLES.glob("*.toml")} == set(DANCES.split())
     # test_tour.py, test_verify.py; the village reads the last one
     others = {path.name for path in EXAMPLES.glob("*.*") if path.suffix != ".toml"}
     assert others == {"tour.py", "verify.py", "village_square.geojson"}
 
 
-def test_the_turn_with_clothoids_is_that_of_the_library_and_passes() -> None:
+def test_the_turn_with_clothoids_is_that_of_the_library_and_passes():
     verdict = report("clothoid_turn")
     turn = core.ClothoidTurn(1.7, ratio=1.0, middle=4.0, ends=0.5)
     s = np.linspace(turn.begin, turn.end, 2_001)
@@ -46,7 +44,7 @@ def test_the_turn_with_clothoids_is_that_of_the_library_and_passes() -> None:
     assert verdict.highest_speed.speed < 2.0
 
 
-def test_the_papers_dance_ends_where_the_head_touches_bench_8() -> None:
+def test_the_papers_dance_ends_where_the_head_touches_bench_8():
     result = report("paper_dance")
     assert not result.passed
     assert [(failure.kind, failure.benches) for failure in result.failures] == [(FailureKind.CONTACT, (0, 8))]
@@ -54,7 +52,7 @@ def test_the_papers_dance_ends_where_the_head_touches_bench_8() -> None:
     assert [result.first_contact.time, result.stop] == pytest.approx([time] * 2, abs=REFERENCE_ERROR)
 
 
-def test_the_contests_turn_passes_below_2_metres_a_second() -> None:
+def test_the_contests_turn_passes_below_2_metres_a_second():
     result = report("contest_turn")
     assert result.passed
     values = [result.least_clearance.distance, result.highest_speed.speed]

@@ -1,11 +1,7 @@
 """The locked versions can be installed on every machine that README names, without a compiler."""
 
-from __future__ import annotations
-
 import re
-import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -20,18 +16,18 @@ LOCKS = ("requirements.lock", "requirements-test.lock")
 
 @pytest.mark.parametrize("processor", PROCESSORS)
 @pytest.mark.parametrize("python", PYTHONS)
-def test_there_is_a_wheel_of_every_locked_version(python: str, processor: str) -> None:
+def test_there_is_a_wheel_of_every_locked_version(python, processor):
     done = resolved([word for name in LOCKS for word in ("-r", str(ROOT / name))], python, processor, OUTER)
     assert done.returncode == 0, done.stderr
 
 
-def test_a_version_without_a_wheel_is_noticed() -> None:
+def test_a_version_without_a_wheel_is_noticed():
     done = resolved(["-r", str(ROOT / "requirements-ccd.lock")], "3.14", "aarch64", OUTER)
     assert done.returncode != 0
     assert "no wheels" in done.stderr
 
 
-def test_a_file_whose_digest_is_another_is_refused(tmp_path: Path) -> None:
+def test_a_file_whose_digest_is_another_is_refused(tmp_path):
     text = (ROOT / "requirements.hashes").read_text(encoding="utf-8")
     package = re.search(r"^idna==.*(\n .*)+", text, re.MULTILINE)
     assert package is not None
@@ -41,7 +37,7 @@ def test_a_file_whose_digest_is_another_is_refused(tmp_path: Path) -> None:
     assert "DO NOT MATCH THE HASHES" in other.stderr
 
 
-def downloaded(requirements: str, folder: Path) -> subprocess.CompletedProcess[str]:
+def downloaded(requirements, folder):
     (folder / "file.txt").write_text(requirements + "\n", encoding="utf-8")
     command = [sys.executable, "-m", "pip", "download", "--require-hashes", "--no-deps", "-r", "file.txt"]
     return run_with_index(command, OUTER, folder)

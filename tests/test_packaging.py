@@ -1,14 +1,11 @@
 """Promises of the distribution: versions, requirements by system, compiler flags, types, and the lock."""
 
-from __future__ import annotations
-
 import re
 import runpy
 import subprocess
 import sys
 import sysconfig
 import tomllib
-from collections.abc import Iterable
 from importlib.metadata import version
 from itertools import chain
 from pathlib import Path
@@ -43,25 +40,25 @@ APPLE = "Apple clang version 16.0.0 (clang-1600.0.26.6)\nTarget: arm64-apple-dar
 pytestmark = pytest.mark.uncompiled
 
 
-def requirements(system: str, extra: str = "") -> set[str]:
+def requirements(system, extra=""):
     """Names of what is required on a system, for an extra or without one."""
     environment = default_environment() | {"sys_platform": system, "platform_system": SYSTEMS[system], "extra": extra}
     wanted = map(Requirement, PROJECT["optional-dependencies"][extra] if extra else PROJECT["dependencies"])
     return {each.name for each in wanted if not each.marker or each.marker.evaluate(environment)}
 
 
-def output(code: str) -> str:
+def output(code):
     """What a new process prints."""
     return subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True).strip()
 
 
-def test_the_version_is_that_of_the_installed_distribution_and_read_only_when_it_is_asked_for() -> None:
+def test_the_version_is_that_of_the_installed_distribution_and_read_only_when_it_is_asked_for():
     assert core.__version__ == version("bench-dragon") == PROJECT["version"]
     assert output("import sys, core; print('importlib.metadata' in sys.modules); core.__version__") == "False"
 
 
 @pytest.mark.parametrize("package", ["app", "core"])
-def test_types_and_data_go_with_the_package(package: str) -> None:
+def test_types_and_data_go_with_the_package(package):
     patterns = SETTINGS["tool"]["setuptools"]["package-data"].items()
     globs = [(ROOT / name.replace(".", "/")).glob(pattern) for name, group in patterns for pattern in group]
     files = {path for path in (ROOT / package).rglob("*") if path.is_file()}
@@ -71,9 +68,7 @@ def test_types_and_data_go_with_the_package(package: str) -> None:
 
 
 @pytest.mark.parametrize("system", SYSTEMS)
-def test_the_plain_installation_is_the_same_on_every_system_and_the_service_takes_uvloop_where_it_is(
-    system: str,
-) -> None:
+def test_the_plain_installation_is_the_same_on_every_system_and_the_service_takes_uvloop_where_it_is(system):
     names, service = requirements(system), requirements(system, "service")
     assert names == requirements("linux")
     assert "numpy" in names
@@ -82,27 +77,27 @@ def test_the_plain_installation_is_the_same_on_every_system_and_the_service_take
     assert ("uvloop" in service) is (system != "win32")
 
 
-def locked(*files: str) -> dict[str, str]:
+def locked(*files):
     """Versions in lock files by normalised name."""
     rows = [LOCKED.fullmatch(line) for file in files for line in LOCKS[file] if not line.startswith("#")]
     return {canonicalize_name(row[1]): row[2] for row in rows if row}
 
 
-def unfit(wanted: Iterable[str], versions: dict[str, str]) -> list[Requirement]:
+def unfit(wanted, versions):
     """Requirements, this distribution's own extras left aside, of which no locked version fits."""
     others = [each for each in map(Requirement, wanted) if each.name != PROJECT["name"]]
     assert others
     return [each for each in others if not each.specifier.contains(versions.get(canonicalize_name(each.name), ""))]
 
 
-def test_the_digests_are_of_the_versions_in_the_lock() -> None:
+def test_the_digests_are_of_the_versions_in_the_lock():
     lines = re.sub(r" \\\n\s+", " ", (ROOT / "requirements.hashes").read_text(encoding="utf-8")).splitlines()
     digests = dict(line.split(" --hash=", 1) for line in lines)
     assert list(digests) == [line for line in LOCKS["requirements.lock"] if not line.startswith("# ")]
     assert all(re.fullmatch(r"sha256:[0-9a-f]{64}( --hash=sha256:[0-9a-f]{64})*", each) for each in digests.values())
 
 
-def test_the_locks_hold_a_version_that_fits_of_every_requirement() -> None:
+def test_the_locks_hold_a_version_that_fits_of_every_requirement():
     extras, groups = PROJECT["optional-dependencies"], SETTINGS["dependency-groups"]
     service = chain(*map(extras.get, ["service", "sweep", "arrow", "dxf", "film", "figures", "xlsx"]))
     assert unfit([*PROJECT["dependencies"], *groups["tools"], *service], locked("requirements.lock")) == []
@@ -111,18 +106,18 @@ def test_the_locks_hold_a_version_that_fits_of_every_requirement() -> None:
     assert unfit(groups["dist"], locked("requirements-dist.lock")) == []
 
 
-def test_the_service_is_installed_without_what_only_tests_need() -> None:
+def test_the_service_is_installed_without_what_only_tests_need():
     assert locked("requirements.lock").keys() & {"pytest", "playwright", "hypothesis", "mypy", "dask", "box2d"} == set()
 
 
-def test_every_python_that_is_named_gets_a_wheel() -> None:
+def test_every_python_that_is_named_gets_a_wheel():
     supported = [one.rpartition(" ")[2] for one in PROJECT["classifiers"] if re.search(r":: 3\.\d+$", one)]
     assert supported == list(PYTHONS)
     assert SETTINGS["tool"]["cibuildwheel"]["build"] == [f"cp{one.replace('.', '')}-*" for one in supported]
 
 
 @pytest.mark.parametrize("compiler", BUILD["FLAGS"])
-def test_no_flag_changes_a_digit_and_every_compiler_gets_flags_of_its_own_kind(compiler: str) -> None:
+def test_no_flag_changes_a_digit_and_every_compiler_gets_flags_of_its_own_kind(compiler):
     flags, for_msvc = BUILD["FLAGS"][compiler], compiler == "msvc"
     assert [flag for flag in flags if flag.startswith(OTHER_DIGITS)] == []
     assert ("/fp:precise" if for_msvc else "-ffp-contract=off") in flags
@@ -141,15 +136,15 @@ def test_no_flag_changes_a_digit_and_every_compiler_gets_flags_of_its_own_kind(c
     ],
     ids=["gcc", "mingw", "apple", "another", "msvc"],
 )
-def test_a_compiler_is_known_by_what_it_says(kind: str, says: str, compiler: str) -> None:
+def test_a_compiler_is_known_by_what_it_says(kind, says, compiler):
     assert BUILD["family"](kind, [sys.executable, "-c", f"print({says!r})"]) == compiler
 
 
-def test_without_a_compiler_the_build_goes_on() -> None:
+def test_without_a_compiler_the_build_goes_on():
     assert BUILD["family"]("unix", ["no-such-compiler"]) == "clang"
 
 
-def test_the_service_has_as_many_processes_as_asked_or_as_cores() -> None:
+def test_the_service_has_as_many_processes_as_asked_or_as_cores():
     cores = min(usable_cores(), WORKERS_MAX)
     for platform, query, count in (("linux", 3, 3), ("darwin", 3, 3), ("win32", 1, 1), ("win32", None, 1)):
         assert process_count(query, platform) == count
@@ -158,7 +153,7 @@ def test_the_service_has_as_many_processes_as_asked_or_as_cores() -> None:
         process_count(4, "win32")
 
 
-def test_nothing_is_imported_that_windows_lacks() -> None:
+def test_nothing_is_imported_that_windows_lacks():
     files = [path for package in ("app", "core") for path in (ROOT / package).rglob("*.py")]
     assert len(files) > 50
     names = "|".join(POSIX_ONLY)
@@ -166,6 +161,6 @@ def test_nothing_is_imported_that_windows_lacks() -> None:
     assert [path for path in files if pattern.search(path.read_text(encoding="utf-8"))] == []
 
 
-def test_an_editable_install_is_a_path_that_type_checkers_read_unless_its_name_needs_an_encoding() -> None:
+def test_an_editable_install_is_a_path_that_type_checkers_read_unless_its_name_needs_an_encoding():
     (path,) = Path(sysconfig.get_path("purelib")).glob("__editable__.bench_dragon-*.pth")
     assert (path.read_text("utf-8").strip() == str(ROOT)) is str(ROOT).isascii()

@@ -4,8 +4,6 @@ Those of app go by what a user asks for, which several modules answer together. 
 in tests/support, what runs for minutes or hours in tests/campaigns.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from functools import cache
@@ -19,13 +17,13 @@ ROOT = Path(__file__).parent.parent
 TESTS = ROOT / "tests"
 
 
-def has_tests(file: Path) -> bool:
+def has_tests(file):
     """True for a file of tests that holds at least one."""
     name = file.relative_to(ROOT).as_posix()
     return any(isinstance(node, ast.FunctionDef) and node.name.startswith("test_") for node in trees().get(name, []))
 
 
-def test_every_module_of_core_has_its_file_of_tests() -> None:
+def test_every_module_of_core_has_its_file_of_tests():
     modules = [path.relative_to(ROOT) for path in sorted((ROOT / "core").rglob("[!_]*.py"))]
     assert len(modules) > 50
     assert [one for one in modules if not has_tests(TESTS / one.with_name(f"test_{one.name}"))] == []
@@ -35,7 +33,7 @@ def test_every_module_of_core_has_its_file_of_tests() -> None:
 
 
 @cache
-def trees() -> dict[str, list[ast.AST]]:
+def trees():
     """The syntax of each file of tests."""
     return {
         path.relative_to(ROOT).as_posix(): list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
@@ -47,9 +45,9 @@ def trees() -> dict[str, list[ast.AST]]:
 PUBLIC = {"_asdict", "_exit", "_fields", "_replace"}
 
 
-def private_names(nodes: list[ast.AST]) -> list[str]:
+def private_names(nodes):
     """Private names that code imports, asks another object for, or replaces."""
-    used: list[str] = []
+    used = []
     for node in nodes:
         if isinstance(node, ast.ImportFrom):
             used += [alias.name for alias in node.names]
@@ -60,5 +58,5 @@ def private_names(nodes: list[ast.AST]) -> list[str]:
     return [name for name in used if re.fullmatch(r"_.*[^_]", name) and name not in PUBLIC]
 
 
-def test_no_test_uses_a_private_name() -> None:
+def test_no_test_uses_a_private_name():
     assert {path: used for path, nodes in trees().items() if (used := private_names(nodes))} == {}

@@ -1,12 +1,8 @@
 """The notebook examples/tour.py: it converts, every cell runs, and its sentences are true."""
 
-from __future__ import annotations
-
 import ast
-from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import jupytext
 import matplotlib.pyplot as plt
@@ -22,7 +18,7 @@ CODE = [cell.source for cell in NOTEBOOK.cells if cell.cell_type == "code"]
 DISPLAY_MOST = 220
 
 
-def display(source: str, names: dict[str, Any]) -> Any:
+def display(source, names):
     """Runs a cell; what a notebook shows under it: the value of its last line, if that is an expression."""
     tree = ast.parse(source)
     last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
@@ -31,9 +27,9 @@ def display(source: str, names: dict[str, Any]) -> Any:
 
 
 @pytest.fixture(scope="module")
-def tour() -> Iterator[SimpleNamespace]:
+def tour():
     """Names after all cells ran in order; `answers` are what each one shows."""
-    names: dict[str, Any] = {"__name__": "__main__"}
+    names = {"__name__": "__main__"}
     before = plt.get_backend()
     plt.switch_backend("Agg")
     names["answers"] = [display(source, names) for source in CODE]
@@ -42,7 +38,7 @@ def tour() -> Iterator[SimpleNamespace]:
     plt.switch_backend(before)
 
 
-def test_it_is_a_notebook_of_words_and_code() -> None:
+def test_it_is_a_notebook_of_words_and_code():
     words = [cell.source for cell in NOTEBOOK.cells if cell.cell_type == "markdown"]
     assert words[0].startswith("# A dragon of benches")
     assert len(words) > 10
@@ -50,14 +46,14 @@ def test_it_is_a_notebook_of_words_and_code() -> None:
     assert jupytext.reads(jupytext.writes(NOTEBOOK, fmt="ipynb"), fmt="ipynb").cells[-1].source == words[-1]
 
 
-def test_every_cell_runs_and_shows_something_short_or_a_picture(tour: SimpleNamespace) -> None:
+def test_every_cell_runs_and_shows_something_short_or_a_picture(tour):
     assert sum(isinstance(answer, Axes) for answer in tour.answers) >= 4
     values = [repr(each) for each in tour.answers if isinstance(each, Readable) or hasattr(each, "to_dataframe")]
     assert len(values) >= 6
     assert max(map(len, values)) <= DISPLAY_MOST
 
 
-def test_its_sentences_are_so(tour: SimpleNamespace) -> None:
+def test_its_sentences_are_so(tour):
     low, high = tour.contact.time_bracket
     assert 0.0 < high - low < 1e-9  # "a fraction of a nanosecond apart"
     assert (tour.contact.corner.name, tour.contact.corner.bench) == ("front-outer", 0)

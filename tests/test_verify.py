@@ -1,7 +1,5 @@
 """examples/verify.py, run as a reader runs it: alone, without site packages, on certificates that are files."""
 
-from __future__ import annotations
-
 import ast
 import itertools
 import json
@@ -11,19 +9,16 @@ import re
 import runpy
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
-from typing import Any
 
 import pytest
 from flint import arb, ctx, fmpz
 
 from core import Dance, Dragon, Spiral, first_contact
-from core.proof import Certificate, chain, prove_collision_time, prove_minimum_pitch
+from core.proof import chain, prove_collision_time, prove_minimum_pitch
 from tests.campaigns.differential import MAKERS, hunt, made, proven_by_core, proven_by_second, second
 from tests.support.depth import DEEP, examples, some, thorough
-from tests.support.forgeries import DROPPED, FORGERIES, Change, forged, stretches
+from tests.support.forgeries import DROPPED, FORGERIES, forged, stretches
 from tests.support.reference import reference_cases
 from tests.support.reference_contacts import graze, random_contact, small
 
@@ -35,13 +30,13 @@ BEND_WIDTH_MOST = 1e-20  # far below what the proofs need, about 1e-14 [rad]
 SLOW = ("stray", "stray with a pose", "minimum pitch at a fold")
 
 
-def run(*arguments: Path | str) -> subprocess.CompletedProcess[str]:
+def run(*arguments):
     """verify.py alone: -I and -S leave no path to any package but the standard library."""
     command = [sys.executable, "-I", "-S", VERIFY, *arguments]
     return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE)
 
 
-def assert_verdict(certificate: Certificate, reason: str) -> None:
+def assert_verdict(certificate, reason):
     """verify.py does not prove it, for this reason (a pattern)."""
     proven, words = proven_by_second(certificate)
     assert not proven
@@ -49,14 +44,14 @@ def assert_verdict(certificate: Certificate, reason: str) -> None:
 
 
 @pytest.fixture
-def verify() -> ModuleType:
+def verify():
     """verify.py as a module, to look inside, with all the work that one certificate may take."""
     module = second()
     module.LEFT[0] = module.BENDS_MOST
     return module
 
 
-def test_its_code_imports_the_standard_library_alone() -> None:
+def test_its_code_imports_the_standard_library_alone():
     source = VERIFY.read_text(encoding="utf-8")
     tree = ast.parse(source)
     names = {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
@@ -66,20 +61,20 @@ def test_its_code_imports_the_standard_library_alone() -> None:
     assert not re.search(r"\b(__import__|importlib|exec|eval)\b", source)
 
 
-def contact_of(dance: Dance, **options: Any) -> Certificate:
+def contact_of(dance, **options):
     time = first_contact(dance).time
     assert time is not None
     return prove_collision_time(dance, time, **options)
 
 
-def reference_pitch(name: str, benches: int, start_turns: float = 16.0) -> Certificate:
+def reference_pitch(name, benches, start_turns=16.0):
     case = reference_cases("minimum_pitch")[name]
     dragon, radius = Dragon(**(case["dragon"] | {"benches": benches})), case["turning_diameter"] / 2
     # The reference pitches are rounded.
     return prove_minimum_pitch(dragon, case["pitch"] + 1e-9, turning_radius=radius, start_turns=start_turns)
 
 
-CERTIFICATES: dict[str, tuple[Callable[[], Certificate], str]] = {
+CERTIFICATES = {
     "five benches": (small, "benches 0 and 4 overlap"),
     # Handle 1 turns back, and the head's bend grows beyond half a turn.
     "near the fold, with a slow head": (
@@ -106,7 +101,7 @@ FIRST, *OTHERS = CERTIFICATES
 
 
 @pytest.mark.parametrize("name", [FIRST, *thorough(*OTHERS)])
-def test_certificates_of_all_kinds_are_verified(tmp_path: Path, name: str) -> None:
+def test_certificates_of_all_kinds_are_verified(tmp_path, name):
     make, words = CERTIFICATES[name]
     (tmp_path / "certificate.json").write_text(json.dumps(make()))
     done = run(tmp_path / "certificate.json")
@@ -119,22 +114,22 @@ OWN_WORDS = dict.fromkeys(("delete sweeps.1", "repeat sweeps.-1", "reverse sweep
 
 
 @pytest.mark.parametrize(("change", "reason"), [*DROPPED, *thorough(*FORGERIES[len(DROPPED) :])])
-def test_a_forged_certificate_is_refused(change: Change | str, reason: str) -> None:
+def test_a_forged_certificate_is_refused(change, reason):
     assert_verdict(forged(small(), change), OWN_WORDS.get(str(change), reason))
 
 
-def half_turned(content: dict[str, Any]) -> None:
+def half_turned(content):
     tile = stretches(content)[5]
     tile[2] = "".join(str(int(face) ^ 2) for face in tile[2])
 
 
-def at_once(content: dict[str, Any]) -> None:
+def at_once(content):
     """The way in one stretch, with the ends that it had."""
     tiles = stretches(content)
     tiles[:] = [[tiles[0][0], tiles[-1][1], "333"]]
 
 
-FURTHER: list[tuple[Change | str, str]] = [
+FURTHER = [
     (half_turned, "not apart by"),
     ('sweeps.0.stretches.5.2 = ""', "pairs are missing"),
     (at_once, "apart"),
@@ -171,12 +166,12 @@ FURTHER: list[tuple[Change | str, str]] = [
 
 
 @pytest.mark.parametrize(("change", "reason"), FURTHER)
-def test_a_forgery_of_its_own_kind_is_refused(change: Change | str, reason: str) -> None:
+def test_a_forgery_of_its_own_kind_is_refused(change, reason):
     assert_verdict(forged(small(), change), reason)
 
 
 @pytest.mark.thorough
-def test_a_stretch_too_wide_to_be_shown_at_once_is_halved() -> None:
+def test_a_stretch_too_wide_to_be_shown_at_once_is_halved():
     """Neighbouring stretches with the same faces may be joined: what is claimed stays true."""
     alike = [k for k, (one, after) in enumerate(itertools.pairwise(stretches(small()))) if one[2] == after[2]]
     proven_by_both = []
@@ -189,7 +184,7 @@ def test_a_stretch_too_wide_to_be_shown_at_once_is_halved() -> None:
     assert not all(proven_by_both)
 
 
-def test_an_accident_is_refused_by_the_digest() -> None:
+def test_an_accident_is_refused_by_the_digest():
     assert_verdict(small() | {"precision": 97}, "changed after it was made")
 
 
@@ -205,7 +200,7 @@ def test_an_accident_is_refused_by_the_digest() -> None:
         *thorough(("claim.pitch += 1.1e-6", "not proven"), ("claim.turning_radius += -1e-3", "not proven")),
     ],
 )
-def test_a_pitch_a_circle_or_an_overlap_that_is_not_shown_is_refused(edit: str, reason: str) -> None:
+def test_a_pitch_a_circle_or_an_overlap_that_is_not_shown_is_refused(edit, reason):
     assert_verdict(forged(graze(), edit), reason)
 
 
@@ -228,9 +223,7 @@ def test_a_pitch_a_circle_or_an_overlap_that_is_not_shown_is_refused(edit: str, 
     ],
     ids=range(13),
 )
-def test_what_is_no_certificate_is_refused_in_one_line(
-    data: bytes, reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_is_no_certificate_is_refused_in_one_line(data, reason, tmp_path, monkeypatch, capsys):
     (tmp_path / "certificate.json").write_bytes(data)
     monkeypatch.setattr("sys.argv", [str(VERIFY), str(tmp_path / "certificate.json")])
     with pytest.raises(SystemExit) as ended:
@@ -241,7 +234,7 @@ def test_what_is_no_certificate_is_refused_in_one_line(
     assert reason in errors
 
 
-def test_a_path_of_nothing_is_refused_by_both() -> None:
+def test_a_path_of_nothing_is_refused_by_both():
     certificate = forged(made("clear"), "claim.path = {}")
     assert_verdict(certificate, r"claim\.path\.kind is another")
     proven, refusal = proven_by_core(certificate)
@@ -250,7 +243,7 @@ def test_a_path_of_nothing_is_refused_by_both() -> None:
 
 
 @pytest.mark.parametrize("name", [*(name for name in MAKERS if name not in SLOW), *thorough(*SLOW)])
-def test_every_kind_of_claim_is_verified_and_no_other_number_of_it(name: str) -> None:
+def test_every_kind_of_claim_is_verified_and_no_other_number_of_it(name):
     """A little larger stop, time or way, or a stray above the proven one, is refused."""
     certificate = made(name)
     claim = certificate["claim"]
@@ -265,24 +258,24 @@ def test_every_kind_of_claim_is_verified_and_no_other_number_of_it(name: str) ->
 
 
 @pytest.mark.thorough
-def test_both_checkers_have_one_verdict_on_changed_certificates() -> None:
+def test_both_checkers_have_one_verdict_on_changed_certificates():
     """`python -m tests.campaigns.differential` checks 100,000."""
     assert hunt(4, cases=CHANGED)[:2] == (CHANGED, 0)
 
 
 @pytest.mark.parametrize("arguments", [["--other"], *thorough([], ["a", "b"], ["nowhere"], ["/"])], ids=str)
-def test_wrong_usage_gets_exit_code_2(arguments: list[str]) -> None:
+def test_wrong_usage_gets_exit_code_2(arguments):
     done = run(*arguments)
     assert (done.returncode, done.stdout) == (2, "")
     assert "usage: verify.py" in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def inside(verify: ModuleType, result: Any, true: arb) -> bool:
+def inside(verify, result, true):
     return bool(arb(fmpz(result.lo)) / verify.UNIT <= true and true <= arb(fmpz(result.hi)) / verify.UNIT)
 
 
-def test_its_arithmetic_encloses_that_of_flint(verify: ModuleType) -> None:
+def test_its_arithmetic_encloses_that_of_flint(verify):
     dice = random.Random(1)
     with ctx.workprec(400):
         assert inside(verify, verify.PI, arb.pi())
@@ -305,7 +298,7 @@ def test_its_arithmetic_encloses_that_of_flint(verify: ModuleType) -> None:
 
 @pytest.mark.parametrize("theta", [14.735, 15.0, 30.0, 100.0, 6e5])
 @pytest.mark.parametrize("chord", [0.1, 1.65, 2.86])
-def test_its_bends_are_those_of_core_proof(verify: ModuleType, theta: float, chord: float) -> None:
+def test_its_bends_are_those_of_core_proof(verify, theta, chord):
     growth = verify.exactly(0.55) / (verify.TWO * verify.PI)
     result = verify.bend(verify.exactly(theta), verify.Bench(chord, 0.3, 0.0, growth))
     assert result.hi - result.lo < BEND_WIDTH_MOST * verify.UNIT
@@ -318,7 +311,7 @@ def test_its_bends_are_those_of_core_proof(verify: ModuleType, theta: float, cho
         assert chain.delta(arb(theta), needed).overlaps(low.union(high))
 
 
-def test_a_normal_that_is_turned_to_a_face_leaves_the_gaps_of_this_face(verify: ModuleType) -> None:
+def test_a_normal_that_is_turned_to_a_face_leaves_the_gaps_of_this_face(verify):
     row = verify.Chain([(3, 2.2, 0.3, 0.275)], 0.55, 16.0).row(0, verify.exactly(60.0))
     for _ in range(3):
         row.grow()
@@ -329,7 +322,7 @@ def test_a_normal_that_is_turned_to_a_face_leaves_the_gaps_of_this_face(verify: 
         assert turned == pytest.approx(of_face, abs=1e-12)
 
 
-def test_past_the_fold_there_is_no_bend(verify: ModuleType) -> None:
+def test_past_the_fold_there_is_no_bend(verify):
     growth = verify.exactly(0.55) / (verify.TWO * verify.PI)
     with pytest.raises(verify.Refused, match="no root"):
         verify.bend(verify.exactly(14.73), verify.Bench(2.86, 0.3, 0.0, growth))

@@ -16,8 +16,6 @@ import numpy as np
 
 from core import Dance, Dragon, Spiral, bench_poses, clearance_profile, tolerance, trajectory
 from core.shapes.rectangles import frames, frames_separation
-from core.tolerance.tolerance import Tolerance
-from core.values import Floats
 from tests.support.random_strays import random_strays, strays_of
 
 CIRCLE = 4.5  # radius of the turning circle [m]
@@ -38,12 +36,12 @@ class Sought:
     poses: int = 0
     nearest: float = math.inf
 
-    def add(self, gaps: Floats) -> Floats:
+    def add(self, gaps):
         self.poses, self.nearest = self.poses + gaps.size, min(self.nearest, float(gaps.min()))
         return gaps
 
 
-def to_circle(pitch: float) -> tuple[Dance, float]:
+def to_circle(pitch):
     """The default dragon on a spiral, and when its head is on the circle [s]."""
     spiral = Spiral(pitch)
     theta = CIRCLE / spiral.growth
@@ -60,7 +58,7 @@ class PairAtTime:
     pair: tuple[int, int]
     stray: float
 
-    def __post_init__(self) -> None:
+    def __post_init__(self):
         handles = trajectory(self.dance, self.time).position
         self.handles = np.array([handles[k : k + 2] for k in self.pair])
         dragon, bench = self.dance.dragon, list(self.pair)
@@ -70,25 +68,24 @@ class PairAtTime:
         cosine, sine = np.cos(heading), np.sin(heading)
         self.turns = np.moveaxis(np.array([[cosine, sine], [-sine, cosine]]), -1, 0)
 
-    def gaps(self, strays: Floats) -> Floats:
+    def gaps(self, strays):
         """Gaps (N,) with the holes displaced in the benches' own frames: strays (N, bench, hole, 2) [m]."""
         both = []
         for k in range(2):
             poses = bench_poses(self.handles[k] + strays[:, k] @ self.turns[k])[:, 0]
             both.append(frames(poses, np.broadcast_to(self.sizes[k], (len(poses), 2))))
-        gaps: Floats = frames_separation(*both).separation
-        return gaps
+        return frames_separation(*both).separation
 
-    def drawn(self, rng: np.random.Generator, count: int) -> Floats:
+    def drawn(self, rng, count):
         """Strays (count, 2, 2, 2) at random."""
         return np.stack([random_strays(rng, chord, self.stray, count) for chord in self.chords], axis=1)
 
-    def laid(self, shapes: Floats) -> Floats:
+    def laid(self, shapes):
         """Strays of shapes (..., bench, 3): q and the middle of each, see random_strays.py."""
         parts = [strays_of(shapes[:, k, 0], shapes[:, k, 1:], self.chords[k], self.stray) for k in range(2)]
         return np.stack(parts, axis=1)
 
-    def downhill(self, strays: Floats, sought: Sought) -> Floats:
+    def downhill(self, strays, sought):
         """Let poses go down the gradient of their gap, by less and less; a step that does not help is not taken."""
         shapes, gaps = _shapes(strays), self.gaps(strays)
         for k in range(STEPS):
@@ -105,7 +102,7 @@ class PairAtTime:
             gaps = np.where(better, result, gaps)
         return shapes[np.argsort(gaps)[:VARIED]]
 
-    def vary(self, rng: np.random.Generator, shapes: Floats, sought: Sought) -> None:
+    def vary(self, rng, shapes, sought):
         """Vary the best shapes so far by less and less."""
         for k in range(ROUNDS):
             off = rng.normal(0.0, FIRST * SHRINK**k * self.stray, (VARIANTS, *shapes.shape))
@@ -114,14 +111,14 @@ class PairAtTime:
             shapes = _shapes(strays[np.argsort(sought.add(self.gaps(strays)))[:VARIED]])
 
 
-def _shapes(strays: Floats) -> Floats:
+def _shapes(strays):
     """q and the middle (N, bench, 3) of strays."""
     middle, half = 0.5 * strays.sum(axis=2), 0.5 * (strays[:, :, 0] - strays[:, :, 1])
     q = np.copysign(np.hypot(half[..., 0], half[..., 1]), half[..., 1])
     return np.concatenate([q[..., None], middle], axis=-1)
 
 
-def seek(dance: Dance, known: Tolerance, part: float = 0.999, draws: int = DRAWS) -> Sought:
+def seek(dance, known, part=0.999, draws=DRAWS):
     """Look for contacts of a default dance with this part of its tolerance, where and when benches are the nearest."""
     assert known.time is not None
     stray, rng, sought = part * known.stray, np.random.default_rng(7), Sought()
@@ -138,7 +135,7 @@ def seek(dance: Dance, known: Tolerance, part: float = 0.999, draws: int = DRAWS
     return sought
 
 
-def main() -> None:
+def main():
     dance, stop = to_circle(0.55)
     known = tolerance(dance, stop=stop)
     sought = seek(dance, known)

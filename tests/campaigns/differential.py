@@ -7,23 +7,17 @@ A stretch that one of them cannot show at once may be shown in parts: their encl
 stretches. So where only one proves a certificate, the same one with finer stretches must be proven by both.
 """
 
-from __future__ import annotations
-
 import copy
 import importlib.util
 import itertools
 import math
 import random
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from types import ModuleType
-from typing import Any
 
 from core import Arc, Coil, Dance, Dragon, Line, Route, Spiral, Turn, first_contact, minimum_pitch
 from core.errors import ProofRefused
 from core.proof import (
-    Certificate,
     prove_clear,
     prove_collision_time,
     prove_contact,
@@ -45,7 +39,7 @@ ODD = (0, -0.0, 1e-320, 1e308, math.nan, math.inf, True, None, "", [], {}, 10**3
 
 
 @cache
-def second() -> ModuleType:
+def second():
     """examples/verify.py as a module."""
     spec = importlib.util.spec_from_file_location("second_verifier", VERIFY)
     assert spec is not None
@@ -55,33 +49,33 @@ def second() -> ModuleType:
     return module
 
 
-def _contact(dragon: Dragon, path: Any, before: float, margin: float = 0.0) -> Certificate:
+def _contact(dragon, path, before, margin=0.0):
     dance = Dance(dragon, path)
     when = first_contact(dance, margin=margin, start=dance.default_start).time
     assert when is not None
     return prove_contact(dance, when, start=when - before, margin=margin)
 
 
-def _pitch(dragon: Dragon, radius: float, turns: float, margin: float = 0.0) -> Certificate:
+def _pitch(dragon, radius, turns, margin=0.0):
     pitch = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin).pitch + 1e-9
     return prove_minimum_pitch(dragon, pitch, turning_radius=radius, start_turns=turns, margin=margin)
 
 
-def _collision() -> Certificate:
+def _collision():
     dance = Dance(Dragon(4, 3.61, 2.4, 0.12, 0.1), Spiral(0.48, 3.4))
     when = first_contact(dance).time
     assert when is not None
     return prove_collision_time(dance, when)
 
 
-def _strayed(with_exhibit: bool) -> Certificate:
+def _strayed(with_exhibit):
     dance = Dance(Dragon(6), Spiral(0.7, 5.0))
     result = tolerance(dance, start=44.0, stop=44.9)
     stray = result.stray if with_exhibit else 0.02
     return prove_tolerance(dance, stray, exhibit=result.exhibit if with_exhibit else None, start=44.0, stop=44.9)
 
 
-MAKERS: dict[str, Callable[[], Certificate]] = {
+MAKERS = {
     "collision time": _collision,
     "contact": lambda: _contact(Dragon(9), Spiral(0.55, 6.0), 0.5),
     "contact with a margin": lambda: _contact(Dragon(9), Spiral(0.55, 6.0), 0.5, 0.04),
@@ -105,18 +99,18 @@ MAKERS: dict[str, Callable[[], Certificate]] = {
 
 
 @cache
-def made(name: str) -> Certificate:
+def made(name):
     """A true certificate with few stretches."""
     return through_json(MAKERS[name]())
 
 
-def fitted(content: dict[str, Any]) -> Certificate:
+def fitted(content):
     """The content with a digest that fits it."""
     content = {name: value for name, value in content.items() if name != "digest"}
     return content | {"digest": digest(content)}
 
 
-def proven_by_core(certificate: Certificate) -> tuple[bool, str]:
+def proven_by_core(certificate):
     """Whether core/proof proves it, and the statement or the reason."""
     try:
         return True, verify(copy.deepcopy(certificate)).statement
@@ -124,7 +118,7 @@ def proven_by_core(certificate: Certificate) -> tuple[bool, str]:
         return False, refused.message
 
 
-def proven_by_second(certificate: Certificate) -> tuple[bool, str]:
+def proven_by_second(certificate):
     """The same of examples/verify.py."""
     module = second()
     try:
@@ -133,7 +127,7 @@ def proven_by_second(certificate: Certificate) -> tuple[bool, str]:
         return False, str(refused)
 
 
-def cut(certificate: Certificate, parts: int) -> Certificate:
+def cut(certificate, parts):
     """The same certificate, each stretch in so many parts, and each sweep some last digits longer, because the checkers
     enclose the place at which it has to arrive in their own ways."""
     content = copy.deepcopy(certificate)
@@ -148,14 +142,14 @@ def cut(certificate: Certificate, parts: int) -> Certificate:
     return fitted(content)
 
 
-def _stops_at_the_end(certificate: Certificate, stop: float) -> bool:
+def _stops_at_the_end(certificate, stop):
     """Whether core/proof does not refuse the stop that is 16 last digits earlier for coming after the end."""
     earlier = copy.deepcopy(certificate)
     earlier["claim"]["stop"] = stop - 16.0 * math.ulp(stop)
     return "when the path ends, got" not in proven_by_core(fitted(earlier))[1]
 
 
-def disagreement(certificate: Certificate) -> str:
+def disagreement(certificate):
     """How the two checkers disagree about a certificate; empty if they agree."""
     first, other = proven_by_core(certificate), proven_by_second(certificate)
     # The end of a route is a double that core rounds on its way: a stop some last digits later is no disagreement.
@@ -172,7 +166,7 @@ def disagreement(certificate: Certificate) -> str:
     return f"only {who} proves it: {first[1][:300]} | {other[1][:300]}"
 
 
-def changed(certificate: Certificate, dice: random.Random) -> Certificate:
+def changed(certificate, dice):
     """A certificate with one change, sometimes two, and a digest that fits."""
     content = copy.deepcopy({name: value for name, value in certificate.items() if name != "digest"})
     for _ in range(dice.choice((1, 1, 1, 2))):
@@ -183,12 +177,12 @@ def changed(certificate: Certificate, dice: random.Random) -> Certificate:
         return certificate
 
 
-def _change(content: dict[str, Any], dice: random.Random) -> None:
+def _change(content, dice):
     # Half of the changes are outside of the stretches, which are most of a certificate.
     outside = {name: content[name] for name in content if name != "sweeps"}
     result = places(outside if dice.random() < 0.5 else content, most=None)[1:]
     place = dice.choice(result)
-    inside: Any = content
+    inside = content
     for step in place[:-1]:
         inside = inside[step]
     name, value = place[-1], inside[place[-1]]
@@ -217,13 +211,13 @@ def _change(content: dict[str, Any], dice: random.Random) -> None:
         inside[name] = dice.choice((*ODD, dice.choice(("stop", "fold", "centre", "end", "spiral", "turn", "clear"))))
 
 
-def _join(entries: list[Any], k: int) -> None:
+def _join(entries, k):
     """Joins two stretches, if these entries are any."""
     if k + 1 < len(entries) and all(isinstance(entry, list) and len(entry) > 2 for entry in entries[k : k + 2]):
         entries[k][1] = entries.pop(k + 1)[1]
 
 
-def _number(value: float, dice: random.Random) -> float:
+def _number(value, dice):
     if isinstance(value, int):
         return value + dice.choice((-1, 1, 2, -value, 1000))
     return dice.choice(
@@ -237,11 +231,11 @@ def _number(value: float, dice: random.Random) -> float:
     )
 
 
-def hunt(seed: int, seconds: float = 0.0, cases: int | None = None) -> hunting.Hunted:
+def hunt(seed, seconds=0.0, cases=None):
     """Changed certificates, one after the other from one row of random numbers, and the disagreements about them."""
     dice = random.Random(seed)
 
-    def fault(seed: int, case: int) -> tuple[str, str]:
+    def fault(seed, case):
         name = dice.choice(list(MAKERS))
         certificate = changed(made(name), dice)
         try:

@@ -4,18 +4,14 @@
 damaged files (5,000 by default), and prints its answers.
 """
 
-from __future__ import annotations
-
 import copy
 import json
 import random
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import httpx
 from hypothesis import HealthCheck, given, settings
@@ -27,7 +23,7 @@ from tests.support.serving import serving
 
 # Nothing takes longer than the deadline of an answer and a busy machine need [s].
 SLOWEST = 20.0
-ODD: tuple[Any, ...] = (
+ODD = (
     None, True, -1, 0, 0.0, -0.0, 1e-308, 1e308, -1e9, 1e6, 2**31, 2**63, 10**40, 0.1 + 0.2, "", "0", "NaN", "1e999",
     "龙", "a$\\frac{$", "\u0000", "\ud800", "x" * 5000, [], {}, [[]], [None] * 50, {"kind": "spiral"}, [1e300, -1e300],
     {"a": {"b": {"c": []}}},
@@ -37,14 +33,14 @@ ODD: tuple[Any, ...] = (
 class Tally:
     """Counts of a service's answers."""
 
-    def __init__(self) -> None:
-        self.statuses: Counter[int] = Counter()
+    def __init__(self):
+        self.statuses = Counter()
         self.slowest = (0.0, "")
 
-    def __str__(self) -> str:
+    def __str__(self):
         return f"answers by status: {dict(sorted(self.statuses.items()))}; slowest {self.slowest}"
 
-    def add(self, ask: Callable[[], Any], request: str) -> Any:
+    def add(self, ask, request):
         """An answer, counted. raises: AssertionError for a fault of the service, or one without problem details"""
         begun = time.monotonic()
         answer = ask()
@@ -58,7 +54,7 @@ class Tally:
         return answer
 
 
-def mutated(value: Any, chance: random.Random) -> Any:
+def mutated(value, chance):
     """The value with one thing in it changed: a part left out, renamed, repeated, or odd."""
     inner = list(value) if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else []
     if not inner or chance.random() < 0.15:
@@ -76,10 +72,10 @@ def mutated(value: Any, chance: random.Random) -> Any:
     return values
 
 
-def mutant(call: str, chance: random.Random) -> tuple[str, dict[str, Any]]:
+def mutant(call, chance):
     """Path and options of a request that is one to three steps away from an example."""
     example, path = EXAMPLES[call], call.split()[1]
-    request: Any = (example.query if example.body is None else example.body) or {"pitch": 0.5}
+    request = (example.query if example.body is None else example.body) or {"pitch": 0.5}
     for _ in range(chance.randrange(1, 4)):
         request = mutated(request, chance)
     if example.body is None:
@@ -93,7 +89,7 @@ def mutant(call: str, chance: random.Random) -> tuple[str, dict[str, Any]]:
     return path, {"content": content, "headers": {"Content-Type": "application/json"}}
 
 
-def ask_mutants(url: str, count: int, seed: int = 0) -> Tally:
+def ask_mutants(url, count, seed=0):
     """Ask a number of them, each call in turn."""
     chance, tally, calls = random.Random(seed), Tally(), sorted(EXAMPLES)
     with httpx.Client(base_url=url, timeout=2.0 * SLOWEST) as client:
@@ -104,14 +100,14 @@ def ask_mutants(url: str, count: int, seed: int = 0) -> Tally:
     return tally
 
 
-def ask_described(url: str, count: int) -> Tally:
+def ask_described(url, count):
     """Ask all calls as /openapi.json describes them, rightly and wrongly, with every check of schemathesis."""
     from tests.app.test_openapi import CALLS, CHECKED, GenerationMode, is_tried
 
     tried = [(call, mode) for call in CALLS for mode in GenerationMode if is_tried(call, mode)]
     tally = Tally()
 
-    def conforms(case: Any) -> None:
+    def conforms(case):
         request = f"{case.method} {case.path} {case.query} {case.body}"
         answer = tally.add(partial(case.call, base_url=url, timeout=2.0 * SLOWEST), request)
         case.validate_response(answer, checks=CHECKED)
@@ -124,7 +120,7 @@ def ask_described(url: str, count: int) -> Tally:
     return tally
 
 
-def main() -> None:
+def main():
     from tests.campaigns.fuzz_files import ask_files, readers_over
 
     cases, mutants, seed, files = hunting.arguments(10_000, 12_000, 0, 5_000)

@@ -1,15 +1,11 @@
 """Damaged files: maps, dances and results of every form, one to four steps away from good ones; and small bombs."""
 
-from __future__ import annotations
-
 import io
 import json
 import random
 import re
 import zipfile
-from collections.abc import Callable
 from functools import cache, partial
-from pathlib import Path
 
 import ezdxf
 import httpx
@@ -18,8 +14,6 @@ from tests.campaigns.fuzz import SLOWEST, Tally
 from tests.support.bombs import GRADES, MAPS, lying, zipped
 from tests.support.students import by_xlsxwriter, few
 
-# Call and file.
-Sample = tuple[str, bytes]
 NUMBER = re.compile(rb"-?\d+(?:\.\d+)?")
 ODD_NUMBERS = (
     *(b"0", b"-0", b"1e300", b"-1e300", b"nan", b"inf", b"1e-300", b"4294967296", b"-1", b"119.64", b"499950.5"),
@@ -34,7 +28,7 @@ ENCODINGS = ("utf-16", "utf-16-le", "gb18030", "utf-32", "utf-7", "latin-1")
 BOMBS = 0.01
 
 
-def _drawing() -> bytes:
+def _drawing():
     document = ezdxf.new("R2010", units=6)
     document.layers.add("OLD").freeze()
     space = document.modelspace()
@@ -75,7 +69,7 @@ TOML = 'margin = 0.1\nvenue = "square.kml"\n[dragon]\nbenches = 4\n[path]\nkind 
 
 
 @cache
-def samples() -> list[Sample]:
+def samples():
     """Good files, by their calls."""
     kml, result = KML.encode(), by_xlsxwriter(few())
     csv = "\n".join(f"head x (m),{k},{k}.5,8.800000" for k in range(300)).encode()
@@ -85,46 +79,46 @@ def samples() -> list[Sample]:
 
 
 @cache
-def small_bombs() -> list[Sample]:
+def small_bombs():
     both = (("places", MAPS), ("grade", GRADES))
     return [(call, made()) for call, some in both for name, made in some.items() if len(made()) < 100_000]
 
 
-def damaged(data: bytes, chance: random.Random) -> bytes:
+def damaged(data, chance):
     """The file with one thing in it changed."""
-    steps: list[Callable[[bytes, random.Random], bytes]] = [_cut, _flipped, _inserted, _twice, _number, _number, _text]
+    steps = [_cut, _flipped, _inserted, _twice, _number, _number, _text]
     if data.startswith(b"PK"):
         steps += [_repacked] * 4
     return chance.choice(steps)(data, chance)
 
 
-def _at(data: bytes, chance: random.Random) -> int:
+def _at(data, chance):
     return chance.randrange(len(data) + 1)
 
 
-def _cut(data: bytes, chance: random.Random) -> bytes:
+def _cut(data, chance):
     at = _at(data, chance)
     return data[:at] + (b"" if chance.random() < 0.3 else data[at + chance.randrange(200) :])
 
 
-def _flipped(data: bytes, chance: random.Random) -> bytes:
+def _flipped(data, chance):
     changed = bytearray(data)
     for _ in range(chance.choice((1, 3, 20)) if data else 0):
         changed[chance.randrange(len(data))] = chance.randrange(256)
     return bytes(changed)
 
 
-def _inserted(data: bytes, chance: random.Random) -> bytes:
+def _inserted(data, chance):
     at = _at(data, chance)
     return data[:at] + chance.choice(ODD_TEXTS) * chance.choice((1, 1, 2, 300)) + data[at:]
 
 
-def _twice(data: bytes, chance: random.Random) -> bytes:
+def _twice(data, chance):
     a, b = sorted((_at(data, chance), _at(data, chance)))
     return data[:b] + data[a:b] * chance.choice((1, 3)) + data[b:] if len(data) < 200_000 else data[a:b]
 
 
-def _number(data: bytes, chance: random.Random) -> bytes:
+def _number(data, chance):
     result = list(NUMBER.finditer(data))
     if not result:
         return data
@@ -132,12 +126,12 @@ def _number(data: bytes, chance: random.Random) -> bytes:
     return data[: one.start()] + chance.choice(ODD_NUMBERS) + data[one.end() :]
 
 
-def _text(data: bytes, chance: random.Random) -> bytes:
+def _text(data, chance):
     coding = chance.choice(ENCODINGS)
     return data.decode("utf-8", "replace").encode(coding, "replace")
 
 
-def _repacked(data: bytes, chance: random.Random) -> bytes:
+def _repacked(data, chance):
     """The archive with one part damaged, left out, with another length in its records, or packed by another method."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -152,7 +146,7 @@ def _repacked(data: bytes, chance: random.Random) -> bytes:
     return zipped(parts, chance.choice(methods))
 
 
-def file_of(chance: random.Random) -> Sample:
+def file_of(chance):
     """A damaged file, or a small bomb."""
     if chance.random() < BOMBS:
         return chance.choice(small_bombs())
@@ -162,7 +156,7 @@ def file_of(chance: random.Random) -> Sample:
     return call, data[:3_000_000]
 
 
-def ask_files(url: str, count: int, seed: int = 0, kept: Path | None = None) -> Tally:
+def ask_files(url, count, seed=0, kept=None):
     """Send a number of them. kept: folder that gets a file at which the service fails"""
     chance, tally = random.Random(seed), Tally()
     headers = {"Content-Type": "application/octet-stream"}
@@ -179,7 +173,7 @@ def ask_files(url: str, count: int, seed: int = 0, kept: Path | None = None) -> 
     return tally
 
 
-def readers_over(metrics: str, limit: float) -> int:
+def readers_over(metrics, limit):
     """Number of files whose readers took more memory than a limit, or ended. metrics: of the service; limit: [bytes]"""
     lines = [line.rpartition(" ") for line in metrics.splitlines()]
     counts = {name.removeprefix("bench_dragon_reader"): float(value) for name, _, value in lines if name[:1] != "#"}

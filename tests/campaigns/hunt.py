@@ -4,8 +4,6 @@ The exit code is 1 for any false answer. Each campaign is a module with `hunt(se
 is shared out among them.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from importlib import import_module
@@ -26,7 +24,7 @@ CAMPAIGNS = {
 SECONDS = 1200.0  # of all campaigns together
 
 
-def main() -> None:
+def main():
     (seconds, seed), false = hunting.arguments(SECONDS, int(time.time())), 0
     print(f"seed {seed}", flush=True)
     for module, what in CAMPAIGNS.items():

@@ -4,8 +4,6 @@ The routes bend back towards themselves, once or to both sides, with ramps of an
 with none there, where the curvature jumps.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 from core import Route

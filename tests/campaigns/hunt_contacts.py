@@ -5,8 +5,6 @@ coils, also from before time 0, with passages and pauses; dragons are uniform or
 margins are chosen so that benches only graze, and so meet slowly.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -5,8 +5,6 @@ same one, go through arcs and along lines that cross, with speeds, passages, pau
 margins are chosen so that benches only graze, and so meet slowly.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -6,11 +6,7 @@ benches or come from a solver, or with a small bias. None has a known error, so 
 verdict "wrong" on a number that is right to its digits. With CASES it ends after so many, not after SECONDS.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +20,6 @@ from app.grade.shortcuts import UNITS, right_answer
 from core import Budget
 from tests.campaigns import hunting
 
-Floats = np.ndarray[Any, np.dtype[np.float64]]
 Random = np.random.Generator
 SECONDS = 120.0
 # Share of typed numbers among the cases, and of sheets with all of their instants: others have every 25th.
@@ -34,39 +29,39 @@ SHEET_DECIMALS, TYPED_DECIMALS = (2, 9), (1, 11)
 
 
 @cache
-def right(workbook: Workbook) -> Floats:
+def right(workbook):
     """Right numbers (T, HANDLES, 3) of a workbook."""
     return of_dance(dance_of(workbook))(times_of(workbook))
 
 
-def rounded(values: Floats, decimals: int, random: Random) -> Floats:
+def rounded(values, decimals, random):
     """Numbers rounded to the nearest, cut off, or rounded down."""
     scaled = values * 10.0**decimals
     return [np.round, np.trunc, np.floor][random.integers(3)](scaled) / 10.0**decimals
 
 
-def single_precision(values: Floats, random: Random) -> Floats:
+def single_precision(values, random):
     return values.astype(np.float32).astype(np.float64)
 
 
-def noise(values: Floats, random: Random) -> Floats:
+def noise(values, random):
     return values + random.normal(0.0, 10.0 ** -random.uniform(2.0, 8.0), values.shape)
 
 
-def noise_of_one_kind(values: Floats, random: Random) -> Floats:
+def noise_of_one_kind(values, random):
     """Noise in the positions alone, or in the speeds alone."""
     result, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
     result[..., which] += random.normal(0.0, 10.0 ** -random.uniform(2.0, 8.0), result[..., which].shape)
     return result
 
 
-def along_benches(values: Floats, random: Random) -> Floats:
+def along_benches(values, random):
     """Errors that add up from bench to bench."""
     steps = random.normal(0.0, 10.0 ** -random.uniform(4.0, 8.0), values.shape)
     return values + np.cumsum(steps, axis=1)
 
 
-def of_solver(values: Floats, random: Random) -> Floats:
+def of_solver(values, random):
     """Smooth errors over handles and instants, as from a solver that stops early, the same in x, y and speed or not."""
     waves = random.uniform(0.0, 0.5, 2)
     t, h = np.meshgrid(*(np.arange(size) for size in values.shape[:2]), indexing="ij")
@@ -74,19 +69,19 @@ def of_solver(values: Floats, random: Random) -> Floats:
     return values + 10.0 ** -random.uniform(4.0, 8.0) * shape[..., None] * random.uniform(-1.0, 1.0, 3)
 
 
-def biased(values: Floats, random: Random) -> Floats:
+def biased(values, random):
     """All speeds, or all places, too small or too large by the same part."""
     result, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
     result[..., which] *= 1.0 + random.normal(0.0, 10.0 ** -random.uniform(4.0, 8.0))
     return result
 
 
-def last_digit(values: Floats, random: Random) -> Floats:
+def last_digit(values, random):
     """Some cells off by one in the sixth decimal."""
     return np.round(values, 6) + 1e-6 * random.integers(-1, 2, values.shape) * (random.random(values.shape) < 0.1)
 
 
-def few_cells(values: Floats, random: Random) -> Floats:
+def few_cells(values, random):
     """Some cells with another sign, a misplaced point or another number."""
     result = values.copy()
     for _ in range(random.integers(1, 30)):
@@ -95,7 +90,7 @@ def few_cells(values: Floats, random: Random) -> Floats:
     return result
 
 
-def exchanged(values: Floats, random: Random) -> Floats:
+def exchanged(values, random):
     """Two handles exchanged, at all instants."""
     result = values.copy()
     a, b = random.integers(HANDLES, size=2)
@@ -103,19 +98,19 @@ def exchanged(values: Floats, random: Random) -> Floats:
     return result
 
 
-def missing(values: Floats, random: Random) -> Floats:
+def missing(values, random):
     result = values.copy()
     result[random.random(values.shape) < random.uniform(0.0, 0.5)] = np.nan
     return result
 
 
-CHANGES: list[Callable[[Floats, Random], Floats]] = [
+CHANGES = [
     single_precision, noise, noise_of_one_kind, along_benches, of_solver, biased, last_digit, few_cells, exchanged,
     missing,
 ]  # fmt: skip
 
 
-def sheet_fault(random: Random) -> str:
+def sheet_fault(random):
     """What the grader finds in a workbook that is nearly right; empty for nothing."""
     workbook = list(Workbook)[random.integers(3)]
     values, times = right(workbook), times_of(workbook)
@@ -135,7 +130,7 @@ def sheet_fault(random: Random) -> str:
     return f"{workbook.value}, {names or 'rounded'}, {decimals} decimals: {', '.join(one.error for one in findings)}"
 
 
-def table_of(kind: TableKind, times: Floats, values: Floats) -> SheetTable:
+def table_of(kind, times, values):
     """A sheet with these numbers (T, HANDLES, 3)."""
     some, handles = values[..., list(COMPONENTS[kind])], np.arange(HANDLES)
     places = np.zeros(some.shape, dtype=np.int64)
@@ -143,7 +138,7 @@ def table_of(kind: TableKind, times: Floats, values: Floats) -> SheetTable:
     return SheetTable("", kind, instants, handles, handles, some, places, places)
 
 
-def typed_fault(random: Random) -> str:
+def typed_fault(random):
     """What the grader finds in a number that is right to its digits, nearly right, or random; empty for nothing."""
     name = list(UNITS)[random.integers(len(UNITS))]
     exact, decimals = right_answer(name), int(random.integers(*TYPED_DECIMALS))
@@ -164,11 +159,11 @@ def typed_fault(random: Random) -> str:
     return ""
 
 
-def hunt(seed: int, seconds: float = SECONDS, cases: int | None = None) -> hunting.Hunted:
+def hunt(seed, seconds=SECONDS, cases=None):
     """Random cases from one row of random numbers. cases: number of them, instead of the seconds"""
     random = np.random.default_rng(seed)
 
-    def fault(seed: int, case: int) -> tuple[str, str]:
+    def fault(seed, case):
         is_typed = random.random() < TYPED
         return "typed number" if is_typed else "sheet", (typed_fault if is_typed else sheet_fault)(random)
 

@@ -4,8 +4,6 @@
 and a dense sampling; where there is none, the reason must be right by other means (tests/support/random_squares.py).
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 from core import InvalidValue, TooMuchWork

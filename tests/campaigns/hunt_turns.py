@@ -5,8 +5,6 @@ hunt_contacts. Spirals have up to 1,000 turns, and the dance begins where the he
 that share an overlap (core/design/turn_overlap.py), random turns are laid out slowly, and must overlap at some instant.
 """
 
-from __future__ import annotations
-
 import math
 from functools import partial
 

@@ -4,8 +4,6 @@
 passes, many of them in the last metres before the fold; spirals stand anywhere, turned and mirrored.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

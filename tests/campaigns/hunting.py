@@ -41,7 +41,7 @@ def unless_refused(answer):
 
 def hunt(fault, seed, seconds=SECONDS, cases=None):
     """Judge case after case until the time is over [s], or for a number of cases; prints every fault."""
-    kinds: Counter[str] = Counter()
+    kinds = Counter()
     stop, case, faults = time.monotonic() + seconds, 0, 0
     while time.monotonic() < stop if cases is None else case < cases:
         kind, wrong = fault(seed, case)

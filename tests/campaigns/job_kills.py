@@ -3,14 +3,11 @@
 python -m tests.campaigns.job_kills KILLS SEED
 """
 
-from __future__ import annotations
-
 import random
 import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import Any
 
 import httpx
 
@@ -27,7 +24,7 @@ BUSY = 3
 PATIENCE = 120.0  # [s]
 
 
-def wanted(chance: random.Random) -> Any:
+def wanted(chance):
     """A call that takes a moment, or up to a second."""
     benches = chance.randrange(20, 80)
     return chance.choice(
@@ -43,7 +40,7 @@ def wanted(chance: random.Random) -> Any:
     )
 
 
-def post(service: JobService, request: Any) -> str:
+def post(service, request):
     """Address of a new job, also if a process dies during the request."""
     while True:
         try:
@@ -52,7 +49,7 @@ def post(service: JobService, request: Any) -> str:
             time.sleep(0.1)
 
 
-def kill_one(service: JobService, chance: random.Random) -> str:
+def kill_one(service, chance):
     """Kills one process and says what it was; the parent is started again."""
     role = chance.choice(ROLES)
     # A spare process may be a job's by the time it is killed, and a job whose process dies three times has failed.
@@ -70,13 +67,13 @@ def kill_one(service: JobService, chance: random.Random) -> str:
     return role
 
 
-def survive(service: JobService, kills: int, seed: int, pause: float = PAUSE, busy: int = BUSY) -> dict[str, int]:
+def survive(service, kills, seed, pause=PAUSE, busy=BUSY):
     """Kill a number of processes; then all jobs must be done, with the bytes of the direct calls.
 
     returns: number of processes killed, by role
     """
     chance, done, store = random.Random(seed), dict.fromkeys(ROLES, 0), Store(service.folder)
-    request: dict[str, Any] = {}
+    request = {}
     while sum(done.values()) < kills:
         while sum(not job.is_finished for job in store.all()) < busy:
             call = wanted(chance)

@@ -4,8 +4,6 @@ It has LibreOffice read and write the contest's three workbooks, and grades all 
 ones of tests/reference/libreoffice anew, with which the tests do without it.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path
@@ -14,7 +12,7 @@ from tempfile import TemporaryDirectory
 from app.files.tables import Language
 from app.grade.report import graded
 from core import Budget
-from tests.support.students import ALL_CELLS, Sheets, by_xlsxwriter, three
+from tests.support.students import ALL_CELLS, by_xlsxwriter, three
 
 SMALL = Path(__file__).parents[1] / "reference" / "libreoffice"
 # Instants of the small workbooks.
@@ -22,7 +20,7 @@ FEW = 4
 SECONDS = 300  # longest conversion [s]; the largest takes about 10
 
 
-def by_libreoffice(sheets: Sheets) -> bytes:
+def by_libreoffice(sheets):
     """A workbook from XlsxWriter, read and written again by LibreOffice."""
     with TemporaryDirectory() as folder:
         file = Path(folder) / "given.xlsx"
@@ -33,7 +31,7 @@ def by_libreoffice(sheets: Sheets) -> bytes:
         return (Path(folder) / "out" / file.name).read_bytes()
 
 
-def main() -> None:
+def main():
     version = subprocess.run(["soffice", "--version"], check=True, capture_output=True, text=True).stdout.strip()
     if "--renew" in sys.argv[1:]:
         SMALL.mkdir(exist_ok=True)

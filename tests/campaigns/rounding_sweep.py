@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -20,7 +19,7 @@ from core.contact.search import ContactSearch
 from core.errors import SIZE_MAX, SIZE_MIN
 from core.kernels.constants import ERROR, HALF_LENGTH, HALF_WIDTH, MX, MY, PX, PY, RADIUS, SWAY, UX, UY
 from tests.campaigns import hunting
-from tests.support.exact_chain import ExactRoute, Floats, Point, separation, spiral_handles
+from tests.support.exact_chain import ExactRoute, separation, spiral_handles
 from tests.support.random_routes import Pen
 
 # Gaps compared in every chain, half of them of pairs behind the head.
@@ -44,7 +43,7 @@ class Errors:
     bounds: list[float] = field(default_factory=list)
 
 
-def random_dragon(rng: np.random.Generator, links: int, chord: float) -> Dragon:
+def random_dragon(rng, links, chord):
     """Alike behind the head or bench by bench; overhangs up to many chords."""
     chords = np.full(links, chord)
     if rng.random() < 0.4:
@@ -56,11 +55,11 @@ def random_dragon(rng: np.random.Generator, links: int, chord: float) -> Dragon:
     return Dragon.of(chords + 2.0 * overhangs, np.full(links, width), overhangs)
 
 
-def links_of(rng: np.random.Generator) -> int:
+def links_of(rng):
     return LINKS if rng.random() < 0.01 * LONG else int(rng.integers(3, MODERATE))
 
 
-def random_spiral(rng: np.random.Generator) -> tuple[ContactSearch, float]:
+def random_spiral(rng):
     """A search, and a theta of the head: anywhere, far out, or near where the run ends."""
     while True:
         links = links_of(rng)
@@ -76,7 +75,7 @@ def random_spiral(rng: np.random.Generator) -> tuple[ContactSearch, float]:
             return ContactSearch(dragon, spiral, 0.0), float(theta)
 
 
-def random_route(rng: np.random.Generator) -> tuple[ContactSearch, float]:
+def random_route(rng):
     """A search, and an s of the head with the whole dragon on the route."""
     while True:
         links = links_of(rng) if rng.random() < 0.5 else int(rng.integers(3, 20))
@@ -93,14 +92,14 @@ def random_route(rng: np.random.Generator) -> tuple[ContactSearch, float]:
             return ContactSearch(dragon, path, 0.0), float(rng.uniform(begin, end))
 
 
-def _lines_and_arcs(rng: np.random.Generator) -> Route:
+def _lines_and_arcs(rng):
     pen = _line_to(rng, complex(*rng.uniform(-EXTENT, EXTENT, 2)), 0.0)
     pen.arc(float(rng.uniform(2.0, 9.0)), 0.5 * np.pi)
     pen.line(20.0)
     return Route(pen.pieces, start=float(rng.uniform(0.0, 100.0)))
 
 
-def _line_to(rng: np.random.Generator, place: complex, heading: float) -> Pen:
+def _line_to(rng, place, heading):
     """A pen at a place, with a line that ends there."""
     length = float(rng.uniform(20.0, 90.0))
     pen = Pen(place - length * np.exp(1j * heading), heading)
@@ -108,24 +107,24 @@ def _line_to(rng: np.random.Generator, place: complex, heading: float) -> Pen:
     return pen
 
 
-def _coil(rng: np.random.Generator) -> Route:
+def _coil(rng):
     turns = sorted(rng.uniform(2.0, 30.0, 2).tolist(), reverse=bool(rng.random() < 0.5))
     centre = tuple(rng.uniform(-EXTENT, EXTENT, 2).tolist())
     return Route([Coil(10 ** rng.uniform(-0.5, 0.5), *turns, centre, float(rng.uniform(-9.0, 9.0)))])
 
 
-def _turn(rng: np.random.Generator) -> Route:
+def _turn(rng):
     return Turn(float(rng.uniform(1.4, 2.5)), float(rng.uniform(4.0, 6.0)), float(rng.uniform(1.0, 2.5)))
 
 
-def _waypoints(rng: np.random.Generator) -> Route:
+def _waypoints(rng):
     steps = rng.uniform(4.0, 9.0, 12)[:, None]
     angles = np.cumsum(rng.uniform(-0.7, 0.7, 12))
     points = np.cumsum(steps * np.stack([np.cos(angles), np.sin(angles)], axis=1), axis=0)
     return Route([Waypoints(tuple(map(tuple, points.tolist())))])
 
 
-def _clothoids(rng: np.random.Generator) -> Route:
+def _clothoids(rng):
     """A line, then clothoids whose curvature goes on from the one before, or jumps."""
     pen, bend = _line_to(rng, complex(*rng.uniform(-EXTENT, EXTENT, 2)), float(rng.uniform(-9.0, 9.0))), 0.0
     for _ in range(int(rng.integers(1, 5))):
@@ -138,7 +137,7 @@ def _clothoids(rng: np.random.Generator) -> Route:
 ROUTES = (_lines_and_arcs, _coil, _turn, _waypoints, _clothoids)
 
 
-def compare(errors: Errors, search: ContactSearch, head: float, rng: np.random.Generator) -> None:
+def compare(errors, search, head, rng):
     """Adds the errors of one chain, its head at theta on a spiral, at s on a route."""
     dragon, growth = search.dragon, search.growth
     search.resize(dragon.benches)
@@ -172,7 +171,7 @@ def compare(errors: Errors, search: ContactSearch, head: float, rng: np.random.G
         errors.bounds.append(bound)
 
 
-def _compare_bench(errors: Errors, row: Floats, bench: tuple[Point, Point], chord: float) -> None:
+def _compare_bench(errors, row, bench, chord):
     (fx, fy), (rx, ry) = bench
     centre = math.hypot(float((fx + rx) / 2 - row[MX]), float((fy + ry) / 2 - row[MY]))
     direction = math.hypot(float((fx - rx) / chord - row[UX]), float((fy - ry) / chord - row[UY]))
@@ -180,13 +179,13 @@ def _compare_bench(errors: Errors, row: Floats, bench: tuple[Point, Point], chor
     errors.directions.append(direction / row[SWAY])
 
 
-def _pairs(rng: np.random.Generator, benches: int, count: int) -> Iterator[tuple[int, int]]:
+def _pairs(rng, benches, count):
     for k in range(count):
         a = int(rng.integers(0, min(3, benches - 2))) if k % 2 else int(rng.integers(0, benches - 2))
         yield a, int(rng.integers(a + 2, min(benches, a + 2 + (40 if k % 4 < 2 else benches))))
 
 
-def sweep(gaps: int, seed: int) -> Errors:
+def sweep(gaps, seed):
     """Errors of a number of gaps, of chains on spirals and routes in turn."""
     rng, errors, chains = np.random.default_rng(seed), Errors(), 0
     while len(errors.gaps) < gaps:

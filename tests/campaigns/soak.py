@@ -3,8 +3,6 @@
 `make soak`: python -m tests.campaigns.soak SECONDS FOLDER, which writes soak.csv and soak.png into FOLDER.
 """
 
-from __future__ import annotations
-
 import csv
 import multiprocessing
 import sys
@@ -13,7 +11,6 @@ import threading
 import time
 from collections import Counter
 from contextlib import suppress
-from multiprocessing.queues import SimpleQueue
 from pathlib import Path
 
 from tests.support.attacks import ATTACKS, ask, memory, watching
@@ -29,14 +26,14 @@ COLUMNS = ("seconds", "memory_mb", "answered", "busy", "other", "slowest_healthz
 SPAWN = multiprocessing.get_context("spawn")
 
 
-def ordinary_clients(url: str, seconds: float, statuses: SimpleQueue[int]) -> None:
+def ordinary_clients(url, seconds, statuses):
     """Clients that ask again as soon as they are answered, each from an address of its own.
 
     They ask quick questions, and one in eight times a heavy one.
     """
     end = time.monotonic() + seconds
 
-    def client(number: int) -> None:
+    def client(number):
         request = 0
         while time.monotonic() < end:
             request += 1
@@ -56,7 +53,7 @@ def ordinary_clients(url: str, seconds: float, statuses: SimpleQueue[int]) -> No
         thread.join()
 
 
-def attackers(url: str, seconds: float) -> None:
+def attackers(url, seconds):
     """All attacks in turn; what each must be answered with is judged by the tests."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
@@ -65,7 +62,7 @@ def attackers(url: str, seconds: float) -> None:
                 attack(url, ATTACK_SECONDS / 2)
 
 
-def one_by_one(url: str) -> None:
+def one_by_one(url):
     """The slowest answers that another client sees during each attack."""
     print(f"{'attack':28} {'slowest /healthz [ms]':>22} {'/collision-time [ms]':>21}   others")
     for name, attack in ATTACKS.items():
@@ -79,9 +76,9 @@ def one_by_one(url: str) -> None:
         print(f"{name:28} {healthz:22.0f} {collision_time:21.0f}   {verdict}", flush=True)
 
 
-def all_at_once(url: str, pid: int, seconds: float) -> list[tuple[float, ...]]:
+def all_at_once(url, pid, seconds):
     """Points of the curve: a row of COLUMNS for every part of the time."""
-    statuses: SimpleQueue[int] = SPAWN.SimpleQueue()
+    statuses = SPAWN.SimpleQueue()
     others = [
         SPAWN.Process(target=ordinary_clients, args=(url, seconds, statuses), daemon=True),
         SPAWN.Process(target=attackers, args=(url, seconds), daemon=True),
@@ -107,14 +104,14 @@ def all_at_once(url: str, pid: int, seconds: float) -> list[tuple[float, ...]]:
     return rows
 
 
-def draw(rows: list[tuple[float, ...]], picture: Path) -> None:
+def draw(rows, picture):
     """Memory, answers and the slowest answers over time."""
     from matplotlib.figure import Figure
 
     seconds, megabytes, answered, busy, _, healthz, collision_time = zip(*rows, strict=True)
     minutes = [one / 60.0 for one in seconds]
 
-    def rate(counts: tuple[float, ...]) -> list[float]:
+    def rate(counts):
         return [count / (seconds[1] - seconds[0]) for count in counts]
 
     panels = (
@@ -134,7 +131,7 @@ def draw(rows: list[tuple[float, ...]], picture: Path) -> None:
     figure.savefig(picture, dpi=120)
 
 
-def soak(seconds: float, folder: Path) -> None:
+def soak(seconds, folder):
     folder.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch, serving(Path(scratch) / "log", workers=2) as service:
         time.sleep(START_SECONDS)

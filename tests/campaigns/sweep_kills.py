@@ -4,8 +4,6 @@ python -m tests.campaigns.sweep_kills [DESIGNS [KILLS [SEED]]] compares the comp
 undisturbed run.
 """
 
-from __future__ import annotations
-
 import os
 import random
 import subprocess
@@ -37,24 +35,24 @@ COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
 class Kept:
     """A process that is started again whenever it ended."""
 
-    def __init__(self, log: Path, *command: str) -> None:
+    def __init__(self, log, *command):
         self._log, self._command = log, command
         self.starts = 0
         self.start()
 
-    def start(self) -> None:
+    def start(self):
         """Start it."""
         environment = {**os.environ, "PYTHONPATH": str(ROOT)}
         with self._log.open("ab") as log:
             self.process = subprocess.Popen(self._command, stdout=log, stderr=log, env=environment)
         self.starts += 1
 
-    def keep(self) -> None:
+    def keep(self):
         """Start it again if it ended."""
         if self.process.poll() is not None:
             self.start()
 
-    def family(self) -> list[psutil.Process]:
+    def family(self):
         """It and what it started."""
         try:
             parent = psutil.Process(self.process.pid)
@@ -62,7 +60,7 @@ class Kept:
         except psutil.NoSuchProcess:
             return []
 
-    def end(self) -> None:
+    def end(self):
         """Kill it with all that it started."""
         for process in self.family():
             process.kill()
@@ -72,7 +70,7 @@ class Kept:
 class KilledCluster:
     """A scheduler on a port of its own and workers, kept alive."""
 
-    def __init__(self, folder: Path, workers: int = 2) -> None:
+    def __init__(self, folder, workers=2):
         port = str(free_port())
         self.address, none = f"tcp://127.0.0.1:{port}", "--no-dashboard"
         scheduler = (*DASK, "scheduler", "--host", "127.0.0.1", "--port", port, none)
@@ -80,18 +78,18 @@ class KilledCluster:
         self.scheduler = Kept(folder / "scheduler.log", *scheduler)
         self.workers = [Kept(folder / f"worker-{k}.log", *worker, "--name", str(k)) for k in range(workers)]
 
-    def keep(self) -> None:
+    def keep(self):
         """Start again what ended."""
         for process in (self.scheduler, *self.workers):
             process.keep()
 
-    def end(self) -> None:
+    def end(self):
         """Kill all of it."""
         for process in (self.scheduler, *self.workers):
             process.end()
 
 
-def disturbed(spec_fields: dict[str, object], folder: Path, kills: int, seed: int) -> Counter[str]:
+def disturbed(spec_fields, folder, kills, seed):
     """Run a sweep with the command on a cluster, and kill a number of processes on the way; their number by kind.
 
     raises: TimeoutError, with the last words of the client
@@ -132,14 +130,14 @@ def disturbed(spec_fields: dict[str, object], folder: Path, kills: int, seed: in
     return killed
 
 
-def collisions(designs: int, shards: int = SHARDS) -> dict[str, object]:
+def collisions(designs, shards=SHARDS):
     """A sweep of first contacts."""
     over = {"pitch": {"start": 0.45, "stop": 0.6}, "width": {"start": 0.2, "stop": 0.35}}
     size = max(designs // shards, 1)
     return {"question": "collision_time", "over": over, "samples": {"count": designs}, "shard_size": size}
 
 
-def main(designs: int = 200_000, kills: int = 50, seed: int = 0) -> None:
+def main(designs=200_000, kills=50, seed=0):
     """Compare a disturbed with an undisturbed run."""
     spec_fields = collisions(designs)
     spec = Spec.of(spec_fields)

@@ -4,8 +4,6 @@
 bench, also such as overlap on a straight line; starts from 0.2 to 20 turns, circles from a part of a bench to many.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -1,20 +1,15 @@
 """What tests ask of a running service: the JSON of an answer, and where and with which values it refuses."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Sequence
 from dataclasses import asdict, is_dataclass
 from enum import Enum
-from typing import Any
 
-import httpx
 import numpy as np
 
 from app.wire.problem import PROBLEM_TYPE
 
 
-def assert_problem(answer: httpx.Response, status: int, expected: str | None = None) -> None:
+def assert_problem(answer, status, expected=None):
     """The answer is a problem of this status.
 
     expected: place of its first error, a JSON pointer or a name, then words and numbers that its sentence holds
@@ -38,27 +33,27 @@ class Asking:
     call: path without its first slash, also with a query; body: sent by POST, None for GET; query: its parameters
     """
 
-    def __init__(self, client: httpx.Client) -> None:
+    def __init__(self, client):
         self.client = client
 
-    def send(self, call: str, body: Any = None, accept: str = "*/*", **query: Any) -> httpx.Response:
+    def send(self, call, body=None, accept="*/*", **query):
         method = "GET" if body is None else "POST"
         return self.client.request(method, f"/{call}", params=query or None, json=body, headers={"Accept": accept})
 
-    def __call__(self, call: str, body: Any = None, **query: Any) -> Any:
+    def __call__(self, call, body=None, **query):
         """The JSON of an answer."""
         return self.send(call, body, **query).raise_for_status().json()
 
-    def file(self, call: str, body: Any = None, accept: str = "*/*", **query: Any) -> bytes:
+    def file(self, call, body=None, accept="*/*", **query):
         """The bytes of an answer."""
         return self.send(call, body, accept, **query).raise_for_status().content
 
-    def refuses(self, expected: str, call: str, body: Any = None, **query: Any) -> None:
+    def refuses(self, expected, call, body=None, **query):
         """Assert that it refuses. expected: as for assert_problem()"""
         assert_problem(self.send(call, body, **query), 422, expected)
 
 
-def json_like(value: Any) -> Any:
+def json_like(value):
     """A value of core as JSON has it."""
     if is_dataclass(value) and not isinstance(value, type):
         value = asdict(value)
@@ -71,29 +66,29 @@ def json_like(value: Any) -> Any:
     return value.value if isinstance(value, Enum) else value
 
 
-def polygon(*rings: Sequence[Sequence[float]], name: str | None = None) -> dict[str, Any]:
+def polygon(*rings, name=None):
     """A polygon of GeoJSON; with a name a feature. Rings that are open are closed."""
     closed = [[*map(list, ring), *([] if ring[0] == ring[-1] else [list(ring[0])])] for ring in rings]
     geometry = {"type": "Polygon", "coordinates": closed}
     return geometry if name is None else {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
 
 
-def box(left: float, low: float, right: float, high: float, name: str | None = None) -> dict[str, Any]:
+def box(left, low, right, high, name=None):
     """A rectangle of GeoJSON with sides along the axes."""
     return polygon([(left, low), (right, low), (right, high), (left, high)], name=name)
 
 
-def line(*points: Sequence[float], **more: Any) -> dict[str, Any]:
+def line(*points, **more):
     """A path through waypoints."""
     return {"kind": "waypoints", "points": [list(point) for point in points], **more}
 
 
-def dance(benches: int, *points: Sequence[float], **more: Any) -> dict[str, Any]:
+def dance(benches, *points, **more):
     """A uniform dragon on a path through waypoints."""
     return {"dragon": {"benches": benches}, "path": line(*points), **more}
 
 
-def written(folder: Any, body: Any, name: str = "dance.json") -> str:
+def written(folder, body, name="dance.json"):
     """The name of a file with this body, for the command."""
     (folder / name).write_text(json.dumps(body))
     return str(folder / name)

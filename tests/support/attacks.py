@@ -6,7 +6,6 @@ import http.client
 import json
 import threading
 import time
-from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -18,8 +17,6 @@ import psutil
 from app.files.tables import CSV_TYPE, XLSX_TYPE
 from tests.support.bombs import GRADES, MAPS
 
-Attack = Callable[[str, float], None]  # base URL and how long to go on [s]
-Body = Callable[[], bytes]
 # Longest wait for a short job beside long ones [s].
 JOB_SECONDS = 20.0
 # An error is short [bytes].
@@ -28,17 +25,7 @@ FILE = "application/octet-stream"
 PATIENCE = 60.0  # [s] of a client that waits for its answer
 
 
-def ask(
-    url: str,
-    method: str,
-    path: str,
-    body: bytes | None = None,
-    timeout: float = 30.0,
-    accept: str = "*/*",
-    kind: str = "application/json",
-    client: str = "",
-    host: str = "",
-) -> tuple[int, bytes]:
+def ask(url, method, path, body=None, timeout=30.0, accept="*/*", kind="application/json", client="", host=""):
     """Status and body of one answer. client: the address from which to ask; host: another one than that of the URL"""
     place = (client, 0) if client else None
     connection = http.client.HTTPConnection(urlsplit(url).netloc, timeout=timeout, source_address=place)
@@ -51,10 +38,10 @@ def ask(
         connection.close()
 
 
-def at_once(jobs: list[Callable[[], object]]) -> None:
+def at_once(jobs):
     """Run each job in a thread of its own. A job may get no answer: the watching client reports what it sees."""
 
-    def without_answer(job: Callable[[], object]) -> None:
+    def without_answer(job):
         with suppress(OSError):
             job()
 
@@ -65,22 +52,20 @@ def at_once(jobs: list[Callable[[], object]]) -> None:
         thread.join()
 
 
-def crowd(
-    count: int, path: str, url: str, seconds: float, body: Body | None = None, stay: float = 0.0, **more: str
-) -> None:
+def crowd(count, path, url, seconds, body=None, stay=0.0, **more):
     """Clients that hang up after `stay`, or with the attack, whether they were answered or not."""
     call = ("POST", path, body()) if body else ("GET", path, None)
     at_once([lambda: ask(url, *call, timeout=stay or seconds, **more)] * count)
 
 
-def once(path: str, body: Body | None, url: str, seconds: float) -> None:
+def once(path, body, url, seconds):
     """One request, which must be refused or answered."""
     status, answer = ask(url, "POST" if body else "GET", path, body and body(), max(seconds, 20.0))
     assert status in (200, 400, 413, 414, 422, 503), (status, answer[:300])
     assert status == http.client.OK or len(answer) < ERROR_BYTES
 
 
-def uneven_dragons() -> bytes:
+def uneven_dragons():
     """Half a minute of work: 2,000 different benches through a turn."""
     dragon = {
         "lengths": [2.2 + 0.001 * (k % 97) for k in range(2000)],
@@ -90,42 +75,42 @@ def uneven_dragons() -> bytes:
     return json.dumps({"dragon": dragon, "path": {"kind": "turn"}}).encode()
 
 
-def near_grazes(url: str, seconds: float) -> None:
+def near_grazes(url, seconds):
     """A tenth of a second each, where a millisecond is expected: two benches pass within 1e-9 m of each other."""
     paths = (f"/collision-time?cross_check=pair&pitch={0.45033739302 + 1e-13 * k:.17g}" for k in range(40))
     at_once([partial(ask, url, "GET", path, timeout=seconds) for path in paths])
 
 
-def polygon(rings: int, **properties: str) -> bytes:
+def polygon(rings, **properties):
     """A body with a venue. rings: number of its rings of four points"""
     geometry = {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]] * rings}
     venue = {"type": "Feature", "properties": {"kind": "area", **properties}, "geometry": geometry}
     return json.dumps({"venue": venue}, separators=(",", ":")).encode()
 
 
-def deep_brackets() -> bytes:
+def deep_brackets():
     return b'{"path": {"kind": [' + b"[]," * 1_330_000 + b"[]]}}"
 
 
-def message_of_brackets() -> bytes:
+def message_of_brackets():
     """A message of an assistant, of 3.9 MB."""
     call = b'{"jsonrpc":"2.0","id":1,"method":"tools/call","params":{"name":"turn","arguments":{"x":[%s]}}}'
     return call % (b"[]," * 1_300_000 + b"[]")
 
 
-def text() -> bytes:
+def text():
     """20 MB, read by Python code for a second."""
     return b"word " * 3_999_000
 
 
-def connect(stack: ExitStack, url: str, sent: bytes) -> None:
+def connect(stack, url, sent):
     """A connection that has sent this, and stays open."""
     peer = stack.enter_context(create_connection((urlsplit(url).hostname or "", urlsplit(url).port or 80), 30.0))
     with suppress(OSError):
         peer.sendall(sent)
 
 
-def tiny_chunks(url: str, seconds: float) -> None:
+def tiny_chunks(url, seconds):
     """200,000 chunks of one byte."""
     head = (
         b"POST /trajectory HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n"
@@ -134,7 +119,7 @@ def tiny_chunks(url: str, seconds: float) -> None:
         connect(stack, url, head + b"1\r\n \r\n" * 200_000 + b"0\r\n\r\n")
 
 
-def half_open(url: str, seconds: float) -> None:
+def half_open(url, seconds):
     """200 connections that never send a whole request."""
     with ExitStack() as stack:
         for _ in range(200):
@@ -142,28 +127,28 @@ def half_open(url: str, seconds: float) -> None:
         time.sleep(seconds)
 
 
-def large_csv(url: str, seconds: float) -> None:
+def large_csv(url, seconds):
     """Tables of a million cells, eight at once for each second, and 24 at most."""
     tables(url, min(round(8 * seconds), 24), CSV_TYPE)
 
 
-def million_cells() -> bytes:
+def million_cells():
     return b'{"times": {"start": 0, "stop": 400, "step": 0.09}}'
 
 
-def tables(url: str, count: int, accept: str) -> None:
+def tables(url, count, accept):
     """`count` tables of a million cells at once."""
     crowd(count, "/trajectory", url, 0.0, million_cells, PATIENCE, accept=accept)
 
 
-def files_that_unfold(url: str, seconds: float) -> None:
+def files_that_unfold(url, seconds):
     """Archives, drawings and texts of a few bytes to 20 MB that would take gigabytes, or minutes."""
     some = [("/places", MAPS[name]) for name in ("bzip2", "deflated_that_lies", "arc_of_dxf", "brackets_of_json")]
     some += [("/grade", GRADES[name]) for name in ("workbook_that_lies", "attributes")]
     at_once([partial(crowd, 1, path, url, seconds, made, PATIENCE, kind=FILE) for path, made in some])
 
 
-def make_job(url: str, wanted: object, client: str) -> str:
+def make_job(url, wanted, client):
     """Address of a new job of a client; empty if there is no room."""
     status, answer = ask(url, "POST", "/jobs", json.dumps(wanted).encode(), client=client)
     assert status in (202, 429, 503), (status, answer[:300])
@@ -173,7 +158,7 @@ def make_job(url: str, wanted: object, client: str) -> str:
 SMALL, MINE, THEIRS = {"question": "turn", "request": {}}, "127.0.0.7", "127.0.0.8"
 
 
-def full_store(url: str, seconds: float) -> None:
+def full_store(url, seconds):
     """A client that makes small jobs as long as it may; another one must still get its answer, and keep it."""
     end, theirs = time.monotonic() + seconds, make_job(url, SMALL, THEIRS)
     while time.monotonic() < end:
@@ -183,7 +168,7 @@ def full_store(url: str, seconds: float) -> None:
     assert make_job(url, SMALL, "127.0.0.9")
 
 
-def long_jobs(url: str, seconds: float) -> None:
+def long_jobs(url, seconds):
     """Eight jobs of minutes each, and a short one of another client, which must be answered meanwhile."""
     endless = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0.0}
     made = [make_job(url, {"question": "minimum_pitch", "request": endless}, MINE) for _ in range(8)]
@@ -195,7 +180,7 @@ def long_jobs(url: str, seconds: float) -> None:
             ask(url, "DELETE", job, client=MINE)
 
 
-def wait_for_answer(url: str, job: str, client: str) -> None:
+def wait_for_answer(url, job, client):
     """Wait until a job has its answer, for JOB_SECONDS at most."""
     end = time.monotonic() + JOB_SECONDS
     while (status := ask(url, "GET", f"{job}/result", client=client)[0]) != http.client.OK:
@@ -204,7 +189,7 @@ def wait_for_answer(url: str, job: str, client: str) -> None:
         time.sleep(0.05)
 
 
-def strange_hosts(url: str, seconds: float) -> None:
+def strange_hosts(url, seconds):
     """Names of hosts that are long, odd or of somebody else; a service that knows its names refuses them."""
     for host in ("evil.example", "a" * 30_000, "localhost@evil.example", "[::1", "%00", "dance.example:99999999", "*"):
         for path in ("/turn", "/nothing", "/jobs"):
@@ -213,7 +198,7 @@ def strange_hosts(url: str, seconds: float) -> None:
             assert status == http.client.OK or len(answer) < ERROR_BYTES
 
 
-ATTACKS: dict[str, Attack] = {
+ATTACKS = {
     # 114 s of work each.
     "heavy_speeds": partial(
         crowd, 40, "/maximum-head-speed?benches=2000&pitch=10&start_turns=200&turning_diameter=200"
@@ -250,11 +235,11 @@ class Watch:
 
 
 @contextmanager
-def watching(url: str, paths: tuple[str, ...] = ("/healthz", "/collision-time")) -> Iterator[Watch]:
+def watching(url, paths=("/healthz", "/collision-time")):
     """A client that asks each path every 50 ms until the block ends."""
     watch, done = Watch(), threading.Event()
 
-    def look(path: str) -> None:
+    def look(path):
         request = 0
         while not done.wait(0.05) or not request:
             request += 1
@@ -278,7 +263,7 @@ def watching(url: str, paths: tuple[str, ...] = ("/healthz", "/collision-time"))
         watcher.join()
 
 
-def memory(pid: int) -> float:
+def memory(pid):
     """Resident memory of a process and its children [MB]."""
     parent = psutil.Process(pid)
     return sum(process.memory_info().rss for process in (parent, *parent.children(recursive=True))) / 1e6

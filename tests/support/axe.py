@@ -1,16 +1,12 @@
 """Findings of axe, which checks pages for accessibility."""
 
-from __future__ import annotations
-
-from typing import Any
-
 from axe_playwright_python.sync_playwright import Axe
 
 # Rules whose findings depend on colours, and so on the colour scheme.
 IN_COLOURS = ["color-contrast", "link-in-text-block"]
 
 
-def findings(page: Any, place: str | None = None, *, in_colours: bool = False) -> list[tuple[str, str]]:
+def findings(page, place=None, *, in_colours=False):
     """All findings of axe: the rule, and the first element that breaks it.
 
     in_colours: only by rules that depend on colours

@@ -1,25 +1,17 @@
 """Small files that need much memory or time to read, made here and never kept as files; and their limits."""
 
-from __future__ import annotations
-
 import io
 import os
 import zipfile
 import zlib
-from collections.abc import Callable
 from functools import cache, partial
-from pathlib import Path
-from typing import NoReturn
 
-Bomb = Callable[[], bytes]
 SHEET = "xl/worksheets/sheet1.xml"
 MAIN = b'<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>'
 END = b"</sheetData></worksheet>"
-# Largest file of a call [bytes].
-FILE_MAX = 20_000_000
 
 
-def zipped(parts: dict[str, bytes], method: int) -> bytes:
+def zipped(parts, method):
     sink = io.BytesIO()
     with zipfile.ZipFile(sink, "w", method) as archive:
         for name, data in parts.items():
@@ -28,7 +20,7 @@ def zipped(parts: dict[str, bytes], method: int) -> bytes:
 
 
 @cache
-def zeros(name: str, length: int, method: int) -> bytes:
+def zeros(name, length, method):
     """An archive with one part of zeros, written in pieces."""
     sink = io.BytesIO()
     with zipfile.ZipFile(sink, "w", method) as archive, archive.open(name, "w") as part:
@@ -37,7 +29,7 @@ def zeros(name: str, length: int, method: int) -> bytes:
     return sink.getvalue()
 
 
-def lying(data: bytes, name: str, length: int, content: bytes) -> bytes:
+def lying(data, name, length, content):
     """The archive with another length and sum of a part in both of its records. content: the first bytes of it"""
     changed = bytearray(data)
     crc = zlib.crc32(content[:length]).to_bytes(4, "little")
@@ -50,7 +42,7 @@ def lying(data: bytes, name: str, length: int, content: bytes) -> bytes:
     return bytes(changed)
 
 
-def many_parts() -> bytes:
+def many_parts():
     """A directory of 200,000 entries, all of the same part."""
     name = b"doc.kml"
     local = b"PK\3\4" + bytes(22) + len(name).to_bytes(2, "little") + bytes(2) + name
@@ -67,17 +59,17 @@ def many_parts() -> bytes:
     )
 
 
-def ellipse_of_dxf() -> bytes:
+def ellipse_of_dxf():
     middle, axis = "100\nAcDbEntity\n100\nAcDbEllipse\n10\n0\n20\n0", "11\n9e299\n21\n0"
     return drawn(f"0\nELLIPSE\n{middle}\n{axis}\n40\n1.0\n41\n0\n42\n6.28")
 
 
-def bulge_of_dxf() -> bytes:
+def bulge_of_dxf():
     corners = "10\n0\n20\n0\n42\n1\n10\n1e8\n20\n0"
     return drawn(f"0\nLWPOLYLINE\n100\nAcDbEntity\n100\nAcDbPolyline\n90\n2\n70\n0\n{corners}")
 
 
-def spline_of_dxf() -> bytes:
+def spline_of_dxf():
     """A spline of degree 3 through places 1e9 m apart."""
     places = "\n".join(f"10\n{1e9 * (k % 2)}\n20\n{1e9 * k}" for k in range(40))
     knots = "\n".join(f"40\n{k}" for k in (0, 0, 0, *range(38), 37, 37, 37))
@@ -85,24 +77,24 @@ def spline_of_dxf() -> bytes:
     return drawn(f"0\nSPLINE\n100\nAcDbEntity\n100\nAcDbSpline\n{numbers}\n{knots}\n{places}")
 
 
-def fit_points_of_dxf() -> bytes:
+def fit_points_of_dxf():
     points = "".join(f"11\n{k % 7}\n21\n{k}\n" for k in range(20_000))
     return drawn(f"0\nSPLINE\n8\nA\n70\n8\n71\n3\n74\n20000\n{points}")
 
 
-def vertices_of_dxf() -> bytes:
+def vertices_of_dxf():
     corners = "10\n0\n20\n1\n" * 1_000_000
     return drawn(f"0\nLWPOLYLINE\n100\nAcDbEntity\n100\nAcDbPolyline\n90\n1000000\n70\n0\n{corners}".rstrip())
 
 
-def sections(**records: str) -> bytes:
+def sections(**records):
     """A drawing with these sections."""
     return (
         "".join(f"0\nSECTION\n2\n{name}\n{text}\n0\nENDSEC\n" for name, text in records.items()).encode() + b"0\nEOF\n"
     )
 
 
-def drawn(entities: str) -> bytes:
+def drawn(entities):
     """A drawing of the version of the year 2000."""
     return sections(HEADER="9\n$ACADVER\n1\nAC1015", ENTITIES=entities)
 
@@ -111,7 +103,7 @@ BLOCK = "0\nBLOCK\n2\nTREE\n70\n0\n10\n0\n20\n0\n0\nCIRCLE\n10\n0\n20\n0\n40\n1\
 INSERTED = "0\nINSERT\n2\nTREE\n10\n0\n20\n0\n70\n32000\n71\n32000\n44\n5\n45\n5"
 
 
-def workbook(sheet: bytes, text: bytes = b"") -> bytes:
+def workbook(sheet, text=b""):
     """A workbook with this sheet. text: the first text that its cells share"""
     import xlsxwriter
 
@@ -124,19 +116,19 @@ def workbook(sheet: bytes, text: bytes = b"") -> bytes:
     return zipped(parts | {SHEET: sheet, "xl/sharedStrings.xml": shared}, zipfile.ZIP_DEFLATED)
 
 
-def shared_text() -> bytes:
+def shared_text():
     """A text of 10 MB in 200,000 cells."""
     row = b"<row>" + b'<c t="s"><v>0</v></c>' * 500 + b"</row>"
     return workbook(MAIN + row * 400 + END, b" x" * 5_000_000)
 
 
-def attributes() -> bytes:
+def attributes():
     """1.5 million attributes on one element."""
     words = b" ".join(b'a%d=""' % k for k in range(1_500_000))
     return workbook(MAIN + b"<row " + words + b"/>" + END)
 
 
-MAPS: dict[str, Bomb] = {
+MAPS = {
     # 700 bytes that become 300 MB.
     "bzip2": lambda: zeros("doc.kml", 300_000_000, zipfile.ZIP_BZIP2),
     "lzma": lambda: zeros("doc.kml", 100_000_000, zipfile.ZIP_LZMA),
@@ -170,7 +162,7 @@ MAPS: dict[str, Bomb] = {
     # A block that is inserted a thousand million times.
     "array_of_dxf": partial(sections, BLOCKS=BLOCK, ENTITIES=INSERTED),
 }
-GRADES: dict[str, Bomb] = {
+GRADES = {
     "bzip2_of_a_workbook": lambda: zeros("xl/workbook.xml", 300_000_000, zipfile.ZIP_BZIP2),
     "workbook_that_lies": lambda: lying(
         zeros("xl/workbook.xml", 300_000_000, zipfile.ZIP_DEFLATED), "xl/workbook.xml", 90, bytes(90)
@@ -183,16 +175,16 @@ GRADES: dict[str, Bomb] = {
 }
 
 
-def end(file: Path, budget: object) -> NoReturn:
+def end(file, budget):
     """What a fault in a library of C does to the process that reads a file. file: gets a line"""
     with file.open("a") as log:
         log.write("ended\n")
     os._exit(11)
 
 
-def take_memory(data: bytes, budget: object) -> int:
+def take_memory(data, budget):
     return len(data * 10_000)
 
 
-def fail(data: bytes, budget: object) -> NoReturn:
+def fail(data, budget):
     raise ZeroDivisionError(f"near {data!r}")

@@ -1,14 +1,12 @@
 """Boxes of turns of the contest's pitch, around places where a turn crosses a coil and beside them."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
 from core import InvalidValue, Turn
 from core.design.turn_boxes import turns_in
-from core.design.turn_moves import Box, box_of
+from core.design.turn_moves import box_of
 
 GROWTH = 1.7 / (2.0 * math.pi)
 LEAST = 1.43 / 0.999  # [m]
@@ -17,13 +15,13 @@ SMALL = np.array([0.006, 0.006, 0.006])  # half widths of a box: [m], [rad], [1]
 CROSSING = [(2.3, 4.45, 1.2), (4.46, 2.38, 1.2), (2.22, 4.45, 1.0), (4.4, 2.32, 1.0), (4.0, 2.4, 1.0)]
 
 
-def box_at(entry: float, leaving: float, ratio: float, half: np.ndarray) -> tuple[Box | None, np.ndarray]:
+def box_at(entry, leaving, ratio, half):
     centre = np.array([entry, (leaving - entry) / GROWTH, math.log(ratio)])
     turns = turns_in(GROWTH, centre[:, None], half[:, None])
     return box_of(1.7, turns, 0, centre, half, LEAST), centre
 
 
-def turn_at(point: np.ndarray, pitch: float = 1.7, least: float = LEAST) -> Turn | None:
+def turn_at(point, pitch=1.7, least=LEAST):
     """The turn at a point of a box that the benches can follow; None if there is none."""
     entry, leaving = float(point[0]), float(point[0] + pitch / (2.0 * math.pi) * point[1])
     try:
@@ -33,7 +31,7 @@ def turn_at(point: np.ndarray, pitch: float = 1.7, least: float = LEAST) -> Turn
     return turn if min(turn.radii) >= least else None
 
 
-def turns_drawn(centre: np.ndarray, half: np.ndarray, count: int, inner: float) -> list[Turn]:
+def turns_drawn(centre, half, count, inner):
     """Turns that the benches can follow at random points of a box, of `count`.
 
     inner: part of the half widths by which the points are at least off the middle [1]

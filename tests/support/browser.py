@@ -4,13 +4,10 @@
 last lines of the run say so.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -41,7 +38,7 @@ FONT = "fonts-wqy-microhei"
 MISSING = "no Chrome or Chromium starts here: make test installs one if it can; otherwise set CHROME to the path of one"
 
 
-def _downloads() -> Iterator[str]:
+def _downloads():
     """Browsers that Playwright has downloaded, the newest first."""
     home = Path.home()
     caches = {
@@ -54,7 +51,7 @@ def _downloads() -> Iterator[str]:
         yield from map(str, sorted(folder.glob(pattern), key=lambda path: path.stat().st_mtime, reverse=True))
 
 
-def candidates() -> Iterator[str]:
+def candidates():
     """Programs that may be a Chrome or Chromium, the preferred first: CHROME, PATH, usual places, Playwright's."""
     if chosen := os.environ.get("CHROME"):
         yield chosen
@@ -63,7 +60,7 @@ def candidates() -> Iterator[str]:
     yield from _downloads()
 
 
-def starts(program: str) -> bool:
+def starts(program):
     """True if it runs and reports its version. Ubuntu's /usr/bin/chromium-browser only says that a snap is missing."""
     if not os.access(program, os.X_OK):
         return False
@@ -77,25 +74,25 @@ def starts(program: str) -> bool:
 
 
 @cache
-def browser_path() -> str | None:
+def browser_path():
     """Path of the first Chrome or Chromium that starts."""
     return next(filter(starts, candidates()), None)
 
 
-def has_chinese() -> bool:
+def has_chinese():
     """True if there is a font for the page in Chinese; a system without fontconfig has one."""
     if not shutil.which("fc-list"):
         return sys.platform != "linux"
     return bool(subprocess.run(["fc-list", ":lang=zh", "family"], capture_output=True).stdout.strip())
 
 
-def _succeeds(*command: str) -> bool:
+def _succeeds(*command):
     """Whether the command succeeds. Its output is dropped, because one line after the tests lists what was left out."""
     quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
     return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, env=quiet).returncode == 0
 
 
-def get_packages(*packages: str) -> None:
+def get_packages(*packages):
     """Install packages of the system one by one, so that an unknown one does not stop the others."""
     print(f"Installing {' '.join(packages)} for the tests of the page (once)", file=sys.stderr)
     _succeeds("apt-get", "update", "-qq")
@@ -104,7 +101,7 @@ def get_packages(*packages: str) -> None:
     browser_path.cache_clear()
 
 
-def get_download(is_root: bool) -> None:
+def get_download(is_root):
     """Let Playwright download a browser; as root also the libraries that it lacks."""
     print("Downloading a Chromium for the tests of the page (once)", file=sys.stderr)
     playwright = (sys.executable, "-m", "playwright")
@@ -113,7 +110,7 @@ def get_download(is_root: bool) -> None:
     browser_path.cache_clear()
 
 
-def main() -> None:
+def main():
     chosen = os.environ.get("CHROME")
     if chosen and not starts(chosen):
         print(f"CHROME={chosen} does not start a Chrome or Chromium: looking for another one", file=sys.stderr)

@@ -23,12 +23,10 @@ import subprocess
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from importlib import import_module
 from pathlib import Path
 from pkgutil import walk_packages
-from typing import Any, TextIO
 
 from app.extras import MODULES
 from app.start import importing
@@ -59,9 +57,7 @@ with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as peer:
 """
 
 
-def run(
-    *arguments: str, text: str | None = None, room: int | None = None, **environment: str
-) -> subprocess.CompletedProcess[str]:
+def run(*arguments, text=None, room=None, **environment):
     """Result of the command: exit code, standard output, standard error.
 
     room: longest file that it may write [bytes]
@@ -80,7 +76,7 @@ def run(
         return subprocess.CompletedProcess(command, code, files[1].read(), files[2].read())
 
 
-def _forked(arguments: Sequence[str], environment: Mapping[str, str], files: Sequence[TextIO], room: int | None) -> int:
+def _forked(arguments, environment, files, room):
     """Exit code of one run in this folder with these files as its standard input, output and error."""
     with _forked_process(str(Path.cwd()), arguments, environment, [file.fileno() for file in files], room) as peer:
         code = peer.recv(9)
@@ -89,9 +85,7 @@ def _forked(arguments: Sequence[str], environment: Mapping[str, str], files: Seq
     return int(code)
 
 
-def _forked_process(
-    folder: str, arguments: Sequence[str], environment: Mapping[str, str], files: list[int], room: int | None = None
-) -> socket.socket:
+def _forked_process(folder, arguments, environment, files, room=None):
     """The connection to a new run, over which its exit code comes."""
     peer = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     peer.connect(f"{bin_folder()}/door")
@@ -104,16 +98,16 @@ class Serving:
 
     returncode: int | None = None
 
-    def __init__(self, peer: socket.socket) -> None:
+    def __init__(self, peer):
         self._peer, self._signal = peer, signal.SIGKILL
         self.pid = int(peer.recv(9))
 
-    def poll(self) -> int | None:
+    def poll(self):
         with contextlib.suppress(subprocess.TimeoutExpired):
             return self.wait(0.0)
         return None
 
-    def wait(self, timeout: float | None = None) -> int:
+    def wait(self, timeout=None):
         if self.returncode is None:
             if not select.select([self._peer], [], [], timeout)[0]:
                 raise subprocess.TimeoutExpired([COMMAND, "serve"], timeout or 0.0)
@@ -121,32 +115,30 @@ class Serving:
             self._peer.close()
         return self.returncode
 
-    def send_signal(self, number: signal.Signals) -> None:
+    def send_signal(self, number):
         if self.poll() is None:
             self._signal = number
             with contextlib.suppress(ProcessLookupError):
                 os.kill(self.pid, number)
 
-    def terminate(self) -> None:
+    def terminate(self):
         self.send_signal(signal.SIGTERM)
 
-    def kill(self) -> None:
+    def kill(self):
         self.send_signal(signal.SIGKILL)
 
 
 Process = Serving | subprocess.Popen[bytes]
 
 
-def serve(
-    port: int, workers: int, environment: Mapping[str, str], log: Path, limit: Callable[[], object] | None = None
-) -> Process:
+def serve(port, workers, environment, log, limit=None):
     """`bench-dragon serve`, which writes into a log. limit: called in its process before it starts"""
     words = ["serve", "--port", str(port), "--workers", str(workers)]
     with log.open("wb") as output:
         if limit:
             environment = {**environment, "PYTHONDONTWRITEBYTECODE": "1"}  # as for a run with little room
         if workers > 1 or limit:
-            options: dict[str, Any] = {"cwd": ROOT, "env": environment, "preexec_fn": limit}
+            options = {"cwd": ROOT, "env": environment, "preexec_fn": limit}
             return subprocess.Popen([COMMAND, *words], stdout=output, stderr=output, **options)
         with open(os.devnull) as nothing:
             return Serving(
@@ -155,7 +147,7 @@ def serve(
 
 
 @cache
-def bin_folder() -> Path:
+def bin_folder():
     """A folder with the command for a shell, and the door of the process that forks; it ends with this one."""
     place = Path(tempfile.mkdtemp())
     program, script = place / "program.py", place / "bench-dragon"
@@ -165,7 +157,7 @@ def bin_folder() -> Path:
     with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as door:
         door.bind(f"{place}/door")
         door.listen()
-        options: dict[str, Any] = {
+        options = {
             "cwd": ROOT,
             "env": ENVIRONMENT,
             "stdin": subprocess.PIPE,
@@ -176,14 +168,14 @@ def bin_folder() -> Path:
     return place
 
 
-def _close(place: Path, forks: subprocess.Popen[bytes], owner: int) -> None:
+def _close(place, forks, owner):
     """End the process that forks and remove the folder, but not at the end of a fork of this process."""
     if os.getpid() == owner:
         forks.communicate()
         shutil.rmtree(place)
 
 
-def main() -> None:
+def main():
     """Fork for each request, until standard input ends, which means that the parent is gone."""
     with importing():  # The collector of a run leaves the imported modules alone.
         commands, core = import_module("app.command.main"), import_module("core")
@@ -209,7 +201,7 @@ def main() -> None:
             peer.close()
 
 
-def _build(model: Any) -> None:
+def _build(model):
     """Builds the models of app/ below this one, which would be built at their first use."""
     for inner in model.__subclasses__():
         if inner.__module__.startswith("app."):
@@ -217,7 +209,7 @@ def _build(model: Any) -> None:
         _build(inner)
 
 
-def _answer(peer: socket.socket, app: Any, entry: Any) -> None:
+def _answer(peer, app, entry):
     """The command as its script calls it; ends this process."""
     signal.alarm(int(PATIENCE))
     words, files, _, _ = socket.recv_fds(peer, WORDS_MAX, 3)

@@ -1,40 +1,35 @@
 """Depth of the tests: what `make test` runs, what is left to `make test-all` (thorough) and to `make deep` (deep)."""
 
-from __future__ import annotations
-
 import os
-from collections.abc import Iterable, Sequence
 from itertools import islice
-from typing import Any, TypeVar
 
 import pytest
 
-Case = TypeVar("Case")
 DEEP = "DEEP" in os.environ
 
 
-def some(cases: Sequence[Case], count: int) -> Sequence[Case]:
+def some(cases, count):
     """`count` of the cases, evenly spread; all of them by `make deep`."""
     return cases if DEEP or count >= len(cases) else [cases[k * len(cases) // count] for k in range(count)]
 
 
-def examples(count: int, all_of_them: int) -> int:
+def examples(count, all_of_them):
     """Number of examples of hypothesis; the full number by `make deep`."""
     return all_of_them if DEEP else count
 
 
-def thorough(*cases: Any) -> list[Any]:
+def thorough(*cases):
     """The cases as thorough parameters of a test; a tuple holds the values of several arguments."""
     return [pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=pytest.mark.thorough) for case in cases]
 
 
-def further(cases: Iterable[Any], quick: int) -> list[Any]:
+def further(cases, quick):
     """Values for parametrize: all the cases, of which those after the first `quick` are thorough."""
     rest = iter(cases)
     return [*islice(rest, quick), *(pytest.param(case, marks=pytest.mark.thorough) for case in rest)]
 
 
-def few(cases: Sequence[Any], count: int) -> list[Any]:
+def few(cases, count):
     """All cases as parameters of a test: `count` of them, evenly spread, in every run, and the others as thorough."""
     first = {k * len(cases) // count for k in range(count)}
     return [case if k in first else pytest.param(case, marks=pytest.mark.thorough) for k, case in enumerate(cases)]

@@ -1,14 +1,11 @@
 """A result with all its digits, for comparisons to the last bit: reprs of results are short."""
 
-from __future__ import annotations
-
 from dataclasses import fields, is_dataclass
-from typing import Any
 
 import numpy as np
 
 
-def every_digit(value: Any) -> Any:
+def every_digit(value):
     """Names and values of all fields of a result, arrays as lists, down to plain numbers and texts.
 
     The dance that a result carries is left out: it is what was asked, not what was found.

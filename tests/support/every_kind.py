@@ -1,14 +1,11 @@
 """Claims of every kind and form, as the searches of core make them but with short numbers."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 
 from core import Dance, Dragon, EndReason, Line, Passage, Route, Spiral, Waypoints
 from core.claims.claim import (
     BenchBetween,
-    Claim,
     ClaimKind,
     ContactClaim,
     DanceSummary,
@@ -41,7 +38,7 @@ SECOND = PartSummary(None, TWO, 12.5, (3.0, -1.5), 0.5, False)
 BOTH, TEN = ((EAST, SECOND), 2, 7), ((), 10, 2000)
 TOGETHER = {"dragons": (0, 1), "benches": (3, 0), "time": 12.5}
 
-CLAIMS: dict[str, Claim] = {
+CLAIMS = {
     "fold": ContactClaim(CLEAR, TWO, 0.0, 0.0, 0.0, 20.5, EndReason.FOLD),
     "centre": ContactClaim(CLEAR, ONE, 0.1, 0.0, 0.0, 20.5, EndReason.CENTRE),
     "end": ContactClaim(CLEAR, ODD, 0.0, 0.02, -1.5, 40.0, EndReason.END),

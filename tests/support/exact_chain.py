@@ -5,17 +5,13 @@ arithmetic at 200 bits, of which the rounding of this file itself takes a few. N
 by Newton's iteration.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_left
 from itertools import product
-from typing import Any
 
 import flint
 import numpy as np
 from flint import acb, arb
-from numpy.typing import NDArray
 
 from core.kernels import constants as c
 from tests.support.slow_search import next_delta as nearly_delta
@@ -33,26 +29,23 @@ QUADRATURE = (
     (0.0506142681451881, (0.0198550717512319, 0.9801449282487681)),
 )
 
-Floats = NDArray[np.float64]
-Point = tuple[arb, arb]
 
-
-def middle(value: arb) -> arb:
+def middle(value):
     """The midpoint of a ball: digits without their error."""
     return arb(value.mid())
 
 
-def distance(a: Point, b: Point) -> arb:
+def distance(a, b):
     x, y = a[0] - b[0], a[1] - b[1]
     return (x * x + y * y).sqrt()
 
 
-def spiral_place(theta: arb) -> arb:
+def spiral_place(theta):
     """Arc length from the centre, in units of growth."""
     return (theta * (1 + theta * theta).sqrt() + theta.asinh()) / 2
 
 
-def next_delta(theta: arb, reach: arb) -> arb:
+def next_delta(theta, reach):
     """The first root of delta^2 + 4 theta (theta + delta) sin^2(delta / 2) = reach^2."""
     root = arb(float(nearly_delta(np.array([float(theta)]), float(reach))[0]))
     for _ in range(NEWTON_STEPS):
@@ -63,7 +56,7 @@ def next_delta(theta: arb, reach: arb) -> arb:
     return root
 
 
-def spiral_angle(arc: arb) -> arb:
+def spiral_angle(arc):
     """The angle at an arc length from the centre; negative lengths have negative angles."""
     at = arb(math.copysign(math.sqrt(2.0 * abs(float(arc))), float(arc)))
     for _ in range(ROUTE_STEPS):
@@ -71,7 +64,7 @@ def spiral_angle(arc: arb) -> arb:
     return at
 
 
-def angles_behind(head: arb, growth: arb, chords: Floats) -> list[arb]:
+def angles_behind(head, growth, chords):
     """Angles of all handles behind the first one."""
     angles = [head]
     for chord in chords.tolist():
@@ -79,17 +72,17 @@ def angles_behind(head: arb, growth: arb, chords: Floats) -> list[arb]:
     return angles
 
 
-def on_spiral(growth: arb, radius: arb, angle: arb) -> Point:
+def on_spiral(growth, radius, angle):
     return growth * radius * angle.cos(), growth * radius * angle.sin()
 
 
-def spiral_handles(growth: float, theta: float, chords: Floats) -> list[Point]:
+def spiral_handles(growth, theta, chords):
     """Handles of a dragon on a spiral in the frame in which the head stands at polar angle 0 [m]."""
     flint.ctx.prec = BITS
     return [on_spiral(arb(growth), at, at - theta) for at in angles_behind(arb(theta), arb(growth), chords)]
 
 
-def coil_handles(pitch: float, begin: float, way: arb, chords: Floats, rotation: float = 0.0) -> list[Point]:
+def coil_handles(pitch, begin, way, chords, rotation=0.0):
     """Handles of a dragon whose head has gone a way on a coil from `begin` turns [m].
 
     The coil runs inwards, or outwards if `begin` is negative: angles and arc lengths from its centre are negative then.
@@ -100,7 +93,7 @@ def coil_handles(pitch: float, begin: float, way: arb, chords: Floats, rotation:
     return [on_spiral(growth, abs(at), abs(at) + rotation) for at in angles_behind(head, growth, chords)]
 
 
-def fresnel_way(first: arb, slope: arb, length: arb) -> acb:
+def fresnel_way(first, slope, length):
     """Way on a curve that begins to the right with this curvature, which has this slope.
 
     k v + c v^2 / 2 is c (v + k / c)^2 / 2 less k^2 / (2 c).
@@ -115,12 +108,12 @@ def fresnel_way(first: arb, slope: arb, length: arb) -> acb:
 class ExactRoute:
     """Points of a route by its table."""
 
-    def __init__(self, table: Floats) -> None:
+    def __init__(self, table):
         flint.ctx.prec = BITS
         self.rows = table.tolist()
         self.ends = [row[c.S_END] for row in self.rows]
 
-    def point(self, s: arb) -> tuple[Point, Point]:
+    def point(self, s):
         """Point [m] and unit tangent at arc length s."""
         row = self.rows[min(bisect_left(self.ends, float(s)), len(self.rows) - 1)]
         u = s - row[c.S_START] - row[c.S_START_LOW]
@@ -147,7 +140,7 @@ class ExactRoute:
         return self._cubic(row, u)
 
     @staticmethod
-    def _clothoid(row: list[float], u: arb) -> tuple[Point, Point]:
+    def _clothoid(row, u):
         k, slope = arb(row[c.K_START]), arb(row[c.K_RATE])
         first = acb(row[c.LINE_DX], row[c.LINE_DY])
         along = first * (acb(0, 1) * (k * u + slope * u * u / 2)).exp()
@@ -159,13 +152,13 @@ class ExactRoute:
         return (middle(point.real), middle(point.imag)), (middle(along.real), middle(along.imag))
 
     @staticmethod
-    def _cubic(row: list[float], u: arb) -> tuple[Point, Point]:
+    def _cubic(row, u):
         x, y, end = row[c.X0 : c.X3 + 1], row[c.Y0 : c.Y3 + 1], row[c.T_END]
 
-        def slope(t: arb) -> Point:
+        def slope(t):
             return x[1] + t * (2 * x[2] + 3 * t * x[3]), y[1] + t * (2 * y[2] + 3 * t * y[3])
 
-        def speed(t: arb) -> arb:
+        def speed(t):
             dx, dy = slope(t)
             return (dx * dx + dy * dy).sqrt()
 
@@ -179,7 +172,7 @@ class ExactRoute:
             dy / speed(t),
         )
 
-    def handles(self, s: arb, chords: Floats) -> list[Point]:
+    def handles(self, s, chords):
         """Handles of a dragon with its head at s [m], each the first point behind its leader at the chord."""
         front, _ = self.point(s)
         handles = [front]
@@ -196,7 +189,7 @@ class ExactRoute:
         return handles
 
 
-def separation(first: tuple[Point, Point], second: tuple[Point, Point], sizes: tuple[Floats, Floats]) -> arb:
+def separation(first, second, sizes):
     """Signed distance of two benches [m]. first, second: their front and rear handle; sizes: chord, half length, half
     width of each"""
     boxes = [_box(bench, size) for bench, size in zip((first, second), sizes, strict=True)]
@@ -207,17 +200,14 @@ def separation(first: tuple[Point, Point], second: tuple[Point, Point], sizes: t
     return min(_corners(boxes[0], boxes[1]), _corners(boxes[1], boxes[0]), key=float)
 
 
-# Middle, direction, half length and half width of a bench.
-Box = tuple[acb, acb, float, float]
-
-
-def _box(bench: tuple[Point, Point], size: Floats) -> Box:
+def _box(bench, size):
+    """Middle, direction, half length and half width of a bench."""
     front, rear = (acb(*point) for point in bench)
     chord, half_length, half_width = size.tolist()
     return (front + rear) / 2, (front - rear) / chord, half_length, half_width
 
 
-def _face(own: Box, other: Box) -> arb:
+def _face(own, other):
     (middle_own, along, half_length, half_width), (middle_other, along_other, *halves) = own, other
     away, turn = (middle_other - middle_own) * along.conjugate(), along_other * along.conjugate()
     lengthwise = abs(away.real) - half_length - abs(turn.real) * halves[0] - abs(turn.imag) * halves[1]
@@ -225,7 +215,7 @@ def _face(own: Box, other: Box) -> arb:
     return max(lengthwise, sideways, key=float)
 
 
-def _corners(own: Box, other: Box) -> arb:
+def _corners(own, other):
     middle_other, along, *halves = other
     entries = []
     for signs in product((-1, 1), repeat=2):
@@ -236,7 +226,7 @@ def _corners(own: Box, other: Box) -> arb:
     return min(entries, key=float)
 
 
-def clothoid_place(piece: Any, v: float) -> acb:
+def clothoid_place(piece, v):
     """Place on a clothoid at a length from its beginning, by Fresnel integrals of its own numbers [m]."""
     flint.ctx.prec = BITS
     first, last = arb(piece.start_curvature), arb(piece.end_curvature)

@@ -4,19 +4,14 @@ Playwright drives only a Firefox of its own making, and Debian 12 has no geckodr
 the tests need. An error of a page ends its test.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re
 import shutil
 import subprocess
 import time
-from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
-from pathlib import Path
-from typing import Any
 
 from websockets.sync.client import connect
 
@@ -41,7 +36,7 @@ SETTINGS = {
 
 
 @cache
-def firefox_path() -> str | None:
+def firefox_path():
     """Path of the first Firefox that reports its version. Ubuntu's command only says that a snap is missing."""
     for program in filter(None, [os.environ.get("FIREFOX"), *map(shutil.which, NAMES)]):
         try:
@@ -56,7 +51,7 @@ def firefox_path() -> str | None:
 class Firefox:
     """One tab. downloads: folder of saved files; errors: what the pages complained of"""
 
-    def __init__(self, port: int, downloads: Path) -> None:
+    def __init__(self, port, downloads):
         self.downloads, self.errors = downloads, list[str]()
         self._socket = connect(f"ws://127.0.0.1:{port}/session", proxy=None, open_timeout=PATIENCE, max_size=None)
         self._number = 0
@@ -64,7 +59,7 @@ class Firefox:
         self._ask("session.subscribe", events=["log.entryAdded"])
         self._tab = self._ask("browsingContext.getTree")["contexts"][0]["context"]
 
-    def _ask(self, method: str, **params: Any) -> Any:
+    def _ask(self, method, **params):
         self._number += 1
         self._socket.send(json.dumps({"id": self._number, "method": method, "params": params}))
         while True:
@@ -75,18 +70,18 @@ class Firefox:
                 assert message["type"] == "success", message
                 return message["result"]
 
-    def open(self, url: str, width: int = 1366, height: int = 900) -> None:
+    def open(self, url, width=1366, height=900):
         self._ask("browsingContext.setViewport", context=self._tab, viewport={"width": width, "height": height})
         self._ask("browsingContext.navigate", context=self._tab, url=url, wait="complete")
 
-    def evaluate(self, expression: str) -> Any:
+    def evaluate(self, expression):
         """Value of a JavaScript expression, which may be a promise."""
         code = f"(async () => JSON.stringify((await ({expression})) ?? null))()"
         answer = self._ask("script.evaluate", expression=code, target={"context": self._tab}, awaitPromise=True)
         assert answer["type"] == "success", answer.get("exceptionDetails")
         return json.loads(answer["result"]["value"])
 
-    def wait(self, expression: str) -> Any:
+    def wait(self, expression):
         """Value of an expression as soon as it is true."""
         end = time.monotonic() + PATIENCE
         while not (value := self.evaluate(expression)):
@@ -94,7 +89,7 @@ class Firefox:
             time.sleep(0.1)
         return value
 
-    def _middle(self, selector: str) -> tuple[int, int]:
+    def _middle(self, selector):
         one = f"document.querySelector({json.dumps(selector)})"
         # What comes into sight may be asked for then, and move what stands below it.
         self.evaluate(f"{one}.scrollIntoView({{ block: 'center' }})")
@@ -108,7 +103,7 @@ class Firefox:
         x, y = self.evaluate(place)
         return x, y
 
-    def drag(self, selector: str, right: int = 0, down: int = 0, *, at: tuple[int, int] = (0, 0)) -> None:
+    def drag(self, selector, right=0, down=0, *, at=(0, 0)):
         """Press the mouse on the middle of an element, or beside it, move it by pixels, and release it."""
         x, y = (one + off for one, off in zip(self._middle(selector), at, strict=True))
         steps = [{"type": "pointerMove", "x": x + right * k // 4, "y": y + down * k // 4} for k in range(1, 5)]
@@ -117,17 +112,17 @@ class Firefox:
         actions = [*press, *moves, {"type": "pointerUp", "button": 0}]
         self._act({"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": actions})
 
-    def click(self, selector: str, at: tuple[int, int] = (0, 0)) -> None:
+    def click(self, selector, at=(0, 0)):
         self.drag(selector, at=at)
 
-    def press(self, key: str) -> None:
+    def press(self, key):
         actions = [{"type": kind, "value": key} for kind in ("keyDown", "keyUp")]
         self._act({"type": "key", "id": "keys", "actions": actions})
 
-    def _act(self, actions: dict[str, Any]) -> None:
+    def _act(self, actions):
         self._ask("input.performActions", context=self._tab, actions=[actions])
 
-    def saved(self, name: str) -> bytes:
+    def saved(self, name):
         """The content of a file that the page saves, once it is there."""
         end, file = time.monotonic() + PATIENCE, self.downloads / name
         while not file.is_file() or not file.stat().st_size or list(self.downloads.glob("*.part")):
@@ -135,12 +130,12 @@ class Firefox:
             time.sleep(0.1)
         return file.read_bytes()
 
-    def close(self) -> None:
+    def close(self):
         self._socket.close()
 
 
 @contextmanager
-def running_firefox(folder: Path) -> Iterator[Firefox]:
+def running_firefox(folder):
     """A Firefox without windows that keeps its profile and its downloads in a folder."""
     program = firefox_path()
     assert program, MISSING

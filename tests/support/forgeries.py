@@ -1,34 +1,29 @@
 """Forged certificates: read from a file, edited with a matching digest; and forgeries of five benches."""
 
-from __future__ import annotations
-
 import copy
 import json
 import re
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 
 from core.errors import ProofRefused
-from core.proof import Certificate, digest, verify
+from core.proof import digest, verify
 
-Change = Callable[[dict[str, Any]], Any]
 EDIT = re.compile(r"(?:(delete|repeat|reverse|shorten) )?([^ ]+)(?: (\+?)= (.+))?")
 
 
-def through_json(certificate: Certificate) -> Certificate:
+def through_json(certificate):
     """A certificate as it is read from a file."""
-    return json.loads(json.dumps(certificate, allow_nan=False))  # type: ignore[no-any-return]
+    return json.loads(json.dumps(certificate, allow_nan=False))
 
 
-def places(value: Any, place: tuple[str | int, ...] = (), most: int | None = 2) -> list[tuple[str | int, ...]]:
+def places(value, place=(), most=2):
     """Every member of a certificate, and the first entries of every list, or all of them."""
     entries = list(value) if isinstance(value, dict) else range(len(value))[:most] if isinstance(value, list) else ()
     return [place, *(result for entry in entries for result in places(value[entry], (*place, entry), most))]
 
 
-def refusal(certificate: Certificate) -> str:
+def refusal(certificate):
     """Why a certificate is refused; empty for a proof."""
     try:
         verify(certificate)
@@ -37,11 +32,11 @@ def refusal(certificate: Certificate) -> str:
     return ""
 
 
-def put_at(*place: str | int, put: Any) -> Change:
+def put_at(*place, put):
     """The change that puts a value at this place."""
 
-    def change(content: dict[str, Any]) -> None:
-        inside: Any = content
+    def change(content):
+        inside = content
         for step in place[:-1]:
             inside = inside[step]
         inside[place[-1]] = put
@@ -49,15 +44,15 @@ def put_at(*place: str | int, put: Any) -> Change:
     return change
 
 
-def in_words(edits: str) -> Change:
+def in_words(edits):
     """The change that edits say, with `; ` between them: `claim.margin = 0.1`, `claim.time += 1e-9`, and `delete`,
     `repeat`, `reverse` (a list or a text) or `shorten` (by its last entry or sign) before a place."""
 
-    def change(content: dict[str, Any]) -> None:
+    def change(content):
         for edit in edits.split("; "):
-            verb, place, more, text = EDIT.fullmatch(edit).groups()  # type: ignore[union-attr]
+            verb, place, more, text = EDIT.fullmatch(edit).groups()
             *path, last = [int(step) if step.lstrip("-").isdigit() else step for step in place.split(".")]
-            inside: Any = content
+            inside = content
             for step in path:
                 inside = inside[step]
             if verb == "delete":
@@ -72,7 +67,7 @@ def in_words(edits: str) -> Change:
     return change
 
 
-def forged(certificate: Certificate, change: Change | str) -> Certificate:
+def forged(certificate, change):
     """A forger's edit: the change, or what in_words() makes of a text, and a digest that fits it."""
     content = copy.deepcopy(certificate)
     del content["digest"]
@@ -80,28 +75,28 @@ def forged(certificate: Certificate, change: Change | str) -> Certificate:
     return content | {"digest": digest(content)}
 
 
-def assert_refused(certificate: Certificate, change: Change | str, reason: str | None = None) -> None:
+def assert_refused(certificate, change, reason=None):
     """core.proof.verify refuses the forged certificate, for this reason (a pattern)."""
     with pytest.raises(ProofRefused, match=reason):
         verify(forged(certificate, change))
 
 
-def stretches(content: dict[str, Any], bench: int = 0) -> list[Any]:
-    return content["sweeps"][bench]["stretches"]  # type: ignore[no-any-return]
+def stretches(content, bench=0):
+    return content["sweeps"][bench]["stretches"]
 
 
-def other_face(content: dict[str, Any]) -> None:
+def other_face(content):
     tile = stretches(content)[-1]
     tile[2] = tile[2][:-1] + str((int(tile[2][-1]) + 2) % 4)
 
 
-def one_for_all(content: dict[str, Any]) -> None:
+def one_for_all(content):
     tiles = stretches(content)
     tiles[:] = [[tiles[0][0], *tiles[-1][1:]]]
 
 
 # (change, why core.proof.verify refuses it), of any certificate with the stretches of a head and of a body.
-DROPPED: list[tuple[Change | str, str]] = [
+DROPPED = [
     ("delete sweeps.0.stretches.7", "do not join"),
     ("repeat sweeps.0.stretches.7", "do not join"),
     ("delete sweeps.0.stretches.-1", "short of"),
@@ -112,7 +107,7 @@ DROPPED: list[tuple[Change | str, str]] = [
     ("repeats_from = 0", "not alike"),
 ]
 # The same of five benches.
-FORGERIES: list[tuple[Change | str, str]] = [
+FORGERIES = [
     *DROPPED,
     ("delete sweeps.0.stretches.0", "do not join"),
     ("delete sweeps.1.stretches.-1", "short of"),

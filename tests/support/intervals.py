@@ -50,17 +50,17 @@ class Sampled(NamedTuple):
     rounding: float
     chains: Floats = np.empty((0, 0, 0))
 
-    def differences(self, values: NDArray[np.inexact]) -> NDArray[np.inexact]:
+    def differences(self, values):
         """Difference quotients over the stride."""
         return (values[self.stride :] - values[: -self.stride]) / (self.stride * self.step)
 
-    def distance(self, a: int, b: int) -> float:
+    def distance(self, a, b):
         """Upper bound of the distance of two centres over the interval [m]."""
         speeds = self.motion[[a, b], CENTRE_SPEED]
         return float(abs(self.centres[0, b] - self.centres[0, a]) + self.interval.h * speeds.sum())
 
 
-def sizes_of(dragon: Dragon) -> Floats:
+def sizes_of(dragon):
     """The sizes of a dragon as the kernels have them, (n + 1, columns)."""
     sizes = np.zeros((dragon.benches + 1, SIZE_COLUMNS))
     half = 0.5 * np.stack([dragon.lengths, dragon.widths, np.hypot(dragon.lengths, dragon.widths)], axis=1)
@@ -68,11 +68,11 @@ def sizes_of(dragon: Dragon) -> Floats:
     return sizes
 
 
-def checked_pairs(benches: int) -> list[tuple[int, int]]:
+def checked_pairs(benches):
     return [(a, b) for a in range(benches) for b in range(a + 2, benches)]
 
 
-def on_spiral(seed: int) -> Sampled:
+def on_spiral(seed):
     """Close to the end of the run or further out; places by the slow search."""
     rng = np.random.default_rng(seed)
     while True:
@@ -98,7 +98,7 @@ def on_spiral(seed: int) -> Sampled:
     return Sampled(dragon, spiral, interval, sizes, motion, centres, along, float(step), 20, rounding)
 
 
-def on_route(seed: int) -> Sampled:
+def on_route(seed):
     """At a joint more often than not."""
     rng = np.random.default_rng(seed)
     while True:
@@ -115,7 +115,7 @@ def on_route(seed: int) -> Sampled:
             break
     curve, sizes, motion = route_curve(path.table), sizes_of(dragon), np.zeros((benches + 1, MOTION_COLUMNS))
 
-    def laid_out(s: float) -> Floats:
+    def laid_out(s):
         chain = np.zeros((benches + 1, CHAIN_COLUMNS))
         place_chain(curve, -s, benches, sizes, chain)
         chain_rounding(curve, benches, sizes, chain)
@@ -136,7 +136,7 @@ def on_route(seed: int) -> Sampled:
     return Sampled(dragon, path, interval, sizes, motion, centres, along, float(step), 8, rounding, chains)
 
 
-def _dragon(rng: np.random.Generator, chords: Floats, narrowest: float) -> Dragon:
+def _dragon(rng, chords, narrowest):
     """A dragon with these chords, or with a body of equal ones."""
     if rng.random() < 0.4:
         chords[1:] = chords[1]

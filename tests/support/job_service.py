@@ -9,7 +9,6 @@ import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Self
 
 import httpx
 import psutil
@@ -41,7 +40,7 @@ class Process:
     role: str
     pid: int
 
-    def kill(self) -> None:
+    def kill(self):
         with contextlib.suppress(ProcessLookupError):
             os.kill(self.pid, signal.SIGKILL)
 
@@ -49,28 +48,28 @@ class Process:
 class JobService:
     """`bench-dragon serve` on a free port, with this data folder and these settings."""
 
-    def __init__(self, folder: Path, workers: int = 1, **settings: object) -> None:
+    def __init__(self, folder, workers=1, **settings):
         self.folder, self.workers = folder, workers
         self.mark = f"{os.getpid()}-{id(self)}"
         self.environment = environment_of({**settings, "data": folder}) | {"TEST_MARK": self.mark}
         self.port = free_port()
         self.client = httpx.Client(base_url=f"http://127.0.0.1:{self.port}", timeout=PATIENCE)
 
-    def __enter__(self) -> Self:
+    def __enter__(self):
         self.start()
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, *_):
         self.stop()
         self.client.close()
 
-    def start(self) -> None:
+    def start(self):
         self.scratch = tempfile.TemporaryDirectory()
         self.log = Path(self.scratch.name) / "service.log"
         self.process = serve(self.port, self.workers, self.environment | {"TMPDIR": self.scratch.name}, self.log)
         wait_until_live(self.process, self.port, self.log)
 
-    def stop(self) -> None:
+    def stop(self):
         """Asks the service to end; no process of it may stay."""
         self.process.terminate()
         try:
@@ -82,7 +81,7 @@ class JobService:
             self.process.wait()
             self.scratch.cleanup()
 
-    def processes(self) -> list[Process]:
+    def processes(self):
         """All processes of this service that live, wherever they belong by now."""
         first = self.process.pid
         result = [Process("parent", first)] if self.process.poll() is None else []
@@ -94,29 +93,29 @@ class JobService:
                         result.append(Process(self._role(int(entry.name), words), int(entry.name)))
         return result
 
-    def _role(self, pid: int, words: str) -> str:
+    def _role(self, pid, words):
         if "app.jobs.work" in words and not _has_job(pid):
             return "spare"
         marks = {"app.jobs.runner": "runner", "app.jobs.work": "child", "resource_tracker": "tracker"}
         return next((role for mark, role in marks.items() if mark in words), "worker")
 
-    def of(self, role: str) -> list[Process]:
+    def of(self, role):
         return [process for process in self.processes() if process.role == role]
 
-    def post(self, wanted: Any, path: str = "/jobs") -> str:
+    def post(self, wanted, path="/jobs"):
         """Address of a new job."""
         answer = self.client.post(path, json=wanted)
         assert answer.status_code == 202, answer.text
         return answer.headers["location"]
 
-    def status(self, address: str) -> Any:
+    def status(self, address):
         while True:
             try:
                 return self.client.get(address).raise_for_status().json()
             except httpx.TransportError:  # A process that held the connection was killed.
                 assert self.process.poll() is None
 
-    def until(self, address: str, *states: str) -> Any:
+    def until(self, address, *states):
         """The status of a job when it is in one of these states."""
         end = time.monotonic() + PATIENCE
         while (status := self.status(address))["status"] not in states:
@@ -124,36 +123,36 @@ class JobService:
             time.sleep(LOOK)
         return status
 
-    def finished(self, address: str) -> Any:
+    def finished(self, address):
         return self.until(address, "successful", "failed", "dismissed")
 
-    def done(self, wanted: Any) -> str:
+    def done(self, wanted):
         """Address of a new job that is successful by now."""
         address = self.post(wanted)
         assert self.finished(address)["status"] == "successful"
         return address
 
-    def result(self, address: str) -> httpx.Response:
+    def result(self, address):
         return self.client.get(f"{address}/result")
 
-    def remove(self, *addresses: str) -> None:
+    def remove(self, *addresses):
         for address in addresses:
             while self.client.delete(address).status_code == httpx.codes.OK:
                 pass
 
-    def at(self, address: str) -> httpx.Client:
+    def at(self, address):
         """A client at another address of this machine."""
         transport = httpx.HTTPTransport(local_address=address)
         headers = self.client.headers
         return httpx.Client(base_url=self.client.base_url, transport=transport, timeout=PATIENCE, headers=headers)
 
 
-def _has_job(pid: int) -> bool:
+def _has_job(pid):
     """True if a process for jobs has a job: it opens the store only then."""
     return any("jobs.sqlite" in os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir())
 
 
-def direct(client: httpx.Client, wanted: Any) -> httpx.Response:
+def direct(client, wanted):
     """The answer of the call itself, with nothing of jobs."""
     call, values = CALLS[wanted["question"]], dict(wanted.get("request", {}))
     method, path = call.split()
@@ -175,7 +174,7 @@ CALLS = {
 }
 
 
-def is_gone(pid: int) -> bool:
+def is_gone(pid):
     """True if the process has ended, whether or not its parent has noticed.
 
     In a container the first process may be nobody who notices the end of orphans.
@@ -186,7 +185,7 @@ def is_gone(pid: int) -> bool:
         return True
 
 
-def wait_for(claim: Any, patience: float = PATIENCE) -> None:
+def wait_for(claim, patience=PATIENCE):
     """Return when the claim, a function, is true."""
     end = time.monotonic() + patience
     while not claim():

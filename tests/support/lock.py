@@ -1,11 +1,8 @@
 """What uv finds on the package index for the locked versions: nothing is installed."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -19,9 +16,7 @@ PROXIES = ("all_proxy", "http_proxy", "https_proxy", "no_proxy")
 TIMEOUT = 120.0  # [s] for a lock of a hundred packages, which takes 2 s
 
 
-def resolved(
-    packages: Sequence[str], python: str, processor: str, outer: tuple[tuple[str, str], ...]
-) -> subprocess.CompletedProcess[str]:
+def resolved(packages, python, processor, outer):
     """A dry run of an installation from wheels alone. packages: arguments of uv; outer: variables of the shell"""
     command = [str(UV), "pip", "install", "--dry-run", "--no-deps", "--only-binary", ":all:", "--system-certs"]
     machine = ["--python-version", python, "--python-platform", f"{processor}-manylinux_2_28"]
@@ -30,9 +25,7 @@ def resolved(
     return run_with_index([*command, *machine, *target, *packages], outer)
 
 
-def run_with_index(
-    command: Sequence[str], outer: tuple[tuple[str, str], ...], folder: Path = ROOT
-) -> subprocess.CompletedProcess[str]:
+def run_with_index(command, outer, folder=ROOT):
     """A command that may reach the index by the proxies of the shell, in a folder."""
     proxies = {name: value for name, value in outer if name.lower() in PROXIES}
     environment = os.environ | proxies | {"UV_HTTP_TIMEOUT": "20", "UV_HTTP_RETRIES": "1"}
@@ -40,7 +33,7 @@ def run_with_index(
 
 
 @cache
-def index_answers(outer: tuple[tuple[str, str], ...]) -> bool:
+def index_answers(outer):
     """True if uv runs here and gets an answer about a package from the index."""
     if not UV.exists():
         return False

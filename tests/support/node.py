@@ -1,7 +1,5 @@
 """A Node.js, which runs modules of the page without a browser."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil
@@ -9,7 +7,6 @@ import subprocess
 import sys
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 PAGE = Path(__file__).parents[2] / "app" / "page"
 OLDEST = (22, 7)  # the first that takes a module of the page for what it is
@@ -29,7 +26,7 @@ process.stdout.write(JSON.stringify(await (%s)(...JSON.parse(text))) ?? "null");
 
 
 @cache
-def node_path() -> str | None:
+def node_path():
     """Path of a Node.js that is new enough: that of the environment of this Python, or one in PATH."""
     for program in (str(Path(sys.executable).parent / "node"), shutil.which("node")):
         try:
@@ -42,7 +39,7 @@ def node_path() -> str | None:
     return None
 
 
-def evaluate(function: str, *values: Any) -> Any:
+def evaluate(function, *values):
     """Value of a JavaScript function, which may be asynchronous, for these values.
 
     In it page("walk.js") is a promise of that module of the page.

@@ -29,7 +29,7 @@ class Height(BaseModel):
     digits: list[int]
 
 
-def height(request: OddRequest) -> Height:
+def height(request):
     """x times y; refused at x = 13, a mistake at x = 14, the end of the process at the deadly places."""
     if request.x == 13.0:
         raise InvalidValue("x", "must not be 13 m")
@@ -43,7 +43,7 @@ def height(request: OddRequest) -> Height:
     )
 
 
-def interrupted_height(request: OddRequest) -> Height:
+def interrupted_height(request):
     """Killed by another one at the deadly places, as by the kernel of a machine that is out of memory."""
     if request.x in request.deadly:
         os.kill(os.getpid(), signal.SIGKILL)
@@ -53,16 +53,16 @@ def interrupted_height(request: OddRequest) -> Height:
 class Unanswerable:
     """A question that no other process can unpack."""
 
-    def __call__(self, request: OddRequest) -> Height:
+    def __call__(self, request):
         """The height."""
         return height(request)
 
-    def __reduce__(self) -> tuple[object, tuple[str]]:
+    def __reduce__(self):
         """A recipe that fails when a worker unpacks it."""
         return _missing, ("no such module",)
 
 
-def _missing(what: str) -> None:
+def _missing(what):
     raise ImportError(what)
 
 

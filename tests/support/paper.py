@@ -1,29 +1,24 @@
 """PDF files, opened again by another program."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
 import pypdfium2
 import pypdfium2.raw as pdfium
 
 
-def pages_of(data: bytes | Path) -> list[Any]:
+def pages_of(data):
     return list(pypdfium2.PdfDocument(data))
 
 
-def words_of(page: Any, *box: float) -> str:
+def words_of(page, *box):
     """All words of a page with single blanks between them. box: left, bottom, right, top [pt]"""
     return " ".join(page.get_textpage().get_text_bounded(*box).split())
 
 
-def shapes_of(page: Any) -> list[tuple[float, float, float, float]]:
+def shapes_of(page):
     """Boxes of all drawn shapes: left, bottom, right, top [pt]."""
     return [one.get_bounds() for one in page.get_objects(filter=[pdfium.FPDF_PAGEOBJ_PATH])]
 
 
-def assert_fonts_are_within(data: bytes) -> None:
+def assert_fonts_are_within(data):
     """Every font is in the file and of a type that journals and printers take."""
     for page in pages_of(data):
         fonts = [one.get_font() for one in page.get_objects(filter=[pdfium.FPDF_PAGEOBJ_TEXT])]

@@ -1,9 +1,5 @@
 """Until a page of the product is at rest: it names in one attribute what it has begun and will end by itself."""
 
-from __future__ import annotations
-
-from typing import Any
-
 # Nothing of these kinds is pending for some frames: the page requests what comes into sight one frame later.
 QUIET = """async (kinds) => {
   const root = document.documentElement;
@@ -23,7 +19,7 @@ QUIET = """async (kinds) => {
 }"""
 
 
-def settled(page: Any, *kinds: str) -> None:
+def settled(page, *kinds):
     """Return when nothing, or nothing of these kinds, is pending: names of the page's channels and pauses."""
     page.wait_for_function(QUIET, arg=list(kinds) or None)
 

@@ -1,21 +1,17 @@
 """What a person does and sees on a page of the product."""
 
-from __future__ import annotations
-
 import base64
 import io
 import re
 from pathlib import Path
-from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
-import numpy as np
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import expect
 
 from tests.support import axe
 from tests.support.pending import REACH, settled
 
-PHONE: Any = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 # A layout that changes the height of the picture lets it be drawn once more.
 IS_SIZED = """() => {
   const { height, clientHeight } = document.querySelector("#canvas");
@@ -29,16 +25,16 @@ COLOUR_WITHIN = 0.02  # difference of a pixel from a colour of the page, in each
 class Person:
     """One tab, and who looks at it."""
 
-    def __init__(self, page: Page) -> None:
+    def __init__(self, page):
         self.page = page
 
-    def at(self, place: str) -> Locator:
+    def at(self, place):
         return self.page.locator(place).first
 
-    def all(self, place: str) -> Locator:
+    def all(self, place):
         return self.page.locator(place)
 
-    def sees(self, wanted: dict[str, Any]) -> Person:
+    def sees(self, wanted):
         """Wait for each place: True: visible, False: hidden, a count, a text or texts in it, a pattern of its text."""
         for place, what in wanted.items():
             one = self.at(place)
@@ -53,93 +49,93 @@ class Person:
                     expect(one).to_contain_text(text)
         return self
 
-    def reads(self, wanted: dict[str, str]) -> Person:
+    def reads(self, wanted):
         """Wait until each place has exactly this text."""
         for place, text in wanted.items():
             expect(self.at(place)).to_have_text(text)
         return self
 
-    def misses(self, unwanted: dict[str, str]) -> Person:
+    def misses(self, unwanted):
         """Wait until no place has its text in it."""
         for place, text in unwanted.items():
             expect(self.at(place)).not_to_contain_text(text)
         return self
 
-    def holds(self, wanted: dict[str, str]) -> Person:
+    def holds(self, wanted):
         """Wait until each field has this value."""
         for place, value in wanted.items():
             expect(self.at(place)).to_have_value(value)
         return self
 
-    def has(self, place: str, **attributes: str) -> Person:
+    def has(self, place, **attributes):
         """Wait until an element has these attributes; aria_busy stands for aria-busy."""
         for name, value in attributes.items():
             expect(self.at(place)).to_have_attribute(name.replace("_", "-"), value)
         return self
 
-    def arrives(self, address: Any) -> Person:
+    def arrives(self, address):
         """Wait for an address of this pattern."""
         self.page.wait_for_url(address)
         return self
 
-    def views(self, *places: str) -> Person:
+    def views(self, *places):
         """Wait until each place is within the window."""
         for place in places:
             expect(self.at(place)).to_be_in_viewport()
         return self
 
-    def focuses(self, place: str) -> Person:
+    def focuses(self, place):
         self.at(place).focus()
         return self
 
-    def takes(self, file: Any, place: str = "#open-file") -> Person:
+    def takes(self, file, place="#open-file"):
         """Choose a file, or files, for a button that opens them."""
         self.at(place).set_input_files(file)
         return self
 
-    def presses(self, *places: str) -> Person:
+    def presses(self, *places):
         for place in places:
             self.at(place).click()
         return self
 
-    def chooses(self, choices: dict[str, str]) -> Person:
+    def chooses(self, choices):
         for place, value in choices.items():
             self.at(place).select_option(value)
         return self
 
-    def types(self, texts: dict[str, str], key: str = "Enter") -> Person:
+    def types(self, texts, key="Enter"):
         """Fill each field, and press a key in it."""
         for place, text in texts.items():
             self.at(place).fill(text)
             self.at(place).press(key)
         return self
 
-    def strikes(self, *keys: str) -> Person:
+    def strikes(self, *keys):
         for key in keys:
             self.page.keyboard.press(key)
         return self
 
-    def speaks(self, language: str) -> Person:
+    def speaks(self, language):
         """Choose a language of the page: en or zh."""
         self.at(f"[data-lang={language}]:visible").click()
         return self.settles()
 
-    def settles(self, *kinds: str) -> Person:
+    def settles(self, *kinds):
         settled(self.page, *kinds)
         return self
 
-    def reaches(self, place: str = "#keep") -> Person:
+    def reaches(self, place="#keep"):
         """Scroll to a place: the charts on the way are drawn, and nothing moves any more."""
         self.at(place).scroll_into_view_if_needed()
         return self.settles()
 
-    def reaches_below(self) -> Person:
+    def reaches_below(self):
         """What stands below the dance loads as by the Tab key: nothing scrolls, and no chart comes into sight."""
         self.page.evaluate(REACH)
         self.at("#kept li").wait_for(state="attached")
         return self.settles()
 
-    def looks_at(self, *kinds: str) -> Person:
+    def looks_at(self, *kinds):
         """Scroll to these slow charts, curve or scan, until they are drawn to the end."""
         for kind in kinds:
             self.settles()  # an answer that came after the scrolling would push the chart out of sight again
@@ -147,12 +143,12 @@ class Person:
             self.at(f"#{kind}:not(.coarse) .uplot").wait_for()
         return self.settles()
 
-    def drags(self, place: str, dx: float, dy: float) -> Person:
+    def drags(self, place, dx, dy):
         """Press the mouse on the middle of an element, move it by pixels, and release it."""
         box = self.box(place)
         return self.drags_from(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, dx, dy)
 
-    def drags_from(self, x: float, y: float, dx: float, dy: float) -> Person:
+    def drags_from(self, x, y, dx, dy):
         """The same from a place in the window."""
         self.page.mouse.move(x, y)
         self.page.mouse.down()
@@ -160,7 +156,7 @@ class Person:
         self.page.mouse.up()
         return self
 
-    def swipes(self, x: float, y: float, dx: float, dy: float) -> None:
+    def swipes(self, x, y, dx, dy):
         """Move a finger from a place by pixels."""
         finger = self.page.context.new_cdp_session(self.page)
         points = [[{"x": x + dx * k / 8, "y": y + dy * k / 8}] for k in range(9)]
@@ -170,49 +166,49 @@ class Person:
         finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
         self.settles()
 
-    def saves(self, place: str, name: str = "") -> bytes:
+    def saves(self, place, name=""):
         """Content of the file that a press saves. name: that it must have"""
         with self.page.expect_download() as download:
             self.at(place).click()
         assert name in ("", download.value.suggested_filename)
         return Path(download.value.path()).read_bytes()
 
-    def text(self, place: str) -> str:
+    def text(self, place):
         return self.at(place).inner_text()
 
-    def texts(self, place: str) -> list[str]:
+    def texts(self, place):
         return self.all(place).all_inner_texts()
 
-    def box(self, place: str) -> Any:
+    def box(self, place):
         return self.at(place).bounding_box()
 
-    def style(self, place: str, name: str) -> str:
+    def style(self, place, name):
         return str(self.at(place).evaluate(f"one => getComputedStyle(one).{name}"))
 
-    def ask(self, code: str, *values: Any) -> Any:
+    def ask(self, code, *values):
         """Value of a JavaScript expression, or of a function for a value."""
         return self.page.evaluate(code, *values)
 
-    def counts(self, place: str) -> int:
+    def counts(self, place):
         return self.page.locator(place).count()
 
-    def address(self) -> dict[str, str]:
+    def address(self):
         """The parts of the address, once the page has written it."""
         self.settles("address")
         return {name: values[0] for name, values in parse_qs(urlsplit(self.page.url).query).items()}
 
-    def holds_back(self, pattern: Any) -> Held:
+    def holds_back(self, pattern):
         """Requests of this pattern wait from now on."""
         return Held(self.page, pattern)
 
-    def findings(self, place: str | None = None, **how: bool) -> list[tuple[str, str]]:
+    def findings(self, place=None, **how):
         return axe.findings(self.page, place, **how)
 
-    def overflows(self, width: int) -> bool:
+    def overflows(self, width):
         """Whether the page is wider than a screen of this width [px]."""
         return bool(self.page.evaluate("document.documentElement.scrollWidth") > width)
 
-    def picture(self) -> np.ndarray:
+    def picture(self):
         """The pixels of the dance (height, width, 4), drawn in the size that its canvas has."""
         from matplotlib.image import imread  # takes a third of the start of a process
 
@@ -220,7 +216,7 @@ class Person:
         address = self.page.locator("#canvas").evaluate("canvas => canvas.toDataURL()")
         return imread(io.BytesIO(base64.b64decode(address.partition(",")[2])))
 
-    def coloured(self, colour: str) -> int:
+    def coloured(self, colour):
         """Number of pixels of the picture in a colour, such as #008080, or in one of the page by its name."""
         if not colour.startswith("#"):
             code = "name => getComputedStyle(document.querySelector('#canvas')).getPropertyValue(`--${name}`).trim()"
@@ -232,21 +228,21 @@ class Person:
 class Held:
     """Requests that wait until they are let go."""
 
-    def __init__(self, page: Page, pattern: Any) -> None:
-        self._waiting: list[Any] = []
+    def __init__(self, page, pattern):
+        self._waiting = []
         self._passes = False
         page.route(pattern, lambda route: self.take(route))
 
-    def take(self, route: Any) -> None:
+    def take(self, route):
         route.continue_() if self._passes else self._waiting.append(route)
 
-    def let_go(self) -> None:
+    def let_go(self):
         """Let go what waits, and what comes after it."""
         self._passes = True
         while self._waiting:
             self._waiting.pop(0).continue_()
 
 
-def alike(a: np.ndarray, b: np.ndarray) -> bool:
+def alike(a, b):
     """Two pictures show the same."""
     return a.shape == b.shape and float((a != b).any(axis=-1).mean()) < PIXELS_UNLIKE

@@ -1,9 +1,6 @@
 """A client beside the page: if the service is busy with the page's questions, it retries after the stated wait."""
 
-from __future__ import annotations
-
 import time
-from typing import Any
 
 import httpx
 
@@ -15,21 +12,21 @@ PATIENCE = 60.0
 CLIENT = httpx.Client(timeout=PATIENCE, limits=httpx.Limits(max_keepalive_connections=0))
 
 
-def get(url: str, **how: Any) -> httpx.Response:
+def get(url, **how):
     return _request("GET", url, **how)
 
 
-def post(url: str, **how: Any) -> httpx.Response:
+def post(url, **how):
     return _request("POST", url, **how)
 
 
-def answer(base: str, call: str, body: Any = None, **query: Any) -> Any:
+def answer(base, call, body=None, **query):
     """The answer of a service to a body, or to a query."""
     url = f"{base}/{call}"
     return (get(url, params=query) if body is None else post(url, json=body)).raise_for_status().json()
 
 
-def _request(method: str, url: str, **how: Any) -> httpx.Response:
+def _request(method, url, **how):
     end = time.monotonic() + PATIENCE
     while True:
         answer = CLIENT.request(method, url, **how)

@@ -1,7 +1,5 @@
 """Routes of lines, arcs and coils, on which dances are proven."""
 
-from __future__ import annotations
-
 import math
 
 from core import Arc, Coil, Line, Route

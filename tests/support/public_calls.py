@@ -1,10 +1,5 @@
 """A short call of each public function and class of core, which tests of wrong types, budgets and displays share."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 
 import core
@@ -23,7 +18,7 @@ NEAR = core.Performance(
 ENCOUNTER = core.first_encounter(core.Performance([core.Part(DANCE), core.Part(core.Dance(DRAGON, SPIRAL))]), stop=9.0)
 CUES = core.bench_cues(DANCE, [2], stop=9.0)[0]
 # A valid call of each function; the names are those of its parameters.
-CALLS: dict[Callable[..., Any], dict[str, Any]] = {
+CALLS = {
     core.bench_cues: {"dance": DANCE, "benches": [0], "reach": 8.0, "start": 0.0, "stop": 9.0},
     core.card_of: {"bench": CUES},
     core.crew: {"dance": DANCE, "needed": [2] * 5, "relief": core.Relief(1, 3.0), "start": 0.0, "stop": 9.0},

@@ -1,7 +1,5 @@
 """Random dragons, spirals and dances: strategies of hypothesis, and dances of a seed beside their slow search."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import strategies as st
 
@@ -19,7 +17,7 @@ DRAGONS = st.one_of(
 SPIRALS = st.builds(Spiral, pitch=st.floats(0.2, 3.0), start_turns=st.floats(3.0, 20.0))
 
 
-def stands(dragon: Dragon, spiral: Spiral) -> bool:
+def stands(dragon, spiral):
     try:
         return Dance(dragon, spiral).end.time > 1.0
     except InvalidValue:
@@ -29,7 +27,7 @@ def stands(dragon: Dragon, spiral: Spiral) -> bool:
 DANCES = st.tuples(DRAGONS, SPIRALS).filter(lambda dance: stands(*dance))
 
 
-def random_dragon(rng: np.random.Generator, bench_by_bench: bool) -> Dragon:
+def random_dragon(rng, bench_by_bench):
     benches = int(rng.choice([3, 4, 6, 10, 20, 40]))
     chord = 10 ** rng.uniform(-0.3, 0.4)
     overhang = rng.choice([0.0, rng.uniform(0.0, 0.3)])
@@ -42,7 +40,7 @@ def random_dragon(rng: np.random.Generator, bench_by_bench: bool) -> Dragon:
     return Dragon.of(chords + 2 * overhang, widths, np.full(benches, overhang))
 
 
-def random_dance(seed: int, bench_by_bench: bool) -> tuple[Dance, SlowDance]:
+def random_dance(seed, bench_by_bench):
     """A dance, and the slow one: its dragon stands apart at the start of a spiral short enough for the slow search."""
     rng = np.random.default_rng(seed)
     while True:

@@ -1,7 +1,5 @@
 """Routes of random pieces, each of which joins the one before it smoothly, and the dragon that follows them."""
 
-from __future__ import annotations
-
 import cmath
 import math
 
@@ -18,21 +16,21 @@ DRAGON = Dragon(benches=16, head_length=1.8, body_length=1.4, width=0.3, overhan
 class Pen:
     """Draws pieces one after the other from a place in a direction, so that every joint is smooth."""
 
-    def __init__(self, place: complex = 0j, heading: float = 0.0) -> None:
+    def __init__(self, place=0j, heading=0.0):
         self.place, self.heading, self.pieces = place, heading, []
 
-    def line(self, length: float) -> None:
+    def line(self, length):
         end = self.place + length * cmath.rect(1.0, self.heading)
         self.pieces.append(Line((self.place.real, self.place.imag), (end.real, end.imag)))
         self.place = end
 
-    def arc(self, radius: float, sweep: float) -> None:
+    def arc(self, radius, sweep):
         angle = self.heading - math.copysign(0.5 * math.pi, sweep)
         centre = self.place - cmath.rect(radius, angle)
         self.pieces.append(Arc((centre.real, centre.imag), radius, angle, sweep))
         self.place, self.heading = centre + cmath.rect(radius, angle + sweep), self.heading + sweep
 
-    def coil(self, pitch: float, start: float, end: float) -> None:
+    def coil(self, pitch, start, end):
         growth, sign = pitch / (2.0 * math.pi), 1.0 if end > start else -1.0
         theta, last = 2.0 * math.pi * start, 2.0 * math.pi * end
         rotation = self.heading - cmath.phase(sign * complex(1.0, theta)) - theta
@@ -41,11 +39,11 @@ class Pen:
         self.place = centre + cmath.rect(growth * last, last + rotation)
         self.heading = cmath.phase(sign * complex(1.0, last)) + last + rotation
 
-    def clothoid(self, first: float, last: float, length: float) -> None:
+    def clothoid(self, first, last, length):
         self.pieces.append(Clothoid((self.place.real, self.place.imag), self.heading, first, last, length))
         self.place, self.heading = complex(*self.pieces[-1].end), self.pieces[-1].end_heading
 
-    def waypoints(self, legs: list[tuple[float, float]]) -> None:
+    def waypoints(self, legs):
         points, place, heading = [self.place], self.place, self.heading
         for length, swerve in legs:
             heading += swerve
@@ -71,7 +69,7 @@ strokes = st.one_of(
 
 
 @st.composite
-def routes(draw: st.DrawFn) -> Route:
+def routes(draw):
     """Three to seven smooth pieces of any kind behind a line as long as the dragon; they may cross themselves."""
     pen = Pen(complex(draw(st.floats(-20, 20)), draw(st.floats(-20, 20))), draw(st.floats(-3.0, 3.0)))
     pen.line(1.01 * float(DRAGON.chords.sum()))
@@ -82,10 +80,10 @@ def routes(draw: st.DrawFn) -> Route:
     return route
 
 
-def first_behind(route: Route, s: float, chord: float) -> float:
+def first_behind(route, s, chord):
     """The first place behind s at the chord's distance, by a dense scan and brentq."""
 
-    def beyond(back: float | np.ndarray) -> np.ndarray:
+    def beyond(back):
         return np.hypot(*(route.position(s - back) - route.position(s)).T) - chord
 
     backs = np.linspace(0.0, 2.0 * chord, 2_001)

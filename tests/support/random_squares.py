@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 
 import core
-from core import Area, Dragon, Gate, Proposal, Proposals, Venue, bench_outlines, trajectory
+from core import Area, Dragon, Gate, Venue, bench_outlines, trajectory
 
 # Distance of two samples of a dance [s], and rounding of distances at coordinates of some hundred metres [m].
 STEP, ROUNDING = 0.1, 1e-9
@@ -25,10 +25,10 @@ class Case:
     gates: tuple[Gate, ...]
     limits: dict[str, Any]
 
-    def proposals(self, **more: Any) -> Proposals:
+    def proposals(self, **more):
         return core.propose(self.venue, self.dragon, gates=self.gates, **{**self.limits, **more})
 
-    def answer(self) -> Proposals | core.InvalidValue:
+    def answer(self):
         """The proposals, or the refusal."""
         try:
             return self.proposals()
@@ -36,16 +36,16 @@ class Case:
             return error
 
 
-def closed(points: Any) -> tuple[tuple[float, float], ...]:
+def closed(points):
     return tuple((float(x), float(y)) for x, y in [*points, points[0]])
 
 
-def box(name: str, x: float, y: float, width: float, height: float) -> Area:
+def box(name, x, y, width, height):
     """A rectangle from its lower left corner."""
     return Area(name, (closed([(x, y), (x + width, y), (x + width, y + height), (x, y + height)]),))
 
 
-def random_case(seed: int | list[int]) -> Case:
+def random_case(seed):
     """A square of 4 to 9 corners with up to ten obstacles, up to three gates, and a dragon of 2 to 60 benches."""
     random = np.random.default_rng(seed)
     corners = int(random.integers(4, 10))
@@ -78,11 +78,11 @@ def random_case(seed: int | list[int]) -> Case:
     return Case(Venue(square, tuple(obstacles)), dragon, tuple(gates), limits)
 
 
-def polygon(area: Area) -> shapely.Polygon:
+def polygon(area):
     return shapely.Polygon(area.rings[0], area.rings[1:])
 
 
-def refuted(case: Case, proposal: Proposal) -> str:
+def refuted(case, proposal):
     """What a dense sampling of a proposal finds wrong; empty if nothing.
 
     Both holes of a bench may stray the same way, so every bench has the stray to the edges, two benches have it twice.
@@ -114,7 +114,7 @@ def refuted(case: Case, proposal: Proposal) -> str:
     return ""
 
 
-def wrong_reason(case: Case, result: Proposals) -> str:
+def wrong_reason(case, result):
     """What is wrong with a reason by other means; empty if nothing."""
     reason = result.reason
     assert reason is not None

@@ -1,13 +1,9 @@
 """All places that one bench may have while its two holes stray, drawn at random: what hulls and bounds are held to."""
 
-from __future__ import annotations
-
 import numpy as np
 
-from core.values import Floats
 
-
-def random_strays(rng: np.random.Generator, chord: float, stray: float, count: int) -> Floats:
+def random_strays(rng, chord, stray, count):
     """Strays (count, 2, 2) of the front and the rear hole of a bench along the x axis that keep its chord [m].
 
     Half of them have the middle on the edge of all places that the turn allows, half anywhere in them; half of the
@@ -21,7 +17,7 @@ def random_strays(rng: np.random.Generator, chord: float, stray: float, count: i
     return strays_of(q, (2.0 * stray * part)[:, None] * way, chord, stray, part)
 
 
-def strays_of(q: Floats, middle: Floats, chord: float, stray: float, part: Floats | float = 1.0) -> Floats:
+def strays_of(q, middle, chord, stray, part=1.0):
     """Strays (N, 2, 2) of both holes of a bench that is turned by 2 asin(q / chord) and whose middle moves (N, 2) [m].
 
     A turn or a middle that goes too far is taken back to `part` of what the discs of both holes allow.
@@ -36,7 +32,7 @@ def strays_of(q: Floats, middle: Floats, chord: float, stray: float, part: Float
     return np.stack([kept + q[:, None] * across, kept - q[:, None] * across], axis=1)
 
 
-def moved_points(points: Floats, strays: Floats, chord: float) -> Floats:
+def moved_points(points, strays, chord):
     """Points (n, 2) of a bench along the x axis, from the middle of its chord, with its holes displaced: (count, n, 2).
 
     By the rigid motion itself: the new middle and the new direction of the chord.

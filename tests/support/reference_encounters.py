@@ -1,9 +1,5 @@
 """The performances of tests/reference/encounters.json."""
 
-from __future__ import annotations
-
-from typing import Any
-
 from core import Arc, Dance, Dragon, Legs, Line, Part, Performance, Route, Spiral
 from tests.support.reference import reference_cases
 
@@ -11,7 +7,7 @@ CASES = reference_cases("encounters")
 PIECES = {"arc": Arc, "line": Line}
 
 
-def path_of(path: dict[str, Any]) -> Spiral | Route:
+def path_of(path):
     kind, rest = path["kind"], {name: value for name, value in path.items() if name != "kind"}
     if kind == "spiral":
         return Spiral(**rest)
@@ -21,7 +17,7 @@ def path_of(path: dict[str, Any]) -> Spiral | Route:
     return Route([PIECES[one["kind"]](**piece) for one, piece in zip(rest["pieces"], pieces, strict=True)])
 
 
-def performance_of(case: dict[str, Any]) -> Performance:
+def performance_of(case):
     return Performance(
         [
             Part(Dance(Dragon(**one["dragon"]), path_of(one["path"]), one["head_speed"]), one["delay"])

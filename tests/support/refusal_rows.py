@@ -1,17 +1,14 @@
 """Refusals as rows of a table: what is asked, an arrow, and what the refusal names."""
 
-from __future__ import annotations
-
 import json
 import shlex
-from typing import Any
 
 import httpx
 
 from tests.support.command import run
 
 
-def assert_refused(client: httpx.Client, call: str, body: dict[str, Any], row: str) -> None:
+def assert_refused(client, call, body, row):
     """A row is `{"what": "is changed in the body"} -> /pointer to what is wrong, and words of the refusal`."""
     change, named = row.split(" -> ")
     pointer, *words = named.split()
@@ -22,7 +19,7 @@ def assert_refused(client: httpx.Client, call: str, body: dict[str, Any], row: s
     assert [word for word in words if word not in error["detail"]] == [], error["detail"]
 
 
-def assert_refused_in_one_line(row: str, code: int = 2, begin: str = "Error: ", **how: Any) -> None:
+def assert_refused_in_one_line(row, code=2, begin="Error: ", **how):
     """A row is `a command -> the words with which its refusal begins ... words that stand in it`."""
     line, named = row.split(" -> ")
     first, _, words = named.partition(" ... ")

@@ -1,17 +1,14 @@
 """What a refusal must say: the field and the values in its message, whatever its words."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
 
-from core import BenchDragonError, InvalidValue
+from core import InvalidValue
 
 
 @contextmanager
-def refused(field: str, error: type[BenchDragonError] = InvalidValue, **values: object) -> Iterator[None]:
+def refused(field, error=InvalidValue, **values):
     """A block that must be refused because of this field, with at least these values in the message."""
     with pytest.raises(error) as caught:
         yield

@@ -1,10 +1,7 @@
 """`make examples`: asks the service, in this process, the requests of the examples and renews their answers."""
 
-from __future__ import annotations
-
 import asyncio
 import json
-from typing import Any
 
 import httpx
 
@@ -18,20 +15,20 @@ WIDTH = 120
 INDENT = 2
 
 
-async def renewed(examples: dict[str, Any]) -> dict[str, Any]:
+async def renewed(examples):
     """The same requests with the answers that the service gives now."""
     transport = httpx.ASGITransport(create_app(Settings()))
     async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
         return {call: request | {"answer": await answer(client, call, request)} for call, request in examples.items()}
 
 
-async def answer(client: httpx.AsyncClient, call: str, request: dict[str, Any]) -> Any:
+async def answer(client, call, request):
     method, path = call.split()
     response = await client.request(method, path, params=request.get("query"), json=request.get("body"))
     return response.raise_for_status().json() if response.headers["content-type"] == JSON else None
 
 
-def text(value: Any, used: int = 0, depth: int = 0) -> str:
+def text(value, used=0, depth=0):
     """JSON; an object or a list that fits into the rest of its line stands on one.
 
     used: characters of that line before it; depth: objects and lists around it

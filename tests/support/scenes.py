@@ -1,28 +1,21 @@
 """Rectangles for tests, and slow answers about their pairs."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from core import separation
-from core.values import Floats
 
-Pairs = NDArray[np.int64]
-# Poses (n, 3) [m, m, rad], lengths and widths (n,) [m].
-Scene = tuple[Floats, Floats, Floats]
 LENGTH, WIDTH = 2.2, 0.3
 
 
-def benches(*poses: tuple[float, float, float]) -> Scene:
-    """Equal benches at the given poses."""
+def benches(*poses):
+    """Equal benches at these poses: a scene, which is poses (n, 3) [m, m, rad], lengths and widths (n,) [m]."""
     return np.array(poses, dtype=float).reshape(-1, 3), np.full(len(poses), LENGTH), np.full(len(poses), WIDTH)
 
 
-def crowd(count: int, seed: int, *, side: float, smallest: float = 0.05, largest: float = 5.0) -> Scene:
+def crowd(count, seed, *, side, smallest=0.05, largest=5.0):
     """Benches of mixed sizes in a square."""
     random = np.random.default_rng(seed)
     pose = np.stack([*random.uniform(0.0, side, (2, count)), random.uniform(-4.0, 4.0, count)], axis=-1)
@@ -30,25 +23,25 @@ def crowd(count: int, seed: int, *, side: float, smallest: float = 0.05, largest
     return pose, size[0], size[1]
 
 
-def all_gaps(scene: Scene) -> Floats:
+def all_gaps(scene):
     """Oracle: the separation of every pair, (n, n) [m]."""
     pose, length, width = scene
     size = np.stack([length, width], axis=-1)
     return separation(pose[:, None], size[:, None], pose[None], size[None]).separation
 
 
-def all_pairs(scene: Scene, margin: float = 0.0) -> Pairs:
+def all_pairs(scene, margin=0.0):
     """Oracle: every pair within the margin, (N, 2)."""
     return np.argwhere(np.triu(all_gaps(scene) <= margin, k=1))
 
 
-def unlinked_pairs(pose: Floats, size: Floats, margin: float = 0.0) -> set[tuple[int, int]]:
+def unlinked_pairs(pose, size, margin=0.0):
     """Oracle: every pair that shares no handle, one by one, within the margin."""
     gaps = separation(pose[:, None], size[:, None], pose[None], size[None]).separation
     return {(int(a), int(b)) for a, b in np.argwhere(np.triu(gaps <= margin, k=2))}
 
 
-def outside(points: Floats, pose: Floats, size: Floats) -> Floats:
+def outside(points, pose, size):
     """How far a point lies outside a rectangle: 0 on its boundary, negative within. (..., 2) -> (...) [m]."""
     offset = points - pose[..., :2]
     cos, sin = np.cos(pose[..., 2]), np.sin(pose[..., 2])
@@ -57,12 +50,12 @@ def outside(points: Floats, pose: Floats, size: Floats) -> Floats:
     return np.maximum(along, across)
 
 
-def shapely_of(polygons: list[list[Floats]]) -> shapely.MultiPolygon:
+def shapely_of(polygons):
     """Polygons, each given by its rings, as one shape of shapely's."""
     return shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
 
 
-def random_pairs(count: int, seed: int) -> tuple[Floats, Floats, Floats, Floats]:
+def random_pairs(count, seed):
     """Rectangles near each other, a third of them at multiples of 45 degrees: poses and sizes of both of each pair."""
     random = np.random.default_rng(seed)
     pose = random.uniform(-1.0, 1.0, (2, count, 3)) * [3.0, 3.0, math.pi]
@@ -72,7 +65,7 @@ def random_pairs(count: int, seed: int) -> tuple[Floats, Floats, Floats, Floats]
     return pose[0], size[0], pose[1], size[1]
 
 
-def near_pairs(count: int, seed: int, margin: float, within: float) -> tuple[Scene, Floats]:
+def near_pairs(count, seed, margin, within):
     """Pairs of rectangles 2 k, 2 k + 1, each pair in its own cell, two thirds of them within a distance of the margin.
 
     returns: the scene and the separation of each pair (count,) [m]
@@ -90,7 +83,7 @@ def near_pairs(count: int, seed: int, margin: float, within: float) -> tuple[Sce
     return (poses, *sizes.T), separation(pose_a, size_a, pose_b, size_b).separation
 
 
-def minkowski_separation(a: Floats, b: Floats) -> Floats:
+def minkowski_separation(a, b):
     """Oracle: signed distance from the origin to the boundary of the Minkowski difference of two corner lists."""
     difference = (b[:, :, None] - a[:, None, :]).reshape(-1, 16, 2)
     hull = shapely.convex_hull(shapely.multipoints(difference))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import socket
-from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,32 +23,30 @@ class Service:
     log: Path
 
     @property
-    def address(self) -> tuple[str, int]:
+    def address(self):
         return "127.0.0.1", int(self.url.rpartition(":")[2])
 
 
-def sample(url: str, name: str) -> float:
+def sample(url, name):
     """Value of one line of /metrics; 0 where it is not there yet."""
     lines = httpx.get(f"{url}/metrics").text.splitlines()
     return next((float(line.rpartition(" ")[2]) for line in lines if line.startswith(f"{name} ")), 0.0)
 
 
-def free_port() -> int:
+def free_port():
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         return int(free.getsockname()[1])
 
 
-def environment_of(settings: Mapping[str, object]) -> dict[str, str]:
+def environment_of(settings):
     """The environment of a service with these settings, by their names in app/settings.py."""
     outer = {name: value for name, value in os.environ.items() if not name.startswith("BENCH_DRAGON_")}
     return outer | {f"BENCH_DRAGON_{name.upper()}": str(value) for name, value in settings.items()}
 
 
 @contextmanager
-def serving(
-    log: Path, workers: int = 1, limit: Callable[[], object] | None = None, port: int = 0, **settings: object
-) -> Iterator[Service]:
+def serving(log, workers=1, limit=None, port=0, **settings):
     """limit: called in the service's process before it starts; port: 0 for a free one"""
     port = port or free_port()
     process = serve(port, workers, environment_of(settings), log, limit)

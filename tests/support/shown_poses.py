@@ -1,24 +1,20 @@
 """What a pose that shows a contact must be, and overlaps of benches by shapely."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import shapely
 
-from core import Dance, bench_outlines, trajectory
-from core.tolerance.exhibit import Exhibit
-from core.values import Floats
+from core import bench_outlines, trajectory
 
 CHORD_ERROR = 1e-12  # [m]
 
 
-def overlap(outlines: Floats, others: Floats) -> Floats:
+def overlap(outlines, others):
     """Areas (N,) that rectangles (N, 4, 2) share with others [m^2]."""
     return shapely.area(shapely.intersection(shapely.polygons(outlines), shapely.polygons(others)))
 
 
-def assert_contact_shown(dance: Dance, pose: Exhibit) -> None:
+def assert_contact_shown(dance, pose):
     """The pose keeps every chord, no hole is further from its place than it says, and its two benches overlap."""
     assert np.hypot(*np.diff(pose.handles, axis=0).T) == pytest.approx(dance.dragon.chords, abs=CHORD_ERROR)
     assert np.hypot(*(pose.handles - trajectory(dance, pose.time).position).T).max() == pose.stray

@@ -1,7 +1,5 @@
 """Natural splines through points, and their arc lengths by a fine quadrature: no code of core."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 
@@ -12,13 +10,13 @@ from scipy.interpolate import CubicSpline
 PARTS, NODES = 64, 24
 
 
-def spline_of(points: tuple[tuple[float, float], ...]) -> tuple[CubicSpline, np.ndarray]:
+def spline_of(points):
     """The natural spline by chord lengths, and its knots."""
     knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     return CubicSpline(knots, points, bc_type="natural"), knots
 
 
-def spline_length(spline: CubicSpline, knots: np.ndarray, end: float) -> float:
+def spline_length(spline, knots, end):
     """Arc length from its beginning to a parameter, by Gauss-Legendre on equal parts of each leg [m]."""
     legs = pairwise([*knots[knots < end], end])
     stops = np.concatenate([np.linspace(a, b, PARTS + 1)[:-1] for a, b in legs])

@@ -4,8 +4,6 @@ Each dragon follows its own slow path; its places are then turned, mirrored and 
 at which a dance begins and ends are those of core.
 """
 
-from __future__ import annotations
-
 from itertools import combinations, pairwise
 
 import numpy as np

@@ -1,12 +1,11 @@
-"""Results as students hand them in: right ones, and some with one error each, computed without the grader's models."""
+"""Results as students hand them in: right ones, and some with one error each, computed without the grader's models.
 
-from __future__ import annotations
+Results are positions (T, 224, 2) [m] and speeds (T, 224) [m/s].
+"""
 
 import io
 import math
-from collections.abc import Callable
 from functools import cache
-from typing import Any
 
 import numpy as np
 import xlsxwriter
@@ -16,13 +15,6 @@ from app.files.workbooks import Worksheet
 from app.files.workbooks import workbook as written
 from core import Dance, Dragon, Spiral, Turn, trajectory
 
-Floats = np.ndarray[Any, np.dtype[np.float64]]
-# Positions (T, 224, 2) [m] and speeds (T, 224) [m/s].
-Results = tuple[Floats, Floats]
-# Ends of the stretch where a handle is, by the distance of the one before from the centre and the usual ends [m].
-Elsewhere = Callable[[Floats, Floats, Floats], tuple[Floats, Floats]]
-# Rows of sheets by their titles.
-Sheets = dict[str, list[list[Any]]]
 SPIRAL_TIMES, TURN_TIMES = np.arange(301.0), np.arange(-100.0, 101.0)
 B, START = 0.55 / (2.0 * math.pi), 32.0 * math.pi
 CONTACT = 412.47383768211466  # [s]
@@ -30,83 +22,83 @@ CONTACT = 412.47383768211466  # [s]
 ALL_CELLS = 338_016
 
 
-def of(dance: Dance, times: Floats) -> Results:
+def of(dance, times):
     motion = trajectory(dance, times)
     return motion.position, motion.speed
 
 
-def spiral(times: Floats = SPIRAL_TIMES, dragon: Dragon | None = None, **path: float) -> Results:
+def spiral(times=SPIRAL_TIMES, dragon=None, **path):
     return of(Dance(dragon or Dragon(), Spiral(**path)), times)
 
 
-def turn(times: Floats = TURN_TIMES, dragon: Dragon | None = None, **path: float) -> Results:
+def turn(times=TURN_TIMES, dragon=None, **path):
     return of(Dance(dragon or Dragon(), Turn(1.7, **path)), times)
 
 
-def arc(theta: Any) -> Any:
+def arc(theta):
     """Arc length of the contest's spiral from its centre [m]."""
     return 0.5 * B * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
 
 
-def head_at(theta_of: Callable[[float], float]) -> Results:
+def head_at(theta_of):
     """The right dance at the moments at which its head is at these angles."""
     return spiral(np.array([arc(START) - arc(theta_of(t)) for t in SPIRAL_TIMES]))
 
 
-def circle_angle() -> Results:
+def circle_angle():
     return head_at(lambda t: math.sqrt(START**2 - 2.0 * t / B))
 
 
-def rounded_head() -> Results:
+def rounded_head():
     angles = Spiral().theta(SPIRAL_TIMES).round(3)
     return head_at(lambda t: float(angles[int(t)]))
 
 
-def steady_angle() -> Results:
+def steady_angle():
     return head_at(lambda t: START - t / 8.8)
 
 
-def equal_arcs() -> Results:
+def equal_arcs():
     """Every handle is a chord's length behind the one before along the path, instead of in a straight line."""
     back = np.concatenate([[0.0], np.cumsum(Dragon().chords)])
     return np.asarray(Spiral().position(SPIRAL_TIMES[:, None] - back)), np.ones((301, 224))
 
 
-def mirrored(results: Results) -> Results:
+def mirrored(results):
     return results[0] * [1.0, -1.0], results[1]
 
 
-def with_speeds(results: Results, speed: Floats) -> Results:
+def with_speeds(results, speed):
     return results[0], speed
 
 
-def quotient(before: float, after: float, motion: Callable[[Floats], Results] = spiral) -> Results:
+def quotient(before, after, motion=spiral):
     """Speeds as distance over time between two moments. before, after: of them, from the time of the row [s]"""
     times = SPIRAL_TIMES if motion is spiral else TURN_TIMES
     way = motion(times + after)[0] - motion(times + before)[0]
     return with_speeds(motion(times), np.hypot(way[..., 0], way[..., 1]) / (after - before))
 
 
-def gradient() -> Results:
+def gradient():
     """Speeds by numpy.gradient from the places as they stand in the table, with six decimals."""
     position = np.round(spiral()[0], 6)
     velocity = np.gradient(position, axis=0)
     return with_speeds((position, velocity), np.hypot(velocity[..., 0], velocity[..., 1]))
 
 
-def is_outside(position: Floats) -> Any:
+def is_outside(position):
     """Handles that are not yet on the spiral."""
     return np.hypot(position[..., 0], position[..., 1]) > 8.8 + 1e-9
 
 
-def outside(value: float) -> Results:
+def outside(value):
     """Right results, but with this value as place and speed of handles that are not yet on the spiral."""
     position, speed = spiral()
     beyond = is_outside(position)
     return np.where(beyond[..., None], value, position), np.where(beyond, value, speed)
 
 
-def on_line() -> Results:
+def on_line():
     """Handles that are not yet on the spiral stand on its tangent at the start, a chord apart, at the head's speed."""
     position, speed = spiral()
     beyond = is_outside(position)
@@ -120,7 +112,7 @@ def on_line() -> Results:
     return position, np.where(beyond, 1.0, speed)
 
 
-def bisected(excess: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
+def bisected(excess, low, high):
     """Place between low and high at which excess changes its sign, for each instant, to 1e-11 of the range."""
     sign = np.sign(excess(low))
     for _ in range(37):
@@ -130,13 +122,16 @@ def bisected(excess: Callable[[Floats], Floats], low: Floats, high: Floats) -> F
     return high
 
 
-def strayed(path: Spiral | Turn, results: Results, times: Floats, handle: int, elsewhere: Elsewhere) -> Results:
-    """Right results but for one handle, which is elsewhere on the path; those behind it follow it."""
+def strayed(path, results, times, handle, elsewhere):
+    """Right results but for one handle, which is elsewhere on the path; those behind it follow it.
+
+    elsewhere: ends of the stretch where it is, by the distance of the one before from the centre and the usual ends [m]
+    """
     position, s = results[0].copy(), times
     for k, chord in enumerate(Dragon().chords, start=1):
         point = position[:, k - 1]
 
-        def excess(u: Floats, point: Floats = point, chord: float = chord) -> Floats:
+        def excess(u, point=point, chord=chord):
             return np.linalg.norm(path.position(u) - point, axis=-1) - chord
 
         ends = s - 1.6 * chord, s - 0.9 * chord
@@ -145,20 +140,20 @@ def strayed(path: Spiral | Turn, results: Results, times: Floats, handle: int, e
     return position, results[1]
 
 
-def wrong_ring(handle: int) -> Results:
+def wrong_ring(handle):
     """One handle takes the next root of the chord equation, half a turn to a turn behind the one before."""
 
-    def elsewhere(radius: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    def elsewhere(radius, low, high):
         return arc(START) - arc(radius / B + 2.0 * math.pi), arc(START) - arc(radius / B + math.pi)
 
     return strayed(Spiral(), spiral(), SPIRAL_TIMES, handle, elsewhere)
 
 
-def wrong_coil(handle: int, times: Floats) -> Results:
+def wrong_coil(handle, times):
     """One handle is on the other coil while the one before it is outside the turn."""
     path, growth = Turn(1.7), 1.7 / (2.0 * math.pi)
 
-    def elsewhere(radius: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    def elsewhere(radius, low, high):
         # In the same direction from the centre the other coil is half a ring further out.
         near = path.length + growth / B * (arc(radius / growth + math.pi) - arc(4.5 / growth))
         is_outside = high < -4.5
@@ -167,12 +162,12 @@ def wrong_coil(handle: int, times: Floats) -> Results:
     return strayed(path, turn(times), times, handle, elsewhere)
 
 
-def followed(place: Callable[[Floats], Floats], times: Floats) -> Floats:
+def followed(place, times):
     """Handles (T, 224, 2) on a path of one's own: each is at the first place behind the one before a chord away."""
     s, points = times, [place(times)]
     for chord in Dragon().chords:
 
-        def excess(u: Floats, point: Floats = points[-1], chord: float = chord) -> Floats:
+        def excess(u, point=points[-1], chord=chord):
             return np.linalg.norm(place(u) - point, axis=-1) - chord
 
         # At a kink it may be several chords back along the path.
@@ -184,7 +179,7 @@ def followed(place: Callable[[Floats], Floats], times: Floats) -> Floats:
     return np.stack(points, axis=1)
 
 
-def semicircles(times: Floats) -> Results:
+def semicircles(times):
     """A turn of two semicircles, 3 m and 1.5 m in radius, with their centres on the line from the entry to the exit."""
     path = Turn(1.7)
     entry = np.array(path.entry)
@@ -192,7 +187,7 @@ def semicircles(times: Floats) -> Results:
     left = np.array([-along[1], along[0]])
     middle, end = 3.0 * math.pi, 4.5 * math.pi
 
-    def place(s: Floats) -> Floats:
+    def place(s):
         first = s < middle  # to the left of the line, as seen along it
         angle = np.where(first, s / 3.0, (s - middle) / 1.5)[:, None]
         along_way, radius, side = (np.where(first, *pair)[:, None] for pair in ((3.0, 7.5), (3.0, 1.5), (-1.0, 1.0)))
@@ -203,13 +198,13 @@ def semicircles(times: Floats) -> Results:
     return followed(place, times), turn(times)[1]
 
 
-def mirrored_arcs(times: Floats) -> Results:
+def mirrored_arcs(times):
     """The two arcs are mirrored in the line from the entry to the exit, where they still begin and end."""
     path = Turn(1.7)
     along = np.array(path.exit) - np.array(path.entry)
     along /= np.linalg.norm(along)
 
-    def place(s: Floats) -> Floats:
+    def place(s):
         point = np.asarray(path.position(s))
         away = point - path.entry
         across = away - (away @ along)[:, None] * along
@@ -218,20 +213,20 @@ def mirrored_arcs(times: Floats) -> Results:
     return followed(place, times), turn(times)[1]
 
 
-def labels(kind: str) -> list[str]:
+def labels(kind):
     names = ["龙头", *(f"第{k}节龙身" for k in range(1, 222)), "龙尾", "龙尾（后）"]
     if kind == "position":
         return [f"{name}{axis} (m)" for name in names for axis in "xy"]
     return [f"{name} (m/s)" for name in names]
 
 
-def sheets(results: Results) -> tuple[Floats, Floats]:
+def sheets(results):
     """Rows of the two sheets, rounded to six decimals as the contest asks."""
     position, speed = results
     return np.round(position.transpose(1, 2, 0).reshape(-1, len(position)), 6), np.round(speed.T, 6)
 
 
-def workbook(results: Results, times: Floats, decimals: int = 6) -> bytes:
+def workbook(results, times, decimals=6):
     """result1 or result4 with labels that are nearly the contest's."""
     columns = [f"{t:g} s" for t in times]
     return written(
@@ -243,7 +238,7 @@ def workbook(results: Results, times: Floats, decimals: int = 6) -> bytes:
     )
 
 
-def lines(results: Results, times: Floats) -> bytes:
+def lines(results, times):
     """CSV with a line for each handle and instant; reading it takes much less time than a workbook."""
     rows = (
         f"{t:g},{handle},{x:.6f},{y:.6f},{v:.6f}"
@@ -253,7 +248,7 @@ def lines(results: Results, times: Floats) -> bytes:
     return "\n".join(["time,handle,x,y,speed", *rows]).encode()
 
 
-def contact_rows(results: Results) -> list[list[Any]]:
+def contact_rows(results):
     """Rows of result2: the first instant of these results."""
     [position], [speed] = (part[:1].tolist() for part in results)
     rows = zip(labels("speed"), position, speed, strict=True)
@@ -261,7 +256,7 @@ def contact_rows(results: Results) -> list[list[Any]]:
     return [[None, "横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"], *contact]
 
 
-def contact_workbook(results: Results) -> bytes:
+def contact_workbook(results):
     """result2 as openpyxl writes it."""
     book = Workbook(write_only=True)
     sheet = book.create_sheet("Sheet1")
@@ -272,7 +267,7 @@ def contact_workbook(results: Results) -> bytes:
     return sink.getvalue()
 
 
-def rows_of(results: Results, times: Floats) -> Sheets:
+def rows_of(results, times):
     entries = {}
     for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True):
         labelled = [[label, *row] for label, row in zip(labels(kind), rows.tolist(), strict=True)]
@@ -280,7 +275,7 @@ def rows_of(results: Results, times: Floats) -> Sheets:
     return entries
 
 
-def by_xlsxwriter(sheets: Sheets) -> bytes:
+def by_xlsxwriter(sheets):
     sink = io.BytesIO()
     with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
         for title, rows in sheets.items():
@@ -290,13 +285,13 @@ def by_xlsxwriter(sheets: Sheets) -> bytes:
     return sink.getvalue()
 
 
-def few() -> Sheets:
+def few():
     """A result1 of a few instants."""
     return rows_of(spiral(SPIRAL_TIMES[:4]), SPIRAL_TIMES[:4])
 
 
 @cache
-def three() -> list[Sheets]:
+def three():
     """Rows of the contest's workbooks, by the titles of their sheets."""
     second = {"Sheet1": contact_rows(spiral(np.array([CONTACT])))}
     return [rows_of(spiral(), SPIRAL_TIMES), second, rows_of(turn(), TURN_TIMES)]

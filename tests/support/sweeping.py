@@ -1,31 +1,24 @@
 """Sweeps of the tests: their specs, and their tables as this process answers them, shard by shard."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
-from typing import Any
 
-import httpx
-
-from app.sweeps.questions import SweepQuestion
 from app.sweeps.run import begin
 from app.sweeps.shards import ShardPiece, write_part
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 
 
-def spec_of(question: SweepQuestion, over: dict[str, Any], **more: Any) -> Spec:
+def spec_of(question, over, **more):
     return Spec.of({"question": question.name, "over": over, **more}, question)
 
 
-def grid_of(question: SweepQuestion, designs: int = 60, shard_size: int = 6, **request: Any) -> Spec:
+def grid_of(question, designs=60, shard_size=6, **request):
     """Two rows of places of tests.support.odd_questions."""
     over = {"x": list(map(float, range(designs // 2))), "y": [1.0, 2.0]}
     return spec_of(question, over, request=request, shard_size=shard_size)
 
 
-def answered(folder: Path, spec: Spec, question: SweepQuestion | None = None) -> Sweep:
+def answered(folder, spec, question=None):
     """The whole sweep in its folder. question: the one of the spec, if it is not in the registry"""
     begin(folder, spec)
     for shard in range(spec.shards):
@@ -33,14 +26,14 @@ def answered(folder: Path, spec: Spec, question: SweepQuestion | None = None) ->
     return Sweep(folder, spec)
 
 
-def assert_undisturbed(folder: Path, spec: Spec, question: SweepQuestion) -> None:
+def assert_undisturbed(folder, spec, question):
     """Compact a sweep; its table must have the bytes of the same sweep answered here."""
     expected = answered(folder.with_name("undisturbed"), spec, question)
     assert Sweep(folder, spec).compact().read_bytes() == expected.compact().read_bytes()
 
 
 # A sweep of 40 designs for a service, a quarter of which are refused.
-SPEC: dict[str, Any] = {
+SPEC = {
     "question": "collision_time",
     "over": {"pitch": {"start": 0.42, "stop": 0.60, "count": 10}, "width": [0.25, 0.30, 0.35, -1.0]},
     "request": {"benches": 60},
@@ -48,7 +41,7 @@ SPEC: dict[str, Any] = {
 }
 
 
-def followed(client: httpx.Client, address: str) -> tuple[Any, list[Any]]:
+def followed(client, address):
     """The last status of a sweep, and all from the first one that says how many designs are done."""
     with client.stream("GET", f"{address}/events") as events:
         lines = [json.loads(line[6:]) for line in events.iter_lines() if line.startswith("data: ")]

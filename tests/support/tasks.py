@@ -1,16 +1,14 @@
 """A module of child processes for tests of pools: python -m app.start tests.support.tasks"""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
 import time
 
-from app.processes.parent import Report, answer_tasks
+from app.processes.parent import answer_tasks
 
 
-def answer(task: bytearray, report: Report) -> bytes:
+def answer(task, report):
     """What a task asks for: its own length, reports, a print, a death, a long time, or memory."""
     word, _, rest = bytes(task).partition(b" ")
     if word == b"report":
@@ -30,5 +28,5 @@ def answer(task: bytearray, report: Report) -> bytes:
     return b"%d %d" % (os.getpid(), len(task))
 
 
-def main() -> None:
+def main():
     answer_tasks(answer)

@@ -4,8 +4,6 @@ make dist runs it, with auditwheel and patchelf. A wheel for one platform holds 
 platform none. On Linux a wheel with compiled loops needs no library beside those of manylinux.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -14,7 +12,7 @@ from pathlib import Path
 from zipfile import ZipFile
 
 
-def fault(wheel: Path) -> str:
+def fault(wheel):
     """What is wrong with a wheel; empty: nothing is."""
     names = ZipFile(wheel).namelist()
     if "app/guide/index.html" not in names:
@@ -37,7 +35,7 @@ def fault(wheel: Path) -> str:
     return ""
 
 
-def main() -> None:
+def main():
     faults = {name: fault(Path(name)) for name in sys.argv[1:]}
     for name, words in faults.items():
         print(f"{name}: {words or 'it holds what its name says'}")
