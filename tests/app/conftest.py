@@ -1,9 +1,6 @@
 """Fixtures of the service's tests: clients of real servers, one server for each set of settings."""
 
-from __future__ import annotations
-
 import ssl
-from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from functools import cache
 from inspect import signature
@@ -12,7 +9,7 @@ import httpx
 import pytest
 
 from tests.support.asking import Asking
-from tests.support.serving import Service, serving
+from tests.support.serving import serving
 
 # httpx reads the certificates of all authorities for each client and each httpx.get(), also for http://, which takes
 # 18 ms; the tests that ask in a loop did little else.
@@ -24,28 +21,28 @@ signature(httpx.get).parameters["timeout"].default.read = ANSWER_TIMEOUT
 
 
 @pytest.fixture(scope="session")
-def client(server: str) -> Iterator[httpx.Client]:
+def client(server):
     """A client of the real server, which keeps its connections open."""
     with httpx.Client(base_url=server, timeout=ANSWER_TIMEOUT) as client:
         yield client
 
 
 @pytest.fixture(scope="session")
-def ask(client: httpx.Client) -> Asking:
+def ask(client):
     """The calls of the real server."""
     return Asking(client)
 
 
 @pytest.fixture(scope="session")
-def service_with(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Service]]:
+def service_with(tmp_path_factory):
     """A function of settings that gives a real server with them, started once for all tests of this process.
 
     data: True for a folder of its own
     """
-    services: dict[str, Service] = {}
+    services = {}
     with ExitStack() as stack:
 
-        def service(**settings: object) -> Service:
+        def service(**settings):
             key = repr(sorted(settings.items()))
             if key not in services:
                 folder = tmp_path_factory.mktemp("service")
@@ -57,6 +54,6 @@ def service_with(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[
 
 
 @pytest.fixture(scope="session")
-def patient(service_with: Callable[..., Service]) -> str:
+def patient(service_with):
     """Base URL of a real server whose answers may take minutes."""
     return service_with(deadline_seconds=600).url

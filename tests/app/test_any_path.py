@@ -1,18 +1,15 @@
 """Turns, routes, waypoints and venues through the real service; wire/test_refusals.py has what is wrong with them."""
 
-from __future__ import annotations
-
 import json
 import math
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
 
 import core
 from app.wire.paths import path_of
-from tests.support.asking import Asking, box, line
+from tests.support.asking import box, line
 from tests.support.reference import reference
 
 REFERENCE_TOLERANCE = 1e-9  # [m], [rad], [s] and [m/s]
@@ -23,7 +20,7 @@ LANE = {"kind": "line", "start": [0, 0], "end": [60, 0]}
 SHORT = {"benches": 4}
 
 
-def route(*pieces: Any, start: float = 0) -> dict[str, Any]:
+def route(*pieces, start=0):
     return {"kind": "route", "pieces": list(pieces), "start": start}
 
 
@@ -36,14 +33,14 @@ ON_LANE = {"dragon": SHORT, "path": route(LANE)}
 # -- turns ---------------------------------------------------------------------------------------------------
 
 
-def test_the_turn_is_the_known_one(ask: Asking) -> None:
+def test_the_turn_is_the_known_one(ask):
     known = reference("turn")["turn"]
     got = ask("turn", **CONTEST, ratio=2)
     for name, value in known.items():
         assert np.array(got[name]) == pytest.approx(np.array(value), rel=0, abs=REFERENCE_TOLERANCE), name
 
 
-def test_the_shortest_turn_of_any_exit_is_that_of_core_with_its_bracket(ask: Asking) -> None:
+def test_the_shortest_turn_of_any_exit_is_that_of_core_with_its_bracket(ask):
     got = ask("shortest-turn", **CONTEST, benches=30)
     known = core.shortest_turn(core.Dragon(30), 1.7)
     assert got["length_bracket"] == [*known.length_bracket]
@@ -51,7 +48,7 @@ def test_the_shortest_turn_of_any_exit_is_that_of_core_with_its_bracket(ask: Ask
     assert (got["length"], got["limited_by"], got["benches"]) == (known.turn.length, "bend", None)
 
 
-def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask: Asking) -> None:
+def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask):
     """As in docs/contest.md, and as its pieces."""
     shape = {"ratio": 1.0, "middle": 4.0, "ends": 0.5}
     timed = ask("turn-time", {"path": TURN | shape})
@@ -92,7 +89,7 @@ KINDS = {
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_every_kind_of_path_and_piece_is_that_of_core(ask: Asking, kind: str) -> None:
+def test_every_kind_of_path_and_piece_is_that_of_core(ask, kind):
     dance = core.Dance(core.Dragon(**SHORT), KINDS[kind])
     times = [dance.begin + 1.0, dance.begin + 4.0]
     got, known = (
@@ -126,7 +123,7 @@ PATHS = {"LANE": route(LANE), "STRAIGHT": STRAIGHT, "LONG": LONG_LANE, "TURN": T
 
 @pytest.mark.parametrize("call", ["trajectory", "clearance"])
 @pytest.mark.parametrize("given", INSTANTS)
-def test_a_start_or_stop_that_is_left_out_lies_in_the_run(ask: Asking, call: str, given: str) -> None:
+def test_a_start_or_stop_that_is_left_out_lies_in_the_run(ask, call, given):
     (name, _, start), times = given.partition(" ")[0].partition("+"), json.loads(given.partition(" ")[2])
     body = {"dragon": SHORT, "path": PATHS[name] | ({"start": int(start)} if start else {})}
     got = ask(call, body | {"times": times})["time"]
@@ -139,14 +136,14 @@ def test_a_start_or_stop_that_is_left_out_lies_in_the_run(ask: Asking, call: str
 
 
 @pytest.mark.parametrize("start", [0, 9], ids=["late", "past"])
-def test_without_a_start_a_search_begins_when_the_whole_dragon_is_on_the_path(ask: Asking, start: float) -> None:
+def test_without_a_start_a_search_begins_when_the_whole_dragon_is_on_the_path(ask, start):
     got = ask("collision-time", ON_LANE | {"path": route(LANE, start=start), "margin": 1.2, "cross_check": "none"})
     assert got["outcome"] == "contact_at_start"
     assert got["time"] == pytest.approx(7.81 - start, rel=0, abs=BEGIN_TOLERANCE)
 
 
 @pytest.mark.parametrize("path", [route(LANE), STRAIGHT, TURN, {"kind": "spiral", "pitch": 2}])
-def test_without_times_any_path_is_drawn_and_checked(ask: Asking, path: Any) -> None:
+def test_without_times_any_path_is_drawn_and_checked(ask, path):
     for call in ("figures/trajectory.svg", "figures/contact.svg", "check"):
         assert ask.send(call, {"dragon": SHORT, "path": path}).status_code == 200
 
@@ -155,13 +152,13 @@ def test_without_times_any_path_is_drawn_and_checked(ask: Asking, path: Any) -> 
 
 
 @pytest.mark.parametrize("left", [20.0, 9.0], ids=["all outside", "tail outside"])
-def test_a_dragon_that_starts_outside_the_venue_is_a_verdict(ask: Asking, left: float) -> None:
+def test_a_dragon_that_starts_outside_the_venue_is_a_verdict(ask, left):
     got = ask("check", ON_LANE | {"venue": box(left, -3, 70, 3, name="yard"), "start": 15.0})
     assert (got["failures"][0]["kind"], got["failures"][0]["time"]) == ("outside", 15.0)
     assert got["venue"]["stray"]["name"] == "yard"
 
 
-def test_times_by_default_and_the_same_times_given_have_tags_of_their_own(ask: Asking) -> None:
+def test_times_by_default_and_the_same_times_given_have_tags_of_their_own(ask):
     assert (
         ask.send("trajectory", ON_LANE).headers["etag"]
         != ask.send("trajectory", ON_LANE | {"times": [8]}).headers["etag"]

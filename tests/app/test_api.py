@@ -1,19 +1,14 @@
 """Promises of every call in addition to its numbers: formats, caching, HEAD and OPTIONS, health, documentation."""
 
-from __future__ import annotations
-
 import re
-from pathlib import Path
-from typing import Any
 from urllib.parse import urljoin
 
-import httpx
 import pytest
 
 from app.files.tables import ARROW_TYPE, CSV_TYPE, XLSX_TYPE
 from app.service.version import build
 from tests.app.files.test_figures import PNG_SIGNATURE
-from tests.support.asking import Asking, line
+from tests.support.asking import line
 
 SMALL = {"dragon": {"benches": 3}, "times": [0.0, 1.5]}
 
@@ -21,7 +16,7 @@ SMALL = {"dragon": {"benches": 3}, "times": [0.0, 1.5]}
 # -- trajectories --------------------------------------------------------------------------------------------
 
 
-def test_trajectory_answers_columns_with_a_row_for_each_instant_and_an_entry_for_each_handle(ask: Asking) -> None:
+def test_trajectory_answers_columns_with_a_row_for_each_instant_and_an_entry_for_each_handle(ask):
     table = ask("trajectory", SMALL)
     assert (list(table), table["time"]) == (["time", "x", "y", "speed"], [0.0, 1.5])
     assert [len(row) for name in ("x", "y", "speed") for row in table[name]] == [4] * 6
@@ -29,7 +24,7 @@ def test_trajectory_answers_columns_with_a_row_for_each_instant_and_an_entry_for
     assert ask("trajectory", SMALL | {"dragon": lists}) == table
 
 
-def test_trajectory_without_a_body_is_the_default_one(ask: Asking) -> None:
+def test_trajectory_without_a_body_is_the_default_one(ask):
     assert ask.client.post("/trajectory").content == ask.file("trajectory", {})
 
 
@@ -43,11 +38,11 @@ def test_trajectory_without_a_body_is_the_default_one(ask: Asking) -> None:
     ],
     ids=["tenths", "stop_between_steps", "one", "list"],
 )
-def test_times_are_a_range_with_both_ends_or_a_list(ask: Asking, times: Any, instants: list[float]) -> None:
+def test_times_are_a_range_with_both_ends_or_a_list(ask, times, instants):
     assert ask("trajectory", SMALL | {"times": times})["time"] == pytest.approx(instants, rel=1e-15)
 
 
-def test_decimals_round_all_but_the_time(ask: Asking) -> None:
+def test_decimals_round_all_but_the_time(ask):
     request = SMALL | {"times": [0.123456789], "path": {"start_turns": 8}}
     full, rounded = (ask("trajectory", request | extra) for extra in ({}, {"decimals": 2}))
     assert rounded["time"] == [0.123456789]
@@ -56,7 +51,7 @@ def test_decimals_round_all_but_the_time(ask: Asking) -> None:
 
 
 @pytest.mark.parametrize(("form", "begin"), [(CSV_TYPE, b"time"), (XLSX_TYPE, b"PK"), (ARROW_TYPE, b"ARROW1")])
-def test_trajectory_comes_in_each_form(ask: Asking, form: str, begin: bytes) -> None:
+def test_trajectory_comes_in_each_form(ask, form, begin):
     answer = ask.send("trajectory", SMALL, f"{form}, */*;q=0.5")
     assert answer.headers["content-type"].startswith(form)
     assert answer.content.startswith(begin)
@@ -65,7 +60,7 @@ def test_trajectory_comes_in_each_form(ask: Asking, form: str, begin: bytes) -> 
 # -- contacts and their cross-checks -------------------------------------------------------------------------
 
 
-def test_a_margin_is_reached_before_contact_and_judged_by_the_engines_that_know_margins(ask: Asking) -> None:
+def test_a_margin_is_reached_before_contact_and_judged_by_the_engines_that_know_margins(ask):
     answer = ask("collision-time", margin=0.05)
     assert answer["time"] < ask("collision-time")["time"]
     assert (answer["cross_check"]["agree"], answer["cross_check"]["left_out"]) == (True, ["angle_sum"])
@@ -74,7 +69,7 @@ def test_a_margin_is_reached_before_contact_and_judged_by_the_engines_that_know_
 @pytest.mark.parametrize(
     ("call", "pair"), [("collision-time", [0, 8]), ("minimum-pitch", [0, 19])], ids=["time", "pitch"]
 )
-def test_the_engines_judge_the_whole_dragon_the_pair_or_nobody(ask: Asking, call: str, pair: list[int]) -> None:
+def test_the_engines_judge_the_whole_dragon_the_pair_or_nobody(ask, call, pair):
     dragon, both, nobody = (ask(call, cross_check=whom) for whom in ("dragon", "pair", "none"))
     assert ask(call) == dragon
     for answer, judged in ((dragon, list(range(223))), (both, pair)):
@@ -84,7 +79,7 @@ def test_the_engines_judge_the_whole_dragon_the_pair_or_nobody(ask: Asking, call
     assert dragon["benches"] == pair
 
 
-def test_of_a_long_dragon_the_benches_near_the_pair_are_judged(ask: Asking) -> None:
+def test_of_a_long_dragon_the_benches_near_the_pair_are_judged(ask):
     check = ask("collision-time", benches=100_000)["cross_check"]
     assert check["agree"]
     assert {0, 8} < set(check["judged"])
@@ -106,7 +101,7 @@ ON_LANE = {"dragon": {"benches": 4}, "path": line((0, 0), (60, 0))}
         ("figures/trajectory.svg", ON_LANE | {"time": 20.0}),
     ],
 )
-def test_an_answer_that_the_client_has_is_not_sent_again(ask: Asking, call: str, body: Any) -> None:
+def test_an_answer_that_the_client_has_is_not_sent_again(ask, call, body):
     first = ask.send(call, body)
     tag, method = first.headers["etag"], "POST" if body else "GET"
     assert re.fullmatch(r"public, max-age=\d+", first.headers["cache-control"])
@@ -120,8 +115,8 @@ def test_an_answer_that_the_client_has_is_not_sent_again(ask: Asking, call: str,
         assert ask.send(call, body | {"head_speed": 1.1}).headers["etag"] != tag
 
 
-def test_the_tag_follows_the_values_and_the_form_and_nothing_else(ask: Asking) -> None:
-    def tag(call: str, *body: Any) -> str:
+def test_the_tag_follows_the_values_and_the_form_and_nothing_else(ask):
+    def tag(call, *body):
         return ask.send(call, *body).headers["etag"]
 
     assert tag("clearance?stop=1") == tag("clearance?stop=1.0&pitch=0.55&step=1")
@@ -134,7 +129,7 @@ def test_the_tag_follows_the_values_and_the_form_and_nothing_else(ask: Asking) -
 
 @pytest.mark.parametrize("path", ["/healthz", "/collision-time", "/docs", "/"])
 @pytest.mark.parametrize("taken", ["identity", "gzip"])
-def test_head_has_the_headers_of_get_and_no_body(client: httpx.Client, path: str, taken: str) -> None:
+def test_head_has_the_headers_of_get_and_no_body(client, path, taken):
     accept = {"Accept-Encoding": taken}
     head = client.head(path, headers=accept)
     with client.stream("GET", path, headers=accept) as get:
@@ -143,14 +138,14 @@ def test_head_has_the_headers_of_get_and_no_body(client: httpx.Client, path: str
     assert head.headers["content-length"] == get.headers["content-length"] == str(sent)
 
 
-def test_the_service_is_alive_and_ready(ask: Asking) -> None:
+def test_the_service_is_alive_and_ready(ask):
     assert ask("healthz") == {"status": "ok"}
     assert ask("readyz") == {"status": "ready"}
     assert ask.send("readyz").headers["cache-control"] == "no-store"
 
 
 @pytest.mark.parametrize("path", ["/", "/docs"])
-def test_pages_load_from_this_service_alone(client: httpx.Client, path: str) -> None:
+def test_pages_load_from_this_service_alone(client, path):
     page = client.get(path)
     assert page.headers["content-security-policy"].startswith("default-src 'self'")
     assert "<script>" not in page.text
@@ -164,12 +159,12 @@ def test_pages_load_from_this_service_alone(client: httpx.Client, path: str) -> 
 @pytest.mark.parametrize(
     ("form", "kind", "begin"), [("svg", "image/svg+xml", b"<?xml"), ("png", "image/png", PNG_SIGNATURE)]
 )
-def test_figures_come_as_svg_and_png(ask: Asking, form: str, kind: str, begin: bytes) -> None:
+def test_figures_come_as_svg_and_png(ask, form, kind, begin):
     drawn = ask.send(f"figures/contact.{form}", pitch=1.7)  # of a dance without contact
     assert (drawn.headers["content-type"], drawn.content[: len(begin)]) == (kind, begin)
 
 
-def test_tags_depend_on_the_installed_libraries(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tags_depend_on_the_installed_libraries(tmp_path, monkeypatch):
     before = build.__wrapped__()
     assert build.__wrapped__() == before
     (tmp_path / "matplotlib-99.0.dist-info").mkdir()

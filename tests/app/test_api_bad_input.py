@@ -1,27 +1,23 @@
 """Requests that no call can read get a problem; wrong values in those that can be read are in wire/test_refusals.py."""
 
-from __future__ import annotations
-
 import gzip
-from typing import Any
 
-import httpx
 import pytest
 
 from app.wire.question import BYTES, JSON
-from tests.support.asking import Asking, assert_problem
+from tests.support.asking import assert_problem
 
 HEADS = "GET, HEAD, OPTIONS, POST"
 
 
 @pytest.fixture(autouse=True)
-def next_request_is_answered(client: httpx.Client) -> Any:
+def next_request_is_answered(client):
     yield
     assert client.post("/trajectory", json={"times": [0], "dragon": {"benches": 2}}).status_code == 200
 
 
 @pytest.mark.parametrize("body", ["[]", "3", "null"])
-def test_a_body_that_is_no_object_is_a_problem(client: httpx.Client, body: str) -> None:
+def test_a_body_that_is_no_object_is_a_problem(client, body):
     answer = client.post("/trajectory", content=body, headers={"Content-Type": JSON})
     assert_problem(answer, 422, " JSON object")
 
@@ -35,30 +31,30 @@ def test_a_body_that_is_no_object_is_a_problem(client: httpx.Client, body: str) 
     ],
     ids=["cut off", "no UTF-8", "deep"],
 )
-def test_a_body_that_is_no_json_is_a_problem(client: httpx.Client, body: bytes, words: str) -> None:
+def test_a_body_that_is_no_json_is_a_problem(client, body, words):
     assert_problem(client.post("/trajectory", content=body, headers={"Content-Type": JSON}), 400, words)
 
 
 @pytest.mark.parametrize(("path", "kind"), [("/trajectory", JSON), ("/grade", "application/zip")])
-def test_a_compressed_body_is_a_problem(client: httpx.Client, path: str, kind: str) -> None:
+def test_a_compressed_body_is_a_problem(client, path, kind):
     headers = {"Content-Type": kind, "Content-Encoding": "gzip"}
     answer = client.post(path, content=gzip.compress(b"{}"), headers=headers)
     assert_problem(answer, 415, "Content-Encoding gzip")
     assert answer.headers["accept-encoding"] == "identity"
 
 
-def test_a_whole_number_may_have_a_fraction_of_nought(ask: Asking) -> None:
+def test_a_whole_number_may_have_a_fraction_of_nought(ask):
     """JSON has one type for numbers: 5.0 is the integer 5 of the schema."""
     assert len(ask("trajectory", {"dragon": {"benches": 5.0}, "times": [0]})["x"][0]) == 6
 
 
 @pytest.mark.parametrize("kind", ["application/x-www-form-urlencoded", ""])
-def test_another_content_type_is_a_problem(client: httpx.Client, kind: str) -> None:
+def test_another_content_type_is_a_problem(client, kind):
     answer = client.post("/trajectory", content=b"{}", headers={"Content-Type": kind})
     assert_problem(answer, 415, "Content-Type application/json")
 
 
-def test_a_query_on_a_call_with_a_body_is_a_problem(ask: Asking) -> None:
+def test_a_query_on_a_call_with_a_body_is_a_problem(ask):
     ask.refuses("pitch unknown", "trajectory", {}, pitch=0.5)
 
 
@@ -72,18 +68,18 @@ def test_a_query_on_a_call_with_a_body_is_a_problem(ask: Asking) -> None:
         ("POST /page/main.js", 405, "GET, HEAD, OPTIONS"),
     ],
 )
-def test_a_wrong_path_or_method_is_a_problem(client: httpx.Client, request_: str, status: int, allowed: str) -> None:
+def test_a_wrong_path_or_method_is_a_problem(client, request_, status, allowed):
     answer = client.request(*request_.split())
     assert_problem(answer, status)
     assert answer.headers.get("allow", "") == allowed
 
 
-def test_an_unknown_format_is_not_found_and_the_known_ones_are_named(ask: Asking) -> None:
+def test_an_unknown_format_is_not_found_and_the_known_ones_are_named(ask):
     assert_problem(ask.send("figures/contact.pdf"), 404, 'format "svg" "png" "pdf"')
 
 
 @pytest.mark.thorough
-def test_an_answer_that_takes_too_much_work_is_a_problem(ask: Asking) -> None:
+def test_an_answer_that_takes_too_much_work_is_a_problem(ask):
     answer = ask.send("minimum-pitch?body_length=0.001&overhang=0&turning_diameter=6")
     assert_problem(answer, 422, "body_length within 6")
     assert answer.json()["type"].endswith(":too-much-work")
@@ -97,12 +93,12 @@ def test_an_answer_that_takes_too_much_work_is_a_problem(ask: Asking) -> None:
         ("paper", "text/csv"),
     ],
 )
-def test_a_media_type_that_the_call_does_not_offer_is_a_problem(ask: Asking, call: str, accept: str) -> None:
+def test_a_media_type_that_the_call_does_not_offer_is_a_problem(ask, call, accept):
     assert_problem(ask.send(call, accept=accept), 406, f"Accept {accept}")
 
 
 @pytest.mark.parametrize("call", ["grade", "places"])
-def test_a_name_that_turns_the_writing_around_is_refused_and_not_repeated(client: httpx.Client, call: str) -> None:
+def test_a_name_that_turns_the_writing_around_is_refused_and_not_repeated(client, call):
     refused = client.post(f"/{call}?name=Li\u202e.csv", content=b"{}", headers={"Content-Type": BYTES})
     assert_problem(refused, 422, "name line")
     assert "\u202e" not in refused.json()["detail"]

@@ -1,9 +1,6 @@
 """Limits of the work: body bytes, also streamed, sizes from the environment, and simultaneous computations."""
 
-from __future__ import annotations
-
 import contextlib
-from collections.abc import Callable, Iterator
 
 import httpx
 import pytest
@@ -12,7 +9,6 @@ from app.settings import Settings, unknown_variables
 from app.wire.question import JSON
 from core import InvalidValue
 from tests.support.asking import Asking, assert_problem
-from tests.support.serving import Service
 
 BODY_BYTES_MAX = 1000
 LIMITS = {
@@ -25,7 +21,7 @@ TYPE = {"Content-Type": JSON}
 
 
 @pytest.fixture(scope="module")
-def small(service_with: Callable[..., Service]) -> Iterator[Asking]:
+def small(service_with):
     """The calls of a real server with small limits."""
     with httpx.Client(base_url=service_with(**LIMITS).url, timeout=60.0) as client:
         yield Asking(client)
@@ -33,7 +29,7 @@ def small(service_with: Callable[..., Service]) -> Iterator[Asking]:
 
 @pytest.mark.parametrize(("size", "status"), [(BODY_BYTES_MAX, 200), (BODY_BYTES_MAX + 1, 413)])
 @pytest.mark.parametrize("chunked", [False, True], ids=["stated_length", "chunked"])
-def test_a_body_may_have_as_many_bytes_as_the_limit(small: Asking, size: int, status: int, chunked: bool) -> None:
+def test_a_body_may_have_as_many_bytes_as_the_limit(small, size, status, chunked):
     body = b"{}".ljust(size)
     answer = small.client.post("/trajectory", content=iter([body[:600], body[600:]]) if chunked else body, headers=TYPE)
     assert answer.status_code == status
@@ -41,10 +37,10 @@ def test_a_body_may_have_as_many_bytes_as_the_limit(small: Asking, size: int, st
         assert_problem(answer, 413, f" most {BODY_BYTES_MAX} bytes")
 
 
-def test_an_endless_body_is_cut_off(small: Asking) -> None:
+def test_an_endless_body_is_cut_off(small):
     sent = 0
 
-    def endless() -> Iterator[bytes]:
+    def endless():
         nonlocal sent
         while sent < 100_000_000:
             sent += 10_000
@@ -57,28 +53,28 @@ def test_an_endless_body_is_cut_off(small: Asking) -> None:
     assert small.send("healthz").status_code == 200
 
 
-def test_a_dragon_may_have_as_many_benches_as_the_limit(small: Asking) -> None:
+def test_a_dragon_may_have_as_many_benches_as_the_limit(small):
     assert small("trajectory", {"dragon": {"benches": 300}, "times": [0]})
     small.refuses("/dragon/benches 300", "trajectory", {"dragon": {"benches": 301}, "times": [0]})
 
 
-def test_a_table_may_have_as_many_cells_as_the_limit(small: Asking) -> None:
+def test_a_table_may_have_as_many_cells_as_the_limit(small):
     body, whole, more = {"dragon": {"benches": 199}}, {"stop": 99.9, "step": 0.1}, {"stop": 100, "step": 0.1}
     assert len(small("trajectory", body | {"times": whole})["time"]) == 1000
     small.refuses("/times/step", "trajectory", body | {"times": more})
 
 
-def test_answers_may_be_kept_as_long_as_the_setting_says(small: Asking) -> None:
+def test_answers_may_be_kept_as_long_as_the_setting_says(small):
     assert small.send("trajectory", {"times": [0]}).headers["cache-control"] == "public, max-age=60"
 
 
-def test_an_empty_variable_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_empty_variable_is_none(monkeypatch):
     for name in ("BENCH_DRAGON_DATA", "BENCH_DRAGON_JOBS_MAX"):
         monkeypatch.setenv(name, "")
     assert (Settings().data, Settings().jobs_max) == (None, 1000)
 
 
-def test_a_misspelt_variable_is_named_with_what_was_meant(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_misspelt_variable_is_named_with_what_was_meant(monkeypatch):
     for name in ("BENCH_DRAGON_JOB_MAX", "BENCH_DRAGON_SERVICE_HOST", "BENCH_DRAGON_TOKEN"):
         monkeypatch.setenv(name, "1")
     text = "The environment variable {} is not a setting and has no effect"
@@ -87,6 +83,6 @@ def test_a_misspelt_variable_is_named_with_what_was_meant(monkeypatch: pytest.Mo
 
 
 @pytest.mark.parametrize("name", ["dance.example:8000", "http://dance.example", "a,,b", "*", "a b"])
-def test_a_host_is_a_name_without_a_port(name: str) -> None:
+def test_a_host_is_a_name_without_a_port(name):
     with pytest.raises(InvalidValue, match="BENCH_DRAGON_HOSTS must be names of hosts without ports"):
         Settings(hosts=name)

@@ -1,10 +1,5 @@
 """Each attack, and the answers to another client during it."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 
 from app.files.tables import ARROW_TYPE
@@ -22,13 +17,13 @@ FEW = "long_thin_dragon full_store long_jobs strange_hosts deep_brackets large_c
 
 
 @pytest.fixture(scope="module")
-def attacked(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def attacked(tmp_path_factory):
     """A service of its own: what an attack leaves running ends with it."""
     with serving(tmp_path_factory.mktemp("attacked") / "server.log", grace_seconds=1) as service:
         yield service.url
 
 
-def slowest(url: str, name: str) -> float:
+def slowest(url, name):
     """The longest that another client waits during an attack [s]; it is always answered."""
     with watching(url) as watch:
         ATTACKS[name](url, SECONDS)
@@ -40,7 +35,7 @@ def slowest(url: str, name: str) -> float:
     "name",
     ["deep_brackets", "half_open", "long_jobs", "long_names", "long_thin_dragon", "names_twice", "strange_hosts"],
 )
-def test_another_client_is_answered_meanwhile(attacked: str, name: str) -> None:
+def test_another_client_is_answered_meanwhile(attacked, name):
     assert slowest(attacked, name) > 0.0
 
 
@@ -48,8 +43,8 @@ def test_another_client_is_answered_meanwhile(attacked: str, name: str) -> None:
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[] if name in FEW.split() else [pytest.mark.deep]) for name in sorted(ATTACKS)]
 )
-def test_another_client_never_waits_for_long(attacked: str, name: str) -> None:
-    waits: list[float] = []
+def test_another_client_never_waits_for_long(attacked, name):
+    waits = []
     while len(waits) < TIMES and min(waits, default=SLOWEST) >= SLOWEST:
         waits.append(slowest(attacked, name))
     assert min(waits) < SLOWEST, waits
@@ -61,7 +56,7 @@ LEFT_BEHIND = 60.0
 
 
 @pytest.mark.thorough
-def test_large_tables_leave_no_memory_behind(tmp_path: Path) -> None:
+def test_large_tables_leave_no_memory_behind(tmp_path):
     with serving(tmp_path / "server.log") as service:
         left = []
         for _ in range(3):

@@ -1,10 +1,7 @@
 """Files that need much memory or time: the real service refuses each, and no reader exceeds its limit."""
 
-from __future__ import annotations
-
 import threading
 import time
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
@@ -17,7 +14,7 @@ from app.service.graders import Graders
 from core import BenchDragonError, Budget, TooMuchWork
 from tests.support.bombs import GRADES, MAPS, end, fail, take_memory
 from tests.support.refused import refused
-from tests.support.serving import Service, serving
+from tests.support.serving import serving
 
 FILE = {"Content-Type": "application/octet-stream"}
 # Memory of a reader of any of these files [MB]; some took 3 GB. A new reader has 75 to 110 MB.
@@ -28,12 +25,12 @@ SECONDS_MAX = 15.0
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+def service(tmp_path_factory):
     with serving(tmp_path_factory.mktemp("bombs") / "log", reader_memory_max=LIMIT, places_seconds=60) as service:
         yield service
 
 
-def readers(service: Service) -> list[psutil.Process]:
+def readers(service):
     """The processes that read files for a service."""
     entries = []
     for child in psutil.Process(service.process.pid).children():
@@ -43,11 +40,11 @@ def readers(service: Service) -> list[psutil.Process]:
 
 
 @contextmanager
-def watched(service: Service) -> Iterator[list[float]]:
+def watched(service):
     """The memory of the readers of a service, looked at all the time [MB]."""
     seen, done = [0.0], threading.Event()
 
-    def look() -> None:
+    def look():
         while not done.wait(0.02):
             for reader in readers(service):
                 with suppress(psutil.Error):
@@ -61,7 +58,7 @@ def watched(service: Service) -> Iterator[list[float]]:
             done.set()
 
 
-def sent(service: Service, call: str, data: bytes) -> httpx.Response:
+def sent(service, call, data):
     return httpx.post(f"{service.url}/{call}", content=data, headers=FILE, timeout=120)
 
 
@@ -72,7 +69,7 @@ def sent(service: Service, call: str, data: bytes) -> httpx.Response:
         for name in MAPS | GRADES
     ],
 )
-def test_a_file_that_unfolds_is_refused_within_memory_and_time(service: Service, name: str) -> None:
+def test_a_file_that_unfolds_is_refused_within_memory_and_time(service, name):
     data, begun = (MAPS | GRADES)[name](), time.monotonic()
     with watched(service) as memory:
         answer = sent(service, "places" if name in MAPS else "grade", data)
@@ -86,7 +83,7 @@ def test_a_file_that_unfolds_is_refused_within_memory_and_time(service: Service,
     assert "Traceback" not in service.log.read_text()
 
 
-def test_a_reader_has_a_limit_and_is_the_first_to_end(service: Service) -> None:
+def test_a_reader_has_a_limit_and_is_the_first_to_end(service):
     sent(service, "places", b"{}")
     [reader] = readers(service)
     assert reader.rlimit(psutil.RLIMIT_AS)[0] == LIMIT
@@ -100,34 +97,30 @@ def test_a_reader_has_a_limit_and_is_the_first_to_end(service: Service) -> None:
 
 
 @pytest.fixture
-def seen() -> list[int | None]:
+def seen():
     return []
 
 
 @pytest.fixture
-def graders(seen: list[int | None]) -> Iterator[Graders]:
+def graders(seen):
     with closing(Graders(LIMIT, seen.append)) as graders:
         yield graders
 
 
-def test_a_file_that_ended_its_reader_is_not_tried_again(
-    graders: Graders, seen: list[int | None], tmp_path: Path
-) -> None:
+def test_a_file_that_ended_its_reader_is_not_tried_again(graders, seen, tmp_path):
     with refused("file"):
         graders.read(Budget(), end, tmp_path / "log")
     assert (tmp_path / "log").read_text() == "ended\n"
     assert seen == [None]
 
 
-def test_a_file_that_needs_too_much_memory_is_refused_and_the_next_is_read(graders: Graders) -> None:
+def test_a_file_that_needs_too_much_memory_is_refused_and_the_next_is_read(graders):
     with refused("file", TooMuchWork):
         graders.read(Budget(), take_memory, b"x" * 100_000)
     assert graders.read(Budget(), take_memory, b"x") == 10_000
 
 
-def test_any_fault_of_a_reader_is_an_answer_that_tells_nothing_of_the_file(
-    graders: Graders, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_any_fault_of_a_reader_is_an_answer_that_tells_nothing_of_the_file(graders, capfd):
     with pytest.raises(BenchDragonError, match="ZeroDivisionError"):
         graders.read(Budget(), fail, b"secret")
     log = capfd.readouterr().err

@@ -1,7 +1,5 @@
 """The command, run as a user runs it: a process of its own, real pipes, a real terminal, real signals."""
 
-from __future__ import annotations
-
 import contextlib
 import fcntl
 import json
@@ -13,10 +11,7 @@ import struct
 import subprocess
 import termios
 import time
-from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
-from typing import Any
 
 import httpx
 import openpyxl
@@ -42,16 +37,16 @@ from tests.support.serving import sample, serving
 OTHERWISE = {"films", "proposals", "contest_kit", "course", "pitch_scan"}
 
 
-def answer_of(*arguments: str, **keywords: Any) -> str:
+def answer_of(*arguments, **keywords):
     """Standard output of a run that must succeed without a word on standard error."""
     done = run(*arguments, **keywords)
     assert (done.returncode, done.stderr) == (0, "")
     return done.stdout
 
 
-def helps() -> Iterator[tuple[tuple[str, ...], Any]]:
+def helps():
     """Every command that has a help, by its words."""
-    group: Any = typer.main.get_command(app)
+    group = typer.main.get_command(app)
     for name in group.list_commands(None):
         command = group.get_command(None, name)
         yield (name,), command
@@ -72,20 +67,20 @@ TRAJECTORIES = [
 
 
 @pytest.mark.parametrize("row", TRAJECTORIES)
-def test_a_trajectory_is_that_of_the_service(client: httpx.Client, row: str) -> None:
+def test_a_trajectory_is_that_of_the_service(client, row):
     options, body = row.split(" -> ")
     answer = client.post("/trajectory", json=json.loads(body)).raise_for_status().json()
     assert json.loads(answer_of("trajectory", *options.split(), "--json")) == answer
 
 
-def test_times_before_the_dance_warn_on_a_spiral() -> None:
+def test_times_before_the_dance_warn_on_a_spiral():
     warned = run("trajectory", "--benches", "3", "--pitch", "1.7", "--times", "-100,0", "--json")
     assert warned.returncode == 0
     assert "begins at 0 s" in warned.stderr
     assert "--path turn" in warned.stderr
 
 
-def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
+def test_overlaps_of_the_dance_before_and_after_first_contact():
     assert json.loads(answer_of("overlaps", "--time", "412.47", "--json"))["overlaps"] == []
     after = json.loads(answer_of("overlaps", "--time", "412.48", "--json"))
     assert [one["benches"] for one in after["overlaps"]] == [[0, 8]]
@@ -110,7 +105,7 @@ def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
         "minimum-pitch -> 0.450337393 m | graze | 0, 19 | every larger pitch | no scan",
     ],
 )
-def test_tables_for_people_hold_the_numbers_with_their_units(row: str) -> None:
+def test_tables_for_people_hold_the_numbers_with_their_units(row):
     line, words = row.split(" -> ")
     table = cached_output(*line.split())
     assert [word for word in words.split(" | ") if word not in table] == []
@@ -175,20 +170,18 @@ def test_tables_for_people_hold_the_numbers_with_their_units(row: str) -> None:
         "film --bench 223 --output dance.gif -> marked[0] ... 222, 223",
     ],
 )
-def test_wrong_use_gets_one_line_on_standard_error_and_exit_code_2(
-    row: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_wrong_use_gets_one_line_on_standard_error_and_exit_code_2(row, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert_refused_in_one_line(row)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_limits_are_those_of_the_settings() -> None:
+def test_the_limits_are_those_of_the_settings():
     row = "collision-time --benches 11 -> benches ... 10 11"
     assert_refused_in_one_line(row, BENCH_DRAGON_BENCHES_MAX="10")
 
 
-def test_a_setting_that_cannot_be_is_one_line_that_names_it() -> None:
+def test_a_setting_that_cannot_be_is_one_line_that_names_it():
     assert_refused_in_one_line("collision-time -> BENCH_DRAGON_BENCHES_MAX ... many", BENCH_DRAGON_BENCHES_MAX="many")
     assert_refused_in_one_line("serve -> BENCH_DRAGON_DASK ... tcp://", BENCH_DRAGON_DASK="http://foo:8786")
 
@@ -207,7 +200,7 @@ NO_SCHEDULERS = ("foo", "tcp://", "tcp://foo", "tcp://foo:x", "tcp://foo:70000",
         *(f"DASK {address} -> tcp://scheduler:8786" for address in NO_SCHEDULERS),
     ],
 )
-def test_the_refusal_of_a_setting_names_its_limit(row: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_refusal_of_a_setting_names_its_limit(row, monkeypatch):
     line, limit = row.split(" -> ")
     name, setting = line.split()
     monkeypatch.setenv(f"BENCH_DRAGON_{name}", setting)
@@ -217,12 +210,12 @@ def test_the_refusal_of_a_setting_names_its_limit(row: str, monkeypatch: pytest.
 
 
 @pytest.mark.parametrize("address", ["", "local", "tcp://10.0.0.1:8786", "scheduler:8786", "tls://[::1]:1"])
-def test_an_address_of_a_scheduler_is_a_setting(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_address_of_a_scheduler_is_a_setting(address, monkeypatch):
     monkeypatch.setenv("BENCH_DRAGON_DASK", address)
     assert Settings().dask == address
 
 
-def test_output_takes_decimals_and_language(tmp_path: Path) -> None:
+def test_output_takes_decimals_and_language(tmp_path):
     text, book = tmp_path / "a.csv", tmp_path / "a.xlsx"
     run("trajectory", "--stop", "1", "--decimals", "3", "--output", str(text))
     assert "0.0,1,8.364,2.827," in text.read_text()
@@ -230,14 +223,14 @@ def test_output_takes_decimals_and_language(tmp_path: Path) -> None:
     assert openpyxl.load_workbook(book)["位置"]["A2"].value == "龙头x (m)"
 
 
-def test_figures_writes_the_files_that_were_asked_for(tmp_path: Path) -> None:
+def test_figures_writes_the_files_that_were_asked_for(tmp_path):
     done = run("figures", str(tmp_path / "new"), "--benches", "20", "--samples", "5")
     assert (done.returncode, done.stdout) == (0, "")
     names = {file.name for file in (tmp_path / "new").iterdir()}
     assert names == {"contact.png", "pitch-scan.png", "trajectory.png"}
 
 
-def headings(text: str) -> list[list[str]]:
+def headings(text):
     """The instants above each table of a trajectory."""
     return [line.split()[1::2] for line in text.splitlines() if line.split()[:1] == ["handle"]]
 
@@ -253,7 +246,7 @@ def headings(text: str) -> list[list[str]]:
         "--handles 0 --benches 3 --stop 6 -> 0 1 2 3 4 5 6 | : --output has all, --times chooses.\n",
     ],
 )
-def test_up_to_seven_instants_are_shown_and_what_chooses_more_is_named(row: str) -> None:
+def test_up_to_seven_instants_are_shown_and_what_chooses_more_is_named(row):
     options, _, shown = row.partition(" -> ")
     instants, _, words = shown.partition(" | ")
     table = answer_of("trajectory", *options.split())
@@ -261,7 +254,7 @@ def test_up_to_seven_instants_are_shown_and_what_chooses_more_is_named(row: str)
     assert words in table
 
 
-def on_terminal(columns: int, *arguments: str) -> str:
+def on_terminal(columns, *arguments):
     """What the command prints on a terminal of a width, without colours."""
     leader, follower = pty.openpty()
     fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
@@ -278,7 +271,7 @@ def on_terminal(columns: int, *arguments: str) -> str:
 
 
 @pytest.mark.parametrize("command", ["collision-time", pytest.param("paper", marks=pytest.mark.thorough)])
-def test_no_number_is_broken_on_a_narrow_terminal(command: str) -> None:
+def test_no_number_is_broken_on_a_narrow_terminal(command):
     narrow, wide = (on_terminal(columns, command) for columns in (40, 200))
     assert max(map(len, narrow.splitlines())) <= 40
     whole = re.findall(r"\d+\.\d+", wide)
@@ -286,14 +279,14 @@ def test_no_number_is_broken_on_a_narrow_terminal(command: str) -> None:
     assert set(whole) == set(re.findall(r"\d+\.\d+", narrow))
 
 
-def test_as_many_instants_are_shown_as_fit_the_width() -> None:
+def test_as_many_instants_are_shown_as_fit_the_width():
     output = on_terminal(60, "trajectory", "--stop", "300", "--step", "60")
     assert headings(output) == [["0", "120", "300"]] * 3
     assert max(len(line) for line in output.splitlines() if not line.endswith("choose.")) <= 60
     assert "3 of 6 instants" in output.replace("\r\n", " ")
 
 
-def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take_and_handles_in_their_order() -> None:
+def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take_and_handles_in_their_order():
     times = [str(k) for k in range(20)]
     table = answer_of("trajectory", "--benches", "3", "--handles", "2,0,1", "--times", ",".join(times))
     result = headings(table)
@@ -303,7 +296,7 @@ def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take_
 
 
 @pytest.mark.parametrize("flags", [pytest.param([], marks=pytest.mark.deep), ["--json"]], ids=["table", "json"])
-def test_a_reader_that_stops_early_is_no_error(flags: list[str]) -> None:
+def test_a_reader_that_stops_early_is_no_error(flags):
     with subprocess.Popen(
         [COMMAND, "trajectory", *flags], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT
     ) as process:
@@ -312,7 +305,7 @@ def test_a_reader_that_stops_early_is_no_error(flags: list[str]) -> None:
         assert process.wait(PATIENCE) in (0, 1)
 
 
-def interrupted(*arguments: str, until: bytes) -> bytes:
+def interrupted(*arguments, until):
     """What the command writes on a terminal when Ctrl-C comes as soon as these words stand there."""
     leader, follower = pty.openpty()
     process = subprocess.Popen(
@@ -342,16 +335,14 @@ def interrupted(*arguments: str, until: bytes) -> bytes:
         ("prove collision-time --every-pair --output proof.json", b"%"),
     ],
 )
-def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(
-    line: str, words: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(line, words, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     seen = interrupted(*line.split(), until=words)
     assert "prove" not in line or b"Interrupted: nothing was written." in seen
     assert list(tmp_path.iterdir()) == []
 
 
-def test_ctrl_c_while_modules_are_imported_ends_without_a_word(tmp_path: Path) -> None:
+def test_ctrl_c_while_modules_are_imported_ends_without_a_word(tmp_path):
     caught = "try:\n    time.sleep(60)\nexcept BaseException:\n    raise ImportError"
     (tmp_path / "typer.py").write_text(f"import sys, time\nprint('importing', flush=True)\n{caught}")
     process = subprocess.Popen(
@@ -367,22 +358,20 @@ def test_ctrl_c_while_modules_are_imported_ends_without_a_word(tmp_path: Path) -
     assert process.returncode == 130
 
 
-def as_from_a_terminal() -> None:
+def as_from_a_terminal():
     """In the process of a service: alone in a session, where Ctrl-C reaches all its processes."""
     os.setsid()
     heed_ctrl_c()
 
 
 @pytest.mark.parametrize("workers", [1, pytest.param(2, marks=pytest.mark.thorough)])
-def test_serve_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ctrl_c_ends_it(
-    tmp_path: Path, workers: int
-) -> None:
+def test_serve_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ctrl_c_ends_it(tmp_path, workers):
     with serving(tmp_path / "log", workers, as_from_a_terminal) as service:
 
-        def all_started(count: int) -> bool:
+        def all_started(count):
             return service.log.read_text().count("Application startup complete") == count
 
-        def counted(count: int) -> bool:
+        def counted(count):
             return sample(service.url, 'bench_dragon_requests_total{path="/readyz",status="200"}') == count
 
         wait_for(lambda: all_started(workers))
@@ -407,7 +396,7 @@ def test_serve_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ct
 
 
 @pytest.mark.parametrize("workers", ["1", pytest.param("2", marks=pytest.mark.thorough)])
-def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server: str, workers: str) -> None:
+def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server, workers):
     done = run("serve", "--port", server.rpartition(":")[2], "--workers", workers)
     assert done.returncode == 2
     assert "address already in use" in done.stderr.lower()
@@ -415,30 +404,30 @@ def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server: str, workers: st
 
 
 @pytest.mark.parametrize("words", HELPS, ids=" ".join)
-def test_help_prints_every_description_with_its_unit(words: tuple[str, ...]) -> None:
+def test_help_prints_every_description_with_its_unit(words):
     text = " ".join(answer_of(*words, "--help", COLUMNS="1000").split())
     values = [option.help.replace("\\[", "[") for option in HELPS[words].params if option.help]
     assert [one for one in values if " ".join(one.split()) not in text] == []
     assert "completion" not in text  # `bench-dragon --help` offers it
 
 
-def test_help_names_every_command_and_unit() -> None:
+def test_help_names_every_command_and_unit():
     assert {*MODULE_OF} <= {*answer_of("--help", COLUMNS="100").split()}
     assert "Radial advance of the spiral per full turn [m]" in answer_of("collision-time", "--help", COLUMNS="120")
 
 
-def test_every_question_has_its_command() -> None:
+def test_every_question_has_its_command():
     commands = {name.replace("-", "_") for name in MODULE_OF}
     without = {name for name in QUESTIONS if not name.endswith("_figure")} - commands
     assert without == OTHERWISE, "app/command/main.py needs a line of it"
 
 
-def test_the_version_is_one_line() -> None:
+def test_the_version_is_one_line():
     slower = "" if COMPILED else ", not compiled: many times slower"
     assert answer_of("--version") == f"bench-dragon {core.__version__}{slower}\n"
 
 
-def test_the_shell_completes_commands_and_options() -> None:
+def test_the_shell_completes_commands_and_options():
     request = {"_BENCH_DRAGON_COMPLETE": "complete_bash", "COMP_CWORD": "1"}
     assert answer_of(**request, COMP_WORDS="bench-dragon coll").split() == ["collision-time"]
     request["COMP_CWORD"] = "2"
@@ -448,7 +437,7 @@ def test_the_shell_completes_commands_and_options() -> None:
 FOLDING = ("trajectory", "--benches", "40", "--pitch", "1.2", "--start-turns", "8")
 
 
-def test_instants_just_before_a_fold_are_marked_and_the_fold_is_named() -> None:
+def test_instants_just_before_a_fold_are_marked_and_the_fold_is_named():
     output = answer_of(*FOLDING, "--times", "0,100,238.2149")
     assert output.count("238.2149 s *") == 3
     assert "100 s *" not in output
@@ -460,20 +449,20 @@ def test_instants_just_before_a_fold_are_marked_and_the_fold_is_named() -> None:
     assert "*" not in answer_of(*FOLDING, "--times", "0,100")
 
 
-def test_bounds_are_printed_with_all_digits_or_rounded_to_the_safe_side() -> None:
+def test_bounds_are_printed_with_all_digits_or_rounded_to_the_safe_side():
     answer = json.loads(cached_output("collision-time", "--json"))
     output = cached_output("collision-time")
     assert f"{answer['time_bracket'][0]!r}, {answer['time_bracket'][1]!r} s" in output
     assert re.search(rf"clear until +{re.escape(repr(answer['certificate']['clear_until']))} s", output)
 
 
-def test_the_table_on_a_terminal_has_the_decimals_that_are_asked_for() -> None:
+def test_the_table_on_a_terminal_has_the_decimals_that_are_asked_for():
     done = run("trajectory", "--benches", "3", "--times", "0,100", "--decimals", "2")
     assert re.search(r"0 head +8\.80 +-?\d\.\d\d ", done.stdout)
     assert not re.search(r"\d\.\d{3}", done.stdout)
 
 
-def test_an_unknown_end_of_a_bracket_has_no_unit(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_end_of_a_bracket_has_no_unit(capsys):
     answer = MaximumHeadSpeed(
         head_speed=1.5, head_speed_bracket=(None, 1.5), speed_ratio=2.0, handles=[1], time=3.0,
         time_at_unit_head_speed=4.5, passage=None,

@@ -1,14 +1,9 @@
 """The command check, run as a user runs it."""
 
-from __future__ import annotations
-
 import csv
 import json
 import re
-from pathlib import Path
-from typing import Any
 
-import httpx
 import pytest
 
 from tests.app.test_cli import answer_of
@@ -32,7 +27,7 @@ kind = "line"
 start = [0, 0]
 end = [60, 0]
 """
-BODY: dict[str, Any] = json.loads("""{
+BODY = json.loads("""{
     "dragon": {"benches": 4}, "path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}]},
     "venue": {"type": "Polygon", "coordinates": [[[-2, -3], [62, -3], [62, 1], [-2, 1], [-2, -3]]]},
     "margin": 0.9, "speed_limit": 0.5, "start": 15
@@ -43,7 +38,7 @@ LANES = [{"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0,
 
 
 @pytest.fixture
-def dance(tmp_path: Path) -> Path:
+def dance(tmp_path):
     """A dance in a TOML file, and its venue beside it."""
     (tmp_path / "yard.geojson").write_text(json.dumps(BODY["venue"]))
     file = tmp_path / "dance.toml"
@@ -51,15 +46,15 @@ def dance(tmp_path: Path) -> Path:
     return file
 
 
-def served(client: httpx.Client, body: object) -> Any:
+def served(client, body):
     return client.post("/check", json=body).raise_for_status().json()
 
 
-def checked(body: object, *options: str) -> str:
+def checked(body, *options):
     return answer_of("check", "-", *options, text=json.dumps(body))
 
 
-def test_check_reads_toml_and_json_and_answers_like_the_service(client: httpx.Client, dance: Path) -> None:
+def test_check_reads_toml_and_json_and_answers_like_the_service(client, dance):
     answer = served(client, BODY)
     assert not answer["passed"]
     assert json.loads(answer_of("check", str(dance), "--json")) == answer
@@ -78,14 +73,14 @@ def test_check_reads_toml_and_json_and_answers_like_the_service(client: httpx.Cl
     ],
     ids=["fails", "within a margin", "passes", "judged", "overlaps at the start"],
 )  # fmt: skip
-def test_a_report_says_what_fails_and_how_near(dance: Path, text: str, words: str) -> None:
+def test_a_report_says_what_fails_and_how_near(dance, text, words):
     dance.write_text(text)
     report = answer_of("check", str(dance))
     assert [word for word in words.split(" | ") if word not in report] == []
     assert "contact" not in report or "margin" not in text
 
 
-def test_a_dance_that_folds_is_no_dance_of_which_nothing_fails(client: httpx.Client) -> None:
+def test_a_dance_that_folds_is_no_dance_of_which_nothing_fails(client):
     answer = served(client, FOLDING)
     assert (answer["verdict"], answer["passed"]) == ("fails", False)
     (fold,), end = answer["failures"], answer["first_contact"]["end"]
@@ -101,7 +96,7 @@ def test_a_dance_that_folds_is_no_dance_of_which_nothing_fails(client: httpx.Cli
     assert checked(FOLDING | {"stop": 238.0}).startswith("Passes. Nothing fails.")
 
 
-def test_what_is_not_decided_is_no_failure() -> None:
+def test_what_is_not_decided_is_no_failure():
     yard = [[-70, -9], [70, -9], [70, 0.35 + 1e-14], [-70, 0.35 + 1e-14], [-70, -9]]
     lane = {"kind": "route", "pieces": [{"kind": "line", "start": [-60, 0], "end": [60, 0]}], "start": 60}
     venue = {"type": "Polygon", "coordinates": [yard]}
@@ -113,7 +108,7 @@ def test_what_is_not_decided_is_no_failure() -> None:
     assert "fails" not in report
 
 
-def test_a_single_handle_is_no_handles(dance: Path) -> None:
+def test_a_single_handle_is_no_handles(dance):
     # While the head alone is on the arc, it turns away from the lane, along which the others follow more slowly.
     bend = 'kind = "arc"\ncentre = [60, 20]\nradius = 20\nstart_angle = -1.5707963267948966\nsweep = 1.5'
     times = DANCE.replace("start = 15", "start = 60.5").replace('venue = "yard.geojson"', "stop = 61")
@@ -121,14 +116,14 @@ def test_a_single_handle_is_no_handles(dance: Path) -> None:
     assert re.search(r"\n *highest speed .*handle 0 *\n", answer_of("check", str(dance)))
 
 
-def test_the_dance_is_drawn_in_its_venue(dance: Path) -> None:
+def test_the_dance_is_drawn_in_its_venue(dance):
     figure = dance.with_name("dance.svg")
     done = run("check", str(dance), "--figure", str(figure), "--time", "59", "--json")
     assert (done.returncode, done.stderr) == (0, f"{figure}\n")
     assert " square -->" in figure.read_text()
 
 
-def test_the_dance_that_is_judged_is_written_as_a_table(dance: Path) -> None:
+def test_the_dance_that_is_judged_is_written_as_a_table(dance):
     simple = json.dumps({name: BODY[name] for name in ("dragon", "path")})
     for ending in ("json", "csv", "xlsx"):
         judged, table = (dance.with_name(f"{name}.{ending}") for name in ("judged", "table"))
@@ -138,7 +133,7 @@ def test_the_dance_that_is_judged_is_written_as_a_table(dance: Path) -> None:
 
 
 @pytest.mark.parametrize("more", [LANES[0], {"dances": LANES}], ids=["one", "several"])
-def test_the_last_second_of_a_table_is_not_after_the_end_of_a_path(tmp_path: Path, more: dict[str, Any]) -> None:
+def test_the_last_second_of_a_table_is_not_after_the_end_of_a_path(tmp_path, more):
     table, text = tmp_path / "lane.csv", json.dumps({"start": 10, "start_clock": "19:30", **more})
     assert run("check", "-", "--output", str(table), text=text).stderr == f"{table}\n"
     stop = json.loads(answer_of("check", "-", "--json", text=text))["stop"]
@@ -147,7 +142,7 @@ def test_the_last_second_of_a_table_is_not_after_the_end_of_a_path(tmp_path: Pat
     assert (float(first["time"]), first["clock"], float(last["time"])) == (10.0, "19:30:10", stop)
 
 
-def test_a_file_that_windows_saved_is_read(dance: Path) -> None:
+def test_a_file_that_windows_saved_is_read(dance):
     answer = answer_of("check", str(dance))
     for encoding in ("utf-8-sig", "utf-16"):
         dance.write_text(DANCE, encoding=encoding)

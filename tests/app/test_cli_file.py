@@ -1,12 +1,8 @@
 """Commands that are asked about the dance of a FILE: the same as `check` takes."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
-from typing import Any
 
-import httpx
 import pytest
 
 from app.maps.dances import read_dance
@@ -34,7 +30,7 @@ overhangs = [0.275, 0.275, 0.275, 0.275, 0.275, 0.275]
 kind = "waypoints"
 points = [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]
 """
-BODY: dict[str, Any] = json.loads("""{
+BODY = json.loads("""{
     "dragon": {"lengths": [3.41, 2.2, 2.0, 2.2, 1.9, 2.2], "widths": [0.3, 0.3, 0.4, 0.3, 0.3, 0.3],
                "overhangs": [0.275, 0.275, 0.275, 0.275, 0.275, 0.275]},
     "path": {"kind": "waypoints", "points": [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]},
@@ -42,7 +38,7 @@ BODY: dict[str, Any] = json.loads("""{
 }""")
 YARD = {"type": "Polygon", "coordinates": [[[-5, -25], [45, -25], [45, 20], [-5, 20], [-5, -25]]]}
 # Two dragons in the lanes of a square.
-TWO: dict[str, Any] = json.loads("""{"dances": [
+TWO = json.loads("""{"dances": [
     {"name": "east", "dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}},
     {"dragon": {"benches": 3, "names": ["Zhou", "Wu", "=Li"]}, "delay": 12.5,
      "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}}
@@ -52,14 +48,14 @@ NAMED = {"dragon": {"benches": 24, "names": ["", "Wang", "17", *[""] * 21]}, "st
 
 
 @pytest.fixture
-def file(tmp_path: Path) -> str:
+def file(tmp_path):
     (tmp_path / "yard.geojson").write_text(json.dumps(YARD))
     dance = tmp_path / "dance.toml"
     dance.write_text(DANCE + WAYPOINTS)
     return str(dance)
 
 
-def answered(line: str, **how: Any) -> str:
+def answered(line, **how):
     """What a command prints without a word on standard error."""
     done = run(*line.split(), **how)
     assert (done.returncode, done.stderr) == (0, "")
@@ -90,7 +86,7 @@ OF_DRAGONS = ("minimum-pitch", "shortest-turn", "tolerance-curve")
 
 
 @pytest.mark.parametrize("row", QUESTIONS)
-def test_a_file_is_asked_as_a_body_is(client: httpx.Client, file: str, row: str) -> None:
+def test_a_file_is_asked_as_a_body_is(client, file, row):
     line, more = row.split(" -> ")
     call, *_ = line.split()
     body = {"dragon": BODY["dragon"]} if call in OF_DRAGONS else BODY
@@ -102,7 +98,7 @@ ACCEPT = {"csv": "text/csv", "arrow": "application/vnd.apache.arrow.file", "gif"
           "xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"}  # fmt: skip
 VILLAGE = read_dance(ROOT / "examples" / "village_square.toml")
 # Commands that write a file about a dance on standard input, with the call and what its body has beside the dance.
-FILES: list[tuple[dict[str, Any], str]] = [
+FILES = [
     *((TIMED, f"trajectory two.{ending} -> trajectory") for ending in ("csv", "arrow", "xlsx", "json")),
     (TWO, 'film two.gif --seconds 0.2 --rate 10 --height 90 -> films {"seconds": 0.2, "rate": 10, "height": 90}'),
     (TWO, "maps two.geojson -> maps.geojson"),
@@ -114,7 +110,7 @@ FILES: list[tuple[dict[str, Any], str]] = [
     (VILLAGE | NAMED, 'crew crew.csv --spares 6 --point 6,-8 -> crew {"spares": 6, "points": [{"x": 6, "y": -8}]}'),
     (VILLAGE, 'crew crew.json --spares 6 -> crew {"spares": 6}'),
 ]
-PAPERS: list[tuple[dict[str, Any], str]] = [
+PAPERS = [
     (TWO, 'plan two.pdf --gate gate,15,0 -> plan {"gates": [{"name": "gate", "x": 15, "y": 0}]}'),
     (TWO, "cues two.pdf -> cues"),
     (VILLAGE, 'crew crew.pdf --spares 6 -> crew {"spares": 6}'),
@@ -126,9 +122,7 @@ PAPERS: list[tuple[dict[str, Any], str]] = [
     [*FILES, *(pytest.param(*paper, marks=pytest.mark.thorough) for paper in PAPERS)],
     ids=[row.split(" -")[0] for _, row in (*FILES, *PAPERS)],
 )
-def test_a_command_writes_the_file_of_the_service(
-    client: httpx.Client, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, body: dict[str, Any], row: str
-) -> None:
+def test_a_command_writes_the_file_of_the_service(client, tmp_path, monkeypatch, body, row):
     monkeypatch.chdir(tmp_path)
     line, asked = row.split(" -> ")
     (command, file, *options), (call, _, more) = line.split(), asked.partition(" ")
@@ -143,9 +137,7 @@ def test_a_command_writes_the_file_of_the_service(
     ("places", "where"),
     [("FILE", ""), ("FILE drawn", "drawn"), ("drawn FILE", "drawn"), ("-", ""), ("- .", "")],
 )
-def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(
-    client: httpx.Client, file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, places: str, where: str
-) -> None:
+def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(client, file, tmp_path, monkeypatch, places, where):
     monkeypatch.chdir(tmp_path)
     fields = BODY | {"venue": YARD}
     text = json.dumps(fields | {"margin": 0.2, "start": 20})
@@ -181,7 +173,7 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(
         "collision-time nothing.toml -> nothing.toml: No such file or directory",
     ],
 )
-def test_what_does_not_go_with_a_file_is_refused(file: str, tmp_path: Path, row: str) -> None:
+def test_what_does_not_go_with_a_file_is_refused(file, tmp_path, row):
     line, words = row.split(" -> ")
     folder = tmp_path / "figures"
     line = line.replace("FILE", file).replace("FOLDER", str(folder))
@@ -213,7 +205,7 @@ MORE_MISPLACED = [
 @pytest.mark.parametrize(
     "row", [*MISPLACED, *(pytest.param(row, marks=pytest.mark.thorough) for row in MORE_MISPLACED)]
 )
-def test_a_value_that_check_would_refuse_is_no_silent_mistake(tmp_path: Path, row: str) -> None:
+def test_a_value_that_check_would_refuse_is_no_silent_mistake(tmp_path, row):
     command, names = row.split(": ")
     file = tmp_path / "flat.toml"
     for name in names.split():
@@ -236,22 +228,20 @@ def test_a_value_that_check_would_refuse_is_no_silent_mistake(tmp_path: Path, ro
     ],
 )
 @pytest.mark.parametrize("command", ["trajectory", "clearance"])
-def test_instants_are_those_of_start_and_stop_in_the_file(
-    tmp_path: Path, command: str, ends: str, options: str, times: list[float]
-) -> None:
+def test_instants_are_those_of_start_and_stop_in_the_file(tmp_path, command, ends, options, times):
     file = tmp_path / "dance.toml"
     file.write_text(ends)
     assert json.loads(answered(f"{command} {file} {options} --json"))["time"] == times
 
 
 @pytest.mark.parametrize("text", ['{"path": {"pitch": 0.5}}', "[path]\npitch = 0.5"], ids=["json", "toml"])
-def test_standard_input_is_json_or_toml(client: httpx.Client, text: str) -> None:
+def test_standard_input_is_json_or_toml(client, text):
     answer = client.get("/collision-time?pitch=0.5").raise_for_status().json()
     assert json.loads(answered("collision-time - --json", text=text)) == answer
 
 
 @pytest.mark.parametrize("name", ["dance.toml", "dance.json"])
-def test_rectangles_are_asked_for_where_a_dance_is_given(tmp_path: Path, name: str) -> None:
+def test_rectangles_are_asked_for_where_a_dance_is_given(tmp_path, name):
     file = tmp_path / name
     file.write_text("" if name.endswith("toml") else json.dumps(BODY))
     assert_refused_in_one_line(f"overlaps {file} -> {file} must be JSON with benches ... check clearance")
@@ -278,21 +268,19 @@ def test_rectangles_are_asked_for_where_a_dance_is_given(tmp_path: Path, name: s
         ("dance.toml", "start = 9\nstop = 8", "stop ... start (9 s), 8 s"),
     ],
 )  # fmt: skip
-def test_a_message_about_a_file_speaks_of_the_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, text: str, named: str
-) -> None:
+def test_a_message_about_a_file_speaks_of_the_file(tmp_path, monkeypatch, name, text, named):
     (tmp_path / name).write_text(text)
     monkeypatch.chdir(tmp_path)
     assert_refused_in_one_line(f"check {name} -> {named}")
 
 
-def test_a_clearance_is_a_table(file: str) -> None:
+def test_a_clearance_is_a_table(file):
     table = answered(f"clearance {file} --start 10 --stop 12")
     assert "clearance [m]" in table
     assert table.count("\n") > len(("title", "names", "10", "11", "12"))
 
 
-def test_a_trajectory_of_several_is_a_table_for_each() -> None:
+def test_a_trajectory_of_several_is_a_table_for_each():
     table = answered("trajectory - --handles 0,3", text=json.dumps(TIMED))
     words = ("east: x [m]", "dragon 1: speed [m/s]", "3 =Li (rear)", "2 of 4 handles, 3 of 3 instants")
     assert [word for word in words if word not in table] == []
@@ -304,9 +292,7 @@ def test_a_trajectory_of_several_is_a_table_for_each() -> None:
     ("command", "ignored", "more"),
     [("tolerance", "stray hole pin", {}), ("contact-probability", "stray", {"samples": 10})],
 )
-def test_a_stray_in_the_file_that_does_not_count_is_named(
-    tmp_path: Path, command: str, ignored: str, more: dict[str, float]
-) -> None:
+def test_a_stray_in_the_file_that_does_not_count_is_named(tmp_path, command, ignored, more):
     counting = {"dragon": {"benches": 5}, "start": 0, "stop": 10} | more
     strays = {"stray": 0.02, "hole": 0.055, "pin": 0.05}
     file = written(tmp_path, counting | strays)

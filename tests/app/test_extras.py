@@ -1,17 +1,13 @@
 """The plain installation: its functions, and its messages on the others. The packages of all extras are hidden."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess
 import sys
 import tomllib
-from collections.abc import Callable, Iterator
 from functools import cache
 from importlib.metadata import packages_distributions
 from pathlib import Path
-from typing import Any
 
 import pytest
 from packaging.requirements import Requirement
@@ -84,18 +80,16 @@ service  fastapi       mcp
 sweep    pyarrow       sweep run no-such-spec.toml --output folder
 proof    python-flint  prove collision-time
 """
-Install = Callable[..., subprocess.CompletedProcess[str]]
 
 
 @pytest.fixture(scope="module")
-def bare_install(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Install]:
+def bare_install(tmp_path_factory):
     """The command as without any extra."""
-    pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     with subprocess.Popen([sys.executable, "-c", HIDDEN], env=environment, **pipes) as process:
-        assert process.stdout is not None
 
-        def answer(*arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
+        def answer(*arguments, folder=ROOT):
             text = tmp_path_factory.mktemp("said")
             print(json.dumps([arguments, str(folder), str(text)]), file=process.stdin, flush=True)
             code = int(process.stdout.readline())
@@ -105,16 +99,14 @@ def bare_install(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Install]:
 
 
 @pytest.mark.parametrize("line", ANSWERED.strip().splitlines())
-def test_every_question_is_answered_without_an_extra(bare_install: Install, line: str) -> None:
+def test_every_question_is_answered_without_an_extra(bare_install, line):
     done = bare_install(*line.split(), "--json")
     assert (done.returncode, done.stderr) == (0, "")
     assert json.loads(done.stdout)
 
 
 @pytest.mark.parametrize("row", LACKING.strip().splitlines())
-def test_what_needs_an_extra_names_it_in_one_line_and_leaves_nothing(
-    bare_install: Install, row: str, tmp_path: Path
-) -> None:
+def test_what_needs_an_extra_names_it_in_one_line_and_leaves_nothing(bare_install, row, tmp_path):
     extra, package, *words = row.split()
     (tmp_path / "result2.xlsx").write_bytes(b"PK")
     done = bare_install(*words, folder=tmp_path)
@@ -124,16 +116,16 @@ def test_what_needs_an_extra_names_it_in_one_line_and_leaves_nothing(
     assert [path.name for path in tmp_path.iterdir()] == ["result2.xlsx"]
 
 
-def test_the_command_starts_without_what_only_an_extra_brings() -> None:
+def test_the_command_starts_without_what_only_an_extra_brings():
     names = sorted({*sum(MODULES.values(), ()), *DISPENSABLE})
     code = f"import sys, app.command.main; print(*(name for name in {names} if name in sys.modules))"
     loaded = subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True)
     assert loaded.split() == []
 
 
-def distributions(extra: str) -> set[str]:
+def distributions(extra):
     """Names of what an extra installs by itself, also through other extras of ours."""
-    entries: set[str] = set()
+    entries = set()
     for requirement in map(Requirement, PROJECT["optional-dependencies"][extra]):
         ours = requirement.name == PROJECT["name"]
         for names in map(distributions, requirement.extras) if ours else [{canonicalize_name(requirement.name)}]:
@@ -144,7 +136,7 @@ def distributions(extra: str) -> set[str]:
 providers = cache(packages_distributions)
 
 
-def test_every_extra_for_users_is_known_to_the_command() -> None:
+def test_every_extra_for_users_is_known_to_the_command():
     assert MODULES.keys() == PROJECT["optional-dependencies"].keys() - {"dev"}
 
 
@@ -152,6 +144,6 @@ ENGINES = pytest.param("ccd", marks=pytest.mark.engine("Box2D", "ipctk"))
 
 
 @pytest.mark.parametrize("extra", [ENGINES, *sorted(MODULES.keys() - {"ccd"})])
-def test_an_extra_brings_the_modules_that_it_is_asked_for(extra: str) -> None:
+def test_an_extra_brings_the_modules_that_it_is_asked_for(extra):
     brought = {canonicalize_name(name) for module in MODULES[extra] for name in providers()[module]}
     assert brought == distributions(extra) - DISPENSABLE

@@ -1,7 +1,5 @@
 """A small version of `make fuzz`."""
 
-from __future__ import annotations
-
 import httpx
 import pytest
 
@@ -12,7 +10,7 @@ from tests.support.depth import examples
 MUTANTS, FILES, SEED = examples(60, 150), examples(80, 400), 1
 
 
-def test_no_odd_request_gets_an_error_of_the_service(server: str) -> None:
+def test_no_odd_request_gets_an_error_of_the_service(server):
     statuses = ask_mutants(server, MUTANTS, SEED).statuses
     assert statuses.total() == MUTANTS
     assert statuses[200] > MUTANTS // 40, "some of them are harmless"
@@ -20,7 +18,7 @@ def test_no_odd_request_gets_an_error_of_the_service(server: str) -> None:
 
 
 @pytest.mark.thorough
-def test_no_damaged_file_gets_an_error_of_the_service(server: str) -> None:
+def test_no_damaged_file_gets_an_error_of_the_service(server):
     statuses = ask_files(server, FILES, SEED).statuses
     assert statuses.total() == FILES
     assert statuses[200] > FILES // 10, "some of them are harmless"

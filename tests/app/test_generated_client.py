@@ -1,7 +1,5 @@
 """A client that openapi-python-client makes from /openapi.json asks the running service every question."""
 
-from __future__ import annotations
-
 import importlib
 import inspect
 import io
@@ -9,10 +7,8 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
-from types import ModuleType
-from typing import Any, get_args
+from typing import get_args
 
 import httpx
 import numpy as np
@@ -20,7 +16,6 @@ import pytest
 
 from app.questions.registry import CALLS, QUESTIONS
 from app.service.examples import EXAMPLES
-from app.wire.question import Call
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.support.students import CONTACT, contact_workbook, spiral
 
@@ -30,7 +25,7 @@ WARNING = re.compile(r"^(?:WARNING|ERROR) parsing \S+ (\S+)", re.MULTILINE)
 
 
 @pytest.fixture(scope="module")
-def words(server: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def words(server, tmp_path_factory):
     """Output of the generator, with its warnings; the client that it makes can be imported as PACKAGE."""
     folder = tmp_path_factory.mktemp("client")
     command = [sys.executable, "-m", "openapi_python_client", "generate", "--meta", "none"]
@@ -44,37 +39,36 @@ def words(server: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str
 
 
 @pytest.fixture(scope="module")
-def own(words: str, server: str) -> Any:
+def own(words, server):
     """The generated client of the running service."""
     client = importlib.import_module(f"{PACKAGE}.client")
     return client.Client(base_url=server, timeout=httpx.Timeout(ANSWER_TIMEOUT))
 
 
-def call(tag: str, name: str) -> ModuleType:
+def call(tag, name):
     return importlib.import_module(f"{PACKAGE}.api.{tag}.{name}")
 
 
-def with_body(module: ModuleType, body: Any) -> dict[str, Any]:
+def with_body(module, body):
     """The body as the type that the generated call takes."""
     annotation = inspect.signature(module.sync_detailed, eval_str=True).parameters["body"].annotation
     kind = next(kind for kind in get_args(annotation) or (annotation,) if hasattr(kind, "from_dict"))
     return {"body": kind.from_dict(body)}
 
 
-def finished(own: Any, client: httpx.Client, body: Any, name: str = "ask_later") -> str:
+def finished(own, client, body, name="ask_later"):
     """Number of a job made by the generated client, when it has ended."""
     module = call("jobs", name)
     job = module.sync(client=own, **with_body(module, body)).job_id
     client.get(f"/jobs/{job}/events").raise_for_status()  # Its events end when it is finished.
-    return str(job)
+    return job
 
 
-def result(own: Any, job: str) -> bytes:
-    data: bytes = call("jobs", "job_result").sync(job, client=own).payload.read()
-    return data
+def result(own, job):
+    return call("jobs", "job_result").sync(job, client=own).payload.read()
 
 
-def test_the_generator_warns_of_nothing_but_pictures_and_files(words: str) -> None:
+def test_the_generator_warns_of_nothing_but_pictures_and_files(words):
     warned = WARNING.findall(words)
     assert len(warned) == words.count("WARNING") + words.count("ERROR")
     files = {question.path for question in QUESTIONS.values() if question.model is None}
@@ -85,7 +79,7 @@ ASKED = [one for one in CALLS.values() if one.question.model]
 
 
 @pytest.mark.parametrize("asked", ASKED, ids=lambda one: one.name)
-def test_every_question_is_answered(own: Any, client: httpx.Client, asked: Call) -> None:
+def test_every_question_is_answered(own, client, asked):
     module, path = call("questions", asked.name), asked.question.path
     example = EXAMPLES[f"{asked.method} {path}"]
     answer = module.sync(client=own, **(with_body(module, example.body) if example.body else example.query))
@@ -93,13 +87,13 @@ def test_every_question_is_answered(own: Any, client: httpx.Client, asked: Call)
     assert answer.to_dict() == response.raise_for_status().json()
 
 
-def test_a_refusal_comes_back_as_a_problem(own: Any) -> None:
+def test_a_refusal_comes_back_as_a_problem(own):
     problem = call("questions", "collision_time").sync(client=own, overhang=2.0)
     assert (problem.status, type(problem).__name__) == (422, "Problem")
     assert problem.errors[0].name == "overhang"
 
 
-def test_a_file_is_graded(own: Any) -> None:
+def test_a_file_is_graded(own):
     module, types = call("grading", "grade"), importlib.import_module(f"{PACKAGE}.types")
     file = types.File(payload=io.BytesIO(contact_workbook(spiral(np.array([CONTACT])))))
     answer = module.sync(client=own, body=file, name="result2.xlsx", pitch="0.450337393")
@@ -107,7 +101,7 @@ def test_a_file_is_graded(own: Any) -> None:
     assert (answer.answers[0].verdict, answer.answers[0].unit) == ("right", "m")
 
 
-def test_the_table_of_a_sweep_comes_back_as_its_bytes(own: Any, client: httpx.Client) -> None:
+def test_the_table_of_a_sweep_comes_back_as_its_bytes(own, client):
     body = {"question": "collision_time", "over": {"pitch": [0.5, 0.6]}, "request": {"benches": 30}}
     job = finished(own, client, body | {"accept": "application/vnd.apache.parquet"}, "sweep")
     assert result(own, job).startswith(b"PAR1")

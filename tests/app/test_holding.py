@@ -1,7 +1,5 @@
 """The service with bad HTTP, slow clients, full lanes, signals and a full disk, over real sockets."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -10,14 +8,11 @@ import shutil
 import signal
 import socket
 import time
-from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from html import escape
-from pathlib import Path
 from select import select
-from typing import Any
 
 import httpx
 import psutil
@@ -26,7 +21,7 @@ import pytest
 from app.files.tables import CSV_TYPE
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.support.job_service import is_gone
-from tests.support.serving import Service, serving
+from tests.support.serving import serving
 
 HEAD_SECONDS, GRACE_SECONDS = 0.5, 1
 # Longest wait for what should come within the times above on a busy machine [s].
@@ -40,7 +35,7 @@ DEADLINE = 10
 
 
 @pytest.fixture(scope="module")
-def held(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+def held(tmp_path_factory):
     """A service with short times and few places, and a log in JSON."""
     log = tmp_path_factory.mktemp("held") / "server.log"
     settings = {"head_seconds": HEAD_SECONDS, "body_seconds": HEAD_SECONDS, "stalled_seconds": HEAD_SECONDS}
@@ -52,35 +47,35 @@ def held(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
 JSON_HEAD = b"POST /%s HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
 
 
-def connected(service: Service, sent: bytes = b"", client: str = "") -> socket.socket:
+def connected(service, sent=b"", client=""):
     """A connection of a client, given by its address, which has sent this."""
     peer = socket.create_connection(service.address, timeout=SOON, source_address=(client, 0))
     peer.sendall(sent)
     return peer
 
 
-def received(peer: socket.socket) -> bytes:
+def received(peer):
     """All that the service answers until it closes the connection; fails if it keeps it for long."""
     return b"".join(iter(lambda: peer.recv(65536), b""))
 
 
-def send(service: Service, sent: bytes) -> bytes:
+def send(service, sent):
     with connected(service, sent) as peer:
         return received(peer)
 
 
-def metrics(service: Service) -> str:
+def metrics(service):
     return httpx.get(f"{service.url}/metrics").text
 
 
-def until(result: Callable[[], bool]) -> None:
+def until(result):
     end = time.monotonic() + SOON
     while not result():
         assert time.monotonic() < end
         time.sleep(0.05)
 
 
-def test_a_head_that_never_ends_is_answered_408_and_a_connection_may_rest_as_long(held: Service) -> None:
+def test_a_head_that_never_ends_is_answered_408_and_a_connection_may_rest_as_long(held):
     begun = [b"", b"GET /healthz HTTP/1.1\r\nX-Slow: ", b"GET"]
     with httpx.Client(base_url=held.url) as client, ThreadPoolExecutor() as clients:
         assert client.get("/healthz").status_code == 200
@@ -90,12 +85,12 @@ def test_a_head_that_never_ends_is_answered_408_and_a_connection_may_rest_as_lon
         assert client.get("/healthz").status_code == 200
 
 
-def test_a_body_that_never_ends_loses_its_connection(held: Service) -> None:
+def test_a_body_that_never_ends_loses_its_connection(held):
     with suppress(ConnectionResetError):
         assert send(held, JSON_HEAD % b"trajectory" + b"Content-Length: 9\r\n\r\n{") == b""
 
 
-def test_a_body_that_its_client_breaks_off_or_garbles_is_no_error_of_the_service(held: Service) -> None:
+def test_a_body_that_its_client_breaks_off_or_garbles_is_no_error_of_the_service(held):
     head = JSON_HEAD % b"shortest-turn"
     connected(held, head + b"Content-Length: 9\r\n\r\n{").close()
     assert send(held, head + b"Transfer-Encoding: chunked\r\n\r\nzz\r\n").startswith(b"HTTP/1.1 400 ")
@@ -104,7 +99,7 @@ def test_a_body_that_its_client_breaks_off_or_garbles_is_no_error_of_the_service
     assert "/shortest-turn failed" not in held.log.read_text()
 
 
-def test_a_client_that_takes_nothing_of_its_answer_loses_its_connection(held: Service) -> None:
+def test_a_client_that_takes_nothing_of_its_answer_loses_its_connection(held):
     body = json.dumps({"times": {"stop": 400, "step": 0.1}}).encode()
     whole, taken = int(1e7), 0
     with connected(held, JSON_HEAD % b"trajectory" + b"Content-Length: %d\r\n\r\n%s" % (len(body), body)) as peer:
@@ -140,11 +135,11 @@ Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r
     ],
     ids=["no HTTP", "no host", "two lengths", "length and chunks", "long query", "upgrade"],
 )
-def test_malformed_http_and_an_upgrade_are_a_problem(held: Service, sent: bytes, status: int) -> None:
+def test_malformed_http_and_an_upgrade_are_a_problem(held, sent, status):
     assert problem_of(send(held, sent))["status"] == status
 
 
-def problem_of(answer: bytes) -> Any:
+def problem_of(answer):
     """The problem in an answer, whose head fits it."""
     head, _, body = answer.partition(b"\r\n\r\n")
     assert PROBLEM.encode() in head
@@ -154,7 +149,7 @@ def problem_of(answer: bytes) -> Any:
     return problem
 
 
-def get(service: Service, path: str, host: str | None = "x") -> bytes:
+def get(service, path, host="x"):
     """An answer, as it comes. host: None for none, which the first version of HTTP does without"""
     head = f"GET {path} HTTP/1.0\r\n" if host is None else f"GET {path} HTTP/1.1\r\nHost: {host}\r\n"
     return send(service, f"{head}Connection: close\r\n\r\n".encode())
@@ -168,7 +163,7 @@ def get(service: Service, path: str, host: str | None = "x") -> bytes:
         ("http:///healthz", "http:///healthz", 404),
     ],
 )
-def test_a_target_in_absolute_form_is_that_in_origin_form(held: Service, target: str, path: str, status: int) -> None:
+def test_a_target_in_absolute_form_is_that_in_origin_form(held, target, path, status):
     """Without the setting below any host is served."""
     answers = [get(held, place, "any.example") for place in (target, path)]
     assert answers[0].startswith(f"HTTP/1.1 {status} ".encode())
@@ -176,12 +171,12 @@ def test_a_target_in_absolute_form_is_that_in_origin_form(held: Service, target:
 
 
 @pytest.mark.parametrize("workers", [1, pytest.param(2, marks=pytest.mark.thorough)])
-def test_who_asks_for_another_host_is_refused_where_a_setting_names_the_hosts(tmp_path: Path, workers: int) -> None:
+def test_who_asks_for_another_host_is_refused_where_a_setting_names_the_hosts(tmp_path, workers):
     """A stranger's page can give its own name the address of this machine: its requests come under that name."""
     with serving(tmp_path / "log", workers, hosts="Dance.Example., 192.0.2.7,[2001:db8::7]", token="secret") as service:
         port = service.address[1]
 
-        def statuses(paths: str, *hosts: str | None) -> set[int]:
+        def statuses(paths, *hosts):
             """Of each path from each host."""
             answers = [get(service, path, host) for path in paths.split() for host in hosts]
             for answer in answers:
@@ -203,7 +198,7 @@ def test_who_asks_for_another_host_is_refused_where_a_setting_names_the_hosts(tm
 
 
 @pytest.mark.parametrize("name", ["a$\\frac{$", "<&>", "龙", "_^{}"])
-def test_a_name_is_drawn_as_it_is(held: Service, name: str) -> None:
+def test_a_name_is_drawn_as_it_is(held, name):
     venue = {"type": "Feature", "properties": {"name": name}, "geometry": SQUARE}
     answer = httpx.post(f"{held.url}/figures/trajectory.svg", json={"venue": venue}, timeout=SOON).raise_for_status()
     # matplotlib writes every text of a figure into a comment beside its outlines.
@@ -211,7 +206,7 @@ def test_a_name_is_drawn_as_it_is(held: Service, name: str) -> None:
 
 
 @contextmanager
-def working(service: Service, *clients: str) -> Iterator[None]:
+def working(service, *clients):
     """While a heavy computation runs for each client, given by its address; their clients then leave."""
     with ExitStack() as peers:
         for client in clients:
@@ -221,21 +216,19 @@ def working(service: Service, *clients: str) -> Iterator[None]:
     until(lambda: computing(service) == 0)
 
 
-def computing(service: Service) -> float:
+def computing(service):
     match = re.search(r'computations{lane="heavy"} (\S+)', metrics(service))
     return float(match[1]) if match else 0.0
 
 
-def client_at(address: str, seconds: float = SOON) -> httpx.Client:
+def client_at(address, seconds=SOON):
     return httpx.Client(transport=httpx.HTTPTransport(local_address=address), timeout=seconds)
 
 
 @pytest.mark.parametrize(
     ("others", "status"), [(("127.0.0.1", "127.0.0.2"), 503), (("127.0.0.3",), 429)], ids=["lane", "client"]
 )
-def test_who_finds_no_place_for_heavy_work_hears_when_to_come_again_and_others_pass(
-    held: Service, others: tuple[str, ...], status: int
-) -> None:
+def test_who_finds_no_place_for_heavy_work_hears_when_to_come_again_and_others_pass(held, others, status):
     with client_at("127.0.0.3") as client, client_at("127.0.0.4") as other, working(held, *others):
         refused = client.get(held.url + HEAVY)
         cheap = client.get(f"{held.url}/collision-time")
@@ -247,11 +240,11 @@ def test_who_finds_no_place_for_heavy_work_hears_when_to_come_again_and_others_p
 
 
 @pytest.mark.thorough
-def test_by_default_one_client_cannot_take_all_places(tmp_path: Path) -> None:
+def test_by_default_one_client_cannot_take_all_places(tmp_path):
     """Of two for files, and of two for large bodies."""
     text, large = b"word " * 3_999_000, b'{"pitch": [' + b"0," * 1_900_000
 
-    def post(address: str, call: str, kind: str, body: bytes) -> int:
+    def post(address, call, kind, body):
         with client_at(address, ANSWER_TIMEOUT) as client:
             return client.post(call, content=body, headers={"Content-Type": kind}).status_code
 
@@ -267,8 +260,8 @@ def test_by_default_one_client_cannot_take_all_places(tmp_path: Path) -> None:
             assert {429} <= {each.result() for each in mine} <= {200, 400, 422, 429}
 
 
-def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held: Service) -> None:
-    def answer(**headers: str) -> httpx.Response:
+def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held):
+    def answer(**headers):
         body = {"times": {"stop": 400, "step": 2.0}}
         return httpx.post(f"{held.url}/trajectory", json=body, headers={"Accept": CSV_TYPE} | headers, timeout=SOON)
 
@@ -278,14 +271,14 @@ def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held: Service) -> None:
     assert answer(**{"If-None-Match": zipped.headers["etag"]}).status_code == 304
 
 
-def test_any_tag_or_one_on_several_lines_is_unchanged_and_what_is_refused_is_not(held: Service) -> None:
+def test_any_tag_or_one_on_several_lines_is_unchanged_and_what_is_refused_is_not(held):
     tag = httpx.get(f"{held.url}/turn").headers["etag"]
     for query, tags, status in (("", ["*"], 304), ("?pitch=99", ["*"], 422), ("", ['"another"', tag], 304)):
         lines = [("If-None-Match", each) for each in tags]
         assert httpx.get(f"{held.url}/turn{query}", headers=lines).status_code == status
 
 
-def test_a_request_keeps_its_name_and_the_log_has_it(held: Service) -> None:
+def test_a_request_keeps_its_name_and_the_log_has_it(held):
     answers = [httpx.get(f"{held.url}/turn", headers={"X-Request-ID": name}) for name in ("dance-7", "no name!")]
     assert answers[0].headers["x-request-id"] == "dance-7"
     assert answers[1].headers["x-request-id"] != "no name!"
@@ -293,18 +286,18 @@ def test_a_request_keeps_its_name_and_the_log_has_it(held: Service) -> None:
     assert [line["message"] for line in lines if line["request_id"] == "dance-7"]
 
 
-def test_a_long_path_is_cut_in_the_log(held: Service) -> None:
+def test_a_long_path_is_cut_in_the_log(held):
     assert httpx.get(f"{held.url}/{'a' * 60_000}").status_code == 404
     until(lambda: "aaa... (60001 characters)" in held.log.read_text())
     assert max(map(len, held.log.read_text().splitlines())) < 5_000
 
 
-def family(pid: int) -> list[psutil.Process]:
+def family(pid):
     parent = psutil.Process(pid)
     return [parent, *parent.children(recursive=True)]
 
 
-def leaves(service: Service, stop: signal.Signals) -> None:
+def leaves(service, stop):
     """Stop a service while it computes, and see that none of its processes is left."""
     with connected(service, f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode()):
         # Where each process shows its own metrics, one look may meet the other process.
@@ -321,7 +314,7 @@ MORE = [(1, signal.SIGTERM), (2, signal.SIGKILL), (2, signal.SIGTERM), (1, signa
 @pytest.mark.parametrize(
     ("workers", "stop"), [(1, signal.SIGINT), *(pytest.param(*case, marks=pytest.mark.thorough) for case in MORE)]
 )
-def test_the_service_leaves_with_heavy_work_running(tmp_path: Path, workers: int, stop: signal.Signals) -> None:
+def test_the_service_leaves_with_heavy_work_running(tmp_path, workers, stop):
     # A shell that starts the service in its background has Ctrl-C ignored.
     ignored = partial(signal.signal, signal.SIGINT, signal.SIG_IGN) if stop == signal.SIGTERM else None
     with serving(tmp_path / "log", workers, ignored, grace_seconds=GRACE_SECONDS) as service:
@@ -329,7 +322,7 @@ def test_the_service_leaves_with_heavy_work_running(tmp_path: Path, workers: int
 
 
 @pytest.mark.parametrize("workers", [1, pytest.param(2, marks=pytest.mark.thorough)])
-def test_a_service_that_ends_answers_who_has_connected_and_refuses_others(tmp_path: Path, workers: int) -> None:
+def test_a_service_that_ends_answers_who_has_connected_and_refuses_others(tmp_path, workers):
     """A proxy sends a request to another service if this one refuses the connection, not if it resets it."""
     with serving(tmp_path / "log", workers, grace_seconds=10) as service, ExitStack() as peers:
         until(lambda: service.log.read_text().count("startup complete") == workers)
@@ -345,7 +338,7 @@ def test_a_service_that_ends_answers_who_has_connected_and_refuses_others(tmp_pa
             until(lambda: get(service, "/healthz") == b"never")
 
 
-def test_bodies_are_judged_before_they_are_held(tmp_path: Path) -> None:
+def test_bodies_are_judged_before_they_are_held(tmp_path):
     with serving(tmp_path / "log", token="correct horse", bodies_bytes_max=150_000) as service, ExitStack() as peers:
         # Without the token a file is refused by its head, of which nothing has to be kept.
         large = b"POST /grade HTTP/1.1\r\nHost: x\r\nContent-Type: application/octet-stream\r\n"
@@ -362,12 +355,12 @@ def test_bodies_are_judged_before_they_are_held(tmp_path: Path) -> None:
 
 
 @pytest.mark.thorough
-def test_figures_whose_clients_leave_keep_no_file_open_in_each_thread(tmp_path: Path) -> None:
+def test_figures_whose_clients_leave_keep_no_file_open_in_each_thread(tmp_path):
     """matplotlib opens the two files of a font once for each thread that draws."""
     with serving(tmp_path / "log") as service:
         figure = f"{service.url}/figures/trajectory.png"
 
-        def leave(number: int) -> None:
+        def leave(number):
             with suppress(httpx.ReadTimeout):
                 httpx.get(f"{figure}?time={number}", timeout=0.2)
 
@@ -379,9 +372,7 @@ def test_figures_whose_clients_leave_keep_no_file_open_in_each_thread(tmp_path: 
 
 
 @pytest.mark.thorough
-def test_a_service_whose_counts_were_removed_answers_and_replaces_its_processes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_service_whose_counts_were_removed_answers_and_replaces_its_processes(tmp_path, monkeypatch):
     (tmp_path / "temporary").mkdir()
     monkeypatch.setenv("TMPDIR", str(tmp_path / "temporary"))
     with serving(tmp_path / "log", workers=2, grace_seconds=GRACE_SECONDS) as service:
@@ -400,8 +391,8 @@ def test_a_service_whose_counts_were_removed_answers_and_replaces_its_processes(
 
 
 @pytest.mark.thorough
-def test_a_full_disk_leaves_metrics_of_one_process_and_a_word_and_ctrl_c_ends_all(tmp_path: Path) -> None:
-    def little_room() -> None:
+def test_a_full_disk_leaves_metrics_of_one_process_and_a_word_and_ctrl_c_ends_all(tmp_path):
+    def little_room():
         resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 
     with serving(tmp_path / "log", workers=2, limit=little_room, job_max=1, grace_seconds=GRACE_SECONDS) as service:

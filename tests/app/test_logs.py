@@ -1,15 +1,11 @@
 """Lines of the log: a fault that repeats is one line, and another one with its number when it is over."""
 
-from __future__ import annotations
-
 import logging
-
-import pytest
 
 from app.logs import Faults
 
 
-def test_a_fault_that_repeats_is_logged_once_and_counted(caplog: pytest.LogCaptureFixture) -> None:
+def test_a_fault_that_repeats_is_logged_once_and_counted(caplog):
     faults = Faults(logging.getLogger("faults"), "The store failed: %s")
     for fault in ("full", "gone", "full", "full"):
         faults.log(fault)

@@ -1,9 +1,6 @@
 """The service agrees with /openapi.json, and /openapi.json is complete."""
 
-from __future__ import annotations
-
 import json
-from typing import Any
 
 import pytest
 import schemathesis
@@ -19,7 +16,6 @@ from app.settings import Settings
 from app.wire.problem import PROBLEM_TYPE
 from app.wire.question import JSON
 from tests.app.conftest import ANSWER_TIMEOUT
-from tests.support.asking import Asking
 from tests.support.depth import examples, few
 from tests.support.renew_examples import text
 
@@ -44,24 +40,24 @@ CALLS = {call.label: call for call in (operation.ok() for operation in SCHEMA.ge
 
 
 @pytest.fixture(scope="module")
-def document(ask: Asking) -> Any:
+def document(ask):
     return ask("openapi.json")
 
 
 @pytest.fixture(scope="module")
-def calls(document: Any) -> list[Any]:
+def calls(document):
     return [call for path in document["paths"].values() for call in path.values()]
 
 
 @pytest.fixture(scope="module")
-def fields(document: Any, calls: list[Any]) -> list[tuple[str, Any]]:
+def fields(document, calls):
     """Every field of every schema and every parameter, by name."""
     schemas = document["components"]["schemas"].values()
     entries = [pair for one in schemas for pair in one.get("properties", {}).items()]
     return entries + [(one["name"], one | one["schema"]) for call in calls for one in call.get("parameters", [])]
 
 
-def is_tried(call: str, mode: GenerationMode) -> bool:
+def is_tried(call, mode):
     """Every call with right values, but for the slower ones; with wrong ones if it takes any."""
     method, path = call.split()
     if mode.is_positive:
@@ -70,12 +66,12 @@ def is_tried(call: str, mode: GenerationMode) -> bool:
     return "requestBody" in description or "parameters" in description
 
 
-def examples_of(call: str, mode: GenerationMode) -> int:
+def examples_of(call, mode):
     is_slow = call in SLOW or (mode.is_positive and ("/figures/" in call or "/minimum-pitch" in call))
     return EXAMPLES_OF_SLOW if is_slow else EXAMPLES_PER_CALL
 
 
-def is_a_spiral_that_does_not_say_so(body: Any) -> bool:
+def is_a_spiral_that_does_not_say_so(body):
     """A path without a kind: the schema asks for one, so that clients tell paths apart; the service takes a spiral."""
     path = body.get("path") if isinstance(body, dict) else None
     return isinstance(path, dict) and "kind" not in path
@@ -85,14 +81,14 @@ TRIED = [(call, mode) for call in CALLS for mode in GenerationMode if is_tried(c
 
 
 @pytest.mark.parametrize("tried", few(TRIED, 6), ids=lambda tried: f"{tried[0]} {tried[1].value}")
-def test_every_call_conforms_to_its_description(server: str, tried: tuple[str, GenerationMode]) -> None:
+def test_every_call_conforms_to_its_description(server, tried):
     call, mode = tried
 
     @given(case=CALLS[call].as_strategy(generation_mode=mode))
     @settings(
         max_examples=examples_of(call, mode), deadline=None, derandomize=True, suppress_health_check=list(HealthCheck)
     )
-    def conforms(case: Any) -> None:
+    def conforms(case):
         assume(not (mode.is_negative and is_a_spiral_that_does_not_say_so(case.body)))
         # Without a body the question is a right one, about the default dance.
         if call in SLOW or (call.startswith("POST ") and not is_tried(call, GenerationMode.POSITIVE)):
@@ -107,7 +103,7 @@ def test_every_call_conforms_to_its_description(server: str, tried: tuple[str, G
     conforms()
 
 
-def holds_floats(field: Any) -> bool:
+def holds_floats(field):
     inner = [*field.get("anyOf", []), *field.get("prefixItems", []), *([field["items"]] if "items" in field else [])]
     return field.get("type") == "number" or any(isinstance(one, dict) and holds_floats(one) for one in inner)
 
@@ -120,7 +116,7 @@ WITHOUT_UNIT = (
 )
 
 
-def test_every_field_is_described_and_every_measure_has_its_unit(fields: list[tuple[str, Any]]) -> None:
+def test_every_field_is_described_and_every_measure_has_its_unit(fields):
     assert [name for name, field in fields if "$ref" not in field and not field.get("description")] == []
     bare = [name for name, field in fields if holds_floats(field) and "[" not in field["description"]]
     assert set(bare) <= set(WITHOUT_UNIT.split())
@@ -129,7 +125,7 @@ def test_every_field_is_described_and_every_measure_has_its_unit(fields: list[tu
     assert [name for name, field in in_words if not field["description"].endswith(f"[{field.get('x-unit')}]")] == []
 
 
-def test_calls_are_named_as_their_questions_and_lock_nothing(calls: list[Any]) -> None:
+def test_calls_are_named_as_their_questions_and_lock_nothing(calls):
     named = {call["operationId"]: call["security"] for call in calls}
     both = {f"{name}_of" for name, question in QUESTIONS.items() if question.flat and question.body}
     jobs = {"ask_later", "list_jobs", "job_status", "dismiss_job", "job_result", "job_events", "sweep"}
@@ -139,7 +135,7 @@ def test_calls_are_named_as_their_questions_and_lock_nothing(calls: list[Any]) -
     assert named == {name: [{"token": []}, {}] if name in guarded else [] for name in named}
 
 
-def test_paths_are_distinguished_by_their_kind(document: Any) -> None:
+def test_paths_are_distinguished_by_their_kind(document):
     schemas = document["components"]["schemas"]
     path, _ = schemas["CheckRequest"]["properties"]["path"]["anyOf"]
     documented = path["discriminator"]["mapping"]
@@ -150,9 +146,7 @@ def test_paths_are_distinguished_by_their_kind(document: Any) -> None:
 
 
 @pytest.mark.parametrize("call", ["trajectory", "turn", "maximum-head-speed"])
-def test_null_counts_as_left_out_where_the_schema_cannot_state_the_default(
-    document: Any, ask: Asking, call: str
-) -> None:
+def test_null_counts_as_left_out_where_the_schema_cannot_state_the_default(document, ask, call):
     form = document["paths"][f"/{call}"]["post"]["requestBody"]["content"][JSON]["schema"]["$ref"].rpartition("/")[2]
     fields = document["components"]["schemas"][form]["properties"].items()
     nulls = {
@@ -162,7 +156,7 @@ def test_null_counts_as_left_out_where_the_schema_cannot_state_the_default(
     assert ask(call, nulls) == ask(call, {})
 
 
-def test_the_most_benches_stated_are_the_most_taken() -> None:
+def test_the_most_benches_stated_are_the_most_taken():
     document = create_app(Settings(benches_max=321)).openapi()
     parameters = document["paths"]["/collision-time"]["get"]["parameters"]
     wires = document["components"]["schemas"].values()
@@ -172,7 +166,7 @@ def test_the_most_benches_stated_are_the_most_taken() -> None:
 
 
 @pytest.mark.parametrize("call", EXAMPLES)
-def test_the_example_of_every_call_is_true(ask: Asking, document: Any, call: str) -> None:
+def test_the_example_of_every_call_is_true(ask, document, call):
     example, (method, path) = EXAMPLES[call], call.split()
     forms = document["paths"][path][method.lower()]["responses"]["200"]["content"]
     # Many clients ask for the form that stands first.
@@ -184,11 +178,11 @@ def test_the_example_of_every_call_is_true(ask: Asking, document: Any, call: str
         assert example.answer is None
 
 
-def test_the_examples_stand_as_make_examples_writes_them() -> None:
+def test_the_examples_stand_as_make_examples_writes_them():
     assert text(json.loads(FILE.read_bytes())) + "\n" == FILE.read_text(encoding="utf-8")
 
 
-def same(got: Any, documented: Any) -> bool:
+def same(got, documented):
     """Equal but for rounding, and for what a search spent or how narrowly it proved."""
     if isinstance(documented, dict):
         names = documented.keys() - set(SPENT.split())
@@ -196,14 +190,14 @@ def same(got: Any, documented: Any) -> bool:
     if isinstance(documented, list):
         return len(got) == len(documented) and all(map(same, got, documented))
     if isinstance(documented, float):
-        return bool(got == pytest.approx(documented, rel=EXAMPLE_TOLERANCE, abs=EXAMPLE_TOLERANCE))
-    return bool(got == documented)
+        return got == pytest.approx(documented, rel=EXAMPLE_TOLERANCE, abs=EXAMPLE_TOLERANCE)
+    return got == documented
 
 
 FILES = ("/contest-kit", "/figures", "/films", "/grade", "/healthz", "/maps", "/places", "/plan", "/readyz")
 
 
-def test_every_call_has_an_example_and_its_problems(document: Any) -> None:
+def test_every_call_has_an_example_and_its_problems(document):
     for path, methods in document["paths"].items():
         for method, call in () if path.startswith(FILES) else methods.items():
             # Answers about jobs are never the same.

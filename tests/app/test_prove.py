@@ -1,12 +1,6 @@
 """bench-dragon prove, run as a user runs it: certificates as files, exit codes."""
 
-from __future__ import annotations
-
 import json
-import subprocess
-from collections.abc import Sequence
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -22,12 +16,12 @@ FOLDING = (
 )
 
 
-def run(*arguments: str, **how: str) -> subprocess.CompletedProcess[str]:
+def run(*arguments, **how):
     return command.run("prove", *arguments, **how)
 
 
 @pytest.fixture(scope="module")
-def certificate(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def certificate(tmp_path_factory):
     path = tmp_path_factory.mktemp("proof") / "five.json"
     done = run("collision-time", *FIVE.split(), "--output", str(path))
     assert done.returncode == 0, done.stderr
@@ -35,19 +29,19 @@ def certificate(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_a_certificate_is_checked_from_a_file_and_from_standard_input(certificate: Path) -> None:
+def test_a_certificate_is_checked_from_a_file_and_from_standard_input(certificate):
     for done in (run("--check", str(certificate)), run("--check", "-", text=certificate.read_text())):
         assert (done.returncode, done.stderr) == (0, "")
         assert "benches 0 and 4 overlap" in done.stdout
 
 
-def test_a_changed_certificate_is_refused(certificate: Path) -> None:
+def test_a_changed_certificate_is_refused(certificate):
     changed = json.loads(certificate.read_text())
     changed["claim"]["time"] += 1.0
     assert_wrong("--check -", "the certificate was changed", text=json.dumps(changed))
 
 
-def assert_wrong(line: str, named: str, **how: Any) -> None:
+def assert_wrong(line, named, **how):
     """The refusal of a claim or a certificate: one line and exit code 1."""
     assert_refused_in_one_line(f"prove {line} -> {named}", 1, "Refused: ", **how)
 
@@ -56,12 +50,12 @@ def assert_wrong(line: str, named: str, **how: Any) -> None:
     ("text", "named"),
     [("{}", "format"), ("[]", "it ... list 0"), ('{"x": 1}', "format"), ('{"format": 3}', "versions")],
 )
-def test_a_malformed_certificate_is_one_line_that_names_the_member(text: str, named: str) -> None:
+def test_a_malformed_certificate_is_one_line_that_names_the_member(text, named):
     assert_wrong("--check -", f"the certificate is malformed: {named}", text=text)
 
 
 @pytest.mark.parametrize(("time", "when"), [((), "0"), (("--time", "1e-11"), "1e-11")], ids=["searched", "stated"])
-def test_a_contact_at_the_start_claims_no_time_before(tmp_path: Path, time: tuple[str, ...], when: str) -> None:
+def test_a_contact_at_the_start_claims_no_time_before(tmp_path, time, when):
     words = f"benches 0 and 33 are nearer than 0.2 m at {when} + 1e-10 s, within 2e-10 s of the start, so that no time"
     assert_proven(("collision-time", "--margin", "0.2", *time), words, tmp_path)
 
@@ -98,11 +92,11 @@ SMALL_CIRCLE = "--turning-diameter 4 --benches 11 --start-turns 5"
         ("turn --benches 20 --start -5 --stop 20 --margin 0.34", "nearer than 0.34 m at 13."),
     ],
 )
-def test_every_claim_is_proven_and_its_certificate_checked(line: str, words: str, tmp_path: Path) -> None:
+def test_every_claim_is_proven_and_its_certificate_checked(line, words, tmp_path):
     assert_proven(line.split(), words, tmp_path)
 
 
-def assert_proven(arguments: Sequence[str], words: str, folder: Path) -> str:
+def assert_proven(arguments, words, folder):
     """What the command prints: the claim, as the check of its certificate prints it."""
     path = folder / "claim.json"
     done = run(*arguments, "--output", str(path))
@@ -112,7 +106,7 @@ def assert_proven(arguments: Sequence[str], words: str, folder: Path) -> str:
     return done.stdout
 
 
-def test_a_dance_from_a_file_is_proven_to_its_end(tmp_path: Path) -> None:
+def test_a_dance_from_a_file_is_proven_to_its_end(tmp_path):
     file = tmp_path / "dance.toml"
     file.write_text(LINES.format(sweep=3.0))
     words = "the route of 2 pieces (line, arc), joined exactly"
@@ -135,13 +129,13 @@ def test_a_dance_from_a_file_is_proven_to_its_end(tmp_path: Path) -> None:
         f"collision-time {FIVE} --time 20 -> no two benches overlap at 20 + 1e-10 s",
     ],
 )
-def test_a_claim_that_is_wrong_is_refused_in_one_line_and_leaves_no_file(row: str, tmp_path: Path) -> None:
+def test_a_claim_that_is_wrong_is_refused_in_one_line_and_leaves_no_file(row, tmp_path):
     line, words = row.split(" -> ")
     assert_wrong(f"{line} --output {tmp_path}/wrong.json", words)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_dance_along_waypoints_has_no_proof(tmp_path: Path) -> None:
+def test_a_dance_along_waypoints_has_no_proof(tmp_path):
     file = tmp_path / "dance.toml"
     file.write_text('dragon = {benches = 3}\npath = {kind = "waypoints", points = [[0, 0], [20, 1], [40, 0]]}\n')
     assert_refused_in_one_line(f"prove dance {file} -> path ... spiral, turn route waypoints")
@@ -162,5 +156,5 @@ def test_a_dance_along_waypoints_has_no_proof(tmp_path: Path) -> None:
         "prove minimum-pitch --pitch 0 -> pitch",
     ],
 )
-def test_wrong_usage_gets_exit_code_2(row: str) -> None:
+def test_wrong_usage_gets_exit_code_2(row):
     assert_refused_in_one_line(row, text="{")

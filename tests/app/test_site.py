@@ -1,14 +1,10 @@
 """The site of the documentation: its reference, its links, and how the service shows it."""
 
-from __future__ import annotations
-
 import re
 import runpy
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
-import httpx
 import pytest
 
 import core
@@ -18,24 +14,24 @@ from app.service.pages import GUIDE, guide_policy
 SITE = Path(__file__).parents[2] / "docs" / "site"
 
 
-def module(name: str) -> SimpleNamespace:
+def module(name):
     return SimpleNamespace(**runpy.run_path(str(SITE / f"{name}.py")))
 
 
-def test_every_public_name_of_core_stands_on_one_page() -> None:
+def test_every_public_name_of_core_stands_on_one_page():
     text = "\n".join(module("reference").library_pages().values())
     names = re.findall(r"^\.\. [\w:]+:: core\.(\w+)$", text, re.MULTILINE)
     assert sorted(names) == sorted(core.__all__)
 
 
-def test_every_page_of_docs_has_a_section(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_page_of_docs_has_a_section(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(SITE))
     module("build").assemble(tmp_path)
     pages = {path.stem for path in SITE.parent.glob("*.md")} - {"README"}
     assert pages <= {path.stem for path in tmp_path.glob("*.md")}
 
 
-def test_every_call_and_every_schema_has_its_place() -> None:
+def test_every_call_and_every_schema_has_its_place():
     description = create_app().openapi()
     text = module("reference").http_pages(description)["http-reference"]
     calls = [f"{method.upper()} {path}" for path, calls in description["paths"].items() for method in calls]
@@ -45,7 +41,7 @@ def test_every_call_and_every_schema_has_its_place() -> None:
     assert links <= anchors
 
 
-def test_entries_of_docstrings_become_fields() -> None:
+def test_entries_of_docstrings_become_fields():
     docstring = """What comes back.
 
 margin: required clearance [m]; `x*y` and a * b
@@ -82,7 +78,7 @@ A paragraph.
         ('<link rel="stylesheet" href="none.css">', "none.css does not exist"),
     ],
 )
-def test_dead_links_are_named(tmp_path: Path, page: str, dead: str) -> None:
+def test_dead_links_are_named(tmp_path, page, dead):
     site = tmp_path / "site"
     site.mkdir()
     (tmp_path / "outside.html").write_text("")
@@ -91,16 +87,16 @@ def test_dead_links_are_named(tmp_path: Path, page: str, dead: str) -> None:
     assert module("links").dead_links(site) == ([f"{dead}: index.html"] if dead else [])
 
 
-def test_a_page_of_the_guide_may_run_its_own_scripts_and_no_others() -> None:
+def test_a_page_of_the_guide_may_run_its_own_scripts_and_no_others():
     policy = guide_policy(b'<script src="a.js"></script><script>let a = 1;</script><script data-b="c">b()</script>')
     assert policy.count("'sha256-") == 2
     assert "script-src 'self' 'sha256-" in policy
     assert "unsafe" not in policy.split("script-src")[1]
 
 
-def test_the_service_shows_the_guide_or_says_that_there_is_none(client: httpx.Client) -> None:
+def test_the_service_shows_the_guide_or_says_that_there_is_none(client):
     assert client.get("/guide").headers["location"] == "guide/"
-    answer: Any = client.get("/guide/")
+    answer = client.get("/guide/")
     if GUIDE.is_dir():
         assert answer.status_code == 200
         assert "'sha256-" in answer.headers["content-security-policy"]

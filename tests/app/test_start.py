@@ -1,11 +1,8 @@
 """The start of a process: imports without the garbage collector, and none of another program's modules."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import httpx
 import pytest
@@ -15,7 +12,7 @@ from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.support.serving import free_port
 
 
-def test_a_module_is_called_with_its_own_arguments(tmp_path: Path) -> None:
+def test_a_module_is_called_with_its_own_arguments(tmp_path):
     code = "import gc, sys\nat_import = gc.isenabled()\ndef main(): print(at_import, gc.isenabled(), sys.argv)\n"
     (tmp_path / "told.py").write_text(code)
     command = [sys.executable, "-m", "app.start", "told", "a", "b"]
@@ -24,7 +21,7 @@ def test_a_module_is_called_with_its_own_arguments(tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def other_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+def other_program(tmp_path, monkeypatch):
     """PYTHONPATH of another program with packages called app and core, in whose folder a user stands."""
     other, library = tmp_path / "another program", tmp_path / "library"
     (other / "app").mkdir(parents=True)
@@ -39,13 +36,13 @@ def other_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 @pytest.mark.parametrize(
     "words", ["--version", "collision-time --benches 3 --json", "check --benches 3 --json", "no-such-command"]
 )
-def test_the_command_does_not_import_the_packages_of_another_program(words: str, other_program: str) -> None:
+def test_the_command_does_not_import_the_packages_of_another_program(words, other_program):
     done, usual = run(*words.split(), PYTHONPATH=other_program), run(*words.split())
     assert (done.returncode, done.stdout, done.stderr) == (usual.returncode, usual.stdout, usual.stderr)
 
 
 @pytest.mark.thorough
-def test_nor_do_the_processes_of_a_sweep(other_program: str, tmp_path: Path) -> None:
+def test_nor_do_the_processes_of_a_sweep(other_program, tmp_path):
     (tmp_path / "spec.toml").write_text('question = "collision_time"\n[over]\npitch = [0.5, 0.55]\n')
     line = f"sweep run {tmp_path}/spec.toml --output {tmp_path}/table --workers 2"
     done = run(*line.split(), PYTHONPATH=other_program)
@@ -53,7 +50,7 @@ def test_nor_do_the_processes_of_a_sweep(other_program: str, tmp_path: Path) -> 
 
 
 @pytest.mark.thorough
-def test_nor_do_the_processes_of_the_service(other_program: str, tmp_path: Path) -> None:
+def test_nor_do_the_processes_of_the_service(other_program, tmp_path):
     port, log = free_port(), tmp_path / "log"
     environment = ENVIRONMENT | {"PYTHONPATH": other_program, "BENCH_DRAGON_DATA": str(tmp_path / "data")}
     command = [COMMAND, "serve", "--port", str(port), "--workers", "2"]
@@ -72,7 +69,7 @@ def test_nor_do_the_processes_of_the_service(other_program: str, tmp_path: Path)
     assert "Error" not in log.read_text()
 
 
-def test_a_library_of_the_user_is_still_imported(other_program: str) -> None:
+def test_a_library_of_the_user_is_still_imported(other_program):
     code = "import bench_dragon, os; bench_dragon.leave_out_namesakes(); print(os.environ['LIBRARY'])"
     command = [sys.executable, "-P", "-c", code + "; import app, core"]
     done = subprocess.run(command, env=ENVIRONMENT | {"PYTHONPATH": other_program}, capture_output=True, text=True)

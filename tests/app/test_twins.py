@@ -1,11 +1,5 @@
 """Every question has one answer to the byte: over a query and a body, as a job and from a terminal."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
-import httpx
 import pytest
 
 import core
@@ -14,9 +8,8 @@ from app.questions.registry import QUESTIONS
 from app.service.examples import EXAMPLES
 from app.wire.dances import TimeSteps, UniformBody
 from app.wire.paths import TurnFields
-from app.wire.question import Question
 from core.tolerance.curve import time_on_circle
-from tests.support.asking import Asking, dance, written
+from tests.support.asking import dance, written
 from tests.support.command import run
 from tests.support.depth import few
 
@@ -59,11 +52,11 @@ BENCHES = {"lengths": [3.41, 2.2, 2.0, 2.2, 1.9, 2.2], "widths": [0.3] * 6, "ove
 CROSSING = {"kind": "waypoints", "points": [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]}
 
 
-def label(part: Any) -> str | None:
+def label(part):
     return part[0].name + " of several" * (part[1] is TWO) if isinstance(part, tuple) else None
 
 
-def in_body(question: Question, flat: Any) -> dict[str, Any]:
+def in_body(question, flat):
     """The body that asks what a query asks."""
     body = {}
     for name, value in flat.items():
@@ -79,12 +72,12 @@ def in_body(question: Question, flat: Any) -> dict[str, Any]:
     return body
 
 
-def test_only_a_question_without_a_dragon_is_asked_one_way_alone() -> None:
+def test_only_a_question_without_a_dragon_is_asked_one_way_alone():
     assert [name for name, question in QUESTIONS.items() if question.flat and not question.body] == ["paper"]
 
 
 @pytest.mark.parametrize("question", BOTH.values(), ids=BOTH)
-def test_both_ways_of_asking_have_one_answer(client: httpx.Client, question: Question) -> None:
+def test_both_ways_of_asking_have_one_answer(client, question):
     flat = {name: VALUES[name] for name in question.flat.model_fields if name in VALUES}
     path = question.path.format(format="svg")
     over_query = client.get(path, params=flat).raise_for_status()
@@ -94,7 +87,7 @@ def test_both_ways_of_asking_have_one_answer(client: httpx.Client, question: Que
 
 
 @pytest.mark.parametrize("question", BOTH.values(), ids=BOTH)
-def test_an_empty_body_asks_what_an_empty_query_asks(question: Question) -> None:
+def test_an_empty_body_asks_what_an_empty_query_asks(question):
     flat, body = question.flat(), question.body()
     shared = question.flat.model_fields.keys() & question.body.model_fields.keys() - {"time"}
     if question.name == "tolerance":  # over a body any dance, to its own end
@@ -103,7 +96,7 @@ def test_an_empty_body_asks_what_an_empty_query_asks(question: Question) -> None
 
 
 @pytest.mark.parametrize("asked", few(BODIES, 5), ids=label)
-def test_a_job_has_the_answer_of_its_call(client: httpx.Client, asked: tuple[Question, Any]) -> None:
+def test_a_job_has_the_answer_of_its_call(client, asked):
     path, body = asked[0].path, asked[1]
     job = client.post(path, json=body, headers={"Prefer": "respond-async"})
     assert (job.status_code, job.headers["preference-applied"]) == (202, "respond-async")
@@ -115,16 +108,14 @@ def test_a_job_has_the_answer_of_its_call(client: httpx.Client, asked: tuple[Que
 
 
 @pytest.mark.parametrize("asked", [one for one in BODIES if COMMANDS.get(one[0].name) in MODULE_OF], ids=label)
-def test_a_command_with_a_file_prints_the_answer_of_the_call(
-    ask: Asking, tmp_path: Path, asked: tuple[Question, Any]
-) -> None:
+def test_a_command_with_a_file_prints_the_answer_of_the_call(ask, tmp_path, asked):
     done = run(COMMANDS[asked[0].name], written(tmp_path, asked[1]), "--json")
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.encode() == ask.file(asked[0].path[1:], asked[1]) + b"\n"
 
 
 @pytest.mark.parametrize("call", [call for call in EXAMPLES if call.startswith("GET") and call[5:] in MODULE_OF])
-def test_a_command_with_options_prints_the_answer_of_the_call(ask: Asking, call: str) -> None:
+def test_a_command_with_options_prints_the_answer_of_the_call(ask, call):
     query = EXAMPLES[call].query
     done = run(call[5:], *(f"--{name.replace('_', '-')}={value}" for name, value in query.items()), "--json")
     assert (done.returncode, done.stderr) == (0, "")
@@ -132,7 +123,7 @@ def test_a_command_with_options_prints_the_answer_of_the_call(ask: Asking, call:
 
 
 @pytest.mark.parametrize("name", [name for name, question in QUESTIONS.items() if question.several])
-def test_several_dances_are_described_beside_one_and_null_stands_for_one(ask: Asking, name: str) -> None:
+def test_several_dances_are_described_beside_one_and_null_stands_for_one(ask, name):
     question = QUESTIONS[name]
     call, operation = question.path[1:], ask("openapi.json")["paths"][question.path]["post"]
     schema = operation["responses"]["200"]["content"]["application/json"]["schema"]
@@ -146,7 +137,7 @@ def test_several_dances_are_described_beside_one_and_null_stands_for_one(ask: As
         ask.refuses(f"/{field}", call, TWO | {field: question.body().model_dump(mode="json")[field]})
 
 
-def test_a_circle_ends_the_dance_where_a_time_would(ask: Asking) -> None:
+def test_a_circle_ends_the_dance_where_a_time_would(ask):
     flat = {"benches": 30, "pitch": 0.6, "start_turns": 9}
     path = {"kind": "spiral", "pitch": 0.6, "start_turns": 9}
     stop = time_on_circle(core.Dance(core.Dragon(30), core.Spiral(0.6, 9.0)), 4.0)
@@ -156,7 +147,7 @@ def test_a_circle_ends_the_dance_where_a_time_would(ask: Asking) -> None:
     assert ask.file("tolerance", body | {"turning_diameter": 8}) == on_circle
 
 
-def test_the_first_contact_of_any_dragon_on_any_path_is_that_of_its_check(ask: Asking) -> None:
+def test_the_first_contact_of_any_dragon_on_any_path_is_that_of_its_check(ask):
     body = EXAMPLE_BODIES["POST /collision-time"]
     answer = ask("collision-time", body)
     assert (answer["outcome"], ask("check", body)["first_contact"]) == ("contact", answer)
@@ -164,14 +155,14 @@ def test_the_first_contact_of_any_dragon_on_any_path_is_that_of_its_check(ask: A
     assert (until["outcome"], until["end"]["reason"]) == ("clear", "stop")
 
 
-def test_the_times_of_a_highest_head_speed_are_those_of_the_given_dance(ask: Asking) -> None:
+def test_the_times_of_a_highest_head_speed_are_those_of_the_given_dance(ask):
     """The same stretch of a path has other times at another head speed."""
     body = {"dragon": BENCHES, "path": CROSSING, "speed_limit": 3}
     slow = ask("maximum-head-speed", body | {"start": 20, "stop": 30})
     assert ask("maximum-head-speed", body | {"head_speed": 2, "start": 10, "stop": 15}) == slow
 
 
-def test_only_what_repeats_itself_may_be_long(ask: Asking) -> None:
+def test_only_what_repeats_itself_may_be_long(ask):
     for call in ("collision-time", "minimum-pitch"):
         ask(call, {"dragon": {"benches": 2_001}, "cross_check": "none"})
     ask.refuses("/dragon/benches 2000", "collision-time", {"dragon": {"benches": 2_001}, "path": {"kind": "turn"}})

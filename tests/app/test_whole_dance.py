@@ -1,12 +1,8 @@
 """Parts of a dance in addition to its path: passages, place of the spiral, names of benches, time of day."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +11,7 @@ import core
 from app.wire.benches import bench_table
 from app.wire.clocks import time_of_day
 from core import InvalidValue
-from tests.support.asking import Asking, box, line, written
+from tests.support.asking import box, line, written
 from tests.support.command import run
 from tests.support.paper import pages_of, words_of
 
@@ -49,14 +45,14 @@ PLACED = core.Dance(
 ON_LANE = {"dragon": {"benches": 4}, "path": line((0, 0), (60, 0))}
 
 
-def rows_of(text: str | bytes) -> list[dict[str, str]]:
+def rows_of(text):
     return list(csv.DictReader(io.StringIO(text.decode() if isinstance(text, bytes) else text)))
 
 
 # -- places, speeds and names --------------------------------------------------------------------------------
 
 
-def test_a_table_has_places_speeds_names_and_the_time_of_day(ask: Asking) -> None:
+def test_a_table_has_places_speeds_names_and_the_time_of_day(ask):
     body = DANCE | CLOCK | {"times": [10.0, 50.0, 130.25]}
     got, known = ask("trajectory", body), core.trajectory(PLACED, body["times"])
     assert np.stack([got["x"], got["y"]], axis=-1).tolist() == known.position.tolist()
@@ -68,7 +64,7 @@ def test_a_table_has_places_speeds_names_and_the_time_of_day(ask: Asking) -> Non
     assert [row["clock"] for row in rows[::5]] == ["19:30:10", "19:30:50", "19:32:10"]
 
 
-def test_failures_say_who_and_at_what_time_of_day(ask: Asking) -> None:
+def test_failures_say_who_and_at_what_time_of_day(ask):
     got = ask("check", DANCE | CLOCK | {"venue": box(20, -18, 40, -6), "speed_limit": 0.9, "stop": 150})
     values = {failure["kind"]: failure for failure in got["failures"]}
     speed, outside = values["speed"], values["outside"]
@@ -76,7 +72,7 @@ def test_failures_say_who_and_at_what_time_of_day(ask: Asking) -> None:
     assert outside["names"] == [NAMES[outside["benches"][0]]]
 
 
-def test_the_proof_of_a_dance_with_passages_is_that_of_its_places(tmp_path: Path) -> None:
+def test_the_proof_of_a_dance_with_passages_is_that_of_its_places(tmp_path):
     body = {"dragon": {"benches": 4}, "path": SPIRAL | {"start_turns": 5}, "passages": PASSAGES, "stop": 104}
     done = run("prove", "dance", written(tmp_path, body), "--output", str(tmp_path / "proof.json"))
     assert done.returncode == 0, done.stderr
@@ -88,7 +84,7 @@ def test_the_proof_of_a_dance_with_passages_is_that_of_its_places(tmp_path: Path
 # -- tables of benches ---------------------------------------------------------------------------------------
 
 
-def test_a_file_may_name_a_table_of_benches_and_a_time_of_day(tmp_path: Path) -> None:
+def test_a_file_may_name_a_table_of_benches_and_a_time_of_day(tmp_path):
     benches, dance, table = (tmp_path / name for name in ("benches.csv", "dance.toml", "all.csv"))
     benches.write_text(TABLE)
     dance.write_text(TOML)
@@ -127,7 +123,7 @@ BARE_TABLE = "Zhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\n"
         (BARE_TABLE + "Wu,wide,0.3,0.275\n", 3, "length"),
     ],
 )
-def test_a_bad_line_of_a_table_is_named_by_its_number(text: str, line_: int, words: str) -> None:
+def test_a_bad_line_of_a_table_is_named_by_its_number(text, line_, words):
     with pytest.raises(InvalidValue) as refused:
         bench_table(text).to_dragon()
     assert refused.value.message.startswith(f"line {line_}: ")
@@ -152,7 +148,7 @@ def test_a_bad_line_of_a_table_is_named_by_its_number(text: str, line_: int, wor
         "name,length,width,overhang\nZhou,3.41,0.3,0.275,,\nLi,2.2,0.3,0.275\n,,,\n",
     ],
 )
-def test_a_table_is_read_however_a_spreadsheet_writes_it(text: str) -> None:
+def test_a_table_is_read_however_a_spreadsheet_writes_it(text):
     table = bench_table(text)
     assert (table.lengths, table.widths, table.overhangs) == ([3.41, 2.2], [0.3, 0.3], [0.275, 0.275])
     assert table.names in (["Zhou", "Li"], ["", ""])
@@ -160,7 +156,7 @@ def test_a_table_is_read_however_a_spreadsheet_writes_it(text: str) -> None:
 
 
 @pytest.mark.parametrize("coding", ["gb18030", "utf-16"])
-def test_a_table_of_a_spreadsheet_is_read_in_its_encoding(tmp_path: Path, coding: str) -> None:
+def test_a_table_of_a_spreadsheet_is_read_in_its_encoding(tmp_path, coding):
     lines = "名称,长度,宽度,孔距\n周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n"
     (tmp_path / "benches.csv").write_bytes(lines.encode(coding))
     done = run("check", written(tmp_path, {"dragon": "benches.csv", "stop": 5}))
@@ -172,13 +168,13 @@ def test_a_table_of_a_spreadsheet_is_read_in_its_encoding(tmp_path: Path, coding
 # -- times of day --------------------------------------------------------------------------------------------
 
 
-def test_the_day_begins_again_at_midnight() -> None:
+def test_the_day_begins_again_at_midnight():
     times = {0.0: "23:59:30", 29.999: "23:59:59", 30.0: "00:00:00", 86_400.0: "23:59:30"}
     assert {time: time_of_day(time, "23:59:30") for time in times} == times
 
 
 @pytest.mark.parametrize("more", [{}, {"start": 20.25}], ids=["whole dragon on the path", "start"])
-def test_the_dance_starts_at_its_time_of_day_and_the_verdict_says_when_it_ends(ask: Asking, more: Any) -> None:
+def test_the_dance_starts_at_its_time_of_day_and_the_verdict_says_when_it_ends(ask, more):
     body = ON_LANE | {"speed_limit": 0.5} | more
     report, without, at_zero = (ask("check", body | clock) for clock in ({"begin_clock": "19:30"}, {}, CLOCK))
     ends = f"19:30:{int(report['stop'] - report['start']):02d}"
@@ -192,9 +188,7 @@ def test_the_dance_starts_at_its_time_of_day_and_the_verdict_says_when_it_ends(a
     ("file", "options", "begin"),
     [({"start": 20}, "", 20.0), ({"start": 20}, "--start 22", 20.0), ({}, "--start 22", 7.81)],
 )
-def test_a_dance_starts_at_its_time_of_day_wherever_a_table_begins(
-    tmp_path: Path, file: Any, options: str, begin: float
-) -> None:
+def test_a_dance_starts_at_its_time_of_day_wherever_a_table_begins(tmp_path, file, options, begin):
     dance, table = written(tmp_path, ON_LANE | {"begin_clock": "19:30"} | file), tmp_path / "all.csv"
     assert run("trajectory", dance, *options.split(), "--output", str(table)).returncode == 0
     first = rows_of(table.read_text())[0]
@@ -220,11 +214,11 @@ LASTING = [{"speed": 0.96, "duration": 10}, {"speed": 0, "duration": 8}, {"speed
 
 
 @pytest.mark.parametrize("same", [{"passages": LASTING}, {"beats": BEATS}], ids=["durations", "beats"])
-def test_durations_and_beats_give_the_speeds_that_their_passages_give(ask: Asking, same: dict[str, Any]) -> None:
+def test_durations_and_beats_give_the_speeds_that_their_passages_give(ask, same):
     for call in ("check", "trajectory"):
         assert ask.file(call, MARCH | CLOCK | same) == ask.file(call, MARCH | CLOCK | {"passages": MARCHED})
 
 
-def test_a_plan_counts_in_bars_and_beats(ask: Asking) -> None:
+def test_a_plan_counts_in_bars_and_beats(ask):
     pages = pages_of(ask.file("plan", MARCH | {"beats": BEATS, "head_speed": 0.9}, "application/pdf"))
     assert "5.1 0:10.0" in " ".join(map(words_of, pages))

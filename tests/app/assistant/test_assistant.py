@@ -1,18 +1,13 @@
 """The door for assistants, through the client of the SDK: over the standard streams and over HTTP."""
 
-from __future__ import annotations
-
 import base64
 import json
 import os
 import re
 import time
-from collections.abc import Awaitable, Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from functools import partial
-from pathlib import Path
-from typing import Any
 
 import anyio
 import httpx
@@ -36,11 +31,9 @@ TOKEN = "a token of this test"
 BOOK = WORKBOOK.read_bytes()
 CONTENT = {"content": base64.b64encode(BOOK).decode()}
 
-Calls = Callable[[Client], Awaitable[Any]]
 
-
-def with_client(server: Any, work: Calls) -> Any:
-    async def run() -> Any:
+def with_client(server, work):
+    async def run():
         async with Client(server, read_timeout_seconds=PATIENCE) as client:
             return await work(client)
 
@@ -48,15 +41,15 @@ def with_client(server: Any, work: Calls) -> Any:
         return thread.submit(anyio.run, run).result()
 
 
-def with_door(work: Calls, *options: str, **environment: str) -> Any:
+def with_door(work, *options, **environment):
     """Result of work with a client of the command, in its own process."""
     settings = dict(os.environ) | environment
     return with_client(StdioServerParameters(command=COMMAND, args=["mcp", *options], env=settings), work)
 
 
-def problem_of(result: Any) -> dict[str, Any]:
+def problem_of(result):
     assert result.is_error
-    problem: dict[str, Any] = result.structured_content
+    problem = result.structured_content
     assert json.loads(result.content[0].text) == problem
     return problem
 
@@ -84,15 +77,15 @@ job_status      {"job_id": "?"}                     404
 """
 
 
-def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path) -> None:
+def test_an_assistant_asks_grades_and_looks(client, tmp_path):
     """ "When do two benches first touch at a pitch of 0.5 m?", "grade this workbook", and wrong units and sizes."""
     (tmp_path / "mine.xlsx").write_bytes(BOOK)
     (tmp_path.parent / "outside.xlsx").write_bytes(b"secret")
-    file: dict[str, Any] = {"content": BOOK, "headers": {"Content-Type": BYTES}}
+    file = {"content": BOOK, "headers": {"Content-Type": BYTES}}
     [graded] = client.post("/grade?language=en", **file).json()["files"]
 
-    async def work(door: Client) -> None:
-        async def answer(tool: str, **arguments: Any) -> Any:
+    async def work(door):
+        async def answer(tool, **arguments):
             result = await door.call_tool(tool, arguments)
             assert not result.is_error
             assert json.loads(result.content[0].text) == result.structured_content
@@ -116,12 +109,12 @@ def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path
     with_door(work, "--folder", str(tmp_path))
 
 
-def test_every_question_is_a_tool(client: httpx.Client) -> None:
+def test_every_question_is_a_tool(client):
     """Under its operation id, with the schema of its query or of its body; the twins with a body when wanted."""
     paths = client.get("/openapi.json").json()["paths"].values()
     calls = {each["operationId"]: each for path in paths for each in path.values()}
 
-    async def tools(door: Client) -> dict[str, Any]:
+    async def tools(door):
         return {tool.name: tool.input_schema for tool in (await door.list_tools()).tools}
 
     some, every = with_door(tools), with_door(tools, "--twins")
@@ -137,7 +130,7 @@ def test_every_question_is_a_tool(client: httpx.Client) -> None:
         assert set(re.findall(r"#/\$defs/(\w+)", text)) <= schema.get("$defs", {}).keys()
 
 
-def test_over_http_the_token_is_that_of_the_assistant(tmp_path: Path) -> None:
+def test_over_http_the_token_is_that_of_the_assistant(tmp_path):
     """Over the standard streams it is that of the process, which whoever started it may use."""
     with serving(tmp_path / "log", token=TOKEN) as service:
         address = f"{service.url}/mcp"
@@ -188,10 +181,10 @@ def test_a_computation_ends_with_the_assistant_that_asked_for_it(tmp_path):
     assert "Traceback" not in service.log.read_text()
 
 
-def test_a_door_without_a_folder_reads_no_file_and_has_the_pages_of_the_guide() -> None:
+def test_a_door_without_a_folder_reads_no_file_and_has_the_pages_of_the_guide():
     """The pages where the guide is installed; elsewhere there are none. Names of hosts are for HTTP alone."""
 
-    async def work(door: Client) -> dict[str, str]:
+    async def work(door):
         assert (await door.call_tool("collision_time", {})).structured_content["benches"] == [0, 8]
         refused = problem_of(await door.call_tool("grade", {"file": "/etc/hostname"}))
         assert (refused["status"], "content" in refused["detail"]) == (403, True)
@@ -204,7 +197,7 @@ def test_a_door_without_a_folder_reads_no_file_and_has_the_pages_of_the_guide() 
     assert pages == {path.stem: path.read_text("utf-8") for path in PAGES.glob("*.md")}
 
 
-def test_wrong_options_are_one_line(tmp_path: Path) -> None:
+def test_wrong_options_are_one_line(tmp_path):
     (tmp_path / "a").touch()
     for folder, words in ((f"{tmp_path}/a", f"--folder must be a folder, got {tmp_path}/a"), ("", "an empty name")):
         done = command.run("mcp", "--folder", folder)

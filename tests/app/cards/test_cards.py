@@ -20,7 +20,6 @@ from tests.support.paper import assert_fonts_are_within, pages_of, shapes_of, wo
 from tests.support.refusal_rows import assert_refused
 
 VILLAGE = Path(__file__).parents[3] / "examples" / "village_square.toml"
-ROUNDING = 1e-10  # of places [m]
 NAMES = ["=1+1", "Wang", *[f"family {k}" for k in range(2, 24)]]
 # Pauses, and the time of the day.
 FESTIVE = {

@@ -1,7 +1,5 @@
 """The contest kit, written by the real command and read again by other programs."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
@@ -12,7 +10,6 @@ import sys
 import time
 from functools import cache
 from pathlib import Path
-from typing import Any
 from zipfile import ZipFile
 
 import httpx
@@ -58,7 +55,7 @@ FIGURES_EXTRA = 'sys.modules["matplotlib"] = None'
 NO_TURN = {"ratio": 100.0, "span": 10.0}
 
 
-def kit_without(missing: str, folder: Path, language: str, *options: str) -> subprocess.CompletedProcess[str]:
+def kit_without(missing, folder, language, *options):
     """A run of the command on a machine that lacks something. missing: code that hides it"""
     code = f"import sys\n{missing}\nfrom app.command.main import app\nsys.argv[0] = 'bench-dragon'\napp()"
     words = ["contest", folder, "--language", language, "--no-films", *options]
@@ -69,7 +66,7 @@ def kit_without(missing: str, folder: Path, language: str, *options: str) -> sub
 
 
 @pytest.fixture(scope="module")
-def chinese(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def chinese(tmp_path_factory):
     """Folder of a kit whose figures nobody can draw."""
     folder = tmp_path_factory.mktemp("zh")
     assert "Error: figures and films were not written: " in kit_without(FIGURES_EXTRA, folder, "zh").stderr
@@ -77,7 +74,7 @@ def chinese(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def drawn(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+def drawn(tmp_path_factory):
     """Folder of a whole kit, and what the command printed."""
     folder = tmp_path_factory.mktemp("drawn")
     done = run("contest", str(folder), *CHINESE)
@@ -86,17 +83,17 @@ def drawn(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
 
 
 @cache
-def sheets(folder: Path, name: str) -> list[Any]:
-    return list(openpyxl.load_workbook(folder / f"{name}.xlsx").worksheets)
+def sheets(folder, name):
+    return openpyxl.load_workbook(folder / f"{name}.xlsx").worksheets
 
 
-def numbers(sheet: Any) -> np.ndarray[Any, Any]:
+def numbers(sheet):
     return np.array([row[1:] for row in sheet.iter_rows(min_row=2, values_only=True)])
 
 
 @pytest.mark.thorough
 @pytest.mark.chinese_font
-def test_the_readme_shows_the_last_line_that_the_command_prints(drawn: tuple[Path, str]) -> None:
+def test_the_readme_shows_the_last_line_that_the_command_prints(drawn):
     [(_, session)] = KITS
     command, lines = session.splitlines()
     assert command == f"$ bench-dragon contest kit {' '.join(CHINESE)} 2>/dev/null | tail -1"
@@ -104,9 +101,7 @@ def test_the_readme_shows_the_last_line_that_the_command_prints(drawn: tuple[Pat
 
 
 @pytest.mark.parametrize("name", WORKBOOKS)
-def test_a_workbook_has_the_labels_of_the_contest_to_the_blank_and_numbers_of_six_decimals(
-    chinese: Path, name: str
-) -> None:
+def test_a_workbook_has_the_labels_of_the_contest_to_the_blank_and_numbers_of_six_decimals(chinese, name):
     for sheet, known in zip(sheets(chinese, name), reference("contest_workbooks")["workbooks"][name], strict=True):
         assert (sheet.title, sheet.dimensions) == (known["title"], known["dimensions"])
         assert [cell.value for cell in sheet["A"]] == known["first_column"]
@@ -118,7 +113,7 @@ def test_a_workbook_has_the_labels_of_the_contest_to_the_blank_and_numbers_of_si
 
 
 @pytest.mark.parametrize(("name", "first", "words"), [("result1", 0, "trajectory"), ("result4", -100, "turn")])
-def test_workbooks_hold_the_reference_numbers(chinese: Path, name: str, first: int, words: str) -> None:
+def test_workbooks_hold_the_reference_numbers(chinese, name, first, words):
     place, speed = map(numbers, sheets(chinese, name))
     known = reference(words)
     instants = known["tables"] if words == "turn" else known["selected"]
@@ -131,21 +126,21 @@ def test_workbooks_hold_the_reference_numbers(chinese: Path, name: str, first: i
         assert np.abs(result - values).max() <= SIX_DECIMALS
 
 
-def test_the_second_workbook_holds_the_dance_at_first_contact(chinese: Path) -> None:
+def test_the_second_workbook_holds_the_dance_at_first_contact(chinese):
     handles = reference("trajectory")["full"][-1]["handles"]
     values = np.array([[row["x"], row["y"], row["speed"]] for row in handles])
     # The reference's instant is 1e-9 s from ours at most, and handles move at 1 m/s.
     assert np.abs(numbers(sheets(chinese, "result2")[0]) - values).max() <= SIX_DECIMALS + 1e-9
 
 
-def test_the_paper_s_table_holds_the_chosen_rows_of_the_workbook(chinese: Path) -> None:
+def test_the_paper_s_table_holds_the_chosen_rows_of_the_workbook(chinese):
     rows = list(csv.reader((chinese / "tables" / "positions.csv").read_text(encoding="utf-8-sig").splitlines()))[1:]
     handles = [handle["handle"] for handle in reference("trajectory")["selected"][0]["handles"]]
     of_workbook = numbers(sheets(chinese, "result1")[0])[[2 * k + axis for k in handles for axis in (0, 1)], :301:60]
     assert np.array([row[1:] for row in rows], dtype=float).tolist() == of_workbook.tolist()
 
 
-def test_the_answers_are_those_of_the_references_with_brackets(chinese: Path) -> None:
+def test_the_answers_are_those_of_the_references_with_brackets(chinese):
     answer = json.loads((chinese / "answers.json").read_bytes())
     assert [result["question"] for result in answer] == [1] * 5 + [2] * 2 + [3] + [4] * 7 + [5]
     assert all(result["how"] for result in answer)
@@ -162,7 +157,7 @@ def test_the_answers_are_those_of_the_references_with_brackets(chinese: Path) ->
 
 
 @pytest.mark.parametrize("name", TABLES)
-def test_a_table_says_the_same_in_every_format(chinese: Path, name: str) -> None:
+def test_a_table_says_the_same_in_every_format(chinese, name):
     files = {kind: (chinese / "tables" / f"{name}.{kind}").read_text(encoding="utf-8") for kind in ("csv", "md", "tex")}
     # Excel takes a CSV for UTF-8 if it begins with this mark.
     assert files["csv"].startswith("\ufeff")
@@ -175,7 +170,7 @@ def test_a_table_says_the_same_in_every_format(chinese: Path, name: str) -> None
     assert files["tex"].count("\\toprule") == files["tex"].count("\\bottomrule") == 1
 
 
-def assert_drawn(files: dict[str, bytes]) -> None:
+def assert_drawn(files):
     assert files["pdf"].startswith(b"%PDF-")
     assert b"/Type3" not in files["pdf"]  # journals refuse such fonts
     assert b"<svg" in files["svg"]
@@ -184,21 +179,21 @@ def assert_drawn(files: dict[str, bytes]) -> None:
         assert len(picture.convert("L").getcolors()) > 20
 
 
-def test_the_first_figure_shows_positions() -> None:
+def test_the_first_figure_shows_positions():
     solved = solve(ContestRequest(benches=9, stop=10.0, **NO_TURN), Terms(), lambda share: None)
     figure = next(figures(solved, Say(Language.ENGLISH), lambda share: None))
     assert figure.name == "positions"
     assert_drawn(figure.files)
 
 
-def links_of(page: str, folder: Path) -> int:
+def links_of(page, folder):
     """Number of links of a report, each to a file that is there."""
     links = re.findall(r"\]\(([^)]+)\)", page)
     assert [link for link in links if not (folder / link).is_file()] == []
     return len(links)
 
 
-def test_the_report_ties_everything_together(chinese: Path) -> None:
+def test_the_report_ties_everything_together(chinese):
     page = (chinese / "report.md").read_text(encoding="utf-8")
     assert links_of(page, chinese) > 15
     numbers_of_all = ("412.473837682", "0.450337393", "13.6212449", "8.2239839", "1.246266358", "板凳")
@@ -209,13 +204,11 @@ def test_the_report_ties_everything_together(chinese: Path) -> None:
 
 @pytest.mark.thorough
 @pytest.mark.chinese_font
-def test_the_report_leads_to_every_figure(drawn: tuple[Path, str]) -> None:
+def test_the_report_leads_to_every_figure(drawn):
     assert links_of((drawn[0] / "report.md").read_text(encoding="utf-8"), drawn[0]) > 40
 
 
-def test_an_english_archive_leads_to_no_figure_that_was_not_drawn(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_english_archive_leads_to_no_figure_that_was_not_drawn(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     request = ContestKitRequest(benches=9, stop=10.0, films=False, language=Language.ENGLISH, **NO_TURN)
     with ZipFile(io.BytesIO(contest_kit(request, Terms()))) as archive:
@@ -228,7 +221,7 @@ def test_an_english_archive_leads_to_no_figure_that_was_not_drawn(
 
 @pytest.mark.thorough
 @pytest.mark.chinese_font
-def test_the_service_makes_the_same_files_in_one_archive(drawn: tuple[Path, str], patient: str) -> None:
+def test_the_service_makes_the_same_files_in_one_archive(drawn, patient):
     folder, _ = drawn
     got = httpx.post(f"{patient}/contest-kit", json={"language": "zh", "films": False}, timeout=600).raise_for_status()
     assert got.headers["content-type"] == "application/zip"
@@ -250,15 +243,15 @@ def test_the_service_makes_the_same_files_in_one_archive(drawn: tuple[Path, str]
         '{"folder": "kit"} -> /folder unknown',
     ],
 )
-def test_a_kit_beyond_a_limit_is_refused_before_any_work(client: httpx.Client, row: str) -> None:
+def test_a_kit_beyond_a_limit_is_refused_before_any_work(client, row):
     assert_refused(client, "/contest-kit", {}, row)
 
 
-def test_a_kit_reports_its_progress_and_ends_when_it_is_stopped() -> None:
-    shares: list[float] = []
+def test_a_kit_reports_its_progress_and_ends_when_it_is_stopped():
+    shares = []
     budget = Budget(math.inf)
 
-    def listen(share: float) -> None:
+    def listen(share):
         shares.append(share)
         if share > 0.2:
             budget.stop()
@@ -271,7 +264,7 @@ def test_a_kit_reports_its_progress_and_ends_when_it_is_stopped() -> None:
     assert shares[-1] < 0.5
 
 
-def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp_path: Path) -> None:
+def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp_path):
     ours = ("dance.gif", "turn.mp4", "figures/geometry.png", ".unfinished/result1.xlsx")
     mine = {"notes.txt", "figures/mine.png"}
     for name in (*ours, *mine):
@@ -295,7 +288,7 @@ def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp
 
 
 @pytest.mark.thorough
-def test_a_second_run_into_the_same_folder_is_refused_until_the_first_has_ended_or_was_killed(tmp_path: Path) -> None:
+def test_a_second_run_into_the_same_folder_is_refused_until_the_first_has_ended_or_was_killed(tmp_path):
     run("--version")  # Without this the second run would first wait for the process that forks it.
     first = subprocess.Popen([COMMAND, "contest", tmp_path, "--no-films"], stderr=subprocess.DEVNULL)
     try:
@@ -315,21 +308,21 @@ def test_a_second_run_into_the_same_folder_is_refused_until_the_first_has_ended_
     assert not (tmp_path / UNFINISHED).exists()
 
 
-def test_a_folder_that_cannot_be_locked_and_a_time_after_the_fold_are_refused_in_one_line(tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_locked_and_a_time_after_the_fold_are_refused_in_one_line(tmp_path):
     assert_refused_in_one_line(f"contest {tmp_path} --stop 500 -> stop ... 432.917924")
     lock = tmp_path / "locked" / ".contest.lock"
     lock.mkdir(parents=True)
     assert_refused_in_one_line(f"contest {lock.parent} --no-films -> {lock}: cannot be locked")
 
 
-def test_a_run_without_contact_says_why_it_ends() -> None:
+def test_a_run_without_contact_says_why_it_ends():
     request = ContestRequest(benches=40, pitch=0.8, stop=10.0, **NO_TURN)
     results = answers(solve(request, Terms(), lambda share: None), Say(Language.ENGLISH))
     [one] = [one for one in results if one.question == 2]
     assert re.fullmatch(r"the run ends there: bench \d+ folds and cannot follow any further", one.how)
 
 
-def test_a_table_of_instants_after_the_contact_says_so() -> None:
+def test_a_table_of_instants_after_the_contact_says_so():
     request = ContestRequest(benches=40, pitch=0.45, stop=300.0, **NO_TURN)
     solved = solve(request, Terms(), lambda share: None)
     captions = [table.caption for table in paper_tables(solved, Say(Language.ENGLISH))]
@@ -343,9 +336,7 @@ def test_a_table_of_instants_after_the_contact_says_so() -> None:
     [({}, 5), ({"pitch": 0.8}, 3), pytest.param({"ratio": 2.0}, 6, marks=pytest.mark.thorough)],
     ids=["contact", "no contact", "contact and turn"],
 )
-def test_sensitivity_shows_first_contact_where_there_is_one(
-    changes: dict[str, float], count: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_sensitivity_shows_first_contact_where_there_is_one(changes, count, monkeypatch):
     monkeypatch.setattr("app.contest.sensitivity.VALUES", 7)
     request = ContestRequest(benches=40, stop=10.0, **NO_TURN | changes)
     drawn = panels(solve(request, Terms(), lambda share: None), Say(Language.ENGLISH))

@@ -1,7 +1,5 @@
 """Files of the command: refused before any work, and written completely or not at all."""
 
-from __future__ import annotations
-
 import errno
 import os
 import re
@@ -28,7 +26,7 @@ WRITERS = [
 QUICK = [WRITERS[0], WRITERS[2], WRITERS[4]]
 
 
-def with_target(arguments: tuple[str, ...], folder: Path) -> tuple[list[str], Path]:
+def with_target(arguments, folder):
     """The command writing into a folder, and the file."""
     *before, last = arguments
     if last == "FOLDER":
@@ -50,16 +48,14 @@ def with_target(arguments: tuple[str, ...], folder: Path) -> tuple[list[str], Pa
         ),
     ],
 )
-def test_what_cannot_be_written_is_refused_before_any_work(
-    row: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_cannot_be_written_is_refused_before_any_work(row, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert_refused_in_one_line(row)
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("arguments", QUICK, ids=" ".join)
-def test_a_place_that_cannot_be_written_is_reported_in_one_line(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+def test_a_place_that_cannot_be_written_is_reported_in_one_line(tmp_path, arguments):
     # A folder in which nobody may write, and a folder in the place of the file.
     for folder, fault in (
         (Path("/proc"), "(No such file or directory|Permission denied)"),
@@ -78,7 +74,7 @@ def test_a_place_that_cannot_be_written_is_reported_in_one_line(tmp_path: Path, 
     [one if one in QUICK else pytest.param(one, marks=pytest.mark.thorough) for one in WRITERS],
     ids=" ".join,
 )
-def test_a_full_disk_leaves_what_was_there_and_nothing_else(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+def test_a_full_disk_leaves_what_was_there_and_nothing_else(tmp_path, arguments):
     command, file = with_target(arguments, tmp_path)
     file.write_bytes(OLD)
     done = run(*command, room=ROOM)
@@ -89,7 +85,7 @@ def test_a_full_disk_leaves_what_was_there_and_nothing_else(tmp_path: Path, argu
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
-def test_a_device_is_written_to_and_never_replaced(tmp_path: Path) -> None:
+def test_a_device_is_written_to_and_never_replaced(tmp_path):
     link = tmp_path / "dance.csv"
     link.symlink_to("/dev/full")
     done = run("trajectory", "--stop", "2", "--output", str(link))
@@ -98,7 +94,7 @@ def test_a_device_is_written_to_and_never_replaced(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("arguments", QUICK, ids=" ".join)
-def test_an_existing_file_is_replaced_and_keeps_its_mode(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+def test_an_existing_file_is_replaced_and_keeps_its_mode(tmp_path, arguments):
     command, file = with_target(arguments, tmp_path)
     file.write_bytes(OLD)
     file.chmod(0o640)
@@ -108,7 +104,7 @@ def test_an_existing_file_is_replaced_and_keeps_its_mode(tmp_path: Path, argumen
     assert [path.name for path in tmp_path.iterdir()] == [file.name]
 
 
-def test_a_new_file_has_the_mode_that_the_users_mask_leaves(tmp_path: Path) -> None:
+def test_a_new_file_has_the_mode_that_the_users_mask_leaves(tmp_path):
     before = os.umask(0o027)
     try:
         write_whole(tmp_path / "new", NEW)
@@ -117,7 +113,7 @@ def test_a_new_file_has_the_mode_that_the_users_mask_leaves(tmp_path: Path) -> N
     assert (tmp_path / "new").stat().st_mode & 0o777 == 0o640
 
 
-def test_a_link_is_followed(tmp_path: Path) -> None:
+def test_a_link_is_followed(tmp_path):
     (tmp_path / "there").write_bytes(OLD)
     (tmp_path / "here").symlink_to(tmp_path / "there")
     write_whole(tmp_path / "here", NEW)
@@ -125,13 +121,13 @@ def test_a_link_is_followed(tmp_path: Path) -> None:
     assert (tmp_path / "there").read_bytes() == NEW
 
 
-def test_a_long_name_leaves_room_for_the_temporary_one(tmp_path: Path) -> None:
+def test_a_long_name_leaves_room_for_the_temporary_one(tmp_path):
     file = tmp_path / ("n" * 250 + ".csv")
     write_whole(file, NEW)
     assert file.read_bytes() == NEW
 
 
-def test_a_relative_name_is_written_beside_where_one_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_relative_name_is_written_beside_where_one_stands(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     done = run("trajectory", "--stop", "2", "--output", "dance.csv")
     assert (done.returncode, done.stderr) == (0, "dance.csv: 224 handles at 3 instants\n")
@@ -139,7 +135,7 @@ def test_a_relative_name_is_written_beside_where_one_stands(tmp_path: Path, monk
 
 
 @pytest.mark.parametrize(("is_file", "number"), [(False, errno.ENOENT), (True, errno.ENOTDIR)])
-def test_a_writer_alone_names_the_file_that_it_was_given(tmp_path: Path, is_file: bool, number: int) -> None:
+def test_a_writer_alone_names_the_file_that_it_was_given(tmp_path, is_file, number):
     file = tmp_path / "folder" / "dance"
     if is_file:
         file.parent.write_bytes(b"")

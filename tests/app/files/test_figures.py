@@ -1,13 +1,9 @@
 """The figures: their texts agree with core's answers, and their drawings can be read back from the SVG."""
 
-from __future__ import annotations
-
 import re
 import struct
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -22,26 +18,26 @@ SMALL = Dragon(benches=30)
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
-def texts(svg: bytes) -> str:
+def texts(svg):
     """All text of an SVG: matplotlib keeps each string as a comment beside its outlines."""
     parser = ElementTree.XMLParser(target=ElementTree.TreeBuilder(insert_comments=True))
     root = ElementTree.fromstring(svg, parser)
     return "\n".join(node.text or "" for node in root.iter() if node.tag is ElementTree.Comment)
 
 
-def scan_figures(dragon: Dragon, *formats: str, samples: int, margin: float = 0.0) -> list[bytes]:
+def scan_figures(dragon, *formats, samples, margin=0.0):
     circle = {"turning_radius": 4.5, "start_turns": 16.0, "margin": margin}
     result = scan_near_minimum(dragon, samples=samples, **circle)
     return [figures.pitch_scan_figure(*result, **circle, format=form) for form in formats]
 
 
-def test_trajectory_figure_names_its_axes_units_and_instant() -> None:
+def test_trajectory_figure_names_its_axes_units_and_instant():
     words = texts(figures.trajectory_figure(Dance(SMALL, Spiral()), time=120.0))
     for word in ("x [m]", "y [m]", "speed of the handle [m/s]", "120 s", "pitch 0.55 m"):
         assert word in words
 
 
-def test_contact_figure_states_the_time_pair_and_features_that_core_found() -> None:
+def test_contact_figure_states_the_time_pair_and_features_that_core_found():
     contact = first_contact(Dance(Dragon(), Spiral()))
     words = texts(figures.contact_figure(Dance(Dragon(), Spiral())))
     assert f"{contact.time:.6f} s" in words
@@ -61,11 +57,11 @@ def test_contact_figure_states_the_time_pair_and_features_that_core_found() -> N
     ],
     ids=["fold", "centre", "start"],
 )
-def test_contact_figure_says_how_the_run_ends(dance: Dance, words: str) -> None:
+def test_contact_figure_says_how_the_run_ends(dance, words):
     assert words in texts(figures.contact_figure(dance))
 
 
-def test_contact_figure_with_a_margin_states_it() -> None:
+def test_contact_figure_with_a_margin_states_it():
     coil, five = Dance(Dragon(), Spiral()), Dance(Dragon(benches=5), Spiral(9.0, 3.0))
     for words, part in (
         (texts(figures.contact_figure(Dance(SMALL, Spiral()), margin=0.05)), "Within 0.05 m: a gap of 0.050000 m at ("),
@@ -90,7 +86,7 @@ def test_contact_figure_with_a_margin_states_it() -> None:
     ],
     ids=["two corners", "parallel edges"],
 )
-def test_contact_figure_of_two_alike_names_no_other(dance: Dance, near: Any, named: str, other: str) -> None:
+def test_contact_figure_of_two_alike_names_no_other(dance, near, named, other):
     assert getattr(first_contact(dance, **near), other) is None
     words = texts(figures.contact_figure(dance, **near))
     assert named in words
@@ -98,7 +94,7 @@ def test_contact_figure_of_two_alike_names_no_other(dance: Dance, near: Any, nam
 
 
 @pytest.mark.chinese_font
-def test_figures_in_chinese_have_no_english_word_left_and_the_same_numbers() -> None:
+def test_figures_in_chinese_have_no_english_word_left_and_the_same_numbers():
     square = Venue(Area("bench 3", ([(-20, -20), (20, -20), (20, 20), (-20, 20), (-20, -20)],)))
     small = Dance(SMALL, Spiral())
     dances = [small, Dance(Dragon(5), Spiral(9.0, 3.0)), Dance(SMALL, Spiral(0.8)), Dance(Dragon(), Spiral(0.35))]
@@ -110,7 +106,7 @@ def test_figures_in_chinese_have_no_english_word_left_and_the_same_numbers() -> 
     assert_translated(partial(figures.pitch_scan_figure, *scan_near_minimum(Dragon(8), samples=5, **circle), **circle))
 
 
-def assert_translated(draw: Callable[..., bytes], kept: str = "") -> None:
+def assert_translated(draw, kept=""):
     """No word of English is left but units, axes and names; the same numbers stand in both."""
     english, chinese = (texts(draw(language=language)) for language in Language)
     assert re.findall(r"[A-Za-z]{2,}", chinese.replace(kept, "")) == []
@@ -119,14 +115,14 @@ def assert_translated(draw: Callable[..., bytes], kept: str = "") -> None:
     assert numbers[0] == numbers[1]
 
 
-def test_pitch_scan_figure_marks_minimum_pitch_and_circle() -> None:
+def test_pitch_scan_figure_marks_minimum_pitch_and_circle():
     least = minimum_pitch(SMALL)
     words = texts(*scan_figures(SMALL, "svg", samples=9))
     assert f"minimum pitch, {least.pitch:.9f} m" in words
     assert "turning circle, 4.5 m" in words
 
 
-def drawn(kind: str) -> list[bytes]:
+def drawn(kind):
     """A figure as SVG and as PNG."""
     if kind == "scan":
         return scan_figures(SMALL, "svg", "png", samples=5)
@@ -134,7 +130,7 @@ def drawn(kind: str) -> list[bytes]:
     return [draw(Dance(SMALL, Spiral()), format=form) for form in ("svg", "png")]
 
 
-def test_equal_questions_give_equal_bytes_also_in_threads() -> None:
+def test_equal_questions_give_equal_bytes_also_in_threads():
     kinds = some(("trajectory", "contact", "scan"), 2)
     alone = list(map(drawn, kinds))
     with ThreadPoolExecutor(len(kinds)) as pool:
@@ -145,10 +141,10 @@ def test_equal_questions_give_equal_bytes_also_in_threads() -> None:
         assert ElementTree.fromstring(svg).tag.endswith("svg")
 
 
-def test_trajectory_figure_after_the_end_of_the_run_is_refused() -> None:
+def test_trajectory_figure_after_the_end_of_the_run_is_refused():
     with pytest.raises(OutsideRun):
         figures.trajectory_figure(Dance(SMALL, Spiral()), time=440.0)
 
 
-def test_pitch_scan_figure_of_a_dragon_that_cannot_touch_says_so() -> None:
+def test_pitch_scan_figure_of_a_dragon_that_cannot_touch_says_so():
     assert "No contact at any of these pitches" in texts(*scan_figures(Dragon(benches=2), "svg", samples=3))

@@ -1,13 +1,10 @@
 """Films: their frames decoded again and compared with the poses, from the command, the service and a job."""
 
-from __future__ import annotations
-
 import io
 import json
 from pathlib import Path
 
 import av
-import httpx
 import numpy as np
 import pytest
 import shapely
@@ -43,7 +40,7 @@ HEAD, BODY, NEAR = (213, 94, 0), (0, 114, 178), 60
 SMALL = {"dragon": {"benches": 12}, "seconds": 1, "rate": 6, "height": 360, "stop": 60}
 
 
-def decoded(data: bytes) -> list[np.ndarray]:
+def decoded(data):
     if data.startswith(b"GIF"):
         with Image.open(io.BytesIO(data)) as picture:
             return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(picture)]
@@ -51,37 +48,37 @@ def decoded(data: bytes) -> list[np.ndarray]:
         return [frame.to_ndarray(format="rgb24") for frame in file.decode(video=0)]
 
 
-def is_like(pixel: np.ndarray, colour: tuple[int, int, int]) -> bool:
-    return bool(np.abs(pixel.astype(int) - colour).max() < NEAR)
+def is_like(pixel, colour):
+    return np.abs(pixel.astype(int) - colour).max() < NEAR
 
 
-def on_picture(stage: FilmPicture, places: np.ndarray) -> np.ndarray:
+def on_picture(stage, places):
     """Rows and columns of places in metres."""
     columns, rows = stage.axes.transData.transform(places).T
     return np.rint(np.stack([stage.canvas.get_width_height()[1] - rows, columns], axis=1)).astype(int)
 
 
-def centres(stage: FilmPicture, dance: Dance, instant: float) -> np.ndarray:
+def centres(stage, dance, instant):
     """Rows and columns of the middle of every bench at one instant."""
     return on_picture(stage, bench_poses(trajectory(dance, [instant]).position[0])[:, :2])
 
 
-def outlines_of(dance: Dance, instant: float) -> np.ndarray:
+def outlines_of(dance, instant):
     return bench_outlines(dance.dragon, trajectory(dance, [instant]).position)[0]
 
 
-def filmed(file: Path, *options: str) -> list[np.ndarray]:
+def filmed(file, *options):
     """Frames of a film that the command writes."""
     done = run("film", *options, "--output", str(file))
     assert done.returncode == 0, done.stderr
     return decoded(file.read_bytes())
 
 
-def film_of(client: httpx.Client, form: str = MP4_TYPE, **body: object) -> bytes:
+def film_of(client, form=MP4_TYPE, **body):
     return client.post("/films", json=body, headers={"Accept": form}).raise_for_status().content
 
 
-def test_every_frame_shows_every_bench_where_it_is(tmp_path: Path) -> None:
+def test_every_frame_shows_every_bench_where_it_is(tmp_path):
     words = "--path turn --start -20 --stop 40 --benches 30 --seconds 1 --rate 4"
     result = filmed(tmp_path / "dance.mp4", *words.split())
     # It has the pitch of the turn, not of the spiral, as in the table of `trajectory --path turn`.
@@ -97,7 +94,7 @@ def test_every_frame_shows_every_bench_where_it_is(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("ending", ["mp4", pytest.param("gif", marks=pytest.mark.thorough)])
-def test_the_last_frame_alone_marks_both_benches_that_touch(ending: str, tmp_path: Path) -> None:
+def test_the_last_frame_alone_marks_both_benches_that_touch(ending, tmp_path):
     pictures = filmed(tmp_path / f"dance.{ending}", "--seconds=1", "--rate=2", "--height=1080", "--head-length=1.55")
     dance = Dance(Dragon(head_length=1.55), Spiral())
     time = first_contact(dance).time
@@ -107,7 +104,7 @@ def test_the_last_frame_alone_marks_both_benches_that_touch(ending: str, tmp_pat
         assert {k for k, place in enumerate(places) if is_like(picture[tuple(place)], HEAD)} == marked
 
 
-def test_a_film_plays_as_long_as_asked_and_a_gif_too(client: httpx.Client) -> None:
+def test_a_film_plays_as_long_as_asked_and_a_gif_too(client):
     data = film_of(client, **SMALL)
     # A player can begin before it has all of it: the table stands before the pictures.
     assert 0 < data.find(b"moov") < data.find(b"mdat")
@@ -123,17 +120,17 @@ def test_a_film_plays_as_long_as_asked_and_a_gif_too(client: httpx.Client) -> No
 @pytest.mark.parametrize(
     "row", ['{"seconds": 120, "rate": 60, "height": 2160} -> /seconds 4000', '{"stop": 500} -> /stop']
 )
-def test_a_film_that_is_too_large_or_outside_the_run_is_refused(client: httpx.Client, row: str) -> None:
+def test_a_film_that_is_too_large_or_outside_the_run_is_refused(client, row):
     assert_refused(client, "/films", {}, row)
 
 
 @pytest.mark.parametrize("form", [MP4_TYPE, pytest.param(GIF_TYPE, marks=pytest.mark.thorough)])
 @pytest.mark.parametrize("frames", some(range(0, 20, 2), 2))
-def test_stopping_a_film_harms_no_other(form: str, frames: int) -> None:
+def test_stopping_a_film_harms_no_other(form, frames):
     """Its encoder may be writing a frame. The process lives on, and the next film is drawn."""
     budget = Budget()
 
-    def stop_after(share: float) -> None:
+    def stop_after(share):
         if share * spec.times.size >= frames:
             budget.stop()
 
@@ -152,7 +149,7 @@ HEARD = 0.010
 LOUD, APART = 0.15, 0.2
 
 
-def onsets(data: bytes) -> list[float]:
+def onsets(data):
     """Times at which the sound of a film begins to be loud [s], by the times that its packets name."""
     with av.open(io.BytesIO(data)) as file:
         stream = file.streams.audio[0]
@@ -164,14 +161,14 @@ def onsets(data: bytes) -> list[float]:
     return [float(one) for k, one in enumerate(loud) if k == 0 or one - loud[k - 1] > APART]
 
 
-def assert_heard(data: bytes, beats: list[float], spec: FilmSpec) -> None:
+def assert_heard(data, beats, spec):
     """A stroke on each of the beats [s of the dance], and none beside them."""
     # Each frame shows its instant as long as it stands; between two of them time goes on evenly.
     heard = np.interp(beats, spec.times, np.arange(spec.times.size) / spec.rate)
     assert onsets(data) == pytest.approx(heard, abs=HEARD)
 
 
-def test_the_drum_of_a_film_is_on_the_beat(client: httpx.Client) -> None:
+def test_the_drum_of_a_film_is_on_the_beat(client):
     spec = FilmSpec(1.0, 6.0, 8.0, 10)
     times = {"start": 1.0, "stop": 6.0, "seconds": 8.0, "rate": 10, "height": 90}
     request = {"dragon": {"benches": 3}, "beats": MARCH, **times}
@@ -184,7 +181,7 @@ def test_the_drum_of_a_film_is_on_the_beat(client: httpx.Client) -> None:
     assert film_of(client, **request) == data
 
 
-def test_a_film_counts_bars_and_beats_and_shows_the_time_of_day() -> None:
+def test_a_film_counts_bars_and_beats_and_shows_the_time_of_day():
     music = Music([Bars(2, 96.0, 0.6), Bars(2, 132.0, 0.3, beats=3)])
     dance = Dance(Dragon(3), Spiral(), 1.0, music.passages)
     stage = FilmPicture(dance, FilmSpec(0.0, 9.0, music=music, start_clock="19:30"), None, "")
@@ -197,7 +194,7 @@ def test_a_film_counts_bars_and_beats_and_shows_the_time_of_day() -> None:
 WHITE = 250
 
 
-def digits_at(picture: np.ndarray, row: int, column: int, word: str) -> bool:
+def digits_at(picture, row, column, word):
     """True if these digits stand in a picture of 1080 rows in their white, with their middle at a place."""
     digits = pictures_of([word], size_of(1080), BLUE, DPI)[0].astype(int)
     full, face = digits[..., 3] == 255, digits[..., :3].min(axis=-1)
@@ -209,12 +206,12 @@ def digits_at(picture: np.ndarray, row: int, column: int, word: str) -> bool:
     return any(seen[thick].all() and not seen[around].any() for seen in windows)
 
 
-def fronts(stage: FilmPicture, outlines: np.ndarray) -> np.ndarray:
+def fronts(stage, outlines):
     """Rows and columns halfway from the middle of each bench to its front."""
     return on_picture(stage, 0.5 * (outlines.mean(axis=1) + outlines[:, :2].mean(axis=1)))
 
 
-def test_the_head_and_every_tenth_bench_have_their_numbers() -> None:
+def test_the_head_and_every_tenth_bench_have_their_numbers():
     dance = Dance(Dragon(), Spiral())
     stage = FilmPicture(dance, FilmSpec(0.0, 300.0), None, "")
     for instant in (0.0, 171.3):
@@ -228,7 +225,7 @@ def test_the_head_and_every_tenth_bench_have_their_numbers() -> None:
     ("benches", "spacing", "step"),
     [(223, 110.0, 10), (300, 110.0, 10), (24, 110.0, 1), (223, 2.0, 50), (2000, 9.0, 100)],
 )
-def test_a_small_picture_and_a_long_dragon_have_fewer_numbers(benches: int, spacing: float, step: int) -> None:
+def test_a_small_picture_and_a_long_dragon_have_fewer_numbers(benches, spacing, step):
     assert list(numbered(benches, spacing, size_of(1080))) == list(range(0, benches, step))
 
 
@@ -236,7 +233,7 @@ YELLOW = (240, 228, 66)
 VILLAGE = Path(__file__).parents[3] / "examples" / "village_square.geojson"
 
 
-def village(height: int = 540, marked: tuple[tuple[int, int], ...] = ((0, 17),)) -> tuple[FilmPicture, Venue]:
+def village(height=540, marked=((0, 17),)):
     """A picture of a dragon that winds across the village square, so far away that a bench is two pixels wide."""
     square, *obstacles = (
         Area(one["properties"]["name"], tuple(tuple(map(tuple, ring)) for ring in one["geometry"]["coordinates"]))
@@ -250,7 +247,7 @@ def village(height: int = 540, marked: tuple[tuple[int, int], ...] = ((0, 17),))
 
 
 @pytest.mark.parametrize("height", [540, pytest.param(1080, marks=pytest.mark.thorough)])
-def test_a_marked_bench_is_wide_enough_to_be_seen_and_its_number_beside_it(height: int) -> None:
+def test_a_marked_bench_is_wide_enough_to_be_seen_and_its_number_beside_it(height):
     stage, _ = village(height)
     numbers = stage.layers[0].labels[1]
     for instant in (0.0, 40.0, 70.0, 90.0, 119.0):
@@ -271,7 +268,7 @@ def test_a_marked_bench_is_wide_enough_to_be_seen_and_its_number_beside_it(heigh
         assert (digits.max(axis=-1) < 60).sum() > 20
 
 
-def test_a_number_stands_on_the_outer_side_of_a_bend_and_does_not_flicker() -> None:
+def test_a_number_stands_on_the_outer_side_of_a_bend_and_does_not_flicker():
     stage, _ = village()
     numbers, changes, before = stage.layers[0].labels[1], 0, 0.0
     for instant in np.linspace(0.0, 119.0, 400):
@@ -285,7 +282,7 @@ def test_a_number_stands_on_the_outer_side_of_a_bend_and_does_not_flicker() -> N
     assert 2 <= changes <= 5
 
 
-def test_names_of_areas_stand_where_these_are_wide_and_off_the_path() -> None:
+def test_names_of_areas_stand_where_these_are_wide_and_off_the_path():
     stage, venue = village()
     (names,) = stage.names
     places = map(shapely.Point, stage.axes.transData.inverted().transform(names.places))
@@ -302,7 +299,7 @@ def test_names_of_areas_stand_where_these_are_wide_and_off_the_path() -> None:
             assert 0.0 < shape.distance(place) < 8.0, area.name
 
 
-def test_marked_benches_have_number_and_name_and_are_chosen_by_either(tmp_path: Path) -> None:
+def test_marked_benches_have_number_and_name_and_are_chosen_by_either(tmp_path):
     names = [*("" for _ in range(11)), "Li"]
     dance = Dance(Dragon(benches=12).named(names), Spiral())
     stage = FilmPicture(dance, FilmSpec(0.0, 60.0, marked=((0, 7), (0, 11))), None, "")
@@ -314,7 +311,7 @@ def test_marked_benches_have_number_and_name_and_are_chosen_by_either(tmp_path: 
     assert not np.array_equal(films[0], films[2])
 
 
-def test_the_time_stands_where_a_text_of_matplotlib_would() -> None:
+def test_the_time_stands_where_a_text_of_matplotlib_would():
     stage, _ = village()
     height, words = 540, "benches 3 and 9 touch\n1:23.0 (83.06 s)"
     stage.time.text = words

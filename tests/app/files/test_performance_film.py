@@ -1,15 +1,9 @@
 """Films of several dragons: every bench where it is, in the colour of its dragon, up to the first touch."""
 
-from __future__ import annotations
-
 import json
-from typing import Any
 
-import httpx
-import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
-from numpy.typing import NDArray
 
 from app.files.film_spec import GIF_TYPE, FilmSpec
 from app.files.performance_film import PerformancePicture
@@ -24,7 +18,7 @@ from core import Budget, TooMuchWork, bench_outlines, first_contact, first_encou
 from tests.app.files.test_film import assert_heard, decoded
 from tests.support.refusal_rows import assert_refused
 
-TWO: dict[str, Any] = json.loads("""{"dances": [
+TWO = json.loads("""{"dances": [
     {"name": "east", "dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}},
     {"dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}, "delay": 2}
 ], "venue": {"type": "Polygon", "coordinates": [[[-5, -25], [35, -25], [35, 25], [-5, 25], [-5, -25]]]},
@@ -33,12 +27,12 @@ EAST, NORTH = TWO["dances"]
 PERFORMANCE, _ = FilmRequest.model_validate(TWO).to_placed(Settings())
 
 
-def film_of(body: dict[str, Any]) -> list[NDArray[np.uint8]]:
+def film_of(body):
     """Pictures of a film as GIF."""
     return decoded(QUESTION.to_bytes(checked(FilmRequest, body), Terms(), GIF_TYPE))
 
 
-def test_every_bench_is_drawn_in_the_colour_of_its_dragon() -> None:
+def test_every_bench_is_drawn_in_the_colour_of_its_dragon():
     stage = PerformancePicture(PERFORMANCE, FilmSpec(14.0, 30.0, height=720, start_clock="19:30"), "Lanterns")
     for time in (14.0, 20.5):  # the second one still stands at the first time
         outlines = outlines_at(time)
@@ -50,7 +44,7 @@ def test_every_bench_is_drawn_in_the_colour_of_its_dragon() -> None:
     assert stage.time.text == "19:30:20 (20.50 s)"
 
 
-def outlines_at(time: float) -> list[NDArray[np.float64]]:
+def outlines_at(time):
     pairs = zip(PERFORMANCE.parts, performance_trajectory(PERFORMANCE, time), strict=True)
     return [bench_outlines(part.dance.dragon, one.position) for part, one in pairs]
 
@@ -62,13 +56,13 @@ def outlines_at(time: float) -> list[NDArray[np.float64]]:
         pytest.param(Language.CHINESE, "第 2 节（east）与第 0 节（1 号龙）板凳相碰", marks=pytest.mark.chinese_font),
     ],
 )
-def test_the_benches_that_touch_are_named(language: Language, words: str) -> None:
+def test_the_benches_that_touch_are_named(language, words):
     stage = PerformancePicture(PERFORMANCE, FilmSpec(20.0, 30.0, height=180, language=language), "")
     stage.picture(20.5, outlines_at(20.5), (0, 1), (2, 0))
     assert stage.time.text.startswith(words)
 
 
-def test_the_film_ends_at_the_first_encounter_and_marks_it() -> None:
+def test_the_film_ends_at_the_first_encounter_and_marks_it():
     met = first_encounter(PERFORMANCE)
     own, cut = film_of(TWO), film_of(TWO | {"stop": met.time})
     assert len(own) == len(cut) == 4
@@ -76,7 +70,7 @@ def test_the_film_ends_at_the_first_encounter_and_marks_it() -> None:
     assert (own[-1] != cut[-1]).any()
 
 
-def test_the_film_ends_at_the_first_contact_of_a_dragon_by_itself() -> None:
+def test_the_film_ends_at_the_first_contact_of_a_dragon_by_itself():
     coiled = {"dragon": {"benches": 12}, "path": {"kind": "spiral", "start_turns": 5}}
     time = first_contact(checked(FilmRequest, coiled).to_dance(100)).time
     far = NORTH | {"path": {"kind": "waypoints", "points": [[90, -20], [90, 20]]}}
@@ -86,7 +80,7 @@ def test_the_film_ends_at_the_first_contact_of_a_dragon_by_itself() -> None:
     assert (own[-1] != cut[-1]).any()
 
 
-def test_a_stopped_budget_ends_the_film() -> None:
+def test_a_stopped_budget_ends_the_film():
     budget = Budget()
     budget.stop()
     with pytest.raises(TooMuchWork):
@@ -94,14 +88,14 @@ def test_a_stopped_budget_ends_the_film() -> None:
 
 
 @pytest.mark.parametrize("row", ['{"head_speed": 1.0} -> /head_speed', '{"stop": 99} -> /stop 41.999'])
-def test_a_film_that_cannot_be_is_refused(client: httpx.Client, row: str) -> None:
+def test_a_film_that_cannot_be_is_refused(client, row):
     assert_refused(client, "/films", TWO, row)
 
 
 BEATS = [{"bars": 8, "tempo": 96, "step": 0.6}]
 
 
-def counted(dances: list[dict[str, Any]], time: float) -> str:
+def counted(dances, time):
     """The words of a picture at a time, before those of the time."""
     request = checked(FilmRequest, TWO | {"dances": dances})
     spec = FilmSpec(14.0, 18.0, height=90, **shared_music(request.dances or [], Say(request.language)))
@@ -109,7 +103,7 @@ def counted(dances: list[dict[str, Any]], time: float) -> str:
     return stage.words(time).partition("  ")[0]
 
 
-def test_the_drum_is_that_of_the_first_dragon_with_beats_on_the_clock_of_all(client: httpx.Client) -> None:
+def test_the_drum_is_that_of_the_first_dragon_with_beats_on_the_clock_of_all(client):
     body = TWO | {"dances": [EAST, NORTH | {"beats": BEATS}], "start": 14, "stop": 18, "seconds": 6, "rate": 10}
     data = client.post("/films", json=body).raise_for_status().content
     # The second dragon begins at 2 s.
@@ -118,7 +112,7 @@ def test_the_drum_is_that_of_the_first_dragon_with_beats_on_the_clock_of_all(cli
     assert_heard(data, beats, FilmSpec(14.0, 18.0, 6.0, 10))
 
 
-def test_the_count_names_its_dragon_unless_all_have_the_same_beats() -> None:
+def test_the_count_names_its_dragon_unless_all_have_the_same_beats():
     own, other = {"beats": BEATS}, {"beats": [{"bars": 8, "tempo": 120, "step": 0.5}]}
     # 12 s are 19.2 beats of the first music, and 14 s are 22.4 of it.
     assert counted([EAST, NORTH | own], 14.0) == "dragon 1: bar 5 beat 4"

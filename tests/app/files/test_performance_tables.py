@@ -1,13 +1,9 @@
 """Tables of several dragons in every form, over HTTP and from a terminal: the numbers of core, and who has them."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
-from typing import Any
 
-import httpx
 import numpy as np
 import openpyxl
 import pyarrow as pa
@@ -18,10 +14,9 @@ from app.files.tables import ARROW_TYPE, CSV_TYPE, XLSX_TYPE, Language
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
 from core import TooLarge, performance_trajectory
-from core.values import Floats
 from tests.support.refusal_rows import assert_refused
 
-TWO: dict[str, Any] = json.loads("""{"dances": [
+TWO = json.loads("""{"dances": [
     {"name": "east", "dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[0, 0], [40, 0]]}},
     {"dragon": {"benches": 5, "names": ["Zhou", "Wu", "", "Zheng, \\"Wang\\"", "=Feng"]}, "delay": 12.5,
      "path": {"kind": "waypoints", "points": [[15, -20], [15, 20]]}}
@@ -29,17 +24,17 @@ TWO: dict[str, Any] = json.loads("""{"dances": [
 TIMES = np.array(TWO["times"], dtype=np.float64)
 
 
-def results() -> list[tuple[Floats, Floats]]:
+def results():
     """Positions (T, H, 2) and speeds (T, H) of each dragon."""
     performance = TrajectoryRequest.model_validate(TWO).to_performance(Settings())
     return [(one.position, one.speed) for one in performance_trajectory(performance, TIMES)]
 
 
-def ask(client: httpx.Client, form: str = "application/json", **more: Any) -> httpx.Response:
+def ask(client, form="application/json", **more):
     return client.post("/trajectory", json=TWO | more, headers={"accept": form}).raise_for_status()
 
 
-def test_json_has_a_table_for_each_dragon(client: httpx.Client) -> None:
+def test_json_has_a_table_for_each_dragon(client):
     for decimals in (None, 2):
         got = ask(client, decimals=decimals).json()
         assert (got["time"], [table["name"] for table in got["dances"]]) == (TIMES.tolist(), ["east", None])
@@ -48,7 +43,7 @@ def test_json_has_a_table_for_each_dragon(client: httpx.Client) -> None:
             assert [table["x"], table["y"], table["speed"]] == (known.round(decimals) if decimals else known).tolist()
 
 
-def test_csv_has_the_dragon_before_each_line(client: httpx.Client) -> None:
+def test_csv_has_the_dragon_before_each_line(client):
     heads, *lines = csv.reader(io.StringIO(ask(client, CSV_TYPE).text))
     assert heads == ["dragon", "dragon_name", "time", "handle", "x", "y", "speed", "name", "clock"]
     names = ["head", "body 1", "body 2", "tail", "tail (rear)"], [
@@ -63,8 +58,8 @@ def test_csv_has_the_dragon_before_each_line(client: httpx.Client) -> None:
     ]
 
 
-def test_without_names_and_clock_csv_has_no_columns_for_them_and_arrow_has_the_same(client: httpx.Client) -> None:
-    simple: dict[str, Any] = {"dances": [TWO["dances"][0] | {"name": None}] * 2, "start_clock": None}
+def test_without_names_and_clock_csv_has_no_columns_for_them_and_arrow_has_the_same(client):
+    simple = {"dances": [TWO["dances"][0] | {"name": None}] * 2, "start_clock": None}
     lines = list(csv.reader(io.StringIO(ask(client, CSV_TYPE, **simple).text)))
     assert lines[0] == ["dragon", "time", "handle", "x", "y", "speed"]
     table = pa.ipc.open_file(pa.BufferReader(ask(client, ARROW_TYPE, **simple).content)).read_all()
@@ -72,7 +67,7 @@ def test_without_names_and_clock_csv_has_no_columns_for_them_and_arrow_has_the_s
     assert table.to_pydict() == {name: [float(line[k]) for line in lines[1:]] for k, name in enumerate(lines[0])}
 
 
-def test_a_workbook_has_two_sheets_for_each_dragon_and_refuses_too_many_columns(client: httpx.Client) -> None:
+def test_a_workbook_has_two_sheets_for_each_dragon_and_refuses_too_many_columns(client):
     book = openpyxl.load_workbook(io.BytesIO(ask(client, XLSX_TYPE).content))
     assert book.sheetnames == ["positions 0", "speeds 0", "positions 1", "speeds 1"]
     position, _ = results()[1]
@@ -95,5 +90,5 @@ def test_a_workbook_has_two_sheets_for_each_dragon_and_refuses_too_many_columns(
         '{"times": {"step": 1e-6}} -> /times/step instants',
     ],
 )
-def test_a_wrong_value_is_refused(client: httpx.Client, row: str) -> None:
+def test_a_wrong_value_is_refused(client, row):
     assert_refused(client, "/trajectory", TWO, row)

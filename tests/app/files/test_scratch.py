@@ -1,14 +1,11 @@
 """Temporary folders: what a killed process leaves is removed at the next start, what a living one has is not."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import httpx
@@ -30,7 +27,7 @@ FILM = {"question": "films", "request": {}}
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path, monkeypatch):
     """The folder of temporary files, of this process and of those that it starts."""
     place = tmp_path / "temporary"
     place.mkdir()
@@ -39,13 +36,13 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return place
 
 
-def holding() -> tuple[subprocess.Popen[str], Path]:
+def holding():
     """Another process with a temporary folder."""
     process = subprocess.Popen([sys.executable, "-c", HOLD], stdout=subprocess.PIPE, text=True)
     return process, Path(process.stdout.readline().strip())
 
 
-def test_the_folder_of_a_killed_process_is_removed_and_that_of_a_living_one_stays() -> None:
+def test_the_folder_of_a_killed_process_is_removed_and_that_of_a_living_one_stays():
     with temporary("own-") as own:
         processes, folders = zip(holding(), holding(), strict=True)
         try:
@@ -63,7 +60,7 @@ def test_the_folder_of_a_killed_process_is_removed_and_that_of_a_living_one_stay
     assert not Path(own).exists()
 
 
-def test_what_has_no_lock_or_is_used_by_a_job_or_is_no_folder_is_left_alone(folder: Path) -> None:
+def test_what_has_no_lock_or_is_used_by_a_job_or_is_no_folder_is_left_alone(folder):
     for name in ("bench-dragon-strange", "bench-dragon-data-used", "other", "elsewhere"):
         (folder / name).mkdir()
     (folder / "bench-dragon-file").touch()
@@ -79,7 +76,7 @@ def test_what_has_no_lock_or_is_used_by_a_job_or_is_no_folder_is_left_alone(fold
     assert reclaim() == [folder / "bench-dragon-data-used"]
 
 
-def unwritable(environment: Callable[[str, str], None], tmp_path: Path) -> None:
+def unwritable(environment, tmp_path):
     """A home where matplotlib may not write: a file, because a test may run as root."""
     (tmp_path / "home").touch()
     environment("XDG_CONFIG_HOME", str(tmp_path / "home"))
@@ -88,9 +85,7 @@ def unwritable(environment: Callable[[str, str], None], tmp_path: Path) -> None:
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("workers", [1, 2])
-def test_what_a_killed_service_leaves_is_gone_after_the_next_start(
-    folder: Path, tmp_path: Path, workers: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_a_killed_service_leaves_is_gone_after_the_next_start(folder, tmp_path, workers, monkeypatch):
     monkeypatch.delenv("MPLCONFIGDIR", raising=False)
     unwritable(monkeypatch.setenv, tmp_path)
     with serving(tmp_path / "log", workers, limit=os.setsid) as service:

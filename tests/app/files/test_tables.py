@@ -1,7 +1,5 @@
 """A trajectory as a file, read back by programs that we did not write."""
 
-from __future__ import annotations
-
 import csv
 import io
 import sys
@@ -16,7 +14,6 @@ from app.extras import MissingPackage
 from app.files import tables
 from app.files.tables import Language
 from core import Dance, Dragon, Spiral, TooLarge, Trajectory, trajectory
-from core.values import Floats
 
 pytestmark = pytest.mark.uncompiled
 
@@ -25,48 +22,48 @@ ROUNDING = 1e-15  # [m and m/s]: of the decimal text itself
 
 
 @pytest.fixture(scope="module")
-def dance() -> Trajectory:
+def dance():
     return trajectory(Dance(Dragon(benches=5), Spiral()), [0.0, 0.5, 10.0])
 
 
-def columns_of(dance: Trajectory) -> list[Floats]:
+def columns_of(dance):
     """time, handle, x, y, speed, row by row."""
     instants, handles = dance.speed.shape
     x, y = dance.position.reshape(-1, 2).T
     return [np.repeat(dance.time, handles), np.tile(np.arange(handles), instants), x, y, dance.speed.ravel()]
 
 
-def test_csv_holds_every_number_in_full_precision(dance: Trajectory) -> None:
+def test_csv_holds_every_number_in_full_precision(dance):
     rows = list(csv.reader(io.StringIO(tables.trajectory_csv(dance).decode())))
     assert tuple(rows[0]) == ("time", "handle", "x", "y", "speed")
     read = np.array(rows[1:], dtype=np.float64).T
     assert np.array_equal(read, np.array(columns_of(dance)))
 
 
-def test_csv_rounds_when_asked(dance: Trajectory) -> None:
+def test_csv_rounds_when_asked(dance):
     rows = list(csv.reader(io.StringIO(tables.trajectory_csv(dance, decimals=6).decode())))[1:]
     assert all(len(text.partition(".")[2]) <= 6 for row in rows for text in row[2:])
     assert np.abs(np.array(rows, dtype=np.float64).T - columns_of(dance)).max() <= SIX_DECIMALS + ROUNDING
 
 
-def test_rounding_never_writes_a_negative_zero(dance: Trajectory) -> None:
+def test_rounding_never_writes_a_negative_zero(dance):
     position = dance.position.copy()
     position[0, 0, 1] = -1e-15  # as rounding may leave of 0
     assert b"-0.0," not in tables.trajectory_csv(replace(dance, position=position), decimals=6)
 
 
-def test_csv_of_no_instant_is_its_header() -> None:
+def test_csv_of_no_instant_is_its_header():
     nothing = Trajectory(np.empty(0), np.empty((0, 3, 2)), np.empty((0, 3, 2)), np.empty((0, 3)))
     assert tables.trajectory_csv(nothing) == b"time,handle,x,y,speed\n"
 
 
-def test_arrow_reads_back_as_the_same_numbers(dance: Trajectory) -> None:
+def test_arrow_reads_back_as_the_same_numbers(dance):
     table = pyarrow.ipc.open_file(tables.trajectory_arrow(dance)).read_all()
     assert tuple(table.column_names) == ("time", "handle", "x", "y", "speed")
     assert np.array_equal([column.to_numpy() for column in table.columns], columns_of(dance))
 
 
-def test_arrow_without_pyarrow_says_what_to_install(dance: Trajectory, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_arrow_without_pyarrow_says_what_to_install(dance, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(MissingPackage, match=r"pip install 'bench-dragon\[arrow\]'"):
         tables.trajectory_arrow(dance)
@@ -80,7 +77,7 @@ def test_arrow_without_pyarrow_says_what_to_install(dance: Trajectory, monkeypat
     ],
     ids=["english", "chinese"],
 )
-def test_workbook_has_the_layout_of_the_contest(dance: Trajectory, language: Language, words: list[str]) -> None:
+def test_workbook_has_the_layout_of_the_contest(dance, language, words):
     book = openpyxl.load_workbook(io.BytesIO(tables.trajectory_xlsx(dance, language=language)))
     (heads, *positions), (same, *speeds) = (list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets)
     assert heads == same == (None, "0 s", "0.5 s", "10 s")
@@ -95,16 +92,16 @@ def test_workbook_has_the_layout_of_the_contest(dance: Trajectory, language: Lan
     ("benches", "names"),
     [(1, "龙头 龙尾（后）"), (2, "龙头 龙尾 龙尾（后）"), (4, "龙头 第1节龙身 第2节龙身 龙尾 龙尾（后）")],
 )
-def test_handles_are_named_after_the_bench_that_they_lead(benches: int, names: str) -> None:
+def test_handles_are_named_after_the_bench_that_they_lead(benches, names):
     assert tables.handle_names(benches, Language.CHINESE) == names.split()
 
 
 @pytest.mark.parametrize("write", [tables.trajectory_csv, tables.trajectory_xlsx, tables.trajectory_arrow])
-def test_equal_trajectories_give_equal_bytes(dance: Trajectory, write) -> None:  # type: ignore[no-untyped-def]
+def test_equal_trajectories_give_equal_bytes(dance, write):
     assert write(dance) == write(trajectory(Dance(Dragon(benches=5), Spiral()), [0.0, 0.5, 10.0]))
 
 
-def test_workbook_refuses_more_instants_than_it_has_columns() -> None:
+def test_workbook_refuses_more_instants_than_it_has_columns():
     still = Trajectory(np.arange(16_384.0), *(np.zeros((16_384, 2, 2)),) * 2, np.zeros((16_384, 2)))
     with pytest.raises(TooLarge, match="16383 instants"):
         tables.trajectory_xlsx(still)

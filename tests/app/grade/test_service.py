@@ -17,7 +17,7 @@ FILE = {"Content-Type": "application/octet-stream"}
 def graded(client, data, **query):
     answer = client.post("/grade", content=data, params=query, headers=FILE).raise_for_status()
     assert answer.headers["cache-control"] == "no-store"
-    return dict(answer.json())
+    return answer.json()
 
 
 @pytest.fixture(scope="module")

@@ -1,16 +1,11 @@
 """bench-dragon jobs, with a data folder and with a service."""
 
-from __future__ import annotations
-
 import json
 import re
 import socket
-import subprocess
 import time
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from datetime import datetime
-from pathlib import Path
 
 import pytest
 
@@ -36,24 +31,24 @@ cancel --older-than -7d --data .                got -7d
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
+def service(tmp_path_factory):
     with JobService(tmp_path_factory.mktemp("jobs"), token=TOKEN) as service:
         service.client.headers["Authorization"] = f"Bearer {TOKEN}"
         yield service
 
 
-def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+def run(*arguments):
     return command.run("jobs", *arguments)
 
 
 @pytest.fixture(params=["folder", "service"])
-def place(request: pytest.FixtureRequest, service: JobService) -> list[str]:
+def place(request, service):
     if request.param == "folder":
         return ["--data", str(service.folder)]
     return ["--url", f"http://127.0.0.1:{service.port}", "--token", TOKEN]
 
 
-def test_a_job_is_listed_shown_answered_and_removed(service: JobService, place: list[str], tmp_path: Path) -> None:
+def test_a_job_is_listed_shown_answered_and_removed(service, place, tmp_path):
     job = service.done(SHORT).rpartition("/")[2]
     assert re.search(rf"{job}.*successful", run("list", *place).stdout)
     assert json.loads(run("show", job, "--json", *place).stdout)["processID"] == "collision_time"
@@ -67,8 +62,8 @@ def test_a_job_is_listed_shown_answered_and_removed(service: JobService, place: 
 
 
 @pytest.mark.thorough
-def test_all_jobs_or_the_old_ones_are_cancelled(service: JobService, place: list[str]) -> None:
-    def cancelled(*options: str) -> tuple[str, ...]:
+def test_all_jobs_or_the_old_ones_are_cancelled(service, place):
+    def cancelled(*options):
         """Numbers of jobs dismissed and removed."""
         words = run("cancel", *options, *place).stdout.split()
         assert words[2::3] == ["dismissed,", "removed"]
@@ -89,7 +84,7 @@ def test_all_jobs_or_the_old_ones_are_cancelled(service: JobService, place: list
 
 
 @pytest.mark.parametrize("row", WRONG.strip().splitlines())
-def test_what_is_wrong_is_one_line(row: str) -> None:
+def test_what_is_wrong_is_one_line(row):
     line, _, words = row.partition("  ")
     done = run(*line.split())
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
@@ -107,8 +102,8 @@ def test_what_is_wrong_is_one_line(row: str) -> None:
     ],
     ids=["no_jobs", "broken_off", "odd_status", "no_http", "nothing"],
 )
-def test_an_address_of_something_else_is_refused_in_one_line(answer: bytes, words: str) -> None:
-    def reply(server: socket.socket) -> None:
+def test_an_address_of_something_else_is_refused_in_one_line(answer, words):
+    def reply(server):
         peer, _ = server.accept()
         with peer, peer.makefile("rb") as lines:
             while lines.readline().strip():
@@ -122,13 +117,13 @@ def test_an_address_of_something_else_is_refused_in_one_line(answer: bytes, word
     assert "\n" not in refused.value.message
 
 
-def test_a_damaged_store_is_refused_in_one_line(tmp_path: Path) -> None:
+def test_a_damaged_store_is_refused_in_one_line(tmp_path):
     (tmp_path / "jobs.sqlite").write_bytes(b"no database" * 1_000)
     done = run("list", "--data", str(tmp_path))
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert f"--data {tmp_path}" in done.stderr
 
 
-def test_a_service_says_what_it_refuses(service: JobService) -> None:
+def test_a_service_says_what_it_refuses(service):
     done = run("list", "--url", f"http://127.0.0.1:{service.port}")
     assert (done.returncode, "token" in done.stderr) == (2, True)

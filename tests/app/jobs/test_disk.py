@@ -1,11 +1,7 @@
 """A full disk: every call about jobs says so, no file is incomplete, and freed space is used."""
 
-from __future__ import annotations
-
 import subprocess
-from collections.abc import Iterator
 from contextlib import suppress
-from pathlib import Path
 
 import pytest
 
@@ -24,7 +20,7 @@ pytestmark = [pytest.mark.root, pytest.mark.thorough]
 
 
 @pytest.fixture
-def small_disk(tmp_path: Path) -> Iterator[Path]:
+def small_disk(tmp_path):
     """A disk of one megabyte, which only root may mount."""
     folder = tmp_path / "disk"
     folder.mkdir()
@@ -35,7 +31,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
         subprocess.run(["umount", "--lazy", folder], check=True)
 
 
-def fill(folder: Path, name: str = "filler") -> Path:
+def fill(folder, name="filler"):
     """A file that takes the rest of the disk."""
     file = folder / name
     with file.open("wb", buffering=0) as filler, suppress(OSError):
@@ -44,7 +40,7 @@ def fill(folder: Path, name: str = "filler") -> Path:
     return file
 
 
-def test_a_full_disk_is_reported_and_freed_space_is_used(small_disk: Path) -> None:
+def test_a_full_disk_is_reported_and_freed_space_is_used(small_disk):
     with JobService(small_disk / "data") as service:
         first, too_big = service.done(SHORT), service.post(BIG)
         assert service.finished(too_big)["status"] == "failed"

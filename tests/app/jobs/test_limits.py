@@ -1,14 +1,10 @@
 """Limits of the jobs of a service: each is refused with its status, and they hold together."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import pytest
 
@@ -23,7 +19,7 @@ AGE = 2.0  # [s] that a finished job is kept
 
 
 @pytest.fixture(scope="module")
-def strict(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
+def strict(tmp_path_factory):
     """A service with small limits, and a token that its client has."""
     limits = {"jobs_client_max": 2, "jobs_max": 4, "jobs_running_max": 1, "jobs_listeners_max": 1}
     limits["job_result_bytes_max"] = RESULT_BYTES_MAX
@@ -32,7 +28,7 @@ def strict(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
         yield service
 
 
-def test_without_the_token_no_job_is_made_and_none_is_listed_and_no_file_taken(strict: JobService) -> None:
+def test_without_the_token_no_job_is_made_and_none_is_listed_and_no_file_taken(strict):
     later, typed, file = {"Prefer": "respond-async"}, {"Content-Type": "application/json"}, {"Content-Type": BYTES}
     for method, call, body, headers in (
         ("POST", "/jobs", b'{"question": "turn"}', typed),
@@ -51,7 +47,7 @@ def test_without_the_token_no_job_is_made_and_none_is_listed_and_no_file_taken(s
         assert strict.client.request(method, call, headers={"Authorization": ""}).status_code == 200
 
 
-def test_who_has_the_token_sees_all_jobs_and_who_has_an_address_sees_that_job(strict: JobService) -> None:
+def test_who_has_the_token_sees_all_jobs_and_who_has_an_address_sees_that_job(strict):
     address = strict.done(SHORT)
     [job] = strict.client.get("/jobs").json()["jobs"]
     assert f"/jobs/{job['jobID']}" == job["links"][0]["href"] == address
@@ -66,7 +62,7 @@ def test_who_has_the_token_sees_all_jobs_and_who_has_an_address_sees_that_job(st
     strict.remove(address)
 
 
-def test_a_client_has_only_so_many_unfinished_jobs_and_then_what_is_finished_gives_way(strict: JobService) -> None:
+def test_a_client_has_only_so_many_unfinished_jobs_and_then_what_is_finished_gives_way(strict):
     small = {"question": "trajectory", "request": {"dragon": {"benches": 2}, "times": [0]}}
     addresses = [strict.done(small), strict.post(ENDLESS), strict.post(ENDLESS)]
     assert strict.status(addresses[2])["status"] == "accepted"  # one runs at once, the other waits
@@ -86,7 +82,7 @@ def test_a_client_has_only_so_many_unfinished_jobs_and_then_what_is_finished_giv
     strict.remove(*addresses)
 
 
-def test_a_result_that_is_too_long_is_not_kept(strict: JobService) -> None:
+def test_a_result_that_is_too_long_is_not_kept(strict):
     address = strict.post({"question": "trajectory", "request": {"times": [0]}})
     assert strict.finished(address)["status"] == "failed"
     answer = strict.result(address)
@@ -95,7 +91,7 @@ def test_a_result_that_is_too_long_is_not_kept(strict: JobService) -> None:
     strict.remove(address)
 
 
-def test_only_so_many_clients_may_listen(strict: JobService) -> None:
+def test_only_so_many_clients_may_listen(strict):
     address = strict.post(LONG)
     with strict.client.stream("GET", f"{address}/events") as first:
         lines = first.iter_lines()  # It holds the connection.
@@ -108,7 +104,7 @@ def test_only_so_many_clients_may_listen(strict: JobService) -> None:
 
 
 @pytest.fixture(scope="module")
-def brief(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
+def brief(tmp_path_factory):
     """A service whose jobs have little memory and are soon forgotten."""
     limits = {"job_memory_max": 2**31, "job_days_max": AGE / DAY, "jobs_bytes_max": 1_000, "cells_max": 10**9}
     with JobService(tmp_path_factory.mktemp("brief"), **limits) as service:
@@ -116,7 +112,7 @@ def brief(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
 
 
 @pytest.mark.thorough
-def test_results_expire_and_then_all_that_is_known_of_the_job(brief: JobService) -> None:
+def test_results_expire_and_then_all_that_is_known_of_the_job(brief):
     address = brief.done(SHORT)
     full = brief.client.post("/jobs", json=SHORT)
     assert full.status_code == 507
@@ -128,7 +124,7 @@ def test_results_expire_and_then_all_that_is_known_of_the_job(brief: JobService)
 
 
 @pytest.mark.thorough
-def test_a_job_that_wants_too_much_memory_fails_in_words(brief: JobService) -> None:
+def test_a_job_that_wants_too_much_memory_fails_in_words(brief):
     address = brief.post({"question": "trajectory", "request": {"times": {"stop": 400, "step": 1e-4}}})
     assert brief.finished(address)["status"] == "failed"
     answer = brief.result(address)
@@ -136,7 +132,7 @@ def test_a_job_that_wants_too_much_memory_fails_in_words(brief: JobService) -> N
 
 
 @pytest.mark.thorough
-def test_a_job_that_runs_too_long_is_ended(tmp_path: Path) -> None:
+def test_a_job_that_runs_too_long_is_ended(tmp_path):
     wanted = LONG | {"request": {"times": {"stop": 400, "step": 0.1}}}
     with JobService(tmp_path, job_seconds_max=1, workbook_cells_max=10**7) as service:
         status = service.finished(service.post(wanted))
@@ -145,7 +141,7 @@ def test_a_job_that_runs_too_long_is_ended(tmp_path: Path) -> None:
         wait_for(lambda: not service.of("child"))
 
 
-def test_a_data_folder_that_cannot_be_used_costs_the_jobs_alone(tmp_path: Path) -> None:
+def test_a_data_folder_that_cannot_be_used_costs_the_jobs_alone(tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("no folder")
     with JobService(blocked) as service:
@@ -155,7 +151,7 @@ def test_a_data_folder_that_cannot_be_used_costs_the_jobs_alone(tmp_path: Path) 
         assert service.client.get("/readyz").status_code == 503
 
 
-def damage(folder: Path) -> None:
+def damage(folder):
     with (folder / "jobs.sqlite").open("r+b") as file:
         file.write(b"no database" * 1000)
     for rest in ("jobs.sqlite-wal", "jobs.sqlite-shm"):
@@ -164,15 +160,13 @@ def damage(folder: Path) -> None:
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("harm", [shutil.rmtree, damage])
-def test_a_store_that_fails_while_the_service_runs_promises_nothing(
-    tmp_path: Path, harm: Callable[[Path], None]
-) -> None:
+def test_a_store_that_fails_while_the_service_runs_promises_nothing(tmp_path, harm):
     folder, fault = tmp_path / "data", "and is tried again each second"
     with JobService(folder) as service:
         address = service.done(SHORT)
         harm(folder)
 
-        def statuses(*paths: str) -> list[int]:
+        def statuses(*paths):
             return [service.client.get(path).status_code for path in paths]
 
         # What SQLite still has in memory is read from a damaged file, and nothing of one that is gone.

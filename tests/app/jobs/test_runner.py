@@ -1,16 +1,11 @@
 """Jobs survive the death of any process of the service."""
 
-from __future__ import annotations
-
 import json
 import os
 import sqlite3
 import subprocess
 import sys
-from collections.abc import Iterator
 from contextlib import closing
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -25,13 +20,13 @@ KILLS, SEED = 4, 1
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
+def service(tmp_path_factory):
     settings = {"jobs_client_max": 1000, "deadline_seconds": 600}
     with JobService(tmp_path_factory.mktemp("jobs"), workers=2, **settings) as service:
         yield service
 
 
-def begun(service: JobService, wanted: Any = SCAN) -> str:
+def begun(service, wanted=SCAN):
     """Address of a new job that has a process by now."""
     address = service.post(wanted)
     service.until(address, "running")
@@ -39,20 +34,20 @@ def begun(service: JobService, wanted: Any = SCAN) -> str:
     return address
 
 
-def kill(service: JobService, role: str) -> None:
+def kill(service, role):
     """Kills the processes of this role, of which there is one at least, and returns when they are gone."""
     wait_for(lambda: service.of(role))
     killed = {process.pid for process in service.of(role) if process.kill() is None}
     wait_for(lambda: not killed & {process.pid for process in service.processes()})
 
 
-def assert_same(service: JobService, address: str, wanted: Any) -> None:
+def assert_same(service, address, wanted):
     """The job ends with the bytes of the direct call."""
     assert service.finished(address)["status"] == "successful"
     assert service.result(address).content == direct(service.client, wanted).content
 
 
-def test_a_process_does_one_job_after_another_and_a_job_begins_again_when_its_process_is_killed(tmp_path: Path) -> None:
+def test_a_process_does_one_job_after_another_and_a_job_begins_again_when_its_process_is_killed(tmp_path):
     with JobService(tmp_path) as service:
         spare = []
         for pitch in (0.5, 0.51):
@@ -67,12 +62,12 @@ def test_a_process_does_one_job_after_another_and_a_job_begins_again_when_its_pr
 
 
 @pytest.mark.deep  # The next one kills each of them once.
-def test_processes_may_be_killed_at_any_moment(service: JobService) -> None:
+def test_processes_may_be_killed_at_any_moment(service):
     assert sum(survive(service, KILLS, SEED, pause=0.5, busy=1).values()) == KILLS
 
 
 @pytest.mark.thorough
-def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service: JobService) -> None:
+def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service):
     done = service.done(SHORT)  # Its process waits for another job.
     result = service.result(done).content
     kill(service, "spare")
@@ -95,7 +90,7 @@ def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service: JobS
 
 
 @pytest.mark.thorough
-def test_a_job_that_ends_its_process_three_times_has_failed(service: JobService) -> None:
+def test_a_job_that_ends_its_process_three_times_has_failed(service):
     address = begun(service, ENDLESS)
     for _ in range(3):
         kill(service, "child")
@@ -106,7 +101,7 @@ def test_a_job_that_ends_its_process_three_times_has_failed(service: JobService)
 
 
 @pytest.mark.thorough
-def test_two_services_with_one_folder_have_one_runner(tmp_path: Path) -> None:
+def test_two_services_with_one_folder_have_one_runner(tmp_path):
     with JobService(tmp_path) as one, JobService(tmp_path) as two:
         for address in (one.post(SHORT), two.post(SHORT | {"request": {"pitch": 0.51}})):
             assert two.finished(address)["status"] == "successful"
@@ -132,20 +127,16 @@ for module in runner, work:
 """
 
 
-def test_the_processes_of_jobs_log_in_the_form_of_the_service(tmp_path: Path) -> None:
+def test_the_processes_of_jobs_log_in_the_form_of_the_service(tmp_path):
     pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
     command = [sys.executable, "-c", LOGGING, str(tmp_path)]
     with subprocess.Popen(command, env=os.environ | {"BENCH_DRAGON_LOG_JSON": "true"}, **pipes) as process:
-        assert process.stdin is not None
-        assert process.stderr is not None
         send(process.stdin, MessageKind.TASK, b"job")
         assert [json.loads(line)["message"] for line in process.stderr] == ["app.jobs.runner", "app.jobs.work"]
 
 
-def test_a_disk_that_stays_full_is_reported_once(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    def step(self: runner.Runner) -> None:
+def test_a_disk_that_stays_full_is_reported_once(tmp_path, monkeypatch, caplog):
+    def step(self):
         raise sqlite3.OperationalError("database or disk is full")
 
     monkeypatch.setattr(runner.Runner, "step", step)

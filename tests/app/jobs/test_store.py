@@ -1,16 +1,12 @@
 """The store of jobs: its content, and the transitions between states."""
 
-from __future__ import annotations
-
 import random
 import re
 import secrets
 import sqlite3
 import time
 from collections import Counter
-from collections.abc import Iterator
 from contextlib import closing
-from pathlib import Path
 from threading import Timer
 
 import orjson
@@ -28,22 +24,22 @@ ADDRESS = "192.0.2.77"
 
 
 @pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
+def store(tmp_path):
     with closing(Store(tmp_path / "data")) as store:
         yield store
 
 
-def make(store: Store, client: str = "client", limits: Settings = ROOM, question: str = "turn") -> str:
+def make(store, client="client", limits=ROOM, question="turn"):
     return store.create(question, b"call", client, limits).id
 
 
-def written(store: Store, data: bytes = b"answer") -> Path:
+def written(store, data=b"answer"):
     file = store.results / ".new"
     file.write_bytes(data)
     return file
 
 
-def ended(store: Store, client: str = "client", limits: Settings = ROOM) -> str:
+def ended(store, client="client", limits=ROOM):
     """A job of a client that has an answer."""
     job = make(store, client, limits)
     assert store.take() == job
@@ -51,21 +47,21 @@ def ended(store: Store, client: str = "client", limits: Settings = ROOM) -> str:
     return job
 
 
-def in_turn(store: Store, of_client: int | None = None) -> Iterator[str]:
+def in_turn(store, of_client=None):
     """The jobs one after the other; each fails when the next one is taken."""
     while job := store.take(of_client=of_client):
         yield job
         store.fail(job, PROBLEM)
 
 
-def test_names_of_jobs_are_long_and_never_the_same_and_they_run_in_the_order_of_their_calls(store: Store) -> None:
+def test_names_of_jobs_are_long_and_never_the_same_and_they_run_in_the_order_of_their_calls(store):
     made = [make(store) for _ in range(10)]
     assert len(set(made)) == 10
     assert all(re.fullmatch(ID_PATTERN, name) for name in made)
     assert list(in_turn(store)) == made
 
 
-def test_what_was_running_waits_for_a_new_runner_a_sweep_with_its_progress_and_half_results_go(store: Store) -> None:
+def test_what_was_running_waits_for_a_new_runner_a_sweep_with_its_progress_and_half_results_go(store):
     made = [make(store, question=question) for question in ("sweep", "turn")]
     for job in made:
         assert store.take() == job
@@ -79,7 +75,7 @@ def test_what_was_running_waits_for_a_new_runner_a_sweep_with_its_progress_and_h
     assert [store.known(job).progress for job in made] == [40, 0]
 
 
-def test_a_result_is_kept_and_reported_again_when_its_state_could_not_be_written(store: Store) -> None:
+def test_a_result_is_kept_and_reported_again_when_its_state_could_not_be_written(store):
     job = ended(store)
     store.succeed(job, store.results / ".new", "text/plain")
     assert store.result(job).read_bytes() == b"answer"
@@ -87,7 +83,7 @@ def test_a_result_is_kept_and_reported_again_when_its_state_could_not_be_written
     assert len(store.events(job, 0)) == 3
 
 
-def test_the_result_of_a_dismissed_job_is_not_kept(store: Store) -> None:
+def test_the_result_of_a_dismissed_job_is_not_kept(store):
     job = make(store)
     store.take()
     assert [store.dismiss(job), store.dismiss(job)] == [True, False]
@@ -96,7 +92,7 @@ def test_the_result_of_a_dismissed_job_is_not_kept(store: Store) -> None:
     assert not store.result(job).exists()
 
 
-def test_a_job_may_end_its_process_twice_and_is_then_in_no_way_changed(store: Store) -> None:
+def test_a_job_may_end_its_process_twice_and_is_then_in_no_way_changed(store):
     job = make(store)
     for death in range(1, DEATHS_MAX + 1):
         assert store.take() == job
@@ -110,7 +106,7 @@ def test_a_job_may_end_its_process_twice_and_is_then_in_no_way_changed(store: St
     assert (store.known(job), store.events(job, 0)) == before
 
 
-def test_only_the_latest_events_are_kept_under_their_numbers(store: Store) -> None:
+def test_only_the_latest_events_are_kept_under_their_numbers(store):
     """A job whose work is done is not at a hundred percent before its answer is there."""
     job = make(store)
     store.take()
@@ -132,7 +128,7 @@ def test_only_the_latest_events_are_kept_under_their_numbers(store: Store) -> No
         ("jobs_bytes_max", 6, FullOfBytes),
     ],
 )
-def test_no_job_is_taken_where_there_is_no_room(store: Store, limit: str, most: int, error: type[Full]) -> None:
+def test_no_job_is_taken_where_there_is_no_room(store, limit, most, error):
     job, room = (make if error is FullForClient else ended)(store), Settings(**{limit: most})
     store.take()
     with pytest.raises(error) as refused:
@@ -143,7 +139,7 @@ def test_no_job_is_taken_where_there_is_no_room(store: Store, limit: str, most: 
     make(store, limits=room)
 
 
-def test_a_folder_of_another_layout_is_not_touched(store: Store) -> None:
+def test_a_folder_of_another_layout_is_not_touched(store):
     with closing(sqlite3.connect(store.folder / "jobs.sqlite", isolation_level=None)) as connection:
         connection.execute("PRAGMA user_version = 99")
     with pytest.raises(OSError, match="to another version"):
@@ -172,9 +168,7 @@ LAYOUTS = {
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-def test_jobs_of_the_layouts_before_are_taken_over_without_the_addresses_of_their_clients(
-    tmp_path: Path, layout: int
-) -> None:
+def test_jobs_of_the_layouts_before_are_taken_over_without_the_addresses_of_their_clients(tmp_path, layout):
     rows = [
         ("a", ADDRESS, "accepted", 1, None),
         ("b", ADDRESS, "running", 2, None),
@@ -204,7 +198,7 @@ def test_jobs_of_the_layouts_before_are_taken_over_without_the_addresses_of_thei
     assert not any(ADDRESS.encode() in file.read_bytes() for file in tmp_path.iterdir() if file.is_file())
 
 
-def test_jobs_of_the_layout_with_calls_among_the_jobs_are_taken_over(tmp_path: Path) -> None:
+def test_jobs_of_the_layout_with_calls_among_the_jobs_are_taken_over(tmp_path):
     with closing(Store(tmp_path)) as store:
         job = make(store, ADDRESS)
     with closing(sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None)) as old:
@@ -219,7 +213,7 @@ def test_jobs_of_the_layout_with_calls_among_the_jobs_are_taken_over(tmp_path: P
             make(store, ADDRESS, Settings(jobs_client_max=1))
 
 
-def test_of_a_client_a_hash_is_kept_which_another_folder_does_not_have(tmp_path: Path) -> None:
+def test_of_a_client_a_hash_is_kept_which_another_folder_does_not_have(tmp_path):
     names = set()
     for folder in (tmp_path / "a", tmp_path / "b"):
         with closing(Store(folder)) as store:
@@ -231,12 +225,12 @@ def test_of_a_client_a_hash_is_kept_which_another_folder_does_not_have(tmp_path:
     assert len([name for name in names if re.fullmatch("[0-9a-f]{24}", name)]) == 2
 
 
-def gone(store: Store, jobs: list[str]) -> list[int]:
+def gone(store, jobs):
     """The number of each job, from 0, whose result gave way."""
     return [number for number, job in enumerate(jobs) if store.known(job).expired == GAVE_WAY]
 
 
-def test_the_oldest_finished_job_of_a_client_gives_way_to_its_next_one(store: Store) -> None:
+def test_the_oldest_finished_job_of_a_client_gives_way_to_its_next_one(store):
     room = Settings(jobs_client_kept_max=3)
     others = ended(store, "other", room)
     jobs = [ended(store, "client", room) for _ in range(5)]
@@ -247,13 +241,13 @@ def test_the_oldest_finished_job_of_a_client_gives_way_to_its_next_one(store: St
     assert (store.counts().kept, store.counts().gave_way, store.counts().of_client) == (4, 2, 3)
 
 
-def test_a_result_takes_the_room_of_older_ones_of_its_client(store: Store) -> None:
+def test_a_result_takes_the_room_of_older_ones_of_its_client(store):
     assert gone(store, [ended(store, limits=Settings(jobs_client_bytes_max=25)) for _ in range(4)]) == [0, 1]
     assert store.counts().used == 20
 
 
 @pytest.mark.parametrize("seed", range(200))
-def test_only_who_has_at_least_as_much_makes_room_and_a_refusal_says_when_there_will_be_some(seed: int) -> None:
+def test_only_who_has_at_least_as_much_makes_room_and_a_refusal_says_when_there_will_be_some(seed):
     """Whatever is in the store, against the words of app.jobs.room."""
     chance = random.Random(seed)
     now, names = 1e9, [f"client {k}" for k in range(chance.randrange(1, 6))]
@@ -270,7 +264,7 @@ def test_only_who_has_at_least_as_much_makes_room_and_a_refusal_says_when_there_
     may = [row for row in rows if row not in latest or now - row.finished >= FRESH]
     may = [row for row in may if row.client == asking or counts[row.client] >= counts[asking]]
 
-    def gone(later: float = 0.0) -> list[str]:
+    def gone(later=0.0):
         room = Room(rows, asking, limits, now + later)
         room.make(1)
         return room.gone
@@ -287,7 +281,7 @@ def test_only_who_has_at_least_as_much_makes_room_and_a_refusal_says_when_there_
         gone(refused.value.seconds - 1e-3)
 
 
-def test_what_gave_way_is_remembered_only_so_long(store: Store) -> None:
+def test_what_gave_way_is_remembered_only_so_long(store):
     room = Settings(jobs_client_kept_max=1, jobs_max=5, job_days_max=1e-9)
     for _ in range(20):
         ended(store, "client", room)
@@ -295,14 +289,14 @@ def test_what_gave_way_is_remembered_only_so_long(store: Store) -> None:
     assert len(store.events(store.all()[-1].id, 0)) == 1
 
 
-def test_places_alternate_between_clients_and_short_jobs_come_first_within_one(store: Store) -> None:
+def test_places_alternate_between_clients_and_short_jobs_come_first_within_one(store):
     wanted = [("a", 9.0), ("a", 1.0), ("a", 5.0), ("b", 50.0), ("b", 7.0), ("c", 99.0)]
     made = {store.create("turn", b"", client, ROOM, cost).id: (client, cost) for client, cost in wanted}
     turns = [made[job] for job in in_turn(store, of_client=1)]
     assert turns == [("a", 1.0), ("b", 7.0), ("c", 99.0), ("a", 5.0), ("b", 50.0), ("a", 9.0)]
 
 
-def test_a_client_takes_no_more_places_than_its_share_and_who_has_fewest_comes_first(store: Store) -> None:
+def test_a_client_takes_no_more_places_than_its_share_and_who_has_fewest_comes_first(store):
     first = [make(store, "a") for _ in range(4)]
     assert [store.take(of_client=2) for _ in range(3)] == [*first[:2], None]
     store.fail(first[0], PROBLEM)
@@ -310,7 +304,7 @@ def test_a_client_takes_no_more_places_than_its_share_and_who_has_fewest_comes_f
     assert [store.take(of_client=2) for _ in range(3)] == [other[0], first[2], other[1]]
 
 
-def test_who_comes_under_a_new_address_or_removes_its_jobs_does_not_come_before_those_that_waited(store: Store) -> None:
+def test_who_comes_under_a_new_address_or_removes_its_jobs_does_not_come_before_those_that_waited(store):
     patient = [make(store, "patient") for _ in range(3)]
     assert store.take() == patient[0]
     store.fail(patient[0], PROBLEM)
@@ -324,7 +318,7 @@ def test_who_comes_under_a_new_address_or_removes_its_jobs_does_not_come_before_
     assert turns == [patient[1], sly[0], patient[2], sly[1], sly[2]]
 
 
-def test_a_store_is_opened_while_another_process_makes_its_database(tmp_path: Path) -> None:
+def test_a_store_is_opened_while_another_process_makes_its_database(tmp_path):
     """SQLite refuses at once to change the mode of a database while another connection writes."""
     with closing(sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None, check_same_thread=False)) as other:
         other.execute("BEGIN IMMEDIATE")
@@ -335,9 +329,7 @@ def test_a_store_is_opened_while_another_process_makes_its_database(tmp_path: Pa
         made.join()
 
 
-def test_a_removal_leaves_no_copy_where_rows_were_moved_unless_the_store_is_too_large(
-    store: Store, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_removal_leaves_no_copy_where_rows_were_moved_unless_the_store_is_too_large(store, monkeypatch):
     """With these names SQLite moves rows between its pages, and copies stay behind."""
     seeded = random.Random(10)
     monkeypatch.setattr(secrets, "token_hex", lambda size: seeded.randbytes(size).hex())
@@ -345,7 +337,7 @@ def test_a_removal_leaves_no_copy_where_rows_were_moved_unless_the_store_is_too_
     made = sorted(store.create("turn", seeded.randbytes(75).hex().encode(), "client", many).id for _ in range(100))
     assert len(list(in_turn(store))) == 100
 
-    def kept() -> int:
+    def kept():
         files = [file.read_bytes() for file in store.folder.glob("jobs.sqlite*")]
         return sum(any(name.encode() in data for data in files) for name in made[::2])
 
@@ -360,14 +352,14 @@ def test_a_removal_leaves_no_copy_where_rows_were_moved_unless_the_store_is_too_
     assert (store.must_clear(), kept(), len(store.all())) == (False, 0, 50)
 
 
-def test_expired_calls_and_jobs_leave_no_byte(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_expired_calls_and_jobs_leave_no_byte(store, monkeypatch):
     day_ago = time.time() - 86_400.0
     with monkeypatch.context() as then:
         then.setattr(time, "time", lambda: day_ago)
         job = store.create("turn", b"a call like no other", "client", ROOM).id
         assert list(in_turn(store)) == [job]
 
-    def has(words: bytes) -> bool:
+    def has(words):
         return any(words in (store.folder / name).read_bytes() for name in ("jobs.sqlite", "jobs.sqlite-wal"))
 
     for days, left, words in ((0.75, 1, b"a call like no other"), (0.25, 0, job.encode())):

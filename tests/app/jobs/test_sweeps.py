@@ -1,11 +1,6 @@
 """POST /sweeps on the real service: the table has the bytes of an undisturbed sweep after any disturbance."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Iterator
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -23,7 +18,7 @@ TOKEN = "correct horse"
 WIDTHS = {"start": 0.2, "stop": 0.3, "count": 60}
 # Some seconds of work, a shard of which is done at once. Progress is reported twice a second, and three kills leave
 # more than a second of work (0.045 s a design, 2026-11-27).
-LONG_SPEC: dict[str, Any] = {
+LONG_SPEC = {
     "question": "check",
     "over": {"dragon.width": WIDTHS},
     "request": {"dragon": {"benches": 40}},
@@ -47,25 +42,25 @@ WRONG = """
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
+def service(tmp_path_factory):
     limits = {"sweep_designs_max": 500, "sweep_shards_max": 100, "sweep_processes": 1}
     with JobService(tmp_path_factory.mktemp("sweeps"), token=TOKEN, **limits) as service:
         service.client.headers.update({"Authorization": f"Bearer {TOKEN}"})
         yield service
 
 
-def parts(service: JobService) -> dict[str, tuple[int, int]]:
+def parts(service):
     """The shards of all sweeps: which file each is, and when it was written."""
     result = sorted((service.folder / "sweeps").glob("*/part-*"))
     return {file.name: (file.stat().st_ino, file.stat().st_mtime_ns) for file in result}
 
 
-def metric(service: JobService, name: str) -> float:
+def metric(service, name):
     lines = service.client.get("/metrics").text.splitlines()
     return next(float(line.removeprefix(name)) for line in lines if line.startswith(f"{name} "))
 
 
-def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: JobService, tmp_path: Path) -> None:
+def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service, tmp_path):
     """The tests of killed sweeps and of the cluster compare Parquet."""
     expected = answered(tmp_path / "a", Spec.of(SPEC))
     expected.to_csv(tmp_path / "a.csv")
@@ -74,7 +69,7 @@ def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: JobServ
     status = service.finished(as_parquet)  # The last one.
     assert [status[name] for name in ("status", "processID", "done", "total")] == ["successful", "sweep", 40, 40]
 
-    def taken(address: str, form: str) -> tuple[str, bytes]:
+    def taken(address, form):
         """The form of a result, and its bytes."""
         answer = service.client.get(f"{address}/result", headers={"Accept": form})
         return answer.headers["content-type"].partition(";")[0], answer.content
@@ -98,9 +93,7 @@ def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: JobServ
 
 
 @pytest.mark.thorough
-def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_its_shards(
-    service: JobService, tmp_path: Path
-) -> None:
+def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_its_shards(service, tmp_path):
     address = service.post(LONG_SPEC, "/sweeps")
     for kill in range(3):
         before = len(parts(service))
@@ -126,7 +119,7 @@ def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_i
 
 
 @pytest.mark.thorough
-def test_a_dismissed_sweep_leaves_no_shard_nor_process_and_others_are_answered_meanwhile(service: JobService) -> None:
+def test_a_dismissed_sweep_leaves_no_shard_nor_process_and_others_are_answered_meanwhile(service):
     address, waits = service.post(ENDLESS_SPEC, "/sweeps"), service.post(ENDLESS_SPEC, "/sweeps")
     wait_for(lambda: parts(service))
     service.done(SHORT)
@@ -144,12 +137,12 @@ def test_a_dismissed_sweep_leaves_no_shard_nor_process_and_others_are_answered_m
 
 
 @pytest.mark.parametrize("row", WRONG.strip().splitlines())
-def test_what_is_wrong_is_refused_at_once_by_its_place(service: JobService, row: str) -> None:
+def test_what_is_wrong_is_refused_at_once_by_its_place(service, row):
     status, pointer, wanted = row.replace("%s", "[" * 300 + "]" * 300).split(maxsplit=2)
     answer = service.client.post("/sweeps", json={"question": "collision_time"} | json.loads(wanted))
     assert answer.status_code == int(status)
     assert answer.json()["errors"][0]["pointer"].startswith(pointer)
 
 
-def test_the_token_guards_sweeps(service: JobService) -> None:
+def test_the_token_guards_sweeps(service):
     assert service.client.post("/sweeps", json=SPEC, headers={"Authorization": ""}).status_code == 401

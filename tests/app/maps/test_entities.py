@@ -54,7 +54,7 @@ def names(result):
 
 def corners(result):
     """The outline of the square."""
-    return list(result.venue.square.rings[0])
+    return [*result.venue.square.rings[0]]
 
 
 def posted(client, data):
@@ -322,7 +322,7 @@ def test_a_venue_says_its_grid_in_two_numbers(client, row):
 
 def rounded(corner_count, place=0.0):
     angles = np.linspace(0.0, 2 * np.pi, corner_count, endpoint=False)
-    return list((20.0 * np.stack([np.cos(angles), np.sin(angles)], axis=-1) + place).tolist())
+    return (20.0 * np.stack([np.cos(angles), np.sin(angles)], axis=-1) + place).tolist()
 
 
 @pytest.mark.parametrize("square", [True, False])

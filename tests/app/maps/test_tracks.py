@@ -48,7 +48,7 @@ def noisy(seed=1):
 def farthest(points, path):
     """How far the points are from a path at most [m]."""
     line = path.position(np.linspace(path.begin, path.end, 4_000))
-    return float(KDTree(line).query(points)[0].max())
+    return KDTree(line).query(points)[0].max()
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -1,14 +1,9 @@
 """The plan on paper, opened again by another program: true to scale, words that can be found, fonts within."""
 
-from __future__ import annotations
-
 import ctypes
 import json
 import re
-from pathlib import Path
-from typing import Any
 
-import httpx
 import numpy as np
 import pypdfium2.raw as pdfium
 import pytest
@@ -26,7 +21,7 @@ from tests.support.refusal_rows import assert_refused
 
 # Millimetres in a point of PDF, and how well a place on paper is known [mm].
 POINT, ON_PAPER = 25.4 / 72.0, 0.02
-BODY: dict[str, Any] = json.loads("""{
+BODY = json.loads("""{
     "dragon": {"benches": 6}, "margin": 0.3, "title": "Lantern night",
     "path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [40, 0]}]},
     "venue": {"type": "FeatureCollection", "origin": {"longitude": 120.1, "latitude": 30.2}, "features": [
@@ -38,44 +33,44 @@ BODY: dict[str, Any] = json.loads("""{
 }""")
 
 
-def printed(body: dict[str, Any]) -> bytes:
+def printed(body):
     """The plan, which no deadline ends."""
     return PLAN.to_bytes(checked(PlanRequest, body), Terms(), PDF_TYPE)
 
 
-def plan_of(body: dict[str, Any], **more: Any) -> list[Any]:
+def plan_of(body, **more):
     return pages_of(printed(body | more))
 
 
 @pytest.fixture(scope="module")
-def data(client: httpx.Client) -> bytes:
+def data(client):
     answer = client.post("/plan", json=BODY).raise_for_status()
     assert answer.headers["content-type"] == "application/pdf"
     return answer.content
 
 
 @pytest.fixture
-def pages(data: bytes) -> Any:
+def pages(data):
     return pages_of(data)
 
 
-def size(page: Any) -> list[float]:
+def size(page):
     return [POINT * side for side in page.get_size()]
 
 
-def boxes(page: Any) -> np.ndarray[Any, Any]:
+def boxes(page):
     """Boxes (N, 4) of all drawn shapes: left, bottom, right, top [mm]."""
     return POINT * np.array(shapes_of(page))
 
 
-def holds_box(page: Any, width: float, height: float) -> bool:
+def holds_box(page, width, height):
     result = boxes(page)
     sizes = result[:, 2:] - result[:, :2]
     # The bounds of a shape hold the line around it, too.
-    return bool((np.abs(sizes - [width, height]) < 0.9).all(axis=1).any())
+    return (np.abs(sizes - [width, height]) < 0.9).all(axis=1).any()
 
 
-def test_ten_metres_are_fifty_millimetres_at_one_to_two_hundred(pages: Any) -> None:
+def test_ten_metres_are_fifty_millimetres_at_one_to_two_hundred(pages):
     assert size(pages[0]) == pytest.approx([297.0, 210.0], abs=0.01)
     assert "1:200" in words_of(pages[0])
     result = boxes(pages[0])
@@ -90,7 +85,7 @@ def test_ten_metres_are_fifty_millimetres_at_one_to_two_hundred(pages: Any) -> N
     assert holds_box(pages[0], 250.0, 120.0)
 
 
-def test_all_that_is_promised_can_be_found_as_words(pages: Any) -> None:
+def test_all_that_is_promised_can_be_found_as_words(pages):
     texts = list(map(words_of, pages))
     assert len(pages) == 5
     first = "Lantern night|kiosk|N|keep clear, 0.3 m|chalk mark every 5 m|Checked: passes|1/5"
@@ -104,11 +99,11 @@ def test_all_that_is_promised_can_be_found_as_words(pages: Any) -> None:
     assert [word for word in f"{ends}|{rows}".split("|") if word not in texts[4]] == []
 
 
-def test_every_font_is_in_the_file(data: bytes) -> None:
+def test_every_font_is_in_the_file(data):
     assert_fonts_are_within(data)
 
 
-def test_no_words_are_painted_over(pages: Any) -> None:
+def test_no_words_are_painted_over(pages):
     drawn = list(pages[-1].get_objects())
     colour = [ctypes.c_uint() for _ in range(4)]
     bands = [
@@ -122,7 +117,7 @@ def test_no_words_are_painted_over(pages: Any) -> None:
     assert max(bands) < min(k for k, one in enumerate(drawn) if one.type == pdfium.FPDF_PAGEOBJ_TEXT)
 
 
-def test_nothing_leaves_the_paper_and_no_sheet_is_empty(pages: Any) -> None:
+def test_nothing_leaves_the_paper_and_no_sheet_is_empty(pages):
     for page in pages:
         text = page.get_textpage()
         rects = POINT * np.array([text.get_rect(k) for k in range(text.count_rects())])
@@ -132,7 +127,7 @@ def test_nothing_leaves_the_paper_and_no_sheet_is_empty(pages: Any) -> None:
         assert (rects[:, 2:] < [wide - MARGIN + 0.5, high - MARGIN + 0.5]).all()
 
 
-def test_a_path_that_goes_on_beyond_the_map_ends_at_its_frame() -> None:
+def test_a_path_that_goes_on_beyond_the_map_ends_at_its_frame():
     body = {"dragon": {"benches": 6}, "path": {"kind": "turn", "pitch": 1.7}, "start": -20, "stop": 20}
     dots = 2.0  # in a millimetre
     picture = plan_of(body)[0].render(scale=dots * POINT).to_numpy()[..., :3].copy()
@@ -144,7 +139,7 @@ def test_a_path_that_goes_on_beyond_the_map_ends_at_its_frame() -> None:
 
 
 @pytest.mark.chinese_font
-def test_a_plan_in_chinese_on_a3() -> None:
+def test_a_plan_in_chinese_on_a3():
     dragon = {"benches": 6, "names": ["龙头组", "王家", "", "", "", "李家"]}
     pages = plan_of(BODY, dragon=dragon, start_clock="19:30", language="zh", paper="A3", title="板凳龙 2027")
     expected = {
@@ -160,21 +155,21 @@ def test_a_plan_in_chinese_on_a3() -> None:
 SPIRAL = {"kind": "spiral", "pitch": 0.4, "start_turns": 6, "centre": [9, 9]}
 
 
-def test_a_spiral_has_its_radius_and_angle_and_its_failure_in_the_title() -> None:
+def test_a_spiral_has_its_radius_and_angle_and_its_failure_in_the_title():
     first, *_, last = map(words_of, plan_of({"dragon": {"benches": 9}, "path": SPIRAL, "spacing": 10}))
     assert "Checked: benches touch or are too near at 0:" in first
     # The head starts at 2.4 m from the centre, at 0 degrees.
     assert "11.400 9.000 2.400 0.00" in last
 
 
-def test_a_square_from_a_survey_says_where_its_origin_is() -> None:
+def test_a_square_from_a_survey_says_where_its_origin_is():
     square, grid = [[-20, -20], [20, -20], [20, 20], [-20, 20], [-20, -20]], {"x": 499_950.0, "y": 3_170_000.25}
     body = {"dragon": {"benches": 9}, "path": {"kind": "spiral", "pitch": 1.0, "start_turns": 6}}
     words = words_of(plan_of(body, venue={"type": "Polygon", "coordinates": [square], "grid": grid})[0])
     assert "x = y = 0 is x 499950 m, y 3170000.25 m of the survey grid" in words
 
 
-def test_the_largest_scale_that_fits_is_taken_and_none_is_refused() -> None:
+def test_the_largest_scale_that_fits_is_taken_and_none_is_refused():
     box = np.zeros(2), np.array([50.0, 20.0])
     assert (scale_of("A4", *box).ratio, scale_of("A3", *box).ratio) == (200, 200)
     turned = scale_of("A4", np.zeros(2), np.array([17.0, 22.0]))
@@ -192,11 +187,11 @@ def test_the_largest_scale_that_fits_is_taken_and_none_is_refused() -> None:
         '{"gates": [{"name": "far", "x": 21.3, "y": 8}]} -> /gates/0 5 far',
     ],
 )
-def test_a_plan_that_cannot_be_is_refused(client: httpx.Client, row: str) -> None:
+def test_a_plan_that_cannot_be_is_refused(client, row):
     assert_refused(client, "/plan", BODY, row)
 
 
-def test_a_font_that_is_gone_or_broken_draws_nothing(tmp_path: Path) -> None:
+def test_a_font_that_is_gone_or_broken_draws_nothing(tmp_path):
     (tmp_path / "broken.ttf").write_bytes(b"no font")
     for name in ("gone.ttf", "broken.ttf"):
         assert not fonts.draws_our_words(font_manager.FontEntry(fname=str(tmp_path / name), name="Noto Sans CJK SC"))
@@ -204,7 +199,7 @@ def test_a_font_that_is_gone_or_broken_draws_nothing(tmp_path: Path) -> None:
 
 # -- several dances ------------------------------------------------------------------------------------------
 
-TWO: dict[str, Any] = json.loads("""{
+TWO = json.loads("""{
     "dances": [
         {"name": "Long", "dragon": {"benches": 5, "names": ["Zhou", "Wu", "Zheng", "Wang", "Feng"]},
          "path": {"kind": "waypoints", "points": [[-30, 0], [30, 0]]}},
@@ -217,11 +212,11 @@ TWO: dict[str, Any] = json.loads("""{
 
 
 @pytest.fixture(scope="module")
-def several() -> list[Any]:
+def several():
     return plan_of(TWO)
 
 
-def test_the_plan_of_several_shows_all_of_them_and_then_each(several: list[Any]) -> None:
+def test_the_plan_of_several_shows_all_of_them_and_then_each(several):
     sheets = list(map(words_of, several))
     words = ("Long", "North", "2 dragons, 9 benches", "south gate", "Checked: passes", "from 0:")
     assert [word for sheet in sheets[:4] for word in words if word not in sheet] == []
@@ -235,7 +230,7 @@ def test_the_plan_of_several_shows_all_of_them_and_then_each(several: list[Any])
     assert "times: minutes:seconds, from time 0 of the performance" in sheets[-1]
 
 
-def test_each_of_several_has_the_sheets_that_it_has_alone(several: list[Any]) -> None:
+def test_each_of_several_has_the_sheets_that_it_has_alone(several):
     north = {name: TWO["dances"][1][name] for name in ("dragon", "path")}
     alone = list(map(words_of, plan_of({name: TWO[name] for name in ("venue", "gates", "margin")} | north)))
     with_others = list(map(words_of, several[-len(alone) :]))
@@ -245,7 +240,7 @@ def test_each_of_several_has_the_sheets_that_it_has_alone(several: list[Any]) ->
 
 
 @pytest.mark.chinese_font
-def test_an_encounter_stands_in_the_title_block() -> None:
+def test_an_encounter_stands_in_the_title_block():
     meeting = [TWO["dances"][0], TWO["dances"][1] | {"name": "北", "delay": 0}]
     sheets = list(map(words_of, plan_of(TWO, dances=meeting, start_clock="19:30", language="zh")))
     assert all(re.search("检查：19:30:.. 板凳相碰或过近", sheet) for sheet in sheets)
@@ -263,5 +258,5 @@ def test_an_encounter_stands_in_the_title_block() -> None:
     ],
     ids=["gate", "many", "path"],
 )
-def test_what_is_wrong_with_several_is_refused(client: httpx.Client, row: str) -> None:
+def test_what_is_wrong_with_several_is_refused(client, row):
     assert_refused(client, "/plan", TWO, row)

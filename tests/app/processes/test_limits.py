@@ -1,10 +1,7 @@
 """Memory of a command that reads a file: a limit while it reads, and none afterwards."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
-from pathlib import Path
 
 from tests.conftest import ROOT
 
@@ -32,7 +29,7 @@ except KeyError:
 """
 
 
-def test_reading_has_a_limit_and_the_process_is_the_first_to_end() -> None:
+def test_reading_has_a_limit_and_the_process_is_the_first_to_end():
     done = subprocess.run([sys.executable, "-c", READ], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.stderr == ""
     assert done.stdout.splitlines() == [
@@ -41,7 +38,7 @@ def test_reading_has_a_limit_and_the_process_is_the_first_to_end() -> None:
     ]
 
 
-def test_a_limit_that_is_lower_already_stays() -> None:
+def test_a_limit_that_is_lower_already_stays():
     limited = f"import resource\nresource.setrlimit(resource.RLIMIT_AS, (2_000_000_000,) * 2)\n{READ}"
     done = subprocess.run([sys.executable, "-c", limited], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -58,7 +55,7 @@ app()
 """
 
 
-def test_a_student_whose_file_needs_too_much_memory_does_not_stop_the_others(tmp_path: Path) -> None:
+def test_a_student_whose_file_needs_too_much_memory_does_not_stop_the_others(tmp_path):
     (tmp_path / "a.csv").write_bytes(b"word," * 3_000_000)
     (tmp_path / "b.csv").write_text("a,b")
     words = [sys.executable, "-c", GRADE, str(tmp_path)]

@@ -1,13 +1,10 @@
 """Pools of real processes: tasks, reports, deaths of processes and of their parent, budgets."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from pathlib import Path
@@ -26,28 +23,28 @@ MODULE = "tests.support.tasks"
 
 
 @pytest.fixture(scope="module")
-def pool() -> Iterator[Pool]:
+def pool():
     with closing(Pool(MODULE, waiting=2)) as pool:
         yield pool
 
 
-def answered(pool: Pool, task: bytes = b"a", budget: Budget | None = None) -> tuple[int, int]:
+def answered(pool, task=b"a", budget=None):
     """Process that answered, and the length of the task."""
     pid, length = map(int, pool.answer(task, budget).split())
     return pid, length
 
 
-def test_one_process_answers_one_task_after_another(pool: Pool) -> None:
+def test_one_process_answers_one_task_after_another(pool):
     assert answered(pool) == (pool.pids[0], 1)
     assert answered(pool, b"", Budget()) == (pool.pids[0], 0)
     assert answered(pool, bytes(30_000_000)) == (pool.pids[0], 30_000_000)
     assert len(pool.pids) == 1
 
 
-def test_tasks_at_the_same_time_have_processes_of_their_own_and_few_wait_afterwards(pool: Pool) -> None:
-    reports, budget = list[int](), Budget()
+def test_tasks_at_the_same_time_have_processes_of_their_own_and_few_wait_afterwards(pool):
+    reports, budget = [], Budget()
 
-    def sleep() -> None:
+    def sleep():
         with pytest.raises(Halted):
             pool.answer(b"sleep", budget, lambda report: reports.append(int(report)))
 
@@ -63,26 +60,26 @@ def test_tasks_at_the_same_time_have_processes_of_their_own_and_few_wait_afterwa
     assert len(pool.pids) <= 2
 
 
-def test_reports_come_in_order_before_the_answer(pool: Pool) -> None:
-    reports: list[bytes] = []
+def test_reports_come_in_order_before_the_answer(pool):
+    reports = []
     pool.answer(b"report a b c", report=lambda report: reports.append(bytes(report)))
     assert reports == [b"a", b"b", b"c"]
 
 
-def test_what_a_task_prints_is_no_answer(pool: Pool, capfd: pytest.CaptureFixture[str]) -> None:
+def test_what_a_task_prints_is_no_answer(pool, capfd):
     with closing(Pool(MODULE, waiting=1)) as fresh:  # its standard error is the one that is captured here
         assert answered(fresh, b"print")[1] == 5
     assert capfd.readouterr().err == "straight to the file descriptor\nby Python\n"
 
 
-def test_a_task_that_ends_its_process_is_not_given_to_another(pool: Pool) -> None:
+def test_a_task_that_ends_its_process_is_not_given_to_another(pool):
     with pytest.raises(ProcessEnded, match="exit code 11 during its task") as caught:
         pool.answer(b"die")
     assert caught.value.received
     assert answered(pool)[1] == 1
 
 
-def test_a_process_that_is_killed_while_it_waits_or_needed_much_memory_takes_no_other_task(pool: Pool) -> None:
+def test_a_process_that_is_killed_while_it_waits_or_needed_much_memory_takes_no_other_task(pool):
     for _ in range(3):
         pid, _ = answered(pool)
         os.kill(pid, signal.SIGKILL)
@@ -92,7 +89,7 @@ def test_a_process_that_is_killed_while_it_waits_or_needed_much_memory_takes_no_
     assert answered(pool)[0] != pid
 
 
-def test_processes_that_do_not_start_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_processes_that_do_not_start_are_counted(tmp_path, monkeypatch):
     (tmp_path / "broken.py").write_text(f"open({str(tmp_path / 'log')!r}, 'a').write('started ')\nraise SystemExit(3)")
     monkeypatch.syspath_prepend(str(tmp_path))
     with closing(Pool("broken", waiting=1)) as broken, pytest.raises(ProcessEnded, match="exit code 3 before its task"):
@@ -100,8 +97,8 @@ def test_processes_that_do_not_start_are_counted(tmp_path: Path, monkeypatch: py
     assert (tmp_path / "log").read_text().split() == ["started"] * STARTS
 
 
-def test_a_pool_that_closes_ends_its_processes_and_starts_none() -> None:
-    pool, reports = Pool(MODULE, waiting=1), list[bytearray]()
+def test_a_pool_that_closes_ends_its_processes_and_starts_none():
+    pool, reports = Pool(MODULE, waiting=1), []
     with ThreadPoolExecutor() as threads:
         answer = threads.submit(pool.answer, b"sleep", None, reports.append)
         wait_for(lambda: reports)
@@ -122,18 +119,15 @@ Pool({MODULE!r}, waiting=1).answer(b"sleep", report=lambda report: print(report.
 """
 
 
-def test_a_process_ends_with_its_parent_even_during_a_task() -> None:
+def test_a_process_ends_with_its_parent_even_during_a_task():
     with subprocess.Popen([sys.executable, "-c", PARENT], cwd=ROOT, stdout=subprocess.PIPE, text=True) as parent:
-        assert parent.stdout is not None
         grandchild = int(parent.stdout.readline())
         [child] = psutil.Process(parent.pid).children()
         parent.kill()
     wait_for(lambda: is_gone(child.pid) and is_gone(grandchild), LINGER)
 
 
-def test_a_process_has_a_session_of_its_own_and_none_of_the_counts_of_the_service(
-    pool: Pool, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_process_has_a_session_of_its_own_and_none_of_the_counts_of_the_service(pool, monkeypatch):
     monkeypatch.setenv("PROMETHEUS_MULTIPROC_DIR", "/counts")
     with closing(Pool(MODULE, waiting=1, environment={"OWN": "variable"})) as fresh:
         pid, _ = answered(fresh)
@@ -143,7 +137,7 @@ def test_a_process_has_a_session_of_its_own_and_none_of_the_counts_of_the_servic
         assert b"PROMETHEUS_MULTIPROC_DIR=/counts" not in environment
 
 
-def test_a_stopped_budget_ends_a_task_at_once(pool: Pool) -> None:
+def test_a_stopped_budget_ends_a_task_at_once(pool):
     budget, begun = Budget(), time.monotonic()
     budget.stop()
     with pytest.raises(Halted):

@@ -1,17 +1,12 @@
 """The verdict on several dances on one clock, over HTTP and from a terminal; that on one is unchanged."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
 import pytest
 
 from app.questions.check import CheckRequest
 from app.settings import Settings
 from core import performance_check
 from tests.app.files.test_figures import texts
-from tests.support.asking import Asking, box, dance, json_like, written
+from tests.support.asking import box, dance, json_like, written
 from tests.support.command import run
 
 EAST, NORTH = dance(5, (0, 0), (30, 0)), dance(5, (15, -20), (15, 20))
@@ -24,11 +19,11 @@ PASSING = {"dances": [EAST, NORTH | {"delay": 40}], "cross_check": "none"}
 
 
 @pytest.fixture(scope="module")
-def verdict(ask: Asking) -> Any:
+def verdict(ask):
     return ask("check", TWO)
 
 
-def test_the_failures_are_those_of_core_in_order_of_time(verdict: Any) -> None:
+def test_the_failures_are_those_of_core_in_order_of_time(verdict):
     performance, _ = CheckRequest.model_validate(TWO).to_placed(Settings())
     report = performance_check(performance, margin=0.05, speed_limit=1.2)
     assert (verdict["verdict"], verdict["passed"], verdict["names"]) == ("fails", False, ["east", "north"])
@@ -43,19 +38,19 @@ def test_the_failures_are_those_of_core_in_order_of_time(verdict: Any) -> None:
     assert outside == [["east"]] * len(outside) != []
 
 
-def test_each_report_is_the_answer_about_that_dance_alone(ask: Asking, verdict: Any) -> None:
+def test_each_report_is_the_answer_about_that_dance_alone(ask, verdict):
     assert verdict["reports"][0] == ask("check", LIMITS | EAST)
     assert verdict["reports"][1] == ask("check", LIMITS | NAMED | {"head_speed": 1.1, "start_clock": "19:30:02"})
     assert verdict["encounter"] == ask("encounter", {"dances": TWO["dances"], "margin": 0.05})
 
 
-def test_without_details_the_verdict_is_the_same(ask: Asking, verdict: Any) -> None:
+def test_without_details_the_verdict_is_the_same(ask, verdict):
     quick = ask("check", TWO | {"details": False})
     assert quick["failures"] == verdict["failures"]
     assert (quick["least_clearance"], quick["reports"][0]["highest_speed"]) == (None, None)
 
 
-def test_dances_that_pass_each_other_pass(ask: Asking) -> None:
+def test_dances_that_pass_each_other_pass(ask):
     got = ask("check", PASSING)
     assert (got["verdict"], got["failures"], got["begins"], got["origin"]) == ("passes", [], None, None)
     assert 0.0 < got["least_clearance"]["at_least"] <= got["least_clearance"]["distance"]
@@ -64,7 +59,7 @@ def test_dances_that_pass_each_other_pass(ask: Asking) -> None:
 # -- the command ---------------------------------------------------------------------------------------------
 
 
-def test_the_table_tells_every_failure_and_what_was_measured(verdict: Any, tmp_path: Path) -> None:
+def test_the_table_tells_every_failure_and_what_was_measured(verdict, tmp_path):
     words = " ".join(run("check", written(tmp_path, TWO)).stdout.split())
     failures = [f"{failure['clock']} {failure['message']}" for failure in verdict["failures"]]
     rows = ["least clearance of two dragons", "east: first within 0.05 m", "north: highest speed", "engines agree"]
@@ -72,7 +67,7 @@ def test_the_table_tells_every_failure_and_what_was_measured(verdict: Any, tmp_p
     assert "Passes. Nothing fails." in run("check", written(tmp_path, PASSING)).stdout
 
 
-def test_the_figure_shows_all_dragons(tmp_path: Path) -> None:
+def test_the_figure_shows_all_dragons(tmp_path):
     svg = tmp_path / "two.svg"
     for body, *words in ((TWO, "come within 0.05 m", "square"), (PASSING, "At ")):
         assert run("check", written(tmp_path, body), "--figure", str(svg)).returncode == 0

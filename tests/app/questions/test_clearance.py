@@ -1,36 +1,31 @@
 """The clearance between several dragons over time: its instants, and the command."""
 
-from __future__ import annotations
-
 import json
 import math
-from pathlib import Path
 
 from app.questions.clearance import ClearanceRequest
 from app.settings import Settings
-from tests.support.asking import Asking, dance, written
+from tests.support.asking import dance, written
 from tests.support.command import run
 
 DANCES = [dance(5, (0, 0), (40, 0), name="east"), dance(5, (15, -20), (15, 20), delay=16)]
 PERFORMANCE = ClearanceRequest.model_validate({"dances": DANCES}).to_performance(Settings())
 
 
-def test_a_start_that_is_left_out_is_the_first_whole_second_of_the_performance(ask: Asking) -> None:
+def test_a_start_that_is_left_out_is_the_first_whole_second_of_the_performance(ask):
     times = ask("clearance", {"dances": DANCES, "times": {"stop": 40, "step": 8}})["time"]
     assert 0.0 < PERFORMANCE.begin <= times[0] < PERFORMANCE.begin + 1.0
     assert (times[0] % 1.0, times[1] - times[0]) == (0.0, 8.0)
 
 
-def test_without_times_it_is_every_second_from_the_beginning_to_the_end(ask: Asking) -> None:
+def test_without_times_it_is_every_second_from_the_beginning_to_the_end(ask):
     times = ask("clearance", {"dances": DANCES, "times": None})["time"]
     first = math.ceil(PERFORMANCE.begin)
     assert times == [*range(first, first + len(times))]
     assert times[-1] <= PERFORMANCE.end.time < times[-1] + 1.0
 
 
-def test_the_command_shows_the_grazes_and_takes_its_times_from_the_file_and_the_options(
-    ask: Asking, tmp_path: Path
-) -> None:
+def test_the_command_shows_the_grazes_and_takes_its_times_from_the_file_and_the_options(ask, tmp_path):
     body = {"dances": DANCES, "times": {"stop": 40, "step": 8}}
     # A venue is no part of this question.
     done = run("clearance", written(tmp_path, body | {"venue": {"type": "FeatureCollection", "features": []}}))

@@ -1,16 +1,13 @@
 """Contact probability over HTTP and from a terminal: what stands beside core's numbers."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import core
-from tests.support.asking import Asking
 
 MODEL = {"lateral": 0.02, "forward": 0.005, "correlation_time": 4.0, "step": 0.5, "hole": 0.055, "pin": 0.05}
 
 
-def test_quantiles_and_the_pair_are_of_the_first_contacts(ask: Asking) -> None:
+def test_quantiles_and_the_pair_are_of_the_first_contacts(ask):
     window = {"start": 395.0, "stop": 405.0}
     got = ask("contact-probability", {"dragon": {"benches": 20}, **MODEL, "samples": 60, "seed": 3, **window})
     dance = core.Dance(core.Dragon(20), core.Spiral())
@@ -21,7 +18,7 @@ def test_quantiles_and_the_pair_are_of_the_first_contacts(ask: Asking) -> None:
     assert got["benches"] == max(sorted(pairs), key=pairs.count)
 
 
-def test_without_a_contact_or_with_a_pitch_error_some_fields_are_null(ask: Asking) -> None:
+def test_without_a_contact_or_with_a_pitch_error_some_fields_are_null(ask):
     still = {"dragon": {"benches": 20}, "lateral": 0, "forward": 0, "samples": 2, "stop": 10}
     clear, other = (ask("contact-probability", still | more) for more in ({}, {"pitch_error": 0.01}))
     assert (clear["contacts"], clear["time_quantiles"], clear["benches"], clear["strayed"]) == (0, None, None, 0)

@@ -1,15 +1,11 @@
 """The course of a path, with the stretches on which its dance breaks a limit."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import pytest
 
 from app.questions.course import CourseRequest
 from core import Dragon
 from core.breaches import breaches
-from tests.support.asking import Asking, box, line
+from tests.support.asking import box, line
 
 BODY = {
     "dragon": {"benches": 3},
@@ -18,7 +14,7 @@ BODY = {
 }
 
 
-def test_stretches_are_those_of_core_and_come_only_if_asked_for(ask: Asking) -> None:
+def test_stretches_are_those_of_core_and_come_only_if_asked_for(ask):
     assert ask("course", BODY | {"margin": 0.1})["breaches"] is None
     assert ask("course", BODY | {"breaches": True})["breaches"] == []
     limits = {"margin": 0.06, "stray": 0.1, "speed_limit": 0.5}
@@ -38,7 +34,7 @@ def test_stretches_are_those_of_core_and_come_only_if_asked_for(ask: Asking) -> 
     [{"path": line((0, 0), (2, 0), (2, 2), straight=[0, 1], radius=0.5)}, {"dragon": {"benches": 60}}],
     ids=["tight bend", "too short for the dragon"],
 )
-def test_a_path_that_the_dragon_cannot_follow_has_a_course_without_stretches(ask: Asking, more: Any) -> None:
+def test_a_path_that_the_dragon_cannot_follow_has_a_course_without_stretches(ask, more):
     answer = ask("course", BODY | {"breaches": True} | more)
     assert answer["breaches"] is None
     assert len(answer["x"]) > 5

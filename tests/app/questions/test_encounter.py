@@ -1,11 +1,8 @@
 """The first encounter of several dragons, over HTTP, from a terminal and as a figure."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -13,7 +10,7 @@ from app.questions.encounter import Encounter, EncounterRequest
 from app.wire.question import Terms
 from core import Outcome, encounter_check, first_encounter
 from tests.app.files.test_figures import texts
-from tests.support.asking import Asking, box, dance, json_like, written
+from tests.support.asking import box, dance, json_like, written
 from tests.support.command import run
 from tests.support.reference_encounters import CASES, performance_of
 
@@ -23,12 +20,12 @@ EAST, NORTH = dance(5, (0, 0), (30, 0), name="east"), dance(5, (15, -20), (15, 2
 TWO = {"dances": [EAST, NORTH]}
 
 
-def body_of(case: Any) -> dict[str, Any]:
+def body_of(case):
     """The body that asks for the first encounter of a reference case."""
     return {name: case[name] for name in ("dances", "start", "stop")}
 
 
-def test_the_owners_of_features_and_the_cross_checks_are_those_of_core(ask: Asking) -> None:
+def test_the_owners_of_features_and_the_cross_checks_are_those_of_core(ask):
     case = CASES["same way, faster behind"]
     result = first_encounter(performance_of(case), start=case["start"], margin=0.1)
     body = body_of(case) | {"stop": None, "margin": 0.1}
@@ -40,14 +37,14 @@ def test_the_owners_of_features_and_the_cross_checks_are_those_of_core(ask: Aski
     assert none == got | {"cross_check": None}
 
 
-def test_several_pairs_that_meet_at_once_are_named(ask: Asking) -> None:
+def test_several_pairs_that_meet_at_once_are_named(ask):
     got = ask("encounter", body_of(CASES["two dragons in one spiral, opposite"]))
     (together,) = got["cross_check"]["together"]
     assert together["dragons"] == [0, 1]
     assert {tuple(got["benches"]), tuple(together["benches"])} == {(3, 0), (0, 3)}
 
 
-def test_passages_and_strays_count(ask: Asking) -> None:
+def test_passages_and_strays_count(ask):
     late = {"dances": [EAST, NORTH | {"delay": 2}]}
     at_once, waits = ask("encounter", TWO), EAST | {"passages": [{"speed": 0, "until_time": 2}]}
     assert ask("encounter", late)["benches"] != at_once["benches"]
@@ -59,7 +56,7 @@ def test_passages_and_strays_count(ask: Asking) -> None:
     assert strays["time"] < at_once["time"]
 
 
-def test_an_undecided_encounter_names_the_benches_that_are_certain() -> None:
+def test_an_undecided_encounter_names_the_benches_that_are_certain():
     case = CASES["streets that cross, both at once"]
     result = first_encounter(performance_of(case), start=case["start"])
     unsure = replace(result, outcome=Outcome.UNDECIDED, time=None, overlapping=((0, 1), (3, 4)))
@@ -70,7 +67,7 @@ def test_an_undecided_encounter_names_the_benches_that_are_certain() -> None:
 # -- the command ---------------------------------------------------------------------------------------------
 
 
-def test_the_table_tells_the_encounter_and_the_margin_and_strays_for_which_it_holds() -> None:
+def test_the_table_tells_the_encounter_and_the_margin_and_strays_for_which_it_holds():
     result = run("encounter", EXAMPLE)
     assert result.stderr == ""
     for words in ("First encounter", "207.37836126", "blue, red", "all 120 benches", "0 of dragon 0, 3 of dragon 1"):
@@ -80,7 +77,7 @@ def test_the_table_tells_the_encounter_and_the_margin_and_strays_for_which_it_ho
     assert "only benches " in alone
 
 
-def test_the_benches_and_the_path_of_each_dance_may_be_files(tmp_path: Path) -> None:
+def test_the_benches_and_the_path_of_each_dance_may_be_files(tmp_path):
     (tmp_path / "benches.csv").write_text("name,length,width,overhang\n" + "Zhou,2.2,0.3,0.275\n" * 3)
     written(tmp_path, {"type": "LineString", "coordinates": [[0, 0], [30, 0]]}, "lane.geojson")
     file = written(tmp_path, {"dances": [{"dragon": "benches.csv", "path": "lane.geojson"}, BESIDE]})
@@ -103,7 +100,7 @@ def test_the_benches_and_the_path_of_each_dance_may_be_files(tmp_path: Path) -> 
         ),
     ],
 )
-def test_a_file_of_several_dragons_is_no_file_of_one(tmp_path: Path, command: str, held: Any, words: str) -> None:
+def test_a_file_of_several_dragons_is_no_file_of_one(tmp_path, command, held, words):
     file = written(tmp_path, held)
     done = run(*command.split(), file)
     assert (done.returncode, done.stdout) == (2, "")
@@ -113,7 +110,7 @@ def test_a_file_of_several_dragons_is_no_file_of_one(tmp_path: Path, command: st
 # -- figures -------------------------------------------------------------------------------------------------
 
 
-def test_the_figure_shows_all_dragons_and_the_benches_that_meet(tmp_path: Path) -> None:
+def test_the_figure_shows_all_dragons_and_the_benches_that_meet(tmp_path):
     svg = tmp_path / "two.svg"
     done = run("encounter", EXAMPLE, "--figure", str(svg))
     assert (done.returncode, done.stderr) == (0, f"{svg}\n")
@@ -122,7 +119,7 @@ def test_the_figure_shows_all_dragons_and_the_benches_that_meet(tmp_path: Path) 
         assert word in words
 
 
-def test_signs_of_typesetting_in_names_are_drawn_as_they_are(ask: Asking) -> None:
+def test_signs_of_typesetting_in_names_are_drawn_as_they_are(ask):
     named = {"dances": [EAST | {"name": "$x"}, NORTH | {"name": "y$ _a_"}]}
     assert "bench 2 of $x and bench 0 of y$ _a_ touch" in texts(ask.file("figures/encounter.svg", named))
 
@@ -144,9 +141,7 @@ def test_signs_of_typesetting_in_names_are_drawn_as_they_are(ask: Asking) -> Non
         ("contact", {}, {"en": "bench 0 of north", "zh": "north的第 0 节板凳"}),
     ],
 )
-def test_the_figures_of_one_dance_take_several_in_both_languages(
-    ask: Asking, kind: str, more: Any, words: dict[str, str], language: str
-) -> None:
+def test_the_figures_of_one_dance_take_several_in_both_languages(ask, kind, more, words, language):
     request = TWO | {"venue": box(-5, -30, 40, 30), "language": language} | more
     drawn = texts(ask.file(f"figures/{kind}.svg", request))
     assert words[language] in drawn

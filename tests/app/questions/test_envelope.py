@@ -1,10 +1,7 @@
 """The ground that benches sweep, over HTTP and from a terminal: the polygons of core, in every form."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import ezdxf
 import pytest
@@ -13,7 +10,7 @@ import shapely
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.questions.envelope import Envelope, EnvelopeRequest
 from core import Arc, Dance, Dragon, Route, Spiral, envelope
-from tests.support.asking import Asking, dance, written
+from tests.support.asking import dance, written
 from tests.support.command import run
 
 # Rounds on a circle, which leave a hole.
@@ -27,7 +24,7 @@ SEVERAL = {"dances": [LOW, HIGH], "start": 8, "stop": 12}
 BEYOND = {"spectators": [[0.0, 9.0], [20.0, 9.0]]}
 
 
-def test_the_answer_is_the_envelope_of_core_with_its_hole(ask: Asking) -> None:
+def test_the_answer_is_the_envelope_of_core_with_its_hole(ask):
     got = ask("envelope", BODY | {"spectators": SPECTATORS})
     assert got["envelope"] == {"type": "Polygon", "coordinates": OUTLINE}
     assert len(OUTLINE) == 2
@@ -35,13 +32,13 @@ def test_the_answer_is_the_envelope_of_core_with_its_hole(ask: Asking) -> None:
     assert ask("envelope", BODY)["distance"] is None
 
 
-def test_several_polygons_are_a_multipolygon() -> None:
+def test_several_polygons_are_a_multipolygon():
     several = replace(ENVELOPE, polygons=ENVELOPE.polygons * 2)
     answer = json.loads(Envelope.of(several, EnvelopeRequest()).to_json())["envelope"]
     assert answer == {"type": "MultiPolygon", "coordinates": [OUTLINE] * 2}
 
 
-def test_the_command_writes_the_files_of_the_service_with_the_hole_as_its_own_line(ask: Asking, tmp_path: Path) -> None:
+def test_the_command_writes_the_files_of_the_service_with_the_hole_as_its_own_line(ask, tmp_path):
     file, drawing, table = written(tmp_path, BODY | {"spectators": SPECTATORS}), tmp_path / "x.dxf", tmp_path / "x.json"
     done = run("envelope", file, "--output", str(drawing))
     assert (done.returncode, done.stderr) == (0, f"{drawing}\n")
@@ -61,14 +58,14 @@ def test_the_command_writes_the_files_of_the_service_with_the_hole_as_its_own_li
     assert outer - hole == pytest.approx(ENVELOPE.area)
 
 
-def test_the_command_asks_for_a_spiral_by_its_options_and_refuses_other_files() -> None:
+def test_the_command_asks_for_a_spiral_by_its_options_and_refuses_other_files():
     output = run("envelope", "--benches", "5", "--pitch", "0.6", "--stop", "9", "--json")
     assert json.loads(output.stdout)["area"] == envelope(Dance(Dragon(5), Spiral(0.6)), stop=9.0).area
     wrong = run("envelope", "--output", "ground.kml")
     assert (wrong.returncode, wrong.stderr) == (2, "Error: --output must end in .geojson, .json or .dxf, got .kml\n")
 
 
-def test_several_dances_have_the_ground_of_each_also_in_files(ask: Asking, tmp_path: Path) -> None:
+def test_several_dances_have_the_ground_of_each_also_in_files(ask, tmp_path):
     got = ask("envelope", SEVERAL | BEYOND)
     low, high = got["dances"]
     assert (low["start"], low["stop"], high["stop"]) == (8.0, 12.0, 7.0)

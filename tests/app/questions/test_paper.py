@@ -1,19 +1,16 @@
 """The paper's numbers beside ours: each number of ours is what core answers, each reason can be recomputed."""
 
-from __future__ import annotations
-
 import re
 
 import pytest
 
 from app.files.tables import Language
-from app.questions.paper import PaperNumber, comparison, literature
+from app.questions.paper import comparison, literature
 from core import Dance, Dragon, Spiral, first_contact, minimum_pitch
 
 # Printed digits of the paper, and how well the reference values are known.
 MICROMETRE = 0.5e-6  # [m]
 NANO = 1e-9  # [s and m]
-Rows = dict[str, PaperNumber]
 LENGTH, TIME, RADIUS, PITCH = (
     "arc length of the spiral",
     "time of first contact",
@@ -23,17 +20,17 @@ LENGTH, TIME, RADIUS, PITCH = (
 
 
 @pytest.fixture(scope="module")
-def rows() -> Rows:
+def rows():
     return {row.quantity: row for row in comparison()}
 
 
-def evidence(row: PaperNumber, start: str) -> float:
+def evidence(row, start):
     """The one value that begins with these words."""
     (value,) = (fact.value for fact in row.evidence if fact.what.startswith(start))
     return value
 
 
-def test_each_row_states_the_number_of_the_paper_and_its_difference(rows: Rows) -> None:
+def test_each_row_states_the_number_of_the_paper_and_its_difference(rows):
     assert {name: row.paper for name, row in rows.items()} == {
         LENGTH: 442.590256,
         TIME: 406.43,
@@ -43,7 +40,7 @@ def test_each_row_states_the_number_of_the_paper_and_its_difference(rows: Rows) 
     assert [row.difference for row in rows.values()] == [row.ours - row.paper for row in rows.values()]
 
 
-def test_ours_is_what_core_answers_and_an_independent_computation_proved(rows: Rows) -> None:
+def test_ours_is_what_core_answers_and_an_independent_computation_proved(rows):
     contact = first_contact(Dance(Dragon(), Spiral()))
     ours = [rows[name].ours for name in (TIME, RADIUS, PITCH)]
     assert ours == [contact.time, contact.head.radius, minimum_pitch(Dragon()).pitch]
@@ -70,12 +67,12 @@ ROUNDED = {
 
 
 @pytest.mark.parametrize(("quantity", "what"), ROUNDED)
-def test_the_evidence_has_the_digits_that_the_reasons_tell(rows: Rows, quantity: str, what: str) -> None:
+def test_the_evidence_has_the_digits_that_the_reasons_tell(rows, quantity, what):
     known = ROUNDED[quantity, what]
     assert f"{evidence(rows[quantity], what):.{len(known.partition('.')[2])}f}" == known
 
 
-def test_the_exact_angle_rule_and_a_bisection_of_the_radius_agree_with_ours(rows: Rows) -> None:
+def test_the_exact_angle_rule_and_a_bisection_of_the_radius_agree_with_ours(rows):
     exact = evidence(rows[TIME], "first time of an angle sum of 360 degrees")
     assert exact == pytest.approx(rows[TIME].ours, abs=1e-6)  # [s]: the angle sum nears 360 degrees continuously
     ends = evidence(rows[PITCH], "pitch at which a bisection of the radius ends")
@@ -84,7 +81,7 @@ def test_the_exact_angle_rule_and_a_bisection_of_the_radius_agree_with_ours(rows
     assert Spiral().head(passed).radius == pytest.approx(2.883, abs=NANO)
 
 
-def test_in_chinese_the_numbers_are_the_same_and_no_english_word_is_left() -> None:
+def test_in_chinese_the_numbers_are_the_same_and_no_english_word_is_left():
     for english, chinese in zip(comparison(), comparison(Language.CHINESE), strict=True):
         assert chinese.ours == english.ours
         assert [fact.value for fact in chinese.evidence] == [fact.value for fact in english.evidence]

@@ -1,14 +1,10 @@
 """Proposals over HTTP and from a terminal: each is a dance that /check passes as it is."""
 
-from __future__ import annotations
-
 import math
-from pathlib import Path
-from typing import Any
 
 import pytest
 
-from tests.support.asking import Asking, box, written
+from tests.support.asking import box, written
 from tests.support.command import run
 
 BODY = {
@@ -37,7 +33,7 @@ TOO_NARROW = (
     ],
     ids=["ring", "square", "gates", "bench by bench", "most benches"],
 )
-def test_every_dance_passes_its_check_as_it_is(ask: Asking, more: Any) -> None:
+def test_every_dance_passes_its_check_as_it_is(ask, more):
     answer = ask("proposals", BODY | more)
     assert answer["proposals"]
     for one in answer["proposals"]:
@@ -52,12 +48,12 @@ def test_every_dance_passes_its_check_as_it_is(ask: Asking, more: Any) -> None:
         assert one["summary"].endswith(f"from '{one['near']['name']}'.")
 
 
-def test_a_reason_stands_where_no_dance_fits(ask: Asking) -> None:
+def test_a_reason_stands_where_no_dance_fits(ask):
     answer = ask("proposals", BODY | {"venue": LANE})
     assert (answer["proposals"], answer["reason_kind"], answer["reason"]) == ([], "width", TOO_NARROW)
 
 
-def test_a_venue_in_degrees_keeps_its_place(ask: Asking) -> None:
+def test_a_venue_in_degrees_keeps_its_place(ask):
     east, north = 24 / 111_320 / math.cos(math.radians(48.0)), 20 / 111_195
     venue = {"venue": box(9.0, 48.0, 9.0 + east, 48.0 + north), "coordinates": "degrees"}
     dance = ask("proposals", BODY | venue | {"figures": ["ring"], "count": 1})["proposals"][0]["dance"]
@@ -67,7 +63,7 @@ def test_a_venue_in_degrees_keeps_its_place(ask: Asking) -> None:
 
 
 @pytest.mark.thorough
-def test_the_command_writes_dances_and_pictures(tmp_path: Path) -> None:
+def test_the_command_writes_dances_and_pictures(tmp_path):
     written(tmp_path, BODY["venue"], "yard.geojson")
     file, folder, none = tmp_path / "wish.toml", tmp_path / "proposals", tmp_path / "none"
     file.write_text('venue = "yard.geojson"\nfigures = ["ring"]\ncount = 2\n[dragon]\nbenches = 10\n')

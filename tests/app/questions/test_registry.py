@@ -1,18 +1,14 @@
 """The questions: each stands in a file of its own, and its answer has the numbers of core."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 import core
 from app.questions import registry
 from core import Arc, Area, Dance, Dragon, Part, Performance, Route, Spiral, Turn, Venue, Waypoints
-from tests.support.asking import Asking, box, dance, json_like, line
+from tests.support.asking import box, dance, json_like, line
 
 DRAGON, CLOSE = Dragon(20), Dance(Dragon(40), Spiral(0.5, 8.0))
 POINTS = [(0.0, 0.0), (20.0, 0.0), (21.0, 2.0), (0.0, 3.0)]
@@ -34,21 +30,21 @@ PITCH = (
 PLACES = [(0.0, 0.0, 0.0), (9.0, 9.0, 0.0), (0.2, 0.1, math.pi / 2), (0.6, 1.3, 0.3)]
 
 
-def two() -> Performance:
+def two():
     ways = [Route([Waypoints(points)]) for points in (EAST, NORTH)]
     return Performance([Part(Dance(Dragon(5), ways[0]), name="east"), Part(Dance(Dragon(5), ways[1]), LATE)])
 
 
-def columns(motion: core.Trajectory) -> tuple[Any, Any, Any]:
+def columns(motion):
     return motion.position[..., 0], motion.position[..., 1], motion.speed
 
 
-def venue(left: float, low: float, right: float, high: float) -> Venue:
+def venue(left, low, right, high):
     return Venue(Area("square", (((left, low), (right, low), (right, high), (left, high), (left, low)),)))
 
 
 # A request, the same question to core, and the names of what both tell.
-REQUESTS: dict[str, tuple[dict[str, Any], Callable[[], Any], str]] = {
+REQUESTS = {
     "clearance": (
         {"dragon": {"benches": 40}, "path": {"pitch": 0.5, "start_turns": 8}, "times": [10, 20.5]},
         lambda: core.clearance_profile(CLOSE, [10.0, 20.5]),
@@ -164,7 +160,7 @@ REQUESTS: dict[str, tuple[dict[str, Any], Callable[[], Any], str]] = {
 }
 
 
-def part_of(value: Any, name: str) -> Any:
+def part_of(value, name):
     """A value below another one, by its dotted name."""
     for step in name.split("."):
         value = value[int(step)] if step.isdigit() else value[step] if isinstance(value, dict) else getattr(value, step)
@@ -172,7 +168,7 @@ def part_of(value: Any, name: str) -> Any:
 
 
 @pytest.mark.parametrize("question", REQUESTS)
-def test_an_answer_has_the_numbers_of_core(ask: Asking, question: str) -> None:
+def test_an_answer_has_the_numbers_of_core(ask, question):
     body, request, names = REQUESTS[question]
     got, known = ask(question.split()[0], body), request()
     got["turn"] = got  # Of a turn the answer holds the fields themselves.
@@ -180,7 +176,7 @@ def test_an_answer_has_the_numbers_of_core(ask: Asking, question: str) -> None:
         assert part_of(got, name) == json_like(part_of(known, name)), name
 
 
-def test_a_pitch_scan_has_the_first_contacts_of_core_and_the_jumps_if_they_are_located(ask: Asking) -> None:
+def test_a_pitch_scan_has_the_first_contacts_of_core_and_the_jumps_if_they_are_located(ask):
     look, scan = (
         ask("pitch-scan", {"dragon": {"benches": 30}, "samples": 3, "locate": each}) for each in (False, True)
     )
@@ -195,7 +191,7 @@ def test_a_pitch_scan_has_the_first_contacts_of_core_and_the_jumps_if_they_are_l
     assert len(scan["jumps"]) > 10
 
 
-def test_overlaps_and_the_verdicts_of_the_engines_are_those_of_core(ask: Asking) -> None:
+def test_overlaps_and_the_verdicts_of_the_engines_are_those_of_core(ask):
     benches = [{"x": x, "y": y, "heading": heading, "length": 2.0, "width": 0.3} for x, y, heading in PLACES]
     for chained, pairs in ((True, [[0, 2]]), (False, [[0, 2], [2, 3]])):
         got, sizes = ask("overlaps", {"benches": benches, "chained": chained}), ([2.0] * 4, [0.3] * 4)
@@ -208,6 +204,6 @@ def test_overlaps_and_the_verdicts_of_the_engines_are_those_of_core(ask: Asking)
     assert (got["cross_check"]["agree"], got["cross_check"]["engines"]["angle_sum"]) == (False, [[2, 3]])
 
 
-def test_every_file_of_this_folder_has_its_question() -> None:
+def test_every_file_of_this_folder_has_its_question():
     files = {path.stem for path in Path(registry.__file__).parent.glob("*.py")} - {"__init__", "registry"}
     assert {question.answer.__module__.rpartition(".")[2] for question in registry.QUESTIONS.values()} == files

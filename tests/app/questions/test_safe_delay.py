@@ -1,11 +1,9 @@
 """Safe delays of one dragon, over HTTP and from a terminal."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from app.maps.dances import read_dance
-from tests.support.asking import Asking, dance, written
+from tests.support.asking import dance, written
 from tests.support.command import run
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "crossing_streets.toml"
@@ -15,21 +13,21 @@ CROSSING = {"dances": [EAST | {"name": "east"}, NORTH | {"name": "3"}], "least":
 BLOCKED = {"dances": [dance(5, (-20, 0), (2, 0)), NORTH], "least": 20, "most": 90}
 
 
-def test_a_dragon_is_named_by_its_number_or_its_name(ask: Asking) -> None:
+def test_a_dragon_is_named_by_its_number_or_its_name(ask):
     second, first = ask("safe-delay", CROSSING), ask("safe-delay", CROSSING | {"part": "east"})
     assert ask("safe-delay", CROSSING | {"part": "3"}) == ask("safe-delay", CROSSING | {"part": 1}) == second
     assert (first["part"], first) == (0, ask("safe-delay", CROSSING | {"part": 0.0}))
     assert ask("safe-delay", CROSSING | {"dances": [EAST, NORTH], "part": "1"})["safe"] == second["safe"]
 
 
-def test_a_way_that_is_never_free_has_no_safe_delay(ask: Asking, tmp_path: Path) -> None:
+def test_a_way_that_is_never_free_has_no_safe_delay(ask, tmp_path):
     got = ask("safe-delay", BLOCKED)
     assert (got["safe"], got["first_safe"], got["undecided"]) == ([], None, [])
     none = run("safe-delay", written(tmp_path, {"dances": BLOCKED["dances"]}), "--least", "20", "--most", "90")
     assert none.stdout.strip() == "No delay of dragon 1 from 20 to 90 s is known to be safe."
 
 
-def test_the_options_of_the_command_count_and_its_table_rounds_inwards(ask: Asking) -> None:
+def test_the_options_of_the_command_count_and_its_table_rounds_inwards(ask):
     body = read_dance(EXAMPLE, several=True)
     output = run("safe-delay", str(EXAMPLE), "--part", "0", "--margin", "0.3", "--least=-100", "--json")
     options = {"part": 0, "margin": 0.3, "least": -100}

@@ -1,7 +1,5 @@
 """Tolerance over HTTP and from a terminal: core's answers on a circle, with errors of sizes, and of several dances."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -9,14 +7,14 @@ import core
 from app.questions.tolerance import ToleranceRequest
 from app.settings import Settings
 from core import Dance, Dragon, Spiral, bench_poses, overlaps, performance_tolerance
-from tests.support.asking import Asking, box, dance, json_like
+from tests.support.asking import box, dance, json_like
 
 SMALL = {"benches": 40, "start_turns": 9}
 DANCES = [dance(4, (0, 0), (30, 0), name="a"), dance(4, (30, 0.8), (0, 0.8), name="b")]
 SEVERAL = {"dances": DANCES}
 
 
-def test_a_stray_beyond_the_tolerance_is_shown_in_a_pose_that_overlaps(ask: Asking) -> None:
+def test_a_stray_beyond_the_tolerance_is_shown_in_a_pose_that_overlaps(ask):
     got = ask("tolerance", **SMALL, pitch=0.6)
     dragon = Dragon(40)
     poses = bench_poses(np.array(got["exhibit"]["handles"]))
@@ -24,7 +22,7 @@ def test_a_stray_beyond_the_tolerance_is_shown_in_a_pose_that_overlaps(ask: Aski
     assert got["benches"] in overlaps(poses, dragon.lengths, dragon.widths).pairs.tolist()
 
 
-def test_sizes_may_be_known_only_to_within_an_error(ask: Asking) -> None:
+def test_sizes_may_be_known_only_to_within_an_error(ask):
     errors = {"length_error": 0.01, "pitch_error": 0.005}
     got = ask("tolerance", **SMALL, **errors, pitch=0.7)
     assert got["stray_with_errors"] == core.uncertain_tolerance(Dragon(40), 0.7, **errors)
@@ -34,7 +32,7 @@ def test_sizes_may_be_known_only_to_within_an_error(ask: Asking) -> None:
     assert ask("tolerance", **SMALL, pitch=0.7) == got | {"stray_with_errors": None}
 
 
-def test_the_curve_begins_at_the_minimum_pitch_and_holds_the_tolerances_of_core(ask: Asking) -> None:
+def test_the_curve_begins_at_the_minimum_pitch_and_holds_the_tolerances_of_core(ask):
     got = ask("tolerance-curve", benches=40, samples=3)
     least = core.minimum_pitch(Dragon(40)).pitch
     assert got["pitch"] == pytest.approx([least, 1.5 * least, 2.0 * least], rel=1e-5)
@@ -44,13 +42,13 @@ def test_the_curve_begins_at_the_minimum_pitch_and_holds_the_tolerances_of_core(
     assert got["stray"][0] == pytest.approx(0.0, abs=1e-6)
 
 
-def test_a_curve_is_answered_where_a_dance_at_the_minimum_pitch_begins_on_the_circle(ask: Asking) -> None:
+def test_a_curve_is_answered_where_a_dance_at_the_minimum_pitch_begins_on_the_circle(ask):
     got = ask("tolerance-curve", benches=2, start_turns=9, samples=2)
     assert got["pitch"][0] == pytest.approx(0.5, rel=1e-5)
     assert got["limited_by"] == ["chord", "chord"]
 
 
-def test_a_stray_on_other_calls_is_that_of_core(ask: Asking) -> None:
+def test_a_stray_on_other_calls_is_that_of_core(ask):
     first = ask("collision-time", stray=0.02)
     assert first["time"] == core.first_contact(Dance(Dragon(), Spiral()), stray=0.02).time
     assert (first["cross_check"]["agree"], len(first["cross_check"]["judged"])) == (True, 223)
@@ -60,7 +58,7 @@ def test_a_stray_on_other_calls_is_that_of_core(ask: Asking) -> None:
 
 
 @pytest.mark.parametrize("call", ["collision-time", "minimum-pitch"])
-def test_an_answer_says_which_stray_it_allows_for_and_0_gives_the_same_bytes(ask: Asking, call: str) -> None:
+def test_an_answer_says_which_stray_it_allows_for_and_0_gives_the_same_bytes(ask, call):
     assert ask(call, **SMALL, stray=0.01, hole=0.05, pin=0.04) == ask(call, **SMALL, stray=0.015)
     assert ask.file(call, stray=0, hole=0, pin=0) == ask.file(call)
 
@@ -68,7 +66,7 @@ def test_an_answer_says_which_stray_it_allows_for_and_0_gives_the_same_bytes(ask
 # -- several dances ------------------------------------------------------------------------------------------
 
 
-def test_several_dances_have_the_tolerance_of_each_and_are_clear_with_that_of_all(ask: Asking) -> None:
+def test_several_dances_have_the_tolerance_of_each_and_are_clear_with_that_of_all(ask):
     got = ask("tolerance", SEVERAL)
     performance, _ = ToleranceRequest.model_validate(SEVERAL).to_placed(Settings())
     result = performance_tolerance(performance)
@@ -78,7 +76,7 @@ def test_several_dances_have_the_tolerance_of_each_and_are_clear_with_that_of_al
     assert ask("encounter", SEVERAL | {"stray": got["stray"]})["outcome"] == "clear"
 
 
-def test_a_wall_may_limit_several_dances(ask: Asking) -> None:
+def test_a_wall_may_limit_several_dances(ask):
     venue = {"venue": box(-10, -0.3, 40, 9)}
     got = ask("tolerance", SEVERAL | venue)
     assert got["stray"] == ask("tolerance", {name: DANCES[0][name] for name in ("dragon", "path")} | venue)["stray"]

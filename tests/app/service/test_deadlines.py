@@ -1,9 +1,6 @@
 """A computation ends at its deadline, and when its client is gone; as a job it continues."""
 
-from __future__ import annotations
-
 import http.client
-from collections.abc import Callable
 from contextlib import closing
 
 import httpx
@@ -11,7 +8,7 @@ import pytest
 
 from tests.support.depth import few
 from tests.support.job_service import wait_for
-from tests.support.serving import Service, sample
+from tests.support.serving import sample
 
 # Minutes of work.
 HEAVY = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0}
@@ -46,12 +43,12 @@ RUNNING, GONE = 'bench_dragon_computations{lane="heavy"}', 'bench_dragon_stopped
 
 
 @pytest.fixture(scope="module")
-def hurried(service_with: Callable[..., Service]) -> str:
+def hurried(service_with):
     return service_with(deadline_seconds=SHORT_DEADLINE, data=True).url
 
 
 @pytest.mark.parametrize("name", TOO_MUCH)
-def test_the_answer_at_the_deadline_says_what_was_too_much_and_offers_a_job(hurried: str, name: str) -> None:
+def test_the_answer_at_the_deadline_says_what_was_too_much_and_offers_a_job(hurried, name):
     with httpx.Client(base_url=hurried, timeout=PATIENCE) as client:
         answer = client.request(**TOO_MUCH[name])
     assert answer.status_code == 422
@@ -65,7 +62,7 @@ def test_the_answer_at_the_deadline_says_what_was_too_much_and_offers_a_job(hurr
 
 
 @pytest.mark.thorough
-def test_as_a_job_the_same_request_is_answered(hurried: str) -> None:
+def test_as_a_job_the_same_request_is_answered(hurried):
     with httpx.Client(base_url=hurried, timeout=PATIENCE) as client:
         job = client.request(**SCAN, headers={"Prefer": "respond-async"}).headers["Location"]
         client.get(f"{job}/events").raise_for_status()  # Its events end when it is finished.
@@ -75,7 +72,7 @@ def test_as_a_job_the_same_request_is_answered(hurried: str) -> None:
 
 
 @pytest.mark.parametrize("name", few([*TOO_MUCH][:3], 2))
-def test_a_computation_ends_when_its_client_is_gone(patient: str, name: str) -> None:
+def test_a_computation_ends_when_its_client_is_gone(patient, name):
     before, request = sample(patient, GONE), httpx.Client(base_url=patient).build_request(**TOO_MUCH[name])
     with closing(http.client.HTTPConnection(request.url.netloc.decode())) as connection:
         connection.request(request.method, request.url.raw_path.decode(), request.read(), dict(request.headers))
@@ -84,7 +81,7 @@ def test_a_computation_ends_when_its_client_is_gone(patient: str, name: str) -> 
 
 
 @pytest.mark.thorough
-def test_the_deadline_ends_a_plan_that_is_being_drawn(service_with: Callable[..., Service]) -> None:
+def test_the_deadline_ends_a_plan_that_is_being_drawn(service_with):
     """It is drawn in a minute, and computed long before the deadline."""
     answer = httpx.post(f"{service_with(deadline_seconds=2.0).url}/plan", json=DRAWN_PLAN, timeout=PATIENCE)
     assert answer.status_code == 422

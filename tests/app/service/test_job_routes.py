@@ -1,18 +1,13 @@
 """The calls about jobs on the real service: the result equals the direct answer, and waiting clients get events."""
 
-from __future__ import annotations
-
 import fcntl
 import json
 import socket
 import sqlite3
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, closing, contextmanager
-from pathlib import Path
 from threading import Timer
-from typing import Any
 
 import httpx
 import pytest
@@ -31,13 +26,13 @@ HELD = 0.5
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
+def service(tmp_path_factory):
     with JobService(tmp_path_factory.mktemp("jobs")) as service:
         yield service
 
 
 @contextmanager
-def writing(service: JobService) -> Iterator[None]:
+def writing(service):
     """While another process writes to the store, so that every change of it waits."""
     with closing(sqlite3.connect(service.folder / "jobs.sqlite", isolation_level=None)) as other:
         other.execute("BEGIN IMMEDIATE")
@@ -45,11 +40,11 @@ def writing(service: JobService) -> Iterator[None]:
         other.execute("ROLLBACK")
 
 
-def keeps_no_page_waiting(service: JobService, ask: Callable[[int], httpx.Response]) -> set[int]:
+def keeps_no_page_waiting(service, ask):
     """Statuses of many changes of the store, more than the service has threads, while another process writes to it."""
     with ThreadPoolExecutor(60) as threads:
         with writing(service):
-            changes: list[Future[httpx.Response]] = [threads.submit(ask, k) for k in range(60)]
+            changes = [threads.submit(ask, k) for k in range(60)]
             time.sleep(HELD)
             for page in ("/", "/how", "/readyz"):
                 assert service.client.get(page).status_code == 200
@@ -57,7 +52,7 @@ def keeps_no_page_waiting(service: JobService, ask: Callable[[int], httpx.Respon
         return {change.result().status_code for change in changes}
 
 
-def events_of(service: JobService, address: str, last: int | None = None) -> list[tuple[int, Any]]:
+def events_of(service, address, last=None):
     """Numbers and statuses, until the service ends the stream."""
     headers = {} if last is None else {"Last-Event-ID": str(last)}
     numbers, entries = [], []
@@ -82,13 +77,13 @@ def events_of(service: JobService, address: str, last: int | None = None) -> lis
         1,
     ),
 )
-def test_a_job_answers_what_its_call_answers_to_the_byte(service: JobService, wanted: Any) -> None:
+def test_a_job_answers_what_its_call_answers_to_the_byte(service, wanted):
     kept, request = service.result(service.done(wanted)), direct(service.client, wanted)
     assert kept.headers["content-type"] == request.headers["content-type"]
     assert kept.content == request.content
 
 
-def test_a_query_is_answered_later_for_who_prefers_that(service: JobService) -> None:
+def test_a_query_is_answered_later_for_who_prefers_that(service):
     call = "/collision-time?pitch=0.51"
     later = service.client.get(call, headers={"Prefer": "wait=5, respond-async"})
     assert (later.status_code, later.headers["preference-applied"]) == (202, "respond-async")
@@ -99,11 +94,11 @@ def test_a_query_is_answered_later_for_who_prefers_that(service: JobService) -> 
 
 
 @pytest.mark.parametrize("path", ["/healthz", "/metrics", "/docs", "/page/main.js"])
-def test_what_is_no_question_is_answered_at_once(service: JobService, path: str) -> None:
+def test_what_is_no_question_is_answered_at_once(service, path):
     assert service.client.get(path, headers=LATER).status_code == 200
 
 
-def test_head_and_what_the_client_has_already_make_no_job(service: JobService) -> None:
+def test_head_and_what_the_client_has_already_make_no_job(service):
     head = service.client.head("/collision-time", headers=LATER)
     assert head.status_code == 200
     known = LATER | {"If-None-Match": service.client.get("/collision-time").headers["etag"]}
@@ -126,12 +121,12 @@ WRONG = {
 
 
 @pytest.mark.parametrize("wanted", WRONG)
-def test_what_is_wrong_is_refused_at_once_by_its_place(service: JobService, wanted: str) -> None:
+def test_what_is_wrong_is_refused_at_once_by_its_place(service, wanted):
     answer = service.client.post("/jobs", content=wanted, headers={"Content-Type": "application/json"})
     assert_problem(answer, 406 if "accept" in wanted else 422, WRONG[wanted])
 
 
-def test_a_job_that_fails_answers_the_problem_of_its_call(service: JobService) -> None:
+def test_a_job_that_fails_answers_the_problem_of_its_call(service):
     wanted = {"question": "trajectory", "request": {"times": {"stop": 100, "step": 1e-3}}}
     address, request = service.post(wanted), direct(service.client, wanted)
     status, kept, problem = service.finished(address), service.result(address), request.json()
@@ -139,7 +134,7 @@ def test_a_job_that_fails_answers_the_problem_of_its_call(service: JobService) -
     assert (kept.status_code, kept.headers["content-type"], kept.content) == (422, PROBLEM_TYPE, request.content)
 
 
-def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service: JobService) -> None:
+def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service):
     address = service.done({"question": "trajectory", "request": {"times": {"stop": 90}}})
     whole = service.result(address).content
     assert len(whole) > 1_000_001
@@ -151,14 +146,14 @@ def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service: Jo
 
 
 @pytest.mark.thorough
-def test_a_player_may_jump_to_another_time_of_a_short_film(service: JobService) -> None:
+def test_a_player_may_jump_to_another_time_of_a_short_film(service):
     film = {"dragon": {"benches": 3}, "path": {"kind": "spiral", "pitch": 0.8}, "height": 90, "seconds": 1}
     address = service.done({"question": "films", "request": film, "accept": "video/mp4"})
     part = service.client.get(f"{address}/result", headers={"Range": "bytes=5-9"})
     assert (part.status_code, part.content) == (206, service.result(address).content[5:10])
 
 
-def test_head_of_events_ends_at_once(service: JobService) -> None:
+def test_head_of_events_ends_at_once(service):
     address = service.post(ENDLESS)
     answer = service.client.head(f"{address}/events")
     assert (answer.status_code, answer.content) == (200, b"")
@@ -166,7 +161,7 @@ def test_head_of_events_ends_at_once(service: JobService) -> None:
 
 
 @pytest.fixture(scope="module")
-def followed(service: JobService) -> Any:
+def followed(service):
     """The address of a job that takes a moment, and its events after the first one, with which a stream broke."""
     address = service.post(SCAN)
     with service.client.stream("GET", f"{address}/events") as answer:
@@ -174,9 +169,7 @@ def followed(service: JobService) -> Any:
     return address, events_of(service, address, last=1)
 
 
-def test_events_tell_every_change_and_a_stream_that_breaks_is_taken_up_where_it_broke(
-    service: JobService, followed: Any
-) -> None:
+def test_events_tell_every_change_and_a_stream_that_breaks_is_taken_up_where_it_broke(service, followed):
     address, after_first = followed
     events = events_of(service, address)
     numbers, statuses = zip(*events, strict=True)
@@ -191,7 +184,7 @@ def test_events_tell_every_change_and_a_stream_that_breaks_is_taken_up_where_it_
 
 
 @pytest.mark.thorough
-def test_proposals_come_as_they_are_found_and_stay_in_the_answer_alone(service: JobService) -> None:
+def test_proposals_come_as_they_are_found_and_stay_in_the_answer_alone(service):
     request = {"venue": box(0, 0, 24, 20), "dragon": {"benches": 10}, "count": 4}
     address = service.post({"question": "proposals", "request": request})
     parts = [status["part"] for _, status in events_of(service, address) if "part" in status]
@@ -201,13 +194,13 @@ def test_proposals_come_as_they_are_found_and_stay_in_the_answer_alone(service: 
     assert not any("part" in status for _, status in events_of(service, address))
 
 
-def test_a_number_of_no_event_is_no_mistake_of_the_service(service: JobService, followed: Any) -> None:
+def test_a_number_of_no_event_is_no_mistake_of_the_service(service, followed):
     for last in ("9" * 18, "9" * 30, "9" * 5000, "-1", "a"):
         answer = service.client.get(f"{followed[0]}/events", headers={"Last-Event-ID": last})
         assert answer.status_code in (200, 204), last[:9]
 
 
-def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(service: JobService) -> None:
+def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(service):
     wait_for(lambda: not service.of("child"))
     address = service.post(ENDLESS)
     wait_for(lambda: len(service.of("child")) == 1)
@@ -221,19 +214,19 @@ def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(se
 
 
 @pytest.mark.parametrize("is_copied", [False, pytest.param(True, marks=pytest.mark.thorough)])
-def test_a_removed_job_leaves_no_byte_of_its_call_and_result(service: JobService, is_copied: bool) -> None:
+def test_a_removed_job_leaves_no_byte_of_its_call_and_result(service, is_copied):
     """is_copied: meanwhile another process copies SQLite's log, as its lock tells."""
     address = service.post({"question": "collision_time", "request": {"pitch": 0.512345678901}})
     assert service.finished(address)["status"] == "successful"
     name = address.rpartition("/")[2].encode()
 
-    def has_name(file: Path) -> bool:
+    def has_name(file):
         try:
             return name in file.name.encode() + file.read_bytes()
         except (FileNotFoundError, IsADirectoryError):  # a folder, or a file removed just now
             return False
 
-    def kept() -> bool:
+    def kept():
         return any(map(has_name, service.folder.rglob("*")))
 
     assert kept()
@@ -245,19 +238,19 @@ def test_a_removed_job_leaves_no_byte_of_its_call_and_result(service: JobService
         wait_for(lambda: not kept())
 
 
-def test_nobody_is_shown_the_jobs_of_others(service: JobService) -> None:
+def test_nobody_is_shown_the_jobs_of_others(service):
     assert service.client.get("/jobs").status_code == 403
     assert service.client.get(f"/jobs/{'a' * 48}").status_code == 404
 
 
-def test_asking_for_a_job_later_makes_one_job(service: JobService) -> None:
+def test_asking_for_a_job_later_makes_one_job(service):
     answer = service.client.post("/jobs", json=SHORT, headers=LATER)
     assert (answer.status_code, answer.json()["processID"]) == (202, "collision_time")
     service.finished(answer.headers["location"])
 
 
 @pytest.mark.thorough
-def test_a_service_that_ends_tells_its_listeners_so(tmp_path: Path) -> None:
+def test_a_service_that_ends_tells_its_listeners_so(tmp_path):
     with JobService(tmp_path) as service:
         address = service.post(ENDLESS)
         with service.client.stream("GET", f"{address}/events", timeout=PATIENCE) as answer:
@@ -272,7 +265,7 @@ def test_a_service_that_ends_tells_its_listeners_so(tmp_path: Path) -> None:
 
 
 @pytest.mark.thorough
-def test_many_removals_keep_no_page_waiting(service: JobService) -> None:
+def test_many_removals_keep_no_page_waiting(service):
     addresses = [service.post(SHORT) for _ in range(10)]
     for address in addresses:
         service.finished(address)
@@ -290,14 +283,14 @@ MAKING = {
 
 
 @pytest.mark.parametrize("call", few([*MAKING], 1))
-def test_many_new_jobs_keep_no_page_waiting(service: JobService, call: str) -> None:
+def test_many_new_jobs_keep_no_page_waiting(service, call):
     method, path = call.split()
     url = f"http://127.0.0.1:{service.port}{path}"
     statuses = keeps_no_page_waiting(service, lambda k: httpx.request(method, url, timeout=PATIENCE, **MAKING[call]))
     assert statuses <= {202, 429}  # A client may have so many unfinished jobs.
 
 
-def test_bodies_that_come_slowly_take_no_place_of_those_that_are_there(service: JobService) -> None:
+def test_bodies_that_come_slowly_take_no_place_of_those_that_are_there(service):
     body = json.dumps(SHORT).encode()
     head = f"POST /jobs HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n"
     with ExitStack() as stack:

@@ -1,10 +1,7 @@
 """Files of the pages over HTTP: gzip for clients that accept it, entity tags, no Python."""
 
-from __future__ import annotations
-
 import gzip
 import re
-from pathlib import Path
 
 import httpx
 import pytest
@@ -16,7 +13,7 @@ UNPACKED, PACKED = {"Accept-Encoding": "identity"}, {"Accept-Encoding": "gzip"}
 
 
 @pytest.mark.parametrize("path", FILES)
-def test_a_file_is_the_same_as_gzip_and_plain_with_a_tag_of_each_form(client: httpx.Client, path: str) -> None:
+def test_a_file_is_the_same_as_gzip_and_plain_with_a_tag_of_each_form(client, path):
     answer = client.get(path, headers=UNPACKED).raise_for_status()
     with client.stream("GET", path, headers=PACKED) as packed:
         assert gzip.decompress(b"".join(packed.iter_raw())) == answer.content
@@ -39,9 +36,7 @@ def test_a_file_is_the_same_as_gzip_and_plain_with_a_tag_of_each_form(client: ht
         ("?door=village&lang=zh", "en", "zh-Hans", "竞赛题"),
     ],
 )
-def test_a_page_has_its_words_before_its_modules_come(
-    server: str, query: str, language: str, lang: str, word: str
-) -> None:
+def test_a_page_has_its_words_before_its_modules_come(server, query, language, lang, word):
     text = httpx.get(f"{server}/{query}", headers={"Accept-Language": language}).text
     assert f'<html lang="{lang}">' in text
     assert f'data-text="door_contest">{word}</button>' in text
@@ -55,14 +50,14 @@ def test_a_page_has_its_words_before_its_modules_come(
         *("/page/%00", "/docs/assets/%00", "/page-x/%00", "/page/%1b%5B2J%0d", f"/page/{300 * 'a'}"),
     ],
 )
-def test_only_files_of_the_pages_are_sent(server: str, path: str) -> None:
+def test_only_files_of_the_pages_are_sent(server, path):
     answer = httpx.get(server + path)
     assert answer.status_code == 404
     assert answer.headers["Content-Type"] == "application/problem+json"
 
 
 @pytest.mark.parametrize("path", ["/", "/how"])
-def test_browsers_keep_the_files_of_a_page_until_one_changes(client: httpx.Client, path: str) -> None:
+def test_browsers_keep_the_files_of_a_page_until_one_changes(client, path):
     addresses = re.findall(r'(?:href|src)="page-\w+/([^"]*)"', client.get(path).text)
     assert len(addresses) > 3
     edition = re.findall(r'(?:href|src)="(page-\w+)/', client.get(path).text)[0]
@@ -75,8 +70,8 @@ def test_browsers_keep_the_files_of_a_page_until_one_changes(client: httpx.Clien
             assert (other.content, other.headers["Cache-Control"]) == (kept.content, "no-cache")
 
 
-def test_the_edition_depends_on_the_files_alone(tmp_path: Path) -> None:
-    def edition(place: str, **files: str) -> str:
+def test_the_edition_depends_on_the_files_alone(tmp_path):
+    def edition(place, **files):
         (tmp_path / place / "words").mkdir(parents=True, exist_ok=True)
         for name, text in files.items():
             (tmp_path / place / "words" / name.replace("_", ".")).write_text(text)
@@ -106,9 +101,7 @@ LONG = "x" * 20_000
     ],
     ids=["English", "Chinese browser", "Chinese address"],
 )
-def test_a_too_long_address_is_answered_to_a_person_in_a_page(
-    server: str, path: str, query: str, language: str, lang: str, words: str
-) -> None:
+def test_a_too_long_address_is_answered_to_a_person_in_a_page(server, path, query, language, lang, words):
     answer = httpx.get(f"{server}{path}?{query}", headers={"Accept": BROWSER, "Accept-Language": language})
     assert (answer.status_code, answer.headers["Connection"]) == (414, "close")
     assert answer.headers["Content-Type"] == "text/html; charset=utf-8"
@@ -119,6 +112,6 @@ def test_a_too_long_address_is_answered_to_a_person_in_a_page(
 
 
 @pytest.mark.parametrize(("path", "accept"), [("/", "*/*"), ("/turn", BROWSER)])
-def test_a_too_long_address_is_a_problem_to_a_program(server: str, path: str, accept: str) -> None:
+def test_a_too_long_address_is_a_problem_to_a_program(server, path, accept):
     answer = httpx.get(f"{server}{path}?{LONG}", headers={"Accept": accept})
     assert (answer.status_code, answer.headers["Content-Type"]) == (414, "application/problem+json")

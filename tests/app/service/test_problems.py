@@ -1,13 +1,10 @@
 """Problems: their pointers and texts, and no traceback for an error of ours."""
 
-from __future__ import annotations
-
 import asyncio
 from concurrent.futures import ThreadPoolExecutor
 
 import httpx
 import pytest
-from fastapi import FastAPI
 
 import core
 from app.service.main import create_app
@@ -18,7 +15,7 @@ from app.wire.faults import pointer
 pytestmark = pytest.mark.uncompiled
 
 
-def test_an_index_into_what_is_no_list_in_the_body_is_left_out_of_a_pointer() -> None:
+def test_an_index_into_what_is_no_list_in_the_body_is_left_out_of_a_pointer():
     assert pointer(["times", 300], {"times": {"stop": 600}}) == pointer(["times", 300], {}) == "/times"
 
 
@@ -37,12 +34,12 @@ def test_an_index_into_what_is_no_list_in_the_body_is_left_out_of_a_pointer() ->
         ("", "application/json"),
     ],
 )
-def test_accept_chooses_the_form(header: str | None, expected: str | None) -> None:
+def test_accept_chooses_the_form(header, expected):
     assert accepted(header, ["application/json", "text/csv"]) == expected
 
 
-def ask(app: FastAPI, path: str, method: str = "GET") -> httpx.Response:
-    async def answer() -> httpx.Response:
+def ask(app, path, method="GET"):
+    async def answer():
         transport = httpx.ASGITransport(app)
         async with httpx.AsyncClient(transport=transport, base_url="http://here") as client:
             return await client.request(method, path)
@@ -56,8 +53,8 @@ ERRORS = [kind for kind in vars(core).values() if isinstance(kind, type) and iss
 
 
 @pytest.mark.parametrize("kind", ERRORS)
-def test_every_error_of_core_is_a_problem_of_the_client(kind: type[core.BenchDragonError]) -> None:
-    def fail() -> None:
+def test_every_error_of_core_is_a_problem_of_the_client(kind):
+    def fail():
         raise kind.in_words("path.pitch", "pitch is wrong")
 
     app = create_app(Settings())
@@ -68,7 +65,7 @@ def test_every_error_of_core_is_a_problem_of_the_client(kind: type[core.BenchDra
     assert answer.json()["type"] == f"urn:problem-type:bench-dragon:{kind.code}"
 
 
-def test_a_mistake_of_ours_shows_no_traceback() -> None:
+def test_a_mistake_of_ours_shows_no_traceback():
     app = create_app(Settings())
     app.add_api_route("/mistake", lambda: 1 / 0)
     answer = ask(app, "/mistake")
@@ -77,11 +74,11 @@ def test_a_mistake_of_ours_shows_no_traceback() -> None:
     assert "division" not in answer.text.lower()
 
 
-def test_a_limit_on_defaults_points_to_the_value_to_give() -> None:
+def test_a_limit_on_defaults_points_to_the_value_to_give():
     answer = ask(create_app(Settings(benches_max=10)), "/trajectory", "POST")
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["pointer"] == "/dragon/benches"
 
 
-def test_readiness_waits_for_the_self_test() -> None:
+def test_readiness_waits_for_the_self_test():
     assert ask(create_app(Settings()), "/readyz").status_code == 503

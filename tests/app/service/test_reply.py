@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 
-import httpx
 import pytest
-from fastapi import FastAPI
-from prometheus_client import CollectorRegistry
 
 from app.files.tables import XLSX_TYPE
 from app.service import routes
-from app.service.lanes import Lanes
 from app.service.main import create_app
 from app.service.problems import Refused
 from app.service.short_tries import SHORT
 from app.settings import Settings
-from app.wire.question import JSON, UNKNOWN_COST, Answer, Question, Terms, Wire, calls_of
+from app.wire.question import JSON, UNKNOWN_COST, Answer, Question, Wire, calls_of
 from core import TooMuchWork
 from core.kernels import Halted
 from tests.app.service.test_problems import ask
@@ -27,7 +22,6 @@ from tests.app.service.test_problems import ask
 SOON = 10.0
 
 # What a question does before it answers, from its terms and the number of its computation.
-Work = Callable[[Terms, int], None]
 
 
 class Count(Wire):
@@ -43,17 +37,17 @@ class CountAnswer(Answer):
 class Counting:
     """A question that counts how often its time is estimated and its answer computed."""
 
-    def __init__(self, cost: float, work: Work) -> None:
+    def __init__(self, cost, work):
         """cost: estimated time [s]"""
         self.estimated = self.computed = 0
         self.cost, self.work = cost, work
 
-    def estimate(self, request: Count) -> float:
+    def estimate(self, request):
         self.estimated += 1
         return self.cost
 
-    def question(self) -> Question:
-        def counting(request: Count, terms: Terms) -> CountAnswer:
+    def question(self):
+        def counting(request, terms):
             """How often this answer was computed."""
             self.computed += 1
             try:
@@ -65,22 +59,22 @@ class Counting:
         return Question(counting, CountAnswer, flat=Count, body=Count, cost=self.estimate)
 
 
-def quick(terms: Terms, number: int) -> None:
+def quick(terms, number):
     """No work."""
 
 
-def slow_at_first(terms: Terms, number: int) -> None:
+def slow_at_first(terms, number):
     """The first computation takes longer than the event loop may, as on a busy machine."""
     if number == 1:
         until_stopped(terms, number)
 
 
-def long(terms: Terms, number: int) -> None:
+def long(terms, number):
     """Work that its search announces as long."""
     terms.budget.take_time()
 
 
-def until_stopped(terms: Terms, number: int) -> None:
+def until_stopped(terms, number):
     """Work that only its budget ends."""
     end = time.monotonic() + SOON
     while time.monotonic() < end:
@@ -88,18 +82,18 @@ def until_stopped(terms: Terms, number: int) -> None:
 
 
 @pytest.fixture
-def app() -> FastAPI:
+def app():
     return create_app(Settings(heavy_max=1))
 
 
-def answer_of(app: FastAPI, counting: Counting, method: str = "GET") -> httpx.Response:
+def answer_of(app, counting, method="GET"):
     routes.add_calls(app.router, calls_of(counting.question()))
     return ask(app, "/counting", method)
 
 
 @contextmanager
-def heavy_lane_full(app: FastAPI) -> Iterator[None]:
-    lanes: Lanes = app.state.lanes
+def heavy_lane_full(app):
+    lanes = app.state.lanes
     with lanes.place(UNKNOWN_COST, JSON, "another client"):
         yield
 
@@ -116,22 +110,20 @@ def heavy_lane_full(app: FastAPI) -> Iterator[None]:
         ("POST", UNKNOWN_COST, long, 1),
     ],
 )
-def test_an_answer_is_estimated_once_and_computed_once_more_at_most(
-    app: FastAPI, method: str, cost: float, work: Work, computed: int
-) -> None:
+def test_an_answer_is_estimated_once_and_computed_once_more_at_most(app, method, cost, work, computed):
     counting = Counting(cost, work)
     assert answer_of(app, counting, method).json() == {"computed": computed}
     assert (counting.estimated, counting.computed) == (1, computed)
 
 
-def test_what_the_loop_gives_up_needs_no_place_among_long_computations(app: FastAPI) -> None:
+def test_what_the_loop_gives_up_needs_no_place_among_long_computations(app):
     counting = Counting(SHORT, slow_at_first)
     with heavy_lane_full(app):
         assert answer_of(app, counting).json() == {"computed": 2}
 
 
-def test_what_goes_on_for_longer_moves_to_a_place_among_long_computations(app: FastAPI) -> None:
-    def slow(terms: Terms, number: int) -> None:
+def test_what_goes_on_for_longer_moves_to_a_place_among_long_computations(app):
+    def slow(terms, number):
         if number == 1:
             until_stopped(terms, number)
         wait_until(lambda: (running(app, "cheap"), running(app, "heavy")) == (0.0, 1.0))
@@ -142,7 +134,7 @@ def test_what_goes_on_for_longer_moves_to_a_place_among_long_computations(app: F
     assert running(app, "cheap") == running(app, "heavy") == 0.0
 
 
-def test_what_goes_on_for_longer_ends_where_no_place_is_free(app: FastAPI) -> None:
+def test_what_goes_on_for_longer_ends_where_no_place_is_free(app):
     counting = Counting(SHORT, until_stopped)
     with heavy_lane_full(app):
         answer = answer_of(app, counting)
@@ -151,7 +143,7 @@ def test_what_goes_on_for_longer_ends_where_no_place_is_free(app: FastAPI) -> No
     assert (counting.estimated, counting.computed) == (1, 2)
 
 
-def test_workbooks_have_places_of_their_own() -> None:
+def test_workbooks_have_places_of_their_own():
     lanes = create_app(Settings(workbooks_max=1, retry_after=7)).state.lanes
     with ExitStack() as places:
         for cost, form in ((0.0, XLSX_TYPE), (0.0, JSON), (UNKNOWN_COST, JSON)):
@@ -161,13 +153,13 @@ def test_workbooks_have_places_of_their_own() -> None:
     assert (refused.value.status_code, int((refused.value.headers or {})["Retry-After"]) >= 7) == (503, True)
 
 
-def running(app: FastAPI, lane: str) -> float:
+def running(app, lane):
     """Number of computations in a lane, by the metric of operators."""
-    registry: CollectorRegistry = app.state.registry
+    registry = app.state.registry
     return registry.get_sample_value("bench_dragon_computations", {"lane": lane}) or 0.0
 
 
-def wait_until(holds: Callable[[], bool]) -> None:
+def wait_until(holds):
     end = time.monotonic() + SOON
     while not holds():
         assert time.monotonic() < end

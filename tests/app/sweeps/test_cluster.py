@@ -1,12 +1,7 @@
 """Sweeps on a real Dask cluster of this machine."""
 
-from __future__ import annotations
-
 import logging
 import socket
-from collections.abc import Iterator
-from pathlib import Path
-from typing import Any
 
 import psutil
 import pytest
@@ -14,7 +9,7 @@ from distributed import LocalCluster
 
 from app.sweeps.cluster import LOCAL, Cluster, NoScheduler
 from app.sweeps.engines import NoAnswer
-from app.sweeps.run import Progress, run
+from app.sweeps.run import run
 from app.sweeps.table import Sweep
 from tests.support.odd_questions import LAND, UNANSWERABLE
 from tests.support.serving import free_port
@@ -22,28 +17,28 @@ from tests.support.sweeping import assert_undisturbed, grid_of, spec_of
 
 
 @pytest.fixture(scope="module")
-def address() -> Iterator[str]:
+def address():
     """Address of a scheduler with a worker, both in this process."""
-    options: dict[str, Any] = {"protocol": "tcp://", "dashboard_address": None, "silence_logs": logging.ERROR}
+    options = {"protocol": "tcp://", "dashboard_address": None, "silence_logs": logging.ERROR}
     with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, **options) as cluster:
         yield cluster.scheduler_address
 
 
-def test_a_cluster_answers_as_this_process_does(tmp_path: Path, address: str) -> None:
+def test_a_cluster_answers_as_this_process_does(tmp_path, address):
     spec = grid_of(LAND)
     run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(address))
     assert_undisturbed(tmp_path / "a", spec, LAND)
 
 
-def test_what_no_worker_can_answer_ends_the_run_with_the_reason(tmp_path: Path, address: str) -> None:
+def test_what_no_worker_can_answer_ends_the_run_with_the_reason(tmp_path, address):
     with pytest.raises(NoAnswer, match=r"workers.* cannot answer: "):
         run(grid_of(UNANSWERABLE), tmp_path, question=UNANSWERABLE, engine=lambda: Cluster(address))
 
 
 @pytest.mark.thorough
-def test_a_local_cluster_answers_and_leaves_no_worker(tmp_path: Path) -> None:
+def test_a_local_cluster_answers_and_leaves_no_worker(tmp_path):
     before = set(psutil.Process().children(recursive=True))
-    spec, reports = grid_of(LAND), list[Progress]()
+    spec, reports = grid_of(LAND), []
     run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 1), progress=reports.append)
     assert reports[-1].designs == 60
     assert_undisturbed(tmp_path / "a", spec, LAND)
@@ -52,12 +47,10 @@ def test_a_local_cluster_answers_and_leaves_no_worker(tmp_path: Path) -> None:
 
 
 @pytest.mark.thorough
-def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(tmp_path, monkeypatch):
     monkeypatch.setattr("app.sweeps.run.DEATHS", 1)  # Processes of this machine find it: test_run.py
     spec = spec_of(LAND, {"x": list(range(6))}, request={"deadly": [2.0]}, shard_size=2)
-    options: dict[str, Any] = {"dashboard_address": None, "silence_logs": logging.ERROR}
+    options = {"dashboard_address": None, "silence_logs": logging.ERROR}
     options["scheduler_kwargs"] = {"allowed_failures": 0}  # A design is given up as soon as it ends a worker.
     with LocalCluster(n_workers=1, threads_per_worker=1, **options) as cluster:
         run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(cluster.scheduler_address))
@@ -66,7 +59,7 @@ def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(
 
 
 @pytest.mark.parametrize("silent", [False, True], ids=["nobody", "who_never_answers"])
-def test_an_address_without_a_scheduler_is_named(silent: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_address_without_a_scheduler_is_named(silent, monkeypatch):
     monkeypatch.setattr("app.sweeps.cluster.CONNECT", 0.3)
     with socket.create_server(("127.0.0.1", 0)) as peer:
         address = f"tcp://127.0.0.1:{peer.getsockname()[1] if silent else free_port()}"
@@ -74,7 +67,7 @@ def test_an_address_without_a_scheduler_is_named(silent: bool, monkeypatch: pyte
             Cluster(address)
 
 
-def test_an_address_without_a_scheme_is_tried_before_a_client_waits_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_address_without_a_scheme_is_tried_before_a_client_waits_for_it(monkeypatch):
     monkeypatch.setattr("app.sweeps.cluster.Client", None)
     with pytest.raises(NoScheduler, match="nonsense"):
         Cluster("nonsense")

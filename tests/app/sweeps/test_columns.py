@@ -1,9 +1,5 @@
 """Columns of a table: known from the model of an answer, the same for every part."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import pytest
 
 from app.questions.check import CheckRequest, check
@@ -13,7 +9,7 @@ from app.wire.question import Terms
 from tests.support.odd_questions import Height
 
 
-def test_numbers_words_and_pairs_become_columns_and_lists_json() -> None:
+def test_numbers_words_and_pairs_become_columns_and_lists_json():
     columns = answer_columns(Height)
     assert [(column.name, column.kind) for column in columns] == [
         ("height", float), ("side", str), ("around.0", float), ("around.1", float), ("digits", str),
@@ -23,7 +19,7 @@ def test_numbers_words_and_pairs_become_columns_and_lists_json() -> None:
 
 
 @pytest.mark.parametrize("name", QUESTIONS)
-def test_what_is_shown_and_what_is_left_out_are_columns(name: str) -> None:
+def test_what_is_shown_and_what_is_left_out_are_columns(name):
     question = question_of(name)
     columns = answer_columns(question.answer)
     names = {column.name: column.kind for column in columns}
@@ -38,11 +34,11 @@ def test_what_is_shown_and_what_is_left_out_are_columns(name: str) -> None:
     ("values", "kind"),
     [([1, 2], int), ([1, 2.5], float), ([True], bool), (["a"], str), ([{"kind": "spiral"}], str), ([1, "a"], str)],
 )
-def test_a_list_of_values_has_one_type(values: list[Any], kind: type) -> None:
+def test_a_list_of_values_has_one_type(values, kind):
     assert value_type(values) is kind
 
 
-def test_a_column_of_a_list_of_models_is_their_json() -> None:
+def test_a_column_of_a_list_of_models_is_their_json():
     answer = check(CheckRequest(dragon={"benches": 5}, speed_limit=0.5, cross_check="none"), Terms())
     column = Column("failures", ("failures",), str, as_json=True)
     assert '"kind":"speed"' in column.value(answer)

@@ -1,7 +1,5 @@
 """bench-dragon sweep, run as a user runs it: processes of its own, real kills, real Ctrl-C."""
 
-from __future__ import annotations
-
 import os
 import pty
 import re
@@ -9,8 +7,6 @@ import signal
 import subprocess
 import time
 import tomllib
-from collections.abc import Callable
-from pathlib import Path
 
 import psutil
 import pytest
@@ -36,11 +32,11 @@ width = [0.25, 0.30, 0.35, -1.0]
 LONGER, SHARDS = SPEC.replace("shard_size = 10", "shard_size = 40").replace("count = 50", "count = 200"), 20
 
 
-def sweep(*arguments: object) -> subprocess.CompletedProcess[str]:
+def sweep(*arguments):
     return run("sweep", *map(str, arguments))
 
 
-def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None], workers: int) -> tuple[int, str, int]:
+def stopped(spec, folder, stop, workers):
     """Exit code, messages and number of children of the command, stopped when it has written one part more; they end.
 
     It stands still meanwhile, because to list its children among many processes takes a while.
@@ -62,7 +58,7 @@ def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None], work
 
 
 @pytest.mark.thorough
-def test_after_ctrl_c_and_a_kill_no_worker_is_left_and_the_sweep_continues_to_the_same_bytes(tmp_path: Path) -> None:
+def test_after_ctrl_c_and_a_kill_no_worker_is_left_and_the_sweep_continues_to_the_same_bytes(tmp_path):
     spec, folder = tmp_path / "longer.toml", tmp_path / "a"
     spec.write_text(LONGER)
     *interrupted, children = stopped(spec, folder, lambda process: process.send_signal(signal.SIGINT), 2)
@@ -77,7 +73,7 @@ def test_after_ctrl_c_and_a_kill_no_worker_is_left_and_the_sweep_continues_to_th
     assert (folder / "sweep.parquet").read_bytes() == expected.read_bytes()
 
 
-def test_a_terminal_shows_a_bar_and_the_sweep_is_printed_drawn_and_compacted(tmp_path: Path) -> None:
+def test_a_terminal_shows_a_bar_and_the_sweep_is_printed_drawn_and_compacted(tmp_path):
     spec, folder = tmp_path / "spec.toml", tmp_path / "a"
     spec.write_text(SPEC)
     parent, child = pty.openpty()
@@ -113,7 +109,7 @@ def test_a_terminal_shows_a_bar_and_the_sweep_is_printed_drawn_and_compacted(tmp
         ("compact no-such-folder", "no-such-folder"),
     ],
 )
-def test_wrong_usage_is_one_line(line: str, name: str) -> None:
+def test_wrong_usage_is_one_line(line, name):
     done = sweep(*line.split())
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
     assert done.stderr.startswith(f"Error: {name}")

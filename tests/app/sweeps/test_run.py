@@ -1,17 +1,11 @@
 """Runs of a sweep: the state is in the parts alone, and the table is the same after any kill."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 
 from app.sweeps import shards
 from app.sweeps.engines import NoAnswer
 from app.sweeps.processes import CannotStart, Processes
-from app.sweeps.questions import SweepQuestion
-from app.sweeps.run import Progress, missing_shards, run
+from app.sweeps.run import missing_shards, run
 from app.sweeps.table import Sweep
 from tests.support.odd_questions import INTERRUPTED, LAND, UNANSWERABLE
 from tests.support.refused import refused
@@ -21,22 +15,20 @@ from tests.support.sweeping import assert_undisturbed, grid_of, spec_of
 class Shared(Processes):
     """Processes of several runs, which must not end with the first."""
 
-    def close(self) -> None:
+    def close(self):
         pass
 
 
 @pytest.fixture(scope="module")
-def shared() -> Iterator[Shared]:
+def shared():
     """One process for the runs that need no more, which is replaced when a design kills it."""
     engine = Shared(1)
     yield engine
     Processes.close(engine)
 
 
-def test_a_run_writes_every_part_says_how_far_it_is_and_removes_what_a_killed_one_left(
-    shared: Shared, tmp_path: Path
-) -> None:
-    spec, folder, reports = grid_of(LAND), tmp_path / "a", list[Progress]()
+def test_a_run_writes_every_part_says_how_far_it_is_and_removes_what_a_killed_one_left(shared, tmp_path):
+    spec, folder, reports = grid_of(LAND), tmp_path / "a", []
     folder.mkdir()
     (folder / ".part-xyz").write_bytes(b"half")
     run(spec, folder, question=LAND, progress=reports.append, engine=lambda: shared)
@@ -46,17 +38,15 @@ def test_a_run_writes_every_part_says_how_far_it_is_and_removes_what_a_killed_on
     assert_undisturbed(folder, spec, LAND)
 
 
-def test_only_what_is_missing_is_answered_again_and_where_nothing_is_no_engine_starts(
-    shared: Shared, tmp_path: Path
-) -> None:
-    spec, folder, reports = grid_of(LAND), tmp_path / "a", list[Progress]()
+def test_only_what_is_missing_is_answered_again_and_where_nothing_is_no_engine_starts(shared, tmp_path):
+    spec, folder, reports = grid_of(LAND), tmp_path / "a", []
     run(spec, folder, question=LAND, engine=lambda: shared)
     for shard in (0, 7):
         (folder / shards.part_name(shard)).unlink()
     kept = {file: file.stat().st_mtime_ns for file in folder.glob("part-*")}
     assert missing_shards(folder, spec) == [0, 7]
 
-    def engine() -> Processes:
+    def engine():
         assert [report.designs for report in reports] == [48]  # The kept rows are reported before the engine starts.
         return shared
 
@@ -68,8 +58,8 @@ def test_only_what_is_missing_is_answered_again_and_where_nothing_is_no_engine_s
 
 
 @pytest.mark.thorough
-def test_a_sweep_of_one_shard_starts_one_process(tmp_path: Path) -> None:
-    engine, pids = Processes(3), set[int]()
+def test_a_sweep_of_one_shard_starts_one_process(tmp_path):
+    engine, pids = Processes(3), set()
     run(grid_of(LAND, 6), tmp_path, question=LAND, engine=lambda: engine, progress=lambda _: pids.update(engine.pids))
     assert len(pids) == 1
 
@@ -77,9 +67,7 @@ def test_a_sweep_of_one_shard_starts_one_process(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "question", [pytest.param(LAND, marks=pytest.mark.thorough), INTERRUPTED], ids=["exit", "signal"]
 )
-def test_designs_that_kill_their_process_are_found_and_the_others_answered(
-    shared: Shared, question: SweepQuestion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_designs_that_kill_their_process_are_found_and_the_others_answered(shared, question, tmp_path, monkeypatch):
     if question is INTERRUPTED:  # What follows from a death is the same.
         monkeypatch.setattr("app.sweeps.run.DEATHS", 1)
     spec = spec_of(question, {"x": list(range(12, 18))}, request={"y": 2.0, "deadly": [16.0]}, shard_size=2)
@@ -92,7 +80,7 @@ def test_designs_that_kill_their_process_are_found_and_the_others_answered(
     }
 
 
-def test_processes_that_cannot_start_end_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_processes_that_cannot_start_end_the_run(tmp_path, monkeypatch):
     (tmp_path / "app").mkdir()
     (tmp_path / "app" / "__init__.py").write_text("raise SystemExit('no such program')")
     monkeypatch.syspath_prepend(str(tmp_path))
@@ -100,12 +88,12 @@ def test_processes_that_cannot_start_end_the_run(tmp_path: Path, monkeypatch: py
         run(grid_of(LAND, 6), tmp_path / "a", question=LAND, engine=lambda: Processes(1))
 
 
-def test_what_no_worker_can_answer_ends_the_run_with_the_reason(shared: Shared, tmp_path: Path) -> None:
+def test_what_no_worker_can_answer_ends_the_run_with_the_reason(shared, tmp_path):
     with pytest.raises(NoAnswer, match="ImportError: no such module"):
         run(grid_of(UNANSWERABLE, 6), tmp_path, question=UNANSWERABLE, engine=lambda: shared)
 
 
-def test_a_folder_of_something_else_is_refused(shared: Shared, tmp_path: Path) -> None:
+def test_a_folder_of_something_else_is_refused(shared, tmp_path):
     (tmp_path / "letter.txt").write_text("dear")
     with refused("output", folder=str(tmp_path)):
         run(grid_of(LAND, 6), tmp_path, question=LAND)

@@ -1,11 +1,7 @@
 """Shards: rows of designs good and bad, and files whose bytes depend on nothing else."""
 
-from __future__ import annotations
-
 import os
 import pickle
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -22,28 +18,27 @@ from tests.support.refused import refused
 from tests.support.sweeping import answered, spec_of
 
 
-def table(piece: ShardPiece) -> pa.Table:
+def table(piece):
     return pa.ipc.open_stream(piece.answer()).read_all()
 
 
-def rows(name: str, request: dict[str, Any], over: dict[str, Any]) -> list[dict[str, Any]]:
+def rows(name, request, over):
     """The rows of a question of the registry, all in one shard."""
     spec = Spec.of({"question": name, "over": over, "request": request, "shard_size": 100})
-    result: list[dict[str, Any]] = table(ShardPiece.whole(spec, spec.asks, 0)).to_pylist()
-    return result
+    return table(ShardPiece.whole(spec, spec.asks, 0)).to_pylist()
 
 
-def test_each_row_is_the_answer_to_its_request() -> None:
+def test_each_row_is_the_answer_to_its_request():
     for row in rows("collision_time", {"benches": 50}, {"pitch": [0.5, 0.55, 1.7], "width": [0.2, 0.3]}):
         values = {name: row[name] for name in ("pitch", "width")} | {"benches": 50, "cross_check": "none"}
-        answer: Any = question_of("collision_time").answer_to(values)
+        answer = question_of("collision_time").answer_to(values)
         assert (row["outcome"], row["time"]) == (answer.outcome, answer.time)
         assert (row["benches.0"], row["benches.1"]) == (answer.benches or (None, None))
         assert row["certificate.steps"] == answer.certificate.steps
         assert "certificate.method" not in row
 
 
-def test_a_refusal_of_core_uses_the_names_of_the_spec() -> None:
+def test_a_refusal_of_core_uses_the_names_of_the_spec():
     [row] = rows("least_clearance", {}, {"benches": [2]})
     assert row["error.message"] == "benches must be at least 3, so that two share no handle, got 2"
 
@@ -52,7 +47,7 @@ BENCH = {"x": 0.0, "y": 0.0, "heading": 0.0, "length": 2.2, "width": 0.3}
 LANES = [{"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, y], [20, y]]}} for y in (0, 9)]
 FLAT, BODY = {"benches": 8}, {"dragon": {"benches": 8}}
 # The request, the name of a parameter and a good value of it, where they are not those of most questions.
-REQUESTS: dict[str, tuple[dict[str, Any], str, float]] = {
+REQUESTS = {
     "collision_time": (FLAT, "pitch", 0.55),
     "minimum_pitch": (FLAT, "margin", 0.01),
     "minimum_pitch_of": (BODY, "margin", 0.01),
@@ -71,7 +66,7 @@ REQUESTS: dict[str, tuple[dict[str, Any], str, float]] = {
 
 
 @pytest.mark.parametrize("name", QUESTIONS)
-def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
+def test_every_question_is_answered_and_refuses_a_bad_design(name):
     has_body = name.endswith("_of") or name in ("check", "trajectory")
     request, parameter, good = REQUESTS.get(name, (BODY, "path.pitch", 1.7) if has_body else (FLAT, "pitch", 1.7))
     good_row, bad_row = rows(name, request, {parameter: [good, -1.0]})
@@ -91,9 +86,7 @@ def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
         ("least_clearance", "at_least", [8.7, 8.6]),
     ],
 )
-def test_a_question_about_several_dances_has_rows_of_its_own(
-    name: str, column: str, values: list[float] | None
-) -> None:
+def test_a_question_about_several_dances_has_rows_of_its_own(name, column, values):
     *good_rows, bad_row = rows(name, {"dances": LANES}, {"dances.1.dragon.width": [0.3, 0.5, -1.0]})
     assert all(row[column] is not None for row in good_rows)
     results = [row[question_of(name, ["dances"]).map_column] for row in good_rows]
@@ -102,18 +95,18 @@ def test_a_question_about_several_dances_has_rows_of_its_own(
     assert (bad_row["error.code"], "dances[1].dragon.width" in bad_row["error.message"]) == ("invalid-value", True)
 
 
-def test_a_row_about_one_dance_refuses_several() -> None:
+def test_a_row_about_one_dance_refuses_several():
     with refused("dances"):
         question_of("check").answer_to({"dances": LANES})
 
 
-def test_every_call_of_the_service_is_swept_or_has_its_reason() -> None:
+def test_every_call_of_the_service_is_swept_or_has_its_reason():
     swept, reasons = CALLS.keys() & QUESTIONS.keys(), {name for name in CALLS if name.removesuffix("_of") in NO_ROWS}
     assert swept & reasons == set()
     assert CALLS.keys() - swept - reasons == set(), "app/sweeps/questions.py needs a line of each, or its reason"
 
 
-def test_the_row_of_a_table_is_what_the_table_says() -> None:
+def test_the_row_of_a_table_is_what_the_table_says():
     dance, times = core.Dance(core.Dragon(benches=30), core.Spiral(0.6)), np.arange(0.0, 301.0)
     motion = core.trajectory(dance, times)
     head, tail, speed = *motion.position[-1, [0, -1]], motion.speed
@@ -129,7 +122,7 @@ def test_the_row_of_a_table_is_what_the_table_says() -> None:
     assert (row["separation"], alone["separation"]) == (pytest.approx(-0.2, abs=1e-12), None)
 
 
-def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered() -> None:
+def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered():
     spec = spec_of(LAND, {"x": [1.0, 13.0, 14.0, 100.5, 2.0], "y": [3.0]}, shard_size=5)
     result = table(ShardPiece.whole(spec, LAND, 0)).to_pydict()
     assert result["height"] == [3.0, None, None, None, 6.0]
@@ -141,7 +134,7 @@ def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered() -> N
     ]
 
 
-def test_a_file_has_the_same_bytes_however_its_shard_was_cut(tmp_path: Path) -> None:
+def test_a_file_has_the_same_bytes_however_its_shard_was_cut(tmp_path):
     spec = spec_of(LAND, {"x": {"start": 0, "stop": 30, "count": 31}, "y": [2.0, -1.0]}, shard_size=62)
     whole = ShardPiece.whole(spec, LAND, 0)
     left, right = whole.halves()
@@ -152,7 +145,7 @@ def test_a_file_has_the_same_bytes_however_its_shard_was_cut(tmp_path: Path) -> 
     assert len(files) == 1
 
 
-def test_a_part_of_errors_alone_or_a_killed_design_has_the_columns_of_the_others(tmp_path: Path) -> None:
+def test_a_part_of_errors_alone_or_a_killed_design_has_the_columns_of_the_others(tmp_path):
     spec = spec_of(LAND, {"x": [1.0, 13.0], "y": [2.0], "word": ["a"], "deadly": [[]]}, shard_size=1)
     answered(tmp_path, spec, LAND)
     first, second = (pq.read_schema(tmp_path / part_name(shard)) for shard in range(2))
@@ -163,7 +156,7 @@ def test_a_part_of_errors_alone_or_a_killed_design_has_the_columns_of_the_others
     assert killed["error.code"].to_pylist() == ["killed"]
 
 
-def test_parts_of_another_sweep_and_broken_files_are_refused(tmp_path: Path) -> None:
+def test_parts_of_another_sweep_and_broken_files_are_refused(tmp_path):
     spec, file = spec_of(LAND, {"x": [1.0]}), tmp_path / part_name(0)
     answered(tmp_path, spec_of(LAND, {"x": [2.0]}), LAND)
     for _ in range(2):
@@ -172,7 +165,7 @@ def test_parts_of_another_sweep_and_broken_files_are_refused(tmp_path: Path) -> 
         file.write_bytes(b"PAR1 no more")
 
 
-def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path):
     spec = spec_of(LAND, {"x": [1.0]})
     (tmp_path / part_name(0)).mkdir()
     with pytest.raises(IsADirectoryError):
@@ -180,7 +173,7 @@ def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
     assert os.listdir(tmp_path) == [part_name(0)]
 
 
-def test_a_worker_of_another_version_says_so() -> None:
+def test_a_worker_of_another_version_says_so():
     piece = ShardPiece(spec_of(LAND, {"x": [1.0]}), LAND, "0.0.1", 0, 0, 1)
     with refused("bench-dragon", OtherVersion, version="0.0.1"):
         pickle.loads(pickle.dumps(piece)).answer()

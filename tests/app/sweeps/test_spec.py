@@ -1,12 +1,9 @@
 """Specs of sweeps: equal from TOML, JSON and Python, named after their bytes; wrong ones are refused by their field."""
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -51,11 +48,11 @@ over.design        {"over": {"design": [1.0]}}
 """
 
 
-def changed(**changes: Any) -> Spec:
+def changed(**changes):
     return Spec.of(FIELDS | changes)
 
 
-def test_toml_json_and_python_give_the_same_spec_with_the_same_name(tmp_path: Path) -> None:
+def test_toml_json_and_python_give_the_same_spec_with_the_same_name(tmp_path):
     (tmp_path / "a.toml").write_text(TOML)
     (tmp_path / "a.json").write_text(json.dumps(FIELDS))
     specs = [Spec.read(tmp_path / "a.toml"), Spec.read(tmp_path / "a.json"), Spec.of(FIELDS)]
@@ -63,37 +60,37 @@ def test_toml_json_and_python_give_the_same_spec_with_the_same_name(tmp_path: Pa
     assert len({spec.name for spec in specs}) == 1
 
 
-def test_another_value_or_another_order_is_another_sweep() -> None:
+def test_another_value_or_another_order_is_another_sweep():
     orders = FIELDS["over"] | {"benches": [100, 222]}, dict(reversed(FIELDS["over"].items()))
     changes = [{}, {"request": {"margin": 0.06}}, {"shard_size": 7}, *({"over": over} for over in orders)]
     assert len({changed(**each).name for each in changes}) == 5
 
 
-def test_designs_are_all_combinations_cut_into_shards() -> None:
+def test_designs_are_all_combinations_cut_into_shards():
     spec = changed(shard_size=30)
     assert (spec.designs, spec.shards) == (200, 7)
     assert [spec.shard(k) for k in (0, 1, 6)] == [(0, 30), (30, 60), (180, 200)]
 
 
-def test_the_size_of_shards_depends_on_no_clock() -> None:
+def test_the_size_of_shards_depends_on_no_clock():
     large, small = (changed(over={"pitch": {"start": 0.4, "stop": 0.6, "count": count}}) for count in (10**6, 640))
     assert (large.shard_size, small.shards) == (5000, SHARDS_SMALL)
 
 
-def test_cross_checks_are_left_out_unless_they_are_asked_for() -> None:
+def test_cross_checks_are_left_out_unless_they_are_asked_for():
     assert changed().request["cross_check"] == "none"
     assert changed(request={"cross_check": "pair"}).request["cross_check"] == "pair"
     assert "cross_check" not in changed(over={"cross_check": ["none", "pair"]}).request
 
 
 @pytest.mark.parametrize("row", WRONG.strip().splitlines())
-def test_a_wrong_spec_is_refused_by_its_field(row: str) -> None:
+def test_a_wrong_spec_is_refused_by_its_field(row):
     field, changes = row.split(maxsplit=1)
     with refused(field):
         changed(**json.loads(changes))
 
 
-def test_a_sweep_has_so_many_designs_and_shards_at_most() -> None:
+def test_a_sweep_has_so_many_designs_and_shards_at_most():
     values = {"start": 0.4, "stop": 0.6, "count": DESIGNS_MAX}
     with refused("over", TooLarge, got=2 * DESIGNS_MAX, most=DESIGNS_MAX):
         changed(over={"pitch": values, "benches": [1, 2]})
@@ -101,18 +98,18 @@ def test_a_sweep_has_so_many_designs_and_shards_at_most() -> None:
         changed(over={"pitch": values}, shard_size=1)
 
 
-def test_a_bad_value_of_a_varied_parameter_is_a_design_like_any_other() -> None:
+def test_a_bad_value_of_a_varied_parameter_is_a_design_like_any_other():
     assert changed(over={"pitch": [-1.0, 0.5]}).designs == 2
 
 
 @pytest.mark.parametrize(("name", "text"), [("a.toml", "over = ["), ("a.json", "{")])
-def test_text_that_is_not_toml_or_json_is_refused(name: str, text: str, tmp_path: Path) -> None:
+def test_text_that_is_not_toml_or_json_is_refused(name, text, tmp_path):
     (tmp_path / name).write_text(text)
     with refused("spec"):
         Spec.read(tmp_path / name)
 
 
-def test_values_are_placed_into_a_copy() -> None:
+def test_values_are_placed_into_a_copy():
     base = {"path": {"kind": "spiral"}, "margin": 0}
     result = with_values(base, {"path.pitch": 0.5, "dragon.width": 0.2, "margin": 1})
     assert result == {"path": {"kind": "spiral", "pitch": 0.5}, "dragon": {"width": 0.2}, "margin": 1}
@@ -120,5 +117,5 @@ def test_values_are_placed_into_a_copy() -> None:
 
 
 @pytest.mark.parametrize("spec", re.findall(r"^```toml\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))
-def test_the_specs_in_the_docs_are_valid(spec: str) -> None:
+def test_the_specs_in_the_docs_are_valid(spec):
     assert Spec.of(tomllib.loads(spec)).designs in (120, 1000)

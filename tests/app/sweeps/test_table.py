@@ -1,9 +1,6 @@
 """The table of a sweep: from parts or from one file, as Parquet, CSV or a DataFrame."""
 
-from __future__ import annotations
-
 import csv
-from pathlib import Path
 
 import orjson
 import pyarrow as pa
@@ -22,12 +19,12 @@ SPEC = grid_of(LAND, 40, 7)
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path):
     """A complete sweep."""
     return answered(tmp_path, SPEC, LAND).folder
 
 
-def test_compacting_keeps_every_row_and_may_be_done_again(folder: Path) -> None:
+def test_compacting_keeps_every_row_and_may_be_done_again(folder):
     sweep = Sweep.open(folder)
     before, part = sweep.table(), (folder / shards.part_name(2)).read_bytes()
     first = sweep.compact().read_bytes()
@@ -40,7 +37,7 @@ def test_compacting_keeps_every_row_and_may_be_done_again(folder: Path) -> None:
     assert sweep.missing == 0
 
 
-def test_an_incomplete_sweep_is_shown_but_not_compacted(folder: Path) -> None:
+def test_an_incomplete_sweep_is_shown_but_not_compacted(folder):
     (folder / shards.part_name(3)).unlink()
     sweep = Sweep(folder, SPEC)
     assert sweep.table().num_rows == 33
@@ -50,7 +47,7 @@ def test_an_incomplete_sweep_is_shown_but_not_compacted(folder: Path) -> None:
         sweep.to_csv(folder / "a.csv")
 
 
-def test_csv_and_a_dataframe_have_every_row_and_numbers_as_numbers(folder: Path) -> None:
+def test_csv_and_a_dataframe_have_every_row_and_numbers_as_numbers(folder):
     sweep = Sweep(folder, SPEC)
     sweep.to_csv(folder / "a.csv")
     with (folder / "a.csv").open(newline="") as source:
@@ -63,7 +60,7 @@ def test_csv_and_a_dataframe_have_every_row_and_numbers_as_numbers(folder: Path)
     assert rows[26]["error.message"] == frame["error.message"][26] == "x must not be 13 m"
 
 
-def test_a_folder_without_a_sweep_of_another_version_or_without_rows_is_refused(folder: Path, tmp_path: Path) -> None:
+def test_a_folder_without_a_sweep_of_another_version_or_without_rows_is_refused(folder, tmp_path):
     with refused("folder", file="sweep.json"):
         Sweep.open(tmp_path / "nowhere")
     with refused("value", numbers="design, x, y, height, around.0, around.1"):
@@ -77,13 +74,13 @@ def test_a_folder_without_a_sweep_of_another_version_or_without_rows_is_refused(
         Sweep.open(folder)
 
 
-def test_a_spec_of_bodies_comes_back_from_its_folder(tmp_path: Path) -> None:
+def test_a_spec_of_bodies_comes_back_from_its_folder(tmp_path):
     over = {"path.pitch": [0.5], "dragon.width": {"start": 0.2, "stop": 0.3, "count": 2}}
     spec = Spec.of({"question": "check", "over": over, "request": {"dragon": {"benches": 5}}})
     begin(tmp_path / "a", spec)
     assert Sweep.open(tmp_path / "a").spec.name == spec.name
 
 
-def test_no_text_of_a_table_is_a_formula_for_a_spreadsheet() -> None:
+def test_no_text_of_a_table_is_a_formula_for_a_spreadsheet():
     table = without_formulas(pa.table({"x": [-1.0, 2.0], "error.message": ["=1+1", "x must not be 13 m"]}))
     assert table.to_pydict() == {"x": [-1.0, 2.0], "error.message": ["'=1+1", "x must not be 13 m"]}

@@ -1,19 +1,15 @@
 """Venues in longitude and latitude, laid out on a plane as surveyors do it; test_refusals.py has what is wrong."""
 
-from __future__ import annotations
-
 import math
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.wire.degrees import ACROSS_MAX, GeographicOrigin, Place, place_of
+from app.wire.degrees import ACROSS_MAX, place_of
 from core import Dragon
-from tests.support.asking import Asking, box, written
+from tests.support.asking import box, written
 from tests.support.command import run
 from tests.support.refused import refused
 
@@ -28,18 +24,18 @@ ALONG_PARALLEL = 111_412.877 * math.cos(PHI) - 93.503 * math.cos(3 * PHI) + 0.11
 SERIES = 1e-6  # how good the series is, as a part of the length [1]
 
 
-def around(half: float, longitude: float = LONGITUDE, latitude: float = LATITUDE) -> dict[str, Any]:
+def around(half, longitude=LONGITUDE, latitude=LATITUDE):
     """A square in degrees. half: distance from its middle to each side [m]"""
     east = half / (ALONG_PARALLEL / math.cos(PHI) * math.cos(math.radians(latitude)))
     north = half / ALONG_MERIDIAN
     return box(longitude - east, latitude - north, longitude + east, latitude + north)
 
 
-def with_crs(name: str, venue: Any) -> dict[str, Any]:
+def with_crs(name, venue):
     return venue | {"crs": {"type": "name", "properties": {"name": name}}}
 
 
-def placed(venue: object, coordinates: Any = None, dragon: Dragon = Dragon()) -> Place:  # noqa: B008
+def placed(venue, coordinates=None, dragon=Dragon()):  # noqa: B008
     return place_of(venue, coordinates, dragon)
 
 
@@ -56,18 +52,18 @@ CHECK = DANCE | {"stop": 20}
     [box(0, 0, 3.42, 0.1), box(0, 0, 0.1, 3.42), box(-180.1, -90, -178, -88), box(177, 88, 179, 90.1)],
     ids=["longer", "higher", "beyond 180", "beyond 90"],
 )
-def test_what_cannot_be_degrees_or_holds_a_bench_is_in_metres(venue: Any) -> None:
+def test_what_cannot_be_degrees_or_holds_a_bench_is_in_metres(venue):
     assert placed(venue).origin is None
 
 
-def test_a_toy_dragon_has_its_square_on_a_table() -> None:
+def test_a_toy_dragon_has_its_square_on_a_table():
     assert placed(box(0, 0, 0.5, 0.5), dragon=Dragon(9, 0.0341, 0.022, 0.003, 0.00275)).venue is not None
 
 
 # -- laid out ------------------------------------------------------------------------------------------------
 
 
-def test_a_square_in_degrees_is_checked_like_the_same_one_in_metres(ask: Asking) -> None:
+def test_a_square_in_degrees_is_checked_like_the_same_one_in_metres(ask):
     there = ask("check", CHECK | {"venue": DEGREES, "coordinates": "degrees"})
     here = ask("check", CHECK | {"venue": METRES})
     assert (there["verdict"], here["verdict"], here["origin"]) == ("passes", "passes", None)
@@ -80,9 +76,7 @@ NEAR = st.floats(-0.05, 0.05)
 
 
 @given(st.floats(-179.9, 179.9), st.floats(-80.0, 80.0), NEAR, NEAR, st.floats(0.01, 0.05))
-def test_vertices_lie_where_the_slow_formula_puts_them(
-    longitude: float, latitude: float, x: float, y: float, half: float
-) -> None:
+def test_vertices_lie_where_the_slow_formula_puts_them(longitude, latitude, x, y, half):
     square = box(longitude - half, latitude - half, longitude + half, latitude + half)
     stall = box(longitude + x, latitude + y, longitude + x + 1e-3, latitude + y + 1e-3)
     place = placed({"type": "GeometryCollection", "geometries": [square, stall]}, "degrees")
@@ -91,7 +85,7 @@ def test_vertices_lie_where_the_slow_formula_puts_them(
         assert np.array(area.rings[0]) == pytest.approx(np.array(slow), rel=0, abs=PLACED)
 
 
-def east_north(origin: GeographicOrigin, longitude: float, latitude: float) -> tuple[float, float]:
+def east_north(origin, longitude, latitude):
     """By the latitude and longitude alone, as in Torge and Mueller, Geodesy, section 6.2: e = n cos p sin(l - l0)."""
     squared = 1.0 - (1.0 - 1.0 / 298.257223563) ** 2
     p0, p, dl = math.radians(origin.latitude), math.radians(latitude), math.radians(longitude - origin.longitude)
@@ -101,7 +95,7 @@ def east_north(origin: GeographicOrigin, longitude: float, latitude: float) -> t
     return east, north + squared * n0 * math.sin(p0) * math.cos(p0)
 
 
-def test_a_square_on_the_date_line_is_one_square() -> None:
+def test_a_square_on_the_date_line_is_one_square():
     place = placed(box(179.9995, 10, -179.9995, 10.001), "degrees")
     assert abs(place.origin.longitude) == pytest.approx(180.0, abs=1e-9)
     assert np.abs(np.array(place.venue.square.rings[0])).max() < 60.0
@@ -114,16 +108,16 @@ def test_a_square_on_the_date_line_is_one_square() -> None:
     "name",
     ["urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4326", "urn:ogc:def:crs:EPSG::4490", "CRS:84"],
 )
-def test_a_crs_of_longitude_and_latitude_is_believed(name: str) -> None:
+def test_a_crs_of_longitude_and_latitude_is_believed(name):
     assert placed(with_crs(name, DEGREES)) == placed(with_crs(name, DEGREES), "degrees") == placed(DEGREES, "degrees")
 
 
-def test_another_crs_or_none_is_believed_to_be_in_metres_if_the_user_says_so() -> None:
+def test_another_crs_or_none_is_believed_to_be_in_metres_if_the_user_says_so():
     for venue in (with_crs("EPSG:3857", METRES), with_crs("somewhere", METRES)):
         assert placed(venue, "metres") == placed(METRES) == placed(METRES | {"crs": None})
 
 
-def test_the_limit_of_a_venue_is_where_it_says() -> None:
+def test_the_limit_of_a_venue_is_where_it_says():
     assert placed(around(0.495 * ACROSS_MAX, latitude=0.1), "degrees").venue is not None
     with refused("venue"):
         placed(around(0.505 * ACROSS_MAX, latitude=0.1), "degrees")
@@ -132,7 +126,7 @@ def test_the_limit_of_a_venue_is_where_it_says() -> None:
 # -- on the command line -----------------------------------------------------------------------------------------
 
 
-def test_the_command_takes_a_venue_in_degrees(tmp_path: Path) -> None:
+def test_the_command_takes_a_venue_in_degrees(tmp_path):
     written(tmp_path, DEGREES, "square.geojson")
     file = written(tmp_path, CHECK | {"venue": "square.geojson", "coordinates": "degrees"})
     assert "x = y = 0 is longitude 120.155100, latitude 28.970300" in run("check", file).stdout

@@ -1,16 +1,13 @@
 """GeoJSON: accepted forms, and the places of refusals."""
 
-from __future__ import annotations
-
 import math
 import time
-from typing import Any
 
 import numpy as np
 import pytest
 
 from app.wire.geojson import outlined, read_things, venue_of
-from core import InvalidValue, Venue
+from core import InvalidValue
 from tests.support.asking import box, polygon
 from tests.support.refused import refused
 
@@ -18,7 +15,7 @@ AT_ONCE = 20.0  # [s] of processor time; judged for validity these rings take mo
 SQUARE = (-35, -5, 20, 20)
 
 
-def circle(count: int) -> list[tuple[float, float]]:
+def circle(count):
     """Points of a circle with a radius of 1 m around (5, 4)."""
     return [(5 + math.cos(k), 4 + math.sin(k)) for k in np.linspace(0, 2 * math.pi, count, endpoint=False)]
 
@@ -27,30 +24,30 @@ WELL = circle(24)
 RING = [[0, 0], [1, 0], [1, 1], [0, 0]]
 
 
-def features(*members: Any) -> dict[str, Any]:
+def features(*members):
     return {"type": "FeatureCollection", "features": list(members)}
 
 
-def collection(*members: Any) -> dict[str, Any]:
+def collection(*members):
     return {"type": "GeometryCollection", "geometries": list(members)}
 
 
-def raw(*rings: Any) -> dict[str, Any]:
+def raw(*rings):
     """A polygon of rings as they are, closed or not."""
     return {"type": "Polygon", "coordinates": list(rings)}
 
 
-def read(geometry: object) -> Venue:
+def read(geometry):
     return venue_of(outlined(read_things(geometry)))
 
 
-def test_a_single_polygon_is_the_square_with_its_holes() -> None:
+def test_a_single_polygon_is_the_square_with_its_holes():
     venue = read(polygon(box(*SQUARE)["coordinates"][0], WELL))
     assert (venue.square.name, len(venue.square.rings), venue.obstacles) == ("square", 2, ())
     assert venue.square.edges.shape == (4 + 24, 4)
 
 
-def test_the_square_is_the_feature_of_that_name_or_else_the_first() -> None:
+def test_the_square_is_the_feature_of_that_name_or_else_the_first():
     unnamed = {"type": "Feature", "properties": {"name": None}, "geometry": box(15, 0, 18, 3)}
     venue = read(features(polygon(WELL, name="well"), box(*SQUARE, name="square"), unnamed))
     assert [area.name for area in venue.areas] == ["square", "well", "obstacle 2"]
@@ -58,12 +55,12 @@ def test_the_square_is_the_feature_of_that_name_or_else_the_first() -> None:
     assert ([area.name for area in first.areas], first.square.rings[0][0]) == (["square", "obstacle 1"], (-35.0, -5.0))
 
 
-def test_heights_and_edges_without_length_are_passed_over() -> None:
+def test_heights_and_edges_without_length_are_passed_over():
     ring = [[0, 0, 7], [9, 0, 7], [9, 0, 7], [9, 9, 8], [0, 0, 7]]
     assert read(raw(ring)).square.edges.tolist() == [[0, 0, 9, 0], [9, 0, 9, 9], [9, 9, 0, 0]]
 
 
-def test_endless_nesting_is_refused() -> None:
+def test_endless_nesting_is_refused():
     nested = raw(RING)
     for _ in range(900):
         nested = collection(nested)
@@ -71,7 +68,7 @@ def test_endless_nesting_is_refused() -> None:
         read(nested)
 
 
-def test_as_many_edges_as_the_limit_are_read_and_one_more_is_refused() -> None:
+def test_as_many_edges_as_the_limit_are_read_and_one_more_is_refused():
     assert len(read(polygon(circle(2_000))).square.edges) == 2_000
     with refused("venue", got=2_001, most=2_000):
         read(polygon(circle(2_001)))
@@ -87,7 +84,7 @@ def test_as_many_edges_as_the_limit_are_read_and_one_more_is_refused() -> None:
     ],
     ids=["rings", "rings without size", "empty rings", "features"],
 )
-def test_too_many_rings_are_refused_before_their_validity_is_judged(ring: Any, count: int) -> None:
+def test_too_many_rings_are_refused_before_their_validity_is_judged(ring, count):
     geometry = (
         raw(*[ring] * count) if ring is not None else features(*[{"type": "Feature", "geometry": raw(RING)}] * count)
     )

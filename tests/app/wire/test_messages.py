@@ -1,18 +1,14 @@
 """Names and units in messages. For an unknown name only names are suggested that the call itself has at that place."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from pkgutil import walk_packages
 
-import httpx
 import pytest
 
 import app
 from app.wire.messages import owners
 from app.wire.problem import BYTES_MAX
 from app.wire.question import JSON, unit_of
-from tests.support.asking import Asking
 
 # What a call is asked -> the place and the sentence of its refusal.
 QUERIES = {
@@ -75,9 +71,7 @@ BODIES = {
 
 
 @pytest.mark.parametrize("request_", QUERIES, ids=lambda one: one[:40])
-def test_the_refusal_of_a_query_tells_the_value_the_unit_the_limit_and_what_to_change(
-    ask: Asking, request_: str
-) -> None:
+def test_the_refusal_of_a_query_tells_the_value_the_unit_the_limit_and_what_to_change(ask, request_):
     answer = ask.send(request_)
     ((error,), detail) = answer.json()["errors"], answer.json()["detail"]
     assert (answer.status_code, error["detail"], detail) == (422, QUERIES[request_], QUERIES[request_])
@@ -85,14 +79,14 @@ def test_the_refusal_of_a_query_tells_the_value_the_unit_the_limit_and_what_to_c
 
 
 @pytest.mark.parametrize("request_", BODIES)
-def test_the_refusal_of_a_body_gives_advice_from_its_own_place(client: httpx.Client, request_: str) -> None:
+def test_the_refusal_of_a_body_gives_advice_from_its_own_place(client, request_):
     call, _, body = request_.partition(" ")
     answer = client.post(f"/{call}", content=body, headers={"Content-Type": JSON})
     assert answer.status_code == 422
     assert [f"{error['pointer']}: {error['detail']}" for error in answer.json()["errors"]] == [BODIES[request_]]
 
 
-def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(ask: Asking) -> None:
+def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(ask):
     problem = ask.send("collision-time?pitch=55&benches=x").json()
     benches, pitch = problem["errors"]
     assert problem["detail"] == f"{benches['detail']} (and 1 more)"
@@ -113,18 +107,18 @@ def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(ask: Ask
     assert [word for word in ("template", "got", "values") if benches[word] != problem[word]] == []
 
 
-def test_a_refusal_of_too_many_parameters_speaks_of_no_body(ask: Asking) -> None:
+def test_a_refusal_of_too_many_parameters_speaks_of_no_body(ask):
     answer = ask.send("turn?" + "&".join(f"n{k}=1" for k in range(150)))
     assert (answer.status_code, "body" in answer.text) == (422, False)
 
 
-def test_a_name_has_the_same_unit_in_all_requests() -> None:
+def test_a_name_has_the_same_unit_in_all_requests():
     """Sentences take the unit from the name, whichever requests this process knows; pieces of a path and entries of a
     list say whose they are."""
     for room in walk_packages(app.__path__, "app."):
         if room.name != "app.sweeps.cluster":
             import_module(room.name)
-    units: dict[str, set[str]] = {}
+    units = {}
     for model, before in owners().items():
         for name, field in {} if before else model.model_fields.items():
             units.setdefault(name, set()).add(unit_of(field))
@@ -132,13 +126,13 @@ def test_a_name_has_the_same_unit_in_all_requests() -> None:
 
 
 @pytest.mark.parametrize("text", ["龙" * 500, "\x01" * 300, '"\\' * 300, "{field}"])
-def test_a_problem_stays_short_whatever_its_values_hold(ask: Asking, text: str) -> None:
+def test_a_problem_stays_short_whatever_its_values_hold(ask, text):
     answer = ask.send("trajectory", {f"{k}{text}": 1 for k in range(50)})
     assert (answer.status_code, len(answer.content) <= BYTES_MAX) == (422, True)
     assert answer.json()["errors"]
 
 
-def test_a_body_that_cannot_be_read_has_a_template_of_its_own(client: httpx.Client) -> None:
+def test_a_body_that_cannot_be_read_has_a_template_of_its_own(client):
     problem = client.post("/check", content=b'{"a": 1,}', headers={"Content-Type": JSON}).json()
     assert problem["template"] == "{text} is not JSON"
     assert problem["reason"] == "{why} at character {place}. Send an object such as {}."

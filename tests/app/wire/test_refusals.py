@@ -1,16 +1,11 @@
 """What is wrong in a request of any call is refused by a name that its author used or can use, with the values."""
 
-from __future__ import annotations
-
 import json
 import re
-from pathlib import Path
-from typing import Any
 
-import httpx
 import pytest
 
-from tests.support.asking import Asking, assert_problem, written
+from tests.support.asking import assert_problem, written
 from tests.support.command import run
 from tests.support.depth import few
 
@@ -494,7 +489,7 @@ PARTS |= {
 }
 
 
-def request_of(entry: str) -> tuple[str, str]:
+def request_of(entry):
     """The call and the body of an entry."""
     head, _, fields = expanded(entry).partition(" {")
     call, *whole = head.split()
@@ -502,31 +497,29 @@ def request_of(entry: str) -> tuple[str, str]:
     return call, json.dumps(json.loads(expanded(WHOLES[whole[0]])) | json.loads(text)) if whole else text
 
 
-def expanded(text: str) -> str:
+def expanded(text):
     for name, part in PARTS.items():
         text = text.replace(name, part)
     return text
 
 
-def post(client: httpx.Client, call: str, body: str) -> httpx.Response:
+def post(client, call, body):
     return client.post(f"/{call}", content=body, headers={"Content-Type": "application/json"})
 
 
-def shortened(entry: Any) -> str:
+def shortened(entry):
     return str(entry)[:70]
 
 
 @pytest.fixture(scope="module")
-def parameters(ask: Asking) -> dict[str, set[str]]:
+def parameters(ask):
     """The parameters of each call with a query."""
     calls = ask("openapi.json")["paths"].items()
     return {path: {one["name"] for one in call["get"].get("parameters", [])} for path, call in calls if "get" in call}
 
 
 @pytest.mark.parametrize("request_", OPTIONS | QUERIES)
-def test_a_query_is_refused_by_its_own_name_and_value(
-    ask: Asking, parameters: dict[str, set[str]], request_: str
-) -> None:
+def test_a_query_is_refused_by_its_own_name_and_value(ask, parameters, request_):
     expected = (OPTIONS | QUERIES)[request_]
     ask.refuses(expected, request_)
     assert not INSIDE.search(ask.send(request_).json()["detail"])
@@ -534,12 +527,12 @@ def test_a_query_is_refused_by_its_own_name_and_value(
 
 
 @pytest.mark.parametrize("request_", UNKNOWN)
-def test_a_name_that_the_call_does_not_take_is_refused(ask: Asking, request_: str) -> None:
+def test_a_name_that_the_call_does_not_take_is_refused(ask, request_):
     ask.refuses(f"{request_.partition('?')[2].partition('=')[0]} unknown", request_)
 
 
 @pytest.mark.parametrize("request_", few([*OPTIONS], 9))
-def test_an_option_is_refused_in_the_same_words(ask: Asking, request_: str) -> None:
+def test_an_option_is_refused_in_the_same_words(ask, request_):
     call, _, query = request_.partition("?")
     done = run(call, *(f"--{one.replace('_', '-')}" for one in query.split("&")))
     assert (done.returncode, done.stdout) == (2, "")
@@ -547,7 +540,7 @@ def test_an_option_is_refused_in_the_same_words(ask: Asking, request_: str) -> N
 
 
 @pytest.mark.parametrize("entry", BODIES | MANY, ids=shortened)
-def test_a_body_is_refused_by_a_place_in_it(client: httpx.Client, entry: str) -> None:
+def test_a_body_is_refused_by_a_place_in_it(client, entry):
     answer = post(client, *request_of(entry))
     assert_problem(answer, 422, (BODIES | MANY)[entry])
     assert not re.search("turning_radius|path\\.path|\u202e", answer.json()["detail"])
@@ -555,12 +548,12 @@ def test_a_body_is_refused_by_a_place_in_it(client: httpx.Client, entry: str) ->
 
 @pytest.mark.parametrize("call", few(["check", "trajectory", "clearance", "figures/trajectory.svg"], 1))
 @pytest.mark.parametrize("path", PATHS, ids=shortened)
-def test_an_invalid_path_is_refused_at_its_place_by_every_call(client: httpx.Client, call: str, path: str) -> None:
+def test_an_invalid_path_is_refused_at_its_place_by_every_call(client, call, path):
     assert_problem(post(client, call, f'{{"path": {expanded(path)}}}'), 422, f"/path{PATHS[path]}")
 
 
 @pytest.mark.parametrize("entry", few(FILES, 4))
-def test_a_file_of_a_dance_is_refused_as_a_body_is(client: httpx.Client, tmp_path: Path, entry: str) -> None:
+def test_a_file_of_a_dance_is_refused_as_a_body_is(client, tmp_path, entry):
     call, text = request_of(entry)
     (tmp_path / "dance.json").write_text(text)
     done = run("check", str(tmp_path / "dance.json"))
@@ -579,9 +572,7 @@ def test_a_file_of_a_dance_is_refused_as_a_body_is(client: httpx.Client, tmp_pat
         "check dance.json --figure dance.svg --time 1000: time 1000",
     ],
 )
-def test_an_instant_is_refused_by_the_option_that_asked_for_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: str
-) -> None:
+def test_an_instant_is_refused_by_the_option_that_asked_for_it(tmp_path, monkeypatch, line):
     monkeypatch.chdir(tmp_path)
     written(tmp_path, {"dragon": {"benches": 5}, "stop": 100})
     words, name, value = re.split(": | (?=[0-9.]+$)", line)

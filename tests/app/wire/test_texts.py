@@ -1,11 +1,7 @@
 """Text of files and bodies: encodings that Windows writes are read, and a refusal says what is wrong."""
 
-from __future__ import annotations
-
 import codecs
 import random
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 
@@ -15,13 +11,13 @@ DANCE = '{"path": {"pitch": 0.5}, "venue": "广场"}'
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
-def test_text_of_windows_is_read(encoding: str) -> None:
+def test_text_of_windows_is_read(encoding):
     assert json_of(DANCE.encode(encoding)) == {"path": {"pitch": 0.5}, "venue": "广场"}
     assert toml_of('venue = "广场"'.encode(encoding)) == {"venue": "广场"}
     assert text_of("长度".encode(encoding)) == "长度"
 
 
-def test_utf_16_is_known_by_its_mark_in_either_order() -> None:
+def test_utf_16_is_known_by_its_mark_in_either_order():
     assert json_of(codecs.BOM_UTF16_BE + DANCE.encode("utf-16-be")) == json_of(DANCE.encode())
 
 
@@ -56,7 +52,7 @@ TOML_FAULTS = {
     [(json_of, JSON_FAULTS), (json_of, UNFIT), (toml_of, TOML_FAULTS)],
     ids=["JSON", "unfit", "TOML"],
 )
-def test_an_unreadable_text_is_refused_with_its_fault(read: Callable[[bytes], Any], faults: dict[bytes, str]) -> None:
+def test_an_unreadable_text_is_refused_with_its_fault(read, faults):
     for data, words in faults.items():
         with pytest.raises(Unreadable) as refused:
             read(data)
@@ -65,11 +61,11 @@ def test_an_unreadable_text_is_refused_with_its_fault(read: Callable[[bytes], An
         assert isinstance(refused.value, Unfit) == (faults is UNFIT)
 
 
-def test_a_whole_character_in_two_escapes_is_text() -> None:
+def test_a_whole_character_in_two_escapes_is_text():
     assert json_of(b'{"a": "\\ud83d\\udc09"}') == {"a": "\N{DRAGON}"}
 
 
-def test_short_names_and_shallow_lists_are_read() -> None:
+def test_short_names_and_shallow_lists_are_read():
     assert toml_of(b"a." * 19 + b"a = 1")["a"]
     assert toml_of(b'text = "' + b"a.b " * 30 + b'"')
     assert toml_of(b"a = " + b"[" * 99 + b"]" * 99)
@@ -87,11 +83,11 @@ def test_short_names_and_shallow_lists_are_read() -> None:
         ("Li's", "Li's"),
     ],
 )
-def test_no_part_of_a_cell_is_a_formula(text: str, cell: str) -> None:
+def test_no_part_of_a_cell_is_a_formula(text, cell):
     assert text_to_cell(text) == cell
 
 
-def test_every_text_comes_back_from_its_cell() -> None:
+def test_every_text_comes_back_from_its_cell():
     chance = random.Random(7)
     for _ in range(20_000):
         text = "".join(chance.choices("'=+-@;\t \r,x\u200b\uff1d", k=chance.randrange(9)))
