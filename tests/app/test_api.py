@@ -7,7 +7,6 @@ import pytest
 
 from app.files.tables import ARROW_TYPE, CSV_TYPE, XLSX_TYPE
 from app.service.version import build
-from tests.app.files.test_figures import PNG_SIGNATURE
 from tests.support.asking import line
 
 SMALL = {"dragon": {"benches": 3}, "times": [0.0, 1.5]}
@@ -60,12 +59,6 @@ def test_trajectory_comes_in_each_form(ask, form, begin):
 # -- contacts and their cross-checks -------------------------------------------------------------------------
 
 
-def test_a_margin_is_reached_before_contact_and_judged_by_the_engines_that_know_margins(ask):
-    answer = ask("collision-time", margin=0.05)
-    assert answer["time"] < ask("collision-time")["time"]
-    assert (answer["cross_check"]["agree"], answer["cross_check"]["left_out"]) == (True, ["angle_sum"])
-
-
 @pytest.mark.parametrize(
     ("call", "pair"), [("collision-time", [0, 8]), ("minimum-pitch", [0, 19])], ids=["time", "pitch"]
 )
@@ -77,13 +70,6 @@ def test_the_engines_judge_the_whole_dragon_the_pair_or_nobody(ask, call, pair):
         assert (check["agree"], check["judged"], len(check["engines"])) == (True, judged, 4)
         assert answer | {"cross_check": None} == nobody
     assert dragon["benches"] == pair
-
-
-def test_of_a_long_dragon_the_benches_near_the_pair_are_judged(ask):
-    check = ask("collision-time", benches=100_000)["cross_check"]
-    assert check["agree"]
-    assert {0, 8} < set(check["judged"])
-    assert len(check["judged"]) < 2_000
 
 
 # -- HTTP ----------------------------------------------------------------------------------------------------
@@ -154,14 +140,6 @@ def test_pages_load_from_this_service_alone(client, path):
     assert not [link for link in links if "//" in link]
     for link in links:
         assert client.get(urljoin(path, link)).status_code == 200, link
-
-
-@pytest.mark.parametrize(
-    ("form", "kind", "begin"), [("svg", "image/svg+xml", b"<?xml"), ("png", "image/png", PNG_SIGNATURE)]
-)
-def test_figures_come_as_svg_and_png(ask, form, kind, begin):
-    drawn = ask.send(f"figures/contact.{form}", pitch=1.7)  # of a dance without contact
-    assert (drawn.headers["content-type"], drawn.content[: len(begin)]) == (kind, begin)
 
 
 def test_tags_depend_on_the_installed_libraries(tmp_path, monkeypatch):

@@ -80,12 +80,6 @@ def test_times_before_the_dance_warn_on_a_spiral():
     assert "--path turn" in warned.stderr
 
 
-def test_overlaps_of_the_dance_before_and_after_first_contact():
-    assert json.loads(answer_of("overlaps", "--time", "412.47", "--json"))["overlaps"] == []
-    after = json.loads(answer_of("overlaps", "--time", "412.48", "--json"))
-    assert [one["benches"] for one in after["overlaps"]] == [[0, 8]]
-
-
 @pytest.mark.parametrize(
     "row",
     [
@@ -411,9 +405,8 @@ def test_help_prints_every_description_with_its_unit(words):
     assert "completion" not in text  # `bench-dragon --help` offers it
 
 
-def test_help_names_every_command_and_unit():
+def test_help_names_every_command():
     assert {*MODULE_OF} <= {*answer_of("--help", COLUMNS="100").split()}
-    assert "Radial advance of the spiral per full turn [m]" in answer_of("collision-time", "--help", COLUMNS="120")
 
 
 def test_every_question_has_its_command():

@@ -7,7 +7,6 @@ import resource
 import shutil
 import signal
 import socket
-import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
@@ -20,7 +19,7 @@ import pytest
 
 from app.files.tables import CSV_TYPE
 from tests.app.conftest import ANSWER_TIMEOUT
-from tests.support.job_service import is_gone
+from tests.support.job_service import is_gone, wait_for
 from tests.support.serving import serving
 
 HEAD_SECONDS, GRACE_SECONDS = 0.5, 1
@@ -68,13 +67,6 @@ def metrics(service):
     return httpx.get(f"{service.url}/metrics").text
 
 
-def until(result):
-    end = time.monotonic() + SOON
-    while not result():
-        assert time.monotonic() < end
-        time.sleep(0.05)
-
-
 def test_a_head_that_never_ends_is_answered_408_and_a_connection_may_rest_as_long(held):
     begun = [b"", b"GET /healthz HTTP/1.1\r\nX-Slow: ", b"GET"]
     with httpx.Client(base_url=held.url) as client, ThreadPoolExecutor() as clients:
@@ -94,7 +86,7 @@ def test_a_body_that_its_client_breaks_off_or_garbles_is_no_error_of_the_service
     head = JSON_HEAD % b"shortest-turn"
     connected(held, head + b"Content-Length: 9\r\n\r\n{").close()
     assert send(held, head + b"Transfer-Encoding: chunked\r\n\r\nzz\r\n").startswith(b"HTTP/1.1 400 ")
-    until(lambda: 'requests_total{path="/shortest-turn",status="400"} 2.0' in metrics(held))
+    wait_for(lambda: 'requests_total{path="/shortest-turn",status="400"} 2.0' in metrics(held))
     assert 'path="/shortest-turn",status="500"' not in metrics(held)
     assert "/shortest-turn failed" not in held.log.read_text()
 
@@ -105,7 +97,7 @@ def test_a_client_that_takes_nothing_of_its_answer_loses_its_connection(held):
     with connected(held, JSON_HEAD % b"trajectory" + b"Content-Length: %d\r\n\r\n%s" % (len(body), body)) as peer:
         peer.recv(1)
         ours, service = peer.getsockname(), psutil.Process(held.process.pid)
-        until(lambda: all(other.raddr != ours for other in service.net_connections()))
+        wait_for(lambda: all(other.raddr != ours for other in service.net_connections()))
         with suppress(ConnectionResetError):
             while block := peer.recv(1 << 20):
                 taken += len(block)
@@ -211,9 +203,9 @@ def working(service, *clients):
     with ExitStack() as peers:
         for client in clients:
             peers.enter_context(connected(service, f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode(), client))
-        until(lambda: computing(service) == len(clients))
+        wait_for(lambda: computing(service) == len(clients))
         yield
-    until(lambda: computing(service) == 0)
+    wait_for(lambda: computing(service) == 0)
 
 
 def computing(service):
@@ -255,7 +247,7 @@ def test_by_default_one_client_cannot_take_all_places(tmp_path):
         ):
             mine = [threads.submit(post, "127.0.0.1", service.url + path, *file) for _ in range(4)]
             none = f'refused_total{{lane="{lane}"}} 0.0'
-            until(lambda none=none: none not in metrics(service))
+            wait_for(lambda none=none: none not in metrics(service))
             assert post("127.0.0.2", service.url + path, *file) in {200, 400, 422}
             assert {429} <= {each.result() for each in mine} <= {200, 400, 422, 429}
 
@@ -288,7 +280,7 @@ def test_a_request_keeps_its_name_and_the_log_has_it(held):
 
 def test_a_long_path_is_cut_in_the_log(held):
     assert httpx.get(f"{held.url}/{'a' * 60_000}").status_code == 404
-    until(lambda: "aaa... (60001 characters)" in held.log.read_text())
+    wait_for(lambda: "aaa... (60001 characters)" in held.log.read_text())
     assert max(map(len, held.log.read_text().splitlines())) < 5_000
 
 
@@ -301,11 +293,11 @@ def leaves(service, stop):
     """Stop a service while it computes, and see that none of its processes is left."""
     with connected(service, f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode()):
         # Where each process shows its own metrics, one look may meet the other process.
-        until(lambda: computing(service) == 1)
+        wait_for(lambda: computing(service) == 1)
         processes = family(service.process.pid)
         os.kill(service.process.pid, stop)
         service.process.wait(SOON)
-        until(lambda: all(is_gone(process.pid) for process in processes))
+        wait_for(lambda: all(is_gone(process.pid) for process in processes))
 
 
 MORE = [(1, signal.SIGTERM), (2, signal.SIGKILL), (2, signal.SIGTERM), (1, signal.SIGKILL)]
@@ -325,17 +317,17 @@ def test_the_service_leaves_with_heavy_work_running(tmp_path, workers, stop):
 def test_a_service_that_ends_answers_who_has_connected_and_refuses_others(tmp_path, workers):
     """A proxy sends a request to another service if this one refuses the connection, not if it resets it."""
     with serving(tmp_path / "log", workers, grace_seconds=10) as service, ExitStack() as peers:
-        until(lambda: service.log.read_text().count("startup complete") == workers)
+        wait_for(lambda: service.log.read_text().count("startup complete") == workers)
         busy, *new = (peers.enter_context(connected(service)) for _ in range(4))
         busy.sendall(f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode())
-        until(lambda: computing(service) == 1)
+        wait_for(lambda: computing(service) == 1)
         service.process.terminate()
         for peer in new:
             peer.sendall(JSON_HEAD % b"turn" + b"Content-Length: 2\r\n\r\n{}")
         assert {received(peer)[:13] for peer in new} == {b"HTTP/1.1 200 "}
         assert service.process.poll() is None
         with pytest.raises(ConnectionRefusedError):
-            until(lambda: get(service, "/healthz") == b"never")
+            wait_for(lambda: get(service, "/healthz") == b"never")
 
 
 def test_bodies_are_judged_before_they_are_held(tmp_path):
@@ -351,7 +343,7 @@ def test_bodies_are_judged_before_they_are_held(tmp_path):
         assert problem_of(answer)["values"]["most"]["value"] == 150_000
         assert httpx.post(f"{service.url}/check", json={"dragon": {"benches": 9}}).status_code == 200
         peers.close()
-        until(lambda: send(service, begun + b" " * 20_000).startswith(b"HTTP/1.1 400 "))
+        wait_for(lambda: send(service, begun + b" " * 20_000).startswith(b"HTTP/1.1 400 "))
 
 
 @pytest.mark.thorough
@@ -366,7 +358,7 @@ def test_figures_whose_clients_leave_keep_no_file_open_in_each_thread(tmp_path):
 
         with ThreadPoolExecutor(24) as clients:
             list(clients.map(leave, range(240)))
-        until(lambda: httpx.get(figure, timeout=SOON).status_code == 200)
+        wait_for(lambda: httpx.get(figure, timeout=SOON).status_code == 200)
         files = [file.path for file in psutil.Process(service.process.pid).open_files() if file.path.endswith(".ttf")]
         assert len(files) == len(set(files)) > 0
 
@@ -384,10 +376,10 @@ def test_a_service_whose_counts_were_removed_answers_and_replaces_its_processes(
         assert "bench_dragon_requests" in metrics(service)
         worker = int(counts.stem.rpartition("_")[2])
         os.kill(worker, signal.SIGKILL)
-        until(lambda: "shows one process alone" in service.log.read_text())
+        wait_for(lambda: "shows one process alone" in service.log.read_text())
         for _ in range(10):
             assert httpx.get(f"{service.url}/collision-time").status_code == 200
-        until(lambda: is_gone(worker))
+        wait_for(lambda: is_gone(worker))
 
 
 @pytest.mark.thorough

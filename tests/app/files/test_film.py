@@ -190,20 +190,15 @@ def test_a_film_counts_bars_and_beats_and_shows_the_time_of_day():
         assert stage.time.text == words
 
 
-# White of a number; the picture of one has it where its digits are thick.
-WHITE = 250
-
-
 def digits_at(picture, row, column, word):
-    """True if these digits stand in a picture of 1080 rows in their white, with their middle at a place."""
-    digits = pictures_of([word], size_of(1080), BLUE, DPI)[0].astype(int)
-    full, face = digits[..., 3] == 255, digits[..., :3].min(axis=-1)
-    thick, around = full & (face >= WHITE), full & (digits[..., 0] < 100)  # the edge, between and around the digits
-    assert thick.sum() > 10
-    top, left = row - digits.shape[0] // 2 - 1, column - digits.shape[1] // 2 - 1
-    whole = (picture[top:, left:, :3].min(axis=-1) >= WHITE)[: thick.shape[0] + 2, : thick.shape[1] + 2]
-    windows = np.lib.stride_tricks.sliding_window_view(whole, thick.shape).reshape(9, *thick.shape)
-    return any(seen[thick].all() and not seen[around].any() for seen in windows)
+    """True if these digits stand in a picture of 1080 rows, with their middle at a place to within a pixel."""
+    digits = pictures_of([word], size_of(1080), BLUE, DPI)[0]
+    full, (high, wide) = digits[..., 3] == 255, digits.shape[:2]
+    top, left = row - high // 2 - 1, column - wide // 2 - 1
+    windows = np.lib.stride_tricks.sliding_window_view(
+        picture[top : top + high + 2, left : left + wide + 2], digits.shape
+    )
+    return (windows.reshape(-1, *digits.shape)[:, full] == digits[full]).all(axis=(1, 2)).any()
 
 
 def fronts(stage, outlines):

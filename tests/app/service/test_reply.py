@@ -17,11 +17,10 @@ from app.wire.question import JSON, UNKNOWN_COST, Answer, Question, Wire, calls_
 from core import TooMuchWork
 from core.kernels import Halted
 from tests.app.service.test_problems import ask
+from tests.support.job_service import wait_for
 
 # Every computation here ends within this time [s].
 SOON = 10.0
-
-# What a question does before it answers, from its terms and the number of its computation.
 
 
 class Count(Wire):
@@ -57,6 +56,9 @@ class Counting:
             return CountAnswer(computed=self.computed)
 
         return Question(counting, CountAnswer, flat=Count, body=Count, cost=self.estimate)
+
+
+# What a question does before it answers, from its terms and the number of its computation.
 
 
 def quick(terms, number):
@@ -126,7 +128,7 @@ def test_what_goes_on_for_longer_moves_to_a_place_among_long_computations(app):
     def slow(terms, number):
         if number == 1:
             until_stopped(terms, number)
-        wait_until(lambda: (running(app, "cheap"), running(app, "heavy")) == (0.0, 1.0))
+        wait_for(lambda: (running(app, "cheap"), running(app, "heavy")) == (0.0, 1.0))
 
     counting = Counting(SHORT, slow)
     assert answer_of(app, counting).json() == {"computed": 2}
@@ -157,10 +159,3 @@ def running(app, lane):
     """Number of computations in a lane, by the metric of operators."""
     registry = app.state.registry
     return registry.get_sample_value("bench_dragon_computations", {"lane": lane}) or 0.0
-
-
-def wait_until(holds):
-    end = time.monotonic() + SOON
-    while not holds():
-        assert time.monotonic() < end
-        time.sleep(0.01)
