@@ -179,8 +179,7 @@ def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
             values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
             values["quantity"] = say("quantity_speed", language) if cell.quantity == "speed" else cell.quantity
             yield "    " + say(f"{name}_cell", language, cell=cell.cell, handle=cell.handle, **values)
-    if sheet.verdict in ("wrong", "incomplete"):
-        yield from (f"    {line}" for line in sheet.picture)
+    yield from (f"    {line}" for line in sheet.picture)
 
 
 def _diagnosis(diagnosis: Sequence[DiagnosisAnswer], language: Language) -> Iterator[show.Part]:

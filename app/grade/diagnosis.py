@@ -9,18 +9,18 @@ motion, of the right one, or by an error in computing them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance
-from app.grade.fits import best_fit, finding, matches
-from app.grade.geometry import Model, SheetClues, geometries, time_at
+from app.grade.fits import best_fit, finding, fit, matches
+from app.grade.geometry import Model, SheetClues, geometries, shifted_rows, time_at
 from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
-from app.grade.layout import HANDLES, TableKind
+from app.grade.layout import COMPONENTS, HANDLES, SHEETS, TableKind
 from app.grade.numbers import explained, rounded_right
 from app.grade.outside import Outside, outside_of, same_cells, without
 from app.grade.rings import places, wrong_ring
@@ -45,18 +45,22 @@ INSTANT_STEP, INSTANT_FAR = 1e-4, 1e-3
 
 def diagnosed(judgements: list[JudgedSheet], budget: Budget) -> list[Finding]:
     """Findings on the sheets of one workbook."""
-    written = max((one.written for one in judgements), default=0)
+    if not shows_errors(judgements):
+        return []
+    written = max(one.written for one in judgements)
     # A sheet of whole numbers, such as equal speeds, has the decimals of the other one.
     judgements = [one if one.written >= DECIMALS_LEAST else replace(one, written=written) for one in judgements]
-    if written < DECIMALS_LEAST:
-        return []
     by_kind = {one.table.kind: one for one in judgements}
     if TableKind.CONTACT in by_kind:
-        contact = by_kind[TableKind.CONTACT]
-        return _of_contact(contact, budget) if contact.is_off else []
+        return _of_contact(by_kind[TableKind.CONTACT], budget)
     position, speed = by_kind.get(TableKind.POSITION), by_kind.get(TableKind.SPEED)
     findings, position, speed = _outside(position, speed)
     return findings + _over_time(position, speed, budget)
+
+
+def shows_errors(judgements: list[JudgedSheet]) -> bool:
+    """True if the numbers have decimals enough to tell one error from another."""
+    return any(one.written >= DECIMALS_LEAST for one in judgements)
 
 
 def _outside(
@@ -80,24 +84,49 @@ def _over_time(position: JudgedSheet | None, speed: JudgedSheet | None, budget: 
     assert either is not None
     dance = dance_of(either.workbook)
     right = of_dance(dance)
-    motions, findings, unexplained = [right], [], False
+    motion, findings, unexplained = right, [], False
     if position and position.is_off:
         if best := best_fit(position, geometries(dance, position.times, _seen(position)), budget):
-            motions = [best.model.motion]
+            motion = best.model.motion
             findings.append(finding(best, position))
         elif ring := wrong_ring(position):
             findings.append(ring)
         unexplained = not findings
-    if speed is None or not speed.is_off or any(matches(speed, Model("", motion)) for motion in motions):
+    if speed is None:
         return findings
-    models = list(speed_errors(motions[0]))
+    others: list[Model] = []
     if position is None:
-        models += geometries(dance, speed.times, SheetClues())
+        others += geometries(dance, speed.times, SheetClues())
     elif unexplained:
-        models += _quotients_of(position)
-    if best := best_fit(speed, models, budget):
-        findings.append(finding(best, speed))
-    return findings
+        others += _quotients_of(position)
+    return findings + _of_speeds(speed, motion, others, budget, is_right=motion is right)
+
+
+def _of_speeds(
+    speed: JudgedSheet, motion: Motion, others: Iterable[Model], budget: Budget, *, is_right: bool
+) -> list[Finding]:
+    """Findings on speeds beside places with a known motion. others: further models; is_right: if that is the right one
+
+    The speeds of that motion are no error of their own. Beside a wrong one, others are named without a known error too.
+    """
+    if not speed.is_off or matches(speed, Model("", motion)):
+        return []
+    if best := best_fit(speed, [*speed_errors(motion), *others], budget):
+        return [finding(best, speed)]
+    return [] if is_right else [_of_no_motion(speed, motion)]
+
+
+def _of_no_motion(speed: JudgedSheet, motion: Motion) -> Finding:
+    """The finding that speeds belong neither to the right motion nor to that of the places."""
+    moved = fit(speed, Model("", motion))
+    off = np.nan_to_num(np.abs(speed.values - moved.numbers))
+    values = {
+        "sheet": speed.table.title or note(SHEETS[TableKind.SPEED]),
+        "count": f"{int((off > speed.tolerance).sum()):,}",
+        "cells": f"{int(np.isfinite(speed.values).sum()):,}",
+        "worst": f"{float(off.max()):.6g}",
+    }
+    return Finding("other_speeds", note("error_other_speeds"), note("evidence_other_speeds", **values))
 
 
 def _seen(one: JudgedSheet) -> SheetClues:
@@ -107,7 +136,18 @@ def _seen(one: JudgedSheet) -> SheetClues:
     is_link = np.diff(one.handles[order]) == 1
     is_head, tolerance = one.handles[order][:-1] == 0, STEADY + 2.0 * 10.0**-one.written
     head, body = (_steady(links[:, is_link & which], tolerance) for which in (is_head, ~is_head))
-    return SheetClues(_head(one), None if head is None or body is None else (head, body))
+    return SheetClues(_head(one), None if head is None or body is None else (head, body), _angle(one))
+
+
+def _angle(one: JudgedSheet) -> float | None:
+    """The middle one of the angles by which the places are turned from the right ones [rad]."""
+    (x, y), (right_x, right_y) = (np.moveaxis(each[..., :2], -1, 0) for each in (one.values, one.wanted))
+    turned = ((x + 1j * y) * (right_x - 1j * right_y)).ravel()
+    turned = turned[np.isfinite(turned) & (turned != 0.0)]
+    if not turned.size:
+        return None
+    mean = complex((turned / np.abs(turned)).sum())
+    return float(np.angle(mean) + np.median(np.angle(turned * mean.conjugate())))
 
 
 def _steady(lengths: Floats, tolerance: float) -> float | None:
@@ -155,6 +195,8 @@ def _equal_speeds() -> Model:
 def speed_errors(motion: Motion) -> Iterator[Model]:
     """Known errors in the speeds of a motion."""
     yield _equal_speeds()
+    yield Model("speeds_negated", lambda times: motion(times) * [1.0, 1.0, -1.0])
+    yield from shifted_rows(motion)
     for step in STEPS:
         for error, before, after in (
             ("forward_difference", 0.0, step),
@@ -179,19 +221,33 @@ def _quotient(motion: Motion, before: float, after: float, times: Floats) -> Flo
 
 
 def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
-    """Findings on result2, whose instant follows from the place of the head."""
-    dance, seen = dance_of(Workbook.RESULT2), _seen(one)
+    """Findings on result2, whose instant follows from the place of the head: on its places, then on its speeds."""
+    position, speed = (_part(one, kind) for kind in (TableKind.POSITION, TableKind.SPEED))
+    dance = dance_of(Workbook.RESULT2)
     right = of_dance(dance)
+    if not position.is_off:
+        return _of_speeds(speed, right, (), budget, is_right=True)
+    seen = _seen(position)
     instants = [contact_time(), *(_instants(dance, seen.head) if seen.head is not None else [])]
     for instant in instants:
         is_other = instant is not instants[0]
-        instant = _improved(one, right, instant) if is_other else instant
-        at = replace(one, times=np.array([instant]))
+        instant = _improved(position, right, instant) if is_other else instant
+        times = np.array([instant])
         models = [Model("other_instant", right, {"time": f"{instant:.6f}"}, is_simplest=True)] if is_other else []
-        models += [*geometries(dance, at.times, SheetClues(None, seen.chords)), *speed_errors(right)]
+        models += geometries(dance, times, SheetClues(None, seen.chords, seen.turned))
+        at = replace(position, times=times)
         if best := best_fit(at, models, budget):
-            return [finding(best, at), *(_why_then(instant, one.written) if is_other else [])]
-    return []
+            why = _why_then(instant, one.written) if is_other else []
+            speeds = _of_speeds(replace(speed, times=times), best.model.motion, (), budget, is_right=False)
+            return [finding(best, at), *why, *speeds]
+    return _of_speeds(speed, right, (), budget, is_right=True)
+
+
+def _part(one: JudgedSheet, kind: TableKind) -> JudgedSheet:
+    """The places, or the speeds, of a sheet that holds both."""
+    components = list(COMPONENTS[kind])
+    table = replace(one.table, kind=kind)
+    return replace(one, table=table, values=one.values[..., components], wanted=one.wanted[..., components])
 
 
 def _improved(one: JudgedSheet, right: Motion, instant: float) -> float:

@@ -17,6 +17,7 @@ import numpy as np
 
 from app.grade.chains import Bent, equal_arcs, on_bent, rounded_angles
 from app.grade.expected import PITCH, Motion, Workbook, dance_of, of_dance, right_turn
+from app.grade.labels import SPEED, X, Y
 from core import BenchDragonError, Dance, Dragon, Spiral, Turn
 from core.values import Floats
 
@@ -29,6 +30,10 @@ PLACE_STEP, PLACE_NEAR = 0.01, 0.05
 SHIFT_LEAST, SHIFT_MOST = 1e-5, 500.0
 # A start counts as one of three decimals up to this distance from it [turns].
 SIMPLE_TURNS = 1e-5
+# An angle counts as one of so many decimals up to this distance from it [degrees].
+TURNED_DECIMALS, TURNED_OFF = 4, 1e-6
+# An entry counts as one at a radius of three decimals up to this distance from it [m].
+SIMPLE_RADIUS = 1e-6
 # Decimals of a length that a student types, error of a length that is measured between places of six decimals [m], and
 # difference below which two lengths are the same [m].
 LENGTH_DECIMALS, MEASURED, SAME_LENGTH = (2, 3, 4, 5), 2e-6, 1e-4
@@ -53,16 +58,23 @@ class SheetClues:
 
     head: (T, 2) [m], NaN where it is missing; None if the sheet has no places of the head
     chords: distances [m] between the first two handles, and between any two others, if they are steady; else None
+    turned: angle [rad] by which most places are turned about the centre, counter-clockwise; None without places
     """
 
     head: Floats | None = None
     chords: tuple[float, float] | None = None
+    turned: float | None = None
 
 
 def geometries(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
     """Every known error in the positions, the likeliest first. times: (T,) [s] of the sheet"""
     right = of_dance(dance)
     yield Model("anticlockwise", lambda t: right(t) * [1.0, -1.0, 1.0])
+    yield Model("x_negated", lambda t: right(t) * [-1.0, 1.0, 1.0])
+    yield Model("axes_exchanged", lambda t: right(t)[..., [Y, X, SPEED]])
+    yield from shifted_rows(right)
+    if seen.turned is not None:
+        yield _turned(right, seen.turned)
     yield Model("equal_arcs", equal_arcs(dance))
     yield from _other_dragons(dance)
     yield from _own_lengths(dance, seen)
@@ -77,6 +89,28 @@ def geometries(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]
         yield from _other_questions(dance, times, seen.head)
 
 
+def shifted_rows(motion: Motion) -> Iterator[Model]:
+    """Each handle has the numbers of the one behind it, or of the one before it; the last one left over has none."""
+    for by in (1, -1):
+        yield Model("shifted_rows", partial(_shifted, motion, by), {"by": "k + 1" if by > 0 else "k - 1"})
+
+
+def _shifted(motion: Motion, by: int, times: Floats) -> Floats:
+    numbers = np.roll(motion(times), -by, axis=1)
+    numbers[:, -1 if by > 0 else 0] = np.nan
+    return numbers
+
+
+def _turned(motion: Motion, angle: float) -> Model:
+    """All places turned about the centre by one angle [rad], counter-clockwise."""
+    degrees = math.degrees(angle)
+    if abs(round(degrees, TURNED_DECIMALS) - degrees) < TURNED_OFF:
+        degrees = round(degrees, TURNED_DECIMALS)
+    cosine, sine = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    return Model("turned", lambda t: motion(t) @ turn, {"angle": f"{degrees:+.6g}"})
+
+
 # Lengths and overhangs of benches by the known errors in the distances of the handles [m].
 OTHER_LENGTHS = {
     "length_for_chord": {"head_length": 3.41, "body_length": 2.20, "overhang": 0.0},
@@ -89,14 +123,16 @@ OTHER_LENGTHS = {
 def _other_dragons(dance: Dance) -> Iterator[Model]:
     """Wrong distances between the handles."""
     for error, lengths in OTHER_LENGTHS.items():
-        yield Model(error, _of_dragon(dance, Dragon(dance.dragon.benches, **lengths)))
+        yield Model(error, _on_path(Dragon(dance.dragon.benches, **lengths), dance.path.spiral or right_turn()))
 
 
-def _of_dragon(dance: Dance, dragon: Dragon) -> Motion:
+def _on_path(dragon: Dragon, path: Spiral | Turn) -> Motion:
     try:
-        return of_dance(Dance(dragon, dance.path))
+        return of_dance(Dance(dragon, path))
     except BenchDragonError:  # The arcs are too tight for this chord: a handle would jump.
-        return on_bent(dragon, Bent(right_turn(), tuple(arcs_of(right_turn()))))
+        if isinstance(path, Spiral):
+            raise
+        return on_bent(dragon, Bent(path, tuple(arcs_of(path))))
 
 
 def _own_lengths(dance: Dance, seen: SheetClues) -> Iterator[Model]:
@@ -110,7 +146,11 @@ def _own_lengths(dance: Dance, seen: SheetClues) -> Iterator[Model]:
     margin = 2.0 * float(Dragon(1).overhangs[0])
     with suppress(BenchDragonError):
         dragon = Dragon(dance.dragon.benches, head_length=head + margin, body_length=body + margin)
-        yield Model("own_lengths", _of_dragon(dance, dragon), {"head": f"{head:.6g}", "body": f"{body:.6g}"})
+        yield Model(
+            "own_lengths",
+            _on_path(dragon, dance.path.spiral or right_turn()),
+            {"head": f"{head:.6g}", "body": f"{body:.6g}"},
+        )
 
 
 def _simple(length: float) -> float:
@@ -136,8 +176,7 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
     b, start = path.growth, path.start_theta
 
     def head_at(theta: Floats) -> Floats:
-        arc = 0.5 * b * (theta * np.sqrt(1.0 + theta**2) + np.arcsinh(theta))
-        return np.asarray((path.length - arc) / dance.head_speed)
+        return np.asarray((path.length - spiral_arc(b * theta, b)) / dance.head_speed)
 
     def circles(t: Floats) -> Floats:
         # ds = r dtheta; the arc length without its logarithm gives the same six decimals: theta sqrt(1 + theta^2) is
@@ -227,10 +266,32 @@ def _other_starts(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
                 yield Model("other_start", moved, {"turns": f"{turns:g}"})
     if shift is None or abs(shift) < SHIFT_LEAST:
         return
+    if spiral is None:
+        yield from _other_entries(dance, right_turn(), shift)
     # Another start and a shifted time are the same motion: the simpler number of both is the likelier one.
     if not simple or abs(round(shift, 2) - shift) < SHIFT_LEAST:
         right = of_dance(dance)
         yield Model("shifted_time", lambda t: right(t + shift), {"shift": f"{shift:+.6g}"})
+
+
+def _other_entries(dance: Dance, path: Turn, shift: float) -> Iterator[Model]:
+    """The turn that begins at another distance from the centre. shift: how much later the right head is there [s]"""
+    coil = Spiral(path.pitch)
+    arc = spiral_arc(path.entry_radius, coil.growth) - shift * dance.head_speed
+    if arc <= 0.0:
+        return
+    radius = coil.growth * float(coil.theta(coil.length - arc))
+    if abs(round(radius, 3) - radius) < SIMPLE_RADIUS:
+        radius = round(radius, 3)
+    with suppress(BenchDragonError):
+        entered = _on_path(dance.dragon, Turn(path.pitch, radius))
+        yield Model("other_entry_radius", entered, {"radius": f"{radius:.6g}"})
+
+
+def spiral_arc(radius: Floats | float, growth: float) -> Floats:
+    """Arc length of a spiral from its centre to a radius, or to several [m]."""
+    theta = np.asarray(radius) / growth
+    return np.asarray(0.5 * growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta)))
 
 
 def _shift(dance: Dance, times: Floats, head: Floats) -> float | None:

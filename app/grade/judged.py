@@ -107,7 +107,10 @@ class JudgedSheet:
         return tuple(map(int, np.unravel_index(reading.argmin(), reading.shape)))
 
     def picture(self) -> list[str]:
-        """Lines of marks: a line for some handles, the head first; a mark for some instants, or for x, y and speed."""
+        """Lines of marks: a line for some handles, the head first; a mark for some instants, or for x, y and speed.
+
+        Empty where that shows nothing: without a wrong or a missing number, or if all marks are alike.
+        """
         off = self.off
         level = np.where(off > RIGHT, 1, 0)
         level[off > ROUNDED * 10.0 ** -DECIMALS[-1]] = 2
@@ -116,7 +119,9 @@ class JudgedSheet:
         level = level.T[np.argsort(self.handles)]
         height, width = min(PICTURE_ROWS, level.shape[0]), min(PICTURE_COLUMNS, level.shape[1])
         bands = [band.max(axis=0) for band in np.array_split(level, height)]
-        return ["".join(MARKS[part.max()] for part in np.array_split(band, width)) for band in bands]
+        lines = ["".join(MARKS[part.max()] for part in np.array_split(band, width)) for band in bands]
+        marks = set("".join(lines))
+        return lines if len(marks) > 1 and marks & set(MARKS[2:]) else []
 
 
 def workbook_of(tables: list[SheetTable], name: str) -> Workbook:

@@ -11,7 +11,7 @@ from pydantic import Field
 from app.extras import MissingPackage
 from app.files.tables import Language, handle_names
 from app.grade.cells import cell_name
-from app.grade.diagnosis import diagnosed
+from app.grade.diagnosis import diagnosed, shows_errors
 from app.grade.expected import KINDS, cells_of
 from app.grade.grid import UnreadableTable
 from app.grade.judged import DECIMALS_OF_CONTEST, JudgedSheet, Rating, decimals_of, judged, workbook_of, worst_of
@@ -66,7 +66,7 @@ class SheetAnswer(Answer):
     first: CellAnswer | None = Field(description="The first wrong cell, row by row; null if none is wrong")
     picture: list[str] = Field(
         description="Places of the wrong cells: lines for some handles, the head first, with marks for some instants: "
-        ". right, o rounded, # wrong, ? missing"
+        ". right, o rounded, # wrong, ? missing; empty where none is wrong or missing, and where all marks are alike"
     )
     notes: list[str] = Field(description="Remarks for the reader, in words")
 
@@ -188,7 +188,7 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
         notes.append(note("named_otherwise", named=f"result{match[1]}", workbook=workbook.value))
     verdict = worst_of(sheet.verdict for sheet in sheets)
     if verdict is Rating.WRONG and not findings:
-        notes.append(note("nothing_fits"))
+        notes.append(note("nothing_fits" if shows_errors(judgements) else "too_few_decimals"))
     return FileAnswer(
         file=name,
         workbook=workbook.value,

@@ -13,7 +13,7 @@ import cmath
 import numpy as np
 
 from app.grade.expected import dance_of, right_turn
-from app.grade.geometry import arcs_of
+from app.grade.geometry import arcs_of, spiral_arc
 from app.grade.judged import RIGHT, JudgedSheet
 from app.grade.labels import X, Y
 from app.grade.layout import HANDLES
@@ -73,10 +73,10 @@ def _candidates(path: Path, points: Floats) -> list[Floats]:
     """Arc lengths that points would have on each piece of a path [m]."""
     radius = np.linalg.norm(points, axis=-1)
     if path.spiral is not None:
-        return [path.end - _arc(radius, path.growth)]
+        return [path.end - spiral_arc(radius, path.growth)]
     turn = right_turn()
     growth = turn.pitch / (2.0 * np.pi)
-    outside = _arc(radius, growth) - _arc(np.array(turn.entry_radius), growth)
+    outside = spiral_arc(radius, growth) - spiral_arc(turn.entry_radius, growth)
     candidates, begin = [-outside, turn.length + outside], 0.0
     for centre, size, start, turned in arcs_of(turn):
         away = points[..., 0] + 1j * points[..., 1] - centre
@@ -84,9 +84,3 @@ def _candidates(path: Path, points: Floats) -> list[Floats]:
         candidates.append(begin + size * (angle % (2.0 * np.pi)))
         begin += size * abs(turned)
     return candidates
-
-
-def _arc(radius: Floats, growth: float) -> Floats:
-    """Arc length of a spiral from its centre to a radius [m]."""
-    theta = radius / growth
-    return np.asarray(0.5 * growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta)))

@@ -26,6 +26,7 @@ GOOD = (Rating.RIGHT, Rating.ROUNDED, Rating.INCOMPLETE)
 # Findings that show the method of the search for first contact.
 STEPPED = {"time_steps", "time_steps_before"}
 NO_OVERHANG = {"no_overhang", "length_for_chord", "overhang_once", "one_corner"}
+NOT_OF_POSITIONS = {"equal_speeds", "speeds_negated", "other_speeds"}
 NOT_SMOOTH = {"arcs_not_tangent", "wrong_centre"}
 
 
@@ -49,7 +50,7 @@ def _criteria(by_kind: dict[TableKind, JudgedSheet], errors: set[str]) -> Iterat
     branch = None if placed is None else "wrong_ring" not in errors if placed.verdict in GOOD or errors else None
     yield _criterion("branch", branch)
     consistent = _share_consistent(position, speed) if position and speed else None
-    if "equal_speeds" in errors:
+    if errors & NOT_OF_POSITIONS:
         yield _criterion("speeds", False)
     elif consistent is None:
         yield _criterion("speeds", (contact is not None and contact.verdict in GOOD) or None)

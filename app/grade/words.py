@@ -149,6 +149,7 @@ WORDS = ERRORS | PAPER | {
     "quantity_speed": ("speed", "速度"),
     "nothing_fits": ("No known error gives these numbers.", "没有已知错误能得出这些数值。"),
     "too_few_digits": ("Its digits are too few to tell why.", "位数太少，无法判断原因。"),
+    "too_few_decimals": ("Its numbers have too few decimals to tell why.", "数值的小数位太少，无法判断原因。"),
     "may_be": ("Possibly: {error}", "可能是：{error}"),
     "chance": ("One in {count} numbers with as many digits fits a known error by chance.",
         "同样位数的数值中，约每 {count} 个有一个会碰巧符合某种已知错误。"),

@@ -150,7 +150,7 @@ function sheetParts(sheet) {
       const quantity = cell.quantity === "speed" ? say("quantity_speed") : cell.quantity;
       parts.push(paragraph(say(key, { ...cell, quantity, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) })));
     }
-  if (picture.some((line) => /[^.]/.test(line))) parts.push(drawn(picture), legend(picture.join("")));
+  if (picture.length) parts.push(drawn(picture), legend(picture.join("")));
   return parts;
 }
 
