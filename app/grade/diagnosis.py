@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance
-from app.grade.fits import best_fit, finding, fit, matches
+from app.grade.fits import DECISIVE_LEAST, best_fit, finding, fit, matches
 from app.grade.geometry import Model, SheetClues, geometries, shifted_rows, time_at
 from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
@@ -59,8 +59,9 @@ def diagnosed(judgements: list[JudgedSheet], budget: Budget) -> list[Finding]:
 
 
 def shows_errors(judgements: list[JudgedSheet]) -> bool:
-    """True if the numbers have decimals enough to tell one error from another."""
-    return any(one.written >= DECIMALS_LEAST for one in judgements)
+    """True if there are numbers enough, with decimals enough, to tell one error from another."""
+    numbers = sum(int(np.isfinite(one.off).sum()) for one in judgements)
+    return numbers >= DECISIVE_LEAST and any(one.written >= DECIMALS_LEAST for one in judgements)
 
 
 def _outside(

@@ -14,6 +14,13 @@ UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "米": 1.0, "厘米": 1e-2, "毫米":
 # Units of angles: numbers with them are not places.
 ANGLE_UNITS = {"rad", "radian", "radians", "deg", "degree", "degrees", "°", "弧度", "度"}
 TIME = re.compile(r"(?:t\s*=?\s*)?([-+]?\d+(?:\.\d+)?)\s*(s|sec|seconds?|秒)?", re.IGNORECASE)
+# A time beside other words, as in "60s x(m)" or "x (t = 60)".
+TIME_INSIDE = re.compile(
+    r"t\s*=\s*([-+]?\d+(?:\.\d+)?)\s*(?:s\b|sec\b|seconds?\b|秒)?|([-+]?\d+(?:\.\d+)?)\s*(?:s|sec|seconds?|秒)(?![a-z])",
+    re.IGNORECASE,
+)
+JOINTS = re.compile(r"^[\s_,;:@-]+|[\s_,;:@-]+$")
+EMPTY_BRACKETS = re.compile(r"[(\[]\s*[)\]]")
 UNIT = re.compile(r"[(\[]\s*([a-zμ米厘毫°弧度]+)\s*(/\s*(?:s|秒))?\s*[)\]]?$", re.IGNORECASE)
 # x and y at the end of a label, or with a word for a place behind or before them, such as x_position or pos_y.
 AXIS = re.compile(
@@ -22,27 +29,26 @@ AXIS = re.compile(
 )
 ACROSS, UPWARD = re.compile(r"横坐标$"), re.compile(r"纵坐标$")
 ANGLE_WORD = re.compile(r"角度|极角|夹角|弧度|angle|theta|θ", re.IGNORECASE)
+LENGTH_WORD = re.compile(r"半径|极径|弧长|radius|\barc|\brho\b|ρ|^r$", re.IGNORECASE)
 HEAD, REAR = re.compile(r"龙头|head", re.IGNORECASE), re.compile(r"[(（]\s*后|后把手|rear", re.IGNORECASE)
 TAIL = re.compile(r"龙尾|tail", re.IGNORECASE)
 BODY = re.compile(r"第?\s*(\d+)\s*节|body\D*(\d+)|龙身\D*(\d+)", re.IGNORECASE)
 SPEED_WORD = re.compile(r"速度|速率|speed|velocity|^v$", re.IGNORECASE)
 TIME_WORD = re.compile(r"时间|时刻|time|^t$|^t[\s_(]|instant|^(?:s|seconds?|秒)$", re.IGNORECASE)
-# Headings of a column that numbers the handles.
-HANDLE_WORD = re.compile(
-    r"把手|节点|节数|节号|编号|序号|板凳|龙节|^节$|handle|section|segment|node|bench|joint|index|number|^(?:id|no\.?|n|k|i)$",
-    re.IGNORECASE,
-)
+# Headings of a column that names or numbers the handles; and of one that numbers the handles or anything else.
+HANDLE_NAME = re.compile(r"把手|节点|节数|节号|板凳|龙节|^节$|handle|section|segment|node|bench|joint", re.IGNORECASE)
+NUMBER_WORD = re.compile(r"编号|序号|index|number|^(?:id|no\.?|n|k|i)$", re.IGNORECASE)
 # Components of a number, in the order of the last axis of a table.
 X, Y, SPEED = 0, 1, 2
-# Component of an angle, which no table of the contest holds.
-ANGLE = 3
+# Components of an angle, and of a radius or an arc length, which no table of the contest holds.
+ANGLE, LENGTH = 3, 4
 
 
 @dataclass(frozen=True)
 class Label:
     """handle: -1: the tail, -2: its rear; handle and component: None if the label names none.
 
-    component: X, Y, SPEED or ANGLE
+    component: X, Y, SPEED, ANGLE or LENGTH
     """
 
     handle: int | None
@@ -74,6 +80,19 @@ def label_of(cell: Cell) -> Label | None:
     return None if handle is None and component is None else Label(handle, component, unit)
 
 
+def heading_of(cell: Cell) -> tuple[float | None, Label | None]:
+    """Instant [s] and label of a cell that names one of them, or both, as "60s x(m)"."""
+    if (time := instant_of(cell)) is not None or not isinstance(cell, str):
+        return time, None
+    text = normalized(cell)
+    match = TIME_INSIDE.search(text)
+    if match is None:
+        return None, label_of(text)
+    rest = EMPTY_BRACKETS.sub("", text[: match.start()] + " " + text[match.end() :])
+    rest = JOINTS.sub("", rest)
+    return float(match[1] or match[2]), label_of(rest)
+
+
 def _component(text: str) -> int | None:
     """Component that a label without its unit names."""
     if axis := AXIS.search(text):
@@ -82,7 +101,9 @@ def _component(text: str) -> int | None:
         return X if ACROSS.search(text) else Y
     if SPEED_WORD.search(text):
         return SPEED
-    return ANGLE if ANGLE_WORD.search(text) else None
+    if ANGLE_WORD.search(text):
+        return ANGLE
+    return LENGTH if LENGTH_WORD.search(text) else None
 
 
 def instant_of(cell: Cell) -> float | None:
@@ -91,3 +112,7 @@ def instant_of(cell: Cell) -> float | None:
         return cell
     match = TIME.fullmatch(normalized(cell)) if isinstance(cell, str) else None
     return float(match[1]) if match else None
+
+
+def is_handle_heading(text: str) -> bool:
+    return bool(HANDLE_NAME.search(text) or NUMBER_WORD.search(text))

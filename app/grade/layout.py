@@ -6,7 +6,7 @@ the grid. State: none. Labels decide, in both languages and both orientations; w
 
 from __future__ import annotations
 
-import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
@@ -15,7 +15,19 @@ from numpy.typing import NDArray
 
 from app.grade.cells import OddCells
 from app.grade.grid import Cell, Grid, normalized
-from app.grade.labels import ANGLE, SPEED, SPEED_WORD, Label, X, Y, instant_of, label_of
+from app.grade.labels import (
+    ANGLE,
+    HANDLE_NAME,
+    LENGTH,
+    SPEED,
+    TIME_WORD,
+    Label,
+    X,
+    Y,
+    heading_of,
+    is_handle_heading,
+    label_of,
+)
 from app.grade.words import Note
 from core.values import Floats
 
@@ -26,8 +38,8 @@ BENCHES = 223
 HANDLES = BENCHES + 1
 # Number of first rows and columns that may hold labels.
 MARGIN = 8
-# Words for places, in a text that may name speeds too.
-PLACE_WORD = re.compile(r"位置|坐标|position|coordinate", re.IGNORECASE)
+# Most lines more, or less, than there are handles in a table that numbers them.
+EXTRA_MOST = 3
 # Fewer labels than this may be chance and are ignored.
 LABELS_LEAST = 3
 
@@ -66,54 +78,132 @@ class SheetTable:
     notes: list[Note] = field(default_factory=list)
 
 
-def wide_table(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> SheetTable | None:
-    """The table of a sheet with a line for each handle. turned: True if rows and columns of the sheet were swapped"""
-    labels = _label_columns(cells)
+def wide_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool, numbered: bool) -> list[SheetTable]:
+    """The tables of a sheet with a line for each handle, one below the other; none if no column labels the handles.
+
+    turned: True if rows and columns of the sheet were swapped; numbered: True if numbers may label the handles
+    """
+    labels = _label_columns(cells, numbered)
     counts = [sum(label is not None and label.handle is not None for label in column) for column in labels]
     aside = int(np.argmax(counts))
     if counts[aside] < LABELS_LEAST:
-        return None
-    first = next(k for k, label in enumerate(labels[aside]) if label and label.handle is not None)
-    heads = cells[max(0, first - MARGIN) : first]
-    lines = _lines(labels[aside])
-    components = {k: label.component for k, label in _head_labels(heads, aside).items()}
-    if {X, Y} <= set(components.values()) and len(components) <= len(COMPONENTS[TableKind.CONTACT]) + 1:
-        return _contact(grid, cells, lines, _head_labels(heads, aside), turned)
-    return _over_time(
-        grid, cells, lines, _times(heads, cells, aside), _names_speeds(grid, heads, cells, turned), turned
-    )
+        return []
+    tables: list[SheetTable] = []
+    heads: list[list[Cell]] = []
+    end = 0
+    for lines in _blocks(cells, _lines(labels[aside])):
+        above = cells[max(end, lines[0][0] - MARGIN) : lines[0][0]]
+        # A table without headings has those of the one above it.
+        heads = above if not tables or _columns(above, aside) or _instants(above, aside) else heads
+        tables += _tables_of(grid, cells, lines, heads, aside, turned)
+        end = lines[-1][0] + 1
+    return tables
 
 
-def _names_speeds(grid: Grid, heads: list[list[Cell]], cells: list[list[Cell]], turned: bool) -> bool:
-    """True if the title of a sheet, or a text before its numbers, names speeds and no places."""
-    above = [row[0] for row in cells[:MARGIN]] if turned else []
-    texts = [grid.title, *(cell for row in heads for cell in row), *above]
-    words = " ".join(normalized(text) for text in texts if isinstance(text, str))
-    return SPEED_WORD.search(words) is not None and PLACE_WORD.search(words) is None
+def _tables_of(
+    grid: Grid,
+    cells: list[list[Cell]],
+    lines: list[tuple[int, Label]],
+    heads: list[list[Cell]],
+    aside: int,
+    turned: bool,
+) -> list[SheetTable]:
+    """The tables of some lines: those of their columns, if these are headed x and y; else those of their labels."""
+    columns = _columns(heads, aside)
+    if {X, Y} <= {component for _, component in columns}:
+        return _by_columns(grid, cells, lines, columns, turned)
+    return _over_time(grid, cells, lines, _times(heads, cells, aside), turned)
 
 
-def _label_columns(cells: list[list[Cell]]) -> list[list[Label | None]]:
-    """Meaning of every cell in the first columns."""
-    return [[label_of(row[k]) for row in cells] for k in range(min(MARGIN, len(cells[0])))]
+def _blocks(cells: list[list[Cell]], lines: list[tuple[int, Label]]) -> list[list[tuple[int, Label]]]:
+    """Lines in tables that stand one below the other: each begins with the head again, below a line of its own."""
+    blocks: list[list[tuple[int, Label]]] = []
+    for k, label in lines:
+        before = blocks[-1][-1] if blocks else None
+        is_new = before is None or (
+            label.handle == 0
+            and before[1].handle != 0
+            and any(cell is not None for row in cells[before[0] + 1 : k] for cell in row)
+        )
+        if is_new:
+            blocks.append([])
+        blocks[-1].append((k, label))
+    return blocks
+
+
+def _label_columns(cells: list[list[Cell]], numbered: bool) -> list[list[Label | None]]:
+    """Meaning of every cell in the first columns. numbered: True if numbers may label the handles"""
+    columns = [[row[k] for row in cells] for k in range(min(MARGIN, len(cells[0])))]
+    return [_numbering(column) if numbered else [label_of(cell) for cell in column] for column in columns]
+
+
+def _numbering(column: list[Cell]) -> list[Label | None]:
+    """Labels of a column that numbers the handles, or their lines of x and y, from 0 or 1; elsewhere None."""
+    lines = [k for k, cell in enumerate(column) if isinstance(cell, float)]
+    numbers = np.array([column[k] for k in lines], dtype=np.float64)
+    labels: list[Label | None] = [None] * len(column)
+    heads = [normalized(cell) for cell in column[: min(lines, default=0)] if isinstance(cell, str)]
+    counts_all = abs(len(lines) - HANDLES) <= EXTRA_MOST or len(lines) == 2 * HANDLES
+    if not (counts_all and numbers[0] in (0.0, 1.0) and np.all(np.diff(numbers) == 1.0)) and not (
+        any(map(is_handle_heading, heads))
+        and np.all((numbers == np.round(numbers)) & (numbers >= 0.0) & (numbers < HANDLES))
+        and np.unique(numbers).size == numbers.size >= LABELS_LEAST
+    ):
+        return labels
+    first = 1 if counts_all and numbers[0] == 1.0 else 0
+    each = 2 if len(lines) == 2 * HANDLES else 1
+    for k, number in zip(lines, numbers.astype(int).tolist(), strict=True):
+        labels[k] = Label((number - first) // each, None, 1.0)
+    return labels
 
 
 def holds_angles(grid: Grid, cells: list[list[Cell]]) -> bool:
     """True if a sheet says that it holds angles, and names neither a place nor a speed."""
-    texts = [grid.title, *(cell for row in cells for cell in row[:MARGIN] if isinstance(cell, str))]
-    texts += [cell for row in cells[:MARGIN] for cell in row if isinstance(cell, str)]
-    components = {label.component for text in texts if (label := label_of(text))}
+    components = {label.component for text in [grid.title, *_margin(cells)] if (label := label_of(text))}
     return ANGLE in components and not components & {X, Y, SPEED}
 
 
-def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, Label]:
-    """Columns whose heading names x, y or a speed but no handle."""
-    columns = {}
+def holds_curve(cells: list[list[Cell]]) -> bool:
+    """True if a sheet has angles or radii beside x and y, but neither speeds nor handles, as a scan of a curve has."""
+    texts = _margin(cells)
+    labels = [label for text in texts if (label := label_of(text))]
+    components, words = {label.component for label in labels}, [normalized(text) for text in texts]
+    has_times = any(TIME_WORD.search(word) for word in words) and any(map(is_handle_heading, words))
+    names_handles = any(label.handle is not None for label in labels) or any(map(HANDLE_NAME.search, words))
+    is_beside = {X, Y} <= components and bool(components & {ANGLE, LENGTH})
+    return is_beside and SPEED not in components and not names_handles and not has_times
+
+
+def _margin(cells: list[list[Cell]]) -> list[str]:
+    """Texts in the first columns and rows."""
+    texts = [cell for row in cells for cell in row[:MARGIN] if isinstance(cell, str)]
+    return texts + [cell for row in cells[:MARGIN] for cell in row if isinstance(cell, str)]
+
+
+def _columns(heads: list[list[Cell]], aside: int) -> dict[tuple[float | None, int], tuple[int, float]]:
+    """Columns headed x, y or speed, but by no handle, with the units of their numbers; the first of each.
+
+    The keys are the instant [s], which may stand in the same cell or above several columns, and the component.
+    """
+    above = _instants(heads, aside)
+    columns: dict[tuple[float | None, int], tuple[int, float]] = {}
     for row in heads:
         for k, cell in enumerate(row):
-            label = label_of(cell)
+            time, label = heading_of(cell)
             if k != aside and label and label.component in COMPONENTS[TableKind.CONTACT] and label.handle is None:
-                columns[k] = label
+                if time is None:
+                    time = next((above[n] for n in range(k, aside, -1) if n in above), None)
+                columns.setdefault((time, label.component), (k, label.unit))
     return columns
+
+
+def _instants(heads: list[list[Cell]], aside: int) -> dict[int, float]:
+    """Columns with an instant in their heading; of the line that has most of them."""
+    return max(
+        ({k: t for k, cell in enumerate(row) if k > aside and (t := heading_of(cell)[0]) is not None} for row in heads),
+        key=len,
+        default={},
+    )
 
 
 def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
@@ -132,10 +222,7 @@ def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
 
 def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict[int, float]:
     """Columns and their instants; by their order if no heading gives them."""
-    instants = (
-        {k: t for k, cell in enumerate(row) if k > aside and (t := instant_of(cell)) is not None} for row in heads
-    )
-    best: dict[int, float] = max(instants, key=len, default={})
+    best = _instants(heads, aside)
     if best and np.all(np.diff(list(best.values())) > 0):
         return best
     columns = range(aside + 1, len(cells[0]))
@@ -154,44 +241,65 @@ def _numbered(lines: list[tuple[int, Label]]) -> tuple[Ints, Ints]:
 
 
 def _over_time(
+    grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, Label]], times: dict[int, float], turned: bool
+) -> list[SheetTable]:
+    """Positions and speeds of handles at instants, in lines with labels of both."""
+    components = {label.component for _, label in lines}
+    if not components & {X, Y, SPEED}:
+        # Labels without an axis: two lines for each handle are x above y, and one line holds its speeds.
+        twice = len(lines) > 1 and lines[0][1].handle == lines[1][1].handle
+        lines = [(k, replace(label, component=n % 2 if twice else SPEED)) for n, (k, label) in enumerate(lines)]
+    elif SPEED in components:
+        lines = [(k, replace(label, component=SPEED) if label.component is None else label) for k, label in lines]
+    kinds = (TableKind.POSITION, TableKind.SPEED)
+    tables = (_table_of(grid, cells, kind, lines, times, turned) for kind in kinds)
+    return [table for table in tables if table]
+
+
+def _by_columns(
     grid: Grid,
     cells: list[list[Cell]],
     lines: list[tuple[int, Label]],
-    times: dict[int, float],
-    names_speeds: bool,
+    columns: dict[tuple[float | None, int], tuple[int, float]],
     turned: bool,
-) -> SheetTable | None:
-    """Positions or speeds of handles at instants. says_speed: whether a text beside the numbers names speeds"""
-    components = {label.component for _, label in lines}
-    by_speed = SPEED in components or (X not in components and names_speeds)
-    if not by_speed and X not in components:
-        # Labels without an axis: two lines for each handle are x above y.
-        twice = len(lines) > 1 and lines[0][1].handle == lines[1][1].handle
-        if twice:
-            lines = [(k, replace(label, component=n % 2)) for n, (k, label) in enumerate(lines)]
-        by_speed = not twice
-    if by_speed:
-        lines = [(k, replace(label, component=SPEED)) for k, label in lines if label.component in (None, SPEED)]
-    return _table_of(grid, cells, TableKind.SPEED if by_speed else TableKind.POSITION, lines, times, turned)
+) -> list[SheetTable]:
+    """Tables of columns for x, y and speed: at their instants, or at one that is not given.
+
+    columns: by instant and component, each with the factor from its unit
+    """
+    times = sorted({time for time, _ in columns if time is not None})
+    if not times:
+        return [_columns_table(grid, cells, TableKind.CONTACT, lines, columns, [None], turned)]
+    kinds = [kind for kind in (TableKind.POSITION, TableKind.SPEED) if _has(columns, kind)]
+    return [_columns_table(grid, cells, kind, lines, columns, times, turned) for kind in kinds]
 
 
-def _contact(
-    grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, Label]], heads: dict[int, Label], turned: bool
+def _has(columns: dict[tuple[float | None, int], tuple[int, float]], kind: TableKind) -> bool:
+    return any(time is not None and component in COMPONENTS[kind] for time, component in columns)
+
+
+def _columns_table(
+    grid: Grid,
+    cells: list[list[Cell]],
+    kind: TableKind,
+    lines: list[tuple[int, Label]],
+    columns: dict[tuple[float | None, int], tuple[int, float]],
+    times: Sequence[float | None],
+    turned: bool,
 ) -> SheetTable:
-    """x, y and speed of handles at one instant."""
-    columns = {label.component: (k, label.unit) for k, label in heads.items()}
     rows = [k for k, _ in lines]
-    shape = (1, len(rows), len(COMPONENTS[TableKind.CONTACT]))
+    shape = (len(times), len(rows), len(COMPONENTS[kind]))
     values, row, column = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), np.zeros(shape, dtype=np.int64)
     odd = OddCells(turned)
-    for component, (k, unit) in columns.items():
-        assert component is not None
-        values[0, :, component] = [odd.value(cells[n][k], n, k) * unit for n in rows]
-        row[0, :, component], column[0, :, component] = rows, k
+    for t, time in enumerate(times):
+        for c, component in enumerate(COMPONENTS[kind]):
+            if (time, component) in columns:
+                k, unit = columns[time, component]
+                values[t, :, c] = [odd.value(cells[n][k], n, k) * unit for n in rows]
+                row[t, :, c], column[t, :, c] = rows, k
     above, aside = (column, row) if turned else (row, column)
-    return SheetTable(
-        grid.title, TableKind.CONTACT, np.array([np.nan]), *_numbered(lines), values, above, aside, odd.notes()
-    )
+    instants = np.array([np.nan if time is None else time for time in times])
+    return SheetTable(grid.title, kind, instants, *_numbered(lines), values, above, aside, odd.notes())
 
 
 def _table_of(
@@ -221,19 +329,31 @@ def _table_of(
     return SheetTable(grid.title, kind, instants, handles, np.arange(handles.size), values, above, aside, odd.notes())
 
 
-def bare_table(grid: Grid, cells: list[list[Cell]]) -> SheetTable | None:
-    """A table of numbers without labels of handles, recognised by its size."""
+def bare_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> list[SheetTable]:
+    """The tables of numbers without labels of handles, recognised by their size; none for another size.
+
+    turned: True if rows and columns of the sheet were swapped
+    """
     numeric = [k for k, row in enumerate(cells) if sum(isinstance(cell, float) for cell in row) > len(row) // 2]
     # A line of numbers above those of the handles can only hold times.
     first = next((k for k in numeric[:2] if len(cells) - k in (HANDLES, 2 * HANDLES)), None)
     if first is None:
-        return None
+        return []
     twice = len(cells) - first == 2 * HANDLES
     numbered = enumerate(range(first, len(cells)))
-    lines = [(k, Label(n // 2 if twice else n, n % 2 if twice else SPEED, 1.0)) for n, k in numbered]
-    aside = next(k for k, cell in enumerate(cells[first]) if isinstance(cell, float)) - 1
-    if not twice and len(cells[first]) - aside - 1 == len(COMPONENTS[TableKind.CONTACT]):
-        heads = {aside + 1 + c: Label(None, c, 1.0) for c in COMPONENTS[TableKind.CONTACT]}
-        return _contact(grid, cells, lines, heads, False)
-    kind = TableKind.POSITION if twice else TableKind.SPEED
-    return _table_of(grid, cells, kind, lines, _times(cells[:first], cells, aside), False)
+    lines = [(k, Label(n // 2 if twice else n, None, 1.0)) for n, k in numbered]
+    columns = [k for k, cell in enumerate(cells[first]) if isinstance(cell, float)]
+    aside = columns[0] - 1
+    if not twice and len(columns) <= len(COMPONENTS[TableKind.CONTACT]) + 1:
+        names = [row[k] for row in cells[:first] for k in columns if isinstance(row[k], str)]
+        headed = _columns(cells[:first], aside)
+        if {X, Y} <= {component for _, component in headed}:
+            return _by_columns(grid, cells, lines, headed, turned)
+        if names and not _instants(cells[:first], aside):
+            return []
+        if not names and 1 < len(columns) <= len(COMPONENTS[TableKind.CONTACT]):
+            places: dict[tuple[float | None, int], tuple[int, float]] = {
+                (None, component): (k, 1.0) for component, k in enumerate(columns)
+            }
+            return _by_columns(grid, cells, lines, places, turned)
+    return _over_time(grid, cells, lines, _times(cells[:first], cells, aside), turned)

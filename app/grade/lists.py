@@ -11,8 +11,18 @@ import numpy as np
 
 from app.grade.cells import OddCells
 from app.grade.grid import Cell, Grid, normalized
-from app.grade.labels import HANDLE_WORD, TIME_WORD, instant_of, label_of
-from app.grade.layout import BENCHES, COMPONENTS, LABELS_LEAST, MARGIN, Ints, SheetTable, TableKind
+from app.grade.labels import TIME_WORD, heading_of, instant_of, is_handle_heading, label_of
+from app.grade.layout import (
+    BENCHES,
+    COMPONENTS,
+    EXTRA_MOST,
+    HANDLES,
+    LABELS_LEAST,
+    MARGIN,
+    Ints,
+    SheetTable,
+    TableKind,
+)
 from core.values import Floats
 
 # Lines whose labels are looked at.
@@ -40,12 +50,14 @@ def _columns(heads: list[Cell]) -> dict[str, int]:
     """Columns of the time, the handle, x, y and v; the first of each."""
     columns: dict[str, int] = {}
     for k, cell in enumerate(heads):
-        name, label = normalized(cell) if isinstance(cell, str) else "", label_of(cell)
+        name, (time, label) = normalized(cell) if isinstance(cell, str) else "", heading_of(cell)
+        if time is not None:
+            continue  # A column of one instant, which no list has.
         if TIME_WORD.search(name):
             columns.setdefault("time", k)
         elif label and label.component is not None and label.component < len("xyv"):
             columns.setdefault("xyv"[label.component], k)
-        elif HANDLE_WORD.search(name):
+        elif is_handle_heading(name):
             columns.setdefault("handle", k)
     return columns
 
@@ -99,7 +111,7 @@ def _over_time(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str
 def _at_contact(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[SheetTable]:
     """The table of a list with a line for each handle at one instant."""
     lines = [n for n in range(head + 1, len(cells)) if _handle_of(cells[n][columns["handle"]]) is not None]
-    if len(lines) < LABELS_LEAST:
+    if not LABELS_LEAST <= len(lines) <= HANDLES + EXTRA_MOST:
         return []
     handles, h = _numbered([_handle_of(cells[n][columns["handle"]]) or 0 for n in lines])
     once = (np.array([np.nan]), np.zeros(len(lines), dtype=np.int64), handles, h, lines)

@@ -172,23 +172,23 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
     tables = [table for grid in grids for table in tables_of(grid)]
     if not tables:
         has_workbook_ending = PurePath(name).suffix.lower() in WORKBOOK_ENDINGS
-        raise UnreadableTable(note("no_workbook" if has_workbook_ending and not data.startswith(ZIP) else "no_table"))
+        known = next((one for grid in grids for one in grid.notes if one.code == "curve"), note("no_table"))
+        raise UnreadableTable(note("no_workbook") if has_workbook_ending and not data.startswith(ZIP) else known)
     workbook = workbook_of(tables, PurePath(name).stem)
     decimals = max(decimals_of(table.values) for table in tables)
     judgements = [judged(table, workbook, decimals) for table in tables]
     findings = diagnosed(judgements, budget)
     certain = [one for one in findings if one.chance <= CERTAIN]
     sheets = [_sheet(one, language) for one in judgements]
-    if len(grids) > 1 or data.startswith(ZIP):
-        lacking = (kind for kind in KINDS[workbook] if kind not in {table.kind for table in tables})
-        sheets += [_lacking(kind, cells_of(workbook, kind), language) for kind in lacking]
+    lacking = (kind for kind in KINDS[workbook] if kind not in {table.kind for table in tables})
+    sheets += [_lacking(kind, cells_of(workbook, kind), language) for kind in lacking]
     rubric = rubric_of(judgements, certain)
     notes += [one for grid in grids for one in grid.notes]
     if (match := NAME_OF_WORKBOOK.search(PurePath(name).stem)) and match[1] != workbook.value[-1]:
         notes.append(note("named_otherwise", named=f"result{match[1]}", workbook=workbook.value))
     verdict = worst_of(sheet.verdict for sheet in sheets)
     if verdict is Rating.WRONG and not findings:
-        notes.append(note("nothing_fits" if shows_errors(judgements) else "too_few_decimals"))
+        notes.append(note("nothing_fits" if shows_errors(judgements) else "too_few_numbers"))
     return FileAnswer(
         file=name,
         workbook=workbook.value,

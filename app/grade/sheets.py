@@ -5,13 +5,24 @@ Input: a grid of cells. Output: its tables, and remarks on a sheet that holds no
 
 from __future__ import annotations
 
-from app.grade.grid import Cell, Grid
-from app.grade.layout import SheetTable, bare_table, holds_angles, wide_table
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import chain
+
+import numpy as np
+
+from app.grade.expected import Workbook, times_of
+from app.grade.grid import Cell, Grid, normalized
+from app.grade.labels import SPEED_WORD
+from app.grade.layout import SHEETS, SheetTable, TableKind, bare_tables, holds_angles, holds_curve, wide_tables
 from app.grade.lists import lists_of
 from app.grade.words import note
 
 # Most cells of a sheet, blanks included: a list of result1 has 337,120.
 RECTANGLE_MAX = 2_000_000
+# Words for places in the title of a sheet.
+PLACE_WORD = re.compile(r"位置|坐标|position|coordinate", re.IGNORECASE)
 
 
 def tables_of(grid: Grid) -> list[SheetTable]:
@@ -22,11 +33,60 @@ def tables_of(grid: Grid) -> list[SheetTable]:
     if holds_angles(grid, cells):
         grid.notes.append(note("angles", title=grid.title))
         return []
-    if long := lists_of(grid, cells):
-        return long
+    if holds_curve(cells):
+        grid.notes.append(note("curve"))
+        return []
     turned = [list(line) for line in zip(*cells, strict=True)]
-    table = wide_table(grid, cells, turned=False) or wide_table(grid, turned, turned=True) or bare_table(grid, cells)
-    return [table] if table else []
+    layouts: Iterator[list[SheetTable]] = chain(
+        (lists_of(grid, cells) for _ in range(1)),
+        (
+            wide_tables(grid, lines, turned=lines is turned, numbered=numbered)
+            for numbered in (False, True)
+            for lines in (cells, turned)
+        ),
+        (bare_tables(grid, lines, turned=lines is turned) for lines in (cells, turned)),
+    )
+    tables = next(filter(None, layouts), [])
+    return [_titled(table) for table in _at_contact(tables)]
+
+
+def _titled(table: SheetTable) -> SheetTable:
+    """The table, with a remark where the title of its sheet names the other kind."""
+    words = normalized(table.title)
+    names = (TableKind.POSITION, PLACE_WORD.search(words)), (TableKind.SPEED, SPEED_WORD.search(words))
+    named = [kind for kind, match in names if match]
+    if table.kind is TableKind.CONTACT or len(named) != 1 or table.kind in named:
+        return table
+    remark = note("titled_otherwise", title=table.title, kind=note(SHEETS[table.kind]))
+    return replace(table, notes=[*table.notes, remark])
+
+
+def _at_contact(tables: list[SheetTable]) -> list[SheetTable]:
+    """The tables of one instant that only result2 can have, as one; others as they are."""
+    by_kind = {table.kind: table for table in tables}
+    first = by_kind.get(TableKind.POSITION)
+    if first is None or len(by_kind) != len(tables) or any(not _is_of_result2(table) for table in tables):
+        return tables
+    speed = by_kind.get(TableKind.SPEED)
+    if speed and not np.array_equal(speed.handles, first.handles):
+        return tables
+    blank, nowhere = np.full(first.values[..., :1].shape, np.nan), np.zeros_like(first.row[..., :1])
+    joined = replace(
+        first,
+        kind=TableKind.CONTACT,
+        times=np.array([np.nan]),
+        values=np.concatenate([first.values, speed.values if speed else blank], axis=-1),
+        row=np.concatenate([first.row, speed.row if speed else nowhere], axis=-1),
+        column=np.concatenate([first.column, speed.column if speed else nowhere], axis=-1),
+        notes=[*first.notes, *(speed.notes if speed else [])],
+    )
+    return [joined]
+
+
+def _is_of_result2(table: SheetTable) -> bool:
+    """True for one instant that result1 and result4 do not have."""
+    others = np.concatenate([times_of(Workbook.RESULT1), times_of(Workbook.RESULT4)])
+    return table.times.size == 1 and bool(np.isfinite(table.times[0])) and table.times[0] not in others
 
 
 def _rectangle(grid: Grid) -> list[list[Cell]]:
