@@ -14,8 +14,10 @@ from rich.text import Text
 
 from app.command import show
 from app.command.options import Json
-from app.files.disk import checked_output, write_whole
+from app.extras import require
+from app.files.disk import checked_output, ending_of, write_whole
 from app.files.tables import Language
+from app.files.workbooks import table_workbook
 from app.grade.layout import SHEETS, TableKind
 from app.grade.reading import FILE_MAX
 from app.grade.report import (
@@ -51,12 +53,14 @@ def grade(
     turn_length: Annotated[str | None, typer.Option(help="Answer to question 4: length of the turn [m]")] = None,
     speed: Annotated[str | None, typer.Option(help="Answer to question 5: maximum speed of the head [m/s]")] = None,
     language: Annotated[Language, typer.Option(help="Language of the words.")] = Language.ENGLISH,
-    summary: Annotated[Path | None, typer.Option(help="Write a .csv file with one line for each file.")] = None,
+    summary: Annotated[
+        Path | None, typer.Option(help="Write a .csv or .xlsx file with one line for each file.")
+    ] = None,
     json: Json = False,
 ) -> None:
     """Right and wrong parts of a student's results, with the known error behind each wrong one. The exit code is 0."""
-    if summary:
-        checked_output("summary", summary, (".csv",))
+    if summary and checked_output("summary", summary, (".csv", ".xlsx")) == ".xlsx":
+        require("xlsx", "summary", "xlsx")
     numbers = {"collision_time": collision_time, "pitch": pitch, "turn_length": turn_length, "speed": speed}
     typed_numbers = {name: text for name, text in numbers.items() if text is not None}
     paths = list(_paths_of(files or []))
@@ -81,7 +85,8 @@ def grade(
         raise refused[0]
     answer = GradeAnswer(files=grades, answers=answers)
     if summary:
-        write_whole(summary, _summary(grades).encode("utf-8-sig"))
+        as_file = _workbook if ending_of(summary) == ".xlsx" else _csv
+        write_whole(summary, as_file(grades, language))
     show.print_result(answer, json, _parts(answer, language))
 
 
@@ -108,16 +113,29 @@ def _paths_of(files: list[Path]) -> Iterator[Path]:
             yield file
 
 
-def _summary(files: list[FileAnswer]) -> str:
-    """CSV with a line for each file."""
+def _heads(language: Language) -> list[str]:
+    return [say(f"column_{name}", language) for name in SUMMARY]
+
+
+def _row(file: FileAnswer, language: Language) -> list[str | int]:
+    """Cells of a file under the heads of a summary."""
+    errors = say("and_error", language).join(say(f"name_{one.error}", language) for one in file.diagnosis)
+    verdict = say(file.verdict.value, language)
+    return [file.file, file.workbook or "", verdict, *_counts(file), errors, _decimals(file)]
+
+
+def _csv(files: list[FileAnswer], language: Language) -> bytes:
     sink = io.StringIO()
     writer = csv.writer(sink)
-    writer.writerow(SUMMARY)
+    writer.writerow(_heads(language))
     for file in files:
-        errors = "; ".join(one.error for one in file.diagnosis)
-        name = text_to_cell(file.file)
-        writer.writerow([name, file.workbook or "", file.verdict.value, *_counts(file), errors, _decimals(file)])
-    return sink.getvalue()
+        name, *cells = _row(file, language)
+        writer.writerow([text_to_cell(str(name)), *cells])
+    return sink.getvalue().encode("utf-8-sig")
+
+
+def _workbook(files: list[FileAnswer], language: Language) -> bytes:
+    return table_workbook(say("summary", language), _heads(language), [_row(file, language) for file in files])
 
 
 def _counts(file: FileAnswer) -> tuple[int, int, int]:
@@ -125,9 +143,9 @@ def _counts(file: FileAnswer) -> tuple[int, int, int]:
     return sum(one.cells for one in sheets), sum(one.right for one in sheets), sum(one.missing for one in sheets)
 
 
-def _decimals(file: FileAnswer) -> str:
+def _decimals(file: FileAnswer) -> int | str:
     """Number of decimals to which a rounded file is right."""
-    return str(min((one.decimals for one in file.sheets if one.decimals), default=""))
+    return min((one.decimals for one in file.sheets if one.decimals), default="")
 
 
 def _parts(answer: GradeAnswer, language: Language) -> Iterator[show.Part]:
@@ -136,11 +154,9 @@ def _parts(answer: GradeAnswer, language: Language) -> Iterator[show.Part]:
     for file in answer.files:
         yield from _file(file, language)
     if len(answer.files) > 1:
-        table = show.new_table(say("summary", language), *(say(f"column_{name}", language) for name in SUMMARY))
+        table = show.new_table(say("summary", language), *_heads(language))
         for file in answer.files:
-            errors, verdict = ", ".join(one.error for one in file.diagnosis), say(file.verdict.value, language)
-            counts = [f"{count:,}" for count in _counts(file)]
-            table.add_row(file.file, file.workbook or "", verdict, *counts, errors, _decimals(file))
+            table.add_row(*(f"{cell:,}" if isinstance(cell, int) else cell for cell in _row(file, language)))
         yield table
 
 

@@ -86,6 +86,27 @@ def workbook(sheets: Sequence[Worksheet], decimals: int) -> bytes:
     return sink.getvalue()
 
 
+def table_workbook(title: str, columns: Sequence[str], rows: Sequence[Sequence[str | int]]) -> bytes:
+    """The bytes of an xlsx file with one sheet of texts and whole numbers; a text is never a formula.
+
+    columns: C names; rows: each of C cells
+    raises: MissingPackage without xlsxwriter
+    """
+    require("xlsx", "format", "xlsx")
+    import xlsxwriter
+
+    sink = io.BytesIO()
+    with xlsxwriter.Workbook(sink, {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False}) as book:
+        book.set_properties({"created": CREATED})
+        page: Any = book.add_worksheet(title)
+        page.freeze_panes(1, 0)
+        page.autofilter(0, 0, len(rows), len(columns) - 1)
+        for k, row in enumerate([columns, *rows]):
+            page.write_row(k, 0, row)
+        page.autofit()
+    return sink.getvalue()
+
+
 def _without_numbers(sheets: Sequence[Worksheet], decimals: int) -> bytes:
     import xlsxwriter
 

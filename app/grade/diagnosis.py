@@ -229,7 +229,7 @@ def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
     if not position.is_off:
         return _of_speeds(speed, right, (), budget, is_right=True)
     seen = _seen(position)
-    instants = [contact_time(), *(_instants(dance, seen.head) if seen.head is not None else [])]
+    instants = [float(one.times[0]), *(_instants(dance, seen.head) if seen.head is not None else [])]
     for instant in instants:
         is_other = instant is not instants[0]
         instant = _improved(position, right, instant) if is_other else instant

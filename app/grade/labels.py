@@ -28,7 +28,7 @@ AXIS = re.compile(
     re.IGNORECASE,
 )
 ACROSS, UPWARD = re.compile(r"横坐标$"), re.compile(r"纵坐标$")
-ANGLE_WORD = re.compile(r"角度|极角|夹角|弧度|angle|theta|θ", re.IGNORECASE)
+ANGLE_WORD = re.compile(r"角度|极角|夹角|弧度|angle|theta|θ|\bphi\b|φ", re.IGNORECASE)
 LENGTH_WORD = re.compile(r"半径|极径|弧长|radius|\barc|\brho\b|ρ|^r$", re.IGNORECASE)
 HEAD, REAR = re.compile(r"龙头|head", re.IGNORECASE), re.compile(r"[(（]\s*后|后把手|rear", re.IGNORECASE)
 TAIL = re.compile(r"龙尾|tail", re.IGNORECASE)

@@ -61,7 +61,7 @@ COMPONENTS = {TableKind.POSITION: (X, Y), TableKind.SPEED: (SPEED,), TableKind.C
 class SheetTable:
     """Numbers of a sheet and their places.
 
-    times: (T,) [s]; one NaN for the instant of first contact
+    times: (T,) [s]; of first contact the instant that the sheet states, or NaN
     handles: (H,) by their labels; values: (T, H, C), converted from the units of the labels to m and m/s, NaN where
         there is none; row, column: of the same shape, places in the grid from 0
     by_order: (H,) handles by their order in the sheet
@@ -169,7 +169,8 @@ def holds_curve(cells: list[list[Cell]]) -> bool:
     labels = [label for text in texts if (label := label_of(text))]
     components, words = {label.component for label in labels}, [normalized(text) for text in texts]
     has_times = any(TIME_WORD.search(word) for word in words) and any(map(is_handle_heading, words))
-    names_handles = any(label.handle is not None for label in labels) or any(map(HANDLE_NAME.search, words))
+    handles = {label.handle for label in labels if label.handle is not None}
+    names_handles = len(handles) >= LABELS_LEAST or any(map(HANDLE_NAME.search, words))
     is_beside = {X, Y} <= components and bool(components & {ANGLE, LENGTH})
     return is_beside and SPEED not in components and not names_handles and not has_times
 
@@ -345,10 +346,13 @@ def bare_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> list[Sh
     columns = [k for k, cell in enumerate(cells[first]) if isinstance(cell, float)]
     aside = columns[0] - 1
     if not twice and len(columns) <= len(COMPONENTS[TableKind.CONTACT]) + 1:
-        names = [row[k] for row in cells[:first] for k in columns if isinstance(row[k], str)]
+        names = {k for row in cells[:first] for k in columns if isinstance(row[k], str)}
         headed = _columns(cells[:first], aside)
-        if {X, Y} <= {component for _, component in headed}:
-            return _by_columns(grid, cells, lines, headed, turned)
+        components = {component for _, component in headed}
+        if {X, Y} <= components:
+            # A further number beside x and y, but no speed: points of a curve.
+            is_curve = SPEED not in components and names - {k for k, _ in headed.values()}
+            return [] if is_curve else _by_columns(grid, cells, lines, headed, turned)
         if names and not _instants(cells[:first], aside):
             return []
         if not names and 1 < len(columns) <= len(COMPONENTS[TableKind.CONTACT]):

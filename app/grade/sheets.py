@@ -74,7 +74,6 @@ def _at_contact(tables: list[SheetTable]) -> list[SheetTable]:
     joined = replace(
         first,
         kind=TableKind.CONTACT,
-        times=np.array([np.nan]),
         values=np.concatenate([first.values, speed.values if speed else blank], axis=-1),
         row=np.concatenate([first.row, speed.row if speed else nowhere], axis=-1),
         column=np.concatenate([first.column, speed.column if speed else nowhere], axis=-1),

@@ -161,6 +161,7 @@ WORDS = ERRORS | PAPER | {
     "pitch": ("minimum pitch", "最小螺距"),
     "turn_length": ("length of the turn", "调头曲线长度"),
     "summary": ("All files", "全部文件"),
+    "and_error": ("; ", "；"),
     "column_file": ("file", "文件"),
     "column_workbook": ("workbook", "工作簿"),
     "column_verdict": ("verdict", "判定"),
