@@ -6,6 +6,7 @@ their places. State: none.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -17,6 +18,8 @@ from app.grade.layout import COMPONENTS, HANDLES, Ints, SheetTable, TableKind
 from app.grade.words import Note, note
 from core.values import Floats
 
+# Name of a workbook in the name of a file.
+NAME_OF_WORKBOOK = re.compile(r"result\s*_?([124])(?!\d)", re.IGNORECASE)
 # Tolerance of six decimals: half a unit of the last, and 2 % more for numbers that were rounded twice [m, m/s, s].
 RIGHT = 5.1e-7
 # Tolerance of k decimals, fewer than six, in units of 10^-k; such numbers count as rounded.
@@ -127,12 +130,15 @@ class JudgedSheet:
 
 
 def workbook_of(tables: list[SheetTable], name: str) -> Workbook:
-    """Workbook of some tables: by their kinds, by the name of the file, or by the number of instants."""
+    """Workbook of some tables: by their kinds and instants; by the name of the file where these are in two of them."""
     if any(table.kind is TableKind.CONTACT for table in tables):
         return Workbook.RESULT2
     if any(table.times.min() < 0 for table in tables):
         return Workbook.RESULT4
     if "4" in name and any(abs(table.times.size - times_of(Workbook.RESULT4).size) <= 1 for table in tables):
+        return Workbook.RESULT4
+    named = NAME_OF_WORKBOOK.search(name)
+    if named and named[1] == "4" and all(table.times.max() <= times_of(Workbook.RESULT4).max() for table in tables):
         return Workbook.RESULT4
     return Workbook.RESULT1
 

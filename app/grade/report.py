@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import PurePath
 
@@ -14,13 +13,22 @@ from app.grade.cells import cell_name
 from app.grade.diagnosis import diagnosed, shows_errors
 from app.grade.expected import KINDS, cells_of
 from app.grade.grid import UnreadableTable
-from app.grade.judged import DECIMALS_OF_CONTEST, JudgedSheet, Rating, decimals_of, judged, workbook_of, worst_of
+from app.grade.judged import (
+    DECIMALS_OF_CONTEST,
+    NAME_OF_WORKBOOK,
+    JudgedSheet,
+    Rating,
+    decimals_of,
+    judged,
+    workbook_of,
+    worst_of,
+)
 from app.grade.layout import BENCHES, COMPONENTS, SHEETS, TableKind
 from app.grade.names import readable_name
 from app.grade.numbers import CERTAIN, graded_number
 from app.grade.reading import ZIP, grids_of
 from app.grade.rubric import rubric_of
-from app.grade.sheets import tables_of
+from app.grade.sheets import at_contact, tables_of
 from app.grade.shortcuts import UNITS, Finding, right_answer
 from app.grade.words import Note, note, say
 from app.wire.numbers import number_of
@@ -31,8 +39,6 @@ from core.kernels import Halted
 
 # Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
-# Name of a workbook in the name of a file.
-NAME_OF_WORKBOOK = re.compile(r"result\s*_?([124])(?!\d)", re.IGNORECASE)
 VALUE = "in m for x and y, in m/s for a speed"
 
 
@@ -169,7 +175,7 @@ def too_long(data: bytes, budget: Budget) -> TooMuchWork:
 
 def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
     grids, notes = grids_of(data, budget)
-    tables = [table for grid in grids for table in tables_of(grid)]
+    tables = at_contact([table for grid in grids for table in tables_of(grid)])
     if not tables:
         has_workbook_ending = PurePath(name).suffix.lower() in WORKBOOK_ENDINGS
         known = next((one for grid in grids for one in grid.notes if one.code == "curve"), note("no_table"))

@@ -47,7 +47,7 @@ def tables_of(grid: Grid) -> list[SheetTable]:
         (bare_tables(grid, lines, turned=lines is turned) for lines in (cells, turned)),
     )
     tables = next(filter(None, layouts), [])
-    return [_titled(table) for table in _at_contact(tables)]
+    return [_titled(table) for table in tables]
 
 
 def _titled(table: SheetTable) -> SheetTable:
@@ -61,8 +61,8 @@ def _titled(table: SheetTable) -> SheetTable:
     return replace(table, notes=[*table.notes, remark])
 
 
-def _at_contact(tables: list[SheetTable]) -> list[SheetTable]:
-    """The tables of one instant that only result2 can have, as one; others as they are."""
+def at_contact(tables: list[SheetTable]) -> list[SheetTable]:
+    """The tables of a file at one instant that only result2 can have, as one; others as they are."""
     by_kind = {table.kind: table for table in tables}
     first = by_kind.get(TableKind.POSITION)
     if first is None or len(by_kind) != len(tables) or any(not _is_of_result2(table) for table in tables):
@@ -73,6 +73,7 @@ def _at_contact(tables: list[SheetTable]) -> list[SheetTable]:
     blank, nowhere = np.full(first.values[..., :1].shape, np.nan), np.zeros_like(first.row[..., :1])
     joined = replace(
         first,
+        title=" / ".join(dict.fromkeys(table.title for table in tables)),
         kind=TableKind.CONTACT,
         values=np.concatenate([first.values, speed.values if speed else blank], axis=-1),
         row=np.concatenate([first.row, speed.row if speed else nowhere], axis=-1),
