@@ -18,6 +18,7 @@ from app.extras import require
 from app.files.disk import checked_output, ending_of, write_whole
 from app.files.tables import Language
 from app.files.workbooks import table_workbook
+from app.grade.judged import MISSING, WRONG
 from app.grade.layout import SHEETS, TableKind
 from app.grade.reading import FILE_MAX
 from app.grade.report import (
@@ -195,7 +196,10 @@ def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
             values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
             values["quantity"] = say("quantity_speed", language) if cell.quantity == "speed" else cell.quantity
             yield "    " + say(f"{name}_cell", language, cell=cell.cell, handle=cell.handle, **values)
-    yield from (f"    {line}" for line in sheet.picture)
+    marks = set("".join(sheet.picture))
+    # Marks that are all alike do not show where the errors are.
+    if len(marks) > 1 and marks & {WRONG, MISSING}:
+        yield from (f"    {line}" for line in sheet.picture)
 
 
 def _diagnosis(diagnosis: Sequence[DiagnosisAnswer], language: Language) -> Iterator[show.Part]:

@@ -239,6 +239,10 @@ def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
         at = replace(position, times=times)
         if best := best_fit(at, models, budget):
             why = _why_then(instant, one.written) if is_other else []
+            if is_other and best.model.error != "other_instant":
+                sentence = note("error_other_instant", time=f"{instant:.6f}")
+                evidence = note("evidence_rounded_instant", time=f"{contact_time():.6f}")
+                why.insert(0, Finding("other_instant", sentence, evidence))
             speeds = _of_speeds(replace(speed, times=times), best.model.motion, (), budget, is_right=False)
             return [finding(best, at), *why, *speeds]
     return _of_speeds(speed, right, (), budget, is_right=True)
@@ -276,8 +280,8 @@ def _why_then(instant: float, written: int) -> list[Finding]:
 
 
 def _instants(dance: Dance, head: Floats) -> Iterator[float]:
-    """Times at which the head is at the student's place [s], also on the mirrored spiral."""
-    for point in (head[0], head[0] * [1.0, -1.0]):
+    """Times at which the head is at the student's place [s], also on a mirrored spiral."""
+    for point in (head[0], head[0] * [1.0, -1.0], head[0] * [-1.0, 1.0], head[0][::-1]):
         s = float(places(dance.path, point))
         if np.isfinite(s):
             yield time_at(dance, s / dance.head_speed, point)

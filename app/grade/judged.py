@@ -39,6 +39,7 @@ NEAR = 0.01
 # Size of the picture, and its marks: right, rounded, wrong, missing.
 PICTURE_ROWS, PICTURE_COLUMNS = 14, 42
 MARKS = ".o#?"
+WRONG, MISSING = MARKS[2], MARKS[3]
 # Difference of two instants that are the same [s].
 SAME_TIME = 1e-9
 # Earliest time of a column to grade [s].
@@ -112,10 +113,7 @@ class JudgedSheet:
         return tuple(map(int, np.unravel_index(reading.argmin(), reading.shape)))
 
     def picture(self) -> list[str]:
-        """Lines of marks: a line for some handles, the head first; a mark for some instants, or for x, y and speed.
-
-        Empty where that shows nothing: without a wrong or a missing number, or if all marks are alike.
-        """
+        """Lines of marks: a line for some handles, the head first; a mark for some instants, or for x, y and speed."""
         off = self.off
         level = np.where(off > RIGHT, 1, 0)
         level[off > ROUNDED * 10.0 ** -DECIMALS[-1]] = 2
@@ -124,9 +122,7 @@ class JudgedSheet:
         level = level.T[np.argsort(self.handles)]
         height, width = min(PICTURE_ROWS, level.shape[0]), min(PICTURE_COLUMNS, level.shape[1])
         bands = [band.max(axis=0) for band in np.array_split(level, height)]
-        lines = ["".join(MARKS[part.max()] for part in np.array_split(band, width)) for band in bands]
-        marks = set("".join(lines))
-        return lines if len(marks) > 1 and marks & set(MARKS[2:]) else []
+        return ["".join(MARKS[part.max()] for part in np.array_split(band, width)) for band in bands]
 
 
 def workbook_of(tables: list[SheetTable], name: str) -> Workbook:

@@ -32,6 +32,8 @@ from app.grade.words import Note
 from core.values import Floats
 
 Ints = NDArray[np.int64]
+# Columns of numbers by their instant [s], None for one that is not given, and component: place, and factor of the unit.
+Columns = dict[tuple[float | None, int], tuple[int, float]]
 
 # Handles of the contest's dragon: the head's is 0, the rear one of the tail is the last.
 BENCHES = 223
@@ -144,13 +146,12 @@ def _numbering(column: list[Cell]) -> list[Label | None]:
     labels: list[Label | None] = [None] * len(column)
     heads = [normalized(cell) for cell in column[: min(lines, default=0)] if isinstance(cell, str)]
     counts_all = abs(len(lines) - HANDLES) <= EXTRA_MOST or len(lines) == 2 * HANDLES
-    if not (counts_all and numbers[0] in (0.0, 1.0) and np.all(np.diff(numbers) == 1.0)) and not (
-        any(map(is_handle_heading, heads))
-        and np.all((numbers == np.round(numbers)) & (numbers >= 0.0) & (numbers < HANDLES))
-        and np.unique(numbers).size == numbers.size >= LABELS_LEAST
-    ):
+    is_counted = counts_all and numbers[0] in (0.0, 1.0) and bool(np.all(np.diff(numbers) == 1.0))
+    are_handles = bool(np.all((numbers == np.round(numbers)) & (numbers >= 0.0) & (numbers < HANDLES)))
+    is_headed = any(map(is_handle_heading, heads)) and np.unique(numbers).size == numbers.size >= LABELS_LEAST
+    if not is_counted and not (is_headed and are_handles):
         return labels
-    first = 1 if counts_all and numbers[0] == 1.0 else 0
+    first = 1 if is_counted and numbers[0] == 1.0 else 0
     each = 2 if len(lines) == 2 * HANDLES else 1
     for k, number in zip(lines, numbers.astype(int).tolist(), strict=True):
         labels[k] = Label((number - first) // each, None, 1.0)
@@ -181,13 +182,10 @@ def _margin(cells: list[list[Cell]]) -> list[str]:
     return texts + [cell for row in cells[:MARGIN] for cell in row if isinstance(cell, str)]
 
 
-def _columns(heads: list[list[Cell]], aside: int) -> dict[tuple[float | None, int], tuple[int, float]]:
-    """Columns headed x, y or speed, but by no handle, with the units of their numbers; the first of each.
-
-    The keys are the instant [s], which may stand in the same cell or above several columns, and the component.
-    """
+def _columns(heads: list[list[Cell]], aside: int) -> Columns:
+    """Columns headed x, y or speed, but by no handle; the first of each. An instant may stand above several."""
     above = _instants(heads, aside)
-    columns: dict[tuple[float | None, int], tuple[int, float]] = {}
+    columns: Columns = {}
     for row in heads:
         for k, cell in enumerate(row):
             time, label = heading_of(cell)
@@ -261,22 +259,16 @@ def _by_columns(
     grid: Grid,
     cells: list[list[Cell]],
     lines: list[tuple[int, Label]],
-    columns: dict[tuple[float | None, int], tuple[int, float]],
+    columns: Columns,
     turned: bool,
 ) -> list[SheetTable]:
-    """Tables of columns for x, y and speed: at their instants, or at one that is not given.
-
-    columns: by instant and component, each with the factor from its unit
-    """
+    """Tables of columns for x, y and speed: at their instants, or at one that is not given."""
     times = sorted({time for time, _ in columns if time is not None})
     if not times:
         return [_columns_table(grid, cells, TableKind.CONTACT, lines, columns, [None], turned)]
-    kinds = [kind for kind in (TableKind.POSITION, TableKind.SPEED) if _has(columns, kind)]
+    timed = {component for time, component in columns if time is not None}
+    kinds = [kind for kind in (TableKind.POSITION, TableKind.SPEED) if timed & set(COMPONENTS[kind])]
     return [_columns_table(grid, cells, kind, lines, columns, times, turned) for kind in kinds]
-
-
-def _has(columns: dict[tuple[float | None, int], tuple[int, float]], kind: TableKind) -> bool:
-    return any(time is not None and component in COMPONENTS[kind] for time, component in columns)
 
 
 def _columns_table(
@@ -284,7 +276,7 @@ def _columns_table(
     cells: list[list[Cell]],
     kind: TableKind,
     lines: list[tuple[int, Label]],
-    columns: dict[tuple[float | None, int], tuple[int, float]],
+    columns: Columns,
     times: Sequence[float | None],
     turned: bool,
 ) -> SheetTable:
@@ -355,9 +347,9 @@ def bare_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> list[Sh
             return [] if is_curve else _by_columns(grid, cells, lines, headed, turned)
         if names and not _instants(cells[:first], aside):
             return []
-        if not names and 1 < len(columns) <= len(COMPONENTS[TableKind.CONTACT]):
-            places: dict[tuple[float | None, int], tuple[int, float]] = {
-                (None, component): (k, 1.0) for component, k in enumerate(columns)
-            }
+        # Places are on all sides of the centre; speeds at two or three instants are not negative.
+        has_places = any(isinstance(cell, float) and cell < 0.0 for row in cells[first:] for cell in row)
+        if not names and has_places and 1 < len(columns) <= len(COMPONENTS[TableKind.CONTACT]):
+            places: Columns = {(None, component): (k, 1.0) for component, k in enumerate(columns)}
             return _by_columns(grid, cells, lines, places, turned)
     return _over_time(grid, cells, lines, _times(cells[:first], cells, aside), turned)

@@ -72,7 +72,7 @@ class SheetAnswer(Answer):
     first: CellAnswer | None = Field(description="The first wrong cell, row by row; null if none is wrong")
     picture: list[str] = Field(
         description="Places of the wrong cells: lines for some handles, the head first, with marks for some instants: "
-        ". right, o rounded, # wrong, ? missing; empty where none is wrong or missing, and where all marks are alike"
+        ". right, o rounded, # wrong, ? missing"
     )
     notes: list[str] = Field(description="Remarks for the reader, in words")
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import chain
 
 import numpy as np
 
@@ -36,18 +35,18 @@ def tables_of(grid: Grid) -> list[SheetTable]:
     if holds_curve(cells):
         grid.notes.append(note("curve"))
         return []
-    turned = [list(line) for line in zip(*cells, strict=True)]
-    layouts: Iterator[list[SheetTable]] = chain(
-        (lists_of(grid, cells) for _ in range(1)),
-        (
-            wide_tables(grid, lines, turned=lines is turned, numbered=numbered)
-            for numbered in (False, True)
-            for lines in (cells, turned)
-        ),
-        (bare_tables(grid, lines, turned=lines is turned) for lines in (cells, turned)),
-    )
-    tables = next(filter(None, layouts), [])
-    return [_titled(table) for table in tables]
+    return [_titled(table) for table in next(filter(None, _readings(grid, cells)), [])]
+
+
+def _readings(grid: Grid, cells: list[list[Cell]]) -> Iterator[list[SheetTable]]:
+    """What a sheet may hold, the surest first: a list, lines of handles with names, with numbers, or without labels."""
+    yield lists_of(grid, cells)
+    sides = (cells, False), ([list(line) for line in zip(*cells, strict=True)], True)
+    for numbered in (False, True):
+        for lines, turned in sides:
+            yield wide_tables(grid, lines, turned=turned, numbered=numbered)
+    for lines, turned in sides:
+        yield bare_tables(grid, lines, turned=turned)
 
 
 def _titled(table: SheetTable) -> SheetTable:

@@ -86,7 +86,7 @@ WORDS = ERRORS | PAPER | {
         "工作表 {title} 的行过宽：只读取了前 {rows} 行。"),
     "angles": ("The sheet {title} holds angles, which the contest does not ask for: it was not graded.",
         "工作表 {title} 的内容是角度，不属于赛题要求：未评分。"),
-    "curve": ("A table of angles or radii beside x and y, without handles and speeds, is none of the contest's: it was not graded.",
+    "curve": ("A table of angles or radii beside x and y, without handles and speeds, is not one of the contest: it was not graded.",
         "表格在 x、y 之外只有角度或极径，没有把手和速度，不属于赛题要求：未评分。"),
     "titled_otherwise": ("The sheet {title} holds {kind}, in spite of its title.", "工作表 {title} 的内容是{kind}，与标题不符。"),
     "named_otherwise": ("The name of the file says {named}, but its sheets are laid out as {workbook}: it was graded as {workbook}.",

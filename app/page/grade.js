@@ -150,7 +150,9 @@ function sheetParts(sheet) {
       const quantity = cell.quantity === "speed" ? say("quantity_speed") : cell.quantity;
       parts.push(paragraph(say(key, { ...cell, quantity, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) })));
     }
-  if (picture.length) parts.push(drawn(picture), legend(picture.join("")));
+  const marks = new Set(picture.join(""));
+  // Marks that are all alike do not show where the errors are.
+  if (marks.size > 1 && (marks.has("#") || marks.has("?"))) parts.push(drawn(picture), legend(picture.join("")));
   return parts;
 }
 
