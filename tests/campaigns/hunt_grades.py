@@ -1,9 +1,10 @@
-"""Right students whom the grader might accuse: python -m tests.campaigns.hunt_grades [SEED [SECONDS [CASES]]]
+"""Students whom the grader might judge wrongly: python -m tests.campaigns.hunt_grades [SEED [SECONDS [CASES]]]
 
 Random sheets and typed numbers that are nearly right, in the ways in which students' results are: rounded, cut off,
 from single precision, with noise, with a few wrong, missing or exchanged cells, with errors that add up along the
 benches or come from a solver, or with a small bias. None has a known error, so that each diagnosis is a fault; so is a
-verdict "wrong" on a number that is right to its digits. With CASES it ends after so many, not after SECONDS.
+verdict "wrong" on a number that is right to its digits. Files in random layouts are right in every number, or wrong by
+one of the commonest errors, which is named. With CASES it ends after so many, not after SECONDS.
 """
 
 from functools import cache
@@ -15,15 +16,19 @@ from app.grade.diagnosis import diagnosed
 from app.grade.expected import Workbook, dance_of, of_dance, times_of
 from app.grade.judged import judged
 from app.grade.layout import COMPONENTS, HANDLES, SheetTable, TableKind
-from app.grade.report import typed
+from app.grade.report import graded, typed
 from app.grade.shortcuts import UNITS, right_answer
 from core import Budget
 from tests.campaigns import hunting
+from tests.support.student_files import as_csv, in_random_layout
+from tests.support.students import by_xlsxwriter
 
 Random = np.random.Generator
 SECONDS = 120.0
-# Share of typed numbers among the cases, and of sheets with all of their instants: others have every 25th.
-TYPED, WHOLE, THINNED = 0.5, 0.02, 25
+# Shares of typed numbers and of files among the cases, and of sheets with all instants: others have every 25th.
+TYPED, FILES, WHOLE, THINNED = 0.4, 0.2, 0.02, 25
+# Numbers of instants in a file, from and below; and share of the files with one sheet that are workbooks.
+INSTANTS, WORKBOOKS = (2, 7), 0.3
 # Decimals of sheets, and of typed numbers.
 SHEET_DECIMALS, TYPED_DECIMALS = (2, 9), (1, 11)
 
@@ -138,6 +143,46 @@ def table_of(kind, times, values):
     return SheetTable("", kind, instants, handles, handles, some, places, places)
 
 
+def turned(values, random):
+    """Places turned about the centre by one angle."""
+    angle = random.uniform(0.1, 6.0)
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    return np.concatenate([values[..., :2] @ turn, values[..., 2:]], axis=-1)
+
+
+# The commonest errors of students by their names, and what each makes of the right numbers.
+ERRORS = {
+    "": lambda values, random: values,
+    "anticlockwise": lambda values, random: values * [1.0, -1.0, 1.0],
+    "x_negated": lambda values, random: values * [-1.0, 1.0, 1.0],
+    "axes_exchanged": lambda values, random: values[..., [1, 0, 2]],
+    "turned": turned,
+    "shifted_rows": lambda values, random: np.roll(values, random.choice([-1, 1]), axis=1),
+    "speeds_negated": lambda values, random: values * [1.0, 1.0, -1.0],
+}
+
+
+def file_fault(random):
+    """What is false in the grade of a file in a random layout, right or with one of ERRORS; empty for nothing."""
+    workbook, error = list(Workbook)[random.integers(len(Workbook))], list(ERRORS)[random.integers(len(ERRORS))]
+    values, times = right(workbook), times_of(workbook)
+    if workbook is not Workbook.RESULT2:
+        some = np.sort(random.choice(times.size, random.integers(*INSTANTS), replace=False))
+        values, times = values[some], times[some]
+    values = np.round(ERRORS[error](values, random), 6)
+    sheets, layout = in_random_layout(values, times, random)
+    is_csv = len(sheets) == 1 and random.random() > WORKBOOKS
+    data = as_csv(*sheets.values()) if is_csv else by_xlsxwriter(sheets)
+    grade = graded(f"{workbook.value}.csv", data, Language.ENGLISH, Budget())
+    names, count = [one.error for one in grade.diagnosis], sum(one.right for one in grade.sheets)
+    if error:
+        is_fine = grade.verdict == "wrong" and names == [error]
+    else:
+        is_fine = grade.verdict in ("right", "incomplete") and (names, count) == ([], values.size)
+    what = f"{workbook.value}, {error or 'right'}, {layout}"
+    return "" if is_fine else f"{what}: {grade.verdict.value}, {count} right, {', '.join(names)}"
+
+
 def typed_fault(random):
     """What the grader finds in a number that is right to its digits, nearly right, or random; empty for nothing."""
     name = list(UNITS)[random.integers(len(UNITS))]
@@ -164,12 +209,13 @@ def hunt(seed, seconds=SECONDS, cases=None):
     random = np.random.default_rng(seed)
 
     def fault(seed, case):
-        is_typed = random.random() < TYPED
-        return "typed number" if is_typed else "sheet", (typed_fault if is_typed else sheet_fault)(random)
+        faults = {"typed number": typed_fault, "file": file_fault, "sheet": sheet_fault}
+        kind = str(random.choice(list(faults), p=[TYPED, FILES, 1.0 - TYPED - FILES]))
+        return kind, faults[kind](random)
 
     return hunting.hunt(fault, seed, seconds, cases)
 
 
 if __name__ == "__main__":
     seed, seconds, cases = hunting.arguments(1, SECONDS, 0)
-    hunting.main(hunt, "sheets and typed numbers that are nearly right", seed, seconds, cases or None)
+    hunting.main(hunt, "sheets, files and typed numbers", seed, seconds, cases or None)

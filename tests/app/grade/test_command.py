@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
 
 import core
@@ -55,14 +56,31 @@ def test_files_stand_in_the_order_given_and_a_missing_one_is_reported(class_of_t
     assert [file["verdict"] for file in files] == ["unreadable", "unreadable", "right"]
 
 
-def test_the_words_are_in_the_language_chosen(class_of_three, tmp_path):
+def test_the_words_are_in_the_language_chosen(class_of_three, tmp_path, monkeypatch):
     position, speed = spiral(np.array([CONTACT]))
     speed[0, 5] += 1.0
-    file = tmp_path / "result2.xlsx"
+    monkeypatch.chdir(tmp_path)
+    file, summary = Path("=1+1.xlsx"), Path("grades.xlsx")
     file.write_bytes(contact_workbook((position, speed)))
-    done = run("grade", str(class_of_three / "li" / "result2.xlsx"), str(file), "--language", "zh")
+    other = class_of_three / "li" / "result2.xlsx"
+    done = run("grade", str(other), file.name, "--language", "zh", "--summary", str(summary))
     assert "以 0.01 / 0.02 / 0.04 / 0.08 s 为步长搜索" in done.stdout
     assert "误差最大：D7，第5节龙身，412.473838 s 时，速度：" in done.stdout
+    assert "other_instant" not in done.stdout
+    heads, *rows = openpyxl.load_workbook(summary).active.values
+    assert heads == ("文件", "工作簿", "判定", "单元格", "正确", "缺少", "诊断", "小数位")
+    assert rows == [
+        (str(other), "result2", "错误", 672, 1, 0, "时刻有误；按时间步长搜索（碰撞后）", None),
+        ("=1+1.xlsx", "result2", "错误", 672, 671, 0, None, None),
+    ]
+
+
+def test_a_picture_is_drawn_only_where_it_shows_which_numbers_are_wrong(tmp_path):
+    position, speed = spiral(np.array([CONTACT]))
+    for changed, lines in (((position * [-1.0, 1.0], speed), 14), ((-position, -speed), 0), ((position, speed), 0)):
+        file = tmp_path / "result2.xlsx"
+        file.write_bytes(contact_workbook(changed))
+        assert [line.strip() for line in run("grade", str(file)).stdout.splitlines()].count("#..") == lines
 
 
 def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path):
@@ -86,6 +104,7 @@ def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path):
         "grade . -> . must hold a file that ends in .xlsx",
         "grade -> give at least one FILE or one number",
         "grade --pitch wide -> pitch ... [m], 'wide'",
+        "grade --pitch 0_4504 -> pitch ... [m], '0_4504'",
         "grade --pitch -1 -> pitch ... 0",
         "grade missing.xlsx -> missing.xlsx: No such file or directory",
     ],

@@ -1,4 +1,4 @@
-"""Twenty-six results with one known error each are diagnosed; five with errors of no known kind are not."""
+"""Results with one known error each are diagnosed; five with errors of no known kind are not."""
 
 from functools import cache
 
@@ -51,6 +51,7 @@ KNOWN = {
     "other_start": lambda: first(spiral(start_turns=15.0)),
     "shifted_time": lambda: first(spiral(SPIRAL_TIMES + 1.0)),
     "ratio_inverted": lambda: fourth(turn(ratio=0.5)),
+    "other_entry_radius": lambda: fourth(turn(turning_radius=4.9)),
     "arcs_not_tangent": lambda: students.lines(students.semicircles(FEWER), FEWER),
     "wrong_centre": lambda: students.lines(students.mirrored_arcs(FEWER), FEWER),
     "turn: shifted_time": lambda: fourth(turn(TURN_TIMES + 13.621245)),
@@ -61,6 +62,11 @@ KNOWN = {
     "outside_blank": lambda: first(students.outside(np.nan)),
     "outside_line": lambda: first(students.on_line()),
     "contact: other_instant": lambda: students.contact_workbook(spiral(np.array([412.48]))),
+    "contact: x_negated": lambda: of_contact([-1.0, 1.0, 1.0]),
+    "contact: axes_exchanged": lambda: of_contact(order=[1, 0, 2]),
+    "contact: turned": lambda: of_contact([-1.0, -1.0, 1.0]),
+    "contact: shifted_rows": lambda: of_contact(rows=1),
+    "contact: speeds_negated": lambda: of_contact([1.0, 1.0, -1.0]),
     "contact: length_for_chord": lambda: students.contact_workbook(spiral(AT_CONTACT, dragon=Dragon(overhang=0.0))),
 }
 # What no student does: each is wrong, and none of the known errors gives it.
@@ -71,6 +77,13 @@ UNKNOWN = {
     "some handles swapped": lambda: first(swapped()),
     "contact: moved": lambda: students.contact_workbook((spiral(AT_CONTACT)[0] + 0.05, spiral(AT_CONTACT)[1])),
 }
+
+
+def of_contact(signs=1.0, order=(0, 1, 2), rows=0):
+    """A result2 with changed signs, another order of x, y and speed, or rows that are shifted."""
+    position, speed = spiral(AT_CONTACT)
+    numbers = np.roll((np.dstack([position, speed]) * signs)[..., list(order)], -rows, axis=1)
+    return students.contact_workbook((numbers[..., :2], numbers[..., 2]))
 
 
 def one_cell():
@@ -100,8 +113,8 @@ def known(name):
 
 # Errors of which each run shows one of every kind; make test-all has the others too.
 OFTEN = ("anticlockwise", "equal_arcs", "overhang_once", "wrong_ring", "forward_difference", "equal_speeds",
-         "other_start", "ratio_inverted", "arcs_not_tangent", "other_question", "outside_blank",
-         "contact: other_instant")  # fmt: skip
+         "other_start", "other_entry_radius", "ratio_inverted", "arcs_not_tangent", "other_question", "outside_blank",
+         *(name for name in KNOWN if name.startswith("contact")))  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -181,6 +194,32 @@ def test_equal_speeds_of_two_decimals_are_right_ones_rounded():
     position, _ = spiral(SPIRAL_TIMES[:4])
     result = grade(students.by_xlsxwriter(students.rows_of((position.round(2), np.ones((4, 224))), SPIRAL_TIMES[:4])))
     assert (result.sheets[1].verdict, result.diagnosis) == ("incomplete", [])
+
+
+def test_another_instant_is_named_beside_a_further_error():
+    position, speed = spiral(np.array([414.0]))
+    speed[:, 1:] *= 0.9924
+    result = grade(students.contact_workbook((position, speed)))
+    assert errors(result) == ["other_instant", "other_speeds"]
+    assert result.diagnosis[1].evidence.startswith("Sheet1: 223 of 224 speeds differ")
+    assert met(result, "speeds") is False
+    mirrored = grade(students.contact_workbook((position * [-1.0, 1.0], spiral(np.array([414.0]))[1])))
+    assert errors(mirrored) == ["x_negated", "other_instant"]
+
+
+def test_the_angle_of_turned_places_is_told():
+    position, speed = spiral(AT_CONTACT)
+    c, s = np.cos(np.radians(-30.5)), np.sin(np.radians(-30.5))
+    [one] = grade(students.contact_workbook((position @ np.array([[c, s], [-s, c]]), speed))).diagnosis
+    assert (one.error, "by -30.5°" in one.words) == ("turned", True)
+
+
+def test_no_error_is_ruled_out_by_one_position():
+    position, speed = spiral(AT_CONTACT)
+    position[:, 1:], speed[:] = np.nan, np.nan
+    rows = [["", "x", "y", "v"], *([h, *point, ""] for h, point in enumerate((position + 1.0)[0].tolist()))]
+    text = "\n".join(",".join(map(str, row)) for row in rows).replace("nan", "")
+    assert grade(text.encode()).notes == ["There are too few numbers, or too few decimals, to tell why."]
 
 
 def test_two_errors_are_reported_beside_each_other():

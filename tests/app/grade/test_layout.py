@@ -4,12 +4,14 @@ import json
 from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from app.files.tables import Language
 from app.grade.report import graded
 from core import Budget
 from tests.support import students
+from tests.support.student_files import NAMES, as_csv, in_layout
 from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral
 
 ROOT = Path(__file__).parents[3]
@@ -57,6 +59,11 @@ def by_pandas_with_numbers(rows):
     return [[None, "handle", *rows[0][1:]], *([k, *row] for k, row in enumerate(rows[1:]))]
 
 
+def numbered(rows):
+    """Numbers of the handles, or of the lines of x and y, in the place of their names."""
+    return [rows[0], *([k, *row[1:]] for k, row in enumerate(rows[1:]))]
+
+
 @cache
 def contest_labels():
     """The first column of the contest's sheets of positions and speeds, by its length."""
@@ -80,7 +87,7 @@ def right(result):
 
 def assert_right(data):
     """A whole result1 of positions, as CSV, right in every cell."""
-    [sheet] = grade(data, "result1.csv").sheets
+    sheet, _ = grade(data, "result1.csv").sheets
     assert (sheet.verdict, sheet.right) == ("right", 301 * 448)
 
 
@@ -118,10 +125,63 @@ def test_a_handle_too_many_is_left_out_and_one_too_few_is_missing():
     assert (position.verdict, position.right) == ("incomplete", 4 * 446)
 
 
-def test_a_missing_sheet_makes_the_workbook_incomplete():
-    result = grade(by_xlsxwriter({"位置": few()["位置"]}))
+@pytest.mark.parametrize("written", [by_xlsxwriter, lambda sheets: as_csv(*sheets.values())], ids=["workbook", "CSV"])
+def test_a_missing_sheet_makes_the_file_incomplete(written):
+    result = grade(written({"位置": few()["位置"]}))
     assert result.sheets[1].notes == ["The sheet of the speeds is missing."]
     assert result.verdict == "incomplete"
+
+
+# The numbers that the paper prints: seven handles at six instants.
+PRINTED, MINUTES = [0, 1, 51, 101, 151, 201, 223], SPIRAL_TIMES[::60]
+FORMS_BESIDE = ("columns", "two heads", "stack", "stack with heads")
+
+
+def numbers_at(times):
+    """Right numbers (T, H, 3)."""
+    position, speed = spiral(times)
+    return np.dstack([position.round(6), speed.round(6)])
+
+
+@pytest.mark.parametrize("form", FORMS_BESIDE)
+def test_positions_are_graded_beside_speeds(form):
+    [heads, *rows] = in_layout(numbers_at(MINUTES), MINUTES, form, heading="{:g}s")["both"]
+    lines = {NAMES[h] for h in PRINTED}
+    some = [row for row in rows if not row[0] or row[0].split(" ")[0].removesuffix("x").removesuffix("y") in lines]
+    sheets = grade(as_csv([heads, *some])).sheets
+    assert [(sheet.holds, sheet.verdict, sheet.right) for sheet in sheets] == [
+        ("position", "incomplete", 84),
+        ("speed", "incomplete", 42),
+    ]
+
+
+@pytest.mark.parametrize("form", ["list", *FORMS_BESIDE])
+def test_a_result2_may_state_its_instant_in_a_column_or_a_heading(form):
+    """The instant with six decimals is right, and so are the numbers at this instant. A column numbers the handles."""
+    for time in (students.CONTACT, 412.473838):
+        sheets = in_layout(numbers_at(np.array([time])), [412.473838], form, numbered=True)
+        result = grade(as_csv(*sheets.values()), "result2.csv")
+        assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
+
+
+@pytest.mark.parametrize("heads", ["theta,radius,x,y", "n,theta,radius,x,y", ",radius,x,y", "u,x,y", "a,b,c"])
+@pytest.mark.parametrize("count", [224, 500])
+def test_a_table_that_is_not_of_the_contest_is_unreadable(heads, count):
+    names = heads.split(",")
+    rows = [[k if name in ("", "n") else 0.01 * k for name in names] for k in range(count)]
+    result = grade(as_csv([names, *rows]), "result2.csv")
+    assert (result.workbook, result.verdict) == (None, "unreadable")
+
+
+@pytest.mark.parametrize("labels", [True, False])
+def test_sheets_with_exchanged_names_are_read_for_what_they_hold(labels):
+    position, speed = (rows if labels else numbered(rows) for rows in few().values())
+    result = grade(by_xlsxwriter({"速度": position, "位置": speed}))
+    assert [(sheet.holds, sheet.right) for sheet in result.sheets] == [("position", FEW[0]), ("speed", FEW[1])]
+    assert [sheet.notes[0] for sheet in result.sheets] == [
+        "The sheet 速度 holds positions, in spite of its title.",
+        "The sheet 位置 holds speeds, in spite of its title.",
+    ]
 
 
 @pytest.mark.parametrize("coding", ["gb18030", pytest.param("utf-16", marks=pytest.mark.thorough)])
@@ -196,7 +256,7 @@ def test_empty_columns_and_rows_count_as_missing_instants_and_handles():
         row[202:] = [""] * 100
     for row in rows[21:23]:
         row[1:] = [""] * 301
-    [sheet] = grade("\n".join(map(",".join, rows)).encode(), "result1.csv").sheets
+    sheet, _ = grade("\n".join(map(",".join, rows)).encode(), "result1.csv").sheets
     assert sheet.notes == [f"{100 * 448 + 201 * 2} cells are missing (1 handles and 100 instants without any)."]
 
 
@@ -222,7 +282,7 @@ def wide_csv(decimals=6):
 @pytest.mark.parametrize("decimals", [5, 2, 1, *(pytest.param(k, marks=pytest.mark.thorough) for k in (3, 4))])
 def test_rounded_results_are_named_with_their_decimals(decimals):
     result = grade(wide_csv(decimals).encode(), "result1.csv")
-    [sheet] = result.sheets
+    sheet, _ = result.sheets
     if decimals == 1:
         assert sheet.verdict == "wrong"
     else:

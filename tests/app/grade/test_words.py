@@ -32,6 +32,9 @@ def test_every_known_error_has_words(language):
     for error, values in known:
         text = words.say(f"error_{error}", language, **values)
         assert "{" not in text
+    codes = {name.removeprefix("error_") for name in words.WORDS if name.startswith("error_")}
+    names = {code: words.say(f"name_{code}", language) for code in codes}
+    assert {name.isascii() for name in names.values()} == {language is Language.ENGLISH}
 
 
 def test_every_name_in_the_code_has_words():

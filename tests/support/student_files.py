@@ -1,0 +1,59 @@
+"""The same numbers in the layouts in which students write them."""
+
+from tests.support.students import labels
+
+NAMES = [label.removesuffix(" (m/s)") for label in labels("speed")]
+# Forms of a table: a line for each handle and instant; a line for each handle, under one heading or two; lines of x, y
+# and speed, below one another, or in sheets of their own.
+FORMS = ("list", "columns", "two heads", "stack", "stack with heads", "sheets")
+# Forms of an instant in a heading.
+INSTANTS = ("{:.9g} s", "{:.9g}s", "t={:.9g}")
+
+
+def in_layout(values, times, form, *, heading=INSTANTS[0], numbered=False):
+    """Rows of sheets with these numbers (T, H, 3) of all handles. numbered: numbers in the place of their names"""
+    table, count = values.tolist(), values.shape[1]
+    handles = list(range(count)) if numbered else NAMES[:count]
+    instants = [heading.format(time) for time in times]
+    if form == "list":
+        entries = [(t, h) for t in range(len(times)) for h in range(count)]
+        lines = [[times[t], handles[h], *table[t][h]] for t, h in entries]
+        return {"list": [["time", "handle", "x", "y", "speed"], *lines]}
+    if form == "columns":
+        heads = [["", *(f"{time} {axis}" for time in instants for axis in ("x (m)", "y (m)", "v (m/s)"))]]
+        return {"both": heads + by_handle(handles, table)}
+    if form == "two heads":
+        heads = [["", *(cell for time in instants for cell in (time, None, None))], ["", *"xyv" * len(instants)]]
+        return {"both": heads + by_handle(handles, table)}
+    heads = [["", *instants]]
+    position, speed = (
+        [[label, *values[:, k // len(axes), axes[k % len(axes)]].tolist()] for k, label in enumerate(some)]
+        for some, axes in ((labels("position")[: 2 * count], (0, 1)), (labels("speed")[:count], (2,)))
+    )
+    if form == "sheets":
+        bare = [[h, *row[1:]] for h, row in enumerate(speed)] if numbered else speed
+        return {"位置": heads + position, "速度": heads + bare}
+    return {"both": [*heads, *position, *([[None], *heads] if form == "stack with heads" else []), *speed]}
+
+
+def by_handle(handles, table):
+    return [[handle, *(number for line in table for number in line[h])] for h, handle in enumerate(handles)]
+
+
+def on_side(rows):
+    width = max(map(len, rows))
+    return [list(line) for line in zip(*(row + [None] * (width - len(row)) for row in rows), strict=True)]
+
+
+def as_csv(rows):
+    return "\n".join(",".join("" if cell is None else str(cell) for cell in row) for row in rows).encode()
+
+
+def in_random_layout(values, times, random):
+    """Rows of sheets, and the name of their layout."""
+    form, heading = FORMS[random.integers(len(FORMS))], INSTANTS[random.integers(len(INSTANTS))]
+    numbered, turned = bool(random.integers(2)), form != "list" and bool(random.integers(2))
+    sheets = in_layout(values, times, form, heading=heading, numbered=numbered)
+    if turned:
+        sheets = {title: on_side(rows) for title, rows in sheets.items()}
+    return sheets, f"{form}, {heading}{', numbered' * numbered}{', on its side' * turned}"
