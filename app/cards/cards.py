@@ -110,7 +110,7 @@ def cards_pdf(decks: Sequence[CardSheets], progress: Callable[[float], None] = l
                         progress(done / count)
         return sink.getvalue()
 
-    return in_turn(drawn)
+    return in_turn(drawn, decks[0].budget)
 
 
 def _sheet(sheets: CardSheets, cards: Sequence[Card]) -> Sheet:

@@ -67,7 +67,7 @@ def crew_pdf(sheets: CrewSheets, progress: Callable[[float], None] = lambda shar
                     progress(k / len(pages))
         return sink.getvalue()
 
-    return in_turn(drawn)
+    return in_turn(drawn, sheets.budget)
 
 
 def _new_sheet(sheets: CrewSheets) -> Sheet:

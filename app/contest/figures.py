@@ -58,7 +58,7 @@ def figures(solved: Solved, say: Say, progress: Callable[[float], None]) -> Iter
     of_turn = (geometry, amplification) if solved.turned else ()
     kinds = (positions, snapshots, clearance, staircase, *of_turn, sensitivity)
     for k, draw in enumerate(kinds, start=1):
-        drawn = in_turn(partial(_drawn, draw, solved, say, family))
+        drawn = in_turn(partial(_drawn, draw, solved, say, family), solved.budget)
         progress(k / len(kinds))
         yield drawn
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -21,7 +21,8 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import Stroke
 from matplotlib.text import Text
 
-from core import Venue
+from core import Budget, Venue
+from core.kernels import Halted
 from core.plots import PALE
 from core.shapes.engines import thickened, widest_place
 from core.values import Floats
@@ -34,6 +35,8 @@ matplotlib.rcParams["pdf.fonttype"] = 42
 # One drawing at a time: matplotlib does not guarantee that its font caches are safe for threads. Always in one thread:
 # matplotlib opens the two files of a font once for each thread that draws, and forty threads answer requests.
 _DRAWER = ThreadPoolExecutor(1, "drawing")
+# Time between two looks at the budget of who waits for a drawing [s].
+LOOK_SECONDS = 0.05
 PNG_DPI = 120
 # The whole square is drawn if it is at most this many times as large as the dance; else only the part around the dance.
 SQUARE_MOST = 2.0
@@ -47,9 +50,17 @@ NAME_TYPE, HALO, NAME_AWAY = 8.0, 0.35, 4.0
 LINE_AWAY, LINE_STEP = 0.5, 3.0
 
 
-def in_turn(draw: Callable[[], Value]) -> Value:
-    """The value of a drawing function, called when all earlier ones are done. It must not call in_turn() itself."""
-    return _DRAWER.submit(draw).result()
+def in_turn(draw: Callable[[], Value], budget: Budget | None = None) -> Value:
+    """The value of a drawing function, called when all earlier ones are done. It must not call in_turn() itself.
+
+    raises: Halted once the budget is stopped; what has begun goes on for nobody, as matplotlib cannot stop
+    """
+    drawing = _DRAWER.submit(draw)
+    while budget is not None and not wait([drawing], LOOK_SECONDS).done:
+        if budget.stopped:
+            drawing.cancel()
+            raise Halted(budget)
+    return drawing.result()
 
 
 def canvas(width: float, height: float) -> Figure:

@@ -16,15 +16,18 @@ from app.files.drawing import canvas, draw_venue, file_bytes, in_turn, look_arou
 from app.files.figure_words import translate
 from app.files.fonts import families
 from app.files.tables import Language
-from core import Budget, MinimumPitch, Venue, first_contact, trajectory
+from core import Budget, Dragon, MinimumPitch, Venue, first_contact, trajectory
 from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan
-from core.errors import format_number
+from core.errors import format_number, question_about
 from core.plots import GREY, VERMILION, draw_scan
 
 
-def figure_file(draw: Callable[[], Figure], format: str, language: Language) -> bytes:
-    """The file of a figure with its words in this language. raises: MissingPackage without a font for it"""
+def figure_file(draw: Callable[[], Figure], format: str, language: Language, budget: Budget | None = None) -> bytes:
+    """The file of a figure with its words in this language.
+
+    raises: MissingPackage without a font for it; Halted once the budget is stopped
+    """
     family = families(language)
 
     def drawn() -> bytes:
@@ -35,9 +38,10 @@ def figure_file(draw: Callable[[], Figure], format: str, language: Language) -> 
             translate(figure)
             return file_bytes(figure, format)
 
-    return in_turn(drawn)
+    return in_turn(drawn, budget)
 
 
+@question_about("dance", Dance, "the figure was not drawn")
 def trajectory_figure(
     dance: Dance,
     *,
@@ -45,12 +49,13 @@ def trajectory_figure(
     time: float = 300.0,
     format: str = "svg",
     language: Language = Language.ENGLISH,
+    budget: Budget | None = None,
 ) -> bytes:
     """Figure 6: every handle at one instant, coloured by its speed, on any path and in any venue.
 
     time: [s]; raises: OutsideRun after the end of the run
     """
-    result = trajectory(dance, [time])
+    result = trajectory(dance, [time], budget=budget)
 
     def drawn() -> Figure:
         figure = canvas(7.2, 6.2)
@@ -62,9 +67,10 @@ def trajectory_figure(
         axes.set_title(f"Handles and their speeds at {time:g} s{words}", fontsize=11)
         return figure
 
-    return figure_file(drawn, format, language)
+    return figure_file(drawn, format, language, budget)
 
 
+@question_about("dance", Dance, "the figure was not drawn")
 def contact_figure(
     dance: Dance,
     *,
@@ -91,10 +97,12 @@ def contact_figure(
             axes.indicate_inset_zoom(enlarged, edgecolor="black", linewidth=0.8)
         return figure
 
-    return figure_file(drawn, format, language)
+    return figure_file(drawn, format, language, budget)
 
 
+@question_about("dragon", Dragon, "the figure was not drawn")
 def pitch_scan_figure(
+    dragon: Dragon,
     scan: PitchScan,
     least: MinimumPitch,
     *,
@@ -103,6 +111,7 @@ def pitch_scan_figure(
     margin: float = 0.0,
     format: str = "svg",
     language: Language = Language.ENGLISH,
+    budget: Budget | None = None,
 ) -> bytes:
     """Figure 8: radius of the head at first contact against the pitch, jumps left blank, minimum pitch marked.
 
@@ -131,7 +140,7 @@ def pitch_scan_figure(
         axes.indicate_inset_zoom(near, edgecolor="black", linewidth=0.7)
         return figure
 
-    return figure_file(drawn, format, language)
+    return figure_file(drawn, format, language, budget)
 
 
 def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius: float, near: str) -> None:

@@ -119,7 +119,7 @@ def frames(
     dance: Dance, spec: FilmSpec, venue: Venue | None, title: str, budget: Budget
 ) -> Iterator[NDArray[np.uint8]]:
     """Pictures (height, width, 4) in red, green, blue, alpha, each valid until the next one."""
-    times, stage = spec.times, FilmPicture(dance, spec, venue, title)
+    times, stage = spec.times, FilmPicture(dance, spec, venue, title, budget)
     for first in range(0, times.size, BATCH):
         some = times[first : first + BATCH]
         outlines = bench_outlines(dance.dragon, trajectory(dance, some, budget=budget).position)
@@ -144,14 +144,16 @@ class Layer(NamedTuple):
 class FilmPicture:
     """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
 
-    def __init__(self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str) -> None:
+    def __init__(
+        self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str, budget: Budget | None = None
+    ) -> None:
         self.dance = dance
-        self.prepare(spec, venue, title)
+        self.prepare(spec, venue, title, budget)
 
-    def prepare(self, spec: FilmSpec, venue: Venue | None, title: str) -> None:
-        """Draw the background, and make what moves before it."""
+    def prepare(self, spec: FilmSpec, venue: Venue | None, title: str, budget: Budget | None) -> None:
+        """Draw the background, and make what moves before it. raises: Halted once the budget is stopped"""
         self.language, self.start_clock, self.spec = spec.language, spec.start_clock, spec
-        in_turn(lambda: self._draw(spec, venue, title))
+        in_turn(lambda: self._draw(spec, venue, title), budget)
 
     def draw_paths(self, times: Floats) -> Floats:
         """Draw what does not move; returns the places (N, 2) of handles at these times [m]."""

@@ -46,7 +46,7 @@ def performance_film(
 
 def _frames(performance: Performance, spec: FilmSpec, title: str, budget: Budget) -> Iterator[NDArray[np.uint8]]:
     """Pictures (height, width, 4) in red, green, blue, alpha, each valid until the next one."""
-    times, stage = spec.times, PerformancePicture(performance, spec, title)
+    times, stage = spec.times, PerformancePicture(performance, spec, title, budget)
     dragons = [part.dance.dragon for part in performance.parts]
     for first in range(0, times.size, BATCH):
         some = times[first : first + BATCH]
@@ -61,9 +61,9 @@ def _frames(performance: Performance, spec: FilmSpec, title: str, budget: Budget
 class PerformancePicture(FilmPicture):
     """A picture of several dragons that is drawn again for each frame."""
 
-    def __init__(self, performance: Performance, spec: FilmSpec, title: str) -> None:
+    def __init__(self, performance: Performance, spec: FilmSpec, title: str, budget: Budget | None = None) -> None:
         self.performance = performance
-        self.prepare(spec, performance.venue, title)
+        self.prepare(spec, performance.venue, title, budget)
 
     def name_of(self, dragon: int) -> str:
         """Name of a dragon, or its number in words."""

@@ -15,6 +15,7 @@ from app.files.figures import figure_file
 from app.files.tables import Language
 from core import Budget, FirstEncounter, OutsideRun, Performance, bench_outlines, trajectory
 from core.display import display
+from core.errors import question_about
 from core.plots import BLUE, ENLARGED_MARGINS, ENLARGED_WIDTHS, PALE, SHAPES_MAX, VERMILION, plan
 from core.values import Floats
 
@@ -31,6 +32,7 @@ def colour_of(dragon: int) -> str:
     return COLOURS[dragon % len(COLOURS)]
 
 
+@question_about("performance", Performance, "the figure was not drawn")
 def encounter_figure(
     performance: Performance,
     encounter: FirstEncounter | None,
@@ -65,7 +67,7 @@ def encounter_figure(
         figure.suptitle(title, fontsize=11, parse_math=False)
         return figure
 
-    return figure_file(drawn, format, language)
+    return figure_file(drawn, format, language, budget)
 
 
 def _refuse(performance: Performance, time: float) -> None:

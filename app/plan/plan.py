@@ -104,7 +104,7 @@ def plan_pdf(
                     progress(k / len(pages))
         return sink.getvalue()
 
-    return in_turn(drawn)
+    return in_turn(drawn, plans[0].budget)
 
 
 def _together(plans: Sequence[Plan], together: Together, say: Say) -> Iterator[_Page]:

@@ -105,7 +105,8 @@ def trajectory_figure(request: TrajectoryFigureQuery | TrajectoryFigureRequest, 
     dance = request.to_dance(terms.settings.drawn_benches_max)
     venue = request.to_place(dance.dragon).venue if isinstance(request, PlacedDance) else None
     time = dance.default_start if request.time is None else request.time
-    return figures.trajectory_figure(dance, venue=venue, time=time, format=FORMATS[form], language=request.language)
+    look: dict[str, Any] = {"format": FORMATS[form], "language": request.language, "budget": terms.budget}
+    return figures.trajectory_figure(dance, venue=venue, time=time, **look)
 
 
 def contact_figure(request: ContactFigureQuery | ContactFigureRequest, terms: Terms, form: str) -> bytes:
@@ -157,10 +158,12 @@ def pitch_scan_figure(request: StaircaseQuery | StaircaseRequest, terms: Terms, 
     from app.files import figures
 
     dragon = request.to_dragon(min(terms.settings.drawn_benches_max, request.most_benches(terms.settings)))
-    result = scan_near_minimum(
+    scan, least = scan_near_minimum(
         dragon, samples=request.samples, progress=terms.progress, budget=terms.budget, **request.to_circle()
     )
-    return figures.pitch_scan_figure(*result, format=FORMATS[form], language=request.language, **request.to_circle())
+    look: dict[str, Any] = {"format": FORMATS[form], "language": request.language, "budget": terms.budget}
+    look |= request.to_circle()
+    return figures.pitch_scan_figure(dragon, scan, least, **look)
 
 
 DRAWN: dict[str, Any] = {"model": None, "forms": FORMS, "formats": Format}
