@@ -10,7 +10,6 @@ import pytest
 from playwright.sync_api import Page, expect, sync_playwright
 
 from tests.support.browser import browser_path
-from tests.support.pending import settled
 from tests.support.person import Person
 from tests.support.serving import serving
 
@@ -29,26 +28,6 @@ TIMEOUT = 60_000  # [ms]; no test waits this long for what is coming, however bu
 
 # Longest computation of one answer [s]: on a busy machine the ten seconds of the default are soon over.
 DEADLINE = 50.0
-
-# Stops playing and drawing, and leads to another address of the page as the browser's back button does.
-GO = """(query) => {
-  if (document.querySelector("#play").textContent.startsWith("❚❚")) document.querySelector("#play").click();
-  if (document.querySelector("#edit[aria-pressed=true]"))
-    for (const button of ["[data-tool=path]", "#edit"]) document.querySelector(button).click();
-  for (const one of document.querySelectorAll("details")) one.open = one.id === "things";
-  const choice = document.querySelector("#curl-of");
-  choice.selectedIndex = 0;
-  if (choice.options.length) choice.dispatchEvent(new Event("change"));
-  document.activeElement.blur();
-  scrollTo(0, 0);
-  document.querySelector("#rows").scrollTop = 0;
-  return new Promise((resolve) => {
-    addEventListener("popstate", resolve, { once: true });
-    // If the page still writes the address that it leaves, it does so in the second entry.
-    for (let k = 0; k < 2; k++) history.pushState(null, "", query);
-    history.back();
-  });
-}"""
 
 # Chromium's own message about a failed request; only tests that make one fail may see it.
 FAILED_REQUEST = "Failed to load resource"
@@ -185,49 +164,3 @@ def open_page(tabs, server):
     yield opened
     for one in pages:
         tabs.take_back(one, server)
-
-
-@pytest.fixture(scope="session")
-def kept():
-    """The pages of `visit`, each by its options."""
-    return {}
-
-
-@pytest.fixture
-def visit(tabs, kept, server):
-    """visit(query, failing=False, **options of the context): the page at this address, at rest.
-
-    Tests share it: it is loaded once, and goes from address to address as by the browser's buttons. A page whose slow
-    charts were looked at asks for them at every address, so a new one takes its place.
-    """
-    pages = set()
-
-    def visited(query=HOME, *, failing=False, **options):
-        key = json.dumps(options, sort_keys=True)
-        if key in kept:
-            go(kept[key].page, query, options.get("viewport", WIDE))
-        else:
-            kept[key] = tabs.opened(query, server, **options)
-            settled(kept[key].page)
-        kept[key].failing |= failing
-        pages.add(key)
-        return Person(kept[key].page)
-
-    def go(page, query, viewport):
-        page.unroute_all()
-        if viewport and page.viewport_size != viewport:
-            page.set_viewport_size(viewport)
-        page.evaluate(GO, query)
-        settled(page)
-
-    yield visited
-    for key in pages:
-        one = kept[key]
-        if any("/pitch-scan" in url for url in one.requests):
-            tabs.take_back(kept.pop(key), server)
-            continue
-        if one.failing:
-            # A request of this test that is refused only now is not the fault of the next one.
-            go(one.page, EASY, one.page.viewport_size)
-        one.check()
-        one.failing = False

@@ -74,8 +74,8 @@ def watched(person, server):
     return calls
 
 
-def test_the_first_view_shows_the_contact_its_proof_and_how_every_answer_is_known(visit, server):
-    person, answer, least = visit(), collision_time(server), answer_of(server, "minimum-pitch")
+def test_the_first_view_shows_the_contact_its_proof_and_how_every_answer_is_known(open_page, server):
+    person, answer, least = open_page(), collision_time(server), answer_of(server, "minimum-pitch")
     low, high = (
         bounded(end, 10, way) for end, way in zip(answer["time_bracket"], (ROUND_FLOOR, ROUND_CEILING), strict=True)
     )
@@ -103,8 +103,8 @@ def test_the_first_view_shows_the_contact_its_proof_and_how_every_answer_is_know
     assert person.ask(INLINE) == 0
 
 
-def test_limits_and_units_are_the_services_own(visit, server):
-    limits = visit("?benches=5&time=end").ask(LIMITS)
+def test_limits_and_units_are_the_services_own(open_page, server):
+    limits = open_page("?benches=5&time=end").ask(LIMITS)
     schemas = polite.answer(server, "openapi.json")["paths"]["/collision-time"]["get"]["parameters"]
     for name, schema in ((one["name"], one["schema"]) for one in schemas if "enum" not in one["schema"]):
         scale, unit = (100, "cm") if name in IN_CM else (1, schema.get("x-unit", ""))
@@ -114,8 +114,10 @@ def test_limits_and_units_are_the_services_own(visit, server):
         assert limits[name][1] == unit
 
 
-def test_a_dragged_number_has_the_answers_of_the_service_and_the_engines_judge_all_when_the_hand_rests(visit, server):
-    person = visit("?benches=40&time=end").presses("#minimum-pitch summary", "#first-contact summary")
+def test_a_dragged_number_has_the_answers_of_the_service_and_the_engines_judge_all_when_the_hand_rests(
+    open_page, server
+):
+    person = open_page("?benches=40&time=end").presses("#minimum-pitch summary", "#first-contact summary")
     person.sees({"#minimum-pitch caption": "judged all 40 benches. They agree."})
     calls = watched(person, server)
     person.ask(HELD)
@@ -140,8 +142,8 @@ def test_a_dragged_number_has_the_answers_of_the_service_and_the_engines_judge_a
     person.sees({"#table-time": person.text("#clock")})
 
 
-def test_the_dance_plays_to_the_contact_and_its_rows_stay_under_the_mouse(visit, server):
-    person = visit("?benches=40&time=400&rate=10").reads({"#clock": "400.000000 s"}).sees({"#inset": False})
+def test_the_dance_plays_to_the_contact_and_its_rows_stay_under_the_mouse(open_page, server):
+    person = open_page("?benches=40&time=400&rate=10").reads({"#clock": "400.000000 s"}).sees({"#inset": False})
     row = person.at("#rows tr[data-handle='5']").element_handle()
     text = row.inner_text()
     person.presses("#play").sees({"#play": "Pause"})
@@ -161,15 +163,15 @@ VERDICTS = {
 }
 
 
-def test_a_dance_passes_in_green_alone_and_a_fold_is_as_clear_as_a_contact(visit, server):
+def test_a_dance_passes_in_green_alone_and_a_fold_is_as_clear_as_a_contact(open_page, server):
     for query, (outcome, mark, tone) in VERDICTS.items():
-        person = visit(query)
+        person = open_page(query)
         person.sees({f"#first-contact[data-outcome={outcome}] .value": re.compile(f"^{mark} ?.+")})
         probe = "name => getComputedStyle(document.body).getPropertyValue(`--${name}`).trim()"
         colour = person.ask(probe, tone)
         rgb = f"rgb({', '.join(str(int(colour[k : k + 2], 16)) for k in (1, 3, 5))})"
         expect(person.at("#first-contact .value")).to_have_css("color", rgb)
-    person = visit(FOLD)
+    person = open_page(FOLD)
     time = f"{collision_time(server, benches=40, pitch=1.2, start_turns=8)['end']['time']:.6f} s"
     places = "#first-contact", "#table-time", "#table-fold"
     person.sees({**dict.fromkeys(places, time), "#legend": "m/s → ∞", "#inset": False})
@@ -177,16 +179,16 @@ def test_a_dance_passes_in_green_alone_and_a_fold_is_as_clear_as_a_contact(visit
 
 
 @thorough
-def test_overlaps_margins_and_undecided_searches_are_told_in_both_languages(visit, server):
+def test_overlaps_margins_and_undecided_searches_are_told_in_both_languages(open_page, server):
     for margin in (0, 0.2):
         depth = f"{-1000 * collision_time(server, benches=40, pitch=0.3, margin=margin)['gap']:.3f} mm"
-        person = visit(f"?benches=40&pitch=0.3&margin={margin}").presses("#first-contact summary")
+        person = open_page(f"?benches=40&pitch=0.3&margin={margin}").presses("#first-contact summary")
         person.sees({"#clock": "0.000000 s"}).misses({"#first-contact": "up to 0"})
         for language, words in (("en", f"overlap by {depth}"), ("zh", f"重叠 {depth}")):
             for place in ("#first-contact p:not(.old, .value)", "#inset figcaption", "#clearance .reading"):
                 assert not re.search(r"[-−]\d+\.\d+ mm", person.speaks(language).sees({place: words}).text(place))
     # With a margin no answer speaks of a touch; with this one no turn can begin on the circle, as it then says.
-    person = visit("?path=turn&benches=20&margin=0.35", failing=True)
+    person = open_page("?path=turn&benches=20&margin=0.35", failing=True)
     for language, near in (("en", "ithin 0.35 m"), ("zh", "间距不超过 0.35 m")):
         person.speaks(language).sees(dict.fromkeys(("#first-contact h3", "#inset figcaption", "#scan .hint"), near))
         person.ask(ALL_OPEN)
@@ -194,18 +196,18 @@ def test_overlaps_margins_and_undecided_searches_are_told_in_both_languages(visi
         for place in (".answer:not(#tolerance, [hidden])", "#inset figcaption", "#scan", "#clearance"):
             assert not TOUCHING.search(" ".join(person.texts(place)))
     # One event has one time.
-    text = " ".join(visit(FOLD).text(place) for place in ("#answers", "#handles", "#dance", "#charts"))
+    text = " ".join(open_page(FOLD).text(place) for place in ("#answers", "#handles", "#dance", "#charts"))
     assert set(re.findall(r"238\.2149\d*", text)) == {"238.214985"}
     pitch = minimum_pitch(Dragon(60)).pitch_bracket[1] - BORDER_WIDTH
-    person = visit(f"?benches=60&pitch={pitch!r}").sees(
+    person = open_page(f"?benches=60&pitch={pitch!r}").sees(
         {"#first-contact[data-outcome=undecided]": ["216.338", "226.78"]}
     )
     # The answer, with its details, is replaced when the words of the proof have loaded.
     person.speaks("zh").page.locator("#first-contact .method", has_text="之前无法判定，届时").wait_for(state="attached")
 
 
-def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit, server):
-    person = visit("?benches=40&stray=0.02")
+def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(open_page, server):
+    person = open_page("?benches=40&stray=0.02")
     contact = collision_time(server, benches=40, stray=0.02)
     pitch = f"{answer_of(server, 'minimum-pitch', benches=40, stray=0.02)['pitch']:.9f} m"
     free = answer_of(server, "tolerance", benches=40)
@@ -223,11 +225,11 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit, s
 
 
 @thorough
-def test_strays_margins_and_play_stand_in_one_sentence_and_the_ground_is_drawn(visit, server):
+def test_strays_margins_and_play_stand_in_one_sentence_and_the_ground_is_drawn(open_page, server):
     time = f"{collision_time(server, benches=12, margin=0.03, stray=0.025)['time']:.6f} s"
-    person = visit("?benches=12&margin=0.03&stray=0.02&hole=0.055&pin=0.045")
+    person = open_page("?benches=12&margin=0.03&stray=0.02&hole=0.055&pin=0.045")
     person.sees({"#first-contact": ["2.5 cm", f"May come within 0.03 m from {time}"]})
-    person = visit("?benches=20&time=0&view=8,0,200").sees({"#halo": False})
+    person = open_page("?benches=20&time=0&view=8,0,200").sees({"#halo": False})
     before = person.picture()
     person.types({"#stray": "5"}).sees({"#halo": True}).settles()
     assert not alike(person.picture(), before)
@@ -339,14 +341,14 @@ def test_what_is_chosen_and_changed_is_shared_and_opens_as_the_same_state(open_p
 
 
 @thorough
-def test_two_thousand_benches_are_drawn_and_listed_and_two_cannot_touch(visit, server):
-    person = visit("?benches=2000&time=0").sees({"#table-time": "0.000000"})
+def test_two_thousand_benches_are_drawn_and_listed_and_two_cannot_touch(open_page, server):
+    person = open_page("?benches=2000&time=0").sees({"#table-time": "0.000000"})
     person.at("#rows").press("ArrowUp")
     person.at("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
     body = {"dragon": {"benches": 2000}, "times": [0]}
     last = polite.answer(server, "trajectory", body)["x"][0][-1]
     person.sees({"#rows tr[data-handle='2000']": f"{last:.6f}"})
-    visit("?benches=2", failing=True).sees({"#clearance .reading": re.compile("“Benches” must .* it is 2\\.")})
+    open_page("?benches=2", failing=True).sees({"#clearance .reading": re.compile("“Benches” must .* it is 2\\.")})
 
 
 @thorough

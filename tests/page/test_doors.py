@@ -61,8 +61,8 @@ def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open
 
 
 @thorough
-def test_behind_a_door_numbers_are_as_people_say_them_and_each_is_one_tab_stop(visit):
-    person = visit("?door=contest&time=end")
+def test_behind_a_door_numbers_are_as_people_say_them_and_each_is_one_tab_stop(open_page):
+    person = open_page("?door=contest&time=end")
     people = {
         "#first-contact .value": "✕Contact at 412.47 s",
         "#minimum-pitch .value": "45.04 cm",
@@ -77,16 +77,16 @@ def test_behind_a_door_numbers_are_as_people_say_them_and_each_is_one_tab_stop(v
     for key, value in (("ArrowUp", "224"), ("ArrowDown", "223"), ("ArrowDown", "222"), ("Escape", "223")):
         person.at("#benches").press(key)
         person.holds({"#benches": value})
-    person = visit("?door=look&benches=20")
+    person = open_page("?door=look&benches=20")
     assert numbers(person) == ["pitch", "benches"]
     assert {"width", "margin", "hole"} <= set(numbers(person.presses("#more")))
     assert person.findings() == []
     # An address from before there were doors.
-    assert len(numbers(visit(EASY).sees({"#more": False}))) == 13
+    assert len(numbers(open_page(EASY).sees({"#more": False}))) == 13
 
 
-def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(visit):
-    person = visit(f"?door=village{ROUTE}&limit=0.5").sees(
+def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(open_page):
+    person = open_page(f"?door=village{ROUTE}&limit=0.5").sees(
         {
             "#judgement[data-outcome=contact]": "It starts at 19:29:46 and ends at 19:30:50",
             "#first-contact .value": "✓Benches with each other: never touch",
@@ -100,7 +100,7 @@ def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(visit):
         person.presses("#clock").types({"#typed-time": typed}).sees({"#clock": clock})
     expect(person.at("#clock")).to_be_focused()
     # The dragon on a long route is no hairline: a bench is 0.3 m wide, one pixel at this scale.
-    person = visit(f"?door=village{ROUTE}&view=30,0,3")
+    person = open_page(f"?door=village{ROUTE}&view=30,0,3")
     pixels = person.picture()
     column = pixels[:, pixels.shape[1] // 2, :3]
     red = (column[:, 0] > 0.4) & (column[:, 2] < 0.6 * column[:, 0])
@@ -152,7 +152,7 @@ def test_a_film_is_cancelled_and_the_cue_card_is_said_to_be_made(open_page):
 
 
 @thorough
-def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_page, visit):
+def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_page):
     person = open_page("?door=contest&benches=5&turning_diameter=8.5&margin=0.01&stray=0.02&time=end").reaches_below()
     person.page.route("**/contest-kit", without(films=False))  # which take a minute, and are tested elsewhere
     with person.page.expect_request("**/contest-kit") as sent, person.page.expect_download(timeout=KIT) as download:
@@ -165,7 +165,7 @@ def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_pag
     with ZipFile(download.value.path()) as archive:
         assert "turning circle 8.5 m" in archive.read("report.md").decode()
     person.sees({"#jobs li[data-state=successful]": 1})
-    person = visit(f"?door=contest&time=0&csv={'%0A'.join(['2.2,0.3,0.2'] * 5)}").reaches_below()
+    person = open_page(f"?door=contest&time=0&csv={'%0A'.join(['2.2,0.3,0.2'] * 5)}").reaches_below()
     person.presses("#keepKit-ZIP").sees({"#status": "The kit is for equal benches"})
 
 
@@ -197,9 +197,9 @@ def test_a_route_is_drawn_by_keyboard_from_nothing(open_page):
 
 @thorough
 @pytest.mark.chinese_font
-def test_figures_have_the_language_of_the_page(visit):
+def test_figures_have_the_language_of_the_page(open_page):
     for language, words in (("zh", ("没有碰撞", "首次碰撞", "各把手")), ("en", ())):
-        person = visit(f"{EASY}&lang={language}").reaches_below()
+        person = open_page(f"{EASY}&lang={language}").reaches_below()
         text = person.saves("#keepContact-SVG").decode()
         assert any(one in text for one in words) is (language == "zh")
 

@@ -110,9 +110,9 @@ def opened(person, query):
 
 
 @pytest.mark.parametrize("name", ["route", *(pytest.param(one, marks=thorough) for one in DANCES if one != "route")])
-def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(visit, name):
+def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(open_page, name):
     query = DANCES[name]
-    person = opened(visit(query, **PHONE), query)
+    person = opened(open_page(query, **PHONE), query)
     # No point lies under the buttons of the picture.
     views = person.box("#views")
     lefts = [knot.bounding_box()["x"] for knot in person.all(".knot").all()]
@@ -135,8 +135,8 @@ def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(vis
 
 @thorough
 @pytest.mark.parametrize("query", DANCES.values(), ids=list(DANCES))
-def test_on_a_wide_screen_nothing_scrolls_inside_and_the_picture_stays_in_sight(visit, query):
-    person = visit(query)
+def test_on_a_wide_screen_nothing_scrolls_inside_and_the_picture_stays_in_sight(open_page, query):
+    person = open_page(query)
     person.ask("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
     for width, height in ((1440, 900), (1920, 1080)):
         person.page.set_viewport_size({"width": width, "height": height})
@@ -149,9 +149,9 @@ def test_on_a_wide_screen_nothing_scrolls_inside_and_the_picture_stays_in_sight(
 
 @thorough
 @pytest.mark.parametrize("size", [(390, 844), (360, 640)], ids=["390x844", "360x640"])
-def test_on_a_phone_the_picture_with_its_player_takes_a_third_of_the_height(visit, size):
+def test_on_a_phone_the_picture_with_its_player_takes_a_third_of_the_height(open_page, size):
     for query, presses in STATES:
-        person = visit(query, **{**PHONE, "viewport": {"width": size[0], "height": size[1]}}).settles()
+        person = open_page(query, **{**PHONE, "viewport": {"width": size[0], "height": size[1]}}).settles()
         picture = person.presses(*presses).ask(PICTURE)
         assert 0.25 < picture["share"] <= 0.351
         assert picture["stage"] > 0.18
@@ -159,25 +159,25 @@ def test_on_a_phone_the_picture_with_its_player_takes_a_third_of_the_height(visi
 
 
 @thorough
-def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(visit):
+def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(open_page):
     for door, words in (
         ("contest", "Picture Numbers Answers Save"),
         ("village", "Picture People Answers Save"),
         ("look", "Picture Numbers Answers"),  # Behind this door nothing is kept.
     ):
-        person = visit(f"?door={door}&path=route&benches=3", **PHONE)
+        person = open_page(f"?door={door}&path=route&benches=3", **PHONE)
         assert person.text("#tabs").split() == words.split()
         assert person.ask(NARROW, FINGER) == []
         assert set(person.ask(SIZES)) <= FOUR
         person.presses("#tabs button:visible >> nth=1").views("#controls")
-    person = visit(f"{VILLAGE}&door=village", **PHONE).reaches_below()
+    person = open_page(f"{VILLAGE}&door=village", **PHONE).reaches_below()
     person.at("[data-section=people]:visible").tap()
     person.views("#people > h2", "#people #tolerance:visible", "#people #cues button:visible")
 
 
 @thorough
-def test_a_swipe_up_that_begins_on_a_slider_scrolls_and_changes_nothing(visit):
-    person = visit("?benches=40", **PHONE)
+def test_a_swipe_up_that_begins_on_a_slider_scrolls_and_changes_nothing(open_page):
+    person = open_page("?benches=40", **PHONE)
     slider = person.at("[data-field=benches] input[type=range]")
 
     def swipe(dx, dy):
@@ -211,8 +211,8 @@ def test_the_page_is_used_by_keyboard_alone(open_page):
 
 @thorough
 @pytest.mark.parametrize(("width", "first"), [(1440, "controls"), (900, "controls"), (390, "answers")])
-def test_the_tab_key_goes_through_numbers_and_answers_as_they_stand(visit, width, first):
-    person = visit("?benches=12&time=0")
+def test_the_tab_key_goes_through_numbers_and_answers_as_they_stand(open_page, width, first):
+    person = open_page("?benches=12&time=0")
     person.page.set_viewport_size({"width": width, "height": 900})
     last = "answers" if first == "controls" else "controls"
     boxes = [person.settles().box(f"#{one}") for one in (first, last)]
@@ -283,8 +283,8 @@ def test_with_the_colours_of_the_system_marks_and_bars_stay_visible(open_page):
 
 
 @thorough
-def test_the_picture_has_its_direction_and_one_scale_of_colours_and_its_inset_gives_way(visit):
-    person = visit("?time=0&view=8.8,0,40")
+def test_the_picture_has_its_direction_and_one_scale_of_colours_and_its_inset_gives_way(open_page):
+    person = open_page("?time=0&view=8.8,0,40")
     # The head is in the middle and moves down: its arrow crosses the row 20 pixels below.
     seen = "c => [...c.getContext('2d').getImageData(c.width / 2 - 8, c.height / 2 + 20, 16, 1).data]"
     row = person.at("#canvas").evaluate(seen)
@@ -296,4 +296,6 @@ def test_the_picture_has_its_direction_and_one_scale_of_colours_and_its_inset_gi
     dx, dy = (
         inset[xy] + inset[size] / 2 - canvas[xy] - canvas[size] / 2 for xy, size in (("x", "width"), ("y", "height"))
     )
-    visit(f"?view={1.474395 - dx / 40},{2.110665 + dy / 40},40").at(f"#inset:not([data-corner={corner}])").wait_for()
+    open_page(f"?view={1.474395 - dx / 40},{2.110665 + dy / 40},40").at(
+        f"#inset:not([data-corner={corner}])"
+    ).wait_for()

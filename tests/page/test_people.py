@@ -84,8 +84,8 @@ def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(op
 
 
 @thorough
-def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit, server):
-    person = visit("?benches=30&time=50", failing=True).presses("#passages summary")
+def test_passages_and_the_time_of_day_change_every_time_and_are_shared(open_page, server):
+    person = open_page("?benches=30&time=50", failing=True).presses("#passages summary")
     for k, (until, unit, speed) in enumerate([("20", "m", "0.5"), ("100", "s", "0"), ("60", "m", "1.5")]):
         row = f"#passages li >> nth={k}"
         person.presses("#passageAdd").chooses({f"{row} >> select": unit})
@@ -101,20 +101,20 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit, se
     person.sees({"#clock-error": "07:30:00"}).chooses({"#passages li >> nth=1 >> select": "m"})
     person.sees({"#passages .error": True})
     # A pause lies at the instant shown.
-    visit("?benches=30&time=50").presses("#passages summary", "#pauseAdd").arrives("**passages=1@50s_0@10d*")
+    open_page("?benches=30&time=50").presses("#passages summary", "#pauseAdd").arrives("**passages=1@50s_0@10d*")
 
 
 @thorough
-def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(visit, server):
+def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(open_page, server):
     limits = {"speed_limit": 0.9, "start_clock": "19:30", "passages": PASSAGES[:2]}
     body = BODY | limits | {"dragon": {"benches": 9}, "head_speed": 1}
     failure = polite.answer(server, "check", body)["failures"][0]
-    person = visit(f"?{STREET}&begin=30&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
+    person = open_page(f"?{STREET}&begin=30&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
     person.reads({".failures button": f"{failure['time']:.6f} s · {failure['clock']}"}).reaches()
     sides = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", person.saves("#keepPlan-A3"))
     assert max(map(float, sides[0])) == pytest.approx(A3_WIDE, abs=1)
     # Head and first bench lead by 16 s of the 80 s of the path.
-    person = visit(f"?{STREET}&start_clock=19:30").sees({"#judgement": "It starts at 19:30:16"})
+    person = open_page(f"?{STREET}&start_clock=19:30").sees({"#judgement": "It starts at 19:30:16"})
     person.types({"#begin_clock": "20:00"}, "Tab").settles()
     person.sees({"#judgement": "It starts at 20:00:00", "#clock-help": "20:01:03"})
     assert {"start_clock", "begin_clock"} & person.address().keys() == {"begin_clock"}

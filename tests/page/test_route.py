@@ -56,8 +56,8 @@ def test_a_dragged_point_brings_a_verdict_that_undo_redo_and_the_browser_take_ba
     assert points(person.sees(YES)) == before
 
 
-def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit):
-    person = visit(S_CURVE).sees(YES).presses("#edit")
+def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(open_page):
+    person = open_page(S_CURVE).sees(YES).presses("#edit")
     before = points(person)
     person.focuses("#delete")
     assert "Point 2 of 7" in person.strikes("Tab", "Tab", "Tab").ask(LABEL)  # after the picture and the first point
@@ -76,8 +76,8 @@ def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit):
     assert points(person.types({"#points tbody tr >> nth=8 >> input": "75.5"}))[8][0] == 75.5
 
 
-def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(visit):
-    person = visit(S_CURVE).sees(YES).presses("#zoom-out", "#edit").settles()
+def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(open_page):
+    person = open_page(S_CURVE).sees(YES).presses("#zoom-out", "#edit").settles()
     canvas = person.box("#canvas")
     left, top, right, low = (canvas["x"] + 120, canvas["y"] + 60, canvas["x"] + canvas["width"] - 30, canvas["y"] + 480)
     for tool, places in (
@@ -96,8 +96,8 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(visit):
     assert shapes == [("square", "Polygon"), ("old oak", "Point"), ("wall", "LineString")]
 
 
-def test_a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(visit):
-    person = visit(S_CURVE).sees(YES).presses("#zoom-out", "#edit", "[data-tool=circle]").settles()
+def test_a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(open_page):
+    person = open_page(S_CURVE).sees(YES).presses("#zoom-out", "#edit", "[data-tool=circle]").settles()
     canvas, mouse = person.box("#canvas"), person.page.mouse
     x, y = canvas["x"] + 200, canvas["y"] + 120
 
@@ -120,8 +120,8 @@ def test_a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(vis
 
 
 @thorough
-def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its_address_and_file(visit, server):
-    person = visit(VILLAGE).sees({**NO, "#run-end[aria-busy=false]": True})
+def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its_address_and_file(open_page, server):
+    person = open_page(VILLAGE).sees({**NO, "#run-end[aria-busy=false]": True})
     body = file_of(person)
     answer = polite.answer(server, "check", body)["failures"]
     assert [one["kind"] for one in answer] == ["venue", "speed"]
@@ -157,9 +157,9 @@ def test_a_dance_that_starts_in_the_wrong_place_or_is_refused_is_said_to_be_so(o
 
 
 @thorough
-def test_what_comes_late_is_not_shown_without_a_drawing_nor_of_another_kind_of_dance(visit):
+def test_what_comes_late_is_not_shown_without_a_drawing_nor_of_another_kind_of_dance(open_page):
     for late in ("check", "course"):
-        person = visit("?path=route&benches=3&route=*-20,0_20,0").sees(YES).presses("#edit")
+        person = open_page("?path=route&benches=3&route=*-20,0_20,0").sees(YES).presses("#edit")
         held = person.holds_back(f"**/{late}")
         with person.page.expect_request(f"**/{late}"):
             person.types({"#benches": "4"}, "Tab")
@@ -184,19 +184,19 @@ def test_the_picture_has_the_drawn_path_alone_whatever_answers_late(open_page):
 
 
 @thorough
-def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit):
-    person = visit("?path=route&benches=24&route=0,0_90,0").sees(YES)
+def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(open_page):
+    person = open_page("?path=route&benches=24&route=0,0_90,0").sees(YES)
     for name in ("inout", "eight", "street", "village", "s"):
         person.presses("#preset", f"[data-begin={name}]").sees({"#presets": False}).settles().sees(YES)
-    person = visit("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
+    person = open_page("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
     for name, count in (("street", 2), ("empty", 0)):
         person.presses("#preset", f"[data-begin={name}]").sees({"#points summary": f": {count}", "#things li": 2})
 
 
 @thorough
-def test_a_dance_that_begins_later_can_begin_at_time_0(visit):
+def test_a_dance_that_begins_later_can_begin_at_time_0(open_page):
     offer = "#route .hint button:has-text('Begin at time 0: head at')"
-    person = visit("?path=route&benches=24&route=0,0_150,0", failing=True).presses(offer)
+    person = open_page("?path=route&benches=24&route=0,0_150,0", failing=True).presses(offer)
     person.arrives("**begin=40.9*")
     person.sees({offer: False, **YES}).page.go_back()
     # A path too short for the dragon is refused; the dance does not begin later instead.
@@ -204,8 +204,8 @@ def test_a_dance_that_begins_later_can_begin_at_time_0(visit):
 
 
 @thorough
-def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(visit, tmp_path):
-    person = visit("?path=route", failing=True)
+def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(open_page, tmp_path):
+    person = open_page("?path=route", failing=True)
     corners = [[499_950, 3_219_950], [500_050, 3_219_950], [500_050, 3_220_050], [499_950, 3_219_950]]
     grid, table, book = (tmp_path / f"one.{ending}" for ending in ("geojson", "csv", "xlsx"))
     square = {"type": "Polygon", "coordinates": [corners]}
@@ -225,8 +225,8 @@ def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(visit, t
 
 
 @thorough
-def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(visit):
-    person = visit(S_CURVE + "&things=c.well.1!5.0,-40").sees(YES)
+def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(open_page):
+    person = open_page(S_CURVE + "&things=c.well.1!5.0,-40").sees(YES)
     for name in ("village_square.toml", "village_square.geojson"):
         person.ask(DROP, [name, (ROOT / "examples" / name).read_text()])
         person.sees({"#status": f"Opened {name}"})
@@ -240,8 +240,8 @@ def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(visit):
 
 
 @thorough
-def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(visit):
-    person = visit(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit")
+def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(open_page):
+    person = open_page(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit")
     before, box = points(person), person.box(knot(2))
     person.swipes(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0, -6)
     assert points(person.sees({"#verdict": "可以表演"}))[2][1] > before[2][1]

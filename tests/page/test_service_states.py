@@ -103,8 +103,8 @@ def right_again(person, name):
         person.sees({f"#{name}-error": False})
 
 
-def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(visit):
-    person = visit(SHORT, failing=True)
+def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(open_page):
+    person = open_page(SHORT, failing=True)
     before = None
     for name, text, words in (
         ("pitch", "55", "“Pitch” must be at most 10 m; it is 55 m."),
@@ -121,7 +121,7 @@ def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(visit):
     person.presses("#reset-all").sees({"#controls .error:visible": 0}).speaks("zh").types({"#pin": "10"}, "Tab")
     person.sees({"#pin-error:lang(zh)": "（0 cm），现为 10 cm。", "#first-contact": "改正“插销直径”后即有结果。"})
     # A refusal about a turn goes with the turn.
-    person = visit(f"{SHORT}&path=turn&speed_limit=0", failing=True).sees({"#controls .error:visible": True})
+    person = open_page(f"{SHORT}&path=turn&speed_limit=0", failing=True).sees({"#controls .error:visible": True})
     person.presses("[data-path=spiral]").sees({"#controls .error:visible": 0})
 
 
@@ -142,8 +142,8 @@ def test_a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_ag
 
 
 @thorough
-def test_old_answers_turn_pale_while_new_ones_are_computed_and_a_failure_is_told_in_its_own_words(visit, server):
-    person = visit(SHORT, failing=True)
+def test_old_answers_turn_pale_while_new_ones_are_computed_and_a_failure_is_told_in_its_own_words(open_page, server):
+    person = open_page(SHORT, failing=True)
     assert {person.style(place, "opacity") for place in OLD} == {"1"}
     person.page.route("**/collision-time*", lambda route: None)
     person.types({"#pitch": "0.5"}, "Tab").sees({"#first-contact[aria-busy=true]": True})
