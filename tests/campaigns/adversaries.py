@@ -2,9 +2,8 @@
 the answer of tolerance().
 
 `python -m tests.campaigns.adversaries` says how near a million of them come. Half of those drawn at random turn as
-far as the stray allows, half have the middle on the edge of all places for their turn. The nearest ones then go
-downhill along the gradient of the gap. The gap is the largest of several, so that way ends on the ridge between two:
-the best poses are then varied at random, by less and less. Poses beyond the stray are taken back to its edge.
+far as the stray allows, half have the middle on the edge of all places for their turn. The nearest ones are then
+varied at random, by less and less. Poses beyond the stray are taken back to its edge.
 """
 
 from __future__ import annotations
@@ -19,12 +18,10 @@ from core.shapes.rectangles import frames, frames_separation
 from tests.support.random_strays import random_strays, strays_of
 
 CIRCLE = 4.5  # radius of the turning circle [m]
-# Poses drawn at random for a place; those of them that go downhill; those of these that are varied, and how often [1].
-DRAWS, DOWNHILL, VARIED, VARIANTS = 80_000, 1_000, 100, 50
-# Steps downhill and rounds of variants; size of the first as a part of the stray, and factor from each to the next [1].
-STEPS, ROUNDS, FIRST, SHRINK = 10, 16, 0.3, 0.6
-# Step of a difference quotient [m].
-QUOTIENT = 1e-7
+# Poses drawn at random for a place; those of them that are varied, and how often [1].
+DRAWS, VARIED, VARIANTS = 80_000, 150, 50
+# Rounds of variants; size of the first as a part of the stray, and factor from each to the next [1].
+ROUNDS, FIRST, SHRINK = 16, 0.3, 0.6
 # Random times, and poses of the two nearest benches at each of them [1].
 ANY_TIMES, ANY_DRAWS = 30, 1_000
 
@@ -85,23 +82,6 @@ class PairAtTime:
         parts = [strays_of(shapes[:, k, 0], shapes[:, k, 1:], self.chords[k], self.stray) for k in range(2)]
         return np.stack(parts, axis=1)
 
-    def downhill(self, strays, sought):
-        """Let poses go down the gradient of their gap, by less and less; a step that does not help is not taken."""
-        shapes, gaps = _shapes(strays), self.gaps(strays)
-        for k in range(STEPS):
-            slope = np.empty(shapes.shape)
-            for at in np.ndindex(2, 3):
-                off = shapes.copy()
-                off[:, *at] += QUOTIENT
-                slope[:, *at] = sought.add(self.gaps(self.laid(off))) - gaps
-            size = np.maximum(np.sqrt((slope**2).sum(axis=(1, 2), keepdims=True)), 1e-300)
-            tried = self.laid(shapes - FIRST * SHRINK**k * self.stray * slope / size)
-            result = sought.add(self.gaps(tried))
-            better = result < gaps
-            shapes = np.where(better[:, None, None], _shapes(tried), shapes)
-            gaps = np.where(better, result, gaps)
-        return shapes[np.argsort(gaps)[:VARIED]]
-
     def vary(self, rng, shapes, sought):
         """Vary the best shapes so far by less and less."""
         for k in range(ROUNDS):
@@ -127,7 +107,7 @@ def seek(dance, known, part=0.999, draws=DRAWS):
         place = PairAtTime(dance, time, pair, stray)
         strays = place.drawn(rng, draws)
         gaps = sought.add(place.gaps(strays))
-        place.vary(rng, place.downhill(strays[np.argsort(gaps)[:DOWNHILL]], sought), sought)
+        place.vary(rng, _shapes(strays[np.argsort(gaps)[:VARIED]]), sought)
     others = clearance_profile(dance, rng.uniform(0.0, known.stop, ANY_TIMES))
     for time, (a, b) in zip(others.time.tolist(), others.benches.tolist(), strict=True):
         place = PairAtTime(dance, time, (a, b), stray)
