@@ -5,15 +5,15 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import httpx
+import psutil
 import pytest
 
 from app.files.lock import FolderLock
 from app.files.scratch import reclaim, temporary
-from tests.support.job_service import wait_for
+from tests.support.job_service import is_gone, wait_for
 from tests.support.serving import serving
 
 HOLD = """
@@ -93,12 +93,13 @@ def test_what_a_killed_service_leaves_is_gone_after_the_next_start(folder, tmp_p
         answer = httpx.post(f"{service.url}/jobs", json=FILM, timeout=60.0)
         assert answer.status_code == 202
         wait_for(lambda: list(folder.glob("bench-dragon-film-*")))
+        family = psutil.Process(service.process.pid).children(recursive=True)
         os.killpg(service.process.pid, signal.SIGKILL)  # All of the service; its jobs are in groups of their own.
         service.process.wait()
     left = {place.name for place in folder.iterdir()}
     assert {name.split("-")[2] for name in left} >= {"data", "film", "fonts"}, left
     assert all(name.startswith("bench-dragon-") for name in left), left
-    time.sleep(1.0)  # The runner ends with the service, and its jobs with it.
+    wait_for(lambda: all(is_gone(child.pid) for child in family))  # The runner ends with the service, and its jobs.
     with serving(tmp_path / "log", workers, limit=os.setsid, data=tmp_path / "data"):
         assert not left & {place.name for place in folder.iterdir()}
     assert list(folder.iterdir()) == []
