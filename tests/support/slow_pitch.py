@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.support.slow_search import Samples, SlowDance, arc_length, benches_of, head_angle, nearest
+from tests.support.slow_search import Samples, SlowDance, arc_length, benches_of, head_angle, nearest, sizes_of
 
 # Steps in which the way is sampled, each up to a distance outside the circle; both in shortest chords [1]. Small
 # circles have two dips within a tenth of a chord near the circle.
@@ -28,8 +28,7 @@ class SlowWay(SlowDance):
 
     @classmethod
     def of(cls, dragon, pitch, start_turns, radius, *more):
-        lengths, overhangs = np.array(dragon.lengths), np.array(dragon.overhangs)
-        return cls(lengths - 2.0 * overhangs, lengths, np.array(dragon.widths), pitch, start_turns, radius, *more)
+        return cls(*sizes_of(dragon), pitch, start_turns, radius, *more)
 
     def heads(self):
         """Angles of the head, from the circle outwards, at which the way is sampled."""

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.special import fresnel
 
 from core import Arc, Clothoid, Coil, Line
-from tests.support.slow_search import SlowDance, arc_length, head_angle
+from tests.support.slow_search import SlowDance, arc_length, head_angle, sizes_of
 
 # Steps of Newton's towards a handle, then of a bisection if those do not suffice, and the distance that does [m].
 NEWTON_STEPS, HALVINGS, CLOSE = 12, 60, 1e-11
@@ -90,11 +90,8 @@ class SlowRoute(SlowDance):
 
     @classmethod
     def of(cls, dragon, route):
-        lengths, overhangs = np.array(dragon.lengths), np.array(dragon.overhangs)
-        pieces = route.pieces
-        assert all(isinstance(piece, Line | Arc | Coil | Clothoid) for piece in pieces)
-        chords = lengths - 2 * overhangs
-        return cls(chords, lengths, np.array(dragon.widths), 0.0, 0.0, pieces, route.start)
+        assert all(isinstance(piece, Line | Arc | Coil | Clothoid) for piece in route.pieces)
+        return cls(*sizes_of(dragon), 0.0, 0.0, route.pieces, route.start)
 
     def end(self):
         return sum(map(piece_length, self.pieces)) - self.start

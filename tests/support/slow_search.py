@@ -90,6 +90,12 @@ def beyond_half_a_turn(theta, chord):
     return np.where(reached, np.pi, np.nan), np.where(reached, top, np.nan)
 
 
+def sizes_of(dragon):
+    """Chords, lengths and widths of the benches."""
+    lengths = np.array(dragon.lengths)
+    return lengths - 2 * np.array(dragon.overhangs), lengths, np.array(dragon.widths)
+
+
 @dataclass
 class SlowDance:
     """One dragon on one spiral, head speed 1 m/s, so that time and travel are the same."""
@@ -102,8 +108,7 @@ class SlowDance:
 
     @classmethod
     def of(cls, dragon, spiral):
-        lengths, overhangs = np.array(dragon.lengths), np.array(dragon.overhangs)
-        return cls(lengths - 2 * overhangs, lengths, np.array(dragon.widths), spiral.pitch, spiral.start_turns)
+        return cls(*sizes_of(dragon), spiral.pitch, spiral.start_turns)
 
     @property
     def growth(self):
