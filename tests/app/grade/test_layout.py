@@ -201,7 +201,7 @@ HEADS = {
     "t,node,x,y,v": lambda h: h + 1,
     "time (s),bench,X,Y,speed (m/s)": lambda h: h,
     "时间,节点编号,横坐标,纵坐标,速度": lambda h: h + 1,
-    "时刻(s),板凳编号,x坐标(m),y坐标(m),速度(m/s)": lambda h: h,
+    "时刻（s）,板凳编号,x坐标（m）,y坐标（m）,速度（m/s）": lambda h: h,
     "Time [s],Index,pos_x,pos_y,Speed": lambda h: h,
     "时间,位置,x (m),y (m),速度 (m/s)": lambda h: students.labels("speed")[h].removesuffix(" (m/s)"),
 }
