@@ -13,7 +13,10 @@ SECONDS, SLOWEST = examples(1, 4) / 2, 1.0
 # Tries: waits that the service causes occur each time, those that other programs cause do not.
 TIMES = 3
 # One of each kind: much to compute, to parse, to write, to read, and bodies and heads that come slowly.
-FEW = "long_thin_dragon full_store long_jobs strange_hosts deep_brackets large_csv files_to_grade tiny_chunks half_open"
+FEW = (
+    "largest_inputs messages long_thin_dragon full_store long_jobs strange_hosts "
+    "deep_brackets large_csv files_to_grade tiny_chunks half_open"
+)
 
 
 @pytest.fixture(scope="module")

@@ -10,12 +10,14 @@ from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from socket import create_connection
-from urllib.parse import urlsplit
+from urllib.parse import urlencode, urlsplit
 
 import psutil
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE
+from app.questions.registry import CALLS
 from tests.support.bombs import GRADES, MAPS
+from tests.support.largest import LARGEST
 
 # Longest wait for a short job beside long ones [s].
 JOB_SECONDS = 20.0
@@ -198,6 +200,19 @@ def strange_hosts(url, seconds):
             assert status == http.client.OK or len(answer) < ERROR_BYTES
 
 
+def largest_inputs(url, seconds):
+    """Each call at its largest input, all at once."""
+
+    def asks(name, request):
+        call = CALLS[name]
+        path = call.question.path.replace("{format}", next(iter(call.question.formats or ("",))))
+        if call.method == "GET":
+            return partial(ask, url, "GET", f"{path}?{urlencode(request)}", timeout=PATIENCE)
+        return partial(ask, url, "POST", path, json.dumps(request).encode(), timeout=PATIENCE)
+
+    at_once([asks(*row) for row in LARGEST.items()])
+
+
 ATTACKS = {
     # 114 s of work each.
     "heavy_speeds": partial(
@@ -222,6 +237,7 @@ ATTACKS = {
     "full_store": full_store,
     "long_jobs": long_jobs,
     "strange_hosts": strange_hosts,
+    "largest_inputs": largest_inputs,
 }
 
 
