@@ -44,16 +44,13 @@ def test_several_pairs_that_meet_at_once_are_named(ask):
     assert {tuple(got["benches"]), tuple(together["benches"])} == {(3, 0), (0, 3)}
 
 
-def test_passages_and_strays_count(ask):
+def test_delays_and_passages_count(ask):
     late = {"dances": [EAST, NORTH | {"delay": 2}]}
     at_once, waits = ask("encounter", TWO), EAST | {"passages": [{"speed": 0, "until_time": 2}]}
     assert ask("encounter", late)["benches"] != at_once["benches"]
     both_wait = ask("encounter", {"dances": [waits, late["dances"][1]]})
     assert both_wait["benches"] == at_once["benches"]
     assert both_wait["time"] == pytest.approx(at_once["time"] + 2.0, rel=0, abs=1e-8)  # [s]
-    strays = ask("encounter", TWO | {"hole": 0.06, "pin": 0.02})
-    assert (strays["stray"], ask("encounter", TWO | {"stray": 0.02})["time"]) == (0.02, strays["time"])
-    assert strays["time"] < at_once["time"]
 
 
 def test_an_undecided_encounter_names_the_benches_that_are_certain():

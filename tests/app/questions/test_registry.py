@@ -56,8 +56,8 @@ REQUESTS = {
         "time clearance dragons benches grazes",
     ),
     "collision-time": (
-        {"dragon": ODD, "path": line(*WINDING), "head_speed": 2, "margin": 0.1},
-        lambda: core.first_contact(ODD_DANCE, margin=0.1, start=ODD_DANCE.begin),
+        {"dragon": ODD, "path": line(*WINDING), "head_speed": 2, "margin": 0.1, "stray": 0.02},
+        lambda: core.first_contact(ODD_DANCE, margin=0.1, stray=0.02, start=ODD_DANCE.begin),
         "outcome time time_bracket benches gap point head end certificate.clear_until certificate.claim",
     ),
     "collision-time that does not come": (
@@ -75,15 +75,19 @@ REQUESTS = {
         lambda: dict(zip(("x", "y", "speed"), columns(core.trajectory(CLOSE, [10.0, 20.5])), strict=True)),
         "x y speed",
     ),
-    "minimum-pitch": ({"dragon": {"benches": 30}}, lambda: core.minimum_pitch(Dragon(30)), PITCH),
+    "minimum-pitch": (
+        {"dragon": {"benches": 30}, "stray": 0.02},
+        lambda: core.minimum_pitch(Dragon(30), stray=0.02),
+        PITCH,
+    ),
     "minimum-pitch of a dragon that folds": (
         {"dragon": FOLDING, "turning_diameter": 1.7, "start_turns": 5},
         lambda: core.minimum_pitch(Dragon(**FOLDING), turning_radius=0.85, start_turns=5.0),
         PITCH,
     ),
     "encounter": (
-        TWO | {"margin": 0.1},
-        lambda: core.first_encounter(two(), margin=0.1),
+        TWO | {"margin": 0.1, "hole": 0.06, "pin": 0.02},
+        lambda: core.first_encounter(two(), margin=0.1, stray=0.02),
         (
             "outcome time time_bracket dragons benches heads gap margin point end "
             "certificate.method certificate.claim.time certificate.bound"

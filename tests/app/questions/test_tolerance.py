@@ -6,7 +6,7 @@ import pytest
 import core
 from app.questions.tolerance import ToleranceRequest
 from app.settings import Settings
-from core import Dance, Dragon, Spiral, bench_poses, overlaps, performance_tolerance
+from core import Dragon, bench_poses, overlaps, performance_tolerance
 from tests.support.asking import box, dance, json_like
 
 SMALL = {"benches": 40, "start_turns": 9}
@@ -46,15 +46,6 @@ def test_a_curve_is_answered_where_a_dance_at_the_minimum_pitch_begins_on_the_ci
     got = ask("tolerance-curve", benches=2, start_turns=9, samples=2)
     assert got["pitch"][0] == pytest.approx(0.5, rel=1e-5)
     assert got["limited_by"] == ["chord", "chord"]
-
-
-def test_a_stray_on_other_calls_is_that_of_core(ask):
-    first = ask("collision-time", stray=0.02)
-    assert first["time"] == core.first_contact(Dance(Dragon(), Spiral()), stray=0.02).time
-    assert (first["cross_check"]["agree"], len(first["cross_check"]["judged"])) == (True, 223)
-    pitch = ask("minimum-pitch", stray=0.02)
-    assert pitch["pitch"] == core.minimum_pitch(Dragon(), stray=0.02).pitch
-    assert pitch["cross_check"]["agree"]
 
 
 @pytest.mark.parametrize("call", ["collision-time", "minimum-pitch"])
