@@ -12,7 +12,7 @@ import shapely
 from core import Area, Dance, Judgement, Outcome, Spiral, Venue, check, venue_clearance
 from tests.campaigns import hunting
 from tests.campaigns.hunt_contacts import GAP, meeting_fault, random_dragon, random_margin
-from tests.support.slow_search import RUN, Samples, SlowDance, benches_of
+from tests.support.slow_search import RUN, Samples, SlowDance, benches_of, corners_of
 
 # Number of poses on the way, evenly spaced in time and towards the fold in its square root.
 POSES = 600
@@ -33,11 +33,7 @@ class SlowVenue(Samples):
 
     def distances(self, times):
         """(T,) least distance at times (T,) [m]; where they cross, minus the length of the boundary in a bench."""
-        middle, along, sides = benches_of(self.slow.handles(times), self.slow.sides)
-        ahead = along * sides[:, :1]
-        left = np.stack([-along[..., 1], along[..., 0]], axis=-1) * sides[:, 1:]
-        corners = [middle + ahead + left, middle + ahead - left, middle - ahead - left, middle - ahead + left]
-        benches = shapely.polygons(np.stack(corners, axis=-2))
+        benches = shapely.polygons(corners_of(*benches_of(self.slow.handles(times), self.slow.sides)))
         apart = shapely.distance(benches, self.boundary)
         cut = apart <= 0.0
         apart[cut] = -shapely.length(shapely.intersection(benches[cut], self.boundary))

@@ -170,11 +170,7 @@ class SlowDance:
         return float(shapes[0].distance(shapes[1]))
 
     def polygon(self, handles, bench):
-        front, rear = handles[bench], handles[bench + 1]
-        u = (front - rear) / np.linalg.norm(front - rear) * self.lengths[bench] / 2.0
-        v = np.array([-u[1], u[0]]) * self.widths[bench] / self.lengths[bench]
-        middle = 0.5 * (front + rear)
-        return Polygon([middle + u + v, middle + u - v, middle - u - v, middle - u + v])
+        return Polygon(corners_of(*benches_of(handles[bench : bench + 2], self.sides[[bench]]))[0])
 
     def first_touch(self, margin=0.0):
         """Time and pair of the first instant with a separation <= margin, None if there is none."""
@@ -225,10 +221,17 @@ def first_time(low, high, holds):
 
 
 def benches_of(handles, sides):
-    """Middles and directions (T, n, 2) of benches between handles (T, n + 1, 2), and their half lengths and widths."""
-    along = handles[:, :-1] - handles[:, 1:]
+    """Middles and directions (..., n, 2) of benches between handles (..., n + 1, 2), and half lengths and widths."""
+    along = handles[..., :-1, :] - handles[..., 1:, :]
     along /= np.linalg.norm(along, axis=-1, keepdims=True)
-    return 0.5 * (handles[:, 1:] + handles[:, :-1]), along, sides
+    return 0.5 * (handles[..., 1:, :] + handles[..., :-1, :]), along, sides
+
+
+def corners_of(middle, along, sides):
+    """Corners (..., n, 4, 2) of benches, one after another around each."""
+    ahead = along * sides[:, :1]
+    left = np.stack([-along[..., 1], along[..., 0]], axis=-1) * sides[:, 1:]
+    return np.stack([middle + ahead + left, middle + ahead - left, middle - ahead - left, middle - ahead + left], -2)
 
 
 def nearest(dragon, other=None):
