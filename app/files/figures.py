@@ -103,8 +103,7 @@ def contact_figure(
 @question_about("dragon", Dragon, "the figure was not drawn")
 def pitch_scan_figure(
     dragon: Dragon,
-    scan: PitchScan,
-    least: MinimumPitch,
+    scanned: tuple[PitchScan, MinimumPitch],
     *,
     turning_radius: float = 4.5,
     start_turns: float = 16.0,
@@ -115,8 +114,10 @@ def pitch_scan_figure(
 ) -> bytes:
     """Figure 8: radius of the head at first contact against the pitch, jumps left blank, minimum pitch marked.
 
-    scan, least: the result of scan_near_minimum(); the rest: its arguments
+    scanned: the result of scan_near_minimum(); the rest: its arguments
+    raises: TooMuchWork once the budget is stopped
     """
+    scan, least = scanned
     pitches = np.array([SCAN_FROM, SCAN_TO]) * least.pitch
 
     def drawn() -> Figure:

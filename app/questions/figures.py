@@ -158,12 +158,12 @@ def pitch_scan_figure(request: StaircaseQuery | StaircaseRequest, terms: Terms, 
     from app.files import figures
 
     dragon = request.to_dragon(min(terms.settings.drawn_benches_max, request.most_benches(terms.settings)))
-    scan, least = scan_near_minimum(
+    scanned = scan_near_minimum(
         dragon, samples=request.samples, progress=terms.progress, budget=terms.budget, **request.to_circle()
     )
     look: dict[str, Any] = {"format": FORMATS[form], "language": request.language, "budget": terms.budget}
     look |= request.to_circle()
-    return figures.pitch_scan_figure(dragon, scan, least, **look)
+    return figures.pitch_scan_figure(dragon, scanned, **look)
 
 
 DRAWN: dict[str, Any] = {"model": None, "forms": FORMS, "formats": Format}

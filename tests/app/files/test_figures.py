@@ -28,7 +28,7 @@ def texts(svg):
 def scan_figures(dragon, *formats, samples, margin=0.0):
     circle = {"turning_radius": 4.5, "start_turns": 16.0, "margin": margin}
     result = scan_near_minimum(dragon, samples=samples, **circle)
-    return [figures.pitch_scan_figure(dragon, *result, **circle, format=form) for form in formats]
+    return [figures.pitch_scan_figure(dragon, result, **circle, format=form) for form in formats]
 
 
 def test_trajectory_figure_names_its_axes_units_and_instant():
@@ -105,7 +105,7 @@ def test_figures_in_chinese_have_no_english_word_left_and_the_same_numbers():
     circle = {"turning_radius": 4.5, "start_turns": 16.0, "margin": 0.05}
     eight = Dragon(8)
     scanned = scan_near_minimum(eight, samples=5, **circle)
-    assert_translated(partial(figures.pitch_scan_figure, eight, *scanned, **circle))
+    assert_translated(partial(figures.pitch_scan_figure, eight, scanned, **circle))
 
 
 def assert_translated(draw, kept=""):
