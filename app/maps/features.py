@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from app.wire.degrees import GRID_MAX, GeographicOrigin
-from app.wire.geojson import Thing
+from app.wire.geojson import GATE, INNER_SQUARE, Aside, Thing
 from core import InvalidValue
 from core.values import Floats, Point
 from core.venue import Ring
@@ -26,6 +26,8 @@ WORDS = {
     OBSTACLE: ("obstacle", "obstacles", "tree", "trees", "wall", "walls", "building", "buildings", "障碍", "障碍物"),
     PATH: ("path", "route", "track", "路线", "路径"),
     MARK: ("mark", "marks", "chalk", "粉笔标记"),
+    GATE: (GATE, "gates", "出入口"),
+    INNER_SQUARE: (INNER_SQUARE,),
 }
 ROLES = {word: role for role, words in WORDS.items() for word in words}
 # Most points and most features of one map; a plan of a square has fewer.
@@ -145,7 +147,8 @@ class FeatureCollector:
 def drawn_as(line: MapFeature) -> MapFeature:
     """The feature of a line; if it ends at its beginning, the polygon inside it, unless it is a path or has a width."""
     (points,) = line.rings
-    closed = len(points) > 3 and points[0] == points[-1] and line.role != PATH and line.radius is None
+    is_area = line.role not in (PATH, INNER_SQUARE) and line.radius is None
+    closed = len(points) > 3 and points[0] == points[-1] and is_area
     return replace(line, shape="polygon" if closed else "line")
 
 
@@ -167,6 +170,25 @@ def features_of(things: Sequence[Thing]) -> list[MapFeature]:
         MapFeature(*_form(rings, radius), name, OBSTACLE if k else SQUARE, radius)
         for k, (name, rings, radius) in enumerate(things)
     ]
+
+
+def aside_features(asides: Sequence[Aside]) -> list[MapFeature]:
+    """The gates, and the square without streets, as features."""
+    return [
+        MapFeature(
+            "point" if role == GATE else "line",
+            (ring,),
+            name,
+            role,
+            properties={} if heading is None else {"heading": heading},
+        )
+        for role, name, ring, heading in asides
+    ]
+
+
+def is_aside(one: MapFeature) -> bool:
+    """True for a gate, and for the square without streets, in the shapes that aside_features() gives them."""
+    return (one.role, one.shape) in ((GATE, "point"), (INNER_SQUARE, "line")) and one.radius is None
 
 
 def _form(rings: tuple[Ring, ...], radius: float | None) -> tuple[Shape, tuple[Ring, ...]]:

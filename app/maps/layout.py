@@ -11,12 +11,12 @@ import numpy as np
 
 from app.files.words import Say
 from app.maps import geojson
-from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, Unit, area_of, holds_any, round_area
+from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, Unit, area_of, holds_any, is_aside, round_area
 from app.maps.joined import merged
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
 from app.maps.tracks import APART, CHORD, walk_of
 from app.wire.degrees import ACROSS_MAX, GRID_MAX, GeographicOrigin, Plane, middle_of, refuse_wide, unwrapped
-from app.wire.geojson import outlined, read_things, venue_of
+from app.wire.geojson import ASIDES, outlined, read_things, venue_of
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.display import format_count
@@ -46,7 +46,7 @@ class DanceParts:
 
     path: in the form of a request; venue: in metres, the square first; origin: place of x = y = 0; grid: the same on a
         survey grid [m]
-    things: features of the venue, where trees and walls have a radius
+    things: features of the venue, where trees and walls have a radius; gates, and the square without streets
     dance: the other fields of a file that describes a dance; notes: assumptions, and things left out
     passages: speeds at which a track was walked, in the form of a request
     """
@@ -71,7 +71,11 @@ class DanceParts:
 
 
 def _geojson_of(one: MapFeature) -> dict[str, Any]:
-    properties = {"name": one.name} | ({} if one.radius is None else {"radius": one.radius})
+    properties: dict[str, object] = {"name": one.name} | ({} if one.radius is None else {"radius": one.radius})
+    if is_aside(one):
+        properties |= {"role": one.role} | {
+            name: one.properties[name] for name in ("heading",) if name in one.properties
+        }
     return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
 
 
@@ -100,7 +104,8 @@ class Reading:
     def __init__(self, drawing: Drawing, units: Coordinates | None, say: Say, chord: float = CHORD) -> None:
         self.drawing, self.say, self.chord, self.notes = drawing, say, chord, list[str]()
         self.assumed = dict[float, list[str]]()
-        self.features = [_closed(one) for one in drawing.features if one.role != MARK and any(one.rings)]
+        every = [one for one in drawing.features if one.role != MARK and any(one.rings)]
+        self.features = [_closed(_with_role(one)) for one in every]
         if not self.features:
             hidden = ", ".join(format_count(count, kind) for kind, count in drawing.hidden.items())
             rule = "must hold a polygon, a line or a point" + (
@@ -110,6 +115,8 @@ class Reading:
         self.origin, self.grid = drawing.origin, drawing.grid
         self.passages: Sequence[Mapping[str, Any]] | None = None
         self._lay_out(units)
+        self.asides = [one for one in self.features if is_aside(one)]
+        self.features = [one for one in self.features if not is_aside(one)]
         self._leave_out_small()
         self.features = [self._whole(one) for one in self.features]
         for kind, count in drawing.left_out.items():
@@ -145,6 +152,7 @@ class Reading:
         others = [one for one in self.features if one is not square and not any(one is line for line in taken)]
         things = self._things(square, others)
         venue = _checked(things) if things else None
+        things += self.asides if things else []
         if venue is not None:
             self._warn_of_small(np.array(venue.square.rings[0]))
         return DanceParts(path, venue, self.origin, None, self.notes, things, self.grid, self.passages)
@@ -410,6 +418,11 @@ class _Names:
             unique, k = f"{bare} {k}", k + 1
         self.used.add(unique)
         return unique
+
+
+def _with_role(feature: MapFeature) -> MapFeature:
+    """The same feature; one that is called a gate and is none in its shape has no role."""
+    return feature if is_aside(feature) or feature.role not in ASIDES else replace(feature, role=None)
 
 
 def _closed(feature: MapFeature) -> MapFeature:

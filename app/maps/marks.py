@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.maps.features import Drawing, MapFeature, Unit, features_of
+from app.maps.features import Drawing, MapFeature, Unit, aside_features, features_of
 from app.wire.degrees import GeographicOrigin, Place, Plane
 from app.wire.question import check_limit
 from core import Dance
@@ -112,7 +112,8 @@ class MarkedDance:
 
 def drawing_of(dances: Iterable[MarkedDance], place: Place, origin: GeographicOrigin | None) -> Drawing:
     """The dances as a map in metres. place: the venue"""
-    features = [*features_of(place.things), *(feature for one in dances for feature in one.features())]
+    paths = (feature for one in dances for feature in one.features())
+    features = [*features_of(place.things), *aside_features(place.asides), *paths]
     return Drawing(tuple(features), Unit.METRES, origin, grid=place.grid)
 
 
@@ -120,7 +121,7 @@ def in_degrees(drawing: Drawing) -> Drawing:
     """The map in longitude and latitude. It must be in metres and have an origin."""
     assert drawing.origin is not None
     plane = Plane(drawing.origin)
-    return Drawing(tuple(one.moved(plane.degrees) for one in drawing.features), Unit.DEGREES, drawing.origin)
+    return replace(drawing, features=tuple(one.moved(plane.degrees) for one in drawing.features), unit=Unit.DEGREES)
 
 
 def on_grid(drawing: Drawing) -> Drawing:

@@ -18,7 +18,7 @@ from app.files.tables import Language
 from app.files.words import Say
 from app.maps import dxf, geojson, gpx, kml
 from app.maps.benches import benches_of
-from app.maps.features import FEATURES_MAX, LEAVE_OUT, POINTS_MAX, features_of
+from app.maps.features import FEATURES_MAX, LEAVE_OUT, POINTS_MAX, aside_features, features_of
 from app.maps.layout import DanceParts, Reading
 from app.maps.lines import checked_path
 from app.maps.tracks import CHORD
@@ -177,7 +177,8 @@ def _of_dance(content: Mapping[str, Any], say: Say) -> DanceParts:
     elif venue is not None:
         place = place_of(venue, content.get("coordinates"), Dragon())
     place = place or Place()
-    return DanceParts(path, place.venue, place.origin, others, notes, features_of(place.things), place.grid)
+    things = [*features_of(place.things), *aside_features(place.asides)]
+    return DanceParts(path, place.venue, place.origin, others, notes, things, place.grid)
 
 
 def read_map(

@@ -49,6 +49,12 @@ export function benchesOf(text) {
   return { names: column(names), lengths: numbers(lengths), widths: numbers(widths), overhangs: numbers(overhangs) };
 }
 
+/** The numbers of a dragon whose benches are listed one by one: of its head, and the largest of all. */
+export function numbersOfListed(listed) {
+  const { lengths, widths, overhangs: [overhang] } = listed;
+  return { listed, benches: lengths.length, head_length: lengths[0], body_length: Math.max(...lengths), width: Math.max(...widths), overhang };
+}
+
 const quoted = (name) => (/[",]/.test(name) ? `"${name.replaceAll('"', '""')}"` : name);
 
 /** The table of a dragon in a request; an empty text for equal benches without names. */

@@ -2,8 +2,8 @@
 
 import { Problem, Superseded } from "./api.js";
 import { SPAN, announceOpened } from "./files.js";
-import { benchesOf } from "./benches.js";
-import { EMPTY, drawingOf, fromAddress, venueOf } from "./drawing.js";
+import { benchesOf, numbersOfListed } from "./benches.js";
+import { EMPTY, drawingOf, fromAddress, keptVenueOf, venueOf } from "./drawing.js";
 import { $, button, download, make, numberIn, textButton } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { Judgement, failureWords } from "./judgement.js";
@@ -128,9 +128,8 @@ export class Dragons {
     const foreign = dances.findIndex(({ path }) => isForeign(path));
     if (foreign >= 0) return announce(() => say("dragonForeign", { name: dances[foreign].name ?? say("dragonNumber", { number: foreign + 1 }) }));
     const records = dances.map(recordOf);
-    const { things, origin, grid } = drawingOf({ path: null, venue, speed_limit: limit });
-    this.state.set({ drawing: { ...EMPTY, things, origin, grid, limit } }, false);
-    const numbers = Object.fromEntries(CONTACT.filter((one) => typeof limits[one] === "number").map((one) => [one, String(limits[one])]));
+    this.state.set({ drawing: drawingOf({ path: null, venue, speed_limit: limit }) }, false);
+    const numbers = Object.fromEntries(CONTACT.map((one) => [one, typeof limits[one] === "number" ? String(limits[one]) : this.state.initial(one)]));
     this.#take(records, 0, { ...this.#valuesOf(records[0]), ...numbers, start_clock: clock, begin_clock: begins, time: null, view: null, handle: null });
     announceOpened(name, SPAN.filter((one) => typeof limits[one] === "number"));
   }
@@ -272,7 +271,7 @@ export class Dragons {
       const numbers = /** @type {any} */ (numbersOf(Object.fromEntries(names.map((name) => [name, String(values[name])]).filter(([, text]) => text !== ""))));
       const listed = csv ? benchesOf(csv) : null;
       const extras = { csv, listed, passages: passagesIn(values.passages), beats: beatsOf(values), clock: "", beginClock: "" };
-      if (listed) Object.assign(numbers, { listed, benches: listed.lengths.length });
+      if (listed) Object.assign(numbers, numbersOfListed(listed));
       const top = Math.max(numbers.head_speed, ...extras.passages.map(({ speed }) => Number(speed) || 0));
       const { dragon, path, head_speed, passages, beats } = this.questions.body({}, { numbers, kind, drawing, extras });
       const rotation = Number(record.rotation ?? 0) * DEGREE;
@@ -295,8 +294,15 @@ export class Dragons {
     return { dances: parts.map(({ name, body, delay }) => ({ name, ...body, ...(delay && { delay }) })), ...limits };
   }
 
+  /** The FILE to keep: also what the questions about the performance do not need, and only names that a person has given. */
+  #kept() {
+    const [records, venue, { dances, ...others }] = [this.#records, keptVenueOf(this.state.get("drawing")), this.#file()];
+    const own = dances.map(({ name, ...dance }, k) => ({ ...(records[k].name && { name }), ...dance, ...(records[k].colour && { colour: records[k].colour }) }));
+    return { dances: own, ...others, ...(venue && { venue }) };
+  }
+
   #save() {
-    download(new Blob([JSON.stringify(this.#file(), null, 2)], { type: "application/json" }), "dances.json");
+    download(new Blob([JSON.stringify(this.#kept(), null, 2)], { type: "application/json" }), "dances.json");
     announce(() => say("saved", { name: "dances.json" }));
   }
 

@@ -19,6 +19,8 @@ export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "wal
 const FAR = 90_000;
 const DECIMALS = 4;
 const NUMBER = /^-?\d+(\.\d+)?(e-?\d+)?$/;
+/** Roles of features that no bench can touch, in the service's words. */
+const [GATE, YARD] = ["gate", "square without streets"];
 const KINDS = { a: "area", b: "block", c: "circle", w: "wall", g: "gate" };
 
 const rounded = (number) => Number(number.toFixed(DECIMALS));
@@ -65,6 +67,19 @@ export function venueOf({ things, origin, grid }) {
   return { type: "FeatureCollection", ...(origin && { origin }), ...(grid && { grid }), features };
 }
 
+/** The venue as a file keeps it: with the gates, and with the square without the streets that were added to it. */
+export function keptVenueOf(drawing) {
+  const venue = venueOf(drawing);
+  const gates = drawing.things.filter((thing) => thing.kind === "gate" && isWhole(thing));
+  const asides = [
+    ...gates.map(({ name, points, heading }) => aside("Point", points[0], { name, role: GATE, ...(typeof heading === "number" && { heading }) })),
+    ...(drawing.yard ? [aside("LineString", closed(drawing.yard), { role: YARD })] : []),
+  ];
+  return venue && { ...venue, features: [...venue.features, ...asides] };
+}
+
+const aside = (type, coordinates, properties) => ({ type: "Feature", properties, geometry: { type, coordinates } });
+
 /** Path, venue and speeds of the dance: the fields of /check that are not null. */
 export function placeOf(drawing) {
   const [venue, limit, start] = [venueOf(drawing), drawing.limit, drawing.path && drawing.start];
@@ -80,14 +95,18 @@ export function freeName(things, name, own = null) {
   }
 }
 
+const featuresOf = (venue) => (venue.type === "FeatureCollection" ? venue.features : [venue.type === "Feature" ? venue : { properties: {}, geometry: venue }]);
+const isYard = ({ properties, geometry: { type } }) => properties?.role === YARD && type === "LineString";
+
 /** Things of a GeoJSON venue, the square first, as in the service. */
 function thingsOf(venue) {
-  const features = venue.type === "FeatureCollection" ? venue.features : [venue.type === "Feature" ? venue : { properties: {}, geometry: venue }];
   const things = [];
-  for (const { properties, geometry } of features) {
+  for (const { properties, geometry } of featuresOf(venue)) {
     const { type, coordinates } = geometry;
     const addThing = (kind, points, more) => things.push({ kind, name: freeName(things, properties?.name || kind), points, ...more });
-    if (type === "Point") addThing("circle", [place(coordinates)], { radius: properties.radius });
+    if (properties?.role === GATE && type === "Point") addThing("gate", [place(coordinates)], typeof properties.heading === "number" ? { heading: properties.heading } : {});
+    else if (isYard({ properties, geometry })) continue;
+    else if (type === "Point") addThing("circle", [place(coordinates)], { radius: properties.radius });
     else if (type === "LineString") addThing("wall", coordinates.map(place), { radius: properties.radius });
     else if (type === "Polygon") {
       const [outer, ...holes] = coordinates.map((ring) => ring.slice(0, -1).map(place));
@@ -102,7 +121,8 @@ function thingsOf(venue) {
 /** The drawing of a dance from a request of /check, or from an answer of /places. */
 export function drawingOf({ path, venue, speed_limit: limit, start = null }) {
   const { origin = null, grid = null } = venue ?? {};
-  const drawing = { ...EMPTY, limit: limit ?? null, things: venue ? thingsOf(venue) : [], origin, grid };
+  const yard = venue ? featuresOf(venue).find(isYard) : null;
+  const drawing = { ...EMPTY, limit: limit ?? null, things: venue ? thingsOf(venue) : [], origin, grid, yard: yard ? yard.geometry.coordinates.slice(0, -1).map(place) : null };
   if (!path) return drawing;
   return { ...drawing, ...(legsOf(path) ?? { path, start, points: [], begin: path.start ?? 0 }) };
 }

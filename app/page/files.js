@@ -2,8 +2,9 @@
 
 import { tableOfFile } from "./bench_table.js";
 import { tableOf } from "./benches.js";
-import { drawingOf } from "./drawing.js";
+import { drawingOf, keptVenueOf } from "./drawing.js";
 import { $, bearer, download, make, textButton } from "./elements.js";
+import { FIELDS } from "./fields.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { paceTexts, passagesText } from "./passages.js";
 import { language, say } from "./text.js";
@@ -11,6 +12,7 @@ import { language, say } from "./text.js";
 const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.gpx,.dxf,.csv,.tsv,.xlsx";
 /** Fields of a dance's file that are numbers of the page too. */
 const NUMBERS = ["head_speed", "margin", "stray", "hole", "pin"];
+const DEFAULTS = Object.fromEntries(FIELDS.map(({ name, value }) => [name, value]));
 const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
 
 /** The times of a FILE; the page shows each dance from its beginning to its end. */
@@ -86,7 +88,7 @@ export class Files {
     const chord = Math.max(head, body) - 2 * overhang;
     const query = { language: language(), ...(chord > 0 && { longest_chord: chord }) };
     const { dance, notes = [], ...content } = await this.service.ask("places", "places", { query, file, headers: bearer() });
-    return { ...dance, ...content, notes };
+    return { ...dance, ...content, notes, isDance: dance !== null };
   }
 
   #useTimes() {
@@ -95,35 +97,48 @@ export class Files {
   }
 
   #take(content, name) {
-    this.walked = "dragon" in content ? null : content.passages;
+    const { isDance = true } = content;
+    this.walked = isDance ? null : content.passages;
     this.times.hidden = !this.walked;
     const { dragon = {}, path, venue } = content;
-    const own = Object.fromEntries(UNIFORM.filter((one) => one in dragon).map((one) => [one, String(dragon[one])]));
-    const numbers = Object.fromEntries(NUMBERS.filter((one) => typeof content[one] === "number").map((one) => [one, String(content[one])]));
+    const csv = isDance ? tableOf(dragon) : "";
+    // What a dance does not state has its default, and so have the benches of which a table takes the place; a map states none of it.
+    const stated = csv ? content : { ...dragon, ...content };
+    const numbers = isDance ? Object.fromEntries([...UNIFORM, ...NUMBERS].map((one) => [one, typeof stated[one] === "number" ? String(stated[one]) : this.#default(one, csv)])) : {};
     if (this.state.get("path") !== "route") this.state.choosePath("route");
     const opened = drawingOf({ ...content, venue: typeof venue === "object" ? venue : null });
     // A map without a path keeps the drawn path, and one without a venue keeps the venue; a dance has its own or none.
-    const { points, straight, radius, begin, path: kept, things, origin, grid, limit } = this.state.get("drawing");
-    if (!path) Object.assign(opened, { points, straight, radius, begin, path: kept });
-    if (!venue && !("dragon" in content)) Object.assign(opened, { things, origin, grid });
-    if (!("dragon" in content)) opened.limit = limit;
-    const others = {
-      ...("dragon" in content && { csv: tableOf(dragon) }),
-      ...((content.passages || content.beats) && "dragon" in content && paceTexts(content)),
-      ...(("start_clock" in content || "begin_clock" in content) && { start_clock: content.start_clock ?? "", begin_clock: content.begin_clock ?? "" }),
-    };
-    this.state.set({ ...own, ...numbers, ...others, time: null, view: null });
+    const { points, straight, radius, begin, path: kept, start, things, origin, grid, yard, limit } = this.state.get("drawing");
+    if (!path) Object.assign(opened, { points, straight, radius, begin, path: kept, start });
+    if (!venue && !isDance) Object.assign(opened, { things, origin, grid, yard });
+    if (!isDance) opened.limit = limit;
+    // A dance has its own speeds, times and benches, or none.
+    const others = isDance ? { csv, ...paceTexts(content), ...clocksOf(content) } : {};
+    this.state.set({ ...numbers, ...others, time: null, view: null });
     this.steps.take(opened);
     const unread = SPAN.filter((one) => typeof content[one] === "number" && content[one] !== opened[one]);
     announceOpened(name, unread, content.notes);
   }
 
+  /** That of the service; beside a table of benches that of the page. */
+  #default(name, csv) {
+    return csv ? this.state.initial(name, "route") : DEFAULTS[name];
+  }
+
   /** The dance in the format of `bench-dragon check`. */
   save() {
-    const text = JSON.stringify(this.questions.checkBody(this.questions.drawn()), null, 2);
+    const dance = this.questions.drawn();
+    const venue = keptVenueOf(dance.drawing);
+    const text = JSON.stringify({ ...this.questions.checkBody(dance), ...(venue && { venue }) }, null, 2);
     download(new Blob([text], { type: "application/json" }), "dance.json");
     announce(() => say("saved", { name: "dance.json" }));
   }
+}
+
+/** The times of day of a FILE; the page writes when a proposed dance begins, at 0 s, as the one at time 0. */
+function clocksOf({ path, start, start_clock: clock = "", begin_clock: begins = "" }) {
+  const isBeginning = clock && start === 0 && path?.kind === "route";
+  return isBeginning ? { start_clock: "", begin_clock: clock } : { start_clock: clock, begin_clock: begins };
 }
 
 /** The dance in a file saved by this page; null for any other file. */

@@ -1,6 +1,7 @@
 /** Everything to save: the cue cards, which stand with the people, files of every kind, a film, and the commands that give the same. */
 
 import { Problem, TOO_LONG, commandFor } from "./api.js";
+import { keptVenueOf } from "./drawing.js";
 import { $, $$, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED } from "./jobs.js";
@@ -60,6 +61,11 @@ function figure(name, form, /** @type {any} */ { query, body }) {
 }
 /** Whole seconds of a dance. */
 const seconds = ({ begin, end }) => ({ start: Math.min(Math.ceil(begin), end), stop: end, step: CSV_STEP });
+/** The request of a map. drawing: that has what a map keeps and no other question needs; null: of a dance without a square */
+function mapOf(form, body, drawing) {
+  const [venue, origin] = [drawing && keptVenueOf(drawing), drawing?.origin];
+  return { path: `maps.${form.toLowerCase()}`, body: { ...body, ...(venue && { venue }), ...(origin && { origin }) } };
+}
 /** The request of each item in a format: {path, query or body}. */
 const REQUESTS = {
   /** The contest's problem with the numbers of the page, of which the pitch is that of the spiral or of the turn. */
@@ -94,8 +100,8 @@ const REQUESTS = {
     return { path: "cues", body: { ...questions.checkBody(questions.dance), ...(kind === "spiral" && { start: begin, stop: end }), language: language() } };
   },
   map(questions, form) {
-    const { origin } = questions.dance.kind === "route" ? questions.state.get("drawing") : {};
-    return { path: `maps.${form.toLowerCase()}`, body: { ...questions.checkBody(questions.dance), ...(origin && { origin }) } };
+    const drawing = questions.dance.kind === "route" ? questions.state.get("drawing") : null;
+    return mapOf(form, questions.checkBody(questions.dance), drawing);
   },
   /** The answer of the command; in the shown one the engines may have judged only the pair. */
   answer(questions) {
@@ -118,7 +124,7 @@ const TOGETHER = {
   },
   plan: ({ dance }, paper) => ({ path: "plan", body: { ...dance.file, paper, language: language() } }),
   cues: ({ dance }) => ({ path: "cues", body: { ...dance.file, language: language() } }),
-  map: ({ dance }, form) => ({ path: `maps.${form.toLowerCase()}`, body: { ...dance.file, ...(dance.drawing.origin && { origin: dance.drawing.origin }) } }),
+  map: ({ dance }, form) => mapOf(form, dance.file, dance.drawing),
   verdict: ({ dance }) => ({ path: "check", body: dance.file }),
 };
 

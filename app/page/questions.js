@@ -1,6 +1,7 @@
 /** The page's questions to the service: first contact, pose and minimum pitch at once, the others when input pauses. */
 
 import { Problem, Superseded } from "./api.js";
+import { numbersOfListed } from "./benches.js";
 import { pathOf, placeOf, venueOf } from "./drawing.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf } from "./fields.js";
 import { clockAtZero, timeAfter } from "./passages.js";
@@ -110,9 +111,7 @@ export class Questions {
     numbers.top_speed = Math.max(numbers.head_speed, ...extras.passages.map(({ speed }) => Number(speed) || 0));
     const { listed } = extras;
     if (!listed) return { kind, query, numbers, extras };
-    const { lengths, widths, overhangs: [overhang] } = listed;
-    const own = { listed, benches: lengths.length, head_length: lengths[0], body_length: Math.max(...lengths), width: Math.max(...widths), overhang };
-    return { kind, query, numbers: { ...numbers, ...own }, extras };
+    return { kind, query, numbers: { ...numbers, ...numbersOfListed(listed) }, extras };
   }
 
   /** A question over these numbers: a query, or a body with the table of benches. */

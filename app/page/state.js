@@ -20,7 +20,7 @@ const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, va
 /** True if the address has nothing except the language: then the page opens with the dance in motion. */
 const isBare = (address) => [...address.keys()].every((name) => name === "lang");
 /** time: null is the end of the dance; dances: those of several dragons, as in an address; dragon: the chosen one; bench: the one that a carrier follows, or null; view: [x, y, pixels per metre], null shows the whole path. */
-const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, bench: null, dances: "", dragon: 0, view: null, lang: null };
+export const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, bench: null, dances: "", dragon: 0, view: null, lang: null };
 
 const whole = (text) => (/^\d+$/.test(text) ? Number(text) : null);
 const oneOf = (values) => (text) => values.find((value) => String(value) === text);

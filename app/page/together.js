@@ -39,14 +39,14 @@ export const legsOf = (drawing) => toAddress(drawing).filter(([name]) => LEGS.in
 export const isForeign = ({ kind = "spiral", centre = [0, 0], clockwise = true } = {}) => kind === "spiral" && (!clockwise || centre.some(Boolean));
 
 /** A dance of a FILE as a dragon of an address. */
-export function recordOf(/** @type {any} */ { name, delay, dragon = {}, path: own, head_speed: speed, ...paces }) {
+export function recordOf(/** @type {any} */ { name, colour, delay, dragon = {}, path: own, head_speed: speed, ...paces }) {
   const path = { kind: "spiral", ...own };
   // A turn with clothoids has no fields of its own: it is shown as any path.
   const isCoil = path.kind === "spiral" || (path.kind === "turn" && (path.middle ?? null) === null);
   const known = { ...dragon, ...(isCoil && path), head_speed: speed };
   const numbers = NUMBERS.filter((one) => typeof known[one] === "number").map((one) => [one, String(known[one])]);
   const turned = isCoil && path.rotation ? String(Number(((path.rotation * 180) / Math.PI).toFixed(9))) : "";
-  const others = { name: name ?? "", delay: delay ? String(delay) : "", rotation: turned, csv: tableOf(dragon), ...paceTexts(paces), path: isCoil ? path.kind : "route" };
+  const others = { name: name ?? "", colour: colour ?? "", delay: delay ? String(delay) : "", rotation: turned, csv: tableOf(dragon), ...paceTexts(paces), path: isCoil ? path.kind : "route" };
   return Object.fromEntries([...Object.entries(others), ...numbers, ...(isCoil ? [] : legsOf(drawingOf(/** @type {any} */ ({ path }))))].filter(([, text]) => text !== ""));
 }
 

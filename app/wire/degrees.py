@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.wire.geojson import Polygon, Scale, Thing, outlined, read_things, venue_of
+from app.wire.geojson import Aside, Polygon, Scale, Thing, asides_in, outlined, read_things, venue_of
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.errors import Given, Parameter, checked_number, quantities
@@ -81,14 +81,15 @@ class Plane:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A venue in metres; the place of its origin on earth, and on a survey grid [m], if they are known; and the things
-    it was made of.
+    """A venue in metres; the place of its origin on earth, and on a survey grid [m], if they are known; the things it
+    was made of, and what else stands in it for people.
     """
 
     venue: Venue | None = None
     origin: GeographicOrigin | None = None
     things: Sequence[Thing] = ()
     grid: Point | None = None
+    asides: Sequence[Aside] = ()
 
 
 def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dragon: Dragon) -> Place:
@@ -110,11 +111,12 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
         crs, system = Parameter("venue.crs"), Given(system_name)
         raise InvalidValue("coordinates", rule, got=Given(coordinates), crs=crs, system=system)
     if coordinates == "degrees" or geographic:
-        return _projected(_in_degrees(geometry))
+        return _projected(_in_degrees(geometry), asides_in(geometry, DEGREES))
     things = read_things(geometry)
     polygons = outlined(things)
     _refuse_degrees(polygons, float(dragon.lengths.max()))
-    return Place(venue_of(polygons), _stated_origin(geometry.get("origin")), things, _stated_grid(geometry.get("grid")))
+    origin, grid = _stated_origin(geometry.get("origin")), _stated_grid(geometry.get("grid"))
+    return Place(venue_of(polygons), origin, things, grid, asides_in(geometry))
 
 
 def _stated_origin(member: object) -> GeographicOrigin | None:
@@ -199,8 +201,9 @@ def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
     raise InvalidValue("venue", f"{rule} narrower than a bench of {{length}}: {change}", **values)
 
 
-def _projected(polygons: list[Polygon]) -> Place:
-    turned = [(name, tuple(unwrapped(ring, polygons[0][1][0][0][0]) for ring in rings)) for name, rings in polygons]
+def _projected(polygons: list[Polygon], asides: list[Aside]) -> Place:
+    near = polygons[0][1][0][0][0]
+    turned = [(name, tuple(unwrapped(ring, near) for ring in rings)) for name, rings in polygons]
     origin = middle_of([turned[0][1][0]])
     refuse_wide("venue", [ring for _, rings in turned for ring in rings], origin)
     plane = Plane(origin)
@@ -210,7 +213,8 @@ def _projected(polygons: list[Polygon]) -> Place:
 
     metres = [(name, tuple(map(placed, rings))) for name, rings in turned]
     where = GeographicOrigin((origin.longitude + 180.0) % 360.0 - 180.0, origin.latitude)
-    return Place(venue_of(metres), where, [(*polygon, None) for polygon in metres])
+    beside = [(role, name, placed(unwrapped(ring, near)), heading) for role, name, ring, heading in asides]
+    return Place(venue_of(metres), where, [(*polygon, None) for polygon in metres], asides=beside)
 
 
 def middle_of(rings: list[Ring]) -> GeographicOrigin:

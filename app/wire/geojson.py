@@ -9,6 +9,7 @@ within 0.1 s.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -28,10 +29,16 @@ Polygon = tuple[str, tuple[Ring, ...]]
 Thing = tuple[str, tuple[Ring, ...], float | None]
 # Name if it has one, the field of its coordinates, the coordinates as given, and half of its width, if it has one [m].
 RawPolygon = tuple[str | None, str, object, float | None]
+# Role, name, points and heading, if it has one [rad], of what stands in a venue for people: no bench can touch it.
+Aside = tuple[str, str | None, Ring, float | None]
 # Unit of coordinates, and the largest |x| and |y| in it.
 Scale = tuple[str, float, float]
 METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
 
+# Roles of such features, and the shape of each: a gate is a point of the border with the heading of those who enter;
+# the square as it was before streets were added beyond its gates is a closed line.
+GATE, INNER_SQUARE = "gate", "square without streets"
+ASIDES = {GATE: "Point", INNER_SQUARE: "LineString"}
 # Largest nesting depth [1]: a collection of features of collections of polygons.
 DEPTH_MAX = 8
 # Radius of a round obstacle, and half of the width of a wall [m].
@@ -45,6 +52,7 @@ def read_things(geometry: object, scale: Scale = METRES) -> list[Thing]:
         feature whose property `name` is "square", else the first polygon; the others are obstacles, named by their
         property `name`, else "obstacle 1" and so on. Heights are ignored. In metres a Feature of a Point or of a
         LineString whose property `radius` is positive is an obstacle too: a tree, or a wall of twice that width.
+        Those that asides_in() returns are left out.
     raises: InvalidValue naming the member at fault; too many edges are refused before any coordinate is read
     """
     polygons = _polygons("venue", geometry)
@@ -59,6 +67,34 @@ def read_things(geometry: object, scale: Scale = METRES) -> list[Thing]:
     others = [polygon for k, polygon in enumerate(things) if k != square]
     obstacles = [(name or f"obstacle {k}", rings, radius) for k, (name, rings, radius) in enumerate(others, start=1)]
     return [(things[square][0] or "square", things[square][1], None), *obstacles]
+
+
+def asides_in(geometry: object, scale: Scale = METRES, field: str = "venue") -> list[Aside]:
+    """The gates, and the square without streets, of GeoJSON that read_things() accepts. raises: InvalidValue"""
+    if not isinstance(geometry, Mapping):
+        return []
+    if is_aside(geometry):
+        properties, shape = geometry["properties"], geometry["geometry"]
+        name, heading = properties.get("name"), properties.get("heading")
+        if heading is not None:
+            heading = checked_number(f"{field}.properties.heading", heading, "rad", -2.0 * math.pi, 2.0 * math.pi)
+        points = [shape.get("coordinates")] if shape["type"] == "Point" else shape.get("coordinates")
+        (ring,) = _rings(f"{field}.geometry.coordinates", [points], scale, None)
+        return [(str(properties["role"]), name, ring, heading)]
+    members = ((name, geometry.get(name)) for name in ("features", "geometries"))
+    every = (
+        (f"{field}.{name}.{k}", one) for name, some in members if isinstance(some, list) for k, one in enumerate(some)
+    )
+    return [aside for where, one in every for aside in asides_in(one, scale, where)]
+
+
+def is_aside(feature: Mapping[str, Any]) -> bool:
+    """True for a Feature with one of the roles of ASIDES, in its shape and without a radius."""
+    properties, shape = feature.get("properties"), feature.get("geometry")
+    if feature.get("type") != "Feature" or not isinstance(properties, Mapping) or not isinstance(shape, Mapping):
+        return False
+    role = properties.get("role")
+    return isinstance(role, str) and shape.get("type") == ASIDES.get(role, "") and properties.get("radius") is None
 
 
 def outlined(things: Sequence[Thing]) -> list[Polygon]:
@@ -118,6 +154,8 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[RawPolygon]:
         if name is not None:
             checked_name(f"{field}.properties.name", name)
         shape = geometry.get("geometry")
+        if is_aside(geometry):
+            return []
         if isinstance(shape, Mapping) and shape.get("type") in ("Point", "LineString"):
             value = properties.get("radius") if isinstance(properties, Mapping) else None
             radius = checked_number(f"{field}.properties.radius", value, "m", RADIUS_MIN, RADIUS_MAX)

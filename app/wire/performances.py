@@ -58,6 +58,10 @@ class PartBody(PathFields, strict=True):
         "s", "Time of the performance at time 0 of this dance", 0.0, ge=-DELAY_MAX, le=DELAY_MAX
     )  # fmt: skip
 
+    colour: str | None = Field(
+        None, pattern="^#[0-9a-f]{6}$", description="Colour of the dragon on the page, such as #b3261e; null: its own"
+    )
+
     def to_part(self, benches_max: int) -> Part:
         """raises: TooLarge, InvalidValue"""
         return Part(self.to_dance(benches_max), self.delay, self.name)

@@ -1,0 +1,98 @@
+"""What a person has made survives: in the address, in a saved file, in a map, and after a reload."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlencode
+
+import pytest
+
+from tests.support.person import Person
+
+NUMBERS = {"benches": "9", "head_length": "3.3", "body_length": "2.1", "width": "0.25", "overhang": "0.2"}
+PACE = {"head_speed": "0.8", "margin": "0.01", "stray": "0.02", "hole": "0.03", "pin": "0.02"}
+PLACE = {
+    "things": "a.square..-40,-30_40,-30_40,30_-40,30~b.house..20,20_28,20_28,28_20,28.22,22_22,26_26,26_26,22"
+    "~c.linden.0!4.30,-20~w.fence.0!2.-30,20_-20,20~g.East.3!1.38,0~g.West..-38,0",
+    "yard": "-38,-28_38,-28_38,28_-38,28",
+    "grid": "500000,4000000",
+}
+ON_EARTH = {"origin": "119.6,29.5"}
+DRAWN = {"path": "route", "route": "*-30,-10_*0,-10_*10,-20_30,-20", "corner": "3", "begin": "22"}
+WALKED = {"path": "route", "walk": "-30,-10,0_40_8,1.5_15", "begin": "21"}
+COIL = '{"pitch":1.2,"start_turns":8,"kind":"spiral","centre":[0,0],"rotation":0,"clockwise":true}'
+TABLE = "name,length,width,overhang\nLi,3,0.3,0.2\nWu,2.2,0.3,0.25\nHe,2.1,0.25,0.25"
+DANCES = (
+    "name:Chen!colour:#123456!delay:4~passages:0.5@20s!path:turn!pitch:1.8!start_turns:12!turning_diameter:10!ratio:1.5"
+    "!entry_radius:4.9!exit_radius:4.8!benches:7!head_length:3.4!body_length:2!width:0.2!overhang:0.2!head_speed:0.7"
+    f"~rotation:30!csv:{TABLE}!passages:0.96@10d!beats:4,96,0.6!path:spiral!pitch:1.1!start_turns:9!head_speed:1"
+)
+ON_PATH = {"route", "corner", "walk", "begin", "start", *ON_EARTH}
+# Of each project, what a map holds too, all else that a file holds, and the button that saves it.
+PROJECTS = {
+    "drawn": (
+        DRAWN | PLACE,
+        NUMBERS | PACE | {"limit": "1.7", "passages": "0.5@15m_0@5d", "start_clock": "19:30"},
+        "#save",
+    ),
+    "walked": (
+        WALKED | PLACE | ON_EARTH,
+        PACE | {"csv": TABLE, "beats": "4,96,0.6", "begin_clock": "08:00:30", "start": "0", "limit": "1.4"},
+        "#save",
+    ),
+    "other": ({"path": "route", "raw": COIL}, NUMBERS, "#save"),
+    "several": (
+        DRAWN | PLACE,
+        NUMBERS | PACE | {"limit": "2", "dances": DANCES, "begin_clock": "20:00"},
+        "#dragons-save",
+    ),
+}
+# How the page is looked at, which no file holds.
+VIEW = {"time": "2", "rate": "5", "follow": "true", "handle": "3", "view": "1,2,9", "lang": "zh", "door": "all"}
+# Who is followed or chosen, and the drawing as a whole; then numbers that a dance on a drawn path has not.
+ELSEWHERE = {"bench", "dragon", "drawing", "speed_limit"}
+OF_SEVERAL = {"pitch", "start_turns", "turning_diameter", "ratio", "entry_radius", "exit_radius"}
+NAMES = """async () => {
+  const page = (name) => import(new URL(name, document.querySelector("script[type=module]").src));
+  const [{ DEFAULTS }, { PARTS }] = [await page("state.js"), await page("drawing.js")];
+  return [...Object.keys(DEFAULTS), ...PARTS];
+}"""
+
+
+def query(address: dict[str, str]) -> str:
+    return f"?{urlencode(address)}"
+
+
+def reopened(person: Person, name: str, file: bytes, folder: Path) -> dict[str, str]:
+    """The address after a file was opened, without how it is looked at."""
+    path = folder / name
+    path.write_bytes(file)
+    person.takes(str(path)).sees({"#status": name})
+    return {one: text for one, text in person.settles().address().items() if one not in VIEW}
+
+
+def test_every_part_of_the_state_is_tried_here(visit: Any) -> None:
+    tried = set(VIEW).union(*(held | more for held, more, _ in PROJECTS.values()))
+    assert set(visit().ask(NAMES)) == tried | ELSEWHERE | OF_SEVERAL
+    assert all(f"!{name}:" in DANCES for name in OF_SEVERAL)
+
+
+@pytest.mark.parametrize("case", PROJECTS)
+def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(
+    case: str, open_page: Any, visit: Any, tmp_path: Path
+) -> None:
+    held, more, save = PROJECTS[case]
+    person = open_page(query(held | more | VIEW))
+    assert person.address() == held | more | VIEW
+    person.page.reload()
+    assert person.settles().address() == held | more | VIEW
+    file = person.saves(save)
+    map_file = person.reaches().saves("#keepMap-GeoJSON")
+    # Another dance, of which nothing stays.
+    held_before, more_before, _ = PROJECTS["walked" if case == "drawn" else "drawn"]
+    before = held_before | more_before
+    assert reopened(visit(query(before)), "dance.json", file, tmp_path) == held | more
+    # What a map has not stays as it was; when a dance starts on its path belongs to the path.
+    kept = {name: text for name, text in before.items() if name not in ON_PATH}
+    assert reopened(visit(query(before)), "map.geojson", map_file, tmp_path) == kept | held
