@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from app.cards.words import CardWords
+from app.files.words import Say
 from app.wire.clocks import time_of_day
 from app.wire.texts import text_to_cell
 from core.people.crew import Crew, Spell
@@ -44,9 +45,20 @@ class CrewWords:
         return max(one.end - one.begin for one in self.crew.spells)
 
     @property
+    def lack(self) -> list[str]:
+        """That the spares are too few for all changes, how many are enough, and how many benches never change."""
+        return lack_words(self.crew.enough, len(self.crew.unrelieved), self.words.say)
+
+    @property
     def changes(self) -> list[Spell]:
         """The spells that begin with a change, in order of time."""
         return [one for one in self.crew.spells if one.relieved is not None]
+
+
+def lack_words(enough: int, never: int, say: Say) -> list[str]:
+    """That the spares are too few for all changes. enough: spares that are not; never: benches that never change"""
+    few = say(f"too few spares for all changes: {enough} are enough", f"替补不够，不能每次全员换下：需 {enough} 名")
+    return [few] + ([say(f"{never} of the benches never change", f"{never} 节板凳始终无人换下")] if never else [])
 
 
 def crew_csv(crew: CrewWords) -> bytes:

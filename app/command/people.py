@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.table import Table
 
+from app.cards.crew import lack_words
 from app.command import show
 from app.command.options import Json, asks, numbers, of_file
 from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words
 from app.files.tables import CSV_TYPE, Language
+from app.files.words import Say
 from app.maps.dances import read_dance
 from app.questions.crew import QUESTION as CREW
 from app.questions.crew import Crew, CrewFields, CrewRequest, PointBody, Roll
@@ -109,6 +112,9 @@ def _print_crew(answer: Crew) -> None:
         benches = ", ".join(dict.fromkeys(str(spell.bench) for spell in one.spells)) or "none"
         table.add_row(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
     show.print_parts(table, *([_roll_table(answer.at)] if answer.at else []))
+    if answer.spares < answer.enough:
+        words = lack_words(answer.enough, len(answer.unrelieved), Say(Language.ENGLISH))
+        print(f"{'; '.join(words).capitalize()}.", file=sys.stderr)
 
 
 def _roll_table(roll: Roll) -> Table:

@@ -98,8 +98,10 @@ export class Crew {
     if (this.#problem) return this.result.replaceChildren(make("p", { className: "error", ...refusalWords(this.#problem) }));
     // People of another dance are none of this one.
     if (!this.#answer || this.#of !== this.questions.dance) return this.result.replaceChildren();
-    const { people, spares, changes, longest, at, carriers, start, stop } = this.#answer;
+    const { people, spares, changes, longest, enough, unrelieved, at, carriers, start, stop } = this.#answer;
     const parts = [make("p", { textContent: say("crewIs", { people, spares, changes, longest: minutes(longest) }) })];
+    const never = unrelieved.length ? [say("crewNever", { count: unrelieved.length, benches: this.#of.numbers.benches })] : [];
+    if (spares < enough) parts.push(make("p", { className: "error", textContent: [say("crewLack", { enough }), ...never].join(" ") }));
     if (at) parts.push(this.#roll(at));
     this.result.replaceChildren(...parts, this.#people(carriers, start, stop));
   }

@@ -158,6 +158,10 @@ class Crew(Answer):
     stop: float = measure("s", "End of the last spells")
     changes: int = Field(description="How many times somebody takes over from somebody")
     longest: float = measure("s", "Longest time that anybody carries without a break")
+    enough: int = Field(
+        description="Least number of spares with which everybody goes out at every change of their bench; 0: no changes"
+    )
+    unrelieved: list[int] = Field(description="Benches that have changes, and of which nobody ever goes out")
     places: list[PlaceOfChange] = Field(description="Where the path passes the points, in order of the points")
     at: Roll | None = Field(description="Who is where at the time asked about; null: none was asked about")
     carriers: list[Carrier] = Field(description="All people")
@@ -316,6 +320,8 @@ def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | Non
             f"连续抬板最长 {minutes}:{seconds:02d}",
         ),
     ]
+    if not result.is_kept:
+        facts += crew.lack
     family = families_for([title], request.language)
     table = None if roll is None else _roll_table(roll, crew)
     return _drawn(dance, CrewSheets(crew, title, facts, family, terms.budget, table), terms)

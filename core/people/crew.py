@@ -15,7 +15,7 @@ bench passes a place is that of Passing, within a centimetre of the place.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -84,6 +84,8 @@ class Crew(Readable):
 
     people: number of people; spares: those among them who carry nothing at the start; start, stop: [s]
     needed: people on each bench
+    enough: least number of spares with which everybody goes out at every change of their bench
+    unrelieved: benches that have changes, and of which nobody ever goes out
     """
 
     people: int
@@ -92,7 +94,14 @@ class Crew(Readable):
     stop: float
     needed: tuple[int, ...]
     spells: tuple[Spell, ...]
-    _units = {"people": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+    enough: int = 0
+    unrelieved: tuple[int, ...] = ()
+    _units = {"people": "", "enough": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+    @property
+    def is_kept(self) -> bool:
+        """True if everybody goes out at every change of their bench."""
+        return self.spares >= self.enough
 
     def on_benches(self, time: float) -> list[list[int]]:
         """The people on each bench at a time [s]; at a change those who come in. Nobody outside the dance."""
@@ -173,8 +182,33 @@ def crew(
         budget.afford(float(len(changes[time])))
         turns.change(time, changes[time])
     turns.finish(until)
-    people = len(benches) + relief.spares
-    return Crew(people, relief.spares, begin, until, tuple(map(int, needed)), _with_places(dance, turns.spells, budget))
+    counts, people = tuple(map(int, needed)), len(benches) + relief.spares
+    relieved = {bench for _, bench, _, _, out in turns.spells if out is not None}
+    unrelieved = frozenset[int]().union(*changes.values()) - relieved
+    spells, enough = _with_places(dance, turns.spells, budget), _enough(changes, counts, relief.rest)
+    return Crew(people, relief.spares, begin, until, counts, spells, enough, tuple(sorted(unrelieved)))
+
+
+def _enough(changes: Mapping[float, frozenset[int]], needed: Sequence[int], rest: float) -> int:
+    """Least number of spares with which everybody goes out at every change of their bench.
+
+    Let n(t) be the number of people on the benches that change at t. Where all of them go out, those who went out at
+    t' with t - t' < rest, or at t itself, rest at t, and n(t) spares who do not must come in. So the spares must be at
+    least the sum of n(t') over all t' <= t with t - t' < rest, with n(t) in it, for every t. The largest of these sums
+    is enough too: then at least n(t) have rested long enough at every t.
+
+    changes: the benches that change at each moment [s]; needed: people on each bench; rest: [s]
+    """
+    total, most, resting = sum(needed), 0, 0
+    recent = deque[tuple[float, int]]()
+    for time, benches in sorted(changes.items()):
+        count = total if len(benches) == len(needed) else sum(needed[bench] for bench in benches)
+        while recent and time - recent[0][0] >= rest:
+            resting -= recent.popleft()[1]
+        recent.append((time, count))
+        resting += count
+        most = max(most, resting)
+    return most
 
 
 @dataclass

@@ -38,6 +38,7 @@ def test_who_carries_when_and_where_is_as_the_service_says(open_page, server):
     person.types({f"#crew-{name}": number for name, number in numbers.items()}, "Tab").presses("#crew-ask")
     answer = crew(server, spares=6, shift=15, rest=10, points=[{"x": 0, "y": 0.5}], at=20)
     assert answer["changes"] > 6
+    person.sees({f"{RESULT} .error": [f"{answer['enough']} spares are enough", f"{len(answer['unrelieved'])} of "]})
     people = f"{answer['people']} people, 6 of them spare"
     person.sees({f"{RESULT} p": people, RESULT: "Who is where at 19:30:20", f"{RESULT} table": 2})
     cells = [person.all(f"{RESULT} table >> nth={k} >> tbody tr").all() for k in range(2)]

@@ -1,6 +1,7 @@
 """Crew: every bench has its people at every moment, nobody carries two at once, and minutes and metres add up."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -47,6 +48,19 @@ def test_every_bench_has_its_people_nobody_two_and_minutes_and_metres_add_up(rel
     ways = float(np.dot(NEEDED, (s[1] - s[0])[:-1]))
     assert sum(one.time for one in result.carried) == pytest.approx(sum(NEEDED) * (STOP - START), abs=ROUNDING)
     assert sum(one.way for one in result.carried) == pytest.approx(ways, abs=ROUNDING)
+
+
+@pytest.mark.parametrize("relief", RELIEFS[1:], ids=repr)
+def test_with_enough_spares_everybody_goes_out_at_every_change_and_with_one_fewer_not(relief):
+    enough = planned(relief).enough
+    few, all_out, many = (len(planned(replace(relief, spares=k)).spells) for k in (enough - 1, enough, 500))
+    assert few < all_out == many
+
+
+def test_benches_of_which_nobody_ever_goes_out_are_named():
+    # At the three changes two of the eight on the head go out, who are the first of those who have carried longest.
+    assert planned(Relief(2, 25.0)).unrelieved == (1, 2, 3, 4, 5)
+    assert planned(Relief(2, None, [25.0])).unrelieved == ()
 
 
 def test_at_a_change_those_go_out_who_have_carried_longest():
