@@ -1,5 +1,6 @@
 /** A proposed dance on a card: what is good and what is tight about it, and its picture. */
 
+import { strayOf } from "./fields.js";
 import { say } from "./text.js";
 import { extent } from "./square.js";
 
@@ -44,7 +45,7 @@ export function cardTitles({ proposals, courses, yard }, gates) {
 
 /** {size, good, tight, isTight}: the words of a proposal among all of them; isTight: whether to look out there. square: name of the area */
 export function cardWords(proposal, all, square) {
-  const { dance, duration, length, tolerance, turns, near, clearance, sharpest_bend: bend } = proposal;
+  const { dance, duration, length, tolerance, turns, near, clearance, clearance_in_place: apart, sharpest_bend: bend } = proposal;
   const most = (value) => all.length > 1 && all.every((one) => one === proposal || value(one) < value(proposal) - 1e-3);
   const stray = String(centimetresDown(tolerance));
   const good = [say(most((one) => one.tolerance) ? "good_tolerance_best" : "good_tolerance", { stray })];
@@ -52,7 +53,11 @@ export function cardWords(proposal, all, square) {
   if (most((one) => one.turns)) good.push(say("good_turns", { turns: turns.toFixed(1) }));
   if (most((one) => -(one.sharpest_bend ?? 0))) good.push(say("good_gentle"));
   const isPair = clearance !== null && clearance < near.distance;
-  const tight = [isPair ? say("tight_pair", { distance: clearance.toFixed(2) }) : say(near.name === square ? "tight_border" : "tight_near", { distance: near.distance.toFixed(2), name: near.name })];
+  const [inPlace, strayed] = isPair ? [apart, clearance] : [near.in_place, near.distance];
+  const nearest = say(isPair ? "tight_pair" : near.name === square ? "tight_border" : "tight_near", { distance: inPlace.toFixed(2), name: near.name });
+  // The distance counts from people in place, as does the stray that is safe.
+  const asked = strayOf({ stray: 0, hole: 0, pin: 0, ...dance });
+  const tight = [asked ? nearest + say("tight_strayed", { stray: Number((100 * asked).toFixed(2)), distance: strayed.toFixed(2) }) : nearest];
   const isTight = Math.min(clearance ?? Infinity, near.distance) < NEAR || degrees(bend ?? 0) > BEND || tolerance < LITTLE;
   if (degrees(bend ?? 0) > BEND) tight.push(say("tight_bend", { angle: degrees(bend).toFixed(0) }));
   if (tolerance < LITTLE) tight.push(say("tight_stray", { stray }));

@@ -62,8 +62,9 @@ class Near(Answer):
     """What the benches come nearest to."""
 
     name: str = Field(description="Name of the square or of the obstacle")
-    distance: float = measure("m", "Smallest distance found")
+    distance: float = measure("m", "Smallest distance found, however people stray by the stray of the request")
     time: float = measure("s", "Time at which it is reached")
+    in_place: float = measure("m", "Smallest distance from it with everybody in place")
 
 
 class Proposal(Answer):
@@ -77,7 +78,11 @@ class Proposal(Answer):
     area: float = measure("m2", "Area of the ground that benches sweep, which reaches at most 0.1 m beyond them")
     turns: float = measure("turns", "Turns of the head, all bends added up")
     sharpest_bend: float | None = measure("rad", "Largest angle of two consecutive benches; null for a single bench")
-    clearance: float | None = measure("m", "Least distance of two benches; null with fewer than three")
+    clearance: float | None = measure(
+        "m",
+        "Least distance of two benches, however people stray by the stray of the request; null with fewer than three",
+    )
+    clearance_in_place: float | None = measure("m", "The same with everybody in place")
     highest_speed: float | None = measure("m/s", "Highest speed of any handle")
     near: Near = Field(description="What the benches come nearest to")
     gates: list[int] = Field(description="Numbers of the gates by which it enters and leaves; none without gates")

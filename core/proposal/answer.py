@@ -105,11 +105,16 @@ def benches_of(count: int) -> str:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Near(Readable):
-    """What the benches come nearest to: the name of the square or of an obstacle, the distance [m], the time [s]."""
+    """What the benches come nearest to: the name of the square or of an obstacle, the distance [m], the time [s].
+
+    distance: however people stray by what was asked for; in_place: the same with everybody in place [m]
+    """
 
     name: str
     distance: float
     time: float
+    in_place: float
+    _units = {"in_place": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -121,6 +126,7 @@ class Proposal(Readable):
     tolerance: largest stray proven safe with no margin [m]; area: of the ground that benches sweep, GROUND too large at
         most along its border [m2]; turns: that the head makes, all bends added up [1]
     near: what the benches come nearest to; gates: numbers of the gates in and out, empty without
+    clearance_in_place: least distance of two benches with everybody in place [m]; None for fewer than three
     """
 
     figure: Figure
@@ -132,7 +138,8 @@ class Proposal(Readable):
     turns: float
     near: Near
     gates: tuple[int, ...]
-    _units = {"area": "m2", "tolerance": "m", "turns": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+    clearance_in_place: float | None
+    _units = {"clearance_in_place": "m", "area": "m2", "tolerance": "m", "turns": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     @property
     def duration(self) -> float:
@@ -147,7 +154,7 @@ class Proposal(Readable):
 
     @property
     def clearance(self) -> float | None:
-        """Least distance of two benches [m]; None for fewer than three."""
+        """Least distance of two benches, however people stray by what was asked for [m]; None for fewer than three."""
         least = self.report.least_clearance
         return None if least is None else least.distance
 
@@ -166,7 +173,9 @@ class Proposal(Readable):
     def _line(self) -> str:
         benches = benches_of(self.dance.dragon.benches)
         safe = f"strays up to {display(self.tolerance, 'm', 3)} are safe"
-        near = f"{display(self.near.distance, 'm', 3)} from {self.near.name!r}"
+        near = f"{display(self.near.in_place, 'm', 3)} from {self.near.name!r}"
+        if self.near.distance != self.near.in_place:
+            near += f", {display(self.near.distance, 'm', 3)} as far as people may stray"
         return f"{NAMES[self.figure]} of {benches}, {self.duration:.0f} s, {self.length:.0f} m; {safe}; {near}"
 
 

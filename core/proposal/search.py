@@ -11,6 +11,8 @@ from dataclasses import dataclass, replace
 from itertools import permutations, product
 from typing import Any
 
+from core.contact.clearance import LeastClearance, least_clearance
+from core.contact.walls import venue_clearance
 from core.dance import Dance
 from core.dragon import Dragon
 from core.extremes.speed import maximum_head_speed
@@ -260,9 +262,24 @@ class Search:
         swept = envelope(dance, start=0.0, excess=GROUND, budget=self.budget)
         safe = tolerance(dance, self.venue, start=0.0, budget=self.budget)
         gates = tuple(self.gates.index(gate) for gate in one.design.gates or ())
-        near = Near(name, least.distance, least.time)
-        turns = one.rating.turns
-        return Proposal(one.design.figure, dance, self.venue, report, safe.stray, swept.area, turns, near, gates)
+        turns, apart, alone = one.rating.turns, report.least_clearance, least.distance
+        if self.wish.stray:
+            apart, alone = self._in_place(dance, report, name)
+        near, in_place = Near(name, least.distance, least.time, alone), None if apart is None else apart.distance
+        return Proposal(
+            one.design.figure, dance, self.venue, report, safe.stray, swept.area, turns, near, gates, in_place
+        )
+
+    def _in_place(self, dance: Dance, report: Report, name: str) -> tuple[LeastClearance | None, float]:
+        """The least clearance of two benches, and the distance from an area by name [m], for people who do not stray.
+
+        report: for those who do, which passes
+        """
+        span: dict[str, Any] = {"start": report.start, "stop": report.stop, "budget": self.budget}
+        areas = venue_clearance(dance, self.venue, **span).areas
+        nearest = next(area.nearest for area in areas if area.name == name)
+        assert nearest is not None
+        return least_clearance(dance, **span), nearest.distance
 
 
 def _apart(design: Design, other: Design, way: float) -> bool:

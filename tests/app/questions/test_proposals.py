@@ -45,7 +45,11 @@ def test_every_dance_passes_its_check_as_it_is(ask, more):
         measured = [report["stop"], report["highest_speed"]["speed"], report["sharpest_bend"]["angle"], nearest]
         known = [one["duration"], one["highest_speed"], one["sharpest_bend"], one["near"]["distance"]]
         assert measured == pytest.approx(known, rel=0, abs=1e-9)
-        assert one["summary"].endswith(f"from '{one['near']['name']}'.")
+        calm = ask("check", body | {"stray": 0.0})
+        own = next(area["nearest"] for area in calm["venue"]["areas"] if area["name"] == one["near"]["name"])
+        in_place = [one["near"]["in_place"], one["clearance_in_place"]]
+        assert [own["distance"], calm["least_clearance"]["distance"]] == pytest.approx(in_place, rel=0, abs=1e-9)
+        assert f"from '{one['near']['name']}'" in one["summary"]
 
 
 def test_a_reason_stands_where_no_dance_fits(ask):
