@@ -111,7 +111,7 @@ def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(open
     base = f"http://127.0.0.1:{port}"
     with serving(tmp_path / "gone.log", port=port, deadline_seconds=PATIENT):
         person = held(open_page("?benches=20&bench=7&lang=en", base=base, failing=True, **PHONE))
-    person.sees({HINT: "No network: the card goes on."}).presses("#card-start")
+    person.sees({HINT: "No network: the card goes on while this page stays open"}).presses("#card-start")
     before = person.picture()
     person.ask(AHEAD, 5)
     cues = {lang: card(server, lang)["cues"] for lang in ("en", "zh")}

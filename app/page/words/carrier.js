@@ -29,9 +29,9 @@ export const CARRIER = {
   cardDistances: ["Distances are from edge to edge when the other bench is straight to your side; before and after it may be nearer.", "距离是对方在你正侧方时两凳边到边的距离，此前此后可能更近。"],
   cardNone: ["This dragon has no bench {bench}: its tail is bench {last}.", "没有 {bench} 号板凳：龙尾是 {last} 号。"],
   cardLoading: ["Loading: stay within reach of the network.", "正在加载，请保持网络连接。"],
-  cardHeld: ["All is on this device: it goes on without the network.", "已全部保存在本机，断网也能继续。"],
-  cardPart: ["The cues are on this device. The dance is too large to hold its picture, which needs the network.", "提示已保存在本机；舞龙过大，画面需要网络。"],
-  cardOffline: ["No network: the card goes on.", "没有网络，提示卡照常运行。"],
+  cardHeld: ["All is here: it goes on without the network while this page stays open. Do not reload it then.", "已全部载入：断网也能继续，但请勿关闭或刷新本页。"],
+  cardPart: ["The cues are here while this page stays open. The dance is too large to hold its picture, which needs the network.", "提示已载入，请勿关闭本页；舞龙过大，画面需要网络。"],
+  cardOffline: ["No network: the card goes on while this page stays open. Do not reload it.", "没有网络，提示卡照常运行，请勿关闭或刷新本页。"],
   cardAwake: ["The screen stays on.", "屏幕保持常亮。"],
   cardAsleep: ["Set your device so that its screen stays on.", "请将设备设为屏幕常亮。"],
 };
