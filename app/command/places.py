@@ -111,6 +111,9 @@ def maps(
     with refusing(request), show.waiting("map"):
         data = maps_of(request, Terms(), MapFormat(ending[1:]).media_type)
     show.write(output, data)
+    if ending == ".geojson" and "origin" not in orjson.loads(data):
+        words = "Its coordinates are metres, not longitude and latitude"
+        print(f"{words}: --longitude and --latitude of x = y = 0 give these.", file=sys.stderr)
 
 
 def _gate(text: str) -> dict[str, Any]:

@@ -230,10 +230,11 @@ export class Keep {
       if (item.job) return;
       announce(() => say("making", { name: say(item.key) }), true);
       this.#mark(item, form, true);
-      const blob = item.ask ? await this.#fetch(this.#requests[item.ask](this.questions, form), form) : await this.#picture();
+      const { blob, inMetres } = item.ask ? await this.#fetch(this.#requests[item.ask](this.questions, form), form) : { blob: await this.#picture(), inMetres: false };
       const name = fileName(item.file, form);
       download(blob, name);
-      announce(() => say("saved", { name }));
+      const canBePlaced = inMetres && item.ask === "map" && this.questions.dance.kind === "route";
+      announce(() => [say(inMetres ? "savedMetres" : "saved", { name }), ...(canBePlaced ? [say("savedPlace")] : [])].join(" "));
     } catch (error) {
       // What takes too long for one answer is made as a job.
       if (error instanceof Problem && error.problem.type === TOO_LONG) this.#begin(item, form).catch(announceRefusal);
@@ -254,9 +255,12 @@ export class Keep {
     return FIELDS.filter(({ name, only }) => BESIDES.includes(name) && Number(state.get(name)) && (!only || only === state.get("path"))).map(({ name }) => name);
   }
 
+  /** {blob, inMetres: true for a map without a place on earth} */
   async #fetch({ path, request, ...question }, form) {
     const answer = await this.service.ask(`keep ${path} ${form}`, path, { ...question, accept: TYPES[form] });
-    return form === "JSON" ? new Blob([JSON.stringify(answer, null, 2)], { type: TYPES.JSON }) : form === "GeoJSON" ? new Blob([JSON.stringify(answer)]) : answer;
+    if (form === "JSON") return { blob: new Blob([JSON.stringify(answer, null, 2)], { type: TYPES.JSON }), inMetres: false };
+    if (form === "GeoJSON") return { blob: new Blob([JSON.stringify(answer)]), inMetres: !answer.origin };
+    return { blob: answer, inMetres: false };
   }
 
   /** Start a job, which is among the jobs too. */

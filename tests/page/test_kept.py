@@ -89,6 +89,8 @@ def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(
     assert person.settles().address() == held | more | VIEW
     file = person.saves(save)
     map_file = person.reaches().saves("#keepMap-GeoJSON")
+    # It is said of which kind its coordinates are.
+    assert ("米" in person.text("#status")) is ("origin" not in held)
     # Another dance, of which nothing stays.
     held_before, more_before, _ = PROJECTS["walked" if case == "drawn" else "drawn"]
     before = held_before | more_before

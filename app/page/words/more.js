@@ -38,6 +38,8 @@ export const MORE = {
   handle: ["Handle", "把手"],
   speed: ["speed [m/s]", "速度 [m/s]"],
   saved: ["Saved {name}", "已保存 {name}"],
+  savedMetres: ["Saved {name}: its coordinates are metres, not longitude and latitude.", "已保存 {name}：坐标单位是米，不是经纬度。"],
+  savedPlace: ["“Latitude, longitude of 0, 0”, below the square, turns them into these.", "在广场下方填写“原点的纬度、经度”，即为经纬度。"],
   and: [" and ", "、"],
   comma: [", ", "，"],
   colon: [": ", "："],
