@@ -15,9 +15,10 @@ from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words
 from app.files.tables import Language
+from app.maps.choice import Choice
 from app.maps.dances import read_dance
 from app.maps.layout import DanceParts
-from app.maps.places import Places, read_map
+from app.maps.places import Places, drawn_layers, map_data, read_map
 from app.maps.tracks import CHORD
 from app.questions.maps import MapFormat, MapsRequest, OriginFields
 from app.questions.maps import maps as maps_of
@@ -48,6 +49,16 @@ def places(
         float,
         typer.Option(min=1e-3, max=50.0, help="Longest distance of two handles, for which a track is smoothed [m]."),
     ] = CHORD,
+    layers: Annotated[
+        str | None, typer.Option(help="Layers of a DXF to read, with commas between them; default: all.")
+    ] = None,
+    area: Annotated[
+        str | None,
+        typer.Option(metavar="X,Y,X,Y", help="Read what reaches into this area of a DXF [m]: least x and y, largest."),
+    ] = None,
+    only_layers: Annotated[
+        bool, typer.Option("--only-layers", help="Name the layers of a DXF, and their edges.")
+    ] = False,
     language: Annotated[Language, typer.Option(help="Language of the notes.")] = Language.ENGLISH,
     json: Json = False,
 ) -> None:
@@ -57,7 +68,10 @@ def places(
     if output:
         checked_output("output", output, (".json",))
     coordinates: dict[str | None, Coordinates | None] = {None: None, "metres": "metres", "degrees": "degrees"}
-    parts = read_map(file, coordinates[units], language, longest_chord)
+    if only_layers:
+        _print_layers(file, json)
+        return
+    parts = read_map(file, coordinates[units], language, longest_chord, Choice.of(layers, area))
     answer = Places.of(parts)
     if output:
         names = ("path", "venue", "passages") if times else ("path", "venue")
@@ -69,6 +83,17 @@ def places(
     for note in parts.notes:
         print(note, file=sys.stderr)
     _print(parts)
+
+
+def _print_layers(file: Path, json: bool) -> None:
+    layers = drawn_layers(map_data(file))
+    if json:
+        show.print_json(Places(path=None, venue=None, dance=None, passages=None, notes=[], layers=layers).to_json())
+        return
+    table = show.new_table("Layers", "layer", "edges")
+    for layer in layers:
+        table.add_row(layer.name, str(layer.edges))
+    show.print_parts(table)
 
 
 def _print(parts: DanceParts) -> None:

@@ -5,21 +5,23 @@ from __future__ import annotations
 import io
 import logging
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from importlib import import_module
 from itertools import islice
-from typing import Any
+from typing import Any, TypeVar
 
 import orjson
 
 from app.extras import require
 from app.files.outlines import dxf_bytes, new_dxf
+from app.maps.choice import EVERYTHING, Choice
 from app.maps.entities import HOLES, MARKS, Entities
 from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, grid_of, inner_point, origin_of
 from core import InvalidValue
 from core.errors import Quantity
 from core.venue import Ring
 
+Content = TypeVar("Content")
 # Metres in the units of $INSUNITS: inch, foot, mile, millimetre, centimetre, metre, kilometre, microinch, mil, yard,
 # micrometre (13), decimetre, decametre, hectometre, and foot, inch, yard and mile of surveyors in the US (21 to 24).
 UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0, 8: 2.54e-8, 9: 2.54e-5, 10: 0.9144,
@@ -49,8 +51,19 @@ RECORD, CHUNK = "BENCH_DRAGON", 2_000
 WORDS, CROSS = 0.3, 0.2
 
 
-def read(data: bytes) -> Drawing:
-    """The map in a drawing. raises: InvalidValue; MissingPackage"""
+def read(data: bytes, choice: Choice = EVERYTHING) -> Drawing:
+    """The map in a drawing, or a part of it. raises: InvalidValue; MissingPackage"""
+    return _of_document(data, lambda document, fixes: _drawing(document, fixes, choice))
+
+
+def layers_of(data: bytes) -> dict[str, int]:
+    """The layers on which something is drawn that is read, and the number of edges on each. raises: as read()"""
+    edges = _of_document(data, lambda document, _: Entities(document, 1.0, {}, Choice(counts=True)).edges)
+    return {name: count for name, count in edges.items() if count}
+
+
+def _of_document(data: bytes, read_from: Callable[[Any, list[str]], Content]) -> Content:
+    """What a function reads from a document of ezdxf and the faults that it has mended. raises: as read()"""
     require("dxf", "file", "DXF")
     if data.startswith(b"AutoCAD Binary DXF"):
         raise InvalidValue("file", "must be DXF as text: save it as ASCII DXF", got="binary DXF")
@@ -61,7 +74,7 @@ def read(data: bytes) -> Drawing:
     # Its messages may hold parts of the file.
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:
-        return _read(data)
+        return read_from(*_read(data))
     except InvalidValue:
         raise
     # Other errors that ezdxf raises for a faulty drawing.
@@ -73,8 +86,8 @@ def read(data: bytes) -> Drawing:
         raise InvalidValue("file", rule, why=why) from error
 
 
-def _read(data: bytes) -> Drawing:
-    """The drawing as ezdxf reads it.
+def _read(data: bytes) -> tuple[Any, list[str]]:
+    """The document as ezdxf reads it, and the faults that it has mended.
 
     Small programs leave out the markers (code 100) of the parts of an entity. ezdxf does without those of simple ones;
     those that it misses are written into the file, and entities of other kinds without them are left out.
@@ -85,7 +98,7 @@ def _read(data: bytes) -> Drawing:
     while True:
         try:
             document, audit = recover.read(io.BytesIO(data))
-            return _drawing(document, [*missing, *(str(fix.message) for fix in audit.fixes)])
+            return document, [*missing, *(str(fix.message) for fix in audit.fixes)]
         except errors.DXFStructureError as error:
             unmarked = UNMARKED.search(str(error))
             if unmarked is None or attempts == KINDS_MOST:
@@ -128,11 +141,12 @@ def _refuse_many(data: bytes) -> None:
         raise InvalidValue("file", rule, got="more", lines=LINES_MAX, records=RECORDS_MAX)
 
 
-def _drawing(document: Any, fixes: Iterable[str]) -> Drawing:
+def _drawing(document: Any, fixes: Iterable[str], choice: Choice) -> Drawing:
     """fixes: what ezdxf says of faults that it has mended"""
     code = int(document.header.get("$INSUNITS", 0))
     record = _record_of(document)
-    entities = Entities(document, UNITS.get(code, 1.0), record)
+    entities = Entities(document, UNITS.get(code, 1.0), record, choice)
+    choice.refuse_unknown(entities.edges)
     for fix in fixes:
         if deleted := DELETED.search(fix):
             entities.collector.leave_out(f"damaged {deleted[1]}")

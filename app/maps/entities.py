@@ -7,6 +7,7 @@ from dataclasses import replace
 from math import dist, radians
 from typing import Any
 
+from app.maps.choice import EVERYTHING, Choice
 from app.maps.curves import Damaged, points_of
 from app.maps.features import (
     LEAVE_OUT,
@@ -26,8 +27,9 @@ from app.maps.layout import refuse_many_edges_of
 from core import InvalidValue
 from core.values import Point
 
-# Deepest nesting of blocks, and most entities of a drawing; those of a block count each time it is used.
-DEPTH_MAX, ENTITIES_MAX = 4, 20_000
+# Deepest nesting of blocks, and most entities of a drawing, without and with those that are not read; those of a block
+# count each time it is used.
+DEPTH_MAX, ENTITIES_MAX, SEEN_MAX = 4, 20_000, 100_000
 CURVES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "ELLIPSE", "SPLINE")
 TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 # Layer of marks, whose crosses are not things; and the layer whose entities take that of their block.
@@ -47,15 +49,22 @@ COLUMNS = 3
 class Entities:
     """Collects the features of a drawing, in metres."""
 
-    def __init__(self, document: Any, factor: float, record: Mapping[str, Any]) -> None:
-        """factor: metres in a unit; record: of this program; names, and radii of walls [m], by handle"""
+    def __init__(self, document: Any, factor: float, record: Mapping[str, Any], choice: Choice = EVERYTHING) -> None:
+        """factor: metres in a unit; record: of this program; names, and radii of walls [m], by handle
+
+        choice: what is read; edges: how many each layer has of what is read
+        """
         self.factor, self.names = factor, _mapping(record.get("names"))
         self.radii = {handle: one for handle, one in _mapping(record.get("radii")).items() if isinstance(one, float)}
         self.collector, self.labels = FeatureCollector(), list[MapText]()
-        self.layers = document.layers
-        self.seen = 0
+        self.layers, self.choice = document.layers, choice
+        self.most = ENTITIES_MAX if choice.is_all else SEEN_MAX
+        self.seen, self.edges = 0, dict[str, int]()
         for entity, layer in self._visible(document.modelspace()):
-            self._take(entity, layer)
+            if choice.has_layer(layer):
+                self._take(entity, layer)
+            else:
+                self.edges.setdefault(layer, 0)
 
     def _visible(self, some: Any, depth: int = 0, around: str = OF_BLOCK) -> Iterator[tuple[Any, str]]:
         """Every entity that can be seen, with its layer; those of a block wherever the block is inserted."""
@@ -94,9 +103,9 @@ class Entities:
 
     def _count(self, more: int) -> None:
         self.seen += more
-        if self.seen > ENTITIES_MAX:
+        if self.seen > self.most:
             rule = f"must draw at most {{most}} entities, counting a block at each use: {LEAVE_OUT}"
-            raise InvalidValue("file", rule, got="more", most=ENTITIES_MAX)
+            raise InvalidValue("file", rule, got="more", most=self.most)
 
     def _state(self, layer: str) -> tuple[bool, bool]:
         """Whether a layer is off, and whether it is frozen."""
@@ -112,11 +121,11 @@ class Entities:
         if kind in TEXTS:
             self._read_text(entity, kind)
         elif kind == "POINT":
-            self.collector.add(replace(feature, rings=((self._place(entity.dxf.location),),)))
+            self._add(replace(feature, rings=((self._place(entity.dxf.location),),)))
         elif kind == "CIRCLE":
             centre = self._place(entity.ocs().to_wcs(entity.dxf.center))
             circle = replace(feature, rings=((centre,),), radius=float(entity.dxf.radius) * self.factor)
-            self.collector.add(round_area(circle) if circle.role == SQUARE else circle)
+            self._add(round_area(circle) if circle.role == SQUARE else circle)
         elif mesh := next((word for test, word in MESHES if getattr(entity, test, False)), None):
             self.collector.leave_out(mesh)
         elif kind in CURVES:
@@ -134,7 +143,7 @@ class Entities:
             is_left = entity.dxf.halign == 0 and entity.dxf.valign == 0
             at = entity.dxf.insert if is_left else entity.dxf.get("align_point", entity.dxf.insert)
             at, align = entity.ocs().to_wcs(at), {1: 0.5, 2: 1.0, 4: 0.5}.get(int(entity.dxf.halign), 0.0)
-        if words.strip():
+        if words.strip() and self.choice.reaches([self._place(at)]):
             self.labels.append(label_of(words.strip(), self._place(at), abs(height) * self.factor, turned, align))
 
     def _add_curve(self, entity: Any, feature: MapFeature) -> None:
@@ -160,13 +169,19 @@ class Entities:
         """Add a line; one with a width reaches to both sides of it, also where it is the outline of an area."""
         drawn = drawn_as(line)
         if half == 0.0:
-            self.collector.add(drawn)
+            self._add(drawn)
         elif drawn.shape == "polygon":
-            self.collector.add(drawn)
+            self._add(drawn)
             edge = f"edge of {drawn.name}" if drawn.name else None
-            self.collector.add(replace(line, shape="line", name=edge, role=OBSTACLE, radius=half))
+            self._add(replace(line, shape="line", name=edge, role=OBSTACLE, radius=half))
         else:
-            self.collector.add(replace(line, shape="line", radius=half))
+            self._add(replace(line, shape="line", radius=half))
+
+    def _add(self, feature: MapFeature) -> None:
+        layer, points = _layer_of(feature), [point for ring in feature.rings for point in ring]
+        self.edges[layer] = self.edges.get(layer, 0) + max(len(points) - 1, 1)
+        if not self.choice.counts and self.choice.reaches(points):
+            self.collector.add(feature)
 
     def _place(self, point: Any) -> Point:
         return float(point[0]) * self.factor, float(point[1]) * self.factor

@@ -18,6 +18,7 @@ from app.files.tables import Language
 from app.files.words import Say
 from app.maps import dxf, geojson, gpx, kml
 from app.maps.benches import benches_of
+from app.maps.choice import EVERYTHING, PARTLY, Choice
 from app.maps.features import FEATURES_MAX, LEAVE_OUT, POINTS_MAX, aside_features, features_of
 from app.maps.layout import DanceParts, Reading
 from app.maps.lines import checked_path
@@ -39,6 +40,13 @@ PARTS_MAX = 2 * (POINTS_MAX + 3 * FEATURES_MAX)
 MARKS_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
+class DrawnLayer(Answer):
+    """A layer of a drawing on which something is drawn that is read."""
+
+    name: str = Field(description="Its name")
+    edges: int = Field(description="Sides of all that is drawn on it; a venue may have 2,000")
+
+
 class Places(Answer):
     """The parts of a dance in a map."""
 
@@ -55,6 +63,9 @@ class Places(Answer):
         "path is no track, or has no times"
     )
     notes: list[str] = Field(description="Assumptions, and things left out, in sentences")
+    layers: list[DrawnLayer] | None = Field(
+        None, description="The layers of a drawing, if only_layers asks for them, and nothing else then; else null"
+    )
 
     @classmethod
     def of(cls, parts: DanceParts) -> Self:
@@ -64,31 +75,77 @@ class Places(Answer):
 
 
 def read_places(
-    data: bytes, units: Coordinates | None, language: Language, chord: float, budget: Budget
+    data: bytes, units: Coordinates | None, language: Language, chord: float, choice: Choice, budget: Budget
 ) -> Places | BenchDragonError:
-    """Content of a map, or its refusal, for another process."""
+    """Content of a map, or its refusal, for another process. choice: of a drawing; that counts, its layers alone"""
     try:
-        return Places.of(places_of(data, units, Say(language), budget, chord))
+        if choice.counts:
+            return Places(path=None, venue=None, dance=None, passages=None, notes=[], layers=drawn_layers(data))
+        return Places.of(places_of(data, units, Say(language), budget, chord, choice))
     except BenchDragonError as error:
         return error
 
 
+def drawn_layers(data: bytes) -> list[DrawnLayer]:
+    """The layers of a DXF on which something is drawn, those of the most edges first. raises: InvalidValue"""
+    if not is_drawing(_start(data)):
+        raise InvalidValue("file", "must be DXF to have layers", got="another format")
+    layers = sorted(dxf.layers_of(data).items(), key=lambda one: -one[1])
+    return [DrawnLayer(name=name, edges=edges) for name, edges in layers]
+
+
+def _start(data: bytes) -> bytes:
+    """The data from the first character on."""
+    return data.lstrip(b"\xef\xbb\xbf \t\r\n")
+
+
+def is_drawing(start: bytes) -> bool:
+    """True for the beginning of a drawing, as DXF or in a form that is refused."""
+    return start.startswith((b"0", b"999", b"AutoCAD", b"AC10"))
+
+
+def _of_drawing(data: bytes, units: Coordinates | None, say: Say, choice: Choice) -> DanceParts:
+    """Square and path in a DXF, or in a part of it; too much of it is refused with advice to read a part."""
+    try:
+        parts = Reading(dxf.read(data, choice), units, say).parts()
+    except InvalidValue as error:
+        # The most of anything stands in the rule.
+        raise error.because(PARTLY) if "most" in error.values or "features" in error.values else error from None
+    notes = list(parts.notes)
+    if choice.layers is not None:
+        names = ", ".join(choice.layers)
+        notes.append(say(f"Only these layers were read: {names}.", f"只读取了这些图层：{names}。"))
+    if choice.area is not None:
+        left, low, right, high = choice.area
+        english = f"Only what reaches into x {left:g} to {right:g} m, y {low:g} to {high:g} m was read."
+        notes.append(say(english, f"只读取了 x {left:g} 至 {right:g} m、y {low:g} 至 {high:g} m 范围内的图形。"))
+    return replace(parts, notes=notes)
+
+
 def places_of(
-    data: bytes, units: Coordinates | None, say: Say, budget: Budget | None = None, chord: float = CHORD
+    data: bytes,
+    units: Coordinates | None,
+    say: Say,
+    budget: Budget | None = None,
+    chord: float = CHORD,
+    choice: Choice = EVERYTHING,
 ) -> DanceParts:
     """Square and path in a file: GeoJSON, KML, KMZ, GPX, DXF, or a dance as TOML or JSON, recognised by its first
     bytes; or the benches in a workbook.
 
     units: of its coordinates; None: as the file says, else degrees if the numbers allow it
     chord: longest distance of the handles of a bench, for which a track is smoothed [m]
-    raises: InvalidValue at the field `file`; MissingPackage
+    choice: part of a drawing that is read
+    raises: InvalidValue at the field `file`, `layers` or `area`; MissingPackage
     """
     if not data.strip():
         words = "{field} must hold a map: GeoJSON, KML, DXF, or a dance as TOML or JSON"
         raise InvalidValue.in_words("file", words, got="nothing", field=Parameter("file"))
     if data.startswith(MARKS_16):
         data = _encoded(data, "utf-16")
-    start = data.lstrip(b"\xef\xbb\xbf \t\r\n")
+    start = _start(data)
+    if not (choice.is_all or is_drawing(start)):
+        raise InvalidValue("layers" if choice.layers else "area", "must be left out: only DXF is read in part")
     if data.startswith(OLD_WORKBOOK):
         raise InvalidValue("file", "must be saved as .xlsx or CSV", got="a workbook in an old or encrypted form")
     if is_workbook(data):
@@ -102,8 +159,8 @@ def places_of(
         drawing = gpx.read(start) if gpx.is_gpx(start) else kml.read(start)
         parts = Reading(drawing, units, say, chord).parts()
         return replace(parts, notes=[*notes, *parts.notes])
-    if start.startswith((b"0", b"999", b"AutoCAD", b"AC10")):
-        return Reading(dxf.read(data), units, say, chord).parts()
+    if is_drawing(start):
+        return _of_drawing(data, units, say, choice)
     start, notes = _in_utf8(start, say)
     parts = _of_text(start, units, say)
     return replace(parts, notes=[*notes, *parts.notes])
@@ -182,13 +239,23 @@ def _of_dance(content: Mapping[str, Any], say: Say) -> DanceParts:
 
 
 def read_map(
-    file: Path, units: Coordinates | None = None, language: Language = Language.ENGLISH, chord: float = CHORD
+    file: Path,
+    units: Coordinates | None = None,
+    language: Language = Language.ENGLISH,
+    chord: float = CHORD,
+    choice: Choice = EVERYTHING,
 ) -> DanceParts:
     """The square and the path in a map; arguments as for places_of(). raises: InvalidValue, TooMuchWork, OSError"""
+    data = map_data(file)
+    with reading():
+        return places_of(data, units, Say(language), chord=chord, choice=choice)
+
+
+def map_data(file: Path) -> bytes:
+    """The bytes of a map. raises: InvalidValue for too many; OSError"""
     with file.open("rb") as source:
         data = source.read(FILE_MAX + 1)
     if len(data) > FILE_MAX:
         words = "{file} must have at most {most} bytes"
         raise InvalidValue.in_words("file", words, got="more", file=str(file), most=FILE_MAX)
-    with reading():
-        return places_of(data, units, Say(language), chord=chord)
+    return data

@@ -2,6 +2,8 @@
 
 import { tableOfFile } from "./bench_table.js";
 import { tableOf } from "./benches.js";
+import { Problem } from "./api.js";
+import { chooseParts } from "./layers.js";
 import { drawingOf, keptVenueOf } from "./drawing.js";
 import { $, bearer, download, make, textButton } from "./elements.js";
 import { FIELDS } from "./fields.js";
@@ -78,15 +80,28 @@ export class Files {
       if (content?.dances) await this.several(content, file.name);
       else if (content) this.#take(content, file.name);
     } catch (error) {
-      announceRefusal(error);
+      if (!(error instanceof Problem && /\.dxf$/i.test(file.name) && (await this.#offerParts(file, error.problem)))) announceRefusal(error);
     }
   }
 
-  async #places(file) {
+  /** Offer to open a part of a drawing that is refused as a whole; false for a file without layers. */
+  async #offerParts(file, problem) {
+    const { layers } = await this.service.ask("places", "places", { query: { only_layers: true }, file, headers: bearer() }).catch(() => ({ layers: null }));
+    if (!layers?.length) return false;
+    announce(() => "", true);
+    chooseParts(layers, problem, async (part) => {
+      announce(() => say("opening", { name: file.name }));
+      const content = await this.#places(file, part);
+      this.#take(content, file.name);
+    });
+    return true;
+  }
+
+  async #places(file, part = {}) {
     const [head, body, overhang] = ["head_length", "body_length", "overhang"].map((name) => Number(this.state.get(name)));
     // A walked track is smoothed for the longest bench.
     const chord = Math.max(head, body) - 2 * overhang;
-    const query = { language: language(), ...(chord > 0 && { longest_chord: chord }) };
+    const query = { language: language(), ...(chord > 0 && { longest_chord: chord }), ...part };
     const { dance, notes = [], ...content } = await this.service.ask("places", "places", { query, file, headers: bearer() });
     return { ...dance, ...content, notes, isDance: dance !== null };
   }

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine
 from contextlib import AbstractContextManager
+from dataclasses import replace
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Query, Request, Response
@@ -17,6 +18,7 @@ from pydantic import BaseModel, Field
 from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
 from app.grade.report import GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
+from app.maps.choice import Choice
 from app.maps.places import Places, read_places
 from app.maps.tracks import CHORD
 from app.questions.maps import FORMS
@@ -73,6 +75,19 @@ class PlacesQuery(Wire):
         "m", "Longest distance of the two handles of a bench, for which a walked track is smoothed", CHORD,
         ge=1e-3, le=50,
     )  # fmt: skip
+    layers: OneLine | None = Field(
+        None, max_length=2_000, description="Names of the layers of a DXF that are read, with commas between them; "
+        "default: all"
+    )  # fmt: skip
+    area: OneLine | None = measure(
+        "m", "Of a DXF, what reaches into this area is read: least x, least y, largest x, largest y, with commas "
+        "between them; default: everything", None, max_length=200,
+    )  # fmt: skip
+    only_layers: bool = Field(False, description="Whether to answer with the layers of a DXF and their edges alone")
+
+    def to_choice(self) -> Choice:
+        """The part of a drawing that is read. raises: InvalidValue"""
+        return replace(Choice.of(self.layers, self.area), counts=self.only_layers)
 
 
 class UploadRoute(WatchedRoute):
@@ -185,7 +200,8 @@ def places(
     budget = request.state.budget
     with in_lane(request):
         try:
-            result = graders.read(budget, read_places, data, inputs.units, inputs.language, inputs.longest_chord)
+            units, language, chord = inputs.units, inputs.language, inputs.longest_chord
+            result = graders.read(budget, read_places, data, units, language, chord, inputs.to_choice())
         except Halted:
             raise too_much(
                 budget, "file", "must be smaller: it was not read {then}", Quantity(len(data), "bytes")

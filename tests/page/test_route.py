@@ -7,6 +7,7 @@ import openpyxl
 import pytest
 
 from tests.support import polite
+from tests.support.floor_plan import EDGES, floor_plan
 from tests.support.person import PHONE, alike
 
 thorough = pytest.mark.thorough
@@ -222,6 +223,15 @@ def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(open_pag
     workbook.active.append(["吴", 3.41, 0.3, 0.275])
     workbook.save(book)
     person.takes(book, "#csv-file").holds({"#csv": "吴,3.41,0.3,0.275\n"})
+
+
+def test_a_part_of_a_drawing_that_is_too_large_is_chosen_and_opened(open_page):
+    person = open_page("?path=route&benches=5", failing=True)
+    person.takes({"name": "plan.dxf", "mimeType": "image/vnd.dxf", "buffer": floor_plan()})
+    person.sees({"#drawing-parts li": len(EDGES)}).presses(
+        "#drawing-parts [value=SITE]", "#drawing-parts [value=A-HATCH]"
+    )
+    person.presses("#drawing-parts [value=A-HATCH]", "#parts-open").sees({"#drawing-parts": 0, "#things li": 1})
 
 
 @thorough

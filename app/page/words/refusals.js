@@ -118,6 +118,7 @@ const ENDS = [
 
 /** What follows a rule, in Chinese. */
 export const REASONS = {
+  "read only some layers of the drawing, or an area of it": "可以只读取图纸的部分图层或某个范围",
   "lengths are in metres, and {cm} is {m}": "长度以米为单位，{cm} 即 {m}",
   "it is {off} from it, more than {most}": "现距边界 {off}，最多 {most}",
   "lengths are in metres": "长度以米为单位",
@@ -216,6 +217,8 @@ export const WHOLE = {
   "Send a map as the body: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON; or a workbook of benches.": ["The file is empty", "文件是空的"],
   "{field} must hold a map: GeoJSON, KML, DXF, or a dance as TOML or JSON": ["The file is empty", "文件是空的"],
   "{field} must be JSON without a fault": ["The file is not valid JSON", "文件不是正确的 JSON"],
+  "{field} must be layers of the drawing on which something stands": ["The drawing has no layer of this name", "图纸没有这个图层"],
+  "{field} must be the least x and y and then the largest x and y, as in -20,-20,20,20": ["The area needs all four numbers: the least x and y, and larger ones", "范围需要四个数：最小的 x、y 和更大的 x、y"],
   "{field} must be DXF as text": ["The file is a binary DXF. Save it as ASCII DXF", "文件是二进制 DXF：请存为 ASCII DXF"],
   "{field} must be DXF": ["The file is a DWG. Save it as DXF", "文件是 DWG：请存为 DXF"],
   "{field} must be DXF that can be read": ["The DXF file cannot be read. Save it again as ASCII DXF", "无法读取此 DXF 文件：请重新存为 ASCII DXF"],

@@ -1,0 +1,43 @@
+/** A box in which a person chooses what of a large drawing is opened: some of its layers, or an area of it. */
+
+import { Problem, Superseded } from "./api.js";
+import { make, numberIn, textButton } from "./elements.js";
+import { refusalWords, say, writeTexts } from "./text.js";
+
+const SIDES = { areaLeft: "x", areaLow: "y", areaRight: "x", areaHigh: "y" };
+
+/**
+ * layers: [{name, edges}]; problem: why the drawing is not opened as a whole; open(part): a promise, which a refusal of
+ * the part breaks; part: of the query of /places
+ */
+export function chooseParts(layers, problem, open) {
+  document.getElementById("drawing-parts")?.remove();
+  const why = make("p", { className: "error", role: "alert", ...refusalWords(problem) });
+  const boxes = layers.map(({ name }) => make("input", { type: "checkbox", value: name }));
+  const rows = layers.map(({ name, edges }, k) => make("li", {}, make("label", {}, boxes[k], `${name} · ${say("layerEdges", { edges })}`)));
+  const sides = Object.entries(SIDES).map(([key, placeholder]) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, placeholder }));
+  const take = async () => {
+    const names = boxes.filter(({ checked }) => checked).map(({ value }) => value);
+    const numbers = sides.map(({ value }) => numberIn(value));
+    const part = { ...(names.length && { layers: names.join() }), ...(numbers.some((one) => one !== "") && { area: numbers.join() }) };
+    go.disabled = true;
+    try {
+      await open(part);
+      box.remove();
+    } catch (error) {
+      if (error instanceof Problem) Object.assign(why, refusalWords(error.problem));
+      else if (!(error instanceof Superseded)) throw error;
+    } finally {
+      go.disabled = false;
+    }
+  };
+  const go = textButton("partsOpen", take, { id: "parts-open", className: "main" });
+  const close = textButton("close", () => box.remove());
+  const title = make("h2", { id: "drawing-parts-title", "data-text": "partsTitle" });
+  const area = make("p", {}, make("span", { "data-text": "partsArea" }), ...sides, make("span", { className: "unit", textContent: "m" }));
+  const box = make("div", { id: "drawing-parts", popover: "manual", role: "dialog", "aria-labelledby": title.id }, title, why, make("p", { className: "hint", "data-text": "partsHelp" }), make("ul", {}, ...rows), area, make("p", { className: "buttons" }, go, close));
+  document.body.append(box);
+  writeTexts();
+  box.showPopover();
+  boxes[0].focus();
+}

@@ -1,0 +1,60 @@
+"""A drawing of more than a venue may have is read in part: some of its layers, or an area of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.support.command import run
+from tests.support.floor_plan import EDGES, SITE, floor_plan
+
+HEADERS = {"Content-Type": "image/vnd.dxf"}
+TREES = 6
+
+
+@pytest.fixture(scope="module")
+def plan() -> bytes:
+    return floor_plan()
+
+
+def places(client: httpx.Client, plan: bytes, **query: Any) -> httpx.Response:
+    return client.post("/places", params=query, content=plan, headers=HEADERS)
+
+
+def test_the_layers_of_a_drawing_that_is_refused_are_listed_with_their_edges(client: httpx.Client, plan: bytes) -> None:
+    problem = places(client, plan).json()
+    assert (problem["status"], problem["errors"][0]["name"]) == (422, "file")
+    layers = places(client, plan, only_layers=True).raise_for_status().json()["layers"]
+    assert {one["name"]: one["edges"] for one in layers} == EDGES
+    assert sum(EDGES.values()) > 2_000
+
+
+@pytest.mark.parametrize("query", [{"layers": "site, TREES"}, {"area": "-5,-5,85,30"}], ids=str)
+def test_the_chosen_part_is_read(client: httpx.Client, plan: bytes, query: dict[str, str]) -> None:
+    square, *trees = places(client, plan, **query).raise_for_status().json()["venue"]["features"]
+    assert square["geometry"]["coordinates"][0][:-1] == SITE
+    assert [one["geometry"]["type"] for one in trees] == ["Point"] * TREES
+
+
+@pytest.mark.parametrize(
+    ("query", "name"),
+    [({"layers": "SITE,LAWN"}, "layers"), ({"area": "0,0,9"}, "area"), ({"area": "9,0,0,9"}, "area")],
+    ids=str,
+)
+def test_what_is_no_layer_and_no_area_is_refused(
+    client: httpx.Client, plan: bytes, query: dict[str, str], name: str
+) -> None:
+    answer = places(client, plan, **query)
+    assert (answer.status_code, answer.json()["errors"][0]["name"]) == (422, name)
+    geojson = b'{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}'
+    assert places(client, geojson, **query).json()["errors"][0]["name"] == name
+
+
+def test_the_command_reads_the_same_part(plan: bytes, tmp_path: Path) -> None:
+    file = tmp_path / "plan.dxf"
+    file.write_bytes(plan)
+    assert run("places", str(file), "--layers", "SITE,TREES").stdout.count("obstacle") >= TREES
+    assert "A-HATCH" in run("places", str(file), "--only-layers").stdout
