@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from urllib.parse import urlencode
 
 import pytest
 
@@ -31,6 +32,17 @@ def begun(open_page, preset, query="?door=all&lang=en&time=0&benches=9", **optio
     """The page with a performance to begin with."""
     person = open_page(query, **options).presses("#several").settles()
     return person.presses(f"[data-dragons={preset}]").settles()
+
+
+@pytest.mark.parametrize("preset", ["streets", "parade"])
+def test_dragons_to_begin_with_leave_a_square_and_a_path_that_a_person_has_drawn(open_page, preset):
+    own = {"things": "a.yard..-150,-90_150,-90_150,90_-150,90~c.well.1.0,80", "route": "0,0_60,5", "limit": "1.5"}
+    person = begun(open_page, preset, f"?door=all&path=route&benches=3&{urlencode(own)}")
+    now = person.address()
+    assert (now["things"], now["limit"]) == (own["things"], own["limit"])
+    for _ in range(2):  # the dragons to begin with, and the list of several
+        person.page.go_back()
+    assert {name: person.settles().address().get(name) for name in own} == own
 
 
 def file_of(person):

@@ -35,6 +35,12 @@ test("English is written in Latin letters and Chinese in Chinese ones", () => {
   }
 });
 
+test("a button that shows words or a number has a name with them, so that a voice finds it", () => {
+  const buttons = [...read("index.html").matchAll(/<button[^>]*data-label="(\w+)"[^>]*>([^<]+)</g)].filter(([, , text]) => /[\p{L}\p{N}]/u.test(text));
+  assert.ok(buttons.length > 1);
+  for (const [, key, text] of buttons) for (const name of Object.fromEntries(all)[key]) assert.ok(name.includes(text), `${text}: ${name}`);
+});
+
 test("every key that a script or the page uses has its words in some part", () => {
   const known = new Set(all.map(([key]) => key));
   const labels = [...read("index.html").matchAll(/data-(?:text|label)="(\w+)"/g)].map(([, key]) => key);

@@ -1,0 +1,19 @@
+/** What is said of an opened file. */
+
+import assert from "node:assert/strict";
+import { mock, test } from "node:test";
+
+const box = { textContent: "" };
+globalThis.document = { documentElement: { dataset: {} }, querySelector: () => box, querySelectorAll: () => [] };
+const { announceOpened } = await import("../../../app/page/files.js");
+const { learn } = await import("../../../app/page/text.js");
+learn((await import("../../../app/page/words/route.js")).ROUTE);
+
+test("what an opened file has to say leaves by itself, later the longer it is", () => {
+  mock.timers.enable({ apis: ["setTimeout"] });
+  announceOpened("plan.dxf", [], ["Coordinates are in metres. ".repeat(10)]);
+  mock.timers.tick(20_000);
+  assert.match(box.textContent, /plan\.dxf.*metres/);
+  mock.timers.tick(20_000);
+  assert.equal(box.textContent, "");
+});
