@@ -110,10 +110,11 @@ class Reply:
             return await run_in_threadpool(self._response, computation, self.request.state.budget, place)
 
     def _computation(self, call: Call, inputs: Wire, *form: FileFormat) -> Computation:
-        offers = [form[0].media_type, BYTES] if form else call.question.forms
-        accepted_form = form_of(header_list(self.request.headers, "accept"), offers, {"name": "Accept"})
-        media_type = form[0].media_type if form else accepted_form
-        return Computation(call, inputs, media_type, self.request.scope["path"])
+        forms = [form[0].media_type] if form else call.question.forms
+        # Who asks for bytes gets a file in its first form.
+        offers = [*forms, BYTES] if call.question.model is None else forms
+        media_type = form_of(header_list(self.request.headers, "accept"), offers, {"name": "Accept"})
+        return Computation(call, inputs, forms[0] if media_type == BYTES else media_type, self.request.scope["path"])
 
     def _place(self, computation: Computation, budget: Budget) -> AbstractContextManager[None]:
         return self._lanes.place(computation.cost, computation.media_type, self.client)

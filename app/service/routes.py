@@ -25,7 +25,7 @@ from app.wire.question import BYTES, JSON, Call, FileFormat, Wire
 # The status of a job holds a problem, which brings the schema of problems into the description of the service.
 PROBLEM = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 FILE = {"schema": {"type": "string", "format": "binary"}}
-# Stands first where only some forms of a file are text: a generated client reads them all as the first form it knows.
+# Stands first among the forms of a file: a generated client reads them all as the first form that it knows.
 ANY_FILE = {BYTES: FILE}
 # Schemas of the forms that are not plain files.
 SCHEMAS = {JSON: {"schema": {}}, CSV_TYPE: {"schema": {"type": "string"}}, GEOJSON_TYPE: {"schema": {"type": "object"}}}
@@ -59,7 +59,7 @@ def add_calls(router: APIRouter, calls: Iterable[Call] = CALLS.values()) -> None
         question, method = call.question, call.method
         statuses = QUERY_STATUSES if method == "GET" else BODY_STATUSES
         content = {form: SCHEMAS.get(form, FILE) for form in question.forms}
-        if question.model is None and not SCHEMAS.keys().isdisjoint(content):
+        if question.model is None:
             content = ANY_FILE | content
         model: Any = question.model
         if question.several and method == "POST":
