@@ -55,6 +55,44 @@ def test_the_square_is_the_feature_of_that_name_or_else_the_first():
     assert ([area.name for area in first.areas], first.square.rings[0][0]) == (["square", "obstacle 1"], (-35.0, -5.0))
 
 
+def test_the_first_polygon_of_a_collection_is_the_square() -> None:
+    venue = read(collection(box(*SQUARE), polygon(WELL)))
+    assert [area.name for area in venue.areas] == ["square", "obstacle 1"]
+    assert venue.square.rings[0][0] == (-35.0, -5.0)
+
+
+GATE = {"name": "East", "role": "gate", "heading": 1.5}
+
+
+def gate(properties, shape="Point", at=(20, 5)):
+    return {"type": "Feature", "properties": properties, "geometry": {"type": shape, "coordinates": list(at)}}
+
+
+def test_gates_are_kept_and_no_bench_can_touch_them():
+    line = gate({"role": "square without streets"}, "LineString", RING)
+    place = place_of(features(gate(GATE), box(*SQUARE, name="square"), line), None, Dragon())
+    assert [area.name for area in place.venue.areas] == ["square"]
+    ring = tuple(map(tuple, RING))
+    assert place.asides == [("gate", "East", ((20, 5),), 1.5), ("square without streets", None, ring, None)]
+    # In another shape, or with a radius, it stands in the way.
+    blocks = [gate(GATE | {"radius": 0.3}), gate(GATE, "Polygon", [RING])]
+    for one in blocks:
+        assert [area.name for area in read(features(box(*SQUARE, name="square"), one)).areas] == ["square", "East"]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "field"),
+    [
+        (gate(GATE | {"heading": "east"}), "venue.features.1.properties.heading"),
+        (gate(GATE, at=[1]), "venue.features.1.geometry.coordinates.0.0"),
+    ],
+)
+def test_a_gate_that_is_wrong_is_refused_by_its_place(wrong, field):
+    with pytest.raises(InvalidValue) as refused:
+        place_of(features(box(*SQUARE, name="square"), wrong), None, Dragon())
+    assert refused.value.field == field
+
+
 def test_heights_and_edges_without_length_are_passed_over():
     ring = [[0, 0, 7], [9, 0, 7], [9, 0, 7], [9, 9, 8], [0, 0, 7]]
     assert read(raw(ring)).square.edges.tolist() == [[0, 0, 9, 0], [9, 0, 9, 9], [9, 9, 0, 0]]
