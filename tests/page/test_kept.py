@@ -1,14 +1,8 @@
 """What a person has made survives: in the address, in a saved file, in a map, and after a reload."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
 from urllib.parse import urlencode
 
 import pytest
-
-from tests.support.person import Person
 
 NUMBERS = {"benches": "9", "head_length": "3.3", "body_length": "2.1", "width": "0.25", "overhang": "0.2"}
 PACE = {"head_speed": "0.8", "margin": "0.01", "stray": "0.02", "hole": "0.03", "pin": "0.02"}
@@ -60,11 +54,11 @@ NAMES = """async () => {
 }"""
 
 
-def query(address: dict[str, str]) -> str:
+def query(address):
     return f"?{urlencode(address)}"
 
 
-def reopened(person: Person, name: str, file: bytes, folder: Path) -> dict[str, str]:
+def reopened(person, name, file, folder):
     """The address after a file was opened, without how it is looked at."""
     path = folder / name
     path.write_bytes(file)
@@ -72,16 +66,14 @@ def reopened(person: Person, name: str, file: bytes, folder: Path) -> dict[str, 
     return {one: text for one, text in person.settles().address().items() if one not in VIEW}
 
 
-def test_every_part_of_the_state_is_tried_here(visit: Any) -> None:
+def test_every_part_of_the_state_is_tried_here(visit):
     tried = set(VIEW).union(*(held | more for held, more, _ in PROJECTS.values()))
     assert set(visit().ask(NAMES)) == tried | ELSEWHERE | OF_SEVERAL
     assert all(f"!{name}:" in DANCES for name in OF_SEVERAL)
 
 
 @pytest.mark.parametrize("case", PROJECTS)
-def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(
-    case: str, open_page: Any, visit: Any, tmp_path: Path
-) -> None:
+def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(case, open_page, visit, tmp_path):
     held, more, save = PROJECTS[case]
     person = open_page(query(held | more | VIEW))
     assert person.address() == held | more | VIEW

@@ -1,7 +1,5 @@
 """A drawing as an architect has it: a site with trees, and a building whose rooms have walls, chairs and hatches."""
 
-from __future__ import annotations
-
 import io
 
 import ezdxf
@@ -11,13 +9,13 @@ EDGES = {"A-HATCH": 1200, "A-FURN": 900, "A-WALL": 480, "TREES": 6, "SITE": 4}
 SITE = [[0.0, 0.0], [80.0, 0.0], [80.0, 50.0], [0.0, 50.0]]
 
 
-def floor_plan() -> bytes:
+def floor_plan():
     """The drawing as DXF, in millimetres."""
     document = ezdxf.new("R2010")
     document.header["$INSUNITS"] = 4
     space = document.modelspace()
 
-    def outline(layer: str, x: float, y: float, width: float, height: float) -> None:
+    def outline(layer, x, y, width, height):
         corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
         points = [(1000 * a, 1000 * b) for a, b in corners]
         space.add_lwpolyline(points, close=True, dxfattribs={"layer": layer})

@@ -1,11 +1,5 @@
 """A drawing of more than a venue may have is read in part: some of its layers, or an area of it."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
-import httpx
 import pytest
 
 from tests.support.command import run
@@ -16,15 +10,15 @@ TREES = 6
 
 
 @pytest.fixture(scope="module")
-def plan() -> bytes:
+def plan():
     return floor_plan()
 
 
-def places(client: httpx.Client, plan: bytes, **query: Any) -> httpx.Response:
+def places(client, plan, **query):
     return client.post("/places", params=query, content=plan, headers=HEADERS)
 
 
-def test_the_layers_of_a_drawing_that_is_refused_are_listed_with_their_edges(client: httpx.Client, plan: bytes) -> None:
+def test_the_layers_of_a_drawing_that_is_refused_are_listed_with_their_edges(client, plan):
     problem = places(client, plan).json()
     assert (problem["status"], problem["errors"][0]["name"]) == (422, "file")
     layers = places(client, plan, only_layers=True).raise_for_status().json()["layers"]
@@ -33,7 +27,7 @@ def test_the_layers_of_a_drawing_that_is_refused_are_listed_with_their_edges(cli
 
 
 @pytest.mark.parametrize("query", [{"layers": "site, TREES"}, {"area": "-5,-5,85,30"}], ids=str)
-def test_the_chosen_part_is_read(client: httpx.Client, plan: bytes, query: dict[str, str]) -> None:
+def test_the_chosen_part_is_read(client, plan, query):
     square, *trees = places(client, plan, **query).raise_for_status().json()["venue"]["features"]
     assert square["geometry"]["coordinates"][0][:-1] == SITE
     assert [one["geometry"]["type"] for one in trees] == ["Point"] * TREES
@@ -44,16 +38,14 @@ def test_the_chosen_part_is_read(client: httpx.Client, plan: bytes, query: dict[
     [({"layers": "SITE,LAWN"}, "layers"), ({"area": "0,0,9"}, "area"), ({"area": "9,0,0,9"}, "area")],
     ids=str,
 )
-def test_what_is_no_layer_and_no_area_is_refused(
-    client: httpx.Client, plan: bytes, query: dict[str, str], name: str
-) -> None:
+def test_what_is_no_layer_and_no_area_is_refused(client, plan, query, name):
     answer = places(client, plan, **query)
     assert (answer.status_code, answer.json()["errors"][0]["name"]) == (422, name)
     geojson = b'{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}'
     assert places(client, geojson, **query).json()["errors"][0]["name"] == name
 
 
-def test_the_command_reads_the_same_part(plan: bytes, tmp_path: Path) -> None:
+def test_the_command_reads_the_same_part(plan, tmp_path):
     file = tmp_path / "plan.dxf"
     file.write_bytes(plan)
     assert run("places", str(file), "--layers", "SITE,TREES").stdout.count("obstacle") >= TREES

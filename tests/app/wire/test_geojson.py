@@ -6,8 +6,9 @@ import time
 import numpy as np
 import pytest
 
+from app.wire.degrees import place_of
 from app.wire.geojson import outlined, read_things, venue_of
-from core import InvalidValue
+from core import Dragon, InvalidValue
 from tests.support.asking import box, polygon
 from tests.support.refused import refused
 
@@ -53,12 +54,6 @@ def test_the_square_is_the_feature_of_that_name_or_else_the_first():
     assert [area.name for area in venue.areas] == ["square", "well", "obstacle 2"]
     first = read(collection(box(*SQUARE), polygon(WELL)))
     assert ([area.name for area in first.areas], first.square.rings[0][0]) == (["square", "obstacle 1"], (-35.0, -5.0))
-
-
-def test_the_first_polygon_of_a_collection_is_the_square() -> None:
-    venue = read(collection(box(*SQUARE), polygon(WELL)))
-    assert [area.name for area in venue.areas] == ["square", "obstacle 1"]
-    assert venue.square.rings[0][0] == (-35.0, -5.0)
 
 
 GATE = {"name": "East", "role": "gate", "heading": 1.5}
