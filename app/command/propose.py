@@ -70,14 +70,14 @@ def _parts(answer: Proposals, objective: core.Objective) -> Iterator[show.Part]:
     counts = objective is core.Objective.BENCHES
     table = show.new_table(
         "Proposals", "figure", *["benches"] * counts, "safe stray", "duration", "length", "turns", "nearest",
-        "if people stray", "highest speed",
+        "with stray", "highest speed",
     )  # fmt: skip
     for one in answer.proposals:
         near = f"{one.near.in_place:.3f} m, {one.near.name}"
         speed = "" if one.highest_speed is None else f"{one.highest_speed:.2f} m/s"
         row: list[Any] = [one.figure.value, *[str(_benches(one.dance["dragon"]))] * counts]
         row += [f"{one.tolerance:.3f} m", f"{one.duration:.0f} s", f"{one.length:.0f} m"]
-        table.add_row(*row, f"{one.turns:.1f}", near, f"{one.near.distance:.3f} m", speed)
+        table.add_row(*row, f"{one.turns:.1f}", near, f">= {one.near.distance:.3f} m", speed)
     yield table
     if counts and answer.most_benches is not None:
         yield f"By the area of the square, no dragon of this kind has more than {answer.most_benches} benches."

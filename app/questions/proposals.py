@@ -62,7 +62,9 @@ class Near(Answer):
     """What the benches come nearest to."""
 
     name: str = Field(description="Name of the square or of the obstacle")
-    distance: float = measure("m", "Smallest distance found, however people stray by the stray of the request")
+    distance: float = measure(
+        "m", "Smallest distance found of all ground that benches may cover with the stray of the request"
+    )
     time: float = measure("s", "Time at which it is reached")
     in_place: float = measure("m", "Smallest distance from it with everybody in place")
 
@@ -80,7 +82,8 @@ class Proposal(Answer):
     sharpest_bend: float | None = measure("rad", "Largest angle of two consecutive benches; null for a single bench")
     clearance: float | None = measure(
         "m",
-        "Least distance of two benches, however people stray by the stray of the request; null with fewer than three",
+        "Least distance of the ground that two benches may cover with the stray of the request, which a bench between "
+        "them may hold further apart; null with fewer than three",
     )
     clearance_in_place: float | None = measure("m", "The same with everybody in place")
     highest_speed: float | None = measure("m/s", "Highest speed of any handle")

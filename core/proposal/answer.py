@@ -107,7 +107,8 @@ def benches_of(count: int) -> str:
 class Near(Readable):
     """What the benches come nearest to: the name of the square or of an obstacle, the distance [m], the time [s].
 
-    distance: however people stray by what was asked for; in_place: the same with everybody in place [m]
+    distance: from all ground that benches may cover when people stray by what was asked for [m]
+    in_place: the same with everybody in place [m]
     """
 
     name: str
@@ -154,7 +155,7 @@ class Proposal(Readable):
 
     @property
     def clearance(self) -> float | None:
-        """Least distance of two benches, however people stray by what was asked for [m]; None for fewer than three."""
+        """Least distance of what two benches may cover with the stray asked for [m]; None for fewer than three."""
         least = self.report.least_clearance
         return None if least is None else least.distance
 
@@ -175,7 +176,7 @@ class Proposal(Readable):
         safe = f"strays up to {display(self.tolerance, 'm', 3)} are safe"
         near = f"{display(self.near.in_place, 'm', 3)} from {self.near.name!r}"
         if self.near.distance != self.near.in_place:
-            near += f", {display(self.near.distance, 'm', 3)} as far as people may stray"
+            near += f", at least {display(self.near.distance, 'm', 3)} with the stray asked for"
         return f"{NAMES[self.figure]} of {benches}, {self.duration:.0f} s, {self.length:.0f} m; {safe}; {near}"
 
 

@@ -63,7 +63,7 @@ export const SQUARE = {
   tight_border: ["nobody comes nearer than {distance} m to the border of the square", "离广场边界最近 {distance} m"],
   tight_near: ["nobody comes nearer than {distance} m to “{name}”", "离“{name}”最近 {distance} m"],
   tight_pair: ["benches that are not neighbours come as near as {distance} m to each other", "不相邻的板凳之间最近 {distance} m"],
-  tight_strayed: [" ({distance} m if people stray by {stray} cm)", "（各人离位 {stray} cm 时 {distance} m）"],
+  tight_strayed: [" (at least {distance} m while people stray by {stray} cm)", "（各人离位 {stray} cm 时至少 {distance} m）"],
   tight_bend: ["bends of up to {angle}°", "板凳间转角达 {angle}°"],
   tight_stray: ["people may be only {stray} cm from their places", "每人只能离位 {stray} cm"],
   lack_area: ["The benches cover at least {need} m² at any moment; the square has {have} m².", "板凳在任何时刻至少占地 {need} m²，而广场只有 {have} m²。"],
