@@ -175,8 +175,8 @@ def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(open_page):
     person.views("#people > h2", "#people #tolerance:visible", "#people #cues button:visible")
 
 
-def test_on_a_phone_a_message_covers_neither_the_tabs_nor_the_tools(visit):
-    person = visit("?path=route&route=0,0_60,0&benches=5", failing=True, **PHONE).presses("#edit")
+def test_on_a_phone_a_message_covers_neither_the_tabs_nor_the_tools(open_page):
+    person = open_page("?path=route&route=0,0_60,0&benches=5", failing=True, **PHONE).presses("#edit")
     person.takes({"name": "x.csv", "mimeType": "text/csv", "buffer": b"3.41,0.3,0.275\n2.2,0.3,0.275\n"})
     message, tools, tabs = (person.box(place) for place in ("#status:not(:empty)", "#tools", "#tabs"))
     assert message["y"] > 0.5 * 844

@@ -66,14 +66,14 @@ def reopened(person, name, file, folder):
     return {one: text for one, text in person.settles().address().items() if one not in VIEW}
 
 
-def test_every_part_of_the_state_is_tried_here(visit):
+def test_every_part_of_the_state_is_tried_here(open_page):
     tried = set(VIEW).union(*(held | more for held, more, _ in PROJECTS.values()))
-    assert set(visit().ask(NAMES)) == tried | ELSEWHERE | OF_SEVERAL
+    assert set(open_page().ask(NAMES)) == tried | ELSEWHERE | OF_SEVERAL
     assert all(f"!{name}:" in DANCES for name in OF_SEVERAL)
 
 
 @pytest.mark.parametrize("case", PROJECTS)
-def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(case, open_page, visit, tmp_path):
+def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(case, open_page, tmp_path):
     held, more, save = PROJECTS[case]
     person = open_page(query(held | more | VIEW))
     assert person.address() == held | more | VIEW
@@ -86,7 +86,7 @@ def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(case, open_pa
     # Another dance, of which nothing stays.
     held_before, more_before, _ = PROJECTS["walked" if case == "drawn" else "drawn"]
     before = held_before | more_before
-    assert reopened(visit(query(before)), "dance.json", file, tmp_path) == held | more
+    assert reopened(open_page(query(before)), "dance.json", file, tmp_path) == held | more
     # What a map has not stays as it was; when a dance starts on its path belongs to the path.
     kept = {name: text for name, text in before.items() if name not in ON_PATH}
-    assert reopened(visit(query(before)), "map.geojson", map_file, tmp_path) == kept | held
+    assert reopened(open_page(query(before)), "map.geojson", map_file, tmp_path) == kept | held
