@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import Dance, Dragon, Route, Spiral, Turn
-from core.errors import SIZE_MIN
 from core.kernels import Interval, Rings, Scene, chain_rounding, climbs, place_chain, route_curve, spiral_curve
 from core.kernels.constants import (
     CENTRE_SPEED,
@@ -22,7 +21,7 @@ from core.kernels.constants import (
     UY,
 )
 from core.values import Floats
-from tests.campaigns.rounding_sweep import ROUTES
+from tests.campaigns.rounding_sweep import ROUTES, random_dragon
 from tests.support.slow_search import SlowDance
 
 # Rounding on routes: of a rate or direction on one some hundred metres long [1], and of coordinates there [m]; on
@@ -77,8 +76,7 @@ def on_spiral(seed):
     rng = np.random.default_rng(seed)
     while True:
         benches, growth = int(rng.integers(3, 7)), 10 ** rng.uniform(-1.5, 0.3)
-        chords = growth * 10 ** (rng.uniform(-0.3, 1.0) + rng.uniform(-0.5, 0.7, benches))
-        dragon = _dragon(rng, chords, -1.5)
+        dragon = random_dragon(rng, benches, max(growth * 10 ** rng.uniform(-0.1, 1.7), 0.02))
         spiral = Spiral(2 * np.pi * growth, 30.0)
         end = Dance(dragon, spiral).end
         theta = end.theta + 10 ** rng.uniform(-3.0, 1.3)
@@ -104,8 +102,8 @@ def on_route(seed):
     while True:
         benches = int(rng.integers(3, 9))
         path = Turn(1.7, 4.5, 2.0) if rng.random() < 0.2 else ROUTES[int(rng.integers(len(ROUTES)))](rng)
-        chords = min(1.9 / path.sharpest[0] if path.sharpest[0] else 2.0, 3.0) * 10 ** rng.uniform(-1.0, -0.02, benches)
-        dragon = _dragon(rng, chords, -1.0)
+        longest = min(1.9 / path.sharpest[0] if path.sharpest[0] else 2.0, 3.0)
+        dragon = random_dragon(rng, benches, longest * 10 ** rng.uniform(-0.4, -0.02))
         begin, end = max(Dance(dragon, path, 1.0).earliest, path.begin), Dance(dragon, path).end.time
         h = 10 ** rng.uniform(-2.0, 0.0) * dragon.chords.min()
         start = rng.uniform(begin, end)
@@ -134,15 +132,3 @@ def on_route(seed):
     centres, along = (chains[:, :-1, [x, y]] @ [1.0, 1.0j] for x, y in ((MX, MY), (UX, UY)))
     rounding = ROUNDING * (1.0 + np.abs(centres).max())
     return Sampled(dragon, path, interval, sizes, motion, centres, along, float(step), 8, rounding, chains)
-
-
-def _dragon(rng, chords, narrowest):
-    """A dragon with these chords, or with a body of equal ones."""
-    if rng.random() < 0.4:
-        chords[1:] = chords[1]
-    chords = np.maximum(chords, 2.0 * SIZE_MIN)
-    overhangs, widths = (
-        chords * rng.uniform(0.0, 0.4, len(chords)),
-        chords * 10 ** rng.uniform(narrowest, 0, len(chords)),
-    )
-    return Dragon.of(chords + 2.0 * overhangs, np.maximum(widths, SIZE_MIN), overhangs)

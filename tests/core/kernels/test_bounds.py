@@ -20,7 +20,7 @@ from core.kernels.constants import (
     TX,
     TY,
 )
-from tests.support.intervals import ROUNDING, on_route
+from tests.support.intervals import ROUNDING, on_route, on_spiral
 
 
 @pytest.mark.parametrize("seed", range(60))
@@ -50,3 +50,18 @@ def test_no_sampled_derivative_on_a_route_exceeds_its_bound(seed):
         (at.differences(corner), benches[CORNER_PULL], slack * (1.0 + 2.0 * radii / chords)),
     ):
         assert (np.abs(values).max(axis=0) <= bounds + rounding).all()
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_no_sampled_motion_on_a_spiral_exceeds_its_bound(seed):
+    at = on_spiral(seed)
+    bounds, stride, swayed = at.motion[:-1].T, at.stride * at.step, 2.0 * at.rounding / at.dragon.chords
+    radii = at.sizes[:-1, RADIUS]
+    for places, speed, pull, rounding in (
+        (at.centres, CENTRE_SPEED, CENTRE_PULL, at.rounding),
+        (at.along, OMEGA, OMEGA_PULL, swayed),
+        (at.centres + radii * at.along, CORNER_SPEED, CORNER_PULL, at.rounding + radii * swayed),
+    ):
+        velocity = at.differences(places)
+        assert (np.abs(velocity).max(axis=0) <= bounds[speed] + 2.0 * rounding / stride).all()
+        assert (np.abs(at.differences(velocity)).max(axis=0) <= bounds[pull] + 4.0 * rounding / stride**2).all()
