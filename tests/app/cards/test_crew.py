@@ -147,7 +147,7 @@ def test_a_crew_that_cannot_be_is_refused(client, body, row):
 def test_a_deadline_while_the_timeline_is_drawn_is_a_refusal(body, monkeypatch):
     budget = Budget()
 
-    def late(draw):
+    def late(draw, _):
         budget.stop("within 2 s")
         return draw()
 
