@@ -4,7 +4,6 @@ import io
 import json
 from pathlib import Path
 
-import av
 import numpy as np
 import pytest
 import shapely
@@ -40,11 +39,17 @@ HEAD, BODY, NEAR = (213, 94, 0), (0, 114, 178), 60
 SMALL = {"dragon": {"benches": 12}, "seconds": 1, "rate": 6, "height": 360, "stop": 60}
 
 
+def opened(data):
+    import av
+
+    return av.open(io.BytesIO(data))
+
+
 def decoded(data):
     if data.startswith(b"GIF"):
         with Image.open(io.BytesIO(data)) as picture:
             return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(picture)]
-    with av.open(io.BytesIO(data)) as file:
+    with opened(data) as file:
         return [frame.to_ndarray(format="rgb24") for frame in file.decode(video=0)]
 
 
@@ -108,7 +113,7 @@ def test_a_film_plays_as_long_as_asked_and_a_gif_too(client):
     data = film_of(client, **SMALL)
     # A player can begin before it has all of it: the table stands before the pictures.
     assert 0 < data.find(b"moov") < data.find(b"mdat")
-    with av.open(io.BytesIO(data)) as file:
+    with opened(data) as file:
         stream = file.streams.video[0]
         assert (stream.width, stream.height, stream.frames, float(stream.average_rate)) == (640, 360, 6, 6.0)
         assert len(file.streams.audio) == 0
@@ -151,7 +156,7 @@ LOUD, APART = 0.15, 0.2
 
 def onsets(data):
     """Times at which the sound of a film begins to be loud [s], by the times that its packets name."""
-    with av.open(io.BytesIO(data)) as file:
+    with opened(data) as file:
         stream = file.streams.audio[0]
         assert stream.codec_context.name == "aac"
         parts = [(float(frame.pts * frame.time_base), frame.to_ndarray()[0]) for frame in file.decode(stream)]
@@ -174,7 +179,7 @@ def test_the_drum_of_a_film_is_on_the_beat(client):
     request = {"dragon": {"benches": 3}, "beats": MARCH, **times}
     data = film_of(client, **request)
     assert_heard(data, [60 / 96 * k for k in range(2, 8)] + [5.0 + 60 / 132 * k for k in range(3)], spec)
-    with av.open(io.BytesIO(data)) as file:
+    with opened(data) as file:
         video, sound = file.streams
         assert video.frames == spec.times.size
         assert float(sound.duration * sound.time_base) == pytest.approx(8.0, abs=0.05)

@@ -7,7 +7,6 @@ from functools import cache
 from threading import Timer
 
 import openpyxl
-import pandas
 import pytest
 
 from app.files.tables import Language
@@ -49,6 +48,8 @@ def by_openpyxl(sheets):
 
 def by_pandas(sheets):
     """Tables by pandas, whose columns have names: bold heads with borders, labels as the index."""
+    import pandas
+
     sink = io.BytesIO()
     with pandas.ExcelWriter(sink) as book:
         for title, [[_, *heads], *rows] in sheets.items():

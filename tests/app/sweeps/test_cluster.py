@@ -5,7 +5,6 @@ import socket
 
 import psutil
 import pytest
-from distributed import LocalCluster
 
 from app.sweeps.cluster import LOCAL, Cluster, NoScheduler
 from app.sweeps.engines import NoAnswer
@@ -16,11 +15,17 @@ from tests.support.serving import free_port
 from tests.support.sweeping import assert_undisturbed, grid_of, spec_of
 
 
+def local_cluster(**options):
+    """A scheduler with one worker."""
+    from distributed import LocalCluster
+
+    return LocalCluster(1, threads_per_worker=1, dashboard_address=None, silence_logs=logging.ERROR, **options)
+
+
 @pytest.fixture(scope="module")
 def address():
     """Address of a scheduler with a worker, both in this process."""
-    options = {"protocol": "tcp://", "dashboard_address": None, "silence_logs": logging.ERROR}
-    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, **options) as cluster:
+    with local_cluster(protocol="tcp://", processes=False) as cluster:
         yield cluster.scheduler_address
 
 
@@ -50,9 +55,8 @@ def test_a_local_cluster_answers_and_leaves_no_worker(tmp_path):
 def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(tmp_path, monkeypatch):
     monkeypatch.setattr("app.sweeps.run.DEATHS", 1)  # Processes of this machine find it: test_run.py
     spec = spec_of(LAND, {"x": list(range(6))}, request={"deadly": [2.0]}, shard_size=2)
-    options = {"dashboard_address": None, "silence_logs": logging.ERROR}
-    options["scheduler_kwargs"] = {"allowed_failures": 0}  # A design is given up as soon as it ends a worker.
-    with LocalCluster(n_workers=1, threads_per_worker=1, **options) as cluster:
+    # A design is given up as soon as it ends a worker.
+    with local_cluster(scheduler_kwargs={"allowed_failures": 0}) as cluster:
         run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(cluster.scheduler_address))
     codes = Sweep(tmp_path / "a", spec).table()["error.code"].to_pylist()
     assert codes == [None, None, "killed", None, None, None]
