@@ -4,10 +4,14 @@ import numpy as np
 import pytest
 
 from core import (
+    Arc,
+    Budget,
     Dance,
     Dragon,
     EndReason,
+    Line,
     Outcome,
+    Route,
     Spiral,
     Turn,
     clearance_profile,
@@ -54,6 +58,23 @@ def test_no_least_clearance_is_claimed_where_benches_overlap_at_the_start():
     least, there = least_clearance(dance), clearance_profile(dance, 0.0)
     assert least.distance == there.clearance < -0.1
     assert (least.at_least, least.time, least.benches) == (None, 0.0, tuple(there.benches))
+
+
+def test_a_touch_to_the_last_digit_claims_nothing():
+    """The head passes its own tail at a distance of 0."""
+    arcs = Arc((0.0, 5.0), 5.0, -np.pi / 2, np.pi), Arc((-10.0, 5.125), 4.875, np.pi / 2, np.pi)
+    lines = [Line((-8.0, 0.0), (0.0, 0.0)), Line((0.0, 10.0), (-10.0, 10.0)), Line((-10.0, 0.25), (60.0, 0.25))]
+    dance = Dance(
+        Dragon.of([1.5] * 34, [0.25] * 34, [0.0] * 34), Route([lines[0], arcs[0], lines[1], arcs[1], lines[2]])
+    )
+    least = least_clearance(dance, stop=dance.begin + 0.05)
+    assert (least.distance, least.at_least, least.benches) == (0.0, None, (0, 33))
+
+
+def test_a_long_tail_on_the_coil_of_a_turn_costs_next_to_nothing():
+    budget = Budget(1e9)
+    least_clearance(Dance(Dragon(20_000), Turn(1.7, start_turns=60.0)), start=0.0, stop=20.0, budget=budget)
+    assert budget.left > 1e9 - 1e5
 
 
 # Beyond the width of the proof: its own rounding [m].

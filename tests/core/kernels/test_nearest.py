@@ -1,6 +1,10 @@
 """The least separation over an interval, with too few rows. Bounds: tests/core/contact/test_clearance.py."""
 
-from core import Dragon, Spiral
+import math
+
+import pytest
+
+from core import Arc, Dance, Dragon, Line, Route, Spiral, clearance_profile, first_contact
 from core.contact.search import ContactSearch
 from core.kernels import Ended, March
 
@@ -19,3 +23,13 @@ def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and
         assert result.proven < CONTACT
         assert result.touching is None or result.benches == (0, 8)
     assert ended == {Ended.CAPACITY, Ended.TOUCHED}
+
+
+def test_a_head_that_comes_back_against_its_tail_touches_it_and_does_not_overlap():
+    """A loop leads back onto the lane, on which both benches of the pair are as fast."""
+    third, lane = math.pi / 3.0, [(-140.0, 0.0), (0.0, 0.0)]
+    right, back = Arc((0.0, -20.0), 20.0, 1.5 * third, -third), Arc((0.0, 20.0), 20.0, -0.5 * third, -third)
+    loop = Arc((20.0 * math.sqrt(3.0), 0.0), 20.0, -2.5 * third, 5.0 * third)
+    dance = Dance(Dragon(94), Route([Line(*lane), right, loop, back, Line(*lane[::-1])]))
+    met = first_contact(dance, start=276.0)
+    assert clearance_profile(dance, met.time).clearance == pytest.approx(0.0, abs=1e-9)
