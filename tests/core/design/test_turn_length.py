@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from core import Dragon, Turn, shortest_turn, turn_length_bounds
+from core import Budget, Dragon, TooMuchWork, Turn, shortest_turn, turn_length_bounds
 from tests.core.design.test_shortest_turn import compared
 from tests.support.depth import further
+from tests.support.refused import refused
 
 pytestmark = pytest.mark.uncompiled
 
@@ -26,3 +27,8 @@ def test_every_turn_on_a_grid_that_is_shorter_than_the_lower_bound_has_a_contact
     assert longer
     assert bool(shorter) is (ratio < 1.3)
     assert low <= shortest_turn(Dragon(), 1.7, ratio=ratio).turn.length <= low + 0.05
+
+
+def test_a_circle_in_which_no_length_is_proven_is_named():
+    with refused("turning_radius", TooMuchWork):
+        turn_length_bounds(Dragon(), 1.7, budget=Budget(1.0))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from core.design.turn_moves import bent, displaced
+from core.design.turn_moves import apart_from_circle, bent, displaced
 from tests.support.boxes_of_turns import CROSSING, SMALL, box_at, turns_drawn
 from tests.support.depth import examples, further
 
@@ -27,6 +27,7 @@ def points(turn, s):
 @pytest.mark.parametrize("size", [0.2, 1.0, 4.0])
 def test_points_at_one_place_are_no_further_apart_than_the_bound(place, size):
     box, centre = box_at(*place, size * SMALL)
+    assert [box.entry, box.turned] == pytest.approx(size * SMALL[:2])  # the nominal turn is in the middle
     s, nearest = np.linspace(-25.0, 25.0, SAMPLES), 0.0
     most = np.array([displaced(box, at, at) for at in s.tolist()])
     for turn in turns_drawn(centre, size * SMALL, examples(20, 200), 0.3):
@@ -48,3 +49,7 @@ def test_curvatures_differ_by_no_more_than_the_bound(place):
             assert total <= most + 3.0 * STEP  # a sum may count one sample of a jump too many
             nearest = max(nearest, total / most)
     assert nearest > 0.3
+
+
+def test_arcs_far_outside_their_coils_are_not_refused():
+    assert apart_from_circle(5.0, 2.0, 30.0, 3.0).length > 200.0
