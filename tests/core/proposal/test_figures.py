@@ -3,10 +3,11 @@
 import math
 from functools import reduce
 
+import numpy as np
 import pytest
 
 from core import Dragon, Figure, Route
-from core.proposal.figures import Shape, eight, ring, serpentine, shapes
+from core.proposal.figures import DANCED, Shape, eight, ring, serpentine, shapes
 from core.proposal.needs import Needs
 from core.proposal.walks import moved
 
@@ -29,12 +30,25 @@ def test_impossible_sizes_give_no_figure():
     assert [ring(3.0, 2.0, 2.5), eight(4.0, 1.0), serpentine(3.0, 0.0, 2.0), spiral] == [None] * 4
 
 
+# Least lengths that hold the dragon: on a lobe of an eight, on each coil of a spiral [m].
+ROUND = NEEDS.length + NEEDS.gap
+LEAST = {Figure.RING: ROUND, Figure.EIGHT: 2.0 * ROUND, Figure.SPIRAL: 2.0 * ROUND,
+         Figure.SERPENTINE: (1.0 + DANCED) * NEEDS.length}  # fmt: skip
+
+
 @pytest.mark.parametrize("gated", [False, True])
 @pytest.mark.parametrize("figure", Figure)
 def test_shapes_hold_the_dragon_and_bend_no_tighter_than_it_can(figure, gated):
-    every = list(shapes(figure, NEEDS, 60.0, gated=gated))
+    every = list(shapes(figure, NEEDS, 1e3, gated=gated))
     assert bool(every) == (figure is not Figure.PARADE)
+    lengths, extents = [], []
     for shape in every:
         route = Route(shape.pieces)
         assert route.sharpest[0] <= 1.0 / NEEDS.tight + 1e-9
-        assert route.end - route.begin > NEEDS.length or (gated and not shape.closed)
+        lengths.append(route.end - route.begin)
+        extents.append(np.ptp(route.position(np.linspace(route.begin, route.end, 500)), axis=0).max())
+    assert list(shapes(figure, NEEDS, 30.0, gated=gated)) == [
+        shape for shape, extent in zip(every, extents, strict=True) if extent <= 30.0
+    ]
+    if figure in LEAST and (not gated or every[0].closed):
+        assert 1.0 < min(lengths) / LEAST[figure] < 1.25

@@ -41,5 +41,10 @@ def test_points_are_on_the_steps():
     assert points[-1] == pytest.approx(reduce(moved, steps, BEGIN)[:2])
 
 
+def test_a_lane_in_which_benches_can_just_turn_is_passed():
+    lane = ways(box("wall", 15, -1, 10, 4.5), box("other", 15, 6.5, 10, 24.5))
+    assert lane.around((4.0, 12.0, 0.0), END) is not None
+
+
 def test_no_leg_leads_through_a_gap_that_is_too_narrow():
     assert ways(box("wall", 18, -1, 2, 15.7), box("other", 18, 15, 2, 16)).around(BEGIN, END) is None
