@@ -211,6 +211,8 @@ def test_crosses_stand_at_the_chalk_marks_of_start_and_end(client, body):
     boxes = np.array(shapes_of(pages_of(answer_of(client, request, "application/pdf"))[0]))
     sizes, middles = boxes[:, 2:] - boxes[:, :2], 0.5 * (boxes[:, 2:] + boxes[:, :2])
     wide = np.where(np.abs(sizes[:, 0] - sizes[:, 1]) < 0.01, sizes[:, 0], 0.0)
+    # Arrows along the way, which leads along x for the most part.
+    assert (np.abs(sizes - [7.0, 5.1]) < 0.4).all(axis=1).any()
     # Two strokes a cross; a dot a moment, the first one at the start and the last one at the end.
     strokes, dots = (middles[(low < wide) & (wide < high)] for low, high in ((7.0, 8.5), (4.5, 6.0)))
     assert strokes[::2].tolist() == strokes[1::2].tolist()

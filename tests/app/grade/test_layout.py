@@ -12,7 +12,7 @@ from app.grade.report import graded
 from core import Budget
 from tests.support import students
 from tests.support.student_files import NAMES, as_csv, in_layout
-from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral
+from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral, three
 
 ROOT = Path(__file__).parents[3]
 
@@ -75,8 +75,13 @@ def by_the_contest(rows):
     return [[label, *row[1:]] for label, row in zip(contest_labels()[len(rows)], rows, strict=True)]
 
 
+def without_axes(rows):
+    """Each handle's name twice, above x and above y."""
+    return [rows[0], *([label.removesuffix("x (m)").removesuffix("y (m)"), *row] for label, *row in rows[1:])]
+
+
 LAYOUTS = [by_the_contest, by_wps, by_google, by_pandas_without_index, by_pandas_with_numbers, transposed,
-           transposed_bare, bare_times]  # fmt: skip
+           transposed_bare, bare_times, without_axes]  # fmt: skip
 # Right cells of positions and of speeds, of few instants.
 FEW = [4 * 448, 4 * 224]
 
@@ -101,6 +106,11 @@ def test_a_whole_result1_may_stand_on_its_side():
     # It has more instants than handles, so that its last lines are as many as the handles.
     lines = [line.split(",") for line in wide_csv().splitlines()]
     assert_right("\n".join(",".join(line) for line in zip(*lines, strict=True)).encode())
+
+
+def test_a_result4_without_instants_begins_at_minus_100_s():
+    sheet, _ = grade(as_csv(three()[2]["位置"][1:]), "result4.csv").sheets
+    assert (sheet.verdict, sheet.right) == ("right", 201 * 448)
 
 
 @pytest.mark.parametrize(("title", "factor"), [("位置", 100.0), ("速度", 100.0), ("速度", 1000.0)])

@@ -94,7 +94,9 @@ def test_a_map_that_is_too_wide_for_a_dance_is_refused():
         read(space)
 
 
-@pytest.mark.parametrize(("unit", "metres"), [(2, 0.3048), (21, 1200 / 3937), (15, 10.0), (8, 2.54e-8)])
+@pytest.mark.parametrize(
+    ("unit", "metres"), [(2, 0.3048), (21, 1200 / 3937), (23, 3600 / 3937), (15, 10.0), (8, 2.54e-8)]
+)
 def test_every_unit_of_a_drawing_is_known(unit, metres):
     space = new(unit=unit, square=False)
     space.add_circle((30 / metres, 0), 2 / metres)

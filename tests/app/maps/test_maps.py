@@ -197,7 +197,7 @@ GUESSED = "The file is not in UTF-8; it was read as GB 18030."
 SQUARE = {"type": "Polygon", "coordinates": [[[0, 0], [90, 0], [90, 95], [0, 0]]]}
 NAMED = {"type": "Feature", "properties": {"name": "广场"}, "geometry": SQUARE}
 GEOJSON = json.dumps(NAMED, ensure_ascii=False)
-KML_SQUARE = placemark(f"<name>广场</name>{outline(CORNERS)}")
+KML_SQUARE = placemark(f"<name>广场</name><author><name>Li</name></author>{outline(CORNERS)}")
 
 
 @pytest.mark.parametrize(
