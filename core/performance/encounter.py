@@ -48,7 +48,7 @@ def first_encounter(
     start, stop: interval of the search [s]; None for the beginning and the end of the performance
     returns: see FirstEncounter. The bracket [proven clear up to, within the margin at] is at most 1e-9 s wide. It is
         wider where two benches meet so slowly that rounding hides the gap: below about 1 mm/s, as in a slow passage
-        (some 1e-9 s there), within about 1e-5 m of a graze, on paths or over times of many kilometres or days, and
+        (1e-9 to 1e-6 s there), within about 1e-5 m of a graze, on paths or over times of many kilometres or days, and
         with a stray. Both ends hold in spite of rounding. The answer is
         undecided if rounding hides it: for benches whose clearance equals the margin to about 1e-11 m at the start or
         in a graze, or for a while; `overlapping` then names a pair that is certainly within the margin at the end of

@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from core import (
@@ -12,9 +13,11 @@ from core import (
     EndReason,
     Outcome,
     Part,
+    Passage,
     Performance,
     Route,
     Spiral,
+    Waypoints,
     encounter_check,
     first_encounter,
 )
@@ -52,6 +55,21 @@ def test_the_reference_is_met(name):
     check = encounter_check(met)
     assert check.agree
     assert sum(map(len, check.judged)) == sum(one["dragon"]["benches"] for one in case["dances"])
+
+
+def test_benches_that_meet_slowly_have_a_bracket_as_narrow_as_rounding_lets_it_be():
+    angle, middle = 0.0457, np.array([22.6, 0.0])
+    way = 20.0 * np.array([math.cos(angle), math.sin(angle)])
+    lanes = ((0.0, 0.0), (40.0, 0.0)), (tuple(middle - way), tuple(middle + way))
+    slow = (
+        [Passage(1.0, until_s=17.34), Passage(0.001, until_s=19.34)],
+        [Passage(1.0, until_s=19.0), Passage(0.001, until_s=21.0)],
+    )
+    first, second = (
+        Dance(Dragon(3), Route([Waypoints(points)]), passages=own) for points, own in zip(lanes, slow, strict=True)
+    )
+    low, high = first_encounter(Performance([Part(first), Part(second, 2.535)])).time_bracket
+    assert high - low < 4.1e-9
 
 
 def test_another_clock_changes_nothing():
