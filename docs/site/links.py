@@ -8,16 +8,24 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urldefrag, urlsplit
 
+# What the theme writes where conf.py names no mode; its own script then reports an error on every page.
+NO_MODE = 'localStorage.getItem("mode") || ""'
+
 
 class Page(HTMLParser):
-    """Addresses and anchors of a page. links: addresses that a reader follows; loaded: those that the browser loads"""
+    """Addresses and anchors of a page.
+
+    links: addresses that a reader follows; loaded: those that the browser loads; has_mode: whether its theme has one
+    """
 
     def __init__(self, path: Path) -> None:
         super().__init__()
         self.links: set[str] = set()
         self.loaded: set[str] = set()
         self.anchors = {""}
-        self.feed(path.read_text("utf-8"))
+        text = path.read_text("utf-8")
+        self.has_mode = NO_MODE not in text
+        self.feed(text)
 
     def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
         values = {name: value or "" for name, value in attributes}
@@ -32,6 +40,8 @@ def dead_links(site: Path) -> list[str]:
     pages = {path: Page(path) for path in sorted(site.rglob("*.html"))}
     dead = defaultdict(set)
     for path, page in pages.items():
+        if not page.has_mode:
+            dead["the theme has no mode"].add(path)
         for address in page.links | page.loaded:
             target, anchor = urldefrag(address)
             parts = urlsplit(target)

@@ -76,6 +76,7 @@ A paragraph.
         ('<a href="../outside.html">', "../outside.html does not exist"),
         ('<img src="https://example.org/a.png">', "https://example.org/a.png is loaded from another host"),
         ('<link rel="stylesheet" href="none.css">', "none.css does not exist"),
+        ('<script>mode = localStorage.getItem("mode") || "";</script>', "the theme has no mode"),
     ],
 )
 def test_dead_links_are_named(tmp_path, page, dead):
