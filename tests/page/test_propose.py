@@ -211,8 +211,9 @@ def proposal_of(radius, name, distance):
     ring = [[round(radius * math.cos(turn), 3), round(radius * math.sin(turn), 3)] for turn in turns]
     dragon = {"benches": 8, "head_length": 3.41, "body_length": 2.2, "width": 0.3, "overhang": 0.275}
     path = {"kind": "waypoints", "points": ring, "start": 15.0}
-    sizes = {"tolerance": 0.3, "duration": 40.0, "length": 40.0, "area": 90.0, "turns": 1.0, "clearance": 2.0}
-    near = {"name": name, "distance": distance, "time": 1.0}
+    sizes = {"tolerance": 0.3, "duration": 40.0, "length": 40.0, "area": 90.0, "turns": 1.0}
+    sizes |= {"clearance": 2.0, "clearance_in_place": 2.0}
+    near = {"name": name, "distance": distance, "in_place": distance, "time": 1.0}
     dance = {"dragon": dragon, "path": path, "head_speed": 1.0, "start": 0.0}
     return {"figure": "ring", "dance": dance, "near": near, "sharpest_bend": 0.2, "gates": [], **sizes}
 
