@@ -50,6 +50,8 @@ NO_DISK = "they mount a small disk, which only root may do: run make test as roo
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
 NO_CURL = "they run the commands of the documentation as they stand: apt install curl"
 NO_NGINX = "they restart services behind a proxy: apt install nginx-light"
+NO_CADDY = "they ask a service behind a proxy: apt install caddy"
+NO_SYSTEMD = "they check a unit of systemd: apt install systemd"
 NO_FONT = "they draw Chinese words, and there is no font for them: apt install fonts-wqy-microhei"
 NO_INDEX = "they ask the package index, which does not answer"
 NO_ENGINE = "they compare an engine that cannot be had for this machine and its Python: {}"
@@ -132,6 +134,8 @@ NEEDS = {
     "root": (lambda: os.geteuid() == 0, NO_DISK),
     "curl": (lambda: shutil.which("curl"), NO_CURL),
     "nginx": (nginx_path, NO_NGINX),
+    "caddy": (lambda: shutil.which("caddy"), NO_CADDY),
+    "systemd": (lambda: shutil.which("systemd-analyze"), NO_SYSTEMD),
     "index": (lambda: lock.index_answers(OUTER), NO_INDEX),
 }
 
