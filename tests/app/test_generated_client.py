@@ -28,8 +28,10 @@ WARNING = re.compile(r"^(?:WARNING|ERROR) parsing \S+ (\S+)", re.MULTILINE)
 def words(server, tmp_path_factory):
     """Output of the generator, with its warnings; the client that it makes can be imported as PACKAGE."""
     folder = tmp_path_factory.mktemp("client")
+    description = folder / "openapi.json"  # the generator itself waits five seconds for an address
+    description.write_bytes(httpx.get(f"{server}/openapi.json", timeout=ANSWER_TIMEOUT).content)
     command = [sys.executable, "-m", "openapi_python_client", "generate", "--meta", "none"]
-    command += ["--url", f"{server}/openapi.json", "--output-path", str(folder / PACKAGE)]
+    command += ["--path", str(description), "--output-path", str(folder / PACKAGE)]
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
     done = subprocess.run(command, cwd=folder, env=os.environ | {"PATH": path}, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
