@@ -35,7 +35,7 @@ VERIFY = Path(__file__).parents[2] / "examples" / "verify.py"
 PARTS = (8, 64)
 # Factors and values that a number may get.
 FACTORS = (0.0, -1.0, 0.5, 2.0, 1e3, 1e-3, 1.0 + 1e-12, 1.0 - 1e-12, 1.0 + 1e-6, 1.0 - 1e-6, 1.01, 0.99)
-ODD = (0, -0.0, 1e-320, 1e308, math.nan, math.inf, True, None, "", [], {}, 10**30, "x", 0.001, 10_000)
+ODD = (0, -0.0, 1e-320, 1e308, math.nan, math.inf, True, None, "", [], {}, 10**30, "fold", 0.001, 10_000)
 
 
 @cache
@@ -191,24 +191,21 @@ def _change(content, dice):
         inside[name] = _number(value, dice)
     elif isinstance(value, str) and value.isdigit() and kind < 0.9:
         k = dice.randrange(len(value))
-        inside[name] = dice.choice(
-            (value[:k] + dice.choice("0123456789") + value[k + 1 :], value[:k] + value[k + 1 :], value + value[k])
-        )
+        inside[name] = value[:k] + dice.choice((*"0123456789", "", 2 * value[k])) + value[k + 1 :]
     elif isinstance(value, list) and value and kind < 0.9:
         k, other = dice.randrange(len(value)), dice.randrange(len(value))
         dice.choice(
             (
                 lambda: value.pop(k),
                 lambda: value.insert(other, copy.deepcopy(value[k])),
-                lambda: value.__setitem__(slice(None), value[::-1]),
-                lambda: value.__setitem__(k, copy.deepcopy(value[other])),
+                value.reverse,
                 lambda: _join(value, k),
             )
         )()
     elif isinstance(inside, dict) and kind < 0.9:
         dice.choice((lambda: inside.pop(name), lambda: inside.__setitem__(str(name) + "s", value)))()
     else:
-        inside[name] = dice.choice((*ODD, dice.choice(("stop", "fold", "centre", "end", "spiral", "turn", "clear"))))
+        inside[name] = dice.choice(ODD)
 
 
 def _join(entries, k):

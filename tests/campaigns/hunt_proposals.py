@@ -13,9 +13,9 @@ from tests.support.random_squares import random_case, refuted, wrong_reason
 SQUARES = 200
 
 
-def fault(seed, case):
+def fault(*seed):
     """The kind of the answer for one random square, and its fault in words ('' for none)."""
-    square = random_case([seed, case])
+    square = random_case(seed)
     try:
         result = square.answer()
     except TooMuchWork:

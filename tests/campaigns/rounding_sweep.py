@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 from flint import arb
 
-from core import Coil, Dance, Dragon, InvalidValue, Route, Spiral, Turn, Waypoints, kernels
+from core import Dance, Dragon, InvalidValue, Route, Spiral, Turn, kernels
 from core.contact.search import ContactSearch
 from core.errors import SIZE_MAX, SIZE_MIN
 from core.kernels.constants import ERROR, HALF_LENGTH, HALF_WIDTH, MX, MY, PX, PY, RADIUS, SWAY, UX, UY
@@ -79,7 +79,7 @@ def random_route(rng):
     """A search, and an s of the head with the whole dragon on the route."""
     while True:
         links = links_of(rng) if rng.random() < 0.5 else int(rng.integers(3, 20))
-        path = ROUTES[int(rng.integers(len(ROUTES)))](rng)
+        path = random_path(rng)
         dragon = random_dragon(
             rng, links, float(10 ** rng.uniform(-0.7, 0.0) / path.sharpest[0] if path.sharpest[0] else 1.0)
         )
@@ -92,49 +92,24 @@ def random_route(rng):
             return ContactSearch(dragon, path, 0.0), float(rng.uniform(begin, end))
 
 
-def _lines_and_arcs(rng):
-    pen = _line_to(rng, complex(*rng.uniform(-EXTENT, EXTENT, 2)), 0.0)
-    pen.arc(float(rng.uniform(2.0, 9.0)), 0.5 * np.pi)
-    pen.line(20.0)
+def random_path(rng):
+    """A turn, or a line and up to four pieces of any kind; curvatures jump between them, or go on."""
+    if rng.random() < 0.2:
+        return Turn(*rng.uniform((1.4, 4.0, 1.0), (2.5, 6.0, 2.5)).tolist())
+    pen, bend = Pen(complex(*rng.uniform(-EXTENT, EXTENT, 2)), float(rng.uniform(-9.0, 9.0))), 0.0
+    pen.line(float(rng.uniform(20.0, 90.0)))
+    for kind in rng.choice(["line", "arc", "coil", "clothoid", "waypoints"], rng.integers(1, 5)):
+        last = float(rng.uniform(-0.5, 0.5))
+        sizes = {
+            "line": (20.0,),
+            "arc": (float(rng.uniform(2.0, 9.0)), 5.0 * last),
+            "coil": (float(10 ** rng.uniform(-0.5, 0.5)), *rng.uniform(2.0, 30.0, 2).tolist()),
+            "clothoid": (bend, last, float(10 ** rng.uniform(-1.0, 1.2))),
+            "waypoints": (rng.uniform((4.0, -0.7), (9.0, 0.7), (8, 2)).tolist(),),
+        }
+        getattr(pen, kind)(*sizes[kind])
+        bend = last if kind == "clothoid" else 0.0
     return Route(pen.pieces, start=float(rng.uniform(0.0, 100.0)))
-
-
-def _line_to(rng, place, heading):
-    """A pen at a place, with a line that ends there."""
-    length = float(rng.uniform(20.0, 90.0))
-    pen = Pen(place - length * np.exp(1j * heading), heading)
-    pen.line(length)
-    return pen
-
-
-def _coil(rng):
-    turns = sorted(rng.uniform(2.0, 30.0, 2).tolist(), reverse=bool(rng.random() < 0.5))
-    centre = tuple(rng.uniform(-EXTENT, EXTENT, 2).tolist())
-    return Route([Coil(10 ** rng.uniform(-0.5, 0.5), *turns, centre, float(rng.uniform(-9.0, 9.0)))])
-
-
-def _turn(rng):
-    return Turn(float(rng.uniform(1.4, 2.5)), float(rng.uniform(4.0, 6.0)), float(rng.uniform(1.0, 2.5)))
-
-
-def _waypoints(rng):
-    steps = rng.uniform(4.0, 9.0, 12)[:, None]
-    angles = np.cumsum(rng.uniform(-0.7, 0.7, 12))
-    points = np.cumsum(steps * np.stack([np.cos(angles), np.sin(angles)], axis=1), axis=0)
-    return Route([Waypoints(tuple(map(tuple, points.tolist())))])
-
-
-def _clothoids(rng):
-    """A line, then clothoids whose curvature goes on from the one before, or jumps."""
-    pen, bend = _line_to(rng, complex(*rng.uniform(-EXTENT, EXTENT, 2)), float(rng.uniform(-9.0, 9.0))), 0.0
-    for _ in range(int(rng.integers(1, 5))):
-        bend, last = (bend if rng.random() < 0.7 else float(rng.uniform(-0.5, 0.5))), float(rng.uniform(-0.5, 0.5))
-        pen.clothoid(bend, last, float(10 ** rng.uniform(-1.0, 1.2)))
-        bend = last
-    return Route(pen.pieces, start=float(rng.uniform(0.0, 100.0)))
-
-
-ROUTES = (_lines_and_arcs, _coil, _turn, _waypoints, _clothoids)
 
 
 def compare(errors, search, head, rng):

@@ -46,7 +46,11 @@ def random_case(seed):
 
 def fault(seed):
     """The answer for one random dragon, and its fault in words ('' for none)."""
-    dragon, radius, turns, margin = random_case(seed)
+    return judged(*random_case(seed), np.random.default_rng(seed))
+
+
+def judged(dragon, radius, turns, margin, rng):
+    """The same for this dragon."""
 
     def least(pitch):
         return SlowWay.of(dragon, pitch, turns, radius).least() - margin
@@ -54,7 +58,6 @@ def fault(seed):
     def rounding(pitch):
         return ROUNDING + ROUNDING_PER_PITCH * pitch
 
-    rng = np.random.default_rng(seed)
     try:
         result = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
     except InvalidValue as refused:

@@ -148,9 +148,6 @@ def spent():
 
 
 LINES = {
-    "<FirstContact: benches 0 and 14 come within 0.05 m at 383.867583 s>": lambda: core.first_contact(
-        DANCE, margin=0.05
-    ),
     "<FirstContact: no two benches touch until 637.662028 s, where bench 0 folds>": lambda: core.first_contact(
         Dance(Dragon(), Spiral(0.8))
     ),
@@ -159,7 +156,6 @@ LINES = {
         core.minimum_pitch(Dragon())
     ),
     "<Budget: 7 of 10 steps of work left, stopped>": spent,
-    "<Waypoints: 1000 points from (0.0, 0.0) to (999.0, 9980.01) m>": lambda: CURVE,
 }
 
 

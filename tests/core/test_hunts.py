@@ -7,7 +7,6 @@ import pytest
 from core import (
     Outcome,
     first_contact,
-    first_encounter,
     venue_clearance,
 )
 from tests.campaigns import hunt_clothoids, hunt_contacts, hunt_encounters, hunt_turns, hunt_venues, hunting
@@ -56,15 +55,6 @@ def test_a_bound_that_is_too_high_and_a_tree_that_is_overlooked_are_faults():
     assert hunt_venues.area_fault(replace(result, nearest=nearest), margin, look)
     margin, look, result = first_where(campaign, Outcome.CONTACT)
     assert hunt_venues.area_fault(replace(result, outcome=Outcome.CLEAR, time_bracket=None), margin, look)
-
-
-def test_an_encounter_that_is_left_out_is_a_fault():
-    def campaign(case):
-        performance, margin, start, stop, look = hunt_encounters.random_case(44, case)
-        return margin, look, first_encounter(performance, margin=margin, start=start, stop=stop)
-
-    margin, look, met = first_where(campaign, Outcome.CONTACT)
-    assert hunt_encounters.encounter_fault(replace(met, outcome=Outcome.CLEAR, time_bracket=None), margin, look)
 
 
 @pytest.mark.parametrize("case", further([(3, 130), (1, 201), (1, 6), (1, 11), (3, 186)], 2), ids=str)

@@ -1,17 +1,12 @@
 """The verdict: each part agrees with its own search, and failures are in order of time."""
 
-import math
-
 import pytest
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
 
 from core import (
     Dance,
     Dragon,
     FailureKind,
     Judgement,
-    Route,
     Spiral,
     Turn,
     Venue,
@@ -24,7 +19,6 @@ from core import (
     sharpest_bend,
     venue_clearance,
 )
-from tests.support.random_routes import Pen
 from tests.support.random_squares import box
 from tests.support.reference import reference
 from tests.support.shared_dances import lane, square
@@ -140,24 +134,3 @@ def test_at_the_maximum_head_speed_the_limit_is_kept_and_just_above_it_is_not():
     for speed, passed in ((fastest, True), (fastest * (1.0 + 1e-9), False)):
         dance = Dance(Dragon(30), TURN, speed)
         assert check(dance, speed_limit=2.0, start=-20.0 / speed, stop=40.0 / speed).passed is passed
-
-
-def winding(bends, size):
-    """A dance along a line and arcs, all lengths times the size."""
-    pen = Pen(complex(-40.0 * size))
-    pen.line(40.0 * size)
-    for radius, sweep in bends:
-        pen.arc(radius * size, math.copysign(max(abs(sweep), 0.3), sweep))
-    dragon = Dragon(12, *(size * length for length in (3.41, 2.2, 0.3, 0.275)))
-    return Dance(dragon, Route(pen.pieces, start=40.0 * size), size)
-
-
-@settings(max_examples=15, deadline=None)
-@given(st.lists(st.tuples(st.floats(2.0, 6.0), st.floats(-2.5, 2.5)), min_size=2, max_size=4), st.floats(0.1, 3.0))
-@example([(3.25, 1.875), (5.5, 0.0)], 0.5)  # the nearest dip was not among the lowest samples
-def test_scaling_every_length_scales_the_verdict(bends, scale):
-    one, other = (check(winding(bends, size), start=0.0) for size in (1.0, scale))
-    assert one.passed == other.passed
-    assert one.sharpest_bend.angle == pytest.approx(other.sharpest_bend.angle, abs=1e-10)
-    assert other.least_clearance.distance == pytest.approx(scale * one.least_clearance.distance, abs=1e-9)
-    assert other.highest_speed.speed == pytest.approx(scale * one.highest_speed.speed, rel=1e-9)

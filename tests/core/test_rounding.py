@@ -35,8 +35,6 @@ from tests.support.exact_chain import BITS, angles_behind, coil_handles, distanc
 GAPS = 300
 # A gap of benches 0 and 19 of the default dragon is off by less [m].
 NEAR = 1e-14
-# Instants between the ends of an interval.
-INSTANTS = 31
 NO_CHORDS = np.empty(0)
 # What the head turns by for a difference quotient [rad], of which 60 digits leave 40.
 TURNED = arb(1e-20)
@@ -119,19 +117,6 @@ def test_however_long_the_way_both_ends_of_a_bracket_are_true(turns, margin):
     contact = true_bracket(dragon, spiral, margin=margin)
     clear, within = contact.time_bracket
     assert within - clear <= 1e-9 + 8.0 * ContactSearch(dragon, spiral, margin).travel_rounding(contact.time)
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_what_is_within_a_margin_for_certain_stays_so_over_the_interval(seed):
-    rng = np.random.default_rng(seed)
-    dragon = Dragon(9, 2.0, 1.5, rng.uniform(0.1, 0.5), rng.uniform(0.0, 0.4))
-    search = ContactSearch(dragon, Spiral(0.5, 3.0), 0.0)
-    a = int(rng.integers(0, 3))
-    b = int(rng.integers(a + 2, 9))
-    h, place = 10 ** rng.uniform(-12.0, -2.0), search.place - rng.uniform(0.0, 6.0)
-    most = kernels.pair_most(search.scene, search.probe, place, h, a, b)
-    for part in np.linspace(0.0, 1.0, INSTANTS):
-        assert kernels.gap_at(search.scene, place - part * h, a, b, search.placed) <= max(most, 0.0)
 
 
 @pytest.mark.parametrize(("x", "y"), [(-9e-10, 0.0), (0.0, 9e-10)], ids=["overlapping", "aside"])

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core import Dance, Dragon, Route, Spiral, Turn
+from core import Dance, Dragon, Route, Spiral
 from core.kernels import Interval, Rings, Scene, chain_rounding, climbs, place_chain, route_curve, spiral_curve
 from core.kernels.constants import (
     CENTRE_SPEED,
@@ -21,7 +21,7 @@ from core.kernels.constants import (
     UY,
 )
 from core.values import Floats
-from tests.campaigns.rounding_sweep import ROUTES, random_dragon
+from tests.campaigns.rounding_sweep import random_dragon, random_path
 from tests.support.slow_search import SlowDance
 
 # Rounding on routes: of a rate or direction on one some hundred metres long [1], and of coordinates there [m]; on
@@ -101,7 +101,7 @@ def on_route(seed):
     rng = np.random.default_rng(seed)
     while True:
         benches = int(rng.integers(3, 9))
-        path = Turn(1.7, 4.5, 2.0) if rng.random() < 0.2 else ROUTES[int(rng.integers(len(ROUTES)))](rng)
+        path = random_path(rng)
         longest = min(1.9 / path.sharpest[0] if path.sharpest[0] else 2.0, 3.0)
         dragon = random_dragon(rng, benches, longest * 10 ** rng.uniform(-0.4, -0.02))
         begin, end = max(Dance(dragon, path, 1.0).earliest, path.begin), Dance(dragon, path).end.time

@@ -34,7 +34,6 @@ DANCES = {
     "to the fold": (Dance(Dragon(20), Spiral()), 415.0, None),
     "a coil": (Dance(Dragon(8), Route([Coil(0.55, 16.0, 4.0)])), 50.0, 90.0),
     "the contest's turn": (Dance(Dragon(20), Turn(1.7)), -10.0, 50.0),
-    "a second": (Dance(Dragon(30), Spiral()), 300.0, 301.0),
     "waypoints, benches of many sizes": (Dance(MIXED, Route([WINDING], start=15.0), 0.7), None, None),
     "rounds": (ROUNDS, None, None),
     "straight on": (Dance(Dragon(3), lane((0.0, 0.0), (20.0, 5.0), start=9.0)), None, None),

@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from core import ClothoidTurn, Dance, Dragon, Outcome, Turn, first_contact, trajectory
+from core import ClothoidTurn, Dance, Dragon, Outcome, Turn, first_contact
 from tests.support.near import assert_near
 from tests.support.refused import refused
-from tests.support.slow_route import SlowRoute
 
-# A joint as it is accepted [m]; handles of the slow route [m].
-JOINT, HANDLES = 1e-9, 1e-9
+# A joint as it is accepted [m].
+JOINT = 1e-9
 SMOOTH = ClothoidTurn(1.7, ratio=1.0, middle=4.0, ends=0.5)
 
 
@@ -39,12 +38,6 @@ def test_its_arcs_and_the_place_between_them_lie_on_it():
         assert np.abs(np.hypot(*(places[on_arc] - centre).T) - radius).max() < JOINT
     between = int(np.argmin(np.hypot(*(places - turn.tangent_point).T)))
     assert bends[between - 1] < 0.0 < bends[between + 1]
-
-
-def test_handles_on_it_are_those_of_the_slow_route():
-    times = np.linspace(0.0, SMOOTH.length + 15.0, 21)
-    slow = SlowRoute.of(Dragon(9), SMOOTH).handles(times)
-    assert_near(trajectory(Dance(Dragon(9), SMOOTH), times).position, slow, HANDLES)
 
 
 def test_all_benches_dance_through_it():

@@ -10,13 +10,10 @@ from hypothesis import given, settings
 from core import (
     Coil,
     Dance,
-    Dragon,
     Line,
     OutsideRun,
     Route,
-    Spiral,
     Turn,
-    first_contact,
     trajectory,
 )
 from core.errors import Quantity
@@ -26,7 +23,6 @@ from tests.support.random_routes import DRAGON, first_behind, routes
 from tests.support.refused import refused
 
 TURN = Turn(1.7, 4.5, 2.0)
-SAME = 1e-10  # [m], [m/s], [s]: one curve written in two ways
 CHORD_ERROR = 1e-11  # [m], at coordinates to 100 m
 PLACE_ERROR = 1e-9  # [m]: handles by a scan and brentq, each good to 1e-12 m, along a chain
 QUOTIENT_STEP = 1e-6  # [s]
@@ -80,20 +76,6 @@ def test_an_instant_after_the_end_of_the_path_is_refused():
     trajectory(Dance(DRAGON, STRAIGHT), [100.0])
     with refused("times.0", OutsideRun, end=Quantity(100.0, "s", text="100.000000000 s")):
         trajectory(Dance(DRAGON, STRAIGHT), [100.001])
-
-
-@pytest.mark.parametrize("cuts", [(), (10.0, 4.2)], ids=["one coil", "three coils"])
-def test_a_spiral_as_a_route_has_the_spirals_motion_contact_and_clearance(cuts):
-    as_route = Route([Coil(0.55, a, b) for a, b in pairwise((16.0, *cuts, 3.0))])
-    dances = [Dance(Dragon(), path) for path in (Spiral(), as_route)]
-    times = np.linspace(-50.0, 412.0, 9)
-    a, b = (trajectory(dance, times) for dance in dances)
-    for name in ("position", "velocity", "speed"):
-        assert_near(getattr(a, name), getattr(b, name), SAME)
-    a, b = map(first_contact, dances)
-    assert (a.outcome, a.benches, a.corner, a.edge) == (b.outcome, b.benches, b.corner, b.edge)
-    assert_near(a.time, b.time, SAME)
-    assert_near(a.point, b.point, 10 * SAME)  # the time's error at the corner's speed
 
 
 def instants(route, count):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core import Coil, Dance, Dragon, InvalidValue, Route, Turn, first_contact, least_clearance, trajectory
+from core import Coil, Dance, Dragon, InvalidValue, Route, Turn, least_clearance, trajectory
 from tests.support.near import assert_near
 from tests.support.reference import reference
 
@@ -52,7 +52,6 @@ def test_a_free_exit_leaves_on_the_coil_outwards_in_its_direction(ratio, entry, 
     s = turn.joints[2] - turn.joints[0]
     assert_near([turn.position(s), turn.tangent(s)], [coil.position(0.0), coil.tangent(0.0)], 1e-12)
     assert np.linalg.norm(turn.position(np.linspace(0.0, turn.length, 20_001)), axis=-1).max() <= 4.5 + 1e-9
-    assert first_contact(Dance(Dragon(), turn), start=-100.0, stop=500.0).time is None
 
 
 @pytest.mark.uncompiled

@@ -50,7 +50,6 @@ def assert_seen(stretch, before, after, k, step):
 
 
 def test_on_a_circle_the_angles_are_exact():
-    """Of other curves: test_angles_of_a_chord_lie_between_those_of_two_circles of tests/core/test_lemmas.py."""
     for bend in ("0.5", "-0.5"):
         angle = half_angle(arb(bend), arb(bend), arb("1.65"))
         assert angle.contains((arb(bend) * arb("1.65") / 2).asin())

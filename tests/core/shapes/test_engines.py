@@ -6,20 +6,16 @@ import numpy as np
 import pytest
 import shapely
 
-from core.kernels import Budget
 from core.shapes.engines import (
-    GRID,
-    GROWTH_MOST,
     KEPT_DRAGONS,
     WIDEST,
     Engine,
     engine_pairs,
-    united,
     widest_place,
 )
 from tests.support.depth import examples
 from tests.support.near import assert_near
-from tests.support.scenes import shapely_of, unlinked_pairs
+from tests.support.scenes import unlinked_pairs
 
 
 def crowds(count):
@@ -59,30 +55,6 @@ def test_many_instants_at_once_are_as_one_by_one(engine):
             together = engine_pairs(engine, poses, size, 0.0, chained=chained)
             for pose, pairs in zip(poses, together, strict=True):
                 np.testing.assert_array_equal(pairs, *engine_pairs(engine, pose[None], size, 0.0, chained=chained))
-
-
-def excess_of(polygons, own, spacing):
-    """Distances from a shape to points of the border of polygons that must cover it [m]."""
-    result = shapely_of(polygons)
-    assert result.is_valid
-    assert result.covers(own)
-    return shapely.distance(own, shapely.points(shapely.get_coordinates(shapely.segmentize(result.boundary, spacing))))
-
-
-def test_a_union_is_grown_by_what_was_asked_and_hardly_more():
-    random = np.random.default_rng(4)
-    angles = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)[:, None] + [0.0, 0.11, 0.12]  # with shallow dents
-    fan = np.stack([np.cos(angles), np.sin(angles)], axis=-1) * (1.0 + 1e-3 * random.uniform(size=(60, 1, 1)))
-    fan[:, 0] *= 0.4
-    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    bars = np.stack([corners * [4.0, 0.1] - [2.0, 0.0], corners + 5.0])
-    grown, bar = 0.02, [*bars[:, None]]
-    own = shapely.union_all([*shapely.polygons(fan), *shapely.polygons(bars)])
-    away = excess_of(united([*fan[:, None], *bar], [bars[1:] + 0.2], grown, 0.3, Budget()), own, 5e-3)
-    assert grown - GRID <= away.min()
-    assert away.max() <= GROWTH_MOST * grown + GRID
-    rest = united(bar, [bars[1:] + 0.4], grown, 0.3, Budget())
-    assert shapely_of(rest).covers(shapely.box(5.4, 5.4, 6.4, 6.4))
 
 
 def ring(*corners):

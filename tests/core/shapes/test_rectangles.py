@@ -68,13 +68,6 @@ def test_gap_alone_equals_the_separation(pair):
         assert gap / 2 < gap_within(gap / 2) <= gap + ROUNDING
 
 
-def test_separation_equals_the_minkowski_oracle_on_random_pairs():
-    pair = random_pairs(10_000, seed=1)
-    result = separation(*pair).separation
-    assert np.mean(result < 0) > 0.1
-    assert_near(result, minkowski_separation(corners(*pair[:2]), corners(*pair[2:])), ORACLE_ROUNDING)
-
-
 def test_separation_of_extreme_sizes_equals_the_oracle():
     random = np.random.default_rng(7)
     size = 10 ** random.uniform(math.log10(SIZE_MIN), math.log10(SIZE_MAX), (2, 5_000, 2))
