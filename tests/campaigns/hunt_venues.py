@@ -1,9 +1,10 @@
-"""Venues of random dances on spirals, up to the fold, against dense poses compared by shapely.
+"""Venues of random dances on spirals, up to the fold, and on routes, against dense poses compared by shapely.
 
 `python -m tests.campaigns.hunt_venues SEED SECONDS`. Most obstacles have a corner next to a place that a bench
 passes, many of them in the last metres before the fold; spirals stand anywhere, turned and mirrored.
 """
 
+import math
 from functools import partial
 
 import numpy as np
@@ -11,7 +12,9 @@ import shapely
 
 from core import Area, Dance, Judgement, Outcome, Spiral, Venue, check, venue_clearance
 from tests.campaigns import hunting
+from tests.campaigns.hunt_clothoids import blended_route
 from tests.campaigns.hunt_contacts import GAP, meeting_fault, random_dragon, random_margin
+from tests.support.slow_route import SlowRoute
 from tests.support.slow_search import RUN, Samples, SlowDance, benches_of, corners_of
 
 # Number of poses on the way, evenly spaced in time and towards the fold in its square root.
@@ -66,10 +69,17 @@ def random_case(seed, case):
     dragon, turns = random_dragon(rng, int(rng.choice([1, 2, 3, 5, 8, 12]))), float(rng.uniform(1.2, 5.0))
     pitch = float(rng.uniform(0.15, 1.2) * dragon.chords.max())
     centre, rotation, clockwise = rng.uniform(-20.0, 20.0, 2), float(rng.uniform(-4.0, 4.0)), bool(rng.uniform() < 0.5)
-    dance = Dance(dragon, Spiral(pitch, turns, tuple(centre), rotation, clockwise))
-    slow = SlowDance.of(dragon, Spiral(pitch, turns))
+    if case % 3 == 2:
+        path, centre, rotation, clockwise = blended_route(rng, dragon), np.zeros(2), 0.0, True
+        slow = SlowRoute.of(dragon, path)
+    else:
+        path, slow = (
+            Spiral(pitch, turns, tuple(centre), rotation, clockwise),
+            SlowDance.of(dragon, Spiral(pitch, turns)),
+        )
+    dance = Dance(dragon, path)
     end = RUN * min(slow.end(), dance.end.time)  # the slow one may step over a fold beside the centre
-    start = float(end * rng.uniform(0.0, 0.9)) if rng.uniform() < 0.5 else 0.0
+    start = float(dance.begin + (end - dance.begin) * rng.choice([0.0, rng.uniform(0.0, 0.9)]))
     stop = None if rng.uniform() < 0.6 else float(start + (end - start) * rng.uniform(0.5, 1.0))
     until = end if stop is None else stop
     part = np.linspace(0.0, 1.0, POSES)
@@ -118,6 +128,8 @@ def area_fault(tree, margin, look):
     nearest = tree.nearest
     if nearest.at_least is not None and nearest.distance > 0.0 and low < nearest.at_least - GAP:
         return f"{nearest!r}, but the distance is {low} at {there} s"
+    if nearest.distance > 0.0 and abs(math.dist(nearest.point, nearest.wall) - nearest.distance) > GAP:
+        return f"{nearest!r}, but its points are as far apart as {math.dist(nearest.point, nearest.wall)}"
     if max(low, 0.0) < nearest.distance - PROVEN:
         return f"{nearest!r}, but the distance is {low} at {there} s"
     if look.at(nearest.time) > nearest.distance + 1e3 * GAP:

@@ -34,13 +34,11 @@ LONG = Dragon(150)
 CONTACT = {
     "wide benches": (Dragon(150, head_length=2.2, width=0.45), {"pitch": 1.4, "ratio": 1.0}),
     "margin": (LONG, {"pitch": 1.7, "ratio": 1.0, "margin": 0.2}),
-    "tight pitch": (LONG, {"pitch": 1.25, "ratio": 0.7}),
     "small dragon": (Dragon(150, 1.5, 1.5, 0.4, 0.2), {"pitch": 1.1, "ratio": 1.3}),
 }
 BEND = {
     "contest": (LONG, {"pitch": 1.7}),
     "equal arcs": (LONG, {"pitch": 1.7, "ratio": 1.0}),
-    "even": (Dragon(150, head_length=2.2), {"pitch": 1.2}),
 }
 
 

@@ -4,8 +4,7 @@ import pytest
 
 from core import Dragon, Spiral, Turn
 from core.contact.search import ContactSearch
-from core.kernels import clearance_at, gap_at, gap_rate_at
-from tests.support.intervals import checked_pairs
+from core.kernels import gap_at, gap_rate_at
 
 # Step of difference quotients [m], and the error that it leaves in a rate [1].
 STEP, QUOTIENT = 1e-5, 1e-6
@@ -14,15 +13,6 @@ PATHS = pytest.mark.parametrize(("path", "travel"), [(Spiral(), 395.0), (Turn(1.
 
 def gap(search, travel, pair):
     return gap_at(search.scene, search.place - travel, *pair, search.tried)
-
-
-@PATHS
-def test_the_clearance_is_the_least_gap_of_all_pairs(path, travel):
-    search = ContactSearch(Dragon(45), path, 0.0)
-    for at in (0.0, travel, travel + 7.3):
-        least, *pair = clearance_at(search.scene, search.place - at, 45, 45, search.placed, search.motion)
-        gaps = {each: gap(search, at, each) for each in checked_pairs(45)}
-        assert least == min(gaps.values()) == gaps[tuple(pair)]
 
 
 @PATHS

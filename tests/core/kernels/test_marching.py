@@ -19,19 +19,6 @@ def marched(search, start=380.0, work=1e7):
     return march.run(start, 420.0, 2, True, HALF_BRACKET, True, ROUNDING, work), march.result()
 
 
-def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant():
-    search = forty()
-    ended, result = marched(search)
-    assert ended is Ended.TOUCHED
-    assert result.touching is not None
-    assert result.proven <= CONTACT <= result.touching <= result.proven + 3.0 * HALF_BRACKET
-    assert result.benches == (0, 8)
-    # the dip before it, seen on the way
-    assert result.graze is not None
-    assert 0.0 < result.graze.gap < 0.001
-    assert result.graze.benches == (0, 11)
-
-
 def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven():
     ended, result = marched(forty(), work=200.0)
     assert ended is Ended.STUCK

@@ -120,7 +120,7 @@ def test_the_first_row_that_folds_is_found_wherever_it_stands_in_its_block(row):
 
 
 @pytest.mark.parametrize(
-    ("times", "field"), [(math.inf, "times"), ([0.0, math.nan], "times.1"), ([math.inf], "times.0")]
+    ("times", "field"), [(math.inf, "times"), ([0.0, math.nan], "times.1"), ([True], "times"), ([[0.0]], "times")]
 )
 def test_times_that_are_no_flat_list_of_numbers_are_refused(times, field):
     with refused(field):

@@ -1,13 +1,10 @@
 """Clothoids against Fresnel integrals to 50 digits, at their ends, as arcs and lines, and what they refuse."""
 
-import math
-
 import numpy as np
 import pytest
 from flint import acb
 
 from core import (
-    Arc,
     Budget,
     Clothoid,
     Route,
@@ -42,12 +39,6 @@ def test_places_are_those_of_fresnel_integrals(piece):
         exact = clothoid_place(piece, v)
         assert float(abs(acb(*route.position(v).tolist()) - exact)) < max(PLACE, 1e-12 * float(abs(exact)))
     assert_near(piece.end, route.position(route.end), SAME)
-
-
-def test_a_clothoid_of_one_curvature_is_an_arc():
-    s = np.linspace(-3.0, 12.0, 61)
-    clothoid, arc = Clothoid((0, 0), 0.0, 0.5, 0.5, 9.0), Arc((0.0, 2.0), 2.0, -0.5 * math.pi, 4.5)
-    assert_near(Route([clothoid]).position(s), Route([arc]).position(s), SAME)
 
 
 def test_every_row_turns_little():

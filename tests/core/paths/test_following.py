@@ -4,7 +4,6 @@ import pytest
 
 from core import (
     Arc,
-    Coil,
     Dance,
     Line,
     OutsideRun,
@@ -17,12 +16,13 @@ from core import (
 )
 from core.errors import Quantity
 from core.paths.following import ROOM_WIDTH, earliest_travel
-from tests.core.paths.test_route import PLACE_ERROR, SAME
+from tests.core.paths.test_route import PLACE_ERROR
 from tests.support.near import assert_near
 from tests.support.random_routes import DRAGON, first_behind
 from tests.support.refused import refused
 
 LENGTH = float(DRAGON.chords.sum())
+SAME = 1e-10  # [m]: one curve written in two ways
 
 
 def line(length):
@@ -42,7 +42,6 @@ TOO_SHORT = {
     "a line": line(10),
     "a line a hair shorter than the dragon": line(LENGTH - 1e-6),
     "an arc as long as the dragon when straight": Route([Arc((0, 0), 3.7, 0, LENGTH / 3.7)]),
-    "a coil outwards": Route([Coil(3.0, 0.5, 1.0)]),
 }
 
 

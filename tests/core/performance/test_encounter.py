@@ -72,14 +72,6 @@ def test_benches_that_meet_slowly_have_a_bracket_as_narrow_as_rounding_lets_it_b
     assert high - low < 4.1e-9
 
 
-def test_another_clock_changes_nothing():
-    known, parts = first_of(CASES["random 0"]), performance_of(CASES["random 0"]).parts
-    late = Performance([replace(part, delay=part.delay + 1000.0) for part in parts])
-    met = first_encounter(late, start=CASES["random 0"]["start"] + 1000.0, stop=known.time + 1010.0)
-    assert met.time == pytest.approx(known.time + 1000.0, abs=SAME_TIME)
-    assert (met.dragons, met.benches) == (known.dragons, known.benches)
-
-
 @pytest.mark.parametrize("offset", [-1e-6, 1e-6])
 def test_a_graze_is_decided_a_micrometre_from_the_touch(offset):
     # Two circles: the outer dragon overtakes. The corners of the inner one reach out to a radius in closed form, and

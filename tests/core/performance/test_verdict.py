@@ -26,7 +26,6 @@ from core import (
     trajectory,
 )
 from tests.support.random_squares import box
-from tests.support.refused import refused
 from tests.support.shared_dances import EAST, NORTH, on_lanes
 
 SQUARE = Venue(box("square", -35, -30, 65, 60))
@@ -111,9 +110,3 @@ def test_the_ground_of_each_dragon_is_that_of_its_dance_and_of_the_place_where_i
     _, still = performance_envelope(delayed(500.0), **query)
     width, height = np.ptp(bench_outlines(dance.dragon, trajectory(dance, dance.begin).position), axis=(0, 1))
     assert width * height <= still.area <= (width + 0.021) * (height + 0.021)  # its benches overlap in a row
-
-
-@pytest.mark.parametrize(("times", "field"), [([np.nan], "times.0"), ([[1.0]], "times")])
-def test_impossible_times_are_refused(times, field):
-    with refused(field):
-        performance_trajectory(CROSSING, times)

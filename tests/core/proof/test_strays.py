@@ -5,7 +5,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-import shapely
 
 from core import Dance, Dragon, Line, Route, Spiral, bench_outlines, tolerance, trajectory
 from core.errors import ProofRefused
@@ -13,6 +12,7 @@ from core.proof import prove_tolerance, verify
 from core.tolerance.curve import time_on_circle
 from tests.support.forgeries import DROPPED, assert_refused, stretches, through_json
 from tests.support.refused import refused
+from tests.support.shown_poses import overlap
 
 DANCE = Dance(Dragon(12), Spiral(0.7, 5.0))
 SPAN = {"start": 40.0, "stop": time_on_circle(DANCE, 1.5)}
@@ -51,8 +51,7 @@ def test_the_pose_of_a_certificate_is_a_contact_in_doubles_too():
     handles = pose["head"] - np.concatenate([np.zeros((1, 2)), steps.cumsum(axis=0)])
     strays = np.hypot(*(handles - trajectory(DANCE, pose["time"]).position).T)
     assert strays.max() < small()["claim"]["shown"] + REBUILT
-    one, other = (shapely.Polygon(bench_outlines(dragon, handles)[k]) for k in pose["benches"])
-    assert one.intersection(other).area > 0.0
+    assert overlap(*bench_outlines(dragon, handles)[pose["benches"]]) > 0.0
 
 
 @pytest.mark.thorough
