@@ -105,6 +105,8 @@ def judged(dance, venue, margin, start, stop, look):
     """The kind of a clearance from the tree, and its fault in words."""
     tree = venue_clearance(dance, venue, margin=margin, start=start, stop=stop).areas[1]
     wrong = area_fault(tree, margin, look)
+    if shapely.Polygon(venue.obstacles[0].rings[0]).boundary.distance(shapely.Point(tree.nearest.wall)) > GAP:
+        wrong = wrong or f"{tree!r}, but its place is not on the tree"
     report = check(dance, venue=venue, margin=margin, start=start, stop=stop)
     tree = report.venue.areas[1]
     seen = look.least(report.stop)[0]

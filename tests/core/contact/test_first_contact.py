@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from core import (
     Dance,
     Dragon,
-    EndReason,
     FailureKind,
     Judgement,
     Outcome,
@@ -111,19 +110,6 @@ def test_random_dragons_touch_when_and_where_the_slow_search_says(seed, bench_by
 )
 def test_a_start_near_the_centre_is_searched_with_all_pairs(dance):
     assert_as_slow_search(dance)
-
-
-@pytest.mark.parametrize(
-    ("dance", "reason"),
-    [
-        (Dance(Dragon(2), Spiral(0.1, 40.0)), EndReason.FOLD),
-        (Dance(Dragon(12, 1.0, 1.0, 0.05, 0.0), Spiral(3.0, 4.0)), EndReason.CENTRE),
-    ],
-    ids=["two that share a handle", "wide, to its centre"],
-)
-def test_a_dance_without_a_pair_that_meets_is_clear_to_its_end(dance, reason):
-    contact = first_contact(dance)
-    assert (contact.outcome, contact.end, contact.end.reason) == (Outcome.CLEAR, dance.end, reason)
 
 
 # -- grazes: pitches at which a dip of the clearance just reaches the margin, so that the time of contact jumps --

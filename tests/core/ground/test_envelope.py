@@ -8,7 +8,6 @@ import shapely
 
 from core import (
     Arc,
-    Coil,
     Dance,
     Dragon,
     Route,
@@ -32,7 +31,6 @@ ROUNDS = Dance(Dragon(6), Route([Arc((0.0, 0.0), RING, 0.0, 15.0)], start=40.0))
 DANCES = {
     "the default up to its contact": (Dance(Dragon(examples(40, 223)), Spiral()), 350.0, 412.4738),
     "to the fold": (Dance(Dragon(20), Spiral()), 415.0, None),
-    "a coil": (Dance(Dragon(8), Route([Coil(0.55, 16.0, 4.0)])), 50.0, 90.0),
     "the contest's turn": (Dance(Dragon(20), Turn(1.7)), -10.0, 50.0),
     "waypoints, benches of many sizes": (Dance(MIXED, Route([WINDING], start=15.0), 0.7), None, None),
     "rounds": (ROUNDS, None, None),

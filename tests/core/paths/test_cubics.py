@@ -106,7 +106,6 @@ STOPPING = {
 }
 SQUARE = 1e-3 * (np.arange(1_001) // 2 % 2)
 HOSTILE = {
-    "there and almost back": zigzag(1_000, 1e2, 1e5),
     "in a square of a millimetre": points_of(SQUARE[:-1], SQUARE[1:]),
     "anywhere": points_of(*np.random.default_rng(1).uniform(-1e5, 1e5, (1_000, 2)).T),
 }

@@ -8,16 +8,13 @@ import numpy as np
 import pytest
 
 from core import (
-    Area,
     Dance,
     Dragon,
     Spiral,
-    Venue,
     envelope,
     first_contact,
     tolerance,
     trajectory,
-    venue_clearance,
 )
 from tests.support.near import assert_near
 
@@ -31,8 +28,6 @@ PLACES = {
 }
 # Rounding of a coordinate in the world, by its size [m].
 ROUNDING = 1e-10
-SQUARE = ((-9.5, -9.0), (9.2, -9.0), (9.2, 9.4), (-9.5, 9.4), (-9.5, -9.0))
-TREE = ((2.0, 0.5), (2.5, 0.5), (2.5, 1.0), (2.0, 1.0), (2.0, 0.5))
 
 
 @pytest.fixture(params=PLACES.values(), ids=PLACES)
@@ -65,22 +60,6 @@ def test_no_time_and_no_distance_depends_on_the_place(moved):
     old, new = first_contact(STANDARD), first_contact(dance)
     assert (new.time_bracket, new.benches, new.corner) == (old.time_bracket, old.benches, old.corner)
     assert_near(new.point, move(np.array(old.point)), ROUNDING)
-
-
-def test_a_venue_is_met_where_it_is(moved):
-    dance, move = moved
-
-    def venue(place):
-        rings = (tuple(map(tuple, place(np.array(ring)))) for ring in (SQUARE, TREE))
-        square, tree = map(Area, ("square", "tree"), ((ring,) for ring in rings))
-        return Venue(square, (tree,))
-
-    both = ((STANDARD, venue(lambda points: points)), (dance, venue(move)))
-    old, new = (venue_clearance(*each, stop=200.0) for each in both)
-    for one, other in zip(old.areas, new.areas, strict=True):
-        assert (one.outcome, one.bench, one.nearest.bench) == (other.outcome, other.bench, other.nearest.bench)
-        assert_near(other.nearest.distance, one.nearest.distance, ROUNDING)
-        assert_near(other.nearest.wall, move(np.array(one.nearest.wall)), 1e-6)
 
 
 def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(moved):
