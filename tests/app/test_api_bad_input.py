@@ -78,13 +78,6 @@ def test_an_unknown_format_is_not_found_and_the_known_ones_are_named(ask):
     assert_problem(ask.send("figures/contact.pdf"), 404, 'format "svg" "png" "pdf"')
 
 
-@pytest.mark.thorough
-def test_an_answer_that_takes_too_much_work_is_a_problem(ask):
-    answer = ask.send("minimum-pitch?body_length=0.001&overhang=0&turning_diameter=6")
-    assert_problem(answer, 422, "body_length within 6")
-    assert answer.json()["type"].endswith(":too-much-work")
-
-
 @pytest.mark.parametrize(
     ("call", "accept"),
     [

@@ -53,11 +53,6 @@ def test_an_endless_body_is_cut_off(small):
     assert small.send("healthz").status_code == 200
 
 
-def test_a_dragon_may_have_as_many_benches_as_the_limit(small):
-    assert small("trajectory", {"dragon": {"benches": 300}, "times": [0]})
-    small.refuses("/dragon/benches 300", "trajectory", {"dragon": {"benches": 301}, "times": [0]})
-
-
 def test_a_table_may_have_as_many_cells_as_the_limit(small):
     body, whole, more = {"dragon": {"benches": 199}}, {"stop": 99.9, "step": 0.1}, {"stop": 100, "step": 0.1}
     assert len(small("trajectory", body | {"times": whole})["time"]) == 1000

@@ -54,14 +54,6 @@ def checked(body, *options):
     return answer_of("check", "-", *options, text=json.dumps(body))
 
 
-def test_check_reads_toml_and_json_and_answers_like_the_service(client, dance):
-    answer = served(client, BODY)
-    assert not answer["passed"]
-    assert json.loads(answer_of("check", str(dance), "--json")) == answer
-    dance.with_suffix(".json").write_text(json.dumps(BODY))
-    assert json.loads(answer_of("check", str(dance.with_suffix(".json")), "--json")) == answer
-
-
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -109,14 +101,6 @@ def test_what_is_not_decided_is_no_failure():
     assert "fails" not in report
 
 
-def test_a_single_handle_is_no_handles(dance):
-    # While the head alone is on the arc, it turns away from the lane, along which the others follow more slowly.
-    bend = 'kind = "arc"\ncentre = [60, 20]\nradius = 20\nstart_angle = -1.5707963267948966\nsweep = 1.5'
-    times = DANCE.replace("start = 15", "start = 60.5").replace('venue = "yard.geojson"', "stop = 61")
-    dance.write_text(f"{times}\n[[path.pieces]]\n{bend}")
-    assert re.search(r"\n *highest speed .*handle 0 *\n", answer_of("check", str(dance)))
-
-
 def test_the_dance_is_drawn_in_its_venue(dance):
     figure = dance.with_name("dance.svg")
     done = run("check", str(dance), "--figure", str(figure), "--time", "15", "--json")
@@ -144,10 +128,3 @@ def test_the_last_second_of_a_table_is_not_after_the_end_of_a_path(tmp_path, mor
     assert stop % 1.0 > 0.999
     first, *_, last = csv.DictReader(table.read_text().splitlines())
     assert (float(first["time"]), first["clock"], float(last["time"])) == (10.0, "19:30:10", stop)
-
-
-def test_a_file_that_windows_saved_is_read(dance):
-    answer = answer_of("check", str(dance))
-    for encoding in ("utf-8-sig", "utf-16"):
-        dance.write_text(DANCE, encoding=encoding)
-        assert answer_of("check", str(dance)) == answer

@@ -42,14 +42,6 @@ def test_the_command_does_not_import_the_packages_of_another_program(words, othe
 
 
 @pytest.mark.thorough
-def test_nor_do_the_processes_of_a_sweep(other_program, tmp_path):
-    (tmp_path / "spec.toml").write_text('question = "collision_time"\n[over]\npitch = [0.5, 0.55]\n')
-    line = f"sweep run {tmp_path}/spec.toml --output {tmp_path}/table --workers 2"
-    done = run(*line.split(), PYTHONPATH=other_program)
-    assert done.returncode == 0, done.stderr
-
-
-@pytest.mark.thorough
 def test_nor_do_the_processes_of_the_service(other_program, tmp_path):
     port, log = free_port(), tmp_path / "log"
     environment = ENVIRONMENT | {"PYTHONPATH": other_program, "BENCH_DRAGON_DATA": str(tmp_path / "data")}

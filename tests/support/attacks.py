@@ -67,16 +67,6 @@ def once(path, body, url, seconds):
     assert status == http.client.OK or len(answer) < ERROR_BYTES
 
 
-def uneven_dragons():
-    """Half a minute of work: 2,000 different benches through a turn."""
-    dragon = {
-        "lengths": [2.2 + 0.001 * (k % 97) for k in range(2000)],
-        "widths": [0.3] * 2000,
-        "overhangs": [0.275] * 2000,
-    }
-    return json.dumps({"dragon": dragon, "path": {"kind": "turn"}}).encode()
-
-
 def near_grazes(url, seconds):
     """A tenth of a second each, where a millisecond is expected: two benches pass within 1e-9 m of each other."""
     paths = (f"/collision-time?cross_check=pair&pitch={0.45033739302 + 1e-13 * k:.17g}" for k in range(40))
@@ -214,13 +204,7 @@ def largest_inputs(url, seconds):
 
 
 ATTACKS = {
-    # 114 s of work each.
-    "heavy_speeds": partial(
-        crowd, 40, "/maximum-head-speed?benches=2000&pitch=10&start_turns=200&turning_diameter=200"
-    ),
     "long_thin_dragon": partial(crowd, 8, "/minimum-pitch?benches=6308&body_length=0.001&head_length=0.001&overhang=0"),
-    "equal_arcs": partial(crowd, 8, "/shortest-turn?head_length=1.001&ratio=1"),
-    "uneven_dragons": partial(crowd, 8, "/check", body=uneven_dragons),
     "near_grazes": near_grazes,
     "polygon_of_holes": partial(once, "/check", partial(polygon, 140_000)),
     "names_twice": partial(once, "/collision-time?" + "&".join(f"n{k}=1&n{k}=1" for k in range(5_500)), None),

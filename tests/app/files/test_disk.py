@@ -1,16 +1,14 @@
 """Files of the command: refused before any work, and written completely or not at all."""
 
-import errno
 import os
 import re
 from pathlib import Path
 
 import pytest
 
-from app.files.disk import checked_output, write_whole
+from app.files.disk import write_whole
 from tests.support.command import run
 from tests.support.refusal_rows import assert_refused_in_one_line
-from tests.support.refused import refused
 
 OLD, NEW = b"what stood here before", b"what is written now"
 # Longest file in the tests of a full disk [bytes].
@@ -37,10 +35,6 @@ def with_target(arguments, folder):
 @pytest.mark.parametrize(
     "row",
     [
-        *(
-            f"trajectory --output foo{ending} -> --output must end in"
-            for ending in ("", ".doc", ".csvx", ".CSV.txt", ".")
-        ),
         "check missing.toml --figure dance.gif -> --figure must end in ... .svg .png, .gif",
         *(
             f"{' '.join(command)} missing/{file} -> {command[-1]} must be in a folder that exists ... missing/{file}"
@@ -125,22 +119,3 @@ def test_a_long_name_leaves_room_for_the_temporary_one(tmp_path):
     file = tmp_path / ("n" * 250 + ".csv")
     write_whole(file, NEW)
     assert file.read_bytes() == NEW
-
-
-def test_a_relative_name_is_written_beside_where_one_stands(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    done = run("trajectory", "--stop", "2", "--output", "dance.csv")
-    assert (done.returncode, done.stderr) == (0, "dance.csv: 224 handles at 3 instants\n")
-    assert (tmp_path / "dance.csv").read_bytes().startswith(b"time,handle,x,y,speed\n")
-
-
-@pytest.mark.parametrize(("is_file", "number"), [(False, errno.ENOENT), (True, errno.ENOTDIR)])
-def test_a_writer_alone_names_the_file_that_it_was_given(tmp_path, is_file, number):
-    file = tmp_path / "folder" / "dance"
-    if is_file:
-        file.parent.write_bytes(b"")
-    with pytest.raises(OSError, match="dance") as fault:
-        write_whole(file, NEW)
-    assert (fault.value.errno, fault.value.filename) == (number, str(file))
-    with refused("output"):
-        checked_output("output", file)

@@ -10,7 +10,7 @@ import pytest
 
 from app.files import figures
 from app.files.tables import Language
-from core import Area, Dance, Dragon, Line, OutsideRun, Route, Spiral, Venue, first_contact, minimum_pitch
+from core import Area, Dance, Dragon, Line, Route, Spiral, Venue, first_contact, minimum_pitch
 from core.design.pitch_scan import scan_near_minimum
 from tests.support.depth import some
 
@@ -141,11 +141,6 @@ def test_equal_questions_give_equal_bytes_also_in_threads():
         assert png[:8] == PNG_SIGNATURE
         assert min(struct.unpack(">II", png[16:24])) > 500  # pixels
         assert ElementTree.fromstring(svg).tag.endswith("svg")
-
-
-def test_trajectory_figure_after_the_end_of_the_run_is_refused():
-    with pytest.raises(OutsideRun):
-        figures.trajectory_figure(Dance(SMALL, Spiral()), time=440.0)
 
 
 def test_pitch_scan_figure_of_a_dragon_that_cannot_touch_says_so():

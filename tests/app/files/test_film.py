@@ -9,7 +9,7 @@ import pytest
 import shapely
 from PIL import Image, ImageSequence
 
-from app.files.film import DPI, FRONT_SHARE, MARKED_LEAST, TYPE_SHARE, FilmPicture, film
+from app.files.film import DPI, FRONT_SHARE, MARKED_LEAST, FilmPicture, film
 from app.files.film_labels import numbered, pictures_of, size_of
 from app.files.film_spec import GIF_TYPE, MP4_TYPE, FilmSpec
 from core import (
@@ -98,9 +98,8 @@ def test_every_frame_shows_every_bench_where_it_is(tmp_path):
         assert np.abs(orange.mean(axis=0) - places[0]).max() < 3.0, instant
 
 
-@pytest.mark.parametrize("ending", ["mp4", pytest.param("gif", marks=pytest.mark.thorough)])
-def test_the_last_frame_alone_marks_both_benches_that_touch(ending, tmp_path):
-    pictures = filmed(tmp_path / f"dance.{ending}", "--seconds=1", "--rate=2", "--height=1080", "--head-length=1.55")
+def test_the_last_frame_alone_marks_both_benches_that_touch(tmp_path):
+    pictures = filmed(tmp_path / "dance.mp4", "--seconds=1", "--rate=2", "--height=1080", "--head-length=1.55")
     dance = Dance(Dragon(head_length=1.55), Spiral())
     time = first_contact(dance).time
     stage = FilmPicture(dance, FilmSpec(0.0, time), None, "")
@@ -247,25 +246,19 @@ def village(height=540, marked=((0, 17),)):
 
 
 @pytest.mark.parametrize("height", [540, pytest.param(1080, marks=pytest.mark.thorough)])
-def test_a_marked_bench_is_wide_enough_to_be_seen_and_its_number_beside_it(height):
+def test_a_marked_bench_is_wide_enough_to_be_seen(height):
     stage, _ = village(height)
-    numbers = stage.layers[0].labels[1]
     for instant in (0.0, 40.0, 70.0, 90.0, 119.0):
         outlines = outlines_of(stage.dance, instant)
         picture = stage.frame(instant, outlines)[..., :3].astype(int)
         front, rear = outlines[17].reshape(2, 2, 2).mean(axis=1)
-        # Its front is dark, so the yellow is behind its middle.
-        shares = np.array([0.0, 0.5 * FRONT_SHARE, 0.5, 0.5 * (1.0 + FRONT_SHARE), 1.0])[:, None]
-        first, dark, middle, behind, last = on_picture(stage, front + shares * (rear - front))
+        # Its front is dark, so the yellow is behind.
+        shares = np.array([0.0, 0.5 * FRONT_SHARE, 0.5 * (1.0 + FRONT_SHARE), 1.0])[:, None]
+        first, dark, behind, last = on_picture(stage, front + shares * (rear - front))
         yellow = np.argwhere((np.abs(picture - YELLOW) < NEAR).all(axis=-1))
         assert len(yellow) > 0.5 * (1.0 - FRONT_SHARE) * MARKED_LEAST * height * np.hypot(*(first - last))
         assert np.hypot(*(np.median(yellow, axis=0) - behind)) < 2.0
         assert picture[tuple(dark)].max() < 60
-        place, (wide, high) = numbers.places[0], numbers.halves[0]
-        row, column = np.rint((height - place[1], place[0])).astype(int)
-        assert max(np.abs((row, column) - middle) - (high, wide)) > 2.0  # the box of the number is off the middle
-        digits = picture[row - int(high) : row + int(high), column - int(wide) : column + int(wide)]
-        assert (digits.max(axis=-1) < 60).sum() > 20
 
 
 def test_a_number_stands_on_the_outer_side_of_a_bend_and_does_not_flicker():
@@ -311,16 +304,15 @@ def test_marked_benches_have_number_and_name_and_are_chosen_by_either(tmp_path):
     assert not np.array_equal(films[0], films[2])
 
 
-def test_the_time_stands_where_a_text_of_matplotlib_would():
+def test_the_time_stands_in_the_lower_right_corner():
     stage, _ = village()
-    height, words = 540, "benches 3 and 9 touch\n1:23.0 (83.06 s)"
-    stage.time.text = words
-    text = stage.axes.text(0.985, 0.03, words, animated=True, transform=stage.axes.transAxes, ha="right", va="bottom")
-    text.set_fontsize(TYPE_SHARE * height * 72 / DPI)
-    boxes = []
-    for artist in (stage.time, text):
+    dark = []
+    for words in ("", "benches 3 and 9 touch\n1:23.0 (83.06 s)"):
+        stage.time.text = words
         stage.canvas.restore_region(stage.still)
-        stage.axes.draw_artist(artist)
-        dark = np.argwhere(np.asarray(stage.canvas.buffer_rgba())[int(0.85 * height) :, int(1.2 * height) :, 0] < 100)
-        boxes.append([dark.min(axis=0), dark.max(axis=0)])
-    assert np.abs(np.subtract(*boxes)).max() <= 0.004 * height
+        stage.axes.draw_artist(stage.time)
+        dark.append((np.asarray(stage.canvas.buffer_rgba())[..., 0] < 100).nonzero())
+    assert np.size(dark[1]) > np.size(dark[0]) + 1_000
+    last = np.max(dark[1], axis=1)
+    assert (last > (0.95 * 540, 0.95 * 960)).all()
+    assert (last < (0.99 * 540, 0.99 * 960)).all()

@@ -40,21 +40,10 @@ def test_csv_holds_every_number_in_full_precision(dance):
     assert np.array_equal(read, np.array(columns_of(dance)))
 
 
-def test_csv_rounds_when_asked(dance):
-    rows = list(csv.reader(io.StringIO(tables.trajectory_csv(dance, decimals=6).decode())))[1:]
-    assert all(len(text.partition(".")[2]) <= 6 for row in rows for text in row[2:])
-    assert np.abs(np.array(rows, dtype=np.float64).T - columns_of(dance)).max() <= SIX_DECIMALS + ROUNDING
-
-
 def test_rounding_never_writes_a_negative_zero(dance):
     position = dance.position.copy()
     position[0, 0, 1] = -1e-15  # as rounding may leave of 0
     assert b"-0.0," not in tables.trajectory_csv(replace(dance, position=position), decimals=6)
-
-
-def test_csv_of_no_instant_is_its_header():
-    nothing = Trajectory(np.empty(0), np.empty((0, 3, 2)), np.empty((0, 3, 2)), np.empty((0, 3)))
-    assert tables.trajectory_csv(nothing) == b"time,handle,x,y,speed\n"
 
 
 def test_arrow_reads_back_as_the_same_numbers(dance):
@@ -94,11 +83,6 @@ def test_workbook_has_the_layout_of_the_contest(dance, language, words):
 )
 def test_handles_are_named_after_the_bench_that_they_lead(benches, names):
     assert tables.handle_names(benches, Language.CHINESE) == names.split()
-
-
-@pytest.mark.parametrize("write", [tables.trajectory_csv, tables.trajectory_xlsx, tables.trajectory_arrow])
-def test_equal_trajectories_give_equal_bytes(dance, write):
-    assert write(dance) == write(trajectory(Dance(Dragon(benches=5), Spiral()), [0.0, 0.5, 10.0]))
 
 
 def test_workbook_refuses_more_instants_than_it_has_columns():

@@ -11,11 +11,10 @@ import pytest
 
 import core
 from app.files.tables import Language
-from app.grade.numbers import SEARCH_END, TURN_LENGTH_LEAST, TURN_OF_TWO_LEAST, gives
+from app.grade.numbers import TURN_LENGTH_LEAST, TURN_OF_TWO_LEAST, gives
 from app.grade.report import typed
-from app.grade.shortcuts import pitch_grids, right_answer, shortcuts
+from app.grade.shortcuts import pitch_grids, shortcuts
 from tests.support.command import run
-from tests.support.refusal_rows import assert_refused_in_one_line
 from tests.support.students import CONTACT, contact_workbook, spiral
 
 
@@ -96,22 +95,6 @@ def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path):
     assert [len(file["notes"]) for file in files] == [0, 0, 1, 1]
     assert verdicts_in(summary) == verdicts
     assert "\\xff" in run("grade", str(tmp_path / "class"), "--language", "zh").stdout
-
-
-@pytest.mark.parametrize(
-    "row",
-    [
-        "grade . -> . must hold a file that ends in .xlsx",
-        "grade -> give at least one FILE or one number",
-        "grade --pitch wide -> pitch ... [m], 'wide'",
-        "grade --pitch 0_4504 -> pitch ... [m], '0_4504'",
-        "grade --pitch -1 -> pitch ... 0",
-        "grade missing.xlsx -> missing.xlsx: No such file or directory",
-    ],
-)
-def test_wrong_usage_is_one_line(row, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert_refused_in_one_line(row)
 
 
 @pytest.mark.parametrize("ending", ["xlsx", pytest.param("csv", marks=pytest.mark.thorough)])
@@ -229,17 +212,6 @@ def test_a_pitch_where_a_search_stopped_is_traced_to_all_steps_that_give_it():
     [guess] = typed("pitch", "0.4503313691", Language.ENGLISH).possible
     assert "0.05 / 0.25 rad" in guess.words
     assert "the number is 0.450331367 m; the given value is 0.450331369 m" in guess.evidence
-
-
-@pytest.mark.thorough
-def test_pitches_where_searches_stopped_fit_by_chance_no_oftener_than_stated():
-    random = np.random.default_rng(44)
-    [guess] = typed("pitch", "0.4503313691", Language.ENGLISH).possible
-    off = right_answer("pitch") - 0.4503313691
-    pitches = right_answer("pitch") + random.uniform(-off, off, 2000)
-    known = [*shortcuts("pitch"), *pitch_grids()]
-    fits = sum(any(gives(one, pitch, SEARCH_END) for one in known) for pitch in pitches.tolist())
-    assert 0 < fits / pitches.size <= 1.5 * guess.probability
 
 
 def test_no_pitch_of_two_decimals_has_a_cause():

@@ -54,20 +54,15 @@ KNOWN = {
     "other_entry_radius": lambda: fourth(turn(turning_radius=4.9)),
     "arcs_not_tangent": lambda: students.lines(students.semicircles(FEWER), FEWER),
     "wrong_centre": lambda: students.lines(students.mirrored_arcs(FEWER), FEWER),
-    "turn: shifted_time": lambda: fourth(turn(TURN_TIMES + 13.621245)),
-    "turn: backward_difference": lambda: fourth(students.quotient(-0.01, 0.0, turn), whole=True),
     "own_lengths": lambda: first(spiral(dragon=Dragon(overhang=0.225))),
     "other_question": lambda: tenth(turn(TURN_TIMES[:101]), TURN_TIMES[:101] + 100.0),
     "outside_zero": lambda: first(students.outside(0.0)),
     "outside_blank": lambda: first(students.outside(np.nan)),
     "outside_line": lambda: first(students.on_line()),
     "contact: other_instant": lambda: students.contact_workbook(spiral(np.array([412.48]))),
-    "contact: x_negated": lambda: of_contact([-1.0, 1.0, 1.0]),
     "contact: axes_exchanged": lambda: of_contact(order=[1, 0, 2]),
-    "contact: turned": lambda: of_contact([-1.0, -1.0, 1.0]),
     "contact: shifted_rows": lambda: of_contact(rows=1),
     "contact: speeds_negated": lambda: of_contact([1.0, 1.0, -1.0]),
-    "contact: length_for_chord": lambda: students.contact_workbook(spiral(AT_CONTACT, dragon=Dragon(overhang=0.0))),
 }
 # What no student does: each is wrong, and none of the known errors gives it.
 UNKNOWN = {

@@ -63,14 +63,6 @@ def test_a_dance_may_name_a_workbook(tmp_path):
     assert answers[1].stderr == ""
 
 
-def test_a_damaged_workbook_of_a_dance_is_refused_by_its_name(tmp_path):
-    (tmp_path / "benches.xlsx").write_bytes(saved(ROWS)[:-300])
-    (tmp_path / "dance.json").write_text('{"dragon": "benches.xlsx"}')
-    done = run("check", str(tmp_path / "dance.json"))
-    assert done.returncode == 2
-    assert f"{tmp_path / 'benches.xlsx'}: The workbook is damaged" in " ".join(done.stderr.split())
-
-
 @pytest.mark.parametrize(
     ("data", "words"),
     [

@@ -216,13 +216,6 @@ def test_a_map_that_states_no_encoding_is_read_as_chinese_and_windows_programs_w
     assert (GUESSED in result.notes) is guessed
 
 
-@pytest.mark.parametrize("coding", ["utf-16", "gb18030"])
-def test_a_dance_of_chinese_and_windows_programs_is_read(coding):
-    result = read('path = {kind = "spiral", pitch = 1.5}\nname = "龙"\n'.encode(coding))
-    assert result.dance == {"name": "龙"}
-    assert (GUESSED in result.notes) is (coding == "gb18030")
-
-
 @pytest.mark.parametrize(
     "inner",
     [outline(" "), "<Point><coordinates/></Point>", "<LineString><coordinates></coordinates></LineString>", ""],
@@ -278,7 +271,6 @@ POINTS = {"type": "MultiPoint", "coordinates": [[k, k] for k in range(20_000)]}
 # The words tell apart what a caller cannot by the field, which is the file.
 REFUSED = [
     (BOMB, "document type"),
-    ('<!DOCTYPE k SYSTEM "file:///etc/passwd"><kml/>', "document type"),
     ("<kml>" + "<Folder>" * 100_000, "deeper than 60"),
     (archived(b"<kml>" + b" " * 21_000_000), "20000000 bytes"),
     ("PK\x03\x04broken", "unpacked"),
@@ -288,7 +280,6 @@ REFUSED = [
     ("0\nSECTION\nnonsense", "must be DXF"),
     (b"\x00\xff\xfe", "got none of these"),
     ("", "got nothing"),
-    ("margin = 0x" + "f" * 9000, "64 bits"),
     ("dragon = {names = [{a = -inf}]}", "finite numbers, got -inf"),
     ("venue = 5", "GeoJSON or the name of a file"),
     ('{"type": "Point", "coordinates": [1e400, 2]}', "file"),

@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from pathlib import Path
@@ -135,11 +134,3 @@ def test_a_process_has_a_session_of_its_own_and_none_of_the_counts_of_the_servic
         environment = Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
         assert b"OWN=variable" in environment
         assert b"PROMETHEUS_MULTIPROC_DIR=/counts" not in environment
-
-
-def test_a_stopped_budget_ends_a_task_at_once(pool):
-    budget, begun = Budget(), time.monotonic()
-    budget.stop()
-    with pytest.raises(Halted):
-        pool.answer(b"sleep", budget)
-    assert time.monotonic() - begun < LINGER

@@ -50,12 +50,6 @@ def test_without_details_the_verdict_is_the_same(ask, verdict):
     assert (quick["least_clearance"], quick["reports"][0]["highest_speed"]) == (None, None)
 
 
-def test_dances_that_pass_each_other_pass(ask):
-    got = ask("check", PASSING)
-    assert (got["verdict"], got["failures"], got["begins"], got["origin"]) == ("passes", [], None, None)
-    assert 0.0 < got["least_clearance"]["at_least"] <= got["least_clearance"]["distance"]
-
-
 # -- the command ---------------------------------------------------------------------------------------------
 
 

@@ -189,9 +189,6 @@ def test_a_pitch_scan_has_the_first_contacts_of_core_and_the_jumps_if_they_are_l
     assert look["radius"] == pytest.approx([head.radius for head in heads if head], rel=0, abs=1e-9)  # [m]
     assert (len(heads), look["jumps"], scan["pitch"], scan["radius"]) == (3, [], look["pitch"], look["radius"])
     assert scan["pieces"][-1][1] == 3
-    for jump in scan["jumps"]:
-        assert 0.0 < jump["pitch"][1] - jump["pitch"][0] <= 1e-6
-        assert abs(jump["radius"][1] - jump["radius"][0]) > 0.02
     assert len(scan["jumps"]) > 10
 
 

@@ -1,25 +1,16 @@
 """Tolerance over HTTP and from a terminal: core's answers on a circle, with errors of sizes, and of several dances."""
 
-import numpy as np
 import pytest
 
 import core
 from app.questions.tolerance import ToleranceRequest
 from app.settings import Settings
-from core import Dragon, bench_poses, overlaps, performance_tolerance
+from core import Dragon, performance_tolerance
 from tests.support.asking import box, dance, json_like
 
 SMALL = {"benches": 40, "start_turns": 9}
 DANCES = [dance(4, (0, 0), (30, 0), name="a"), dance(4, (30, 0.8), (0, 0.8), name="b")]
 SEVERAL = {"dances": DANCES}
-
-
-def test_a_stray_beyond_the_tolerance_is_shown_in_a_pose_that_overlaps(ask):
-    got = ask("tolerance", **SMALL, pitch=0.6)
-    dragon = Dragon(40)
-    poses = bench_poses(np.array(got["exhibit"]["handles"]))
-    assert got["limited_by"] == "benches"
-    assert got["benches"] in overlaps(poses, dragon.lengths, dragon.widths).pairs.tolist()
 
 
 def test_sizes_may_be_known_only_to_within_an_error(ask):

@@ -8,19 +8,11 @@ import pytest
 
 from tests.support.depth import few
 from tests.support.job_service import wait_for
+from tests.support.largest import IN_TURN
 from tests.support.serving import sample
 
 # Minutes of work.
 HEAVY = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0}
-# More than a small body: the service reads it in a thread of its own.
-LONG_BODY = {
-    "dragon": {
-        "lengths": [2.2 + 0.001 * (k % 97) for k in range(2000)],
-        "widths": [0.3] * 2000,
-        "overhangs": [0.275123456] * 2000,
-    },
-    "path": {"kind": "turn"},
-}
 # Its plan takes a second to compute, and a minute to draw.
 LONG_PLAN = {
     "dragon": {"benches": 2000},
@@ -34,7 +26,7 @@ PATIENCE = 60.0  # [s], where an answer alone would take minutes
 SCAN = {"method": "GET", "url": "/pitch-scan", "params": {"samples": 401}}
 TOO_MUCH = {
     "query": {"method": "GET", "url": "/minimum-pitch", "params": HEAVY},
-    "long body": {"method": "POST", "url": "/check", "json": LONG_BODY},
+    "long body": {"method": "POST", "url": "/check", "json": IN_TURN},
     "body": {"method": "POST", "url": "/minimum-pitch", "json": {"dragon": HEAVY}},
     "scan": SCAN,
     "plan": {"method": "POST", "url": "/plan", "json": LONG_PLAN},

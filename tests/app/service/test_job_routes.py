@@ -67,22 +67,6 @@ def events_of(service, address, last=None):
     return list(zip(numbers, entries, strict=True))
 
 
-@pytest.mark.parametrize(
-    "wanted",
-    few(
-        [
-            {"question": "trajectory", "request": {"times": [0, 1]}, "accept": "text/csv"},
-            {"question": "trajectory_figure", "request": {"format": "svg", "time": 30, "benches": 20}},
-        ],
-        1,
-    ),
-)
-def test_a_job_answers_what_its_call_answers_to_the_byte(service, wanted):
-    kept, request = service.result(service.done(wanted)), direct(service.client, wanted)
-    assert kept.headers["content-type"] == request.headers["content-type"]
-    assert kept.content == request.content
-
-
 def test_a_query_is_answered_later_for_who_prefers_that(service):
     call = "/collision-time?pitch=0.51"
     later = service.client.get(call, headers={"Prefer": "wait=5, respond-async"})
@@ -143,14 +127,6 @@ def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service):
         answer = service.client.get(f"{address}/result", headers={"Range": wanted})
         assert answer.content == parts.get(wanted, whole), wanted
         assert answer.status_code == (206 if wanted in parts else 200)
-
-
-@pytest.mark.thorough
-def test_a_player_may_jump_to_another_time_of_a_short_film(service):
-    film = {"dragon": {"benches": 3}, "path": {"kind": "spiral", "pitch": 0.8}, "height": 90, "seconds": 1}
-    address = service.done({"question": "films", "request": film, "accept": "video/mp4"})
-    part = service.client.get(f"{address}/result", headers={"Range": "bytes=5-9"})
-    assert (part.status_code, part.content) == (206, service.result(address).content[5:10])
 
 
 def test_head_of_events_ends_at_once(service):

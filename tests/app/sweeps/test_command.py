@@ -98,18 +98,3 @@ def test_a_terminal_shows_a_bar_and_the_sweep_is_printed_drawn_and_compacted(tmp
     expected.to_csv(tmp_path / "expected.csv")
     assert sweep("compact", folder, "--csv", tmp_path / "a.csv").returncode == 0
     assert (tmp_path / "a.csv").read_text() == (tmp_path / "expected.csv").read_text()
-
-
-@pytest.mark.parametrize(
-    ("line", "name"),
-    [
-        ("run no-such.toml --output out", "no-such.toml"),
-        ("show no-such-folder", "no-such-folder"),
-        ("show no-such-folder --output map.pdf", "--output"),
-        ("compact no-such-folder", "no-such-folder"),
-    ],
-)
-def test_wrong_usage_is_one_line(line, name):
-    done = sweep(*line.split())
-    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
-    assert done.stderr.startswith(f"Error: {name}")

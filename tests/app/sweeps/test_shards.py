@@ -28,21 +28,6 @@ def rows(name, request, over):
     return table(ShardPiece.whole(spec, spec.asks, 0)).to_pylist()
 
 
-def test_each_row_is_the_answer_to_its_request():
-    for row in rows("collision_time", {"benches": 50}, {"pitch": [0.5, 0.55, 1.7], "width": [0.2, 0.3]}):
-        values = {name: row[name] for name in ("pitch", "width")} | {"benches": 50, "cross_check": "none"}
-        answer = question_of("collision_time").answer_to(values)
-        assert (row["outcome"], row["time"]) == (answer.outcome, answer.time)
-        assert (row["benches.0"], row["benches.1"]) == (answer.benches or (None, None))
-        assert row["certificate.steps"] == answer.certificate.steps
-        assert "certificate.method" not in row
-
-
-def test_a_refusal_of_core_uses_the_names_of_the_spec():
-    [row] = rows("least_clearance", {}, {"benches": [2]})
-    assert row["error.message"] == "benches must be at least 3, so that two share no handle, got 2"
-
-
 BENCH = {"x": 0.0, "y": 0.0, "heading": 0.0, "length": 2.2, "width": 0.3}
 LANES = [{"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, y], [20, y]]}} for y in (0, 9)]
 FLAT, BODY = {"benches": 8}, {"dragon": {"benches": 8}}

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.sweeps.spec import DESIGNS_MAX, SHARDS_SMALL, Spec, with_values
+from app.sweeps.spec import DESIGNS_MAX, SHARDS_SMALL, Spec
 from core import TooLarge
 from tests.support.refused import refused
 
@@ -107,13 +107,6 @@ def test_text_that_is_not_toml_or_json_is_refused(name, text, tmp_path):
     (tmp_path / name).write_text(text)
     with refused("spec"):
         Spec.read(tmp_path / name)
-
-
-def test_values_are_placed_into_a_copy():
-    base = {"path": {"kind": "spiral"}, "margin": 0}
-    result = with_values(base, {"path.pitch": 0.5, "dragon.width": 0.2, "margin": 1})
-    assert result == {"path": {"kind": "spiral", "pitch": 0.5}, "dragon": {"width": 0.2}, "margin": 1}
-    assert base == {"path": {"kind": "spiral"}, "margin": 0}
 
 
 @pytest.mark.parametrize("spec", re.findall(r"^```toml\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))

@@ -63,15 +63,6 @@ def test_a_toy_dragon_has_its_square_on_a_table():
 # -- laid out ------------------------------------------------------------------------------------------------
 
 
-def test_a_square_in_degrees_is_checked_like_the_same_one_in_metres(ask):
-    there = ask("check", CHECK | {"venue": DEGREES, "coordinates": "degrees"})
-    here = ask("check", CHECK | {"venue": METRES})
-    assert (there["verdict"], here["verdict"], here["origin"]) == ("passes", "passes", None)
-    assert list(there["origin"].values()) == pytest.approx([LONGITUDE, LATITUDE], abs=1e-12)
-    distances = [answer["venue"]["areas"][0]["nearest"]["distance"] for answer in (there, here)]
-    assert distances[0] == pytest.approx(distances[1], abs=40.0 * 10 * SERIES)
-
-
 NEAR = st.floats(-0.05, 0.05)
 
 

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from tests.support.asking import assert_problem, written
+from tests.support.asking import assert_problem
 from tests.support.command import run
 from tests.support.depth import few
 
@@ -559,24 +559,3 @@ def test_a_file_of_a_dance_is_refused_as_a_body_is(client, tmp_path, entry):
     done = run("check", str(tmp_path / "dance.json"))
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == f"Error: {post(client, call, text).json()['detail']}\n"
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        "trajectory --stop 440.5: stop 440.5",
-        "trajectory --start 435 --stop 440: start 435",
-        "trajectory --times 0,440: times[1] 440",
-        "overlaps --time 440: time 440",
-        "figures . --kind trajectory --time 440: time 440",
-        "check dance.json --figure dance.svg --time 1000: time 1000",
-    ],
-)
-def test_an_instant_is_refused_by_the_option_that_asked_for_it(tmp_path, monkeypatch, line):
-    monkeypatch.chdir(tmp_path)
-    written(tmp_path, {"dragon": {"benches": 5}, "stop": 100})
-    words, name, value = re.split(": | (?=[0-9.]+$)", line)
-    done = run(*words.split())
-    assert (done.returncode, done.stdout) == (2, "")
-    assert re.fullmatch(f"Error: {re.escape(name)} must be at most 432.917924228 s.* got {value} s.*\n", done.stderr)
-    assert [path.name for path in tmp_path.iterdir()] == ["dance.json"]
