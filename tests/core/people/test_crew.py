@@ -22,7 +22,6 @@ ROUNDING, AT_PLACE = 1e-9, 0.01
 THERE_AND_BACK = there_and_back(60)
 RELIEFS = [
     Relief(), Relief(7, 9.0, rest=25.0), Relief(40, 33.0), Relief(5, None, [10.0, 40.0], 3.0),
-    Relief(6, 30.0, [25.0], 10.0),
 ]  # fmt: skip
 
 

@@ -151,11 +151,10 @@ def test_what_was_found_before_the_work_ended_is_proposed():
         within(Budget(1e3))
 
 
-# Squares [m] with what stands in them, and both gates: a channel between blocks, a short square, a narrow street.
+# Squares [m] with what stands in them, and both gates: a channel between blocks, a short square.
 STRAIGHT = {
     "channel of 0.6 m": ((24, 20), [(6, 0, 12, 9.8), (6, 10.4, 12, 9.6)], [(0, 10.1), (24, 10.1)]),
     "a square of 5 m": ((5, 9), [], [(0, 4.5), (5, 4.5)]),
-    "a lane of 0.7 m": ((24, 0.7), [], [(0, 0.35), (24, 0.35)]),
 }
 
 

@@ -27,7 +27,6 @@ by_exact_engines = pytest.mark.parametrize("engine", EXACT)
 
 SCENES = {
     "nobody": ((), []),
-    "one bench alone": (((0, 0, 0),), []),
     "touching counts": (((0, 0, 0), (LENGTH, 0, 0)), [(0, 1)]),
     "touching at a corner counts": (((0, 0, 0), (LENGTH, WIDTH, 0)), [(0, 1)]),
     "the same place": (((0, 0, 0), (0, 0, 0)), [(0, 1)]),
