@@ -17,7 +17,7 @@ import psutil
 from app.files.tables import CSV_TYPE, XLSX_TYPE
 from app.questions.registry import CALLS
 from tests.support.bombs import GRADES, MAPS
-from tests.support.largest import LARGEST
+from tests.support.largest import LARGEST, THIN
 
 # Longest wait for a short job beside long ones [s].
 JOB_SECONDS = 20.0
@@ -162,8 +162,7 @@ def full_store(url, seconds):
 
 def long_jobs(url, seconds):
     """Eight jobs of minutes each, and a short one of another client, which must be answered meanwhile."""
-    endless = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0.0}
-    made = [make_job(url, {"question": "minimum_pitch", "request": endless}, MINE) for _ in range(8)]
+    made = [make_job(url, {"question": "minimum_pitch", "request": THIN}, MINE) for _ in range(8)]
     try:
         wait_for_answer(url, make_job(url, SMALL, THEIRS), THEIRS)
         time.sleep(min(seconds, 2.0))

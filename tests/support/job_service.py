@@ -16,6 +16,7 @@ import psutil
 from app.files.tables import XLSX_TYPE
 from tests.conftest import STOP_TIMEOUT, wait_until_live
 from tests.support.command import serve
+from tests.support.largest import THIN
 from tests.support.serving import environment_of, free_port
 
 PATIENCE = 60.0  # [s] for what is coming
@@ -26,10 +27,7 @@ LONG = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 1.0
 # Two or three times as long as the time between two messages about progress.
 SCAN = {"question": "pitch_scan", "request": {"samples": 401, "start_turns": 28}}
 # Minutes of work, for tests that end it themselves.
-ENDLESS = {
-    "question": "minimum_pitch",
-    "request": {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0.0},
-}
+ENDLESS = {"question": "minimum_pitch", "request": THIN}
 SHORT = {"question": "collision_time", "request": {"pitch": 0.5}}
 
 

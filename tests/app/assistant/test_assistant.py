@@ -20,6 +20,7 @@ from app.wire.question import BYTES, JSON
 from tests.support import command
 from tests.support.asking import dance
 from tests.support.command import ROOT, bin_folder
+from tests.support.largest import THIN
 from tests.support.serving import sample, serving
 
 COMMAND = str(bin_folder() / "bench-dragon")
@@ -165,8 +166,7 @@ def test_the_edge_refuses_a_message_as_any_other_request(client):
 
 def test_a_computation_ends_with_the_assistant_that_asked_for_it(tmp_path):
     call = {"jsonrpc": "2.0", "id": 1, "method": "tools/call"}
-    thin = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0}  # a minute of work
-    call["params"] = {"name": "minimum_pitch", "arguments": thin}
+    call["params"] = {"name": "minimum_pitch", "arguments": THIN}
     with serving(tmp_path / "log") as service:
         with suppress(httpx.ReadTimeout):
             httpx.post(f"{service.url}/mcp", json=call, timeout=1.0, headers={"Accept": JSON})

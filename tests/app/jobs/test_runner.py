@@ -90,17 +90,6 @@ def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service):
 
 
 @pytest.mark.thorough
-def test_a_job_that_ends_its_process_three_times_has_failed(service):
-    address = begun(service, ENDLESS)
-    for _ in range(3):
-        kill(service, "child")
-    status = service.finished(address)
-    assert (status["status"], "signal 9" in status["message"]) == ("failed", True)
-    assert service.result(address).status_code == 500
-    service.done(SHORT)
-
-
-@pytest.mark.thorough
 def test_two_services_with_one_folder_have_one_runner(tmp_path):
     with JobService(tmp_path) as one, JobService(tmp_path) as two:
         for address in (one.post(SHORT), two.post(SHORT | {"request": {"pitch": 0.51}})):

@@ -8,11 +8,9 @@ import pytest
 
 from tests.support.depth import few
 from tests.support.job_service import wait_for
-from tests.support.largest import IN_TURN
+from tests.support.largest import IN_TURN, THIN
 from tests.support.serving import sample
 
-# Minutes of work.
-HEAVY = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0}
 # Its plan takes a second to compute, and a minute to draw.
 LONG_PLAN = {
     "dragon": {"benches": 2000},
@@ -25,9 +23,9 @@ SHORT_DEADLINE = 0.1  # [s]
 PATIENCE = 60.0  # [s], where an answer alone would take minutes
 SCAN = {"method": "GET", "url": "/pitch-scan", "params": {"samples": 401}}
 TOO_MUCH = {
-    "query": {"method": "GET", "url": "/minimum-pitch", "params": HEAVY},
+    "query": {"method": "GET", "url": "/minimum-pitch", "params": THIN},
     "long body": {"method": "POST", "url": "/check", "json": IN_TURN},
-    "body": {"method": "POST", "url": "/minimum-pitch", "json": {"dragon": HEAVY}},
+    "body": {"method": "POST", "url": "/minimum-pitch", "json": {"dragon": THIN}},
     "scan": SCAN,
     "plan": {"method": "POST", "url": "/plan", "json": LONG_PLAN},
 }
