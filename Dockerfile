@@ -26,6 +26,7 @@ COPY *.md requirements-docs.lock /src/
 COPY docs /src/docs
 RUN python -m venv /opt/docs \
     && /opt/docs/bin/pip install --no-cache-dir --disable-pip-version-check -r /src/requirements-docs.lock \
+        -c /src/requirements-test.lock python-flint \
     && place=$(cd /tmp && /opt/bench-dragon/bin/python -c "import app; print(*app.__path__)") \
     && cd /src/docs && PYTHONPATH=$(dirname "$place") /opt/docs/bin/python site/build.py "$place/guide"
 # What the service never reads: pip and what compiles, IPython (for plots of uplot-python in notebooks), tests, sources
