@@ -16,7 +16,9 @@ from app.grade.workbook import ELEMENTS_MAX, UNPACKED_MAX
 from core import Budget, TooMuchWork
 from tests.campaigns.libreoffice import FEW, SMALL
 from tests.support.bombs import zipped
+from tests.support.depth import some
 from tests.support.students import (
+    ALL_CELLS,
     SPIRAL_TIMES,
     TURN_TIMES,
     by_xlsxwriter,
@@ -54,6 +56,16 @@ def by_pandas(sheets):
             frame = pandas.DataFrame([row[1:] for row in rows], [row[0] for row in rows], heads)
             frame.to_excel(book, sheet_name=title)
     return sink.getvalue()
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("writer", some([by_xlsxwriter, by_openpyxl, by_pandas], 1))
+def test_workbooks_of_other_tools_are_right_in_all_cells(writer):
+    entries = [grade(writer(sheets), "upload") for sheets in three()]
+    assert [file.workbook for file in entries] == ["result1", "result2", "result4"]
+    sheets = [sheet for file in entries for sheet in file.sheets]
+    assert {sheet.verdict for sheet in sheets} == {"right"}
+    assert sum(sheet.right for sheet in sheets) == sum(sheet.cells for sheet in sheets) == ALL_CELLS
 
 
 @pytest.mark.parametrize("writer", [by_openpyxl, by_pandas, None], ids=["openpyxl", "pandas", "libreoffice"])
