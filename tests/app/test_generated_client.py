@@ -33,7 +33,9 @@ def words(server, tmp_path_factory):
     command = [sys.executable, "-m", "openapi_python_client", "generate", "--meta", "none"]
     command += ["--path", str(description), "--output-path", str(folder / PACKAGE)]
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
-    done = subprocess.run(command, cwd=folder, env=os.environ | {"PATH": path}, capture_output=True, text=True)
+    # Its formatter would keep a cache where the first user of this machine has one.
+    environment = os.environ | {"PATH": path, "RUFF_CACHE_DIR": str(folder / "cache")}
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     sys.path.insert(0, str(folder))
     yield done.stdout + done.stderr
