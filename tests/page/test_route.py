@@ -120,6 +120,20 @@ def test_a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(ope
     assert ring[0][0] < ring[1][0] < ring[2][0]
 
 
+def test_a_finger_moves_a_tree_upwards_as_far_as_it_goes(open_page):
+    person = open_page(S_CURVE, **PHONE).presses("#edit", "[data-tool=circle]").settles()
+    canvas = person.box("#canvas")
+    x, y = canvas["x"] + 0.5 * canvas["width"], canvas["y"] + 0.8 * canvas["height"]
+
+    def tree():
+        return person.box(".knot")["y"]
+
+    person.page.touchscreen.tap(x, y)
+    before = tree()
+    person.presses("[data-tool=circle]").sees({".knot": 0}).swipes(x, y, 0, -80)
+    assert tree() == pytest.approx(before - 80, abs=3)
+
+
 @thorough
 def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its_address_and_file(open_page, server):
     person = open_page(VILLAGE).sees({**NO, "#run-end[aria-busy=false]": True})
