@@ -30,7 +30,7 @@ class Grid:
 def normalized(text: str) -> str:
     """Text without blanks at its ends, and with half-width brackets, letters and digits and an ASCII minus sign.
 
-    >>> plain(" 龙尾（后） ")
+    >>> normalized(" 龙尾（后） ")
     '龙尾(后)'
     """
     return unicodedata.normalize("NFKC", text).replace("\u2212", "-").strip()

@@ -150,7 +150,9 @@ class Store:
                 yield
             finally:
                 self._read("PRAGMA secure_delete = ON")
-                self._empty_log()
+                # Without room for it in the database the change is made all the same.
+                with suppress(sqlite3.OperationalError):
+                    self._empty_log()
 
     def _empty_log(self) -> None:
         """Copy the write-ahead log into the database; while another process does, SQLite refuses without waiting."""
