@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from tests.conftest import ROOT, nginx_path, wait_until_live
-from tests.support.job_service import PATIENCE, SHORT, JobService
+from tests.support.job_service import PATIENCE, SHORT, JobService, wait_for
 from tests.support.serving import free_port, serving
 
 CLIENTS = 4
@@ -84,6 +84,15 @@ class Client(threading.Thread):
                 self.answers.append(client.post("/jobs", json=SHORT))
 
 
+def wait_until_answered(clients):
+    """Return when all that was asked until now is answered.
+
+    nginx asks each service once: what one of them has refused must not stand before the other when that one ends.
+    """
+    counts = [len(client.answers) for client in clients]
+    wait_for(lambda: all(len(client.answers) > count for client, count in zip(clients, counts, strict=True)))
+
+
 @pytest.mark.nginx
 @pytest.mark.thorough
 def test_a_rolling_restart_loses_no_answer_and_no_job(tmp_path):
@@ -98,6 +107,7 @@ def test_a_rolling_restart_loses_no_answer_and_no_job(tmp_path):
                 service.stop()
                 service.start()
                 assert sum(len(client.answers) for client in clients) > before + CLIENTS
+                wait_until_answered(clients)
         finally:
             for client in clients:
                 client.ended.set()
