@@ -109,10 +109,8 @@ def opened(person, query):
     return person.settles()
 
 
-@pytest.mark.parametrize("name", ["route", *(pytest.param(one, marks=thorough) for one in DANCES if one != "route")])
-def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(open_page, name):
-    query = DANCES[name]
-    person = opened(open_page(query, **PHONE), query)
+def hits_every_control(person):
+    """In both languages, in few sizes of type, with every word in its place."""
     # No point lies under the buttons of the picture.
     views = person.box("#views")
     lefts = [knot.bounding_box()["x"] for knot in person.all(".knot").all()]
@@ -125,58 +123,17 @@ def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(ope
         assert "undefined" not in person.text("body")
         assert set(person.ask(SIZES)) <= FOUR
         assert person.box("header")["height"] < 2.5 * FINGER
-    if query != VILLAGE:
-        return
+
+
+def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(open_page):
+    person = opened(open_page(VILLAGE, failing=True, **PHONE), VILLAGE)
+    hits_every_control(person)
     for section in ("keep", "answers", "controls", "dance"):
         person.at(f"[data-section={section}]").tap()
         top = person.at(f"#{section}").evaluate("one => one.getBoundingClientRect().top")
         assert -1 <= top < 744, section
-
-
-@thorough
-@pytest.mark.parametrize("query", DANCES.values(), ids=list(DANCES))
-def test_on_a_wide_screen_nothing_scrolls_inside_and_the_picture_stays_in_sight(open_page, query):
-    person = open_page(query)
-    person.ask("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
-    for width, height in ((1440, 900), (1920, 1080)):
-        person.page.set_viewport_size({"width": width, "height": height})
-        assert person.settles().ask(SCROLLING) == []
-        person.at("#answers > :not([hidden]) >> nth=-1").evaluate("one => one.scrollIntoView({ block: 'end' })")
-        canvas = person.box("#canvas")
-        assert canvas["y"] >= 0
-        assert canvas["y"] + canvas["height"] <= height
-
-
-@thorough
-@pytest.mark.parametrize("size", [(390, 844), (360, 640)], ids=["390x844", "360x640"])
-def test_on_a_phone_the_picture_with_its_player_takes_a_third_of_the_height(open_page, size):
-    for query, presses in STATES:
-        person = open_page(query, **{**PHONE, "viewport": {"width": size[0], "height": size[1]}}).settles()
-        picture = person.presses(*presses).ask(PICTURE)
-        assert 0.25 < picture["share"] <= 0.351
-        assert picture["stage"] > 0.18
-        assert (picture["covered"], picture["cut"], picture["wide"]) == (False, [], False)
-
-
-@thorough
-def test_behind_each_door_a_phone_has_its_tabs_and_sizes_of_type(open_page):
-    for door, words in (
-        ("contest", "Picture Numbers Answers Save"),
-        ("village", "Picture People Answers Save"),
-        ("look", "Picture Numbers Answers"),  # Behind this door nothing is kept.
-    ):
-        person = open_page(f"?door={door}&path=route&benches=3", **PHONE)
-        assert person.text("#tabs").split() == words.split()
-        assert person.ask(NARROW, FINGER) == []
-        assert set(person.ask(SIZES)) <= FOUR
-        person.presses("#tabs button:visible >> nth=1").views("#controls")
-    person = open_page(f"{VILLAGE}&door=village", **PHONE).reaches_below()
-    person.at("[data-section=people]:visible").tap()
-    person.views("#people > h2", "#people #tolerance:visible", "#people #cues button:visible")
-
-
-def test_on_a_phone_a_message_covers_neither_the_tabs_nor_the_tools(open_page):
-    person = open_page("?path=route&route=0,0_60,0&benches=5", failing=True, **PHONE).presses("#edit")
+    # A message covers neither the tabs nor the tools.
+    person.opens("?path=route&route=0,0_60,0&benches=5").presses("#edit")
     person.takes({"name": "x.csv", "mimeType": "text/csv", "buffer": b"3.41,0.3,0.275\n2.2,0.3,0.275\n"})
     message, tools, tabs = (person.box(place) for place in ("#status:not(:empty)", "#tools", "#tabs"))
     assert message["y"] > 0.5 * 844
@@ -184,8 +141,18 @@ def test_on_a_phone_a_message_covers_neither_the_tabs_nor_the_tools(open_page):
 
 
 @thorough
-def test_a_swipe_up_that_begins_on_a_slider_scrolls_and_changes_nothing(open_page):
+def test_on_a_phone_a_finger_hits_every_control_of_other_dances_and_scrolls_over_a_slider(open_page):
     person = open_page("?benches=40", **PHONE)
+    _a_swipe_up_that_begins_on_a_slider_changes_nothing(person)
+    for name in ("spiral", "turn", "nothing"):
+        hits_every_control(opened(person.opens(DANCES[name]), DANCES[name]))
+    # The crew of a spiral up to its first contact.
+    person.opens("?benches=5&time=20&lang=en").reaches_below().presses("#crew summary", "#crew-ask")
+    assert not person.sees({"#crew-result table": 2}).overflows(390)
+    assert person.findings("#crew") == []
+
+
+def _a_swipe_up_that_begins_on_a_slider_changes_nothing(person):
     slider = person.at("[data-field=benches] input[type=range]")
 
     def swipe(dx, dy):
@@ -203,6 +170,63 @@ def test_a_swipe_up_that_begins_on_a_slider_scrolls_and_changes_nothing(open_pag
     assert person.box("#canvas")["y"] >= 0
 
 
+@thorough
+def test_on_a_wide_screen_nothing_scrolls_inside_and_the_picture_stays_in_sight(open_page):
+    person = open_page(DANCES["spiral"])
+    _the_tab_key_goes_through_numbers_and_answers_as_they_stand(person)
+    for query in DANCES.values():
+        person.opens(query)
+        person.ask("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
+        for width, height in ((1440, 900), (1920, 1080)):
+            person.page.set_viewport_size({"width": width, "height": height})
+            assert person.settles().ask(SCROLLING) == [], query
+            person.at("#answers > :not([hidden]) >> nth=-1").evaluate("one => one.scrollIntoView({ block: 'end' })")
+            canvas = person.box("#canvas")
+            assert canvas["y"] >= 0, query
+            assert canvas["y"] + canvas["height"] <= height, query
+
+
+def _the_tab_key_goes_through_numbers_and_answers_as_they_stand(person):
+    for width, order in (
+        (1440, ["controls", "answers"]),
+        (900, ["controls", "answers"]),
+        (390, ["answers", "controls"]),
+    ):
+        person.page.set_viewport_size({"width": width, "height": 900})
+        boxes = [person.settles().box(f"#{one}") for one in order]
+        assert boxes[0]["x"] < boxes[1]["x"] or boxes[0]["y"] < boxes[1]["y"]
+        person.focuses("#rate")
+        seen = [person.strikes("Tab").ask(COLUMN) for _ in range(40)]
+        assert list(dict.fromkeys(filter(None, seen))) == order
+
+
+@thorough
+def test_on_a_phone_each_door_has_its_tabs_and_a_picture_of_a_third_of_the_height(open_page):
+    person = open_page("?door=all", **PHONE)
+    for query, presses in STATES:
+        person.opens(query).presses(*presses)
+        for width, height in ((390, 844), (360, 640)):
+            person.page.set_viewport_size({"width": width, "height": height})
+            picture = person.settles("look").ask(PICTURE)
+            assert 0.25 < picture["share"] <= 0.351
+            assert picture["stage"] > 0.18
+            assert (picture["covered"], picture["cut"], picture["wide"]) == (False, [], False)
+    person.page.set_viewport_size(PHONE["viewport"])
+    for door, words in (
+        ("contest", "Picture Numbers Answers Save"),
+        ("village", "Picture People Answers Save"),
+        ("look", "Picture Numbers Answers"),  # Behind this door nothing is kept.
+    ):
+        person.opens(f"?door={door}&path=route&benches=3")
+        assert person.text("#tabs").split() == words.split()
+        assert person.ask(NARROW, FINGER) == []
+        assert set(person.ask(SIZES)) <= FOUR
+        person.presses("#tabs button:visible >> nth=1").views("#controls")
+    person.opens(f"{VILLAGE}&door=village").reaches_below()
+    person.at("[data-section=people]:visible").tap()
+    person.views("#people > h2", "#people #tolerance:visible", "#people #cues button:visible")
+
+
 def test_the_page_is_used_by_keyboard_alone(open_page):
     person = open_page("?time=100&benches=20").reaches_below()
     person.ask(FOCUSED)
@@ -217,19 +241,6 @@ def test_the_page_is_used_by_keyboard_alone(open_page):
     assert wanted <= {name for name, _ in focused}
 
 
-@thorough
-@pytest.mark.parametrize(("width", "first"), [(1440, "controls"), (900, "controls"), (390, "answers")])
-def test_the_tab_key_goes_through_numbers_and_answers_as_they_stand(open_page, width, first):
-    person = open_page("?benches=12&time=0")
-    person.page.set_viewport_size({"width": width, "height": 900})
-    last = "answers" if first == "controls" else "controls"
-    boxes = [person.settles().box(f"#{one}") for one in (first, last)]
-    assert boxes[0]["x"] < boxes[1]["x"] or boxes[0]["y"] < boxes[1]["y"]
-    person.focuses("#rate")
-    seen = [person.strikes("Tab").ask(COLUMN) for _ in range(40)]
-    assert list(dict.fromkeys(filter(None, seen))) == [first, last]
-
-
 def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_stays_in_the_address(open_page):
     person = open_page("?benches=40&time=end", locale="zh-CN").has("html", lang="zh-Hans")
     person.sees({"#first-contact .value": "时碰撞", "#minimum-pitch": "最小螺距"})
@@ -241,13 +252,13 @@ def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_stays_i
 
 
 @thorough
-def test_a_verdict_is_told_once_with_its_reasons(open_page):
+def test_a_verdict_is_told_once_with_its_reasons_and_a_picture_shows_its_direction(open_page):
     person = open_page("?path=route&route=*-40,0_0,0_30,5&benches=5&things=a.square..-30,-20_9,-20_9,20_-30,20")
     reasons = person.all("#judgement .failures span").all_text_contents()
     assert len(reasons) > 1
     expect(person.at("#heard")).to_have_text(re.compile(r"^Verdict Cannot be danced"))
     person.sees({"#heard": reasons})
-    person = open_page("?path=route&route=-9,0_9,0_20,9&benches=3")
+    person.opens("?path=route&route=-9,0_9,0_20,9&benches=3")
     heard = person.at("#heard")
     person.ask(TOLD)
     before = heard.inner_text()
@@ -259,30 +270,15 @@ def test_a_verdict_is_told_once_with_its_reasons(open_page):
     assert told
     assert len(set(told)) == len(told)
     person.sees({"#judgement[aria-live], #first-contact[aria-live]": 0})
-
-
-@pytest.mark.parametrize(
-    ("query", "options"),
-    [
-        pytest.param("?handle=3&stray=0.02&benches=20", {}, marks=thorough),
-        pytest.param("?pitch=2&start_turns=8&benches=20", {"locale": "zh-CN"}, marks=pytest.mark.deep),
-        pytest.param("?pitch=55&benches=x", {"viewport": PHONE["viewport"]}, marks=thorough),
-    ],
-    ids=["contact", "clear", "refused on a phone"],
-)
-def test_axe_finds_nothing_in_light_or_dark(open_page, query, options):
-    refused = "pitch=55" in query
-    person = open_page(query, failing=refused, color_scheme="light", **options)
-    person.sees({"#pitch-error": True}) if refused else person.looks_at("curve", "scan")
-    person.ask(OPEN)
-    assert person.findings() == []
-    person.speaks("zh").ask(OPEN)
-    person.page.emulate_media(color_scheme="dark")
-    assert person.findings(in_colours=True) == []
+    _the_picture_has_its_direction_and_its_inset_gives_way(person.opens("?time=0&view=8.8,0,40"))
 
 
 @thorough
-def test_with_the_colours_of_the_system_marks_and_bars_stay_visible(open_page):
+def test_axe_finds_nothing_in_light_or_dark_and_marks_stay_visible_in_the_colours_of_the_system(open_page):
+    person = open_page("?handle=3&stray=0.02&benches=20", failing=True, color_scheme="light")
+    _axe_finds_nothing(person.looks_at("curve", "scan"))
+    person.page.set_viewport_size(PHONE["viewport"])
+    _axe_finds_nothing(person.opens("?pitch=55&benches=x&lang=en").sees({"#pitch-error": True}))
     person = open_page("?benches=20&time=end", forced_colors="active").reaches_below()
     person.presses("#crew summary", "#crew-ask").sees({"#crew .bars i": True})
     card = person.style("body", "backgroundColor")
@@ -290,9 +286,22 @@ def test_with_the_colours_of_the_system_marks_and_bars_stay_visible(open_page):
     assert not marks & {card, "rgba(0, 0, 0, 0)"}
 
 
-@thorough
-def test_the_picture_has_its_direction_and_one_scale_of_colours_and_its_inset_gives_way(open_page):
-    person = open_page("?time=0&view=8.8,0,40")
+@pytest.mark.deep
+def test_axe_finds_nothing_about_a_dance_without_contact(open_page):
+    person = open_page("?pitch=2&start_turns=8&benches=20", color_scheme="light", locale="zh-CN")
+    _axe_finds_nothing(person.looks_at("curve", "scan"))
+
+
+def _axe_finds_nothing(person):
+    person.page.emulate_media(color_scheme="light")
+    person.ask(OPEN)
+    assert person.findings() == []
+    person.speaks("zh").ask(OPEN)
+    person.page.emulate_media(color_scheme="dark")
+    assert person.findings(in_colours=True) == []
+
+
+def _the_picture_has_its_direction_and_its_inset_gives_way(person):
     # The head is in the middle and moves down: its arrow crosses the row 20 pixels below.
     seen = "c => [...c.getContext('2d').getImageData(c.width / 2 - 8, c.height / 2 + 20, 16, 1).data]"
     row = person.at("#canvas").evaluate(seen)
@@ -304,6 +313,5 @@ def test_the_picture_has_its_direction_and_one_scale_of_colours_and_its_inset_gi
     dx, dy = (
         inset[xy] + inset[size] / 2 - canvas[xy] - canvas[size] / 2 for xy, size in (("x", "width"), ("y", "height"))
     )
-    open_page(f"?view={1.474395 - dx / 40},{2.110665 + dy / 40},40").at(
-        f"#inset:not([data-corner={corner}])"
-    ).wait_for()
+    person.opens(f"?view={1.474395 - dx / 40},{2.110665 + dy / 40},40")
+    person.at(f"#inset:not([data-corner={corner}])").wait_for()

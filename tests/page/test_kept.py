@@ -4,6 +4,8 @@ from urllib.parse import urlencode
 
 import pytest
 
+from tests.support.node import evaluate
+
 NUMBERS = {"benches": "9", "head_length": "3.3", "body_length": "2.1", "width": "0.25", "overhang": "0.2"}
 PACE = {"head_speed": "0.8", "margin": "0.01", "stray": "0.02", "hole": "0.03", "pin": "0.02"}
 PLACE = {
@@ -48,7 +50,6 @@ VIEW = {"time": "2", "rate": "5", "follow": "true", "handle": "3", "view": "1,2,
 ELSEWHERE = {"bench", "dragon", "drawing", "speed_limit"}
 OF_SEVERAL = {"pitch", "start_turns", "turning_diameter", "ratio", "entry_radius", "exit_radius"}
 NAMES = """async () => {
-  const page = (name) => import(new URL(name, document.querySelector("script[type=module]").src));
   const [{ DEFAULTS }, { PARTS }] = [await page("state.js"), await page("drawing.js")];
   return [...Object.keys(DEFAULTS), ...PARTS];
 }"""
@@ -66,27 +67,29 @@ def reopened(person, name, file, folder):
     return {one: text for one, text in person.settles().address().items() if one not in VIEW}
 
 
-def test_every_part_of_the_state_is_tried_here(open_page):
+@pytest.mark.node
+def test_every_part_of_the_state_is_tried_here():
     tried = set(VIEW).union(*(held | more for held, more, _ in PROJECTS.values()))
-    assert set(open_page().ask(NAMES)) == tried | ELSEWHERE | OF_SEVERAL
+    assert set(evaluate(NAMES)) == tried | ELSEWHERE | OF_SEVERAL
     assert all(f"!{name}:" in DANCES for name in OF_SEVERAL)
 
 
-@pytest.mark.parametrize("case", PROJECTS)
-def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(case, open_page, tmp_path):
-    held, more, save = PROJECTS[case]
-    person = open_page(query(held | more | VIEW))
-    assert person.address() == held | more | VIEW
-    person.page.reload()
-    assert person.settles().address() == held | more | VIEW
-    file = person.saves(save)
-    map_file = person.reaches().saves("#keepMap-GeoJSON")
-    # It is said of which kind its coordinates are.
-    assert ("米" in person.text("#status")) is ("origin" not in held)
-    # Another dance, of which nothing stays.
-    held_before, more_before, _ = PROJECTS["walked" if case == "drawn" else "drawn"]
-    before = held_before | more_before
-    assert reopened(open_page(query(before)), "dance.json", file, tmp_path) == held | more
-    # What a map has not stays as it was; when a dance starts on its path belongs to the path.
-    kept = {name: text for name, text in before.items() if name not in ON_PATH}
-    assert reopened(open_page(query(before)), "map.geojson", map_file, tmp_path) == kept | held
+@pytest.mark.parametrize("cases", [("drawn", "walked"), ("other", "several")], ids=" and ".join)
+def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(cases, open_page, tmp_path):
+    person = open_page("?door=all")
+    for case in cases:
+        held, more, save = PROJECTS[case]
+        assert person.opens(query(held | more | VIEW)).address() == held | more | VIEW
+        person.page.reload()
+        assert person.settles().address() == held | more | VIEW
+        file = person.saves(save)
+        map_file = person.reaches().saves("#keepMap-GeoJSON")
+        # It is said of which kind its coordinates are.
+        assert ("米" in person.text("#status")) is ("origin" not in held)
+        # Another dance, of which nothing stays.
+        held_before, more_before, _ = PROJECTS["walked" if case == "drawn" else "drawn"]
+        before = held_before | more_before
+        assert reopened(person.opens(query(before)), "dance.json", file, tmp_path) == held | more
+        # What a map has not stays as it was; when a dance starts on its path belongs to the path.
+        kept = {name: text for name, text in before.items() if name not in ON_PATH}
+        assert reopened(person.opens(query(before)), "map.geojson", map_file, tmp_path) == kept | held

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from tests.support import polite
-from tests.support.person import PHONE, alike
+from tests.support.person import alike
 
 thorough = pytest.mark.thorough
 STREET = "path=route&route=*-40,0_40,0&benches=9"
@@ -57,13 +57,6 @@ def test_who_carries_when_and_where_is_as_the_service_says(open_page, server):
     person.types({"#benches": "8"}).sees({f"{RESULT} table": 0})
 
 
-@thorough
-def test_on_a_phone_the_crew_of_a_spiral_up_to_its_first_contact_fits(open_page):
-    person = open_page("?benches=5&time=20&lang=en", **PHONE).reaches_below().presses("#crew summary", "#crew-ask")
-    assert not person.sees({f"{RESULT} table": 2}).overflows(390)
-    assert person.findings("#crew") == []
-
-
 def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(open_page, server):
     person = open_page("?time=0&benches=5&view=8,-3,40", failing=True).presses("#one-by-one summary")
     answer, narrow, wu = (
@@ -85,8 +78,10 @@ def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(op
 
 
 @thorough
-def test_passages_and_the_time_of_day_change_every_time_and_are_shared(open_page, server):
-    person = open_page("?benches=30&time=50", failing=True).presses("#passages summary")
+def test_passages_and_the_time_of_day_change_every_time_of_a_spiral_and_of_a_drawn_dance(open_page, server):
+    # A pause lies at the instant shown.
+    person = open_page("?benches=30&time=50", failing=True).presses("#passages summary", "#pauseAdd")
+    person.arrives("**passages=1@50s_0@10d*").opens("?benches=30&time=50").presses("#passages summary")
     for k, (until, unit, speed) in enumerate([("20", "m", "0.5"), ("100", "s", "0"), ("60", "m", "1.5")]):
         row = f"#passages li >> nth={k}"
         person.presses("#passageAdd").chooses({f"{row} >> select": unit})
@@ -101,21 +96,15 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(open_page
     person.sees({**contact, "#passages li": 3}).types({"#begin_clock": "25 o'clock"}, "Tab")
     person.sees({"#clock-error": "07:30:00"}).chooses({"#passages li >> nth=1 >> select": "m"})
     person.sees({"#passages .error": True})
-    # A pause lies at the instant shown.
-    open_page("?benches=30&time=50").presses("#passages summary", "#pauseAdd").arrives("**passages=1@50s_0@10d*")
-
-
-@thorough
-def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(open_page, server):
     limits = {"speed_limit": 0.9, "start_clock": "19:30", "passages": PASSAGES[:2]}
     body = BODY | limits | {"dragon": {"benches": 9}, "head_speed": 1}
     failure = polite.answer(server, "check", body)["failures"][0]
-    person = open_page(f"?{STREET}&begin=30&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
+    person.opens(f"?{STREET}&begin=30&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
     person.reads({".failures button": f"{failure['time']:.6f} s · {failure['clock']}"}).reaches()
     sides = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", person.saves("#keepPlan-A3"))
     assert max(map(float, sides[0])) == pytest.approx(A3_WIDE, abs=1)
     # Head and first bench lead by 16 s of the 80 s of the path.
-    person = open_page(f"?{STREET}&start_clock=19:30").sees({"#judgement": "It starts at 19:30:16"})
+    person.opens(f"?{STREET}&start_clock=19:30").sees({"#judgement": "It starts at 19:30:16"})
     person.types({"#begin_clock": "20:00"}, "Tab").settles()
     person.sees({"#judgement": "It starts at 20:00:00", "#clock-help": "20:01:03"})
     assert {"start_clock", "begin_clock"} & person.address().keys() == {"begin_clock"}

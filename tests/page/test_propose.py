@@ -68,8 +68,10 @@ def test_from_nothing_to_a_certified_dance_on_a_phone(open_page):
 
 
 @thorough
-def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_a_route_that_is_edited(open_page):
-    person = proposed(open_page(YARD))
+def test_a_card_says_what_is_good_and_tight_becomes_a_route_and_begins_in_the_streets_of_gates(open_page):
+    person = open_page(SCALED)
+    _gates_lie_on_the_border_and_the_dance_begins_in_their_streets(person)
+    proposed(person.opens(YARD))
     person.sees({"#proposed": re.compile(r"The best \d of \d+ tried; each has passed its check\. .*")})
     lengths = []
     for k in range(2):
@@ -95,9 +97,8 @@ def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_a_route_that_is_
     person.presses("#undo").settles().sees({"#judgement": lengths[0]})
 
 
-@thorough
-def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page):
-    person = open_page(SCALED).presses("[data-add=gate]").sees({"#add-help": "a straight street of about"})
+def _gates_lie_on_the_border_and_the_dance_begins_in_their_streets(person):
+    person.presses("[data-add=gate]").sees({"#add-help": "a straight street of about"})
     person.sees({"#draw-help": "Tap the border", "[data-add=gate]": False})
     tap_at(person, -11, 1)
     tap_at(person, 11, -2)
@@ -116,16 +117,16 @@ def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page
 
 
 @thorough
-def test_a_square_has_typed_sizes_corners_and_sides_and_nothing_changes_in_silence(open_page):
-    person = open_page(f"{EMPTY}&benches=8").presses("#propose")
+def test_a_square_has_typed_sizes_corners_and_sides_and_nothing_changes_or_stays_in_silence(open_page):
+    person = open_page(f"{EMPTY}&benches=8", failing=True).presses("#propose")
     person.reads({"#proposed": "First say how large your square is."}).types({"#place-width": "-3"})
     person.sees({"#place-wrong": "“-3”"})
     ring = corners(person.types({"#place-diameter": "26,5"}))
     assert [math.hypot(*corner) for corner in ring] == pytest.approx([13.25] * len(ring), abs=1e-3)
-    person = open_page(YARD).types({"#place-width": "26"}).types({"#place-diameter": "20000"})
+    person.opens(YARD).types({"#place-width": "26"}).types({"#place-diameter": "20000"})
     person.sees({"#place-wrong": "“20000”"}).holds({"#place-width": "26"}).types({"#place-width": "5"})
     person.sees({"#proposed": "Outside the square now: linden."})
-    person = open_page(YARD).presses("[data-add=area]")
+    person.opens(YARD).presses("[data-add=area]")
     row = "#corners tbody tr >> nth=1"
     x, side = (f"{row} >> input >> nth={k}" for k in (0, 2))
     person.holds({x: "12", side: "20"}).reads({f"{row} >> td >> nth=3": "90.0°"})
@@ -135,6 +136,8 @@ def test_a_square_has_typed_sizes_corners_and_sides_and_nothing_changes_in_silen
     assert math.dist(after[1], after[2]) == pytest.approx(16.0, abs=1e-3)
     person.types({x: "wide"}).has(x, aria_invalid="true")
     assert person.findings() == []
+    _what_was_drawn_before_leaves_nothing(person)
+    _while_a_point_is_dragged_the_stretches_that_fail_are_coloured(person)
 
 
 # What a square without any dance that passes is answered with: the first failure of the nearest one.
@@ -145,10 +148,10 @@ NONE = {"proposals": [], "tried": 30, "checked": 5, **WHY}
 
 
 @thorough
-def test_why_none_fits_stands_in_one_sentence_and_a_search_can_be_stopped(open_page):
+def test_why_none_fits_is_one_sentence_a_search_can_be_stopped_and_cards_are_of_the_present_square(open_page):
     person = open_page(NARROW_YARD).presses("#propose")
     person.sees({"#proposed": ["3.02 m", "3.77 m"], CARDS: 0}).speaks("zh").sees({"#proposed": "直径至多 3.02 m"})
-    person = open_page(YARD)
+    person.opens(f"{YARD}&lang=en")
     person.page.route("**/proposals", lambda route: route.fulfill(json=NONE))
     person.presses("#propose").sees({"#proposed": "fails at 12.35 s: body 3 touches linden."}).speaks("zh")
     person.sees({"#proposed": "在 12.35 s 不合格：第3节龙身碰到linden。"}).speaks("en").page.unroute_all()
@@ -156,8 +159,9 @@ def test_why_none_fits_stands_in_one_sentence_and_a_search_can_be_stopped(open_p
     person.presses("#propose").sees({"#propose:disabled": True})
     person.sees({"#proposed": re.compile(r"Looking for dances that fit: \d+ s")}).presses("#place button:text('Stop')")
     person.sees({"#propose:enabled": True}).reads({"#proposed": ""}).settles().page.unroute_all()
-    person = open_page(f"{EMPTY}&benches=3&things=a.square..0,0_9,0_9,9_0,9").chooses({"#objective": "benches"})
+    person.opens(f"{EMPTY}&benches=3&things=a.square..0,0_9,0_9,9_0,9&lang=en").chooses({"#objective": "benches"})
     proposed(person).settles().sees({"#proposed": re.compile(r".*room for at most \d+\.")})
+    _proposals_for_an_earlier_square_cannot_be_chosen(person.opens(f"{SCALED}&lang=en"))
 
 
 @thorough
@@ -178,19 +182,18 @@ def test_a_long_search_is_a_job_whose_cards_come_meanwhile_and_keep_their_places
         person.sees({"#proposed": "found so far."}).settles().sees({f"{CARDS}[aria-pressed=true]": 1})
 
 
-@thorough
-def test_what_was_drawn_before_leaves_nothing_and_the_start_stands_beside_the_square(open_page):
+def _what_was_drawn_before_leaves_nothing(person):
+    """The time of its start stands beside the square."""
     wrong = "?door=village&path=route&route=*-9,0_9,0&benches=2&width=-1&things=a.square..0,0_9,0_9,9_0,9"
-    person = open_page(wrong, failing=True).sees({"#controls .error:visible": True})
+    person.opens(wrong).sees({"#controls .error:visible": True})
     person.presses("#preset", "[data-begin=empty]").settles().sees({"#controls .error:visible": 0, "#inset": False})
-    person = open_page(f"{YARD}~g.gate..-12,0&route=*-11,-8_11,-8&benches=3&begin_clock=19:30")
+    person.opens(f"{YARD}~g.gate..-12,0&route=*-11,-8_11,-8&benches=3&begin_clock=19:30")
     person.sees({"#judgement": "Gates do not count for it"}).holds({"#place #begin_clock": "19:30"})
     person.presses("#doors [data-door=contest]").settles().sees({"#pace #begin_clock": 1})
 
 
-@thorough
-def test_while_a_point_is_dragged_the_stretches_that_fail_are_coloured(open_page):
-    person = open_page(f"{YARD}&route=*-11,-8_11,-8&benches=3&stray=0.05").presses("#edit", "[data-tool=path]")
+def _while_a_point_is_dragged_the_stretches_that_fail_are_coloured(person):
+    person.opens(f"{YARD}&route=*-11,-8_11,-8&benches=3&stray=0.05").presses("#edit", "[data-tool=path]")
     before, knot = person.settles().coloured("head"), person.box(".knot >> nth=1")
     x, y = knot["x"] + knot["width"] / 2, knot["y"] + knot["height"] / 2
     person.page.mouse.move(x, y)
@@ -222,9 +225,8 @@ RINGS = [proposal_of(9.0, "square", 0.5), proposal_of(6.0, "linden", 0.7)]
 TWO_RINGS = {"proposals": RINGS, "tried": 30, "checked": 5, "most_benches": None}
 
 
-@thorough
-def test_two_rings_are_told_apart_and_proposals_for_an_earlier_square_cannot_be_chosen(open_page):
-    person = open_page(SCALED)
+def _proposals_for_an_earlier_square_cannot_be_chosen(person):
+    """Two rings are told apart."""
     person.page.route("**/proposals", lambda route: route.fulfill(json=TWO_RINGS))
     for language, rings in (("zh", "环形，宽 {} m"), ("en", "Ring, {} m wide")):
         proposed(person.speaks(language)).sees({f"{CARDS} >> nth=1 >> .near": "0.70 m"})

@@ -44,7 +44,7 @@ def knot(k):
     return f".knot >> nth={k}"
 
 
-def test_a_dragged_point_brings_a_verdict_that_undo_redo_and_the_browser_take_back(open_page):
+def test_points_are_dragged_moved_by_keys_put_in_and_taken_away_and_every_step_is_taken_back(open_page):
     person = open_page(failing=True).presses("[data-path=route]").sees({**YES, ".knot": 7})
     before = points(person)
     bend, corner = person.box(knot(2)), person.box(knot(3))
@@ -55,10 +55,10 @@ def test_a_dragged_point_brings_a_verdict_that_undo_redo_and_the_browser_take_ba
     assert points(person.strikes("ControlOrMeta+z").sees(YES)) == before
     person.presses("#redo").sees(NO).page.go_back()
     assert points(person.sees(YES)) == before
+    _keys_and_taps_change_points(person.opens(S_CURVE).sees(YES).presses("#edit"))
 
 
-def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(open_page):
-    person = open_page(S_CURVE).sees(YES).presses("#edit")
+def _keys_and_taps_change_points(person):
     before = points(person)
     person.focuses("#delete")
     assert "Point 2 of 7" in person.strikes("Tab", "Tab", "Tab").ask(LABEL)  # after the picture and the first point
@@ -77,7 +77,7 @@ def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(open_page):
     assert points(person.types({"#points tbody tr >> nth=8 >> input": "75.5"}))[8][0] == 75.5
 
 
-def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(open_page):
+def test_a_square_with_a_tree_and_a_wall_is_drawn_named_judged_and_changed_by_the_mouse(open_page):
     person = open_page(S_CURVE).sees(YES).presses("#zoom-out", "#edit").settles()
     canvas = person.box("#canvas")
     left, top, right, low = (canvas["x"] + 120, canvas["y"] + 60, canvas["x"] + canvas["width"] - 30, canvas["y"] + 480)
@@ -95,10 +95,11 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(open_page):
     kept = file_of(person)["venue"]["features"]
     shapes = [(one["properties"]["name"], one["geometry"]["type"]) for one in kept]
     assert shapes == [("square", "Polygon"), ("old oak", "Point"), ("wall", "LineString")]
+    _a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(person.opens(S_CURVE).sees(YES))
 
 
-def test_a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(open_page):
-    person = open_page(S_CURVE).sees(YES).presses("#zoom-out", "#edit", "[data-tool=circle]").settles()
+def _a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(person):
+    person.presses("#zoom-out", "#edit", "[data-tool=circle]").settles()
     canvas, mouse = person.box("#canvas"), person.page.mouse
     x, y = canvas["x"] + 200, canvas["y"] + 120
 
@@ -120,8 +121,18 @@ def test_a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(ope
     assert ring[0][0] < ring[1][0] < ring[2][0]
 
 
-def test_a_finger_moves_a_tree_upwards_as_far_as_it_goes(open_page):
-    person = open_page(S_CURVE, **PHONE).presses("#edit", "[data-tool=circle]").settles()
+def test_a_finger_drags_points_and_trees_on_a_phone_and_nothing_is_cut_off(open_page):
+    person = open_page(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit")
+    before, box = points(person), person.box(knot(2))
+    person.swipes(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0, -6)
+    assert points(person.sees({"#verdict": "可以表演"}))[2][1] > before[2][1]
+    assert not person.overflows(390)
+    assert person.findings() == []
+    _a_tree_goes_upwards_as_far_as_the_finger(person.opens(S_CURVE))
+
+
+def _a_tree_goes_upwards_as_far_as_the_finger(person):
+    person.presses("#edit", "[data-tool=circle]").settles()
     canvas = person.box("#canvas")
     x, y = canvas["x"] + 0.5 * canvas["width"], canvas["y"] + 0.8 * canvas["height"]
 
@@ -152,29 +163,41 @@ def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its
 
 
 @thorough
-def test_a_dance_that_starts_in_the_wrong_place_or_is_refused_is_said_to_be_so(open_page):
+def test_a_dance_that_starts_in_the_wrong_place_too_late_or_not_at_all_is_said_to_do_so(open_page):
+    person = open_page("?path=route&door=all", failing=True)
     for things, words in (
         ("a.court..-9,-9_30,-9_30,9_-9,9", "starts outside court."),
         ("a.court..-30,-9_30,-9_30,9_-30,9~c.elm.2.-18,0", "starts inside elm."),
     ):
-        open_page(f"?path=route&benches=3&route=*-20,0_20,0&things={things}").sees({**NO, ".failures li": words})
-    person = open_page("?path=route&benches=9&route=*-60,0_*0,0_0,40&corner=0.3", failing=True).sees(NO)
+        person.opens(f"?path=route&benches=3&route=*-20,0_20,0&things={things}").sees({**NO, ".failures li": words})
+    person.opens("?path=route&benches=9&route=*-60,0_*0,0_0,40&corner=0.3").sees(NO)
     person.presses("#judgement button:has-text('Show')").arrives("**view=**")
     assert max(map(abs, map(float, person.address()["view"].split(",")[:2]))) < 3
-    person = open_page("?path=route&benches=40&route=0,0_9,0", failing=True)
+    person.opens("?path=route&benches=40&route=0,0_9,0")
     person.sees({**NO, "#play": False, "#legend": False}).types({"[data-field=benches] input": "3"}).settles()
     person.sees({**YES, "#play": True})
     # Of a dance that cannot follow a change the dragon fades, and the drawing does not.
     square = "things=a.square..-70,-9_9,-9_9,49_-70,49"
-    person = open_page(f"?path=route&benches=9&route=*-60,0_*0,0_0,40&{square}", failing=True).sees(YES)
+    person.opens(f"?path=route&benches=9&route=*-60,0_*0,0_0,40&{square}").sees(YES)
     person.types({"[data-field=benches] input": "90"}).settles().sees(NO)
     assert [person.coloured(name) > 0 for name in ("head", "circle")] == [False, True]
+    _a_dance_that_begins_later_can_begin_at_time_0(person.opens("?path=route&benches=24&route=0,0_150,0"))
+
+
+def _a_dance_that_begins_later_can_begin_at_time_0(person):
+    offer = "#route .hint button:has-text('Begin at time 0: head at')"
+    person.presses(offer).arrives("**begin=40.9*")
+    person.sees({offer: False, **YES}).page.go_back()
+    # A path too short for the dragon is refused; the dance does not begin later instead.
+    person.sees({offer: True}).types({"#benches": "200"}, "Tab").sees({**NO, offer: False})
 
 
 @thorough
 def test_what_comes_late_is_not_shown_without_a_drawing_nor_of_another_kind_of_dance(open_page):
+    person = open_page("?benches=5&time=end")
+    _the_picture_has_the_drawn_path_alone(person)
     for late in ("check", "course"):
-        person = open_page("?path=route&benches=3&route=*-20,0_20,0").sees(YES).presses("#edit")
+        person.opens("?path=route&benches=3&route=*-20,0_20,0&lang=en").sees(YES).presses("#edit")
         held = person.holds_back(f"**/{late}")
         with person.page.expect_request(f"**/{late}"):
             person.types({"#benches": "4"}, "Tab")
@@ -184,9 +207,7 @@ def test_what_comes_late_is_not_shown_without_a_drawing_nor_of_another_kind_of_d
             assert words not in person.speaks(language).text("#judgement")
 
 
-@thorough
-def test_the_picture_has_the_drawn_path_alone_whatever_answers_late(open_page):
-    person = open_page("?benches=5&time=end")
+def _the_picture_has_the_drawn_path_alone(person):
     held = person.holds_back("**/trajectory")
     with person.page.expect_request(lambda one: '"decimals":4' in (one.post_data or "")):  # the path of the spiral
         person.types({"#pitch": "0.6"}, "Tab")
@@ -203,24 +224,16 @@ def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(open_page):
     person = open_page("?path=route&benches=24&route=0,0_90,0").sees(YES)
     for name in ("inout", "eight", "street", "village", "s"):
         person.presses("#preset", f"[data-begin={name}]").sees({"#presets": False}).settles().sees(YES)
-    person = open_page("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
+    person.opens("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
     for name, count in (("street", 2), ("empty", 0)):
         person.presses("#preset", f"[data-begin={name}]").sees({"#points summary": f": {count}", "#things li": 2})
 
 
-@thorough
-def test_a_dance_that_begins_later_can_begin_at_time_0(open_page):
-    offer = "#route .hint button:has-text('Begin at time 0: head at')"
-    person = open_page("?path=route&benches=24&route=0,0_150,0", failing=True).presses(offer)
-    person.arrives("**begin=40.9*")
-    person.sees({offer: False, **YES}).page.go_back()
-    # A path too short for the dragon is refused; the dance does not begin later instead.
-    person.sees({offer: True}).types({"#benches": "200"}, "Tab").sees({**NO, offer: False})
-
-
-@thorough
-def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(open_page, tmp_path):
-    person = open_page("?path=route", failing=True)
+def test_drawings_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(open_page, tmp_path):
+    person = open_page("?path=route&benches=5", failing=True)
+    _a_part_of_a_drawing_that_is_too_large_is_chosen(person)
+    _files_dropped_on_the_picture_are_opened_and_maps_are_kept(person.opens(f"{S_CURVE}&things=c.well.1!5.0,-40"))
+    person.opens("?path=route")
     corners = [[499_950, 3_219_950], [500_050, 3_219_950], [500_050, 3_220_050], [499_950, 3_219_950]]
     grid, table, book = (tmp_path / f"one.{ending}" for ending in ("geojson", "csv", "xlsx"))
     square = {"type": "Polygon", "coordinates": [corners]}
@@ -239,8 +252,7 @@ def test_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(open_pag
     person.takes(book, "#csv-file").holds({"#csv": "吴,3.41,0.3,0.275\n"})
 
 
-def test_a_part_of_a_drawing_that_is_too_large_is_chosen_and_opened(open_page):
-    person = open_page("?path=route&benches=5", failing=True)
+def _a_part_of_a_drawing_that_is_too_large_is_chosen(person):
     person.takes({"name": "plan.dxf", "mimeType": "image/vnd.dxf", "buffer": floor_plan()})
     person.sees({"#drawing-parts li": len(EDGES)}).presses(
         "#drawing-parts [value=SITE]", "#drawing-parts [value=A-HATCH]"
@@ -248,9 +260,8 @@ def test_a_part_of_a_drawing_that_is_too_large_is_chosen_and_opened(open_page):
     person.presses("#drawing-parts [value=A-HATCH]", "#parts-open").sees({"#drawing-parts": 0, "#things li": 1})
 
 
-@thorough
-def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(open_page):
-    person = open_page(S_CURVE + "&things=c.well.1!5.0,-40").sees(YES)
+def _files_dropped_on_the_picture_are_opened_and_maps_are_kept(person):
+    person.sees(YES)
     for name in ("village_square.toml", "village_square.geojson"):
         person.ask(DROP, [name, (ROOT / "examples" / name).read_text()])
         person.sees({"#status": f"Opened {name}"})
@@ -261,13 +272,3 @@ def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(open_page):
     latitude, longitude = (f"#route [data-label={name}]" for name in ("latitude", "longitude"))
     person.types({latitude: "29,11", longitude: "119.64"}, "Tab").arrives("**origin=119.64,29.11*")
     assert b">119.64" in person.saves("#keepMap-KML")
-
-
-@thorough
-def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(open_page):
-    person = open_page(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit")
-    before, box = points(person), person.box(knot(2))
-    person.swipes(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0, -6)
-    assert points(person.sees({"#verdict": "可以表演"}))[2][1] > before[2][1]
-    assert not person.overflows(390)
-    assert person.findings() == []

@@ -69,6 +69,7 @@ def contact(server, **query):
 def test_a_lost_service_is_reported_and_what_a_person_does_meanwhile_is_done_when_it_is_back(
     open_page, server, tmp_path
 ):
+    """The last service ends every longer computation at once, so that a file of it becomes a job."""
     numbers, port = {"benches": 20, "stray": 0.02}, free_port()
     with serving(tmp_path / "first.log", port=port, deadline_seconds=PATIENT):
         person = open_page(f"?{urlencode(numbers)}", base=f"http://127.0.0.1:{port}", failing=True)
@@ -80,16 +81,7 @@ def test_a_lost_service_is_reported_and_what_a_person_does_meanwhile_is_done_whe
     person.types({"#typed-pitch": "0.450338"})
     with serving(tmp_path / "second.log", port=port, deadline_seconds=PATIENT):
         person.sees({"#lost": False, CONTACT: contact(server, **numbers, pitch=0.5), "#grades .value": "✓正确"})
-        person.settles()
-
-
-@thorough
-def test_a_file_that_takes_longer_than_an_answer_may_becomes_a_job(open_page, server, tmp_path):
-    """The dance is of a patient service; then one in its place ends every longer computation at once."""
-    port = free_port()
-    with serving(tmp_path / "first.log", port=port, deadline_seconds=PATIENT):
-        base = f"http://127.0.0.1:{port}"
-        person = open_page("?benches=20&pitch=0.5", base=base, failing=True).reaches_below()
+        person.speaks("en").reaches_below()
     person.sees({"#lost": "does not answer"})
     with serving(tmp_path / "hurried.log", port=port, deadline_seconds=1e-9) as hurried:
         person.sees({"#lost": False}).presses("#keepGround-JSON").has("#jobs li", data_state="successful")
@@ -121,13 +113,12 @@ def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(open_pa
     person.presses("#reset-all").sees({"#controls .error:visible": 0}).speaks("zh").types({"#pin": "10"}, "Tab")
     person.sees({"#pin-error:lang(zh)": "（0 cm），现为 10 cm。", "#first-contact": "改正“插销直径”后即有结果。"})
     # A refusal about a turn goes with the turn.
-    person = open_page(f"{SHORT}&path=turn&speed_limit=0", failing=True).sees({"#controls .error:visible": True})
+    person.opens(f"{SHORT}&path=turn&speed_limit=0&lang=en").sees({"#controls .error:visible": True})
     person.presses("[data-path=spiral]").sees({"#controls .error:visible": 0})
+    _a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_again(person.opens(SHORT))
 
 
-@thorough
-def test_a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_again(open_page):
-    person = open_page(SHORT, failing=True)
+def _a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_again(person):
     held = []
     person.page.route("**/minimum-pitch*", lambda one: held.append(one))
     with person.page.expect_request("**/minimum-pitch*"):
@@ -142,7 +133,7 @@ def test_a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_ag
 
 
 @thorough
-def test_old_answers_turn_pale_while_new_ones_are_computed_and_a_failure_is_told_in_its_own_words(open_page, server):
+def test_old_answers_turn_pale_until_new_ones_come_and_superseded_questions_are_aborted(open_page, server):
     person = open_page(SHORT, failing=True)
     assert {person.style(place, "opacity") for place in OLD} == {"1"}
     person.page.route("**/collision-time*", lambda route: None)
@@ -160,11 +151,10 @@ def test_old_answers_turn_pale_while_new_ones_are_computed_and_a_failure_is_told
     person.page.route("**/collision-time*", lambda route: route.fulfill(**busy), times=1)
     person.types({"#pitch": "0.52"}, "Tab").sees({CONTACT: contact(server, benches=20, pitch=0.52)}).settles()
     assert {person.style(place, "opacity") for place in OLD} == {"1"}
+    _a_dragged_slider_does_not_wait(person, server)
 
 
-@thorough
-def test_superseded_questions_are_aborted_and_a_dragged_slider_does_not_wait(open_page, server):
-    person = open_page(SHORT)
+def _a_dragged_slider_does_not_wait(person, server):
     person.ask(SLOW, 400)
     assert person.ask(DRAGGED) >= 2
     person.settles().at("#controls input[type=range]").fill("0.55")
@@ -175,21 +165,25 @@ def test_superseded_questions_are_aborted_and_a_dragged_slider_does_not_wait(ope
 
 
 @thorough
-def test_a_dance_whose_samples_are_refused_says_so_and_is_not_played_for_ever(open_page, tmp_path):
+def test_what_a_service_refuses_to_play_stops_and_one_that_hangs_is_tried_again_and_again(open_page, tmp_path):
     with serving(tmp_path / "small.log", cells_max=1_500) as small:
         person = open_page("?benches=100&time=10", base=small.url, failing=True).presses("#play")
         words = ["The dance cannot be played: step through it, or move the time."]
         person.sees({"#status": [*words, "instants times handles, and there may be 1500"]}).reads({"#play": "▶ Play"})
+    _one_check_at_a_time_asks_whether_a_hanging_service_lives(open_page)
+    _the_next_try_counts_down(open_page)
 
 
-@thorough
-def test_one_check_at_a_time_asks_whether_a_hanging_service_lives_and_the_next_try_counts_down(open_page):
+def _one_check_at_a_time_asks_whether_a_hanging_service_lives(open_page):
     person = open_page("?benches=5&time=end", failing=True)
     person.ask(COUNT_REQUESTS)
     person.page.route("**/{collision-time*,healthz}", lambda route: route.abort())
     person.types({"#pitch": "0.6"}, "Tab").sees({"#lost": True}).presses(*["#lost button"] * 3)
     person.page.wait_for_function("() => checks > 2")
     assert person.ask("most") == 1
+
+
+def _the_next_try_counts_down(open_page):
     person = open_page("?benches=20", failing=True)
     person.page.clock.install()
     tries = []

@@ -70,8 +70,18 @@ def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page, s
 
 @thorough
 @pytest.mark.curl
-def test_the_commands_of_a_sweep_save_the_table_of_the_page(open_page, service, tmp_path):
-    person = open_page("?benches=12", base=base(service))
+def test_the_list_outlives_the_page_its_jobs_are_removed_and_commands_save_the_table(open_page, service, tmp_path):
+    person = open_page("?benches=41", base=base(service), timezone_id="UTC")
+    begins(person, "shortest_turn", ("pitch", 1.6, 1.8, 90))
+    running, gone = "#jobs li[data-state=running]", "#jobs li[data-state=dismissed]"
+    person.sees({running: "of 90 designs", f"{running} progress": True}).page.reload()
+    person.reaches_below().sees({running: "Shortest turn over Pitch"})
+    address = person.at(f"{running} button").get_attribute("id").replace("jobCancel-", "/jobs/")
+    assert service.status(address)["total"] == 90
+    person.at(f"{running} button").press("Enter")
+    person.sees({gone: "cancelled"}).at(f"{gone} button").press("Enter")
+    person.sees({"#no-jobs": True})
+    assert service.client.get(address).status_code == 404
     begins(person, "collision_time", ("pitch", 0.5, 0.52, 3), ("width", 0.2, 0.3, 2)).sees({DONE: True})
     commands = person.presses("#sweep summary").sees({"#sweep code": "-o sweep.csv"}).text("#sweep code")
     subprocess.run(["sh", "-ec", commands], check=True, cwd=tmp_path, capture_output=True, timeout=PATIENCE)
@@ -96,21 +106,6 @@ def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum
     pitch = polite.answer(base(service), "minimum-pitch", **query)["pitch"]
     person.strikes(*["ArrowRight"] * 3).reads({READING: f"调头空间直径 [m] 10：最小螺距 [m] {pitch:.6g}"})
     person.strikes("Enter").holds({"#pitch": str(pitch), "#turning_diameter": "10"})
-
-
-@thorough
-def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page, service):
-    person = open_page("?benches=41", base=base(service), timezone_id="UTC")
-    begins(person, "shortest_turn", ("pitch", 1.6, 1.8, 90))
-    running, gone = "#jobs li[data-state=running]", "#jobs li[data-state=dismissed]"
-    person.sees({running: "of 90 designs", f"{running} progress": True}).page.reload()
-    person.reaches_below().sees({running: "Shortest turn over Pitch"})
-    address = person.at(f"{running} button").get_attribute("id").replace("jobCancel-", "/jobs/")
-    assert service.status(address)["total"] == 90
-    person.at(f"{running} button").press("Enter")
-    person.sees({gone: "cancelled"}).at(f"{gone} button").press("Enter")
-    person.sees({"#no-jobs": True})
-    assert service.client.get(address).status_code == 404
 
 
 @thorough

@@ -73,6 +73,11 @@ class Person:
             expect(self.at(place)).to_have_attribute(name.replace("_", "-"), value)
         return self
 
+    def opens(self, query):
+        """Load another address of the page in this tab; it has all its answers."""
+        self.page.goto(f"{self.page.url.partition('?')[0]}{query}")
+        return self.settles()
+
     def arrives(self, address):
         """Wait for an address of this pattern."""
         self.page.wait_for_url(address)
