@@ -5,6 +5,7 @@ import re
 import pytest
 from playwright.sync_api import expect
 
+from tests.support.depth import DEEP
 from tests.support.person import PHONE
 
 thorough = pytest.mark.thorough
@@ -227,8 +228,18 @@ def test_on_a_phone_each_door_has_its_tabs_and_a_picture_of_a_third_of_the_heigh
     person.views("#people > h2", "#people #tolerance:visible", "#people #cues button:visible")
 
 
-def test_the_page_is_used_by_keyboard_alone(open_page):
-    person = open_page("?time=100&benches=20").reaches_below()
+def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_keys_alone_lead_everywhere(open_page):
+    person = open_page("?benches=40&time=end", locale="zh-CN").has("html", lang="zh-Hans")
+    person.sees({"#first-contact .value": "时碰撞", "#minimum-pitch": "最小螺距"})
+    assert "Pitch" not in person.text("main")
+    person.at("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
+    person.sees({"#rows tr:has-text('龙尾（后）')": True}).speaks("en").arrives("**lang=en")
+    person.page.reload()
+    person.reads({"h1 a, h1": "Bench Dragon"})
+    _keys_alone_lead_everywhere(person.settles().reaches_below())
+
+
+def _keys_alone_lead_everywhere(person):
     person.ask(FOCUSED)
     assert person.strikes("Tab").ask("focused[0][0]") == "skip"
     person.strikes("Enter").focuses("#canvas")
@@ -239,16 +250,6 @@ def test_the_page_is_used_by_keyboard_alone(open_page):
     assert [name for name, is_outlined in focused if not is_outlined] == []
     wanted = {"play", "time", "rate", "pitch", "benches", "margin", "rows", "share", "follow", "keepTrajectory-CSV"}
     assert wanted <= {name for name, _ in focused}
-
-
-def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_stays_in_the_address(open_page):
-    person = open_page("?benches=40&time=end", locale="zh-CN").has("html", lang="zh-Hans")
-    person.sees({"#first-contact .value": "时碰撞", "#minimum-pitch": "最小螺距"})
-    assert "Pitch" not in person.text("main")
-    person.at("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
-    person.sees({"#rows tr:has-text('龙尾（后）')": True}).speaks("en").arrives("**lang=en")
-    person.page.reload()
-    person.reads({"h1 a, h1": "Bench Dragon"})
 
 
 @thorough
@@ -277,6 +278,8 @@ def test_a_verdict_is_told_once_with_its_reasons_and_a_picture_shows_its_directi
 def test_axe_finds_nothing_in_light_or_dark_and_marks_stay_visible_in_the_colours_of_the_system(open_page):
     person = open_page("?handle=3&stray=0.02&benches=20", failing=True, color_scheme="light")
     _axe_finds_nothing(person.looks_at("curve", "scan"))
+    if DEEP:
+        _axe_finds_nothing(person.opens("?pitch=2&start_turns=8&benches=20&lang=zh").looks_at("curve", "scan"))
     person.page.set_viewport_size(PHONE["viewport"])
     _axe_finds_nothing(person.opens("?pitch=55&benches=x&lang=en").sees({"#pitch-error": True}))
     person = open_page("?benches=20&time=end", forced_colors="active").reaches_below()
@@ -284,12 +287,6 @@ def test_axe_finds_nothing_in_light_or_dark_and_marks_stay_visible_in_the_colour
     card = person.style("body", "backgroundColor")
     marks = {person.style(place, "backgroundColor") for place in ("#crew .bars i", "#contact-mark")}
     assert not marks & {card, "rgba(0, 0, 0, 0)"}
-
-
-@pytest.mark.deep
-def test_axe_finds_nothing_about_a_dance_without_contact(open_page):
-    person = open_page("?pitch=2&start_turns=8&benches=20", color_scheme="light", locale="zh-CN")
-    _axe_finds_nothing(person.looks_at("curve", "scan"))
 
 
 def _axe_finds_nothing(person):

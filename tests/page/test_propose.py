@@ -69,7 +69,9 @@ def test_from_nothing_to_a_certified_dance_on_a_phone(open_page):
 
 @thorough
 def test_a_card_says_what_is_good_and_tight_becomes_a_route_and_begins_in_the_streets_of_gates(open_page):
-    person = open_page(SCALED)
+    person = proposed(open_page(SCALED)).presses(CARDS).settles()
+    _cards_for_other_gates_cannot_be_chosen(person)
+    person.opens(SCALED)
     _gates_lie_on_the_border_and_the_dance_begins_in_their_streets(person)
     proposed(person.opens(YARD))
     person.sees({"#proposed": re.compile(r"The best \d of \d+ tried; each has passed its check\. .*")})
@@ -95,6 +97,14 @@ def test_a_card_says_what_is_good_and_tight_becomes_a_route_and_begins_in_the_st
     assert ("walk" in edited, "route" in edited) == (False, True)
     assert person.strikes("ControlOrMeta+z").settles().address() == chosen
     person.presses("#undo").settles().sees({"#judgement": lengths[0]})
+
+
+def _cards_for_other_gates_cannot_be_chosen(person):
+    person.sees({"#cards-old": False}).misses({"#judgement": "earlier"}).presses("[data-add=gate]")
+    tap_at(person, -11, 1)
+    person.settles().sees({"#cards-old": True, "#judgement": "proposed for an earlier square, other gates"})
+    person.sees({f"{CARDS}:disabled": True, f"{CARDS}:enabled": 0}).presses("#undo")
+    person.sees({"#cards-old": False, f"{CARDS}:enabled": True, f"{CARDS}:disabled": 0})
 
 
 def _gates_lie_on_the_border_and_the_dance_begins_in_their_streets(person):
@@ -148,7 +158,7 @@ NONE = {"proposals": [], "tried": 30, "checked": 5, **WHY}
 
 
 @thorough
-def test_why_none_fits_is_one_sentence_a_search_can_be_stopped_and_cards_are_of_the_present_square(open_page):
+def test_why_none_fits_stands_in_one_sentence_and_a_search_can_be_stopped(open_page):
     person = open_page(NARROW_YARD).presses("#propose")
     person.sees({"#proposed": ["3.02 m", "3.77 m"], CARDS: 0}).speaks("zh").sees({"#proposed": "直径至多 3.02 m"})
     person.opens(f"{YARD}&lang=en")
@@ -161,7 +171,6 @@ def test_why_none_fits_is_one_sentence_a_search_can_be_stopped_and_cards_are_of_
     person.sees({"#propose:enabled": True}).reads({"#proposed": ""}).settles().page.unroute_all()
     person.opens(f"{EMPTY}&benches=3&things=a.square..0,0_9,0_9,9_0,9&lang=en").chooses({"#objective": "benches"})
     proposed(person).settles().sees({"#proposed": re.compile(r".*room for at most \d+\.")})
-    _proposals_for_an_earlier_square_cannot_be_chosen(person.opens(f"{SCALED}&lang=en"))
 
 
 @thorough
@@ -206,33 +215,3 @@ def _while_a_point_is_dragged_the_stretches_that_fail_are_coloured(person):
     person.page.mouse.up()
     person.settles().has("#judgement", data_outcome="contact")
     assert during > before + 300
-
-
-def proposal_of(radius, name, distance):
-    """A proposal of 8 benches once around the origin, as the service writes it."""
-    turns = [2.0 * math.pi * k / 12.0 for k in range(13)]
-    ring = [[round(radius * math.cos(turn), 3), round(radius * math.sin(turn), 3)] for turn in turns]
-    dragon = {"benches": 8, "head_length": 3.41, "body_length": 2.2, "width": 0.3, "overhang": 0.275}
-    path = {"kind": "waypoints", "points": ring, "start": 15.0}
-    sizes = {"tolerance": 0.3, "duration": 40.0, "length": 40.0, "area": 90.0, "turns": 1.0}
-    sizes |= {"clearance": 2.0, "clearance_in_place": 2.0}
-    near = {"name": name, "distance": distance, "in_place": distance, "time": 1.0}
-    dance = {"dragon": dragon, "path": path, "head_speed": 1.0, "start": 0.0}
-    return {"figure": "ring", "dance": dance, "near": near, "sharpest_bend": 0.2, "gates": [], **sizes}
-
-
-RINGS = [proposal_of(9.0, "square", 0.5), proposal_of(6.0, "linden", 0.7)]
-TWO_RINGS = {"proposals": RINGS, "tried": 30, "checked": 5, "most_benches": None}
-
-
-def _proposals_for_an_earlier_square_cannot_be_chosen(person):
-    """Two rings are told apart."""
-    person.page.route("**/proposals", lambda route: route.fulfill(json=TWO_RINGS))
-    for language, rings in (("zh", "环形，宽 {} m"), ("en", "Ring, {} m wide")):
-        proposed(person.speaks(language)).sees({f"{CARDS} >> nth=1 >> .near": "0.70 m"})
-        assert person.texts(f"{CARDS} > b") == [rings.format(wide) for wide in (18, 12)]
-    person.presses(CARDS).settles().sees({"#cards-old": False}).misses({"#judgement": "earlier"})
-    person.presses("[data-add=gate]")
-    tap_at(person, -11, 1)
-    person.settles().sees({"#cards-old": True, "#judgement": "proposed for an earlier square, other gates"})
-    person.sees({f"{CARDS}:disabled": 2}).presses("#undo").sees({"#cards-old": False, f"{CARDS}:enabled": 2})

@@ -147,7 +147,7 @@ def _a_tree_goes_upwards_as_far_as_the_finger(person):
 
 @thorough
 def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its_address_and_file(open_page, server):
-    person = open_page(VILLAGE).sees({**NO, "#run-end[aria-busy=false]": True})
+    person = open_page(VILLAGE, failing=True).sees({**NO, "#run-end[aria-busy=false]": True})
     body = file_of(person)
     answer = polite.answer(server, "check", body)["failures"]
     assert [one["kind"] for one in answer] == ["venue", "speed"]
@@ -160,11 +160,10 @@ def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its
     person.page.goto(address)
     assert file_of(person.sees(NO)) == body
     person.presses("#things li >> nth=1 >> button >> nth=-1").sees({".failures li:has-text('touches well')": 0})
+    _a_dance_that_starts_in_the_wrong_place_or_is_refused_is_said_to_be_so(person)
 
 
-@thorough
-def test_a_dance_that_starts_in_the_wrong_place_too_late_or_not_at_all_is_said_to_do_so(open_page):
-    person = open_page("?path=route&door=all", failing=True)
+def _a_dance_that_starts_in_the_wrong_place_or_is_refused_is_said_to_be_so(person):
     for things, words in (
         ("a.court..-9,-9_30,-9_30,9_-9,9", "starts outside court."),
         ("a.court..-30,-9_30,-9_30,9_-30,9~c.elm.2.-18,0", "starts inside elm."),
@@ -181,7 +180,6 @@ def test_a_dance_that_starts_in_the_wrong_place_too_late_or_not_at_all_is_said_t
     person.opens(f"?path=route&benches=9&route=*-60,0_*0,0_0,40&{square}").sees(YES)
     person.types({"[data-field=benches] input": "90"}).settles().sees(NO)
     assert [person.coloured(name) > 0 for name in ("head", "circle")] == [False, True]
-    _a_dance_that_begins_later_can_begin_at_time_0(person.opens("?path=route&benches=24&route=0,0_150,0"))
 
 
 def _a_dance_that_begins_later_can_begin_at_time_0(person):
@@ -220,8 +218,10 @@ def _the_picture_has_the_drawn_path_alone(person):
 
 
 @thorough
-def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(open_page):
-    person = open_page("?path=route&benches=24&route=0,0_90,0").sees(YES)
+def test_every_preset_can_be_danced_leaves_a_square_of_ones_own_and_a_later_start_can_be_at_time_0(open_page):
+    person = open_page("?path=route&benches=24&route=0,0_150,0", failing=True)
+    _a_dance_that_begins_later_can_begin_at_time_0(person)
+    person.types({"#benches": "24"}, "Tab").sees(YES)
     for name in ("inout", "eight", "street", "village", "s"):
         person.presses("#preset", f"[data-begin={name}]").sees({"#presets": False}).settles().sees(YES)
     person.opens("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
