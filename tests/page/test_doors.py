@@ -40,9 +40,13 @@ def without(**changes):
     return changed
 
 
+STANDS = {"#clock": "0.00 s", "#play": "Play"}
+
+
 def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open_page):
     person = open_page("", reduced_motion="reduce").sees({"#arrival button": 3})
-    assert numbers(person) == []
+    person.page.mouse.move(300, 300)
+    assert numbers(person.settles().sees(STANDS)) == []
     person.presses("#arrival [data-door=contest]").arrives("**door=contest**")
     assert numbers(person.sees({"#arrival": False})) == CONTEST
     person.presses("#doors [data-door=village]").arrives("**path=route**")
@@ -58,10 +62,38 @@ def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open
     person.has("#doors [data-door=contest]", aria_pressed="true")
     assert "route" not in person.page.url
     assert numbers(person) == CONTEST
+    person.opens("?door=village").arrives("**path=route**")
+
+
+def test_a_bare_address_moves_with_the_mouse_or_a_touch_and_the_wheel_scrolls_until_the_picture_is_clicked(open_page):
+    person = open_page("").strikes("Tab")
+    person.page.mouse.move(300, 300)
+    person.settles().sees(STANDS)
+    # A route stands.
+    moves(person.opens(""), 310).presses("#arrival [data-door=village]").settles().sees({"#play": "Play"})
+    moves(person.opens(""), 320).presses("#doors [data-door=all]").sees({"#clock": re.compile(r"^[1-9].*")})
+    canvas = person.presses("#play").box("#canvas")
+    person.page.mouse.move(canvas["x"] + 300, canvas["y"] + 300)
+    person.page.mouse.wheel(0, 200)
+    wait_for(lambda: person.ask("scrollY") > 100)
+    assert "view=" not in person.page.url
+    person.ask("scrollTo(0, 0)")
+    person.page.mouse.click(canvas["x"] + 300, canvas["y"] + 300)
+    person.page.mouse.wheel(0, 200)
+    person.arrives("**view=**")
+    person = open_page("", has_touch=True).sees({"#play": "Play"})
+    person.page.touchscreen.tap(300, 300)
+    person.sees({"#play": "Pause"})
+
+
+def moves(person, x):
+    """The dance, once the mouse is there."""
+    person.sees({"#play": "Play"}).page.mouse.move(x, 300)
+    return person.sees({"#play": "Pause"})
 
 
 @thorough
-def test_behind_a_door_numbers_are_as_people_say_them_and_each_is_one_tab_stop(open_page):
+def test_behind_a_door_numbers_are_as_people_say_them_and_the_rest_is_one_step_away(open_page):
     person = open_page("?door=contest&time=end")
     people = {
         "#first-contact .value": "✕Contact at 412.47 s",
@@ -71,21 +103,41 @@ def test_behind_a_door_numbers_are_as_people_say_them_and_each_is_one_tab_stop(o
     person.reads(people).sees({"#minimum-pitch button": False}).presses("#first-contact summary")
     person.presses("#minimum-pitch summary").sees({"#minimum-pitch button": True})
     person.reads({"#first-contact dd": "412.473838 s", "#minimum-pitch dd": "0.450337393 m"})
+    # Each number is one Tab stop.
     person.focuses("#pitch")
     for name in CONTEST[1:]:
         expect(person.strikes("Tab").at(f"#{name}")).to_be_focused()
     for key, value in (("ArrowUp", "224"), ("ArrowDown", "223"), ("ArrowDown", "222"), ("Escape", "223")):
         person.at("#benches").press(key)
         person.holds({"#benches": value})
-    person = open_page("?door=look&benches=20")
-    assert numbers(person) == ["pitch", "benches"]
+    leaves_the_whole_screen_and_an_instant(person)
+    assert numbers(person.presses("#doors [data-door=look]").settles()) == ["pitch", "benches"]
     assert {"width", "margin", "hole"} <= set(numbers(person.presses("#more")))
     assert person.findings() == []
-    # An address from before there were doors.
-    assert len(numbers(open_page(EASY).sees({"#more": False}))) == 13
+    # An address from before there were doors; and what a newer page wrote is named once, and the rest opens.
+    assert len(numbers(person.opens(EASY).sees({"#more": False}))) == 13
+    for query, words in (
+        (f"door=cel%3Cb%3Elar{'x' * 200}", f"“cel<b>lar{'x' * 31}”"),
+        (f"{'x' * 90}=1", f"“{'x' * 40}”"),
+    ):
+        person = open_page(f"{EASY}&{query}", rest=False).sees({"#status": words}).settles().holds({"#benches": "5"})
+    # It goes away by itself, and does not come back.
+    person.reads({"#status": ""}).presses("#doors [data-door=look]").settles().reads({"#status": ""})
 
 
-def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(open_page):
+def leaves_the_whole_screen_and_an_instant(person):
+    """The dance on the whole screen has numbers too, and its verdict leads to its reasons, which are not there."""
+    person.presses("#full").page.wait_for_function("() => document.fullscreenElement")
+    person.sees({"#answers": False}).views("[data-field=pitch] input[type=range]", "#verdict").presses("#verdict")
+    assert person.views("#answers").ask("document.fullscreenElement") is None
+    # A reading beside an instant says so, and a link leads to the files.
+    person.presses("#clock").types({"#typed-time": "100.2"})
+    person.sees({"#clearance .reading": "s, the nearest time of the curve: gap"})
+    person.presses("#to-end").settles().misses({"#clearance .reading": "nearest"}).presses("#to-keep")
+    expect(person.sees({"#kept li": True}).settles().views("#keep-title").at("#keep-title")).to_be_focused()
+
+
+def test_in_the_village_the_verdict_comes_first_and_its_address_is_shared_and_printed(open_page):
     person = open_page(f"?door=village{ROUTE}&limit=0.5").sees(
         {
             "#judgement[data-outcome=contact]": "It starts at 19:29:46 and ends at 19:30:50",
@@ -100,55 +152,44 @@ def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(open_page)
         person.presses("#clock").types({"#typed-time": typed}).sees({"#clock": clock})
     expect(person.at("#clock")).to_be_focused()
     # The dragon on a long route is no hairline: a bench is 0.3 m wide, one pixel at this scale.
-    person = open_page(f"?door=village{ROUTE}&view=30,0,3")
-    pixels = person.picture()
+    pixels = person.opens(f"?door=village{ROUTE}&view=30,0,3").picture()
     column = pixels[:, pixels.shape[1] // 2, :3]
     red = (column[:, 0] > 0.4) & (column[:, 2] < 0.6 * column[:, 0])
     assert 5 <= red.sum() < 0.1 * len(column)
     assert person.findings() == []
+    shares_without_a_clipboard(person)
+    person.page.emulate_media(media="print")
+    person.page.pdf()
+    person.sees({"#printed": ["The dance ends at 50.00 s (19:30:50).", person.page.url], "#canvas": True})
+    assert person.sees({"#judgement .value": True}).ask(BORDERED) == []
 
 
-@pytest.mark.parametrize(
-    "query", [f"?door=village{ROUTE}", pytest.param("?benches=5&time=1", marks=thorough)], ids=["village", "short"]
-)
-def test_an_address_is_shared_without_a_clipboard_and_printed(open_page, query):
-    person = open_page(query).presses("#share").sees({"#qr": True})
-    address = person.at("#address").input_value()
+def shares_without_a_clipboard(person):
+    """The address is selected, so that it can be copied by hand; and a phone can read it."""
+    address = person.presses("#share").sees({"#qr": True}).at("#address").input_value()
     assert address == person.page.url
     assert len(address) < 500
-    # It is selected, so that it can be copied by hand; and a phone can read it.
     assert person.ask("getSelection().toString() || document.activeElement.value") == address
     assert read_qr(person.at("#qr").evaluate(MODULES)) == address
     assert person.findings("#sharing") == []
     person.strikes("Escape").sees({"#sharing": False})
-    if "village" in query:
-        person.page.emulate_media(media="print")
-        person.page.pdf()
-        person.sees({"#printed": ["The dance ends at 50.00 s (19:30:50).", person.page.url], "#canvas": True})
-        assert person.sees({"#judgement .value": True}).ask(BORDERED) == []
 
 
 @thorough
-def test_a_film_shows_its_progress_on_its_button_and_opens_below(open_page):
+def test_a_film_is_cancelled_then_shows_its_progress_and_opens_below_and_cue_cards_are_made(open_page):
     person = open_page(f"?door=village{ROUTE}").reaches_below()
     person.sees({"#kept li:visible": 4, "#people #cues": True})
     assert person.saves("#keepCues-PDF", "cues.pdf").startswith(b"%PDF")
-    person.page.route("**/films", without(height=90))
-    person.presses("#keepFilm-GIF").sees({"#keepFilm-GIF": re.compile(r"^GIF \d+ %$")})
-    person.page.wait_for_function("() => document.querySelector('#kept img.film')?.naturalWidth === 160")
-    person.reads({"#keepFilm-GIF": "GIF"}).has("#kept img.film", alt="Film of the dance")
-
-
-@thorough
-def test_a_film_is_cancelled_and_the_cue_card_is_said_to_be_made(open_page):
-    person = open_page(f"?door=village{ROUTE}").reaches_below()
     person.page.route("**/films", without(seconds=60.0))  # it is not whole before it is cancelled
     person.presses("#keepFilm-GIF", "#jobs li button").sees({"#jobs li": "cancelled", "#sweep": False})
     held = person.holds_back("**/cues")
     person.presses("#keepCues-CSV").has("#keepCues-CSV", aria_busy="true").sees({"#status": "Being made"})
     with person.page.expect_download():
         held.let_go()
-    person.has("#keepCues-CSV", aria_busy="false")
+    person.has("#keepCues-CSV", aria_busy="false").page.route("**/films", without(height=90))
+    person.presses("#keepFilm-GIF").sees({"#keepFilm-GIF": re.compile(r"^GIF \d+ %$")})
+    person.page.wait_for_function("() => document.querySelector('#kept img.film')?.naturalWidth === 160")
+    person.reads({"#keepFilm-GIF": "GIF"}).has("#kept img.film", alt="Film of the dance")
 
 
 @thorough
@@ -165,19 +206,8 @@ def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_pag
     with ZipFile(download.value.path()) as archive:
         assert "turning circle 8.5 m" in archive.read("report.md").decode()
     person.sees({"#jobs li[data-state=successful]": 1})
-    person = open_page(f"?door=contest&time=0&csv={'%0A'.join(['2.2,0.3,0.2'] * 5)}").reaches_below()
+    person.opens(f"?door=contest&time=0&csv={'%0A'.join(['2.2,0.3,0.2'] * 5)}").reaches_below()
     person.presses("#keepKit-ZIP").sees({"#status": "The kit is for equal benches"})
-
-
-@thorough
-def test_what_a_newer_page_wrote_is_named_once_and_the_rest_opens(open_page):
-    for query, words in (
-        (f"door=cel%3Cb%3Elar{'x' * 200}", f"“cel<b>lar{'x' * 31}”"),
-        (f"{'x' * 90}=1", f"“{'x' * 40}”"),
-    ):
-        person = open_page(f"{EASY}&{query}", rest=False).sees({"#status": words}).settles().holds({"#benches": "5"})
-    # It goes away by itself, and does not come back.
-    person.reads({"#status": ""}).presses("#doors [data-door=look]").settles().reads({"#status": ""})
 
 
 @thorough
@@ -193,64 +223,3 @@ def test_a_route_is_drawn_by_keyboard_from_nothing(open_page):
     person.at("[data-tool=area]").press("Enter")
     person.focuses("#canvas")
     person.strikes(*"nnnn").settles().sees({"#knots .knot": 4, "#judgement .failures li": True})
-
-
-@thorough
-@pytest.mark.chinese_font
-def test_figures_have_the_language_of_the_page(open_page):
-    for language, words in (("zh", ("没有碰撞", "首次碰撞", "各把手")), ("en", ())):
-        person = open_page(f"{EASY}&lang={language}").reaches_below()
-        text = person.saves("#keepContact-SVG").decode()
-        assert any(one in text for one in words) is (language == "zh")
-
-
-def test_a_bare_address_moves_with_the_mouse_and_the_wheel_scrolls_until_the_picture_is_clicked(open_page, server):
-    person = open_page("").sees({"#play": "Play"})
-    person.page.mouse.move(300, 300)
-    person.sees({"#play": "Pause"}).presses("#doors [data-door=all]").sees({"#clock": re.compile(r"^[1-9].*")})
-    canvas = person.presses("#play").box("#canvas")
-    person.page.mouse.move(canvas["x"] + 300, canvas["y"] + 300)
-    person.page.mouse.wheel(0, 200)
-    wait_for(lambda: person.ask("scrollY") > 100)
-    assert "view=" not in person.page.url
-    person.ask("scrollTo(0, 0)")
-    person.page.mouse.click(canvas["x"] + 300, canvas["y"] + 300)
-    person.page.mouse.wheel(0, 200)
-    person.arrives("**view=**")
-
-
-@thorough
-def test_a_touch_starts_the_dance_and_an_address_opens_its_door(open_page):
-    person = open_page("", has_touch=True).sees({"#play": "Play"})
-    person.page.touchscreen.tap(300, 300)
-    person.sees({"#play": "Pause"})
-    open_page("?door=village").arrives("**path=route**")
-
-
-@thorough
-def test_nothing_moves_for_keys_nor_with_reduced_motion_and_a_route_stands(open_page):
-    keys, still = open_page(""), open_page("", reduced_motion="reduce")
-    keys.strikes("Tab")
-    for person in (keys, still):
-        person.page.mouse.move(300, 300)
-        person.settles().sees({"#clock": "0.00 s", "#play": "Play"})
-    # The dance on the whole screen has numbers too, and its verdict leads to its reasons, which are not there.
-    person = open_page("?door=contest&benches=60").presses("#full")
-    person.page.wait_for_function("() => document.fullscreenElement")
-    person.sees({"#answers": False}).views("[data-field=pitch] input[type=range]", "#verdict").presses("#verdict")
-    assert person.views("#answers").ask("document.fullscreenElement") is None
-    person = open_page("")
-    person.page.mouse.move(300, 300)
-    person.sees({"#play": "Pause"}).presses("#arrival [data-door=village]").settles().sees({"#play": "Play"})
-
-
-@thorough
-def test_a_reading_beside_an_instant_says_so_and_a_link_leads_to_the_files(open_page):
-    person = open_page("?door=contest&benches=20&time=100.2")
-    person.sees({"#clearance .reading": "s, the nearest time of the curve: gap"})
-    person.presses("#to-end").settles().misses({"#clearance .reading": "nearest"}).presses("#to-keep")
-    expect(person.sees({"#kept li": True}).settles().views("#keep-title").at("#keep-title")).to_be_focused()
-    person = open_page("?pitch=0.6&benches=20&time=end")
-    person.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
-    person.presses("#reset-all").settles().presses("#share", "#copy-address").sees({"#status": "Copied"})
-    assert person.ask("navigator.clipboard.readText()").endswith("/?door=all")
