@@ -123,20 +123,9 @@ def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(open
 
 
 @thorough
-def test_with_a_time_of_day_the_card_goes_by_the_clock_and_its_times_are_the_printed_ones(open_page, server):
-    begun = datetime.now() - timedelta(seconds=30)
-    clock = begun.strftime("%H:%M:%S")
-    person = held(open_page(f"?benches=20&bench=7&lang=en&start_clock={clock.replace(':', '%3A')}", rest=False))
-    own = card(server, start_clock=clock)["cues"]
-    gone = (datetime.now() - begun).total_seconds()
-    assert person.text(CUE) in {cue["words"] for cue in own if gone - 10 < cue["since"]}
-    person.reads({f"{LIST} span": own[0]["clock"]}).sees({"#carrier .clock": re.compile(r"^\d\d:\d\d:\d\d$")})
-    person.presses("button:text('Start again')").sees({f"{LIST}.past": 0}).presses("#card-clock")
-    person.sees({f"{LIST}.past": True})
-
-
-@thorough
-def test_the_view_opens_from_the_page_chooses_benches_and_dragons_and_closes_where_it_was(open_page, server):
+def test_the_view_opens_from_the_page_chooses_benches_and_dragons_closes_where_it_was_and_goes_by_the_clock(
+    open_page, server
+):
     person = open_page("?benches=20&time=100&handle=4&lang=en").reaches_below().presses("#card-follow")
     assert held(person).address()["bench"] == "4"
     person.types({"#card-bench": "12"}).reads({"#carrier h1": "body 12"}).arrives("**bench=12**")
@@ -146,10 +135,24 @@ def test_the_view_opens_from_the_page_chooses_benches_and_dragons_and_closes_whe
     person.sees({"#carrier": False}).settles()
     person.reads({"#clock": "100.000000 s"}).sees({"#table-time": "100.000000 s"})
     assert "bench" not in person.address()
-    person = held(open_page(f"?{TWO}&bench=7&lang=en")).chooses({"#card-dragon": "A"})
+    held(person.opens(f"?{TWO}&bench=7&lang=en")).chooses({"#card-dragon": "A"})
     person.reads({"#carrier h1": "A: body 7"}).arrives(lambda url: "dragon=" not in url)
     assert cues_of(held(person)) == words_of(card_of_two(server, 0, "en")["cues"])
     # On paper stand the bench, its picture and all cues without buttons.
     person.page.emulate_media(media="print")
     person.page.pdf()
     person.sees({"button:visible, input:visible": 0, "#canvas": True, "#carrier h1": "A: body 7", LIST: True})
+    goes_by_the_time_of_day(open_page, server)
+
+
+def goes_by_the_time_of_day(open_page, server):
+    """Its times are the printed ones."""
+    begun = datetime.now() - timedelta(seconds=30)
+    clock = begun.strftime("%H:%M:%S")
+    person = held(open_page(f"?benches=20&bench=7&lang=en&start_clock={clock.replace(':', '%3A')}", rest=False))
+    own = card(server, start_clock=clock)["cues"]
+    gone = (datetime.now() - begun).total_seconds()
+    assert person.text(CUE) in {cue["words"] for cue in own if gone - 10 < cue["since"]}
+    person.reads({f"{LIST} span": own[0]["clock"]}).sees({"#carrier .clock": re.compile(r"^\d\d:\d\d:\d\d$")})
+    person.presses("button:text('Start again')").sees({f"{LIST}.past": 0}).presses("#card-clock")
+    person.sees({f"{LIST}.past": True})

@@ -28,84 +28,29 @@ OVERTAKEN = """() => {
 }"""
 
 
-def begun(open_page, preset, query="?door=all&lang=en&time=0&benches=9", **options):
-    """The page with a performance to begin with."""
-    person = open_page(query, **options).presses("#several").settles()
-    return person.presses(f"[data-dragons={preset}]").settles()
+BARE = "?door=all&lang=en&time=0&benches=9"
 
 
-@pytest.mark.parametrize("preset", ["streets", "parade"])
-def test_dragons_to_begin_with_leave_a_square_and_a_path_that_a_person_has_drawn(open_page, preset):
-    own = {"things": "a.yard..-150,-90_150,-90_150,90_-150,90~c.well.1.0,80", "route": "0,0_60,5", "limit": "1.5"}
-    person = begun(open_page, preset, f"?door=all&path=route&benches=3&{urlencode(own)}")
-    now = person.address()
-    assert (now["things"], now["limit"]) == (own["things"], own["limit"])
-    for _ in range(2):  # the dragons to begin with, and the list of several
-        person.page.go_back()
-    assert {name: person.settles().address().get(name) for name in own} == own
+def begun(person, preset):
+    """A performance to begin with, of somebody who has one dragon."""
+    return person.presses("#several").settles().presses(f"[data-dragons={preset}]").settles()
 
 
 def file_of(person):
     return json.loads(person.saves("#dragons-save"))
 
 
-def again(open_page, person):
-    """The same address, opened by somebody else."""
-    return open_page(f"?{person.page.url.partition('?')[2]}")
+OWN = {"things": "a.yard..-150,-90_150,-90_150,90_-150,90~c.well.1.0,80", "route": "0,0_60,5", "limit": "1.5"}
 
 
-def test_two_in_one_spiral_meet_when_the_reference_says(open_page):
-    cases = json.loads(ENCOUNTERS.read_text("utf-8"))["cases"]
-    time = next(f"{one['time']:.6f} s" for one in cases if one["name"] == "two dragons in one spiral, opposite")
-    person = begun(open_page, "spiral")
-    failure = "body 3 of red and the head of blue touch."
-    person.sees({"#judgement": f"First meeting at {time}", ".failures li": failure})
-    person.has("#contact-mark", aria_label=f"Two dragons meet at {time}").presses("#to-end").settles()
-    person.reads({"#clock": time, "#inset figcaption": "body 3 of red, the head of blue"})
-    assert all(person.coloured(colour) > 200 for colour in COLOURS[:2])
-    assert len(person.page.url) < ADDRESS_MOST
-    other = again(open_page, person)
-    assert other.text("#judgement") == person.text("#judgement")
-    other.speaks("zh").sees({"#judgement": "红龙的第3节龙身与蓝龙的龙头相碰。"})
-
-
-def test_a_late_answer_about_other_dragons_asks_nothing_that_is_refused(open_page):
-    person = open_page("?door=all&lang=en&time=0")
-    person.ask(OVERTAKEN)
-    person.presses("#several").sees({"#dragons li": 2}).settles()
-    person.sees({"#judgement": "First meeting at 207.378361 s"})
-
-
-@thorough
-def test_a_parade_is_judged_as_by_the_service_and_played_together(open_page, server):
-    person = begun(open_page, "parade")
-    file = file_of(person.sees({"#judgement": ["Can be danced", "No two dragons touch."], "#contact-mark": False}))
-    report = polite.answer(server, "check", file | {"details": False})
-    assert report["verdict"] == "passes"
-    assert len(file["dances"]) == person.counts("#dragons li") == 3
-    person.presses("#play").page.wait_for_function("() => Number(document.querySelector('#time').value) > 30")
-    assert all(person.presses("#play").coloured(colour) > 20 for colour in COLOURS)
-
-
-@thorough
-def test_film_plan_cues_map_and_print_are_of_all_dragons(open_page):
-    person = begun(open_page, "parade", "?door=village&lang=en&time=0&begin_clock=19%3A30").reaches_below()
-    person.sees({"#cues": "A cue card for each bench", ":is(#crew, #paper):visible": 0})
-    assert person.saves("#keepPlan-A3").startswith(b"%PDF")
-    for content in (person.saves("#keepCues-CSV"), person.saves("#keepMap-GeoJSON")):
-        assert [name for name in (b"red", b"blue", b"green") if name not in content] == []
-    person.page.route("**/films", lambda route: None)
-    with person.page.expect_request("**/films") as sent:
-        person.presses("#keepFilm-GIF")
-    assert len(sent.value.post_data_json["dances"]) == 3
-    person.page.emulate_media(media="print")
-    person.page.pdf()
-    person.sees({"#printed": ["The dance ends at ", "dances="], "#canvas": True, "#judgement .value": True})
-
-
-@thorough
-def test_who_waits_is_let_pass_and_the_browser_leads_back(open_page, server):
-    person = begun(open_page, "streets").sees({"#judgement": "Cannot be danced"})
+def test_dragons_to_begin_with_leave_what_a_person_has_drawn_and_who_waits_is_let_pass(open_page, server):
+    person = open_page(f"?door=all&path=route&benches=3&{urlencode(OWN)}").presses("#several").settles()
+    for preset in ("parade", "streets"):
+        now = person.presses(f"[data-dragons={preset}]").settles().address()
+        assert (now["things"], now["limit"]) == (OWN["things"], OWN["limit"])
+        goes_back_to_what_is_drawn(person)
+    goes_back_to_what_is_drawn(person)  # before the list of several
+    begun(person.opens(BARE), "streets").sees({"#judgement": "Cannot be danced"})
     report = polite.answer(server, "check", file_of(person) | {"details": False})
     assert (report["verdict"], len(report["failures"])) == ("fails", person.counts(".failures li"))
     person.types({"#dragon-delay-1": "30"}).sees({"#judgement": "Can be danced"})
@@ -118,9 +63,64 @@ def test_who_waits_is_let_pass_and_the_browser_leads_back(open_page, server):
     assert [person.coloured(one) > 0 for one in ("#ff8b7c", COLOURS[0])] == [True, False]
 
 
+def goes_back_to_what_is_drawn(person):
+    person.page.go_back()
+    assert {name: person.settles().address().get(name) for name in OWN} == OWN
+
+
+def test_two_in_one_spiral_meet_when_the_reference_says_also_after_a_late_answer_about_others(open_page):
+    cases = json.loads(ENCOUNTERS.read_text("utf-8"))["cases"]
+    time = next(f"{one['time']:.6f} s" for one in cases if one["name"] == "two dragons in one spiral, opposite")
+    person = open_page("?door=all&lang=en&time=0")
+    person.ask(OVERTAKEN)
+    person.presses("#several").sees({"#dragons li": 2}).settles()
+    failure = "body 3 of red and the head of blue touch."
+    person.sees({"#judgement": f"First meeting at {time}", ".failures li": failure})
+    person.has("#contact-mark", aria_label=f"Two dragons meet at {time}").presses("#to-end").settles()
+    person.reads({"#clock": time, "#inset figcaption": "body 3 of red, the head of blue"})
+    assert all(person.coloured(colour) > 200 for colour in COLOURS[:2])
+    assert len(person.page.url) < ADDRESS_MOST
+    # The same address, opened by somebody else.
+    other = open_page(f"?{person.page.url.partition('?')[2]}")
+    assert other.text("#judgement") == person.text("#judgement")
+    other.speaks("zh").sees({"#judgement": "红龙的第3节龙身与蓝龙的龙头相碰。"})
+
+
 @thorough
-def test_dragons_are_chosen_changed_copied_named_coloured_and_removed(open_page):
-    person = begun(open_page, "spiral").presses("#dragon-choose-1").has("#dragon-choose-1", aria_pressed="true")
+def test_a_parade_is_judged_played_filmed_printed_and_listed_on_a_phone_with_all_dragons(open_page, server):
+    person = begun(open_page("?door=village&lang=en&time=0&begin_clock=19%3A30"), "parade").reaches_below()
+    file = file_of(person.sees({"#judgement": ["Can be danced", "No two dragons touch."], "#contact-mark": False}))
+    report = polite.answer(server, "check", file | {"details": False})
+    assert report["verdict"] == "passes"
+    assert len(file["dances"]) == person.counts("#dragons li") == 3
+    person.presses("#play").page.wait_for_function("() => Number(document.querySelector('#time').value) > 30")
+    assert all(person.presses("#play").coloured(colour) > 20 for colour in COLOURS)
+    person.sees({"#cues": "A cue card for each bench", ":is(#crew, #paper):visible": 0})
+    assert person.saves("#keepPlan-A3").startswith(b"%PDF")
+    for content in (person.saves("#keepCues-CSV"), person.saves("#keepMap-GeoJSON")):
+        assert [name for name in (b"red", b"blue", b"green") if name not in content] == []
+    person.page.route("**/films", lambda route: None)
+    with person.page.expect_request("**/films") as sent:
+        person.presses("#keepFilm-GIF")
+    assert len(sent.value.post_data_json["dances"]) == 3
+    person.page.emulate_media(media="print")
+    person.page.pdf()
+    person.sees({"#printed": ["The dance ends at ", "dances="], "#canvas": True, "#judgement .value": True})
+    person = begun(open_page(BARE, **PHONE), "parade")
+    for language in ("en", "zh"):
+        assert not person.speaks(language).overflows(390)
+        assert person.findings("#dragons") == person.ask(SMALL) == []
+
+
+@thorough
+def test_dragons_are_walked_by_keys_chosen_changed_copied_named_coloured_and_removed(open_page):
+    person = begun(open_page("?door=look&lang=en&time=0&benches=9"), "spiral").focuses("#dragon-choose-0")
+    walks_by_keys(person)
+    # Behind a door all digits are with the evidence.
+    person.sees({"#judgement > p:has-text('First meeting at 207.38 s.')": True})
+    assert "207.378361" not in person.text("#judgement")
+    person.presses("#judgement summary").sees({"#judgement details p": "207.378361 s, proven between"})
+    begun(person.opens(BARE), "spiral").presses("#dragon-choose-1").has("#dragon-choose-1", aria_pressed="true")
     person.types({"#benches": "30"}).settles().presses("#dragon-choose-0").holds({"#benches": "60"}).settles()
     person.presses("#dragon-copy-1").sees({"#dragons li": 3}).types({"#dragon-name-2": "blue"})
     person.reads({ALERT: "Another dragon is called “blue”."}).types({"#dragon-name-2": "West!~1"})
@@ -132,31 +132,7 @@ def test_dragons_are_chosen_changed_copied_named_coloured_and_removed(open_page)
     assert "dances" not in person.address()
 
 
-@thorough
-def test_a_refusal_names_the_dragon_and_an_address_opens_what_can_be_read(open_page):
-    few = "?benches=9&pitch=1.1&start_turns=6&lang=en&dances="
-    person = open_page(f"{few}~pitch:55!benches:9", failing=True)
-    person.sees({"#judgement": "blue: “Pitch” must be at most 10 m; it is 55 m"})
-    person = open_page(f"{few}~rotation:180&bench=3").sees({"#carrier h1": "red: body 3"})
-    person.presses("#carrier [aria-label=Close]").sees({"#carrier": False, "#dragons li": 2}).reaches_below()
-    person.presses("#card-follow").sees({"#carrier h1": "red: head"}).settles()
-    names = [f"{k:03}{'x' * 35}" for k in range(170)]
-    person = open_page(f"?lang=en&time=0&dances={'~'.join(f'name:{name}' for name in names)}", failing=True)
-    person.presses("#dragon-copy-169").sees({"#dragons li": 171}).settles()  # more benches than the service takes
-    assert len(person.page.url) < ADDRESS_MOST
-    person.page.reload()
-    person.sees({"#dragons li": 171}).holds({"#dragon-name-169": names[169]})
-
-
-@thorough
-def test_the_list_is_used_on_a_phone_and_by_keys_and_behind_a_door_all_digits_are_with_the_evidence(open_page):
-    for language in ("en", "zh"):
-        person = begun(open_page, "parade", f"?door=all&lang={language}&time=0&benches=9", **PHONE)
-        assert not person.overflows(390)
-        assert person.findings("#dragons") == person.ask(SMALL) == []
-    person = begun(open_page, "spiral", "?door=look&lang=en&time=0&benches=9")
-    person.focuses("#dragon-choose-0")
-
+def walks_by_keys(person):
     def after(*keys):
         return str(person.strikes(*keys).ask("document.activeElement.id"))
 
@@ -167,48 +143,61 @@ def test_the_list_is_used_on_a_phone_and_by_keys_and_behind_a_door_all_digits_ar
     person.page.keyboard.type("east")
     assert after("ArrowLeft") == "dragon-name-0"
     assert person.settles().findings() == []
-    person.sees({"#judgement > p:has-text('First meeting at 207.38 s.')": True})
-    assert "207.378361" not in person.text("#judgement")
-    person.presses("#judgement summary").sees({"#judgement details p": "207.378361 s, proven between"})
 
 
 @thorough
-def test_a_saved_file_opens_again_and_what_the_page_leaves_out_is_named(open_page, tmp_path):
-    file = tmp_path / "two.json"
-
-    def opened(content, words="Opened two.json", language="en"):
-        file.write_text(json.dumps(content))
-        person = open_page(f"?door=all&path=route&lang={language}")
-        person.takes(file)
-        return person.sees({"#status": words}).settles()
-
-    content = file_of(begun(open_page, "parade").types({"#margin": "0.02"}).settles())
-    assert file_of(opened(content).sees({"#dragons li": 3})) == content
-    content["dances"][1]["path"] = {"kind": "spiral", "pitch": 1.1, "start_turns": 8, "clockwise": False}
-    opened(content, "the page shows spirals around x = y = 0")
-    dance = {"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, 0], [60, 0]]}}
-    for part in (dance, {"dances": [dance, {**dance, "delay": 60}]}):
-        opened({**part, "start": 20, "stop": 40}, "start、stop", "zh")
+def test_a_refusal_names_the_dragon_and_an_address_opens_what_can_be_read(open_page):
+    few = "?benches=9&pitch=1.1&start_turns=6&lang=en&dances="
+    person = open_page(f"{few}~rotation:180&bench=3").sees({"#carrier h1": "red: body 3"})
+    person.presses("#carrier [aria-label=Close]").sees({"#carrier": False, "#dragons li": 2}).reaches_below()
+    person.presses("#card-follow").sees({"#carrier h1": "red: head"}).settles()
+    person = open_page(f"{few}~pitch:55!benches:9", failing=True)
+    person.sees({"#judgement": "blue: “Pitch” must be at most 10 m; it is 55 m"})
+    names = [f"{k:03}{'x' * 35}" for k in range(170)]
+    person.opens(f"?lang=en&time=0&dances={'~'.join(f'name:{name}' for name in names)}")
+    person.presses("#dragon-copy-169").sees({"#dragons li": 171}).settles()  # more benches than the service takes
+    assert len(person.page.url) < ADDRESS_MOST
+    person.page.reload()
+    person.sees({"#dragons li": 171}).holds({"#dragon-name-169": names[169]})
 
 
 BEATS = [{"bars": 4, "tempo": 96, "step": 0.6, "beats": 4}, {"bars": 6, "tempo": 120, "step": 0.5, "beats": 3}]
 
 
 @thorough
-def test_beats_of_a_drum_are_in_film_address_and_file_until_the_speeds_are_changed(open_page, tmp_path):
-    def film_of(person):
+def test_a_saved_file_opens_again_with_its_beats_and_what_the_page_leaves_out_is_named(open_page, tmp_path):
+    file = tmp_path / "two.json"
+
+    def opened(content, words="Opened two.json", language="en"):
+        file.write_text(json.dumps(content))
+        person.opens(f"?door=all&path=route&lang={language}").takes(file)
+        return person.sees({"#status": words}).settles()
+
+    person = begun(open_page(BARE), "parade")
+    content = file_of(person.types({"#margin": "0.02"}).settles())
+    assert file_of(opened(content).sees({"#dragons li": 3})) == content
+    content["dances"][1]["path"] = {"kind": "spiral", "pitch": 1.1, "start_turns": 8, "clockwise": False}
+    opened(content, "the page shows spirals around x = y = 0")
+    dance = {"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, 0], [60, 0]]}}
+    for part in (dance, {"dances": [dance, {**dance, "delay": 60}]}):
+        opened({**part, "start": 20, "stop": 40}, "start、stop", "zh")
+    path = {"kind": "waypoints", "points": [[-40, 0], [0, 0], [20, 10], [40, 0], [80, 0]]}
+    dance = {"dragon": {"benches": 9}, "path": path, "beats": BEATS}
+    opened({"dances": [dance, {**dance, "delay": 90, "beats": BEATS[:1]}]}).sees({"#dragons li": 2}).reaches_below()
+    keeps_the_beats_until_the_speeds_are_changed(person)
+
+
+def keeps_the_beats_until_the_speeds_are_changed(person):
+    """In film and file."""
+
+    def film():
         """The body of the request for a film, as the command that the page shows."""
         text = person.chooses({"#curl-of": "keepFilm"}).all("#curl").text_content()
         return json.loads(text.partition("-d '")[2].rpartition("'")[0])["request"]
 
-    path = {"kind": "waypoints", "points": [[-40, 0], [0, 0], [20, 10], [40, 0], [80, 0]]}
-    dance = {"dragon": {"benches": 9}, "path": path, "beats": BEATS}
-    file = tmp_path / "dance.json"
-    file.write_text(json.dumps({"dances": [dance, {**dance, "delay": 90, "beats": BEATS[:1]}]}))
-    person = open_page("?door=all&path=route&lang=en").takes(file).sees({"#dragons li": 2}).reaches_below()
-    for body in (film_of(person), file_of(person)):
+    for body in (film(), file_of(person)):
         assert [one["beats"] for one in body["dances"]] == [BEATS, BEATS[:1]]
     person.presses("#dragon-choose-0", "#dragons-close").settles()
-    assert (film_of(person)["beats"], json.loads(person.saves("#save"))["beats"]) == (BEATS, BEATS)
+    assert (film()["beats"], json.loads(person.saves("#save"))["beats"]) == (BEATS, BEATS)
     person.types({"#passages li >> nth=1 >> input >> nth=1": "0.2"}).settles()
-    assert [one["speed"] for one in film_of(person)["passages"]] == [0.96, 0.2]
+    assert [one["speed"] for one in film()["passages"]] == [0.96, 0.2]

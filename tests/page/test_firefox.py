@@ -28,7 +28,7 @@ def words(firefox, selector):
     return str(firefox.evaluate(f"document.querySelector({selector!r}).textContent"))
 
 
-def test_answers_follow_a_slider_and_the_language_and_a_path_is_drawn(firefox, server):
+def test_answers_follow_a_slider_and_the_language_a_path_is_drawn_and_a_file_is_saved(firefox, server):
     firefox.open(f"{server}/?benches=20&time=end&lang=en")
     firefox.wait(QUIET)
     before = words(firefox, "#first-contact .value")
@@ -54,10 +54,6 @@ def test_answers_follow_a_slider_and_the_language_and_a_path_is_drawn(firefox, s
     assert "be danced" in words(firefox, "#judgement .value")
     firefox.press("n")
     firefox.wait("document.querySelectorAll('#knots .knot').length === 4")
-
-
-@pytest.mark.thorough
-def test_a_file_is_saved(firefox, server):
     firefox.open(f"{server}/?door=village&{ROUTE}&lang=en")
     firefox.wait(QUIET)
     firefox.evaluate(REACH)

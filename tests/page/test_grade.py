@@ -6,7 +6,6 @@ import pytest
 from core import Dragon
 from tests.support.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
 
-thorough = pytest.mark.thorough
 # Instants of a workbook that is soon read; and a short dragon: this is not about its dance.
 FEW, EASY = SPIRAL_TIMES[:21], "?benches=5&time=end"
 BOX = "#grades .answer"
@@ -35,7 +34,7 @@ def files(tmp_path_factory):
     return [folder / name for name in contents]
 
 
-def test_chosen_files_are_graded_each_for_itself_in_the_language_of_the_page(open_page, files):
+def test_chosen_files_typed_answers_and_a_dropped_file_are_graded_each_for_itself_and_cleared(open_page, files):
     person = open_page(EASY).reaches_below()
     person.takes(files, "#files")
     person.sees({BOX: 4, "#grades [role=status]": 0}).sees(
@@ -52,11 +51,11 @@ def test_chosen_files_are_graded_each_for_itself_in_the_language_of_the_page(ope
     person.speaks("zh").sees({f"{BOX} .finding": "把板长当作把手间距", f"{BOX} >> nth=1 >> .value": "✓正确"})
     person.page.set_viewport_size({"width": 390, "height": 844})
     assert not person.settles().overflows(390)
+    person.speaks("en").presses("#grade-clear").sees({BOX: 0})
+    types_and_drops(open_page(EASY, failing=True).reaches_below(), files)
 
 
-@thorough
-def test_typed_answers_and_a_dropped_file_are_graded_and_cleared(open_page, files):
-    person = open_page(EASY, failing=True).reaches_below()
+def types_and_drops(person, files):
     for pitch, results in (
         ("0,4202", {f"{BOX} >> nth=0": "Possibly: Only the pose", f"{BOX} >> nth=1": "✓right"}),
         ("0.45x", {"#grades .error": "“0.45x”", "#grades .value": "✓right"}),

@@ -26,7 +26,7 @@ def drawn(person):
     return person
 
 
-def test_dragged_numbers_get_the_answers_of_the_service(open_page, server):
+def test_dragged_numbers_get_the_answers_of_the_service_also_after_it_was_lost(open_page, server):
     person = drawn(open_page("how?lang=en", failing=True))
     length = dial(person, "chord", "Chord of the head bench")
     length.scroll_into_view_if_needed()
@@ -61,55 +61,8 @@ def test_dragged_numbers_get_the_answers_of_the_service(open_page, server):
     # Figure and sentence of a refusal agree: there is no second handle.
     dial(person, "chord", "Place of the head").press("Home")
     person.sees({"#chord .verdict": "there is no second handle", "#chord .label": 1, "#chord .bench": 0})
-
-
-@thorough
-def test_an_address_keeps_the_numbers_and_the_language(open_page):
-    person = drawn(open_page("how?lang=en&staircase_pitch=0.5&chord_turns=soup&step_time=1e9&graze_step=0.26"))
-    values = [(section, name) for section, name in (("staircase", "Pitch"), ("chord", "Place"), ("step", "Start"))]
-    assert [dial(person, *one).inner_text() for one in values] == ["0.5000 m", "5.00 turns", "412.40 s"]
-    dial(person, "staircase", "Pitch of the spiral").press("ArrowUp")
-    person.arrives("**staircase_pitch=0.5001**#staircase")
-    person.presses("[data-lang=zh]").arrives("**lang=zh**")
-    kept = {"staircase_pitch": "0.5001", "step_time": "412.4", "graze_step": "0.3"}
-    assert person.address().items() >= kept.items()
-    person.page.reload()
-    drawn(person).reads({"#staircase .lead .dial": "0.5001 m"})
-
-
-@thorough
-def test_the_look_is_kept_on_both_pages(open_page, server):
-    person = drawn(open_page("how?lang=en", viewport={"width": 1366, "height": 768}))
-
-    def look(name):
-        """The ground of the page with a look of this name."""
-        person.presses(f"#look button:has-text('{name}')")
-        return person.style("body", "backgroundColor")
-
-    usual, height = person.style("body", "backgroundColor"), person.box(".article")["height"]
-    dark = look("Dark") if person.presses("#look-open") else ""
-    look("Large type, for a projector")
-    assert person.findings() == []
-    assert dark != usual
-    assert person.box(".article")["height"] > 1.15 * height
-    person.page.goto(f"{server}/?benches=5&time=end")
-    assert person.settles().style("body", "backgroundColor") == dark
-    assert not person.overflows(1366)
-    person.presses("#look-open").page.emulate_media(color_scheme="dark")
-    assert [look("Light"), look("As the system")] == [usual, dark]
-    person.page.emulate_media(color_scheme="light")
-    expect(person.at("body")).to_have_css("background-color", usual)
-
-
-@thorough
-def test_a_phone_in_chinese_a_dark_and_a_wide_screen_are_served_and_a_lost_service_is_reported(open_page):
-    person = drawn(open_page("how", locale="zh-CN", color_scheme="dark", **PHONE)).reads({"h1": "原理"})
-    person.at("#staircase .try >> nth=-1").tap()
-    person.sees({"#staircase .lead": "第16节龙身"})
-    assert not person.overflows(390)
-    assert "undefined" not in person.text("body")
-    assert person.findings() == []
-    person = drawn(open_page("how?lang=en", failing=True, viewport={"width": 1920, "height": 1080}))
+    # All stands in one column on a wide screen; and a lost service is reported.
+    person.page.set_viewport_size({"width": 1920, "height": 1080})
     parts = person.all(".article > :is(h1, p, section)")
     lefts = parts.evaluate_all("all => all.map((one) => one.getBoundingClientRect().left)")
     assert len(lefts) > len(SECTIONS)
@@ -124,11 +77,56 @@ def test_a_phone_in_chinese_a_dark_and_a_wide_screen_are_served_and_a_lost_servi
 
 
 @thorough
-def test_every_answer_of_the_dance_leads_to_the_idea_behind_it_and_back(open_page):
-    person = open_page("?lang=zh&benches=12&time=end&pitch=0.6&door=all")
+def test_an_address_keeps_the_numbers_the_look_is_kept_on_both_pages_and_answers_lead_to_ideas(open_page, server):
+    address = "how?lang=en&staircase_pitch=0.5&chord_turns=soup&step_time=1e9&graze_step=0.26"
+    person = drawn(open_page(address, viewport={"width": 1366, "height": 768}))
+    values = [(section, name) for section, name in (("staircase", "Pitch"), ("chord", "Place"), ("step", "Start"))]
+    assert [dial(person, *one).inner_text() for one in values] == ["0.5000 m", "5.00 turns", "412.40 s"]
+    dial(person, "staircase", "Pitch of the spiral").press("ArrowUp")
+    person.arrives("**staircase_pitch=0.5001**#staircase")
+    person.presses("[data-lang=zh]").arrives("**lang=zh**")
+    kept = {"staircase_pitch": "0.5001", "step_time": "412.4", "graze_step": "0.3"}
+    assert person.address().items() >= kept.items()
+    person.page.reload()
+    drawn(person).reads({"#staircase .lead .dial": "0.5001 m"})
+    keeps_the_look(drawn(person.opens("?lang=en")), f"{server}/?lang=zh&benches=12&time=end&pitch=0.6&door=all")
+    # Every answer of the dance leads to the idea behind it, and back.
     expect(person.at("#run-end details a")).to_be_attached()
     hashes = "links => links.map((link) => new URL(link.href).hash.slice(1))"
     assert set(person.all("#answers details a").evaluate_all(hashes)) == SECTIONS - {"graze"}
     person.presses("#tolerance summary", "#tolerance details a").sees({"#stray .ground": True})
     person.presses("#name a").sees({"#first-contact .value": True})
     assert person.address().items() >= {"benches": "12", "pitch": "0.6", "lang": "zh"}.items()
+
+
+def keeps_the_look(person, dance):
+    """Also on the page of a dance, which has this address."""
+
+    def look(name):
+        """The ground of the page with a look of this name."""
+        person.presses(f"#look button:has-text('{name}')")
+        return person.style("body", "backgroundColor")
+
+    usual, height = person.style("body", "backgroundColor"), person.box(".article")["height"]
+    dark = look("Dark") if person.presses("#look-open") else ""
+    look("Large type, for a projector")
+    assert person.findings() == []
+    assert dark != usual
+    assert person.box(".article")["height"] > 1.15 * height
+    person.page.goto(dance)
+    assert person.settles().style("body", "backgroundColor") == dark
+    assert not person.overflows(1366)
+    person.presses("#look-open").page.emulate_media(color_scheme="dark")
+    assert [look("浅色"), look("跟随系统")] == [usual, dark]
+    person.page.emulate_media(color_scheme="light")
+    expect(person.at("body")).to_have_css("background-color", usual)
+
+
+@thorough
+def test_a_dark_phone_in_chinese_is_served(open_page):
+    person = drawn(open_page("how", locale="zh-CN", color_scheme="dark", **PHONE)).reads({"h1": "原理"})
+    person.at("#staircase .try >> nth=-1").tap()
+    person.sees({"#staircase .lead": "第16节龙身"})
+    assert not person.overflows(390)
+    assert "undefined" not in person.text("body")
+    assert person.findings() == []
