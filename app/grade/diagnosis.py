@@ -4,21 +4,21 @@ Input: the judgements of its sheets. Output: findings, each with the numbers tha
 State: none. Argument: an error is recomputed as a model, and counts only if it gives nearly all of the wrong cells, and
 if digits decide for it (app/grade/fits.py). First come the handles outside the spiral, which are left out of the rest;
 then the positions are explained, by an error of geometry or by the right motion; then the speeds, by those of the same
-motion, of the right one, or by an error in computing them.
+motion, of the right one, of any other error of geometry, or by an error in computing them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance
-from app.grade.fits import DECISIVE_LEAST, best_fit, finding, fit, matches
-from app.grade.geometry import Model, SheetClues, geometries, shifted_rows, time_at
-from app.grade.judged import JudgedSheet
+from app.grade.fits import DECISIVE_LEAST, also, best_fit, finding, fit, matches
+from app.grade.geometry import Model, SheetClues, geometries, shifted_rows, shifted_time, time_at
+from app.grade.judged import JudgedSheet, decimals_of
 from app.grade.labels import SPEED
 from app.grade.layout import COMPONENTS, HANDLES, SHEETS, TableKind
 from app.grade.numbers import explained, rounded_right
@@ -41,6 +41,11 @@ INSTANT_OFF = 0.1
 # Step of the derivative by which an instant is improved [s]; and largest change, or distance of a handle that counts
 # for it [s, m].
 INSTANT_STEP, INSTANT_FAR = 1e-4, 1e-3
+# Largest shift of the times that speeds show, step of the search for it, and step of their derivative [s]: they hardly
+# change on the spiral, and in the turn within 0.3 s.
+SHIFT_MOST, SHIFT_STEP, SPEED_STEP = 100.0, 0.1, 0.01
+# A shift that speeds show counts as one of two decimals up to this distance from it [s].
+SIMPLE_SHIFT = 2e-3
 
 
 def diagnosed(judgements: list[JudgedSheet], budget: Budget) -> list[Finding]:
@@ -85,36 +90,82 @@ def _over_time(position: JudgedSheet | None, speed: JudgedSheet | None, budget: 
     assert either is not None
     dance = dance_of(either.workbook)
     right = of_dance(dance)
-    motion, findings, unexplained = right, [], False
+    model, findings, quotients = Model("", right), [], []
     if position and position.is_off:
         if best := best_fit(position, geometries(dance, position.times, _seen(position)), budget):
-            motion = best.model.motion
+            model = best.model
             findings.append(finding(best, position))
         elif ring := wrong_ring(position):
             findings.append(ring)
-        unexplained = not findings
-    if speed is None:
-        return findings
-    others: list[Model] = []
-    if position is None:
-        others += geometries(dance, speed.times, SheetClues())
-    elif unexplained:
-        others += _quotients_of(position)
-    return findings + _of_speeds(speed, motion, others, budget, is_right=motion is right)
+        else:
+            quotients = list(_quotients_of(position))
+    return _with_speeds(findings, speed, model, right, quotients, budget) if speed else findings
 
 
-def _of_speeds(
-    speed: JudgedSheet, motion: Motion, others: Iterable[Model], budget: Budget, *, is_right: bool
+def _with_speeds(
+    findings: list[Finding], speed: JudgedSheet, model: Model, right: Motion, others: list[Model], budget: Budget
 ) -> list[Finding]:
-    """Findings on speeds beside places with a known motion. others: further models; is_right: if that is the right one
+    """Findings on the places, and those on the speeds beside them.
 
-    The speeds of that motion are no error of their own. Beside a wrong one, others are named without a known error too.
+    findings: the first is of the places, if `model` is an error; others: further models of the speeds
+
+    Speeds of the same motion are no error of their own, but wrong all the same. Beside a wrong motion, others are named
+    without a known error too.
     """
-    if not speed.is_off or matches(speed, Model("", motion)):
-        return []
-    if best := best_fit(speed, [*speed_errors(motion), *others], budget):
-        return [finding(best, speed)]
-    return [] if is_right else [_of_no_motion(speed, motion)]
+    if not speed.is_off:
+        return findings
+    if matches(speed, model):
+        same = fit(speed, model)
+        return [also(findings[0], same, speed), *findings[1:]] if model.error and same.explains else findings
+    models = [*_speed_models(speed, model, right), *others]
+    if best := best_fit(speed, models, budget):
+        return [*findings, finding(best, speed)]
+    return [*findings, _of_no_motion(speed, model.motion)] if model.error else findings
+
+
+def _speed_models(speed: JudgedSheet, model: Model, right: Motion) -> Iterator[Model]:
+    """Known errors of speeds: in computing those of a motion, or of the right one, and those of another geometry."""
+    yield from speed_errors(model.motion)
+    if model.error:
+        yield from speed_errors(right)
+    if model.error and model.error != "shifted_rows":
+        yield from shifted_rows(model.motion)
+    dance = dance_of(speed.workbook)
+    yield from geometries(dance, speed.times, SheetClues())
+    yield from _other_times(dance, speed)
+
+
+def _other_times(dance: Dance, speed: JudgedSheet) -> Iterator[Model]:
+    """The right speeds of other times, which follow from all speeds of the sheet by least squares."""
+    right, known = of_dance(dance), speed.handles < HANDLES
+    values = speed.values[:, known, 0]
+    spread = np.nan_to_num(np.where(np.isfinite(values), np.abs(values - 1.0), np.nan)).sum(axis=1)
+    row = int(spread.argmax())
+    shifts = np.arange(-SHIFT_MOST, SHIFT_MOST, SHIFT_STEP)
+    shifts = shifts[speed.times[row] + shifts <= dance.end.time]
+
+    def speeds_at(times: Floats) -> Floats:
+        return right(times)[:, speed.handles[known], SPEED]
+
+    present = np.isfinite(values[row])
+    if not present.any() or not shifts.size:
+        return
+    off = np.abs(speeds_at(speed.times[row] + shifts)[:, present] - values[row, present])
+    shift = float(shifts[np.median(off, axis=1).argmin()])
+    for _ in range(3):
+        before, middle, after = (speeds_at(speed.times + shift + step) for step in (-SPEED_STEP, 0.0, SPEED_STEP))
+        slope, miss = (after - before) / (2.0 * SPEED_STEP), values - middle
+        counts = np.isfinite(miss)
+        shift += float((slope * miss)[counts].sum() / max(float((slope**2)[counts].sum()), SPEED_STEP**4))
+    if abs(shift) > 2.0 * SHIFT_MOST:
+        return
+    shift = round(shift, 2) if abs(round(shift, 2) - shift) < SIMPLE_SHIFT else shift
+    if speed.workbook is Workbook.RESULT2:
+        instant = float(speed.times[0]) + shift
+        values_of = {"time": f"{instant:.3f}", "what": note(SHEETS[TableKind.SPEED])}
+        yield Model("other_instant", shifted_time(right, shift).motion, values_of)
+    else:
+        yield shifted_time(right, shift)
 
 
 def _of_no_motion(speed: JudgedSheet, motion: Motion) -> Finding:
@@ -190,14 +241,14 @@ def _head(one: JudgedSheet) -> Floats | None:
 
 
 def _equal_speeds() -> Model:
-    return Model("equal_speeds", lambda times: np.ones((times.size, HANDLES, 3)))
+    """All speeds 1, as they are where the handles are equal arcs apart too."""
+    return Model("equal_speeds", lambda times: np.ones((times.size, HANDLES, 3)), is_simplest=True)
 
 
 def speed_errors(motion: Motion) -> Iterator[Model]:
     """Known errors in the speeds of a motion."""
     yield _equal_speeds()
     yield Model("speeds_negated", lambda times: motion(times) * [1.0, 1.0, -1.0])
-    yield from shifted_rows(motion)
     for step in STEPS:
         for error, before, after in (
             ("forward_difference", 0.0, step),
@@ -226,33 +277,36 @@ def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
     position, speed = (_part(one, kind) for kind in (TableKind.POSITION, TableKind.SPEED))
     dance = dance_of(Workbook.RESULT2)
     right = of_dance(dance)
+    none = Model("", right)
     if not position.is_off:
-        return _of_speeds(speed, right, (), budget, is_right=True)
+        return _with_speeds([], speed, none, right, [], budget)
     seen = _seen(position)
     instants = [float(one.times[0]), *(_instants(dance, seen.head) if seen.head is not None else [])]
     for instant in instants:
         is_other = instant is not instants[0]
         instant = _improved(position, right, instant) if is_other else instant
         times = np.array([instant])
-        models = [Model("other_instant", right, {"time": f"{instant:.6f}"}, is_simplest=True)] if is_other else []
+        what: dict[str, object] = {"time": f"{instant:.6f}", "what": note(SHEETS[TableKind.POSITION])}
+        models = [Model("other_instant", right, what, is_simplest=True)] if is_other else []
         models += geometries(dance, times, SheetClues(None, seen.chords, seen.turned))
         at = replace(position, times=times)
         if best := best_fit(at, models, budget):
             why = _why_then(instant, one.written) if is_other else []
             if is_other and best.model.error != "other_instant":
-                sentence = note("error_other_instant", time=f"{instant:.6f}")
                 evidence = note("evidence_rounded_instant", time=f"{contact_time():.6f}")
-                why.insert(0, Finding("other_instant", sentence, evidence))
-            speeds = _of_speeds(replace(speed, times=times), best.model.motion, (), budget, is_right=False)
-            return [finding(best, at), *why, *speeds]
-    return _of_speeds(speed, right, (), budget, is_right=True)
+                why.insert(0, Finding("other_instant", note("error_other_instant", **what), evidence))
+            moved = replace(best.model, motion=shifted_time(best.model.motion, instant - one.times[0]).motion)
+            return _with_speeds([finding(best, at), *why], speed, moved, right, [], budget)
+    return _with_speeds([], speed, none, right, [], budget)
 
 
 def _part(one: JudgedSheet, kind: TableKind) -> JudgedSheet:
-    """The places, or the speeds, of a sheet that holds both."""
+    """The places, or the speeds, of a sheet that holds both, with the decimals of these."""
     components = list(COMPONENTS[kind])
-    table = replace(one.table, kind=kind)
-    return replace(one, table=table, values=one.values[..., components], wanted=one.wanted[..., components])
+    values, table = one.values[..., components], replace(one.table, kind=kind)
+    written = decimals_of(values)
+    written = written if written >= DECIMALS_LEAST else one.written
+    return replace(one, table=table, values=values, wanted=one.wanted[..., components], written=written)
 
 
 def _improved(one: JudgedSheet, right: Motion, instant: float) -> float:

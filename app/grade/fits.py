@@ -107,7 +107,8 @@ def best_fit(one: JudgedSheet, models: Iterable[Model], budget: Budget) -> Fit |
     if any(_gives(one, numbers) and not _is_better(one, best.numbers, numbers) for numbers in _biased(one)):
         return None
     alike = [each for each in fits if not _is_better(one, best.numbers, each.numbers)]
-    if len(simplest := [each for each in alike if each.model.is_simplest]) == 1:
+    simplest = [each for each in alike if each.model.is_simplest]
+    if len({each.model.error for each in simplest}) == 1:
         return simplest[0]
     if len({each.model.error for each in alike}) == 1:
         return replace(best, model=replace(best.model, values=_together([each.model for each in alike])))
@@ -162,8 +163,9 @@ def _is_better(one: JudgedSheet, best: Floats, other: Floats) -> bool:
 
 def _together(models: list[Model]) -> dict[str, object]:
     """The values in the words of one error, with all those that give the same digits."""
-    names = models[0].values
-    return {name: " / ".join(dict.fromkeys(str(model.values[name]) for model in models)) for name in names}
+    first = models[0].values
+    texts = {name: dict.fromkeys(str(model.values[name]) for model in models) for name in first}
+    return {name: " / ".join(each) if len(each) > 1 else first[name] for name, each in texts.items()}
 
 
 def finding(explaining: Fit, one: JudgedSheet) -> Finding:
@@ -179,4 +181,12 @@ def finding(explaining: Fit, one: JudgedSheet) -> Finding:
         "unit": "m/s" if COMPONENTS[one.table.kind][worst[2]] == SPEED else "m",
     }
     model = explaining.model
-    return Finding(model.error, note(f"error_{model.error}", **model.values), note("evidence", **values))
+    sentence, kinds = note(f"error_{model.error}", **model.values), frozenset((one.table.kind,))
+    return Finding(model.error, sentence, note("evidence", **values), kinds=kinds)
+
+
+def also(first: Finding, explaining: Fit, one: JudgedSheet) -> Finding:
+    """The finding on a sheet, with the numbers of a second sheet that the same model explains."""
+    second = finding(explaining, one)
+    evidence = note("evidence_both", first=first.evidence, second=second.evidence)
+    return replace(first, evidence=evidence, kinds=first.kinds | second.kinds)

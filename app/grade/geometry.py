@@ -34,6 +34,8 @@ SIMPLE_TURNS = 1e-5
 TURNED_DECIMALS, TURNED_OFF = 4, 1e-6
 # An entry counts as one at a radius of three decimals up to this distance from it [m].
 SIMPLE_RADIUS = 1e-6
+# Most benches by which rows are shifted.
+ROWS_MOST = 10
 # Decimals of a length that a student types, error of a length that is measured between places of six decimals [m], and
 # difference below which two lengths are the same [m].
 LENGTH_DECIMALS, MEASURED, SAME_LENGTH = (2, 3, 4, 5), 2e-6, 1e-4
@@ -90,15 +92,21 @@ def geometries(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]
 
 
 def shifted_rows(motion: Motion) -> Iterator[Model]:
-    """Each handle has the numbers of the one behind it, or of the one before it; the last one left over has none."""
-    for by in (1, -1):
-        yield Model("shifted_rows", partial(_shifted, motion, by), {"by": "k + 1" if by > 0 else "k - 1"})
+    """Each handle has the numbers of one that is some benches behind it, or before it; those left over have none."""
+    for count in range(1, ROWS_MOST + 1):
+        for by in (count, -count):
+            yield Model("shifted_rows", partial(_shifted, motion, by), {"by": f"k {'+' if by > 0 else '-'} {count}"})
 
 
 def _shifted(motion: Motion, by: int, times: Floats) -> Floats:
     numbers = np.roll(motion(times), -by, axis=1)
-    numbers[:, -1 if by > 0 else 0] = np.nan
+    numbers[:, slice(-by, None) if by > 0 else slice(-by)] = np.nan
     return numbers
+
+
+def shifted_time(motion: Motion, shift: float) -> Model:
+    """The numbers of a motion at times that are later by a shift [s]."""
+    return Model("shifted_time", lambda t: motion(t + shift), {"shift": f"{shift:+.6g}"})
 
 
 def _turned(motion: Motion, angle: float) -> Model:
@@ -270,8 +278,7 @@ def _other_starts(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
         yield from _other_entries(dance, right_turn(), shift)
     # Another start and a shifted time are the same motion: the simpler number of both is the likelier one.
     if not simple or abs(round(shift, 2) - shift) < SHIFT_LEAST:
-        right = of_dance(dance)
-        yield Model("shifted_time", lambda t: right(t + shift), {"shift": f"{shift:+.6g}"})
+        yield shifted_time(of_dance(dance), shift)
 
 
 def _other_entries(dance: Dance, path: Turn, shift: float) -> Iterator[Model]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
@@ -206,6 +206,16 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
         wanted=wanted,
         notes=notes,
     )
+
+
+def with_errors(judgements: list[JudgedSheet], kinds: set[TableKind]) -> list[JudgedSheet]:
+    """Judgements after the diagnosis. kinds: of the sheets whose digits decide for an error: they were not rounded"""
+    return [
+        replace(one, verdict=Rating.WRONG, decimals=None)
+        if kinds and one.table.kind in kinds | {TableKind.CONTACT}
+        else one
+        for one in judgements
+    ]
 
 
 def _decimals_of_flat(values: Floats, wanted: Floats, decimals: int) -> int:

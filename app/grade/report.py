@@ -20,6 +20,7 @@ from app.grade.judged import (
     Rating,
     decimals_of,
     judged,
+    with_errors,
     workbook_of,
     worst_of,
 )
@@ -184,6 +185,7 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
     decimals = max(decimals_of(table.values) for table in tables)
     judgements = [judged(table, workbook, decimals) for table in tables]
     findings = diagnosed(judgements, budget)
+    judgements = with_errors(judgements, {kind for one in findings for kind in one.kinds})
     certain = [one for one in findings if one.chance <= CERTAIN]
     sheets = [_sheet(one, language) for one in judgements]
     lacking = (kind for kind in KINDS[workbook] if kind not in {table.kind for table in tables})

@@ -20,6 +20,7 @@ from app.grade.contacts import EXACT_ANGLE, LOOSE_ANGLE, TURNING_RADIUS, StepKin
 from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance, right_turn
 from app.grade.geometry import SheetClues, geometries
 from app.grade.labels import SPEED
+from app.grade.layout import TableKind
 from app.grade.words import Note
 from core import BenchDragonError, Dance, Dragon, Spiral
 from core.shapes.rectangles import corners, literal_corners
@@ -49,12 +50,14 @@ class Finding:
     """A known error that explains numbers. error: its name; sentence: the error in words; evidence: the numbers
 
     chance: share of the numbers with as many digits that fit a known error too [1]; 0 for a sheet, whose digits decide
+    kinds: of the sheets whose digits decide for it
     """
 
     error: str
     sentence: Note
     evidence: Note
     chance: float = 0.0
+    kinds: frozenset[TableKind] = frozenset()
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """Results with one known error each are diagnosed; five with errors of no known kind are not."""
 
+import itertools
 from functools import cache
 
 import numpy as np
@@ -117,8 +118,8 @@ OFTEN = ("anticlockwise", "equal_arcs", "overhang_once", "wrong_ring", "forward_
 )
 def test_a_known_error_is_diagnosed_with_its_numbers(name):
     result = known(name)
-    # Speeds hardly differ from one another, so that wrong ones may count as rounded; what is left out is missing.
-    assert result.verdict in ("wrong", "rounded") or (name, result.verdict) == ("outside_blank", "incomplete")
+    # What is left out is missing.
+    assert result.verdict == "wrong" or (name, result.verdict) == ("outside_blank", "incomplete")
     assert result.diagnosis[0].error == name.rpartition(" ")[2]
     assert any(letter.isdigit() for letter in result.diagnosis[0].evidence)
 
@@ -200,6 +201,62 @@ def test_another_instant_is_named_beside_a_further_error():
     assert met(result, "speeds") is False
     mirrored = grade(students.contact_workbook((position * [-1.0, 1.0], spiral(np.array([414.0]))[1])))
     assert errors(mirrored) == ["x_negated", "other_instant"]
+
+
+# What places and speeds of a result2 may be, beside each other.
+PARTS = {
+    "right": lambda: spiral(AT_CONTACT),
+    "rows + 1": lambda: tuple(np.roll(part, -1, axis=1) for part in spiral(AT_CONTACT)),
+    "rows - 3": lambda: tuple(np.roll(part, 3, axis=1) for part in spiral(AT_CONTACT)),
+    "other instant": lambda: spiral(np.array([409.4])),
+    "no overhang": lambda: spiral(AT_CONTACT, dragon=Dragon(overhang=0.0)),
+    "rounded": lambda: tuple(part.round(3) for part in spiral(AT_CONTACT)),
+    "negated": lambda: tuple(-part for part in spiral(AT_CONTACT)),
+}
+# What is said of each, of its places and of its speeds.
+SAID = {
+    "right": (None, None),
+    "rows + 1": ("handle k has the numbers of handle k + 1.",) * 2,
+    "rows - 3": ("handle k has the numbers of handle k - 3.",) * 2,
+    "other instant": ("The positions are those at 409.400000 s.", "The speeds are those at 409.400 s."),
+    "no overhang": ("the overhang of 0.275 m at both ends was forgotten.",) * 2,
+    "rounded": (None, None),
+    "negated": ("turned about the centre by -180°", "Every speed has the wrong sign"),
+}
+OFTEN_BESIDE = {("right", one) for one in PARTS} | {("rows + 1", "rows + 1"), ("rows + 1", "rounded")}
+
+
+@pytest.mark.parametrize(
+    ("places", "speeds"),
+    [
+        each if each in OFTEN_BESIDE else pytest.param(*each, marks=pytest.mark.thorough)
+        for each in itertools.product(PARTS, PARTS)
+    ],
+)
+def test_the_errors_of_places_and_of_speeds_are_named_each(places, speeds):
+    """Speeds of the same motion as the places have no error of their own, but the evidence counts them too."""
+    result = grade(students.contact_workbook((PARTS[places]()[0], PARTS[speeds]()[1])))
+    wanted = [SAID[places][0], SAID[speeds][1] if speeds != places or speeds == "negated" else None]
+    wanted = [words for words in wanted if words]
+    assert len(result.diagnosis) == len(wanted)
+    for one, words in zip(result.diagnosis, wanted, strict=True):
+        assert words in one.words
+        assert ("m/s" in one.evidence) is (one is result.diagnosis[-1] and speeds not in ("right", "rounded"))
+    is_rounded = "rounded" in (places, speeds)
+    assert result.verdict == ("wrong" if wanted else "rounded" if is_rounded else "right")
+
+
+@pytest.mark.parametrize("by", [1, pytest.param(-2, marks=pytest.mark.thorough)])
+def test_speeds_in_shifted_rows_are_not_called_rounded(by):
+    """Those of neighbours on the spiral differ in the third decimal."""
+    shifted = tuple(np.roll(part, -by, axis=1) for part in spiral())
+    result = grade(first(shifted, whole=True))
+    assert [one.verdict for one in result.sheets] == ["wrong", "wrong"]
+    assert errors(result) == ["shifted_rows"]
+    assert result.diagnosis[0].words.endswith(f"numbers of handle k {'+' if by > 0 else '-'} {abs(by)}.")
+    alone = grade(first((spiral()[0], shifted[1]), whole=True))
+    assert [one.verdict for one in alone.sheets] == ["right", "wrong"]
+    assert errors(alone) == ["shifted_rows"]
 
 
 def test_the_angle_of_turned_places_is_told():
