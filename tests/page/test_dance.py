@@ -24,6 +24,14 @@ INLINE = "document.querySelectorAll('script:not([src]), style, [style*=url], [on
 SHADES = "c => new Set(new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer)).size"
 LIMITS = """() => Object.fromEntries([...document.querySelectorAll(".field")].map((one) =>
   [one.dataset.field, [one.querySelector("[id$=-limits]").textContent, one.querySelector(".unit").textContent]]))"""
+# A colour of the page by its name.
+COLOUR = """name => {
+  const probe = document.body.appendChild(document.createElement("i"));
+  probe.style.color = `var(--${name})`;
+  const { color } = getComputedStyle(probe);
+  probe.remove();
+  return color;
+}"""
 ALL_OPEN = "document.querySelectorAll('#answers details').forEach((one) => (one.open = true))"
 # The hand does not rest: what the page does after a pause of input waits for rest().
 HELD = """() => {
@@ -58,9 +66,19 @@ def collision_time(server, **query):
     return answer_of(server, "collision-time", **query)
 
 
-def bounded(value, decimals, way):
-    """A bound rounded to one side."""
+def time_of(server, **query):
+    """Time of the first contact as the page writes it."""
+    return f"{collision_time(server, **query)['time']:.6f} s"
+
+
+def bounded(value, decimals, way=ROUND_CEILING):
+    """A bound rounded to one side, by default up."""
     return str(Decimal(value).quantize(Decimal(1).scaleb(-decimals), way))
+
+
+def ends(bracket, decimals):
+    """The bounds of a bracket rounded away from it."""
+    return bounded(bracket[0], decimals, ROUND_FLOOR), bounded(bracket[1], decimals)
 
 
 def clock(person):
@@ -76,10 +94,7 @@ def watched(person, server):
 
 def test_the_first_view_shows_the_contact_its_proof_its_limits_and_how_every_answer_is_known(open_page, server):
     person, answer, least = open_page(), collision_time(server), answer_of(server, "minimum-pitch")
-    low, high = (
-        bounded(end, 10, way) for end, way in zip(answer["time_bracket"], (ROUND_FLOOR, ROUND_CEILING), strict=True)
-    )
-    from_pitch = bounded(least["proven_from"], 9, ROUND_CEILING)
+    low, high = ends(answer["time_bracket"], 10)
     person.presses("#first-contact summary", "#minimum-pitch summary").sees(
         {
             "#first-contact[data-outcome=contact] .value": f"{answer['time']:.6f} s",
@@ -92,7 +107,10 @@ def test_the_first_view_shows_the_contact_its_proof_its_limits_and_how_every_ans
             "#first-contact caption": "judged all 223 benches. They agree.",
             "#inset figcaption": ["gap 0.000 mm", "front outer corner of the head meets inner edge of body 8"],
             "#minimum-pitch .value": f"{least['pitch']:.9f} m",
-            "#minimum-pitch dl": [f"from {from_pitch} m on, without limit", str(least["evaluations"])],
+            "#minimum-pitch dl": [
+                f"from {bounded(least['proven_from'], 9)} m on, without limit",
+                str(least["evaluations"]),
+            ],
             ".answer:not([hidden])": 5,
             ".answer:not([hidden]) details": 5,
             "#legend": "m/s",
@@ -175,10 +193,7 @@ def test_a_dance_passes_in_green_alone_and_a_fold_is_as_clear_as_a_contact(open_
     for query, (outcome, mark, tone) in VERDICTS.items():
         person.opens(query)
         person.sees({f"#first-contact[data-outcome={outcome}] .value": re.compile(f"^{mark} ?.+")})
-        probe = "name => getComputedStyle(document.body).getPropertyValue(`--${name}`).trim()"
-        colour = person.ask(probe, tone)
-        rgb = f"rgb({', '.join(str(int(colour[k : k + 2], 16)) for k in (1, 3, 5))})"
-        expect(person.at("#first-contact .value")).to_have_css("color", rgb)
+        expect(person.at("#first-contact .value")).to_have_css("color", person.ask(COLOUR, tone))
     time = f"{collision_time(server, benches=40, pitch=1.2, start_turns=8)['end']['time']:.6f} s"
     places = "#first-contact", "#table-time", "#table-fold"
     person.sees({**dict.fromkeys(places, time), "#legend": "m/s → ∞", "#inset": False})
@@ -233,20 +248,17 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages_and_the_
     contact = collision_time(server, benches=40, stray=0.02)
     pitch = f"{answer_of(server, 'minimum-pitch', benches=40, stray=0.02)['pitch']:.9f} m"
     free = answer_of(server, "tolerance", benches=40)
-    low, high = (
-        f"{bounded(Decimal(end) * 100, 7, way)} cm"
-        for end, way in zip(free["stray_bracket"], (ROUND_FLOOR, ROUND_CEILING), strict=True)
-    )
+    low, high = ends([100 * Decimal(end) for end in free["stray_bracket"]], 7)
     time, gap, safe = f"{contact['time']:.6f} s", f"{1000 * contact['gap']:.3f} mm", int(1e4 * free["stray"]) / 100
     person.ask(ALL_OPEN)
-    person.sees({"#tolerance dl": f"up to {low}; a pose with {high} overlaps", "#inset figcaption": gap})
+    person.sees({"#tolerance dl": f"up to {low} cm; a pose with {high} cm overlaps", "#inset figcaption": gap})
     for language, words in (("zh", f"{time} 起可能相碰"), ("en", f"May touch from {time}")):
         person.speaks(language).sees({"#first-contact": [words, "2 cm", gap], "#minimum-pitch": pitch})
         person.sees({"#tolerance": f"{safe:.2f} cm"})
         assert not SURE.search(person.text("#first-contact"))
     # Strays, margins and play stand in one sentence.
     person.types({"#margin": "0.03", "#hole": "5.5", "#pin": "4.5"}, "Tab")
-    time = f"{collision_time(server, benches=40, margin=0.03, stray=0.025)['time']:.6f} s"
+    time = time_of(server, benches=40, margin=0.03, stray=0.025)
     person.sees({"#first-contact": ["2.5 cm", f"May come within 0.03 m from {time}"]})
     person.opens("?benches=20&time=0&view=8,0,200").sees({"#halo": False})
     before = person.picture()
@@ -263,9 +275,10 @@ def test_the_turn_has_the_answers_of_the_service_which_are_danced_and_none_of_th
     person = open_page("?head_speed=1.5&benches=20").presses("[data-path=turn]").holds({"#pitch": "1.7"})
     begins_a_turn(person, server)
     person.at("#time").press("Home")
-    contact = collision_time(server, head_speed=1.5, benches=20)["time"]
     person.reads({"#clock": f"{-100 / 1.5:.6f} s"}).presses("[data-path=spiral]")
-    person.sees({"#first-contact .value": f"{contact:.6f} s", **dict.fromkeys(ON_A_TURN, False)})
+    person.sees(
+        {"#first-contact .value": time_of(server, head_speed=1.5, benches=20), **dict.fromkeys(ON_A_TURN, False)}
+    )
     person.presses("[data-path=turn]").sees(dict.fromkeys(ON_A_TURN, True)).settles()
     dances_what_is_offered(person, server)
 
@@ -331,8 +344,8 @@ def sets_the_pitch_by_a_click(person, server):
     plot.click(position={"x": plot.bounding_box()["width"] / 4, "y": 40})
     pitch = person.at("#pitch").input_value()
     assert float(pitch) < 0.5
-    time = collision_time(server, pitch=pitch, width=0.29, benches=20)["time"]
-    person.sees({"#first-contact .value": f"{time:.6f} s"}).types({"#pitch": "0.55"}, "Tab").looks_at("curve")
+    time = time_of(server, pitch=pitch, width=0.29, benches=20)
+    person.sees({"#first-contact .value": time}).types({"#pitch": "0.55"}, "Tab").looks_at("curve")
     plot = person.at("#curve .u-over")
     plot.click(position={"x": 0.9 * plot.bounding_box()["width"], "y": 20})
     pitch = person.at("#pitch").input_value()
