@@ -126,3 +126,9 @@ def test_the_figures_of_one_dance_take_several_in_both_languages(ask, kind, more
     drawn = texts(ask.file(f"figures/{kind}.svg", TWO | {"venue": box(-5, -30, 40, 30)} | more))
     assert words in drawn
     assert "square" in drawn
+
+
+@pytest.mark.chinese_font
+@pytest.mark.parametrize(("kind", "word"), [("contact", "首次碰撞"), ("trajectory", "把手"), ("pitch-scan", "螺距")])
+def test_a_figure_of_one_dragon_has_the_language_of_its_request(ask, kind, word):
+    assert word in texts(ask.file(f"figures/{kind}.svg?benches=5&language=zh"))
