@@ -11,7 +11,6 @@ from contextlib import suppress
 import anyio
 import httpx
 import pytest
-from mcp import Client, MCPError, StdioServerParameters
 
 from app.assistant.guide import PAGES
 from app.questions.check import CheckRequest
@@ -32,7 +31,15 @@ BOOK = WORKBOOK.read_bytes()
 CONTENT = {"content": base64.b64encode(BOOK).decode()}
 
 
+def mcp_error():
+    from mcp import MCPError
+
+    return MCPError
+
+
 def with_client(server, work):
+    from mcp import Client  # The SDK takes 40 MB.
+
     async def run():
         async with Client(server, read_timeout_seconds=PATIENCE) as client:
             return await work(client)
@@ -43,6 +50,8 @@ def with_client(server, work):
 
 def with_door(work, *options, **environment):
     """Result of work with a client of the command, in its own process."""
+    from mcp import StdioServerParameters
+
     settings = dict(os.environ) | environment
     return with_client(StdioServerParameters(command=COMMAND, args=["mcp", *options], env=settings), work)
 
@@ -103,7 +112,7 @@ def test_an_assistant_asks_grades_and_looks(client, tmp_path):
             tool, arguments, words = re.split(" {2,}", row)
             problem = problem_of(await door.call_tool(tool, json.loads(arguments)))
             assert words in f"{problem['status']} {problem['detail']}", row
-        with pytest.raises(MCPError, match="nothing is no tool of this door; it has trajectory, collision_time"):
+        with pytest.raises(mcp_error(), match="nothing is no tool of this door; it has trajectory, collision_time"):
             await door.call_tool("nothing", {})
 
     with_door(work, "--folder", str(tmp_path))
@@ -183,7 +192,7 @@ def test_a_door_without_a_folder_reads_no_file_and_has_the_pages_of_the_guide():
         assert (await door.call_tool("collision_time", {})).structured_content["benches"] == [0, 8]
         refused = problem_of(await door.call_tool("grade", {"file": "/etc/hostname"}))
         assert (refused["status"], "content" in refused["detail"]) == (403, True)
-        with pytest.raises(MCPError, match="no page of the guide"):
+        with pytest.raises(mcp_error(), match="no page of the guide"):
             await door.read_resource("bench-dragon://guide/../../pyproject")
         listed = (await door.list_resources()).resources
         return {page.name: (await door.read_resource(str(page.uri))).contents[0].text for page in listed}

@@ -86,6 +86,13 @@ def sheets(folder, name):
     return openpyxl.load_workbook(folder / f"{name}.xlsx").worksheets
 
 
+@pytest.fixture(scope="module", autouse=True)
+def sheets_are_dropped():
+    """No other tests keep the cells of the workbooks, 90 MB."""
+    yield
+    sheets.cache_clear()
+
+
 def numbers(sheet):
     return np.array([row[1:] for row in sheet.iter_rows(min_row=2, values_only=True)])
 
