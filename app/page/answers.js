@@ -2,7 +2,7 @@
 
 import { button, make } from "./elements.js";
 import { strayOf } from "./fields.js";
-import { bound, formatNumber, isExact } from "./numbers.js";
+import { bound, fixed, formatNumber, isExact } from "./numbers.js";
 import { benchName, handleName, proofWords, refusalWords, say, sayOf, titleOf } from "./text.js";
 
 /** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
@@ -12,7 +12,7 @@ const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓
 const SHOWN = 0.05;
 
 /** Metres in millimetres; a value that rounds to zero has no sign. */
-const millimetres = (metres) => (1000 * metres).toFixed(3).replace(/^-(0\.0+)$/, "$1");
+const millimetres = (metres) => fixed(1000 * metres, 3);
 const paragraph = (textContent, more) => make("p", { textContent, ...more });
 const pair = ([a, b], benches) => ({ a: benchName(a, benches), b: benchName(b, benches) });
 /** A separation in words: the gap, or for a negative one the depth of the overlap. metres: [m] */

@@ -4,7 +4,7 @@ import { Problem, Superseded } from "./api.js";
 import { SPAN, announceOpened } from "./files.js";
 import { benchesOf, numbersOfListed } from "./benches.js";
 import { EMPTY, drawingOf, fromAddress, keptVenueOf, venueOf } from "./drawing.js";
-import { $, button, download, make, numberIn, textButton } from "./elements.js";
+import { $, button, download, hide, make, numberIn, textButton } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { Judgement, failureWords } from "./judgement.js";
 import { bound, formatNumber, isExact } from "./numbers.js";
@@ -12,6 +12,7 @@ import { announce } from "./overlays.js";
 import { beatsOf, passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
 import { isPresetVenue } from "./presets.js";
+import { endsAhead, queued } from "./queue.js";
 import { benchName, language, learn, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
 import { DRAGONS } from "./words/dragons.js";
@@ -25,6 +26,8 @@ const DARK = ["#ff8b7c", "#6cb4ff", "#63d585", "#ff8de9", "#ff9d4d", "#4fc7c7", 
 const isDark = () => document.documentElement.dataset.theme === "dark" && !matchMedia("print").matches;
 /** Largest delay [s], and waiting time of a copy [s]. */
 const [DELAY_MOST, LATER] = [1e6, 30];
+/** Longest wait of a dragon behind another one that is looked for [s]. */
+const WAIT_MOST = 600;
 const DEGREE = Math.PI / 180;
 
 /** Way of an arrow key along a row. */
@@ -53,6 +56,9 @@ export class Dragons {
     this.list.addEventListener("keydown", (event) => this.#move(event));
     this.list.addEventListener("focusin", ({ target }) => this.#rest(target));
     this.wrong = make("p", { className: "error", role: "alert" });
+    /** The dragons of which no delay of the last one is safe: {text, k}; null without. @type {any} */
+    this.note = null;
+    this.apart = make("p", { className: "error", id: "dragons-apart", role: "status", hidden: true });
     const presets = Object.keys(PRESETS).map((name) => textButton(`dragons_${name}`, () => this.begin(name), { "data-dragons": name }));
     this.panel = make(
       "div",
@@ -61,6 +67,7 @@ export class Dragons {
       make("p", { className: "hint", "data-text": "dragonsHelp" }),
       this.list,
       this.wrong,
+      this.apart,
       make("p", { className: "buttons" }, textButton("dragonAdd", () => this.add(), { id: "dragon-add" }), textButton("dragonSave", () => this.#save(), { id: "dragons-save" }), textButton("dragonsClose", () => this.#close(), { id: "dragons-close" })),
     );
     this.offer = make("p", { className: "buttons" }, make("span", { className: "hint", "data-text": "dragonsOr" }), ...presets);
@@ -104,9 +111,14 @@ export class Dragons {
 
   /** Take other dragons; the chosen one is the shown dance. others: changes of the state */
   #take(records, active = this.#active, others = {}) {
+    this.state.push({ ...others, dances: this.#textOf(records, active), dragon: active });
+  }
+
+  /** The text of dragons in an address. */
+  #textOf(records, active) {
     const texts = records.map((record, k) => recordText(k === active ? Object.fromEntries(Object.entries(record).filter(([name]) => OWN.includes(name))) : record));
     // A list of one dragon without anything would be no list.
-    this.state.push({ ...others, dances: texts.join("~") || "name:", dragon: active });
+    return texts.join("~") || "name:";
   }
 
   /** The records, with the shown dance in that of the chosen dragon. */
@@ -139,12 +151,66 @@ export class Dragons {
     this.#take(records, k, { ...this.#valuesOf(records[k]), handle: null });
   }
 
-  /** Add a dragon like the chosen one: in the same spiral from the other side, or later on the same path. */
+  /** Add a dragon like the chosen one: in the same spiral from the other side, or behind the last one on its drawn path. */
   add() {
+    if (this.state.get("path") === "route") return this.#follow();
     if (!this.#records.length) this.#take([{}], 0);
     const spiral = this.state.get("path") === "spiral";
     const record = this.#whole()[this.#active];
     this.#copy(this.#active, spiral ? { rotation: String((Number(record.rotation ?? 0) + 180) % 360 || "") } : {}, spiral ? 0 : LATER);
+  }
+
+  /** Add a dragon behind the last one, with the shortest delay that the service has proven safe, or say that there is none. */
+  async #follow() {
+    const records = this.#records.length ? this.#whole() : [this.#present()];
+    const k = records.length - 1;
+    const last = this.#valuesOf(records[k]);
+    const numbers = { get: (name) => last[name] ?? this.state.get(name), extras: () => ({ csv: last.csv, listed: last.csv ? benchesOf(last.csv) : null }) };
+    const row = last.path === "route" ? queued(last.drawing, numbers) : null;
+    const on = (record, drawing) => ({ ...Object.fromEntries(Object.entries(record).filter(([name]) => !LEGS.includes(name))), ...Object.fromEntries(legsOf(drawing)) });
+    // Whoever ends in the street of the last one goes on, so that the new one has room there.
+    const ahead = (record) => {
+      const { path, drawing } = this.#valuesOf(record);
+      return row && path === "route" && endsAhead(drawing, last.drawing) ? on(record, queued(drawing, numbers).ahead) : record;
+    };
+    const next = [...records.map(ahead), { ...(row ? on(records[k], row.behind) : records[k]), name: "", colour: "" }];
+    const active = Math.max(this.#active, 0);
+    const values = this.#valuesOf(next[active]);
+    this.#take(next, active, { ...values, drawing: { ...values.drawing, ...(row && { things: row.things }) }, view: null, handle: null });
+    await this.#wait(k + 1, Number(records[k].delay ?? 0));
+  }
+
+  /** Give dragon k the shortest safe delay, from that of the one before [s]. */
+  async #wait(k, least) {
+    const text = this.state.get("dances");
+    const { dances, ...limits } = this.#file();
+    const contact = Object.fromEntries(CONTACT.filter((name) => name in limits).map((name) => [name, limits[name]]));
+    let safe = [];
+    try {
+      const body = { dances, ...contact, part: k, least, most: least + WAIT_MOST };
+      ({ safe } = await this.service.ask("safe delay", "safe-delay", { body }));
+    } catch (error) {
+      // The check of the dragons is refused for the same reason, and says it.
+      if (!(error instanceof Superseded || error instanceof Problem)) throw error;
+      return;
+    }
+    if (this.state.get("dances") !== text) return; // A person has changed the dragons meanwhile.
+    const [first] = safe;
+    this.note = first ? null : { text, k };
+    if (!first) return this.#noted();
+    const tenth = Math.ceil(10 * first[0]) / 10;
+    const delay = tenth <= first[1] ? tenth : first[0];
+    const records = this.#whole();
+    // It belongs to the step in which the dragon was added.
+    if (delay > least) this.state.set({ dances: this.#textOf(records.with(k, { ...records[k], delay: String(delay) }), this.#active) });
+  }
+
+  /** Say that no delay keeps the last dragon apart, as long as the dragons are these. */
+  #noted() {
+    const is = this.note?.text === this.state.get("dances");
+    if (!is) this.note = null;
+    hide(this.apart, !is);
+    this.apart.textContent = is ? say("dragonNoDelay", { name: this.#nameOf(this.#records, this.note.k), most: WAIT_MOST }) : "";
   }
 
   /** Copy dragon k. changes: of the copy; later: how much later it dances [s] */
@@ -209,6 +275,7 @@ export class Dragons {
     const focused = document.activeElement?.id;
     this.list.replaceChildren(...records.map((record, k) => this.#row(records, record, k)));
     if (focused && this.list.querySelector(`#${CSS.escape(focused)}`)) $(`#${CSS.escape(focused)}`).focus();
+    this.#noted();
     writeTexts();
   }
 

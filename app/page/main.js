@@ -12,7 +12,7 @@ import { CONTACT, FIELDS, strayOf } from "./fields.js";
 import { Graphs } from "./graphs.js";
 import { addLook } from "./look.js";
 import { announce, announceAgain, lost, markContact, placeInset, showPrinted, tell } from "./overlays.js";
-import { formatNumber } from "./numbers.js";
+import { fixed, formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
 import { timeOfDay } from "./passages.js";
 import { OF_FILES, Parts, whenReached } from "./parts.js";
@@ -173,7 +173,7 @@ function showTable(pose) {
 function showTime() {
   const { time } = player;
   // At rest an instant has the same digits everywhere; in motion they would be unreadable.
-  const text = `${player.playing || !questions.dance ? time.toFixed(2) : answers.instantWords(time, questions.dance)} s`;
+  const text = `${player.playing || !questions.dance ? fixed(time, 2) : answers.instantWords(time, questions.dance)} s`;
   $("#time").value = time;
   $("#time").setAttribute("aria-valuetext", text);
   const clock = questions.dance?.clock;

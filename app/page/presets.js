@@ -52,9 +52,10 @@ const drawings = {
 /** Things of a preset have keys of words as names. */
 export const PRESETS = Object.fromEntries(Object.entries(drawings).map(([name, drawing]) => [name, { ...EMPTY, ...drawing }]));
 
-const shapes = (things) => JSON.stringify(things.map(({ name: _, ...shape }) => shape));
+/** What stands in a square, without names and without the streets, which may be longer. */
+const shapes = ({ things, yard }) => JSON.stringify(things.map(({ name: _, ...shape }) => (yard && shape.kind === "area" ? { ...shape, points: yard } : shape)));
 /** Time at which to show the dance of a drawing: of one in a square with streets an instant in the square, else its end [s]. */
 export const shownAt = ({ yard }) => (yard ? IN_SQUARE : null);
 /** True if these things, or this path, are those of a preset; without any they are too. */
-export const isPresetVenue = ({ things }) => Object.values(PRESETS).some((one) => shapes(one.things) === shapes(things));
+export const isPresetVenue = (drawing) => Object.values(PRESETS).some((one) => shapes(one) === shapes(drawing));
 export const isPresetPath = ({ points, path }) => !path && Object.values(PRESETS).some((one) => JSON.stringify(one.points) === JSON.stringify(points));

@@ -43,6 +43,19 @@ def file_of(person):
 OWN = {"things": "a.yard..-150,-90_150,-90_150,90_-150,90~c.well.1.0,80", "route": "0,0_60,5", "limit": "1.5"}
 
 
+def test_a_second_dragon_comes_in_behind_the_first_or_the_page_says_what_can_be_done(open_page):
+    person = open_page("?door=village&lang=en&path=route&route=*-40,0_40,0&begin=16&benches=9").presses("#several")
+    person.sees({"#judgement": "Can be danced", "#dragons-apart": False}).settles()
+    person.presses("#dragon-add").sees({"#dragons li": 3, "#judgement": "Can be danced"}).settles()
+    # Who comes back along the street of entry is let out first.
+    person.opens("?door=all&lang=en&path=route&route=*0,0_30,0_38,8_30,16_*15,-20_15,-60&begin=8&benches=3")
+    person.presses("#several").sees({"#judgement": "Can be danced", "#dragons li": 2}).settles()
+    square = "a.square..-12,-10_12,-10_12,10_-12,10"
+    person.opens(f"?door=village&lang=en&path=route&route=*-11,0_11,0&begin=8&benches=3&things={square}")
+    person.presses("#several").sees({"#dragons-apart": "blue finds no safe delay"}).speaks("zh")
+    person.sees({"#dragons-apart": "另画路线"})
+
+
 def test_dragons_to_begin_with_leave_what_a_person_has_drawn_and_who_waits_is_let_pass(open_page, server):
     person = open_page(f"?door=all&path=route&benches=3&{urlencode(OWN)}").presses("#several").settles()
     for preset in ("parade", "streets"):

@@ -16,6 +16,7 @@ test("numbers have all their digits, or those that people say", () => {
   assert.equal(formatNumber(412.473838, 6, 2), "412.473838");
   setExact(false);
   assert.equal(formatNumber(412.473838, 6, 2), "412.47");
+  for (const [value, text] of [[-1e-13, "0.00"], [-0.01, "-0.01"]]) assert.equal(formatNumber(value, 6, 2), text);
   setExact(true);
 });
 
