@@ -15,7 +15,8 @@ const along = ([x, y], [ax, ay]) => {
   const length = Math.hypot(ax - x, ay - y);
   return length > SAME ? [(ax - x) / length, (ay - y) / length] : null;
 };
-const shifted = ([x, y], [dx, dy], length) => [x + length * dx, y + length * dy];
+/** @returns {[number, number]} the point that is so far away in a direction [m] */
+const shifted = (point, way, length) => [point[0] + length * way[0], point[1] + length * way[1]];
 
 /** The first or the last leg of a drawn path, if it is straight: {end, out: direction away from the path}; else null. */
 function streetOf({ points, straight, path }, isFirst) {
@@ -40,13 +41,13 @@ function longer(drawing, isFirst, length) {
 }
 
 /** The things with the street around one end of a path longer by a length [m], which stands beyond the square. */
-function withStreet({ things, ...drawing }, isFirst, length) {
+function withStreet(drawing, isFirst, length) {
   const { end, out } = streetOf(drawing, isFirst);
   const isBeyond = ([x, y]) => {
     const [dx, dy] = [x - end[0], y - end[1]];
     return dx * out[0] + dy * out[1] > 0 && Math.abs(dx * out[1] - dy * out[0]) < STREET_HALF;
   };
-  return things.map((thing) => (thing.kind === "area" ? { ...thing, points: thing.points.map((point) => (isBeyond(point) ? place(shifted(point, out, length)) : point)) } : thing));
+  return drawing.things.map((thing) => (thing.kind === "area" ? { ...thing, points: thing.points.map((point) => (isBeyond(point) ? place(shifted(point, out, length)) : point)) } : thing));
 }
 
 /**
