@@ -14,6 +14,7 @@ from app.files.tables import Language
 from app.questions.films import SECONDS_PER_MEGAPIXEL
 from app.wire.question import Question, Terms, check_limit, measure
 from core.errors import unanswered
+from core.kernels import Halted
 
 ZIP_TYPE = "application/zip"
 # Time of everything but the films of the contest's dance, measured 2026-11-27 [s].
@@ -46,7 +47,10 @@ def contest_kit(request: ContestKitRequest, terms: Terms) -> bytes:
     if request.films:
         pixels = round(sum(_megapixels(request).values()))
         check_limit("seconds", "millions of pixels", pixels, limits.film_megapixels_max, "take shorter films")
-    return zip_of(request, request.language, request.shot, terms, _overall(request, terms))
+    try:
+        return zip_of(request, request.language, request.shot, terms, _overall(request, terms))
+    except Halted as halted:
+        raise unanswered(halted.budget, "benches", "the kit was not made", request.benches) from halted
 
 
 def _overall(request: ContestKitRequest, terms: Terms) -> Callable[[str, float], None]:
@@ -60,7 +64,7 @@ def _overall(request: ContestKitRequest, terms: Terms) -> Callable[[str, float],
         done = sum(weight * one for weight, one in zip(weights, steps.values(), strict=False))
         terms.progress(done / sum(weights))
         if terms.budget.stopped:
-            raise unanswered(terms.budget, "benches", "the kit was not made", request.benches)
+            raise Halted(terms.budget)
 
     return report
 

@@ -7,7 +7,9 @@ import math
 import re
 import subprocess
 import sys
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
 from zipfile import ZipFile
@@ -23,6 +25,7 @@ from app.contest.kit import UNFINISHED
 from app.contest.sensitivity import panels
 from app.contest.solved import ContestRequest, solve
 from app.contest.tables import paper_tables
+from app.files import drawing
 from app.files.tables import Language
 from app.files.words import Say
 from app.questions.contest_kit import ContestKitRequest, contest_kit
@@ -268,6 +271,23 @@ def test_a_kit_reports_its_progress_and_ends_when_it_is_stopped():
     assert stopped.value.field == "benches"
     assert shares == sorted(shares)
     assert shares[-1] < 0.5
+
+
+def test_a_kit_that_waits_for_other_drawings_ends_when_it_is_stopped():
+    budget, waiting = Budget(math.inf), threading.Event()
+
+    def long():
+        waiting.wait(PATIENCE)
+        while not drawing._DRAWER._work_queue.qsize():  # until the kit's own first drawing stands behind this one
+            time.sleep(0.01)
+        budget.stop()
+
+    with ThreadPoolExecutor(1) as others:
+        others.submit(drawing.in_turn, long)
+        request = ContestKitRequest(benches=5, films=False, language=Language.ENGLISH)
+        with pytest.raises(TooMuchWork) as stopped:
+            contest_kit(request, Terms(Settings(), budget, lambda share: waiting.set()))
+    assert (stopped.value.field, stopped.value.values["count"]) == ("benches", 5)
 
 
 def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp_path):
