@@ -102,21 +102,23 @@ def ask_mutants(url, count, seed=0):
 
 def ask_described(url, count):
     """Ask all calls as /openapi.json describes them, rightly and wrongly, with every check of schemathesis."""
-    from tests.app.test_openapi import CALLS, CHECKED, GenerationMode, is_tried
+    from schemathesis import GenerationMode
 
-    tried = [(call, mode) for call in CALLS for mode in GenerationMode if is_tried(call, mode)]
+    from tests.app.test_openapi import TRIED, operations
+
+    calls, checks = operations()
     tally = Tally()
 
     def conforms(case):
         request = f"{case.method} {case.path} {case.query} {case.body}"
         answer = tally.add(partial(case.call, base_url=url, timeout=2.0 * SLOWEST), request)
-        case.validate_response(answer, checks=CHECKED)
+        case.validate_response(answer, checks=checks)
 
-    for call, mode in tried:
-        cases = CALLS[call].as_strategy(generation_mode=mode)
-        few = -(-count // len(tried))
+    for call, mode in TRIED:
+        cases = calls[call].as_strategy(generation_mode=GenerationMode(mode))
+        few = -(-count // len(TRIED))
         settings(max_examples=few, deadline=None, suppress_health_check=list(HealthCheck))(given(cases)(conforms))()
-        print(f"{call} {mode.value}: {tally.statuses.total()} so far, slowest {tally.slowest[0]:.1f} s", flush=True)
+        print(f"{call} {mode}: {tally.statuses.total()} so far, slowest {tally.slowest[0]:.1f} s", flush=True)
     return tally
 
 
