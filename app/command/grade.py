@@ -55,7 +55,7 @@ def grade(
     speed: Annotated[str | None, typer.Option(help="Answer to question 5: maximum speed of the head [m/s]")] = None,
     language: Annotated[Language, typer.Option(help="Language of the words.")] = Language.ENGLISH,
     summary: Annotated[
-        Path | None, typer.Option(help="Write a .csv or .xlsx file with one line for each file.")
+        Path | None, typer.Option(help="Write a .csv or .xlsx file with one line for each number and file.")
     ] = None,
     json: Json = False,
 ) -> None:
@@ -87,7 +87,7 @@ def grade(
     answer = GradeAnswer(files=grades, answers=answers)
     if summary:
         as_file = _workbook if ending_of(summary) == ".xlsx" else _csv
-        write_whole(summary, as_file(grades, language))
+        write_whole(summary, as_file(answer, language))
     show.print_result(answer, json, _parts(answer, language))
 
 
@@ -125,18 +125,30 @@ def _row(file: FileAnswer, language: Language) -> list[str | int]:
     return [file.file, file.workbook or "", verdict, *_counts(file), errors, _decimals(file)]
 
 
-def _csv(files: list[FileAnswer], language: Language) -> bytes:
+def _typed_row(one: TypedAnswer, language: Language) -> list[str | int]:
+    """Cells of a number under the heads of a summary; a limit that it breaks comes before the causes."""
+    name = f"{say(one.answer, language)}: {one.found:.12g} {one.unit}"
+    causes = [say(f"name_{cause.error}", language) for cause in one.diagnosis]
+    reasons = say("and_error", language).join([*([one.breaks] if one.breaks else []), *causes])
+    return [name, "", say(one.verdict.value, language), "", "", "", reasons, ""]
+
+
+def _rows(answer: GradeAnswer, language: Language) -> list[list[str | int]]:
+    numbers = (_typed_row(one, language) for one in answer.answers)
+    return [*numbers, *(_row(file, language) for file in answer.files)]
+
+
+def _csv(answer: GradeAnswer, language: Language) -> bytes:
     sink = io.StringIO()
     writer = csv.writer(sink)
     writer.writerow(_heads(language))
-    for file in files:
-        name, *cells = _row(file, language)
+    for name, *cells in _rows(answer, language):
         writer.writerow([text_to_cell(str(name)), *cells])
     return sink.getvalue().encode("utf-8-sig")
 
 
-def _workbook(files: list[FileAnswer], language: Language) -> bytes:
-    return table_workbook(say("summary", language), _heads(language), [_row(file, language) for file in files])
+def _workbook(answer: GradeAnswer, language: Language) -> bytes:
+    return table_workbook(say("summary", language), _heads(language), _rows(answer, language))
 
 
 def _counts(file: FileAnswer) -> tuple[int, int, int]:
@@ -164,6 +176,7 @@ def _parts(answer: GradeAnswer, language: Language) -> Iterator[show.Part]:
 def _typed(one: TypedAnswer, language: Language) -> Iterator[show.Part]:
     name, verdict = say(one.answer, language), say(one.verdict.value, language)
     verdict += say("to_digits", language, digits=one.digits) if one.verdict == "right" else ""
+    verdict = say("and_breaks", language, verdict=verdict, breaks=one.breaks) if one.breaks else verdict
     yield Text(f"{name}: {one.found:.12g} {one.unit}: {verdict}", style="bold")
     yield from (f"  {words}" for words in one.notes)
     if one.verdict != "right":

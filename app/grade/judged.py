@@ -47,11 +47,12 @@ EARLIEST = -1000.0
 
 
 class Rating(StrEnum):
-    """Verdict on a sheet or a file, from the best to the worst."""
+    """Verdict on a sheet or a file, from the best to the worst; a number that breaks its limit is infeasible."""
 
     RIGHT = "right"
     ROUNDED = "rounded"
     INCOMPLETE = "incomplete"
+    INFEASIBLE = "infeasible"
     WRONG = "wrong"
     UNREADABLE = "unreadable"
 

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 
 from app.grade.contacts import PITCH_RANGE, longest_overlap
 from app.grade.judged import Rating
+from app.grade.limits import SAFE_SIDE, beyond, broken, limit_of
 from app.grade.shortcuts import UNITS, Finding, Shortcut, pitch_grids, right_answer, shortcuts
 from app.grade.words import Note, note
 
@@ -23,8 +24,8 @@ from app.grade.words import Note, note
 HALF = 1.02
 # Half of the last decimal that the contest asks for: a number is graded to six decimals, if it has more.
 HALF_UNIT_LEAST = 0.5e-6
-# Side to which a limit is rounded [1], and how far on the other side one still counts as the nearest number [m, m/s].
-SAFE_SIDE, INFEASIBLE = {"pitch": 1, "speed": -1}, 1e-5
+# How far beyond its limit a number still counts as the nearest one [m, m/s].
+INFEASIBLE = 1e-5
 # Largest half of the last digit, relative to the number, at which a shortcut is reported [1]: 1.3 has too few digits.
 DIGITS_SHARE = 2e-3
 # Largest chance of a fit at which a shortcut is a diagnosis, and at which it is reported as a guess [1].
@@ -38,53 +39,73 @@ SEARCH_END = 0.5e-8
 OVERLAP_MOST = 0.1
 # Most decimals of a rounded number.
 DECIMALS_MOST = 4
-# Shortest turn that counts as possible [m]: question 4 leaves open the ratio, and where the dance enters and leaves the
-# circle. core.turn_length_bounds(core.Dragon(), 1.7, ratio=None) proves in a minute that in every shorter turn an arc
-# is tighter than half of the head's chord, or benches overlap; a test recomputes it. core.shortest_turn with a free
-# ratio, whose bends are wider by the rounding that a proof needs, proves 8.223983 m.
-TURN_LENGTH_LEAST = 8.2147138
 # Length that every turn exceeds whose first arc has twice the radius of the second [m], as core.shortest_turn() proves.
 TURN_OF_TWO_LEAST = 11.7991513
 
 
 @dataclass(frozen=True)
 class Graded:
-    """Grade of a typed number. notes: remarks in words; findings: shortcuts that give it, with the chance of each"""
+    """Grade of a typed number.
+
+    notes: remarks in words; findings: shortcuts that give it, with the chance of each
+    breaks: the limit that it breaks, and what happens there; None if it breaks none
+    """
 
     verdict: Rating
     notes: list[Note]
     findings: list[Finding]
+    breaks: Note | None = None
 
 
 def graded_number(name: str, value: float, half_unit: float) -> Graded:
     """The grade of one of UNITS. value: in its unit; half_unit: half of its last digit
 
     A number is right if it is the right one to its own digits. One that is off by less than its last digit was rounded
-    the other way, and nothing else follows from that. A limit is rounded to its safe side: the least pitch up, the
-    highest speed down; on the other side benches touch, or somebody is too fast.
+    the other way, and nothing else follows from that. A limit is rounded to its safe side: the least pitch and the
+    shortest turn up, the highest speed down; on the other side benches touch, or somebody is too fast. Whatever else is
+    wrong with a number, a limit that it breaks comes first.
     """
+    half, excess = max(half_unit, HALF_UNIT_LEAST), beyond(name, value)
+    if excess > (INFEASIBLE if excess <= HALF * half else 0.0):
+        if excess < 2.0 * half:
+            safe = note(f"{name}_rounded_unsafely", safe=_safe(name, _decimals_of(half)))
+            return Graded(Rating.INFEASIBLE, [safe], [], broken(name, value))
+        return replace(_wrong(name, value, half_unit), breaks=broken(name, value))
+    return _graded(name, value, half_unit)
+
+
+def _graded(name: str, value: float, half_unit: float) -> Graded:
+    """The grade of a number that breaks no limit."""
     right, half = right_answer(name), max(half_unit, HALF_UNIT_LEAST)
-    digits = _decimals_of(half)
     is_nearest, is_near = abs(value - right) <= HALF * half, abs(value - right) < 2.0 * half
-    words = {"nearest": f"{right:.{digits}f}", "unit": UNITS[name]}
-    beyond = SAFE_SIDE.get(name, 0) * (right - value)
-    if is_near and beyond > 0.0 and not (is_nearest and beyond <= INFEASIBLE):
-        unit = 10.0**-digits
-        safe = math.ceil(right / unit) * unit if name == "pitch" else math.floor(right / unit) * unit
-        return Graded(Rating.ROUNDED, [note(f"{name}_rounded_unsafely", safe=f"{safe:.{digits}f}")], [])
+    words = {"nearest": f"{right:.{_decimals_of(half)}f}", "unit": UNITS[name]}
     if is_nearest:
         return Graded(Rating.RIGHT, [], [])
     if is_near:
-        if name in SAFE_SIDE:
+        if name in ("pitch", "speed"):
             return Graded(Rating.RIGHT, [note(f"{name}_rounded_safely", **words)], [])
         return Graded(Rating.ROUNDED, [note("rounded_otherwise", **words)], [])
-    if name == "turn_length" and TURN_LENGTH_LEAST - half_unit <= value < right:
+    if name == "turn_length" and value < right:
         kind = "possible_turn" if value + half_unit >= TURN_OF_TWO_LEAST else "possible_turn_of_ratio"
         return Graded(Rating.RIGHT, [note(kind, length=f"{right:.7f}")], [])
-    notes, findings = _overlap_of(value) if name == "pitch" and value < right else [], explained(name, value, half_unit)
+    return _wrong(name, value, half_unit)
+
+
+def _wrong(name: str, value: float, half_unit: float) -> Graded:
+    """The grade of a wrong number."""
+    is_tight = name == "pitch" and beyond(name, value) > 0.0
+    notes, findings = _overlap_of(value) if is_tight else [], explained(name, value, half_unit)
     if not findings:
         notes.append(note("too_few_digits" if half_unit > DIGITS_SHARE * value else "nothing_fits"))
     return Graded(Rating.WRONG, notes, findings)
+
+
+def _safe(name: str, digits: int) -> str:
+    """The number of so many decimals that is next to the limit, on its safe side."""
+    unit, limit = 10.0**-digits, limit_of(name)
+    assert limit is not None
+    steps = math.ceil(limit / unit) if SAFE_SIDE[name] > 0 else math.floor(limit / unit)
+    return f"{steps * unit:.{digits}f}"
 
 
 def _overlap_of(pitch: float) -> list[Note]:

@@ -122,7 +122,11 @@ class TypedAnswer(Answer):
 
     answer: str = Field(description="collision_time, pitch, speed or turn_length")
     verdict: Rating = Field(
-        description="right, as far as its digits go; rounded, if it is off by less than its last digit; or wrong"
+        description="right, as far as its digits go; rounded, if it is off by less than its last digit; infeasible, if "
+        "it was rounded beyond a limit; or wrong"
+    )
+    breaks: str | None = Field(
+        default=None, description="The limit that the number breaks, and by how much, in words; null if none"
     )
     found: float = Field(description="The given number, in `unit`")
     expected: float = Field(description="The right number, in `unit`")
@@ -227,6 +231,7 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
     return TypedAnswer(
         answer=name,
         verdict=grade.verdict,
+        breaks=grade.breaks and grade.breaks.text(language),
         found=value,
         expected=right_answer(name),
         unit=UNITS[name],

@@ -7,8 +7,8 @@ import { refusalWords, say } from "./text.js";
 const ANSWERS = ["collision_time", "pitch", "turn_length", "speed"];
 /** Colour of each mark of a picture; right cells are pale. */
 const COLOURS = { ".": "--line", o: "--undecided", "#": "--contact", "?": "--border" };
-const OUTCOMES = { right: "clear", rounded: "clear", incomplete: "undecided", wrong: "contact", unreadable: "contact" };
-const MARKS = { right: "✓", rounded: "✓", incomplete: "!", wrong: "✕", unreadable: "✕" };
+const OUTCOMES = { right: "clear", rounded: "clear", incomplete: "undecided", infeasible: "contact", wrong: "contact", unreadable: "contact" };
+const MARKS = { right: "✓", rounded: "✓", incomplete: "!", infeasible: "✕", wrong: "✕", unreadable: "✕" };
 const CELL = 6;
 /** Meaning of each mark of a picture. */
 const MEANINGS = { ".": "mark_right", o: "mark_rounded", "#": "mark_wrong", "?": "mark_missing" };
@@ -115,14 +115,16 @@ function boxes({ files, answers }) {
   const typed = answers.map((one) => {
     const { found, expected, unit, verdict, digits, notes } = one;
     const words = verdict === "right" ? [say("digitsGo", { digits }), ...notes] : [say("rightIs", { value: expected.toFixed(9), unit }), ...notes];
-    return box(`${say(`typed_${one.answer}`)}${say("colon")}${found} ${unit}`, verdict, [...words.map((line) => paragraph(line)), ...diagnosis(one)]);
+    const word = say(`verdict_${verdict}`);
+    const headline = one.breaks ? say("andBreaks", { verdict: word, breaks: one.breaks }) : word;
+    return box(`${say(`typed_${one.answer}`)}${say("colon")}${found} ${unit}`, verdict, headline, [...words.map((line) => paragraph(line)), ...diagnosis(one)]);
   });
   return [...typed, ...files.map(fileBox)];
 }
 
-function box(title, verdict, content) {
+function box(title, verdict, headline, content) {
   const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[verdict] });
-  const value = make("p", { className: "value" }, mark, say(`verdict_${verdict}`));
+  const value = make("p", { className: "value" }, mark, headline);
   const outcome = { className: "answer", "data-outcome": OUTCOMES[verdict] };
   return make("div", outcome, make("h3", { textContent: title }), value, ...content);
 }
@@ -135,7 +137,7 @@ function fileBox(file) {
   const points = file.rubric.map(({ met, words }) => make("li", { className: `met-${met}`, textContent: words }));
   const rubric = make("details", {}, make("summary", { textContent: say("rubric") }), make("ul", {}, ...points));
   const notes = file.notes.map((one) => paragraph(one));
-  return box(file.file, file.verdict, [...notes, ...diagnosis(file), ...file.sheets.flatMap(sheetParts), ...(points.length ? [rubric] : [])]);
+  return box(file.file, file.verdict, say(`verdict_${file.verdict}`), [...notes, ...diagnosis(file), ...file.sheets.flatMap(sheetParts), ...(points.length ? [rubric] : [])]);
 }
 
 function sheetParts(sheet) {

@@ -11,7 +11,8 @@ import pytest
 
 import core
 from app.files.tables import Language
-from app.grade.numbers import TURN_LENGTH_LEAST, TURN_OF_TWO_LEAST, gives
+from app.grade.limits import TURN_LENGTH_LEAST
+from app.grade.numbers import TURN_OF_TWO_LEAST, gives
 from app.grade.report import typed
 from app.grade.shortcuts import pitch_grids, shortcuts
 from tests.support.command import run
@@ -146,17 +147,19 @@ TYPED = [
     "collision_time 412.48 -> rounded | to the nearest digit the right one is 412.47 s",
     "collision_time 412.473838 -> right",
     "collision_time 412.47383765 -> right",
-    "pitch 0.4503 -> rounded | 0.4504 m is the smallest of as many digits",
-    "pitch 0.45033 -> rounded | 0.45034 m is the smallest of as many digits",
-    "pitch 0.45 -> rounded | 0.46 m is the smallest of as many digits",
+    "pitch 0.4503 -> infeasible | 0.4504 m is the smallest of as many digits",
+    "pitch 0.45033 -> infeasible | 0.45034 m is the smallest of as many digits",
+    "pitch 0.45 -> infeasible | 0.46 m is the smallest of as many digits",
     "pitch 0.4504 -> right | rounded up, as a pitch must be",
     "pitch 0.46 -> right | rounded up, as a pitch must be",
-    "speed 1.25 -> rounded | 1.24 m/s is the highest of as many digits",
-    "speed 1.247 -> rounded | 1.246 m/s is the highest of as many digits",
+    "speed 1.25 -> infeasible | 1.24 m/s is the highest of as many digits",
+    "speed 1.247 -> infeasible | 1.246 m/s is the highest of as many digits",
+    "speed 1.2463 -> infeasible | 1.2462 m/s is the highest of as many digits",
     "speed 1.24 -> right | rounded down, as a highest speed must be",
     "speed 1.246 -> right",
     "pitch 0.42 -> wrong | too few to tell why",
     "pitch 0.4321 -> wrong | No known error",
+    "turn_length 8.21 -> infeasible | 8.22 m is the smallest of as many digits",
     "turn_length 8.215 -> right | right if the ratio and both places are stated",
     "turn_length 8.2271 -> right | right if the ratio and both places are stated",
     "turn_length 9.4153 -> right | right if the ratio and both places are stated",
@@ -187,6 +190,53 @@ def test_a_number_is_traced_to_its_shortcut_as_far_as_its_digits_go(row):
     if noted or verdict != "wrong":
         assert bool(result.notes) is bool(note)
         assert note.strip() in " ".join(result.notes)
+
+
+# A number, and the limit that it breaks: the values are those of bench-dragon speed, check and bounds.
+BROKEN = """
+speed        1.25      infeasible  2 m/s: handles 3, 4, 5, 6, 7 reach 2.006 m/s 11.584 s after the turn begins
+speed        1.2463    infeasible  reach 2.0001 m/s
+speed        1.4       wrong       reach 2.247 m/s
+speed        1.24      right
+pitch        0.4503    infeasible  benches 0 and 19 touch when the head is 4.576 m from the centre, before it reaches
+pitch        0.4202    wrong       benches 0 and 21 touch
+pitch        0.35      wrong       benches 0 and 23 touch at the start
+pitch        0.001     wrong       the dragon cannot stand on this spiral
+pitch        0.52      wrong
+turn_length  8.21      infeasible  8.2147138 m: in every shorter turn an arc is tighter
+turn_length  8.1       wrong       8.2147138 m
+turn_length  13.8      wrong
+collision_time  412.48  rounded
+"""
+
+
+@pytest.mark.parametrize("row", BROKEN.split("\n")[1:-1])
+def test_a_number_beyond_its_limit_is_infeasible_and_says_by_how_much(row):
+    name, text, verdict, *words = row.split(maxsplit=3)
+    result = typed(name, text, Language.ENGLISH)
+    assert result.verdict == verdict
+    assert (result.breaks or "").startswith("breaks the limit" if words else "")
+    assert "".join(words) in (result.breaks or "")
+    assert bool(typed(name, text, Language.CHINESE).breaks) is bool(words)
+
+
+def test_a_limit_that_is_broken_stands_in_the_first_line_and_in_a_summary(tmp_path):
+    for ending, language, verdict, words in (
+        ("csv", "zh", "不可行", "速度达 2.006 m/s"),
+        ("xlsx", "en", "infeasible", "reach 2.006 m/s"),
+    ):
+        summary = tmp_path / f"summary.{ending}"
+        done = run("grade", "--speed", "1.25", "--language", language, "--summary", str(summary))
+        headline = done.stdout.partition("\n  ")[0].replace("\n", " ")
+        assert f"1.25 m/s: {verdict}" in headline
+        if ending == "csv":
+            with summary.open(encoding="utf-8-sig", newline="") as lines:
+                [_, row] = csv.reader(lines)
+        else:
+            [_, row] = openpyxl.load_workbook(summary).active.values
+        assert row[2] == verdict
+        assert words in row[6]
+        assert row[6] in headline
 
 
 @pytest.mark.parametrize(
