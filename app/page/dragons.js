@@ -6,6 +6,7 @@ import { benchesOf, numbersOfListed } from "./benches.js";
 import { EMPTY, drawingOf, fromAddress, keptVenueOf, venueOf } from "./drawing.js";
 import { $, button, download, hide, make, numberIn, textButton } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
+import { stepsOf } from "./history.js";
 import { Judgement, failureWords } from "./judgement.js";
 import { bound, formatNumber, isExact } from "./numbers.js";
 import { announce } from "./overlays.js";
@@ -48,6 +49,7 @@ export class Dragons {
     this.state = state;
     this.service = service;
     this.questions = questions;
+    this.steps = stepsOf(state);
     this.picture = dance;
     this.draw = draw;
     this.player = player;
@@ -99,19 +101,20 @@ export class Dragons {
 
   /**
    * All values of the dance of a record, among what stands in the common square.
+   * common: the drawing of the square
    * @returns {any}
    */
-  #valuesOf(record) {
+  #valuesOf(record, common = this.state.get("drawing")) {
     const path = record.path ?? "spiral";
     const values = Object.fromEntries(PARTS.map((name) => [name, record[name] ?? this.state.initial(name, path)]));
-    const { things, origin, grid, yard, limit } = this.state.get("drawing");
+    const { things, origin, grid, yard, limit } = common;
     const legs = LEGS.filter((name) => name in record).map((name) => [name, record[name]]);
     return { ...values, path, drawing: { ...(path === "route" ? fromAddress(new URLSearchParams(legs)) : EMPTY), things, origin, grid, yard, limit } };
   }
 
   /** Take other dragons; the chosen one is the shown dance. others: changes of the state */
   #take(records, active = this.#active, others = {}) {
-    this.state.push({ ...others, dances: this.#textOf(records, active), dragon: active });
+    this.steps.change({ ...others, dances: this.#textOf(records, active), dragon: active });
   }
 
   /** The text of dragons in an address. */
@@ -121,18 +124,18 @@ export class Dragons {
     return texts.join("~") || "name:";
   }
 
-  /** The records, with the shown dance in that of the chosen dragon. */
+  /** The records, with the shown dance in that of the chosen dragon; the shown dance alone where there is no list. */
   #whole() {
+    if (!this.state.get("dances")) return [this.#present()];
     return this.#records.map((record, k) => (k === this.#active ? { ...record, ...this.#present() } : record));
   }
 
   begin(name) {
     const records = PRESETS[name];
-    const values = this.#valuesOf(records[0]);
     // A person's own square stays.
     const drawing = this.state.get("drawing");
-    const { things, origin, grid, yard, limit } = isPresetVenue(drawing) ? EMPTY : drawing;
-    this.#take(records, 0, { ...values, drawing: { ...values.drawing, things, origin, grid, yard, limit }, time: null, view: null, follow: false });
+    const values = this.#valuesOf(records[0], isPresetVenue(drawing) ? EMPTY : drawing);
+    this.#take(records, 0, { ...values, time: null, view: null, follow: false });
   }
 
   /** Open a FILE of several. name: of the file */
@@ -140,9 +143,9 @@ export class Dragons {
     const foreign = dances.findIndex(({ path }) => isForeign(path));
     if (foreign >= 0) return announce(() => say("dragonForeign", { name: dances[foreign].name ?? say("dragonNumber", { number: foreign + 1 }) }));
     const records = dances.map(recordOf);
-    this.state.set({ drawing: drawingOf({ path: null, venue, speed_limit: limit }) }, false);
+    const square = drawingOf({ path: null, venue, speed_limit: limit });
     const numbers = Object.fromEntries(CONTACT.map((one) => [one, typeof limits[one] === "number" ? String(limits[one]) : this.state.initial(one)]));
-    this.#take(records, 0, { ...this.#valuesOf(records[0]), ...numbers, start_clock: clock, begin_clock: begins, time: null, view: null, handle: null });
+    this.#take(records, 0, { ...this.#valuesOf(records[0], square), ...numbers, start_clock: clock, begin_clock: begins, time: null, view: null, handle: null });
     announceOpened(name, SPAN.filter((one) => typeof limits[one] === "number"));
   }
 
@@ -154,15 +157,15 @@ export class Dragons {
   /** Add a dragon like the chosen one: in the same spiral from the other side, or behind the last one on its drawn path. */
   add() {
     if (this.state.get("path") === "route") return this.#follow();
-    if (!this.#records.length) this.#take([{}], 0);
     const spiral = this.state.get("path") === "spiral";
-    const record = this.#whole()[this.#active];
-    this.#copy(this.#active, spiral ? { rotation: String((Number(record.rotation ?? 0) + 180) % 360 || "") } : {}, spiral ? 0 : LATER);
+    const k = Math.max(this.#active, 0);
+    const record = this.#whole()[k];
+    this.#copy(k, spiral ? { rotation: String((Number(record.rotation ?? 0) + 180) % 360 || "") } : {}, spiral ? 0 : LATER);
   }
 
   /** Add a dragon behind the last one, with the shortest delay that the service has proven safe, or say that there is none. */
   async #follow() {
-    const records = this.#records.length ? this.#whole() : [this.#present()];
+    const records = this.#whole();
     const k = records.length - 1;
     const last = this.#valuesOf(records[k]);
     const numbers = { get: (name) => last[name] ?? this.state.get(name), extras: () => ({ csv: last.csv, listed: last.csv ? benchesOf(last.csv) : null }) };
@@ -217,7 +220,7 @@ export class Dragons {
   #copy(k, changes = {}, later = LATER) {
     const records = this.#whole();
     const delay = Number(records[k].delay ?? 0) + later;
-    this.#take([...records, { ...records[k], name: "", colour: "", delay: delay ? String(delay) : "", ...changes }]);
+    this.#take([...records, { ...records[k], name: "", colour: "", delay: delay ? String(delay) : "", ...changes }], Math.max(this.#active, 0));
   }
 
   #remove(k) {
@@ -230,7 +233,7 @@ export class Dragons {
   }
 
   #close() {
-    this.state.push({ dances: "", dragon: 0 });
+    this.steps.change({ dances: "", dragon: 0 });
   }
 
   /** Change what dragon k has in addition to its dance. */

@@ -4,7 +4,7 @@ import { EMPTY, isSamePath, walkOf, yardOf } from "./drawing.js";
 import { Editor } from "./edit.js";
 import { $, $$, hide, make, textButton } from "./elements.js";
 import { Files } from "./files.js";
-import { Steps } from "./history.js";
+import { stepsOf } from "./history.js";
 import { Judgement } from "./judgement.js";
 import { knotsOf } from "./knots.js";
 import { PRESETS, shownAt } from "./presets.js";
@@ -45,7 +45,7 @@ export class Drawn {
     this.questions = questions;
     this.picture = dance;
     this.draw = draw;
-    this.steps = new Steps(state, () => this.show());
+    this.steps = stepsOf(state);
     const course = () => (questions.course?.drawing === state.get("drawing") ? questions.course : null);
     this.editor = new Editor(dance, state, this.steps, course, () => this.show());
     const files = new Files(state, this.steps, service, questions, several);

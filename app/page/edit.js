@@ -47,10 +47,7 @@ export class Editor {
     dance.tapped = (x, y) => this.#tap(x, y);
     for (const button of $$("[data-tool]")) button.addEventListener("click", () => this.take(button.dataset.tool));
     onClick("#edit", () => this.turn(!this.active));
-    onClick("#undo", () => steps.undo());
-    onClick("#redo", () => steps.redo());
     onClick("#delete", () => this.#delete());
-    addEventListener("keydown", (event) => this.#shortcut(event));
     $("#canvas").addEventListener("keydown", (event) => this.#next(event));
     $("#canvas").addEventListener("pointerdown", (event) => this.#seize(event), { capture: true });
   }
@@ -103,16 +100,14 @@ export class Editor {
   show() {
     if (this.item !== null && this.item >= this.#drawing.things.length) this.item = null;
     const on = this.active && this.#isRoute;
-    $("#tools").hidden = !this.#isRoute;
     $("#edit").setAttribute("aria-pressed", on);
     for (const button of $$("[data-tool]")) {
       button.hidden = !on;
       button.setAttribute("aria-pressed", this.tool === button.dataset.tool);
     }
     $("[data-tool=gate]").disabled = !yardOf(this.#drawing).length;
-    for (const id of ["#undo", "#redo", "#delete"]) $(id).hidden = !on;
-    $("#undo").disabled = !this.steps.canUndo;
-    $("#redo").disabled = !this.steps.canRedo;
+    $("#delete").hidden = !on;
+    this.steps.changed();
     $("#delete").disabled = !this.#points.length;
     $("#draw-help").hidden = !on;
     $("#draw-help").textContent = this.help;
@@ -337,14 +332,5 @@ export class Editor {
     const thing = { kind, name: freeName(drawing.things, say(`thing_${kind}`)), points: [], ...(radius && { radius }) };
     this.item = drawing.things.length;
     this.steps.take(withPoints({ ...drawing, things: [...drawing.things, thing] }, this.item, [point]));
-  }
-
-  #shortcut(event) {
-    if (!this.#isRoute || !(event.ctrlKey || event.metaKey) || event.altKey || event.target.matches("input, textarea")) return;
-    const key = event.key.toLowerCase();
-    if (key === "y" || (key === "z" && event.shiftKey)) this.steps.redo();
-    else if (key === "z") this.steps.undo();
-    else return;
-    event.preventDefault();
   }
 }

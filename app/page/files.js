@@ -27,7 +27,7 @@ export function announceOpened(name, unread, notes = []) {
 
 export class Files {
   /**
-   * steps: receives drawings; questions: has the shown dance
+   * steps: receives changes; questions: has the shown dance
    * @param {State} state
    * @param {Steps} steps
    * @param {Service} service
@@ -72,7 +72,7 @@ export class Files {
       if (/\.(csv|tsv|xlsx?|ods)$/i.test(file.name)) {
         const { text: csv, notes } = await tableOfFile(file, this.service);
         if (csv === null) return announce(() => notes.join(" "), true);
-        this.state.set({ csv });
+        this.steps.change({ csv });
         return announceOpened(file.name, [], notes);
       }
       announce(() => say("opening", { name: file.name }));
@@ -107,7 +107,7 @@ export class Files {
   }
 
   #useTimes() {
-    this.state.set({ passages: passagesText(this.walked) });
+    this.steps.change({ passages: passagesText(this.walked) });
     this.times.hidden = true;
   }
 
@@ -120,7 +120,6 @@ export class Files {
     // What a dance does not state has its default, and so have the benches of which a table takes the place; a map states none of it.
     const stated = csv ? content : { ...dragon, ...content };
     const numbers = isDance ? Object.fromEntries([...UNIFORM, ...NUMBERS].map((one) => [one, typeof stated[one] === "number" ? String(stated[one]) : this.#default(one, csv)])) : {};
-    if (this.state.get("path") !== "route") this.state.choosePath("route");
     const opened = drawingOf({ ...content, venue: typeof venue === "object" ? venue : null });
     // A map without a path keeps the drawn path, and one without a venue keeps the venue; a dance has its own or none.
     const { points, straight, radius, begin, path: kept, start, things, origin, grid, yard, limit } = this.state.get("drawing");
@@ -129,8 +128,7 @@ export class Files {
     if (!isDance) opened.limit = limit;
     // A dance has its own speeds, times and benches, or none.
     const others = isDance ? { csv, ...paceTexts(content), ...clocksOf(content) } : {};
-    this.state.set({ ...numbers, ...others, time: null, view: null });
-    this.steps.take(opened);
+    this.steps.change({ ...this.state.changesOf("route"), ...numbers, ...others, time: null, view: null, drawing: opened });
     const unread = SPAN.filter((one) => typeof content[one] === "number" && content[one] !== opened[one]);
     announceOpened(name, unread, content.notes);
   }

@@ -153,8 +153,8 @@ export class Propose {
     const points = shape(...numbers, yard.length ? extent(yard).middle : [0, 0]);
     const k = drawing.things.findIndex(({ kind }) => kind === "area");
     const area = { kind: "area", name: freeName(drawing.things, say("thing_area")), points };
-    this.state.set({ view: null, time: null });
-    this.steps.take(k < 0 ? { ...drawing, things: [area, ...drawing.things] } : withPoints({ ...stretched(drawing, yard, points), yard: null }, k, points));
+    const drawn = k < 0 ? { ...drawing, things: [area, ...drawing.things] } : withPoints({ ...stretched(drawing, yard, points), yard: null }, k, points);
+    this.steps.change({ drawing: drawn, view: null, time: null });
     this.editor.edit(null);
     const beyond = drawing.things.filter((thing) => !["area", "gate"].includes(thing.kind) && isBeyond(thing, points)).map(({ name }) => name);
     this.#tell(beyond.length ? () => say("placeBeyond", { names: beyond.join(say("listed")) }) : null);
@@ -293,9 +293,9 @@ export class Propose {
     this.editor.turn(false);
     this.editor.take("path");
     const benches = dance.dragon.benches ?? dance.dragon.lengths?.length;
-    this.state.set({ time: duration / 2, view: null, head_speed: String(dance.head_speed), ...(benches && !this.state.get("csv") && { benches: String(benches) }) });
+    const numbers = { head_speed: String(dance.head_speed), ...(benches && !this.state.get("csv") && { benches: String(benches) }) };
     this.#chosen = k;
-    this.steps.take({ ...drawing, things, yard: hasStreets ? yard : null, path, start, begin, ...knotsOf(courses[k]) });
+    this.steps.change({ ...numbers, time: duration / 2, view: null, drawing: { ...drawing, things, yard: hasStreets ? yard : null, path, start, begin, ...knotsOf(courses[k]) } });
     this.#answer.key = this.#keyOf(this.#request());
     this.#made = { path: this.#drawing.path, key: this.#answer.key };
     this.changed();

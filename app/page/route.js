@@ -116,8 +116,8 @@ export class RouteForm {
     const place = Math.ceil(10 * (this.#drawing.begin + wayAt(begin, numbers.head_speed, passages))) / 10;
     const start = () => {
       // Passages keep their places, and their times after the new beginning.
-      if (passages.length) this.state.set({ passages: passagesText(laterBy(passages, place - this.#drawing.begin, begin)) });
-      this.#take({ begin: place });
+      const later = passages.length ? { passages: passagesText(laterBy(passages, place - this.#drawing.begin, begin)) } : {};
+      this.steps.change({ ...later, drawing: { ...this.#drawing, begin: place } });
     };
     words.textContent = say("beginsLater", { time: begin.toFixed(2) });
     Object.assign(button, { textContent: say("beginThere", { place }), onclick: start });
@@ -137,9 +137,9 @@ export class RouteForm {
     if (this.presets.matches(":popover-open")) this.presets.hidePopover();
     this.editor.edit(null);
     const preset = PRESETS[name] ?? EMPTY;
-    this.state.set({ view: null, time: shownAt(preset) });
     const translated = preset.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) }));
-    this.steps.take({ ...preset, ...(isOwn && !translated.length ? { things, origin, grid, limit } : { things: translated }) });
+    const drawing = { ...preset, ...(isOwn && !translated.length ? { things, origin, grid, limit } : { things: translated }) };
+    this.steps.change({ drawing, view: null, time: shownAt(preset) });
   }
 
   /** Show the drawing; rows are made again only if their number changes. */

@@ -130,12 +130,17 @@ export class State {
     this.set(Object.fromEntries(names.map((name) => [name, this.initial(name)])));
   }
 
-  /** more: other changes, which are made in any case */
-  choosePath(path, more = {}) {
-    if (path === this.get("path")) return this.push(more);
+  /** What changes with another kind of path. */
+  changesOf(path) {
+    if (path === this.get("path")) return {};
     const benches = this.get("benches") === this.initial("benches") ? this.initial("benches", path) : this.get("benches");
     // A turn is seen where it begins, with the head on its circle.
-    this.push({ time: path === "turn" ? 0 : null, view: null, ...more, path, benches, pitch: this.initial("pitch", path) });
+    return { time: path === "turn" ? 0 : null, view: null, path, benches, pitch: this.initial("pitch", path) };
+  }
+
+  /** more: other changes, which are made in any case */
+  choosePath(path, more = {}) {
+    this.push({ ...this.changesOf(path), ...more });
   }
 
   /** Change the state so that the browser's back button leads back to the present view. */

@@ -62,7 +62,10 @@ def test_dragons_to_begin_with_leave_what_a_person_has_drawn_and_who_waits_is_le
         now = person.presses(f"[data-dragons={preset}]").settles().address()
         assert (now["things"], now["limit"]) == (OWN["things"], OWN["limit"])
         goes_back_to_what_is_drawn(person)
-    goes_back_to_what_is_drawn(person)  # before the list of several
+    takes_back_what_it_began_with(person)
+    # One undo of the list of several, whatever the browser's buttons took back before.
+    person.presses("#undo").sees({"#dragons li": 0, "#undo": True}).settles()
+    assert {name: person.address().get(name) for name in OWN} == OWN
     begun(person.opens(BARE), "streets").sees({"#judgement": "Cannot be danced"})
     report = polite.answer(server, "check", file_of(person) | {"details": False})
     assert (report["verdict"], len(report["failures"])) == ("fails", person.counts(".failures li"))
@@ -74,6 +77,16 @@ def test_dragons_to_begin_with_leave_what_a_person_has_drawn_and_who_waits_is_le
     person.page.emulate_media(color_scheme="dark")
     person.settles().holds({"#dragon-colour-0": "#ff8b7c"})
     assert [person.coloured(one) > 0 for one in ("#ff8b7c", COLOURS[0])] == [True, False]
+
+
+def takes_back_what_it_began_with(person):
+    """Undo and redo are wholes, also of a dance without a drawing, which no tool of drawing stands beside."""
+    before = person.address()
+    now = person.presses("[data-dragons=spiral]").settles().sees({"#edit": False}).address()
+    assert (now["benches"], now["pitch"], "route" in now) == ("60", "1.1", False)
+    assert person.presses("#undo").settles().address() == before
+    assert person.strikes("ControlOrMeta+y").settles().address() == now
+    assert person.strikes("ControlOrMeta+z").settles().address() == before
 
 
 def goes_back_to_what_is_drawn(person):

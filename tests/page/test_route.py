@@ -223,7 +223,9 @@ def test_every_preset_can_be_danced_leaves_a_square_of_ones_own_and_a_later_star
     _a_dance_that_begins_later_can_begin_at_time_0(person)
     person.types({"#benches": "24"}, "Tab").sees(YES)
     for name in ("inout", "eight", "street", "village", "s"):
+        before = person.address()
         person.presses("#preset", f"[data-begin={name}]").sees({"#presets": False}).settles().sees(YES)
+    assert person.presses("#undo").settles().address() == before
     person.opens("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
     for name, count in (("street", 2), ("empty", 0)):
         person.presses("#preset", f"[data-begin={name}]").sees({"#points summary": f": {count}", "#things li": 2})
@@ -245,7 +247,7 @@ def test_drawings_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept
     person.page.goto(person.page.url)
     assert file_of(person.settles())["venue"]["grid"] == {"x": 500_000, "y": 3_220_000}
     table.write_bytes("周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n".encode("gb18030"))
-    person.takes(table).holds({"#csv": "周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n"})
+    person.takes(table).holds({"#csv": "周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n"}).presses("#undo").holds({"#csv": ""})
     workbook = openpyxl.Workbook()
     workbook.active.append(["吴", 3.41, 0.3, 0.275])
     workbook.save(book)
@@ -260,11 +262,19 @@ def _a_part_of_a_drawing_that_is_too_large_is_chosen(person):
     person.presses("#drawing-parts [value=A-HATCH]", "#parts-open").sees({"#drawing-parts": 0, "#things li": 1})
 
 
+def _drops(person, name):
+    person.ask(DROP, [name, (ROOT / "examples" / name).read_text()])
+    person.sees({"#status": f"Opened {name}"})
+
+
 def _files_dropped_on_the_picture_are_opened_and_maps_are_kept(person):
     person.sees(YES)
-    for name in ("village_square.toml", "village_square.geojson"):
-        person.ask(DROP, [name, (ROOT / "examples" / name).read_text()])
-        person.sees({"#status": f"Opened {name}"})
+    before = person.address()
+    _drops(person, "village_square.toml")
+    now = person.settles().address()
+    assert person.strikes("ControlOrMeta+z").settles().address() == before
+    assert person.presses("#redo").settles().address() == now
+    _drops(person, "village_square.geojson")
     body = file_of(person.sees({"#things li >> nth=4": True, "#points summary": "12", **YES}))
     assert (body["margin"], body["path"]["start"]) == (0.5, 45.0)
     assert b'"stage"' in person.reaches().saves("#keepMap-GeoJSON")

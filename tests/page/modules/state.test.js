@@ -84,6 +84,16 @@ test("the browser's buttons lead back, and those who listen hear what changed", 
   changed.length = 0;
   listeners.popstate();
   assert.deepEqual([state.get("pitch"), changed.toSorted()], ["0.55", ["pitch", "view"]]);
+  // Undo goes on from where they have led.
+  const steps = new Steps(state, () => {});
+  steps.change({ benches: "8" });
+  steps.change({ path: "turn", pitch: "1.7", csv: "a" });
+  Object.assign(location, { search: "?benches=8" });
+  listeners.popstate();
+  steps.undo();
+  assert.deepEqual([state.get("path"), state.get("pitch"), state.get("benches"), steps.canUndo], ["spiral", "0.55", "9", false]);
+  steps.redo();
+  assert.equal(state.get("benches"), "8");
 });
 
 test("a drawing that is too long for an address is kept beside it", () => {
