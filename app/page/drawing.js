@@ -57,25 +57,27 @@ export const isArea = ({ kind }) => kind === "area";
 /** The corners of the square without added streets; none if it has no area. */
 export const yardOf = ({ things, yard }) => yard ?? things.find((thing) => isArea(thing) && isWhole(thing))?.points ?? [];
 
-/** The venue in the service's format; null without one. Obstacles without an area stand on an endless plain. */
-export function venueOf({ things, origin, grid }) {
+/** The venue in the service's format; null without one. */
+export const venueOf = (drawing) => venueWith(drawing, []);
+
+/** The venue with features that no bench can touch; null without anything. What has no area stands on an endless plain. */
+function venueWith({ things, origin, grid }, asides) {
   const whole = things.filter((thing) => isWhole(thing) && thing.kind !== "gate");
-  if (!whole.length) return null;
+  if (!whole.length && !asides.length) return null;
   const corners = [[-FAR, -FAR], [FAR, -FAR], [FAR, FAR], [-FAR, FAR]];
   const ground = whole.find(isArea) ?? { kind: "area", name: freeName(things, "plain"), points: corners };
-  const features = [ground, ...whole.filter((thing) => thing !== ground)].map(featureOf);
+  const features = [...[ground, ...whole.filter((thing) => thing !== ground)].map(featureOf), ...asides];
   return { type: "FeatureCollection", ...(origin && { origin }), ...(grid && { grid }), features };
 }
 
 /** The venue as a file keeps it: with the gates, and with the square without the streets that were added to it. */
 export function keptVenueOf(drawing) {
-  const venue = venueOf(drawing);
   const gates = drawing.things.filter((thing) => thing.kind === "gate" && isWhole(thing));
   const asides = [
     ...gates.map(({ name, points, heading }) => aside("Point", points[0], { name, role: GATE, ...(typeof heading === "number" && { heading }) })),
     ...(drawing.yard ? [aside("LineString", closed(drawing.yard), { role: YARD })] : []),
   ];
-  return venue && { ...venue, features: [...venue.features, ...asides] };
+  return venueWith(drawing, asides);
 }
 
 const aside = (type, coordinates, properties) => ({ type: "Feature", properties, geometry: { type, coordinates } });

@@ -116,7 +116,7 @@ export class Drawn {
     this.picture.drawn = drawn;
     $("#route").hidden = !drawn;
     $("#judgement").hidden = !drawn && !this.state.get("dances");
-    $("#save").disabled = this.#isEmpty;
+    $("#save").disabled = this.#isEmpty && !points.length && !drawing.things.length;
     this.editor.show();
     const empty = drawn && this.#isEmpty;
     $("main").classList.toggle("empty", empty);

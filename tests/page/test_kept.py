@@ -91,3 +91,13 @@ def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(open_page, tm
         # What a map has not stays as it was; when a dance starts on its path belongs to the path.
         kept = {name: text for name, text in before.items() if name not in ON_PATH}
         assert reopened(person.opens(query(before)), "map.geojson", map_file, tmp_path) == kept | held
+    _a_square_without_a_path_is_kept_too(person, tmp_path)
+
+
+def _a_square_without_a_path_is_kept_too(person, folder):
+    """Also half of a path, and a gate that has lost its square."""
+    for held in (PLACE, {"things": "c.linden.0!4.30,-20~g.East.3!1.38,0"}, {"things": "g.West..-38,0", "route": "3,4"}):
+        unfinished = {"path": "route", "limit": "1.7"} | NUMBERS | held
+        file = person.opens(query(unfinished)).saves("#save")
+        assert reopened(person.opens(query(DRAWN | PACE)), "dance.json", file, folder) == unfinished
+    person.opens("?path=route").sees({"#save:disabled": True})

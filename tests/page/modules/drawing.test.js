@@ -59,6 +59,11 @@ test("the service gets a drawing as waypoints in a venue", () => {
   // Obstacles alone stand on an endless plain; gates alone, or half a square, are no venue.
   assert.equal(drawing.venueOf({ ...EMPTY, things: [THINGS[1]] }).features[0].properties.name, "plain");
   assert.equal(drawing.venueOf({ ...EMPTY, things: [THINGS[4], { kind: "area", name: "", points: YARD.slice(2) }] }), null);
+  // A file keeps gates, whatever else there is.
+  const kept = drawing.keptVenueOf({ ...EMPTY, things: [THINGS[4]] });
+  assert.deepEqual(kept.features.map(({ properties }) => properties.name), ["plain", "gate"]);
+  assert.deepEqual(drawing.drawingOf({ path: null, venue: kept }).things.map(({ kind }) => kind), ["gate"]);
+  assert.equal(drawing.keptVenueOf(EMPTY), null);
   assert.deepEqual(drawing.placeOf(EMPTY), {});
   assert.deepEqual(drawing.placeOf({ ...EMPTY, path: { kind: "turn" }, start: 0 }), { start: 0 });
   assert.deepEqual(drawing.placeOf({ ...EMPTY, start: 3 }), {});
