@@ -16,7 +16,7 @@ from compose_spec import PyCompose
 from app.settings import Settings
 from app.sweeps.spec import Spec
 from tests.conftest import STOP_TIMEOUT, wait_until_live
-from tests.support.job_service import LINGER, PATIENCE, wait_for
+from tests.support.job_service import PATIENCE, wait_for
 from tests.support.serving import free_port
 from tests.support.sweeping import SPEC, answered, followed
 
@@ -163,4 +163,4 @@ def test_the_commands_run_and_the_worker_answers_a_sweep_of_the_service_unless_i
     status, _ = followed(started, started.post("/sweeps", json=SPEC | {"shard_size": 1}).headers["location"])
     assert (status["status"], status["problem"]["status"]) == ("failed", 413)
     assert str(BYTES_MAX) in status["message"]
-    wait_for(lambda: not list((tmp_path / "data" / "sweeps").iterdir()), LINGER)
+    wait_for(lambda: not list((tmp_path / "data" / "sweeps").iterdir()))

@@ -20,7 +20,6 @@ from tests.support.largest import THIN
 from tests.support.serving import environment_of, free_port
 
 PATIENCE = 60.0  # [s] for what is coming
-LINGER = 10.0  # [s] until whoever follows a process has ended after it, on a busy machine
 LOOK = 0.05  # [s] between two looks
 # Seconds of work, and within the limits.
 LONG = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 1.0}}, "accept": XLSX_TYPE}
@@ -72,7 +71,7 @@ class JobService:
         self.process.terminate()
         try:
             self.process.wait(STOP_TIMEOUT)
-            wait_for(lambda: not self.processes(), LINGER)
+            wait_for(lambda: not self.processes())
         finally:
             for process in self.processes():
                 process.kill()

@@ -14,7 +14,7 @@ from app.jobs.store import Store
 from app.processes.messages import MessageKind, send
 from app.settings import Settings
 from tests.campaigns.job_kills import post, survive
-from tests.support.job_service import ENDLESS, LINGER, SCAN, SHORT, JobService, direct, wait_for
+from tests.support.job_service import ENDLESS, SCAN, SHORT, JobService, direct, wait_for
 
 KILLS, SEED = 4, 1
 
@@ -81,7 +81,7 @@ def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service):
     service.process.kill()
     service.process.wait()
     # Runner, children and processes that serve follow the parent.
-    wait_for(lambda: not service.processes(), LINGER)
+    wait_for(lambda: not service.processes())
     service.start()
     assert service.status(done)["status"] == "successful"
     assert service.result(done).content == result

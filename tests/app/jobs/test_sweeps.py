@@ -11,7 +11,7 @@ from app.files.tables import ARROW_TYPE, CSV_TYPE, PARQUET_TYPE
 from app.sweeps.spec import Spec
 from app.wire.problem import PROBLEM_TYPE
 from app.wire.question import JSON
-from tests.support.job_service import LINGER, SHORT, JobService, wait_for
+from tests.support.job_service import SHORT, JobService, wait_for
 from tests.support.sweeping import SPEC, answered, followed
 
 TOKEN = "correct horse"
@@ -84,7 +84,7 @@ def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service, tmp_pat
         assert arrow.read_all().equals(expected.table())
     for form in ("text/html, */*;q=0.8", "image/png"):
         assert taken(as_parquet, form)[0] == PARQUET_TYPE
-    wait_for(lambda: not list((service.folder / "sweeps").iterdir()), LINGER)
+    wait_for(lambda: not list((service.folder / "sweeps").iterdir()))
     # A table that would take much memory is there as Parquet alone.
     large = pa.table({f"c{k}": np.zeros(200_001) for k in range(10)})
     pq.write_table(large, service.folder / "results" / as_parquet.rpartition("/")[2])
@@ -105,7 +105,7 @@ def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_i
             wait_for(lambda killed=killed: {child.pid for child in service.of("child")} - killed)
             service.process.kill()
             service.process.wait()
-            wait_for(lambda: not service.processes(), LINGER)
+            wait_for(lambda: not service.processes())
             service.start()
         service.until(address, "running")
         wait_for(lambda: service.of("child"))
@@ -132,8 +132,8 @@ def test_a_dismissed_sweep_leaves_no_shard_nor_process_and_others_are_answered_m
     for job in (waits, address):
         assert service.client.delete(job).json()["status"] == "dismissed"
         assert service.client.delete(job).status_code == 204
-    wait_for(lambda: not list((service.folder / "sweeps").iterdir()), LINGER)
-    wait_for(lambda: not service.of("child") and not service.of("worker"), LINGER)
+    wait_for(lambda: not list((service.folder / "sweeps").iterdir()))
+    wait_for(lambda: not service.of("child") and not service.of("worker"))
 
 
 @pytest.mark.parametrize("row", WRONG.strip().splitlines())

@@ -16,7 +16,7 @@ from app.processes.pool import STARTS, Pool
 from core import Budget
 from core.kernels import Halted
 from tests.conftest import ROOT
-from tests.support.job_service import LINGER, is_gone, wait_for
+from tests.support.job_service import is_gone, wait_for
 
 MODULE = "tests.support.tasks"
 
@@ -123,7 +123,7 @@ def test_a_process_ends_with_its_parent_even_during_a_task():
         grandchild = int(parent.stdout.readline())
         [child] = psutil.Process(parent.pid).children()
         parent.kill()
-    wait_for(lambda: is_gone(child.pid) and is_gone(grandchild), LINGER)
+    wait_for(lambda: is_gone(child.pid) and is_gone(grandchild))
 
 
 def test_a_process_has_a_session_of_its_own_and_none_of_the_counts_of_the_service(pool, monkeypatch):
