@@ -15,17 +15,18 @@ from functools import partial
 
 import numpy as np
 
-from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance
+from app.files.tables import Language, handle_names
+from app.grade.expected import Motion, Workbook, cells_of, contact_time, dance_of, of_dance
 from app.grade.fits import DECISIVE_LEAST, also, best_fit, finding, fit, matches
 from app.grade.geometry import Model, SheetClues, geometries, shifted_rows, shifted_time, time_at
 from app.grade.judged import JudgedSheet, decimals_of
 from app.grade.labels import SPEED
-from app.grade.layout import COMPONENTS, HANDLES, SHEETS, TableKind
+from app.grade.layout import BENCHES, COMPONENTS, HANDLES, SHEETS, TableKind
 from app.grade.numbers import explained, rounded_right
 from app.grade.outside import Outside, outside_of, same_cells, without
 from app.grade.rings import places, wrong_ring
 from app.grade.shortcuts import Finding
-from app.grade.words import note
+from app.grade.words import Note, note, say
 from core import Budget, Dance
 from core.values import Floats
 
@@ -65,8 +66,34 @@ def diagnosed(judgements: list[JudgedSheet], budget: Budget) -> list[Finding]:
 
 def shows_errors(judgements: list[JudgedSheet]) -> bool:
     """True if there are numbers enough, with decimals enough, to tell one error from another."""
-    numbers = sum(int(np.isfinite(one.off).sum()) for one in judgements)
-    return numbers >= DECISIVE_LEAST and any(one.written >= DECIMALS_LEAST for one in judgements)
+    return _numbers_of(judgements) >= DECISIVE_LEAST and any(one.written >= DECIMALS_LEAST for one in judgements)
+
+
+def why_unexplained(judgements: list[JudgedSheet], language: Language) -> Note:
+    """Why wrong numbers have no cause: they are too few, have too few decimals, or no known error gives them."""
+    if (count := _numbers_of(judgements)) < DECISIVE_LEAST:
+        return _few_numbers(judgements, count, language)
+    return note("nothing_fits") if shows_errors(judgements) else note("too_few_decimals", least=DECIMALS_LEAST)
+
+
+def _numbers_of(judgements: list[JudgedSheet]) -> int:
+    return sum(int(np.isfinite(one.off).sum()) for one in judgements)
+
+
+def _few_numbers(judgements: list[JudgedSheet], count: int, language: Language) -> Note:
+    """The handles that have numbers, and how many have none."""
+    names = handle_names(BENCHES, language)
+    filled = {k for one in judgements for k in one.handles[np.isfinite(one.off).any(axis=(0, 2))].tolist()}
+    labelled = {k for one in judgements for k in one.handles.tolist() if k < HANDLES}
+    shown = [names[k] for k in sorted(filled)]
+    return note(
+        "few_numbers" if labelled > filled else "few_numbers_alone",
+        count=count,
+        cells=f"{sum(cells_of(one.workbook, one.table.kind) for one in judgements):,}",
+        handles=say("and_error", language).join(shown),
+        empty=HANDLES - len(filled),
+        least=DECISIVE_LEAST,
+    )
 
 
 def _outside(

@@ -14,7 +14,7 @@ from enum import StrEnum
 import numpy as np
 
 from app.grade.expected import Workbook, cells_of, contact_time, dance_of, of_dance, times_of
-from app.grade.layout import COMPONENTS, HANDLES, Ints, SheetTable, TableKind
+from app.grade.layout import COMPONENTS, HANDLES, SHEETS, Ints, SheetTable, TableKind
 from app.grade.words import Note, note
 from core.values import Floats
 
@@ -179,7 +179,7 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
         decimals = None
     if not present:
         verdict = Rating.UNREADABLE
-        notes.append(note("no_numbers"))
+        notes.append(note("no_numbers", handles=int(known.sum()), kind=note(SHEETS[table.kind])))
     elif largest > RIGHT and decimals is None:
         verdict = Rating.WRONG
     elif present < cells:

@@ -10,7 +10,7 @@ from pydantic import Field
 from app.extras import MissingPackage
 from app.files.tables import Language, handle_names
 from app.grade.cells import cell_name
-from app.grade.diagnosis import diagnosed, shows_errors
+from app.grade.diagnosis import diagnosed, why_unexplained
 from app.grade.expected import KINDS, cells_of
 from app.grade.grid import UnreadableTable
 from app.grade.judged import (
@@ -200,7 +200,7 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
         notes.append(note("named_otherwise", named=f"result{match[1]}", workbook=workbook.value))
     verdict = worst_of(sheet.verdict for sheet in sheets)
     if verdict is Rating.WRONG and not findings:
-        notes.append(note("nothing_fits" if shows_errors(judgements) else "too_few_numbers"))
+        notes.append(why_unexplained(judgements, language))
     return FileAnswer(
         file=name,
         workbook=workbook.value,

@@ -317,3 +317,34 @@ def test_a_budget_ends_a_reading_that_has_begun():
     with pytest.raises(TooMuchWork):
         graded("result1.xlsx", data, Language.ENGLISH, budget)
     timer.join()
+
+
+# The cells beside an index of all handles, or labels of three, and what is said of so few numbers.
+FEW_NUMBERS = """
+0,-5.39,-4.88,  wrong       Only 2 of 672 cells have a number (head); 223 handles have none, and their labels
+0,,,            unreadable  labels for 224 handles, but no numbers beside them: fill in positions and speeds
+0,-5.3,-4,1     wrong       Only 3 of 672 cells have a number (head)
+"""
+
+
+@pytest.mark.parametrize("row", FEW_NUMBERS.split("\n")[1:-1])
+def test_a_table_that_is_nearly_empty_is_told_what_it_has_and_what_is_missing(row):
+    line, verdict, words = row.split(maxsplit=2)
+    table = "\n".join([",x,y,v", line, *(f"{k},,," for k in range(1, 224))])
+    result = grade(table.encode(), "index.csv")
+    assert result.verdict == verdict
+    assert words in " ".join([*result.notes, *(one for sheet in result.sheets for one in sheet.notes)])
+    assert graded("index.csv", table.encode(), Language.CHINESE, Budget()).verdict == verdict
+
+
+def test_a_table_of_few_handles_is_told_which_are_missing():
+    [said] = grade(
+        "\n".join([",x (m),y (m)", "龙头,8.8,1", "第1节龙身,3.2,1", "第2节龙身,3.2,1"]).encode(), "few.csv"
+    ).notes
+    assert "(head; body 1; body 2); the table lacks 221 handles" in said
+
+
+def test_numbers_of_one_decimal_are_told_to_have_too_few():
+    rows = [f"{k},1.3,{k}.4,1" for k in range(224)]
+    [said] = grade("\n".join([",x,y,v", *rows]).encode(), "index.csv").notes
+    assert "too few decimals to tell why: at least 2 are necessary" in said
