@@ -17,6 +17,7 @@ from app.files.outlines import dxf_bytes, new_dxf
 from app.maps.choice import EVERYTHING, Choice
 from app.maps.entities import HOLES, MARKS, Entities
 from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, grid_of, inner_point, origin_of
+from app.wire.geojson import GATE, INNER_SQUARE
 from core import InvalidValue
 from core.errors import Quantity
 from core.venue import Ring
@@ -33,8 +34,15 @@ ACROSS_MAX = 2_000.0
 # Most lines and most records of a file, counted before ezdxf reads it: it takes 50 us for a record (2026-11-26).
 LINES_MAX, RECORDS_MAX = 2_000_000, 100_000
 RECORD_BEGIN = re.compile(rb"\n[^\S\n]*[+-]?0[0_]*[^\S\n]*\n[^\S\n]*[A-Za-z_]")
-# Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red.
-LAYERS = {"square": ("SQUARE", 7), "obstacle": ("OBSTACLES", 8), "path": ("PATH", 5), "mark": (MARKS, 1)}
+# Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red, green.
+LAYERS = {
+    "square": ("SQUARE", 7),
+    "obstacle": ("OBSTACLES", 8),
+    "path": ("PATH", 5),
+    "mark": (MARKS, 1),
+    GATE: ("GATES", 3),
+    INNER_SQUARE: (INNER_SQUARE.upper(), 7),
+}
 # Words of ezdxf for an entity that it has left out, with its kind in group 1.
 DELETED = re.compile(r"(?:[Dd]elet|[Rr]emov)\w*[^#]*?\b([A-Z][A-Z0-9_]+)\(#")
 # Words of ezdxf for an entity without the marker of one of its parts: the marker and the kind. Kinds of which it misses
@@ -44,8 +52,8 @@ MARKERS, KINDS_MOST = ("LWPOLYLINE", "SPLINE"), 8
 COMMON = {
     b"%d" % code for code in (5, 6, 8, 48, 60, 62, 67, 100, 102, 284, 330, 347, 360, 370, 380, 390, 410, 420, 430, 440)
 }
-# Record for values that no entity can hold: the path as a request describes it, the origin, and names by handle. A
-# string of a record has at most 2,049 characters.
+# Record for values that no entity can hold: the path as a request describes it, the origin, and by handle names, radii
+# of walls and headings of gates. A string of a record has at most 2,049 characters.
 RECORD, CHUNK = "BENCH_DRAGON", 2_000
 # Height of the text in a drawing, and side of the crosses at marks [m].
 WORDS, CROSS = 0.3, 0.2
@@ -186,13 +194,13 @@ def _record_of(document: Any) -> Mapping[str, Any]:
 
 
 def written(drawing: Drawing) -> bytes:
-    """A drawing in metres: areas as closed polylines, the path and walls as polylines, trees and marks as circles, each
-    with its text.
+    """A drawing in metres: areas as closed polylines, the path and walls as polylines, trees and marks as circles, and
+    gates as points, each with its text.
 
     raises: MissingPackage
     """
     document = new_dxf((f"{name}{holes}", colour) for name, colour in LAYERS.values() for holes in ("", HOLES))
-    space, names, radii = document.modelspace(), {}, {}
+    space, names, radii, headings = document.modelspace(), {}, {}, {}
     content: dict[str, object] = {}
     for feature in drawing.features:
         layer = LAYERS[feature.role or "obstacle"][0]
@@ -202,9 +210,11 @@ def written(drawing: Drawing) -> bytes:
                 names[entity.dxf.handle] = feature.name
             if feature.shape == "line" and feature.radius is not None:
                 radii[entity.dxf.handle] = float(feature.radius)
-        if feature.role in ("obstacle", "mark") and feature.name:
+            if isinstance(heading := feature.properties.get("heading"), (int, float)):
+                headings[entity.dxf.handle] = float(heading)
+        if feature.role in ("obstacle", "mark", GATE) and feature.name:
             point = inner_point(feature.rings) if feature.shape == "polygon" else feature.rings[0][0]
-            x, y = point if feature.role == "obstacle" else (point[0] + CROSS, point[1] + CROSS)
+            x, y = point if feature.role != "mark" else (point[0] + CROSS, point[1] + CROSS)
             space.add_text(feature.name, dxfattribs={"layer": layer, "height": WORDS, "insert": (x, y)})
         if feature.role == "path":
             content.setdefault("path", feature.properties["path"])  # the first one, which is read again
@@ -212,7 +222,7 @@ def written(drawing: Drawing) -> bytes:
         content["origin"] = drawing.origin
     if drawing.grid is not None:
         content["grid"] = dict(zip("xy", drawing.grid, strict=True))
-    text = orjson.dumps(content | {"names": names, "radii": radii}).decode()
+    text = orjson.dumps(content | {"names": names, "radii": radii, "headings": headings}).decode()
     # The format is text in lines of limited length, and a character outside ASCII takes several places.
     text = text.encode("ascii", "backslashreplace").decode().replace("\\x", "\\u00")
     record = document.rootdict.add_xrecord(RECORD)
@@ -222,6 +232,8 @@ def written(drawing: Drawing) -> bytes:
 
 def _drawn(space: Any, feature: MapFeature, ring: Ring, layer: str) -> Any:
     attributes: dict[str, object] = {"layer": layer}
+    if feature.role == GATE:
+        return space.add_point(ring[0], dxfattribs=attributes)
     if feature.shape == "point":
         return space.add_circle(ring[0], feature.radius or 0.5 * CROSS, dxfattribs=attributes)
     closed = feature.shape == "polygon"

@@ -50,12 +50,13 @@ class Entities:
     """Collects the features of a drawing, in metres."""
 
     def __init__(self, document: Any, factor: float, record: Mapping[str, Any], choice: Choice = EVERYTHING) -> None:
-        """factor: metres in a unit; record: of this program; names, and radii of walls [m], by handle
+        """factor: metres in a unit; record: of this program; by handle names, radii of walls [m], and headings of gates
+            [rad]
 
         choice: what is read; edges: how many each layer has of what is read
         """
         self.factor, self.names = factor, _mapping(record.get("names"))
-        self.radii = {handle: one for handle, one in _mapping(record.get("radii")).items() if isinstance(one, float)}
+        self.radii, self.headings = _numbers(record.get("radii")), _numbers(record.get("headings"))
         self.collector, self.labels = FeatureCollector(), list[MapText]()
         self.layers, self.choice = document.layers, choice
         self.most = ENTITIES_MAX if choice.is_all else SEEN_MAX
@@ -117,7 +118,10 @@ class Entities:
     def _take(self, entity: Any, layer: str) -> None:
         kind, handle = entity.dxftype(), str(entity.dxf.get("handle"))
         name, radius = self.names.get(handle), self.radii.get(handle)
-        feature = MapFeature("point", (), name, role_of(layer, name), radius, properties={"layer": layer})
+        own: dict[str, object] = {"layer": layer}
+        if handle in self.headings:
+            own["heading"] = self.headings[handle]
+        feature = MapFeature("point", (), name, role_of(layer, name), radius, own)
         if kind in TEXTS:
             self._read_text(entity, kind)
         elif kind == "POINT":
@@ -198,11 +202,16 @@ class Entities:
         for k, feature in enumerate(features):
             name, layer = feature.name or words.get(k), _layer_of(feature)
             own = layer if layer not in ("", OF_BLOCK) and role_of(layer) is None else None
-            yield replace(feature, name=name or own, role=feature.role or role_of(name), properties={})
+            kept = {word: value for word, value in feature.properties.items() if word != "layer"}
+            yield replace(feature, name=name or own, role=feature.role or role_of(name), properties=kept)
 
 
 def _mapping(value: object) -> Mapping[str, Any]:
     return value if isinstance(value, Mapping) else {}
+
+
+def _numbers(value: object) -> dict[str, float]:
+    return {handle: one for handle, one in _mapping(value).items() if isinstance(one, float)}
 
 
 def _width(entity: Any) -> float:

@@ -24,10 +24,12 @@ from app.maps.features import (
     Shape,
     Unit,
     drawn_as,
+    grid_of,
     origin_of,
     role_of,
 )
 from app.maps.gpx import seconds_of
+from app.wire.geojson import GATE, INNER_SQUARE
 from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
@@ -46,8 +48,15 @@ REFUSED = {
 SHAPES: dict[str, Shape] = {"Point": "point", "LineString": "line", "Polygon": "polygon", "LinearRing": "line"}
 # Elements with geometry that this program does not use.
 OTHERS = ("GroundOverlay", "PhotoOverlay", "ScreenOverlay", "NetworkLink", "Model")
-# Colours of the lines, aabbggrr, by role.
-COLOURS = {"square": "ff000000", "obstacle": "ff7f7f7f", "path": "ffb27200", "mark": "ff005ed5"}
+# Colours of the lines, aabbggrr, by role; a style has its role as its name, with a dash for each space.
+COLOURS = {
+    "square": "ff000000",
+    "obstacle": "ff7f7f7f",
+    "path": "ffb27200",
+    "mark": "ff005ed5",
+    GATE: "ff3f8f1f",
+    INNER_SQUARE: "ff000000",
+}
 FAULT = "must be KML, got {fault} in line {line}"
 FORBIDDEN = "file must not have a document type or entities: save it again as plain KML"
 
@@ -80,6 +89,7 @@ def read(data: bytes) -> Drawing:
         path if isinstance(path, dict) else None,
         collector.left_out,
         collector.hidden,
+        grid_of(stored.get("grid")),
     )
 
 
@@ -177,12 +187,14 @@ class _FeatureReader:
 
     def _finish(self) -> None:
         data = self.data
-        for key in ("path", "origin"):
+        for key in ("path", "origin", "grid"):
             if value := _json(data.get(key, "")):
                 self.stored.setdefault(key, value)  # the path that is read is the first one
         name = self.name or data.get("name") or None
         role = role_of(data.get("role"), name, *reversed(self.folders))
-        feature = MapFeature("point", (), name, role, _number(data.get("radius", "")))
+        heading = _number(data.get("heading", ""))
+        own = {} if heading is None else {"heading": heading}
+        feature = MapFeature("point", (), name, role, _number(data.get("radius", "")), own)
         for shape, rings in self.shapes:
             if not (self.visible and all(self.visible_folders)):
                 self.collector.hide(shape)
@@ -230,11 +242,11 @@ def _json(text: str) -> Mapping[str, object] | None:
 
 
 def written(drawing: Drawing) -> bytes:
-    """A document with a placemark for each feature; the path's placemark holds the path and the origin as data."""
+    """A document with a placemark for each feature; the path's placemark holds the path and its places as data."""
     parts = ['<?xml version="1.0" encoding="UTF-8"?>\n<kml xmlns="http://www.opengis.net/kml/2.2"><Document>\n']
     for role, colour in COLOURS.items():
         parts.append(
-            f'<Style id="{role}"><LineStyle><color>{colour}</color><width>2</width></LineStyle>'
+            f'<Style id="{_style(role)}"><LineStyle><color>{colour}</color><width>2</width></LineStyle>'
             f"<PolyStyle><color>40{colour[2:]}</color></PolyStyle></Style>\n"
         )
     for feature in drawing.features:
@@ -243,14 +255,20 @@ def written(drawing: Drawing) -> bytes:
             data_of["radius"] = feature.radius
         data_of |= {name: value for name, value in feature.properties.items() if name != "path"}
         if feature.role == "path":
-            kept = ({} if drawing.origin is None else {"origin": drawing.origin}) | {"path": feature.properties["path"]}
+            grid = None if drawing.grid is None else dict(zip("xy", drawing.grid, strict=True))
+            places = {name: one for name, one in (("origin", drawing.origin), ("grid", grid)) if one is not None}
+            kept = {**places, "path": feature.properties["path"]}
             data_of |= {name: orjson.dumps(value).decode() for name, value in kept.items()}
         data = "".join(f'<Data name="{name}"><value>{_words(str(one))}</value></Data>' for name, one in data_of.items())
         parts.append(
-            f"<Placemark><name>{_words(feature.name or '')}</name><styleUrl>#{feature.role}</styleUrl>"
+            f"<Placemark><name>{_words(feature.name or '')}</name><styleUrl>#{_style(feature.role or '')}</styleUrl>"
             f"<ExtendedData>{data}</ExtendedData>{_geometry(feature)}</Placemark>\n"
         )
     return "".join([*parts, "</Document></kml>\n"]).encode()
+
+
+def _style(role: str) -> str:
+    return role.replace(" ", "-")
 
 
 def _words(text: str) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from app.maps.features import MapFeature, area_of, holds
+from app.wire.geojson import INNER_SQUARE
 from core.values import Point
 
 # A text that is at most this many of its heights from a thing stands beside it [1]; a letter is 0.6 heights wide.
@@ -56,7 +57,7 @@ def names_of(features: Sequence[MapFeature], labels: Sequence[MapText]) -> dict[
 
 def _nearest(features: Sequence[MapFeature], label: MapText, own: int | None) -> int | None:
     """The thing beside a text; None without one, and if the text stands in a thing that holds no other one."""
-    others = [k for k, one in enumerate(features) if k != own and one.role != "mark"]
+    others = [k for k, one in enumerate(features) if k != own and one.role not in ("mark", INNER_SQUARE)]
     if own is not None:
         if features[own].shape != "polygon":
             return None

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from pydantic import Field
 
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.maps import dxf, geojson, kml
-from app.maps.features import is_aside
 from app.maps.marks import MARKS_MAX, MarkedDance, drawing_of, in_degrees, marks_of, on_grid
 from app.questions.check import DanceCheck
 from app.wire import degrees
@@ -85,8 +82,6 @@ def maps(request: MapsRequest, terms: Terms, form: str) -> bytes:
     dances, place = _one(request, terms) if request.dances is None else _several(request, terms)
     origin = request.origin_at(place)
     drawing = drawing_of(dances, place, origin)
-    if form != GEOJSON_TYPE:
-        drawing = replace(drawing, features=tuple(one for one in drawing.features if not is_aside(one)))
     if form == DXF_TYPE:
         return dxf.written(on_grid(drawing))
     if form == GEOJSON_TYPE:

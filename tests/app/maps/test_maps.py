@@ -23,6 +23,7 @@ from tests.support.refusal_rows import assert_refused
 SAY = Say(Language.ENGLISH)
 # Rounding of degrees in doubles, on places 10,000 km from the centre of the earth [m].
 ROUNDING = 1e-7
+OWN = ("name", "radius", "role", "heading")
 ORIGIN = {"longitude": 120.123, "latitude": 30.25}
 VILLAGE = json.loads((ROOT / "examples" / "village_square.geojson").read_text())
 PATHS = json.loads("""[
@@ -60,11 +61,10 @@ def posted(client, data, kind="application/octet-stream"):
 
 
 def assert_alike(features, others):
-    """The same shapes with the same names and radii, at the same places."""
+    """The same shapes with the same names, radii, roles and headings, at the same places."""
     for feature, other in zip(features, others, strict=True):
-        assert [feature["properties"].get(name) for name in ("name", "radius")] == [
-            other["properties"].get(name) for name in ("name", "radius")
-        ]
+        own, expected = ([one["properties"].get(name) for name in OWN] for one in (feature, other))
+        assert own == expected
         assert feature["geometry"]["type"] == other["geometry"]["type"]
         places, expected = (np.array(each["geometry"]["coordinates"]) for each in (feature, other))
         assert places == pytest.approx(expected, rel=0, abs=ROUNDING)
@@ -79,21 +79,31 @@ THINGS = VILLAGE["features"] + json.loads("""[
         {"type": "LineString", "coordinates": [[20, 20], [25, 20], [25, 25], [20, 20]]}}
 ]""")
 COLLECTION = {"type": "FeatureCollection", "features": THINGS}
+# What stands in a venue for people: gates, one of them with a heading, and the square without streets.
+ASIDES = json.loads("""[
+    {"type": "Feature", "properties": {"name": "West", "role": "gate"}, "geometry":
+        {"type": "Point", "coordinates": [-20, 2]}},
+    {"type": "Feature", "properties": {"name": "东门", "role": "gate", "heading": 3.5}, "geometry":
+        {"type": "Point", "coordinates": [20, 3.25]}},
+    {"type": "Feature", "properties": {"role": "square without streets"}, "geometry":
+        {"type": "LineString", "coordinates": [[-20, -15], [20, -15], [20, 15], [-20, -15]]}}
+]""")
 
 
 @pytest.mark.parametrize("format", MapFormat)
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path["kind"])
 def test_what_goes_out_comes_in_as_it_was(client, format, path):
+    venue = {"type": "FeatureCollection", "features": THINGS + ASIDES}
     for origin in (ORIGIN, None)[: 1 if format == "kml" else 2]:
-        got = posted(client, map_of(client, format, path=path, venue=COLLECTION, origin=origin).content)
+        got = posted(client, map_of(client, format, path=path, venue=venue, origin=origin).content)
         assert {name: value for name, value in got["path"].items() if path.get(name) is not None} == path
         assert got["venue"].get("origin") == origin
-        assert_alike(got["venue"]["features"], THINGS)
+        assert_alike(got["venue"]["features"], THINGS + ASIDES)
         assert not any("without a radius" in note for note in got["notes"])
         # The answer can be sent back, and knows where it is; so it can as a file that describes the dance.
         again = {"path": got["path"], "venue": got["venue"]}
         assert origin is None or map_of(client, "kml", **again).content.startswith(b"<?xml")
-        assert_alike(read_json(again).geometry["features"], THINGS)
+        assert_alike(read_json(again).geometry["features"], THINGS + ASIDES)
 
 
 def thing(name, kind, coordinates):
