@@ -274,19 +274,22 @@ def test_a_kit_reports_its_progress_and_ends_when_it_is_stopped():
 
 
 def test_a_kit_that_waits_for_other_drawings_ends_when_it_is_stopped():
-    budget, waiting = Budget(math.inf), threading.Event()
+    budget, solved = Budget(math.inf), threading.Event()
 
     def long():
-        waiting.wait(PATIENCE)
-        while not drawing._DRAWER._work_queue.qsize():  # until the kit's own first drawing stands behind this one
-            time.sleep(0.01)
+        solved.wait(PATIENCE)
+        time.sleep(10 * drawing.LOOK_SECONDS)  # the kit's first drawing stands behind this one meanwhile
         budget.stop()
+
+    def listen(share):
+        if share > 0.16:  # all answers are there, no figure
+            solved.set()
 
     with ThreadPoolExecutor(1) as others:
         others.submit(drawing.in_turn, long)
         request = ContestKitRequest(benches=5, films=False, language=Language.ENGLISH)
         with pytest.raises(TooMuchWork) as stopped:
-            contest_kit(request, Terms(Settings(), budget, lambda share: waiting.set()))
+            contest_kit(request, Terms(Settings(), budget, listen))
     assert (stopped.value.field, stopped.value.values["count"]) == ("benches", 5)
 
 
