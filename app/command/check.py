@@ -66,7 +66,7 @@ def check(
     if cross_check is not None:
         dance["cross_check"] = cross_check
     request = checked(CheckRequest, dance, object_words(file))
-    with refusing(request), show.waiting("check"):
+    with refusing(request), show.waiting("check", "检验"):
         answer = checks.check(request, Terms())
         drawn = _drawn(request, answer, Format(ending[1:]), time) if figure else b""
         table = _table(request, answer, suffix) if suffix else b""

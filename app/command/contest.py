@@ -36,16 +36,19 @@ def contest(
     folder.mkdir(parents=True, exist_ok=True)
     with show.steps() as progress:
         kit = write_kit(folder, request, language, Wanted(films, gif), progress)
-    print(answer_table(kit.results, Say(language)), end="")
+    say = Say(language)
+    print(answer_table(kit.results, say), end="")
     for name in kit.files:
         print(folder / name, file=sys.stderr)
     if kit.no_turn:
-        print(
+        no_answer = say(
             f"Error: questions 4 and 5 have no answer: {kit.no_turn}; "
             "change --turning-diameter, --turn-pitch or --ratio",
-            file=sys.stderr,
+            f"错误：问题 4 和 5 没有答案：{kit.no_turn}；请改变 --turning-diameter、--turn-pitch 或 --ratio",
         )
+        print(no_answer, file=sys.stderr)
     if kit.missing:
-        print(f"Error: figures and films were not written: {kit.missing.message}", file=sys.stderr)
+        words = say("Error: figures and films were not written", "错误：图和动画没有写出")
+        print(f"{words}{say(': ', '：')}{kit.missing.message}", file=sys.stderr)
     if kit.no_turn or kit.missing:
         raise typer.Exit(1)

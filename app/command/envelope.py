@@ -39,7 +39,7 @@ def envelope(
     if output and ending_of(output) == ".dxf":
         require("dxf", "output", "DXF")
     answer: Envelope | PerformanceEnvelope
-    with show.waiting("envelope"):
+    with show.waiting("envelope", "扫过的地面"):
         if isinstance(request, EnvelopeRequest) and request.dances is not None:
             performance, results, grounds = envelopes_of(request, Terms())
             answer = PerformanceEnvelope.together(results, request, performance)

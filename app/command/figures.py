@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from app.command import show
-from app.command.options import asks, of_file, unused
+from app.command.options import asks, chosen_language, of_file, unused
 from app.command.paths import PathOptions, dance_of
 from app.command.usage import path_argument
 from app.extras import require
@@ -87,17 +87,21 @@ def figures(
     files = {one: folder / f"{one.value}.{format.value}" for one in kinds}
     for picture in files.values() if folder.exists() else ():
         checked_output("format", picture)
-    drawings = {}
+    drawings, language = {}, chosen_language(context)
     for one, request in requests.items():
-        with refusing(request), show.waiting(f"figure {one.value}") as progress:
+        with refusing(request), show.waiting(f"figure {one.value}", f"图 {one.value}", language) as progress:
             drawings[one] = FIGURES[one].to_bytes(request, Terms(progress=progress), format.media_type)
     folder.mkdir(parents=True, exist_ok=True)
     for one, data in drawings.items():
         show.write(files[one], data)
     if file and not kind:
         name = FigureKind.PITCH_SCAN.value
-        why = f"it is about all pitches, not about one path: --kind {name} draws it for the dragon of the FILE"
-        print(f"{name} is left out: {why}.", file=sys.stderr)
+        left_out = show.spoken(language)(
+            f"{name} is left out: it is about all pitches, not about one path: --kind {name} draws it for the dragon "
+            "of the FILE.",
+            f"未绘制 {name}：它针对所有螺距，而不是一条路径；--kind {name} 可为 FILE 中的龙绘制。",
+        )
+        print(left_out, file=sys.stderr)
 
 
 class FilmOptions(FilmFields, PathOptions):
@@ -121,7 +125,7 @@ def film(
     gif = checked_output("output", output, (".mp4", ".gif")) == ENDINGS[GIF_TYPE]
     require("figures" if gif else "film", "output", "A GIF" if gif else "An MP4 film, unlike a GIF,")
     form = GIF_TYPE if gif else films.FORM
-    with show.waiting(f"film {output}") as progress:
+    with show.waiting(f"film {output}", f"影片 {output}", chosen_language(context)) as progress:
         terms = Terms(progress=progress)
         if isinstance(request, FilmRequest) and request.dances is not None:
             data = films.films(request, terms, form)

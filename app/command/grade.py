@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import io
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
@@ -31,7 +32,7 @@ from app.grade.report import (
     typed,
     unreadable,
 )
-from app.grade.words import note, say
+from app.grade.words import Note, note, say
 from app.processes.limits import READING_MAX, reading
 from app.wire.question import ESCAPED
 from app.wire.texts import text_to_cell
@@ -53,7 +54,7 @@ def grade(
     pitch: Annotated[str | None, typer.Option(help="Answer to question 3: minimum pitch [m]")] = None,
     turn_length: Annotated[str | None, typer.Option(help="Answer to question 4: length of the turn [m]")] = None,
     speed: Annotated[str | None, typer.Option(help="Answer to question 5: maximum speed of the head [m/s]")] = None,
-    language: Annotated[Language, typer.Option(help="Language of the words.")] = Language.ENGLISH,
+    chosen: Annotated[Language | None, typer.Option("--language", help="Language of the words; default: en.")] = None,
     summary: Annotated[
         Path | None, typer.Option(help="Write a .csv or .xlsx file with one line for each number and file.")
     ] = None,
@@ -62,6 +63,8 @@ def grade(
     """Right and wrong parts of a student's results, with the known error behind each wrong one. The exit code is 0."""
     if summary and checked_output("summary", summary, (".csv", ".xlsx")) == ".xlsx":
         require("xlsx", "summary", "xlsx")
+    language = chosen or Language.ENGLISH
+    grading = show.spoken(chosen)("grading", "评阅")
     numbers = {"collision_time": collision_time, "pitch": pitch, "turn_length": turn_length, "speed": speed}
     typed_numbers = {name: text for name, text in numbers.items() if text is not None}
     paths = list(_paths_of(files or []))
@@ -78,10 +81,10 @@ def grade(
                     data = source.read(FILE_MAX + 1)
             except OSError as error:
                 refused.append(error)
-                grades.append(unreadable(name, note("not_opened", why=error.strerror), language))
+                grades.append(unreadable(name, note("not_opened", why=_why(error)), language))
             else:
                 grades.append(_graded(name, data, language))
-            progress("grading", (k + 1) / len(paths))
+            progress(grading, (k + 1) / len(paths))
     if refused and len(refused) == len(paths) and not answers:
         raise refused[0]
     answer = GradeAnswer(files=grades, answers=answers)
@@ -89,6 +92,14 @@ def grade(
         as_file = _workbook if ending_of(summary) == ".xlsx" else _csv
         write_whole(summary, as_file(answer, language))
     show.print_result(answer, json, _parts(answer, language))
+
+
+def _why(error: OSError) -> Note | str | None:
+    """Why a file cannot be opened."""
+    code = {errno.ENOENT: "file_missing", errno.EACCES: "file_forbidden", errno.EISDIR: "file_folder"}.get(
+        error.errno or 0
+    )
+    return note(code) if code else error.strerror
 
 
 def _graded(name: str, data: bytes, language: Language) -> FileAnswer:

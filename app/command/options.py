@@ -16,6 +16,7 @@ from pydantic import BaseModel
 
 from app.command.usage import path_argument
 from app.files.disk import display_name, object_words
+from app.files.tables import Language
 from app.maps.dances import read_dance
 from app.settings import Settings
 from app.wire.clocks import clock_at_zero
@@ -41,6 +42,11 @@ def typed_options(context: typer.Context, *names: str) -> list[str]:
     """The named options that were given on the command line."""
     sources = {name: context.get_parameter_source(name) for name in names}
     return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
+
+
+def chosen_language(context: typer.Context) -> Language | None:
+    """The language that was given on the command line; None without it."""
+    return Language(context.params["language"]) if typed_options(context, "language") else None
 
 
 def unused(context: typer.Context, names: Iterable[str], why: str, **values: Value) -> None:

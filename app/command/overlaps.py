@@ -41,7 +41,7 @@ def overlaps(
             why = "ask check or clearance about a dance"
             raise InvalidValue.in_words("file", words, reason=why, file=str(file))
         benches = checked(OverlapsRequest, values)
-    with show.waiting("overlaps"):
+    with show.waiting("overlaps", "重叠"):
         answer = together.overlaps(benches, Terms()) if file else together.of_dance(request, Terms())
     show.print_result(answer, json, _overlap_parts(answer, benches.margin if file else request.margin))
 

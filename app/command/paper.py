@@ -18,12 +18,14 @@ from app.wire.question import Terms
 
 
 def paper(
-    language: Annotated[Language, typer.Option(help="Language of the words.")] = Language.ENGLISH, json: Json = False
+    language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
+    json: Json = False,
 ) -> None:
     """The paper's numbers beside those of this program, with the reason for each difference."""
-    with show.waiting("recomputing the paper"):
-        answer = papers.paper(papers.PaperQuery(language=language), Terms())
-    show.print_result(answer, json, _parts(answer, language))
+    words = language or Language.ENGLISH
+    with show.waiting("recomputing the paper", "重新计算论文的数值", language):
+        answer = papers.paper(papers.PaperQuery(language=words), Terms())
+    show.print_result(answer, json, _parts(answer, words))
 
 
 def _parts(answer: PaperTable, language: Language) -> Iterator[show.Part]:

@@ -11,7 +11,7 @@ from rich.table import Table
 
 from app.cards.crew import lack_words
 from app.command import show
-from app.command.options import Json, asks, numbers, of_file
+from app.command.options import Json, asks, chosen_language, numbers, of_file
 from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words
@@ -63,7 +63,7 @@ def cues(
     }  # fmt: skip
     values = read_dance(file, several=True) | {name: value for name, value in changes.items() if value is not None}
     request = checked(CuesRequest, values, object_words(file))
-    with refusing(request), show.waiting("cues") as progress:
+    with refusing(request), show.waiting("cues", "提示卡", language) as progress:
         data = CUES.to_bytes(request, Terms(progress=progress), FORMS[ending])
     show.write(output, data)
 
@@ -86,7 +86,7 @@ def crew(
     request = of_file(file, CrewRequest, context)
     if point:
         request = request.model_copy(update={"points": [_point(text) for text in point]})
-    with refusing(request), show.waiting("crew") as progress:
+    with refusing(request), show.waiting("crew", "换班", chosen_language(context)) as progress:
         terms = Terms(progress=progress)
         data = CREW.to_bytes(request, terms, FORMS[ending] if output else JSON)
     if output:
@@ -94,7 +94,7 @@ def crew(
     elif json:
         show.print_json(data)
     else:
-        _print_crew(Crew.model_validate_json(data))
+        _print_crew(Crew.model_validate_json(data), Say(chosen_language(context) or Language.ENGLISH))
 
 
 def _point(text: str) -> PointBody:
@@ -105,25 +105,29 @@ def _point(text: str) -> PointBody:
     return checked(PointBody, dict(zip("xy", entries, strict=True)))
 
 
-def _print_crew(answer: Crew) -> None:
-    title = f"{answer.people} people, {answer.spares} of them spares; {answer.changes} changes"
-    table = show.new_table(title, "person", "benches", "time [s]", "way [m]", "longest [s]")
-    for one in answer.carriers:
-        benches = ", ".join(dict.fromkeys(str(spell.bench) for spell in one.spells)) or "none"
-        table.add_row(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
-    show.print_parts(table, *([_roll_table(answer.at)] if answer.at else []))
-    if answer.spares < answer.enough:
-        words = lack_words(answer.enough, len(answer.unrelieved), Say(Language.ENGLISH))
-        print(f"{'; '.join(words).capitalize()}.", file=sys.stderr)
-
-
-def _roll_table(roll: Roll) -> Table:
-    table = show.new_table(
-        f"Who is where at {roll.clock or f'{roll.time:g} s'}", "bench", "people", "x [m]", "y [m]", "mark [m]"
+def _print_crew(answer: Crew, say: Say) -> None:
+    title = say(
+        f"{answer.people} people, {answer.spares} of them spares; {answer.changes} changes",
+        f"{answer.people} 人，其中 {answer.spares} 人替补；换班 {answer.changes} 次",
     )
+    heads = say("person", "人员"), say("benches", "板凳"), say("time [s]", "时间 [s]"), say("way [m]", "路程 [m]")
+    table = show.new_table(title, *heads, say("longest [s]", "最长一班 [s]"))
+    for one in answer.carriers:
+        benches = ", ".join(dict.fromkeys(str(spell.bench) for spell in one.spells)) or say("none", "无")
+        table.add_row(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
+    show.print_parts(table, *([_roll_table(answer.at, say)] if answer.at else []))
+    if answer.spares < answer.enough:
+        words = lack_words(answer.enough, len(answer.unrelieved), say)
+        print(say(f"{'; '.join(words).capitalize()}.", f"{'；'.join(words)}。"), file=sys.stderr)
+
+
+def _roll_table(roll: Roll, say: Say) -> Table:
+    time = roll.clock or f"{roll.time:g} s"
+    heads = say("bench", "板凳"), say("people", "人员"), "x [m]", "y [m]", say("mark [m]", "标记 [m]")
+    table = show.new_table(say(f"Who is where at {time}", f"{time} 时各人的位置"), *heads)
     for one in roll.benches:
         name = f"{one.bench} {one.name}".rstrip()
         table.add_row(name, " ".join(one.people), f"{one.x:.2f}", f"{one.y:.2f}", f"{one.mark:g}")
     if roll.resting:
-        table.add_row("rest", " ".join(roll.resting), "", "", "")
+        table.add_row(say("rest", "休息"), " ".join(roll.resting), "", "", "")
     return table

@@ -15,6 +15,7 @@ from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words
 from app.files.tables import Language
+from app.files.words import Say
 from app.maps.choice import Choice
 from app.maps.dances import read_dance
 from app.maps.layout import DanceParts
@@ -30,6 +31,9 @@ from app.wire.refusals import refusing
 from core import InvalidValue
 from core.display import format_count
 from core.errors import Given
+
+# Kinds of paths in Chinese.
+PATHS = {"spiral": "螺线", "turn": "调头曲线", "route": "路线", "waypoints": "折线"}
 
 
 def places(
@@ -59,7 +63,7 @@ def places(
     only_layers: Annotated[
         bool, typer.Option("--only-layers", help="Name the layers of a DXF, and their edges.")
     ] = False,
-    language: Annotated[Language, typer.Option(help="Language of the notes.")] = Language.ENGLISH,
+    language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
     json: Json = False,
 ) -> None:
     """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ, GPX or DXF (extra dxf)."""
@@ -68,10 +72,11 @@ def places(
     if output:
         checked_output("output", output, (".json",))
     coordinates: dict[str | None, Coordinates | None] = {None: None, "metres": "metres", "degrees": "degrees"}
+    words = language or Language.ENGLISH
     if only_layers:
-        _print_layers(file, json)
+        _print_layers(file, json, Say(words))
         return
-    parts = read_map(file, coordinates[units], language, longest_chord, Choice.of(layers, area))
+    parts = read_map(file, coordinates[units], words, longest_chord, Choice.of(layers, area))
     answer = Places.of(parts)
     if output:
         names = ("path", "venue", "passages") if times else ("path", "venue")
@@ -82,30 +87,35 @@ def places(
         return
     for note in parts.notes:
         print(note, file=sys.stderr)
-    _print(parts)
+    _print(parts, Say(words))
 
 
-def _print_layers(file: Path, json: bool) -> None:
+def _print_layers(file: Path, json: bool, say: Say) -> None:
     layers = drawn_layers(map_data(file))
     if json:
         show.print_json(Places(path=None, venue=None, dance=None, passages=None, notes=[], layers=layers).to_json())
         return
-    table = show.new_table("Layers", "layer", "edges")
+    table = show.new_table(say("Layers", "图层"), say("layer", "图层"), say("edges", "边数"))
     for layer in layers:
         table.add_row(layer.name, str(layer.edges))
     show.print_parts(table)
 
 
-def _print(parts: DanceParts) -> None:
-    table = show.new_table("What the map holds", "name", "what", "x [m]", "y [m]")
+def _print(parts: DanceParts, say: Say) -> None:
+    heads = say("name", "名称"), say("what", "内容"), "x [m]", "y [m]"
+    table = show.new_table(say("What the map holds", "地图内容"), *heads)
     for area in parts.venue.areas if parts.venue else ():
-        what = "square" if parts.venue and area is parts.venue.square else "obstacle"
+        is_square = parts.venue is not None and area is parts.venue.square
+        what = say("square", "广场") if is_square else say("obstacle", "障碍物")
         x, y = zip(*area.rings[0], strict=True)
-        table.add_row(area.name, what, *(f"{min(side):.3f} to {max(side):.3f}" for side in (x, y)))
+        spans = (say("{} to {}", "{} 至 {}").format(f"{min(side):.3f}", f"{max(side):.3f}") for side in (x, y))
+        table.add_row(area.name, what, *spans)
     if parts.path is not None:
         kind = str(parts.path.get("kind", "spiral"))
         points = parts.path.get("points")
-        table.add_row("path", f"{kind}, {format_count(len(points), 'point')}" if points else kind, "", "")
+        kind = {name: say(name, words) for name, words in PATHS.items()}.get(kind, kind)
+        count = say(format_count(len(points), "point"), f"{len(points)} 点") if points else ""
+        table.add_row(say("path", "路径"), say(", ", "，").join(filter(None, (kind, count))), "", "")
     show.print_parts(table)
 
 
@@ -133,7 +143,7 @@ def maps(
     if longitude is not None and latitude is not None:
         values["origin"] = checked(OriginFields, {"longitude": longitude, "latitude": latitude}).model_dump()
     request = checked(MapsRequest, values, object_words(file))
-    with refusing(request), show.waiting("map"):
+    with refusing(request), show.waiting("map", "地图"):
         data = maps_of(request, Terms(), MapFormat(ending[1:]).media_type)
     show.write(output, data)
     if ending == ".geojson" and "origin" not in orjson.loads(data):
@@ -175,6 +185,6 @@ def plan(
     if gate:
         values["gates"] = [_gate(text) for text in gate]
     request = checked(PlanRequest, values, object_words(file))
-    with refusing(request), show.waiting("plan") as progress:
+    with refusing(request), show.waiting("plan", "平面图", language) as progress:
         data = plan_of(request, Terms(progress=progress))
     show.write(output, data)

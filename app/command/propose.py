@@ -42,7 +42,7 @@ def propose(
     # A file for check may be asked about too: its path is what is looked for.
     wishes = {name: value for name, value in held.items() if name not in ("path", "head_speed", "start", "stop")}
     request = checked(ProposalsRequest, wishes, object_words(file))
-    with refusing(request), show.waiting("propose") as progress:
+    with refusing(request), show.waiting("propose", "设计舞龙") as progress:
         result, place = proposed(request, Terms(progress=progress))
     answer = answer_of(request, result, place)
     if output:

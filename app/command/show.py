@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -18,6 +19,8 @@ from rich.table import Table
 from rich.text import Text
 
 from app.files.disk import write_whole
+from app.files.tables import Language
+from app.files.words import Say
 from app.wire import answers
 from app.wire.question import Answer, unit_of
 from core.display import format_count
@@ -40,13 +43,26 @@ LISTED_MOST = 50
 SEPARATIONS = frozenset({"gap", "clearance"})
 # A progress bar appears after this wait [s].
 BAR_DELAY = 1.0
+# Variables of the environment that name the locale of messages, the first that is set counts (POSIX, 8.2).
+LOCALE = ("LC_ALL", "LC_MESSAGES", "LANG")
 
 Part = Table | Text | str
 
 
+def spoken(language: Language | None) -> Say:
+    """The phrases of a language that was chosen; without a choice, those of the locale of the terminal."""
+    known = (os.environ.get(name) for name in LOCALE)
+    locale = next(filter(None, known), "")
+    return Say(language or (Language.CHINESE if locale.lower().startswith("zh") else Language.ENGLISH))
+
+
 @contextmanager
-def waiting(what: str) -> Iterator[Callable[[float], None]]:
-    """A progress bar on standard error after SHOWN_WAIT; yields a function that takes the share done."""
+def waiting(english: str, chinese: str, language: Language | None = None) -> Iterator[Callable[[float], None]]:
+    """A progress bar on standard error after BAR_DELAY; yields a function that takes the share done.
+
+    english, chinese: what is waited for; language: None for that of the terminal
+    """
+    what = spoken(language)(english, chinese)
     if not sys.stderr.isatty():
         yield lambda share: None
         return

@@ -26,7 +26,7 @@ def tolerance(request: ToleranceQuery | ToleranceRequest, json: Json = False) ->
 
     Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.
     """
-    with show.waiting("tolerance"):
+    with show.waiting("tolerance", "容许偏移"):
         answer = tolerances.tolerance(request, Terms())
     show.print_answer("Tolerance to strays", answer, json)
 
@@ -34,7 +34,7 @@ def tolerance(request: ToleranceQuery | ToleranceRequest, json: Json = False) ->
 @asks(ToleranceCurveQuery, ToleranceCurveRequest, FILE_STRAYS_IGNORED)
 def tolerance_curve(request: ToleranceCurveQuery | ToleranceCurveRequest, json: Json = False) -> None:
     """Tolerance against the pitch: largest proven stray, and stray that is shown to touch."""
-    with show.waiting("tolerance curve") as progress:
+    with show.waiting("tolerance curve", "容许偏移曲线") as progress:
         answer = curves.tolerance_curve(request, Terms(progress=progress))
     show.print_result(answer, json, _curve_parts(answer.columns))
 
@@ -45,7 +45,7 @@ def contact_probability(request: ContactProbabilityQuery | ContactProbabilityReq
 
     Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.
     """
-    with show.waiting("drawing dances at random") as progress:
+    with show.waiting("drawing dances at random", "随机抽取走位") as progress:
         answer = chances.contact_probability(request, Terms(progress=progress))
     show.print_answer("Probability of a contact when people wobble", answer, json)
 

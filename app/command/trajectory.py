@@ -14,7 +14,7 @@ from pydantic import Field
 
 import core
 from app.command import show
-from app.command.options import Json, asks, numbers, typed_options, unused
+from app.command.options import Json, asks, chosen_language, numbers, typed_options, unused
 from app.command.paths import PathOptions, dance_of
 from app.files import tables
 from app.files.disk import checked_output, write_whole
@@ -87,13 +87,17 @@ def trajectory(
         request = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": request.decimals})
     instants = request.times_of(dance, settings.cells_max)
     if dance.path.spiral is not None and instants.size and instants.min() < 0.0:
-        words = "the dance begins at 0 s, and before it the head is on the outward extension of the same spiral"
-        print(f"Warning: {words}; for the contest's turn give --path turn", file=sys.stderr)
-    with show.waiting("trajectory"):
+        warning = show.spoken(chosen_language(context))(
+            "Warning: the dance begins at 0 s, and before it the head is on the outward extension of the same spiral; "
+            "for the contest's turn give --path turn",
+            "注意：舞龙从 0 s 开始，此前龙头位于同一螺线向外的延长线上；竞赛的调头请用 --path turn",
+        )
+        print(warning, file=sys.stderr)
+    with show.waiting("trajectory", "轨迹", chosen_language(context)):
         result = core.trajectory(dance, instants)
         data = write(result) if write else b""
     if ending:
-        _write(data, output, handles_of(dance), instants.size)
+        _write(data, output, handles_of(dance), instants.size, chosen_language(context))
     else:
         fold, all_instants = dance.end if dance.end.bench is not None else None, isinstance(times, (str, list))
         look = _Look("", all_instants, request.decimals, fold)
@@ -113,13 +117,13 @@ def _of_several(
     instants = request.times_of(performance, settings.cells_max)
     dragons = [part.dance.dragon for part in performance.parts]
     handles = _handles(context.params["handles"], min(dragons, key=lambda dragon: dragon.benches))
-    with show.waiting("trajectory"):
+    with show.waiting("trajectory", "轨迹", chosen_language(context)):
         results = core.performance_trajectory(performance, instants)
         clock = clock_of(request, performance)
         table = PerformanceTable(performance, results, request.decimals, clock, language)
         data = performance_file(ending, table) if ending else b""
     if ending:
-        _write(data, output, handles_of(performance), instants.size)
+        _write(data, output, handles_of(performance), instants.size, chosen_language(context))
         return
     all_instants = isinstance(request.times, list)
     for k, (part, result) in enumerate(zip(performance.parts, results, strict=True)):
@@ -130,13 +134,14 @@ def _of_several(
         show.print_parts(*_parts(result, handles, names, look))
 
 
-def _write(data: bytes, output: Path | None, handles: int, instants: int) -> None:
+def _write(data: bytes, output: Path | None, handles: int, instants: int, language: tables.Language | None) -> None:
     """Write a file, or print it."""
     if output is None:
         show.print_json(data)
         return
     write_whole(output, data)
-    print(f"{output}: {handles} handles at {instants} instants", file=sys.stderr)
+    words = f"{handles} handles at {instants} instants", f"{handles} 个把手，{instants} 个时刻"
+    print(f"{output}: {show.spoken(language)(*words)}", file=sys.stderr)
 
 
 def _handles(text: str | None, dragon: Dragon) -> list[int] | None:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from datetime import timedelta
 from pathlib import Path
 
+from app.files.words import Say
 from app.sweeps import shards
 from app.sweeps.engines import WINDOW, SweepEngine
 from app.sweeps.processes import Processes
@@ -42,11 +43,13 @@ class Progress:
     rate: float
     left: float | None
 
-    @property
-    def words(self) -> str:
+    def words(self, say: Say) -> str:
         """Designs, rate and time left, in words."""
-        left = "" if self.left is None else f", {timedelta(seconds=round(self.left))} left"
-        return f"{self.designs} of {self.total}, {self.rate:.0f}/s{left}"
+        done = f"{self.designs} {say('of', '/')} {self.total}, {self.rate:.0f}/s"
+        if self.left is None:
+            return done
+        left = timedelta(seconds=round(self.left))
+        return done + say(f", {left} left", f"，剩余 {left}")
 
 
 @dataclass(slots=True)

@@ -11,6 +11,7 @@ import struct
 import subprocess
 import termios
 from functools import cache
+from pathlib import Path
 
 import httpx
 import openpyxl
@@ -474,3 +475,44 @@ def test_an_unknown_end_of_a_bracket_has_no_unit(capsys):
     )  # fmt: skip
     print_answer("Maximum head speed", answer, json=False)
     assert re.search(r"head speed bracket +unknown, 1\.5 m/s *\n", capsys.readouterr().out)
+
+
+LOCALES = [
+    ({"LANG": "zh_CN.UTF-8"}, None, "zh"),
+    ({"LANG": "zh_CN.UTF-8"}, "en", "en"),
+    ({"LC_ALL": "C", "LANG": "zh_CN.UTF-8"}, None, "en"),
+    ({"LC_MESSAGES": "zh_CN", "LANG": "en_US.UTF-8"}, None, "zh"),
+    ({"LANG": "en_US.UTF-8"}, "zh", "zh"),
+    ({}, None, "en"),
+]
+
+
+@pytest.mark.parametrize(("locale", "chosen", "words"), LOCALES)
+def test_progress_is_in_the_language_chosen_or_that_of_the_terminal(tmp_path, locale, chosen, words):
+    for name in ("a.csv", "b.csv"):
+        (tmp_path / name).write_text("1,2\n")
+    unset = dict.fromkeys(("LC_ALL", "LC_MESSAGES", "LANG"), "")
+    options = ["--language", chosen] if chosen else []
+    lines = run("grade", str(tmp_path), *options, **(unset | locale)).stderr.splitlines()
+    assert lines == [f"{'评阅' if words == 'zh' else 'grading'}: {share} %" for share in (50, 100)]
+
+
+def test_a_command_that_is_asked_in_chinese_says_everything_in_chinese(tmp_path):
+    examples = Path(__file__).parents[2] / "examples"
+    table, crew, places = (
+        tmp_path / "dance.xlsx",
+        examples / "paper_dance.toml",
+        examples / "village_square.geojson",
+    )
+    for arguments in (
+        ("trajectory", "--start", "-5", "--stop", "3", "--output", str(table)),
+        ("crew", str(crew)),
+        ("places", str(places)),
+    ):
+        done = run(*arguments, "--language", "zh")
+        assert done.returncode == 0
+        # Names of files and of things in a map, and units, are no words of the command.
+        words = re.sub(
+            rf"{re.escape(str(tmp_path))}\S*|--path turn|\[?\b[a-z]{{1,2}}\b\]?", "", done.stdout + done.stderr
+        )
+        assert set(re.findall(r"[A-Za-z]{3,}", words)) <= {"square", "well", "stage", "linden", "chestnut", "tree"}
