@@ -51,6 +51,9 @@ COUNTS_BYTES = 4 * COUNTS_FILE
 # A process that is silent for longer is replaced [s]. It starts in up to ten seconds on a busy machine; once it serves,
 # it answers within 0.4 s, also under all attacks of `make soak` at once (2026-11-23).
 START_SECONDS, SILENT_SECONDS = 60, 10
+# Time that a connection without a request stays open [s]: longer than a proxy keeps one (nginx: 60 s), which may send a
+# request at the moment in which it is closed, and cannot know whether it may send it again.
+IDLE_SECONDS = 75
 BACKLOG = 2048  # Connections that may wait to be accepted; uvicorn's default.
 
 
@@ -227,6 +230,7 @@ def serve(host: str, port: int, workers: int) -> None:
         "proxy_headers": False,  # app/service/proxies.py
         "server_header": False,
         "timeout_graceful_shutdown": settings.grace_seconds,
+        "timeout_keep_alive": IDLE_SECONDS,
         "timeout_worker_healthcheck": START_SECONDS,
     }
     logging.config.dictConfig(options["log_config"])

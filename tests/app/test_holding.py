@@ -8,9 +8,10 @@ import shutil
 import signal
 import socket
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import partial
 from html import escape
+from http.client import HTTPConnection
 from select import select
 
 import httpx
@@ -75,6 +76,16 @@ def test_a_head_that_never_ends_is_answered_408_and_a_connection_may_rest_as_lon
         answers = list(clients.map(partial(send, held), begun))
         assert [answer[:13] for answer in answers] == [b"HTTP/1.1 408 "] * len(begun)
         assert client.get("/healthz").status_code == 200
+
+
+@pytest.mark.thorough
+def test_a_connection_stays_open_between_requests(held):
+    with closing(HTTPConnection(*held.address)) as connection:
+        connection.request("GET", "/healthz")
+        assert connection.getresponse().read()
+        connection.sock.settimeout(6.0)  # uvicorn by itself waits for 5 s, less than any proxy
+        with pytest.raises(TimeoutError):
+            connection.sock.recv(1)
 
 
 def test_a_body_that_never_ends_loses_its_connection(held):
