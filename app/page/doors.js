@@ -33,20 +33,20 @@ export class Doors {
     return this.state.get("door") ?? "all";
   }
 
-  async #enter(door) {
+  /** change(changes): of the state */
+  async #enter(door, change = (changes) => this.state.push(changes)) {
     this.#pressed = door;
     const [path] = PATHS[door] ?? [];
     const stays = !path || PATHS[door].includes(this.state.get("path"));
     const begins = door === "village" && this.state.get("drawing") === EMPTY;
     const example = begins && (await this.parts.load("drawn")).village();
     if (this.#pressed !== door) return; // Another door was pressed meanwhile.
-    this.state.choosePath(stays ? this.state.get("path") : path, { door, ...example });
+    change({ ...(stays ? {} : this.state.changesOf(path)), door, ...example });
   }
 
-  /** An address with a door and no path of its own opens as if the door were pressed. */
+  /** An address of the village with no dance of its own opens with the example, as if the door were pressed. */
   begin() {
-    const isOther = PATHS[this.door] && !PATHS[this.door].includes(this.state.get("path"));
-    if (isOther && !new URLSearchParams(location.search).has("path")) this.#enter(this.door);
+    if (this.door === "village" && !new URLSearchParams(location.search).has("path")) this.#enter("village", (changes) => this.state.set(changes));
   }
 
   /** Show or hide what stands behind "more". */

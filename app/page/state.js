@@ -79,6 +79,8 @@ export class State {
     if (!beatsOf(values)) values.beats = "";
     for (const name of ["csv", "dances"]) if (history.state?.[name]) values[name] = history.state[name];
     values.drawing = history.state?.drawing ?? (PARTS.some((name) => address.has(name)) ? fromAddress(address) : EMPTY);
+    // Behind this door stand drawn dances alone.
+    if (values.door === "village" && !address.has("path")) values.path = "route";
     this.#values = values;
     for (const name of ["pitch", "benches"]) if (!address.has(name)) values[name] = this.initial(name);
     this.opensInMotion = isBare(address) && !history.state?.csv && !history.state?.dances;

@@ -62,7 +62,11 @@ def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open
     person.has("#doors [data-door=contest]", aria_pressed="true")
     assert "route" not in person.page.url
     assert numbers(person) == CONTEST
-    person.opens("?door=village").arrives("**path=route**")
+    asked = []
+    person.page.on("request", lambda one: asked.append(one.url))
+    person.opens("?door=village").arrives("**path=route**").sees({"#judgement h3": "Verdict on this example"})
+    person.settles()
+    assert [url for url in asked if any(one in url for one in ("collision-time", "minimum-pitch", "pitch-scan"))] == []
 
 
 def test_a_bare_address_moves_with_the_mouse_or_a_touch_and_the_wheel_scrolls_until_the_picture_is_clicked(open_page):
