@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -115,10 +114,10 @@ def _print_crew(answer: Crew, say: Say) -> None:
     for one in answer.carriers:
         benches = ", ".join(dict.fromkeys(str(spell.bench) for spell in one.spells)) or say("none", "无")
         table.add_row(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
-    show.print_parts(table, *([_roll_table(answer.at, say)] if answer.at else []))
-    if answer.spares < answer.enough:
-        words = lack_words(answer.enough, len(answer.unrelieved), say)
-        print(say(f"{'; '.join(words).capitalize()}.", f"{'；'.join(words)}。"), file=sys.stderr)
+    words = lack_words(answer.enough, len(answer.unrelieved), say)
+    # Before the table, which may have hundreds of rows.
+    few = [say(f"{'; '.join(words).capitalize()}.", f"{'；'.join(words)}。")] if answer.spares < answer.enough else []
+    show.print_parts(*few, table, *([_roll_table(answer.at, say)] if answer.at else []))
 
 
 def _roll_table(roll: Roll, say: Say) -> Table:

@@ -40,7 +40,14 @@ def test_who_carries_when_and_where_is_as_the_service_says(open_page, server):
     assert answer["changes"] > 6
     person.sees({f"{RESULT} .error": [f"{answer['enough']} spares are enough", f"{len(answer['unrelieved'])} of "]})
     people = f"{answer['people']} people, 6 of them spare"
-    person.sees({f"{RESULT} p": people, RESULT: "Who is where at 19:30:20", f"{RESULT} table": 2})
+    person.sees(
+        {
+            f"{RESULT} > .error + details": True,
+            f"{RESULT} p": people,
+            RESULT: "Who is where at 19:30:20",
+            f"{RESULT} table": 2,
+        }
+    )
     cells = [person.all(f"{RESULT} table >> nth={k} >> tbody tr").all() for k in range(2)]
     roll, carriers = ([row.locator("th, td").all_inner_texts() for row in rows] for rows in cells)
     benches = [[", ".join(one["people"]), f"{one['mark']:g}"] for one in answer["at"]["benches"]]

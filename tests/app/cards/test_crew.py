@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 import shlex
 from pathlib import Path
 
@@ -97,7 +98,7 @@ def test_the_timeline_is_written_in_chinese(client, body):
 def test_a_terminal_shows_who_is_where(body):
     text = json.dumps(body | {"start_clock": "19:44:30", "at": 30})
     table = run("crew", "-", "--spares", "6", "--point", "6,-8", text=text).stdout
-    assert "60 people, 6 of them spares" in table
+    assert re.match(r"Too few spares for all changes: \d+ are enough.*\n\s*60 people, 6 of them spares", table)
     assert "Who is where at 19:45:00" in table
 
 
