@@ -60,12 +60,21 @@ export class Graphs {
   /** Show a refusal in place of the chart of this kind, if there is one. problem: null if it is shown elsewhere */
   refuse(kind, problem) {
     if (!(kind in this.#charts)) return;
+    this.#say(kind, problem ? refusalWords(problem) : { textContent: say("seeAbove") });
+  }
+
+  /** Say something in place of the chart of this kind. */
+  #say(kind, words) {
     this.#charts[kind].show(null);
-    $(`#${kind} .reading`).replaceChildren(make("span", problem ? refusalWords(problem) : { textContent: say("seeAbove") }));
+    $(`#${kind} .reading`).replaceChildren(make("span", words));
   }
 
   clearance() {
     const { answer, dance } = this.questions.answers.clearance;
+    if (!answer) {
+      $("#clearance").setAttribute("aria-busy", false);
+      return this.#say("clearance", { textContent: say("clearanceNone") });
+    }
     const { time, gap } = dance.answer;
     const { margin } = dance.numbers;
     const contact = time === null ? null : { time, gap: strayOf(dance.numbers) > 0 ? gap : margin };

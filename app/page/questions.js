@@ -12,6 +12,8 @@ import { Track, speedTimes } from "./track.js";
 /** Time without a change after which input counts as paused [ms]. */
 const REST = 250;
 const CLEARANCE_SAMPLES = 400;
+/** Fewest benches of which two share no handle. */
+const PAIRED = 3;
 /** Samples of the curve of strays: few, because it is nearly straight. */
 const CURVE = { samples: 13 };
 /** Request for the first view of the pitch chart, many times faster than with the jumps between samples. */
@@ -365,7 +367,9 @@ export class Questions {
     const { begin, end } = dance;
     this.#keep("speeds", "trajectory", { body: this.body({ times: speedTimes(dance), decimals: 6 }) }, dance);
     if (dance.answer.time !== null) this.#keep("gap", "clearance", this.#clearanceOf(dance, end, end, 1), dance);
-    this.#keep("clearance", "clearance", this.#clearanceOf(dance, begin, end, (end - begin) / CLEARANCE_SAMPLES || 1), dance);
+    // Two benches share a handle, so that there is no gap to ask about.
+    if (dance.numbers.benches < PAIRED) this.#accepted("clearance", { answer: null, dance });
+    else this.#keep("clearance", "clearance", this.#clearanceOf(dance, begin, end, (end - begin) / CLEARANCE_SAMPLES || 1), dance);
     if (dance.report) this.#accepted("fastest", { answer: dance.report, dance });
     else this.#keep("fastest", "check", { body: this.checkBody(dance) }, dance);
     if (dance.kind === "route") this.#askInTurn([["tolerance", "tolerance", this.toleranceOf()]]);

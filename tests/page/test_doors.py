@@ -216,13 +216,14 @@ def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_pag
 
 @thorough
 def test_a_route_is_drawn_by_keyboard_from_nothing(open_page):
-    person = open_page("?door=village&path=route&benches=3")
+    person = open_page("?door=village&path=route&benches=2")
     person.focuses("#invite .main")
     person.strikes("Enter")
     expect(person.at("#canvas")).to_be_focused()
     for count in range(5):
         expect(person.strikes("n").all("#knots .knot").nth(count)).to_be_focused()
     person.strikes("Shift+ArrowUp").settles().sees({"#judgement .value": re.compile("[Cc]an be danced")})
+    person.sees({"#clearance[aria-busy=false] .reading": "it takes three of them"})
     # A square around it, too: four corners turn to the left.
     person.at("[data-tool=area]").press("Enter")
     person.focuses("#canvas")

@@ -12,6 +12,7 @@ export const MORE = {
   charts: ["Charts", "图表"],
   clearance: ["Clearance over time", "间距随时间的变化"],
   clearanceHelp: ["Smallest gap between two benches that share no handle. Dots: local minima; dashed: the margin; cross: the first time at the margin. Click or drag to move the dance.", "不共用把手的两节板凳之间的最小间距。圆点：局部最小值；虚线：安全间距；叉：首次达到安全间距。点击或拖动可移动时间。"],
+  clearanceNone: ["Only benches that share no handle have a gap: it takes three of them.", "只有不共用把手的板凳之间才有间距：至少要三节。"],
   clearanceHelpStray: ["Smallest gap between two benches that share no handle, with everybody in their place. Dots: local minima; dashed: the margin; cross: from then on two may {touch}. Click or drag to move the dance.", "每人都在原位时，不共用把手的两节板凳之间的最小间距。圆点：局部最小值；虚线：安全间距；叉：此后可能{touch}。点击或拖动可移动时间。"],
   clearanceNear: ["{time} s, the nearest time of the curve: {gap}, {a} and {b}", "曲线上最近的时刻 {time} s：{gap}，{a}与{b}"],
   clearanceAt: ["{time} s: {gap}, {a} and {b}", "{time} s：{gap}，{a}与{b}"],
