@@ -35,6 +35,8 @@ PIPE_WIDTH = 120
 # Proven fields, which are shown with all digits; and the words for a null that is an answer.
 PROVEN = frozenset({"clear_until", "proven_from", "proven_up_to"})
 MEANING_OF_NULL = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
+# Limits whose values are no words.
+LIMITS = {"least_radius": "the least radius of a bend: half of the longest chord and 0.1 % more, which the proof needs"}
 # Fields whose values the sentences beside them have.
 UNSHOWN = frozenset({"claim"})
 # Most entries of a list in a table; of a longer list only their number is shown.
@@ -175,10 +177,10 @@ def _polygon_words(value: answers.Polygon | answers.MultiPolygon) -> str:
 
 
 def near(word: str, margin: float) -> str:
-    """An outcome in words: with a margin a contact is not always a touch."""
+    """An outcome or a limit in words: with a margin a contact is not always a touch."""
     near = f"within {format_number(margin)} m"
     words = {"contact": near, "contact_at_start": f"{near} from the start on", "clear": f"never {near}"}
-    return words.get(word, word) if margin else word
+    return (words if margin else {}).get(word, LIMITS.get(word, word))
 
 
 def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tuple[str, str]]:

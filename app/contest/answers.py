@@ -120,7 +120,10 @@ def _turn(turned: Turned, say: Say) -> list[Result]:
 
 def _why_shortest(shortest: ShortestTurn, say: Say) -> str:
     limits = {
-        "bend": say("a handle could not follow a tighter arc", "圆弧再小则把手无法跟随"),
+        "least_radius": say(
+            "the least radius of a bend, half of the longest chord and 0.1 % more for the proof",
+            "最小弯曲半径（最长把手间距的一半再加 0.1 %，证明所需）",
+        ),
         "contact": say("benches would touch", "板凳会相碰"),
         "circle": say("its circle", "调头空间的边界"),
         "centre": say("nothing, down to the centre", "直到中心都没有限制"),

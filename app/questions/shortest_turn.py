@@ -50,10 +50,11 @@ class ShortestTurn(Turn):
     )
     exit_bracket: Point | None = measure("m", "Exit radii, as entry_bracket; null for an opposite exit")
     limited_by: core.TurnLimit = Field(
-        description="Reason against a shorter turn. bend: a chord cannot follow; circle: it begins or ends on the "
-        "circle; contact: benches come nearer than the margin, or touch if it is 0; centre: nothing prevents it, down "
-        "to the centre; undecided: rounding hides whether benches come within the margin at the lower end of "
-        "entry_bracket"
+        description="Reason against a shorter turn. least_radius: a bend has the least radius that is taken for the "
+        "longest chord, 0.1 % more than it needs, because a proof does (bend: the former name, which no answer has); "
+        "circle: it begins or ends on the circle; contact: benches come nearer than the margin, or touch if it is 0; "
+        "centre: nothing prevents it, down to the centre; undecided: rounding hides whether benches come within the "
+        "margin at the lower end of entry_bracket"
     )
     benches: Pair | None = Field(
         description="The pair in contact at a slightly deeper entry; null if there is none, and for a free exit"

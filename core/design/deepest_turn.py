@@ -68,15 +68,26 @@ class Touch(NamedTuple):
 
 
 class TurnLimit(StrEnum):
-    """Reason against a deeper entry: a chord cannot follow, two benches come within the margin, or none down to the
-    deepest entry that is tried. UNDECIDED: rounding hides whether two benches come within the margin. CIRCLE: the turn
-    begins or ends on its circle (shortest_turn() alone)."""
+    """Reason against a deeper entry: the least radius of a bend, two benches come within the margin, or none down to
+    the deepest entry that is tried. LEAST_RADIUS: half of the longest chord over ROUTE_SINE_LIMIT, 0.1 % more than a
+    bench needs, because a proof does. UNDECIDED: rounding hides whether two benches come within the margin. CIRCLE: the
+    turn begins or ends on its circle (shortest_turn() alone). BEND: what LEAST_RADIUS was called; no answer has it."""
 
     BEND = "bend"
+    LEAST_RADIUS = "least_radius"
     CONTACT = "contact"
     CENTRE = "centre"
     UNDECIDED = "undecided"
     CIRCLE = "circle"
+
+    @property
+    def words(self) -> str:
+        """The value as words.
+
+        >>> TurnLimit.LEAST_RADIUS.words
+        'the least radius of a bend'
+        """
+        return "the least radius of a bend" if self is TurnLimit.LEAST_RADIUS else self.value
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -102,7 +113,7 @@ class DeepestTurn(Readable):
     def _line(self) -> str:
         pair = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
         entry = f"entry at a radius of {display(self.turn.entry_radius, 'm')}, length {display(self.turn.length, 'm')}"
-        return f"{entry}, limited by {self.limited_by.value}{pair}"
+        return f"{entry}, limited by {self.limited_by.words}{pair}"
 
 
 @question_about("dragon", Dragon)
@@ -143,7 +154,7 @@ def deepest_turn(
         entry = max(entry - step, floor)
         touch = entries.touch_at(entry)
     if touch.outcome is Outcome.CLEAR:
-        limited_by = TurnLimit.CENTRE if border is None else TurnLimit.BEND
+        limited_by = TurnLimit.CENTRE if border is None else TurnLimit.LEAST_RADIUS
         return DeepestTurn(turn_at(floor), (border or 0.0, floor), limited_by, None, None, step, entries.evaluations)
     bracket, touch = entries.bracket(entry, floor)
     limited_by = TurnLimit.UNDECIDED if touch.outcome is Outcome.UNDECIDED else TurnLimit.CONTACT

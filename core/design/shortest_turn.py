@@ -40,7 +40,7 @@ from core.design.turn_bounds import (
 )
 from core.design.turn_boxes import Turns, sizes_of, too_tight, turns_in
 from core.design.turn_circle import CheckedCircle, checked_circle
-from core.design.turn_moves import apart_from_circle, box_of, least_bend
+from core.design.turn_moves import apart_from_circle, box_of, coil_bend, least_bend
 from core.design.turn_overlap import OverlapSearch, most_benches
 from core.design.turn_places import locally_shortest, starts
 from core.display import Readable, display
@@ -93,8 +93,9 @@ class ShortestTurn(Readable):
 
     turn: danced with proof; its length is the upper end of length_bracket (no turn is shorter, turn) [m]
     entry_bracket, exit_bracket: radii between which those of every turn as short as that lie [m]
-    limited_by: BEND, CIRCLE or CONTACT, the first that applies to it: an arc, or the coil at an end, as tight as
-        benches can follow; an end on the circle; else benches within the margin in turns beside it
+    limited_by: LEAST_RADIUS, CENTRE, CIRCLE or CONTACT, the first that applies to it: an arc, or the coil at an end, of
+        the least radius; an end at the deepest radius that is tried; an end on the circle; else benches within the
+        margin in turns beside it
     boxes: number of excluded boxes; overlaps: those of them by an exhibited overlap; evaluations: tried dances
     """
 
@@ -111,7 +112,7 @@ class ShortestTurn(Readable):
         low, high = self.length_bracket
         places = f"entry {display(self.turn.entry_radius, 'm')}, exit {display(self.turn.exit_radius, 'm')}"
         length = f"length {display(self.turn.length, 'm')} ({display(high - low, 'm')} or less above the shortest)"
-        return f"{length}, {places}, ratio {display(self.turn.ratio)}, limited by {self.limited_by.value}"
+        return f"{length}, {places}, ratio {display(self.turn.ratio)}, limited by {self.limited_by.words}"
 
 
 @question_about("dragon", Dragon)
@@ -321,6 +322,10 @@ class TurnSearch:
         touch = contact_in(self.budget, self.dragon, danced, self.margin, self.stray)
         return touch.outcome is Outcome.CLEAR
 
+    def _is_coil_least(self) -> bool:
+        """Whether the coil has the least radius at the deepest end that is tried."""
+        return coil_bend(self.growth, self.inner) * (self.least + AT_LIMIT) >= 1.0
+
     def _result(self, left: Boxes) -> ShortestTurn:
         """The answer. left: the boxes that were not excluded when the work was spent, none otherwise"""
         assert self.best is not None
@@ -339,8 +344,11 @@ class TurnSearch:
             brackets.append((max(float(low), self.inner), min(float(high), self.radius)))
         limit = TurnLimit.CONTACT
         ends = best.entry_radius, best.exit_radius
-        if min(best.radii) < self.least + AT_LIMIT or min(ends) < self.inner + SAME:
-            limit = TurnLimit.BEND
+        is_deepest = min(ends) < self.inner + SAME
+        if min(best.radii) < self.least + AT_LIMIT or (is_deepest and self._is_coil_least()):
+            limit = TurnLimit.LEAST_RADIUS
+        elif is_deepest:
+            limit = TurnLimit.CENTRE
         elif max(ends) > self.radius - AT_LIMIT:
             limit = TurnLimit.CIRCLE
         return ShortestTurn(

@@ -35,7 +35,7 @@ def test_the_shortest_turn_of_any_exit_is_that_of_core_with_its_bracket(ask):
     known = core.shortest_turn(core.Dragon(30), 1.7)
     assert got["length_bracket"] == [*known.length_bracket]
     assert (got["entry_radius"], got["exit_radius"]) == (known.turn.entry_radius, known.turn.exit_radius)
-    assert (got["length"], got["limited_by"], got["benches"]) == (known.turn.length, "bend", None)
+    assert (got["length"], got["limited_by"], got["benches"]) == (known.turn.length, "least_radius", None)
 
 
 def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask):

@@ -57,7 +57,7 @@ export const ANSWERS = {
   islands: ["Smaller pitches that also work: {list}", "另外可行的更小螺距：{list}"],
   shortestTurn: ["Shortest turn", "最短调头"],
   turnIs: ["of two arcs inside the circle: it enters {entry} m from the centre and leaves {exit} m from it.", "圆内的两段圆弧：在距中心 {entry} m 处进入、{exit} m 处离开。"],
-  entry_bend: ["Limited by the bend: in a shorter turn a bench cannot follow any more.", "受限于弯曲：再短则板凳无法跟随。"],
+  entry_least_radius: ["Limited by the least radius of a bend that is taken here: half of the longest distance of two handles and 0.1 % more, which the proof needs.", "受限于此处采用的最小弯曲半径：最长把手间距的一半再加 0.1 %（证明所需）。"],
   entry_circle: ["Limited by the circle, where it begins or ends.", "受限于调头空间：起点或终点已在其边界上。"],
   entry_contact: ["Limited by contact: in turns beside it benches touch.", "受限于碰撞：与之相邻的调头中会有板凳相碰。"],
   entry_contactNear: ["Limited by the margin: in turns beside it benches come within {margin} m of each other.", "受限于安全间距：与之相邻的调头中会有板凳间距不超过 {margin} m。"],

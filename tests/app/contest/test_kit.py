@@ -71,7 +71,7 @@ def kit_without(missing, folder, language, *options):
 def chinese(tmp_path_factory):
     """Folder of a kit whose figures nobody can draw."""
     folder = tmp_path_factory.mktemp("zh")
-    assert "Error: figures and films were not written: " in kit_without(FIGURES_EXTRA, folder, "zh").stderr
+    assert "错误：图和动画没有写出：" in kit_without(FIGURES_EXTRA, folder, "zh").stderr
     return folder
 
 
@@ -301,7 +301,7 @@ def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp
         (tmp_path / name).write_text("old")
     options = ("--benches", "30", "--stop", "60", "--span", "20", "--turning-diameter", "4")
     done = kit_without(FONTS, tmp_path, "zh", *options)
-    assert "4 and 5 have no answer" in done.stderr
+    assert "问题 4 和 5 没有答案" in done.stderr
     entries = {str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*") if file.is_file()}
     tables = {f"tables/{name}.{kind}" for name in TABLES[:3] for kind in ("csv", "md", "tex")}
     written = {"result1.xlsx", "result2.xlsx", "answers.json", "report.md", ".contest.lock", *tables}

@@ -91,7 +91,7 @@ def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name
     dragon, request = BEND[name]
     result, ratio = answer(name), request.get("ratio", 2.0)
     infeasible, feasible = result.entry_bracket
-    assert (result.limited_by, result.benches, result.time) == (TurnLimit.BEND, None, None)
+    assert (result.limited_by, result.benches, result.time) == (TurnLimit.LEAST_RADIUS, None, None)
     assert 0.0 < feasible - infeasible <= ENTRY_ERROR
     with pytest.raises(InvalidValue, match="must not bend tighter"):
         trajectory(Dance(dragon, turn_with(result, infeasible - ENTRY_ERROR)), 0.0)
@@ -110,7 +110,7 @@ def test_nothing_limits_a_tiny_dragon_down_to_the_centre():
 
 
 def test_one_bench_is_limited_by_the_bend():
-    assert deepest_turn(Dragon(1), 1.7, ratio=1.0).limited_by is TurnLimit.BEND
+    assert deepest_turn(Dragon(1), 1.7, ratio=1.0).limited_by is TurnLimit.LEAST_RADIUS
 
 
 @pytest.mark.parametrize(

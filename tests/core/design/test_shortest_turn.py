@@ -83,14 +83,14 @@ def test_the_shortest_turn_is_danced_by_all_benches_and_shorter_than_any_that_wa
         assert low <= radius <= high
 
 
-def test_the_contests_turn_is_limited_by_the_bend_and_the_circle():
+def test_the_contests_turn_is_limited_by_the_least_radius_and_the_circle():
     """There both constraints of the closed forms hold: the second arc as tight as the head can follow, the exit on the
     circle. One bench has the same turn."""
     result, alone = answer(2.0), shortest_turn(Dragon(1), PITCH)
-    assert (result.limited_by, result.turn.exit_radius) == (TurnLimit.BEND, RADIUS)
+    assert (result.limited_by, result.turn.exit_radius) == (TurnLimit.LEAST_RADIUS, RADIUS)
     assert min(result.turn.radii) == pytest.approx(LEAST, abs=1e-9)
     assert result.turn.length < deepest_turn(Dragon(), PITCH).turn.length - 1.1
-    assert (alone.limited_by, alone.overlaps) == (TurnLimit.BEND, 0)
+    assert (alone.limited_by, alone.overlaps) == (TurnLimit.LEAST_RADIUS, 0)
     assert alone.length_bracket == result.length_bracket
 
 
@@ -104,7 +104,7 @@ def test_spent_work_leaves_a_wider_bracket_that_holds_the_narrow_one(ratio, work
 
 def test_benches_that_cannot_touch_are_limited_by_the_coil_that_they_can_follow():
     result = shortest_turn(Dragon(2), 0.5, 6.0, 5.0)
-    assert (result.limited_by, result.evaluations > 0) == (TurnLimit.BEND, True)
+    assert (result.limited_by, result.evaluations > 0) == (TurnLimit.LEAST_RADIUS, True)
     assert result.entry_bracket[1] - result.entry_bracket[0] < 1e-3
 
 
@@ -158,3 +158,11 @@ def test_a_turn_danced_backwards_need_not_be_searched():
     both, one = (shortest_turn(dragon, PITCH, RADIUS, 1.0, budget=Budget(1e9)) for dragon in (uneven, Dragon(20)))
     assert both.boxes > 1.5 * one.boxes
     assert both.length_bracket == pytest.approx(one.length_bracket, abs=1e-6)
+
+
+def test_small_benches_are_limited_by_the_deepest_end_that_is_tried():
+    """Neither an arc nor the coil there is as tight as the least radius."""
+    small = Dragon(2, head_length=0.3, body_length=0.3, width=0.02, overhang=0.05)
+    result = shortest_turn(small, PITCH, RADIUS, 1.0, budget=Budget(1e6))
+    assert result.limited_by is TurnLimit.CENTRE
+    assert min(result.turn.radii) > 0.1
