@@ -10,7 +10,6 @@ import logging
 import os
 import sqlite3
 import sys
-import warnings
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, closing
 from typing import Any
@@ -20,7 +19,6 @@ from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, gene
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 from prometheus_client.multiprocess import MultiProcessCollector
 from pydantic import Field
-from pydantic.warnings import UnsupportedFieldAttributeWarning
 from starlette.middleware import Middleware
 
 import core
@@ -48,8 +46,6 @@ from core import Dragon, Spiral, contact_check, first_contact, trajectory
 from core.dance import Dance
 
 logger = logging.getLogger("uvicorn.error")
-# FastAPI silences this warning while it declares a body; our models are built later, when they are first used.
-warnings.filterwarnings("ignore", category=UnsupportedFieldAttributeWarning)
 
 
 class State(Answer):

@@ -103,6 +103,8 @@ def _endpoint(call: Call) -> Callable[..., Any]:
         replying, inputs = QueryReply, Annotated[call.request_type, Query()]
     else:
         example = EXAMPLES.get(f"POST {call.question.path}")
+        # FastAPI gives the body a name, of which Pydantic warns unless its adapter is built at once, inside FastAPI.
+        call.request_type.model_config["defer_build"] = False
         replying, inputs = BodyReply, Annotated[call.request_type, Body(examples=[example.body] if example else None)]
         with suppress(ValidationError):  # It is raised where a body is required; a missing one stands for the defaults.
             endpoint.__defaults__ = (call.request_type(),)

@@ -183,7 +183,9 @@ def test_null_counts_as_left_out_where_the_schema_cannot_state_the_default(docum
     assert ask(call, nulls) == ask(call, {})
 
 
+@pytest.mark.filterwarnings("error")
 def test_the_most_benches_stated_are_the_most_taken():
+    """No model warns either while it is described."""
     document = create_app(Settings(benches_max=321)).openapi()
     parameters = document["paths"]["/collision-time"]["get"]["parameters"]
     wires = document["components"]["schemas"].values()
