@@ -13,7 +13,7 @@ import { announce } from "./overlays.js";
 import { beatsOf, passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
 import { isPresetVenue } from "./presets.js";
-import { endsAhead, queued } from "./queue.js";
+import { isFurther, queued } from "./queue.js";
 import { benchName, language, learn, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
 import { DRAGONS } from "./words/dragons.js";
@@ -58,7 +58,7 @@ export class Dragons {
     this.list.addEventListener("keydown", (event) => this.#move(event));
     this.list.addEventListener("focusin", ({ target }) => this.#rest(target));
     this.wrong = make("p", { className: "error", role: "alert" });
-    /** The dragons of which no delay of the last one is safe: {text, k}; null without. @type {any} */
+    /** The dragons of which no delay of the last one is known to be safe: {text, k, problem: of the search, or null}; null without. @type {any} */
     this.note = null;
     this.apart = make("p", { className: "error", id: "dragons-apart", role: "status", hidden: true });
     const presets = Object.keys(PRESETS).map((name) => textButton(`dragons_${name}`, () => this.begin(name), { "data-dragons": name }));
@@ -156,31 +156,32 @@ export class Dragons {
 
   /** Add a dragon like the chosen one: in the same spiral from the other side, or behind the last one on its drawn path. */
   add() {
-    if (this.state.get("path") === "route") return this.#follow();
+    if (this.state.get("path") === "route") return this.#follow(this.#whole().length - 1);
     const spiral = this.state.get("path") === "spiral";
     const k = Math.max(this.#active, 0);
     const record = this.#whole()[k];
     this.#copy(k, spiral ? { rotation: String((Number(record.rotation ?? 0) + 180) % 360 || "") } : {}, spiral ? 0 : LATER);
   }
 
-  /** Add a dragon behind the last one, with the shortest delay that the service has proven safe, or say that there is none. */
-  async #follow() {
+  /**
+   * Add a dragon like dragon k behind the last one of its street, with the shortest delay that the service has proven safe,
+   * or say that there is none.
+   */
+  async #follow(k) {
     const records = this.#whole();
-    const k = records.length - 1;
-    const last = this.#valuesOf(records[k]);
-    const numbers = { get: (name) => last[name] ?? this.state.get(name), extras: () => ({ csv: last.csv, listed: last.csv ? benchesOf(last.csv) : null }) };
-    const row = last.path === "route" ? queued(last.drawing, numbers) : null;
+    const values = records.map((record) => this.#valuesOf(record));
+    const isDrawn = (one) => one.path === "route";
+    const rear = values.reduce((last, one, at) => (isDrawn(one) && isFurther(one.drawing, values[last].drawing, true) ? at : last), k);
+    const [numbers, own] = [values[rear], values[k]].map((one) => ({ get: (name) => one[name] ?? this.state.get(name), extras: () => ({ csv: one.csv, listed: one.csv ? benchesOf(one.csv) : null }) }));
+    const row = isDrawn(values[k]) ? queued(values[rear].drawing, numbers, own) : null;
     const on = (record, drawing) => ({ ...Object.fromEntries(Object.entries(record).filter(([name]) => !LEGS.includes(name))), ...Object.fromEntries(legsOf(drawing)) });
     // Whoever ends in the street of the last one goes on, so that the new one has room there.
-    const ahead = (record) => {
-      const { path, drawing } = this.#valuesOf(record);
-      return row && path === "route" && endsAhead(drawing, last.drawing) ? on(record, queued(drawing, numbers).ahead) : record;
-    };
+    const ahead = (record, at) => (row && isDrawn(values[at]) && isFurther(values[at].drawing, values[rear].drawing, false) ? on(record, queued(values[at].drawing, numbers, own).ahead) : record);
     const next = [...records.map(ahead), { ...(row ? on(records[k], row.behind) : records[k]), name: "", colour: "" }];
     const active = Math.max(this.#active, 0);
-    const values = this.#valuesOf(next[active]);
-    this.#take(next, active, { ...values, drawing: { ...values.drawing, ...(row && { things: row.things }) }, view: null, handle: null });
-    await this.#wait(k + 1, Number(records[k].delay ?? 0));
+    const shown = this.#valuesOf(next[active]);
+    this.#take(next, active, { ...shown, drawing: { ...shown.drawing, ...(row && { things: row.things }) }, view: null, handle: null });
+    await this.#wait(records.length, Number(records[row ? rear : k].delay ?? 0));
   }
 
   /** Give dragon k the shortest safe delay, from that of the one before [s]. */
@@ -188,18 +189,18 @@ export class Dragons {
     const text = this.state.get("dances");
     const { dances, ...limits } = this.#file();
     const contact = Object.fromEntries(CONTACT.filter((name) => name in limits).map((name) => [name, limits[name]]));
-    let safe = [];
+    let [safe, problem] = [[], null];
     try {
       const body = { dances, ...contact, part: k, least, most: least + WAIT_MOST };
       ({ safe } = await this.service.ask("safe delay", "safe-delay", { body }));
     } catch (error) {
-      // The check of the dragons is refused for the same reason, and says it.
-      if (!(error instanceof Superseded || error instanceof Problem)) throw error;
-      return;
+      if (error instanceof Superseded) return;
+      if (!(error instanceof Problem)) throw error;
+      ({ problem } = error);
     }
     if (this.state.get("dances") !== text) return; // A person has changed the dragons meanwhile.
     const [first] = safe;
-    this.note = first ? null : { text, k };
+    this.note = first ? null : { text, k, problem };
     if (!first) return this.#noted();
     const tenth = Math.ceil(10 * first[0]) / 10;
     const delay = tenth <= first[1] ? tenth : first[0];
@@ -208,17 +209,21 @@ export class Dragons {
     if (delay > least) this.state.set({ dances: this.#textOf(records.with(k, { ...records[k], delay: String(delay) }), this.#active) });
   }
 
-  /** Say that no delay keeps the last dragon apart, as long as the dragons are these. */
+  /** Say that no delay keeps the last dragon apart, or why none was found, as long as the dragons are these. */
   #noted() {
     const is = this.note?.text === this.state.get("dances");
     if (!is) this.note = null;
     hide(this.apart, !is);
-    this.apart.textContent = is ? say("dragonNoDelay", { name: this.#nameOf(this.#records, this.note.k), most: WAIT_MOST }) : "";
+    if (!is) return;
+    const { k, problem } = this.note;
+    const words = { name: this.#nameOf(this.#records, k), most: WAIT_MOST };
+    this.apart.textContent = problem ? say("dragonNoSearch", { ...words, why: refusalWords(problem).textContent }) : say("dragonNoDelay", words);
   }
 
-  /** Copy dragon k. changes: of the copy; later: how much later it dances [s] */
+  /** Copy dragon k; on a drawn path it comes in behind it. changes: of the copy; later: how much later it dances [s] */
   #copy(k, changes = {}, later = LATER) {
     const records = this.#whole();
+    if (this.#valuesOf(records[k]).path === "route") return this.#follow(k);
     const delay = Number(records[k].delay ?? 0) + later;
     this.#take([...records, { ...records[k], name: "", colour: "", delay: delay ? String(delay) : "", ...changes }], Math.max(this.#active, 0));
   }

@@ -52,20 +52,22 @@ function withStreet(drawing, isFirst, length) {
 
 /**
  * The drawings of a dragon and of one that follows it: {ahead, behind, things}, or null where a street is bent, or
- * ends with a square that somebody has drawn. numbers: of the dragon ahead, as `streetLength` takes them
+ * ends with a square that somebody has drawn. numbers, own: of the dragon ahead and of the other, as `streetLength` takes them
  */
-export function queued(drawing, numbers) {
+export function queued(drawing, numbers, own) {
   if (!drawing.yard && drawing.things.some(({ kind }) => kind === "area")) return null;
-  const length = streetLength(numbers) + GAP;
+  const most = Math.max(streetLength(numbers), streetLength(own));
+  const length = most + GAP;
   const [ahead, behind] = [longer(drawing, false, length), longer(drawing, true, length)];
   if (!ahead || !behind) return null;
   const things = withStreet({ ...drawing, things: withStreet(drawing, true, length) }, false, length);
-  return { ahead, behind, things };
+  // Who follows begins as far behind the tail of the one ahead, and may be the longer one.
+  return { ahead, behind: { ...behind, begin: drawing.begin + most - streetLength(numbers) }, things };
 }
 
-/** True if a drawn path ends where another one does, or further on in the same street. */
-export function endsAhead(drawing, other) {
-  const [one, last] = [drawing, other].map((each) => streetOf(each, false));
+/** True if a drawn path ends, or begins, where another one does, or further out in the same street. isFirst: it begins */
+export function isFurther(drawing, other, isFirst) {
+  const [one, last] = [drawing, other].map((each) => streetOf(each, isFirst));
   if (!one || !last) return false;
   const [dx, dy] = one.end.map((number, axis) => number - last.end[axis]);
   return dx * last.out[0] + dy * last.out[1] > -BESIDE && Math.abs(dx * last.out[1] - dy * last.out[0]) < BESIDE;

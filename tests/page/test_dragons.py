@@ -46,7 +46,9 @@ OWN = {"things": "a.yard..-150,-90_150,-90_150,90_-150,90~c.well.1.0,80", "route
 def test_a_second_dragon_comes_in_behind_the_first_or_the_page_says_what_can_be_done(open_page):
     person = open_page("?door=village&lang=en&path=route&route=*-40,0_40,0&begin=16&benches=9").presses("#several")
     person.sees({"#judgement": "Can be danced", "#dragons-apart": False}).settles()
-    person.presses("#dragon-add").sees({"#dragons li": 3, "#judgement": "Can be danced"}).settles()
+    # A copy of the first one stands behind both.
+    person.presses("#dragon-copy-0").sees({"#dragons li": 3, "#judgement": "Can be danced"}).settles()
+    assert len({one["path"]["points"][0][0] for one in file_of(person)["dances"]}) == 3
     # Who comes back along the street of entry is let out first.
     person.opens("?door=all&lang=en&path=route&route=*0,0_30,0_38,8_30,16_*15,-20_15,-60&begin=8&benches=3")
     person.presses("#several").sees({"#judgement": "Can be danced", "#dragons li": 2}).settles()
@@ -178,6 +180,8 @@ def test_a_refusal_names_the_dragon_and_an_address_opens_what_can_be_read(open_p
     person.presses("#carrier [aria-label=Close]").sees({"#carrier": False, "#dragons li": 2}).reaches_below()
     person.presses("#card-follow").sees({"#carrier h1": "red: head"}).settles()
     person = open_page(f"{few}~pitch:55!benches:9", failing=True)
+    a_delay_that_is_not_found_says_why(person)
+    person.opens(f"{few}~pitch:55!benches:9")
     person.sees({"#judgement": "blue: “Pitch” must be at most 10 m; it is 55 m"})
     names = [f"{k:03}{'x' * 35}" for k in range(170)]
     person.opens(f"?lang=en&time=0&dances={'~'.join(f'name:{name}' for name in names)}")
@@ -185,6 +189,20 @@ def test_a_refusal_names_the_dragon_and_an_address_opens_what_can_be_read(open_p
     assert len(person.page.url) < ADDRESS_MOST
     person.page.reload()
     person.sees({"#dragons li": 171}).holds({"#dragon-name-169": names[169]})
+
+
+def a_delay_that_is_not_found_says_why(person):
+    def too_long(route):
+        route.continue_(post_data=json.dumps({**route.request.post_data_json, "most": 1e9}))
+
+    person.opens("?door=all&lang=en&path=route&route=*-40,0_40,0&begin=16&benches=3")
+    person.page.route("**/safe-delay", too_long)
+    why = "How long blue has to wait was not found: most must be at most 1000000 s"
+    person.presses("#several").sees({"#dragons-apart": [why, "type one"]}).speaks("zh").sees(
+        {"#dragons-apart": "请自行填写延迟"}
+    )
+    person.page.unroute_all()
+    person.types({"#dragon-delay-1": "40"}).sees({"#dragons-apart": False})
 
 
 BEATS = [{"bars": 4, "tempo": 96, "step": 0.6, "beats": 4}, {"bars": 6, "tempo": 120, "step": 0.5, "beats": 3}]

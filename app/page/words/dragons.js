@@ -28,6 +28,7 @@ export const DRAGONS = {
   dragonsMeet: ["First meeting at {time} s.", "首次相遇在 {time} s。"],
   dragonsLeast: ["First meeting at {time} s, proven between {low} s and {high} s.", "首次相遇在 {time} s，已证明在 {low} s 与 {high} s 之间。"],
   dragonNoDelay: ["{name} finds no safe delay up to {most} s: on this path the dragons stand on one another, or meet. Draw another path for it, let it begin in another street, or make the dragons shorter.", "{name}在 {most} s 以内没有安全的延迟：沿这条路线，龙会叠在一起或相碰。请为它另画路线、改从另一条街进入，或缩短龙身。"],
+  dragonNoSearch: ["How long {name} has to wait was not found: {why} It dances without a delay of its own: type one, or make the dragons or the path shorter.", "未能求出{name}须等多久：{why}它暂不另外延迟：请自行填写延迟，或缩短龙身或路线。"],
   dragonForeign: ["{name}: the page shows spirals around x = y = 0 that are danced clockwise; use the command for this file.", "{name}：页面只显示以 x = y = 0 为中心的顺时针螺线；此文件请用命令行。"],
   meetingMark: ["Two dragons meet at {time} s", "两条龙在 {time} s 相遇"],
 };
