@@ -1,7 +1,7 @@
 """Films of a dance, as MP4 (H.264, through PyAV) or as GIF (Pillow).
 
-matplotlib draws the background and the numbers of benches once. For each frame the background is copied back, Agg
-fills the benches, and the numbers are laid on them. Meanwhile a second thread encodes the frames before. The same film
+matplotlib draws the background and the numbers of benches once. For each frame the background is copied back, the
+benches are filled, and the numbers are laid on them. Meanwhile a second thread encodes the frames before. The same film
 gives the same bytes on the same versions of these libraries.
 """
 
@@ -18,16 +18,15 @@ from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from app.files.drawing import draw_areas, in_turn, with_square
 from app.files.film_labels import MARKED_SHARE, CornerText, Labels, LabelsBeside, NameLabels, numbered, size_of
+from app.files.film_planes import COLOURS, YUV, Paper, Tone
 from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families_for
 from app.files.scratch import temporary
@@ -49,9 +48,13 @@ BATCH = 60
 WAITING = 4
 # H.264: quality (crf, smaller is better), effort, and number of threads, which changes the bytes. With five frames
 # between two others (bframes) and the quickest search the film of the default dance takes 7.8 MB in place of 26, and
-# 0.6 of the processor's time of two frames and the usual search, for 1 % more bytes (measured 2026-11-28).
-SEARCH = "bframes=5:b-adapt=0:b-pyramid=none:subme=1:trellis=0:weightp=0:ref=1:rc-lookahead=6"
-OPTIONS, THREADS = {"crf": "25", "preset": "veryfast", "x264-params": SEARCH}, 2
+# 0.6 of the processor's time of two frames and the usual search, for 1 % more bytes (measured 2026-11-28). No parts of
+# blocks but 8 x 8, no search for cuts, and a quality of 26 in place of 25: 0.75 of the time, as many bytes, and 1.3
+# in place of 1.2 of 255 as the mean error of brightness (measured 2026-11-29).
+SEARCH = (
+    "bframes=5:b-adapt=0:b-pyramid=none:subme=1:trellis=0:weightp=0:ref=1:rc-lookahead=6:partitions=p8x8:scenecut=0"
+)
+OPTIONS, THREADS = {"crf": "26", "preset": "veryfast", "x264-params": SEARCH}, 2
 FAST_START = {"movflags": "faststart"}
 # The sound is whole before the first picture, so the file waits for as many pictures as it takes.
 WITH_SOUND = {"max_interleave_delta": "0"}
@@ -75,9 +78,9 @@ TOUCHING = {Language.ENGLISH: "benches {} and {} touch\n", Language.CHINESE: "ç¬
 COUNTS_OF = {Language.ENGLISH: "{}: {}", Language.CHINESE: "{}ï¼š{}"}
 # Colour of marked benches.
 MARKED = "#F0E442"
-# Edge of benches [points], and of those that touch, as a share of the height of the picture. Benches narrower than
-# EDGED edges have edges in their own colour, because dark ones would hide it.
-EDGE, TOUCHING_SHARE, EDGED = 0.8, 0.0025, 4.0
+# Width of edges of benches [pixels], and of those that touch, as a share of the height of the picture. Benches narrower
+# than EDGED edges have edges in their own colour, because dark ones would hide it.
+EDGE, TOUCHING_SHARE, EDGED = 0.8 * DPI / 72.0, 0.0025, 4.0
 # Least width at which a marked bench is drawn, as a share of the height of the picture.
 MARKED_LEAST = 0.014
 # Part of a marked bench that is dark, its front.
@@ -100,7 +103,8 @@ def film(
     progress: called with the share of finished frames
     raises: OutsideRun; TooMuchWork where the budget is stopped; MissingPackage without a font for the language
     """
-    return encoded(frames(dance, spec, venue, title, budget or Budget()), spec, form, progress)
+    stage = FilmPicture(dance, spec, venue, title, tones_of(form), budget := budget or Budget())
+    return encoded(frames(stage, spec, budget), spec, form, progress)
 
 
 def encoded(
@@ -115,11 +119,14 @@ def encoded(
     return sink.getvalue()
 
 
-def frames(
-    dance: Dance, spec: FilmSpec, venue: Venue | None, title: str, budget: Budget
-) -> Iterator[NDArray[np.uint8]]:
-    """Pictures (height, width, 4) in red, green, blue, alpha, each valid until the next one."""
-    times, stage = spec.times, FilmPicture(dance, spec, venue, title, budget)
+def tones_of(form: str) -> tuple[Tone, ...]:
+    """The planes of a picture that the encoder of a form takes."""
+    return YUV if form == MP4_TYPE else COLOURS
+
+
+def frames(stage: FilmPicture, spec: FilmSpec, budget: Budget) -> Iterator[NDArray[np.uint8]]:
+    """Pictures as FilmPicture.frame() gives them, each valid until the next one."""
+    times, dance = spec.times, stage.dance
     for first in range(0, times.size, BATCH):
         some = times[first : first + BATCH]
         outlines = bench_outlines(dance.dragon, trajectory(dance, some, budget=budget).position)
@@ -129,13 +136,11 @@ def frames(
 
 
 class Layer(NamedTuple):
-    """What moves of one dragon. fronts: of the marked benches, words: theirs, by number; wider: times their widths are
-    drawn (M,)"""
+    """What moves of one dragon. head, body: colours of the area and of its line
+    words: of the marked benches, by number; wider: times their widths are drawn (M,)"""
 
-    body: PolyCollection
-    head: PolyCollection
-    marked: PolyCollection
-    fronts: PolyCollection
+    head: tuple[str, str]
+    body: tuple[str, str]
     words: dict[int, str]
     wider: Floats
     labels: list[Labels]
@@ -145,15 +150,23 @@ class FilmPicture:
     """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
 
     def __init__(
-        self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str, budget: Budget | None = None
+        self,
+        dance: Dance,
+        spec: FilmSpec,
+        venue: Venue | None,
+        title: str,
+        tones: tuple[Tone, ...] = COLOURS,
+        budget: Budget | None = None,
     ) -> None:
         self.dance = dance
-        self.prepare(spec, venue, title, budget)
+        self.prepare(spec, venue, title, tones, budget)
 
-    def prepare(self, spec: FilmSpec, venue: Venue | None, title: str, budget: Budget | None) -> None:
+    def prepare(
+        self, spec: FilmSpec, venue: Venue | None, title: str, tones: tuple[Tone, ...], budget: Budget | None
+    ) -> None:
         """Draw the background, and make what moves before it. raises: Halted once the budget is stopped"""
         self.language, self.start_clock, self.spec = spec.language, spec.start_clock, spec
-        in_turn(lambda: self._draw(spec, venue, title), budget)
+        in_turn(lambda: self._draw(spec, venue, title, tones), budget)
 
     def draw_paths(self, times: Floats) -> Floats:
         """Draw what does not move; returns the places (N, 2) of handles at these times [m]."""
@@ -170,7 +183,7 @@ class FilmPicture:
         """Colours of the head, of the body, of its edges, and of those of its numbers."""
         return VERMILION, BLUE, BODY_EDGE, BLUE
 
-    def _draw(self, spec: FilmSpec, venue: Venue | None, title: str) -> None:
+    def _draw(self, spec: FilmSpec, venue: Venue | None, title: str, tones: tuple[Tone, ...]) -> None:
         points, dragons = TYPE_SHARE * spec.height * 72.0 / DPI, self.dragons
         names = [name for k, bench in spec.marked for name in dragons[k].names[bench : bench + 1]]
         names += [area.name for area in venue.areas] if venue else []
@@ -191,9 +204,8 @@ class FilmPicture:
             self.axes.text(0.985, 0.97, title, ha="right", va="top", **place)
             self.time = CornerText(self.axes, points)
             self.layers = [self._layer(k, dragon, spec) for k, dragon in enumerate(dragons)]
-        self.touching = self.benches(VERMILION, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
         self.canvas.draw()
-        self.still = self.canvas.copy_from_bbox(figure.bbox)
+        self.paper = Paper(np.asarray(self.canvas.buffer_rgba()), tones)
 
     def _look(self, low: Floats, high: Floats, spec: FilmSpec) -> None:
         """Show everything between two corners, at one scale for x and y that fills the frame."""
@@ -205,12 +217,11 @@ class FilmPicture:
         self.axes.set_axis_off()
         scale_bar(self.axes, middle - np.array([shape * tall, tall]), tall)
 
-    def benches(self, face: str, edge: str, linewidth: float = EDGE) -> PolyCollection:
-        """Some benches in one colour, whose places compose() gives."""
-        look: dict[str, Any] = {"facecolors": face, "edgecolors": edge, "linewidths": linewidth}
-        benches = PolyCollection([], **look, animated=True, zorder=3)
-        self.axes.add_collection(benches, autolim=False)
-        return benches
+    def fill(self, outlines: Floats, face: str, edge: str, line: float) -> None:
+        """Fill benches at outlines (N, 4, 2) [m]. line: width of the edges [pixels]"""
+        if len(outlines):
+            places = self.axes.transData.transform(outlines.reshape(-1, 2)).reshape(-1, 4, 2)
+            self.paper.fill(np.array([0.0, self.paper.height]) + np.array([1.0, -1.0]) * places, face, edge, line)
 
     def _layer(self, k: int, dragon: Dragon, spec: FilmSpec) -> Layer:
         """What moves of a dragon."""
@@ -220,7 +231,7 @@ class FilmPicture:
         size, to_pixels = size_of(spec.height), spec.width / (right - left)
         plain, widths = numbered(dragon.benches, chord * to_pixels, size), to_pixels * dragon.widths
         head_edge = "black"
-        if float(widths.min()) < EDGED * EDGE * DPI / 72.0:
+        if float(widths.min()) < EDGED * EDGE:
             edge, head_edge = body, head
         drawn = np.maximum(widths[own], MARKED_LEAST * spec.height)
         words = {bench: " ".join([str(bench), *filter(None, dragon.names[bench : bench + 1])]) for bench in own}
@@ -228,14 +239,13 @@ class FilmPicture:
             Labels(self.axes, {bench: str(bench) for bench in plain if bench not in words}, size, around),
             LabelsBeside(self.axes, words, size_of(spec.height, MARKED_SHARE), drawn),
         ]
-        wide = TOUCHING_SHARE * spec.height * 72.0 / DPI
-        marked, fronts = self.benches(MARKED, "black", wide), self.benches("black", "none", 0.0)
-        return Layer(
-            self.benches(body, edge), self.benches(head, head_edge), marked, fronts, words, drawn / widths[own], labels
-        )
+        return Layer((head, head_edge), (body, edge), words, drawn / widths[own], labels)
 
     def frame(self, time: float, outlines: Floats, touching: tuple[int, int] | None = None) -> NDArray[np.uint8]:
-        """The picture at one instant. outlines: (n, 4, 2) [m]; touching: the benches that are marked and named"""
+        """The picture, as Paper.picture, at one instant.
+
+        outlines: (n, 4, 2) [m]; touching: the benches that are marked and named
+        """
         pairs = [(0, bench) for bench in touching or ()]
         return self.compose(time, [outlines], pairs, TOUCHING[self.language].format(*touching) if touching else "")
 
@@ -247,23 +257,24 @@ class FilmPicture:
         outlines: (n, 4, 2) of each dragon [m]; touching: dragon and number of the two benches that are marked
         first: words before the time
         """
-        artists: list[Artist] = []
+        wide, written = TOUCHING_SHARE * self.spec.height, list[Labels](self.names)
+        self.paper.begin()
         for layer, own in zip(self.layers, outlines, strict=True):
             marked = widened(own[list(layer.words)], layer.wider)
-            set_outlines(layer.head, own[:1])
-            set_outlines(layer.body, own[1:])
-            set_outlines(layer.marked, marked)
-            set_outlines(layer.fronts, fronts_of(marked))
-            artists += [layer.body, layer.head, *([layer.marked, layer.fronts] if layer.words else [])]
-        if touching:
-            set_outlines(self.touching, np.stack([outlines[k][bench] for k, bench in touching]))
-            artists.append(self.touching)
-        artists += self.names
-        for layer, own in zip(self.layers, outlines, strict=True):
+            self.fill(own[1:], *layer.body, EDGE)
+            self.fill(own[:1], *layer.head, EDGE)
+            self.fill(marked, MARKED, "black", wide)
+            self.fill(fronts_of(marked), "black", "black", 0.0)
             for labels in layer.labels:
                 labels.place(own)
-                artists.append(labels)
-        return self._composed(first + self.words(time), [*artists, self.time])
+            written += layer.labels
+        if touching:
+            self.fill(np.stack([outlines[k][bench] for k, bench in touching]), VERMILION, "black", wide)
+        self.time.text = first + self.words(time)
+        for labels in written:
+            self.paper.lay(labels.placed)
+        self.paper.lay(self.time.placed)
+        return self.paper.picture
 
     def words(self, time: float) -> str:
         """The count, the clock as on the cards, and the time [s] of a picture."""
@@ -276,18 +287,6 @@ class FilmPicture:
                 counted = COUNTS_OF[self.language].format(self.spec.music_of, counted)
             words = f"{counted}  {words}"
         return words
-
-    def _composed(self, words: str, artists: Sequence[Artist]) -> NDArray[np.uint8]:
-        self.time.text = words
-        self.canvas.restore_region(self.still)
-        for artist in artists:
-            self.axes.draw_artist(artist)
-        return np.asarray(self.canvas.buffer_rgba())
-
-
-def set_outlines(benches: PolyCollection, outlines: Any) -> None:
-    """Put benches at outlines (N, 4, 2) [m]."""
-    benches.set_verts(outlines)
 
 
 def widened(outlines: Floats, times: Floats) -> Floats:
@@ -341,11 +340,10 @@ def encoded_mp4(sink: io.BytesIO, spec: FilmSpec) -> Iterator[Take]:
             add_drum(file, spec)
 
         def encode(picture: NDArray[np.uint8]) -> None:
-            frame = av.VideoFrame.from_numpy_buffer(picture, format="rgba")
-            file.mux(stream.encode(frame.reformat(format="yuv420p", dst_colorspace=Colorspace.ITU709)))
+            file.mux(stream.encode(av.VideoFrame.from_numpy_buffer(picture, format="yuv420p")))
 
         # Taken in turn: the oldest is encoded when its room is taken again. New room would cost as much as the copy.
-        copies = itertools.cycle([np.empty((spec.height, spec.width, 4), np.uint8) for _ in range(WAITING)])
+        copies = itertools.cycle([np.empty((3 * spec.height // 2, spec.width), np.uint8) for _ in range(WAITING)])
 
         def take(picture: NDArray[np.uint8]) -> None:
             if len(waiting) == WAITING:
@@ -395,7 +393,7 @@ def encoded_gif(sink: io.BytesIO, spec: FilmSpec) -> Iterator[Take]:
     palette.putpalette(np.rint(255.0 * blends).astype(np.uint8).tobytes())
 
     def take(picture: NDArray[np.uint8]) -> None:
-        pictures.append(Image.fromarray(picture[..., :3]).quantize(palette=palette, dither=Image.Dither.NONE))
+        pictures.append(Image.fromarray(picture).quantize(palette=palette, dither=Image.Dither.NONE))
 
     yield take
     ticks = max(round(GIF_TICK * spec.seconds / len(pictures)), 2)

@@ -8,7 +8,6 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -17,6 +16,7 @@ from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import NDArray
 
 from app.files.drawing import NamePlaces
+from app.files.film_planes import Placed, Stamp
 from core import Venue
 from core.values import Floats
 
@@ -92,20 +92,14 @@ def _cropped(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return picture[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
 
 
-def laid(pictures: Sequence[NDArray[np.uint8]]) -> list[NDArray[np.uint8]]:
-    """Pictures as Agg takes them, the lowest row first."""
-    return [one[::-1].copy() for one in pictures]
-
-
-class Labels(Artist):
+class Labels:
     """The words of some benches of a dragon, where place() puts them."""
 
     def __init__(
         self, axes: Axes, words: dict[int, str], size: float, edge: str = "black", face: str = "white"
     ) -> None:
-        super().__init__()
         self._axes, self._benches = axes, list(words)
-        self._pictures = laid(pictures_of(list(words.values()), size, edge, axes.figure.dpi, face))
+        self.stamps = [Stamp(one) for one in pictures_of(list(words.values()), size, edge, axes.figure.dpi, face)]
         self.places = np.zeros((len(words), 2))
 
     def place(self, outlines: Floats) -> None:
@@ -114,52 +108,59 @@ class Labels(Artist):
         front = own[:, :2].mean(axis=1)
         self.places = self._axes.transData.transform((1.0 - TO_FRONT) * own.mean(axis=1) + TO_FRONT * front)
 
-    def draw(self, renderer: Any) -> None:
-        context = renderer.new_gc()
-        for (x, y), picture in zip(self.places.tolist(), self._pictures, strict=True):
-            rows, columns = picture.shape[:2]
-            if rows:
-                renderer.draw_image(context, round(x - 0.5 * columns), round(y - 0.5 * rows), picture)
-        context.restore()
+    @property
+    def placed(self) -> list[Placed]:
+        """Each word, where it stands in the picture."""
+        height = round(self._axes.bbox.height)
+        return [
+            (stamp, round(x - 0.5 * stamp.width), height - stamp.height - round(y - 0.5 * stamp.height))
+            for (x, y), stamp in zip(self.places.tolist(), self.stamps, strict=True)
+        ]
 
 
-class CornerText(Artist):
+class CornerText:
     """Lines of text at the lower right of the picture, in the type of rc_context() where it is made.
 
     Each character is drawn once, because the time changes with every picture.
     """
 
     def __init__(self, axes: Axes, points: float) -> None:
-        super().__init__()
-        self.text, self._dpi, self._size = "", axes.figure.dpi, points * axes.figure.dpi / 72.0
+        self.text, self._axes, self._dpi, self._size = "", axes, axes.figure.dpi, points * axes.figure.dpi / 72.0
         self._font = FontProperties(family=list(matplotlib.rcParams["font.family"]), size=points)
-        self._characters: dict[str, tuple[float, NDArray[np.uint8]]] = {}
+        self._characters: dict[str, tuple[float, Stamp, int, int]] = {}
 
-    def draw(self, renderer: Any) -> None:
-        context, (width, height) = renderer.new_gc(), renderer.get_canvas_width_height()
+    @property
+    def placed(self) -> list[Placed]:
+        """Each character, where it stands in the picture."""
+        width, height = self._axes.bbox.size
+        placed: list[Placed] = []
         for k, line in enumerate(reversed(self.text.split("\n"))):
-            drawn = [self._drawn(renderer, character) for character in line]
-            x = CORNER[0] * width - sum(advance for advance, _ in drawn)
-            y = CORNER[1] * height + (SPACING * k - BELOW) * self._size
-            for advance, picture in drawn:
-                renderer.draw_image(context, round(x - self._size), round(y), picture)
+            drawn = [self._drawn(character) for character in line]
+            x = CORNER[0] * width - sum(advance for advance, *_ in drawn)
+            y = CORNER[1] * height + SPACING * k * self._size
+            for advance, stamp, left, above in drawn:
+                placed.append((stamp, round(x) + left, round(height - y) - above))
                 x += advance
-        context.restore()
+        return placed
 
-    def _drawn(self, renderer: Any, character: str) -> tuple[float, NDArray[np.uint8]]:
-        """The way from a character to the next one [pixels], and its picture, with its baseline at a third of the
-        height and its left edge at one size of the type."""
+    def _drawn(self, character: str) -> tuple[float, Stamp, int, int]:
+        """The way from a character to the next one, its picture, from its place to the left edge of the picture, and
+        from the bottom of its line up to the upper edge [pixels]."""
         if character not in self._characters:
-            # Measured between two others, because a space alone has no width.
-            wide, bare = (
-                renderer.get_text_width_height_descent(text, self._font, ismath=False)[0]
-                for text in (f"|{character}|", "||")
-            )
             side = math.ceil(3.0 * self._size)
             canvas = FigureCanvasAgg(Figure(figsize=(side / self._dpi, side / self._dpi), dpi=self._dpi))
             own = canvas.get_renderer()
+            # Measured between two others, because a space alone has no width.
+            wide, bare = (
+                own.get_text_width_height_descent(text, self._font, ismath=False)[0]
+                for text in (f"|{character}|", "||")
+            )
             own.draw_text(own.new_gc(), self._size, 2.0 * self._size, character, self._font, 0.0, ismath=False)
-            self._characters[character] = wide - bare, laid([np.asarray(canvas.buffer_rgba())])[0]
+            whole = np.asarray(canvas.buffer_rgba())
+            rows, columns = (np.flatnonzero((whole[..., 3] > 0).any(axis=axis)) for axis in (1, 0))
+            top, left = (int(one[0]) if one.size else 0 for one in (rows, columns))
+            above = round(len(whole) - top - BELOW * self._size)
+            self._characters[character] = wide - bare, Stamp(_cropped(whole)), left - round(self._size), above
         return self._characters[character]
 
 
@@ -173,7 +174,7 @@ class LabelsBeside(Labels):
         """widths: of each of these benches in the picture [pixels]"""
         super().__init__(axes, words, size, "white", "black")
         self._away, self._changes = 0.5 * widths + BESIDE * size, CHANGES * size
-        halves = [(0.5 * one.shape[1], 0.5 * one.shape[0]) for one in self._pictures]
+        halves = [(0.5 * one.width, 0.5 * one.height) for one in self.stamps]
         self.halves, self.sides = np.array(halves).reshape(-1, 2), np.zeros(len(words))
 
     def place(self, outlines: Floats) -> None:
@@ -201,6 +202,6 @@ class NameLabels(Labels):
         """height: of the picture [pixels]; the axes show what they will show"""
         super().__init__(axes, {}, 0.0)
         names, size = [area.name for area in venue.areas], max(NAME_SHARE * height, NAME_LEAST)
-        self._pictures = laid(pictures_of(names, size, "white", axes.figure.dpi, "black", "normal"))
-        sizes = np.array([one.shape[1::-1] for one in self._pictures], dtype=np.float64)
+        self.stamps = [Stamp(one) for one in pictures_of(names, size, "white", axes.figure.dpi, "black", "normal")]
+        sizes = np.array([(one.width, one.height) for one in self.stamps], dtype=np.float64)
         self.places = NamePlaces(venue, lines).middles(axes, sizes)

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.files.film import BATCH, FilmPicture, encoded
+from app.files.film import BATCH, FilmPicture, encoded, tones_of
+from app.files.film_planes import COLOURS, Tone
 from app.files.film_spec import FilmSpec
 from app.files.performances import LEGEND_MOST, colour_of
 from app.files.tables import Language
@@ -41,12 +42,13 @@ def performance_film(
     progress: called with the share of finished frames
     raises: TooMuchWork where the budget is stopped; MissingPackage without a font for the language
     """
-    return encoded(_frames(performance, spec, title, budget or Budget()), spec, form, progress)
+    stage = PerformancePicture(performance, spec, title, tones_of(form), budget := budget or Budget())
+    return encoded(_frames(stage, spec, budget), spec, form, progress)
 
 
-def _frames(performance: Performance, spec: FilmSpec, title: str, budget: Budget) -> Iterator[NDArray[np.uint8]]:
-    """Pictures (height, width, 4) in red, green, blue, alpha, each valid until the next one."""
-    times, stage = spec.times, PerformancePicture(performance, spec, title, budget)
+def _frames(stage: PerformancePicture, spec: FilmSpec, budget: Budget) -> Iterator[NDArray[np.uint8]]:
+    """Pictures as PerformancePicture.picture() gives them, each valid until the next one."""
+    times, performance = spec.times, stage.performance
     dragons = [part.dance.dragon for part in performance.parts]
     for first in range(0, times.size, BATCH):
         some = times[first : first + BATCH]
@@ -61,9 +63,16 @@ def _frames(performance: Performance, spec: FilmSpec, title: str, budget: Budget
 class PerformancePicture(FilmPicture):
     """A picture of several dragons that is drawn again for each frame."""
 
-    def __init__(self, performance: Performance, spec: FilmSpec, title: str, budget: Budget | None = None) -> None:
+    def __init__(
+        self,
+        performance: Performance,
+        spec: FilmSpec,
+        title: str,
+        tones: tuple[Tone, ...] = COLOURS,
+        budget: Budget | None = None,
+    ) -> None:
         self.performance = performance
-        self.prepare(spec, performance.venue, title, budget)
+        self.prepare(spec, performance.venue, title, tones, budget)
 
     def name_of(self, dragon: int) -> str:
         """Name of a dragon, or its number in words."""
@@ -95,7 +104,7 @@ class PerformancePicture(FilmPicture):
         dragons: tuple[int, int] | None = None,
         touching: tuple[int, int] | None = None,
     ) -> NDArray[np.uint8]:
-        """The picture at one instant.
+        """The picture, as Paper.picture, at one instant.
 
         outlines: (n, 4, 2) of each dragon [m]; dragons, touching: the dragons and the benches that are marked and named
         """

@@ -22,8 +22,8 @@ FORM = next(iter(ENDINGS))
 LONGEST, BEFORE_FOLD = 1_000.0, 1e-3
 # Most benches that stand out.
 MARKED_MAX = 50
-# Time to draw and encode a million pixels of a film, measured 2026-11-22 [s].
-SECONDS_PER_MEGAPIXEL = {MP4_TYPE: 0.012, GIF_TYPE: 0.04}
+# Time to draw and encode a million pixels of a film, measured 2026-11-29 [s].
+SECONDS_PER_MEGAPIXEL = {MP4_TYPE: 0.006, GIF_TYPE: 0.04}
 
 
 class FilmFields(Wire):

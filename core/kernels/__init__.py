@@ -34,6 +34,7 @@ marching     to first contact                             band_march     all pit
 ensemble     several dragons in time                      rates          bounds on the speeds of handles
 speed        the highest speed
 excess       first time beyond a speed limit              wobble         contacts when people wobble
+fills        rectangles in the bytes of a picture
 """
 
 from core.kernels.band_march import BandMarch
@@ -56,6 +57,7 @@ from core.kernels.constants import *
 from core.kernels.double_double import coil_arc, coil_theta, growth_pair, spiral_thetas
 from core.kernels.ensemble import BENCHES_PER_BLOCK, Ensemble, Member
 from core.kernels.excess import Excess
+from core.kernels.fills import fill_rectangles
 from core.kernels.fold import first_crest, first_root, fold_theta, previous_theta
 from core.kernels.gap_curvature import axis_curvature, pair_curvatures, shift_curvature
 from core.kernels.hulls import Kinds, largest_supports

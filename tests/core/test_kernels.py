@@ -84,6 +84,8 @@ EXPRESSIONS = {
     "first encounter up to a fold": "core.first_encounter(core.Performance([core.Part("
     "Dance(Dragon(3), Spiral(1.2, 2.0, (x, 0.0)))) for x in (0.0, 9.0)]))",
     "shortest turn": "core.shortest_turn(Dragon(4), 1.7)",
+    "rectangles of a picture": "(lambda plane: [core.kernels.fill_rectangles(plane, np.array([[9.3, 8.1, 0.8, 0.6, 6, "
+    "2]]), 0.4, np.array([[90.0], [7.0]])), plane])(np.full((20, 20, 1), 255, np.uint8))",
     "pitch scan": "core.pitch_scan(Dragon(10), [0.53, 0.55], start_turns=5.0)",
 }
 

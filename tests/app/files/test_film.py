@@ -197,7 +197,7 @@ def test_a_film_counts_bars_and_beats_and_shows_the_time_of_day():
 def digits_at(picture, row, column, word):
     """True if these digits stand in a picture of 1080 rows, with their middle at a place to within a pixel."""
     digits = pictures_of([word], size_of(1080), BLUE, DPI)[0]
-    full, (high, wide) = digits[..., 3] == 255, digits.shape[:2]
+    full, digits, (high, wide) = digits[..., 3] == 255, digits[..., :3], digits.shape[:2]
     top, left = row - high // 2 - 1, column - wide // 2 - 1
     windows = np.lib.stride_tricks.sliding_window_view(
         picture[top : top + high + 2, left : left + wide + 2], digits.shape
@@ -250,14 +250,14 @@ def test_a_marked_bench_is_wide_enough_to_be_seen(height):
     stage, _ = village(height)
     for instant in (0.0, 40.0, 70.0, 90.0, 119.0):
         outlines = outlines_of(stage.dance, instant)
-        picture = stage.frame(instant, outlines)[..., :3].astype(int)
+        picture = stage.frame(instant, outlines).astype(int)
         front, rear = outlines[17].reshape(2, 2, 2).mean(axis=1)
         # Its front is dark, so the yellow is behind.
         shares = np.array([0.0, 0.5 * FRONT_SHARE, 0.5 * (1.0 + FRONT_SHARE), 1.0])[:, None]
         first, dark, behind, last = on_picture(stage, front + shares * (rear - front))
         yellow = np.argwhere((np.abs(picture - YELLOW) < NEAR).all(axis=-1))
         assert len(yellow) > 0.5 * (1.0 - FRONT_SHARE) * MARKED_LEAST * height * np.hypot(*(first - last))
-        assert np.hypot(*(np.median(yellow, axis=0) - behind)) < 2.0
+        assert np.hypot(*(np.median(yellow, axis=0) - behind)) < 3.0
         assert picture[tuple(dark)].max() < 60
 
 
@@ -309,9 +309,9 @@ def test_the_time_stands_in_the_lower_right_corner():
     dark = []
     for words in ("", "benches 3 and 9 touch\n1:23.0 (83.06 s)"):
         stage.time.text = words
-        stage.canvas.restore_region(stage.still)
-        stage.axes.draw_artist(stage.time)
-        dark.append(np.asarray(stage.canvas.buffer_rgba())[..., 0] < 100)
+        stage.paper.begin()
+        stage.paper.lay(stage.time.placed)
+        dark.append(stage.paper.picture[..., 0] < 100)
     letters = np.argwhere(dark[1] & ~dark[0])
     assert len(letters) > 400
     assert np.abs(letters.max(axis=0) - (0.97 * 540, 0.985 * 960)).max() < 6.0

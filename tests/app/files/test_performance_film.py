@@ -39,7 +39,7 @@ def test_every_bench_is_drawn_in_the_colour_of_its_dragon():
         picture = stage.picture(time, outlines)
         for k, own in enumerate(outlines):
             for x, y in stage.axes.transData.transform(own.mean(axis=1)):
-                colour = picture[round(len(picture) - 1 - y), round(x), :3] / 255.0
+                colour = picture[round(len(picture) - 1 - y), round(x)] / 255.0
                 assert colour == pytest.approx(to_rgb(colour_of(k)), abs=0.02)
     assert stage.time.text == "19:30:20 (20.50 s)"
 

@@ -1,0 +1,76 @@
+"""Rectangles in the bytes of a picture, against points tried one by one."""
+
+import numpy as np
+import pytest
+
+from core.kernels import fill_rectangles
+
+# Points of a pixel along each axis at which the slow way tries it, and how far from it a value may be [of 255]: half a
+# step between two values, and what the product of two stretches leaves out at an edge aslant.
+POINTS, NEAR, NEAR_ASLANT = 32, 0.6, 32.0
+FACE, EDGE, PAPER = 200, 20, 250
+
+
+def inks_of(channels):
+    return np.repeat([[float(FACE)], [float(EDGE)]], channels, axis=1)
+
+
+def filled(rectangles, line=0.0, shape=(30, 40, 1)):
+    plane = np.full(shape, PAPER, np.uint8)
+    fill_rectangles(plane, np.array(rectangles, dtype=np.float64), line, inks_of(shape[2]))
+    return plane
+
+
+def covered(x, y, angle, length, width):
+    """The part of each pixel of 30 rows and 40 columns inside a rectangle, by points."""
+    row, column = (np.arange(POINTS * size) / POINTS + 0.5 / POINTS for size in (30, 40))
+    dx, dy = column[None] - x, row[:, None] - y
+    along, across = dx * np.cos(angle) + dy * np.sin(angle), dy * np.cos(angle) - dx * np.sin(angle)
+    inside = (np.abs(along) <= length) & (np.abs(across) <= width)
+    return inside.reshape(30, POINTS, 40, POINTS).mean(axis=(1, 3))
+
+
+def by_points(x, y, angle, length, width, line):
+    whole = PAPER + covered(x, y, angle, length + line, width + line) * (EDGE - PAPER)
+    if min(length, width) <= line:
+        return whole
+    return whole + covered(x, y, angle, length - line, width - line) * (FACE - whole)
+
+
+def row_of(x, y, angle, length, width):
+    return [x, y, np.cos(angle), np.sin(angle), length, width]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_pixel_is_mixed_by_the_part_of_it_that_is_covered(seed):
+    rng = np.random.default_rng(seed)
+    angle = rng.uniform(-4.0, 4.0) if seed % 3 else 0.5 * np.pi * rng.integers(-2, 3)
+    place = rng.uniform(5, 35), rng.uniform(5, 25), angle, rng.uniform(2.0, 12.0), rng.uniform(0.2, 4.0)
+    line = rng.choice([0.0, 0.3, 0.6, 1.5])
+    plane, slow = filled([row_of(*place)], line)[..., 0], by_points(*place, line)
+    assert np.abs(plane - slow).max() < (NEAR_ASLANT if seed % 3 else 255.0 / POINTS + NEAR)
+    assert abs(float(np.mean(plane - slow))) < 0.1
+
+
+def test_a_later_rectangle_covers_an_earlier_one_and_all_channels_alike():
+    rows = [row_of(12.0, 15.0, 0.0, 8.0, 4.0), row_of(20.0, 15.0, 0.0, 8.0, 4.0)]
+    plane = np.full((30, 40, 3), PAPER, np.uint8)
+    for row, ink in zip(rows, ([1, 2, 3], [4, 5, 6]), strict=True):
+        fill_rectangles(plane, np.array([row]), 0.0, np.array([ink, ink], np.float64))
+    assert plane[15, 10].tolist() == [1, 2, 3]
+    assert plane[15, 16].tolist() == [4, 5, 6]
+    together = filled(rows)
+    assert np.array_equal(together[:, 13:], filled(rows[1:])[:, 13:])
+
+
+@pytest.mark.parametrize("x", [-30.0, -3.0, 0.0, 40.0, 43.0, 90.0])
+@pytest.mark.parametrize("y", [-30.0, 0.0, 15.0, 30.0, 90.0])
+def test_a_rectangle_beyond_the_border_is_cut_there(x, y):
+    wide = np.full((90, 120, 1), PAPER, np.uint8)
+    for plane, (right, down) in ((wide, (40.0, 30.0)), (wide[30:60, 40:80].copy(), (0.0, 0.0))):
+        row = np.array([row_of(x + right, y + down, 0.7, 9.0, 3.0)])
+        fill_rectangles(plane, row, 0.5, inks_of(1))
+        if plane is wide:
+            expected = wide[30:60, 40:80].copy()
+            wide[:] = PAPER
+    assert np.abs(plane.astype(int) - expected).max() <= 1
