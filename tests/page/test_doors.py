@@ -73,8 +73,9 @@ def test_a_bare_address_moves_with_the_mouse_or_a_touch_and_the_wheel_scrolls_un
     person = open_page("").strikes("Tab")
     person.page.mouse.move(300, 300)
     person.settles().sees(STANDS)
-    # A route stands.
-    moves(person.opens(""), 310).presses("#arrival [data-door=village]").settles().sees({"#play": "Play"})
+    # A route stands, at the time at which it is shown first.
+    moves(person.opens(""), 310).presses("#arrival [data-door=village]").settles()
+    person.sees({"#play": "Play", "#clock": "75.00 s"})
     moves(person.opens(""), 320).presses("#doors [data-door=all]").sees({"#clock": re.compile(r"^[1-9].*")})
     canvas = person.presses("#play").box("#canvas")
     person.page.mouse.move(canvas["x"] + 300, canvas["y"] + 300)

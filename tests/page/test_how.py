@@ -69,11 +69,20 @@ def test_dragged_numbers_get_the_answers_of_the_service_also_after_it_was_lost(o
     assert len(set(lefts)) == 1
     person.page.route("**/*", lambda route: route.abort())
     dial(person, "chord", "Chord of the head bench").press("ArrowUp")
-    person.sees({"#chord .note": "the figure is older than your numbers"}).reads({"#step .note": ""})
+    person.sees({"#lost:visible": "does not answer", "#chord .note": "the figure is older than your numbers"})
+    person.reads({"#step .note": ""})
     person.page.unroute("**/*")
     # The page tries again by itself too; where that came first, a click of the mouse would wait for the button.
     person.at("#lost button").evaluate("button => button.click()")
     person.reads({"#chord .note": ""}).sees({"#lost": False})
+    # A number that waits for the service that is back is not said to be older, in any language.
+    held = person.holds_back("**/trajectory*")
+    with person.page.expect_request("**/trajectory*"):
+        dial(person, "chord", "Chord of the head bench").press("ArrowUp")
+    person.presses("[data-lang=zh]").sees({"#chord figure[aria-busy=true]:not(.stale)": True})
+    person.reads({"#chord .note": ""})
+    held.let_go()
+    person.settles()
 
 
 @thorough

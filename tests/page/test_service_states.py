@@ -74,10 +74,10 @@ def test_a_lost_service_is_reported_and_what_a_person_does_meanwhile_is_done_whe
     with serving(tmp_path / "first.log", port=port, deadline_seconds=PATIENT):
         person = open_page(f"?{urlencode(numbers)}", base=f"http://127.0.0.1:{port}", failing=True)
         answer, before = person.text(CONTACT), person.picture()
-    person.sees({"#lost": "does not answer"}).types({"#pitch": "0.5"}, "Tab")  # an idle page notices it too
+    person.sees({"#lost:visible": "does not answer"}).types({"#pitch": "0.5"}, "Tab")  # an idle page notices it too
     assert person.text(CONTACT) == answer
     assert alike(person.picture(), before)
-    person.presses("[data-lang=zh]").sees({"h1": "板凳龙", "#lost": "服务没有响应"})
+    person.presses("[data-lang=zh]").sees({"h1": "板凳龙", "#lost:visible": "服务没有响应"})
     person.types({"#typed-pitch": "0.450338"})
     with serving(tmp_path / "second.log", port=port, deadline_seconds=PATIENT):
         person.sees({"#lost": False, CONTACT: contact(server, **numbers, pitch=0.5), "#grades .value": "✓正确"})
