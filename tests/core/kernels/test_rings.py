@@ -87,3 +87,24 @@ def test_the_bound_for_two_spirals_over_a_range_of_growths_is_none_above_that_of
         assert 0.0 < least <= min(inside)
     clear = clear_radius(0.3, 0.1, rings, angle)
     assert 0.1 < spirals_least(0.3, angle, clear, rings) < 0.101
+
+
+@pytest.mark.parametrize("angle", [1.0, 2.0, 2.0 * np.pi])
+def test_the_bound_for_turns_apart_is_the_distance_of_their_line_from_the_origin(angle):
+    """Points at polar angles x apart are G + growth x apart radially, and 2 rho |x| / pi sideways: the bound is the
+    least of both together. G is growth times the angle of the spirals less the bows, so the bound grows with it."""
+    rings, growth, radius = ContactSearch(Dragon(40), Spiral(), 0.0).rings, 0.8, 8.0
+    foot = max(0.5 * rings.all_chord, 1.67 * growth)
+    rho = np.sqrt(radius**2 - foot**2) - rings.all_half_width
+    x = np.linspace(-np.pi, np.pi, 2_000_001)
+    gap = growth * angle
+    least = np.hypot(np.maximum(gap + growth * x, 0.0), 2.0 * rho * x / np.pi).min()
+    more, less = (spirals_least(growth, 6.0 + end * angle, radius, rings) for end in (1.0, 0.0))
+    assert more - less == pytest.approx(least, rel=1e-9)
+
+
+@pytest.mark.parametrize(("pitch", "radius"), [(0.5, 9.0), (0.55, 4.0), (0.55, 9.0), (0.7, 3.0)])
+def test_benches_of_one_dragon_a_turn_apart_have_the_bound_of_spirals_a_turn_apart(pitch, radius):
+    rings, growth = ContactSearch(Dragon(40), Spiral(pitch), 0.0).rings, Spiral(pitch).growth
+    alone = ring_least(growth, growth, radius, rings)
+    assert 0.0 < alone == pytest.approx(spirals_least(growth, 2.0 * np.pi, radius, rings), rel=1e-12)

@@ -7,7 +7,21 @@ from core import Dragon, Spiral
 from core.contact.search import ContactSearch
 from core.design.ways import SearchBetween
 from core.kernels import Budget, Rings, Scene, spiral_curve
-from core.kernels.constants import ERROR, MX, MY, SIZE_COLUMNS, TX, TY, UX, UY
+from core.kernels.constants import (
+    ERROR,
+    FRAME_COLUMNS,
+    FRAME_X,
+    FRAME_Y,
+    MX,
+    MY,
+    RATE,
+    SIZE_COLUMNS,
+    SWAY,
+    TX,
+    TY,
+    UX,
+    UY,
+)
 
 
 @pytest.mark.parametrize(("rows", "benches", "edges", "room"), [(41, 223, 0, 40), (41, 10, 0, 10), (41, 30, 10, 30)])
@@ -26,8 +40,20 @@ def test_copies_stand_where_turned_dragons_stand_with_larger_errors(count):
     assert search.interval.lay_out(search.place - 20.0, 0.05, 12)
     for k in range(1, count):
         rows = slice(13 * k, 13 * k + 12)
+        handles = slice(13 * k, 13 * k + 13)
         for x, y in ((MX, MY), (UX, UY), (TX, TY)):
-            turned = search.placed[:12, [x, y]] @ [1.0, 1.0j] * np.exp(2j * np.pi * k / count)
-            assert search.placed[rows, [x, y]] @ [1.0, 1.0j] == pytest.approx(turned, rel=0, abs=1e-14)
-        assert (search.placed[rows, ERROR] > search.placed[:12, ERROR]).all()
+            of_copy, of_dragon = (handles, slice(13)) if x == TX else (rows, slice(12))
+            turned = search.placed[of_dragon, [x, y]] @ [1.0, 1.0j] * np.exp(2j * np.pi * k / count)
+            assert search.placed[of_copy, [x, y]] @ [1.0, 1.0j] == pytest.approx(turned, rel=0, abs=1e-14)
+        for error in (ERROR, SWAY):
+            assert (search.placed[rows, error] > search.placed[:12, error]).all()
+        assert (search.placed[handles, RATE] == search.placed[:13, RATE]).all()
         assert (search.motion[rows] == search.motion[:12]).all()
+
+
+def test_the_error_of_edges_at_rest_is_that_of_the_furthest():
+    scene = Scene(spiral_curve(0.1), 9.0, Rings(), np.zeros((9, SIZE_COLUMNS)), 5, 3)
+    walls = np.zeros((3, FRAME_COLUMNS))
+    walls[:, FRAME_X], walls[:, FRAME_Y] = [1.0, -30.0, 2.0], [0.0, -40.0, 5.0]
+    scene.lay_walls(walls)
+    assert scene.wall_error == pytest.approx(6.0 * 70.0 * np.finfo(float).eps / 2.0, rel=1e-12, abs=0.0)

@@ -5,7 +5,7 @@ import pytest
 
 from core import Dance, Dragon, Spiral, bench_poses, overlaps, separation, trajectory
 from core.kernels import Budget, Wobbler
-from core.kernels.constants import BOX_COLUMNS, MX, MY, UX, UY
+from core.kernels.constants import BOX_COLUMNS, CHORD, HALF_LENGTH, MX, MY, UX, UY
 from core.shapes.reach import gains
 from tests.support.intervals import sizes_of
 
@@ -81,6 +81,8 @@ def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them():
         between = separation(poses[a], sizes[a], poses[b], sizes[b]).separation / (gain[a] + gain[b])
         least = [min(MOST, between[(a == k) | (b == k)].min()) for k in range(DRAGON.benches)]
         assert safe[t] == pytest.approx(np.array(least), abs=2e-9)
+        known = np.array(least) < MOST
+        assert (safe[t] < least)[known].all()
 
 
 def test_the_first_overlap_is_found_and_safe_strays_change_nothing():
@@ -97,3 +99,28 @@ def test_the_first_overlap_is_found_and_safe_strays_change_nothing():
         pairs = overlaps(np.stack([x, y, np.arctan2(uy, ux)], axis=-1), DRAGON.lengths, DRAGON.widths).pairs.tolist()
         assert results[0][1] in pairs if ends[-1] < 20 else pairs == []
     assert 10 < ends.count(20) < 70
+
+
+def test_a_bench_of_a_block_within_the_most_strays_of_both_counts_for_a_safe_stray():
+    """Eight benches out, eight around, eight back: 1.5 m lie between the first and the last, a stray of 0.75 m each."""
+    way, turned, dragon = 4.0 * np.arange(9.0), np.linspace(0.0, np.pi, 9)[1:-1], Dragon(24, 1.0, 1.0, 0.3, 0.0)
+    around = np.column_stack([32.0 + 9.0 * np.sin(turned), 0.9 - 0.9 * np.cos(turned)])
+    out, back = np.column_stack([way, 0.0 * way]), np.column_stack([way[::-1], 0.0 * way + 1.8])
+    places, safe = np.concatenate([out, around, back])[None], np.empty((1, 24))
+    chain, boxes, flags = np.zeros((25, UY + 1)), np.zeros((25, BOX_COLUMNS)), np.zeros((2, 25), dtype=np.int8)
+    Wobbler(sizes_of(dragon), Budget(1e9), chain, boxes, *flags).measure(1.0, np.ones(24), places, safe)
+    assert safe[0, :6] == pytest.approx(0.75, abs=2e-9)
+    assert safe[0, -6:] == pytest.approx(0.75, abs=2e-9)
+
+
+def test_benches_that_overlap_in_their_places_touch_although_nobody_strays():
+    """Their safe stray is 0, and so are the strays: opposite sides are 0.25 m apart and 0.3 m wide."""
+    sizes, chords = sizes_of(Dragon(4, 1.0, 1.0, 0.3, 0.0)), np.array([1.0, 0.25, 1.0, 0.25])
+    sizes[:4, CHORD], sizes[:4, HALF_LENGTH] = chords, 0.5 * chords
+    places = np.array([[[0.0, 0.0], [1.0, 0.0], [1.0, 0.25], [0.0, 0.25], [0.0, 0.0]]])
+    chain, boxes, flags = np.zeros((5, UY + 1)), np.zeros((5, BOX_COLUMNS)), np.zeros((2, 5), dtype=np.int8)
+    made, safe, state = Wobbler(sizes, Budget(1e9), chain, boxes, *flags), np.ones((1, 4)), np.zeros((5, 2))
+    made.measure(MOST, np.ones(4), places, safe)
+    assert (safe[0, 0], safe[0, 2]) == (0.0, 0.0)
+    assert made.dance(np.zeros(1), np.zeros((1, 5, 2)), NO_PLAY[:4], places, np.zeros((1, 5, 2)), safe, state) == 0
+    assert (made.first, made.second, made.furthest) == (0, 2, 0.0)
