@@ -193,7 +193,7 @@ class Room:
 
     def _left(self, job: Row) -> float:
         """Time that a running job should still take [s]: as reported, or as estimated; a late one as long again."""
-        ran = self.now - (job.started or self.now)
+        ran = max(self.now - (job.started or self.now), 0.0)
         most = self.limits.sweep_seconds_max if job.question == SWEEP else self.limits.job_seconds_max
         if job.time_left is not None:
             left = job.time_left - (self.now - job.updated)

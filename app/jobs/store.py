@@ -29,6 +29,7 @@ import orjson
 
 from app.files.flush import flush_folder
 from app.jobs import room
+from app.jobs.clock import follow_clock
 from app.jobs.job import EXPIRED, GAVE_WAY, ID_BYTES, SWEEP, Job, JobState
 from app.jobs.reserve import Reserve
 from app.jobs.room import DAY, Counts, Room, Row, counts, has_room
@@ -98,7 +99,7 @@ class Store:
         run("PRAGMA secure_delete = ON")  # Removed calls are overwritten on the disk; clear() removes their copies.
         run("PRAGMA temp_store = MEMORY")
         run(f"PRAGMA wal_autocheckpoint = {LOG_PAGES}")
-        with self._change():
+        with self._transaction():
             self._key = prepare(self._connection, self.folder)
 
     def close(self) -> None:
@@ -123,7 +124,18 @@ class Store:
 
     @contextmanager
     def _change(self) -> Iterator[sqlite3.Connection]:
-        """One transaction, isolated from other threads and processes."""
+        """One transaction, isolated from other threads and processes, whose times are those of the clock now."""
+        with self._transaction() as run:
+            follow_clock(run)
+            yield run
+
+    def _now(self) -> float:
+        """The time to which the ages of all jobs refer [s]."""
+        with self._transaction() as run:
+            return follow_clock(run)
+
+    @contextmanager
+    def _transaction(self) -> Iterator[sqlite3.Connection]:
         with self._lock:
             self._connection.execute("BEGIN IMMEDIATE")
             try:
@@ -169,9 +181,13 @@ class Store:
         with self._lock, closing(self._connection.execute(question, values)) as rows:
             return rows.fetchall()
 
-    def _move(self, run: sqlite3.Connection, job: str, where: str, /, **values: Any) -> bool:
-        """Set values of a job if the condition `where` holds, and inform listeners by an event; True if it held."""
-        values["updated"] = time.time()
+    def _move(self, run: sqlite3.Connection, job: str, where: str, stamp: str = "updated", /, **values: Any) -> bool:
+        """Set values of a job if the condition `where` holds, and inform listeners by an event; True if it held.
+
+        stamp: column that becomes the time of this change, never before that of the last one
+        """
+        [(latest,)] = run.execute("SELECT max(updated) FROM jobs WHERE id = ?", (job,))
+        values["updated"] = values[stamp] = max(time.time(), latest or 0.0)
         setting = ", ".join(f"{name} = :{name}" for name in values)
         changed = run.execute(f"UPDATE jobs SET {setting} WHERE id = :id AND {where}", values | {"id": job}).rowcount
         if changed:
@@ -193,9 +209,9 @@ class Store:
         raises: Full if there is no room for it; OSError if the folder is gone
         """
         self._reserve.keep(2 * len(call))  # in the log, and in the database
-        now, job, name = time.time(), secrets.token_hex(ID_BYTES), client_name(client, self._key)
+        job, name = secrets.token_hex(ID_BYTES), client_name(client, self._key)
         with self._change() as run:
-            gone: list[str] = []
+            now, gone = time.time(), list[str]()
             if not has_room(run, name, len(call), limits):
                 kept = self._kept(run, name, limits, now)
                 kept.make(len(call))
@@ -309,7 +325,7 @@ class Store:
 
     def has_work(self, days: float) -> bool:
         """True if a runner has work. days: time for which finished jobs are kept"""
-        latest = time.time() - days * DAY
+        latest = self._now() - days * DAY
         due = "SELECT 1 FROM jobs WHERE state IN ('accepted', 'running') OR finished < ? AND NOT expired"
         known = self._read(f"{due} OR finished < ? LIMIT 1", latest, latest - days * DAY)
         return bool(known) or any(self.sweeps.iterdir())  # Shards of finished sweeps must be removed.
@@ -336,7 +352,7 @@ class Store:
             job, question, client = next_job(run, sweeps, of_client) or (None, "", "")
             if job is not None:
                 again = {} if question == SWEEP else {"progress": 0}  # A sweep goes on from its shards.
-                self._move(run, job, "1", state=JobState.RUNNING, started=time.time(), message="Running.", **again)
+                self._move(run, job, "1", "started", state=JobState.RUNNING, message="Running.", **again)
                 note_turn(run, client)
         return job
 
@@ -407,9 +423,9 @@ class Store:
         self, job: str, state: JobState, message: str, more: dict[str, Any], where: str = "state = 'running'"
     ) -> bool:
         """End a job if the condition `where` holds; True if it held."""
-        ended = more | {"state": state, "finished": time.time(), "message": message}
+        ended = more | {"state": state, "message": message}
         with self._possible_on_full_disk(), self._change() as run:
-            moved = self._move(run, job, where, **ended)
+            moved = self._move(run, job, where, "finished", **ended)
             if moved:
                 # The answer has its parts too.
                 is_part = "json_type(CAST(data AS TEXT), '$.part') = 'object'"
@@ -432,7 +448,7 @@ class Store:
 
     def expire(self, days: float) -> None:
         """Remove calls and results of jobs this many days after their end, and the jobs after twice as many."""
-        latest = time.time() - days * DAY
+        latest = self._now() - days * DAY
         for (job,) in self._read("SELECT id FROM jobs WHERE finished < ? AND NOT expired", latest):
             self.result(job).unlink(missing_ok=True)
             with self._change() as run:

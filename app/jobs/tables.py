@@ -37,6 +37,7 @@ CREATE TABLE IF NOT EXISTS removals (
 );
 INSERT OR IGNORE INTO removals (id, made, cleared) VALUES (0, 0, 0);
 CREATE TABLE IF NOT EXISTS turns (client TEXT PRIMARY KEY, latest REAL NOT NULL) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS clock (id INTEGER PRIMARY KEY CHECK (id = 0), boot TEXT NOT NULL, ahead REAL NOT NULL);
 """
 # Columns that tables of earlier layouts may lack.
 ADDED = {
