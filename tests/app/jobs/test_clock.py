@@ -9,7 +9,7 @@ import pytest
 from app.jobs.clock import STEP, TIMES
 from app.jobs.room import DAY
 from app.jobs.store import Store
-from tests.app.jobs.test_store import PROBLEM, ended, make, written
+from tests.app.jobs.test_store import PROBLEM, ended, make, run_in, written
 
 MINUTE, HOUR = 60.0, 3600.0
 
@@ -22,11 +22,10 @@ def store(tmp_path):
 
 def jump(store, step):
     """A step of the clock, as the store sees it: what it wrote before was written at another time."""
-    with store._transaction() as run:
-        for name in TIMES:
-            run.execute(f"UPDATE jobs SET {name} = {name} - ?", (step,))
-        run.execute("UPDATE turns SET latest = latest - ?", (step,))
-        run.execute("UPDATE clock SET ahead = ahead - ?", (step,))
+    for name in TIMES:
+        run_in(store, f"UPDATE jobs SET {name} = {name} - ?", step)
+    run_in(store, "UPDATE turns SET latest = latest - ?", step)
+    run_in(store, "UPDATE clock SET ahead = ahead - ?", step)
 
 
 def times_of(job):
@@ -53,11 +52,10 @@ def test_jobs_keep_their_ages_when_the_clock_jumps(store, step):
 def test_after_a_start_with_an_earlier_clock_no_job_is_from_the_future(store):
     kept, waiting = ended(store), make(store)
     jump(store, -1000 * DAY)
-    with store._transaction() as run:
-        run.execute("UPDATE clock SET boot = 'another start of this machine'")
+    run_in(store, "UPDATE clock SET boot = 'another start of this machine'")
     make(store)
     assert all(max(times_of(store.known(job))) <= time.time() for job in (kept, waiting))
-    assert [latest for (latest,) in store._read("SELECT latest FROM turns")] <= [time.time()]
+    assert [latest for (latest,) in run_in(store, "SELECT latest FROM turns")] <= [time.time()]
     store.expire(days=0.0)
     assert not store.result(kept).exists()
 
