@@ -17,6 +17,10 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from app.service.middleware import Layer
 from app.settings import ROOT_PATH, Settings
 
+# Addresses of this machine, from which a proxy on it comes.
+HERE = "127.0.0.1,::1"
+MAPPED = "::ffff:"
+
 
 class Proxies(ProxyHeadersMiddleware):
     """The outermost layer: takes the client, scheme and root path of a request from its proxy.
@@ -25,17 +29,21 @@ class Proxies(ProxyHeadersMiddleware):
     """
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
-        super().__init__(app, os.environ.get("FORWARDED_ALLOW_IPS", "127.0.0.1"))  # type: ignore[arg-type]
+        super().__init__(app, os.environ.get("FORWARDED_ALLOW_IPS", HERE))  # type: ignore[arg-type]
         self.root = settings.root_path
 
     async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
         if scope["type"] == "http":
             root = scope.get("root_path") or self.root
             client = scope.get("client")
+            if client and client[0].startswith(
+                MAPPED
+            ):  # IPv4 on a socket of IPv6: FORWARDED_ALLOW_IPS names it as IPv4
+                client = (client[0].removeprefix(MAPPED), client[1])
             if client and client[0] in self.trusted_hosts:
                 prefix = Headers(scope=scope).get("x-forwarded-prefix", "").rstrip("/")
                 root = prefix if prefix and ROOT_PATH.fullmatch(prefix) else root
-            scope = {**scope, "root_path": root}
+            scope = {**scope, "root_path": root, "client": client}
             if self.root and scope["path"].startswith(f"{self.root}/"):
                 scope["path"] = scope["path"].removeprefix(self.root)
                 scope["raw_path"] = scope["raw_path"].removeprefix(self.root.encode())

@@ -131,9 +131,9 @@ class Serving:
 Process = Serving | subprocess.Popen[bytes]
 
 
-def serve(port, workers, environment, log, limit=None):
+def serve(port, workers, environment, log, limit=None, host="127.0.0.1"):
     """`bench-dragon serve`, which writes into a log. limit: called in its process before it starts"""
-    words = ["serve", "--port", str(port), "--workers", str(workers)]
+    words = ["serve", "--host", host, "--port", str(port), "--workers", str(workers)]
     with log.open("wb") as output:
         if limit:
             environment = {**environment, "PYTHONDONTWRITEBYTECODE": "1"}  # as for a run with little room

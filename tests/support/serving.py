@@ -46,10 +46,10 @@ def environment_of(settings):
 
 
 @contextmanager
-def serving(log, workers=1, limit=None, port=0, **settings):
+def serving(log, workers=1, limit=None, port=0, host="127.0.0.1", **settings):
     """limit: called in the service's process before it starts; port: 0 for a free one"""
     port = port or free_port()
-    process = serve(port, workers, environment_of(settings), log, limit)
+    process = serve(port, workers, environment_of(settings), log, limit, host)
     try:
         wait_until_live(process, port, log)
         yield Service(f"http://127.0.0.1:{port}", process, log)
