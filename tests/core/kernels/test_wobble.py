@@ -102,15 +102,15 @@ def test_the_first_overlap_is_found_and_safe_strays_change_nothing():
 
 
 def test_a_bench_of_a_block_within_the_most_strays_of_both_counts_for_a_safe_stray():
-    """Eight benches out, eight around, eight back: 1.5 m lie between the first and the last, a stray of 0.75 m each."""
+    """Eight benches out, eight around, eight back: 1.9 m lie between the first and the last, a stray of 0.95 m each."""
     way, turned, dragon = 4.0 * np.arange(9.0), np.linspace(0.0, np.pi, 9)[1:-1], Dragon(24, 1.0, 1.0, 0.3, 0.0)
-    around = np.column_stack([32.0 + 9.0 * np.sin(turned), 0.9 - 0.9 * np.cos(turned)])
-    out, back = np.column_stack([way, 0.0 * way]), np.column_stack([way[::-1], 0.0 * way + 1.8])
+    around = np.column_stack([32.0 + 9.0 * np.sin(turned), 1.1 - 1.1 * np.cos(turned)])
+    out, back = np.column_stack([way, 0.0 * way]), np.column_stack([way[::-1], 0.0 * way + 2.2])
     places, safe = np.concatenate([out, around, back])[None], np.empty((1, 24))
     chain, boxes, flags = np.zeros((25, UY + 1)), np.zeros((25, BOX_COLUMNS)), np.zeros((2, 25), dtype=np.int8)
     Wobbler(sizes_of(dragon), Budget(1e9), chain, boxes, *flags).measure(1.0, np.ones(24), places, safe)
-    assert safe[0, :6] == pytest.approx(0.75, abs=2e-9)
-    assert safe[0, -6:] == pytest.approx(0.75, abs=2e-9)
+    assert safe[0, :6] == pytest.approx(0.95, abs=2e-9)
+    assert safe[0, -6:] == pytest.approx(0.95, abs=2e-9)
 
 
 def test_benches_that_overlap_in_their_places_touch_although_nobody_strays():
