@@ -24,10 +24,10 @@ from app.grade.labels import SPEED
 from app.grade.layout import BENCHES, COMPONENTS, HANDLES, SHEETS, TableKind
 from app.grade.numbers import explained, rounded_right
 from app.grade.outside import Outside, outside_of, same_cells, without
-from app.grade.rings import places, wrong_ring
+from app.grade.rings import ON_PATH, places, wrong_ring
 from app.grade.shortcuts import Finding
 from app.grade.words import Note, note, say
-from core import Budget, Dance
+from core import Budget, Dance, Spiral
 from core.values import Floats
 
 # Fewest decimals with which errors can be distinguished.
@@ -39,9 +39,21 @@ STEADY_SHARE, STEADY = 0.9, 1e-5
 # Uncertainty of an instant that the places of all handles show, in units of the last decimal of a place at 1 m/s: their
 # rounding errors, 0.29 units each, average out over more than 300 numbers to 0.017 units.
 INSTANT_OFF = 0.1
+# Images of places that known errors give: themselves, y negated, x negated, x and y exchanged.
+IMAGES = [
+    np.array(image)
+    for image in (
+        [[1.0, 0.0], [0.0, 1.0]],
+        [[1.0, 0.0], [0.0, -1.0]],
+        [[-1.0, 0.0], [0.0, 1.0]],
+        [[0.0, 1.0], [1.0, 0.0]],
+    )
+]
 # Step of the derivative by which an instant is improved [s]; and largest change, or distance of a handle that counts
 # for it [s, m].
 INSTANT_STEP, INSTANT_FAR = 1e-4, 1e-3
+# The same in units of the last decimal, of which rounding leaves the head's place, and thus the instant, about one [1].
+ROUNDED_FAR = 2.0
 # Largest shift of the times that speeds show, step of the search for it, and step of their derivative [s]: they hardly
 # change on the spiral, and in the turn within 0.3 s.
 SHIFT_MOST, SHIFT_STEP, SPEED_STEP = 100.0, 0.1, 0.01
@@ -308,10 +320,13 @@ def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
     if not position.is_off:
         return _with_speeds([], speed, none, right, [], budget)
     seen = _seen(position)
-    instants = [float(one.times[0]), *(_instants(dance, seen.head) if seen.head is not None else [])]
-    for instant in instants:
-        is_other = instant is not instants[0]
-        instant = _improved(position, right, instant) if is_other else instant
+    instants = [
+        (float(one.times[0]), IMAGES[0]),
+        *(_instants(dance, seen.head, 10.0**-one.written) if seen.head is not None else []),
+    ]
+    for n, (instant, image) in enumerate(instants):
+        is_other = n > 0
+        instant = _improved(replace(position, values=position.values @ image), right, instant) if is_other else instant
         times = np.array([instant])
         what: dict[str, object] = {"time": f"{instant:.6f}", "what": note(SHEETS[TableKind.POSITION])}
         models = [Model("other_instant", right, what, is_simplest=True)] if is_other else []
@@ -338,13 +353,13 @@ def _part(one: JudgedSheet, kind: TableKind) -> JudgedSheet:
 
 def _improved(one: JudgedSheet, right: Motion, instant: float) -> float:
     """The instant at which all handles are nearest to their places in the sheet, by least squares [s]."""
-    known, time = one.handles < HANDLES, instant
+    known, time, far = one.handles < HANDLES, instant, max(INSTANT_FAR, ROUNDED_FAR * 10.0**-one.written)
     for _ in range(3):
         ends = right(time + INSTANT_STEP * np.array([-1.0, 0.0, 1.0]))[:, one.handles[known], :2]
         slope, off = (ends[2] - ends[0]) / (2.0 * INSTANT_STEP), one.values[0, known, :2] - ends[1]
-        present = np.isfinite(off) & (np.abs(off) < INSTANT_FAR)
+        present = np.isfinite(off) & (np.abs(off) < far)
         time += float((slope * off)[present].sum() / max(float((slope**2)[present].sum()), INSTANT_STEP))
-    return time if abs(time - instant) < INSTANT_FAR else instant
+    return time if abs(time - instant) < far else instant
 
 
 def _why_then(instant: float, written: int) -> list[Finding]:
@@ -360,9 +375,16 @@ def _why_then(instant: float, written: int) -> list[Finding]:
     return explained("collision_time", round(instant, decimals), 0.5 * 10.0**-decimals)
 
 
-def _instants(dance: Dance, head: Floats) -> Iterator[float]:
-    """Times at which the head is at the student's place [s], also on a mirrored spiral."""
-    for point in (head[0], head[0] * [1.0, -1.0], head[0] * [-1.0, 1.0], head[0][::-1]):
-        s = float(places(dance.path, point))
+def _instants(dance: Dance, head: Floats, unit: float) -> Iterator[tuple[float, Floats]]:
+    """Times at which the head is at the student's place or at an image of it [s], each with the image.
+
+    unit: of the last decimal of the place [m]
+    """
+    growth = Spiral().growth
+    for image in IMAGES:
+        point = head[0] @ image
+        # A place follows from its radius, which grows by 1 m over so many metres of the path.
+        far = unit * float(np.hypot(*point)) / growth
+        s = float(places(dance.path, point, max(ON_PATH, far)))
         if np.isfinite(s):
-            yield time_at(dance, s / dance.head_speed, point)
+            yield time_at(dance, s / dance.head_speed, point), image

@@ -26,6 +26,8 @@ CONSTANT_DECIMALS, ANGLE_DECIMALS = (2, 3, 4, 5), (1, 2, 3, 4, 5)
 PI_ROUNDED = (3.14, 3.1416)
 # Step of the search for the time at which the head passes a place [m], and largest distance from that place [m].
 PLACE_STEP, PLACE_NEAR = 0.01, 0.05
+# Most places of the head of which the mean shift is taken.
+PLACES_MOST = 50
 # Least and largest shift of the times that is looked for [s]: six decimals of the head's place show 1e-6 s.
 SHIFT_LEAST, SHIFT_MOST = 1e-5, 500.0
 # A start counts as one of three decimals up to this distance from it [turns].
@@ -311,7 +313,11 @@ def _shift(dance: Dance, times: Floats, head: Floats) -> float | None:
     off = np.linalg.norm(dance.path.position(span * dance.head_speed) - head[first], axis=-1)
     if not off.size or off.min() > PLACE_NEAR:
         return None
-    return time_at(dance, float(span[off.argmin()]), head[first]) - float(times[first])
+    shift = time_at(dance, float(span[off.argmin()]), head[first]) - float(times[first])
+    # The rounding of one place moves it by as much; the mean of many places is nearer, if these have the same shift.
+    some = [k for k in known[:: max(1, known.size // PLACES_MOST)] if times[k] + shift <= dance.end.time]
+    shifts = [time_at(dance, float(times[k]) + shift, head[k]) - float(times[k]) for k in some]
+    return float(np.mean(shifts)) if shifts and max(shifts) - min(shifts) < PLACE_STEP else shift
 
 
 def time_at(dance: Dance, time: float, point: Floats) -> float:

@@ -36,6 +36,9 @@ SCALES = {1e-2: (50.0, 200.0), 1e-3: (500.0, 2000.0)}
 SPREAD, STEADY = (0.1, 0.25, 0.5, 0.75, 0.9), 1.25
 # Distance within which a number counts for a handle, when labels are compared with the order [m, m/s].
 NEAR = 0.01
+# Least share of the numbers that count for their handles in the order of the rows, so that it replaces the labels [1]:
+# of wrong numbers some do by chance.
+FITTING = 0.5
 # Size of the picture, and its marks: right, rounded, wrong, missing.
 PICTURE_ROWS, PICTURE_COLUMNS = 14, 42
 MARKS = ".o#?"
@@ -255,7 +258,10 @@ def _handles(table: SheetTable, values: Floats, motion: Floats, notes: list[Note
         known = handles < HANDLES
         return int((np.abs(values[:, known] - motion[:, handles[known]]) < NEAR).sum())
 
-    if np.array_equal(table.handles, table.by_order) or near(table.by_order) <= near(table.handles):
+    if np.array_equal(table.handles, table.by_order):
+        return table.handles
+    fits = near(table.by_order)
+    if fits <= near(table.handles) or fits < FITTING * np.isfinite(values).sum():
         return table.handles
     notes.append(note("by_order"))
     return table.by_order

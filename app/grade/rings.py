@@ -59,12 +59,15 @@ def wrong_ring(one: JudgedSheet) -> Finding | None:
     return Finding("wrong_ring", note("error_wrong_ring"), note(words, **values))
 
 
-def places(path: Path, points: Floats) -> Floats:
-    """Arc lengths of points on a spiral or a turn, (...) [m], NaN for others. points: (..., 2) [m]"""
+def places(path: Path, points: Floats, far: float = ON_PATH) -> Floats:
+    """Arc lengths of points on a spiral or a turn, (...) [m], NaN for others.
+
+    points: (..., 2) [m]; far: distance from the path within which they are on it [m]
+    """
     arc_lengths = np.full(points.shape[:-1], np.nan)
     for s in _candidates(path, points):
         inside = np.clip(np.nan_to_num(s), *path.drawn_between(-np.inf, path.end))
-        on_path = np.linalg.norm(path.position(inside) - points, axis=-1) < ON_PATH
+        on_path = np.linalg.norm(path.position(inside) - points, axis=-1) < far
         arc_lengths = np.where(on_path, inside, arc_lengths)
     return arc_lengths
 

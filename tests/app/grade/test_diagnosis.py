@@ -340,3 +340,36 @@ def test_right_results_have_nothing_to_diagnose(whole):
     for data in (first(spiral(), whole=whole), fourth(turn(), whole=whole)):
         result = grade(data)
         assert (result.verdict, result.diagnosis) == ("right" if whole else "incomplete", [])
+
+
+@pytest.mark.parametrize("decimals", [2, 3, 4])
+def test_another_instant_is_seen_in_a_mirror_too_and_in_few_decimals(decimals):
+    """The place of the head alone leaves the instant as uncertain as its last decimal: all handles tell it."""
+    position, speed = students.mirrored(spiral(np.array([412.5])))
+    result = grade(students.contact_workbook((position.round(decimals), speed.round(decimals))))
+    assert errors(result)[:2] == ["anticlockwise", "other_instant"]
+
+
+@pytest.mark.parametrize("decimals", [2, 3])
+def test_a_shift_of_the_times_is_seen_in_few_decimals(decimals):
+    position, speed = spiral(SPIRAL_TIMES[TENTH] + 1.0)
+    result = grade(students.lines((position.round(decimals), speed.round(decimals)), SPIRAL_TIMES[TENTH]))
+    assert errors(result)[:1] == ["shifted_time"]
+
+
+def test_labels_hold_where_wrong_numbers_fit_the_order_of_the_rows_by_chance():
+    """Three rows are missing, so that those behind are in another order; the head was treated as a body."""
+    results = (part.round(2) for part in spiral(dragon=Dragon(head_length=2.2)))
+    position, speed = (
+        np.where(
+            np.isin(np.arange(224), [50, 51])[:, None] if part.ndim == 3 else np.isin(np.arange(224), [50, 51]),
+            np.nan,
+            part,
+        )
+        for part in results
+    )
+    lines = students.lines((position[TENTH], speed[TENTH]), SPIRAL_TIMES[TENTH]).decode().splitlines()
+    kept = "\n".join(line for line in lines if "nan" not in line)
+    result = grade(kept.encode())
+    assert errors(result) == ["head_as_body"]
+    assert "shifted" not in " ".join(note for sheet in result.sheets for note in sheet.notes)
