@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor, wait
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 
 from app.contest.solved import Solved
 from app.files.film_spec import ENDINGS, LOOKS, FilmSpec
 from app.files.words import Say
+from core import Budget
 
 # Names of the films, without their endings.
 FILMS = ("dance", "turn")
+# Time between two looks at films that another thread makes [s].
+LOOK_SECONDS = 0.05
 
 
 @dataclass(frozen=True)
@@ -23,8 +29,36 @@ class Wanted:
     seconds: float = 20.0
 
 
-def films(
+@contextmanager
+def films_beside(
     solved: Solved, say: Say, wanted: Wanted, progress: Callable[[str, float], None]
+) -> Iterator[Callable[[], list[tuple[str, bytes]]]]:
+    """Context in which another thread makes the films; they end with it. Yields the function that waits for films().
+
+    That function reports their progress, and raises Halted once the budget of the answers is stopped.
+    """
+    # A budget of its own: one that two threads use would stop but one of them.
+    budget, shares = Budget(math.inf), dict[str, float]()
+
+    def wait_for_films() -> list[tuple[str, bytes]]:
+        while True:
+            is_done = bool(wait([filming], LOOK_SECONDS).done)
+            for name, share in list(shares.items()):
+                progress(name, share)
+            if is_done:
+                return filming.result()
+            solved.budget.look()
+
+    with ThreadPoolExecutor(1, "films") as threads:
+        filming = threads.submit(lambda: list(films(solved, say, wanted, budget, shares.__setitem__)))
+        try:
+            yield wait_for_films
+        finally:
+            budget.stop()
+
+
+def films(
+    solved: Solved, say: Say, wanted: Wanted, budget: Budget, progress: Callable[[str, float], None]
 ) -> Iterator[tuple[str, bytes]]:
     """Name and bytes of every wanted film; without PyAV each is a GIF.
 
@@ -49,5 +83,5 @@ def films(
             file = name + ENDINGS[form]
             yield (
                 file,
-                film.film(dance, spec, form, title=title, budget=solved.budget, progress=partial(progress, file)),
+                film.film(dance, spec, form, title=title, budget=budget, progress=partial(progress, file)),
             )

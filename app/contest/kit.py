@@ -122,13 +122,14 @@ def files_of(
         require("figures", "folder", "a figure")
         from app.contest.figures import figures
 
-        for figure in figures(solved, say, lambda share: progress(say("figures", "绘图"), share)):
-            drawn.append(figure)
-            for ending, data in figure.files.items():
-                yield f"{FIGURES}/{figure.name}.{ending}", data
-        for name, data in films.films(solved, say, shot, progress):
-            filmed.append(name)
-            yield name, data
+        with films.films_beside(solved, say, shot, progress) as wait_for_films:
+            for figure in figures(solved, say, lambda share: progress(say("figures", "绘图"), share)):
+                drawn.append(figure)
+                for ending, data in figure.files.items():
+                    yield f"{FIGURES}/{figure.name}.{ending}", data
+            for name, data in wait_for_films():
+                filmed.append(name)
+                yield name, data
     except MissingPackage as missing:
         kit.missing = missing
     page = report(solved, kit.results, tables, drawn, filmed, say)

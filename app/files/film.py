@@ -73,6 +73,7 @@ GIF_BLENDS = (
     (BLUE, VERMILION), (BODY_EDGE, VERMILION), ("black", VERMILION), ("black", BLUE), ("white", WAY),
 )  # fmt: skip
 WORDS = {Language.ENGLISH: "{clock} ({time:.2f} s)", Language.CHINESE: "{clock}（{time:.2f} 秒）"}
+DIGITS = "0123456789"
 COUNTS = {Language.ENGLISH: "bar {} beat {}", Language.CHINESE: "第 {} 小节第 {} 拍"}
 TOUCHING = {Language.ENGLISH: "benches {} and {} touch\n", Language.CHINESE: "第 {} 节与第 {} 节板凳相碰（龙头为 0）\n"}
 COUNTS_OF = {Language.ENGLISH: "{}: {}", Language.CHINESE: "{}：{}"}
@@ -204,6 +205,8 @@ class FilmPicture:
             self.axes.text(0.985, 0.97, title, ha="right", va="top", **place)
             self.time = CornerText(self.axes, points)
             self.layers = [self._layer(k, dragon, spec) for k, dragon in enumerate(dragons)]
+        # Here, because matplotlib draws for one thread at a time.
+        self.time.prepare(DIGITS + self.words(spec.stop))
         self.canvas.draw()
         self.paper = Paper(np.asarray(self.canvas.buffer_rgba()), tones)
 

@@ -129,6 +129,11 @@ class CornerText:
         self._font = FontProperties(family=list(matplotlib.rcParams["font.family"]), size=points)
         self._characters: dict[str, tuple[float, Stamp, int, int]] = {}
 
+    def prepare(self, text: str) -> None:
+        """Draw the characters of a text, which placed() would draw when it first needs them."""
+        for character in text:
+            self._drawn(character)
+
     @property
     def placed(self) -> list[Placed]:
         """Each character, where it stands in the picture."""

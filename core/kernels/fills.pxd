@@ -11,7 +11,7 @@ cdef Py_ssize_t index_of(double x, Py_ssize_t most) noexcept nogil
 @cython.locals(k=cython.Py_ssize_t, row=cython.Py_ssize_t, first=cython.Py_ssize_t, last=cython.Py_ssize_t)
 cpdef void fill_rectangles(
     unsigned char[:, :, ::1] plane, const double[:, ::1] rectangles, double line, const double[:, ::1] inks
-) noexcept nogil
+) noexcept
 
 @cython.locals(
     columns=cython.Py_ssize_t, first=cython.Py_ssize_t, last=cython.Py_ssize_t, inner=cython.Py_ssize_t,

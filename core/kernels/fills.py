@@ -49,15 +49,16 @@ def fill_rectangles(plane, rectangles, line, inks):
     plane: (rows, columns, channels), which is changed; rectangles: (N, 6); line: half width of the lines [pixels]
     inks: (2, channels) values inside the lines, and of the lines, whole numbers up to 255
     """
-    for k in range(rectangles.shape[0]):
-        cos, sin = rectangles[k, ALONG_X], rectangles[k, ALONG_Y]
-        length, width = rectangles[k, HALF_ALONG], rectangles[k, HALF_ACROSS]
-        far, wide = length + line + 0.5, width + line + 0.5
-        from_middle, reach = rectangles[k, MIDDLE_Y] - 0.5, far * fabs(sin) + wide * fabs(cos)
-        first = index_of(ceil(from_middle - reach), plane.shape[0])
-        last = index_of(ceil(from_middle + reach), plane.shape[0])
-        for row in range(first, last):
-            fill_row(plane, row, rectangles, k, line, inks)
+    with cython.nogil:
+        for k in range(rectangles.shape[0]):
+            cos, sin = rectangles[k, ALONG_X], rectangles[k, ALONG_Y]
+            length, width = rectangles[k, HALF_ALONG], rectangles[k, HALF_ACROSS]
+            far, wide = length + line + 0.5, width + line + 0.5
+            from_middle, reach = rectangles[k, MIDDLE_Y] - 0.5, far * fabs(sin) + wide * fabs(cos)
+            first = index_of(ceil(from_middle - reach), plane.shape[0])
+            last = index_of(ceil(from_middle + reach), plane.shape[0])
+            for row in range(first, last):
+                fill_row(plane, row, rectangles, k, line, inks)
 
 
 def fill_row(plane, row, rectangles, k, line, inks):

@@ -256,21 +256,22 @@ def test_a_kit_beyond_a_limit_is_refused_before_any_work(client, row):
     assert_refused(client, "/contest-kit", {}, row)
 
 
-def test_a_kit_reports_its_progress_and_ends_when_it_is_stopped():
+@pytest.mark.parametrize("films", [False, pytest.param(True, marks=pytest.mark.thorough)])
+def test_a_kit_reports_its_progress_and_ends_when_it_is_stopped(films):
     shares = []
     budget = Budget(math.inf)
 
     def listen(share):
         shares.append(share)
-        if share > 0.2:
+        if share > (0.3 if films else 0.2):  # films come last
             budget.stop()
 
-    request = ContestKitRequest(benches=5, films=False, language=Language.ENGLISH)
+    request = ContestKitRequest(benches=5, films=films, seconds=4.0, language=Language.ENGLISH)
     with pytest.raises(TooMuchWork) as stopped:
         contest_kit(request, Terms(Settings(), budget, listen))
     assert stopped.value.field == "benches"
     assert shares == sorted(shares)
-    assert shares[-1] < 0.5
+    assert shares[-1] < (1.0 if films else 0.5)
 
 
 def test_a_kit_that_waits_for_other_drawings_ends_when_it_is_stopped():
