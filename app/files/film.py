@@ -336,14 +336,14 @@ def encoded_mp4(sink: io.BytesIO, spec: FilmSpec) -> Iterator[Take]:
         ThreadPoolExecutor(1) as encoder,
     ):
         stream = file.add_stream("libx264", rate=round(spec.rate), options=OPTIONS)
-        stream.width, stream.height, stream.pix_fmt = spec.width, spec.height, "yuv420p"
+        stream.width, stream.height, stream.pix_fmt = spec.width, spec.height, "nv12"
         stream.codec_context.thread_count = THREADS
         stream.codec_context.colorspace, stream.codec_context.color_range = Colorspace.ITU709, ColorRange.MPEG
         if spec.music:  # last, because the first sound opens the encoders of both streams
             add_drum(file, spec)
 
         def encode(picture: NDArray[np.uint8]) -> None:
-            file.mux(stream.encode(av.VideoFrame.from_numpy_buffer(picture, format="yuv420p")))
+            file.mux(stream.encode(av.VideoFrame.from_numpy_buffer(picture, format="nv12")))
 
         # Taken in turn: the oldest is encoded when its room is taken again. New room would cost as much as the copy.
         copies = itertools.cycle([np.empty((3 * spec.height // 2, spec.width), np.uint8) for _ in range(WAITING)])
