@@ -11,6 +11,8 @@ from types import FrameType
 from app.command import streams
 from app.start import importing
 
+INTERRUPTED = 128 + signal.SIGINT  # as shells report a command that Ctrl-C stopped
+
 
 def _leave(number: int, frame: FrameType | None) -> None:
     os._exit(128 + number)  # as shells report a command that a signal stopped
@@ -28,7 +30,12 @@ def main() -> None:
 
     if heeded:
         signal.signal(signal.SIGINT, signal.default_int_handler)
-    sys.exit(run(app))
+    code = run(app)
+    if code == INTERRUPTED:
+        # Python would wait for threads that still work, for nobody, and for ever for one whose pool does not know it:
+        # concurrent.futures lists a thread after its start.
+        os._exit(code)
+    sys.exit(code)
 
 
 def run(app: Callable[[], object]) -> int:
@@ -36,7 +43,7 @@ def run(app: Callable[[], object]) -> int:
     try:
         app()
     except KeyboardInterrupt:
-        return 128 + signal.SIGINT
+        return streams.finish(INTERRUPTED)
     except SystemExit as end:
         return streams.finish(end.code if isinstance(end.code, int) else int(end.code is not None))
     except OSError as error:

@@ -6,6 +6,7 @@ import json
 import os
 import pty
 import re
+import select
 import signal
 import struct
 import subprocess
@@ -320,14 +321,19 @@ def interrupted(*arguments, until):
         [COMMAND, *arguments], stdout=subprocess.DEVNULL, stderr=follower, env=ENVIRONMENT, preexec_fn=heed_ctrl_c
     )
     os.close(follower)
+
+    def read():
+        assert select.select([leader], [], [], PATIENCE)[0], seen
+        return os.read(leader, 1024)
+
     seen = b""
     while until not in seen:
-        seen += os.read(leader, 1024)
+        seen += read()
     process.send_signal(signal.SIGINT)
     # Read on, or a full terminal would hold the process up; without a writer its end is an error, not an end of file.
     with contextlib.suppress(OSError):
         while True:
-            seen += os.read(leader, 1024)
+            seen += read()
     os.close(leader)
     assert process.wait(PATIENCE) == 130
     assert b"Traceback" not in seen
@@ -348,6 +354,21 @@ def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(line, words, tmp_pat
     seen = interrupted(*line.split(), until=words)
     assert "prove" not in line or b"Interrupted: nothing was written." in seen
     assert list(tmp_path.iterdir()) == []
+
+
+SLOW_START = """import threading, time
+start = threading.Thread.start
+threading.Thread.start = lambda self: (start(self), time.sleep(2.0 * (self.name == "drawing_0")))
+"""
+
+
+@pytest.mark.thorough
+def test_ctrl_c_while_a_thread_starts_ends_the_command(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "sitecustomize.py").write_text(SLOW_START)
+    monkeypatch.setitem(ENVIRONMENT, "PYTHONPATH", str(tmp_path))
+    interrupted("film", "--output", "dance.mp4", until=b"film")
+    assert not (tmp_path / "dance.mp4").exists()
 
 
 def test_ctrl_c_while_modules_are_imported_ends_without_a_word(tmp_path):
