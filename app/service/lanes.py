@@ -11,11 +11,12 @@ import math
 import time
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager
-from threading import Lock, Timer
+from threading import Lock, Timer, get_native_id
 
 from prometheus_client import CollectorRegistry, Counter, Gauge
 
 from app.files.tables import XLSX_TYPE
+from app.processes.limits import lower_thread_priority
 from app.service.problems import Refused
 from app.settings import Settings, part
 from app.wire.question import UNKNOWN_COST
@@ -103,7 +104,10 @@ class Lanes:
         """A place in the lane of a computation. cost: its estimated time [s]"""
         if media_type == XLSX_TYPE:
             return self._workbook.place(cost, client)
-        return (self._cheap if cost <= CHEAP else self._heavy).place(cost, client)
+        if cost <= CHEAP:
+            return self._cheap.place(cost, client)
+        lower_thread_priority(get_native_id())
+        return self._heavy.place(cost, client)
 
     @contextmanager
     def movable_place(self, cost: float, client: str, budget: Budget) -> Iterator[None]:
@@ -113,7 +117,7 @@ class Lanes:
         cost: its estimated time [s]
         raises: Refused (429, 503)
         """
-        refusals: list[Refused] = []
+        refusals, thread = list[Refused](), get_native_id()
         with ExitStack() as heavy, ExitStack() as cheap:
             cheap.enter_context(self._cheap.place(cost, client))
 
@@ -124,6 +128,7 @@ class Lanes:
                     refusals.append(refusal)
                     budget.stop("before a place among the heavy computations was free")
                 else:
+                    lower_thread_priority(thread)
                     cheap.close()
 
             timer = Timer(CHEAP, move)

@@ -7,6 +7,7 @@ import resource
 import shutil
 import signal
 import socket
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import partial
@@ -19,6 +20,7 @@ import psutil
 import pytest
 
 from app.files.tables import CSV_TYPE
+from app.processes.limits import THREAD_NICENESS
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.support.job_service import is_gone, wait_for
 from tests.support.serving import serving
@@ -239,6 +241,20 @@ def test_who_finds_no_place_for_heavy_work_hears_when_to_come_again_and_others_p
     assert 1 <= int(refused.headers["retry-after"]) <= DEADLINE
     # Beside a full lane one may compute what is cheap, beside a full client also what is heavy.
     assert (cheap.status_code, heavy.status_code) == (200, 503 if status == 503 else 200)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux has a priority of each thread")
+def test_the_loop_that_takes_requests_comes_before_long_computations(held):
+    pid = held.process.pid
+
+    def lowered():
+        priorities = [os.getpriority(os.PRIO_PROCESS, int(thread)) for thread in os.listdir(f"/proc/{pid}/task")]
+        return sum(priority == os.getpriority(os.PRIO_PROCESS, pid) + THREAD_NICENESS for priority in priorities)
+
+    with closing(connected(held, f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode())):
+        wait_for(lambda: 'computations{lane="heavy"} 1.0' in metrics(held))
+        wait_for(lowered)
+    wait_for(lambda: 'computations{lane="heavy"} 0.0' in metrics(held))
 
 
 @pytest.mark.thorough
