@@ -24,9 +24,13 @@ class ProcessEnded(Exception):
     """
 
     def __init__(self, code: int, received: bool) -> None:
-        how = f"signal {-code}" if code < 0 else f"exit code {code}"
-        super().__init__(f"a process ended by {how} {'during' if received else 'before'} its task")
-        self.how, self.received = how, received
+        self.how, self.received = cause_of(code), received
+        super().__init__(f"a process ended by {self.how} {'during' if received else 'before'} its task")
+
+
+def cause_of(code: int) -> str:
+    """What ended a process. code: its exit code, or minus the signal"""
+    return f"signal {-code}" if code < 0 else f"exit code {code}"
 
 
 class Child:

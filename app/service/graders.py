@@ -75,6 +75,7 @@ class Graders:
             if not end.received:
                 raise
             self._seen(None)
+            logger.error("The process that read a file was ended by %s. Without memory Linux sends 9.", end.how)
             words = "the file must be simpler: reading it ended the process that read it"
             raise InvalidValue.in_words("file", words) from None
         self._seen(outcome.peak)

@@ -31,6 +31,7 @@ from app.files.fonts import kept_list
 from app.files.scratch import temporary
 from app.jobs.keeper import scratch
 from app.logs import log_config
+from app.processes.child import cause_of
 from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, refuse_open_port, unknown_variables, usable_cores
 from app.start import importing
 from core import InvalidValue
@@ -128,8 +129,12 @@ class _Supervisor(Multiprocess):
     def keep_subprocess_alive(self) -> None:
         # uvicorn has one time limit for all processes: the long one as long as any of them has not answered.
         before = {process.pid for process in self.processes}
+        ended = [process for process in self.processes if process.exitcode is not None]
         self.config.timeout_worker_healthcheck = SILENT_SECONDS if before <= self.answered else START_SECONDS
         super().keep_subprocess_alive()
+        for process in ended:
+            cause = cause_of(process.exitcode or 0)
+            logger.error("Child process [%s] was ended by %s. Without memory Linux sends 9.", process.pid, cause)
         self.config.timeout_worker_healthcheck = START_SECONDS
         self._close_child_ends()
         after = {process.pid for process in self.processes}

@@ -107,11 +107,12 @@ def graders(seen):
         yield graders
 
 
-def test_a_file_that_ended_its_reader_is_not_tried_again(graders, seen, tmp_path):
+def test_a_file_that_ended_its_reader_is_not_tried_again_and_the_log_says_how(graders, seen, tmp_path, caplog):
     with refused("file"):
         graders.read(Budget(), end, tmp_path / "log")
     assert (tmp_path / "log").read_text() == "ended\n"
     assert seen == [None]
+    assert "was ended by exit code" in caplog.text
 
 
 def test_a_file_that_needs_too_much_memory_is_refused_and_the_next_is_read(graders):

@@ -412,6 +412,7 @@ def test_serve_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ct
         if workers > 1:
             os.kill(pids[0], signal.SIGKILL)
             wait_for(lambda: all_started(workers + 1))
+            assert f"Child process [{pids[0]}] was ended by signal 9" in service.log.read_text()
             assert counted(3)
             os.kill(pids[1], signal.SIGSTOP)
             # It is silent, not slow to start.
