@@ -129,12 +129,12 @@ class _Supervisor(Multiprocess):
     def keep_subprocess_alive(self) -> None:
         # uvicorn has one time limit for all processes: the long one as long as any of them has not answered.
         before = {process.pid for process in self.processes}
-        ended = [process for process in self.processes if process.exitcode is not None]
+        ended = [child for child in self.processes if child.exitcode is not None]
         self.config.timeout_worker_healthcheck = SILENT_SECONDS if before <= self.answered else START_SECONDS
         super().keep_subprocess_alive()
-        for process in ended:
-            cause = cause_of(process.exitcode or 0)
-            logger.error("Child process [%s] was ended by %s. Without memory Linux sends 9.", process.pid, cause)
+        for child in ended:
+            cause = cause_of(child.exitcode or 0)
+            logger.error("Child process [%s] was ended by %s. Without memory Linux sends 9.", child.pid, cause)
         self.config.timeout_worker_healthcheck = START_SECONDS
         self._close_child_ends()
         after = {process.pid for process in self.processes}
