@@ -209,10 +209,10 @@ def pytest_terminal_summary(terminalreporter, config):
 
 @pytest.fixture(scope="session")
 def server(tmp_path_factory):
-    """Base URL of the real service with the default settings, in its own process."""
+    """Base URL of the real service, in its own process: default settings, but the deadline of a slow machine."""
     from tests.support.serving import serving  # which needs this file
 
-    with serving(tmp_path_factory.mktemp("server") / "server.log") as service:
+    with serving(tmp_path_factory.mktemp("server") / "server.log", deadline_seconds=40) as service:
         yield service.url
 
 
