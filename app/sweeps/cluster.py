@@ -19,6 +19,8 @@ from distributed.comm.core import connect
 from app.sweeps.engines import Done, NoAnswer, NoScheduler, attempt, done_of
 from app.sweeps.shards import ShardPiece
 
+logger = logging.getLogger("app.sweeps")
+
 # Stands in place of an address for a new cluster on this machine.
 LOCAL = "local"
 # Longest wait for a scheduler that is lost, and time between two attempts to reach it [s].
@@ -161,7 +163,7 @@ class Cluster:
 
     def _connected(self, patience: float) -> Client:
         """A client, as soon as the scheduler answers. raises: NoScheduler"""
-        until = time.monotonic() + patience
+        until, is_told = time.monotonic() + patience, False
         while True:
             try:
                 with ThreadPoolExecutor(1) as thread:  # The caller's thread may have an event loop, as in a notebook.
@@ -174,4 +176,8 @@ class Cluster:
                     words = "no Dask scheduler answers at {address}"
                     why = "start one there, or name another, and run the sweep again: it continues"
                     raise NoScheduler.in_words("dask", words, reason=why, address=self._address) from error
+                if not is_told:
+                    words = "No Dask scheduler answers at %s: the sweep waits for it, for %.0f s at most"
+                    logger.warning(words, self._address, patience)
+                    is_told = True
                 time.sleep(RETRY_AFTER)

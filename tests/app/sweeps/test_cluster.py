@@ -71,6 +71,16 @@ def test_an_address_without_a_scheduler_is_named(silent, monkeypatch):
             Cluster(address)
 
 
+def test_the_log_says_once_that_a_sweep_waits_for_a_scheduler(caplog, monkeypatch):
+    monkeypatch.setattr("app.sweeps.cluster.CONNECT", 0.3)
+    address = f"tcp://127.0.0.1:{free_port()}"
+    with pytest.raises(NoScheduler, match=address):
+        Cluster(address, first=2.0)
+    assert [record.getMessage() for record in caplog.records if record.name == "app.sweeps"] == [
+        f"No Dask scheduler answers at {address}: the sweep waits for it, for 2 s at most"
+    ]
+
+
 def test_an_address_without_a_scheme_is_tried_before_a_client_waits_for_it(monkeypatch):
     monkeypatch.setattr("app.sweeps.cluster.Client", None)
     with pytest.raises(NoScheduler, match="nonsense"):
