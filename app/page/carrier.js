@@ -166,7 +166,7 @@ export class Carrier {
     this.#resume();
     const { benches } = dance.numbers;
     if (of.bench >= benches) return;
-    const own = { start: dance.begin, stop: dance.end, cards: [of.bench] };
+    const own = { start: dance.begin, ...((dance.parts || dance.answer.time !== null) && { stop: dance.end }), cards: [of.bench] };
     try {
       for (const one of [language(), ...LANGUAGES.filter((other) => other !== language())]) {
         const { cards } = await this.service.ask("cues", "cues", { body: { ...this.#body(one), ...own, language: one } });
@@ -185,7 +185,7 @@ export class Carrier {
   /** Body of a question about the dance, or about all dragons with their names in a language. */
   #body(lang) {
     const { dance } = this.questions;
-    if (!dance.parts) return this.questions.checkBody(dance);
+    if (!dance.parts) return this.questions.danced();
     return { ...dance.file, dances: dance.file.dances.map((one, k) => ({ ...one, name: dance.parts[k].names[lang] })), part: dance.active };
   }
 

@@ -55,7 +55,7 @@ export class Crew {
   /** {path, body} of the question. throws: Problem for what is no number */
   #question() {
     const { questions } = this;
-    const { begin, end, kind, clock } = questions.dance;
+    const { clock } = questions.dance;
     const typed = (name) => numberIn($(`#crew-${name}`).value);
     const numbers = Object.fromEntries(Object.keys(NUMBERS).map((name) => [name, typed(name)]).filter(([, value]) => value !== ""));
     const [x, y] = [typed("x"), typed("y")];
@@ -63,7 +63,7 @@ export class Crew {
     const day = clock && typeof at === "string" && at ? clockIn(at) : null;
     const time = day ? { at_clock: day } : at === "" ? {} : { at };
     const points = x === "" && y === "" ? [] : [{ x, y }];
-    return { ...questions.checkBody(questions.dance), ...(kind === "route" ? {} : { start: begin, stop: end }), ...numbers, points, ...time, language: language() };
+    return questions.danced({ ...numbers, points, ...time, language: language() });
   }
 
   async #ask() {

@@ -93,15 +93,11 @@ const REQUESTS = {
     return { path: "films", body: questions.placed({ start: begin, stop: end, language: language() }) };
   },
   ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
-  plan: (questions, paper) => ({ path: "plan", body: { ...questions.checkBody(questions.dance), paper, language: language() } }),
-  /** On a spiral up to its end, because a fold has no cues. */
-  cues(questions) {
-    const { kind, begin, end } = questions.dance;
-    return { path: "cues", body: { ...questions.checkBody(questions.dance), ...(kind === "spiral" && { start: begin, stop: end }), language: language() } };
-  },
+  plan: (questions, paper) => ({ path: "plan", body: questions.danced({ paper, language: language() }) }),
+  cues: (questions) => ({ path: "cues", body: questions.danced({ language: language() }) }),
   map(questions, form) {
     const drawing = questions.dance.kind === "route" ? questions.state.get("drawing") : null;
-    return mapOf(form, questions.checkBody(questions.dance), drawing);
+    return mapOf(form, questions.danced(), drawing);
   },
   /** The answer of the command; in the shown one the engines may have judged only the pair. */
   answer(questions) {

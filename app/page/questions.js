@@ -203,6 +203,12 @@ export class Questions {
     return this.body({ ...picked(request.numbers, CONTACT), ...this.#stretch(request) }, request);
   }
 
+  /** Body of a question about those who dance the dance shown: from its beginning as checked, on a spiral or a turn to its end. */
+  danced(more = {}) {
+    const { kind, begin, end } = this.dance;
+    return { ...this.checkBody(this.dance), start: begin, ...(kind !== "route" && { stop: end }), ...more };
+  }
+
   /** The shown part of a turn, whose coils have no end; a spiral is shown to its end, a drawn path in its place. */
   #stretch(/** @type {any} */ { kind, numbers: { head_speed: speed }, extras, drawing = null }) {
     if (kind === "route") return placeOf(drawing);

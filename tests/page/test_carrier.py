@@ -1,9 +1,12 @@
 """The view of one carrier: its bench, its cues, its clock, and a network that goes away."""
 
+import csv
+import json
 import math
 import re
 from datetime import datetime, timedelta
 
+import pypdfium2
 import pytest
 from playwright.sync_api import expect
 
@@ -16,6 +19,7 @@ PATIENT = 50.0  # longest computation of one answer [s], also on a busy machine
 DRAGON = {"benches": 20, "head_length": 3.41, "body_length": 2.2, "width": 0.3, "overhang": 0.275}
 SPIRAL = {"kind": "spiral", "pitch": 0.55, "start_turns": 16}
 SLACK = 45  # from the last press to the cue [s], so that a slow machine is not late
+BEFORE_ZERO = "path=route&route=*-40,0_40,0&benches=9&begin=30"
 CUE, HINT, LIST = "#carrier .cue", "#card-more .hint", "#card-more li"
 # Two dragons in one spiral, by the list in the address; the chosen one is that of the other numbers.
 TWO = "dances=name:A!benches:20!pitch:1.1!start_turns:8~rotation:180&dragon=1&benches=20&pitch=1.1&start_turns=8"
@@ -135,6 +139,7 @@ def test_the_view_opens_from_the_page_chooses_benches_and_dragons_closes_where_i
     person.sees({"#carrier": False}).settles()
     person.reads({"#clock": "100.000000 s"}).sees({"#table-time": "100.000000 s"})
     assert "bench" not in person.address()
+    paper_and_phone_tell_of_the_dance_from_its_beginning(person)
     held(person.opens(f"?{TWO}&bench=7&lang=en")).chooses({"#card-dragon": "A"})
     person.reads({"#carrier h1": "A: body 7"}).arrives(lambda url: "dragon=" not in url)
     assert cues_of(held(person)) == words_of(card_of_two(server, 0, "en")["cues"])
@@ -143,6 +148,24 @@ def test_the_view_opens_from_the_page_chooses_benches_and_dragons_closes_where_i
     person.page.pdf()
     person.sees({"button:visible, input:visible": 0, "#canvas": True, "#carrier h1": "A: body 7", LIST: True})
     goes_by_the_time_of_day(open_page, server)
+
+
+def paper_and_phone_tell_of_the_dance_from_its_beginning(person):
+    """The head is in the square at time 0, and the dragon begins earlier."""
+    person.opens(f"?door=all&lang=en&{BEFORE_ZERO}&time=0").reaches_below()
+    cards = list(csv.DictReader(person.saves("#keepCues-CSV").decode().splitlines()))
+    own = [one for one in cards if one["bench"] == "7"]
+    verdict = json.loads(person.saves("#keepVerdict-JSON"))
+    length = verdict["stop"] - verdict["start"]
+    longest = f"nobody carries longer than {int(length // 60)}:{int(length % 60):02d}"
+    person.presses("#crew summary", "#crew-ask").sees({"#crew-result p": longest})
+    sheets = pypdfium2.PdfDocument(person.saves("#keepPlan-A4"))
+    text = "".join(page.get_textpage().get_text_bounded() for page in sheets)
+    assert "from -0:13.9 to" in text
+    held(person.opens(f"?door=all&lang=en&{BEFORE_ZERO}&bench=7"))
+    assert cues_of(person) == [one["words"] for one in own[1:]]
+    mark, x, y = (float(own[0][name]) for name in ("mark", "x", "y"))
+    person.sees({"#card-more .stand": [f"chalk mark {mark:g} m", f"(x {x:.1f} m, y {y:.1f} m)"]})
 
 
 def goes_by_the_time_of_day(open_page, server):

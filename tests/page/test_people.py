@@ -22,7 +22,9 @@ RESULT = "#crew-result"
 
 
 def crew(server, **fields):
-    return polite.answer(server, "crew", BODY | fields)
+    """The people from the beginning of the dance as it is checked."""
+    start = polite.answer(server, "check", BODY)["start"]
+    return polite.answer(server, "crew", BODY | {"start": start} | fields)
 
 
 def contact_of(server, **request):
@@ -34,12 +36,12 @@ def contact_of(server, **request):
 
 def test_who_carries_when_and_where_is_as_the_service_says(open_page, server):
     person = open_page(CREW, failing=True).reaches_below().presses("#crew summary").holds({"#crew-at": "20"})
-    numbers = {"spares": "6", "shift": "15", "rest": "10", "x": "0", "y": "0,5"}
+    numbers = {"spares": "3", "shift": "15", "rest": "10", "x": "0", "y": "0,5"}
     person.types({f"#crew-{name}": number for name, number in numbers.items()}, "Tab").presses("#crew-ask")
-    answer = crew(server, spares=6, shift=15, rest=10, points=[{"x": 0, "y": 0.5}], at=20)
+    answer = crew(server, spares=3, shift=15, rest=10, points=[{"x": 0, "y": 0.5}], at=20)
     assert answer["changes"] > 6
     person.sees({f"{RESULT} .error": [f"{answer['enough']} spares are enough", f"{len(answer['unrelieved'])} of "]})
-    people = f"{answer['people']} people, 6 of them spare"
+    people = f"{answer['people']} people, 3 of them spare"
     person.sees(
         {
             f"{RESULT} > .error + details": True,
@@ -59,7 +61,7 @@ def test_who_carries_when_and_where_is_as_the_service_says(open_page, server):
     assert person.saves("#crew-CSV").startswith(b"person,label")
     person.types({"#crew-at": "19:30:30", "#crew-shift": "600"}, "Tab").presses("#crew-ask")
     person.sees({f"{RESULT} .error": "it is 600 s"}).types({"#crew-shift": "20"}, "Tab").presses("#crew-ask")
-    person.sees({RESULT: "Who is where at 19:30:30"}).speaks("zh").sees({f"{RESULT} p": "其中替补 6 人"})
+    person.sees({RESULT: "Who is where at 19:30:30"}).speaks("zh").sees({f"{RESULT} p": "其中替补 3 人"})
     # Those people were of another dance.
     person.types({"#benches": "8"}).sees({f"{RESULT} table": 0})
 
