@@ -42,6 +42,8 @@ HANDLES = BENCHES + 1
 MARGIN = 8
 # Most lines more, or less, than there are handles in a table that numbers them.
 EXTRA_MOST = 3
+# Lines in which labels of a table beside another one are looked for, and most tables beside each other.
+LINES_LOOKED_AT, TABLES_BESIDE_MOST = 20, 8
 # Fewer labels than this may be chance and are ignored.
 LABELS_LEAST = 3
 
@@ -81,25 +83,80 @@ class SheetTable:
 
 
 def wide_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool, numbered: bool) -> list[SheetTable]:
-    """The tables of a sheet with a line for each handle, one below the other; none if no column labels the handles.
+    """The tables of a sheet with a line for each handle, below or beside each other; none if no column labels handles.
 
     turned: True if rows and columns of the sheet were swapped; numbered: True if numbers may label the handles
     """
-    labels = _label_columns(cells, numbered)
-    counts = [sum(label is not None and label.handle is not None for label in column) for column in labels]
-    aside = int(np.argmax(counts))
-    if counts[aside] < LABELS_LEAST:
-        return []
     tables: list[SheetTable] = []
     heads: list[list[Cell]] = []
-    end = 0
-    for lines in _blocks(cells, _lines(labels[aside])):
-        above = cells[max(end, lines[0][0] - MARGIN) : lines[0][0]]
-        # A table without headings has those of the one above it.
-        heads = above if not tables or _columns(above, aside) or _instants(above, aside) else heads
-        tables += _tables_of(grid, cells, lines, heads, aside, turned)
-        end = lines[-1][0] + 1
+    before = 0
+    for first, part in _beside(cells, numbered):
+        labels = _label_columns(part, first, numbered)
+        counts = [_count_of_handles(column) for column in labels]
+        if max(counts) < LABELS_LEAST:
+            continue
+        most = int(np.argmax(counts))
+        aside = first + most
+        heads = [([None] * (aside - before) + row)[: len(part[0])] for row in heads]
+        before, end = aside, 0
+        for lines in _blocks(part, _lines(labels[most])):
+            above = part[max(end, lines[0][0] - MARGIN) : lines[0][0]]
+            # A table without headings has those of the one above it, or beside it.
+            heads = above if not heads or _columns(above, aside) or _instants(above, aside) else heads
+            tables += _tables_of(grid, part, lines, heads, aside, turned)
+            end = lines[-1][0] + 1
     return tables
+
+
+def _beside(cells: list[list[Cell]], numbered: bool) -> list[tuple[int, list[list[Cell]]]]:
+    """The tables that stand beside each other: the first column of each, and the cells without those of the others.
+
+    A table begins with a column of labels that has numbers on both sides, and names other handles than the last one.
+    """
+    rows = min(len(cells), MARGIN + LINES_LOOKED_AT)
+    starts, last, end = [0], None, 0
+    for k in range(len(cells[0])):
+        labels = _labels_beside(cells, k, rows, numbered)
+        if _count_of_handles(labels) < LABELS_LEAST:
+            continue
+        lines = [n for n, label in enumerate(labels) if label and label.handle is not None]
+        sides = range(end + 1, k), range(k + 1, len(cells[0]))
+        if last is None:
+            last = labels
+        elif all(any(cells[n][c] is not None for n in lines for c in side) for side in sides) and _differ(last, labels):
+            starts.append(k)
+            last = labels
+        end = k
+    if len(starts) > TABLES_BESIDE_MOST:
+        starts = [0]
+    ends = [*starts[1:], len(cells[0])]
+    parts = zip(starts, ends, strict=True)
+    return [(start, [[None] * start + row[start:end] for row in cells]) for start, end in parts]
+
+
+def _labels_beside(cells: list[list[Cell]], k: int, rows: int, numbered: bool) -> list[Label | None]:
+    """Labels in the first rows of a column."""
+    if not numbered:
+        return [label_of(row[k]) for row in cells[:rows]]
+    column = [row[k] for row in cells]
+    first = next((cell for cell in column if isinstance(cell, float)), None)
+    return _numbering(column)[:rows] if first in (0.0, 1.0) else []
+
+
+def _count_of_handles(labels: list[Label | None]) -> int:
+    return sum(label is not None and label.handle is not None for label in labels)
+
+
+def _differ(labels: list[Label | None], others: list[Label | None]) -> bool:
+    """True if a line of two tables has labels of two handles, or of two components."""
+    for label, other in zip(labels, others, strict=True):
+        if other is None or other.handle is None:
+            continue
+        if label is None or label.handle != other.handle:
+            return True
+        if None not in (label.component, other.component) and label.component != other.component:
+            return True
+    return False
 
 
 def _tables_of(
@@ -133,9 +190,9 @@ def _blocks(cells: list[list[Cell]], lines: list[tuple[int, Label]]) -> list[lis
     return blocks
 
 
-def _label_columns(cells: list[list[Cell]], numbered: bool) -> list[list[Label | None]]:
-    """Meaning of every cell in the first columns. numbered: True if numbers may label the handles"""
-    columns = [[row[k] for row in cells] for k in range(min(MARGIN, len(cells[0])))]
+def _label_columns(cells: list[list[Cell]], first: int, numbered: bool) -> list[list[Label | None]]:
+    """Meaning of every cell in some columns. first: of them; numbered: True if numbers may label the handles"""
+    columns = [[row[k] for row in cells] for k in range(first, min(first + MARGIN, len(cells[0])))]
     return [_numbering(column) if numbered else [label_of(cell) for cell in column] for column in columns]
 
 
@@ -220,10 +277,15 @@ def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
 
 
 def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict[int, float]:
-    """Columns and their instants; by their order if no heading gives them."""
-    best = _instants(heads, aside)
-    if best and np.all(np.diff(list(best.values())) > 0):
-        return best
+    """Columns and their instants; by their order if no heading gives them. Repeated ones are those of another table."""
+    columns_at: dict[float, int] = {}
+    for k, time in _instants(heads, aside).items():
+        if time in columns_at:
+            break
+        columns_at[time] = k
+    steps = np.diff(list(columns_at))
+    if columns_at and (np.all(steps > 0) or np.all(steps < 0)):
+        return {k: time for time, k in columns_at.items()}
     columns = range(aside + 1, len(cells[0]))
     start = -100.0 if len(columns) == 201 else 0.0
     return {k: start + n for n, k in enumerate(columns)}

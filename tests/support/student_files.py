@@ -1,11 +1,13 @@
 """The same numbers in the layouts in which students write them."""
 
+from itertools import zip_longest
+
 from tests.support.students import labels
 
 NAMES = [label.removesuffix(" (m/s)") for label in labels("speed")]
 # Forms of a table: a line for each handle and instant; a line for each handle, under one heading or two; lines of x, y
-# and speed, below one another, or in sheets of their own.
-FORMS = ("list", "columns", "two heads", "stack", "stack with heads", "sheets")
+# and speed, below one another, beside each other, or in sheets of their own.
+FORMS = ("list", "columns", "two heads", "stack", "stack with heads", "beside", "sheets")
 # Forms of an instant in a heading.
 INSTANTS = ("{:.9g} s", "{:.9g}s", "t={:.9g}")
 
@@ -33,7 +35,16 @@ def in_layout(values, times, form, *, heading=INSTANTS[0], numbered=False):
     if form == "sheets":
         bare = [[h, *row[1:]] for h, row in enumerate(speed)] if numbered else speed
         return {"位置": heads + position, "速度": heads + bare}
+    if form == "beside":
+        return {"both": beside(heads + position, heads + speed)}
     return {"both": [*heads, *position, *([[None], *heads] if form == "stack with heads" else []), *speed]}
+
+
+def beside(left, right, gap=1):
+    """Rows of two tables beside each other. gap: number of columns between them"""
+    width = max(map(len, left)) + gap
+    rows = ((one or [], other or []) for one, other in zip_longest(left, right))
+    return [[*one, *[None] * (width - len(one)), *other] for one, other in rows]
 
 
 def by_handle(handles, table):

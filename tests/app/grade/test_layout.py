@@ -11,7 +11,7 @@ from app.files.tables import Language
 from app.grade.report import graded
 from core import Budget
 from tests.support import students
-from tests.support.student_files import NAMES, as_csv, in_layout
+from tests.support.student_files import NAMES, as_csv, beside, in_layout, on_side
 from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral, three
 
 ROOT = Path(__file__).parents[3]
@@ -165,7 +165,61 @@ def test_positions_are_graded_beside_speeds(form):
     ]
 
 
-@pytest.mark.parametrize("form", ["list", *FORMS_BESIDE])
+def printed(corner=""):
+    """Tables of the printed positions and of the printed speeds."""
+    sheets = in_layout(numbers_at(MINUTES), MINUTES, "sheets")
+    (heads, *positions), (_, *speeds) = sheets["位置"], sheets["速度"]
+    heads = [corner, *heads[1:]]
+    return [heads, *(positions[2 * h + k] for h in PRINTED for k in (0, 1))], [heads, *(speeds[h] for h in PRINTED)]
+
+
+def without_heads(rows):
+    return [[None] * len(rows[0]), *rows[1:]]
+
+
+SIDES = {
+    "a gap": lambda position, speed: beside(position, speed),
+    "no gap": lambda position, speed: beside(position, speed, 0),
+    "titles": lambda position, speed: beside([["位置"], *position], [["速度"], *speed]),
+    "titles beside": lambda position, speed: beside([["位置"], *position], [["", "速度"], *speed]),
+    "speeds first": lambda position, speed: beside(speed, position),
+    "one line of times": lambda position, speed: beside(position, without_heads(speed)),
+    "latest first": lambda *tables: beside(*([[row[0], *row[:0:-1]] for row in table] for table in tables)),
+    "on its side": lambda position, speed: on_side(beside(position, speed)),
+}
+
+
+@pytest.mark.parametrize("corner", ["", "对象"])
+@pytest.mark.parametrize("side", SIDES)
+def test_tables_beside_each_other_are_graded_at_their_times(side, corner):
+    rows = SIDES[side](*printed(corner))
+    for result in (grade(as_csv(rows)), grade(by_xlsxwriter({"Sheet": rows}))):
+        sheets = sorted((sheet.holds, sheet.verdict, sheet.right) for sheet in result.sheets)
+        assert sheets == [("position", "incomplete", 84), ("speed", "incomplete", 42)]
+
+
+def test_times_that_are_stated_again_are_those_of_another_table():
+    """The speeds have numbers of handles beside names, and so are not recognised; the positions keep their times."""
+    position, speed = printed()
+    bare = [["把手", *speed[0][1:]], *([h, *row[1:]] for h, row in zip(PRINTED, speed[1:], strict=True))]
+    first, _ = grade(as_csv(beside(position, bare))).sheets
+    assert (first.verdict, first.right) == ("incomplete", 84)
+
+
+def test_all_positions_stand_beside_all_speeds():
+    position, speed = few().values()
+    for sides in ((position, speed), (numbered(position), numbered(speed))):
+        sheets = grade(as_csv(beside(*sides))).sheets
+        assert [(sheet.right, len(sheet.notes)) for sheet in sheets] == [(count, 1) for count in FEW]
+
+
+def test_x_y_and_speeds_with_labels_of_their_own_are_one_table():
+    rows = in_layout(numbers_at(np.array([students.CONTACT])), [412.473838], "columns", heading="")["both"]
+    apart = [[*row[:3], row[0], row[3]] for row in rows]
+    assert right(grade(as_csv(apart), "result2.csv")) == [672]
+
+
+@pytest.mark.parametrize("form", ["list", *FORMS_BESIDE, "beside"])
 def test_a_result2_may_state_its_instant_in_a_column_or_a_heading(form):
     """The instant with six decimals is right, and so are the numbers at this instant. A column numbers the handles."""
     for time in (students.CONTACT, 412.473838):
