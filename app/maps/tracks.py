@@ -1,14 +1,17 @@
 """A path from a track that was walked: thinned, smoothed to what benches can follow, with its times as passages.
 
-A receiver is metres off, and more so while it stands: its points are thinned to APART, and smoothed along the way with
-a Gaussian whose width grows until no bend is tighter than the longest bench can follow. It grows no further once the
-path is further from the points than their noise explains: smoothing would then cut what was walked. Of the widths up
-to there the least one counts that leaves the tight bends about as short as any. Both ends stay in place. Of a track of
-more than POINTS_MOST points every second, third and so on counts.
+A receiver is metres off, and more so while it stands. Its noise is measured from the track itself: third differences
+of the points are nothing along a straight line and an even bend, and a corner is in few of them. The points are thinned
+by it, and smoothed along the way with a Gaussian whose width grows until no bend is tighter than the longest bench can
+follow. That may cost no more than the noise and what a right-angled corner loses for it. Where no width does, the track
+keeps its shape: of the widths that cost no more than the noise the least one counts that leaves the tight bends about
+as short as any. Both ends stay in place. Of a track of more than POINTS_MOST points every second, third and so on
+counts.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -22,25 +25,36 @@ from core.values import Floats
 
 # Distance of the handles of the longest bench [m]: the contest's head.
 CHORD = 2.86
-# Least distance of two points that count [m]: a receiver at rest moves by less.
-APART = 2.0
-# Distance of the points that are smoothed [m], and the most of them; distance of the points of the path [m].
-STEP, STEPS_MAX, KNOT = 0.5, 20_000, 3.0
+# Least distance of two points that count: in errors of the receiver [1], at least and at most [m], because one at rest
+# moves by less.
+THINNED, APART_LEAST, APART = 10.0, 0.5, 2.0
+# Distance of the points that are smoothed [m], and the most of them.
+STEP, STEPS_MAX = 0.25, 20_000
+# Distance of the points of the path: least and largest [m]; between them, the width of the smoothing.
+KNOT_LEAST, KNOT = 0.5, 3.0
 # First width of the smoothing [m], its growth, and the widest one; a Gaussian is cut off at so many widths [1].
-FIRST, GROWTH, WIDEST, CUT = 1.0, 1.25, 15.0, 3.0
-# The path is as far from the points as their noise explains: in distances after the first smoothing [1], at least [m];
-# and length by which tight bends are as short as others [m].
-NOISE, NOISE_LEAST, ABOUT = 3.0, 1.0, 1.0
+FIRST, GROWTH, WIDEST, CUT = 0.25, 1.15, 15.0, 3.0
+# What noise explains, in errors of the receiver in each direction [1], at least [m]: the error of the points that a
+# curve follows in part, and their largest distance from it.
+NOISE_LEAST, FOLLOWED, FARTHEST = 0.05, 1.3, 4.0
+# What bends may cost beyond that to become easy, in the radius that they need [1]: error, and largest distance. A
+# right angle that a Gaussian rounds to a radius is 0.65 of it off; others may stand close to it.
+ROUNDED, CORNER = 0.6, 1.25
+# Length by which tight bends are as short as others [m].
+ABOUT = 1.0
 # Most points of a track that count [1].
 POINTS_MOST = 20_000
 # Radius of the bends beyond the least one that benches can follow [1].
 EASY = 1.1
-# Way behind and ahead of the last place in which the next point is looked for, beside the distance of both points [m].
-BEHIND, AHEAD = 2.0, 6.0
+# Way to both sides of where a point went, in which the nearest place of the path is looked for: beside the distance of
+# points that count, in errors of the receiver [1].
+BESIDE = 3.0
 # Largest error of a place on the path at a time: at least [m], and in errors of the receiver [1]; its growth until
 # PASSAGES are enough [1]; and a pause's speed [m/s].
-PLACE, ERRORS, PLACE_GROWTH, PASSAGES, PAUSE = 1.0, 3.0, 1.5, 60, 0.1
+PLACE, ERRORS, PLACE_GROWTH, PASSAGES, PAUSE = 1.0, 4.0, 1.5, 60, 0.1
 DECIMALS = 3
+# Factors of a third difference [1].
+THIRD = (1, -3, 3, -1)
 
 
 @dataclass(frozen=True)
@@ -77,28 +91,24 @@ def walk_of(points: Floats, times: Floats | None, chord: float = CHORD) -> Walk 
     every = len(points) // POINTS_MOST + 1
     points, times = points[::every], None if times is None else times[::every]
     radius = EASY * tightest_bend(Dragon(1, chord, overhang=0.0))[0]
-    way = evenly(apart(points))
-    if len(way) < 3:
+    noise = noise_of(points)
+    track = _Track.of(points, noise)
+    if len(track.way) < 3:
         return None
     tries: list[_Try] = []
-    width, one = FIRST, None
-    while width <= WIDEST:
-        if (one := _tried(points, way, width, radius)) is not None:
-            if tries and one.error > max(NOISE_LEAST, NOISE * tries[0].error):
-                break
+    width = FIRST
+    while width <= WIDEST and not (tries and tries[-1].tight == 0.0):
+        if (one := _tried(track, width, radius)) is not None:
             tries.append(one)
-            if one.tight == 0.0:
-                break
         width *= GROWTH
-    if one is None:
+    if not tries:
         rule = "must hold a track that does not turn on the spot, as this one does even when smoothed over {width}"
         raise InvalidValue("file", rule, width=Quantity(width / GROWTH, "m", 3))
-    least = min(one.tight for one in tries)
-    best = next(one for one in tries if one.tight <= (least + ABOUT if least else 0.0))
+    best = _best(tries, noise, radius)
     passages = None
     if times is not None:  # a receiver is as far off along the way as across it
         passages = passages_of(np.asarray(times, dtype=np.float64), best.places, max(PLACE, ERRORS * best.error))
-    lost = length_along(way) - best.length
+    lost = length_along(track.way) - best.length
     return Walk(best.knots, best.largest, best.length, lost, best.width, best.tight == 0.0, radius, passages)
 
 
@@ -116,15 +126,68 @@ class _Try:
     places: Floats
 
 
-def _tried(points: Floats, way: Floats, width: float, radius: float) -> _Try | None:
-    """The curve along a way smoothed by this width [m]; None if it would stop or turn on the spot."""
-    knots = _knots(smoothed(way, width))
+@dataclass(frozen=True)
+class _Track:
+    """A track that is smoothed.
+
+    points: all (P, 2) [m]; way: through those that count, evenly spaced (N, 2) [m]; along: of the last point that
+    counts, for every point, its part of the way (P,) [1]; reach: to both sides of there a point may be [m]
+    """
+
+    points: Floats
+    way: Floats
+    along: Floats
+    reach: float
+
+    @classmethod
+    def of(cls, points: Floats, noise: float) -> _Track:
+        distance = min(max(APART_LEAST, THINNED * noise), APART)
+        kept = apart(points, distance)
+        s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points[kept], axis=0).T))])
+        last = np.searchsorted(kept, np.arange(len(points)), "right") - 1
+        return cls(points, evenly(points[kept]), s[last] / max(s[-1], APART_LEAST), distance + BESIDE * noise)
+
+
+def noise_of(points: Floats) -> float:
+    """Error of a receiver in each direction [m], from the points of its track (P, 2) [m]; half of them may be corners.
+
+    The third difference of values with independent errors of deviation d has the deviation d sqrt(1 + 9 + 9 + 1); the
+    length of two such differences has the median sqrt(2 ln 2) times that.
+    """
+    if len(points) < len(THIRD):
+        return 0.0
+    median = float(np.median(np.hypot(*np.diff(points, n=len(THIRD) - 1, axis=0).T)))
+    return median / math.sqrt(2.0 * math.log(2.0) * sum(one * one for one in THIRD))
+
+
+def _best(tries: list[_Try], noise: float, radius: float) -> _Try:
+    """The last try, if its bends are easy and cost no more than they may; else the best one that only noise explains.
+
+    tries: from the least width on; noise: of the receiver in each direction [m]; radius: of an easy bend [m]
+    """
+    first, last = tries[0], tries[-1]
+    error = max(NOISE_LEAST, FOLLOWED * noise, first.error)
+    farthest = max(NOISE_LEAST, FARTHEST * noise, first.largest)
+    is_near = last.error <= math.hypot(error, ROUNDED * radius) and last.largest <= farthest + CORNER * radius
+    if last.tight == 0.0 and is_near:
+        return last
+    near = [one for one in tries if one.error <= error]
+    least = min(one.tight for one in near)
+    return next(one for one in near if one.tight <= least + ABOUT)
+
+
+def _tried(track: _Track, width: float, radius: float) -> _Try | None:
+    """The curve along a track smoothed by this width [m]; None if it would stop or turn on the spot."""
+    smooth = smoothed(track.way, width)
+    knots = _knots(smooth, min(max(width, KNOT_LEAST), KNOT))
     course = _curve(knots)
     if course is None:
         return None
     tight = sum(end - start for start, end, _ in course.tighter(radius))
     s = np.linspace(course.begin, course.end, min(STEPS_MAX, int((course.end - course.begin) / STEP) + 2))
-    places, off = _beside(points, s, course.position(s))
+    lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(smooth, axis=0).T))])
+    part = np.interp(track.along, np.linspace(0.0, 1.0, len(smooth)), lengths / lengths[-1])
+    places, off = _beside(track.points, part, track.reach, s - course.begin, course.position(s))
     error = float(np.sqrt(np.mean(off * off)))
     return _Try(width, knots, course.end - course.begin, tight, float(off.max()), error, places)
 
@@ -142,16 +205,16 @@ def _curve(knots: Floats) -> Legs | None:
         return None
 
 
-def apart(points: Floats) -> Floats:
-    """The points at least APART from the one before, and the last point."""
-    kept = [points[0]]
-    for point in points[1:]:
-        if np.hypot(*(point - kept[-1])) >= APART:
-            kept.append(point)
-    last = points[-1]
-    if len(kept) > 1 and np.hypot(*(last - kept[-1])) > 0.0:
-        kept[-1 if np.hypot(*(last - kept[-1])) < 0.5 * APART else len(kept) :] = [last]
-    return np.array(kept)
+def apart(points: Floats, distance: float = APART) -> list[int]:
+    """Which points are at least at a distance [m] from the one before that counts; and the last point."""
+    kept = [0]
+    for k, point in enumerate(points):
+        if np.hypot(*(point - points[kept[-1]])) >= distance:
+            kept.append(k)
+    off = float(np.hypot(*(points[-1] - points[kept[-1]])))
+    if len(kept) > 1 and off > 0.0:
+        kept[-1 if off < 0.5 * distance else len(kept) :] = [len(points) - 1]
+    return kept
 
 
 def evenly(points: Floats) -> Floats:
@@ -172,29 +235,29 @@ def smoothed(way: Floats, width: float) -> Floats:
     return np.column_stack([np.convolve(axis, weights / weights.sum(), "valid") for axis in longer.T])
 
 
-def _knots(way: Floats) -> Floats:
-    """The points of a curve along a smooth line: about KNOT apart, and at most as many as a path may have."""
+def _knots(way: Floats, distance: float) -> Floats:
+    """Points of a curve along a smooth line: about so far apart [m], and at most as many as a path may have."""
     s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))])
-    count = min(POINTS_MAX, max(2, round(s[-1] / KNOT) + 1))
+    count = min(POINTS_MAX, max(2, round(s[-1] / distance) + 1))
     places = np.linspace(0.0, s[-1], count)
     return np.column_stack([np.interp(places, s, axis) for axis in way.T])
 
 
-def _beside(points: Floats, s: Floats, line: Floats) -> tuple[Floats, Floats]:
-    """The place on the path [m] and the distance from it [m] of every point (P,), in the order of the walk."""
-    places, off, at, before = np.empty(len(points)), np.empty(len(points)), 0.0, points[0]
-    for k, point in enumerate(points):
-        reach = float(np.hypot(*(point - before)))
-        low, high = np.searchsorted(s, [s[0] + at - BEHIND, s[0] + at + reach + AHEAD])
-        low = min(int(low), len(s) - 2)
-        begins, ways = line[low : max(int(high), low + 1)], np.diff(line[low : max(int(high), low + 1) + 1], axis=0)
-        begins = begins[: len(ways)]
-        share = np.clip(((point - begins) * ways).sum(axis=1) / (ways * ways).sum(axis=1), 0.0, 1.0)
-        distance = np.hypot(*(begins + share[:, None] * ways - point).T)
-        best = int(distance.argmin())
-        off[k] = distance[best]
-        places[k] = s[low + best] + share[best] * (s[low + best + 1] - s[low + best]) - s[0]
-        at, before = max(at, float(places[k])), point
+def _beside(points: Floats, part: Floats, reach: float, s: Floats, line: Floats) -> tuple[Floats, Floats]:
+    """The place on the path [m] and the distance from it [m] of every point (P,): the nearest one around its part of
+    the path (P,) [1], which is in the order of the walk, so that no other winding counts."""
+    step = float(s[1] - s[0])
+    around = int(reach / step) + 1
+    middle = np.rint(part * s[-1] / step).astype(int)
+    places, off = np.empty(len(points)), np.full(len(points), np.inf)
+    ways = np.diff(line, axis=0)
+    lengths = np.maximum((ways * ways).sum(axis=1), np.finfo(float).tiny)
+    for shift in range(-around, around):
+        k = np.clip(middle + shift, 0, len(ways) - 1)
+        share = np.clip(((points - line[k]) * ways[k]).sum(axis=1) / lengths[k], 0.0, 1.0)
+        distance = np.hypot(*(line[k] + share[:, None] * ways[k] - points).T)
+        is_nearer = distance < off
+        off[is_nearer], places[is_nearer] = distance[is_nearer], (s[k] + share * step)[is_nearer]
     return places, off
 
 

@@ -11,7 +11,18 @@ from app.files.tables import Language
 from app.files.words import Say
 from app.maps.gpx import seconds_of
 from app.maps.places import places_of
-from app.maps.tracks import APART, CHORD, PASSAGES, POINTS_MOST, apart, evenly, passages_of, smoothed, walk_of
+from app.maps.tracks import (
+    APART,
+    CHORD,
+    PASSAGES,
+    POINTS_MOST,
+    apart,
+    evenly,
+    noise_of,
+    passages_of,
+    smoothed,
+    walk_of,
+)
 from app.wire.question import BYTES
 from core import Dragon, InvalidValue, Legs
 from core.paths.following import tightest_bend
@@ -76,7 +87,7 @@ def test_a_coil_that_no_smoothing_makes_easy_keeps_its_turns_within_the_noise():
 
 @pytest.mark.parametrize("chord", [1.5, 4.0])
 def test_a_walk_is_smoothed_as_the_longest_bench_needs(chord):
-    points, _ = noisy()
+    points, _ = noisy(0)
     (walk, path), (usual, _) = walk_along(points, None, chord), walk_along(points, None)
     assert (walk.width < usual.width) is (chord < CHORD)
     assert walk.is_easy
@@ -95,10 +106,62 @@ def test_noise_of_every_point_is_no_change_of_speed(noise, seed):
     assert walk.passages[1]["speed"] == 0.0
 
 
-def test_points_that_are_noise_alone_are_no_path():
-    points = np.random.default_rng(0).normal(0.0, 30.0, (250, 2))
-    with pytest.raises(InvalidValue, match=r"smoothed over 14\.6 m$"):
-        walk_of(points, None)
+def test_a_walk_there_and_back_on_one_line_turns_on_the_spot():
+    there = np.column_stack([np.arange(0.0, 40.0), np.zeros(40)])
+    with pytest.raises(InvalidValue, match=r"turn on the spot.* smoothed over 14\.4 m$"):
+        walk_of(np.concatenate([there, there[::-1]]), None)
+
+
+def coil(pitch, turns, first):
+    """Points of a coil, one a metre from a radius on [m], and its length [m]."""
+    theta = [2.0 * math.pi * first / pitch]
+    while theta[-1] < 2.0 * math.pi * (turns + first / pitch):
+        theta.append(theta[-1] + 2.0 * math.pi / pitch / theta[-1])
+    theta = np.array(theta)
+    points = (pitch / (2.0 * math.pi) * theta)[:, None] * np.column_stack([np.cos(theta), np.sin(theta)])
+    return points, float(len(theta) - 1)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(("pitch", "noise", "turns"), [(1.0, 0.1, 6), (1.2, 0.2, 8)])
+def test_a_close_coil_keeps_its_windings_and_the_times_of_its_walk(pitch, noise, turns, seed):
+    points, length = coil(pitch, turns, 1.0)
+    times = np.arange(float(len(points)))
+    walk, _ = walk_along(points + np.random.default_rng(seed).normal(0.0, noise, points.shape), times)
+    assert not walk.is_easy
+    assert walk.largest < 7.0 * noise
+    assert 0.93 * length < walk.length < 1.03 * length
+    assert [passage["speed"] for passage in walk.passages] == pytest.approx([1.0] * len(walk.passages), abs=0.5)
+    assert len(walk.passages) < 8
+
+
+def test_a_square_wave_of_short_legs_keeps_its_height():
+    corners = [(5.0 * k + x, 5.0 * ((k + 1) % 2)) for k in range(8) for x in (0.0, 5.0)]
+    wave = np.column_stack([np.interp(np.arange(76.0), np.arange(16) * 5.0, axis) for axis in np.array(corners).T])
+    walk, path = walk_along(wave, None)
+    height = path.position(np.linspace(path.begin, path.end, 1_000))[:, 1]
+    assert walk.is_easy
+    assert np.ptp(height) > 4.6
+    assert walk.largest < 1.5
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.3])
+def test_hairpins_that_no_bench_follows_stay_where_they_were_walked(noise):
+    legs = [np.column_stack([np.arange(31.0)[:: 1 - 2 * (row % 2)], np.full(31, 2.0 * row)]) for row in range(8)]
+    points = np.concatenate(legs)
+    walk, path = walk_along(points + np.random.default_rng(5).normal(0.0, noise, points.shape), None)
+    assert not walk.is_easy
+    assert walk.largest < 0.3 + 5.0 * noise
+    assert walk.length > 235.0
+    assert farthest(points, path) < 0.3 + 5.0 * noise
+
+
+@pytest.mark.parametrize("noise", [0.1, 0.5, 2.0])
+def test_the_noise_of_a_receiver_is_measured_beside_corners(noise):
+    points = walked(np.arange(0.0, 250.0, 0.5))
+    points += np.random.default_rng(0).normal(0.0, noise, points.shape)
+    assert noise_of(points) == pytest.approx(noise, rel=0.1)
+    assert noise_of(walked(np.arange(200.0))) < 1e-9
 
 
 def test_times_that_do_not_grow_are_none_and_many_speeds_become_few():
@@ -114,8 +177,9 @@ def test_times_that_do_not_grow_are_none_and_many_speeds_become_few():
 
 def test_thinning_and_smoothing_keep_a_straight_way_and_its_ends():
     way = np.column_stack([np.linspace(0.0, 50.0, 501), np.full(501, 3.0)])
-    assert (np.hypot(*np.diff(apart(way), axis=0).T) >= 0.5 * APART).all()
-    assert apart(way)[-1].tolist() == [50.0, 3.0]
+    kept = apart(way)
+    assert (np.hypot(*np.diff(way[kept], axis=0).T) >= 0.5 * APART).all()
+    assert (kept[0], kept[-1]) == (0, 500)
     even = evenly(way)
     assert smoothed(even, 4.0) == pytest.approx(even, abs=1e-9)
     assert walk_of(way[:5], None) is None
