@@ -6,6 +6,7 @@ It knows the words of the contest's workbooks, in Chinese and English, and their
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from app.grade.grid import Cell, normalized
@@ -19,6 +20,9 @@ TIME_INSIDE = re.compile(
     r"t\s*=\s*([-+]?\d+(?:\.\d+)?)\s*(?:s\b|sec\b|seconds?\b|秒)?|([-+]?\d+(?:\.\d+)?)\s*(?:s|sec|seconds?|秒)(?![a-z])",
     re.IGNORECASE,
 )
+# A time after its name, as in "碰撞时刻：412.47"; and its name in the cell before the number.
+TIME_NAMED = re.compile(r"(?:时间|时刻|\btime|instant)\D{0,20}?([-+]?\d+\.\d+)", re.IGNORECASE)
+NAME_OF_TIME = re.compile(r"时间|时刻|\btime\b|instant|\bt\s*(?:[(\[][^)\]]*[)\]])?\s*[=:]?$", re.IGNORECASE)
 JOINTS = re.compile(r"^[\s_,;:@-]+|[\s_,;:@-]+$")
 EMPTY_BRACKETS = re.compile(r"[(\[]\s*[)\]]")
 UNIT = re.compile(r"[(\[]\s*([a-zμ米厘毫°弧度]+)\s*(/\s*(?:s|秒))?\s*[)\]]?$", re.IGNORECASE)
@@ -112,6 +116,20 @@ def instant_of(cell: Cell) -> float | None:
         return cell
     match = TIME.fullmatch(normalized(cell)) if isinstance(cell, str) else None
     return float(match[1]) if match else None
+
+
+def stated_instant(rows: Iterable[Sequence[Cell]]) -> float | None:
+    """The instant that cells above a table state [s], the most precise one of several; None if they state none."""
+    numbers: list[str] = []
+    for row in rows:
+        for before, cell in zip([None, *row], row, strict=False):
+            if isinstance(cell, str):
+                text = normalized(cell)
+                matches = TIME_INSIDE.search(text), TIME_NAMED.search(text)
+                numbers += [next(filter(None, match.groups())) for match in matches if match]
+            elif isinstance(cell, float) and isinstance(before, str) and NAME_OF_TIME.search(normalized(before)):
+                numbers.append(str(cell))
+    return float(max(numbers, key=len)) if numbers else None
 
 
 def is_handle_heading(text: str) -> bool:

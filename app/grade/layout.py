@@ -27,6 +27,7 @@ from app.grade.labels import (
     heading_of,
     is_handle_heading,
     label_of,
+    stated_instant,
 )
 from app.grade.words import Note
 from core.values import Floats
@@ -170,7 +171,7 @@ def _tables_of(
     """The tables of some lines: those of their columns, if these are headed x and y; else those of their labels."""
     columns = _columns(heads, aside)
     if {X, Y} <= {component for _, component in columns}:
-        return _by_columns(grid, cells, lines, columns, turned)
+        return _by_columns(grid, cells, lines, heads, columns, turned)
     return _over_time(grid, cells, lines, _times(heads, cells, aside), turned)
 
 
@@ -321,13 +322,16 @@ def _by_columns(
     grid: Grid,
     cells: list[list[Cell]],
     lines: list[tuple[int, Label]],
+    heads: list[list[Cell]],
     columns: Columns,
     turned: bool,
 ) -> list[SheetTable]:
-    """Tables of columns for x, y and speed: at their instants, or at one that is not given."""
+    """Tables of columns for x, y and speed: at their instants, or at one that is stated above them, or not given."""
     times = sorted({time for time, _ in columns if time is not None})
     if not times:
-        return [_columns_table(grid, cells, TableKind.CONTACT, lines, columns, [None], turned)]
+        table = _columns_table(grid, cells, TableKind.CONTACT, lines, columns, [None], turned)
+        stated = stated_instant([[grid.title], *heads])
+        return [table if stated is None else replace(table, times=np.array([stated]))]
     timed = {component for time, component in columns if time is not None}
     kinds = [kind for kind in (TableKind.POSITION, TableKind.SPEED) if timed & set(COMPONENTS[kind])]
     return [_columns_table(grid, cells, kind, lines, columns, times, turned) for kind in kinds]
@@ -406,12 +410,12 @@ def bare_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> list[Sh
         if {X, Y} <= components:
             # A further number beside x and y, but no speed: points of a curve.
             is_curve = SPEED not in components and names - {k for k, _ in headed.values()}
-            return [] if is_curve else _by_columns(grid, cells, lines, headed, turned)
+            return [] if is_curve else _by_columns(grid, cells, lines, cells[:first], headed, turned)
         if names and not _instants(cells[:first], aside):
             return []
         # Places are on all sides of the centre; speeds at two or three instants are not negative.
         has_places = any(isinstance(cell, float) and cell < 0.0 for row in cells[first:] for cell in row)
         if not names and has_places and 1 < len(columns) <= len(COMPONENTS[TableKind.CONTACT]):
             places: Columns = {(None, component): (k, 1.0) for component, k in enumerate(columns)}
-            return _by_columns(grid, cells, lines, places, turned)
+            return _by_columns(grid, cells, lines, cells[:first], places, turned)
     return _over_time(grid, cells, lines, _times(cells[:first], cells, aside), turned)

@@ -11,7 +11,7 @@ import numpy as np
 
 from app.grade.cells import OddCells
 from app.grade.grid import Cell, Grid, normalized
-from app.grade.labels import TIME_WORD, heading_of, instant_of, is_handle_heading, label_of
+from app.grade.labels import TIME_WORD, heading_of, instant_of, is_handle_heading, label_of, stated_instant
 from app.grade.layout import (
     BENCHES,
     COMPONENTS,
@@ -114,7 +114,8 @@ def _at_contact(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[st
     if not LABELS_LEAST <= len(lines) <= HANDLES + EXTRA_MOST:
         return []
     handles, h = _numbered([_handle_of(cells[n][columns["handle"]]) or 0 for n in lines])
-    once = (np.array([np.nan]), np.zeros(len(lines), dtype=np.int64), handles, h, lines)
+    stated = stated_instant([[grid.title], *cells[: head + 1]])
+    once = (np.array([np.nan if stated is None else stated]), np.zeros(len(lines), dtype=np.int64), handles, h, lines)
     return [_table_of(grid, cells, head, columns, TableKind.CONTACT, once)]
 
 

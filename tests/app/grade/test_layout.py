@@ -228,6 +228,32 @@ def test_a_result2_may_state_its_instant_in_a_column_or_a_heading(form):
         assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
 
 
+TITLES = {
+    "corner": lambda rows: [["t = 412.473838 s", *rows[0][1:]], *rows[1:]],
+    "title": lambda rows: [["t=412.473838s 时的位置与速度"], *rows],
+    "title with a step": lambda rows: [["步长 0.01 s，碰撞时刻：412.473838"], *rows],
+    "cells of a title": lambda rows: [["time of first contact (s)", 412.473838], [], *rows],
+}
+
+
+@pytest.mark.parametrize("numbered", [False, True])
+@pytest.mark.parametrize("title", TITLES)
+def test_a_result2_may_state_its_instant_above_the_table(title, numbered):
+    values = numbers_at(np.array([412.473838]))
+    rows = in_layout(values, [0.0], "columns", heading="", numbered=numbered)["both"]
+    rows[0] = ["handle" if numbered else "", "x (m)", "y (m)", "v (m/s)"]
+    assert right(grade(as_csv(rows), "result2.csv"))[0] < 672
+    rows = TITLES[title](rows)
+    for result in (grade(as_csv(rows), "result2.csv"), grade(by_xlsxwriter({"Sheet": rows}), "result2.xlsx")):
+        assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
+
+
+def test_another_number_of_seconds_in_a_title_accuses_nobody():
+    rows = in_layout(numbers_at(np.array([students.CONTACT])), [0.0], "columns", heading="")["both"]
+    result = grade(as_csv([["速度 1 m/s，步长 1 s"], *rows]), "result2.csv")
+    assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
+
+
 @pytest.mark.parametrize("heads", ["theta,radius,x,y", "n,theta,radius,x,y", ",radius,x,y", "u,x,y", "a,b,c"])
 @pytest.mark.parametrize("count", [224, 500])
 def test_a_table_that_is_not_of_the_contest_is_unreadable(heads, count):
