@@ -103,7 +103,7 @@ class Reading:
 
     def __init__(self, drawing: Drawing, units: Coordinates | None, say: Say, chord: float = CHORD) -> None:
         self.drawing, self.say, self.chord, self.notes = drawing, say, chord, list[str]()
-        self.assumed = dict[float, list[str]]()
+        self.assumed = dict[float, list[MapFeature]]()
         every = [one for one in drawing.features if one.role != MARK and any(one.rings)]
         self.features = [_closed(_with_role(one)) for one in every]
         if not self.features:
@@ -135,8 +135,8 @@ class Reading:
         # A track that was walked is a path; the longest one is danced, unless a line is called path.
         path_lines = [one for one in lines if one.role == PATH]
         paths = [*path_lines, *sorted((one for one in tracks if one.role != PATH), key=length_of, reverse=True)]
-        # If no line has the role of the path, it is the longest line without a width.
-        free = [one for one in lines if one.role is None and one.radius is None]
+        # If no line has the role of the path, it is the longest line without a width; one of some centimetres is none.
+        free = [one for one in lines if one.role is None and one.radius is None and _is_long(one)]
         danced = paths[:1] or ([max(free, key=length_of)] if free and not self._walls(free) else [])
         path = self._path(danced[0]) if danced else None
         if more := paths[1:]:
@@ -244,23 +244,27 @@ class Reading:
         )
 
     def _leave_out_small(self) -> None:
-        """Leave out round things that are smaller than anything of a venue, and name them."""
-
-        def is_small(one: MapFeature) -> bool:
-            return one.shape == "point" and 0.0 < (one.radius or 1.0) < SIZE_MIN
-
-        small = [one for one in self.features if is_small(one)]
-        if not small:
-            return
-        self.features = [one for one in self.features if not is_small(one)]
-        names = self._listed(one.name or one.role or one.shape for one in small)
-        english = f"{format_count(len(small), 'circle')} with a radius of less than {SIZE_MIN:g} m"
-        self._note(f"Left out: {english}: {names}.", f"未读取：{len(small)} 个半径小于 {SIZE_MIN:g} m 的圆：{names}。")
+        """Leave out what is smaller than anything of a venue, and name it; the only square or path stays."""
+        circles = [one for one in self.features if one.shape == "point" and 0.0 < (one.radius or 1.0) < SIZE_MIN]
+        others = [one for one in self.features if _is_tiny(one)]
+        left_out = {id(one) for one in (*circles, *others)}
+        large = {one.role for one in self.features if id(one) not in left_out}
+        others = [one for one in others if one.role not in (PATH, SQUARE) or one.role in large]
+        left_out = {id(one) for one in (*circles, *others)}
+        self.features = [one for one in self.features if id(one) not in left_out]
+        if circles:
+            names, count = self._listed(circles), len(circles)
+            english = f"{format_count(count, 'circle')} with a radius of less than {SIZE_MIN:g} m"
+            self._note(f"Left out: {english}: {names}.", f"未读取：{count} 个半径小于 {SIZE_MIN:g} m 的圆：{names}。")
+        if others:
+            names, count = self._listed(others), len(others)
+            english = f"{format_count(count, 'shape')} of less than {SIZE_MIN:g} m"
+            self._note(f"Left out: {english}: {names}.", f"未读取：{count} 个小于 {SIZE_MIN:g} m 的图形：{names}。")
 
     @staticmethod
-    def _listed(names: Iterable[str]) -> str:
-        """The first names, and dots for more."""
-        every = list(names)
+    def _listed(things: Iterable[MapFeature]) -> str:
+        """The names of the first things, and dots for more."""
+        every = [one.name or one.role or one.shape for one in things]
         return ", ".join(every[:LISTED_MOST]) + (", …" if len(every) > LISTED_MOST else "")
 
     def _whole(self, one: MapFeature) -> MapFeature:
@@ -330,13 +334,12 @@ class Reading:
 
     def _obstacle(self, one: MapFeature) -> MapFeature:
         """An obstacle, with a radius if it is a point or a line."""
-        name = one.name or one.role or one.shape
         if one.shape == "polygon":
             return replace(one, radius=None)
         radius = one.radius
         if radius is None or not 0.0 < radius < math.inf:
             radius = POINT_RADIUS if one.shape == "point" else LINE_RADIUS
-            self.assumed.setdefault(radius, []).append(name)
+            self.assumed.setdefault(radius, []).append(one)
         return replace(one, radius=radius)
 
     def _path(self, line: MapFeature) -> Mapping[str, Any]:
@@ -395,6 +398,18 @@ class Reading:
             self._note(f"It was walked in {until:.0f} s.", f"走完用时 {until:.0f} s。")
         checked_path(walk.path)
         return walk.path
+
+
+def _is_tiny(one: MapFeature) -> bool:
+    """True for a line without a width, and for a polygon, all of whose points are as good as one."""
+    if one.shape == "point" or one.radius is not None or one.times is not None:
+        return False
+    return bool(np.hypot(*np.ptp(np.array(one.rings[0]), axis=0)) < SIZE_MIN)
+
+
+def _is_long(line: MapFeature) -> bool:
+    """True for a line that may be a path."""
+    return len(thinned(np.array(line.rings[0]))[0]) > 1
 
 
 def _look_like_degrees(points: Floats) -> bool:

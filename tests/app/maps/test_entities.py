@@ -163,6 +163,27 @@ def test_a_circle_too_small_for_anything_is_left_out_by_its_name():
     assert "Left out: 1 circle with a radius of less than 0.001 m: DOT." in result.notes
 
 
+@pytest.mark.parametrize("length", [0.0002, 0.0005, 0.02])
+def test_a_stroke_in_a_plan_is_neither_its_path_nor_a_refusal(length):
+    space = new()
+    space.add_circle((20, 0), 0.4, dxfattribs={"layer": "TREES"})
+    space.add_line((8, 5), (8 + length, 5), dxfattribs={"layer": "STROKE"})
+    space.add_arc((12, 5), 0.5 * length, 0, 90, dxfattribs={"layer": "DOT"})
+    space.add_lwpolyline([(16, 5), (16 + length, 5), (16, 5 + length)], close=True, dxfattribs={"layer": "CHIP"})
+    result = read(space)
+    assert result.path is None
+    is_left_out = "Left out: 3 shapes of less than 0.001 m: STROKE, DOT, CHIP." in result.notes
+    assert is_left_out is (length < 0.001)
+    assert len(things(result)) == (1 if is_left_out else 4)
+
+
+def test_of_two_areas_called_square_a_tiny_one_is_left_out():
+    space = new(square=False)
+    for half in (0.0002, 40):
+        ring(space, half, layer="SQUARE")
+    assert corners(read(space))[0] == (-40.0, -40.0)
+
+
 def test_where_all_is_hidden_the_refusal_says_what():
     space = new(square=False)
     space.doc.layers.add("PLAN").freeze()
