@@ -322,12 +322,13 @@ export class Propose {
   /** Why no dance was found, in words. */
   #lack({ reason_kind: kind, reason_values: values, tried }) {
     const { have, need, figure, who, failure } = values;
-    const digits = { area: 1, stray: 3, benches: 0 }[kind] ?? 2;
+    const digits = { area: 1, stray: 3, benches: 0, fails: 0 }[kind] ?? 2;
     const gates = this.#drawing.things.filter((thing) => thing.kind === "gate");
     const names = kind === "way" ? { a: gates[who[0]]?.name, b: gates[who[1]]?.name } : { who: who.length ? benchName(who[0], Number(this.state.get("benches"))) : "" };
     const numbers = { have: have?.toFixed(digits), need: kind === "stray" ? need : need?.toFixed(digits) };
     const first = failure && { failure: failureWords(failure, this.questions.drawn()), time: formatNumber(failure.time, 6, 2) };
-    return say(kind === "fails" && !failure ? "lack_fails_none" : `lack_${kind}`, { ...names, ...numbers, ...first, tried, figure: figure ? say(`figure_${figure}`) : "" });
+    const lack = kind !== "fails" ? kind : !failure ? "fails_none" : have < need ? "fails_one" : kind;
+    return say(`lack_${lack}`, { ...names, ...numbers, ...first, tried, figure: figure ? say(`figure_${figure}`) : "" });
   }
 
   /** How many benches the area of the square bounds, if they are what counts. */

@@ -98,14 +98,13 @@ class Proposal(Answer):
 
 
 class Lack(Answer):
-    """The numbers of a reason: m2 for area, m for width, way and stray, benches for benches."""
+    """The numbers of a reason: m2 for area, m for width, way and stray, benches for benches and fails."""
 
     have: float | None = Field(
-        description="What there is; for fails that of width if no dance could be checked, else null"
+        description="What there is; for fails the benches of the dance that comes nearest, which is one if no dance of "
+        "the whole dragon was worth a check"
     )
-    need: float | None = Field(
-        description="What it takes; for fails that of width if no dance could be checked, else null"
-    )
+    need: float | None = Field(description="What it takes; for fails the benches of the dragon")
     figure: core.Figure | None = Field(description="The figure that comes nearest; null for area, width and way")
     who: list[int] = Field(description="For width the bench that needs it, for way the numbers of both gates")
     failure: Failure | None = Field(

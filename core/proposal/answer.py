@@ -42,10 +42,10 @@ class ReasonKind(StrEnum):
 class Reason(Readable):
     """Why no dance is proposed: what there is and what it takes, in the unit of the kind.
 
-    have, need: AREA [m2]; WIDTH, WAY, STRAY [m]; BENCHES: numbers of benches; FAILS: those of WIDTH if no dance could
-        be checked, else None
+    have, need: AREA [m2]; WIDTH, WAY, STRAY [m]; BENCHES, FAILS: numbers of benches, for FAILS of the dance that comes
+        nearest, which is one if no dance of the whole dragon was worth a check, and of the dragon
     figure: the one that comes nearest, None for AREA, WIDTH and WAY; who: bench that needs the width, or both gates
-    failure: its first one, for FAILS
+    failure: the first one of the dance that comes nearest, for FAILS
     AREA and WAY are proven, and so is the width that there is; the others are about the dances that were tried.
     """
 
@@ -78,12 +78,10 @@ class Reason(Readable):
         if self.kind is ReasonKind.BENCHES:
             most = f"the longest dragon that was found to fit, in {figure}, has {have:.0f}"
             return f"The dragon has {benches_of(int(need))}; {most}."
-        if self.failure is None:
-            return (
-                f"No dance was found, not even with one bench: the widest free circle is at most {have:.2f} m across, "
-                f"and the tightest turn that is tried takes {need:.2f} m."
-            )
-        return f"None of {self.tried} tried passes its check; the nearest, {figure}: {self.failure.message}"
+        none = f"None of {self.tried} tried passes its check"
+        if have < need:
+            none = "No dance was found, not even with one bench"
+        return f"{none}; the nearest, {figure}: {self.failure.message}" if self.failure else f"{none}."
 
     def _line(self) -> str:
         return self.message

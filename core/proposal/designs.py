@@ -105,8 +105,8 @@ def _pieces(design: Design, needs: Needs, ways: LegFinder) -> list[Piece] | None
         # A square less than two chords across has room for a straight way alone.
         ends = [(near, gate_poses(into, near)[0], gate_poses(out, near)[1]) for near in (lead, 0.0)]
         found = ((near, begin, ways.around(begin, end)) for near, begin, end in ends)
-        near, begin, steps = next((one for one in found if one[2] is not None), (0.0, ends[0][1], None))
-        if steps is None:
+        near, begin, steps = next((one for one in found if one[2] is not None), (0.0, ends[-1][1], None))
+        if steps is None and (steps := ways.walk(begin, ends[-1][2])) is None:
             return None
         stand: Step = (street + near, 0.0)
         return pieces_of(moved(begin, (-street - near, 0.0)), [stand, *steps, stand])[0]

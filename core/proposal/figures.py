@@ -25,6 +25,8 @@ from core.proposal.walks import Pose, Step, length_of, long_enough, mirrored, pi
 SCALES = (1.03, 1.2, 1.45, 1.8, 2.4, 3.2)
 # Length over width of rings, and the radius of their corners as a share of half the width [1].
 RINGS = ((1.0, 1.0), (1.6, 1.0), (2.6, 1.0), (1.0, 0.4), (1.5, 0.4))
+# Radii of the corners of tight rings, in tightest bends [1].
+TIGHT_RADII = (1.001, 1.05, 1.12, 1.2, 1.3, 1.42, 1.56, 1.72)
 # Distance of the middle of a lobe of an eight from the crossing, in radii of the lobe [1].
 EIGHTS = (1.25, 1.42, 1.8)
 # Lanes of a serpentine, and the radius of its turns in easy ones [1].
@@ -96,6 +98,11 @@ class Shape:
         return first, last
 
     @property
+    def round(self) -> bool:
+        """True for a ring that is a circle."""
+        return self.figure is Figure.RING and max(self.sizes) == min(self.sizes)
+
+    @property
     def around(self) -> float:
         """Length once around a closed figure [m]."""
         return length_of(self.steps or [])
@@ -160,6 +167,17 @@ def _rings(needs: Needs, widest: float, gated: bool) -> Iterator[Shape]:
             half = around / (4.0 * (aspect + 1.0) - (8.0 - math.tau) * corner)
             if half * corner >= needs.tight and 2.0 * aspect * half <= widest:
                 yield Shape(Figure.RING, (aspect * half, half, corner * half))
+
+
+def tight_rings(needs: Needs, widest: float) -> Iterator[Shape]:
+    """Rings for a dragon that has no room on an easy bend, the tightest first. widest: see shapes()"""
+    for radius in (scale * needs.tight for scale in TIGHT_RADII):
+        least = needs.length_along(max(needs.length / math.tau, radius)) + needs.gap
+        for aspect, corner in RINGS:
+            half = radius / corner
+            around = half * (4.0 * (aspect + 1.0) - (8.0 - math.tau) * corner)
+            if around >= least and 2.0 * aspect * half <= widest:
+                yield Shape(Figure.RING, (aspect * half, half, radius))
 
 
 def _eights(needs: Needs, widest: float, gated: bool) -> Iterator[Shape]:

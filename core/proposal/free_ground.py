@@ -155,6 +155,7 @@ class FreeGround:
             middle = np.zeros(divided.shape)
             middle[divided] = self.clearance(corner + spacing * cells)
 
+    @cached_property
     def widest_circle(self) -> tuple[float, float, float, float]:
         """The widest free circle: centre x, y, radius, and a proven upper bound of the radius [m].
 

@@ -2,36 +2,42 @@
 
 A leg is the shortest of Dubins' six paths that stays on free ground, with the easiest bends first. Where obstacles
 block all of them, a shortest way on the grid goes around: its corners are cut as far as one sees and rounded, and the
-leg is a chain of such paths between the ends of its bends. It need not be the shortest leg there is.
+leg is a chain of such paths between the ends of its bends. It need not be the shortest leg there is. A walk from gate
+to gate may also go straight on for a while at both ends, with one of Dubins' paths between: so it turns where there is
+room, before or behind a channel that is too narrow for the grid.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.kernels import Budget
+from core.paths.pieces import LENGTH_MIN
 from core.proposal.free_ground import FreeGround
 from core.proposal.needs import Needs
-from core.proposal.walks import Pose, Step, dubins, long_enough, moved
+from core.proposal.walks import Pose, Step, dubins, length_of, long_enough, moved
 from core.values import Floats
 
 # Distance of the points of a leg at which its room is measured [m].
 STEP = 0.35
 # Longest direct leg, in straight distances between its ends and with this added [1], [m]: a longer one goes astray.
 DETOUR, DETOUR_MORE = 2.5, 25.0
+# Parts into which the distance of two gates is divided for straight stretches of a walk [1].
+STRETCHES = 12
 # Work of one leg that is measured [1], see core/kernels/constants.py.
 LEG_WORK = 300.0
 
 
 class LegFinder:
-    """Legs of one dragon on one free ground."""
+    """Legs of one dragon on one free ground. heedless: they may lead across edges"""
 
-    def __init__(self, ground: FreeGround, needs: Needs, budget: Budget) -> None:
-        self.ground, self.needs, self.budget = ground, needs, budget
+    def __init__(self, ground: FreeGround, needs: Needs, budget: Budget, *, heedless: bool = False) -> None:
+        self.ground, self.needs, self.budget, self.heedless = ground, needs, budget, heedless
         self.sides = {radius: float(needs.sides(np.array([1.0 / radius]))[0]) for radius in needs.radii}
         self._legs: dict[tuple[Pose, Pose], list[Step] | None] = {}
         self._trees: dict[tuple[int, float], NDArray[np.int32]] = {}
@@ -55,6 +61,8 @@ class LegFinder:
     def free(self, begin: Pose, steps: Sequence[Step], radius: float) -> bool:
         """True if benches on these steps have room everywhere, with margin and stray: that of a bend on it and for a
         chord before and after it, else that of a straight way."""
+        if self.heedless:
+            return True
         self.budget.afford(LEG_WORK)
         points, travel = points_along(begin, steps)
         straight = self.needs.straight_side + self.needs.free
@@ -85,6 +93,25 @@ class LegFinder:
                 chain = self._chain([begin, *_bends(line, radius), end])
                 if chain is not None:
                     return chain
+        return None
+
+    def walk(self, begin: Pose, end: Pose) -> list[Step] | None:
+        """A leg that is straight for a while at both ends, the easiest bends first; None if none stays on free ground.
+
+        The stretches are those to the crossing of both straight lines, rounded by one bend, or parts of the distance.
+        """
+        part = math.dist(begin[:2], end[:2]) / STRETCHES
+        counts = sorted(product(range(STRETCHES), repeat=2), key=sum)
+        parts = [(part * a, part * b) for a, b in counts if a + b < STRETCHES]
+        for radius in self.needs.radii:
+            for before, after in [*_to_corner(begin, end, radius), *parts]:
+                first, last = moved(begin, (before, 0.0)), moved(end, (-after, 0.0))
+                for path in dubins(first, last, radius):
+                    steps = [(before, 0.0), *path, (after, 0.0)]
+                    if length_of(steps) > DETOUR * part * STRETCHES:
+                        break
+                    if long_enough(steps) and self.free(begin, steps, radius):
+                        return steps
         return None
 
     def _chain(self, poses: Sequence[Pose]) -> list[Step] | None:
@@ -154,6 +181,19 @@ class LegFinder:
             self.budget.afford(float(free.size))
             _, self._trees[first, room] = dijkstra(graph, directed=False, indices=first, return_predecessors=True)
         return self._trees[first, room]
+
+
+def _to_corner(begin: Pose, end: Pose, radius: float) -> list[tuple[float, float]]:
+    """Lengths of the straight stretches before and after one bend of a radius that leads from pose to pose [m]; empty
+    without one."""
+    turn = math.remainder(end[2] - begin[2], math.tau)
+    if abs(math.sin(turn)) < LENGTH_MIN:
+        return []
+    dx, dy = end[0] - begin[0], end[1] - begin[1]
+    cut = radius * abs(math.tan(0.5 * turn))
+    before = (dx * math.sin(end[2]) - dy * math.cos(end[2])) / math.sin(turn) - cut
+    after = (dy * math.cos(begin[2]) - dx * math.sin(begin[2])) / math.sin(turn) - cut
+    return [(before, after)] if min(before, after) >= 0.0 else []
 
 
 def _bends(line: Floats, radius: float) -> list[Pose]:

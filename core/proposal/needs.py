@@ -104,10 +104,13 @@ class Needs:
     def turning_width(self) -> float:
         """Diameter of the circle in which the longest bench turns on the tightest bend that is tried, margin and stray
         included [m]. A wish: a bend that is 1.1 times as tight can be danced."""
+        return 2.0 * (self.outer(self.tight) + self.free)
+
+    def outer(self, radius: float) -> float:
+        """Radius of the circle in which the longest bench turns on a bend of a radius, without margin and stray [m]."""
         overhang = float(self._kinds(self.dragon.overhangs).max())
-        middle = math.sqrt(self.tight**2 - 0.25 * self.chord**2)
-        outer = math.hypot(middle + self.straight_side, 0.5 * self.chord + overhang)
-        return 2.0 * (outer + self.free)
+        middle = math.sqrt(radius**2 - 0.25 * self.chord**2)
+        return math.hypot(middle + self.straight_side, 0.5 * self.chord + overhang)
 
     def length_along(self, radius: float) -> float:
         """From the first handle to the last one along a circle of a radius that benches can follow [m]."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.paths.route import Route
-from core.proposal.figures import Figure, Shape
+from core.proposal.figures import Shape
 from core.proposal.free_ground import FreeGround
 from core.proposal.needs import Needs
 from core.proposal.walks import Pose
@@ -59,8 +59,7 @@ def placements(ground: FreeGround, needs: Needs, shape: Shape, count: int) -> li
     """
     assert shape.pieces is not None
     outline = sampled(Route(shape.pieces), needs, OUTLINE)
-    whole = shape.figure is Figure.RING and max(shape.sizes) == min(shape.sizes)
-    turns = base_rotation(ground) + math.pi / ROTATIONS * np.arange(1 if whole else ROTATIONS)
+    turns = base_rotation(ground) + math.pi / ROTATIONS * np.arange(1 if shape.round else ROTATIONS)
     cos, sin = np.cos(turns)[:, None], np.sin(turns)[:, None]
     x, y = outline.points.T
     turned = np.stack([cos * x - sin * y, sin * x + cos * y], axis=-1)

@@ -193,7 +193,13 @@ def _otherwise(
             on_proposal(proposal)
         if best or reason is not None:
             return best, reason
-    return (), _fewer_benches(search, venue, figures) or _failing(search)
+    shorter = _fewer_benches(search, venue, figures)
+    if shorter is not None:
+        return (), shorter
+    best, reason = _failing(search, venue, figures)
+    for proposal in best:
+        on_proposal(proposal)
+    return best, reason
 
 
 def _too_narrow(search: Search, figures: Sequence[Figure]) -> Reason | None:
@@ -205,7 +211,7 @@ def _too_narrow(search: Search, figures: Sequence[Figure]) -> Reason | None:
         widest, pair = max(widths)
         if widest < needs.least_width:
             return Reason(ReasonKind.WAY, tried, widest, needs.least_width, who=pair)
-    _, _, _, most = search.ground.widest_circle()
+    _, _, _, most = search.ground.widest_circle
     if 2.0 * most < needs.turning_width:
         bench = int(np.argmax(needs.dragon.chords[: needs.dragon.uniform_from + 1]))
         return Reason(ReasonKind.WIDTH, tried, 2.0 * most, needs.turning_width, who=(bench,))
@@ -309,13 +315,24 @@ def _longest(
     return best
 
 
-def _failing(search: Search) -> Reason:
+def _failing(search: Search, venue: Venue, figures: Sequence[Figure]) -> tuple[tuple[Proposal, ...], Reason | None]:
+    """The first failure of the dance that came nearest, of one bench if none of the whole dragon was worth a check; or
+    this dance, if it passes."""
+    benches, last = search.dragon.benches, search
     if search.nearest is None:
-        return Reason(
-            ReasonKind.FAILS, search.tried, 2.0 * search.ground.widest_circle()[3], search.needs.turning_width
-        )
-    one, report = search.nearest
-    return Reason(ReasonKind.FAILS, search.tried, figure=one.design.figure, failure=report.failures[0])
+        last = Search(venue, with_benches(search.dragon, 1), search.gates, search.wish, search.budget)
+        passing = last.check_nearest(figures)
+        search.tried, search.checked = search.tried + last.tried, search.checked + last.checked
+        if passing is not None and benches > 1:
+            return (), Reason(ReasonKind.BENCHES, search.tried, 1.0, float(benches), passing[0].design.figure)
+        if passing is not None and (proposal := last.certified(*passing)) is not None:
+            return (proposal,), None
+    most = float(last.dragon.benches)
+    if last.nearest is None:
+        return (), Reason(ReasonKind.FAILS, search.tried, most, float(benches))
+    one, report = last.nearest
+    figure, failure = one.design.figure, report.failures[0]
+    return (), Reason(ReasonKind.FAILS, search.tried, most, float(benches), figure, failure=failure)
 
 
 def with_benches(dragon: Dragon, count: int) -> Dragon:

@@ -6,10 +6,12 @@ Nothing is random. Few dances are checked: a check takes as long as ten ratings,
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import permutations, product
+from itertools import chain, islice, permutations, product
 from typing import Any
+
+import numpy as np
 
 from core.contact.clearance import LeastClearance, least_clearance
 from core.contact.walls import venue_clearance
@@ -22,13 +24,14 @@ from core.kernels import Budget
 from core.paths.route import Route
 from core.proposal.answer import Near, Objective, Proposal
 from core.proposal.designs import Design, laid_out, stand_length, street_length, with_gates
-from core.proposal.figures import Figure, Shape, shapes
+from core.proposal.figures import Figure, Shape, shapes, tight_rings
 from core.proposal.free_ground import FreeGround
 from core.proposal.gates import Gate, with_streets
 from core.proposal.legs import LegFinder
 from core.proposal.needs import Needs
 from core.proposal.places import placements, sampled
 from core.proposal.rating import PathRating, rated, strands
+from core.proposal.walks import Pose
 from core.tolerance.tolerance import tolerance
 from core.values import Progress, unheard
 from core.venue import Venue
@@ -125,18 +128,33 @@ class Search:
         for (_, shape, pose), pair in product(spots[:PLACED_GATED], pairs):
             yield from with_gates(Design(figure, shape, pose), pair, self.needs, self.ways)
 
-    def spots(self, figure: Figure) -> list[tuple[float, Shape, tuple[float, float, float]]]:
+    def spots(self, figure: Figure) -> list[tuple[float, Shape, Pose]]:
         """Room, shape and pose of a figure's shapes at their roomiest places, the roomiest first."""
         widest = float(max(self.ground.high - self.ground.low))
+        spots = self._spots(shapes(figure, self.needs, widest, gated=bool(self.gates)))
+        if figure is Figure.RING and all(room < self.needs.free for room, _, _ in spots):
+            least = float(min(self.ground.high - self.ground.low))
+            tight = [one for one in tight_rings(self.needs, widest) if 2.0 * one.sizes[1] <= least]
+            spots += self._spots(tight) + self._middles(one for one in tight if one.round)
+        if self.wish.objective in (Objective.TURNS, Objective.DURATION):
+            return sorted(spots, key=lambda spot: -round(sum(spot[1].sizes), 6))
+        return sorted(spots, key=lambda spot: -round(spot[0], 6))
+
+    def _spots(self, every: Iterable[Shape]) -> list[tuple[float, Shape, Pose]]:
         spots = []
-        for shape in shapes(figure, self.needs, widest, gated=bool(self.gates)):
+        for shape in every:
             self.budget.afford(RATING_WORK)
             places = placements(self.ground, self.needs, shape, 2)
             own = self.own_room(shape) if places else 0.0
             spots += [(min(room, own), shape, pose) for room, pose in places]
-        if self.wish.objective in (Objective.TURNS, Objective.DURATION):
-            return sorted(spots, key=lambda spot: -round(sum(spot[1].sizes), 6))
-        return sorted(spots, key=lambda spot: -round(spot[0], 6))
+        return spots
+
+    def _middles(self, circles: Iterable[Shape]) -> list[tuple[float, Shape, Pose]]:
+        """Spots of circles in the middle of the widest free circle, in which benches take less room than beside a path:
+        only what they take outside."""
+        x, y, radius, _ = self.ground.widest_circle
+        rooms = [(radius - self.needs.outer(circle.sizes[0]), circle) for circle in circles]
+        return [(min(room, self.own_room(circle)), circle, (x, y, 0.0)) for room, circle in rooms if room > 0.0]
 
     def own_room(self, shape: Shape) -> float:
         """Room on each side of the benches on a shape that its own strands leave [m]."""
@@ -153,7 +171,14 @@ class Search:
         if route is None:
             return None
         ends = stand_length(self.needs) if design.gates else 0.0
-        return Rated(design, route, rated(self.ground, self.needs, route, (ends, ends)))
+        rating = rated(self.ground, self.needs, route, (ends, ends))
+        shape = design.shape
+        if rating.venue < self.wish.stray and shape is not None and shape.round and not design.gates:
+            # Within a circle without obstacles benches take only the room outside their path.
+            clear = float(self.ground.clearance(np.array([design.pose[:2]]))[0])
+            room = clear - self.needs.outer(shape.sizes[0]) - self.wish.margin
+            rating = replace(rating, venue=max(rating.venue, room / self.needs.gain))
+        return Rated(design, route, rating)
 
     def improved(self, start: Rated) -> Rated:
         """The dance with place, rotation and sizes moved to a better rating, by steps that are halved."""
@@ -204,6 +229,35 @@ class Search:
         if self.nearest is None or one.rating.stray > self.nearest[0].rating.stray:
             self.nearest = (one, report)
         return None
+
+    def check_nearest(self, figures: Sequence[Figure]) -> tuple[Rated, Dance] | None:
+        """The best-rated dance of some figures if it passes; if none can be laid out, one that heeds no edge."""
+        every = [one for figure in figures for one in self.ranked(figure)]
+        if not every:
+            self.ways = LegFinder(self.ground, self.needs, self.budget, heedless=True)
+            designs = (design for figure in figures for design in self._heedless(figure))
+            every = [one for design in designs if (one := self.rate(design)) is not None]
+        if not every:
+            return None
+        best = max(every, key=lambda one: round(one.rating.stray, 6))
+        dance = self.passing(best)
+        return None if dance is None else (best, dance)
+
+    def _heedless(self, figure: Figure) -> Iterator[Design]:
+        """Designs of the smallest shape of a figure in the middle of the widest free circle."""
+        if figure is Figure.PARADE:
+            yield from self.designs(figure)
+            return
+        every = shapes(figure, self.needs, math.inf, gated=bool(self.gates))
+        if figure is Figure.RING:
+            every = chain(tight_rings(self.needs, math.inf), every)
+        x, y, _, _ = self.ground.widest_circle
+        for shape in islice(every, 1):
+            design = Design(figure, shape, (x, y, 0.0))
+            if self.gates:
+                yield from with_gates(design, (self.gates[0], self.gates[-1]), self.needs, self.ways)
+            else:
+                yield design
 
     def first(self, candidates: Sequence[Rated], *, briefly: bool = False) -> tuple[Rated, Dance, int] | None:
         """The first of some rated dances that passes, moved to a better rating if it passes then too; and its number.

@@ -152,9 +152,11 @@ def test_a_square_has_typed_sizes_corners_and_sides_and_nothing_changes_or_stays
 
 # What a square without any dance that passes is answered with: the first failure of the nearest one.
 FIRST = Failure(FailureKind.VENUE, 12.3456, (3,), "linden", "")
-LACK = Lack.of(Reason(ReasonKind.FAILS, 30, figure=Figure.EIGHT, failure=FIRST), Dragon(8))
-WHY = {"reason_kind": "fails", "reason_values": LACK.model_dump(mode="json")}
-NONE = {"proposals": [], "tried": 30, "checked": 5, **WHY}
+LACKS = [
+    Lack.of(Reason(ReasonKind.FAILS, 30, have, 8.0, Figure.EIGHT, failure=FIRST), Dragon(8)) for have in (8.0, 1.0)
+]
+WHYS = [{"reason_kind": "fails", "reason_values": lack.model_dump(mode="json")} for lack in LACKS]
+NONE, NOT_ONE = ({"proposals": [], "tried": 30, "checked": 5, **why} for why in WHYS)
 
 
 @thorough
@@ -165,6 +167,11 @@ def test_why_none_fits_stands_in_one_sentence_and_a_search_can_be_stopped(open_p
     person.page.route("**/proposals", lambda route: route.fulfill(json=NONE))
     person.presses("#propose").sees({"#proposed": "fails at 12.35 s: body 3 touches linden."}).speaks("zh")
     person.sees({"#proposed": "在 12.35 s 不合格：第3节龙身碰到linden。"}).speaks("en").page.unroute_all()
+    person.page.route("**/proposals", lambda route: route.fulfill(json=NOT_ONE))
+    person.presses("#propose").sees(
+        {"#proposed": "not even one bench. Its nearest dance, “Figure eight”, fails at 12.35 s"}
+    )
+    person.speaks("zh").sees({"#proposed": "一节板凳也找不到"}).speaks("en").page.unroute_all()
     person.page.route("**/proposals", lambda route: None)
     person.presses("#propose").sees({"#propose:disabled": True})
     person.sees({"#proposed": re.compile(r"Looking for dances that fit: \d+ s")}).presses("#place button:text('Stop')")

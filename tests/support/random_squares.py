@@ -120,7 +120,8 @@ def wrong_reason(case, result):
     assert reason is not None
     have, need = reason.have or 0.0, reason.need or 0.0
     if reason.kind is core.ReasonKind.FAILS:
-        return "" if reason.message else "no words"
+        nearest = reason.failure is not None and reason.figure is not None
+        return "" if nearest and have in (1.0, need) else f"no failure of a nearest dance: {reason.message}"
     if not have < need and reason.kind is not core.ReasonKind.BENCHES:
         return f"{have} is not less than {need}"
     if reason.kind is core.ReasonKind.WIDTH:

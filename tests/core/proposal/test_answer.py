@@ -18,10 +18,12 @@ REASONS = {
         ReasonKind.STRAY, 412, 0.0321, 0.05, Figure.EIGHT
     ),
     "None of 30 tried passes its check; the nearest, a ring: Benches 1 and 9 touch at 3.000000 s.": Reason(
-        ReasonKind.FAILS, 30, figure=Figure.RING, failure=TOUCH
+        ReasonKind.FAILS, 30, 9.0, 9.0, Figure.RING, failure=TOUCH
     ),
-    "No dance was found, not even with one bench: the widest free circle is at most 4.50 m across, "
-    "and the tightest turn that is tried takes 4.25 m.": Reason(ReasonKind.FAILS, 0, 4.5, 4.25),
+    "No dance was found, not even with one bench; the nearest, a ring: Benches 1 and 9 touch at 3.000000 s.": Reason(
+        ReasonKind.FAILS, 30, 1.0, 9.0, Figure.RING, failure=TOUCH
+    ),
+    "None of 0 tried passes its check.": Reason(ReasonKind.FAILS, 0, 1.0, 1.0),
 }
 
 

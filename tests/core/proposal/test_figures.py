@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from core import Dragon, Figure, Route
-from core.proposal.figures import DANCED, Shape, eight, ring, serpentine, shapes
+from core.proposal.figures import DANCED, Shape, eight, ring, serpentine, shapes, tight_rings
 from core.proposal.needs import Needs
 from core.proposal.walks import moved
 
@@ -52,3 +52,14 @@ def test_shapes_hold_the_dragon_and_bend_no_tighter_than_it_can(figure, gated):
     ]
     if figure in LEAST and (not gated or every[0].closed):
         assert 1.0 < min(lengths) / LEAST[figure] < 1.25
+
+
+def test_tight_rings_hold_a_short_dragon_and_bend_no_tighter_than_it_can():
+    needs = Needs(Dragon(4), 0.05, 0.0)
+    every = [(shape, Route(shape.pieces)) for shape in tight_rings(needs, 20.0)]
+    assert every[0][0].round
+    assert min(route.end for _, route in every) >= needs.length + needs.gap
+    bends = [route.sharpest[0] * needs.tight for _, route in every]
+    assert max(bends) == pytest.approx(1.0, abs=2e-3)
+    assert max(bends) <= 1.0
+    assert list(tight_rings(Needs(Dragon(60), 0.05, 0.0), 20.0)) == []

@@ -27,7 +27,7 @@ def test_clearances_and_the_widest_circle_are_those_of_shapely(seed):
     held = ((points > ground.low) & (points < ground.high)).all(axis=1)
     for rough in (ground.nearest_node(*points[held].T), ground.roughly(points[held])):
         assert np.abs(rough - clearance[held]).max() <= ground.node_error + SAME
-    x, y, radius, most = ground.widest_circle()
+    x, y, radius, most = ground.widest_circle
     parts = shapely.get_parts(left)
     widest = max(shapely.maximum_inscribed_circle(part, tolerance=1e-4).length for part in parts)
     assert radius == pytest.approx(float(ground.clearance(np.array([[x, y]]))[0]), abs=SAME)

@@ -11,7 +11,7 @@ from core import Budget, Dragon, Venue
 from core.proposal.free_ground import FreeGround
 from core.proposal.legs import LegFinder, points_along
 from core.proposal.needs import Needs
-from core.proposal.walks import moved
+from core.proposal.walks import joined, length_of, moved
 from tests.support.random_squares import box, polygon
 
 SQUARE, WALL = box("square", 0, 0, 40, 30), box("wall", 18, -1, 2, 24)
@@ -44,6 +44,19 @@ def test_points_are_on_the_steps():
 def test_a_lane_in_which_benches_can_just_turn_is_passed():
     lane = ways(box("wall", 15, -1, 10, 4.5), box("other", 15, 6.5, 10, 24.5))
     assert lane.around((4.0, 12.0, 0.0), END) is not None
+
+
+def test_a_walk_goes_straight_turns_once_where_the_lines_cross_and_goes_straight_on():
+    there, corner = ways(WALL), (8.0, 25.0, 0.5 * math.pi)
+    steps = joined(there.walk((2.0, 5.0, 0.0), corner))
+    assert [curvature for _, curvature in steps] == [0.0, 1.0 / NEEDS.radii[0], 0.0]
+    assert reduce(moved, steps, (2.0, 5.0, 0.0)) == pytest.approx(corner, abs=1e-9)
+
+
+def test_heedless_legs_lead_across_edges():
+    ground = FreeGround(Venue(SQUARE, (WALL,)))
+    legs = LegFinder(ground, NEEDS, Budget(), heedless=True)
+    assert length_of(legs.leg(BEGIN, END)) == pytest.approx(32.0)
 
 
 def test_no_leg_leads_through_a_gap_that_is_too_narrow():

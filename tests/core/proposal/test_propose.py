@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from core import Area, Budget, Dragon, Figure, Gate, Objective, ReasonKind, TooMuchWork, Venue, propose
+from core import Area, Budget, Dragon, FailureKind, Figure, Gate, Objective, ReasonKind, TooMuchWork, Venue, propose
 from core.proposal.propose import BENCHES_MOST
 from tests.campaigns.hunt_proposals import fault
 from tests.support.depth import further, some, thorough
@@ -165,6 +165,39 @@ def test_whoever_walks_straight_from_gate_to_gate_needs_no_room_to_turn(name):
     case = Case(venue, Dragon(4), (Gate(west, 0.0), Gate(east, math.pi)), LIMITS)
     (one,) = case.proposals(figures=["parade"], count=1).proposals
     assert refuted(case, one) == ""
+
+
+@pytest.mark.parametrize(("side", "benches"), [(3.95, 1), (4.0, 2), (5.0, 4), (6.0, 1)])
+def test_a_short_dragon_dances_in_a_square_in_which_its_tightest_circle_just_fits(side, benches):
+    case = Case(Venue(box("yard", 0, 0, side, side)), Dragon(benches), (), LIMITS)
+    result = case.proposals()
+    assert [refuted(case, one) for one in result.proposals] == [""] * max(len(result.proposals), 1), result.message
+
+
+CHANNEL = box("low", 8, 0, 8, 9.8), box("high", 8, 10.4, 8, 9.6)
+STREETS = ((0, 3), (17, 3), (17, 20), (13, 20), (13, 7), (0, 7), (0, 3))
+TURNING = {
+    "a channel beside the gate": (Venue(box("square", 0, 0, 24, 20), CHANNEL), ((0, 14), 0.0), ((24, 10.1), math.pi)),
+    "two streets": (Venue(Area("streets", (STREETS,))), ((0, 5), 0.0), ((15, 20), -0.5 * math.pi)),
+}
+
+
+@pytest.mark.parametrize("name", TURNING)
+def test_a_walk_turns_where_there_is_room_and_is_straight_elsewhere(name):
+    venue, begin, end = TURNING[name]
+    case = Case(venue, Dragon(4), (Gate(*begin), Gate(*end)), LIMITS)
+    result = case.proposals(figures=["parade"], count=1)
+    assert [refuted(case, one) for one in result.proposals] == [""], result.message
+
+
+def test_where_not_even_one_bench_fits_the_reason_is_what_fails_in_its_nearest_dance():
+    blocks = box("low", 8, 0, 8, 6.03), box("high", 8, 6.63, 8, 13.37)
+    gates = Gate((0.0, 10.1), 0.0), Gate((24.0, 10.1), math.pi)
+    square = Venue(box("square", 0, 0, 24, 20), blocks)
+    reason = propose(square, Dragon(4), gates=gates, figures=["parade"]).reason
+    assert (reason.kind, reason.have, reason.need, reason.figure) == (ReasonKind.FAILS, 1, 4, Figure.PARADE)
+    assert (reason.failure.kind, reason.failure.area) == (FailureKind.VENUE, "high")
+    assert reason.message.endswith(f"not even with one bench; the nearest, a parade: {reason.failure.message}")
 
 
 def test_a_way_is_refused_by_a_bound_that_no_dance_can_do_without():
