@@ -52,7 +52,10 @@ def corners(person):
 def test_from_nothing_to_a_certified_dance_on_a_phone(open_page):
     person = open_page("", reduced_motion="reduce", **PHONE).presses("#arrival [data-door=village]")
     person.types({"#place-width": "30", "#place-height": "40"}, "Tab").presses("#take-rectangle")
+    # A second dragon needs the path of the first.
+    person.sees({"#propose": True, "#several": False})
     proposed(person).presses(CARDS).reads({f"{CLEAR} .value": "✓Can be danced"}).has(CARDS, aria_pressed="true")
+    person.sees({"#several": True})
     person.settles()
     assert person.ask(NARROW) == []
     for language in ("zh", "en"):
