@@ -62,13 +62,15 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
 
     A number is right if it is the right one to its own digits. One that is off by less than its last digit was rounded
     the other way, and nothing else follows from that. A limit is rounded to its safe side: the least pitch and the
-    shortest turn up, the highest speed down; on the other side benches touch, or somebody is too fast. Whatever else is
-    wrong with a number, a limit that it breaks comes first.
+    shortest turn up, the highest speed down; on the other side benches touch, or somebody is too fast. There it is the
+    right one, rounded, only up to half of its last digit. Whatever else is wrong with a number, a limit that it breaks
+    comes first.
     """
     half, excess = max(half_unit, HALF_UNIT_LEAST), beyond(name, value)
     if excess > (INFEASIBLE if excess <= HALF * half else 0.0):
         if excess < 2.0 * half:
-            safe = note(f"{name}_rounded_unsafely", safe=_safe(name, _decimals_of(half)))
+            way = "rounded_unsafely" if excess <= HALF * half else "beyond"
+            safe = note(f"{name}_{way}", safe=_safe(name, _decimals_of(half)))
             return Graded(Rating.INFEASIBLE, [safe], [], broken(name, value))
         return replace(_wrong(name, value, half_unit), breaks=broken(name, value))
     return _graded(name, value, half_unit)
@@ -78,7 +80,8 @@ def _graded(name: str, value: float, half_unit: float) -> Graded:
     """The grade of a number that breaks no limit."""
     right, half = right_answer(name), max(half_unit, HALF_UNIT_LEAST)
     is_nearest, is_near = abs(value - right) <= HALF * half, abs(value - right) < 2.0 * half
-    words = {"nearest": f"{right:.{_decimals_of(half)}f}", "unit": UNITS[name]}
+    decimals = _decimals_of(half)
+    words = {"nearest": f"{round(right, decimals):.{max(decimals, 0)}f}", "unit": UNITS[name]}
     if is_nearest:
         return Graded(Rating.RIGHT, [], [])
     if is_near:
@@ -105,7 +108,7 @@ def _safe(name: str, digits: int) -> str:
     unit, limit = 10.0**-digits, limit_of(name)
     assert limit is not None
     steps = math.ceil(limit / unit) if SAFE_SIDE[name] > 0 else math.floor(limit / unit)
-    return f"{steps * unit:.{digits}f}"
+    return f"{steps * unit:.{max(digits, 0)}f}"
 
 
 def _overlap_of(pitch: float) -> list[Note]:
@@ -120,7 +123,7 @@ def _overlap_of(pitch: float) -> list[Note]:
 
 
 def _decimals_of(half_unit: float) -> int:
-    return max(0, round(-math.log10(2.0 * half_unit)))
+    return round(-math.log10(2.0 * half_unit))
 
 
 def rounded_right(name: str, value: float, off: float) -> int | None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from decimal import Decimal
 from pathlib import PurePath
 
 from pydantic import Field
@@ -32,7 +34,6 @@ from app.grade.rubric import rubric_of
 from app.grade.sheets import at_contact, tables_of
 from app.grade.shortcuts import UNITS, Finding, right_answer
 from app.grade.words import Note, note, say
-from app.wire.numbers import number_of
 from app.wire.question import Answer
 from core import Budget, InvalidValue, TooMuchWork
 from core.errors import Given, Quantity, too_much
@@ -40,6 +41,8 @@ from core.kernels import Halted
 
 # Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
+# A number as it was typed, because its digits show its rounding.
+TYPED = re.compile(r"^[+-]?([0-9]{1,6}(\.[0-9]{0,20})?|\.[0-9]{1,20})([eE][+-]?[0-9]{1,2})?$")
 VALUE = "in m for x and y, in m/s for a speed"
 
 
@@ -218,16 +221,15 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
 
     raises: InvalidValue
     """
-    try:
-        value = number_of(text)
-    except ValueError as error:
-        raise InvalidValue(name, "must be a number [{unit}]", got=Given(text), unit=UNITS[name]) from error
+    if not TYPED.fullmatch(text):
+        words = "must be a number [{unit}] in digits, such as 0.4503"
+        raise InvalidValue(name, words, got=Given(text), unit=UNITS[name])
+    value, (_, digits, exponent) = float(text), Decimal(text).as_tuple()
     if not 0.0 < value < 1e6:
         raise InvalidValue(name, "must be more than 0 and less than 1e6", got=Quantity(value, UNITS[name]))
-    mantissa = text.lower().partition("e")[0].strip()
-    half_unit = 0.5 * 10.0 ** -min(len(mantissa.partition(".")[2]), 12)
-    graded_to = mantissa[: mantissa.find(".") + 1 + DECIMALS_OF_CONTEST] if "." in mantissa else mantissa
-    grade = graded_number(name, value, half_unit)
+    decimals = -int(exponent)
+    grade = graded_number(name, value, 0.5 * 10.0 ** -min(decimals, 12))
+    ungraded = 0 if grade.verdict is Rating.WRONG else max(decimals - DECIMALS_OF_CONTEST, 0)
     return TypedAnswer(
         answer=name,
         verdict=grade.verdict,
@@ -235,9 +237,7 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
         found=value,
         expected=right_answer(name),
         unit=UNITS[name],
-        digits=len(
-            (mantissa if grade.verdict is Rating.WRONG else graded_to).lstrip("+-").replace(".", "").lstrip("0")
-        ),
+        digits=len(digits) - ungraded,
         notes=[one.text(language) for one in grade.notes],
         diagnosis=_diagnoses([one for one in grade.findings if one.chance <= CERTAIN], language),
         possible=_guessed(grade.findings, language),

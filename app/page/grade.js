@@ -13,7 +13,7 @@ const CELL = 6;
 /** Meaning of each mark of a picture. */
 const MEANINGS = { ".": "mark_right", o: "mark_rounded", "#": "mark_wrong", "?": "mark_missing" };
 /** Numbers that may be typed, with an example of each. */
-const NUMBER = /^[0-9]{1,6}(\.[0-9]{1,15})?$/;
+const NUMBER = /^[+-]?([0-9]{1,6}(\.[0-9]{0,20})?|\.[0-9]{1,20})(e[+-]?[0-9]{1,2})?$/i;
 const EXAMPLES = { collision_time: "412.473838", pitch: "0.450338", turn_length: "13.621245", speed: "1.246266" };
 const TOO_LONG = "The body must be at most {most} bytes";
 

@@ -16,7 +16,7 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import BaseModel, Field
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
-from app.grade.report import GradeAnswer, graded, too_long, typed
+from app.grade.report import TYPED, GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
 from app.maps.choice import Choice
 from app.maps.places import Places, read_places
@@ -45,8 +45,6 @@ MAPS = (
 # Estimated time of a file, for the Retry-After of a full lane [s].
 COST = 1.0
 STATUSES = (401, 413, 414, 415, 422, 429, 500, 503)
-# A number as it was typed, because its digits show its rounding.
-TYPED = r"^[0-9]{1,6}(\.[0-9]{1,15})?$"
 
 
 class GradeQuery(Wire):
@@ -54,10 +52,10 @@ class GradeQuery(Wire):
 
     name: OneLine = Field("upload", min_length=1, max_length=200, description="Name of the file, as result1.xlsx")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh")
-    collision_time: str | None = measure("s", "Time of first contact", None, pattern=TYPED)
-    pitch: str | None = measure("m", "Minimum pitch", None, pattern=TYPED)
-    turn_length: str | None = measure("m", "Length of the turn", None, pattern=TYPED)
-    speed: str | None = measure("m/s", "Maximum speed of the head", None, pattern=TYPED)
+    collision_time: str | None = measure("s", "Time of first contact", None, pattern=TYPED.pattern)
+    pitch: str | None = measure("m", "Minimum pitch", None, pattern=TYPED.pattern)
+    turn_length: str | None = measure("m", "Length of the turn", None, pattern=TYPED.pattern)
+    speed: str | None = measure("m/s", "Maximum speed of the head", None, pattern=TYPED.pattern)
 
 
 class PlacesQuery(Wire):

@@ -153,13 +153,24 @@ TYPED = [
     "pitch 0.4504 -> right | rounded up, as a pitch must be",
     "pitch 0.46 -> right | rounded up, as a pitch must be",
     "speed 1.25 -> infeasible | 1.24 m/s is the highest of as many digits",
-    "speed 1.247 -> infeasible | 1.246 m/s is the highest of as many digits",
+    "speed 1.247 -> infeasible | exceeds 2 m/s: 1.246 m/s is the highest of as many digits",
     "speed 1.2463 -> infeasible | 1.2462 m/s is the highest of as many digits",
+    "pitch 4.5e-1 -> infeasible | rounded down: benches touch at this pitch, and 0.46 m is",
+    "pitch 4503E-4 -> infeasible | 0.4504 m is the smallest of as many digits",
+    "pitch 0.004504e+2 -> right | to the nearest digit it is 0.4503 m",
+    "collision_time 4e2 -> right",
+    "collision_time 5e2 -> rounded | the right one is 400 s",
+    "collision_time +412.47 -> right",
+    "pitch .4504 -> right | rounded up, as a pitch must be",
+    "pitch 0.4502 -> wrong | No known error",
+    "speed 2 -> infeasible | At this speed a handle exceeds 2 m/s: 1 m/s is the highest of as many digits",
+    "speed 1.252 -> wrong",
     "speed 1.24 -> right | rounded down, as a highest speed must be",
     "speed 1.246 -> right",
     "pitch 0.42 -> wrong | too few to tell why",
     "pitch 0.4321 -> wrong | No known error",
-    "turn_length 8.21 -> infeasible | 8.22 m is the smallest of as many digits",
+    "turn_length 8.21 -> infeasible | rounded down: 8.22 m is the smallest of as many digits",
+    "turn_length 8 -> infeasible | rounded down: 9 m is the smallest of as many digits",
     "turn_length 8.215 -> right | right if the ratio and both places are stated",
     "turn_length 8.2271 -> right | right if the ratio and both places are stated",
     "turn_length 9.4153 -> right | right if the ratio and both places are stated",
@@ -292,6 +303,17 @@ def test_the_shortest_right_turn_is_the_proven_one(ratio):
     assert TURN_LENGTH_LEAST <= low < TURN_LENGTH_LEAST + 1e-7
 
 
-@pytest.mark.parametrize(("text", "digits"), [("1", 1), ("0.4503374", 7), ("1.250", 4), ("1.2462663581", 7)])
+@pytest.mark.parametrize(
+    ("text", "digits"),
+    [
+        ("1", 1),
+        ("1.25e0", 3),
+        ("0.125E+1", 3),
+        ("124626.6358e-5", 7),
+        ("0.4503374", 7),
+        ("1.250", 4),
+        ("1.2462663581", 7),
+    ],
+)
 def test_the_digits_that_were_graded_are_reported(text, digits):
     assert typed("speed", text, Language.ENGLISH).digits == digits

@@ -87,6 +87,15 @@ def test_wrong_requests_get_a_clear_word(client, query, kind, content, status, w
     assert words in answer.json()["detail"]
 
 
+@pytest.mark.parametrize("text", ["4.5e-1", ".4503", "0.45033739312345678", "0_45", "4.5e", "1e999", "inf", "-1", ""])
+def test_the_service_takes_the_numbers_that_the_command_takes(client, text):
+    answer = client.post("/grade", params={"pitch": text})
+    done = run("grade", f"--pitch={text}", "--json")
+    assert (answer.status_code, done.returncode) in ((200, 0), (422, 2))
+    if done.returncode == 0:
+        assert answer.json() == json.loads(done.stdout)
+
+
 @pytest.mark.parametrize("name", ["%C0%EE.csv", "%ED%B2%80.csv", "%FF"])
 def test_a_name_in_another_encoding_is_no_obstacle(client, name):
     answer = client.post(f"/grade?name={name}", content=b"a,b", headers=FILE).raise_for_status()
