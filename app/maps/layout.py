@@ -107,11 +107,7 @@ class Reading:
         every = [one for one in drawing.features if one.role != MARK and any(one.rings)]
         self.features = [_closed(_with_role(one)) for one in every]
         if not self.features:
-            hidden = ", ".join(format_count(count, kind) for kind, count in drawing.hidden.items())
-            rule = "must hold a polygon, a line or a point" + (
-                ": {hidden} are hidden; show their layers" if hidden else ""
-            )
-            raise InvalidValue("file", rule, got="none of these", **({"hidden": hidden} if hidden else {}))
+            raise _nothing_in(drawing)
         self.origin, self.grid = drawing.origin, drawing.grid
         self.passages: Sequence[Mapping[str, Any]] | None = None
         self._lay_out(units)
@@ -410,6 +406,21 @@ def _is_tiny(one: MapFeature) -> bool:
 def _is_long(line: MapFeature) -> bool:
     """True for a line that may be a path."""
     return len(thinned(np.array(line.rings[0]))[0]) > 1
+
+
+def _nothing_in(drawing: Drawing) -> InvalidValue:
+    """The refusal of a map in which nothing is drawn that can be seen."""
+    count = sum(drawing.hidden.values())
+    if not count:
+        return InvalidValue("file", "must hold a polygon, a line or a point", got="none of these")
+    hidden = ", ".join(format_count(each, kind) for kind, each in drawing.hidden.items())
+    if drawing.unit is Unit.DEGREES:  # KML, which has no layers
+        rule = "must hold a polygon, a line or a point that is visible: "
+        rule += "{hidden} is hidden; make it visible" if count == 1 else "{hidden} are hidden; make them visible"
+    else:
+        rule = "must show a polygon, a line or a point: "
+        rule += "{hidden} is hidden; show its layer" if count == 1 else "{hidden} are hidden; show their layers"
+    return InvalidValue("file", rule, hidden=hidden)
 
 
 def _look_like_degrees(points: Floats) -> bool:

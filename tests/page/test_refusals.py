@@ -2,11 +2,13 @@
 
 import ast
 import asyncio
+import io
 import json
 import re
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import ezdxf
 import httpx
 import pytest
 
@@ -86,6 +88,25 @@ def test_every_refusal_is_a_sentence_in_both_languages(refused):
     chinese, english = evaluate(WORDS, refused)
     assert [words for words in chinese if ENGLISH.search(QUOTED.sub("", words)) or not words.endswith("。")] == []
     assert [words for words in english if INSIDE.search(words) or not words.endswith(".")] == []
+
+
+def test_a_map_of_which_all_is_hidden_is_refused_in_both_languages(server):
+    document = ezdxf.new()
+    document.layers.add("PLAN").off()
+    document.modelspace().add_line((0, 0), (9, 0), dxfattribs={"layer": "PLAN"})
+    text = io.StringIO()
+    document.write(text)
+    place = "<visibility>0</visibility><Point><coordinates>9,48</coordinates></Point>"
+    files = text.getvalue(), f"<kml><Placemark>{place}</Placemark></kml>"
+    octets = {"Content-Type": "application/octet-stream"}
+    problems = [httpx.post(f"{server}/places", content=one.encode(), headers=octets).json() for one in files]
+    assert evaluate(WORDS, problems) == [
+        ["图纸中的图形全部隐藏（1 LINE）：请显示所在的图层。", "文件中的图形全部隐藏：请设为可见。"],
+        [
+            "All that the drawing holds is hidden: 1 LINE. Show its layers.",
+            "All that the file holds is hidden: 1 point. Make it visible.",
+        ],
+    ]
 
 
 def test_a_refusal_is_its_template_with_the_values(refused):

@@ -238,6 +238,8 @@ export const WHOLE = {
   "{field} must be a KMZ file that can be unpacked": UNPACKED,
   "{field} must be a KMZ file with a .kml document": UNPACKED,
   "{field} must hold a polygon, a line or a point": NOTHING,
+  "{field} must show a polygon, a line or a point": ["All that the drawing holds is hidden: {hidden}. Show its layers", "图纸中的图形全部隐藏（{hidden}）：请显示所在的图层"],
+  "{field} must hold a polygon, a line or a point that is visible": ["All that the file holds is hidden: {hidden}. Make it visible", "文件中的图形全部隐藏：请设为可见"],
   "{field} must be a list with at least one entry": NOTHING,
   "{field} must hold a path with at least two points {apart} apart": [undefined, "文件中的路径至少应有两个相距 {apart} 的点"],
   "{field} must draw at most {most} entities, counting a block at each use": [undefined, "图纸最多可有 {most} 个图元：请删去与场地无关的内容"],

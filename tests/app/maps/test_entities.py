@@ -188,7 +188,10 @@ def test_where_all_is_hidden_the_refusal_says_what():
     space = new(square=False)
     space.doc.layers.add("PLAN").freeze()
     space.add_line((0, 0), (9, 0), dxfattribs={"layer": "PLAN"})
-    with refused("file", hidden="1 LINE"):
+    with pytest.raises(InvalidValue, match=r"1 LINE is hidden; show its layer$"):
+        read(space)
+    space.add_line((0, 9), (9, 9), dxfattribs={"layer": "PLAN"})
+    with pytest.raises(InvalidValue, match=r"2 LINEs are hidden; show their layers$"):
         read(space)
 
 

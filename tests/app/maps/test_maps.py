@@ -250,6 +250,14 @@ def test_what_is_empty_or_hidden_is_left_out_and_reported():
     assert {"Left out, because hidden: 2 points.", "Left out: 1 empty Polygon."} <= set(result.notes)
 
 
+def test_where_all_of_a_kml_is_hidden_the_refusal_says_what():
+    hidden = f"<visibility>0</visibility>{outline(CORNERS)}"
+    with pytest.raises(InvalidValue, match=r"1 polygon is hidden; make it visible$"):
+        read(placemark(hidden).encode())
+    with pytest.raises(InvalidValue, match=r"2 polygons are hidden; make them visible$"):
+        read(placemark(hidden, f"<Placemark>{hidden}</Placemark>").encode())
+
+
 @pytest.mark.parametrize("across", [0.0003, 0.1, 0.3, 3.0, 3.5, 60.0])
 def test_places_and_check_agree_about_degrees(client, across):
     square = box(119.5, 29.0, 119.5 + across, 29.0 + across)
