@@ -22,8 +22,8 @@ PAIRS_AT_ONCE = 200_000
 NODES, NODE_PAIRS = 96, 4_000_000
 # Cells into which the grid is divided at most [1].
 CELLS_MAX = 16_000_000
-# Accuracy of the bound of the widest circle, and size of a cell from which on it is divided no more [m].
-WIDEST, SMALLEST = 0.01, 0.002
+# Accuracy of the bound of the widest circle's radius, and size of a cell from which on it is divided no more [m].
+WIDEST, SMALLEST = 0.005, 0.002
 
 
 class FreeGround:

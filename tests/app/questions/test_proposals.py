@@ -17,7 +17,7 @@ GATES = [{"point": [0, 10], "heading": 0}, {"point": [24, 10], "heading": math.p
 ODD = {"lengths": [3, 2, 2.2, 2], "widths": [0.4, 0.3, 0.3, 0.3], "overhangs": [0.2] * 4, "names": ["Li", "", "", "Wu"]}
 LANE = box(0, 0, 30, 3)
 TOO_NARROW = (
-    "No dance was found: the widest free circle is at most 3.02 m across, and the tightest turn of the head bench that "
+    "No dance was found: the widest free circle is at most 3.01 m across, and the tightest turn of the head bench that "
     "is tried takes 3.91 m."
 )
 

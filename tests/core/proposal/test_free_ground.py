@@ -32,7 +32,13 @@ def test_clearances_and_the_widest_circle_are_those_of_shapely(seed):
     widest = max(shapely.maximum_inscribed_circle(part, tolerance=1e-4).length for part in parts)
     assert radius == pytest.approx(float(ground.clearance(np.array([[x, y]]))[0]), abs=SAME)
     assert widest - WIDEST - 1e-3 <= radius <= widest + 1e-3
-    assert most >= widest - SAME
+    assert widest - SAME <= most <= widest + WIDEST + 1e-3
+
+
+@pytest.mark.parametrize("side", [2.0, 3.5, 17.0])
+def test_the_bound_of_the_width_of_the_widest_circle_is_at_most_a_centimetre_above_it(side):
+    *_, most = FreeGround(Venue(box("square", 0, 0, side, side))).widest_circle
+    assert side <= 2.0 * most <= side + 0.01 + SAME
 
 
 def test_the_area_is_that_of_the_square_without_its_holes():
