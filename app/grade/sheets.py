@@ -35,7 +35,9 @@ def tables_of(grid: Grid) -> list[SheetTable]:
     if holds_curve(cells):
         grid.notes.append(note("curve"))
         return []
-    return [_titled(table) for table in next(filter(None, _readings(grid, cells)), [])]
+    tables = next(filter(None, _readings(grid, cells)), [])
+    # The title of a sheet does not tell one table of it from another.
+    return [_titled(table) for table in tables] if len(tables) == 1 else [replace(table, title="") for table in tables]
 
 
 def _readings(grid: Grid, cells: list[list[Cell]]) -> Iterator[list[SheetTable]]:

@@ -206,6 +206,13 @@ def test_times_that_are_stated_again_are_those_of_another_table():
     assert (first.verdict, first.right) == ("incomplete", 84)
 
 
+def test_tables_of_one_sheet_are_named_by_what_they_hold():
+    """The title of the sheet names neither; also where it is a word for one of them."""
+    for title in ("Sheet", "位置"):
+        sheets = grade(by_xlsxwriter({title: beside(*printed())})).sheets
+        assert [(sheet.sheet, len(sheet.notes)) for sheet in sheets] == [("positions", 1), ("speeds", 1)]
+
+
 def test_all_positions_stand_beside_all_speeds():
     position, speed = few().values()
     for sides in ((position, speed), (numbered(position), numbered(speed))):
