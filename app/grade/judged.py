@@ -268,7 +268,7 @@ def _handles(table: SheetTable, values: Floats, motion: Floats, notes: list[Note
 
 
 def decimals_of(values: Floats) -> int:
-    """Number of decimals of the numbers."""
-    some = values[np.isfinite(values)].ravel()[:5000]
+    """Number of decimals of the most precise of the numbers."""
+    some = values[np.isfinite(values)]
     scalings = enumerate(some * 10.0**k for k in range(DECIMALS_MOST))
     return next((k for k, scaled in scalings if np.all(np.abs(scaled - np.round(scaled)) < 1e-6)), DECIMALS_MOST)

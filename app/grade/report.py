@@ -267,7 +267,8 @@ def _guessed(findings: Sequence[Finding], language: Language) -> list[GuessAnswe
 
 def _sheet(one: JudgedSheet, language: Language) -> SheetAnswer:
     worst, first, notes = one.worst(), one.first(), [*one.notes]
-    if one.verdict is Rating.ROUNDED and one.written != one.decimals:
+    # Equal numbers, such as 1.00, do not show their decimals.
+    if one.verdict is Rating.ROUNDED and one.decimals is not None and one.written > one.decimals:
         notes.append(note("not_rounded", written=one.written, decimals=one.decimals))
     return SheetAnswer(
         sheet=_title(one, language),

@@ -192,6 +192,17 @@ def test_equal_speeds_of_two_decimals_are_right_ones_rounded():
     assert (result.sheets[1].verdict, result.diagnosis) == ("incomplete", [])
 
 
+@pytest.mark.parametrize("last", [1.0, 0.9965])
+def test_the_decimals_of_a_table_are_those_of_its_most_precise_number(last):
+    """All right speeds are 1.00 to two decimals, which show none; one number with four is the last of the table."""
+    position, speed = spiral()
+    speed = speed.round(2)
+    speed[-1, -1] = last
+    _, sheet = grade(students.by_xlsxwriter(students.rows_of((position.round(2), speed), SPIRAL_TIMES))).sheets
+    notes = ["All numbers are right to 2 decimals, but are written with 4."] if last != 1.0 else []
+    assert (sheet.verdict, sheet.decimals, sheet.notes) == ("rounded", 2, notes)
+
+
 def test_another_instant_is_named_beside_a_further_error():
     position, speed = spiral(np.array([414.0]))
     speed[:, 1:] *= 0.9924
