@@ -116,6 +116,8 @@ def _turned(motion: Motion, angle: float) -> Model:
     degrees = math.degrees(angle)
     if abs(round(degrees, TURNED_DECIMALS) - degrees) < TURNED_OFF:
         degrees = round(degrees, TURNED_DECIMALS)
+    if degrees == -180.0:
+        degrees = 180.0
     cosine, sine = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
     return Model("turned", lambda t: motion(t) @ turn, {"angle": f"{degrees:+.6g}"})

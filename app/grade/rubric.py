@@ -52,8 +52,11 @@ def _criteria(by_kind: dict[TableKind, JudgedSheet], errors: set[str]) -> Iterat
     consistent = _share_consistent(position, speed) if position and speed else None
     if errors & NOT_OF_POSITIONS:
         yield _criterion("speeds", False)
+    elif contact is not None and contact.verdict in GOOD:
+        yield _criterion("speeds", True)
     elif consistent is None:
-        yield _criterion("speeds", (contact is not None and contact.verdict in GOOD) or None)
+        lacks_sheet = contact is None and not (position and speed)
+        yield Criterion("speeds", None, note("rubric_speeds_unknown" if lacks_sheet else "rubric_speeds_alone"))
     else:
         yield Criterion("speeds", consistent >= SHARE, note("rubric_speeds_share", share=f"{100 * consistent:.1f}"))
     # A rounded instant is refined or a step of a search: it does not show which.

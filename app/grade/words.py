@@ -123,6 +123,7 @@ WORDS = ERRORS | PAPER | {
     "rubric_speeds_no": ("The speeds do not belong to the positions.", "速度与位置不符。"),
     "rubric_speeds_unknown": ("Speeds consistent with the positions: not shown, both sheets are necessary.",
         "速度与位置是否相符：需要两张工作表。"),
+    "rubric_speeds_alone": ("Speeds consistent with the positions: not shown here.", "速度与位置是否相符：本文件无法判断。"),
     "rubric_overhang_yes": ("Benches are rectangles with their overhang.", "板凳按整块矩形（含两端伸出部分）计算。"),
     "rubric_overhang_no": ("Benches lack their overhang.", "板凳缺少伸出部分。"),
     "rubric_overhang_unknown": ("Rectangles with overhang: not shown here.",

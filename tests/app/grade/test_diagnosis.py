@@ -277,6 +277,22 @@ def test_the_angle_of_turned_places_is_told():
     assert (one.error, "by -30.5°" in one.words) == ("turned", True)
 
 
+def test_a_half_turn_is_one_of_180_degrees():
+    position, speed = spiral(AT_CONTACT)
+    [one] = grade(students.contact_workbook((-position, speed))).diagnosis
+    assert (one.error, "by +180°" in one.words) == ("turned", True)
+
+
+@pytest.mark.parametrize("change", [[-1.0, 1.0], [1.0, -1.0]])
+def test_one_sheet_of_a_result2_does_not_miss_another(change):
+    position, speed = spiral(AT_CONTACT)
+    result = grade(students.contact_workbook((position * change, speed)))
+    [words] = [one.words for one in result.rubric if one.criterion == "speeds"]
+    assert words == "Speeds consistent with the positions: not shown here."
+    alone = grade(students.by_xlsxwriter({"位置": students.few()["位置"]}))
+    assert any("both sheets are necessary" in one.words for one in alone.rubric)
+
+
 def test_no_error_is_ruled_out_by_one_position():
     position, speed = spiral(AT_CONTACT)
     position[:, 1:], speed[:] = np.nan, np.nan
