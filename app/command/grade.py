@@ -32,11 +32,13 @@ from app.grade.report import (
     typed,
     unreadable,
 )
+from app.grade.shortcuts import UNITS
 from app.grade.words import Note, note, say
 from app.processes.limits import READING_MAX, reading
 from app.wire.question import ESCAPED
 from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
+from core.errors import Parameter
 
 # Endings of the files that are graded in a folder.
 ENDINGS = (".xlsx", ".xlsm", ".xls", ".csv")
@@ -70,7 +72,7 @@ def grade(
     paths = list(_paths_of(files or []))
     if not paths and not typed_numbers:
         raise InvalidValue.in_words("files", "give at least one FILE or one number, such as --pitch 0.45")
-    answers = [typed(name, text, language) for name, text in typed_numbers.items()]
+    answers = [_typed_answer(name, text, language) for name, text in typed_numbers.items()]
     grades, refused = [], []
     with show.steps() if len(paths) > 1 else nullcontext(lambda what, share: None) as progress:
         for k, file in enumerate(paths):
@@ -92,6 +94,18 @@ def grade(
         as_file = _workbook if ending_of(summary) == ".xlsx" else _csv
         write_whole(summary, as_file(answer, language))
     show.print_result(answer, json, _parts(answer, language))
+
+
+def _typed_answer(name: str, text: str, language: Language) -> TypedAnswer:
+    """The grade of a typed number. raises: InvalidValue, in Chinese if that is the language"""
+    try:
+        return typed(name, text, language)
+    except InvalidValue as error:
+        if language is not Language.CHINESE:
+            raise
+        words = "{field} 应为大于 0、小于 1e6 的数字（单位 {unit}），例如 0.4503：现为“{text}”"
+        values = {"field": Parameter(name), "unit": UNITS[name], "text": text.translate(ESCAPED)}
+        raise InvalidValue.in_words(name, words, **values) from error
 
 
 def _why(error: OSError) -> Note | str | None:
@@ -129,9 +143,16 @@ def _heads(language: Language) -> list[str]:
     return [say(f"column_{name}", language) for name in SUMMARY]
 
 
+def _causes(one: FileAnswer | TypedAnswer, language: Language) -> list[str]:
+    """Short names of the known errors, those that are only possible last."""
+    certain = [say(f"name_{cause.error}", language) for cause in one.diagnosis]
+    possible = [say("may_be", language, error=say(f"name_{cause.error}", language)) for cause in one.possible]
+    return [*certain, *possible]
+
+
 def _row(file: FileAnswer, language: Language) -> list[str | int]:
     """Cells of a file under the heads of a summary."""
-    errors = say("and_error", language).join(say(f"name_{one.error}", language) for one in file.diagnosis)
+    errors = say("and_error", language).join(_causes(file, language))
     verdict = say(file.verdict.value, language)
     return [file.file, file.workbook or "", verdict, *_counts(file), errors, _decimals(file)]
 
@@ -139,8 +160,7 @@ def _row(file: FileAnswer, language: Language) -> list[str | int]:
 def _typed_row(one: TypedAnswer, language: Language) -> list[str | int]:
     """Cells of a number under the heads of a summary; a limit that it breaks comes before the causes."""
     name = f"{say(one.answer, language)}: {one.found:.12g} {one.unit}"
-    causes = [say(f"name_{cause.error}", language) for cause in one.diagnosis]
-    reasons = say("and_error", language).join([*([one.breaks] if one.breaks else []), *causes])
+    reasons = say("and_error", language).join([*([one.breaks] if one.breaks else []), *_causes(one, language)])
     return [name, "", say(one.verdict.value, language), "", "", "", reasons, ""]
 
 

@@ -250,6 +250,29 @@ def test_a_limit_that_is_broken_stands_in_the_first_line_and_in_a_summary(tmp_pa
         assert row[6] in headline
 
 
+@pytest.mark.parametrize("ending", ["csv", "xlsx"])
+def test_a_summary_names_certain_and_possible_causes_in_words(class_of_three, tmp_path, ending):
+    other, summary = class_of_three / "li" / "result2.xlsx", tmp_path / f"summary.{ending}"
+    for language, words in (
+        ("en", ["Possibly: only the pose on the circle", "another instant; steps of time, the first after contact"]),
+        ("zh", ["可能是：只检验圆上的位形", "时刻有误；按时间步长搜索（碰撞后）"]),
+    ):
+        run("grade", str(other), "--pitch", "0.4202", "--language", language, "--summary", str(summary))
+        if ending == "csv":
+            with summary.open(encoding="utf-8-sig", newline="") as lines:
+                rows = list(csv.reader(lines))[1:]
+        else:
+            rows = list(openpyxl.load_workbook(summary).active.values)[1:]
+        assert [row[6].endswith(cause) for row, cause in zip(rows, words, strict=True)] == [True, True]
+
+
+def test_a_number_is_refused_in_the_language_chosen():
+    for text in ("0_45", "-1"):
+        refused = run("grade", f"--pitch={text}", "--language", "zh")
+        assert (refused.returncode, refused.stdout) == (2, "")
+        assert refused.stderr.endswith(f"pitch 应为大于 0、小于 1e6 的数字（单位 m），例如 0.4503：现为“{text}”\n")
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
