@@ -12,10 +12,13 @@ from numpy.typing import NDArray
 from core.design.spans import Span, mean_value
 from core.design.turn_boxes import JUST, ROUNDING, Turns, sizes_of
 from core.design.turn_moves import coil_bend
+from core.errors import SIZE_MIN
 from core.paths.turn import RATIO_MAX, RATIO_MIN
 from core.sampling import bisect
 from core.values import Floats
 
+# Least radius at which a turn is tried to begin or end [m]: the least that it may have, and more for rounding.
+ENTRY_LEAST = 1.001 * SIZE_MIN
 # Half widths of the first boxes: of the entry radius, as a part of the circle's [1], of v [rad], of the log ratio [1].
 FIRST = (0.025, 0.2, 0.1)
 # Larger slopes of a length count as this [m] for [m], [rad] or [1].
@@ -45,14 +48,14 @@ def joined(parts: list[Boxes]) -> Boxes:
 
 
 def least_entry(growth: float, radius: float, least: float) -> float:
-    """Least radius at which a coil bends no tighter than `least`, at most that of the circle [m]."""
+    """Least radius at which a coil bends no tighter than `least`, from ENTRY_LEAST to that of the circle [m]."""
 
     def fits(inner: float) -> bool:
         return coil_bend(growth, inner) * least <= 1.0
 
     if not fits(radius):
         return radius
-    low = 1e-3 * radius
+    low = min(max(1e-3 * radius, ENTRY_LEAST), radius)
     return low if fits(low) else bisect(fits, low, radius, width=1e-9)[0]
 
 

@@ -30,6 +30,7 @@ import numpy as np
 from core import kernels
 from core.design.turn_boxes import Turns, can_be_drawn, sizes_of
 from core.dragon import Dragon
+from core.errors import SIZE_MIN
 from core.paths.turn import Turn
 from core.values import Floats
 
@@ -76,7 +77,7 @@ def box_of(pitch: float, turns: Turns, k: int, centre: Floats, half: Floats, lea
     signs = np.array([[0.0] * 3, *([x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0))])
     points = centre + half * signs
     sizes = sizes_of(growth, *points.T)
-    follows = (sizes[:2].min(axis=0) >= least) & (points[:, 0] > 0.0) & (sizes[5] > 0.0)
+    follows = (sizes[:2].min(axis=0) >= least) & (np.minimum(points[:, 0], sizes[5]) >= SIZE_MIN)
     fits = np.flatnonzero(follows & can_be_drawn(sizes))
     if not fits.size or not turns.whole[k]:
         return None

@@ -18,6 +18,7 @@ from core import (
     first_contact,
     shortest_turn,
 )
+from core.design.turn_bounds import ENTRY_LEAST
 from tests.support.depth import DEEP, further, some
 
 WHOLE, PITCH, RADIUS = Dragon(), 1.7, 4.5
@@ -166,3 +167,13 @@ def test_small_benches_are_limited_by_the_deepest_end_that_is_tried():
     result = shortest_turn(small, PITCH, RADIUS, 1.0, budget=Budget(1e6))
     assert result.limited_by is TurnLimit.CENTRE
     assert min(result.turn.radii) > 0.1
+
+
+@pytest.mark.parametrize(("radius", "ratio"), [(1.0, 1.0), (0.5, 2.0), (0.2, None)])
+def test_small_benches_in_a_small_circle_are_limited_by_the_least_radius_that_a_turn_may_begin_at(radius, ratio):
+    small = Dragon(1, head_length=0.2, width=0.02, overhang=0.05)
+    result = shortest_turn(small, PITCH, radius, ratio, budget=Budget(1e7))
+    assert result.limited_by is TurnLimit.CENTRE
+    ends = result.turn.entry_radius, result.turn.exit_radius
+    assert ends == pytest.approx((ENTRY_LEAST, ENTRY_LEAST), abs=1e-6)
+    assert result.length_bracket[0] < result.turn.length < 0.003
