@@ -16,7 +16,7 @@ from app.extras import require
 from app.files.disk import checked_output, object_words
 from app.files.tables import Language
 from app.files.words import Say
-from app.maps.choice import Choice
+from app.maps.choice import PARTLY, Choice
 from app.maps.dances import read_dance
 from app.maps.layout import DanceParts
 from app.maps.places import Places, drawn_layers, map_data, read_map
@@ -32,6 +32,8 @@ from core import InvalidValue
 from core.display import format_count
 from core.errors import Given
 
+# Advice for a drawing with more than a venue may have.
+PARTLY_BY_OPTIONS = "read only some of its layers with --layers, or an area of it with --area"
 # Kinds of paths in Chinese.
 PATHS = {"spiral": "螺线", "turn": "调头曲线", "route": "路线", "waypoints": "折线"}
 
@@ -54,7 +56,8 @@ def places(
         typer.Option(min=1e-3, max=50.0, help="Longest distance of two handles, for which a track is smoothed [m]."),
     ] = CHORD,
     layers: Annotated[
-        str | None, typer.Option(help="Layers of a DXF to read, with commas between them; default: all.")
+        str | None,
+        typer.Option(help='Layers of a DXF to read, with commas between them, as in SITE,"A, B"; default: all.'),
     ] = None,
     area: Annotated[
         str | None,
@@ -76,7 +79,10 @@ def places(
     if only_layers:
         _print_layers(file, json, Say(words))
         return
-    parts = read_map(file, coordinates[units], words, longest_chord, Choice.of(layers, area))
+    try:
+        parts = read_map(file, coordinates[units], words, longest_chord, Choice.of(layers, area))
+    except InvalidValue as error:
+        raise error.because(PARTLY_BY_OPTIONS) if error.reason == PARTLY else error from None
     answer = Places.of(parts)
     if output:
         names = ("path", "venue", "passages") if times else ("path", "venue")

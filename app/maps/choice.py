@@ -5,6 +5,7 @@ Plans of buildings have ten thousand edges and more, of which a dance needs the 
 
 from __future__ import annotations
 
+import csv
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -35,8 +36,8 @@ class Choice:
 
     @classmethod
     def of(cls, layers: str | None, area: str | None) -> Self:
-        """The choice in texts: names with commas between them, and four numbers. raises: InvalidValue"""
-        names = None if layers is None else tuple(name.strip() for name in layers.split(","))
+        """The choice in texts: names as listed() writes them, and four numbers. raises: InvalidValue"""
+        names = None if layers is None else _names_in(layers)
         if area is None:
             return cls(names)
         try:
@@ -71,8 +72,28 @@ class Choice:
         known = {name.casefold() for name in names}
         if unknown := [name for name in self.layers or () if name.casefold() not in known]:
             rule, more = "must be layers of the drawing on which something stands: {known}", len(names) > NAMED_MOST
-            known_names = ", ".join(names[:NAMED_MOST]) + (", …" if more else "")
+            known_names = listed(names[:NAMED_MOST]) + (", …" if more else "")
             raise InvalidValue("layers", rule, got=Given(unknown[0]), known=known_names)
 
 
 EVERYTHING = Choice()
+
+
+def listed(names: Iterable[str]) -> str:
+    """Names with commas between them; one that holds a comma or a quotation mark stands in quotation marks.
+
+    >>> listed(["SITE", "desks, chairs"])
+    'SITE, "desks, chairs"'
+    """
+    quoted = ('"' + name.replace('"', '""') + '"' if set(name) & set(',"') else name for name in names)
+    return ", ".join(quoted)
+
+
+def _names_in(text: str) -> tuple[str, ...]:
+    """The names in a text, as listed() writes them. raises: InvalidValue"""
+    try:
+        (names,) = csv.reader([text], skipinitialspace=True, strict=True)
+    except (csv.Error, ValueError):
+        rule = "must be names with commas between them, and quotation marks around one that holds a comma"
+        raise InvalidValue("layers", rule, got=Given(text)) from None
+    return tuple(name.strip() for name in names)

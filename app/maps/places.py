@@ -18,7 +18,7 @@ from app.files.tables import Language
 from app.files.words import Say
 from app.maps import dxf, geojson, gpx, kml
 from app.maps.benches import benches_of
-from app.maps.choice import EVERYTHING, PARTLY, Choice
+from app.maps.choice import EVERYTHING, PARTLY, Choice, listed
 from app.maps.features import FEATURES_MAX, LEAVE_OUT, POINTS_MAX, aside_features, features_of
 from app.maps.layout import DanceParts, Reading
 from app.maps.lines import checked_path
@@ -113,7 +113,7 @@ def _of_drawing(data: bytes, units: Coordinates | None, say: Say, choice: Choice
         raise error.because(PARTLY) if "most" in error.values or "features" in error.values else error from None
     notes = list(parts.notes)
     if choice.layers is not None:
-        names = ", ".join(choice.layers)
+        names = listed(choice.layers)
         notes.append(say(f"Only these layers were read: {names}.", f"只读取了这些图层：{names}。"))
     if choice.area is not None:
         left, low, right, high = choice.area

@@ -6,6 +6,9 @@ import { refusalWords, say, writeTexts } from "./text.js";
 
 const SIDES = { areaLeft: "x", areaLow: "y", areaRight: "x", areaHigh: "y" };
 
+/** The name of a layer as the service reads it in a list. */
+const quoted = (name) => (/[,"]/.test(name) ? `"${name.replaceAll('"', '""')}"` : name);
+
 /**
  * layers: [{name, edges}]; problem: why the drawing is not opened as a whole; open(part): a promise, which a refusal of
  * the part breaks; part: of the query of /places
@@ -19,7 +22,7 @@ export function chooseParts(layers, problem, open) {
   const take = async () => {
     const names = boxes.filter(({ checked }) => checked).map(({ value }) => value);
     const numbers = sides.map(({ value }) => numberIn(value));
-    const part = { ...(names.length && { layers: names.join() }), ...(numbers.some((one) => one !== "") && { area: numbers.join() }) };
+    const part = { ...(names.length && { layers: names.map(quoted).join() }), ...(numbers.some((one) => one !== "") && { area: numbers.join() }) };
     go.disabled = true;
     try {
       await open(part);

@@ -74,8 +74,8 @@ class PlacesQuery(Wire):
         ge=1e-3, le=50,
     )  # fmt: skip
     layers: OneLine | None = Field(
-        None, max_length=2_000, description="Names of the layers of a DXF that are read, with commas between them; "
-        "default: all"
+        None, max_length=2_000, description="Names of the layers of a DXF that are read, with commas between them, and "
+        "one that holds a comma in double quotation marks; default: all"
     )  # fmt: skip
     area: OneLine | None = measure(
         "m", "Of a DXF, what reaches into this area is read: least x, least y, largest x, largest y, with commas "

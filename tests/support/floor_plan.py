@@ -4,8 +4,9 @@ import io
 
 import ezdxf
 
-# Layers and the edges that are drawn on each; the square of the site [m].
-EDGES = {"A-HATCH": 1200, "A-FURN": 900, "A-WALL": 480, "TREES": 6, "SITE": 4}
+# Layers and the edges that are drawn on each, that of the walls, and the square of the site [m].
+WALLS = "墙, walls"
+EDGES = {"A-HATCH": 1200, "A-FURN": 900, WALLS: 480, "TREES": 6, "SITE": 4}
 SITE = [[0.0, 0.0], [80.0, 0.0], [80.0, 50.0], [0.0, 50.0]]
 
 
@@ -28,7 +29,7 @@ def floor_plan():
         space.add_circle((1000 * (10 + 10 * k), 8000), 400, dxfattribs={"layer": "TREES"})
     for x, y in ((2 + 1.9 * i, 36 + 2 * j) for i in range(10) for j in range(6)):
         for inside in (0, 0.1):
-            outline("A-WALL", x + inside, y + inside, 1.9 - 2 * inside, 2 - 2 * inside)
+            outline(WALLS, x + inside, y + inside, 1.9 - 2 * inside, 2 - 2 * inside)
         for k in range(3):
             space.add_blockref("CHAIR", (1000 * (x + 0.3 + 0.5 * k), 1000 * (y + 0.4)), dxfattribs={"layer": "A-FURN"})
         for k in range(20):

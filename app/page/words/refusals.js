@@ -217,6 +217,7 @@ export const WHOLE = {
   "Send a map as the body: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON; or a workbook of benches.": ["The file is empty", "文件是空的"],
   "{field} must hold a map: GeoJSON, KML, DXF, or a dance as TOML or JSON": ["The file is empty", "文件是空的"],
   "{field} must be JSON without a fault": ["The file is not valid JSON", "文件不是正确的 JSON"],
+  "{field} must be names with commas between them, and quotation marks around one that holds a comma": [undefined, "图层名称之间用逗号分隔，含逗号的名称应加双引号"],
   "{field} must be layers of the drawing on which something stands": ["The drawing has no layer of this name", "图纸没有这个图层"],
   "{field} must be the least x and y and then the largest x and y, as in -20,-20,20,20": ["The area needs all four numbers: the least x and y, and larger ones", "范围需要四个数：最小的 x、y 和更大的 x、y"],
   "{field} must be DXF as text": ["The file is a binary DXF. Save it as ASCII DXF", "文件是二进制 DXF：请存为 ASCII DXF"],

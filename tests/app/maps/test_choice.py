@@ -2,8 +2,9 @@
 
 import pytest
 
+from app.maps.choice import listed
 from tests.support.command import run
-from tests.support.floor_plan import EDGES, SITE, floor_plan
+from tests.support.floor_plan import EDGES, SITE, WALLS, floor_plan
 
 HEADERS = {"Content-Type": "image/vnd.dxf"}
 TREES = 6
@@ -50,3 +51,17 @@ def test_the_command_reads_the_same_part(plan, tmp_path):
     file.write_bytes(plan)
     assert run("places", str(file), "--layers", "SITE,TREES").stdout.count("obstacle") >= TREES
     assert "A-HATCH" in run("places", str(file), "--only-layers").stdout
+
+
+def test_a_layer_with_a_comma_in_its_name_is_chosen_in_quotation_marks(client, plan):
+    for layers in (f'"{WALLS}",SITE', f'site , "{WALLS}"', listed([WALLS, "SITE"])):
+        notes = places(client, plan, layers=layers).raise_for_status().json()["notes"]
+        assert any(f'"{WALLS}"' in note for note in notes)
+    assert f'"{WALLS}"' in places(client, plan, layers=WALLS).json()["detail"]
+    assert places(client, plan, layers=f'"{WALLS}').json()["errors"][0]["name"] == "layers"
+
+
+def test_the_command_names_its_options_where_a_drawing_is_too_large(plan, tmp_path):
+    file = tmp_path / "plan.dxf"
+    file.write_bytes(plan)
+    assert "with --layers, or an area of it with --area" in run("places", str(file)).stderr
