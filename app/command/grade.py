@@ -104,8 +104,8 @@ def _typed_answer(name: str, text: str, language: Language) -> TypedAnswer:
         if language is not Language.CHINESE:
             raise
         words = "{field} 应为大于 0、小于 1e6 的数字（单位 {unit}），例如 0.4503：现为“{text}”"
-        values = {"field": Parameter(name), "unit": UNITS[name], "text": text.translate(ESCAPED)}
-        raise InvalidValue.in_words(name, words, **values) from error
+        shown = text.translate(ESCAPED)
+        raise InvalidValue.in_words(name, words, field=Parameter(name), unit=UNITS[name], text=shown) from error
 
 
 def _why(error: OSError) -> Note | str | None:
