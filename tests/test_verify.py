@@ -19,7 +19,6 @@ from core.proof import chain, prove_collision_time, prove_minimum_pitch
 from tests.campaigns.differential import MAKERS, hunt, made, proven_by_core, proven_by_second, second
 from tests.support.depth import DEEP, examples, some, thorough
 from tests.support.forgeries import DROPPED, FORGERIES, forged, stretches
-from tests.support.reference import reference_cases
 from tests.support.reference_contacts import graze, random_contact, small
 
 VERIFY = Path(__file__).parents[1] / "examples" / "verify.py"
@@ -67,13 +66,6 @@ def contact_of(dance, **options):
     return prove_collision_time(dance, time, **options)
 
 
-def reference_pitch(name, benches, start_turns=16.0):
-    case = reference_cases("minimum_pitch")[name]
-    dragon, radius = Dragon(**(case["dragon"] | {"benches": benches})), case["turning_diameter"] / 2
-    # The reference pitches are rounded.
-    return prove_minimum_pitch(dragon, case["pitch"] + 1e-9, turning_radius=radius, start_turns=start_turns)
-
-
 CERTIFICATES = {
     "five benches": (small, "benches 0 and 4 overlap"),
     # Handle 1 turns back, and the head's bend grows beyond half a turn.
@@ -86,14 +78,9 @@ CERTIFICATES = {
         lambda: prove_collision_time(*random_contact(7)), "m/s: within 2e-10 s of the start benches "
     ),
     "a pitch limited by a graze": (graze, "with a pitch 1e-6 m smaller benches 0 and 12 overlap on the way"),
-    "a pitch limited by the start": (lambda: reference_pitch("default R=7", 11), "smaller the head starts nearer."),
-    "a pitch limited on the circle": (lambda: reference_pitch("default R=2", 11, 5.0), "until the head is 2 m from"),
 }  # fmt: skip
 if DEEP:
     CERTIFICATES |= {
-        "a reference pitch limited by a graze": (
-            lambda: reference_pitch("default R=6.36", 27), "benches 0 and 26 overlap on the way"
-        ),
         "the contest's first contact": (lambda: contact_of(Dance(Dragon(), Spiral())), "benches 0 and 8 overlap"),
         "the contest's pitch": (lambda: prove_minimum_pitch(Dragon(), 0.450337394), "benches 0 and 19 overlap"),
     }  # fmt: skip

@@ -13,8 +13,8 @@ import re
 import shlex
 import sys
 import tempfile
+from itertools import product
 from pathlib import Path
-from types import MappingProxyType
 from zipfile import ZipFile, is_zipfile
 
 import httpx
@@ -72,22 +72,22 @@ def requests():
     """Name of each request to the service, and what httpx gets."""
     chance = random.Random(SEED)
     for name, call in CALLS.items():
-        at = f"{call.method} {call.question.path}"
-        example = EXAMPLES.get(at)
-        for language in Language if "language" in call.request_type.model_fields else (None,):
-            for form in call.question.forms:
-                body = example.body if example else SMALL.get(name, QUERY if call.method == "GET" else DANCE)
-                query = example.query if example else {}
-                more = {"language": language.value} if language else {}
-                asked = {"json": body | more} if call.method == "POST" else {"params": (query or body or {}) | more}
-                ending = [one.value for one in call.question.formats or ()] or [""]
-                for one in ending:
-                    path = call.question.path.replace("{format}", one)
-                    yield f"{at} {form} {one} {language}", (call.method, path, asked | {"headers": {"Accept": form}})
+        question, at = call.question, f"{call.method} {call.question.path}"
+        example, is_post = EXAMPLES.get(at), call.method == "POST"
+        request = SMALL.get(name, DANCE if is_post else QUERY)
+        if example:
+            request = example.query or example.body or {}
+        languages = (
+            [{"language": each.value} for each in Language] if "language" in call.request_type.model_fields else [{}]
+        )
+        for more, form, ending in product(languages, question.forms, question.formats or [""]):
+            path = question.path.replace("{format}", str(ending))
+            options = {"json" if is_post else "params": request | more, "headers": {"Accept": form}}
+            yield f"{at} {form} {ending} {more}", (call.method, path, options)
         if example:
             for k in range(MUTANTS):
-                path, asked = mutant(at, chance)
-                yield f"{at} mutant {k}", (call.method, path, asked)
+                path, options = mutant(at, chance)
+                yield f"{at} mutant {k}", (call.method, path, options)
     for path in ("/openapi.json", "/version", "/mcp", "/jobs", "/sweeps", "/nowhere"):
         yield f"GET {path}", ("GET", path, {})
     listing = {"jsonrpc": "2.0", "id": 1, "method": "tools/list", "params": {}}
@@ -124,40 +124,24 @@ def record(folder):
         tempfile.TemporaryDirectory() as scratch,
         serving(Path(scratch) / "log", data=scratch, deadline_seconds=600) as service,
     ):
-        for name, (method, path, asked) in requests():
-            answer = httpx.request(method, f"{service.url}{path}", timeout=120.0, **asked)
-            keep(folder, name, [answer.status_code, answer.headers["content-type"]], answer.content)
-    for line in commands():
-        for language in Language:
-            with tempfile.TemporaryDirectory() as here, contextlib.chdir(here):
-                for name, value in FILES.items():
-                    Path(name).write_text(json.dumps(value))
-                done = run(*shlex.split(line), LANG=f"{language.value}_{language.value.upper()}.UTF-8", COLUMNS="120")
-                made = {
-                    str(file): file.read_bytes()
-                    for file in sorted(Path().rglob("*"))
-                    if file.is_file() and file.name not in FILES
-                }
-            keep(
-                folder,
-                f"{line} {language.value}",
-                [done.returncode],
-                (done.stdout + "\n--\n" + done.stderr).encode(),
-                made,
-            )
+        for name, (method, path, options) in requests():
+            answer = httpx.request(method, f"{service.url}{path}", timeout=120.0, **options)
+            keep(folder, name, [answer.status_code, answer.headers["content-type"]], {"": answer.content})
+    for line, language in product(commands(), Language):
+        with tempfile.TemporaryDirectory() as here, contextlib.chdir(here):
+            for name, value in FILES.items():
+                Path(name).write_text(json.dumps(value))
+            done = run(*shlex.split(line), LANG=f"{language.value}_{language.value.upper()}.UTF-8", COLUMNS="120")
+            made = {str(file): file.read_bytes() for file in Path().rglob("*") if file.is_file()}
+        streams = {"output": done.stdout.encode(), "errors": done.stderr.encode()}
+        keep(folder, f"{line} {language.value}", [done.returncode], made | streams)
 
 
-def keep(folder, name, head, data, files=MappingProxyType({})):
+def keep(folder, name, head, parts):
     file = folder / f"{re.sub(r'[^A-Za-z0-9.=-]+', '_', name)[:150]}.json"
     assert not file.exists(), name
-    file.write_text(
-        json.dumps(
-            [*head, readable(data), {file: readable(one) for file, one in files.items()}],
-            indent=1,
-            ensure_ascii=False,
-            sort_keys=True,
-        )
-    )
+    content = [*head, {part: readable(data) for part, data in parts.items()}]
+    file.write_text(json.dumps(content, indent=1, ensure_ascii=False, sort_keys=True))
 
 
 def leaves(value, at=""):
@@ -175,20 +159,16 @@ def is_sentence(value):
 
 def compare(folder, before):
     """Number of answers whose data differ; what differs is printed."""
-    files = {file.name for file in [*folder.iterdir(), *before.iterdir()]}
-    wrong = 0
-    for name in sorted(files):
-        old, new = (
-            dict(leaves(json.loads((one / name).read_text()))) if (one / name).exists() else {}
-            for one in (before, folder)
-        )
-        different = [at for at in {**old, **new} if old.get(at) != new.get(at)]
-        words = [at for at in different if is_sentence(old.get(at)) and is_sentence(new.get(at))]
-        wrong += len(words) < len(different)
-        for at in different[:20]:
-            kind = "words" if at in words else "DATA"
-            print(f"{kind} {name} {at}\n  - {old.get(at)!r}\n  + {new.get(at)!r}")
-    print(f"{len(files)} answers, data of {wrong} differ")
+    names, wrong = {file.name for each in (folder, before) for file in each.iterdir()}, 0
+    for name in sorted(names):
+        files = [each / name for each in (before, folder)]
+        old, new = (dict(leaves(json.loads(file.read_text()))) if file.exists() else {} for file in files)
+        different = [(at, old.get(at), new.get(at)) for at in {**old, **new} if old.get(at) != new.get(at)]
+        data = [at for at, *both in different if not all(map(is_sentence, both))]
+        wrong += bool(data)
+        for at, *both in different[:20]:
+            print("DATA" if at in data else "words", name, at, *both, sep="\n  ")
+    print(f"{len(names)} answers, data of {wrong} differ")
     return wrong
 
 

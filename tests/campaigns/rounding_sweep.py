@@ -6,13 +6,12 @@ error, in parts of its bound; exit code 1 where one exceeds its bound.
 
 from __future__ import annotations
 
-import math
 import sys
 from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
-from flint import arb
+from flint import acb, arb
 
 from core import Dance, Dragon, InvalidValue, Route, Spiral, Turn, kernels
 from core.contact.search import ContactSearch
@@ -125,8 +124,8 @@ def compare(errors, search, head, rng):
         kernels.place_chain(search.curve, -head, dragon.benches, sizes, chain)
         exact = ExactRoute(search.path.table)
         place = arb(head)
-        (x, y), (tx, ty) = exact.point(place)
-        slide = (chain[0, PX] - x) * tx + (chain[0, PY] - y) * ty
+        point, tangent = exact.point(place)
+        slide = ((acb(*chain[0, [PX, PY]].tolist()) - point) * tangent.conjugate()).real
         errors.slides.append(abs(float(slide)) / search.path.slide)
         handles = exact.handles(place + slide, dragon.chords)
     kernels.chain_rounding(search.curve, dragon.benches, sizes, chain)
@@ -147,9 +146,9 @@ def compare(errors, search, head, rng):
 
 
 def _compare_bench(errors, row, bench, chord):
-    (fx, fy), (rx, ry) = bench
-    centre = math.hypot(float((fx + rx) / 2 - row[MX]), float((fy + ry) / 2 - row[MY]))
-    direction = math.hypot(float((fx - rx) / chord - row[UX]), float((fy - ry) / chord - row[UY]))
+    front, rear = bench
+    centre = float(abs((front + rear) / 2 - acb(*row[[MX, MY]].tolist())))
+    direction = float(abs((front - rear) / chord - acb(*row[[UX, UY]].tolist())))
     errors.points.append(centre / (row[ERROR] + kernels.ULP * (abs(row[MX]) + abs(row[MY]))))
     errors.directions.append(direction / row[SWAY])
 

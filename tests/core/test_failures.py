@@ -38,14 +38,6 @@ def test_a_speed_failure_is_at_the_first_instant_above_the_limit(dance, limit, s
     assert speed[failure.benches[0]] >= speed.max() * (1.0 - SPEED_ROUNDING)  # on one arc handles are equally fast
 
 
-def test_an_excess_so_near_to_the_fold_that_its_proof_ends_is_bracketed():
-    failure = first_failure(SHORT, 5_000.0)
-    kept, above = failure.time_bracket
-    assert kept < above == failure.time < SHORT.end.time
-    before, after = trajectory(SHORT, [kept, above]).speed.max(axis=1)
-    assert before < 5_000.0 < after
-
-
 def test_a_proof_that_runs_short_of_work_leaves_a_kept_limit_undecided_and_a_broken_one_broken(monkeypatch):
     dance, span = Dance(Dragon(), TURN), {"start": -100.0, "stop": 100.0}
     for name in ("LINKS_BUDGET", "EXCESS_LINKS"):

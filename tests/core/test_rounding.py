@@ -29,7 +29,7 @@ from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
 from core.sampling import bisect
 from tests.campaigns.rounding_sweep import Errors, compare, sweep
 from tests.support.depth import further
-from tests.support.exact_chain import BITS, angles_behind, coil_handles, distance, middle, separation, spiral_place
+from tests.support.exact_chain import BITS, angles_behind, coil_handles, middle, separation, spiral_place
 
 # Gaps compared of every seed; `make rounding` compares 10,000.
 GAPS = 300
@@ -173,7 +173,7 @@ def test_a_speed_above_a_limit_by_the_kernel_is_above_it(seed):
             above_it.add(result is not None and result.handle is not None)
             if result is not None and result.time is not None:
                 (head,) = coil_handles(spiral.pitch, spiral.start_turns, arb(result.time), NO_CHORDS)
-                theta = middle(distance(head, (0, 0)) * 2 * arb.pi() / spiral.pitch)
+                theta = middle(abs(head) * 2 * arb.pi() / spiral.pitch)
                 rates, _ = exact_climbs(spiral.growth, theta, dance.dragon.chords)
                 assert abs(float(rates[result.handle])) > limit
         assert above_it == {True, False}

@@ -21,6 +21,7 @@ BITS = 200
 NEWTON_STEPS = 6
 # On a route it starts from the chord, which is up to half as long as the arc.
 ROUTE_STEPS = 9
+CORNERS = tuple(product((-1, 1), repeat=2))
 # Abscissas and weights of the quadrature that says what arc length on a cubic is, as in core/kernels/route.py.
 QUADRATURE = (
     (0.1813418916891810, (0.4082826787521751, 0.5917173212478249)),
@@ -32,12 +33,12 @@ QUADRATURE = (
 
 def middle(value):
     """The midpoint of a ball: digits without their error."""
-    return arb(value.mid())
+    return type(value)(value.mid())
 
 
-def distance(a, b):
-    x, y = a[0] - b[0], a[1] - b[1]
-    return (x * x + y * y).sqrt()
+def direction(angle):
+    """The direction at an angle."""
+    return acb(angle.cos(), angle.sin())
 
 
 def spiral_place(theta):
@@ -72,14 +73,10 @@ def angles_behind(head, growth, chords):
     return angles
 
 
-def on_spiral(growth, radius, angle):
-    return growth * radius * angle.cos(), growth * radius * angle.sin()
-
-
 def spiral_handles(growth, theta, chords):
     """Handles of a dragon on a spiral in the frame in which the head stands at polar angle 0 [m]."""
     flint.ctx.prec = BITS
-    return [on_spiral(arb(growth), at, at - theta) for at in angles_behind(arb(theta), arb(growth), chords)]
+    return [arb(growth) * at * direction(at - theta) for at in angles_behind(arb(theta), arb(growth), chords)]
 
 
 def coil_handles(pitch, begin, way, chords, rotation=0.0):
@@ -90,7 +87,7 @@ def coil_handles(pitch, begin, way, chords, rotation=0.0):
     flint.ctx.prec = BITS
     growth = arb(pitch) / (2 * arb.pi())
     head = spiral_angle(spiral_place(2 * arb.pi() * begin) - way / growth)
-    return [on_spiral(growth, abs(at), abs(at) + rotation) for at in angles_behind(head, growth, chords)]
+    return [growth * abs(at) * direction(abs(at) + rotation) for at in angles_behind(head, growth, chords)]
 
 
 def fresnel_way(first, slope, length):
@@ -101,7 +98,7 @@ def fresnel_way(first, slope, length):
     unit = (arb.pi() / abs(slope)).sqrt()
     begin, end = ((v + first / slope) / unit for v in (arb(0), length))
     sines = (end.fresnel_s() - begin.fresnel_s()) * (1 if slope > 0 else -1)
-    rotated = (acb(0, -1) * first * first / (2 * slope)).exp()
+    rotated = direction(-first * first / (2 * slope))
     return acb(end.fresnel_c() - begin.fresnel_c(), sines) * unit * rotated
 
 
@@ -117,60 +114,37 @@ class ExactRoute:
         """Point [m] and unit tangent at arc length s."""
         row = self.rows[min(bisect_left(self.ends, float(s)), len(self.rows) - 1)]
         u = s - row[c.S_START] - row[c.S_START_LOW]
-        if row[c.PIECE_KIND] == c.LINE:
-            dx, dy = arb(row[c.LINE_DX]), arb(row[c.LINE_DY])
-            return (row[c.LINE_X] + u * dx, row[c.LINE_Y] + u * dy), (dx, dy)
-        if row[c.PIECE_KIND] == c.CLOTHOID:
-            return self._clothoid(row, u)
-        sign = row[c.SIGN]
-        if row[c.PIECE_KIND] == c.ARC:
-            radius, angle = row[c.ARC_RADIUS], row[c.ARC_ANGLE] + sign * u / row[c.ARC_RADIUS]
-            cos, sin = angle.cos(), angle.sin()
-            return (row[c.CENTRE_X] + radius * cos, row[c.CENTRE_Y] + radius * sin), (-sign * sin, sign * cos)
-        if row[c.PIECE_KIND] == c.SPIRAL:
+        kind, sign, centre = row[c.PIECE_KIND], row[c.SIGN], acb(row[c.CENTRE_X], row[c.CENTRE_Y])
+        first, along = acb(row[c.LINE_X], row[c.LINE_Y]), acb(row[c.LINE_DX], row[c.LINE_DY])
+        if kind == c.LINE:
+            return first + u * along, along
+        if kind == c.CLOTHOID:
+            k, slope = arb(row[c.K_START]), arb(row[c.K_RATE])
+            arc = (direction(k * u) - 1) / acb(0, k) if k != 0 else acb(u)
+            way = fresnel_way(k, slope, u) if slope != 0 else arc
+            return middle(first + along * way), middle(along * direction(k * u + slope * u * u / 2))
+        if kind == c.ARC:
+            out = direction(row[c.ARC_ANGLE] + sign * u / row[c.ARC_RADIUS])
+            return centre + row[c.ARC_RADIUS] * out, acb(0, sign) * out
+        if kind == c.SPIRAL:
             growth = arb(row[c.COIL_GROWTH]) + row[c.COIL_GROWTH_LOW]
             theta = spiral_angle((arb(row[c.COIL_ARC]) + row[c.COIL_ARC_LOW] + sign * u) / growth)
-            angle = theta + row[c.COIL_ROTATION]
-            cos, sin = angle.cos(), angle.sin()
-            radius, scale = growth * theta, sign / (1 + theta * theta).sqrt()
-            return (row[c.CENTRE_X] + radius * cos, row[c.CENTRE_Y] + radius * sin), (
-                scale * (cos - theta * sin),
-                scale * (sin + theta * cos),
-            )
+            out = direction(theta + row[c.COIL_ROTATION])
+            return centre + growth * theta * out, sign * out * acb(1, theta) / (1 + theta * theta).sqrt()
         return self._cubic(row, u)
 
     @staticmethod
-    def _clothoid(row, u):
-        k, slope = arb(row[c.K_START]), arb(row[c.K_RATE])
-        first = acb(row[c.LINE_DX], row[c.LINE_DY])
-        along = first * (acb(0, 1) * (k * u + slope * u * u / 2)).exp()
-        if slope == 0:
-            way = ((acb(0, 1) * k * u).exp() - 1) / (acb(0, 1) * k) if k != 0 else acb(u)
-        else:
-            way = fresnel_way(k, slope, u)
-        point = acb(row[c.LINE_X], row[c.LINE_Y]) + first * way
-        return (middle(point.real), middle(point.imag)), (middle(along.real), middle(along.imag))
-
-    @staticmethod
     def _cubic(row, u):
-        x, y, end = row[c.X0 : c.X3 + 1], row[c.Y0 : c.Y3 + 1], row[c.T_END]
+        start, *powers = (acb(*both) for both in zip(row[c.X0 : c.X3 + 1], row[c.Y0 : c.Y3 + 1], strict=True))
 
         def slope(t):
-            return x[1] + t * (2 * x[2] + 3 * t * x[3]), y[1] + t * (2 * y[2] + 3 * t * y[3])
+            return powers[0] + t * (2 * powers[1] + 3 * t * powers[2])
 
-        def speed(t):
-            dx, dy = slope(t)
-            return (dx * dx + dy * dy).sqrt()
-
-        t = arb(float(u) / (row[c.S_END] - row[c.S_START]) * end)
+        t = arb(float(u) / (row[c.S_END] - row[c.S_START]) * row[c.T_END])
         for _ in range(ROUTE_STEPS - 2):
-            arc = t * sum(weight * sum(speed(knot * t) for knot in knots) for weight, knots in QUADRATURE)
-            t = middle(t - (arc - u) / speed(t))
-        dx, dy = slope(t)
-        return (x[0] + t * (x[1] + t * (x[2] + t * x[3])), y[0] + t * (y[1] + t * (y[2] + t * y[3]))), (
-            dx / speed(t),
-            dy / speed(t),
-        )
+            arc = t * sum(weight * sum(abs(slope(knot * t)) for knot in knots) for weight, knots in QUADRATURE)
+            t = middle(t - (arc - u) / abs(slope(t)))
+        return start + t * (powers[0] + t * (powers[1] + t * powers[2])), slope(t) / abs(slope(t))
 
     def handles(self, s, chords):
         """Handles of a dragon with its head at s [m], each the first point behind its leader at the chord."""
@@ -180,9 +154,8 @@ class ExactRoute:
             step = arb(chord)
             for _ in range(ROUTE_STEPS):
                 rear, tangent = self.point(s - step)
-                apart = distance(front, rear)
-                cosine = ((front[0] - rear[0]) * tangent[0] + (front[1] - rear[1]) * tangent[1]) / apart
-                step = middle(step + (chord - apart) / cosine)
+                apart = abs(front - rear)
+                step = middle(step + (chord - apart) * apart / ((front - rear) * tangent.conjugate()).real)
             s = middle(s - step)
             front, _ = self.point(s)
             handles.append(front)
@@ -193,37 +166,27 @@ def separation(first, second, sizes):
     """Signed distance of two benches [m]. first, second: their front and rear handle; sizes: chord, half length, half
     width of each"""
     boxes = [_box(bench, size) for bench, size in zip((first, second), sizes, strict=True)]
-    faces = [_face(boxes[0], boxes[1]), _face(boxes[1], boxes[0])]
-    largest = max(faces, key=float)
-    if largest.mid() <= 0:
-        return largest
-    return min(_corners(boxes[0], boxes[1]), _corners(boxes[1], boxes[0]), key=float)
+    overlaps, distances = zip(_facing(*boxes), _facing(*boxes[::-1]), strict=True)
+    return min(distances) if max(overlaps) > 0 else max(overlaps)
 
 
 def _box(bench, size):
     """Middle, direction, half length and half width of a bench."""
-    front, rear = (acb(*point) for point in bench)
-    chord, half_length, half_width = size.tolist()
-    return (front + rear) / 2, (front - rear) / chord, half_length, half_width
+    front, rear = bench
+    chord, *halves = size.tolist()
+    return (front + rear) / 2, (front - rear) / chord, *halves
 
 
-def _face(own, other):
-    (middle_own, along, half_length, half_width), (middle_other, along_other, *halves) = own, other
-    away, turn = (middle_other - middle_own) * along.conjugate(), along_other * along.conjugate()
-    lengthwise = abs(away.real) - half_length - abs(turn.real) * halves[0] - abs(turn.imag) * halves[1]
-    sideways = abs(away.imag) - half_width - abs(turn.imag) * halves[0] - abs(turn.real) * halves[1]
-    return max(lengthwise, sideways, key=float)
-
-
-def _corners(own, other):
-    middle_other, along, *halves = other
-    entries = []
-    for signs in product((-1, 1), repeat=2):
-        corner = middle_other + along * acb(*(sign * half for sign, half in zip(signs, halves, strict=True)))
-        away = (corner - own[0]) * own[1].conjugate()
-        beyond = [max(abs(away.real) - own[2], arb(0), key=float), max(abs(away.imag) - own[3], arb(0), key=float)]
-        entries.append(middle(beyond[0] * beyond[0] + beyond[1] * beyond[1]).sqrt())
-    return min(entries, key=float)
+def _facing(own, other):
+    """Largest gap along the faces of the first bench, and the least distance of a corner of the other one from it."""
+    (place, along, *halves), (middle_other, along_other, *sides) = own, other
+    offsets = (acb(*(sign * side for sign, side in zip(signs, sides, strict=True))) for signs in CORNERS)
+    seen = [(middle_other + along_other * offset - place) * along.conjugate() for offset in offsets]
+    gaps, beyond = [], []
+    for half, *parts in zip(halves, *((corner.real, corner.imag) for corner in seen), strict=True):
+        gaps.append(max(min(parts), -max(parts)) - half)
+        beyond.append([max(abs(part) - half, arb(0)) for part in parts])
+    return max(gaps), min(middle(x * x + y * y) for x, y in zip(*beyond, strict=True)).sqrt()
 
 
 def clothoid_place(piece, v):
@@ -231,4 +194,4 @@ def clothoid_place(piece, v):
     flint.ctx.prec = BITS
     first, last = arb(piece.start_curvature), arb(piece.end_curvature)
     way = fresnel_way(first, (last - first) / arb(piece.length), arb(v))
-    return acb(*piece.start) + way * (acb(0, 1) * arb(piece.heading)).exp()
+    return acb(*piece.start) + way * direction(arb(piece.heading))

@@ -1,7 +1,7 @@
 """A dragon on a route, computed a second time slowly and plainly: no code of core but the numbers of its pieces.
 
 Points follow from the definitions of a line, an arc and a coil, and on a clothoid from SciPy's Fresnel integrals; every
-next handle is the root of a distance.
+next handle is the root of a distance. Places and directions are complex numbers.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ ALMOST_AN_ARC = 1e-12
 def piece_length(piece):
     """Length of a piece [m]."""
     if isinstance(piece, Line):
-        return float(np.hypot(piece.end[0] - piece.start[0], piece.end[1] - piece.start[1]))
+        return abs(complex(*piece.end) - complex(*piece.start))
     if isinstance(piece, Arc):
         return abs(piece.sweep) * piece.radius
     if isinstance(piece, Clothoid):
@@ -36,7 +36,7 @@ def piece_length(piece):
 
 
 def clothoid_points(piece, u):
-    """Points and unit tangents (N, 2) on a clothoid; it goes on as a circle beyond its ends.
+    """Points and unit tangents (N,) on a clothoid; it goes on as a circle beyond its ends.
 
     The direction at u is turned by k u + c u^2 / 2 = c (u + k / c)^2 / 2 - k^2 / (2 c).
     """
@@ -50,9 +50,8 @@ def clothoid_points(piece, u):
         way = (cosines + 1j * np.sign(slope) * sines) * unit * np.exp(-0.5j * k * k / slope)
     first = np.exp(1j * piece.heading)
     along, bend = first * np.exp(1j * (k * on + 0.5 * slope * on * on)), k + slope * on
-    places = complex(*piece.start) + first * way + along * bow(bend, u - on)
-    along = along * np.exp(1j * bend * (u - on))
-    return np.stack([places.real, places.imag], axis=-1), np.stack([along.real, along.imag], axis=-1)
+    beyond = u - on
+    return complex(*piece.start) + first * way + along * bow(bend, beyond), along * np.exp(1j * bend * beyond)
 
 
 def bow(curvature, length):
@@ -62,23 +61,22 @@ def bow(curvature, length):
 
 
 def piece_points(piece, u):
-    """Points and unit tangents (N, 2) at lengths u (N,) from the beginning of a piece [m], also beyond its ends."""
+    """Points and unit tangents (N,) at lengths u (N,) from the beginning of a piece [m], also beyond its ends."""
     if isinstance(piece, Line):
-        along = np.subtract(piece.end, piece.start) / piece_length(piece)
-        return np.array(piece.start) + u[:, None] * along, np.broadcast_to(along, (u.size, 2))
-    if isinstance(piece, Arc):
-        sign = np.sign(piece.sweep)
-        angle = piece.start_angle + sign * u / piece.radius
-        out = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        return np.array(piece.centre) + piece.radius * out, sign * np.stack([-out[:, 1], out[:, 0]], axis=-1)
+        start = complex(*piece.start)
+        along = np.full(u.size, (complex(*piece.end) - start) / piece_length(piece))
+        return start + u * along, along
     if isinstance(piece, Clothoid):
         return clothoid_points(piece, u)
+    centre = complex(*piece.centre)
+    if isinstance(piece, Arc):
+        sign = np.sign(piece.sweep)
+        out = np.exp(1j * (piece.start_angle + sign * u / piece.radius))
+        return centre + piece.radius * out, 1j * sign * out
     growth, sign = piece.pitch / (2.0 * np.pi), np.sign(piece.end_turns - piece.start_turns)
     theta = head_angle(arc_length(2.0 * np.pi * piece.start_turns) + sign * u / growth)
-    out = np.stack([np.cos(theta + piece.rotation), np.sin(theta + piece.rotation)], axis=-1)
-    tangents = sign * (out + theta[:, None] * np.stack([-out[:, 1], out[:, 0]], axis=-1))
-    tangents /= np.hypot(1.0, theta)[:, None]
-    return np.array(piece.centre) + growth * theta[:, None] * out, tangents
+    out = np.exp(1j * (theta + piece.rotation))
+    return centre + growth * theta * out, sign * out * (1.0 + 1j * theta) / np.hypot(1.0, theta)
 
 
 @dataclass
@@ -97,10 +95,10 @@ class SlowRoute(SlowDance):
         return sum(map(piece_length, self.pieces)) - self.start
 
     def points(self, s):
-        """Points and unit tangents (N, 2) at arc lengths s (N,)."""
+        """Points and unit tangents (N,) at arc lengths s (N,)."""
         joints = np.cumsum([-self.start, *map(piece_length, self.pieces)])
         on = np.clip(np.searchsorted(joints, s) - 1, 0, len(self.pieces) - 1)
-        points, tangents = np.empty((s.size, 2)), np.empty((s.size, 2))
+        points, tangents = np.empty((2, s.size), dtype=complex)
         for k, piece in enumerate(self.pieces):
             there = on == k
             if there.any():
@@ -114,12 +112,12 @@ class SlowRoute(SlowDance):
         for step in range(NEWTON_STEPS + HALVINGS):
             points, tangents = self.points(at)
             apart = leaders - points
-            distance = np.linalg.norm(apart, axis=-1)
+            distance = np.abs(apart)
             if np.abs(distance - chord).max() < CLOSE:
                 break
             near = distance < chord
             high, low = np.where(near, at, high), np.where(near, low, at)
-            slope = np.maximum((apart * tangents).sum(-1) / distance, 1e-3)
+            slope = np.maximum((apart * tangents.conj()).real / distance, 1e-3)
             moved = at + (distance - chord) / slope
             inside = (low < moved) & (moved < high) & (step < NEWTON_STEPS)
             at = np.where(inside, moved, 0.5 * (low + high))
@@ -132,4 +130,5 @@ class SlowRoute(SlowDance):
         for chord in self.chords[:benches]:
             s, points = self.behind(s, rows[-1], chord)
             rows.append(points)
-        return np.stack(rows, axis=1)
+        places = np.stack(rows, axis=1)
+        return np.stack([places.real, places.imag], axis=-1)

@@ -297,12 +297,8 @@ def rectangles_gap(ma, ua, ha, mb, ub, hb):
 
 def face_gaps(ma, ua, ha, mb, ub, hb):
     """Largest gap along the face normals of a, and least distance of a corner of b to a."""
-    left_a, left_b = (np.stack([-u[:, 1], u[:, 0]], axis=-1) for u in (ua, ub))
-    beyond = []
-    for i, j in ((1, 1), (1, -1), (-1, -1), (-1, 1)):
-        corner = mb + i * hb[:, :1] * ub + j * hb[:, 1:] * left_b - ma
-        beyond.append(np.stack([(corner * ua).sum(-1), (corner * left_a).sum(-1)], axis=-1))
-    corners = np.stack(beyond)
-    gaps = np.maximum(corners.min(axis=0), -corners.max(axis=0)) - ha
-    distance = np.linalg.norm(np.maximum(np.abs(corners) - ha, 0.0), axis=-1).min(axis=0)
+    axes = np.stack([ua, ua[:, ::-1] * [-1.0, 1.0]], axis=-1)
+    corners = (corners_of(mb, ub, hb) - ma[:, None]) @ axes
+    gaps = np.maximum(corners.min(axis=1), -corners.max(axis=1)) - ha
+    distance = np.linalg.norm(np.maximum(np.abs(corners) - ha[:, None], 0.0), axis=-1).min(axis=1)
     return gaps.max(axis=-1), distance

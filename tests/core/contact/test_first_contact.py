@@ -2,10 +2,7 @@
 
 from functools import cache
 
-import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
-from hypothesis import strategies as st
 
 from core import (
     Dance,
@@ -24,7 +21,7 @@ from core import (
 from core.claims.claim import ClaimKind
 from core.contact.search import MARGIN_MAX
 from core.design.pitch_bands import BORDER_WIDTH
-from tests.support.depth import examples, some, thorough
+from tests.support.depth import some, thorough
 from tests.support.near import assert_near
 from tests.support.random_dances import random_dance
 from tests.support.reference import reference_cases
@@ -192,25 +189,6 @@ def test_without_a_certain_contact_an_undecided_search_stays_undecided():
     assert report.verdict is Judgement.UNDECIDED
     assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]
     assert report.least_clearance.at_least is None
-
-
-# -- laws ----------------------------------------------------------------------------------------------
-
-
-DANCES = st.integers(0, 10_000).map(lambda seed: random_dance(seed, seed % 3 == 0))
-
-
-# Three random dances in ten have a contact: about once in a hundred runs fifty without one come before ten with one.
-@settings(max_examples=examples(8, 25), deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
-@given(DANCES)
-def test_all_is_clear_just_before_first_contact_and_not_just_after(both):
-    dance, slow = both
-    contact = first_contact(dance)
-    assume(contact.outcome is Outcome.CONTACT)
-    clear, within = contact.time_bracket
-    gaps, _ = slow.clearance([*(clear * (1.0 - np.array([0.0, 1e-9, 1e-6, 1e-3, 0.01, 0.1, 0.5]))), within])
-    assert gaps[:-1].min() > -ROUNDING
-    assert gaps[-1] <= ROUNDING
 
 
 # -- limits ----------------------------------------------------------------------------------------------

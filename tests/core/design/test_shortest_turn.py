@@ -151,16 +151,6 @@ def test_no_turn_of_any_ratio_is_shorter_than_the_bracket_over_all_ratios(work):
     assert is_clear(result.turn)
 
 
-@pytest.mark.thorough
-def test_a_turn_danced_backwards_need_not_be_searched():
-    """With another bench in the middle both are searched, and give the same bracket."""
-    lengths = [3.41, *[2.2] * 9, 2.21, *[2.2] * 9]
-    uneven = Dragon.of(lengths, [0.3] * 20, [0.275] * 20)
-    both, one = (shortest_turn(dragon, PITCH, RADIUS, 1.0, budget=Budget(1e9)) for dragon in (uneven, Dragon(20)))
-    assert both.boxes > 1.5 * one.boxes
-    assert both.length_bracket == pytest.approx(one.length_bracket, abs=1e-6)
-
-
 def test_small_benches_are_limited_by_the_deepest_end_that_is_tried():
     """Neither an arc nor the coil there is as tight as the least radius."""
     small = Dragon(2, head_length=0.3, body_length=0.3, width=0.02, overhang=0.05)

@@ -87,26 +87,6 @@ def test_no_point_is_further_from_a_bench_than_the_excess(dance, start, stop):
     assert ground(result).covers(sampled)
 
 
-def test_a_round_dance_keeps_its_hole_and_sweeps_the_ring_between_two_circles():
-    result, dragon = envelope(ROUNDS), ROUNDS.dragon
-    ((outer, hole),) = result.polygons
-    middles = np.sqrt(RING**2 - 0.25 * dragon.chords**2)
-    inner, outside = middles.min() - 0.15, np.hypot(middles + 0.15, 0.5 * dragon.lengths).max()
-    for ring, least, most in ((outer, outside, outside + result.excess), (hole, inner - result.excess, inner)):
-        radii = np.linalg.norm(ring, axis=1)
-        assert least <= radii.min()
-        assert radii.max() <= most
-    area = math.pi * (outside**2 - inner**2)
-    assert area < result.area < area + 2.0 * math.pi * (outside + inner) * result.excess
-
-
-def test_a_larger_excess_costs_less():
-    fine, rough = (envelope(Dance(Dragon(5), Spiral()), stop=30.0, excess=excess) for excess in (1e-3, 0.05))
-    assert rough.certificate.cells < 0.3 * fine.certificate.cells
-    assert fine.area < rough.area
-    assert 1e-3 < rough.excess <= 0.05
-
-
 def test_the_distance_of_spectators_from_a_straight_dance():
     result = envelope(Dance(Dragon(3), lane((0.0, 0.0), (50.0, 0.0), start=9.0)))
     for line in ([(0.0, 2.0), (30.0, 2.0)], [(20.0, 2.0)], [(-9.0, 5.0), (25.0, 2.0), (60.0, 7.0)]):

@@ -11,13 +11,9 @@ POINTS, NEAR, NEAR_ASLANT = 32, 0.6, 32.0
 FACE, EDGE, PAPER = 200, 20, 250
 
 
-def inks_of(channels):
-    return np.repeat([[float(FACE)], [float(EDGE)]], channels, axis=1)
-
-
-def filled(rectangles, line=0.0, shape=(30, 40, 1)):
-    plane = np.full(shape, PAPER, np.uint8)
-    fill_rectangles(plane, np.array(rectangles, dtype=np.float64), line, inks_of(shape[2]))
+def filled(rectangles, line=0.0, inks=((FACE,), (EDGE,))):
+    plane = np.full((30, 40, len(inks[0])), PAPER, np.uint8)
+    fill_rectangles(plane, np.array(rectangles, dtype=np.float64), line, np.array(inks, dtype=np.float64))
     return plane
 
 
@@ -54,23 +50,14 @@ def test_a_pixel_is_mixed_by_the_part_of_it_that_is_covered(seed):
 
 def test_a_later_rectangle_covers_an_earlier_one_and_all_channels_alike():
     rows = [row_of(12.0, 15.0, 0.0, 8.0, 4.0), row_of(20.0, 15.0, 0.0, 8.0, 4.0)]
-    plane = np.full((30, 40, 3), PAPER, np.uint8)
-    for row, ink in zip(rows, ([1, 2, 3], [4, 5, 6]), strict=True):
-        fill_rectangles(plane, np.array([row]), 0.0, np.array([ink, ink], np.float64))
-    assert plane[15, 10].tolist() == [1, 2, 3]
-    assert plane[15, 16].tolist() == [4, 5, 6]
-    together = filled(rows)
-    assert np.array_equal(together[:, 13:], filled(rows[1:])[:, 13:])
+    plane = filled(rows, inks=[[1.0, 2.0, 3.0]] * 2)
+    fill_rectangles(plane, np.array(rows[1:]), 0.0, np.array([[4.0, 5.0, 6.0]] * 2))
+    assert (plane[15, 10].tolist(), plane[15, 16].tolist()) == ([1, 2, 3], [4, 5, 6])
+    assert np.array_equal(filled(rows)[:, 13:], filled(rows[1:])[:, 13:])
 
 
 @pytest.mark.parametrize("x", [-30.0, -3.0, 0.0, 40.0, 43.0, 90.0])
 @pytest.mark.parametrize("y", [-30.0, 0.0, 15.0, 30.0, 90.0])
 def test_a_rectangle_beyond_the_border_is_cut_there(x, y):
-    wide = np.full((90, 120, 1), PAPER, np.uint8)
-    for plane, (right, down) in ((wide, (40.0, 30.0)), (wide[30:60, 40:80].copy(), (0.0, 0.0))):
-        row = np.array([row_of(x + right, y + down, 0.7, 9.0, 3.0)])
-        fill_rectangles(plane, row, 0.5, inks_of(1))
-        if plane is wide:
-            expected = wide[30:60, 40:80].copy()
-            wide[:] = PAPER
-    assert np.abs(plane.astype(int) - expected).max() <= 1
+    slow = by_points(x, y, 0.7, 9.0, 3.0, 0.5)
+    assert np.abs(filled([row_of(x, y, 0.7, 9.0, 3.0)], 0.5)[..., 0] - slow).max() < NEAR_ASLANT

@@ -27,4 +27,4 @@ def test_points_and_tangents_of_every_kind_of_piece_are_exact():
     route_points(route.table, paired(s), points := np.empty((s.size, POINT_COLUMNS)))
     for at, row in zip(s.tolist(), points, strict=True):
         for column, place in zip((PX, TX), exact.point(arb(at)), strict=True):
-            assert row[column : column + 2] == pytest.approx([*map(float, place)], abs=ROUNDING)
+            assert row[column : column + 2] == pytest.approx([float(place.real), float(place.imag)], abs=ROUNDING)

@@ -12,14 +12,15 @@ from tests.support.intervals import sizes_of
 DRAGON = Dragon.of([3.4, 2.2, 2.0, 2.2, 2.4] * 4, [0.3] * 20, [0.275] * 20)
 NOMINAL = trajectory(Dance(DRAGON, Spiral()), np.arange(280.0, 300.0))
 PLACES, TANGENTS = NOMINAL.position, NOMINAL.velocity / NOMINAL.speed[..., None]
-NO_PLAY, NOT_SAFE = np.zeros((20, 4)), np.zeros((20, 20))
+SIZES, NO_PLAY, NOT_SAFE = sizes_of(DRAGON), np.zeros((20, 4)), np.zeros((20, 20))
 ALONG, MEMORY, MOST = 0.7, 0.9, 0.4
 ROUNDING = 1e-12  # [m]
 
 
-def wobbler(size):
-    chain, boxes, flags = np.zeros((21, UY + 1)), np.zeros((21, BOX_COLUMNS)), np.zeros((2, 21), dtype=np.int8)
-    made = Wobbler(sizes_of(DRAGON), Budget(1e9), chain, boxes, *flags)
+def wobbler(size, sizes):
+    rows = len(sizes)
+    chain, boxes, flags = np.zeros((rows, UY + 1)), np.zeros((rows, BOX_COLUMNS)), np.zeros((2, rows), dtype=np.int8)
+    made = Wobbler(sizes, Budget(1e9), chain, boxes, *flags)
     made.lateral, made.forward, made.along = size, 0.5 * size, ALONG
     return made
 
@@ -41,7 +42,7 @@ def laid_out(wanted, chords, front_play=None, rear_play=None):
 
 def test_chords_and_joints_are_kept_and_each_rear_hole_is_where_its_person_wants_it_as_nearly_as_can_be():
     rng = np.random.default_rng(3)
-    made, state = wobbler(0.02), np.zeros((21, 2))
+    made, state = wobbler(0.02, SIZES), np.zeros((21, 2))
     play = rng.uniform(-0.004, 0.004, (20, 4))
     made.dance(np.zeros(1), rng.standard_normal((1, 21, 2)), play, PLACES[:1], TANGENTS[:1], NOT_SAFE[:1], state)
     places, tangents = PLACES[0] @ [1.0, 1.0j], TANGENTS[0] @ [1.0, 1.0j]
@@ -56,7 +57,7 @@ def test_chords_and_joints_are_kept_and_each_rear_hole_is_where_its_person_wants
 
 def test_people_stand_alike_as_their_correlations_say():
     rng = np.random.default_rng(4)
-    made, stood = wobbler(0.0), []
+    made, stood = wobbler(0.0, SIZES), []
     memory = np.array([0.0, MEMORY, MEMORY])
     for _ in range(4_000):
         state = np.zeros((21, 2))
@@ -73,7 +74,7 @@ def test_people_stand_alike_as_their_correlations_say():
 
 def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them():
     safe, gain = np.empty((20, 20)), gains(DRAGON)
-    wobbler(0.05).measure(MOST, gain, PLACES, safe)
+    wobbler(0.05, SIZES).measure(MOST, gain, PLACES, safe)
     a, b = np.triu_indices(DRAGON.benches, 2)
     sizes = np.stack([DRAGON.lengths, DRAGON.widths], axis=1)
     for t in (0, 19):
@@ -86,7 +87,7 @@ def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them():
 
 
 def test_the_first_overlap_is_found_and_safe_strays_change_nothing():
-    rng, made, safe, ends = np.random.default_rng(5), wobbler(0.06), np.empty((20, 20)), []
+    rng, made, safe, ends = np.random.default_rng(5), wobbler(0.06, SIZES), np.empty((20, 20)), []
     made.measure(MOST, gains(DRAGON), PLACES, safe)
     for _ in range(40):
         numbers, results = rng.standard_normal((20, 21, 2)), []
@@ -104,13 +105,11 @@ def test_the_first_overlap_is_found_and_safe_strays_change_nothing():
 def test_a_bench_of_a_block_within_the_most_strays_of_both_counts_for_a_safe_stray():
     """Eight benches out, eight around, eight back: 1.9 m lie between the first and the last, a stray of 0.95 m each."""
     way, turned, dragon = 4.0 * np.arange(9.0), np.linspace(0.0, np.pi, 9)[1:-1], Dragon(24, 1.0, 1.0, 0.3, 0.0)
-    around = np.column_stack([32.0 + 9.0 * np.sin(turned), 1.1 - 1.1 * np.cos(turned)])
-    out, back = np.column_stack([way, 0.0 * way]), np.column_stack([way[::-1], 0.0 * way + 2.2])
-    places, safe = np.concatenate([out, around, back])[None], np.empty((1, 24))
-    chain, boxes, flags = np.zeros((25, UY + 1)), np.zeros((25, BOX_COLUMNS)), np.zeros((2, 25), dtype=np.int8)
-    Wobbler(sizes_of(dragon), Budget(1e9), chain, boxes, *flags).measure(1.0, np.ones(24), places, safe)
-    assert safe[0, :6] == pytest.approx(0.95, abs=2e-9)
-    assert safe[0, -6:] == pytest.approx(0.95, abs=2e-9)
+    around = 32.0 + 9.0 * np.sin(turned) + 1.1j * (1.0 - np.cos(turned))
+    along, safe = np.concatenate([way, around, way[::-1] + 2.2j]), np.empty((1, 24))
+    places = np.stack([along.real, along.imag], axis=-1)[None]
+    wobbler(0.0, sizes_of(dragon)).measure(1.0, np.ones(24), places, safe)
+    assert safe[0, [*range(6), *range(-6, 0)]] == pytest.approx(0.95, abs=2e-9)
 
 
 def test_benches_that_overlap_in_their_places_touch_although_nobody_strays():
@@ -118,8 +117,7 @@ def test_benches_that_overlap_in_their_places_touch_although_nobody_strays():
     sizes, chords = sizes_of(Dragon(4, 1.0, 1.0, 0.3, 0.0)), np.array([1.0, 0.25, 1.0, 0.25])
     sizes[:4, CHORD], sizes[:4, HALF_LENGTH] = chords, 0.5 * chords
     places = np.array([[[0.0, 0.0], [1.0, 0.0], [1.0, 0.25], [0.0, 0.25], [0.0, 0.0]]])
-    chain, boxes, flags = np.zeros((5, UY + 1)), np.zeros((5, BOX_COLUMNS)), np.zeros((2, 5), dtype=np.int8)
-    made, safe, state = Wobbler(sizes, Budget(1e9), chain, boxes, *flags), np.ones((1, 4)), np.zeros((5, 2))
+    made, safe, state = wobbler(0.0, sizes), np.ones((1, 4)), np.zeros((5, 2))
     made.measure(MOST, np.ones(4), places, safe)
     assert (safe[0, 0], safe[0, 2]) == (0.0, 0.0)
     assert made.dance(np.zeros(1), np.zeros((1, 5, 2)), NO_PLAY[:4], places, np.zeros((1, 5, 2)), safe, state) == 0

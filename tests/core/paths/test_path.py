@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from core import Arc, Clothoid, Coil, Line, Route, Spiral, Turn, Waypoints, kernels
+from core import Arc, Clothoid, Coil, Line, Route, Spiral, Turn, Waypoints
 from tests.support.near import assert_near
 
 PATHS = {
@@ -57,19 +57,6 @@ def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path, s):
         assert_near(head.radius, math.dist((head.x, head.y), path.frame.centre), ON_PATH)
         assert (head.theta is None) is (path.spiral is None)
     assert path.limit >= path.end
-
-
-def test_a_chain_follows_the_head_along_the_path_with_its_chords(path):
-    sizes, chain = np.zeros((4, kernels.SIZE_COLUMNS)), np.zeros((4, kernels.CHAIN_COLUMNS))
-    sizes[:, kernels.CHORD] = 2.86, 1.65, 1.65, 0.0
-    starts = path.begin + np.array([9.0, 11.0])
-    for lag, start in zip(path.lags(starts, 0.0).tolist(), starts, strict=True):
-        path.follow(lag, 3, sizes, chain)
-        handles = path.along(chain[:, kernels.LAG])
-        assert_near(handles[0], start, ON_PATH)
-        assert (np.diff(handles) < 0.0).all()
-        chords = np.linalg.norm(np.diff(path.position(handles), axis=0), axis=-1)
-        assert_near(chords, sizes[:3, kernels.CHORD], ON_PATH)
 
 
 def test_the_path_as_a_route_is_the_same_in_its_own_frame(path, s):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core import Coil, Dance, Dragon, InvalidValue, Route, Turn, least_clearance, trajectory
+from core import Coil, Dance, Dragon, InvalidValue, Route, Turn, trajectory
 from tests.support.near import assert_near
 from tests.support.reference import reference
 
@@ -89,13 +89,3 @@ def test_every_handle_on_the_turn_is_the_reference_one(table):
     assert len(handles) > 5
     result = np.column_stack([motion.position, motion.speed])[handles]
     assert_near(result, [[row["x"], row["y"], row["speed"]] for row in rows], REFERENCE_ERROR)
-
-
-@pytest.mark.uncompiled
-def test_the_least_clearance_on_the_turn_is_the_reference_one():
-    known = REFERENCE["clearance"]
-    span = dict(zip(("start", "stop"), known["interval"], strict=True))
-    least = least_clearance(DANCE, **span)
-    assert_near([least.distance, least.time], [known["least"], known["time"]], REFERENCE_ERROR)
-    assert list(least.benches) == known["benches"]
-    assert least.distance - 1.1e-5 < least.at_least <= least.distance

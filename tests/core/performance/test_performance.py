@@ -2,7 +2,7 @@
 
 import pytest
 
-from core import Dance, Dragon, EndReason, OutsideRun, Part, Performance, Spiral, first_encounter
+from core import Dance, Dragon, EndReason, OutsideRun, Part, Performance, Spiral
 from core.performance.performance import STANDING
 from tests.support.refused import refused
 from tests.support.shared_dances import lane
@@ -62,14 +62,3 @@ def test_a_dragon_that_stands_has_a_moment_of_its_dance_for_any_span():
     assert part.own_span(begin + 6.0, end + 4.0) == pytest.approx((begin + 1.0, end - 1.0))
     assert part.own_span(begin - 9.0, begin) == (begin, begin + STANDING)
     assert part.own_span(end + 6.0, end + 9.0) == (end - STANDING, end)
-
-
-def test_dances_that_share_no_time_meet_where_one_stands():
-    # The first one stays at the end of its street, where the second one comes later.
-    later = Dance(DRAGON, lane((-60.0, 0.0), (40.0, 0.0)))
-    delay = STREET.end.time - later.begin + 10.0
-    met = first_encounter(Performance([Part(STREET), Part(later, delay)]))
-    tail = 40.0 - float(DRAGON.chords.sum()) - float(DRAGON.overhangs[2])
-    assert (met.dragons, met.benches) == ((0, 1), (2, 0))
-    # 60 m from the beginning of the second street to x = 0
-    assert met.time == pytest.approx(delay + 60.0 + tail - float(DRAGON.overhangs[0]), abs=1e-9)

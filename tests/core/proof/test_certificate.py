@@ -1,7 +1,5 @@
 """Proofs: claims that hold are proven and checked, claims and certificates that do not are refused."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -105,10 +103,3 @@ def test_progress_rises_to_one_and_the_precision_is_left_as_it_was():
     for shares in (proving, checking):
         assert shares == sorted(shares)
         assert shares[-1] == 1.0
-
-
-def test_without_flint_the_error_names_the_extra():
-    code = "import sys; sys.modules['flint'] = None; import core.proof"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 1
-    assert "pip install 'bench-dragon[proof]'" in done.stderr.splitlines()[-1]
