@@ -12,6 +12,7 @@ from core import (
     Dragon,
     InvalidValue,
     Outcome,
+    TooMuchWork,
     Turn,
     TurnLimit,
     deepest_turn,
@@ -125,6 +126,13 @@ def test_a_turn_that_cannot_be_danced_even_at_the_circle_is_refused(query, words
     with pytest.raises(InvalidValue, match=words) as caught:
         deepest_turn(**{"dragon": Dragon(), "pitch": 1.7, **query})
     assert caught.value.field == "turning_radius"
+
+
+@pytest.mark.parametrize("work", [1e4, 4e4], ids=["on the first entry", "on one further in"])
+def test_work_that_ends_before_the_turn_is_found_is_an_error(monkeypatch, work):
+    monkeypatch.setattr(core.design.deepest_turn, "TURN_WORK", work)
+    with pytest.raises(TooMuchWork, match=f"^turning_radius must .* within {work:g} steps of work"):
+        deepest_turn(Dragon(), 1.7)
 
 
 def test_work_that_ends_while_the_turn_is_bisected_leaves_a_wider_bracket(monkeypatch):
