@@ -7,7 +7,7 @@ import { chooseParts } from "./layers.js";
 import { drawingOf, keptVenueOf } from "./drawing.js";
 import { $, bearer, download, make, textButton } from "./elements.js";
 import { FIELDS } from "./fields.js";
-import { announce, announceRefusal } from "./overlays.js";
+import { announce, announceRefusal, endMessage } from "./overlays.js";
 import { paceTexts, passagesText } from "./passages.js";
 import { language, say } from "./text.js";
 
@@ -22,7 +22,7 @@ export const SPAN = ["start", "stop"];
 
 /** Say that a file was opened, for as long as it takes to read. unread: what of it the page leaves out; notes: what else it did not take over */
 export function announceOpened(name, unread, notes = []) {
-  announce(() => [say("opened", { name }), ...(unread.length ? [say("openedWhole", { names: unread.join(say("listed")) })] : []), ...notes].join(" "));
+  announce(() => [say("opened", { name }), ...(unread.length ? [say("openedWhole", { names: unread.join(say("listed")) })] : []), ...notes].join(" "), false, true);
 }
 
 export class Files {
@@ -71,16 +71,16 @@ export class Files {
     try {
       if (/\.(csv|tsv|xlsx?|ods)$/i.test(file.name)) {
         const { text: csv, notes } = await tableOfFile(file, this.service);
-        if (csv === null) return announce(() => notes.join(" "), true);
+        if (csv === null) return announce(() => notes.join(" "), true, true);
         this.steps.change({ csv });
         return announceOpened(file.name, [], notes);
       }
-      announce(() => say("opening", { name: file.name }));
+      announce(() => say("opening", { name: file.name }), false, true);
       const content = (await ownDance(file)) ?? (await this.#places(file));
       if (content?.dances) await this.several(content, file.name);
       else if (content) this.#take(content, file.name);
     } catch (error) {
-      if (!(error instanceof Problem && /\.dxf$/i.test(file.name) && (await this.#offerParts(file, error.problem)))) announceRefusal(error);
+      if (!(error instanceof Problem && /\.dxf$/i.test(file.name) && (await this.#offerParts(file, error.problem)))) announceRefusal(error, true);
     }
   }
 
@@ -88,9 +88,9 @@ export class Files {
   async #offerParts(file, problem) {
     const { layers } = await this.service.ask("places", "places", { query: { only_layers: true }, file, headers: bearer() }).catch(() => ({ layers: null }));
     if (!layers?.length) return false;
-    announce(() => "", true);
+    endMessage();
     chooseParts(layers, problem, async (part) => {
-      announce(() => say("opening", { name: file.name }));
+      announce(() => say("opening", { name: file.name }), false, true);
       const content = await this.#places(file, part);
       this.#take(content, file.name);
     });

@@ -11,7 +11,7 @@ import { $, $$, onClick } from "./elements.js";
 import { CONTACT, FIELDS, strayOf } from "./fields.js";
 import { Graphs } from "./graphs.js";
 import { addLook } from "./look.js";
-import { announce, announceAgain, lost, markContact, placeInset, showPrinted, tell } from "./overlays.js";
+import { announce, announceAgain, endMessage, lost, markContact, placeInset, showPrinted, tell } from "./overlays.js";
 import { fixed, formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
 import { timeOfDay } from "./passages.js";
@@ -19,7 +19,6 @@ import { OF_FILES, Parts, whenReached } from "./parts.js";
 import { pending } from "./pending.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
-import { Sharing } from "./sharing.js";
 import { EXTRAS, State } from "./state.js";
 import { Table } from "./table.js";
 import { handleName, language, learnProofs, learnRefusals, say, setLanguage, writeTexts } from "./text.js";
@@ -83,10 +82,9 @@ const pace = new Pace($("[data-field=head_speed]"), state);
 const table = new Table($("#rows"), { choose, chosen: (handle) => state.set({ handle }) });
 const graphs = new Graphs(state, questions, (time) => player.seek(time));
 const doors = new Doors(state, parts);
-new Sharing(state, parts);
 addLook();
-/** What belongs to a drawn dance, what stands below the dance, a carrier's view, and several dragons; null until they have loaded. @type {any} */
-let [route, below, carrier, dragons] = [null, null, null, null];
+/** What belongs to a drawn dance, what stands below the dance, a carrier's view, several dragons, and sharing; null until they have loaded. @type {any} */
+let [route, below, carrier, dragons, sharing] = [null, null, null, null, null];
 /** Proofs have their words in Chinese too. */
 let hasProofs = false;
 /** Language of the first view. */
@@ -385,6 +383,12 @@ async function openCarrier() {
   carrier.show();
 }
 
+async function openSharing() {
+  const { Sharing } = await parts.load("sharing");
+  sharing ??= new Sharing(state, parts);
+  sharing.open();
+}
+
 /** The list of several dragons. */
 async function openDragons() {
   const { Dragons } = await parts.load("dragons");
@@ -422,6 +426,7 @@ async function showSection(name) {
 
 function listen() {
   state.listen(showState);
+  for (const button of $$("[data-share]")) button.addEventListener("click", openSharing);
   onClick("#lost button", () => service.retry());
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
   for (const button of $$("[data-path]")) button.addEventListener("click", () => (button.dataset.path === "route" ? openRoute().then((one) => one.choose()) : state.choosePath(button.dataset.path)));
@@ -440,6 +445,7 @@ function listen() {
   whenReached(["#people", "#keep", "#sweeps", "#grade"], openBelow);
   whenReached(["#stage"], openRoute, OF_FILES);
   onClick("#several", () => openDragons().then((one) => one.add()));
+  addEventListener("keydown", ({ key }) => key === "Escape" && endMessage());
   // A tap on a number chooses all of it, so that typing replaces it; later than the tap, which sets the cursor.
   const chooseNumber = (target) => /decimal|numeric/.test(target.inputMode) && setTimeout(() => document.activeElement === target && target.select());
   addEventListener("focusin", ({ target }) => chooseNumber(target));

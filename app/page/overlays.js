@@ -23,15 +23,21 @@ export function lost(seconds) {
   $("#lost span").textContent = say(seconds ? "lost" : "trying", { seconds });
 }
 
-/** Show a message; it disappears by itself, or on a click. words(): its text; stays: only the next message replaces it */
-export function announce(words, stays = false) {
+/**
+ * Show a message; it disappears by itself, on a click, or by Escape. words(): its text; stays: only the next message replaces it;
+ * flows: it stands below the picture, where it covers nothing, because it takes long to read
+ */
+export function announce(words, stays = false, flows = false) {
   const box = $("#status");
+  if (flows) $("#stage").after(box);
+  else if (box.parentElement !== document.body) document.body.append(box);
   message = words;
-  const end = () => announce(() => "", true);
-  Object.assign(box, { textContent: words(), onclick: end });
+  Object.assign(box, { textContent: words(), onclick: endMessage });
   clearTimeout(timer);
-  if (!stays) timer = setTimeout(end, Math.max(VISIBLE_FOR, LETTER * box.textContent.length));
+  if (!stays) timer = setTimeout(endMessage, Math.max(VISIBLE_FOR, LETTER * box.textContent.length));
 }
+
+export const endMessage = () => announce(() => "", true);
 
 let hearing = 0;
 /** Tell an answer to those who listen, once nothing has changed for a while; the last one of several counts. box: of the answer */
@@ -50,9 +56,9 @@ export async function copy(text) {
   announce(() => say(copied ? "copied" : "copyFailed"));
 }
 
-/** Show the refusal of a question that a person has asked, if it was refused. throws: any other error */
-export function announceRefusal(error) {
-  if (error instanceof Problem) announce(() => refusalWords(error.problem).textContent);
+/** Show the refusal of a question that a person has asked, if it was refused. flows: see announce(); throws: any other error */
+export function announceRefusal(error, flows = false) {
+  if (error instanceof Problem) announce(() => refusalWords(error.problem).textContent, false, flows);
   else if (!(error instanceof Superseded)) throw error;
 }
 

@@ -1,6 +1,6 @@
 /** Sharing what is shown: its address to select, to copy and for the share sheet of the system, and as a QR code. */
 
-import { $$, make, textButton } from "./elements.js";
+import { make, textButton } from "./elements.js";
 import { copy } from "./overlays.js";
 import { say, writeTexts } from "./text.js";
 
@@ -20,23 +20,27 @@ export class Sharing {
     this.address = make("input", { id: "address", readOnly: true, "data-label": "address", onfocus: () => this.address.select() });
     this.code = make("canvas", { id: "qr", role: "img", "data-label": "qr" });
     this.help = make("p", { id: "sharing-help", className: "hint" });
-    const copied = textButton("copyAddress", () => copy(this.address.value), { id: "copy-address", className: "main" });
+    this.copied = textButton("copyAddress", () => copy(this.address.value), { id: "copy-address", className: "main" });
     const sheet = () => navigator.share({ title: document.title, url: this.address.value }).catch(() => {});
     const close = textButton("close", () => box.hidePopover());
-    const buttons = [copied, textButton("shareSheet", sheet, { id: "share-sheet", hidden: !navigator.share }), close];
-    box.append(make("h2", { id: "sharing-title", "data-text": "share" }), this.address, this.code, this.help, make("p", { className: "buttons" }, ...buttons));
+    this.sheet = textButton("shareSheet", sheet, { id: "share-sheet" });
+    box.append(make("h2", { id: "sharing-title", "data-text": "share" }), this.address, this.code, this.help, make("p", { className: "buttons" }, this.copied, this.sheet, close));
     document.body.append(box);
     this.box = box;
-    for (const one of $$("[data-share]")) one.addEventListener("click", () => this.#open());
   }
 
-  #open() {
+  open() {
     this.state.write();
     this.address.value = location.href;
+    const { fits } = this.state;
     this.code.hidden = true;
-    this.help.textContent = this.state.fits ? "" : say("tooLong");
+    for (const part of [this.address, this.copied]) part.hidden = !fits;
+    this.sheet.hidden = !fits || !navigator.share;
+    this.help.textContent = fits ? "" : say("tooLong");
     writeTexts();
     this.box.showPopover();
+    // An address without the drawing would show something else.
+    if (!fits) return;
     this.address.focus();
     this.parts.load("qr").then(({ qrCode }) => this.#draw(qrCode(location.href)));
   }
@@ -44,7 +48,7 @@ export class Sharing {
   /** rows: of the code; null for an address too long for one */
   #draw(rows) {
     this.code.hidden = !rows;
-    if (this.state.fits) this.help.textContent = say(rows ? "sharingHelp" : "sharingLong");
+    this.help.textContent = say(rows ? "sharingHelp" : "sharingLong");
     if (!rows) return;
     const size = (rows.length + 2 * QUIET) * MODULE;
     const canvas = Object.assign(this.code, { width: size, height: size });

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.depth import DEEP
-from tests.support.person import PHONE
+from tests.support.person import COVERED, PHONE
 
 thorough = pytest.mark.thorough
 FINGER = 44  # [px]: the least width and height of what a finger should hit
@@ -133,12 +133,15 @@ def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(ope
         person.at(f"[data-section={section}]").tap()
         top = person.at(f"#{section}").evaluate("one => one.getBoundingClientRect().top")
         assert -1 <= top < 744, section
-    # A message covers neither the tabs nor the tools.
+    # The message of an import covers no control, and Escape ends it.
     person.opens("?path=route&route=0,0_60,0&benches=5").presses("#edit")
     person.takes({"name": "x.csv", "mimeType": "text/csv", "buffer": b"3.41,0.3,0.275\n2.2,0.3,0.275\n"})
-    message, tools, tabs = (person.box(place) for place in ("#status:not(:empty)", "#tools", "#tabs"))
-    assert message["y"] > 0.5 * 844
-    assert message["y"] + message["height"] <= min(tools["y"], tabs["y"])
+    person.sees({"#status": "Opened x.csv"}).settles()
+    assert person.ask(COVERED) == []
+    person.presses("#edit").settles()
+    assert person.ask(COVERED) == []
+    person.strikes("Escape").reads({"#status": ""})
+    expect(person.at("#status")).to_be_hidden()
 
 
 @thorough

@@ -8,7 +8,7 @@ import pytest
 
 from tests.support import polite
 from tests.support.floor_plan import EDGES, WALLS, floor_plan
-from tests.support.person import PHONE, alike
+from tests.support.person import COVERED, PHONE, alike
 
 thorough = pytest.mark.thorough
 ROOT = Path(__file__).parents[2]
@@ -275,6 +275,7 @@ def _files_dropped_on_the_picture_are_opened_and_maps_are_kept(person):
     before = person.address()
     _drops(person, "village_square.toml")
     now = person.settles().address()
+    assert person.ask(COVERED) == []
     assert person.strikes("ControlOrMeta+z").settles().address() == before
     assert person.presses("#redo").settles().address() == now
     _drops(person, "village_square.geojson")

@@ -17,6 +17,12 @@ IS_SIZED = """() => {
   const { height, clientHeight } = document.querySelector("#canvas");
   return Math.abs(height - clientHeight * devicePixelRatio) < 1;
 }"""
+# Controls that lie below the message.
+COVERED = """() => [...document.querySelectorAll("button, input, select, a, summary")].filter((one) => {
+  const { left, right, top, bottom } = one.getBoundingClientRect();
+  const above = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
+  return one.checkVisibility({ visibilityProperty: true }) && above?.closest("#status");
+}).map((one) => one.outerHTML)"""
 # Share of pixels in which two equal pictures may differ [1]: Chromium does not always smooth an edge in the same way.
 PIXELS_UNLIKE = 1e-3
 COLOUR_WITHIN = 0.02  # difference of a pixel from a colour of the page, in each of red, green and blue [1]
