@@ -110,6 +110,15 @@ def test_each_part_is_what_its_own_search_says():
     assert report.sharpest_bend == sharpest_bend(dance, **span)
 
 
+def test_a_dance_is_judged_up_to_the_touch():
+    report, contact = check(DEFAULT, venue=SQUARE, speed_limit=2.0), first_contact(DEFAULT)
+    (failure,) = report.failures
+    assert (report.stop, failure.time, failure.benches) == (contact.time, contact.time, contact.benches)
+    assert report.least_clearance.distance == 0.0
+    assert report.sharpest_bend.time <= report.stop
+    assert 0.0 < check(TIGHT).stop < 0.01
+
+
 @pytest.mark.parametrize("benches", [1, 2])
 def test_so_few_benches_cannot_touch(benches):
     report = check(Dance(Dragon(benches), TURN), start=-10.0, stop=20.0, venue=SQUARE)

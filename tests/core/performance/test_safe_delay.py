@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from core import (
+    Budget,
     Dance,
     Dragon,
     InvalidValue,
@@ -14,6 +15,7 @@ from core import (
     Part,
     Performance,
     Spiral,
+    TooMuchWork,
     first_encounter,
     safe_delay,
 )
@@ -118,6 +120,12 @@ def test_dragons_that_stand_on_the_same_ground_meet_at_all_delays_of_a_fortnight
     assert delays.marches < 60
     for delay in (-1e6, -50.0, 50.0, 1e6):
         assert first_encounter(at_delay(crossing, 1, delay)).outcome is not Outcome.CLEAR
+
+
+def test_following_two_benches_through_the_delays_is_work():
+    against = on_lanes(((0.0, 0.0), (1000.0, 0.0)), ((1000.0, 0.0), (0.0, 0.0)), benches=3)
+    with pytest.raises(TooMuchWork):
+        safe_delay(against, 1, -900.0, 900.0, budget=Budget(1e6))
 
 
 def test_a_stray_makes_the_safe_intervals_shorter():
