@@ -47,9 +47,9 @@ def first_encounter(
         come within the margin, because the grounds that they may cover do (core/shapes/reach.py)
     start, stop: interval of the search [s]; None for the beginning and the end of the performance
     returns: see FirstEncounter. The bracket [proven clear up to, within the margin at] is at most 1e-9 s wide. It is
-        wider where two benches meet so slowly that rounding hides the gap: below about 1 mm/s, as in a slow passage
-        (1e-9 to 1e-6 s there), within about 1e-5 m of a graze, on paths or over times of many kilometres or days, and
-        with a stray. Both ends hold in spite of rounding. The answer is
+        wider where two benches meet so slowly that rounding hides the gap, as in a slow passage: below about 2 mm/s
+        within 50 m of the origin and 6 mm/s 300 m away (1e-9 to 1e-6 s there); within about 1e-5 m of a graze, on paths
+        or over times of many kilometres or days, and with a stray. Both ends hold in spite of rounding. The answer is
         undecided if rounding hides it: for benches whose clearance equals the margin to about 1e-11 m at the start or
         in a graze, or for a while; `overlapping` then names a pair that is certainly within the margin at the end of
         the bracket, if any

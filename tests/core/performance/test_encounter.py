@@ -57,19 +57,22 @@ def test_the_reference_is_met(name):
     assert sum(map(len, check.judged)) == sum(one["dragon"]["benches"] for one in case["dances"])
 
 
-def test_benches_that_meet_slowly_have_a_bracket_as_narrow_as_rounding_lets_it_be():
-    angle, middle = 0.0457, np.array([22.6, 0.0])
+@pytest.mark.parametrize(
+    ("speed", "away", "width"), [(0.001, 0.0, 4.1e-9), (0.0025, 0.0, NARROW), (0.0065, 300.0, NARROW)]
+)
+def test_benches_that_meet_slowly_have_a_bracket_as_narrow_as_rounding_lets_it_be(speed, away, width):
+    angle, middle = 0.0457, np.array([22.6 + away, 0.0])
     way = 20.0 * np.array([math.cos(angle), math.sin(angle)])
-    lanes = ((0.0, 0.0), (40.0, 0.0)), (tuple(middle - way), tuple(middle + way))
+    lanes = ((away, 0.0), (40.0 + away, 0.0)), (tuple(middle - way), tuple(middle + way))
     slow = (
-        [Passage(1.0, until_s=17.34), Passage(0.001, until_s=19.34)],
-        [Passage(1.0, until_s=19.0), Passage(0.001, until_s=21.0)],
+        [Passage(1.0, until_s=17.34), Passage(speed, until_s=19.34)],
+        [Passage(1.0, until_s=19.0), Passage(speed, until_s=21.0)],
     )
     first, second = (
         Dance(Dragon(3), Route([Waypoints(points)]), passages=own) for points, own in zip(lanes, slow, strict=True)
     )
     low, high = first_encounter(Performance([Part(first), Part(second, 2.535)])).time_bracket
-    assert high - low < 4.1e-9
+    assert high - low < width
 
 
 @pytest.mark.parametrize("offset", [-1e-6, 1e-6])
