@@ -178,6 +178,13 @@ def shares_without_a_clipboard(person):
     assert read_qr(person.at("#qr").evaluate(MODULES)) == address
     assert person.findings("#sharing") == []
     person.strikes("Escape").sees({"#sharing": False})
+    # An address without the drawing is not offered.
+    points = [[k / 7, 1 / 7] for k in range(950)]
+    text = json.dumps({"path": {"kind": "waypoints", "points": points}, "dragon": {"benches": 2}})
+    person.takes({"name": "long.json", "mimeType": "application/json", "buffer": text.encode()})
+    person.sees({"#status": "Opened long.json"}).settles().presses("#share")
+    person.sees({"#sharing-help": "save it as a file", "#address, #qr, #copy-address": False}).strikes("Escape")
+    person.presses("#undo").settles()
 
 
 @thorough
