@@ -3,7 +3,7 @@
 import { Problem, Superseded } from "./api.js";
 import { SPAN, announceOpened } from "./files.js";
 import { benchesOf, numbersOfListed } from "./benches.js";
-import { EMPTY, drawingOf, fromAddress, keptVenueOf, venueOf } from "./drawing.js";
+import { EMPTY, drawingOf, fromAddress, isArea, isWhole, keptVenueOf, venueOf } from "./drawing.js";
 import { $, button, download, hide, make, numberIn, textButton } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { stepsOf } from "./history.js";
@@ -14,6 +14,7 @@ import { beatsOf, passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
 import { isPresetVenue } from "./presets.js";
 import { isFurther, queued } from "./queue.js";
+import { isInside, rectangle } from "./square.js";
 import { benchName, language, learn, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
 import { DRAGONS } from "./words/dragons.js";
@@ -35,6 +36,13 @@ const DEGREE = Math.PI / 180;
 const WAYS = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 };
 /** @returns {any[]} */
 const partsOf = (row) => [...row.querySelectorAll("button, input")].filter((one) => !one.disabled);
+
+/** True if the square of a drawing has all points of the paths of dragons inside, or is none. */
+function holds({ things }, records) {
+  const square = things.find((thing) => isArea(thing) && isWhole(thing));
+  const pointsOf = ({ route, pitch, start_turns: turns }) => (route ? fromAddress(new URLSearchParams({ route })).points : rectangle(2 * pitch * turns, 2 * pitch * turns, [0, 0]));
+  return !square || records.flatMap(pointsOf).every((point) => isInside(square.points, point));
+}
 
 export class Dragons {
   #loads = Symbol("dragons");
@@ -132,10 +140,12 @@ export class Dragons {
 
   begin(name) {
     const records = PRESETS[name];
-    // A person's own square stays.
+    // A person's own square stays if the dance fits into it.
     const drawing = this.state.get("drawing");
-    const values = this.#valuesOf(records[0], isPresetVenue(drawing) ? EMPTY : drawing);
+    const [isOwn, fits] = [!isPresetVenue(drawing), holds(drawing, records)];
+    const values = this.#valuesOf(records[0], isOwn && fits ? drawing : { ...EMPTY, limit: isOwn ? drawing.limit : null });
     this.#take(records, 0, { ...values, time: null, view: null, follow: false });
+    if (isOwn && !fits) announce(() => say("dragonsAlone"), false, true);
   }
 
   /** Open a FILE of several. name: of the file */

@@ -24,6 +24,13 @@ export function extent(points) {
 /** Twice the area inside of a ring, negative if it goes clockwise [m2]. */
 const twiceArea = (ring) => ring.reduce((sum, [x, y], k) => sum + ring.at(k - 1)[0] * y - x * ring.at(k - 1)[1], 0);
 
+/** True for a point inside of a ring: a ray to the right crosses its sides an odd number of times. */
+export const isInside = (ring, [x, y]) =>
+  ring.filter(([bx, by], k) => {
+    const [ax, ay] = ring.at(k - 1);
+    return ay > y !== by > y && x < ax + ((y - ay) * (bx - ax)) / (by - ay);
+  }).length % 2 === 1;
+
 /** The nearest place on the border of a ring: {point, heading: straight into the square [rad]}. */
 export function onBorder(ring, [x, y]) {
   const left = Math.sign(twiceArea(ring)) || 1;

@@ -68,6 +68,13 @@ def test_dragons_to_begin_with_leave_what_a_person_has_drawn_and_who_waits_is_le
     # One undo of the list of several, whatever the browser's buttons took back before.
     person.presses("#undo").sees({"#dragons li": 0, "#undo": True}).settles()
     assert {name: person.address().get(name) for name in OWN} == OWN
+    # A square too small for an example is put aside, which the page says, and is taken back.
+    small = {"things": "a.yard..-20,-15_20,-15_20,15_-20,15", "route": "*-19,0_19,0"}
+    person.opens(f"?door=all&lang=en&path=route&benches=3&begin=8&{urlencode(small)}").presses("#several").settles()
+    now = person.presses("[data-dragons=streets]").settles().address()
+    assert "things" not in now
+    person.sees({"#status": "undo brings your square back"})
+    assert person.presses("#undo").settles().address()["things"] == small["things"]
     begun(person.opens(BARE), "streets").sees({"#judgement": "Cannot be danced"})
     report = polite.answer(server, "check", file_of(person) | {"details": False})
     assert (report["verdict"], len(report["failures"])) == ("fails", person.counts(".failures li"))

@@ -17,6 +17,7 @@ export const DRAGONS = {
   dragons_spiral: ["two in one spiral", "两龙同盘"],
   dragons_streets: ["streets that cross", "十字街头"],
   dragons_parade: ["a parade of three", "三龙巡游"],
+  dragonsAlone: ["This example does not fit into your square and stands without it; undo brings your square back.", "您的广场放不下这个示例，示例不含广场；撤销即可恢复您的广场。"],
   dragon_1: ["red", "红龙"],
   dragon_2: ["blue", "蓝龙"],
   dragon_3: ["green", "绿龙"],
