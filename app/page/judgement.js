@@ -40,13 +40,16 @@ export function radiiOf({ radius, least_radius: least }) {
   return { radius: radius.toFixed(digits), least: least.toFixed(digits) };
 }
 
+/** A time with a minus sign, not a hyphen. */
+const signed = (time) => time.toFixed(2).replace("-", "−");
+
 /** Sentences of the way that the head walks, and of the part of the path on which the dragon stands before. */
 function wayWords({ begin, end, numbers, extras, clock }, { length, s }, time) {
   const [first, last] = [begin, end].map((one) => wayAt(one, numbers.head_speed, extras.passages));
   const stands = first - s[0];
-  const span = { way: (last - first).toFixed(1), time, from: begin.toFixed(2), to: end.toFixed(2) };
-  const way = say(Number(span.from) && !clock ? "pathSpan" : "pathLength", span);
-  return [stands < STANDS ? way : `${way} ${say("pathStands", { stands: stands.toFixed(1), length: length.toFixed(1) })}`];
+  const span = { way: (last - first).toFixed(1), time, from: signed(begin), to: signed(end) };
+  const way = say(Number(begin.toFixed(2)) && !clock ? "pathSpan" : "pathLength", span);
+  return [stands < STANDS ? way : `${way}${say("betweenSentences")}${say("pathStands", { stands: stands.toFixed(1), length: length.toFixed(1) })}`];
 }
 
 export class Judgement {

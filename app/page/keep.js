@@ -219,6 +219,7 @@ export class Keep {
 
   async #save(item, form) {
     if (!this.questions.dance || $(`#${item.key}-${form}`).classList.contains("going")) return;
+    if (form === "KML" && this.questions.dance.kind === "route" && !this.questions.state.get("drawing").origin) return this.#askPlace();
     if (item.ask === "kit" && this.questions.dance.extras.csv) return announce(() => say("kitUniform"));
     try {
       if (item.job) await this.#begin(item, form);
@@ -238,6 +239,14 @@ export class Keep {
     } finally {
       if (!item.job) this.#mark(item, form, false);
     }
+  }
+
+  /** KML is in degrees: say where to type the place on earth of a drawn dance, and lead there. */
+  #askPlace() {
+    announce(() => say("keepPlace"), false, true);
+    const field = $("#route [data-label=latitude]");
+    if (!field.checkVisibility()) $("#more").click();
+    field.focus();
   }
 
   /** Mark a button while its file is made. */

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import openpyxl
 import pytest
+from playwright.sync_api import expect
 
 from tests.support import polite
 from tests.support.floor_plan import EDGES, WALLS, floor_plan
@@ -282,7 +283,9 @@ def _files_dropped_on_the_picture_are_opened_and_maps_are_kept(person):
     body = file_of(person.sees({"#things li >> nth=4": True, "#points summary": "12", **YES}))
     assert (body["margin"], body["path"]["start"]) == (0.5, 45.0)
     assert b'"stage"' in person.reaches().saves("#keepMap-GeoJSON")
-    # KML needs the place on earth, which the form takes; it is in the address.
+    # KML needs the place on earth, which the form takes, and the page leads there; it is in the address.
     latitude, longitude = (f"#route [data-label={name}]" for name in ("latitude", "longitude"))
+    person.presses("#keepMap-KML").sees({"#status": "KML is in degrees"})
+    expect(person.at(latitude)).to_be_focused()
     person.types({latitude: "29,11", longitude: "119.64"}, "Tab").arrives("**origin=119.64,29.11*")
     assert b">119.64" in person.saves("#keepMap-KML")

@@ -165,7 +165,7 @@ export const ANSWERS = {
   turnTime: ["Time through this turn", "通过此调头的时间"],
   turnTimeIs: ["for {length} m, with the head at {speed} m/s, the most at which no handle exceeds {limit} m/s.", "行程 {length} m，龙头速度 {speed} m/s：没有把手超过 {limit} m/s 时的最大值。"],
   quickestIs: ["It enters {entry} m from the centre and leaves {exit} m from it. A shorter turn bends more, so the head must go slower.", "在距中心 {entry} m 处进入、{exit} m 处离开。更短的调头弯得更急，龙头只能更慢。"],
-  quickestKnown: ["With everybody in their place nothing touches in it, and no handle exceeds the limit: both are proven. That no turn is quicker is not: entries and exits {step} cm apart were tried, and the best ones refined.", "已证明：每人都在原位时其中无碰撞，且没有把手超速。未证明没有更快的：以 {step} cm 的间隔试取起点与终点，再细化其中最快的。"],
+  quickestKnown: ["With everybody in their place nothing touches in it, and no handle exceeds the limit: both are proven. That no turn is quicker is not: entries and exits {step} cm apart were tried, and the best ones refined.", "已证明：每人都在原位时其中无碰撞，且没有把手超速。未证明没有更快的：以 {step} cm 的间隔试取起点与终点，再进一步精确求解其中最快的。"],
   turnTimeKnown: ["The length of both arcs over the maximum speed of the head, which is proven.", "两段圆弧的总长除以龙头最大速度（已证明）。"],
   useQuickest: ["Dance the quickest turn", "采用最快调头"],
   headSpeed: ["Maximum head speed", "龙头最大速度"],

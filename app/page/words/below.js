@@ -44,6 +44,7 @@ export const BELOW = {
   crewY: ["and y [m]", "换人地点 y [m]"],
   crewAt: ["Who is where at [s], or 19:45", "查看时刻 [s] 或 19:45"],
   crewAsk: ["Plan the crew", "安排人员"],
+  keepPlace: ["KML is in degrees: type the latitude and longitude of x = y = 0, here in the form of the path, and save again.", "KML 以度为单位：请在路线表单的此处填写原点的纬度和经度，然后再次保存。"],
   crewIs: ["{people} people, {spares} of them spare; {changes} changes; nobody carries longer than {longest} without a break.", "共 {people} 人，其中替补 {spares} 人；换人 {changes} 次；无人连续抬超过 {longest}。"],
   crewLack: ["Too few spares: not everybody can go out at every change. {enough} spares are enough.", "替补不够：不能每次都全员换下，需要 {enough} 名替补。"],
   crewNever: ["{count} of {benches} benches never change.", "{benches} 节板凳中有 {count} 节始终无人换下。"],

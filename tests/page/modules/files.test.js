@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import { mock, test } from "node:test";
 
-const box = { textContent: "" };
-globalThis.document = { documentElement: { dataset: {} }, querySelector: () => box, querySelectorAll: () => [] };
+const box = { textContent: "", after() {} };
+globalThis.document = { body: { append() {} }, documentElement: { dataset: {} }, querySelector: () => box, querySelectorAll: () => [] };
 const { announceOpened } = await import("../../../app/page/files.js");
 const { learn } = await import("../../../app/page/text.js");
 learn((await import("../../../app/page/words/route.js")).ROUTE);
