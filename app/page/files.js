@@ -22,7 +22,7 @@ export const SPAN = ["start", "stop"];
 
 /** Say that a file was opened, for as long as it takes to read. unread: what of it the page leaves out; notes: what else it did not take over */
 export function announceOpened(name, unread, notes = []) {
-  announce(() => [say("opened", { name }), ...(unread.length ? [say("openedWhole", { names: unread.join(say("listed")) })] : []), ...notes].join(say("betweenSentences")), false, true);
+  announce(() => [say("opened", { name }), ...(unread.length ? [say("openedWhole", { names: unread.join(say("listed")) })] : []), ...notes].reduce((first, second) => say("sentences", { first, second })), false, true);
 }
 
 export class Files {

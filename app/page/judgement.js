@@ -49,7 +49,7 @@ function wayWords({ begin, end, numbers, extras, clock }, { length, s }, time) {
   const stands = first - s[0];
   const span = { way: (last - first).toFixed(1), time, from: signed(begin), to: signed(end) };
   const way = say(Number(begin.toFixed(2)) && !clock ? "pathSpan" : "pathLength", span);
-  return [stands < STANDS ? way : `${way}${say("betweenSentences")}${say("pathStands", { stands: stands.toFixed(1), length: length.toFixed(1) })}`];
+  return [stands < STANDS ? way : say("sentences", { first: way, second: say("pathStands", { stands: stands.toFixed(1), length: length.toFixed(1) }) })];
 }
 
 export class Judgement {
