@@ -233,7 +233,7 @@ SAID = {
     "other instant": ("The positions are those at 409.400000 s.", "The speeds are those at 409.400 s."),
     "no overhang": ("the overhang of 0.275 m at both ends was forgotten.",) * 2,
     "rounded": (None, None),
-    "negated": ("turned about the centre by -180°", "Every speed has the wrong sign"),
+    "negated": ("turned about the centre by +180°", "Every speed has the wrong sign"),
 }
 OFTEN_BESIDE = {("right", one) for one in PARTS} | {("rows + 1", "rows + 1"), ("rows + 1", "rounded")}
 
