@@ -2,7 +2,7 @@
 # what the service needs, `make test` also what the tests need.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup test-setup serve test test-all machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz mutants bench ccd docs examples figures dist wheels install-time lock versions clean
+.PHONY: help setup test-setup serve test test-all machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz mutants record bench ccd docs examples figures dist wheels install-time lock versions clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -37,6 +37,7 @@ help:
 	@echo 'make fuzz     10,000 requests from the service description, 12,000 odd ones, 5,000 files (CASES=, MUTANTS=, SEED=, FILES=)'
 	@echo 'make mutants  80 random faults put into the program, one at a time: how many do the tests notice? Some hours, continued'
 	@echo '              after an interruption'
+	@echo 'make record   960 answers of calls, commands and files into FOLDER=, compared with those of BEFORE= (5 minutes)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make ccd      100,000 queries of continuous collision detection to every engine, into docs/dragon-ccd.md: some'
 	@echo '              hours, continued after an interruption (QUERIES=, SEED=)'
@@ -146,6 +147,9 @@ soak: test-setup
 
 fuzz: test-setup
 	@$(BIN)/python -m tests.campaigns.fuzz $(or $(CASES),10000) $(or $(MUTANTS),12000) $(or $(SEED),0) $(or $(FILES),5000)
+
+record: test-setup
+	@$(BIN)/python -m tests.campaigns.recording $(or $(FOLDER),build/recording) $(BEFORE)
 
 mutants: test-setup $(VENV)/mutants
 	@$(BIN)/python -m tests.campaigns.mutants try

@@ -19,6 +19,7 @@ from app.settings import ROOT_PATH, Settings
 
 # Addresses of this machine, from which a proxy on it comes.
 HERE = "127.0.0.1,::1"
+# IPv4 on a socket of IPv6, which FORWARDED_ALLOW_IPS names as IPv4.
 MAPPED = "::ffff:"
 
 
@@ -36,9 +37,7 @@ class Proxies(ProxyHeadersMiddleware):
         if scope["type"] == "http":
             root = scope.get("root_path") or self.root
             client = scope.get("client")
-            if client and client[0].startswith(
-                MAPPED
-            ):  # IPv4 on a socket of IPv6: FORWARDED_ALLOW_IPS names it as IPv4
+            if client and client[0].startswith(MAPPED):
                 client = (client[0].removeprefix(MAPPED), client[1])
             if client and client[0] in self.trusted_hosts:
                 prefix = Headers(scope=scope).get("x-forwarded-prefix", "").rstrip("/")

@@ -1,4 +1,4 @@
-"""What the program answers: 600 requests over all calls, commands, tables, files and refusals, kept in a folder.
+"""What the program answers: 960 requests over all calls, commands, tables, files and refusals, kept in a folder.
 
 python -m tests.campaigns.recording FOLDER [BEFORE] writes them into FOLDER and compares them with those of BEFORE:
 every number, name and code must be equal; sentences that differ are listed, to be read.
