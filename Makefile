@@ -37,7 +37,7 @@ help:
 	@echo 'make fuzz     10,000 requests from the service description, 12,000 odd ones, 5,000 files (CASES=, MUTANTS=, SEED=, FILES=)'
 	@echo 'make mutants  80 random faults put into the program, one at a time: how many do the tests notice? Some hours, continued'
 	@echo '              after an interruption'
-	@echo 'make record   960 answers of calls, commands and files into FOLDER=, compared with those of BEFORE= (5 minutes)'
+	@echo 'make record   960 answers of calls, commands and files into FOLDER=, compared with those of BEFORE= (2 minutes)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make ccd      100,000 queries of continuous collision detection to every engine, into docs/dragon-ccd.md: some'
 	@echo '              hours, continued after an interruption (QUERIES=, SEED=)'
