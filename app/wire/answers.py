@@ -5,6 +5,7 @@ A trajectory has 200,000 numbers, so orjson writes tables as whole numpy columns
 
 from __future__ import annotations
 
+import threading
 from dataclasses import dataclass
 from typing import Any, Literal, Self
 
@@ -144,6 +145,10 @@ class EncounterCheck(Answer):
         return cls.from_result(check, together=[DragonPair.of(pair) for pair in check.together])
 
 
+# orjson holds the interpreter while it writes, 40 ms for the largest answer: several in turn let others in between.
+_WRITING = threading.Lock()
+
+
 @dataclass(frozen=True, slots=True)
 class Columns:
     """Columns as numpy arrays; other values are written unchanged.
@@ -156,7 +161,8 @@ class Columns:
 
     def to_json(self) -> bytes:
         ready = {name: self._ready(name, column) for name, column in self.columns.items()}
-        return orjson.dumps(ready, option=orjson.OPT_SERIALIZE_NUMPY)
+        with _WRITING:
+            return orjson.dumps(ready, option=orjson.OPT_SERIALIZE_NUMPY)
 
     def _ready(self, name: str, column: Any) -> Any:
         if isinstance(column, list):

@@ -1,7 +1,7 @@
 """Odd requests: valid and invalid ones made from the description of every call, and examples with odd values.
 
 `make fuzz`: python -m tests.campaigns.fuzz CASES MUTANTS [SEED [FILES]] asks a service this many of each, sends it
-damaged files (5,000 by default), and prints its answers.
+damaged files (5,000 by default), and prints its answers; at last how long a quiet client waits beside ten busy ones.
 """
 
 import copy
@@ -19,8 +19,12 @@ from hypothesis import HealthCheck, given, settings
 from app.service.examples import EXAMPLES
 from app.wire.problem import PROBLEM_TYPE
 from tests.campaigns import hunting
+from tests.support.attacks import ten_at_once, watching
+from tests.support.largest import LARGEST
 from tests.support.serving import serving
 
+# Longest wait of a quiet client beside busy ones [s].
+QUICK = 0.25
 # Nothing takes longer than the deadline of an answer and a busy machine need [s].
 SLOWEST = 20.0
 ODD = (
@@ -122,6 +126,18 @@ def ask_described(url, count):
     return tally
 
 
+def beside_ten(folder):
+    """Longest wait of a quiet client for /healthz, beside ten others with the largest input of each call [s]."""
+    waits = {}
+    with serving(folder / "ten.log") as service:
+        for name in LARGEST:
+            with watching(service.url, ("/healthz",), service.process.pid) as watch:
+                ten_at_once(service.url, name)
+            assert watch.failures == [], name
+            waits[name] = watch.slowest["/healthz"]
+    return dict(sorted(waits.items(), key=lambda wait: -wait[1]))
+
+
 def main():
     from tests.campaigns.fuzz_files import ask_files, readers_over
 
@@ -132,6 +148,10 @@ def main():
         print(ask_mutants(service.url, mutants, seed), flush=True)
         if cases:
             print(ask_described(service.url, cases))
+    with tempfile.TemporaryDirectory() as folder:
+        waits = beside_ten(Path(folder))
+        print("longest waits for /healthz beside ten of the largest [s]:", waits)
+        print(f"{sum(wait < QUICK for wait in waits.values())} of {len(waits)} below {QUICK} s")
 
 
 if __name__ == "__main__":

@@ -189,17 +189,23 @@ def strange_hosts(url, seconds):
             assert status == http.client.OK or len(answer) < ERROR_BYTES
 
 
+def largest_input(name, client=""):
+    """A call at its largest input, from an address: a function of the service's URL."""
+    call, request = CALLS[name], LARGEST[name]
+    path = call.question.path.replace("{format}", next(iter(call.question.formats or ("",))))
+    if call.method == "GET":
+        return lambda url: ask(url, "GET", f"{path}?{urlencode(request)}", timeout=PATIENCE, client=client)
+    return lambda url: ask(url, "POST", path, json.dumps(request).encode(), timeout=PATIENCE, client=client)
+
+
 def largest_inputs(url, seconds):
     """Each call at its largest input, all at once."""
+    at_once([partial(largest_input(name), url) for name in LARGEST])
 
-    def asks(name, request):
-        call = CALLS[name]
-        path = call.question.path.replace("{format}", next(iter(call.question.formats or ("",))))
-        if call.method == "GET":
-            return partial(ask, url, "GET", f"{path}?{urlencode(request)}", timeout=PATIENCE)
-        return partial(ask, url, "POST", path, json.dumps(request).encode(), timeout=PATIENCE)
 
-    at_once([asks(*row) for row in LARGEST.items()])
+def ten_at_once(url, name):
+    """Ten clients ask for the largest input of a call."""
+    at_once([partial(largest_input(name, f"127.0.0.{10 + k}"), url) for k in range(10)])
 
 
 ATTACKS = {
