@@ -1,8 +1,7 @@
-"""Turns with any entry and exit, dances far in on long spirals, and boxes of turns, against a slow search.
+"""Turns with any entry and exit, and dances far in on long spirals, against a slow search.
 
 `python -m tests.campaigns.hunt_turns SEED SECONDS`. First contacts, least clearances and verdicts are judged as in
-hunt_contacts. Spirals have up to 1,000 turns, and the dance begins where the head has a few left. Of a box of turns
-that share an overlap (core/design/turn_overlap.py), random turns are laid out slowly, and must overlap at some instant.
+hunt_contacts. Spirals have up to 1,000 turns, and the dance begins where the head has a few left.
 """
 
 import math
@@ -10,23 +9,17 @@ from functools import partial
 
 import numpy as np
 
-from core import Dance, Dragon, Spiral, Turn
-from core.design.turn_boxes import turns_in
-from core.design.turn_moves import box_of, least_bend
-from core.design.turn_overlap import OverlapSearch
+from core import Dance, Spiral, Turn
 from tests.campaigns import hunting
 from tests.campaigns.hunt_contacts import GAP, SlowLook, judged, random_dragon, random_margin
-from tests.support.boxes_of_turns import turn_at
 from tests.support.slow_route import SlowRoute
-from tests.support.slow_search import STEP, SlowDance, arc_length
+from tests.support.slow_search import SlowDance, arc_length
 
 # Error of a slow place for each metre of a path, some roundings of a double [1].
 OF_PATH = 3e-15
 # The last part of a way to a fold is left out, in shortest chords [1]. There a handle moves ten times as far as the
 # head, and so it does by an error of the time, which is some 1e6 s.
 BEFORE_FOLD = 0.01
-# Turns of a box that are laid out.
-LAID_OUT = 2
 
 
 def random_turn(rng, dragon):
@@ -67,38 +60,14 @@ def spiral_case(rng):
     return dance, random_margin(rng, dragon.widths.max(), look.least()[0]), start, look.until, look, accuracy
 
 
-def box_fault(rng):
-    """Kind and fault of a random box of turns."""
-    dragon = Dragon(int(rng.integers(20, 40)), float(rng.uniform(2.0, 3.5)), 2.2, float(rng.uniform(0.1, 0.6)), 0.275)
-    pitch, circle, least = float(rng.uniform(1.0, 2.2)), 4.5, least_bend(dragon)
-    growth = pitch / (2.0 * math.pi)
-    entry, leaving = rng.uniform(least, circle, 2)
-    centre = np.array([entry, (leaving - entry) / growth, rng.uniform(-0.4, 0.4)])
-    half = 10.0 ** rng.uniform(-3.0, -1.3, 3)
-    box = box_of(pitch, turns_in(growth, centre[:, None], half[:, None]), 0, centre, half, least)
-    if box is None or not OverlapSearch(dragon, 0.0, 26).exhibited(box).shared:
-        return "without a shared overlap", ""
-    for off in rng.choice([-1.0, 1.0], (LAID_OUT, 3)) * rng.uniform(0.0, 1.0, (LAID_OUT, 3)):
-        turn = turn_at(centre + half * off, pitch, least)
-        if turn is None:
-            continue
-        slow = SlowRoute.of(dragon, turn)
-        times = np.arange(0.0, turn.length + 40.0, STEP * slow.chords.min())
-        gap = float(slow.clearance(times)[0].min())
-        if gap > 0.0:
-            return "with a shared overlap", f"the gap is {gap} in {turn!r} of {dragon!r}, box {centre} +- {half}"
-    return "with a shared overlap", ""
-
-
 def fault(seed, case):
     """The kind of one random answer, and its fault in words ('' for none)."""
-    rng, kinds = hunting.generator(seed, case), ("turn", "long spiral", "box")
-    answers = (lambda: judged(*turn_case(rng)), lambda: judged(*spiral_case(rng)), lambda: box_fault(rng))
-    outcome, wrong = hunting.unless_refused(answers[case % 3])
-    return f"{kinds[case % 3]}: {outcome}", wrong
+    kind, make = [("turn", turn_case), ("long spiral", spiral_case)][case % 2]
+    outcome, wrong = hunting.unless_refused(lambda: judged(*make(hunting.generator(seed, case))))
+    return f"{kind}: {outcome}", wrong
 
 
 hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
-    hunting.main(hunt, "turns, long spirals and boxes")
+    hunting.main(hunt, "turns and long spirals")

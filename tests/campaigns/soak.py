@@ -3,7 +3,6 @@
 `make soak`: python -m tests.campaigns.soak SECONDS FOLDER, which writes soak.csv and soak.png into FOLDER.
 """
 
-import csv
 import multiprocessing
 import sys
 import tempfile
@@ -104,34 +103,9 @@ def all_at_once(url, pid, seconds):
     return rows
 
 
-def draw(rows, picture):
-    """Memory, answers and the slowest answers over time."""
-    from matplotlib.figure import Figure
-
-    seconds, megabytes, answered, busy, _, healthz, collision_time = zip(*rows, strict=True)
-    minutes = [one / 60.0 for one in seconds]
-
-    def rate(counts):
-        return [count / (seconds[1] - seconds[0]) for count in counts]
-
-    panels = (
-        ("memory [MB]", {"": megabytes}),
-        ("answers a second", {"200": rate(answered), "429 or 503 with Retry-After": rate(busy)}),
-        ("slowest answer to\none more client [s]", {"/healthz": healthz, "/collision-time": collision_time}),
-    )
-    figure = Figure((8.0, 6.0), layout="constrained")
-    for axes, (label, curves) in zip(figure.subplots(3, sharex=True), panels, strict=True):
-        for name, values in curves.items():
-            axes.plot(minutes, values, label=name)
-        axes.set(ylabel=label, ylim=(0.0, None))
-        axes.grid(alpha=0.3)
-        if len(curves) > 1:
-            axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False)
-    axes.set_xlabel("minutes of all attacks in turn beside 64 clients")
-    figure.savefig(picture, dpi=120)
-
-
 def soak(seconds, folder):
+    import pandas
+
     folder.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch, serving(Path(scratch) / "log", workers=2) as service:
         time.sleep(START_SECONDS)
@@ -139,11 +113,12 @@ def soak(seconds, folder):
         print(*COLUMNS)
         rows = all_at_once(service.url, service.process.pid, seconds)
         lines = (Path(scratch) / "log").read_text(errors="replace").splitlines()
-    with (folder / "soak.csv").open("w", newline="") as table:
-        csv.writer(table).writerows([COLUMNS, *rows])
-    draw(rows, folder / "soak.png")
-    totals = [sum(column) for column in zip(*rows, strict=True)]
-    print(f"200: {totals[2]:.0f}, 429 or 503: {totals[3]:.0f}, anything else: {totals[4]:.0f}")
+    table = pandas.DataFrame(rows, columns=COLUMNS)
+    table.to_csv(folder / "soak.csv", index=False)
+    panels = [COLUMNS[1:2], COLUMNS[2:4], COLUMNS[5:]]
+    axes = table.drop(columns="other").plot("seconds", subplots=panels, figsize=(8.0, 6.0), grid=True)
+    axes[0].figure.savefig(folder / "soak.png", dpi=120)
+    print(table[["answered", "busy", "other"]].sum().to_string())
     print("tracebacks in the log of the service:", sum(line.startswith("Traceback") for line in lines))
 
 

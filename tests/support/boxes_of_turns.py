@@ -21,14 +21,14 @@ def box_at(entry, leaving, ratio, half):
     return box_of(1.7, turns, 0, centre, half, LEAST), centre
 
 
-def turn_at(point, pitch=1.7, least=LEAST):
+def turn_at(point):
     """The turn at a point of a box that the benches can follow; None if there is none."""
-    entry, leaving = float(point[0]), float(point[0] + pitch / (2.0 * math.pi) * point[1])
+    entry, leaving = float(point[0]), float(point[0] + GROWTH * point[1])
     try:
-        turn = Turn(pitch, 30.0, math.exp(point[2]), start_turns=40.0, entry_radius=entry, exit_radius=leaving)
+        turn = Turn(1.7, 30.0, math.exp(point[2]), start_turns=40.0, entry_radius=entry, exit_radius=leaving)
     except InvalidValue:
         return None
-    return turn if min(turn.radii) >= least else None
+    return turn if min(turn.radii) >= LEAST else None
 
 
 def turns_drawn(centre, half, count, inner):

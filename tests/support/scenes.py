@@ -50,11 +50,6 @@ def outside(points, pose, size):
     return np.maximum(along, across)
 
 
-def shapely_of(polygons):
-    """Polygons, each given by its rings, as one shape of shapely's."""
-    return shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
-
-
 def random_pairs(count, seed):
     """Rectangles near each other, a third of them at multiples of 45 degrees: poses and sizes of both of each pair."""
     random = np.random.default_rng(seed)
