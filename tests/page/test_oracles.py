@@ -3,8 +3,10 @@
 import math
 import re
 
+import numpy as np
 import pytest
 import shapely
+import zxingcpp
 
 from app.service.main import create_app
 from app.sweeps.columns import answer_columns
@@ -15,7 +17,6 @@ from core.proposal.designs import street_length
 from core.proposal.needs import Needs
 from core.shapes.engines import widest_place
 from tests.support.node import evaluate
-from tests.support.qr_reader import read_qr
 
 pytestmark = pytest.mark.node
 TABLES = [
@@ -37,7 +38,9 @@ def test_qr_codes_of_every_length_can_be_read_and_a_too_long_text_has_none():
     lengths = (1, 17, 18, 107, 135, 155, 231, 272, 369, 500, 584, 640)
     texts = ["https://dragon.example/?a=1,2_龙".ljust(length, "x")[:length] for length in lengths]
     *codes, none = evaluate("async (texts) => texts.map((await page('qr.js')).qrCode)", [*texts, "x" * 1300])
-    assert [read_qr(code) for code in codes] == texts
+    for code, text in zip(codes, texts, strict=True):
+        image = np.kron(255 * ~np.pad(code, 4).astype(bool), np.ones((4, 4))).astype(np.uint8)
+        assert [one.text for one in zxingcpp.read_barcodes(image)] == [text]
     assert none is None
 
 
