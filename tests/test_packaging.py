@@ -27,7 +27,6 @@ PROJECT = SETTINGS["project"]
 LOCKS = {path.name: path.read_text(encoding="utf-8").splitlines() for path in ROOT.glob("requirements*.lock")}
 # A locked version: the name, the version, and where it is needed; never an address.
 LOCKED = re.compile(r"([A-Za-z0-9._-]+)==([0-9][A-Za-z0-9.+!]*)( ; [a-z_]+ [\w .*<>=!'()]+)?")
-BUILD = runpy.run_path(str(ROOT / "setup.py"))
 # Systems on which requirements may differ.
 SYSTEMS = {"linux": "Linux", "darwin": "Darwin", "win32": "Windows"}
 # In Python's library on POSIX systems alone.
@@ -116,13 +115,18 @@ def test_every_python_that_is_named_gets_a_wheel():
     assert SETTINGS["tool"]["cibuildwheel"]["build"] == [f"cp{one.replace('.', '')}-*" for one in supported]
 
 
-@pytest.mark.parametrize("compiler", BUILD["FLAGS"])
-def test_no_flag_changes_a_digit_and_every_compiler_gets_flags_of_its_own_kind(compiler):
-    flags, for_msvc = BUILD["FLAGS"][compiler], compiler == "msvc"
-    assert [flag for flag in flags if flag.startswith(OTHER_DIGITS)] == []
-    assert ("/fp:precise" if for_msvc else "-ffp-contract=off") in flags
-    assert {flag[0] for flag in flags} == {"/" if for_msvc else "-"}
-    assert any(flag.startswith("-finline-limit") for flag in flags) is (compiler == "gcc")
+@pytest.fixture(scope="module")
+def build():
+    return runpy.run_path(str(ROOT / "setup.py"))
+
+
+def test_no_flag_changes_a_digit_and_every_compiler_gets_flags_of_its_own_kind(build):
+    for compiler, flags in build["FLAGS"].items():
+        for_msvc = compiler == "msvc"
+        assert [flag for flag in flags if flag.startswith(OTHER_DIGITS)] == []
+        assert ("/fp:precise" if for_msvc else "-ffp-contract=off") in flags
+        assert {flag[0] for flag in flags} == {"/" if for_msvc else "-"}
+        assert any(flag.startswith("-finline-limit") for flag in flags) is (compiler == "gcc")
 
 
 @pytest.mark.parametrize(
@@ -136,12 +140,12 @@ def test_no_flag_changes_a_digit_and_every_compiler_gets_flags_of_its_own_kind(c
     ],
     ids=["gcc", "mingw", "apple", "another", "msvc"],
 )
-def test_a_compiler_is_known_by_what_it_says(kind, says, compiler):
-    assert BUILD["family"](kind, [sys.executable, "-c", f"print({says!r})"]) == compiler
+def test_a_compiler_is_known_by_what_it_says(build, kind, says, compiler):
+    assert build["family"](kind, [sys.executable, "-c", f"print({says!r})"]) == compiler
 
 
-def test_without_a_compiler_the_build_goes_on():
-    assert BUILD["family"]("unix", ["no-such-compiler"]) == "clang"
+def test_without_a_compiler_the_build_goes_on(build):
+    assert build["family"]("unix", ["no-such-compiler"]) == "clang"
 
 
 def test_the_service_has_as_many_processes_as_asked_or_as_cores():

@@ -4,7 +4,6 @@ import ast
 from pathlib import Path
 from types import SimpleNamespace
 
-import jupytext
 import matplotlib.pyplot as plt
 import pytest
 from matplotlib.axes import Axes
@@ -12,8 +11,6 @@ from matplotlib.axes import Axes
 from core.display import Readable
 
 TOUR = Path(__file__).parents[1] / "examples" / "tour.py"
-NOTEBOOK = jupytext.reads(TOUR.read_text(encoding="utf-8"), fmt="py:percent")
-CODE = [cell.source for cell in NOTEBOOK.cells if cell.cell_type == "code"]
 # Longest line of an answer under a cell [characters].
 DISPLAY_MOST = 220
 
@@ -27,23 +24,36 @@ def display(source, names):
 
 
 @pytest.fixture(scope="module")
-def tour():
+def notebook():
+    import jupytext
+
+    return jupytext.reads(TOUR.read_text(encoding="utf-8"), fmt="py:percent")
+
+
+def sources(notebook, kind):
+    return [cell.source for cell in notebook.cells if cell.cell_type == kind]
+
+
+@pytest.fixture(scope="module")
+def tour(notebook):
     """Names after all cells ran in order; `answers` are what each one shows."""
     names = {"__name__": "__main__"}
     before = plt.get_backend()
     plt.switch_backend("Agg")
-    names["answers"] = [display(source, names) for source in CODE]
+    names["answers"] = [display(source, names) for source in sources(notebook, "code")]
     yield SimpleNamespace(**names)
     plt.close("all")
     plt.switch_backend(before)
 
 
-def test_it_is_a_notebook_of_words_and_code():
-    words = [cell.source for cell in NOTEBOOK.cells if cell.cell_type == "markdown"]
+def test_it_is_a_notebook_of_words_and_code(notebook):
+    import jupytext
+
+    words = sources(notebook, "markdown")
     assert words[0].startswith("# A dragon of benches")
     assert len(words) > 10
-    assert len(CODE) > 10
-    assert jupytext.reads(jupytext.writes(NOTEBOOK, fmt="ipynb"), fmt="ipynb").cells[-1].source == words[-1]
+    assert len(sources(notebook, "code")) > 10
+    assert jupytext.reads(jupytext.writes(notebook, fmt="ipynb"), fmt="ipynb").cells[-1].source == words[-1]
 
 
 def test_every_cell_runs_and_shows_something_short_or_a_picture(tour):

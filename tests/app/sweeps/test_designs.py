@@ -4,7 +4,6 @@ import itertools
 
 import numpy as np
 import pytest
-from scipy.stats import qmc
 
 from app.sweeps.designs import designs, sample_points
 from app.sweeps.spec import Range, Samples, Spec
@@ -40,6 +39,8 @@ def test_each_design_is_the_same_alone_and_among_others(kind):
 
 @pytest.mark.parametrize(("dimensions", "first", "count"), [(1, 0, 256), (40, 0, 1024), (3, 2**22 + 12_345, 1)])
 def test_sobol_points_are_those_of_scipy(dimensions, first, count):
+    from scipy.stats import qmc
+
     sequence = qmc.Sobol(dimensions, scramble=False, bits=30)
     if first:
         sequence.fast_forward(first)

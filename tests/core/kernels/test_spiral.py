@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from core.kernels import spiral_arc, spiral_theta
 
@@ -12,6 +11,8 @@ PART = 1e-13
 
 @pytest.mark.parametrize("theta", [1e-3, 0.5, 7.0, 300.0])
 def test_arc_length_is_the_integral_of_the_speed_and_theta_its_inverse(theta):
+    from scipy.integrate import quad
+
     arc = spiral_arc(theta)
     assert arc == pytest.approx(quad(lambda t: np.hypot(1.0, t), 0.0, theta, epsabs=0.0, epsrel=PART)[0], rel=PART)
     assert spiral_theta(arc) == pytest.approx(theta, rel=PART)

@@ -5,7 +5,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.special import ndtr
-from scipy.stats import binom
 
 from core import (
     Arc,
@@ -147,6 +146,8 @@ def test_instants_are_a_fifth_of_the_correlation_time_apart_or_as_asked(time, st
 
 
 def test_clopper_and_pearson_leave_as_much_beyond_either_limit():
+    from scipy.stats import binom
+
     low, high = clopper_pearson(7, 50)
     assert binom.sf(6, 50, low) == pytest.approx(0.5 * (1.0 - CONFIDENCE), abs=1e-12)
     assert binom.cdf(7, 50, high) == pytest.approx(0.5 * (1.0 - CONFIDENCE), abs=1e-12)
