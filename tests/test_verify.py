@@ -3,7 +3,6 @@
 import ast
 import itertools
 import json
-import math
 import random
 import re
 import runpy
@@ -296,17 +295,6 @@ def test_its_bends_are_those_of_core_proof(verify, theta, chord):
             reached = end**2 + 2 * arb(theta) * (arb(theta) + end) * (1 - end.cos())
             assert side * (reached - needed) > 0
         assert chain.delta(arb(theta), needed).overlaps(low.union(high))
-
-
-def test_a_normal_that_is_turned_to_a_face_leaves_the_gaps_of_this_face(verify):
-    row = verify.Chain([(3, 2.2, 0.3, 0.275)], 0.55, 16.0).row(0, verify.exactly(60.0))
-    for _ in range(3):
-        row.grow()
-    for face in range(4):
-        of_face, turned = (
-            [float(gap.value) for gap in row.gaps(2, *how)] for how in ((face,), (8, face * math.pi / 2.0))
-        )
-        assert turned == pytest.approx(of_face, abs=1e-12)
 
 
 def test_past_the_fold_there_is_no_bend(verify):

@@ -30,14 +30,6 @@ ON_LANE = {"dragon": SHORT, "path": route(LANE)}
 # -- turns ---------------------------------------------------------------------------------------------------
 
 
-def test_the_shortest_turn_of_any_exit_is_that_of_core_with_its_bracket(ask):
-    got = ask("shortest-turn", pitch=1.7, turning_diameter=9, benches=30)
-    known = core.shortest_turn(core.Dragon(30), 1.7)
-    assert got["length_bracket"] == [*known.length_bracket]
-    assert (got["entry_radius"], got["exit_radius"]) == (known.turn.entry_radius, known.turn.exit_radius)
-    assert (got["length"], got["limited_by"], got["benches"]) == (known.turn.length, "least_radius", None)
-
-
 def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask):
     """As in docs/contest.md, and as its pieces."""
     shape = {"ratio": 1.0, "middle": 4.0, "ends": 0.5}
@@ -125,13 +117,3 @@ def test_without_a_start_a_search_begins_when_the_whole_dragon_is_on_the_path(as
     got = ask("collision-time", ON_LANE | {"path": route(LANE, start=start), "margin": 1.2, "cross_check": "none"})
     assert got["outcome"] == "contact_at_start"
     assert got["time"] == pytest.approx(7.81 - start, rel=0, abs=BEGIN_TOLERANCE)
-
-
-# -- venues and the cache ------------------------------------------------------------------------------------
-
-
-def test_times_by_default_and_the_same_times_given_have_tags_of_their_own(ask):
-    assert (
-        ask.send("trajectory", ON_LANE).headers["etag"]
-        != ask.send("trajectory", ON_LANE | {"times": [8]}).headers["etag"]
-    )

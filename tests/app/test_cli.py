@@ -176,6 +176,8 @@ def test_tables_for_people_hold_the_numbers_with_their_units(row):
         "film --ratio 3 --output dance.mp4 -> --ratio ... turn --path",
         "envelope --output ground.kml -> --output must end in .geojson, .json or .dxf, got .kml",
         "film --output dance.avi -> --output ... .mp4 .gif, .avi",
+        "mcp --folder /dev/null -> --folder must be a folder, got /dev/null",
+        "mcp --folder '' -> --folder must not be an empty name",
         "film --bench 223 --output dance.gif -> marked[0] ... 222, 223",
     ],
 )

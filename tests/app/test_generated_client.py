@@ -60,18 +60,6 @@ def with_body(module, body):
     return {"body": kind.from_dict(body)}
 
 
-def finished(own, client, body, name="ask_later"):
-    """Number of a job made by the generated client, when it has ended."""
-    module = call("jobs", name)
-    job = module.sync(client=own, **with_body(module, body)).job_id
-    client.get(f"/jobs/{job}/events").raise_for_status()  # Its events end when it is finished.
-    return job
-
-
-def result(own, job):
-    return call("jobs", "job_result").sync(job, client=own).payload.read()
-
-
 def test_the_generator_warns_of_nothing(words):
     assert (WARNING.findall(words), words.count("WARNING") + words.count("ERROR")) == ([], 0)
 
@@ -104,5 +92,7 @@ def test_a_file_is_graded(own):
 
 def test_the_table_of_a_sweep_comes_back_as_its_bytes(own, client):
     body = {"question": "collision_time", "over": {"pitch": [0.5, 0.6]}, "request": {"benches": 30}}
-    job = finished(own, client, body | {"accept": "application/vnd.apache.parquet"}, "sweep")
-    assert result(own, job).startswith(b"PAR1")
+    module = call("jobs", "sweep")
+    job = module.sync(client=own, **with_body(module, body | {"accept": "application/vnd.apache.parquet"})).job_id
+    client.get(f"/jobs/{job}/events").raise_for_status()  # Its events end when it is finished.
+    assert call("jobs", "job_result").sync(job, client=own).payload.read().startswith(b"PAR1")

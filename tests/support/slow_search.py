@@ -21,8 +21,8 @@ ROUNDS = 8
 # Steps of the head in the coarse pass, in shortest chords [1]; the smaller ones have SPLIT in two of these.
 STEP = 0.12
 SPLIT = 40
-# Local minima of the clearance that are looked at again, in the search and in samples, and how often there.
-DIPS, LOWEST, REFINED = 5, 4, 3
+# Local minima of the clearance that are looked at again, and how often.
+LOWEST, REFINED = 4, 3
 # The last part of a run, where speeds grow without bound, is left out [1].
 RUN = 1.0 - 1e-7
 
@@ -174,33 +174,20 @@ class SlowDance:
 
     def first_touch(self, margin=0.0):
         """Time and pair of the first instant with a separation <= margin, None if there is none."""
-        gaps, pairs = self.clearance([0.0])
-        if gaps[0] <= margin:
-            return 0.0, tuple(pairs[0])
-        stop = RUN * self.end()
-        steps = 3 + int(stop / (STEP * self.chords.min()))
-        last_two = np.empty(0)
-        for times in np.array_split(np.linspace(0.0, stop, steps), 1 + steps // 400):
-            reach = np.concatenate([last_two, times])
-            last_two = times[-2:]
-            gaps, pairs = self.clearance(reach)
-            gaps -= margin
-            touching = np.flatnonzero(gaps <= 0.0)
-            last = touching[0] if touching.size else len(reach) - 1
-            lows = [k for k in range(1, last) if gaps[k - 1] > gaps[k] <= gaps[k + 1]]
-            brackets = [(reach[last - 1], reach[last])] if touching.size else []
-            for k in sorted(lows, key=lambda k: gaps[k])[:DIPS]:
-                fine = np.linspace(reach[k - 1], reach[k + 1], SPLIT + 1)
-                inside = self.clearance(fine)[0] - margin
-                if (inside <= 0.0).any():
-                    k = int(np.argmax(inside <= 0.0))
-                    brackets.append((fine[k - 1], fine[k]))
-            if brackets:
-                return self.crossing(*min(brackets), margin)
-        return None
 
-    def crossing(self, low, high, margin):
-        time = first_time(low, high, lambda times: self.clearance(times)[0] <= margin)
+        def gaps(times):
+            return self.clearance(times)[0] - margin
+
+        time = 0.0
+        if gaps([time])[0] > 0.0:
+            stop = RUN * self.end()
+            times = np.linspace(0.0, stop, 3 + int(stop / (STEP * self.chords.min())))
+            touching = np.flatnonzero(gaps(times) <= 0.0)
+            look = Samples(gaps, times[: touching[0] + 1] if touching.size else times)
+            if look.values.min() > 0.0:
+                return None
+            k = int(np.argmax(look.values <= 0.0))
+            time = first_time(look.times[k - 1], look.times[k], lambda times: gaps(times) <= 0.0)
         return time, tuple(self.clearance([time])[1][0])
 
     def dip(self, low, high, pair):

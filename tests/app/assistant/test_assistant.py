@@ -16,7 +16,6 @@ from app.assistant.guide import PAGES
 from app.questions.check import CheckRequest
 from app.questions.registry import CALLS
 from app.wire.question import BYTES, JSON
-from tests.support import command
 from tests.support.asking import dance
 from tests.support.command import ROOT, bin_folder
 from tests.support.largest import THIN
@@ -199,11 +198,3 @@ def test_a_door_without_a_folder_reads_no_file_and_has_the_pages_of_the_guide():
 
     pages = with_door(work, BENCH_DRAGON_HOSTS="dance.example,[::1]")
     assert pages == {path.stem: path.read_text("utf-8") for path in PAGES.glob("*.md")}
-
-
-def test_wrong_options_are_one_line(tmp_path):
-    (tmp_path / "a").touch()
-    for folder, words in ((f"{tmp_path}/a", f"--folder must be a folder, got {tmp_path}/a"), ("", "an empty name")):
-        done = command.run("mcp", "--folder", folder)
-        assert (done.returncode, done.stdout, words in done.stderr) == (2, "", True)
-        assert "Traceback" not in done.stderr

@@ -48,19 +48,6 @@ def test_contact_figure_states_the_time_pair_and_features_that_core_found():
     assert "({:.6f} m, {:.6f} m)".format(*contact.point) in words
 
 
-@pytest.mark.parametrize(
-    ("dance", "words"),
-    [
-        (Dance(SMALL, Spiral(pitch=0.8)), "No contact, but bench 0 folds at 637.66"),
-        (Dance(Dragon(benches=5), Spiral(9.0, 3.0)), "No contact: the run ends clear at the centre, 257.4268"),
-        (Dance(Dragon(), Spiral(pitch=0.35)), "already at the start"),
-    ],
-    ids=["fold", "centre", "start"],
-)
-def test_contact_figure_says_how_the_run_ends(dance, words):
-    assert words in texts(figures.contact_figure(dance))
-
-
 def test_contact_figure_with_a_margin_states_it():
     coil, five = Dance(Dragon(), Spiral()), Dance(Dragon(benches=5), Spiral(9.0, 3.0))
     for words, part in (

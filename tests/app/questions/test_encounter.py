@@ -37,22 +37,6 @@ def test_the_owners_of_features_and_the_cross_checks_are_those_of_core(ask):
     assert none == got | {"cross_check": None}
 
 
-def test_several_pairs_that_meet_at_once_are_named(ask):
-    got = ask("encounter", body_of(CASES["two dragons in one spiral, opposite"]))
-    (together,) = got["cross_check"]["together"]
-    assert together["dragons"] == [0, 1]
-    assert {tuple(got["benches"]), tuple(together["benches"])} == {(3, 0), (0, 3)}
-
-
-def test_delays_and_passages_count(ask):
-    late = {"dances": [EAST, NORTH | {"delay": 2}]}
-    at_once, waits = ask("encounter", TWO), EAST | {"passages": [{"speed": 0, "until_time": 2}]}
-    assert ask("encounter", late)["benches"] != at_once["benches"]
-    both_wait = ask("encounter", {"dances": [waits, late["dances"][1]]})
-    assert both_wait["benches"] == at_once["benches"]
-    assert both_wait["time"] == pytest.approx(at_once["time"] + 2.0, rel=0, abs=1e-8)  # [s]
-
-
 def test_an_undecided_encounter_names_the_benches_that_are_certain():
     case = CASES["streets that cross, both at once"]
     result = first_encounter(performance_of(case), start=case["start"])

@@ -9,7 +9,7 @@ import shapely
 
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.questions.envelope import Envelope, EnvelopeRequest
-from core import Arc, Dance, Dragon, Route, Spiral, envelope
+from core import Arc, Dance, Dragon, Route, envelope
 from tests.support.asking import dance, written
 from tests.support.command import run
 
@@ -56,11 +56,6 @@ def test_the_command_writes_the_files_of_the_service_with_the_hole_as_its_own_li
     assert [(line.dxf.layer, line.closed) for line in lines] == [("ENVELOPE", True), ("ENVELOPE_HOLES", True)]
     outer, hole = (shapely.Polygon([(x, y) for x, y, *_ in line.get_points()]).area for line in lines)
     assert outer - hole == pytest.approx(ENVELOPE.area)
-
-
-def test_the_command_asks_for_a_spiral_by_its_options():
-    output = run("envelope", "--benches", "5", "--pitch", "0.6", "--stop", "9", "--json")
-    assert json.loads(output.stdout)["area"] == envelope(Dance(Dragon(5), Spiral(0.6)), stop=9.0).area
 
 
 def test_several_dances_have_the_ground_of_each_also_in_files(ask, tmp_path):

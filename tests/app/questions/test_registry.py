@@ -94,9 +94,9 @@ REQUESTS = {
         ),
     ),
     "encounter that does not come": (
-        TWO | {"stop": 20},
-        lambda: core.first_encounter(two(), stop=20.0),
-        "outcome time dragons heads end.reason end.time certificate.clear_until",
+        TWO | {"start": 14, "stop": 20},
+        lambda: core.first_encounter(two(), start=14.0, stop=20.0),
+        "outcome time dragons heads end.reason end.time certificate.clear_until certificate.claim.start",
     ),
     "safe-delay": (
         TWO | {"margin": 0.2, "least": -60, "most": 60},
