@@ -9,21 +9,25 @@ motion, of the right one, of any other error of geometry, or by an error in comp
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 
 import numpy as np
 
 from app.files.tables import Language, handle_names
+from app.grade.decimals import digits_of, usual_of
 from app.grade.expected import Motion, Workbook, cells_of, contact_time, dance_of, of_dance
-from app.grade.fits import DECISIVE_LEAST, also, best_fit, finding, fit, matches
-from app.grade.geometry import Model, SheetClues, geometries, shifted_rows, shifted_time, time_at
-from app.grade.judged import JudgedSheet, decimals_of
+from app.grade.fits import DECISIVE_LEAST, also, best_fit, findings_of, fit, matches
+from app.grade.geometry import MIRRORS, Model, SheetClues, geometries, own_lengths, shifted_rows, shifted_time, time_at
+from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
 from app.grade.layout import BENCHES, COMPONENTS, HANDLES, SHEETS, TableKind
 from app.grade.numbers import explained, rounded_right
 from app.grade.outside import Outside, outside_of, same_cells, without
+from app.grade.pairs import pairs
 from app.grade.rings import ON_PATH, places, wrong_ring
 from app.grade.shortcuts import Finding
 from app.grade.words import Note, note, say
@@ -39,16 +43,9 @@ STEADY_SHARE, STEADY = 0.9, 1e-5
 # Uncertainty of an instant that the places of all handles show, in units of the last decimal of a place at 1 m/s: their
 # rounding errors, 0.29 units each, average out over more than 300 numbers to 0.017 units.
 INSTANT_OFF = 0.1
-# Images of places that known errors give: themselves, y negated, x negated, x and y exchanged.
-IMAGES = [
-    np.array(image)
-    for image in (
-        [[1.0, 0.0], [0.0, 1.0]],
-        [[1.0, 0.0], [0.0, -1.0]],
-        [[-1.0, 0.0], [0.0, 1.0]],
-        [[0.0, 1.0], [1.0, 0.0]],
-    )
-]
+# Images of places that known errors give: themselves, y negated, x negated, x and y exchanged, both negated.
+HALF_TURN = np.diag([-1.0, -1.0])
+IMAGES = [np.eye(2), *(mirror[:2, :2] for mirror in MIRRORS.values()), HALF_TURN]
 # Step of the derivative by which an instant is improved [s]; and largest change, or distance of a handle that counts
 # for it [s, m].
 INSTANT_STEP, INSTANT_FAR = 1e-4, 1e-3
@@ -65,9 +62,6 @@ def diagnosed(judgements: list[JudgedSheet], budget: Budget) -> list[Finding]:
     """Findings on the sheets of one workbook."""
     if not shows_errors(judgements):
         return []
-    written = max(one.written for one in judgements)
-    # A sheet of whole numbers, such as equal speeds, has the decimals of the other one.
-    judgements = [one if one.written >= DECIMALS_LEAST else replace(one, written=written) for one in judgements]
     by_kind = {one.table.kind: one for one in judgements}
     if TableKind.CONTACT in by_kind:
         return _of_contact(by_kind[TableKind.CONTACT], budget)
@@ -131,9 +125,11 @@ def _over_time(position: JudgedSheet | None, speed: JudgedSheet | None, budget: 
     right = of_dance(dance)
     model, findings, quotients = Model("", right), [], []
     if position and position.is_off:
-        if best := best_fit(position, geometries(dance, position.times, _seen(position)), budget):
+        seen = _seen(position)
+        two = pairs(dance, position.times, seen)
+        if best := best_fit(position, geometries(dance, position.times, seen), budget, two):
             model = best.model
-            findings.append(finding(best, position))
+            findings += findings_of(best, position)
         elif ring := wrong_ring(position):
             findings.append(ring)
         else:
@@ -157,8 +153,8 @@ def _with_speeds(
         same = fit(speed, model)
         return [also(findings[0], same, speed), *findings[1:]] if model.error and same.explains else findings
     models = [*_speed_models(speed, model, right), *others]
-    if best := best_fit(speed, models, budget):
-        return [*findings, finding(best, speed)]
+    if best := best_fit(speed, models, budget, _negated_beside(model.motion)):
+        return [*findings, *findings_of(best, speed)]
     return [*findings, _of_no_motion(speed, model.motion)] if model.error else findings
 
 
@@ -172,6 +168,12 @@ def _speed_models(speed: JudgedSheet, model: Model, right: Motion) -> Iterator[M
     dance = dance_of(speed.workbook)
     yield from geometries(dance, speed.times, SheetClues())
     yield from _other_times(dance, speed)
+
+
+def _negated_beside(motion: Motion) -> Iterator[Model]:
+    """Speeds with the wrong sign that have another error too."""
+    for one in (_equal_speeds(), *shifted_rows(motion)):
+        yield replace(speeds_negated(one.motion), beside=one)
 
 
 def _other_times(dance: Dance, speed: JudgedSheet) -> Iterator[Model]:
@@ -227,7 +229,8 @@ def _seen(one: JudgedSheet) -> SheetClues:
     is_link = np.diff(one.handles[order]) == 1
     is_head, tolerance = one.handles[order][:-1] == 0, STEADY + 2.0 * 10.0**-one.written
     head, body = (_steady(links[:, is_link & which], tolerance) for which in (is_head, ~is_head))
-    return SheetClues(_head(one), None if head is None or body is None else (head, body), _angle(one))
+    chords = None if head is None or body is None else (head, body)
+    return SheetClues(_head(one), chords, _angle(one), 10.0**-one.written)
 
 
 def _angle(one: JudgedSheet) -> float | None:
@@ -284,10 +287,14 @@ def _equal_speeds() -> Model:
     return Model("equal_speeds", lambda times: np.ones((times.size, HANDLES, 3)), is_simplest=True)
 
 
+def speeds_negated(motion: Motion) -> Model:
+    return Model("speeds_negated", lambda times: motion(times) * [1.0, 1.0, -1.0])
+
+
 def speed_errors(motion: Motion) -> Iterator[Model]:
     """Known errors in the speeds of a motion."""
     yield _equal_speeds()
-    yield Model("speeds_negated", lambda times: motion(times) * [1.0, 1.0, -1.0])
+    yield speeds_negated(motion)
     for step in STEPS:
         for error, before, after in (
             ("forward_difference", 0.0, step),
@@ -319,36 +326,46 @@ def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
     none = Model("", right)
     if not position.is_off:
         return _with_speeds([], speed, none, right, [], budget)
-    seen = _seen(position)
-    instants = [
-        (float(one.times[0]), IMAGES[0]),
-        *(_instants(dance, seen.head, 10.0**-one.written) if seen.head is not None else []),
-    ]
-    for n, (instant, image) in enumerate(instants):
-        is_other = n > 0
-        instant = _improved(replace(position, values=position.values @ image), right, instant) if is_other else instant
-        times = np.array([instant])
-        what: dict[str, object] = {"time": f"{instant:.6f}", "what": note(SHEETS[TableKind.POSITION])}
-        models = [Model("other_instant", right, what, is_simplest=True)] if is_other else []
-        models += geometries(dance, times, SheetClues(None, seen.chords, seen.turned))
-        at = replace(position, times=times)
+    for instant, models in _at_instants(position, dance, _seen(position)):
+        is_other, at = instant != one.times[0], replace(position, times=np.array([instant]))
         if best := best_fit(at, models, budget):
             why = _why_then(instant, one.written) if is_other else []
             if is_other and best.model.error != "other_instant":
                 evidence = note("evidence_rounded_instant", time=f"{contact_time():.6f}")
-                why.insert(0, Finding("other_instant", note("error_other_instant", **what), evidence))
+                why.insert(0, Finding("other_instant", note("error_other_instant", **_what(instant)), evidence))
             moved = replace(best.model, motion=shifted_time(best.model.motion, instant - one.times[0]).motion)
-            return _with_speeds([finding(best, at), *why], speed, moved, right, [], budget)
+            return _with_speeds([*findings_of(best, at), *why], speed, moved, right, [], budget)
     return _with_speeds([], speed, none, right, [], budget)
+
+
+def _at_instants(position: JudgedSheet, dance: Dance, seen: SheetClues) -> Iterator[tuple[float, Iterable[Model]]]:
+    """Instants [s] of result2, each with known errors, the likeliest first: a single one at the right instant, or at
+    the one that the place of the head shows; two at the right one; then other lengths at another instant."""
+    right, at_right = of_dance(dance), float(position.times[0])
+    yield at_right, geometries(dance, position.times, replace(seen, head=None))
+    others: list[float] = []
+    for instant, image in _instants(dance, seen.head, 10.0**-position.written) if seen.head is not None else ():
+        others.append(_improved(replace(position, values=position.values @ image), right, instant))
+        turned = math.pi if image is HALF_TURN else seen.turned
+        models = geometries(dance, np.array(others[-1:]), SheetClues(turned=turned))
+        yield others[-1], chain([Model("other_instant", right, _what(others[-1]), is_simplest=True)], models)
+    yield at_right, pairs(dance, position.times, replace(seen, head=None))
+    for instant in others:
+        yield instant, own_lengths(dance, seen)
+
+
+def _what(instant: float) -> dict[str, object]:
+    """The words for places at an instant [s]."""
+    return {"time": f"{instant:.6f}", "what": note(SHEETS[TableKind.POSITION])}
 
 
 def _part(one: JudgedSheet, kind: TableKind) -> JudgedSheet:
     """The places, or the speeds, of a sheet that holds both, with the decimals of these."""
     components = list(COMPONENTS[kind])
     values, table = one.values[..., components], replace(one.table, kind=kind)
-    written = decimals_of(values)
-    written = written if written >= DECIMALS_LEAST else one.written
-    return replace(one, table=table, values=values, wanted=one.wanted[..., components], written=written)
+    digits = digits_of(values, one.written)
+    written = usual_of(digits, values)
+    return replace(one, table=table, values=values, wanted=one.wanted[..., components], written=written, digits=digits)
 
 
 def _improved(one: JudgedSheet, right: Motion, instant: float) -> float:

@@ -134,6 +134,7 @@ ERRORS = {
     "evidence_rounded_instant": ("Contact is at {time} s.", "碰撞发生在 {time} s。"),
     "evidence": ("{sheet}: recomputed with this error, {share} % of the {count} cells that are wrong by more agree within {tolerance} {unit}; their largest distance from the right values is {worst} {unit}.",
         "{sheet}：按此错误重新计算，{count} 个误差更大的单元格中 {share} % 在 {tolerance} {unit} 内吻合；与正确值最多相差 {worst} {unit}。"),
+    "evidence_beside": ("Only with both errors together do the numbers agree.", "两处错误同时存在，数值才相符。"),
     "evidence_both": ("{first} {second}", "{first}{second}"),
     "evidence_other_speeds": ("{sheet}: {count} of {cells} speeds differ from those of that motion, by up to {worst} m/s.",
         "{sheet}：{cells} 个速度中有 {count} 个与该运动的速度不同，最多相差 {worst} m/s。"),

@@ -15,11 +15,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.grade.geometry import Model
-from app.grade.judged import ROUNDED, JudgedSheet
+from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
 from app.grade.layout import COMPONENTS, SHEETS, Ints
 from app.grade.shortcuts import Finding
-from app.grade.words import note
+from app.grade.words import Note, note
 from core import Budget
 from core.values import Floats
 
@@ -66,12 +66,13 @@ def fit(one: JudgedSheet, model: Model, at: Ints | slice = slice(None)) -> Fit:
     numbers = np.full(one.values[at].shape, np.nan)
     numbers[:, known] = motion[:, one.handles[known]][..., list(COMPONENTS[one.table.kind])]
     off = np.abs(one.values[at] - numbers)
-    present, fits = np.isfinite(off), off <= one.tolerance
-    wrong = present & (one.off[at] > one.tolerance)
+    tolerance = one.tolerance[at]
+    present, fits = np.isfinite(off), off <= tolerance
+    wrong = present & (one.off[at] > tolerance)
     if not present.any():
         return Fit(model, numbers, 0.0, 0.0, np.inf, 0, False)
     share, count = float(fits[wrong].mean()) if wrong.any() else 0.0, int(wrong.sum())
-    decided = _decided(one.values[at], numbers, one.wanted[at], one.tolerance)
+    decided = _decided(one.values[at], numbers, one.wanted[at], tolerance)
     return Fit(model, numbers, share, float(fits[present].mean()), float(np.median(off[present])), count, decided)
 
 
@@ -80,19 +81,41 @@ def matches(one: JudgedSheet, model: Model) -> bool:
     return fit(one, model).all >= ALL_SHARE
 
 
-def _decided(values: Floats, modelled: Floats, other: Floats, tolerance: float) -> bool:
+def _decided(values: Floats, modelled: Floats, other: Floats, tolerance: Floats) -> bool:
     """True if the digits of the values decide for the numbers of a model, against other ones."""
     apart = np.isfinite(values) & (np.abs(modelled - other) > 2.0 * tolerance)
-    agrees = np.abs(values - modelled)[apart] <= tolerance
+    agrees = (np.abs(values - modelled) <= tolerance)[apart]
     return agrees.size >= DECISIVE_LEAST and float(agrees.mean()) >= WRONG_SHARE
 
 
-def best_fit(one: JudgedSheet, models: Iterable[Model], budget: Budget) -> Fit | None:
+def best_fit(one: JudgedSheet, models: Iterable[Model], budget: Budget, beside: Iterable[Model] = ()) -> Fit | None:
     """The model that explains a sheet; None if none does, or if another error explains it as well.
 
     Of models that the digits do not tell apart, the simplest wins, because each other one has a further error that does
     not show; difference quotients are named together.
+    beside: models of two errors, which are tried if no model of one explains the sheet
     """
+    fits = _explaining(one, models, budget) or _explaining(one, beside, budget)
+    if not fits:
+        return None
+    best = max(fits, key=lambda one: (round(one.all, 3), -one.off))
+    if any(_gives(one, numbers) and not _is_better(one, best.numbers, numbers) for numbers in _biased(one)):
+        return None
+    alike = [each for each in fits if not _is_better(one, best.numbers, each.numbers)]
+    simplest = [each for each in alike if each.model.is_simplest]
+    if len({each.model.errors for each in simplest}) == 1:
+        return simplest[0]
+    if len({each.model.errors for each in alike}) == 1:
+        return replace(best, model=_together([each.model for each in alike]))
+    spans = [each.model.values.get("span") for each in alike]
+    if None in spans:
+        return None
+    every: dict[str, object] = {"span": "; ".join(dict.fromkeys(map(str, spans)))}
+    return replace(best, model=replace(best.model, error="difference_quotient", values=every))
+
+
+def _explaining(one: JudgedSheet, models: Iterable[Model], budget: Budget) -> list[Fit]:
+    """The fits of the models that explain a sheet."""
     fits: list[Fit] = []
     some = np.unique(np.linspace(0, one.times.size - 1, LOOKS).astype(np.int64))
     for model in models:
@@ -101,22 +124,7 @@ def best_fit(one: JudgedSheet, models: Iterable[Model], budget: Budget) -> Fit |
         is_near = fit(one, model, some).all >= LOOK_SHARE
         if is_near and (whole := fit(one, model)).explains:
             fits.append(whole)
-    if not fits:
-        return None
-    best = max(fits, key=lambda one: (round(one.all, 3), -one.off))
-    if any(_gives(one, numbers) and not _is_better(one, best.numbers, numbers) for numbers in _biased(one)):
-        return None
-    alike = [each for each in fits if not _is_better(one, best.numbers, each.numbers)]
-    simplest = [each for each in alike if each.model.is_simplest]
-    if len({each.model.error for each in simplest}) == 1:
-        return simplest[0]
-    if len({each.model.error for each in alike}) == 1:
-        return replace(best, model=replace(best.model, values=_together([each.model for each in alike])))
-    spans = [each.model.values.get("span") for each in alike]
-    if None in spans:
-        return None
-    every: dict[str, object] = {"span": "; ".join(dict.fromkeys(map(str, spans)))}
-    return replace(best, model=replace(best.model, error="difference_quotient", values=every))
+    return fits
 
 
 def _biased(one: JudgedSheet) -> Iterator[Floats]:
@@ -142,7 +150,7 @@ def _small(biases: Floats) -> float:
 def _gives(one: JudgedSheet, numbers: Floats) -> bool:
     """True if nearly all numbers of a sheet agree with these (T, H, C)."""
     known = np.isfinite(one.values) & np.isfinite(numbers)
-    return bool(known.any() and (np.abs(one.values - numbers)[known] <= one.tolerance).mean() >= ALL_SHARE)
+    return bool(known.any() and (np.abs(one.values - numbers) <= one.tolerance)[known].mean() >= ALL_SHARE)
 
 
 def _is_better(one: JudgedSheet, best: Floats, other: Floats) -> bool:
@@ -153,40 +161,47 @@ def _is_better(one: JudgedSheet, best: Floats, other: Floats) -> bool:
     """
     if _decided(one.values, best, other, one.tolerance):
         return True
-    rounding = ROUNDED * 10.0**-one.written
-    apart = np.isfinite(one.values) & (np.abs(best - other) > 0.5 * rounding)
+    apart = np.isfinite(one.values) & (np.abs(best - other) > 0.5 * one.rounding)
     if apart.sum() < DECISIVE_LEAST:
         return False
-    exact, less = (float((np.abs(one.values - each)[apart] <= rounding).mean()) for each in (best, other))
+    exact, less = (float((np.abs(one.values - each) <= one.rounding)[apart].mean()) for each in (best, other))
     return exact >= EXACT_SHARE and less < WRONG_SHARE
 
 
-def _together(models: list[Model]) -> dict[str, object]:
-    """The values in the words of one error, with all those that give the same digits."""
-    first = models[0].values
-    texts = {name: dict.fromkeys(str(model.values[name]) for model in models) for name in first}
-    return {name: " / ".join(each) if len(each) > 1 else first[name] for name, each in texts.items()}
+def _together(models: list[Model]) -> Model:
+    """One of the models of the same errors, with all values in their words that give the same digits."""
+    first = models[0]
+    texts = {name: dict.fromkeys(str(model.values[name]) for model in models) for name in first.values}
+    values = {name: " / ".join(each) if len(each) > 1 else first.values[name] for name, each in texts.items()}
+    others = [model.beside for model in models if model.beside]
+    return replace(first, values=values, beside=_together(others) if others else None)
 
 
-def finding(explaining: Fit, one: JudgedSheet) -> Finding:
-    """The model that explains a sheet, with the numbers that support it."""
+def findings_of(explaining: Fit, one: JudgedSheet) -> list[Finding]:
+    """The errors of the model that explains a sheet, the first with the numbers that support it."""
     worst = one.worst()
     assert worst is not None
     values = {
         "sheet": one.table.title or note(SHEETS[one.table.kind]),
         "share": f"{100 * explaining.wrong:.1f}",
         "count": explaining.count,
-        "tolerance": f"{one.tolerance:.1e}",
+        "tolerance": f"{one.usual_tolerance:.1e}",
         "worst": f"{one.off[worst]:.6g}",
         "unit": "m/s" if COMPONENTS[one.table.kind][worst[2]] == SPEED else "m",
     }
-    model = explaining.model
-    sentence, kinds = note(f"error_{model.error}", **model.values), frozenset((one.table.kind,))
-    return Finding(model.error, sentence, note("evidence", **values), kinds=kinds)
+    model, kinds = explaining.model, frozenset((one.table.kind,))
+    first = Finding(model.error, _sentence(model), note("evidence", **values), kinds=kinds)
+    if (second := model.beside) is None:
+        return [first]
+    return [first, Finding(second.error, _sentence(second), note("evidence_beside"), kinds=kinds)]
+
+
+def _sentence(model: Model) -> Note:
+    return note(f"error_{model.error}", **model.values)
 
 
 def also(first: Finding, explaining: Fit, one: JudgedSheet) -> Finding:
     """The finding on a sheet, with the numbers of a second sheet that the same model explains."""
-    second = finding(explaining, one)
+    second, *_ = findings_of(explaining, one)
     evidence = note("evidence_both", first=first.evidence, second=second.evidence)
     return replace(first, evidence=evidence, kinds=first.kinds | second.kinds)

@@ -17,7 +17,6 @@ import numpy as np
 
 from app.grade.chains import Bent, equal_arcs, on_bent, rounded_angles
 from app.grade.expected import PITCH, Motion, Workbook, dance_of, of_dance, right_turn
-from app.grade.labels import SPEED, X, Y
 from core import BenchDragonError, Dance, Dragon, Spiral, Turn
 from core.values import Floats
 
@@ -28,8 +27,9 @@ PI_ROUNDED = (3.14, 3.1416)
 PLACE_STEP, PLACE_NEAR = 0.01, 0.05
 # Most places of the head of which the mean shift is taken.
 PLACES_MOST = 50
-# Least and largest shift of the times that is looked for [s]: six decimals of the head's place show 1e-6 s.
-SHIFT_LEAST, SHIFT_MOST = 1e-5, 500.0
+# Least and largest shift of the times that is looked for [s]: six decimals of the head's place show 1e-6 s; and
+# decimals of a shift that counts if few decimals of the places allow it.
+SHIFT_LEAST, SHIFT_MOST, SHIFT_DECIMALS = 1e-5, 500.0, 2
 # A start counts as one of three decimals up to this distance from it [turns].
 SIMPLE_TURNS = 1e-5
 # An angle counts as one of so many decimals up to this distance from it [degrees].
@@ -43,17 +43,35 @@ ROWS_MOST = 10
 LENGTH_DECIMALS, MEASURED, SAME_LENGTH = (2, 3, 4, 5), 2e-6, 1e-4
 
 
+# A matrix by which x, y and speed are multiplied from the right.
+Mirror = Floats
+# The matrices of places with a wrong sign of y or x, or with x and y exchanged, by the names of these errors.
+MIRRORS: dict[str, Mirror] = {
+    "anticlockwise": np.diag([1.0, -1.0, 1.0]),
+    "x_negated": np.diag([-1.0, 1.0, 1.0]),
+    "axes_exchanged": np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]),
+}
+
+
 @dataclass(frozen=True)
 class Model:
     """A known error, recomputed. error: its name; motion: its result; values: numbers in its words
 
     is_simplest: True if the models beside it have this error and a further one
+    beside: a second error that the motion has too; shift: of the times [s], if that is the error
     """
 
     error: str
     motion: Motion
     values: dict[str, object] = field(default_factory=dict)
     is_simplest: bool = False
+    beside: Model | None = None
+    shift: float | None = None
+
+    @property
+    def errors(self) -> tuple[str, ...]:
+        """The names of its errors."""
+        return (self.error, *(self.beside.errors if self.beside else ()))
 
 
 @dataclass(frozen=True)
@@ -63,39 +81,45 @@ class SheetClues:
     head: (T, 2) [m], NaN where it is missing; None if the sheet has no places of the head
     chords: distances [m] between the first two handles, and between any two others, if they are steady; else None
     turned: angle [rad] by which most places are turned about the centre, counter-clockwise; None without places
+    unit: of the last decimal of a place [m]
     """
 
     head: Floats | None = None
     chords: tuple[float, float] | None = None
     turned: float | None = None
+    unit: float = 0.0
 
 
 def geometries(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
     """Every known error in the positions, the likeliest first. times: (T,) [s] of the sheet"""
     right = of_dance(dance)
-    yield Model("anticlockwise", lambda t: right(t) * [1.0, -1.0, 1.0])
-    yield Model("x_negated", lambda t: right(t) * [-1.0, 1.0, 1.0])
-    yield Model("axes_exchanged", lambda t: right(t)[..., [Y, X, SPEED]])
+    for error, mirror in MIRRORS.items():
+        yield Model(error, mirrored(right, mirror))
     yield from shifted_rows(right)
     if seen.turned is not None:
         yield _turned(right, seen.turned)
     yield Model("equal_arcs", equal_arcs(dance))
-    yield from _other_dragons(dance)
-    yield from _own_lengths(dance, seen)
+    yield from other_dragons(dance)
+    yield from own_lengths(dance, seen)
     spiral = dance.path.spiral
     if spiral is None:
-        yield from _other_turns(dance, right_turn())
+        yield from other_turns(dance, right_turn())
     else:
         yield from _other_angles(dance, spiral, times.size > 1)
         yield from _rounded_spirals(dance, spiral)
     if seen.head is not None:
-        yield from _other_starts(dance, times, seen.head)
-        yield from _other_questions(dance, times, seen.head)
+        yield from other_starts(dance, times, seen.head, seen.unit)
+        yield from _other_questions(dance, times, seen.head, seen.unit)
 
 
-def shifted_rows(motion: Motion) -> Iterator[Model]:
+def mirrored(motion: Motion, mirror: Mirror) -> Motion:
+    """The motion whose places are mirrored, or have x and y exchanged."""
+    return lambda times: motion(times) @ mirror
+
+
+def shifted_rows(motion: Motion, most: int = ROWS_MOST) -> Iterator[Model]:
     """Each handle has the numbers of one that is some benches behind it, or before it; those left over have none."""
-    for count in range(1, ROWS_MOST + 1):
+    for count in range(1, most + 1):
         for by in (count, -count):
             yield Model("shifted_rows", partial(_shifted, motion, by), {"by": f"k {'+' if by > 0 else '-'} {count}"})
 
@@ -108,7 +132,7 @@ def _shifted(motion: Motion, by: int, times: Floats) -> Floats:
 
 def shifted_time(motion: Motion, shift: float) -> Model:
     """The numbers of a motion at times that are later by a shift [s]."""
-    return Model("shifted_time", lambda t: motion(t + shift), {"shift": f"{shift:+.6g}"})
+    return Model("shifted_time", lambda t: motion(t + shift), {"shift": f"{shift:+.6g}"}, shift=shift)
 
 
 def _turned(motion: Motion, angle: float) -> Model:
@@ -132,7 +156,7 @@ OTHER_LENGTHS = {
 }
 
 
-def _other_dragons(dance: Dance) -> Iterator[Model]:
+def other_dragons(dance: Dance) -> Iterator[Model]:
     """Wrong distances between the handles."""
     for error, lengths in OTHER_LENGTHS.items():
         yield Model(error, _on_path(Dragon(dance.dragon.benches, **lengths), dance.path.spiral or right_turn()))
@@ -147,7 +171,7 @@ def _on_path(dragon: Dragon, path: Spiral | Turn) -> Motion:
         return on_bent(dragon, Bent(path, tuple(arcs_of(path))))
 
 
-def _own_lengths(dance: Dance, seen: SheetClues) -> Iterator[Model]:
+def own_lengths(dance: Dance, seen: SheetClues) -> Iterator[Model]:
     """Distances between the handles that are steady in the student's sheet, and neither right nor a known error."""
     if seen.chords is None:
         return
@@ -170,11 +194,11 @@ def _simple(length: float) -> float:
     return next((one for k in LENGTH_DECIMALS if abs((one := round(length, k)) - length) < MEASURED), length)
 
 
-def _other_questions(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
+def _other_questions(dance: Dance, times: Floats, head: Floats, unit: float) -> Iterator[Model]:
     """The numbers of another question, at the times at which its head is at the student's places."""
     is_turn = dance.path.spiral is None
     other = dance_of(Workbook.RESULT1 if is_turn else Workbook.RESULT4)
-    if (shift := _shift(other, times, head)) is not None:
+    if (shift := _shift(other, times, head, unit)) is not None:
         right = of_dance(other)
         values: dict[str, object] = {"question": 1 if is_turn else 4, "shift": f"{shift:+.6g}"}
         yield Model("other_question", lambda t: right(t + shift), values)
@@ -234,7 +258,7 @@ def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:
         yield Model("rounded_early", rounded_angles(dance, path, decimals), {"what": f"theta, {decimals} decimals"})
 
 
-def _other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
+def other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
     """Turns of another shape."""
     for error, ratio in (("ratio_inverted", 1.0 / path.ratio), ("equal_arcs_of_turn", 1.0)):
         yield Model(error, of_dance(Dance(dance.dragon, Turn(PITCH, ratio=ratio))))
@@ -261,13 +285,13 @@ def arcs_of(path: Turn) -> list[tuple[complex, float, float, float]]:
     ]
 
 
-def _other_starts(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
+def other_starts(dance: Dance, times: Floats, head: Floats, unit: float) -> Iterator[Model]:
     """Models with another starting turn, or with shifted times; both follow from the student's places of the head."""
     known = np.flatnonzero(np.isfinite(head).all(axis=1))
     if not known.size:
         return
     first, spiral = known[0], dance.path.spiral
-    shift, simple = _shift(dance, times, head), False
+    shift, simple = _shift(dance, times, head, unit), False
     if spiral is not None and times[first] == 0.0:
         seen = float(np.hypot(*head[first])) / spiral.pitch
         turns = round(seen, 3)
@@ -305,7 +329,7 @@ def spiral_arc(radius: Floats | float, growth: float) -> Floats:
     return np.asarray(0.5 * growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta)))
 
 
-def _shift(dance: Dance, times: Floats, head: Floats) -> float | None:
+def _shift(dance: Dance, times: Floats, head: Floats, unit: float) -> float | None:
     """Time from an instant of the sheet to that at which a dance has its head there [s]; None if it is never near."""
     known = np.flatnonzero(np.isfinite(head).all(axis=1))
     if not known.size:
@@ -319,7 +343,11 @@ def _shift(dance: Dance, times: Floats, head: Floats) -> float | None:
     # The rounding of one place moves it by as much; the mean of many places is nearer, if these have the same shift.
     some = [k for k in known[:: max(1, known.size // PLACES_MOST)] if times[k] + shift <= dance.end.time]
     shifts = [time_at(dance, float(times[k]) + shift, head[k]) - float(times[k]) for k in some]
-    return float(np.mean(shifts)) if shifts and max(shifts) - min(shifts) < PLACE_STEP else shift
+    if shifts and max(shifts) - min(shifts) < PLACE_STEP:
+        shift = float(np.mean(shifts))
+    # Few decimals leave it as uncertain as the last of them, and students err by simple numbers.
+    simple = round(shift, SHIFT_DECIMALS)
+    return simple if abs(simple - shift) < unit else shift
 
 
 def time_at(dance: Dance, time: float, point: Floats) -> float:

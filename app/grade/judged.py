@@ -13,6 +13,7 @@ from enum import StrEnum
 
 import numpy as np
 
+from app.grade.decimals import digits_of, usual_of
 from app.grade.expected import Workbook, cells_of, contact_time, dance_of, of_dance, times_of
 from app.grade.layout import COMPONENTS, HANDLES, SHEETS, Ints, SheetTable, TableKind
 from app.grade.words import Note, note
@@ -24,8 +25,6 @@ NAME_OF_WORKBOOK = re.compile(r"result\s*_?([124])(?!\d)", re.IGNORECASE)
 RIGHT = 5.1e-7
 # Tolerance of k decimals, fewer than six, in units of 10^-k; such numbers count as rounded.
 ROUNDED, DECIMALS = 0.51, (5, 4, 3, 2)
-# Most decimals of a number in metres that a double holds.
-DECIMALS_MOST = 12
 # Decimals that the contest asks for; and largest difference of numbers that count as equal [m, m/s].
 DECIMALS_OF_CONTEST, FLAT = 6, 2e-6
 # Error of a student's own arithmetic, in addition to the rounding of the written decimals [m, m/s].
@@ -69,7 +68,8 @@ class JudgedSheet:
     """The judgement of a sheet.
 
     values, wanted: the student's and the right numbers (T, H, C) [m, m/s]; handles (H,), times (T,) [s]
-    decimals: number to which a rounded sheet is right; written: decimals of its numbers
+    decimals: number to which a rounded sheet is right; written: decimals that its numbers usually have; digits: those
+        with which each number counts (T, H, C)
     cells: number that the contest requires; right, missing: how many of them
     """
 
@@ -78,6 +78,7 @@ class JudgedSheet:
     verdict: Rating
     decimals: int | None
     written: int
+    digits: Ints
     cells: int
     right: int
     missing: int
@@ -94,14 +95,29 @@ class JudgedSheet:
         return off
 
     @property
-    def tolerance(self) -> float:
-        """Distance within which a number agrees with another one that was computed the same way [m, m/s]."""
+    def rounding(self) -> Floats:
+        """Distance of each number (T, H, C) from the one that was rounded to it [m, m/s]."""
+        return np.asarray(ROUNDED * 10.0**-self.digits)
+
+    @property
+    def tolerance(self) -> Floats:
+        """Distance within which each number agrees with another one that was computed the same way [m, m/s]."""
+        return self.rounding + ARITHMETIC
+
+    @property
+    def usual_tolerance(self) -> float:
+        """The tolerance of most numbers [m, m/s]."""
         return ROUNDED * 10.0**-self.written + ARITHMETIC
 
     @property
     def is_off(self) -> bool:
-        """True where a number is further off than its written decimals and a student's arithmetic allow."""
-        return float(np.nan_to_num(self.off).max(initial=0.0)) > self.tolerance
+        """True if a number is further off than its decimals and a student's arithmetic allow."""
+        return bool((self.off > self.tolerance).any())
+
+    @property
+    def is_rounded(self) -> bool:
+        """True if every number is the right one, rounded to its decimals."""
+        return not bool((self.off > self.rounding).any())
 
     def worst(self) -> tuple[int, ...] | None:
         """Index of the number with the largest error; None if all are right."""
@@ -144,7 +160,7 @@ def workbook_of(tables: list[SheetTable], name: str) -> Workbook:
 
 
 def judged(table: SheetTable, workbook: Workbook, decimals_beside: int = 0) -> JudgedSheet:
-    """The judgement of one table. decimals_beside: those of the numbers in the other sheets of its file"""
+    """The judgement of one table. decimals_beside: those of the numbers of its file"""
     instants = _instants(table)
     return max((_judged(table, workbook, decimals_beside, times) for times in instants), key=lambda one: one.right)
 
@@ -177,7 +193,9 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     off, cells = np.abs(values - wanted), cells_of(workbook, table.kind)
     present, right = int((~np.isnan(off)).sum()), int((off <= RIGHT).sum())
     largest = float(np.nanmax(off)) if present else np.inf
-    decimals, written = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None), decimals_of(values)
+    decimals = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None)
+    digits = digits_of(values, decimals_beside)
+    written = usual_of(digits, values)
     if decimals is not None and decimals < _decimals_of_flat(values, wanted, max(written, decimals_beside)):
         decimals = None
     if not present:
@@ -201,6 +219,7 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
         verdict,
         decimals=None if largest <= RIGHT else decimals,
         written=written,
+        digits=digits,
         cells=cells,
         right=right,
         missing=missing,
@@ -265,10 +284,3 @@ def _handles(table: SheetTable, values: Floats, motion: Floats, notes: list[Note
         return table.handles
     notes.append(note("by_order"))
     return table.by_order
-
-
-def decimals_of(values: Floats) -> int:
-    """Number of decimals of the most precise of the numbers."""
-    some = values[np.isfinite(values)]
-    scalings = enumerate(some * 10.0**k for k in range(DECIMALS_MOST))
-    return next((k for k, scaled in scalings if np.all(np.abs(scaled - np.round(scaled)) < 1e-6)), DECIMALS_MOST)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,14 +87,20 @@ class SheetTable:
 def wide_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool, numbered: bool) -> list[SheetTable]:
     """The tables of a sheet with a line for each handle, below or beside each other; none if no column labels handles.
 
-    turned: True if rows and columns of the sheet were swapped; numbered: True if numbers may label the handles
+    turned: True if rows and columns of the sheet were swapped; numbered: True if numbers alone may label the handles;
+        else they may in one table where names do in another
     """
     tables: list[SheetTable] = []
     heads: list[list[Cell]] = []
-    before = 0
-    for first, part in _beside(cells, numbered):
-        labels = _label_columns(part, first, numbered)
-        counts = [_count_of_handles(column) for column in labels]
+    before, names = 0, frozenset() if numbered else _names_in(cells)
+    if not numbered and not names:
+        return []
+    for first, part in _beside(cells, names):
+        columns = _first_columns(part, first)
+        labels = [_labels_in(column, names) for column in columns]
+        # An index beside the names has as many numbers.
+        named = [_count_of_handles(_names_of(column)) for column in columns] if names else [0]
+        counts = named if max(named) >= LABELS_LEAST else [_count_of_handles(column) for column in labels]
         if max(counts) < LABELS_LEAST:
             continue
         most = int(np.argmax(counts))
@@ -109,22 +116,34 @@ def wide_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool, numbered: 
     return tables
 
 
-def _beside(cells: list[list[Cell]], numbered: bool) -> list[tuple[int, list[list[Cell]]]]:
+def _names_in(cells: list[list[Cell]]) -> frozenset[int]:
+    """The handles that the first column with names of them names; none without one."""
+    for column in zip(*cells, strict=True):
+        labels = _names_of(column)
+        if _count_of_handles(labels) >= LABELS_LEAST:
+            return frozenset(_numbered(_lines_of(labels))[0].tolist())
+    return frozenset()
+
+
+def _beside(cells: list[list[Cell]], names: frozenset[int]) -> list[tuple[int, list[list[Cell]]]]:
     """The tables that stand beside each other: the first column of each, and the cells without those of the others.
 
-    A table begins with a column of labels that has numbers on both sides, and names other handles than the last one.
+    A table begins with a column of labels that has numbers on both sides, and names other handles than the last one, or
+    stands below another axis or beside the same instants.
     """
     rows = min(len(cells), MARGIN + LINES_LOOKED_AT)
     starts, last, end = [0], None, 0
     for k in range(len(cells[0])):
-        labels = _labels_beside(cells, k, rows, numbered)
+        labels = _labels_beside(cells, k, rows, names)
         if _count_of_handles(labels) < LABELS_LEAST:
             continue
         lines = [n for n, label in enumerate(labels) if label and label.handle is not None]
         sides = range(end + 1, k), range(k + 1, len(cells[0]))
         if last is None:
             last = labels
-        elif all(any(cells[n][c] is not None for n in lines for c in side) for side in sides) and _differ(last, labels):
+        elif all(any(cells[n][c] is not None for n in lines for c in side) for side in sides) and (
+            _differ(last, labels) or _repeat(cells[: lines[0]], starts[-1], end, k)
+        ):
             starts.append(k)
             last = labels
         end = k
@@ -135,17 +154,31 @@ def _beside(cells: list[list[Cell]], numbered: bool) -> list[tuple[int, list[lis
     return [(start, [[None] * start + row[start:end] for row in cells]) for start, end in parts]
 
 
-def _labels_beside(cells: list[list[Cell]], k: int, rows: int, numbered: bool) -> list[Label | None]:
+def _labels_beside(cells: list[list[Cell]], k: int, rows: int, names: frozenset[int]) -> list[Label | None]:
     """Labels in the first rows of a column."""
-    if not numbered:
-        return [label_of(row[k]) for row in cells[:rows]]
+    some = _names_of([row[k] for row in cells[:rows]])
+    if names and _count_of_handles(some) >= LABELS_LEAST:
+        return some
     column = [row[k] for row in cells]
     first = next((cell for cell in column if isinstance(cell, float)), None)
-    return _numbering(column)[:rows] if first in (0.0, 1.0) else []
+    return _numbering(column, names)[:rows] if first in (0.0, 1.0) else []
+
+
+def _names_of(column: Sequence[Cell]) -> list[Label | None]:
+    return [label_of(cell) for cell in column]
+
+
+def _labels_in(column: list[Cell], names: frozenset[int]) -> list[Label | None]:
+    """Labels in a column: numbers, and names if the sheet has names."""
+    numbers = _numbering(column, names)
+    if not names:
+        return numbers
+    return [name or number for name, number in zip(_names_of(column), numbers, strict=True)]
 
 
 def _count_of_handles(labels: list[Label | None]) -> int:
-    return sum(label is not None and label.handle is not None for label in labels)
+    """Number of different labels of handles; tables on their side, below each other, repeat one in a column."""
+    return len({(label.handle, label.component) for label in labels if label and label.handle is not None})
 
 
 def _differ(labels: list[Label | None], others: list[Label | None]) -> bool:
@@ -160,6 +193,25 @@ def _differ(labels: list[Label | None], others: list[Label | None]) -> bool:
     return False
 
 
+def _repeat(heads: list[list[Cell]], start: int, end: int, k: int) -> bool:
+    """True if two tables with equal labels, in the columns `end` and k, hold two axes, or the same instants again."""
+    axes = [{_component_of(row[column]) for row in heads} - {None} for column in (end, k)]
+    if all(axes) and axes[0].isdisjoint(axes[1]):
+        return True
+    left, right = (
+        {time for row in heads for cell in row[side] if (time := heading_of(cell)[0]) is not None}
+        for side in (slice(start, k), slice(k + 1, None))
+    )
+    return not left.isdisjoint(right)
+
+
+def _component_of(cell: Cell) -> int | None:
+    """x, y or speed, if a heading names it, and no handle."""
+    label = heading_of(cell)[1]
+    is_one = label and label.handle is None and label.component in COMPONENTS[TableKind.CONTACT]
+    return label.component if label and is_one else None
+
+
 def _tables_of(
     grid: Grid,
     cells: list[list[Cell]],
@@ -172,7 +224,14 @@ def _tables_of(
     columns = _columns(heads, aside)
     if {X, Y} <= {component for _, component in columns}:
         return _by_columns(grid, cells, lines, heads, columns, turned)
-    return _over_time(grid, cells, lines, _times(heads, cells, aside), turned)
+    return _over_time(grid, cells, lines, _times(heads, cells, aside), turned, _stated(grid, heads))
+
+
+def _stated(grid: Grid, heads: list[list[Cell]]) -> int:
+    """The only component that headings name, or else the title of the sheet; the speed without one."""
+    stated = {component for row in heads for cell in row if (component := _component_of(cell)) is not None}
+    stated = stated or {component for component in [_component_of(grid.title)] if component is not None}
+    return stated.pop() if len(stated) == 1 else SPEED
 
 
 def _blocks(cells: list[list[Cell]], lines: list[tuple[int, Label]]) -> list[list[tuple[int, Label]]]:
@@ -191,29 +250,44 @@ def _blocks(cells: list[list[Cell]], lines: list[tuple[int, Label]]) -> list[lis
     return blocks
 
 
-def _label_columns(cells: list[list[Cell]], first: int, numbered: bool) -> list[list[Label | None]]:
-    """Meaning of every cell in some columns. first: of them; numbered: True if numbers may label the handles"""
-    columns = [[row[k] for row in cells] for k in range(first, min(first + MARGIN, len(cells[0])))]
-    return [_numbering(column) if numbered else [label_of(cell) for cell in column] for column in columns]
+def _first_columns(cells: list[list[Cell]], first: int) -> list[list[Cell]]:
+    """The columns from `first` on that may hold labels."""
+    return [[row[k] for row in cells] for k in range(first, min(first + MARGIN, len(cells[0])))]
 
 
-def _numbering(column: list[Cell]) -> list[Label | None]:
-    """Labels of a column that numbers the handles, or their lines of x and y, from 0 or 1; elsewhere None."""
-    lines = [k for k, cell in enumerate(column) if isinstance(cell, float)]
-    numbers = np.array([column[k] for k in lines], dtype=np.float64)
+def _numbering(column: list[Cell], names: frozenset[int]) -> list[Label | None]:
+    """Labels of a column that numbers the handles, or their lines of x and y, from 0 or 1; elsewhere None.
+
+    It may do so again and again in tables below each other. names: handles that names label in another table, which
+    need no heading
+    """
     labels: list[Label | None] = [None] * len(column)
-    heads = [normalized(cell) for cell in column[: min(lines, default=0)] if isinstance(cell, str)]
-    counts_all = abs(len(lines) - HANDLES) <= EXTRA_MOST or len(lines) == 2 * HANDLES
+    numbers = [(k, cell) for k, cell in enumerate(column) if isinstance(cell, float)]
+    # A table below another one begins with a smaller number, below a line of its own.
+    begins = [n for n, ((k, a), (m, b)) in enumerate(pairwise(numbers), 1) if m > k + 1 and b <= a]
+    end = 0
+    for begin, after in pairwise([0, *begins, len(numbers)] if numbers else []):
+        lines, run = zip(*numbers[begin:after], strict=True)
+        heads = [normalized(cell) for cell in column[end : lines[0]] if isinstance(cell, str)]
+        for n, handle in _numbers_of(run, heads, names).items():
+            labels[lines[n]] = Label(handle, None, 1.0)
+        end = lines[-1] + 1
+    return labels
+
+
+def _numbers_of(run: Sequence[float], heads: list[str], names: frozenset[int]) -> dict[int, int]:
+    """The handles that the numbers below some headings number, by their places; none if they are other numbers."""
+    numbers = np.array(run)
+    counts_all = abs(numbers.size - HANDLES) <= EXTRA_MOST or numbers.size == 2 * HANDLES
     is_counted = counts_all and numbers[0] in (0.0, 1.0) and bool(np.all(np.diff(numbers) == 1.0))
     are_handles = bool(np.all((numbers == np.round(numbers)) & (numbers >= 0.0) & (numbers < HANDLES)))
-    is_headed = any(map(is_handle_heading, heads)) and np.unique(numbers).size == numbers.size >= LABELS_LEAST
-    if not is_counted and not (is_headed and are_handles):
-        return labels
+    is_unique = np.unique(numbers).size == numbers.size >= LABELS_LEAST
+    is_headed = any(map(is_handle_heading, heads)) or names == set(numbers.tolist())
+    if not is_counted and not (is_unique and is_headed and are_handles):
+        return {}
     first = 1 if is_counted and numbers[0] == 1.0 else 0
-    each = 2 if len(lines) == 2 * HANDLES else 1
-    for k, number in zip(lines, numbers.astype(int).tolist(), strict=True):
-        labels[k] = Label((number - first) // each, None, 1.0)
-    return labels
+    each = 2 if numbers.size == 2 * HANDLES else 1
+    return {k: (number - first) // each for k, number in enumerate(numbers.astype(int).tolist())}
 
 
 def holds_angles(grid: Grid, cells: list[list[Cell]]) -> bool:
@@ -244,6 +318,7 @@ def _columns(heads: list[list[Cell]], aside: int) -> Columns:
     """Columns headed x, y or speed, but by no handle; the first of each. An instant may stand above several."""
     above = _instants(heads, aside)
     columns: Columns = {}
+    labelled: dict[int, Label] = {}
     for row in heads:
         for k, cell in enumerate(row):
             time, label = heading_of(cell)
@@ -251,6 +326,11 @@ def _columns(heads: list[list[Cell]], aside: int) -> Columns:
                 if time is None:
                     time = next((above[n] for n in range(k, aside, -1) if n in above), None)
                 columns.setdefault((time, label.component), (k, label.unit))
+                labelled.setdefault(k, label)
+    for k in sorted(above.keys() - labelled.keys()):
+        # An axis may stand above several instants.
+        if (left := max((n for n in labelled if n < k), default=None)) is not None:
+            columns.setdefault((above[k], labelled[left].component or X), (k, labelled[left].unit))
     return columns
 
 
@@ -266,7 +346,7 @@ def _instants(heads: list[list[Cell]], aside: int) -> dict[int, float]:
 def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
     """Lines with their labels. Where most labels without an axis stand above a line without one, that line is their y
     (merged cells); one such line alone is a remark below the table, or a blank."""
-    lines = [(k, label) for k, label in enumerate(labels) if label is not None and label.handle is not None]
+    lines = _lines_of(labels)
     open_below = {k for k, label in lines if label.component is None and labels[k + 1 : k + 2] == [None]}
     if 2 * len(open_below) <= len(lines):
         return lines
@@ -275,6 +355,11 @@ def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
         both = [(k, replace(label, component=X)), (k + 1, replace(label, component=Y))]
         expanded += both if k in open_below else [(k, label)]
     return expanded
+
+
+def _lines_of(labels: list[Label | None]) -> list[tuple[int, Label]]:
+    """Lines with a label of a handle."""
+    return [(k, label) for k, label in enumerate(labels) if label is not None and label.handle is not None]
 
 
 def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict[int, float]:
@@ -303,16 +388,24 @@ def _numbered(lines: list[tuple[int, Label]]) -> tuple[Ints, Ints]:
 
 
 def _over_time(
-    grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, Label]], times: dict[int, float], turned: bool
+    grid: Grid,
+    cells: list[list[Cell]],
+    lines: list[tuple[int, Label]],
+    times: dict[int, float],
+    turned: bool,
+    stated: int = SPEED,
 ) -> list[SheetTable]:
-    """Positions and speeds of handles at instants, in lines with labels of both."""
+    """Positions and speeds of handles at instants, in lines with labels of both.
+
+    stated: component of lines whose labels name none
+    """
     components = {label.component for _, label in lines}
     if not components & {X, Y, SPEED}:
-        # Labels without an axis: two lines for each handle are x above y, and one line holds its speeds.
+        # Labels without an axis: two lines for each handle are x above y, and one line holds what is stated.
         twice = len(lines) > 1 and lines[0][1].handle == lines[1][1].handle
-        lines = [(k, replace(label, component=n % 2 if twice else SPEED)) for n, (k, label) in enumerate(lines)]
-    elif SPEED in components:
-        lines = [(k, replace(label, component=SPEED) if label.component is None else label) for k, label in lines]
+        lines = [(k, replace(label, component=n % 2 if twice else stated)) for n, (k, label) in enumerate(lines)]
+    else:
+        lines = [(k, replace(label, component=stated) if label.component is None else label) for k, label in lines]
     kinds = (TableKind.POSITION, TableKind.SPEED)
     tables = (_table_of(grid, cells, kind, lines, times, turned) for kind in kinds)
     return [table for table in tables if table]

@@ -12,6 +12,7 @@ from pydantic import Field
 from app.extras import MissingPackage
 from app.files.tables import Language, handle_names
 from app.grade.cells import cell_name
+from app.grade.decimals import decimals_of_file
 from app.grade.diagnosis import diagnosed, why_unexplained
 from app.grade.expected import KINDS, cells_of
 from app.grade.grid import UnreadableTable
@@ -20,7 +21,6 @@ from app.grade.judged import (
     NAME_OF_WORKBOOK,
     JudgedSheet,
     Rating,
-    decimals_of,
     judged,
     with_errors,
     workbook_of,
@@ -31,7 +31,7 @@ from app.grade.names import readable_name
 from app.grade.numbers import CERTAIN, graded_number
 from app.grade.reading import ZIP, grids_of
 from app.grade.rubric import rubric_of
-from app.grade.sheets import at_contact, tables_of
+from app.grade.sheets import at_contact, tables_of, with_both_axes
 from app.grade.shortcuts import UNITS, Finding, right_answer
 from app.grade.words import Note, note, say
 from app.wire.question import Answer
@@ -183,13 +183,13 @@ def too_long(data: bytes, budget: Budget) -> TooMuchWork:
 
 def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
     grids, notes = grids_of(data, budget)
-    tables = at_contact([table for grid in grids for table in tables_of(grid)])
+    tables = at_contact(with_both_axes([table for grid in grids for table in tables_of(grid)]))
     if not tables:
         has_workbook_ending = PurePath(name).suffix.lower() in WORKBOOK_ENDINGS
         known = next((one for grid in grids for one in grid.notes if one.code == "curve"), note("no_table"))
         raise UnreadableTable(note("no_workbook") if has_workbook_ending and not data.startswith(ZIP) else known)
     workbook = workbook_of(tables, PurePath(name).stem)
-    decimals = max(decimals_of(table.values) for table in tables)
+    decimals = decimals_of_file([table.values for table in tables])
     judgements = [judged(table, workbook, decimals) for table in tables]
     findings = diagnosed(judgements, budget)
     judgements = with_errors(judgements, {kind for one in findings for kind in one.kinds})
@@ -267,9 +267,8 @@ def _guessed(findings: Sequence[Finding], language: Language) -> list[GuessAnswe
 
 def _sheet(one: JudgedSheet, language: Language) -> SheetAnswer:
     worst, first, notes = one.worst(), one.first(), [*one.notes]
-    # Equal numbers, such as 1.00, do not show their decimals.
-    if one.verdict is Rating.ROUNDED and one.decimals is not None and one.written > one.decimals:
-        notes.append(note("not_rounded", written=one.written, decimals=one.decimals))
+    if one.verdict is Rating.ROUNDED and one.decimals is not None and not one.is_rounded:
+        notes.append(note("not_rounded", written=int(one.digits.max()), decimals=one.decimals))
     return SheetAnswer(
         sheet=_title(one, language),
         holds=one.table.kind.value,

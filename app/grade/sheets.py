@@ -13,8 +13,17 @@ import numpy as np
 
 from app.grade.expected import Workbook, times_of
 from app.grade.grid import Cell, Grid, normalized
-from app.grade.labels import SPEED_WORD
-from app.grade.layout import SHEETS, SheetTable, TableKind, bare_tables, holds_angles, holds_curve, wide_tables
+from app.grade.labels import SPEED_WORD, X, Y
+from app.grade.layout import (
+    COMPONENTS,
+    SHEETS,
+    SheetTable,
+    TableKind,
+    bare_tables,
+    holds_angles,
+    holds_curve,
+    wide_tables,
+)
 from app.grade.lists import lists_of
 from app.grade.words import note
 
@@ -60,6 +69,47 @@ def _titled(table: SheetTable) -> SheetTable:
         return table
     remark = note("titled_otherwise", title=table.title, kind=note(SHEETS[table.kind]))
     return replace(table, notes=[*table.notes, remark])
+
+
+def with_both_axes(tables: list[SheetTable]) -> list[SheetTable]:
+    """The tables of a file; two of positions, of which one holds only x and the other only y, are one."""
+    lacking = {axis: [one for one in tables if _lacks(one, axis)] for axis in (X, Y)}
+    joined = dict(zip(map(id, lacking[Y]), map(_joined, lacking[Y], lacking[X]), strict=False))
+    second = {id(one) for one in lacking[X][: len(joined)]}
+    return [joined.get(id(one), one) for one in tables if id(one) not in second]
+
+
+def _lacks(table: SheetTable, axis: int) -> bool:
+    """True for a table of positions of which one axis has no numbers, but the other one has."""
+    if table.kind is not TableKind.POSITION:
+        return False
+    has_numbers = _axes_of(table)
+    return not has_numbers[axis] and has_numbers[1 - axis]
+
+
+def _axes_of(table: SheetTable) -> list[bool]:
+    """Whether x and y have numbers."""
+    return [bool(np.isfinite(table.values[..., axis]).any()) for axis in (X, Y)]
+
+
+def _joined(one: SheetTable, other: SheetTable) -> SheetTable:
+    """The positions of two tables, of which each has one axis."""
+    times = np.union1d(one.times, other.times)
+    handles = np.array(list(dict.fromkeys([*one.handles.tolist(), *other.handles.tolist()])))
+    places = {handle: n for n, handle in enumerate(handles.tolist())}
+    shape = (times.size, handles.size, len(COMPONENTS[TableKind.POSITION]))
+    values, row, column = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), np.zeros(shape, dtype=np.int64)
+    for table in (one, other):
+        axes = np.flatnonzero(_axes_of(table))
+        lines = np.array([places[handle] for handle in table.handles.tolist()])
+        at = np.ix_(np.searchsorted(times, table.times), lines, axes)
+        for whole, part in ((values, table.values), (row, table.row), (column, table.column)):
+            whole[at] = part[..., axes]
+    are_alike = np.array_equal(one.handles, handles) and np.array_equal(other.handles, handles)
+    by_order = one.by_order if are_alike else handles
+    title = " / ".join(dict.fromkeys(table.title for table in (one, other) if table.title))
+    notes = [*one.notes, *(remark for remark in other.notes if remark not in one.notes)]
+    return SheetTable(title, one.kind, times, handles, by_order, values, row, column, notes)
 
 
 def at_contact(tables: list[SheetTable]) -> list[SheetTable]:

@@ -6,8 +6,9 @@ from tests.support.students import labels
 
 NAMES = [label.removesuffix(" (m/s)") for label in labels("speed")]
 # Forms of a table: a line for each handle and instant; a line for each handle, under one heading or two; lines of x, y
-# and speed, below one another, beside each other, or in sheets of their own.
-FORMS = ("list", "columns", "two heads", "stack", "stack with heads", "beside", "sheets")
+# and speed, below one another, beside each other, or in sheets of their own; tables of x, of y and of speed, likewise.
+FORMS = ("list", "columns", "two heads", "stack", "stack with heads", "beside", "sheets",
+         "axes below", "axes beside", "axes in sheets")  # fmt: skip
 # Forms of an instant in a heading.
 INSTANTS = ("{:.9g} s", "{:.9g}s", "t={:.9g}")
 
@@ -28,16 +29,29 @@ def in_layout(values, times, form, *, heading=INSTANTS[0], numbered=False):
         heads = [["", *(cell for time in instants for cell in (time, None, None))], ["", *"xyv" * len(instants)]]
         return {"both": heads + by_handle(handles, table)}
     heads = [["", *instants]]
+    if form.startswith("axes"):
+        return axes_apart(values, instants, handles, form.removeprefix("axes "))
     position, speed = (
         [[label, *values[:, k // len(axes), axes[k % len(axes)]].tolist()] for k, label in enumerate(some)]
         for some, axes in ((labels("position")[: 2 * count], (0, 1)), (labels("speed")[:count], (2,)))
     )
+    speed = [[h, *row[1:]] for h, row in enumerate(speed)] if numbered else speed
     if form == "sheets":
-        bare = [[h, *row[1:]] for h, row in enumerate(speed)] if numbered else speed
-        return {"位置": heads + position, "速度": heads + bare}
+        return {"位置": heads + position, "速度": heads + speed}
     if form == "beside":
         return {"both": beside(heads + position, heads + speed)}
     return {"both": [*heads, *position, *([[None], *heads] if form == "stack with heads" else []), *speed]}
+
+
+def axes_apart(values, instants, handles, way):
+    """Tables of x, of y and of the speed, each with its name in the corner, below or beside each other or in sheets."""
+    x, y, speed = (
+        [[name, *instants], *([h, *column] for h, column in zip(handles, values[..., k].T.tolist(), strict=True))]
+        for k, name in enumerate(("x (m)", "y (m)", "v (m/s)"))
+    )
+    if way == "in sheets":
+        return {"x": x, "y": y, "v": speed}
+    return {"all": beside(beside(x, y), speed) if way == "beside" else [*x, [], *y, [], *speed]}
 
 
 def beside(left, right, gap=1):

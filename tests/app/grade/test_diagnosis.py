@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from app.files.tables import Language
-from app.grade.judged import decimals_of
+from app.grade.decimals import digits_of
 from app.grade.report import graded
 from core import Budget, Dragon
 from tests.campaigns.hunt_grades import hunt
 from tests.support import students
+from tests.support.student_files import as_csv, in_layout
 from tests.support.students import CONTACT, SPIRAL_TIMES, TURN_TIMES, spiral, turn
 
 AT_CONTACT = np.array([CONTACT])
@@ -200,8 +201,8 @@ def test_speeds_of_two_decimals_are_not_said_to_be_written_with_none():
     assert (sheet.verdict, sheet.decimals, sheet.notes) == ("rounded", 2, [])
 
 
-def test_the_decimals_of_a_table_are_those_of_its_most_precise_number():
-    assert decimals_of(np.append(np.ones(10_000), 0.9965)) == 4
+def test_a_table_has_the_decimals_of_its_numbers_that_show_some():
+    assert (digits_of(np.append(np.ones(10_000), 0.9965).reshape(1, -1, 1)) == 4).all()
 
 
 def test_another_instant_is_named_beside_a_further_error():
@@ -401,3 +402,91 @@ def test_labels_hold_where_wrong_numbers_fit_the_order_of_the_rows_by_chance():
     result = grade(kept.encode())
     assert errors(result) == ["head_as_body"]
     assert "shifted" not in " ".join(note for sheet in result.sheets for note in sheet.notes)
+
+
+def longer(values, decimals, more):
+    """Numbers of so many decimals, one of which has more."""
+    result = values.round(decimals)
+    result.flat[values.size // 2] = values.flat[values.size // 2].round(more)
+    return result
+
+
+def significant(values, digits):
+    return np.vectorize(lambda value: float(f"{value:.{digits}g}"))(values)
+
+
+def by_instant(values, *decimals):
+    return np.stack([row.round(decimals[k % len(decimals)]) for k, row in enumerate(values)])
+
+
+def by_axis(values, *decimals):
+    return np.dstack([values[..., k].round(each) for k, each in enumerate(decimals)])
+
+
+# Honest ways to round the numbers of a file.
+UNEVEN = {
+    "a longer place": lambda places, speeds: (longer(places, 2, 4), speeds.round(2)),
+    "a longer speed": lambda places, speeds: (places.round(2), longer(speeds, 2, 4)),
+    "both longer": lambda places, speeds: (longer(places, 3, 6), longer(speeds, 3, 5)),
+    "significant digits": lambda places, speeds: (significant(places, 4), significant(speeds, 4)),
+    "scientific": lambda places, speeds: (significant(places, 6), significant(speeds, 3)),
+    "a format of each instant": lambda places, speeds: (by_instant(places, 2, 6), by_instant(speeds, 6, 2, 4)),
+    "a format of each axis": lambda places, speeds: (by_axis(places, 2, 5), speeds),
+}
+
+
+@pytest.mark.parametrize("way", UNEVEN)
+def test_numbers_of_unequal_decimals_are_neither_accused_nor_excused(way):
+    """Each counts with the decimals of its like."""
+    times = SPIRAL_TIMES[::60]
+    wrong = {
+        "anticlockwise": students.mirrored(spiral(times)),
+        "length_for_chord": spiral(times, dragon=Dragon(overhang=0.0)),
+        "speeds_negated": (spiral(times)[0], -spiral(times)[1]),
+    }
+    for error, results in ({"": spiral(times)} | wrong).items():
+        values = np.dstack(UNEVEN[way](*results))
+        for form in ("sheets", "list", "beside"):
+            sheets = in_layout(values, times, form)
+            is_workbook = len(sheets) > 1
+            result = grade(students.by_xlsxwriter(sheets) if is_workbook else as_csv(*sheets.values()))
+            assert errors(result) == ([error] if error else [])
+            assert (result.verdict == "wrong") is bool(error)
+
+
+TWO = {
+    ("x_negated", "shifted_rows"): lambda times, dance: turned_x(shifted(dance(times))),
+    ("x_negated", "length_for_chord"): lambda times, dance: turned_x(dance(times, dragon=Dragon(overhang=0.0))),
+    ("axes_exchanged", "shifted_time"): lambda times, dance: exchanged(dance(times - 1.0)),
+    ("turned", "head_as_body"): lambda times, dance: half_turned(dance(times, dragon=Dragon(head_length=2.2))),
+    ("shifted_rows", "length_for_chord"): lambda times, dance: shifted(dance(times, dragon=Dragon(overhang=0.0))),
+    ("shifted_time", "length_for_chord"): lambda times, dance: dance(times - 1.0, dragon=Dragon(overhang=0.0)),
+    ("speeds_negated", "equal_speeds"): lambda times, dance: (dance(times)[0], -np.ones((len(times), 224))),
+}
+
+
+def turned_x(results):
+    return results[0] * [-1.0, 1.0], results[1]
+
+
+def exchanged(results):
+    return results[0][..., ::-1], results[1]
+
+
+def half_turned(results):
+    return -results[0], results[1]
+
+
+def shifted(results):
+    return tuple(np.roll(part, -1, axis=1) for part in results)
+
+
+@pytest.mark.parametrize("decimals", [6, 3])
+@pytest.mark.parametrize("two", TWO, ids=" ".join)
+def test_two_errors_in_the_same_numbers_are_both_named(two, decimals):
+    times = SPIRAL_TIMES[1::60]
+    results = tuple(part.round(decimals) for part in TWO[two](times, spiral))
+    assert errors(grade(students.lines(results, times))) == list(two)
+    if "shifted_time" not in two:
+        at_contact = tuple(part.round(decimals) for part in TWO[two](AT_CONTACT, spiral))
+        assert errors(grade(students.contact_workbook(at_contact))) == list(two)

@@ -198,14 +198,6 @@ def test_tables_beside_each_other_are_graded_at_their_times(side, corner):
         assert sheets == [("position", "incomplete", 84), ("speed", "incomplete", 42)]
 
 
-def test_times_that_are_stated_again_are_those_of_another_table():
-    """The speeds have numbers of handles beside names, and so are not recognised; the positions keep their times."""
-    position, speed = printed()
-    bare = [["把手", *speed[0][1:]], *([h, *row[1:]] for h, row in zip(PRINTED, speed[1:], strict=True))]
-    first, _ = grade(as_csv(beside(position, bare))).sheets
-    assert (first.verdict, first.right) == ("incomplete", 84)
-
-
 def test_tables_of_one_sheet_are_named_by_what_they_hold():
     """The title of the sheet names neither; also where it is a word for one of them."""
     for title in ("Sheet", "位置"):
@@ -384,3 +376,53 @@ def test_rounded_results_are_named_with_their_decimals(decimals):
         assert sheet.verdict == "wrong"
     else:
         assert (sheet.verdict, sheet.decimals, result.diagnosis) == ("rounded", decimals, [])
+
+
+NUMBERED = {
+    "below": lambda position, speed: [*position, [], *speed],
+    "below, without a line between": lambda position, speed: [*position, *speed],
+    "beside": beside,
+    "speeds first": lambda position, speed: beside(speed, position),
+    "on its side": lambda position, speed: on_side(beside(position, speed)),
+}
+
+
+@pytest.mark.parametrize("side", NUMBERED)
+def test_speeds_of_numbered_handles_are_graded_beside_positions_of_named_ones(side):
+    """All handles, or the printed ones, with a heading above their numbers or none."""
+    heads, *rows = few()["速度"]
+    every = few()["位置"], [heads, *([h, *row[1:]] for h, row in enumerate(rows))]
+    position, [times, *speeds] = printed()
+    for name in ("", "把手"):
+        some = position, [[name, *times[1:]], *([h, *row[1:]] for h, row in zip(PRINTED, speeds, strict=True))]
+        for tables, counts in ((every, FEW), (some, [84, 42])):
+            sheets = grade(as_csv(NUMBERED[side](*tables))).sheets
+            assert sorted((sheet.holds, sheet.right) for sheet in sheets) == [
+                ("position", counts[0]),
+                ("speed", counts[1]),
+            ]
+
+
+def axis_of(name, k, way):
+    """A table of x or of y: its axis stands in the labels, in the corner, or in a title."""
+    heads, *rows = few()["位置"]
+    rows = rows[k::2]
+    bare = [[row[0].replace(f"{name} (m)", ""), *row[1:]] for row in rows]
+    tables = {
+        "labels": [heads, *rows],
+        "corner": [[f"{name} (m)", *heads[1:]], *bare],
+        "title": [[f"{name}坐标"], heads, *bare],
+        "numbers": [[f"{name} (m)", *heads[1:]], *([h, *row[1:]] for h, row in enumerate(bare))],
+    }
+    return tables[way]
+
+
+@pytest.mark.parametrize("way", ["labels", "corner", "title", "numbers"])
+def test_a_table_of_x_and_one_of_y_are_joined(way):
+    x, y = (axis_of(name, k, way) for k, name in enumerate("xy"))
+    one_line = [[None, "x", *[None] * 3, "y"], [None, *2 * x[1 if way == "title" else 0][1:]]]
+    spread = [*one_line, *(left + right[1:] for left, right in zip(x[-224:], y[-224:], strict=True))]
+    below, sides = as_csv([*x, [], *y]), as_csv(beside(x, y))
+    for data in (below, sides, by_xlsxwriter({"x": x, "y": y}), *([as_csv(spread)] if way == "corner" else [])):
+        [sheet, _] = grade(data).sheets
+        assert (sheet.holds, sheet.right) == ("position", FEW[0])
