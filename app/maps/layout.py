@@ -28,7 +28,7 @@ from core.venue import refuse_many_edges
 # Radius of a point, and half of the width of a line, without a radius [m].
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
 # Length that a path has less than its track from which on a note says so [m].
-LOST = 1.0
+LOST = 0.5
 # Largest number of things that a note names; a list of more ends in dots.
 LISTED_MOST = 5
 # Reason of a refusal of numbers that were taken for degrees.

@@ -60,17 +60,17 @@ def thinned(points: Floats) -> tuple[Floats, float]:
     if len(every) <= POINTS_MAX:
         return every, 0.0
     chosen = np.unique(np.linspace(0, len(every) - 1, POINTS_MAX // 2).round().astype(int)).tolist()
-    parts = [(*_furthest(every, a, b), a, b) for a, b in pairwise(chosen)]
+    parts = [(*furthest(every, a, b), a, b) for a, b in pairwise(chosen)]
     heapify(parts)
     while len(chosen) < POINTS_MAX and parts[0][0] < 0.0:
         _, middle, a, b = heappop(parts)
         chosen.append(middle)
         for ends in ((a, middle), (middle, b)):
-            heappush(parts, (*_furthest(every, *ends), *ends))
+            heappush(parts, (*furthest(every, *ends), *ends))
     return every[sorted(chosen)], -parts[0][0]
 
 
-def _furthest(points: Floats, a: int, b: int) -> tuple[float, int]:
+def furthest(points: Floats, a: int, b: int) -> tuple[float, int]:
     """The point between two others that is furthest from their line: its negative distance [m], and its number."""
     if b - a < 2:
         return 0.0, a

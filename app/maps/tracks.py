@@ -5,8 +5,9 @@ of the points are nothing along a straight line and an even bend, and a corner i
 by it, and smoothed along the way with a Gaussian whose width grows until no bend is tighter than the longest bench can
 follow. That may cost no more than the noise and what a right-angled corner loses for it. Where no width does, the track
 keeps its shape: of the widths that cost no more than the noise the least one counts that leaves the tight bends about
-as short as any. Both ends stay in place. Of a track of more than POINTS_MOST points every second, third and so on
-counts.
+as short as any. Where a track is made of straight lines that meet in corners, with room for arcs, an arc in each corner
+costs less than a Gaussian, and is taken. Both ends stay in place. Of a track of more than POINTS_MOST points every
+second, third and so on counts.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from app.maps.lines import furthest
 from app.wire.paths import POINTS_MAX
 from core import Dragon, InvalidValue, Legs, Quantity
 from core.paths.following import tightest_bend
@@ -44,6 +46,10 @@ ROUNDED, CORNER = 0.6, 1.25
 ABOUT = 1.0
 # Most points of a track that count [1].
 POINTS_MOST = 20_000
+# Least turn of a corner [rad], and least share of all turns that corners have where a track is made of straight lines;
+# the radii of its arcs that are tried, in the radius of an easy bend [1], because a curve through points of an arc is
+# tighter where that begins; and how many points of the arcs belong to one of the way.
+SHARP, SHARP_SHARE, ARCS, FINER = 0.4, 0.9, (1.0, 1.03, 1.06, 1.1, 1.15, 1.2), 4
 # Radius of the bends beyond the least one that benches can follow [1].
 EASY = 1.1
 # Way to both sides of where a point went, in which the nearest place of the path is looked for: beside the distance of
@@ -105,6 +111,9 @@ def walk_of(points: Floats, times: Floats | None, chord: float = CHORD) -> Walk 
         rule = "must hold a track that does not turn on the spot, as this one does even when smoothed over {width}"
         raise InvalidValue("file", rule, width=Quantity(width / GROWTH, "m", 3))
     best = _best(tries, noise, radius)
+    eased = _with_arcs(track, radius)
+    if eased is not None and (best.tight > 0.0 or eased.error <= best.error):
+        best = eased
     passages = None
     if times is not None:  # a receiver is as far off along the way as across it
         passages = passages_of(np.asarray(times, dtype=np.float64), best.places, max(PLACE, ERRORS * best.error))
@@ -178,7 +187,11 @@ def _best(tries: list[_Try], noise: float, radius: float) -> _Try:
 
 def _tried(track: _Track, width: float, radius: float) -> _Try | None:
     """The curve along a track smoothed by this width [m]; None if it would stop or turn on the spot."""
-    smooth = smoothed(track.way, width)
+    return _followed(track, smoothed(track.way, width), width, radius)
+
+
+def _followed(track: _Track, smooth: Floats, width: float, radius: float) -> _Try | None:
+    """The curve along a line whose points belong to those of the track's way (N, 2) [m]; None as _tried()."""
     knots = _knots(smooth, min(max(width, KNOT_LEAST), KNOT))
     course = _curve(knots)
     if course is None:
@@ -190,6 +203,63 @@ def _tried(track: _Track, width: float, radius: float) -> _Try | None:
     places, off = _beside(track.points, part, track.reach, s - course.begin, course.position(s))
     error = float(np.sqrt(np.mean(off * off)))
     return _Try(width, knots, course.end - course.begin, tight, float(off.max()), error, places)
+
+
+def _with_arcs(track: _Track, radius: float) -> _Try | None:
+    """The curve along straight lines with an arc in each corner, all easy; None for another track, or without room."""
+    corners = _corners_of(track.points)
+    ways = np.diff(corners, axis=0)
+    headings = np.unwrap(np.arctan2(ways[:, 1], ways[:, 0]))
+    turns = np.abs(np.diff(headings))
+    if not turns.size or turns[turns >= SHARP].sum() < SHARP_SHARE * turns.sum():
+        return None
+    for scale in ARCS:
+        line = _rounded(corners, headings, scale * radius, FINER * len(track.way))
+        if line is None:
+            return None
+        one = _followed(track, smoothed(line, FIRST), FIRST, radius)
+        if one is not None and one.tight == 0.0:
+            return one
+    return None
+
+
+def _corners_of(points: Floats) -> Floats:
+    """The ends of straight lines (K, 2) [m] from which no point is further off than NOISE_LEAST."""
+    moved = np.concatenate([[True], np.hypot(*np.diff(points, axis=0).T) > 0.0])
+    points = points[moved]
+    kept, parts = {0, len(points) - 1}, [(0, len(points) - 1)]
+    while parts:
+        a, b = parts.pop()
+        off, k = furthest(points, a, b)
+        if -off > NOISE_LEAST:
+            kept.add(k)
+            parts += [(a, k), (k, b)]
+    return points[sorted(kept)]
+
+
+# An arc of radius r in a corner with the turn t begins and ends r tan(t / 2) from it. Points on the lines are spread
+# evenly over the arc instead.
+def _rounded(corners: Floats, headings: Floats, radius: float, count: int) -> Floats | None:
+    """Points (count, 2) [m] that belong to evenly spaced ones of straight lines; None where arcs have no room."""
+    ways = np.diff(corners, axis=0)
+    lengths, turns = np.hypot(*ways.T), np.diff(headings)
+    if np.abs(turns).max() >= math.pi - SHARP:
+        return None
+    cut = np.concatenate([[0.0], radius * np.tan(0.5 * np.abs(turns)), [0.0]])
+    if (cut[:-1] + cut[1:] > lengths).any():
+        return None
+    s = np.concatenate([[0.0], np.cumsum(lengths)])
+    at = np.linspace(0.0, s[-1], count)
+    line = np.column_stack([np.interp(at, s, axis) for axis in corners.T])
+    for k, turn in enumerate(turns, start=1):
+        inside = np.abs(at - s[k]) < cut[k]
+        share = (at[inside] - s[k] + cut[k]) / (2.0 * cut[k])
+        along = np.array([math.cos(headings[k - 1]), math.sin(headings[k - 1])])
+        left = math.copysign(1.0, turn) * np.array([-along[1], along[0]])
+        angle = share * abs(turn)
+        begin = corners[k] - cut[k] * along
+        line[inside] = begin + radius * (np.sin(angle)[:, None] * along + (1.0 - np.cos(angle))[:, None] * left)
+    return line
 
 
 def length_along(points: Floats) -> float:

@@ -145,6 +145,31 @@ def test_a_square_wave_of_short_legs_keeps_its_height():
     assert walk.largest < 1.5
 
 
+# Radius of the arcs that would cost least [m], and how much more than they a smooth curve may cost [1].
+EASIEST, DEARER = 1.1 * tightest_bend(Dragon())[0], 1.2
+SQUARES = {
+    "corners alone": [(0, 0), (20, 0), (20, 20), (0, 20), (0, 0)],
+    "stairs": [(6 * ((k + 1) // 2), 6 * (k // 2)) for k in range(9)],
+    "twice around": [(0, 0), (9, 0), (9, 9), (0, 9)] * 2,
+    "one corner": [(0, 0), (30, 0), (30, 30)],
+}
+
+
+@pytest.mark.parametrize("spaced", [None, 1.0, 0.3])
+@pytest.mark.parametrize("name", SQUARES)
+def test_a_walk_of_right_angles_loses_little_more_than_the_least_arcs(name, spaced):
+    corners = np.array(SQUARES[name], dtype=float)
+    s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(corners, axis=0).T))])
+    along = s if spaced is None else np.union1d(s, np.arange(0.0, s[-1], spaced))
+    walk, path = walk_along(np.column_stack([np.interp(along, s, axis) for axis in corners.T]), along)
+    assert walk.is_easy
+    assert not path.tighter(tightest_bend(Dragon())[0])
+    least = (2.0 - 0.5 * math.pi) * EASIEST * (len(corners) - 2)
+    assert s[-1] - walk.length <= DEARER * least
+    assert walk.passages is not None
+    assert all(one["speed"] == pytest.approx(1.0, abs=0.15) for one in walk.passages)
+
+
 @pytest.mark.parametrize("noise", [0.0, 0.3])
 def test_hairpins_that_no_bench_follows_stay_where_they_were_walked(noise):
     legs = [np.column_stack([np.arange(31.0)[:: 1 - 2 * (row % 2)], np.full(31, 2.0 * row)]) for row in range(8)]
@@ -217,7 +242,8 @@ def test_gpx_is_a_path_with_its_waypoints_as_obstacles():
 
 
 def test_the_service_smooths_a_walk_for_the_longest_bench(client):
-    bent = [f"<trkpt lat='{48 + 1e-4 * min(k, 20):.6f}' lon='{9 + 1e-4 * max(k - 20, 0):.6f}'/>" for k in range(40)]
+    hairpin = [(min(k, 40 - k), 2 if k > 20 else 0) for k in range(41)]
+    bent = [f"<trkpt lat='{48 + 1e-4 * up:.6f}' lon='{9 + 1e-4 * across:.6f}'/>" for up, across in hairpin]
     file = {"content": gpx(bent), "headers": {"Content-Type": BYTES}}
     notes = client.post("/places?longest_chord=40", **file).raise_for_status().json()["notes"]
     assert any(note.endswith("m, which a bench needs whose handles are 40.00 m apart.") for note in notes)
