@@ -1,7 +1,7 @@
 """A dragon on a route, computed a second time slowly and plainly: no code of core but the numbers of its pieces.
 
-Points follow from the definitions of a line, an arc and a coil, and on a clothoid from SciPy's Fresnel integrals; every
-next handle is the root of a distance. Places and directions are complex numbers.
+Points follow from the definitions of an arc and a coil, and on a clothoid from a quadrature of its direction; a line is
+an arc without a bend. Every next handle is the root of a distance. Places and directions are complex numbers.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import fresnel
 
 from core import Arc, Clothoid, Coil, Line
 from tests.support.slow_search import SlowDance, arc_length, head_angle, sizes_of
@@ -18,40 +17,28 @@ from tests.support.slow_search import SlowDance, arc_length, head_angle, sizes_o
 NEWTON_STEPS, HALVINGS, CLOSE = 12, 60, 1e-11
 # Longest arc over its chord, where the chord can follow the route at all [1].
 LONGEST = 0.5 * np.pi
-# Change of a clothoid's curvature over its length, times its length, below which its mean curvature serves [1]: the
-# difference of its Fresnel integrals would have lost more digits.
-ALMOST_AN_ARC = 1e-12
+# Nodes on which the direction of a clothoid is summed up over its length, and their weights [1].
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(64)
+
+
+def clothoid_of(piece):
+    """Beginning and its direction [rad], first and last curvature [1/m], and length [m] of a line, arc or clothoid."""
+    if isinstance(piece, Line):
+        way = complex(*piece.end) - complex(*piece.start)
+        return complex(*piece.start), np.angle(way), 0.0, 0.0, abs(way)
+    if isinstance(piece, Arc):
+        sign, first = np.sign(piece.sweep), complex(*piece.centre) + piece.radius * np.exp(1j * piece.start_angle)
+        bend, heading = sign / piece.radius, piece.start_angle + 0.5 * np.pi * sign
+        return first, heading, bend, bend, abs(piece.sweep) * piece.radius
+    return complex(*piece.start), piece.heading, piece.start_curvature, piece.end_curvature, piece.length
 
 
 def piece_length(piece):
     """Length of a piece [m]."""
-    if isinstance(piece, Line):
-        return abs(complex(*piece.end) - complex(*piece.start))
-    if isinstance(piece, Arc):
-        return abs(piece.sweep) * piece.radius
-    if isinstance(piece, Clothoid):
-        return piece.length
+    if not isinstance(piece, Coil):
+        return clothoid_of(piece)[-1]
     ends = arc_length(2.0 * np.pi * np.array([piece.start_turns, piece.end_turns]))
     return float(abs(ends[1] - ends[0])) * piece.pitch / (2.0 * np.pi)
-
-
-def clothoid_points(piece, u):
-    """Points and unit tangents (N,) on a clothoid; it goes on as a circle beyond its ends.
-
-    The direction at u is turned by k u + c u^2 / 2 = c (u + k / c)^2 / 2 - k^2 / (2 c).
-    """
-    k, slope = piece.start_curvature, (piece.end_curvature - piece.start_curvature) / piece.length
-    on = np.clip(u, 0.0, piece.length)
-    if abs(slope) * piece.length**2 < ALMOST_AN_ARC:
-        way = bow(k + 0.5 * slope * on, on)
-    else:
-        unit = np.sqrt(np.pi / abs(slope))
-        sines, cosines = fresnel((on + k / slope) / unit) - np.array(fresnel(k / slope / unit))[:, None]
-        way = (cosines + 1j * np.sign(slope) * sines) * unit * np.exp(-0.5j * k * k / slope)
-    first = np.exp(1j * piece.heading)
-    along, bend = first * np.exp(1j * (k * on + 0.5 * slope * on * on)), k + slope * on
-    beyond = u - on
-    return complex(*piece.start) + first * way + along * bow(bend, beyond), along * np.exp(1j * bend * beyond)
 
 
 def bow(curvature, length):
@@ -61,22 +48,24 @@ def bow(curvature, length):
 
 
 def piece_points(piece, u):
-    """Points and unit tangents (N,) at lengths u (N,) from the beginning of a piece [m], also beyond its ends."""
-    if isinstance(piece, Line):
-        start = complex(*piece.start)
-        along = np.full(u.size, (complex(*piece.end) - start) / piece_length(piece))
-        return start + u * along, along
-    if isinstance(piece, Clothoid):
-        return clothoid_points(piece, u)
-    centre = complex(*piece.centre)
-    if isinstance(piece, Arc):
-        sign = np.sign(piece.sweep)
-        out = np.exp(1j * (piece.start_angle + sign * u / piece.radius))
-        return centre + piece.radius * out, 1j * sign * out
-    growth, sign = piece.pitch / (2.0 * np.pi), np.sign(piece.end_turns - piece.start_turns)
-    theta = head_angle(arc_length(2.0 * np.pi * piece.start_turns) + sign * u / growth)
-    out = np.exp(1j * (theta + piece.rotation))
-    return centre + growth * theta * out, sign * out * (1.0 + 1j * theta) / np.hypot(1.0, theta)
+    """Points and unit tangents (N,) at lengths u (N,) from the beginning of a piece [m], also beyond its ends.
+
+    A clothoid goes on as a circle.
+    """
+    if isinstance(piece, Coil):
+        growth, sign = piece.pitch / (2.0 * np.pi), np.sign(piece.end_turns - piece.start_turns)
+        theta = head_angle(arc_length(2.0 * np.pi * piece.start_turns) + sign * u / growth)
+        out = np.exp(1j * (theta + piece.rotation))
+        return complex(*piece.centre) + growth * theta * out, sign * out * (1.0 + 1j * theta) / np.hypot(1.0, theta)
+    first, heading, bend, last, length = clothoid_of(piece)
+    slope, on = (last - bend) / length, np.clip(u, 0.0, length)
+
+    def along(v):
+        return np.exp(1j * (heading + bend * v + 0.5 * slope * v * v))
+
+    way = along(0.0) * bow(bend, on) if not slope else 0.5 * on * (along(0.5 * np.outer(on, 1.0 + NODES)) @ WEIGHTS)
+    ends, beyond = bend + slope * on, u - on
+    return first + way + along(on) * bow(ends, beyond), along(on) * np.exp(1j * ends * beyond)
 
 
 @dataclass
