@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 import core
+from app.questions.shortest_turn import ShortestTurnRequest, shortest_turn
 from app.wire.paths import path_of
+from app.wire.question import Terms
 from tests.support.asking import line
 
 BEGIN_TOLERANCE = 1e-7  # [s]: the first place with room for the whole dragon is bisected
@@ -28,6 +30,14 @@ ON_LANE = {"dragon": SHORT, "path": route(LANE)}
 
 
 # -- turns ---------------------------------------------------------------------------------------------------
+
+
+def test_a_turn_of_any_ratio_is_that_of_core():
+    """A little work gives one of them, and a wide bracket."""
+    request = ShortestTurnRequest(pitch=1.7, any_ratio=True)
+    answer = shortest_turn(request, Terms(budget=core.Budget(1e7)))
+    known = core.shortest_turn(core.Dragon(), 1.7, ratio=None, budget=core.Budget(1e7))
+    assert (answer.ratio, answer.length_bracket) == (known.turn.ratio, known.length_bracket)
 
 
 def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask):

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import minimize_scalar
-from shapely.geometry import Polygon
 
 # A root is found to its last bits [1], in six or so steps of Newton's; by bisection alone it takes 53.
 LAST_BITS, STEPS_MOST = 3e-16, 200
@@ -161,16 +160,10 @@ class SlowDance:
         return nearest(benches_of(self.handles(times), self.sides))
 
     def pair_gap(self, time, pair):
-        """Separation of one pair [m], distances by shapely."""
+        """Separation of one pair [m]."""
         handles = self.handles([time], max(pair) + 1)
-        shapes = [self.polygon(handles[0], bench) for bench in pair]
-        if shapes[0].intersection(shapes[1]).area > 0.0:
-            ends = [benches_of(handles[:, k : k + 2], self.sides[[k]]) for k in pair]
-            return float(nearest(*ends)[0][0])
-        return float(shapes[0].distance(shapes[1]))
-
-    def polygon(self, handles, bench):
-        return Polygon(corners_of(*benches_of(handles[bench : bench + 2], self.sides[[bench]]))[0])
+        ends = [benches_of(handles[:, k : k + 2], self.sides[[k]]) for k in pair]
+        return float(nearest(*ends)[0][0])
 
     def first_touch(self, margin=0.0):
         """Time and pair of the first instant with a separation <= margin, None if there is none."""
@@ -191,7 +184,7 @@ class SlowDance:
         return time, tuple(self.clearance([time])[1][0])
 
     def dip(self, low, high, pair):
-        """Time and value of the least separation of one pair [s, m], distances by shapely."""
+        """Time and value of the least separation of one pair [s, m]."""
         result = minimize_scalar(
             lambda time: self.pair_gap(time, pair), bounds=(low, high), method="bounded", options={"xatol": 1e-9}
         )
