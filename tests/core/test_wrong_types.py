@@ -66,12 +66,6 @@ def name_of(call, name):
     return RENAMED.get((call, name), (BEFORE.get(call) or BEFORE.get((call, name), "")) + name)
 
 
-def test_every_public_function_is_called():
-    functions = {call for name, call in vars(core).items() if name in core.__all__ and callable(call)}
-    functions = {call for call in functions if not isinstance(call, type)}
-    assert functions <= set(CALLS), "add a short call of it to tests/support/public_calls.py"
-
-
 @pytest.mark.parametrize("call", CALLS, ids=words_of)
 def test_a_wrong_type_is_refused_by_name(call):
     for name, (kind, wrong) in product(CALLS[call], WRONG.items()):
