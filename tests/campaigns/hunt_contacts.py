@@ -170,7 +170,7 @@ def contact_fault(dance, result, margin, look, accuracy=GAP):
     return meeting_fault(result, margin, look, accuracy, accuracy, lambda time: travelled(dance, time))
 
 
-def meeting_fault(result, margin, look, accuracy=GAP, reached=GAP, place=float):
+def meeting_fault(result, margin, look, accuracy, reached, place=float):
     """What is wrong with the first contact of any kind.
 
     accuracy, reached: of slow gaps [m], and where they have reached the margin; place: in the look of a time
@@ -189,7 +189,7 @@ def meeting_fault(result, margin, look, accuracy=GAP, reached=GAP, place=float):
     return ""
 
 
-def least_fault(dance, least, look, contact, accuracy=GAP):
+def least_fault(dance, least, look, contact, accuracy):
     """What is wrong with a least clearance. contact: the first one without a margin, if it was asked for"""
     if least is None:
         return ""

@@ -130,10 +130,10 @@ def disturbed(spec_fields, folder, kills, seed):
     return killed
 
 
-def collisions(designs, shards=SHARDS):
+def collisions(designs):
     """A sweep of first contacts."""
     over = {"pitch": {"start": 0.45, "stop": 0.6}, "width": {"start": 0.2, "stop": 0.35}}
-    size = max(designs // shards, 1)
+    size = max(designs // SHARDS, 1)
     return {"question": "collision_time", "over": over, "samples": {"count": designs}, "shard_size": size}
 
 

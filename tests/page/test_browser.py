@@ -17,7 +17,7 @@ LEFT_OUT = "tests are left out: no Chrome or Chromium starts here"
 pytestmark = pytest.mark.uncompiled
 
 
-def program(path, says, code=0):
+def program(path, says, code):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(f"#!/bin/sh\nprintf '%s' '{says}'\nexit {code}\n")
     path.chmod(0o755)

@@ -70,8 +70,8 @@ class Firefox:
                 assert message["type"] == "success", message
                 return message["result"]
 
-    def open(self, url, width=1366, height=900):
-        self._ask("browsingContext.setViewport", context=self._tab, viewport={"width": width, "height": height})
+    def open(self, url):
+        self._ask("browsingContext.setViewport", context=self._tab, viewport={"width": 1366, "height": 900})
         self._ask("browsingContext.navigate", context=self._tab, url=url, wait="complete")
 
     def evaluate(self, expression):

@@ -35,7 +35,7 @@ def all_pairs(scene, margin=0.0):
     return np.argwhere(np.triu(all_gaps(scene) <= margin, k=1))
 
 
-def unlinked_pairs(pose, size, margin=0.0):
+def unlinked_pairs(pose, size, margin):
     """Oracle: every pair that shares no handle, one by one, within the margin."""
     gaps = separation(pose[:, None], size[:, None], pose[None], size[None]).separation
     return {(int(a), int(b)) for a, b in np.argwhere(np.triu(gaps <= margin, k=2))}

@@ -165,7 +165,7 @@ class SlowDance:
         ends = [benches_of(handles[:, k : k + 2], self.sides[[k]]) for k in pair]
         return float(nearest(*ends)[0][0])
 
-    def first_touch(self, margin=0.0):
+    def first_touch(self, margin):
         """Time and pair of the first instant with a separation <= margin, None if there is none."""
 
         def gaps(times):

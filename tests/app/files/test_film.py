@@ -232,7 +232,7 @@ YELLOW = (240, 228, 66)
 VILLAGE = Path(__file__).parents[3] / "examples" / "village_square.geojson"
 
 
-def village(height=540, marked=((0, 17),)):
+def village(height=540):
     """A picture of a dragon that winds across the village square, so far away that a bench is two pixels wide."""
     square, *obstacles = (
         Area(one["properties"]["name"], tuple(tuple(map(tuple, ring)) for ring in one["geometry"]["coordinates"]))
@@ -242,7 +242,7 @@ def village(height=540, marked=((0, 17),)):
     winding = Waypoints([(-67, -8), (-12, -8), (-3, -9), (6, -8), (10.5, -3), (7, 2.5), (0, 3.5), (-4.5, 7), (-1, 10.5),
                          (6, 10.5), (12, 15), (12, 62)])  # fmt: skip
     dance = Dance(Dragon(benches=24), Route([winding], start=50.0))
-    return FilmPicture(dance, FilmSpec(0.0, 119.0, height=height, marked=marked), venue, ""), venue
+    return FilmPicture(dance, FilmSpec(0.0, 119.0, height=height, marked=((0, 17),)), venue, ""), venue
 
 
 @pytest.mark.parametrize("height", [540, pytest.param(1080, marks=pytest.mark.thorough)])

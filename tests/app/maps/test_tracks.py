@@ -49,7 +49,7 @@ def walk_along(points, times, *chord):
     return walk, Legs([tuple(one) for one in walk.points.tolist()])
 
 
-def noisy(seed=1):
+def noisy(seed):
     times = np.arange(0.0, 250.0)
     drift = np.random.default_rng(seed).normal(0.0, NOISE, (len(times) + 19, 2))
     smooth = np.column_stack([np.convolve(axis, np.full(20, 20**-0.5), "valid") for axis in drift.T])

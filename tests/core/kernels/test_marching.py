@@ -13,10 +13,10 @@ def forty():
     return ContactSearch(Dragon(40), Spiral(), 0.0)
 
 
-def marched(search, start=380.0, work=1e7):
+def marched(search, work=1e7):
     """The end of a march past the contact, and its result."""
     march = March(search.interval, search.probe, search.opening)
-    return march.run(start, 420.0, 2, True, HALF_BRACKET, True, ROUNDING, work), march.result()
+    return march.run(380.0, 420.0, 2, True, HALF_BRACKET, True, ROUNDING, work), march.result()
 
 
 def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven():
