@@ -16,8 +16,7 @@ from tests.support.serving import free_port, serving
 
 thorough = pytest.mark.thorough
 PATIENT = 50.0  # longest computation of one answer [s], also on a busy machine
-DRAGON = {"benches": 20, "head_length": 3.41, "body_length": 2.2, "width": 0.3, "overhang": 0.275}
-SPIRAL = {"kind": "spiral", "pitch": 0.55, "start_turns": 16}
+DRAGON = {"benches": 20}
 SLACK = 45  # from the last press to the cue [s], so that a slow machine is not late
 BEFORE_ZERO = "path=route&route=*-40,0_40,0&benches=9&begin=30"
 CUE, HINT, LIST = "#carrier .cue", "#card-more .hint", "#card-more li"
@@ -49,7 +48,14 @@ AHEAD = "presses => { for (let k = 0; k < presses; k++) document.querySelector(\
 def card(server, language="en", **more):
     """The card of bench 7 of the spiral with 20 benches, up to its first contact."""
     stop = polite.answer(server, "collision-time", benches=20)["time"]
-    body = {"dragon": DRAGON, "path": SPIRAL, "start": 0, "stop": stop, "cards": [7], "language": language} | more
+    body = {
+        "dragon": DRAGON,
+        "path": {"kind": "spiral"},
+        "start": 0,
+        "stop": stop,
+        "cards": [7],
+        "language": language,
+    } | more
     return polite.answer(server, "cues", body)["cards"][0]
 
 

@@ -11,7 +11,7 @@ thorough = pytest.mark.thorough
 STREET = "path=route&route=*-40,0_40,0&benches=9"
 CREW = f"?door=village&lang=en&{STREET}&begin=30&time=20&start_clock=19%3A30"
 BODY = {
-    "dragon": {"benches": 9, "head_length": 3.41, "body_length": 2.2, "width": 0.3, "overhang": 0.275},
+    "dragon": {"benches": 9},
     "path": {"kind": "waypoints", "points": [[-40, 0], [40, 0]], "straight": [0], "start": 30},
     "start_clock": "19:30",
 }
@@ -29,8 +29,7 @@ def crew(server, **fields):
 
 def contact_of(server, **request):
     """Time of first contact by the service, in the words of the page."""
-    spiral = {"kind": "spiral", "pitch": 0.55, "start_turns": 16}
-    result = polite.answer(server, "collision-time", {"path": spiral, **request})
+    result = polite.answer(server, "collision-time", {"path": {"kind": "spiral"}, **request})
     return f"{result['time'] if result['time'] is not None else result['end']['time']:.6f} s"
 
 
@@ -106,7 +105,7 @@ def test_passages_and_the_time_of_day_change_every_time_of_a_spiral_and_of_a_dra
     person.sees({"#clock-error": "07:30:00"}).chooses({"#passages li >> nth=1 >> select": "m"})
     person.sees({"#passages .error": True})
     limits = {"speed_limit": 0.9, "start_clock": "19:30", "passages": PASSAGES[:2]}
-    body = BODY | limits | {"dragon": {"benches": 9}, "head_speed": 1}
+    body = BODY | limits | {"head_speed": 1}
     failure = polite.answer(server, "check", body)["failures"][0]
     person.opens(f"?{STREET}&begin=30&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
     person.reads({".failures button": f"{failure['time']:.6f} s · {failure['clock']}"}).reaches()
