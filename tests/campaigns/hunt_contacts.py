@@ -170,7 +170,7 @@ def contact_fault(dance, result, margin, look, accuracy=GAP):
     return meeting_fault(result, margin, look, accuracy, accuracy, lambda time: travelled(dance, time))
 
 
-def meeting_fault(result, margin, look, accuracy, reached, place=float):
+def meeting_fault(result, margin, look, accuracy=GAP, reached=GAP, place=float):
     """What is wrong with the first contact of any kind.
 
     accuracy, reached: of slow gaps [m], and where they have reached the margin; place: in the look of a time

@@ -13,8 +13,8 @@ from scipy.optimize import minimize_scalar
 
 # A root is found to its last bits [1], in six or so steps of Newton's; by bisection alone it takes 53.
 LAST_BITS, STEPS_MOST = 3e-16, 200
-# Points on which the range of delta beyond half a turn is sampled, and rounds of that around the largest value [1].
-CREST_POINTS, CREST_ROUNDS = 100, 4
+# Points on which the range of delta beyond half a turn is sampled [1].
+CREST_POINTS = 100
 # Rounds of SPLIT instants each in which a time is found: 40^8 is about 7e12.
 ROUNDS = 8
 # Steps of the head in the coarse pass, in shortest chords [1]; the smaller ones have SPLIT in two of these.
@@ -65,28 +65,28 @@ def next_delta(theta, chord):
     low, high = np.zeros_like(theta), np.full_like(theta, np.pi)
     beyond = np.flatnonzero(chord_squared(theta, high) < chord**2)
     if beyond.size:
-        low[beyond], high[beyond] = beyond_half_a_turn(theta[beyond], chord)
-
-    def rising(delta):
-        slope = delta + 2.0 * theta * np.sin(0.5 * delta) ** 2 + theta * (theta + delta) * np.sin(delta)
-        return chord_squared(theta, delta) - chord**2, 2.0 * slope
-
-    return root(rising, chord / np.hypot(1.0, theta), low, high)
+        low[beyond], high[beyond] = np.pi, first_crest(theta[beyond])
+        high[chord_squared(theta, high) < chord**2] = np.nan
+    guess = chord / np.hypot(1.0, theta)
+    return root(lambda delta: (chord_squared(theta, delta) - chord**2, slope(theta, delta)), guess, low, high)
 
 
-def beyond_half_a_turn(theta, chord):
-    """(low, high) around the first delta > pi; NaN where the distance falls again before it is a chord."""
-    start, end = np.full_like(theta, np.pi), np.full_like(theta, 2.0 * np.pi)
-    rows = np.arange(theta.size)
-    for _ in range(CREST_ROUNDS):
-        delta = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, CREST_POINTS)
-        value = chord_squared(theta[:, None], delta)
-        falls = np.diff(value, axis=1) < 0.0
-        crest = np.where(falls.any(axis=1), falls.argmax(axis=1), CREST_POINTS - 1)
-        top, reached = delta[rows, crest], value[rows, crest] >= chord**2
-        start = delta[rows, np.maximum(crest - 1, 0)]
-        end = delta[rows, np.minimum(crest + 1, CREST_POINTS - 1)]
-    return np.where(reached, np.pi, np.nan), np.where(reached, top, np.nan)
+def slope(theta, delta):
+    """Derivative of chord_squared() by delta."""
+    return 2.0 * (delta + 2.0 * theta * np.sin(0.5 * delta) ** 2 + theta * (theta + delta) * np.sin(delta))
+
+
+def first_crest(theta):
+    """First delta beyond half a turn from which on points come nearer again, or a whole turn."""
+    deltas = np.linspace(np.pi, 2.0 * np.pi, CREST_POINTS)
+    falls = slope(theta[:, None], deltas) < 0.0
+    k = np.where(falls.any(axis=1), falls.argmax(axis=1), CREST_POINTS - 1)
+
+    def falling(delta):
+        bend = 2.0 * (1.0 + 2.0 * theta * np.sin(delta) + theta * (theta + delta) * np.cos(delta))
+        return -slope(theta, delta), -bend
+
+    return root(falling, deltas[k], deltas[k - 1], deltas[k])
 
 
 def sizes_of(dragon):
