@@ -82,13 +82,13 @@ def _usual_in_lines(counts: Ints, shows: Mask, axes: tuple[int, ...]) -> Ints:
 
 
 def _usual_in_sizes(counts: Ints, shows: Mask, values: Floats) -> Ints:
-    """The usual decimals of the numbers of each power of ten, at each number; NONE where too few show theirs."""
+    """The usual decimals of the numbers of each power of ten, at each number; NONE at those that show none."""
     usual, sizes = np.full(values.shape, NONE), np.full(values.shape, np.inf)
     sizes[shows] = np.floor(np.log10(np.abs(values[shows])))
     for size in np.unique(sizes[shows]):
         cells = sizes == size
-        if cells.sum() >= GROUP_LEAST:
-            usual[cells] = _usual(counts[cells])
+        # The longest of a few shows what they have: others lost their zeros.
+        usual[cells] = _usual(counts[cells]) if cells.sum() >= GROUP_LEAST else counts[cells].max()
     return usual
 
 

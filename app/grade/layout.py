@@ -46,6 +46,8 @@ MARGIN = 8
 EXTRA_MOST = 3
 # Lines in which labels of a table beside another one are looked for, and most tables beside each other.
 LINES_LOOKED_AT, TABLES_BESIDE_MOST = 20, 8
+# First lines in which names of handles are looked for: three tables below one another.
+NAMED_LINES = 1_000
 # Fewer labels than this may be chance and are ignored.
 LABELS_LEAST = 3
 
@@ -84,23 +86,27 @@ class SheetTable:
     notes: list[Note] = field(default_factory=list)
 
 
-def wide_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool, numbered: bool) -> list[SheetTable]:
+def wide_tables(
+    grid: Grid, cells: list[list[Cell]], *, turned: bool, numbered: bool, named: frozenset[int] = frozenset()
+) -> list[SheetTable]:
     """The tables of a sheet with a line for each handle, below or beside each other; none if no column labels handles.
 
     turned: True if rows and columns of the sheet were swapped; numbered: True if numbers alone may label the handles;
         else they may in one table where names do in another
+    named: handles that names label in other sheets of the file
     """
     tables: list[SheetTable] = []
     heads: list[list[Cell]] = []
-    before, names = 0, frozenset() if numbered else _names_in(cells)
+    before, names = 0, named if numbered else names_in(cells)
     if not numbered and not names:
         return []
     for first, part in _beside(cells, names):
         columns = _first_columns(part, first)
         labels = [_labels_in(column, names) for column in columns]
         # An index beside the names has as many numbers.
-        named = [_count_of_handles(_names_of(column)) for column in columns] if names else [0]
-        counts = named if max(named) >= LABELS_LEAST else [_count_of_handles(column) for column in labels]
+        counts = [_count_of_handles(_names_of(column)) for column in columns] if names else [0]
+        if max(counts) < LABELS_LEAST:
+            counts = [_count_of_handles(column) for column in labels]
         if max(counts) < LABELS_LEAST:
             continue
         most = int(np.argmax(counts))
@@ -116,9 +122,9 @@ def wide_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool, numbered: 
     return tables
 
 
-def _names_in(cells: list[list[Cell]]) -> frozenset[int]:
+def names_in(cells: list[list[Cell]]) -> frozenset[int]:
     """The handles that the first column with names of them names; none without one."""
-    for column in zip(*cells, strict=True):
+    for column in zip(*cells[:NAMED_LINES], strict=True):
         labels = _names_of(column)
         if _count_of_handles(labels) >= LABELS_LEAST:
             return frozenset(_numbered(_lines_of(labels))[0].tolist())

@@ -90,10 +90,12 @@ def _is_numbered(rows: list[list[Cell]], k: int) -> bool:
 
 
 def _numbered(labels: list[int]) -> tuple[Ints, Ints]:
-    """The handles in their order, and the place of each line among them; the tail follows the last body bench."""
+    """The handles in their order, and the place of each line among them; the tail follows the last body bench. Numbers
+    from 1 to that of all handles count from 1."""
     last = max([BENCHES - 2, *labels])
     handles, places = np.unique([one if one >= 0 else last - one for one in labels], return_inverse=True)
-    return handles, places
+    counts_from_one = handles.size == HANDLES == handles[-1] and handles[0] == 1
+    return handles - int(counts_from_one), places
 
 
 def _over_time(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[SheetTable]:

@@ -19,6 +19,8 @@ LINES_MAX, CELLS_MAX = 200_000, 1_000_000
 # First bytes of a ZIP archive, and of the older container that also holds encrypted workbooks.
 ZIP, OLE = b"PK", bytes.fromhex("d0cf11e0a1b11ae1")
 ENCRYPTED = "EncryptedPackage".encode("utf-16-le")
+# Separators of cells, the usual one first, and the part of a file in which they are looked for [characters].
+SEPARATORS, LOOKED_AT = ",;\t", 20_000
 # Encodings to try: UTF-8, then that of Chinese versions of Excel.
 CODINGS = ("utf-8-sig", "gb18030")
 
@@ -42,8 +44,7 @@ def grids_of(data: bytes, budget: Budget) -> tuple[list[Grid], list[Note]]:
 
 def _of_csv(data: bytes, budget: Budget) -> Grid:
     text = _decoded(data)
-    first = text.partition("\n")[0]
-    separator = max(",;\t", key=first.count)
+    separator = _separator_of(text)
     decimal = "." if separator == "," else ","
     rows: list[list[Cell]] = []
     cells = 0
@@ -57,6 +58,14 @@ def _of_csv(data: bytes, budget: Budget) -> Grid:
     except csv.Error as error:
         raise UnreadableTable(note("no_csv")) from error
     return Grid("", rows)
+
+
+def _separator_of(text: str) -> str:
+    """The separator of most of the first lines with one, because a title may stand above; a comma if no other is."""
+    lines = [line for line in text[:LOOKED_AT].splitlines() if any(one in line for one in SEPARATORS)]
+    counts = {one: sum(one in line for line in lines) for one in SEPARATORS[1:]}
+    most = max(counts, key=counts.__getitem__)
+    return most if 2 * counts[most] > len(lines) else SEPARATORS[0]
 
 
 def _decoded(data: bytes) -> str:

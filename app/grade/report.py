@@ -31,7 +31,7 @@ from app.grade.names import readable_name
 from app.grade.numbers import CERTAIN, graded_number
 from app.grade.reading import ZIP, grids_of
 from app.grade.rubric import rubric_of
-from app.grade.sheets import at_contact, tables_of, with_both_axes
+from app.grade.sheets import tables_of
 from app.grade.shortcuts import UNITS, Finding, right_answer
 from app.grade.words import Note, note, say
 from app.wire.question import Answer
@@ -183,7 +183,7 @@ def too_long(data: bytes, budget: Budget) -> TooMuchWork:
 
 def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
     grids, notes = grids_of(data, budget)
-    tables = at_contact(with_both_axes([table for grid in grids for table in tables_of(grid)]))
+    tables = tables_of(grids)
     if not tables:
         has_workbook_ending = PurePath(name).suffix.lower() in WORKBOOK_ENDINGS
         known = next((one for grid in grids for one in grid.notes if one.code == "curve"), note("no_table"))

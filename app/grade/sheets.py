@@ -6,7 +6,7 @@ Input: a grid of cells. Output: its tables, and remarks on a sheet that holds no
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -22,6 +22,7 @@ from app.grade.layout import (
     bare_tables,
     holds_angles,
     holds_curve,
+    names_in,
     wide_tables,
 )
 from app.grade.lists import lists_of
@@ -33,9 +34,20 @@ RECTANGLE_MAX = 2_000_000
 PLACE_WORD = re.compile(r"位置|坐标|position|coordinate", re.IGNORECASE)
 
 
-def tables_of(grid: Grid) -> list[SheetTable]:
-    """The tables of a sheet; none if no numbers are recognised. The grid's notes say what was left out."""
-    cells = _rectangle(grid)
+def tables_of(grids: Sequence[Grid]) -> list[SheetTable]:
+    """The tables of the sheets of a file. The notes of each grid say what was left out."""
+    every = [_rectangle(grid) for grid in grids]
+    named = next(filter(None, (names_in(side) for cells in every for side in (cells, _on_side(cells)))), frozenset())
+    tables = [table for grid, cells in zip(grids, every, strict=True) for table in _tables_of(grid, cells, named)]
+    return at_contact(with_both_axes(tables))
+
+
+def _on_side(cells: list[list[Cell]]) -> list[list[Cell]]:
+    return [list(line) for line in zip(*cells, strict=True)]
+
+
+def _tables_of(grid: Grid, cells: list[list[Cell]], named: frozenset[int]) -> list[SheetTable]:
+    """The tables of a sheet; none if no numbers are recognised. named: handles that have names in the file"""
     if not cells:
         return []
     if holds_angles(grid, cells):
@@ -44,18 +56,18 @@ def tables_of(grid: Grid) -> list[SheetTable]:
     if holds_curve(cells):
         grid.notes.append(note("curve"))
         return []
-    tables = next(filter(None, _readings(grid, cells)), [])
+    tables = next(filter(None, _readings(grid, cells, named)), [])
     # The title of a sheet does not tell one table of it from another.
     return [_titled(table) for table in tables] if len(tables) == 1 else [replace(table, title="") for table in tables]
 
 
-def _readings(grid: Grid, cells: list[list[Cell]]) -> Iterator[list[SheetTable]]:
+def _readings(grid: Grid, cells: list[list[Cell]], named: frozenset[int]) -> Iterator[list[SheetTable]]:
     """What a sheet may hold, the surest first: a list, lines of handles with names, with numbers, or without labels."""
     yield lists_of(grid, cells)
-    sides = (cells, False), ([list(line) for line in zip(*cells, strict=True)], True)
+    sides = (cells, False), (_on_side(cells), True)
     for numbered in (False, True):
         for lines, turned in sides:
-            yield wide_tables(grid, lines, turned=turned, numbered=numbered)
+            yield wide_tables(grid, lines, turned=turned, numbered=numbered, named=named)
     for lines, turned in sides:
         yield bare_tables(grid, lines, turned=turned)
 

@@ -280,7 +280,9 @@ def test_csv_of_a_sheet_is_graded(coding):
 
 @pytest.mark.parametrize("separator", [";", pytest.param("\t", marks=pytest.mark.thorough)])
 def test_csv_with_decimal_commas_is_graded(separator):
-    assert_right(wide_csv().replace(",", separator).replace(".", ",").encode())
+    """Also below a title, which has no separator."""
+    for title in ("", "问题一，结果\n"):
+        assert_right((title + wide_csv().replace(",", separator).replace(".", ",")).encode())
 
 
 # Headings of lists with a line for each handle and instant, and the name of a handle in them.
@@ -302,6 +304,15 @@ def test_lists_are_recognised_under_other_names(heads, title):
     lines = [",".join(map(str, row)) for row in list_of(3, HEADS[heads])]
     result = grade((title + "\n".join([heads, *lines])).encode(), "dance.csv")
     assert [(sheet.holds, sheet.right) for sheet in result.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
+
+
+def test_wrong_numbers_of_handles_that_are_counted_from_one_stay_those_of_their_handles():
+    """They do not fit the order of the lines either, which tells that right ones are counted from one."""
+    rows = list_of(3, lambda h: h + 1)
+    lines = [",".join(map(str, [time, handle, y, x, speed])) for time, handle, x, y, speed in rows]
+    result = grade("\n".join(["time,node,x,y,v", *lines]).encode(), "dance.csv")
+    assert [one.error for one in result.diagnosis] == ["axes_exchanged"]
+    assert [sheet.missing for sheet in result.sheets] == [298 * 448, 298 * 224]
 
 
 def list_of(instants, name):
@@ -395,6 +406,7 @@ def test_speeds_of_numbered_handles_are_graded_beside_positions_of_named_ones(si
     position, [times, *speeds] = printed()
     for name in ("", "把手"):
         some = position, [[name, *times[1:]], *([h, *row[1:]] for h, row in zip(PRINTED, speeds, strict=True))]
+        assert right(grade(by_xlsxwriter(dict(zip(("位置", "速度"), some, strict=True))))) == [84, 42]
         for tables, counts in ((every, FEW), (some, [84, 42])):
             sheets = grade(as_csv(NUMBERED[side](*tables))).sheets
             assert sorted((sheet.holds, sheet.right) for sheet in sheets) == [
