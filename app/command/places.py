@@ -57,14 +57,18 @@ def places(
     ] = CHORD,
     layers: Annotated[
         str | None,
-        typer.Option(help='Layers of a DXF to read, with commas between them, as in SITE,"A, B"; default: all.'),
+        typer.Option(
+            help='Layers of a DXF or GeoJSON to read, with commas between them, as in SITE,"A, B"; default: all.'
+        ),
     ] = None,
     area: Annotated[
         str | None,
-        typer.Option(metavar="X,Y,X,Y", help="Read what reaches into this area of a DXF [m]: least x and y, largest."),
+        typer.Option(
+            metavar="X,Y,X,Y", help="Read what reaches into this area of a DXF or GeoJSON [m]: least x and y, largest."
+        ),
     ] = None,
     only_layers: Annotated[
-        bool, typer.Option("--only-layers", help="Name the layers of a DXF, and their edges.")
+        bool, typer.Option("--only-layers", help="Name the layers of a DXF or GeoJSON, and their edges.")
     ] = False,
     language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
     json: Json = False,

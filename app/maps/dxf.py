@@ -45,9 +45,10 @@ LAYERS = {
 }
 # Words of ezdxf for an entity that it has left out, with its kind in group 1.
 DELETED = re.compile(r"(?:[Dd]elet|[Rr]emov)\w*[^#]*?\b([A-Z][A-Z0-9_]+)\(#")
-# Words of ezdxf for an entity without the marker of one of its parts: the marker and the kind. Kinds of which it misses
-# one and that are drawn, and the most kinds that are mended; and codes that stand before it.
-UNMARKED = re.compile(r"missing '(\w+)' subclass in (\w+)\(")
+# Words of ezdxf for an entity without the marker of one of its parts: the marker, the kind and the handle. It names an
+# object, such as a style of lines, by the kind of what that styles. Kinds of which it misses one and that are drawn,
+# and the most kinds that are mended; and codes that stand before it.
+UNMARKED = re.compile(r"missing '(\w+)' subclass in (\w+)\(#(\w+)\)")
 MARKERS, KINDS_MOST = ("LWPOLYLINE", "SPLINE"), 8
 COMMON = {
     b"%d" % code for code in (5, 6, 8, 48, 60, 62, 67, 100, 102, 284, 330, 347, 360, 370, 380, 390, 410, 420, 430, 440)
@@ -65,9 +66,13 @@ def read(data: bytes, choice: Choice = EVERYTHING) -> Drawing:
 
 
 def layers_of(data: bytes) -> dict[str, int]:
-    """The layers on which something is drawn that is read, and the number of edges on each. raises: as read()"""
-    edges = _of_document(data, lambda document, _: Entities(document, 1.0, {}, Choice(counts=True)).edges)
-    return {name: count for name, count in edges.items() if count}
+    """The layers on which something is drawn that is read, and the edges of each in a venue. raises: as read()"""
+    return _of_document(data, lambda document, _: _entities(document, Choice(counts=True)).edges())
+
+
+def _entities(document: Any, choice: Choice) -> Entities:
+    code = int(document.header.get("$INSUNITS", 0))
+    return Entities(document, UNITS.get(code, 1.0), _record_of(document), choice)
 
 
 def _of_document(data: bytes, read_from: Callable[[Any, list[str]], Content]) -> Content:
@@ -111,29 +116,31 @@ def _read(data: bytes) -> tuple[Any, list[str]]:
             unmarked = UNMARKED.search(str(error))
             if unmarked is None or attempts == KINDS_MOST:
                 raise
-            marker, kind = unmarked.groups()
-            data, left_out = _marked(data, kind, marker)
+            marker, kind, handle = unmarked.groups()
+            data, left_out = _marked(data, kind, marker, handle)
             missing += [f"deleted {kind}(#)"] * left_out
             attempts += 1
 
 
-def _marked(data: bytes, kind: str, marker: str) -> tuple[bytes, int]:
+def _marked(data: bytes, kind: str, marker: str, handle: str) -> tuple[bytes, int]:
     """The file with the marker in every entity of a kind that lacks it; or without these entities, and their number,
-    for kinds that are not drawn."""
+    for kinds that are not drawn, and without the object that has the handle."""
     lines = data.split(b"\n")
     result: list[bytes] = []
     begin, left_out = 0, 0
     starts = [k for k in range(0, len(lines) - 1, 2) if lines[k].strip() == b"0"]
     for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
-        if lines[start + 1].strip().decode(errors="replace") != kind:
-            continue
         codes = range(start + 2, end - 1, 2)
+        is_of_kind = lines[start + 1].strip().decode(errors="replace") == kind
+        handles = (lines[k + 1].strip() for k in codes if lines[k].strip() == b"5")
+        if not is_of_kind and handle.encode() not in handles:
+            continue
         if any(lines[k].strip() == b"100" and lines[k + 1].strip() == marker.encode() for k in codes):
             continue
         result += lines[begin:start]
         begin = end
-        if kind not in MARKERS:
-            left_out += 1
+        if kind not in MARKERS or not is_of_kind:
+            left_out += is_of_kind
             continue
         own = next((k for k in codes if lines[k].strip() not in COMMON), end)
         shared = [line for k in range(start + 2, own, 2) if lines[k].strip() != b"100" for line in lines[k : k + 2]]
@@ -152,11 +159,10 @@ def _refuse_many(data: bytes) -> None:
 def _drawing(document: Any, fixes: Iterable[str], choice: Choice) -> Drawing:
     """fixes: what ezdxf says of faults that it has mended"""
     code = int(document.header.get("$INSUNITS", 0))
-    record = _record_of(document)
-    entities = Entities(document, UNITS.get(code, 1.0), record, choice)
-    choice.refuse_unknown(entities.edges)
+    record, entities = _record_of(document), _entities(document, choice)
+    choice.refuse_unknown(entities.seen_layers)
     for fix in fixes:
-        if deleted := DELETED.search(fix):
+        if (deleted := DELETED.search(fix)) and not _is_object(deleted[1]):
             entities.collector.leave_out(f"damaged {deleted[1]}")
     features, collector = tuple(entities.features()), entities.collector
     if code not in UNITS:
@@ -171,6 +177,12 @@ def _drawing(document: Any, fixes: Iterable[str], choice: Choice) -> Drawing:
         collector.hidden,
         grid_of(record.get("grid")),
     )
+
+
+def _is_object(kind: str) -> bool:
+    """True for what stands nowhere in a drawing, such as a style or a dictionary."""
+    classes = import_module("ezdxf.entities.factory").ENTITY_CLASSES
+    return kind in classes and issubclass(classes[kind], import_module("ezdxf.entities").DXFObject)
 
 
 def _refuse_wide(features: list[MapFeature]) -> None:

@@ -17,6 +17,7 @@ from app.maps.features import (
     FeatureCollector,
     MapFeature,
     drawn_as,
+    edges_of,
     holds,
     role_of,
     round_area,
@@ -53,19 +54,19 @@ class Entities:
         """factor: metres in a unit; record: of this program; by handle names, radii of walls [m], and headings of gates
             [rad]
 
-        choice: what is read; edges: how many each layer has of what is read
+        choice: what is read; seen_layers: names of those on which something stands that can be seen
         """
         self.factor, self.names = factor, _mapping(record.get("names"))
         self.radii, self.headings = _numbers(record.get("radii")), _numbers(record.get("headings"))
-        self.collector, self.labels = FeatureCollector(), list[MapText]()
+        self.collector, self.labels = FeatureCollector(is_limited=not choice.counts), list[MapText]()
         self.layers, self.choice = document.layers, choice
         self.most = ENTITIES_MAX if choice.is_all else SEEN_MAX
-        self.seen, self.edges = 0, dict[str, int]()
+        self.seen, self.seen_layers = 0, dict[str, None]()
         for entity, layer in self._visible(document.modelspace()):
             if choice.has_layer(layer):
                 self._take(entity, layer)
             else:
-                self.edges.setdefault(layer, 0)
+                self.seen_layers[layer] = None
 
     def _visible(self, some: Any, depth: int = 0, around: str = OF_BLOCK) -> Iterator[tuple[Any, str]]:
         """Every entity that can be seen, with its layer; those of a block wherever the block is inserted."""
@@ -182,10 +183,16 @@ class Entities:
             self._add(replace(line, shape="line", radius=half))
 
     def _add(self, feature: MapFeature) -> None:
-        layer, points = _layer_of(feature), [point for ring in feature.rings for point in ring]
-        self.edges[layer] = self.edges.get(layer, 0) + max(len(points) - 1, 1)
-        if not self.choice.counts and self.choice.reaches(points):
+        self.seen_layers[_layer_of(feature)] = None
+        if self.choice.counts or self.choice.reaches(point for ring in feature.rings for point in ring):
             self.collector.add(feature)
+
+    def edges(self) -> dict[str, int]:
+        """Edges in a venue of what each layer holds."""
+        counts = dict.fromkeys(self.seen_layers, 0)
+        for one in joined(self.collector.features):
+            counts[_layer_of(one)] += edges_of(replace(one, role=one.role or role_of(one.name)))
+        return counts
 
     def _place(self, point: Any) -> Point:
         return float(point[0]) * self.factor, float(point[1]) * self.factor
@@ -193,7 +200,8 @@ class Entities:
     def features(self) -> Iterator[MapFeature]:
         """The features, with holes in their polygons; each thing is named by the text in it or beside it."""
         # Before any of them is compared with the others.
-        refuse_many_edges_of(one for one in self.collector.features if one.shape == "polygon")
+        polygons = [one for one in self.collector.features if one.shape == "polygon"]
+        refuse_many_edges_of(polygons, [one for one in self.collector.features if one.shape != "polygon"])
         features = list(_with_holes(joined(self.collector.features)))
         if are_too_many(features, self.labels):
             self.collector.left_out["text"] = len(self.labels)

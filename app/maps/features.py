@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from app.wire.degrees import GRID_MAX, GeographicOrigin
-from app.wire.geojson import GATE, INNER_SQUARE, Aside, Thing
+from app.wire.geojson import GATE, INNER_SQUARE, Aside, Thing, outlined
 from core import InvalidValue
 from core.values import Floats, Point
 from core.venue import Ring
@@ -32,8 +32,14 @@ WORDS = {
 ROLES = {word: role for role, words in WORDS.items() for word in words}
 # Most points and most features of one map; a plan of a square has fewer.
 POINTS_MAX, FEATURES_MAX = 100_000, 10_000
+# Most of either in a drawing whose layers are counted: 100 MB.
+COUNTED_MAX = 1_000_000
 # Largest distance of a round square from the polygon in its place, and its largest radius [m].
 ROUND, ROUND_MAX = 0.005, 1e5
+# Radius of a point, and half of the width of a line, without a radius [m].
+POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
+# Sides of the outline of one point, and of a line between two.
+SIDES = (32, 34)
 # Advice for a map that is too large.
 LEAVE_OUT = "leave out everything that does not belong to the square"
 
@@ -121,9 +127,10 @@ def _numbers(stated: object, names: tuple[str, str], most: tuple[float, float]) 
 
 
 class FeatureCollector:
-    """Collector of features, with the limits of a map."""
+    """Collector of features, with the limits of a map; to count what a drawing has, with a larger one of points."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, is_limited: bool = True) -> None:
+        self.most = (FEATURES_MAX, POINTS_MAX) if is_limited else (COUNTED_MAX, COUNTED_MAX)
         self.features: list[MapFeature] = []
         self.left_out: dict[str, int] = {}
         self.hidden: dict[str, int] = {}
@@ -133,9 +140,10 @@ class FeatureCollector:
         """raises: InvalidValue when there are too many"""
         self._points += sum(map(len, feature.rings))
         self.features.append(feature)
-        if self._points > POINTS_MAX or len(self.features) > FEATURES_MAX:
+        features, points = self.most
+        if self._points > points or len(self.features) > features:
             rule = f"must hold at most {{features}} features with {{points}} points in all: {LEAVE_OUT}"
-            raise InvalidValue("file", rule, got="more", features=FEATURES_MAX, points=POINTS_MAX)
+            raise InvalidValue("file", rule, got="more", features=features, points=points)
 
     def leave_out(self, kind: str) -> None:
         self.left_out[kind] = self.left_out.get(kind, 0) + 1
@@ -184,6 +192,21 @@ def aside_features(asides: Sequence[Aside]) -> list[MapFeature]:
         )
         for role, name, ring, heading in asides
     ]
+
+
+def edges_of(one: MapFeature) -> int:
+    """Edges that a thing has in a venue: the sides of an area, or of the outline of a tree or a wall; a path, a mark, a
+    gate and a square without streets have none."""
+    if one.role in (PATH, MARK) or is_aside(one):
+        return 0
+    if one.shape == "polygon":
+        return sum(max(len(ring) - 1, 1) for ring in one.rings)
+    points = len(set(one.rings[0]))
+    if points <= len(SIDES):  # most of a large drawing
+        return SIDES[points - 1]
+    radius = LINE_RADIUS if one.radius is None or not 0.0 < one.radius < math.inf else one.radius
+    ((_, outline),) = outlined([("", one.rings, radius)])
+    return sum(len(ring) - 1 for ring in outline)
 
 
 def is_aside(one: MapFeature) -> bool:

@@ -11,6 +11,7 @@ from typing import Any, TypeGuard
 
 import orjson
 
+from app.maps.choice import EVERYTHING, Choice
 from app.maps.features import (
     PATH,
     Drawing,
@@ -41,11 +42,17 @@ GEOMETRIES: dict[str, tuple[Shape, int]] = {
 COLLECTIONS = {"FeatureCollection": "features", "GeometryCollection": "geometries"}
 
 
-def read(document: Mapping[str, Any]) -> Drawing:
-    """The map in a GeoJSON object. raises: InvalidValue at the member at fault"""
-    collector = FeatureCollector()
+def read(document: Mapping[str, Any], choice: Choice = EVERYTHING) -> Drawing:
+    """The map in a GeoJSON object, or the chosen layers of it. raises: InvalidValue at the member at fault
+
+    choice: of its area nothing is said here, because that is in metres
+    """
+    collector, layers = FeatureCollector(is_limited=not choice.counts), dict[str, None]()
     for feature in _features("file", document, MapFeature("point", ()), collector):
-        collector.add(feature)
+        layers[layer_of(feature)] = None
+        if choice.has_layer(layer_of(feature)):
+            collector.add(feature)
+    choice.refuse_unknown(layers)
     system = crs_name(document)
     geographic = system is not None and GEOGRAPHIC.search(system) is not None
     line: Mapping[str, object] = next((one.properties for one in collector.features if "path" in one.properties), {})
@@ -59,6 +66,13 @@ def read(document: Mapping[str, Any]) -> Drawing:
         collector.left_out,
         grid=grid_of(line.get("grid")),
     )
+
+
+def layer_of(feature: MapFeature) -> str:
+    """What stands for the layer of a feature: its property `layer`, or else its role, its name or its shape."""
+    layer = _property(feature.properties, "layer")
+    words = (layer if isinstance(layer, str) else None, feature.role, feature.name)
+    return next((word.strip() for word in words if word and word.strip()), feature.shape)
 
 
 def is_of_polygons(document: object) -> bool:

@@ -5,13 +5,29 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from app.files.words import Say
 from app.maps import geojson
-from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, Unit, area_of, holds_any, is_aside, round_area
+from app.maps.choice import EVERYTHING, Choice
+from app.maps.features import (
+    LINE_RADIUS,
+    MARK,
+    PATH,
+    POINT_RADIUS,
+    SQUARE,
+    Drawing,
+    MapFeature,
+    Unit,
+    area_of,
+    edges_of,
+    holds_any,
+    is_aside,
+    round_area,
+)
 from app.maps.joined import merged
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
 from app.maps.tracks import APART, CHORD, walk_of
@@ -23,10 +39,8 @@ from core.display import format_count
 from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
 from core.names import NAME_MAX, is_printable
 from core.values import Floats, Point
-from core.venue import refuse_many_edges
+from core.venue import EDGES_MAX
 
-# Radius of a point, and half of the width of a line, without a radius [m].
-POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
 # Length that a path has less than its track from which on a note says so [m].
 LOST = 0.5
 # Largest number of things that a note names; a list of more ends in dots.
@@ -79,12 +93,11 @@ def _geojson_of(one: MapFeature) -> dict[str, Any]:
     return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
 
 
-def refuse_many_edges_of(things: Iterable[MapFeature]) -> None:
-    """raises: InvalidValue at the field `file` for more edges than a venue may have"""
-    try:
-        refuse_many_edges(ring for one in things for ring in one.rings)
-    except InvalidValue as error:
-        raise error.with_field("file") from error
+def refuse_many_edges_of(things: Sequence[MapFeature], beside: Sequence[MapFeature] = ()) -> None:
+    """raises: InvalidValue at the field `file` for more edges than a venue may have, counted with those beside them"""
+    if sum(map(edges_of, things)) > EDGES_MAX:
+        got = sum(map(edges_of, [*things, *beside]))
+        raise InvalidValue("file", "must have at most {most} edges", got=got, most=EDGES_MAX)
 
 
 def _checked(things: list[MapFeature]) -> Venue:
@@ -101,8 +114,16 @@ def _checked(things: list[MapFeature]) -> Venue:
 class Reading:
     """Reads a venue and a path from a map, and notes its assumptions."""
 
-    def __init__(self, drawing: Drawing, units: Coordinates | None, say: Say, chord: float = CHORD) -> None:
-        self.drawing, self.say, self.chord, self.notes = drawing, say, chord, list[str]()
+    def __init__(
+        self,
+        drawing: Drawing,
+        units: Coordinates | None,
+        say: Say,
+        chord: float = CHORD,
+        choice: Choice = EVERYTHING,
+    ) -> None:
+        """choice: its area is read, in metres as they are in the file, or around the middle of a map in degrees"""
+        self.drawing, self.say, self.chord, self.notes, self.choice = drawing, say, chord, list[str](), choice
         self.assumed = dict[float, list[MapFeature]]()
         every = [one for one in drawing.features if one.role != MARK and any(one.rings)]
         self.features = [_closed(_with_role(one)) for one in every]
@@ -124,7 +145,8 @@ class Reading:
 
     def parts(self) -> DanceParts:
         # Before anything is compared with every edge.
-        refuse_many_edges_of(one for one in self.features if one.shape == "polygon")
+        polygons = [one for one in self.features if one.shape == "polygon"]
+        refuse_many_edges_of(polygons, [one for one in self.features if one.shape != "polygon"])
         lines = [one for one in self.features if one.shape == "line"]
         square = self._square()
         tracks = [one for one in lines if one.times is not None]
@@ -178,7 +200,8 @@ class Reading:
                 self._note("The file states no unit: its numbers are metres.", "文件没有说明单位，按米读取。")
             else:
                 self._note("Coordinates are in metres.", "坐标以米为单位。")
-            self._leave_grid(points)
+            self._choose()
+            self._leave_grid(np.array([point for one in self.features for ring in one.rings for point in ring]))
             return
         if (np.abs(points) > (180.0, 90.0)).any():
             seems = ": longitude and latitude seem to be swapped" if (np.abs(points[:, 0]) <= 90.0).all() else ""
@@ -187,9 +210,10 @@ class Reading:
         self.features = [
             replace(one, rings=tuple(unwrapped(ring, near) for ring in one.rings)) for one in self.features
         ]
-        middle = next((one.rings for one in self.features if one.role == SQUARE), None)
+        # A square may be drawn in several parts.
+        squares = [one.rings[0] for one in self.features if one.role == SQUARE]
         rings = [ring for one in self.features for ring in one.rings]
-        self.origin = self.origin or middle_of(list(middle[:1]) if middle else rings)
+        self.origin = self.origin or middle_of(squares or rings)
         try:
             refuse_wide("file", rings, self.origin)
         except InvalidValue as error:
@@ -197,13 +221,34 @@ class Reading:
         plane = Plane(self.origin)
         if abs(self.origin.longitude) > 180.0:
             self.origin = GeographicOrigin((self.origin.longitude + 180.0) % 360.0 - 180.0, self.origin.latitude)
+        # Parts of a square are joined later, wherever they meet.
+        cut = [one.shape == "polygon" and one.role != SQUARE and _is_cut(one) for one in self.features]
         self.features = [one.moved(plane.metres) for one in self.features]
+        self._join([one for one, is_cut in zip(self.features, cut, strict=True) if is_cut])
+        self._choose()
         east, north = self.origin.longitude, self.origin.latitude
         self._note(
             f"Longitude and latitude were converted to metres around {east:.6f}, {north:.6f}: x to the east, y to the "
             "north.",
             f"经纬度以 {east:.6f}, {north:.6f} 为原点换算为米：x 向东，y 向北。",
         )
+
+    def _join(self, parts: list[MapFeature]) -> None:
+        """Make one area of the parts of an area that is cut at the date line."""
+        for name, role in dict.fromkeys((one.name, one.role) for one in parts):
+            like = [one for one in parts if (one.name, one.role) == (name, role)]
+            if len(like) > 1 and (whole := merged(like)) is not None:
+                first = next(k for k, one in enumerate(self.features) if one is like[0])
+                self.features[first] = whole
+                self.features = [one for one in self.features if not any(one is part for part in like)]
+
+    def _choose(self) -> None:
+        """Leave out what does not reach into the chosen area."""
+        self.features = [
+            one for one in self.features if self.choice.reaches(point for ring in one.rings for point in ring)
+        ]
+        if not self.features:
+            raise InvalidValue("area", "must be one into which something reaches")
 
     def _warn_of_small(self, square: Floats) -> None:
         """Note a square that a request refuses, because its numbers may be degrees."""
@@ -421,6 +466,11 @@ def _nothing_in(drawing: Drawing) -> InvalidValue:
         rule = "must show a polygon, a line or a point: "
         rule += "{hidden} is hidden; show its layer" if count == 1 else "{hidden} are hidden; show their layers"
     return InvalidValue("file", rule, hidden=hidden)
+
+
+def _is_cut(one: MapFeature) -> bool:
+    """True for an area with a side on the date line. Its rings are in degrees."""
+    return any(abs(a[0]) == abs(b[0]) == 180.0 and a != b for a, b in pairwise(one.rings[0]))
 
 
 def _look_like_degrees(points: Floats) -> bool:

@@ -121,7 +121,13 @@ def in_degrees(drawing: Drawing) -> Drawing:
     """The map in longitude and latitude. It must be in metres and have an origin."""
     assert drawing.origin is not None
     plane = Plane(drawing.origin)
-    return replace(drawing, features=tuple(one.moved(plane.degrees) for one in drawing.features), unit=Unit.DEGREES)
+
+    def placed(points: Floats) -> Floats:
+        """Places on earth, with longitudes within 180 degrees: on the date line they jump."""
+        longitude, latitude = plane.degrees(points).T
+        return np.column_stack([(longitude + 180.0) % 360.0 - 180.0, latitude])
+
+    return replace(drawing, features=tuple(one.moved(placed) for one in drawing.features), unit=Unit.DEGREES)
 
 
 def on_grid(drawing: Drawing) -> Drawing:

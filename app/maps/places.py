@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import codecs
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from math import isfinite
 from pathlib import Path
 from typing import Any, Self
@@ -19,7 +20,16 @@ from app.files.words import Say
 from app.maps import dxf, geojson, gpx, kml
 from app.maps.benches import benches_of
 from app.maps.choice import EVERYTHING, PARTLY, Choice, listed
-from app.maps.features import FEATURES_MAX, LEAVE_OUT, POINTS_MAX, aside_features, features_of
+from app.maps.features import (
+    FEATURES_MAX,
+    LEAVE_OUT,
+    POINTS_MAX,
+    Drawing,
+    MapFeature,
+    aside_features,
+    edges_of,
+    features_of,
+)
 from app.maps.layout import DanceParts, Reading
 from app.maps.lines import checked_path
 from app.maps.tracks import CHORD
@@ -37,14 +47,18 @@ FILE_MAX = 20_000_000
 DANCE_MAX = 4_000_000
 # Most objects and lists of GeoJSON, TOML or JSON: twice those of the largest map.
 PARTS_MAX = 2 * (POINTS_MAX + 3 * FEATURES_MAX)
+# What a refused drawing has too many of.
+MANY = ("edges", "entities", "features")
 MARKS_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 class DrawnLayer(Answer):
-    """A layer of a drawing on which something is drawn that is read."""
+    """A layer of a DXF or GeoJSON on which something is drawn that is read."""
 
     name: str = Field(description="Its name")
-    edges: int = Field(description="Sides of all that is drawn on it; a venue may have 2,000")
+    edges: int = Field(
+        description="Edges of what is drawn on it, where trees and walls have those of outlines; a venue may have 2,000"
+    )
 
 
 class Places(Answer):
@@ -87,11 +101,28 @@ def read_places(
 
 
 def drawn_layers(data: bytes) -> list[DrawnLayer]:
-    """The layers of a DXF on which something is drawn, those of the most edges first. raises: InvalidValue"""
-    if not is_drawing(_start(data)):
-        raise InvalidValue("file", "must be DXF to have layers", got="another format")
-    layers = sorted(dxf.layers_of(data).items(), key=lambda one: -one[1])
-    return [DrawnLayer(name=name, edges=edges) for name, edges in layers]
+    """The layers of a DXF or GeoJSON that hold something, those of the most edges first. raises: InvalidValue"""
+    start = _start(data)
+    if is_drawing(start):
+        edges = dxf.layers_of(data)
+    elif start.startswith(b"{") and "type" in (content := _json(_in_utf8(start, Say(Language.ENGLISH))[0])):
+        edges = _edges_of_map(geojson.read(content, Choice(counts=True)))
+    else:
+        raise InvalidValue("file", "must be DXF or GeoJSON to have layers", got="another format")
+    layers = sorted(edges.items(), key=lambda one: -one[1])
+    return [DrawnLayer(name=name, edges=count) for name, count in layers]
+
+
+def _edges_of_map(drawing: Drawing) -> dict[str, int]:
+    """Edges in a venue of each layer of a map."""
+    features: Sequence[MapFeature] = drawing.features
+    with suppress(InvalidValue):  # A map that is too wide has layers that are not.
+        features = Reading(drawing, None, Say(Language.ENGLISH)).features
+    counts: dict[str, int] = {}
+    for one in features:
+        layer = geojson.layer_of(one)
+        counts[layer] = counts.get(layer, 0) + edges_of(one)
+    return counts
 
 
 def _start(data: bytes) -> bytes:
@@ -104,13 +135,12 @@ def is_drawing(start: bytes) -> bool:
     return start.startswith((b"0", b"999", b"AutoCAD", b"AC10"))
 
 
-def _of_drawing(data: bytes, units: Coordinates | None, say: Say, choice: Choice) -> DanceParts:
-    """Square and path in a DXF, or in a part of it; too much of it is refused with advice to read a part."""
+def _in_part(read: Callable[[], DanceParts], choice: Choice, say: Say) -> DanceParts:
+    """Square and path in a drawing, or in a part of it; too much of it is refused with advice to read a part."""
     try:
-        parts = Reading(dxf.read(data, choice), units, say).parts()
+        parts = read()
     except InvalidValue as error:
-        # The most of anything stands in the rule.
-        raise error.because(PARTLY) if "most" in error.values or "features" in error.values else error from None
+        raise error.because(PARTLY) if any(word in error.template for word in MANY) else error from None
     notes = list(parts.notes)
     if choice.layers is not None:
         names = listed(choice.layers)
@@ -144,8 +174,8 @@ def places_of(
     if data.startswith(MARKS_16):
         data = _encoded(data, "utf-16")
     start = _start(data)
-    if not (choice.is_all or is_drawing(start)):
-        raise InvalidValue("layers" if choice.layers else "area", "must be left out: only DXF is read in part")
+    if not is_drawing(start) and not start.startswith(b"{"):
+        _refuse_part(choice)
     if data.startswith(OLD_WORKBOOK):
         raise InvalidValue("file", "must be saved as .xlsx or CSV", got="a workbook in an old or encrypted form")
     if is_workbook(data):
@@ -160,10 +190,17 @@ def places_of(
         parts = Reading(drawing, units, say, chord).parts()
         return replace(parts, notes=[*notes, *parts.notes])
     if is_drawing(start):
-        return _of_drawing(data, units, say, choice)
+        return _in_part(lambda: Reading(dxf.read(data, choice), units, say).parts(), choice, say)
     start, notes = _in_utf8(start, say)
-    parts = _of_text(start, units, say)
+    parts = _of_text(start, units, say, choice)
     return replace(parts, notes=[*notes, *parts.notes])
+
+
+def _refuse_part(choice: Choice) -> None:
+    """raises: InvalidValue for the choice of a part of what has no layers"""
+    if not choice.is_all:
+        rule = "must be left out: only DXF and GeoJSON are read in part"
+        raise InvalidValue("layers" if choice.layers else "area", rule)
 
 
 def _in_utf8(data: bytes, say: Say) -> tuple[bytes, list[str]]:
@@ -186,19 +223,41 @@ def _encoded(data: bytes, coding: str) -> bytes:
         raise InvalidValue("file", "must be text in UTF-16, as its first bytes say: save it as UTF-8") from error
 
 
-def _of_text(start: bytes, units: Coordinates | None, say: Say) -> DanceParts:
-    """GeoJSON, or a dance as JSON or TOML, whose objects and lists are counted before any is made."""
+def _of_geojson(content: Mapping[str, Any], units: Coordinates | None, say: Say, choice: Choice) -> DanceParts:
+    """Square and path in GeoJSON, or in a part of it, whose area lies around the middle of the whole map."""
+    drawing = geojson.read(content, choice)
+    if choice.layers is not None and choice.area is not None:
+        with suppress(InvalidValue):  # of a map that is too wide for one middle
+            whole = Reading(geojson.read(content, Choice(counts=True)), units, say)
+            drawing = replace(drawing, origin=drawing.origin or whole.origin)
+    return Reading(drawing, units, say, choice=choice).parts()
+
+
+def _json(start: bytes) -> dict[str, Any]:
+    """A JSON object, whose objects and lists are counted before any is made. raises: InvalidValue"""
+    _refuse_many_parts(start)
+    try:
+        content: dict[str, Any] = orjson.loads(start)
+    except orjson.JSONDecodeError as error:
+        raise InvalidValue("file", "must be JSON without a fault: {why}", why=str(error)) from error
+    return content
+
+
+def _refuse_many_parts(start: bytes) -> None:
     parts = start.count(b"[") + start.count(b"{")
     if parts > PARTS_MAX:
         rule = f"must hold at most {{most}} objects and lists: {LEAVE_OUT}"
         raise InvalidValue("file", rule, got=parts, most=PARTS_MAX)
+
+
+def _of_text(start: bytes, units: Coordinates | None, say: Say, choice: Choice) -> DanceParts:
+    """GeoJSON, or a dance as JSON or TOML."""
     if start.startswith(b"{"):
-        try:
-            content = orjson.loads(start)
-        except orjson.JSONDecodeError as error:
-            raise InvalidValue("file", "must be JSON without a fault: {why}", why=str(error)) from error
+        content = _json(start)
         if "type" in content:
-            return Reading(geojson.read(content), units, say).parts()
+            return _in_part(partial(_of_geojson, content, units, say, choice), choice, say)
+        _refuse_part(choice)
+    _refuse_many_parts(start)
     _refuse_long(start)
     try:
         if start.startswith(b"{"):

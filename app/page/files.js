@@ -17,6 +17,9 @@ const NUMBERS = ["head_speed", "margin", "stray", "hole", "pin"];
 const DEFAULTS = Object.fromEntries(FIELDS.map(({ name, value }) => [name, value]));
 const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
 
+/** The advice of a refusal of more than a venue may have, which is read in part. */
+const PARTLY = "read only some layers of the drawing";
+
 /** The times of a FILE; the page shows each dance from its beginning to its end. */
 export const SPAN = ["start", "stop"];
 
@@ -80,7 +83,8 @@ export class Files {
       if (content?.dances) await this.several(content, file.name);
       else if (content) this.#take(content, file.name);
     } catch (error) {
-      if (!(error instanceof Problem && /\.dxf$/i.test(file.name) && (await this.#offerParts(file, error.problem)))) announceRefusal(error, true);
+      const hasParts = error instanceof Problem && (/\.dxf$/i.test(file.name) || error.problem.reason?.startsWith(PARTLY));
+      if (!hasParts || !(await this.#offerParts(file, error.problem))) announceRefusal(error, true);
     }
   }
 

@@ -74,14 +74,16 @@ class PlacesQuery(Wire):
         ge=1e-3, le=50,
     )  # fmt: skip
     layers: OneLine | None = Field(
-        None, max_length=2_000, description="Names of the layers of a DXF that are read, with commas between them, and "
-        "one that holds a comma in double quotation marks; default: all"
+        None, max_length=2_000, description="Names of the layers of a DXF or GeoJSON that are read, with commas "
+        "between them, and one that holds a comma in double quotation marks; default: all"
     )  # fmt: skip
     area: OneLine | None = measure(
-        "m", "Of a DXF, what reaches into this area is read: least x, least y, largest x, largest y, with commas "
-        "between them; default: everything", None, max_length=200,
+        "m", "Of a DXF or GeoJSON, what reaches into this area is read: least x, least y, largest x, largest y, with "
+        "commas between them; default: everything", None, max_length=200,
     )  # fmt: skip
-    only_layers: bool = Field(False, description="Whether to answer with the layers of a DXF and their edges alone")
+    only_layers: bool = Field(
+        False, description="Whether to answer with the layers of a DXF or GeoJSON and their edges alone"
+    )
 
     def to_choice(self) -> Choice:
         """The part of a drawing that is read. raises: InvalidValue"""

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.floor_plan import EDGES, WALLS, floor_plan
+from tests.support.floor_plan import EDGES, WALLS, floor_plan, town
 from tests.support.person import COVERED, PHONE, alike
 
 thorough = pytest.mark.thorough
@@ -264,6 +264,9 @@ def _a_part_of_a_drawing_that_is_too_large_is_chosen(person):
     # The name of a layer may hold a comma.
     person.takes(plan).presses("#drawing-parts [value=SITE]", f'#drawing-parts [value="{WALLS}"]', "#parts-open")
     person.sees({"#drawing-parts": 0, "#things li": 121})
+    town_map = {"name": "town.geojson", "mimeType": "application/geo+json", "buffer": town()}
+    person.takes(town_map).sees({"#drawing-parts li": 4}).presses("#drawing-parts [value=SITE]", "#parts-open")
+    person.sees({"#drawing-parts": 0, "#things li": 1})
 
 
 def _drops(person, name):

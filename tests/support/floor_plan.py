@@ -1,12 +1,15 @@
-"""A drawing as an architect has it: a site with trees, and a building whose rooms have walls, chairs and hatches."""
+"""A drawing as architects have it: trees, and a building whose rooms have walls, chairs and hatches; and a map."""
 
 import io
+import json
 
 import ezdxf
 
-# Layers and the edges that are drawn on each, that of the walls, and the square of the site [m].
+# Layers and the edges of each in a venue, where a line and a tree have those of outlines; that of the walls, and the
+# square of the site [m].
 WALLS = "墙, walls"
-EDGES = {"A-HATCH": 1200, "A-FURN": 900, WALLS: 480, "TREES": 6, "SITE": 4}
+TREES = 6
+EDGES = {"A-HATCH": 34 * 1200, "A-FURN": 34 * 180 + 4 * 180, WALLS: 480, "TREES": 32 * TREES, "SITE": 4}
 SITE = [[0.0, 0.0], [80.0, 0.0], [80.0, 50.0], [0.0, 50.0]]
 
 
@@ -25,7 +28,7 @@ def floor_plan():
     chair.add_lwpolyline([(0, 0), (450, 0), (450, 450), (0, 450)], close=True)
     chair.add_line((0, 400), (450, 400))
     outline("SITE", 0, 0, 80, 50)
-    for k in range(6):
+    for k in range(TREES):
         space.add_circle((1000 * (10 + 10 * k), 8000), 400, dxfattribs={"layer": "TREES"})
     for x, y in ((2 + 1.9 * i, 36 + 2 * j) for i in range(10) for j in range(6)):
         for inside in (0, 0.1):
@@ -39,3 +42,35 @@ def floor_plan():
     text = io.StringIO()
     document.write(text)
     return text.getvalue().encode()
+
+
+def area(layer, x, y, width, height):
+    corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height), (x, y)]
+    return {"type": "Feature", "properties": layer, "geometry": {"type": "Polygon", "coordinates": [corners]}}
+
+
+def thing(properties, kind, *places):
+    coordinates = places[0] if kind == "Point" else places
+    return {"type": "Feature", "properties": properties, "geometry": {"type": kind, "coordinates": coordinates}}
+
+
+def town(scale=(1.0, 1.0), middle=(0.0, 0.0)):
+    """A map as GeoJSON of a square with trees beside 600 houses and 20 kerbs, around (0, 0)."""
+    features = [
+        area({"Layer": "SITE", "name": "square"}, -40, -25, 80, 50),
+        *(thing({"role": "tree", "radius": 0.4}, "Point", (-30 + 10 * k, -17)) for k in range(TREES)),
+        *(area({"layer": WALLS}, -38 + k % 30 * 2, 11 + k // 30 * 0.5, 1, 0.3) for k in range(600)),
+        *(thing({"name": "kerb"}, "LineString", (k, 5), (k + 1, 5), (k + 1, 6)) for k in range(20)),
+    ]
+    return json.dumps(placed({"type": "FeatureCollection", "features": features}, scale, middle)).encode()
+
+
+def placed(value, scale, middle):
+    """GeoJSON with every position scaled and moved."""
+    if isinstance(value, dict):
+        return {name: placed(one, scale, middle) for name, one in value.items()}
+    if not isinstance(value, (list, tuple)):
+        return value
+    if isinstance(value[0], (int, float)):
+        return [a * s + m for a, s, m in zip(value, scale, middle, strict=True)]
+    return [placed(one, scale, middle) for one in value]

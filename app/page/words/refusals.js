@@ -219,6 +219,7 @@ export const WHOLE = {
   "{field} must be JSON without a fault": ["The file is not valid JSON", "文件不是正确的 JSON"],
   "{field} must be names with commas between them, and quotation marks around one that holds a comma": [undefined, "图层名称之间用逗号分隔，含逗号的名称应加双引号"],
   "{field} must be layers of the drawing on which something stands": ["The drawing has no layer of this name", "图纸没有这个图层"],
+  "{field} must be one into which something reaches": ["Nothing of the map reaches into this area", "图中没有任何内容位于这个范围"],
   "{field} must be the least x and y and then the largest x and y, as in -20,-20,20,20": ["The area needs all four numbers: the least x and y, and larger ones", "范围需要四个数：最小的 x、y 和更大的 x、y"],
   "{field} must be DXF as text": ["The file is a binary DXF. Save it as ASCII DXF", "文件是二进制 DXF：请存为 ASCII DXF"],
   "{field} must be DXF": ["The file is a DWG. Save it as DXF", "文件是 DWG：请存为 DXF"],

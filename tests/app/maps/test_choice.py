@@ -2,12 +2,42 @@
 
 import pytest
 
-from app.maps.choice import listed
+from app.files.tables import Language
+from app.files.words import Say
+from app.maps.choice import Choice, listed
+from app.maps.places import drawn_layers, places_of
+from core import InvalidValue
 from tests.support.command import run
-from tests.support.floor_plan import EDGES, SITE, WALLS, floor_plan
+from tests.support.floor_plan import EDGES, SITE, TREES, WALLS, floor_plan, town
 
 HEADERS = {"Content-Type": "image/vnd.dxf"}
-TREES = 6
+
+
+MAP = town()
+# The same in degrees of longitude and latitude.
+IN_DEGREES = town((1 / 74_630, 1 / 111_250), (9.0, 48.0))
+SAID = Say(Language.ENGLISH)
+
+
+@pytest.mark.parametrize("data", [MAP, IN_DEGREES], ids=["metres", "degrees"])
+def test_a_map_of_more_than_a_venue_may_have_is_read_by_layers_or_an_area(data):
+    """The layer of a thing is its property, or else its role, its name or its shape."""
+    layers = {one.name: one.edges for one in drawn_layers(data)}
+    assert list(layers) == [WALLS, "kerb", "obstacle", "SITE"]
+    assert (layers[WALLS], layers["obstacle"], layers["SITE"]) == (4 * 600, 32 * TREES, 4)
+    with pytest.raises(InvalidValue, match=f"got {sum(layers.values())}: read only some layers") as refusal:
+        places_of(data, None, SAID)
+    assert refusal.value.field == "file"
+    for choice in (
+        Choice.of("site,OBSTACLE", None),
+        Choice.of(None, "-45,-30,45,0"),
+        Choice.of("obstacle", "-45,-30,45,0"),
+    ):
+        result = places_of(data, None, SAID, choice=choice)
+        assert sum(one.shape == "point" for one in result.things) == TREES
+        assert any("were read" in note or "was read" in note for note in result.notes)
+    with pytest.raises(InvalidValue, match="something reaches"):
+        places_of(data, None, SAID, choice=Choice.of(None, "500,500,600,600"))
 
 
 @pytest.fixture(scope="module")
@@ -20,11 +50,12 @@ def places(client, plan, **query):
 
 
 def test_the_layers_of_a_drawing_that_is_refused_are_listed_with_their_edges(client, plan):
+    """They are counted as the limit counts them."""
     problem = places(client, plan).json()
     assert (problem["status"], problem["errors"][0]["name"]) == (422, "file")
     layers = places(client, plan, only_layers=True).raise_for_status().json()["layers"]
     assert {one["name"]: one["edges"] for one in layers} == EDGES
-    assert sum(EDGES.values()) > 2_000
+    assert f"got {sum(EDGES.values())}" in problem["detail"]
 
 
 @pytest.mark.parametrize("query", [{"layers": "site, TREES"}, {"area": "-5,-5,85,30"}], ids=str)
@@ -42,8 +73,8 @@ def test_the_chosen_part_is_read(client, plan, query):
 def test_what_is_no_layer_and_no_area_is_refused(client, plan, query, name):
     answer = places(client, plan, **query)
     assert (answer.status_code, answer.json()["errors"][0]["name"]) == (422, name)
-    geojson = b'{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}'
-    assert places(client, geojson, **query).json()["errors"][0]["name"] == name
+    for other in (MAP, b"[dragon]\nbenches = 4\n"):
+        assert places(client, other, **query).json()["errors"][0]["name"] == name
 
 
 def test_the_command_reads_the_same_part(plan, tmp_path):

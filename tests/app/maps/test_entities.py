@@ -6,6 +6,8 @@ import time
 import ezdxf
 import numpy as np
 import pytest
+from ezdxf.math import Vec2
+from ezdxf.render.mleader import ConnectionSide
 
 from app.files.tables import Language
 from app.files.words import Say
@@ -152,6 +154,38 @@ def test_entities_without_the_markers_of_their_parts_are_read_or_named_as_left_o
     assert things(result)[1] == ("Point", [20.0, 15.0], 0.5)
     assert things(result)[0][0] == "LineString"
     assert "Left out: 1 damaged MULTILEADER." in result.notes
+
+
+def bare(text, kinds):
+    """A drawing without the markers of some kinds, or of all of them."""
+    lines, result, kind = text.split("\n"), [], ""
+    for code, value in zip(lines[::2], lines[1::2], strict=False):
+        kind = value.strip() if code.strip() == "0" else kind
+        if code.strip() != "100" or (kinds and kind not in kinds):
+            result += [code, value]
+    return "\n".join([*result, ""]).encode()
+
+
+@pytest.mark.parametrize("content", ["text", "block"])
+def test_a_note_with_an_arrow_is_left_out_by_name_also_without_markers(content):
+    space = new()
+    if content == "text":
+        leader = space.add_multileader_mtext("Standard")
+        leader.set_content("Old oak")
+    else:
+        space.doc.blocks.new("TAG").add_circle((0, 0), 1)
+        leader = space.add_multileader_block("Standard")
+        leader.set_content("TAG")
+    leader.add_leader_line(ConnectionSide.left, [Vec2(5, 5)])
+    leader.build(insert=Vec2(10, 10))
+    text = io.StringIO()
+    space.doc.write(text)
+    whole = text.getvalue()
+    for kinds, word in (("none", "MULTILEADER"), (["MULTILEADER"], "damaged MULTILEADER"), ([], "damaged MULTILEADER")):
+        data = whole.encode() if kinds == "none" else bare(whole, kinds)
+        result = places_of(data, None, Say(Language.ENGLISH))
+        assert [note for note in result.notes if note.startswith("Left out")] == [f"Left out: 1 {word}."]
+        assert corners(result)[0] == (-50.0, -50.0)
 
 
 def test_a_circle_too_small_for_anything_is_left_out_by_its_name():

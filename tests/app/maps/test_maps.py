@@ -403,10 +403,19 @@ def test_a_line_of_many_points_keeps_those_that_matter_and_says_how_near_it_stay
     assert float(said.split("at most ")[1].split(" m")[0]) <= 0.01
 
 
-def test_a_square_in_parts_that_share_an_edge_is_one_square_also_at_the_date_line():
-    halves = box(179.999, 0, 180, 0.001), box(-180, 0, -179.999, 0.001)
-    result = read_json(thing("square", "MultiPolygon", [half["coordinates"] for half in halves]), "degrees")
-    assert names(result) == ["square"]
-    width, height = np.ptp(np.array(result.venue.square.rings[0]), axis=0).tolist()
-    assert width == pytest.approx(2.0 * height, rel=0.02)
-    assert "The square is drawn in 2 parts that share edges." in result.notes
+@pytest.mark.parametrize("west", [1, 3])
+@pytest.mark.parametrize("name", ["square", None])
+def test_a_square_that_is_cut_at_the_date_line_is_one_square_around_its_middle(client, name, west):
+    halves = box(180 - 0.001 * west, 0, 180, 0.001), box(-180, 0, -179.999, 0.001)
+    result = read_json(thing(name, "MultiPolygon", [half["coordinates"] for half in halves]), "degrees")
+    [square] = rings(result)
+    width, height = np.ptp(square, axis=0).tolist()
+    assert width == pytest.approx((1 + west) * height, rel=0.02)
+    assert square.min(axis=0) + square.max(axis=0) == pytest.approx([0.0, 0.0], abs=0.01)
+    assert ("The square is drawn in 2 parts that share edges." in result.notes) is (name == "square")
+    for form in MapFormat:
+        if form is not MapFormat.DXF:
+            data = map_of(client, form.value, venue=result.geometry, path=CORNER).content
+            [again] = rings(read(data))
+            assert abs(read(data).origin.longitude) <= 180.0
+            assert np.abs(again - square).max() < 0.01
