@@ -38,6 +38,11 @@ class ReasonKind(StrEnum):
     FAILS = "fails"
 
 
+# Decimals of the numbers of a reason, and the most that tell two of them apart [1].
+DIGITS = {ReasonKind.AREA: 1, ReasonKind.WIDTH: 2, ReasonKind.WAY: 2, ReasonKind.STRAY: 3}
+DECIMALS_MOST = 12
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class Reason(Readable):
     """Why no dance is proposed: what there is and what it takes, in the unit of the kind.
@@ -62,18 +67,19 @@ class Reason(Readable):
     def message(self) -> str:
         """The reason in one sentence."""
         have, need, figure = self.have or 0.0, self.need or 0.0, NAMES.get(self.figure or Figure.RING, "")
+        less, more = told_apart(have, need, DIGITS.get(self.kind, 0))
         if self.kind is ReasonKind.AREA:
-            return f"The benches cover at least {need:.1f} m2 at any moment; the square has {have:.1f} m2."
+            return f"The benches cover at least {more} m2 at any moment; the square has {less} m2."
         if self.kind is ReasonKind.WIDTH:
             bench = "the head bench" if self.who == (0,) else f"bench {self.who[0]}"
-            turn = f"the tightest turn of {bench} that is tried takes {need:.2f} m"
-            return f"No dance was found: the widest free circle is at most {have:.2f} m across, and {turn}."
+            turn = f"the tightest turn of {bench} that is tried takes {more} m"
+            return f"No dance was found: the widest free circle is at most {less} m across, and {turn}."
         if self.kind is ReasonKind.WAY:
             gates = f"gate {self.who[0]} and gate {self.who[1]}"
-            room = f"is at most {have:.2f} m wide at its narrowest"
-            return f"The free ground between {gates} {room}; the benches need at least {need:.2f} m."
+            room = f"is at most {less} m wide at its narrowest"
+            return f"The free ground between {gates} {room}; the benches need at least {more} m."
         if self.kind is ReasonKind.STRAY:
-            best = f"the best of {self.tried} tried, {figure}, allows {have:.3f} m"
+            best = f"the best of {self.tried} tried, {figure}, allows {less} m"
             return f"People shall be free to stray {format_number(need)} m; {best}."
         if self.kind is ReasonKind.BENCHES:
             most = f"the longest dragon that was found to fit, in {figure}, has {have:.0f}"
@@ -85,6 +91,19 @@ class Reason(Readable):
 
     def _line(self) -> str:
         return self.message
+
+
+def told_apart(less: float, more: float, decimals: int) -> tuple[str, str]:
+    """Two numbers with this number of decimals, or with as many more as tell them apart.
+
+    >>> told_apart(0.438, 0.44, 2)
+    ('0.438', '0.440')
+    """
+    for count in range(decimals, DECIMALS_MOST):
+        texts = f"{less:.{count}f}", f"{more:.{count}f}"
+        if texts[0] != texts[1]:
+            return texts
+    return f"{less!r}", f"{more!r}"
 
 
 NAMES = {

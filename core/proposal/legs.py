@@ -4,13 +4,15 @@ A leg is the shortest of Dubins' six paths that stays on free ground, with the e
 block all of them, a shortest way on the grid goes around: its corners are cut as far as one sees and rounded, and the
 leg is a chain of such paths between the ends of its bends. It need not be the shortest leg there is. A walk from gate
 to gate may also go straight on for a while at both ends, with one of Dubins' paths between: so it turns where there is
-room, before or behind a channel that is too narrow for the grid.
+room, before or behind a channel that is too narrow for the grid. A channel beside the line of both gates is taken along
+its middle, with such a walk before and behind it.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import cached_property
 from itertools import product
 
 import numpy as np
@@ -27,8 +29,11 @@ from core.values import Floats
 STEP = 0.35
 # Longest direct leg, in straight distances between its ends and with this added [1], [m]: a longer one goes astray.
 DETOUR, DETOUR_MORE = 2.5, 25.0
-# Parts into which the distance of two gates is divided for straight stretches of a walk [1].
-STRETCHES = 12
+# Parts of the distance of two gates for straight stretches of a walk, and of that of a gate and a channel [1].
+STRETCHES, CHANNEL_STRETCHES = 12, 6
+# Sine of the largest angle between the walls of a channel [1], by how much it may be wider than a bend needs [m], edges
+# among which channels are looked for, and channels that are tried, those of the shortest way first [1].
+PARALLEL, WIDER, CHANNEL_EDGES, CHANNELS_MOST = math.sin(math.radians(2.0)), 1.0, 400, 3
 # Work of one leg that is measured [1], see core/kernels/constants.py.
 LEG_WORK = 300.0
 
@@ -58,9 +63,12 @@ class LegFinder:
                     return list(steps)
         return None
 
-    def free(self, begin: Pose, steps: Sequence[Step], radius: float) -> bool:
+    def free(self, begin: Pose, steps: Sequence[Step], radius: float, *, eased: bool = False) -> bool:
         """True if benches on these steps have room everywhere, with margin and stray: that of a bend on it and for a
-        chord before and after it, else that of a straight way."""
+        chord before and after it, else that of a straight way.
+
+        eased: before and after a bend only what a bench takes there whose other end is still on it, see _beside()
+        """
         if self.heedless:
             return True
         self.budget.afford(LEG_WORK)
@@ -69,13 +77,29 @@ class LegFinder:
         least, ends = np.full(len(points), straight), np.cumsum([0.0, *(length for length, _ in steps)])
         for (length, curvature), start in zip(steps, ends[:-1].tolist(), strict=True):
             if curvature != 0.0 and length > 0.0:
-                near = np.maximum(start - travel, travel - start - length) <= self.needs.chord
+                away = np.maximum(start - travel, travel - start - length)
+                near = away <= (0.0 if eased else self.needs.chord)
                 least[near] = self.sides[radius] + self.needs.free
+                if eased:
+                    least = np.maximum(least, straight + self._beside(away, radius))
         lack = least - self.ground.nearest_node(points[:, 0], points[:, 1])
         if lack.max() > self.ground.node_error:
             return False
         near = lack > -self.ground.node_error
         return bool(not near.any() or (self.ground.clearance(points[near]) >= least[near]).all())
+
+    def _beside(self, away: Floats, radius: float) -> Floats:
+        """Ground that a bench takes beside a straight way at these distances before or after a bend, besides that of a
+        straight bench, nearly (N,) [m].
+
+        With its front handle f after the end of the bend, a bench of chord c has its rear handle (c - f)^2 / 2 R beside
+        the straight line; p after the end the bench is (f - p) / c of that beside it, most for f = p + (c - p) / 3, and
+        its end, an overhang o before the handle, o / c of it to the other side.
+        """
+        chord, overhang = self.needs.chord, float(self.needs.dragon.overhangs.max())
+        left = np.clip(chord - away, 0.0, chord)
+        beside: Floats = (2.0 / 27.0 * left + 0.5 * overhang) * left**2 / (radius * chord)
+        return beside
 
     def around(self, begin: Pose, end: Pose) -> list[Step] | None:
         """A leg around obstacles; None if the grid has no way, or benches cannot follow it."""
@@ -100,19 +124,91 @@ class LegFinder:
 
         The stretches are those to the crossing of both straight lines, rounded by one bend, or parts of the distance.
         """
-        part = math.dist(begin[:2], end[:2]) / STRETCHES
-        counts = sorted(product(range(STRETCHES), repeat=2), key=sum)
-        parts = [(part * a, part * b) for a, b in counts if a + b < STRETCHES]
         for radius in self.needs.radii:
-            for before, after in [*_to_corner(begin, end, radius), *parts]:
-                first, last = moved(begin, (before, 0.0)), moved(end, (-after, 0.0))
-                for path in dubins(first, last, radius):
-                    steps = [(before, 0.0), *path, (after, 0.0)]
-                    if length_of(steps) > DETOUR * part * STRETCHES:
-                        break
-                    if long_enough(steps) and self.free(begin, steps, radius):
-                        return steps
+            if (steps := self._walk(begin, end, radius, STRETCHES)) is not None:
+                return steps
+        return self._through(begin, end)
+
+    def _walk(self, begin: Pose, end: Pose, radius: float, stretches: int, *, eased: bool = False) -> list[Step] | None:
+        """A walk with bends of a radius [m], whose straight stretches are parts of the distance; None without one.
+
+        eased: see free()
+        """
+        part = math.dist(begin[:2], end[:2]) / stretches
+        counts = sorted(product(range(stretches), repeat=2), key=sum)
+        parts = [(part * a, part * b) for a, b in counts if a + b < stretches]
+        for before, after in [*_to_corner(begin, end, radius), *parts]:
+            first, last = moved(begin, (before, 0.0)), moved(end, (-after, 0.0))
+            for path in dubins(first, last, radius):
+                steps = [(before, 0.0), *path, (after, 0.0)]
+                if length_of(steps) > DETOUR * part * stretches:
+                    break
+                if long_enough(steps) and self.free(begin, steps, radius, eased=eased):
+                    return steps
         return None
+
+    def _through(self, begin: Pose, end: Pose) -> list[Step] | None:
+        """A walk through the middle of a channel, with bends before and behind it; None without one.
+
+        The bends end a chord before the channel, or half of one, or where it begins.
+        """
+        if self.heedless:
+            return None
+
+        def way(channel: tuple[Pose, float]) -> float:
+            entry, length = channel
+            return math.dist(begin[:2], entry[:2]) + math.dist(moved(entry, (length, 0.0))[:2], end[:2])
+
+        ahead = np.array(end[:2]) - begin[:2]
+        along = [one for one in self.channels if ahead @ (math.cos(one[0][2]), math.sin(one[0][2])) >= 0.0]
+        channels = sorted(along, key=way)[:CHANNELS_MOST]
+        leads = (self.needs.chord, 0.5 * self.needs.chord, 0.0)
+        for eased, radius, (entry, length), lead in product((False, True), self.needs.radii, channels, leads):
+            first = self._walk(begin, moved(entry, (-lead, 0.0)), radius, CHANNEL_STRETCHES, eased=eased)
+            if first is None:
+                continue
+            last = self._walk(moved(entry, (length + lead, 0.0)), end, radius, CHANNEL_STRETCHES, eased=eased)
+            if last is None:
+                continue
+            steps = [*first, (length + 2.0 * lead, 0.0), *last]
+            if long_enough(steps) and self.free(begin, steps, radius, eased=eased):
+                return steps
+        return None
+
+    @cached_property
+    def channels(self) -> list[tuple[Pose, float]]:
+        """Straight channels between two edges that face each other, in both directions: the pose at the beginning of
+        the middle line, and its length [m]."""
+        edges = self.ground.edges
+        way = edges[:, 2:] - edges[:, :2]
+        lengths = np.hypot(*way.T)
+        if len(edges) > CHANNEL_EDGES:
+            return []
+        self.budget.afford(float(len(edges) ** 2))
+        ahead = way / lengths[:, None]
+        least = 2.0 * (self.needs.straight_side + self.needs.free)
+        most = 2.0 * (max(self.sides.values()) + self.needs.free) + WIDER
+        found: list[tuple[Pose, float]] = []
+        for k, (u, start) in enumerate(zip(ahead, edges[:, :2], strict=True)):
+            side = np.array([-u[1], u[0]])
+            gaps = (0.5 * (edges[:, :2] + edges[:, 2:]) - start) @ side
+            ends = np.sort(np.stack([(edges[:, :2] - start) @ u, (edges[:, 2:] - start) @ u]), axis=0)
+            low, high = np.maximum(ends[0], 0.0), np.minimum(ends[1], lengths[k])
+            facing = (np.abs(ahead @ side) < PARALLEL) & (least <= np.abs(gaps)) & (np.abs(gaps) <= most) & (low < high)
+            for j in np.flatnonzero(facing[k + 1 :]) + k + 1:
+                found += self._middle(start + 0.5 * gaps[j] * side, u, float(low[j]), float(high[j]))
+        return found
+
+    def _middle(self, start: Floats, ahead: Floats, low: float, high: float) -> list[tuple[Pose, float]]:
+        """The line from `low` to `high` ahead of a point, from each end, if straight benches have room on it."""
+        count = max(2, math.ceil((high - low) / STEP) + 1)
+        line = start + np.linspace(low, high, count)[:, None] * ahead
+        self.budget.afford(LEG_WORK)
+        if self.ground.clearance(line).min() < self.needs.straight_side + self.needs.free:
+            return []
+        heading = math.atan2(ahead[1], ahead[0])
+        ends = ((line[0], heading), (line[-1], heading + math.pi))
+        return [((float(x), float(y), math.remainder(one, math.tau)), high - low) for (x, y), one in ends]
 
     def _chain(self, poses: Sequence[Pose]) -> list[Step] | None:
         """Direct legs from pose to pose; None if one is blocked."""

@@ -25,6 +25,7 @@ from core.judgement import quick_check
 from core.kernels import Budget, Halted
 from core.proposal.answer import Objective, Proposal, Proposals, Reason, ReasonKind
 from core.proposal.figures import Figure
+from core.proposal.free_ground import FreeGround
 from core.proposal.gates import Gate, checked_gates
 from core.proposal.search import Rated, Search, Wish
 from core.sampling import bisect
@@ -184,7 +185,7 @@ def _otherwise(
     search: Search, venue: Venue, figures: Sequence[Figure], on_proposal: Callable[[Proposal], None]
 ) -> tuple[tuple[Proposal, ...], Reason | None]:
     """Proposals of a second search, or why no dance was found, by the first cause that holds."""
-    narrow = _too_narrow(search, figures)
+    narrow = _too_narrow(search, venue, figures)
     if narrow is not None:
         return (), narrow
     if search.wish.stray > 0.0:
@@ -199,10 +200,13 @@ def _otherwise(
     best, reason = _failing(search, venue, figures)
     for proposal in best:
         on_proposal(proposal)
+    if reason is not None and search.gates:
+        # A street has room beyond its gate that the square itself has not.
+        reason = _no_turn(search, _circle(search, venue)) or reason
     return best, reason
 
 
-def _too_narrow(search: Search, figures: Sequence[Figure]) -> Reason | None:
+def _too_narrow(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reason | None:
     """The reason that every way between two gates, or the whole square, is too narrow."""
     needs, tried = search.needs, search.tried
     if Figure.PARADE in figures:
@@ -211,11 +215,25 @@ def _too_narrow(search: Search, figures: Sequence[Figure]) -> Reason | None:
         widest, pair = max(widths)
         if widest < needs.least_width:
             return Reason(ReasonKind.WAY, tried, widest, needs.least_width, who=pair)
-    _, _, _, most = search.ground.widest_circle
-    if 2.0 * most < needs.turning_width:
-        bench = int(np.argmax(needs.dragon.chords[: needs.dragon.uniform_from + 1]))
-        return Reason(ReasonKind.WIDTH, tried, 2.0 * most, needs.turning_width, who=(bench,))
+    if 2.0 * search.ground.widest_circle[3] < needs.turning_width:
+        return _no_turn(search, _circle(search, venue))
     return None
+
+
+def _circle(search: Search, venue: Venue) -> float:
+    """A proven upper bound of the diameter of the widest free circle in a square without the streets beyond its gates
+    [m]."""
+    ground = FreeGround(venue) if search.gates else search.ground
+    return 2.0 * ground.widest_circle[3]
+
+
+def _no_turn(search: Search, widest: float) -> Reason | None:
+    """The reason that no free circle is as wide as a turn takes; None if one may be. widest: a bound of it [m]"""
+    needs = search.needs
+    if widest >= needs.turning_width:
+        return None
+    bench = int(np.argmax(needs.dragon.chords[: needs.dragon.uniform_from + 1]))
+    return Reason(ReasonKind.WIDTH, search.tried, widest, needs.turning_width, who=(bench,))
 
 
 def _widest_way(search: Search, begin: Gate, end: Gate) -> float:

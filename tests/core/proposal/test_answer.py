@@ -14,6 +14,8 @@ REASONS = {
     "and the tightest turn of bench 7 that is tried takes 5.20 m.": Reason(ReasonKind.WIDTH, 9, 4.1, 5.2, who=(7,)),
     "The free ground between gate 0 and gate 2 is at most 0.20 m wide at its narrowest; "
     "the benches need at least 0.40 m.": Reason(ReasonKind.WAY, 9, 0.2, 0.4, who=(0, 2)),
+    "The free ground between gate 0 and gate 1 is at most 0.438 m wide at its narrowest; "
+    "the benches need at least 0.440 m.": Reason(ReasonKind.WAY, 9, 0.4381, 0.44, who=(0, 1)),
     "People shall be free to stray 0.05 m; the best of 412 tried, a figure eight, allows 0.032 m.": Reason(
         ReasonKind.STRAY, 412, 0.0321, 0.05, Figure.EIGHT
     ),

@@ -102,10 +102,17 @@ def test_the_bound_of_the_areas_is_that_of_every_other_bench_of_a_dragon_whose_l
     ("venue", "dragon", "more", "expected"),
     [
         (Venue(box("lane", 0, 0, 30, 3.0)), Dragon(8), {}, {"kind": "width", "have": 3.01, "need": 3.91}),
+        # The mouth of the street is no part of the square.
+        (
+            Venue(box("lane", 0, 0, 30, 3.0)),
+            Dragon(8),
+            {"figures": ["ring"], "gates": [Gate((15, 0), 0.5 * math.pi)]},
+            {"kind": "width", "have": 3.01, "need": 3.91},
+        ),
         (SMALL, Dragon(BENCHES_MOST), {}, {"kind": "area", "tried": 0, "have": 480.0, "need": 660.4}),
         (SMALL, Dragon(120), {"figures": ["ring"]}, {"kind": "benches", "need": 120}),
     ],
-    ids=["narrow yard", "too large", "too long"],
+    ids=["narrow yard", "narrow yard with a gate", "too large", "too long"],
 )
 def test_where_nothing_fits_the_reason_has_what_there_is_and_what_is_needed(venue, dragon, more, expected):
     result = propose(venue, dragon, **more)
@@ -178,6 +185,16 @@ CHANNEL = box("low", 8, 0, 8, 9.8), box("high", 8, 10.4, 8, 9.6)
 STREETS = ((0, 3), (17, 3), (17, 20), (13, 20), (13, 7), (0, 7), (0, 3))
 TURNING = {
     "a channel beside the gate": (Venue(box("square", 0, 0, 24, 20), CHANNEL), ((0, 14), 0.0), ((24, 10.1), math.pi)),
+    "a channel beside both gates": (
+        Venue(box("square", 0, 0, 24, 20), (box("low", 8, 0, 8, 12.05), box("high", 8, 12.95, 8, 7.05))),
+        ((0, 10), 0.0),
+        ((24, 10), math.pi),
+    ),
+    "a narrow channel beside both gates": (
+        Venue(box("square", 0, 0, 24, 20), (box("low", 8, 0, 8, 6.03), box("high", 8, 6.63, 8, 13.37))),
+        ((0, 10.1), 0.0),
+        ((24, 10.1), math.pi),
+    ),
     "two streets": (Venue(Area("streets", (STREETS,))), ((0, 5), 0.0), ((15, 20), -0.5 * math.pi)),
 }
 
@@ -191,7 +208,12 @@ def test_a_walk_turns_where_there_is_room_and_is_straight_elsewhere(name):
 
 
 def test_where_not_even_one_bench_fits_the_reason_is_what_fails_in_its_nearest_dance():
-    blocks = box("low", 8, 0, 8, 6.03), box("high", 8, 6.63, 8, 13.37)
+    blocks = (
+        box("low", 8, 0, 2, 6.03),
+        box("high", 8, 6.63, 2, 13.37),
+        box("next", 14, 0, 2, 15),
+        box("last", 14, 15.6, 2, 4),
+    )
     gates = Gate((0.0, 10.1), 0.0), Gate((24.0, 10.1), math.pi)
     square = Venue(box("square", 0, 0, 24, 20), blocks)
     reason = propose(square, Dragon(4), gates=gates, figures=["parade"]).reason
