@@ -1,5 +1,8 @@
 """A drawing of more than a venue may have is read in part: some of its layers, or an area of it."""
 
+import io
+
+import ezdxf
 import pytest
 
 from app.files.tables import Language
@@ -56,6 +59,18 @@ def test_the_layers_of_a_drawing_that_is_refused_are_listed_with_their_edges(cli
     layers = places(client, plan, only_layers=True).raise_for_status().json()["layers"]
     assert {one["name"]: one["edges"] for one in layers} == EDGES
     assert f"got {sum(EDGES.values())}" in problem["detail"]
+
+
+def test_a_layer_has_as_many_edges_in_the_list_as_when_it_is_read(client):
+    document = ezdxf.new("R2010")
+    document.header["$INSUNITS"] = 4  # millimetres
+    points = [(0, 0, 0, 0, 1), (60_000, 0, 0, 0, 1)]  # two half circles
+    document.modelspace().add_lwpolyline(points, close=True, dxfattribs={"layer": "SQUARE"})
+    text = io.StringIO()
+    document.write(text)
+    (layer,) = places(client, text.getvalue().encode(), only_layers=True).json()["layers"]
+    (square,) = places(client, text.getvalue().encode()).json()["venue"]["features"]
+    assert layer == {"name": "SQUARE", "edges": len(square["geometry"]["coordinates"][0]) - 1}
 
 
 @pytest.mark.parametrize("query", [{"layers": "site, TREES"}, {"area": "-5,-5,85,30"}], ids=str)
