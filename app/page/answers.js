@@ -3,7 +3,7 @@
 import { button, make } from "./elements.js";
 import { strayOf } from "./fields.js";
 import { bound, fixed, formatNumber, isExact } from "./numbers.js";
-import { benchName, handleName, proofWords, refusalWords, say, sayOf, titleOf } from "./text.js";
+import { benchName, handleName, proofWords, refusalWords, say, sayOf, sentencesOf, titleOf } from "./text.js";
 
 /** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
 const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
@@ -62,7 +62,7 @@ function engines(check, benches, request) {
   const words = [grounds || `${say("engines", { count: rows.length })}${judgedWords(check, benches, request)}`, say(check.agree ? "agree" : "disagree")];
   const list = check.together.map((both) => Object.values(pair(both, benches)).join(say("listed"))).join(say("semicolon"));
   if (list) words.push(say("together", { list }));
-  const caption = make("caption", { textContent: words.join(" ") });
+  const caption = make("caption", { textContent: sentencesOf(words) });
   return make("table", {}, caption, make("thead", {}, heads), make("tbody", {}, ...rows));
 }
 
@@ -211,7 +211,7 @@ export function showTolerance(box, answer, benches, diameter) {
 export function showHighestSpeed(box, fastest, { benches }) {
   if (!fastest) return show(box, say("highest"), say("unbounded"), [say("towardsFold")], [paragraph(say("foldKnown"))]);
   const { speed, speed_bracket, time, handles } = fastest;
-  const name = handles.map((handle) => (handle === benches ? handleName : benchName)(handle, benches)).join(say("listed"));
+  const name = handles.map((handle) => handleName(handle, benches)).join(say("listed"));
   const whose = handles.includes(0) ? say("headFastest") : say("whose", { name, time: time.toFixed(6) });
   const known = speed_bracket[1] === null ? [] : [facts(bracket("bracketSpeed", speed_bracket, 9))];
   show(box, say("highest"), `${formatNumber(speed, 6, 2)} m/s`, [whose], known, { digits: `${speed.toFixed(6)} m/s` });

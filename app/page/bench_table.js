@@ -2,9 +2,10 @@
 
 import { tableOf, tableText } from "./benches.js";
 import { $, bearer, make, textButton } from "./elements.js";
+import { stepsOf } from "./history.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { Pause } from "./pending.js";
-import { language, nameBenches, refusalWords, say } from "./text.js";
+import { language, nameBenches, refusalWords, say, sentencesOf } from "./text.js";
 
 /** A typed table counts after this pause [ms]. */
 const TYPING = 500;
@@ -35,7 +36,7 @@ export class BenchTable {
     this.file = make("input", { type: "file", id: "csv-file", accept: ".csv,.tsv,.txt,.xlsx", "data-label": "csvOpen", hidden: true });
     this.error = make("p", { id: "csv-error", className: "error", hidden: true });
     this.note = make("p", { className: "hint" });
-    const acts = { csvOpen: () => this.file.click(), csvBegin: () => this.#begin(), csvClear: () => state.set({ csv: "" }) };
+    const acts = { csvOpen: () => this.file.click(), csvBegin: () => this.#begin(), csvClear: () => this.#take("") };
     const buttons = Object.entries(acts).map(([id, act]) => textButton(id, act, { id }));
     const help = make("p", { id: "csv-help", className: "hint", "data-text": "csvHelp" });
     this.box = make("details", { id: "one-by-one" }, this.title, help, this.text, this.error, this.note, make("p", { className: "buttons" }, ...buttons, this.file));
@@ -46,10 +47,10 @@ export class BenchTable {
 
   #listen() {
     const typing = new Pause("csv");
-    this.text.addEventListener("input", () => typing.begin(TYPING, () => this.#take(this.text.value)));
+    this.text.addEventListener("input", () => typing.begin(TYPING, () => this.#take(this.text.value, "csv")));
     this.text.addEventListener("change", () => {
       typing.end();
-      this.#take(this.text.value);
+      this.#take(this.text.value, "csv");
     });
     this.file.addEventListener("change", async () => {
       if (this.file.files[0]) await this.#open(this.file.files[0]);
@@ -69,15 +70,16 @@ export class BenchTable {
     try {
       const { text, notes } = await tableOfFile(file, this.service);
       if (text !== null) this.#take(text);
-      if (notes.length) announce(() => notes.join(" "), true);
+      if (notes.length) announce(() => sentencesOf(notes), true);
     } catch (error) {
       announceRefusal(error);
     }
   }
 
-  #take(text) {
-    this.state.set({ csv: text.trim() && text });
-    this.state.write();
+  /** Take another table, or none, as one step that can be undone. kind: of steps that are one if they follow each other soon */
+  #take(text, kind = null) {
+    const csv = text.trim() && text;
+    if (csv !== this.state.get("csv")) stepsOf(this.state).change({ csv }, kind);
     this.show();
   }
 

@@ -3,7 +3,7 @@
 import { Problem, Superseded } from "./api.js";
 import { $, button, hide, make, numberIn, textButton } from "./elements.js";
 import { secondsBetween, timeOfDay } from "./passages.js";
-import { handleName, language, learn, refusalWords, say } from "./text.js";
+import { benchTitle, language, learn, refusalWords, say, sentencesOf } from "./text.js";
 import { CARRIER } from "./words/carrier.js";
 
 learn(CARRIER);
@@ -166,7 +166,7 @@ export class Carrier {
     this.#resume();
     const { benches } = dance.numbers;
     if (of.bench >= benches) return;
-    const own = { start: dance.begin, ...((dance.parts || dance.answer.time !== null) && { stop: dance.end }), cards: [of.bench] };
+    const own = { ...this.questions.cued, cards: [of.bench] };
     try {
       for (const one of [language(), ...LANGUAGES.filter((other) => other !== language())]) {
         const { cards } = await this.service.ask("cues", "cues", { body: { ...this.#body(one), ...own, language: one } });
@@ -260,7 +260,7 @@ export class Carrier {
     const { dance } = this.questions;
     const card = this.#card;
     const benches = dance?.numbers.benches ?? Infinity;
-    const name = (k) => handleName(k, benches);
+    const name = (k) => benchTitle(k, benches);
     const bench = this.#bench < benches ? name(this.#bench) : `${say("cardBench")} ${this.#bench}`;
     const dragons = dance?.parts?.map(({ names }) => names[language()]) ?? [];
     this.dragon.replaceChildren(...dragons.map((textContent, value) => make("option", { value, textContent, selected: value === dance.active })));
@@ -284,8 +284,10 @@ export class Carrier {
     const isLarge = this.#track?.cells > HELD_MOST;
     const held = cards && isWhole ? "cardHeld" : cards && isLarge ? "cardPart" : "cardLoading";
     const distances = this.#card?.cues.some(({ nearest }) => nearest) ? ["cardDistances"] : [];
-    const words = [...distances, this.#network ? held : "cardOffline", this.#lock ? "cardAwake" : "cardAsleep"];
-    this.note.textContent = words.map((key) => say(key)).join(" ");
+    const { answer = null } = this.questions.dance ?? {};
+    const until = answer && answer.time !== null ? ["cardUntil"] : [];
+    const words = [...until, ...distances, this.#network ? held : "cardOffline", this.#lock ? "cardAwake" : "cardAsleep"];
+    this.note.textContent = sentencesOf(words.map((key) => say(key)));
     this.box.dataset.held = String(held === "cardHeld");
     this.box.dataset.awake = String(Boolean(this.#lock));
   }
@@ -322,7 +324,7 @@ export class Carrier {
     const left = minutesAndSeconds(Math.max(at - time, 0));
     const lacks = this.#bench >= benches ? say("cardNone", { bench: this.#bench, last: benches - 1 }) : refusal ? refusalWords(refusal).textContent : "";
     put(this.when, lacks || isOver || !cue || !isGoing ? "" : !present ? say("cardIn", { time: left }) : at > time ? say("cardPaused", { time: left }) : say("cardNow"));
-    const words = isOver ? say("cardOver") : isGoing ? (cue?.words ?? "") : `${say("cardNotBegun")} ${cue ? `${say("cardNext")}${say("colon")}${cue.words}` : ""}`;
+    const words = isOver ? say(dance.answer.time === null ? "cardOver" : "cardTouches") : isGoing ? (cue?.words ?? "") : sentencesOf([say("cardNotBegun"), cue && `${say("cardNext")}${say("colon")}${cue.words}`]);
     put(this.cue, lacks || words);
     [...this.list.children].forEach((row, k) => (row.className = cues[k] === cue ? "following" : isGoing && cues[k].until <= time ? "past" : ""));
   }

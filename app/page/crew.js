@@ -4,7 +4,7 @@ import { Problem, Superseded } from "./api.js";
 import { $, button, download, make, numberIn, textButton } from "./elements.js";
 import { announce } from "./overlays.js";
 import { clockIn } from "./passages.js";
-import { handleName, language, refusalWords, say } from "./text.js";
+import { benchTitle, language, refusalWords, say, sentencesOf } from "./text.js";
 
 /** Numbers of the form: the field of the service, its key, its first value; an empty one is left to the service. */
 const NUMBERS = { head_people: ["crewHead", "8"], bench_people: ["crewBench", "2"], spares: ["crewSpares", "0"], shift: ["crewShift", ""], rest: ["crewRest", "0"] };
@@ -101,7 +101,7 @@ export class Crew {
     const { people, spares, changes, longest, enough, unrelieved, at, carriers, start, stop } = this.#answer;
     const parts = [make("p", { textContent: say("crewIs", { people, spares, changes, longest: minutes(longest) }) })];
     const never = unrelieved.length ? [say("crewNever", { count: unrelieved.length, benches: this.#of.numbers.benches })] : [];
-    if (spares < enough) parts.push(make("p", { className: "error", textContent: [say("crewLack", { enough }), ...never].join(" ") }));
+    if (spares < enough) parts.push(make("p", { className: "error", textContent: sentencesOf([say("crewLack", { enough }), ...never]) }));
     if (at) parts.push(this.#roll(at));
     this.result.replaceChildren(...parts, this.#people(carriers, start, stop));
   }
@@ -115,9 +115,9 @@ export class Crew {
 
   /** Who is where at the time asked about. */
   #roll({ time, clock, benches, resting }) {
-    const rows = benches.map(({ bench, people, mark }) => [handleName(bench, benches.length), people.join(", "), String(mark)]);
+    const rows = benches.map(({ bench, people, mark }) => [benchTitle(bench, benches.length), people.join(say("listed")), String(mark)]);
     const box = this.#table(say("crewAtTime", { time: clock ?? `${time} s` }), ["crewOfBench", "crewPeople", "crewMark"], rows);
-    box.append(make("p", { textContent: say(resting.length ? "crewResting" : "crewNoneRests", { names: resting.join(", ") }) }));
+    box.append(make("p", { textContent: say(resting.length ? "crewResting" : "crewNoneRests", { names: resting.join(say("listed")) }) }));
     return box;
   }
 
@@ -126,7 +126,7 @@ export class Crew {
     const share = (time) => `${(100 * (time - start)) / (stop - start)}%`;
     const line = (spells) => {
       const bars = spells.map(({ begin, end, bench }) => {
-        const bar = make("i", { title: `${bench}: ${minutes(begin - start)}–${minutes(end - start)}` });
+        const bar = make("i", { title: `${bench}${say("colon")}${minutes(begin - start)}–${minutes(end - start)}` });
         Object.assign(bar.style, { left: share(begin), width: share(start + end - begin) });
         return bar;
       });

@@ -9,12 +9,12 @@ import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { stepsOf } from "./history.js";
 import { Judgement, failureWords } from "./judgement.js";
 import { bound, formatNumber, isExact } from "./numbers.js";
-import { announce } from "./overlays.js";
+import { announce, announceSaved } from "./overlays.js";
 import { beatsOf, passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
 import { isPresetVenue } from "./presets.js";
 import { isFurther, queued } from "./queue.js";
-import { isInside, rectangle } from "./square.js";
+import { circle, isInside, onBorder } from "./square.js";
 import { benchName, language, learn, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
 import { DRAGONS } from "./words/dragons.js";
@@ -31,17 +31,32 @@ const [DELAY_MOST, LATER] = [1e6, 30];
 /** Longest wait of a dragon behind another one that is looked for [s]. */
 const WAIT_MOST = 600;
 const DEGREE = Math.PI / 180;
+/** Step along a way that a square must have room for [m]. */
+const WAY_STEP = 0.5;
 
 /** Way of an arrow key along a row. */
 const WAYS = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 };
 /** @returns {any[]} */
 const partsOf = (row) => [...row.querySelectorAll("button, input")].filter((one) => !one.disabled);
 
-/** True if the square of a drawing has all points of the paths of dragons inside, or is none. */
-function holds({ things }, records) {
+/** Points along the way of a dragon, at most a step apart: between its corners, or around its spiral with its tail. */
+function wayPoints({ path, drawing: { points }, ...texts }) {
+  const [pitch, turns, benches, head, body, overhang] = ["pitch", "start_turns", "benches", "head_length", "body_length", "overhang"].map((name) => Number(texts[name]));
+  const length = head + (benches - 1) * body - 2 * benches * overhang;
+  // The arc of a spiral grows with the square of its turns.
+  const corners = path === "route" ? points : circle(2 * pitch * Math.sqrt(turns ** 2 + length / (Math.PI * pitch)), [0, 0]);
+  return corners.flatMap(([x, y], k) => {
+    const [nextX, nextY] = corners[k + 1] ?? [x, y];
+    const parts = Math.max(Math.ceil(Math.hypot(nextX - x, nextY - y) / WAY_STEP), 1);
+    return Array.from({ length: parts }, (_, part) => [x + ((nextX - x) * part) / parts, y + ((nextY - y) * part) / parts]);
+  });
+}
+
+/** True if the square of a drawing has room for the benches of dragons all along their ways, or is none. dances: the values of each */
+function holds({ things }, dances) {
   const square = things.find((thing) => isArea(thing) && isWhole(thing));
-  const pointsOf = ({ route, pitch, start_turns: turns }) => (route ? fromAddress(new URLSearchParams({ route })).points : rectangle(2 * pitch * turns, 2 * pitch * turns, [0, 0]));
-  return !square || records.flatMap(pointsOf).every((point) => isInside(square.points, point));
+  const hasRoom = (point, room) => isInside(square.points, point) && onBorder(square.points, point).far >= room;
+  return !square || dances.every((one) => wayPoints(one).every((point) => hasRoom(point, Math.hypot(one.width / 2, one.overhang))));
 }
 
 export class Dragons {
@@ -142,7 +157,7 @@ export class Dragons {
     const records = PRESETS[name];
     // A person's own square stays if the dance fits into it.
     const drawing = this.state.get("drawing");
-    const [isOwn, fits] = [!isPresetVenue(drawing), holds(drawing, records)];
+    const [isOwn, fits] = [!isPresetVenue(drawing), holds(drawing, records.map((record) => this.#valuesOf(record)))];
     const values = this.#valuesOf(records[0], isOwn && fits ? drawing : { ...EMPTY, limit: isOwn ? drawing.limit : null });
     this.#take(records, 0, { ...values, time: null, view: null, follow: false });
     if (isOwn && !fits) announce(() => say("dragonsAlone"), false, true);
@@ -196,7 +211,7 @@ export class Dragons {
 
   /** Give dragon k the shortest safe delay, from that of the one before [s]. */
   async #wait(k, least) {
-    const text = this.state.get("dances");
+    const text = this.#text;
     const { dances, ...limits } = this.#file();
     const contact = Object.fromEntries(CONTACT.filter((name) => name in limits).map((name) => [name, limits[name]]));
     let [safe, problem] = [[], null];
@@ -208,7 +223,7 @@ export class Dragons {
       if (!(error instanceof Problem)) throw error;
       ({ problem } = error);
     }
-    if (this.state.get("dances") !== text) return; // A person has changed the dragons meanwhile.
+    if (this.#text !== text) return; // A person has changed the dragons meanwhile.
     const [first] = safe;
     this.note = first ? null : { text, k, problem };
     if (!first) return this.#noted();
@@ -219,9 +234,9 @@ export class Dragons {
     if (delay > least) this.state.set({ dances: this.#textOf(records.with(k, { ...records[k], delay: String(delay) }), this.#active) });
   }
 
-  /** Say that no delay keeps the last dragon apart, or why none was found, as long as the dragons are these. */
+  /** Say that no delay keeps the last dragon apart, or why none was found, as long as they and their square are these. */
   #noted() {
-    const is = this.note?.text === this.state.get("dances");
+    const is = this.note !== null && this.note.text === this.#text;
     if (!is) this.note = null;
     hide(this.apart, !is);
     if (!is) return;
@@ -386,9 +401,14 @@ export class Dragons {
     return { dances: own, ...others, ...(venue && { venue }) };
   }
 
+  /** What tells one performance from another, in every language. */
+  get #text() {
+    return this.state.get("dances") && JSON.stringify(this.#kept());
+  }
+
   #save() {
     download(new Blob([JSON.stringify(this.#kept(), null, 2)], { type: "application/json" }), "dances.json");
-    announce(() => say("saved", { name: "dances.json" }));
+    announceSaved("dances.json", this.state.get("drawing"));
   }
 
   /** Draw each dragon in the colour that it has now: a person, the theme or paper has changed it. */
@@ -406,6 +426,7 @@ export class Dragons {
   /** Ask about the dragons as they are now. */
   refresh() {
     const parts = this.#parts();
+    this.#noted();
     this.recolour();
     const active = this.#active;
     const own = parts[active];

@@ -43,6 +43,9 @@ const needs = { area: 3, block: 3, circle: 1, wall: 2, gate: 1 };
 /** True if a thing has as many points as its kind needs. */
 export const isWhole = ({ kind, points }) => points.length >= needs[kind];
 
+/** Names of the things that have fewer points than their kind needs, of which no file has a form. */
+export const unfinishedOf = ({ things }) => things.filter((thing) => !isWhole(thing)).map(({ name }) => name);
+
 function featureOf(thing) {
   const { kind, name, points, radius, holes = [] } = thing;
   const properties = kind === "circle" || kind === "wall" ? { name, radius } : { name };

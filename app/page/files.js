@@ -7,9 +7,9 @@ import { chooseParts } from "./layers.js";
 import { drawingOf, keptVenueOf } from "./drawing.js";
 import { $, bearer, download, make, textButton } from "./elements.js";
 import { FIELDS } from "./fields.js";
-import { announce, announceRefusal, endMessage } from "./overlays.js";
+import { announce, announceRefusal, announceSaved, endMessage } from "./overlays.js";
 import { paceTexts, passagesText } from "./passages.js";
-import { language, say } from "./text.js";
+import { language, say, sentencesOf } from "./text.js";
 
 const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.gpx,.dxf,.csv,.tsv,.xlsx";
 /** Fields of a dance's file that are numbers of the page too. */
@@ -25,7 +25,7 @@ export const SPAN = ["start", "stop"];
 
 /** Say that a file was opened, for as long as it takes to read. unread: what of it the page leaves out; notes: what else it did not take over */
 export function announceOpened(name, unread, notes = []) {
-  announce(() => [say("opened", { name }), ...(unread.length ? [say("openedWhole", { names: unread.join(say("listed")) })] : []), ...notes].reduce((first, second) => say("sentences", { first, second })), false, true);
+  announce(() => sentencesOf([say("opened", { name }), unread.length && say("openedWhole", { names: unread.join(say("listed")) }), ...notes]), false, true);
 }
 
 export class Files {
@@ -74,7 +74,7 @@ export class Files {
     try {
       if (/\.(csv|tsv|xlsx?|ods)$/i.test(file.name)) {
         const { text: csv, notes } = await tableOfFile(file, this.service);
-        if (csv === null) return announce(() => notes.join(" "), true, true);
+        if (csv === null) return announce(() => sentencesOf(notes), true, true);
         this.steps.change({ csv });
         return announceOpened(file.name, [], notes);
       }
@@ -148,7 +148,7 @@ export class Files {
     const venue = keptVenueOf(dance.drawing);
     const text = JSON.stringify({ ...this.questions.checkBody(dance), ...(venue && { venue }) }, null, 2);
     download(new Blob([text], { type: "application/json" }), "dance.json");
-    announce(() => say("saved", { name: "dance.json" }));
+    announceSaved("dance.json", dance.drawing);
   }
 }
 

@@ -6,7 +6,7 @@ import { formatNumber } from "./numbers.js";
 import { tell } from "./overlays.js";
 import { timeOfDay, wayAt } from "./passages.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
-import { benchName, handleName, refusalWords, say, sayOf } from "./text.js";
+import { benchName, handleName, refusalWords, say, sayOf, sentencesOf } from "./text.js";
 
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
 const DECIMALS = 6;
@@ -49,7 +49,7 @@ function wayWords({ begin, end, numbers, extras, clock }, { length, s }, time) {
   const stands = first - s[0];
   const span = { way: (last - first).toFixed(1), time, from: signed(begin), to: signed(end) };
   const way = say(Number(begin.toFixed(2)) && !clock ? "pathSpan" : "pathLength", span);
-  return [stands < STANDS ? way : say("sentences", { first: way, second: say("pathStands", { stands: stands.toFixed(1), length: length.toFixed(1) }) })];
+  return [stands < STANDS ? way : sentencesOf([way, say("pathStands", { stands: stands.toFixed(1), length: length.toFixed(1) })])];
 }
 
 export class Judgement {

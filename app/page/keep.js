@@ -5,9 +5,9 @@ import { keptVenueOf } from "./drawing.js";
 import { $, $$, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED } from "./jobs.js";
-import { announce, announceRefusal, copy } from "./overlays.js";
+import { announce, announceRefusal, announceSaved, copy } from "./overlays.js";
 import { fitsQuery } from "./questions.js";
-import { language, refusalWords, say } from "./text.js";
+import { language, refusalWords, say, sentencesOf } from "./text.js";
 
 const CSV_STEP = 1;
 const TYPES = {
@@ -94,7 +94,7 @@ const REQUESTS = {
   },
   ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
   plan: (questions, paper) => ({ path: "plan", body: questions.danced({ paper, language: language() }) }),
-  cues: (questions) => ({ path: "cues", body: questions.danced({ language: language() }) }),
+  cues: (questions) => ({ path: "cues", body: questions.danced({ ...questions.cued, language: language() }) }),
   map(questions, form) {
     const drawing = questions.dance.kind === "route" ? questions.state.get("drawing") : null;
     return mapOf(form, questions.danced(), drawing);
@@ -119,7 +119,7 @@ const TOGETHER = {
     return { path: "films", body: { ...file, language: language() } };
   },
   plan: ({ dance }, paper) => ({ path: "plan", body: { ...dance.file, paper, language: language() } }),
-  cues: ({ dance }) => ({ path: "cues", body: { ...dance.file, language: language() } }),
+  cues: ({ dance, cued }) => ({ path: "cues", body: { ...dance.file, ...cued, language: language() } }),
   map: ({ dance }, form) => mapOf(form, dance.file, dance.drawing),
   verdict: ({ dance }) => ({ path: "check", body: dance.file }),
 };
@@ -219,11 +219,13 @@ export class Keep {
 
   async #save(item, form) {
     if (!this.questions.dance || $(`#${item.key}-${form}`).classList.contains("going")) return;
-    if (form === "KML" && this.questions.dance.kind === "route" && !this.questions.state.get("drawing").origin) return this.#askPlace();
+    const { state } = this.questions;
+    // The form in which a person types it is that of a drawn path.
+    if (form === "KML" && state.get("path") === "route" && !state.get("drawing").origin) return this.#askPlace();
     if (item.ask === "kit" && this.questions.dance.extras.csv) return announce(() => say("kitUniform"));
     try {
       if (item.job) await this.#begin(item, form);
-      if (item.ask === "kit" && this.#besides().length) announce(() => say("kitWithout", { names: this.#besides().map((name) => say(name)).join(", ") }));
+      if (item.ask === "kit" && this.#besides().length) announce(() => say("kitWithout", { names: this.#besides().map((name) => say(name)).join(say("listed")) }));
       if (item.job) return;
       announce(() => say("making", { name: say(item.key) }), true);
       this.#mark(item, form, true);
@@ -231,7 +233,7 @@ export class Keep {
       const name = fileName(item.file, form);
       download(blob, name);
       const canBePlaced = inMetres && item.ask === "map" && this.questions.dance.kind === "route";
-      announce(() => [say(inMetres ? "savedMetres" : "saved", { name }), ...(canBePlaced ? [say("savedPlace")] : [])].join(" "));
+      announceSaved(name, item.ask === "map" ? this.questions.dance.drawing : null, () => [say(inMetres ? "savedMetres" : "saved", { name }), canBePlaced && say("savedPlace")]);
     } catch (error) {
       // What takes too long for one answer is made as a job.
       if (error instanceof Problem && error.problem.type === TOO_LONG) this.#begin(item, form).catch(announceRefusal);
@@ -317,7 +319,7 @@ export class Keep {
     const head = ["paperWhat", "paperSource", "paperTheirs", "paperOurs"].map((key) => make("th", { scope: "col", "data-text": key, textContent: say(key) }));
     const line = ({ quantity, unit, source, paper, published, ours, reason, diagnosis }) => {
       const cells = [source, `${paper ?? published} ${unit}`, `${ours.toFixed(9)} ${unit}`].map((textContent) => make("td", { textContent }));
-      const why = reason ?? diagnosis.map(({ words }) => words).join(" ");
+      const why = reason ?? sentencesOf(diagnosis.map(({ words }) => words));
       const row = make("tr", {}, make("th", { scope: "row", textContent: quantity }), ...cells);
       return why ? [row, make("tr", {}, make("td", { colSpan: 4, className: "hint", textContent: why }))] : [row];
     };

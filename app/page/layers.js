@@ -19,6 +19,11 @@ export function chooseParts(layers, problem, open) {
   const boxes = layers.map(({ name }) => make("input", { type: "checkbox", value: name }));
   const rows = layers.map(({ name, edges }, k) => make("li", {}, make("label", {}, boxes[k], `${name} · ${say("layerEdges", { edges })}`)));
   const sides = Object.entries(SIDES).map(([key, placeholder]) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, placeholder }));
+  const leave = () => {
+    box.remove();
+    removeEventListener("keydown", hear);
+  };
+  const hear = ({ key }) => (key === "Escape" || !box.isConnected) && leave();
   const take = async () => {
     const names = boxes.filter(({ checked }) => checked).map(({ value }) => value);
     const numbers = sides.map(({ value }) => numberIn(value));
@@ -26,7 +31,7 @@ export function chooseParts(layers, problem, open) {
     go.disabled = true;
     try {
       await open(part);
-      box.remove();
+      leave();
     } catch (error) {
       if (error instanceof Problem) Object.assign(why, refusalWords(error.problem));
       else if (!(error instanceof Superseded)) throw error;
@@ -35,12 +40,13 @@ export function chooseParts(layers, problem, open) {
     }
   };
   const go = textButton("partsOpen", take, { id: "parts-open", className: "main" });
-  const close = textButton("close", () => box.remove());
+  const close = textButton("close", leave);
   const title = make("h2", { id: "drawing-parts-title", "data-text": "partsTitle" });
   const area = make("p", {}, make("span", { "data-text": "partsArea" }), ...sides, make("span", { className: "unit", textContent: "m" }));
   const box = make("div", { id: "drawing-parts", popover: "manual", role: "dialog", "aria-labelledby": title.id }, title, why, make("p", { className: "hint", "data-text": "partsHelp" }), make("ul", {}, ...rows), area, make("p", { className: "buttons" }, go, close));
   document.body.append(box);
   writeTexts();
   box.showPopover();
+  addEventListener("keydown", hear);
   boxes[0].focus();
 }

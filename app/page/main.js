@@ -11,7 +11,7 @@ import { $, $$, onClick } from "./elements.js";
 import { CONTACT, FIELDS, strayOf } from "./fields.js";
 import { Graphs } from "./graphs.js";
 import { addLook } from "./look.js";
-import { announce, announceAgain, endMessage, lost, markContact, placeInset, showPrinted, tell } from "./overlays.js";
+import { announce, announceAgain, endMessage, keepMessageOff, lost, markContact, placeInset, showPrinted, tell } from "./overlays.js";
 import { fixed, formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
 import { timeOfDay } from "./passages.js";
@@ -426,6 +426,7 @@ async function showSection(name) {
 
 function listen() {
   state.listen(showState);
+  keepMessageOff();
   for (const button of $$("[data-share]")) button.addEventListener("click", openSharing);
   onClick("#lost button", () => service.retry());
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));

@@ -3,7 +3,7 @@
 import { button, make, numberIn, textButton } from "./elements.js";
 import { announce } from "./overlays.js";
 import { ENDS, beatsOf, beginsOf, clockIn, endOf, passagesIn, timeOfDay } from "./passages.js";
-import { refusalWords, say } from "./text.js";
+import { refusalWords, say, sentencesOf } from "./text.js";
 
 /** Duration of an added pause, and of an added passage [s]. */
 const [PAUSE, LONG] = [10, 20];
@@ -68,7 +68,7 @@ export class Pace {
   /** Say what a time must look like, and which one holds meanwhile. */
   #say() {
     this.clock.placeholder = say("clockExample");
-    this.wrong.textContent = [say("clockWrong"), this.#begins && say("clockKept", { clock: this.#begins })].join(" ").trim();
+    this.wrong.textContent = sentencesOf([say("clockWrong"), this.#begins && say("clockKept", { clock: this.#begins })]);
   }
 
   /** Show when a dance ends, and when it begins if its time of day is given at time 0, as in old addresses and files. */
@@ -79,7 +79,7 @@ export class Pace {
     if (!clock) return;
     const start = this.#begins;
     const ends = say("clockEnds", { end: timeOfDay(Number((answer.end?.time ?? end).toFixed(DECIMALS)), clock) });
-    this.help.textContent = atZero && begin !== 0 ? `${say("clockAtZero", { clock: atZero, start })} ${ends}` : ends;
+    this.help.textContent = atZero && begin !== 0 ? sentencesOf([say("clockAtZero", { clock: atZero, start }), ends]) : ends;
     if (atZero && document.activeElement !== this.clock) this.clock.value = start;
   }
 

@@ -5,7 +5,7 @@ import { announce } from "./overlays.js";
 import { clockIn, secondsBetween } from "./passages.js";
 import { pending } from "./pending.js";
 import { RATES } from "./state.js";
-import { refusalWords, say } from "./text.js";
+import { refusalWords, say, sentencesOf } from "./text.js";
 
 /** Time between requests for the service's own numbers in motion [ms]. */
 const EXACT_EVERY = 250;
@@ -170,7 +170,7 @@ export class Player {
     if (!dance) return this.stop();
     const refusal = dance.track?.refusal;
     if (refusal) {
-      announce(() => `${say("notPlayed")} ${refusalWords(refusal).textContent}`);
+      announce(() => sentencesOf([say("notPlayed"), refusalWords(refusal).textContent]));
       return this.stop();
     }
     if (!dance.track?.at(this.time)) return;

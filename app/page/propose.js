@@ -9,12 +9,12 @@ import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.
 import { strayOf } from "./fields.js";
 import { failureWords } from "./judgement.js";
 import { knotsOf } from "./knots.js";
-import { formatNumber } from "./numbers.js";
+import { formatNumber, toldApart } from "./numbers.js";
 import { pending } from "./pending.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
 import { circle, extent, rectangle } from "./square.js";
 import { roundedRoute } from "./walk.js";
-import { benchName, learn, refusalWords, say, writeTexts } from "./text.js";
+import { benchName, learn, refusalWords, say, sentencesOf, writeTexts } from "./text.js";
 import { DANCE } from "./words/dance.js";
 import { SQUARE } from "./words/square.js";
 
@@ -325,7 +325,8 @@ export class Propose {
     const digits = { area: 1, stray: 3, benches: 0, fails: 0 }[kind] ?? 2;
     const gates = this.#drawing.things.filter((thing) => thing.kind === "gate");
     const names = kind === "way" ? { a: gates[who[0]]?.name, b: gates[who[1]]?.name } : { who: who.length ? benchName(who[0], Number(this.state.get("benches"))) : "" };
-    const numbers = { have: have?.toFixed(digits), need: kind === "stray" ? need : need?.toFixed(digits) };
+    const [less, more] = typeof have === "number" ? toldApart(have, need, digits) : [];
+    const numbers = { have: less, need: kind === "stray" ? need : more };
     const first = failure && { failure: failureWords(failure, this.questions.drawn()), time: formatNumber(failure.time, 6, 2) };
     const lack = kind !== "fails" ? kind : !failure ? "fails_none" : have < need ? "fails_one" : kind;
     return say(`lack_${lack}`, { ...names, ...numbers, ...first, tried, figure: figure ? say(`figure_${figure}`) : "" });
@@ -333,7 +334,7 @@ export class Propose {
 
   /** How many benches the area of the square bounds, if they are what counts. */
   #most({ most_benches: most = null }) {
-    return this.objective.value === "benches" && most !== null ? ` ${say("proposedMost", { most })}` : "";
+    return this.objective.value === "benches" && most !== null ? say("proposedMost", { most }) : "";
   }
 
   /** After a change of anything. */
@@ -381,7 +382,7 @@ export class Propose {
 
   #showWords(answer) {
     const seconds = this.#search && Math.round((performance.now() - this.#search.began) / 1000);
-    const result = answer && (answer.proposals.length ? `${say(answer.tried ? "proposed" : "proposedSoFar", { count: answer.proposals.length, tried: answer.tried })} ${say("proposedChoose")}${this.#most(answer)}` : this.#lack(answer));
+    const result = answer && (answer.proposals.length ? sentencesOf([say(answer.tried ? "proposed" : "proposedSoFar", { count: answer.proposals.length, tried: answer.tried }), say("proposedChoose"), this.#most(answer)]) : this.#lack(answer));
     const going = () => say(answer ? "proposingMore" : "proposing", { seconds, count: answer?.proposals.length }) + (this.#search.job ? say("proposingShare", this.#search) : "");
     const text = this.#search ? going() : (this.note?.() ?? result ?? "");
     const problem = !this.#search && !text && this.#problem;

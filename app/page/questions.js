@@ -209,6 +209,12 @@ export class Questions {
     return { ...this.checkBody(this.dance), start: begin, ...(kind !== "route" && { stop: end }), ...more };
   }
 
+  /** The time of the cues of the shown dance: to its end, or until benches touch, after which nobody is where a card says. */
+  get cued() {
+    const { parts, answer, begin, end } = this.dance;
+    return { start: begin, ...((parts || answer.time !== null) && { stop: end }) };
+  }
+
   /** The shown part of a turn, whose coils have no end; a spiral is shown to its end, a drawn path in its place. */
   #stretch(/** @type {any} */ { kind, numbers: { head_speed: speed }, extras, drawing = null }) {
     if (kind === "route") return placeOf(drawing);

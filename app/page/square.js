@@ -31,7 +31,7 @@ export const isInside = (ring, [x, y]) =>
     return ay > y !== by > y && x < ax + ((y - ay) * (bx - ax)) / (by - ay);
   }).length % 2 === 1;
 
-/** The nearest place on the border of a ring: {point, heading: straight into the square [rad]}. */
+/** The nearest place on the border of a ring: {point, heading: straight into the square [rad], far: how far away it is [m]}. */
 export function onBorder(ring, [x, y]) {
   const left = Math.sign(twiceArea(ring)) || 1;
   const sides = ring.map(([bx, by], k) => {
@@ -41,8 +41,8 @@ export function onBorder(ring, [x, y]) {
     const point = [ax + along * dx, ay + along * dy];
     return { point, heading: Math.atan2(left * dx, -left * dy), far: Math.hypot(point[0] - x, point[1] - y) };
   });
-  const { point, heading } = sides.reduce((best, side) => (side.far < best.far ? side : best));
-  return { point: point.map(decimals), heading: decimals(heading) };
+  const { point, heading, far } = sides.reduce((best, side) => (side.far < best.far ? side : best));
+  return { point: point.map(decimals), heading: decimals(heading), far };
 }
 
 /** Length of every side [m], from each corner to the next one, and the angle at every corner [degrees]; ends of an open line have none. */

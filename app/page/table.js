@@ -1,7 +1,7 @@
 /** Handles at one instant; only the visible rows exist, as there may be thousands. */
 
 import { make } from "./elements.js";
-import { handleName } from "./text.js";
+import { handleName, say } from "./text.js";
 
 const ROW = 30;
 const SPARE = 6;
@@ -76,7 +76,7 @@ export class Table {
     for (const [row, line] of this.#rows.entries()) {
       const k = first + row;
       const numbers = [x[k], y[k], speed[k]].map((one) => one.toFixed(DECIMALS).replace(/^-(0\.0+)$/, "$1"));
-      const texts = [`${k} · ${handleName(k, x.length - 1)}`, ...numbers];
+      const texts = [say("handleNumber", { k, name: handleName(k, x.length - 1) }), ...numbers];
       texts.forEach((text, cell) => (line.cells[cell].textContent = text));
       line.cells[0].title = texts[0];
       line.className = k === this.#handle ? "chosen" : "";

@@ -56,6 +56,9 @@ function filled(text, values) {
   return text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
 }
 
+/** Sentences one after the other, as the language writes them. */
+export const sentencesOf = (sentences) => sentences.filter(Boolean).reduce((first, second) => (first ? say("sentences", { first, second }) : second), "");
+
 /**
  * The text of this key for a question: with a margin benches in contact may be apart, and with a stray they only may
  * touch. {touch} and {meet} in a text are the words for a contact. request: {margin, stray, hole, pin}, [m]
@@ -107,8 +110,12 @@ export function benchName(k, benches) {
   return withHousehold(k === 0 ? say("theHead") : k === benches - 1 ? say("theTail") : say("body", { k }), k);
 }
 
-/** Name of handle k, after the bench that it leads; bench k has the same name. */
-export function handleName(k, benches) {
-  if (k === benches) return say("tailRear");
+/** Name of bench k by itself, as on a card. */
+export function benchTitle(k, benches) {
   return withHousehold(k === 0 ? say("head") : k === benches - 1 ? say("tail") : say("body", { k }), k);
+}
+
+/** Name of handle k, after the bench that it leads. */
+export function handleName(k, benches) {
+  return k === benches ? say("tailRear") : say("frontHandle", { bench: benchTitle(k, benches) });
 }

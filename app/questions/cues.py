@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
@@ -10,7 +10,7 @@ from pydantic import Field
 import core
 from app.cards.answer import Cues, PerformanceCues
 from app.cards.tables import cards_csv, performance_cards_csv
-from app.cards.words import CardWords, Chalk
+from app.cards.words import CardWords, Chalk, landmarks_of
 from app.files.tables import CSV_TYPE, Language
 from app.files.words import Say
 from app.plan.timing import TimeFormat
@@ -21,7 +21,7 @@ from app.wire.dances import BenchNumber, bench_of, clock_of
 from app.wire.degrees import Place
 from app.wire.performances import NumberOrName, SeveralFields, dragons_of
 from app.wire.question import JSON, OneLine, Question, Terms, measure
-from core import Dance, InvalidValue, Performance
+from core import Dance, FailureKind, InvalidValue, Performance
 from core.errors import Given, Parameter, TooLarge, question_about
 from core.motion.places import handle_places
 from core.people.cards import Card, card_of
@@ -119,6 +119,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     start_clock = clock_of(request, performance)
     start, stop = performance.span(request.start, request.stop)
     geographic, decks = request.origin_at(place) is not None, list[tuple[list[Card], CardWords]]()
+    landmarks = landmarks_of(place.venue)
     for k, benches in chosen.items():
         dance = performance.parts[k].dance
         _refuse_equal_names(dance.dragon, f"dances.{k}.")
@@ -126,7 +127,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
         own = core.performance_cues(performance, k, benches, reach=request.reach, **span)
         chalk = _chalk(request, dance, performance.parts[k].own_span(start, stop)[0], terms)
         clock = TimeFormat(start_clock, parts[k].music, music_begin=parts[k].delay)
-        words = CardWords(say, dance.dragon.names, clock, chalk, geographic, k, dragons)
+        words = CardWords(say, dance.dragon.names, clock, chalk, geographic, k, dragons, landmarks)
         decks.append(([card_of(one) for one in own], words))
     if form == JSON:
         return PerformanceCues.together(decks)
@@ -137,7 +138,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
         performance, start=start, stop=request.stop, details=False, budget=terms.budget, **limits
     )
     in_words = TimeFormat(start_clock).words
-    verdict = verdict_words(report, in_words, say) if report.failures else _passed(request, place, say)
+    verdict = _failed(request, report, in_words, say) if report.failures else _passed(request, place, say)
     dances = [(performance.parts[k].dance, names[k]) for k in chosen]
     sheets = _sheets(request, place, list(zip(dances, decks, strict=True)), verdict, terms)
     return _drawn_together(performance, sheets, terms)
@@ -160,7 +161,8 @@ def _words(request: CuesRequest, dance: Dance, place: Place, terms: Terms) -> Ca
     chalk = _chalk(request, dance, dance.span(request.start, request.stop)[0], terms)
     clock = TimeFormat(clock_of(request, dance), request.music)
     geographic = request.origin_at(place) is not None
-    return CardWords(Say(request.language), dance.dragon.names, clock, chalk, geographic)
+    landmarks = landmarks_of(place.venue)
+    return CardWords(Say(request.language), dance.dragon.names, clock, chalk, geographic, landmarks=landmarks)
 
 
 def _refuse_equal_names(dragon: core.Dragon, before: str = "") -> None:
@@ -182,8 +184,19 @@ def _verdict(request: CuesRequest, dance: Dance, place: Place, words: CardWords,
     start = dance.span(request.start, request.stop)[0]
     report = verdict_of(request, dance, place.venue, start, terms)
     if report.failures:
-        return verdict_words(report, words.clock.words, words.say)
+        return _failed(request, report, words.clock.words, words.say)
     return _passed(request, place, words.say)
+
+
+def _failed(
+    request: CuesRequest, report: core.Report | core.PerformanceReport, words: Callable[[float], str], say: Say
+) -> str:
+    """What the check of a dance that fails found, and whether its cards end there."""
+    verdict = verdict_words(report, words, say)
+    contacts = [words(failure.time) for failure in report.failures if failure.kind is FailureKind.CONTACT]
+    if request.stop is None or words(request.stop) not in contacts:
+        return say(f"{verdict}.", f"{verdict}。")
+    return say(f"{verdict}; the cues end where benches touch.", f"{verdict}，提示到板凳相碰时为止。")
 
 
 def _passed(request: CuesRequest, place: Place, say: Say) -> str:
@@ -215,7 +228,8 @@ def _sheets(
     from app.cards.cards import CardSheets
     from app.files.fonts import families_for
 
-    title = request.title or Say(request.language)("Bench dragon", "板凳龙")
+    say = Say(request.language)
+    title, colon = request.title or say("Bench dragon", "板凳龙"), say(": ", "：")
     areas = place.venue.areas if place.venue else ()
     names = [one for (dance, name), _ in decks for one in (name, *dance.dragon.names)]
     # The cards of one dragon name those of others.
@@ -223,7 +237,7 @@ def _sheets(
     family = families_for([title, *names, *(area.name for area in areas)], request.language)
     return [
         CardSheets(
-            dance, place.venue, cards, words, f"{title}: {name}" if name else title, verdict, family, terms.budget
+            dance, place.venue, cards, words, f"{title}{colon}{name}" if name else title, verdict, family, terms.budget
         )
         for (dance, name), (cards, words) in decks
     ]

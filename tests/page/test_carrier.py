@@ -18,6 +18,7 @@ thorough = pytest.mark.thorough
 PATIENT = 50.0  # longest computation of one answer [s], also on a busy machine
 DRAGON = {"benches": 20}
 SLACK = 45  # from the last press to the cue [s], so that a slow machine is not late
+TOUCHING = "path=route&benches=40&route=*-100,0_0,0_12,8_0,14_-4,0_0,-20&begin=88"
 BEFORE_ZERO = "path=route&route=*-40,0_40,0&benches=9&begin=30"
 CUE, HINT, LIST = "#carrier .cue", "#card-more .hint", "#card-more li"
 # Two dragons in one spiral, by the list in the address; the chosen one is that of the other numbers.
@@ -172,6 +173,17 @@ def paper_and_phone_tell_of_the_dance_from_its_beginning(person):
     assert cues_of(person) == [one["words"] for one in own[1:]]
     mark, x, y = (float(own[0][name]) for name in ("mark", "x", "y"))
     person.sees({"#card-more .stand": [f"chalk mark {mark:g} m", f"(x {x:.1f} m, y {y:.1f} m)"]})
+    # Where benches touch, the cues of both end, and both say so.
+    person.opens(f"?door=all&lang=en&{TOUCHING}").reaches_below()
+    own = [one for one in csv.DictReader(person.saves("#keepCues-CSV").decode().splitlines()) if one["bench"] == "7"]
+    verdict = json.loads(person.saves("#keepVerdict-JSON"))
+    assert float(own[-1]["time"]) == pytest.approx(verdict["failures"][0]["time"], abs=1e-3)
+    sheets = pypdfium2.PdfDocument(person.saves("#keepCues-PDF"))
+    text = " ".join(sheets[0].get_textpage().get_text_bounded().split())
+    assert "the cues end where benches touch." in text
+    held(person.opens(f"?door=all&lang=en&{TOUCHING}&bench=7"))
+    assert cues_of(person) == [one["words"] for one in own[1:]]
+    person.sees({HINT: "Benches touch in this dance: the cues end there."})
 
 
 def goes_by_the_time_of_day(open_page, server):

@@ -86,6 +86,16 @@ def test_dragons_to_begin_with_leave_what_a_person_has_drawn_and_who_waits_is_le
     person.page.emulate_media(color_scheme="dark")
     person.settles().holds({"#dragon-colour-0": "#ff8b7c"})
     assert [person.coloured(one) > 0 for one in ("#ff8b7c", COLOURS[0])] == [True, False]
+    # The benches must fit too: streets of 0.2 m hold the corners of the paths alone.
+    for half, fits in ((0.1, False), (3, True)):
+        corners = [(-60, -half), (-half, -half), (-half, -60), (half, -60), (half, -half), (60, -half)]
+        corners += [(-x, -y) for x, y in corners]
+        cross = {
+            "things": f"a.yard..{'_'.join(f'{x},{y}'.replace('.', '!') for x, y in corners)}",
+            "route": "*-59,0_59,0",
+        }
+        person.opens(f"?door=all&lang=en&path=route&benches=3&begin=8&{urlencode(cross)}").presses("#several").settles()
+        assert ("things" in person.presses("[data-dragons=streets]").settles().address()) is fits
 
 
 def takes_back_what_it_began_with(person):
@@ -204,11 +214,16 @@ def a_delay_that_is_not_found_says_why(person):
 
     person.opens("?door=all&lang=en&path=route&route=*-40,0_40,0&begin=16&benches=3")
     person.page.route("**/safe-delay", too_long)
-    why = "How long blue has to wait was not found: most must be at most 1000000 s"
+    why = "How long blue has to wait was not found: The longest wait must be at most 1000000 s"
     person.presses("#several").sees({"#dragons-apart": [why, "type one"]}).speaks("zh").sees(
-        {"#dragons-apart": "请自行填写延迟"}
+        {"#dragons-apart": ["最长等待时间最多为 1000000 s", "请自行填写延迟"]}
     )
     person.page.unroute_all()
+    # Another drawing is another dance.
+    path = {"type": "LineString", "coordinates": [[-40, 0], [60, 0]]}
+    line = {"type": "Feature", "properties": {"name": "path"}, "geometry": path}
+    file = {"name": "path.geojson", "mimeType": "application/geo+json", "buffer": json.dumps(line).encode()}
+    person.takes(file).sees({"#dragons-apart": False, "#status": "path.geojson"})
     person.types({"#dragon-delay-1": "40"}).sees({"#dragons-apart": False})
 
 

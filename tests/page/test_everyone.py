@@ -142,6 +142,16 @@ def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(ope
     assert person.ask(COVERED) == []
     person.strikes("Escape").reads({"#status": ""})
     expect(person.at("#status")).to_be_hidden()
+    # Nor does a short one, in any window; it says which things no file holds.
+    query = "?lang=en&path=route&route=0,0_60,0&benches=5&things=b.shed..1,9_2,9~c.well.1.5,9"
+    for width, height in ((1440, 900), (800, 600), (390, 844), (320, 568)):
+        person.page.set_viewport_size({"width": width, "height": height})
+        person.opens(query).reaches_below().saves("#keepMap-GeoJSON")
+        person.sees({"#status": ["Saved map.geojson", "Left out, because corners are missing: “shed”."]}).settles()
+        assert person.ask(COVERED) == []
+        person.saves("#save")
+        person.sees({"#status": ["Saved dance.json", "“shed”"]}).settles()
+        assert person.ask(COVERED) == []
 
 
 @thorough
@@ -236,7 +246,7 @@ def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_keys_al
     person.sees({"#first-contact .value": "时碰撞", "#minimum-pitch": "最小螺距"})
     assert "Pitch" not in person.text("main")
     person.at("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
-    person.sees({"#rows tr:has-text('龙尾（后）')": True}).speaks("en").arrives("**lang=en")
+    person.sees({"#rows tr:has-text('龙尾后把手')": True}).speaks("en").arrives("**lang=en")
     person.page.reload()
     person.reads({"h1 a, h1": "Bench Dragon"})
     _keys_alone_lead_everywhere(person.settles().reaches_below())

@@ -252,11 +252,12 @@ def test_drawings_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept
     workbook = openpyxl.Workbook()
     workbook.active.append(["吴", 3.41, 0.3, 0.275])
     workbook.save(book)
-    person.takes(book, "#csv-file").holds({"#csv": "吴,3.41,0.3,0.275\n"})
+    person.takes(book, "#csv-file").holds({"#csv": "吴,3.41,0.3,0.275\n"}).presses("#undo").holds({"#csv": ""})
 
 
 def _a_part_of_a_drawing_that_is_too_large_is_chosen(person):
     plan = {"name": "plan.dxf", "mimeType": "image/vnd.dxf", "buffer": floor_plan()}
+    person.takes(plan).sees({"#drawing-parts li": len(EDGES)}).strikes("Escape").sees({"#drawing-parts": 0})
     person.takes(plan).sees({"#drawing-parts li": len(EDGES)}).presses(
         "#drawing-parts [value=SITE]", "#drawing-parts [value=A-HATCH]"
     )

@@ -3,7 +3,7 @@
 export const ANSWERS = {
   answers: ["The answers", "结果"],
   touch: ["touch", "相碰"],
-  touchNear: ["come within {margin} m", "间距不超过 {margin} m"],
+  touchNear: ["come within {margin} m", "近到 {margin} m 以内"],
   meet: ["{touch}", "{touch}"],
   meetStray: ["can {touch}", "可能{touch}"],
   within: ["{title}, everybody within {stray} cm of their place", "{title}（每人离位不超过 {stray} cm）"],

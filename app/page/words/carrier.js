@@ -10,6 +10,8 @@ export const CARRIER = {
   cardPaused: ["still {time}", "还剩 {time}"],
   cardNotBegun: ["Press Start when the dance begins.", "舞龙开始时请按“开始”。"],
   cardOver: ["The dance is over.", "舞龙已结束。"],
+  cardTouches: ["Stop: benches touch here, and the cues end.", "停：此处板凳相碰，提示到此为止。"],
+  cardUntil: ["Benches touch in this dance: the cues end there.", "这场舞龙中板凳会相碰，提示到那时为止。"],
   cardStart: ["Start", "开始"],
   cardAgain: ["Start again", "重新开始"],
   cardClock: ["By the clock", "按时钟"],

@@ -105,7 +105,7 @@ export const DANCE = {
   pitch_is: ["between two rings", "相邻两圈的间距"],
   start_turns_is: ["turns from the centre", "龙头起点距中心的圈数"],
   turning_diameter_is: ["its diameter", "中央圆的直径"],
-  ratio_is: ["first : second", "第一段 : 第二段"],
+  ratio_is: ["first : second", "第一段：第二段"],
   entry_radius_is: ["from the centre", "距中心"],
   exit_radius_is: ["from the centre", "距中心"],
   benches_is: ["with head and tail", "含龙头与龙尾"],

@@ -85,7 +85,6 @@ export const ROUTE = {
   inviteOr: ["or begin with", "或从预设开始"],
   pathOnly: ["The path is {length} m long.", "路径长 {length} m。"],
   pathLength: ["The head walks {way} m in {time} s.", "龙头行进 {way} m，用时 {time} s。"],
-  sentences: ["{first} {second}", "{first}{second}"],
   pathSpan: ["The head walks {way} m in {time} s; the clock of the picture runs from {from} s to {to} s.", "龙头行进 {way} m，用时 {time} s；时间轴从 {from} s 到 {to} s。"],
   pathStands: ["At the start the dragon stands on the first {stands} m of its path of {length} m.", "开始时全队站在路径的前 {stands} m 上，路径全长 {length} m。"],
   tightBend: ["The bend is too tight: its radius is {radius} m, and {bench} needs {least} m.", "弯道过急：半径 {radius} m，{bench}至少需要 {least} m。"],

@@ -72,7 +72,7 @@ export const SQUARE = {
   lack_stray: ["People shall be free to be {need} m from their places; the best of {tried} tried, {figure}, allows {have} m.", "要求每人可离位 {need} m，试过的 {tried} 种中最佳者（{figure}）只允许 {have} m。"],
   lack_benches: ["The dragon has {need} benches; the longest one found to fit, {figure}, has {have}.", "龙队有 {need} 节，找到的能容纳的最长龙队（{figure}）为 {have} 节。"],
   lack_fails: ["None of {tried} tried passes its check; the nearest, “{figure}”, fails at {time} s: {failure}", "试过的 {tried} 种均未通过检查；最接近的“{figure}”在 {time} s 不合格：{failure}"],
-  lack_fails_one: ["Nothing was found to fit, not even one bench. Its nearest dance, “{figure}”, fails at {time} s: {failure} Make the square larger, or what stands in it, the margin and the stray smaller.", "连一节板凳也找不到合适的舞龙；最接近的“{figure}”在 {time} s 不合格：{failure} 请加大广场，或减小障碍物、间距与离位。"],
+  lack_fails_one: ["Nothing was found to fit, not even one bench. Its nearest dance, “{figure}”, fails at {time} s: {failure} Make the square larger, or what stands in it, the margin and the stray smaller.", "连一节板凳也找不到合适的舞龙；最接近的“{figure}”在 {time} s 不合格：{failure}请加大广场，或减小障碍物、间距与离位。"],
   lack_fails_none: ["Nothing was found to fit, not even one bench. Make the square larger, or what stands in it, the margin and the stray smaller.", "连一节板凳也找不到合适的舞龙。请加大广场，或减小障碍物、间距与离位。"],
   cornersOf: ["Corners of “{name}”: {count}", "“{name}”的角：{count} 个"],
   cornersOf_one: ["Place of “{name}”", "“{name}”的位置"],
