@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -12,6 +13,8 @@ from app.plan.timing import TimeFormat
 from core import Dance
 from core.people.cards import Card, Cue, CueKind
 from core.people.cues import Meeting, Side, Stand
+from core.values import Point
+from core.venue import Venue
 
 # Points of the compass from north, clockwise.
 COMPASS = (
@@ -21,9 +24,25 @@ COMPASS = (
 
 # Directions on a plan, from the x axis counter-clockwise.
 ON_PLAN = (
-    ("to the right", "向右"), ("up and to the right", "向右上"), ("up", "向上"), ("up and to the left", "向左上"),
-    ("to the left", "向左"), ("down and to the left", "向左下"), ("down", "向下"), ("down and to the right", "向右下"),
+    ("to the right", "右方"), ("up and to the right", "右上方"), ("up", "上方"), ("up and to the left", "左上方"),
+    ("to the left", "左方"), ("down and to the left", "左下方"), ("down", "下方"), ("down and to the right", "右下方"),
 )  # fmt: skip
+
+
+# Largest angle between a direction and a landmark in it [rad]; how near, how far and how wide the landmark may be [m].
+AHEAD, NEAR, FAR, WIDE = math.radians(20.0), 3.0, 80.0, 15.0
+# Names that nobody has given.
+NAMELESS = re.compile(r"(?:obstacle|障碍物) \d+")
+
+
+def landmarks_of(venue: Venue | None) -> list[tuple[str, Point]]:
+    """Name and middle of the obstacles with a name that are small enough to walk towards."""
+    marks = list[tuple[str, Point]]()
+    for area in venue.obstacles if venue else ():
+        xs, ys = zip(*area.rings[0], strict=True)
+        if max(max(xs) - min(xs), max(ys) - min(ys)) <= WIDE and not NAMELESS.fullmatch(area.name):
+            marks.append((area.name, (0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys)))))
+    return marks
 
 
 def runs(numbers: Iterable[int]) -> str:
@@ -72,6 +91,7 @@ class CardWords:
     names: of all benches, empty for one without; clock: format of times; geographic: True if y points north
     dragon: number of the dragon in a performance, and dragons: the name of each, with the names of its benches; None
         and empty for a single dance
+    landmarks: name and middle of the things in the square that a person can walk towards
     """
 
     say: Say
@@ -81,6 +101,7 @@ class CardWords:
     geographic: bool
     dragon: int | None = None
     dragons: Sequence[tuple[str, tuple[str, ...]]] = ()
+    landmarks: Sequence[tuple[str, Point]] = ()
 
     def met_name(self, met: Meeting) -> str:
         """Name of the bench that is met; empty without one."""
@@ -102,7 +123,7 @@ class CardWords:
         >>> from app.files.tables import Language
         >>> words = CardWords(Say(Language.ENGLISH), ("", "Li"), TimeFormat(), Chalk(0.0, 5.0, 0.75), False)
         >>> words.name(0), words.name(1), words.direction(0.0)
-        ('0 (head)', '1 Li', 'to the right on the plan (0°)')
+        ('0 (head)', '1 Li', ('to the right on the plan', '0°'))
         """
         own = self.names[bench] if self.names else ""
         return f"{bench} {own}" if own else self.say("0 (head)", "0（龙头）") if bench == 0 else str(bench)
@@ -119,17 +140,32 @@ class CardWords:
         chinese = f"{bench} 号" if bench else "龙头"
         return self.say(self.name(bench), f"{chinese}（{own}）" if own else chinese)
 
-    def direction(self, angle: float) -> str:
-        """A direction [rad]: a point of the compass, or how it is on the plan, with degrees from its x axis."""
+    def direction(self, angle: float) -> tuple[str, str]:
+        """A direction [rad] and its degrees: a point of the compass, or how it is on the plan, from its x axis."""
         degrees = math.degrees(angle)
         if self.geographic:
             bearing = (90.0 - degrees) % 360.0
-            english, chinese = COMPASS[round(bearing / 45.0) % len(COMPASS)]
-            number = round(bearing) % 360
-            return self.say(f"{english} ({number:03d}°)", f"{chinese}（方位 {number:03d}°）")
-        number = round(degrees) % 360
+            number = f"{round(bearing) % 360:03d}°"
+            return self.say(*COMPASS[round(bearing / 45.0) % len(COMPASS)]), self.say(number, f"方位 {number}")
         english, chinese = ON_PLAN[round(degrees / 45.0) % len(ON_PLAN)]
-        return self.say(f"{english} on the plan ({number}°)", f"图上{chinese}（{number}°）")
+        return self.say(f"{english} on the plan", f"图上{chinese}"), f"{round(degrees) % 360}°"
+
+    def walk(self, begin: Stand, angle: float) -> str:
+        """How a bench begins to walk in a direction [rad]: towards a thing that has a name, if one is there."""
+        (to, number), mark = self.direction(angle), self._ahead(begin, angle)
+        if mark is None:
+            return self.say(f"Walk {to} ({number}).", f"起步，朝{to}走（{number}）。")
+        return self.say(f"Walk towards “{mark}”, {to} ({number}).", f"起步，朝{mark}方向走（{to}，{number}）。")
+
+    def _ahead(self, begin: Stand, angle: float) -> str | None:
+        """Name of the landmark that is nearest to a direction from a place [rad]; None if none is near it."""
+        best, least = None, AHEAD
+        for name, (x, y) in self.landmarks:
+            dx, dy = x - begin.x, y - begin.y
+            beside = abs(math.remainder(math.atan2(dy, dx) - angle, math.tau))
+            if NEAR < math.hypot(dx, dy) < FAR and beside < least:
+                best, least = name, beside
+        return best
 
     def at_mark(self, stand: Stand) -> str:
         """A place as whole steps from the nearest chalk mark."""
@@ -147,8 +183,7 @@ class CardWords:
         say, bench = self.say, card.bench
         match cue.kind:
             case CueKind.BEGIN:
-                to = self.direction(bench.direction)
-                return say(f"Walk {to}.", f"起步，方向：{to}。")
+                return self.walk(bench.begin, bench.direction)
             case CueKind.PAUSE:
                 long, end = f"{cue.until - cue.since:.0f}", self.clock.words(cue.until)
                 return say(f"Stand still until {end} ({long} s).", f"停下，至 {end}（{long} 秒）。")
@@ -164,7 +199,7 @@ class CardWords:
         return self._met(cue, cue.nearest)
 
     def _met(self, cue: Cue, nearest: Meeting) -> str:
-        say, gap = self.say, f"{nearest.gap:.2f} m"
+        say, gap = self.say, self.say(f"{nearest.gap:.2f} m", f"距 {nearest.gap:.2f} m")
         if nearest.gap < 0.0:
             gap = say(f"overlapping by {-nearest.gap:.2f} m", f"重叠 {-nearest.gap:.2f} m")
         left = nearest.side is Side.LEFT
@@ -172,8 +207,9 @@ class CardWords:
         how = say("It goes the other way", "反向") if nearest.oncoming else say("It goes your way", "同向")
         who = self._met_bench(nearest)
         if len(cue.meetings) == 1:
-            return say(f"{who} {side}, {gap}. {how}.", f"{who}{side}，距 {gap}，与你{how}。")
+            return say(f"{who} {side}, {gap}. {how}.", f"{who}{side}，{gap}，与你{how}。")
         met = {one.bench for one in cue.meetings}
+        others = say(runs(met), runs(met).replace(", ", "、"))
         since, until = self.clock.words(cue.since), self.clock.words(cue.until)
         if len(met) == 1:
             times = len(cue.meetings)
@@ -182,13 +218,13 @@ class CardWords:
             )
             return say(
                 f"{who} {side}, {gap} at the nearest of {times} times {span}. {how}.",
-                f"{who}{side}，{span}，{times} 次，最近 {gap}，与你{how}。",
+                f"{who}{side}，{span}，{times} 次，最近时{gap}，与你{how}。",
             )
         hows = "pass you the other way" if nearest.oncoming else "walk your way"
         return say(
-            f"{who} {side}, {gap}. Benches {runs(met)} {hows} from {since} to {until}, none nearer when "
+            f"{who} {side}, {gap}. Benches {others} {hows} from {since} to {until}, none nearer when "
             "straight beside you.",
-            f"{who}{side}，距 {gap}。{since} 至 {until}，{runs(met)} 号与你{how}经过，在正侧方时都不比它近。",
+            f"{who}{side}，{gap}。{since} 至 {until}，{others} 号与你{how}经过，在正侧方时都不比它近。",
         )
 
     def left_out(self, card: Card) -> str:

@@ -159,7 +159,7 @@ def _row(file: FileAnswer, language: Language) -> list[str | int]:
 
 def _typed_row(one: TypedAnswer, language: Language) -> list[str | int]:
     """Cells of a number under the heads of a summary; a limit that it breaks comes before the causes."""
-    name = f"{say(one.answer, language)}: {one.found:.12g} {one.unit}"
+    name = f"{say(one.answer, language)}{say('colon', language)}{one.found:.12g} {one.unit}"
     reasons = say("and_error", language).join([*([one.breaks] if one.breaks else []), *_causes(one, language)])
     return [name, "", say(one.verdict.value, language), "", "", "", reasons, ""]
 
@@ -208,7 +208,7 @@ def _typed(one: TypedAnswer, language: Language) -> Iterator[show.Part]:
     name, verdict = say(one.answer, language), say(one.verdict.value, language)
     verdict += say("to_digits", language, digits=one.digits) if one.verdict == "right" else ""
     verdict = say("and_breaks", language, verdict=verdict, breaks=one.breaks) if one.breaks else verdict
-    yield Text(f"{name}: {one.found:.12g} {one.unit}: {verdict}", style="bold")
+    yield Text(say("colon", language).join([name, f"{one.found:.12g} {one.unit}", verdict]), style="bold")
     yield from (f"  {words}" for words in one.notes)
     if one.verdict != "right":
         yield "  " + say("is_right", language, right=f"{one.expected:.9f}", unit=one.unit)
@@ -217,7 +217,7 @@ def _typed(one: TypedAnswer, language: Language) -> Iterator[show.Part]:
 
 
 def _file(file: FileAnswer, language: Language) -> Iterator[show.Part]:
-    yield Text(f"{file.file}: {say(file.verdict.value, language)}", style="bold")
+    yield Text(say("colon", language).join([file.file, say(file.verdict.value, language)]), style="bold")
     yield from (f"  {one}" for one in file.notes)
     for sheet in file.sheets:
         yield from _sheet(sheet, language)

@@ -140,8 +140,8 @@ def _write(data: bytes, output: Path | None, handles: int, instants: int, langua
         show.print_json(data)
         return
     write_whole(output, data)
-    words = f"{handles} handles at {instants} instants", f"{handles} 个把手，{instants} 个时刻"
-    print(f"{output}: {show.spoken(language)(*words)}", file=sys.stderr)
+    words = f": {handles} handles at {instants} instants", f"：{handles} 个把手，{instants} 个时刻"
+    print(f"{output}{show.spoken(language)(*words)}", file=sys.stderr)
 
 
 def _handles(text: str | None, dragon: Dragon) -> list[int] | None:

@@ -39,10 +39,10 @@ def _inwards(solved: Solved, say: Say) -> list[Result]:
         "every handle from the chord equation, every speed from the rigid links: good to 1e-11 m and 1e-11 m/s",
         "逐节由弦长方程求位置，由刚性约束求速度：误差小于 1e-11 m 与 1e-11 m/s",
     )
-    rear, at = say("rear handle of the tail", "龙尾（后）把手"), say(f" at {stop:g} s", f"（{stop:g} s）")
+    rear, at = say("rear handle of the tail", "龙尾后把手"), say(f" at {stop:g} s", f"（{stop:g} s）")
     places = [
         Result(1, f"{name}{say(', ', ' ')}{axis}{at}", float(motion.position[-1, k, i]), "m", None, how)
-        for name, k in ((say("head", "龙头"), 0), (rear, -1))
+        for name, k in ((say("head", "龙头前把手"), 0), (rear, -1))
         for i, axis in enumerate("xy")
     ]
     return [*places, Result(1, f"{rear}{say(', speed', '速度')}{at}", float(motion.speed[-1, -1]), "m/s", None, how)]
@@ -54,7 +54,7 @@ def _contact(solved: Solved, say: Say) -> list[Result]:
         name = say("no contact until", "直到此刻没有碰撞")
         return [Result(2, name, solved.met_at, "s", contact.time_bracket, _why_ended(solved, say))]
     a, b = contact.benches
-    pair = say(f"benches {a} and {b}", f"第 {a} 节与第 {b} 节板凳（龙头为 0）")
+    pair = say(f"benches {a} and {b}", f"{a} 号与 {b} 号板凳（龙头为 0 号）")
     steps = contact.certificate.steps
     how = say(
         f"{pair} touch; {steps} proven steps show that nothing touched earlier",
@@ -76,14 +76,14 @@ def _why_ended(solved: Solved, say: Say) -> str:
     if end.reason is EndReason.FOLD:
         return say(
             f"the run ends there: bench {end.bench} folds and cannot follow any further",
-            f"盘入到此结束：第 {end.bench} 节板凳折转，无法继续跟随",
+            f"盘入到此结束：{end.bench} 号板凳折转，无法继续跟随",
         )
     return say("the head is at the centre", "龙头已到中心")
 
 
 def _pitch(minimum: MinimumPitch, say: Say) -> Result:
     pair = minimum.benches or ()
-    whose = say(" of benches {} and {}", "（第 {} 节与第 {} 节板凳）").format(*pair) if pair else ""
+    whose = say(" of benches {} and {}", "（{} 号与 {} 号板凳）").format(*pair) if pair else ""
     words = {
         "graze": say(f"a graze{whose} on the way", f"途中的擦碰{whose}"),
         "circle": say(f"contact{whose} on the circle", f"到达调头圆时的碰撞{whose}"),
@@ -160,11 +160,11 @@ def _times(turned: Turned, limit: float, say: Say) -> list[Result]:
 
 def _speed(turned: Turned, limit: float, say: Say) -> Result:
     fastest = turned.fastest
-    handles = ", ".join(map(str, fastest.handles))
+    handles = say(", ", "、").join(map(str, fastest.handles))
     how = say(
         f"handles {handles} reach {limit:g} m/s at {fastest.time:.6f} s, "
         f"{fastest.speed_ratio:.6f} times the head's speed",
-        f"第 {handles} 号把手在 {fastest.time:.6f} s 达到 {limit:g} m/s，为龙头速度的 {fastest.speed_ratio:.6f} 倍",
+        f"{handles} 号把手在 {fastest.time:.6f} s 达到 {limit:g} m/s，为龙头速度的 {fastest.speed_ratio:.6f} 倍",
     )
     return Result(
         5, say("maximum head speed", "龙头最大速度"), fastest.head_speed, "m/s", fastest.head_speed_bracket, how

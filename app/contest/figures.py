@@ -20,7 +20,7 @@ from app.contest.sensitivity import Panel, panels
 from app.contest.solved import Solved
 from app.files.drawing import canvas, file_bytes, in_turn
 from app.files.fonts import families
-from app.files.tables import handle_names
+from app.files.tables import handle_titles
 from app.files.words import Say
 from core import Dance, bench_outlines
 from core.design.pitch_scan import JUMP_WIDTH, scan_near_minimum
@@ -87,7 +87,7 @@ def positions(solved: Solved, say: Say) -> tuple[Figure, str]:
     places.plot(*handles[0], "o", label=say("head", "龙头"), **ring)
     places.legend(loc="upper right", fontsize=8)
     places.set_title(say(f"Handles at {stop:g} s", f"{stop:g} s 时的把手位置"), fontsize=10)
-    names = handle_names(solved.dragon.benches, say.language)
+    names = handle_titles(solved.dragon.benches, say.language)
     for k, colour in zip(solved.handles, COLOURS, strict=False):
         rates.plot(solved.inwards.time, solved.inwards.speed[:, k], color=colour, linewidth=1.3, label=names[k])
     rates.set(xlabel=say("time [s]", "时间 [s]"), ylabel=say("speed [m/s]", "速度 [m/s]"))
@@ -117,7 +117,7 @@ def snapshots(solved: Solved, say: Say) -> tuple[Figure, str]:
         title = f"{time:g} s"
         if time == solved.met_at and pair:
             for k in filter(None, pair):  # Bench 0 is the head.
-                axes.fill(*outlines[k].T, color=BLUE, zorder=4, label=say(f"bench {k}", f"第 {k} 节板凳"))
+                axes.fill(*outlines[k].T, color=BLUE, zorder=4, label=say(f"bench {k}", f"{k} 号板凳"))
             title = say(f"First contact, {time:.6f} s", f"首次碰撞，{time:.6f} s")
         axes.set(xlim=view, ylim=view)
         axes.set_title(title, fontsize=10)
@@ -246,7 +246,7 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
     peak = fastest.time_at_unit_head_speed
     travel = np.unique(np.concatenate([np.linspace(-5.0, peak + 40.0, 2 * CURVE), [peak]]))
     rates = core.trajectory(Dance(solved.dragon, turn), travel).speed
-    names = handle_names(solved.dragon.benches, say.language)
+    names = handle_titles(solved.dragon.benches, say.language)
     for k, colour in zip((1, 2, 3, 8, 20), COLOURS[1:], strict=False):
         if k <= solved.dragon.benches:
             # Handles near the head are drawn on top: the handles behind repeat their motion later.

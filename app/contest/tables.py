@@ -11,7 +11,7 @@ import numpy as np
 
 import core
 from app.contest.solved import Solved
-from app.files.tables import XLSX_DECIMALS, handle_names
+from app.files.tables import XLSX_DECIMALS, handle_titles
 from app.files.words import Say
 from app.files.workbooks import rounded_away
 from core import Dance
@@ -82,7 +82,7 @@ def paper_tables(solved: Solved, say: Say) -> list[KitTable]:
 
 def _names(solved: Solved, say: Say) -> list[str]:
     """The names of the handles in the tables."""
-    names = handle_names(solved.dragon.benches, say.language)
+    names = handle_titles(solved.dragon.benches, say.language)
     return [names[k] for k in solved.handles]
 
 

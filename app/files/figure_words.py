@@ -21,10 +21,10 @@ TEXTS = {
     "speed of the handle [m/s]": "把手速度 [m/s]",
     "Handles and their speeds at {time} s": "{time} s 时各把手的位置与速度",
     "Handles and their speeds at {time} s (pitch {pitch} m)": "{time} s 时各把手的位置与速度（螺距 {pitch} m）",
-    "bench {bench}": "第 {bench} 节板凳",
-    "bench {bench} (head)": "第 {bench} 节板凳（龙头）",
-    "{name} edge of bench {bench}": "第 {bench} 节板凳的{name}边",
-    "{name} corner of bench {bench}": "第 {bench} 节板凳的{name}角",
+    "bench {bench}": "{bench} 号板凳",
+    "bench {bench} (head)": "{bench} 号板凳（龙头）",
+    "{name} edge of bench {bench}": "{bench} 号板凳的{name}边",
+    "{name} corner of bench {bench}": "{bench} 号板凳的{name}角",
     "nearest point": "最近点",
     "First contact: {time} s, head at radius {radius} m": "首次碰撞：{time} s，龙头半径 {radius} m",
     "First within {margin} m: {time} s, head at radius {radius} m":
@@ -33,9 +33,9 @@ TEXTS = {
     "Within {margin} m: a gap of {gap} m at {place}": "相距不足 {margin} m：{place} 处间距 {gap} m",
     "Within {margin} m from the start on": "从一开始就相距不足 {margin} m",
     "First contact: already at the start": "首次碰撞：起始时即相碰",
-    "No contact, but bench {bench} folds at {time} s": "没有碰撞，但第 {bench} 节板凳在 {time} s 折叠",
+    "No contact, but bench {bench} folds at {time} s": "没有碰撞，但 {bench} 号板凳在 {time} s 折叠",
     "Never within {margin} m, but bench {bench} folds at {time} s":
-        "相距从不小于 {margin} m，但第 {bench} 节板凳在 {time} s 折叠",
+        "相距从不小于 {margin} m，但 {bench} 号板凳在 {time} s 折叠",
     "No contact: the run ends clear at the {name}, {time} s": "没有碰撞：{time} s 到达{name}",
     "Never within {margin} m: the run ends clear at the {name}, {time} s":
         "相距从不小于 {margin} m：{time} s 到达{name}",
@@ -56,23 +56,23 @@ TEXTS = {
         "两节板凳首次相距 {margin} m 时龙头的半径与螺距",
     "At {time} s": "{time} s 时",
     "bench {bench} of {dragon} and bench {other} of {second} touch at {time} s":
-        "{dragon}的第 {bench} 节板凳与{second}的第 {other} 节板凳在 {time} s 相碰",
+        "{dragon}的 {bench} 号板凳与{second}的 {other} 号板凳在 {time} s 相碰",
     "bench {bench} of {dragon} and bench {other} of {second} come within {margin} m at {time} s":
-        "{dragon}的第 {bench} 节板凳与{second}的第 {other} 节板凳在 {time} s 相距 {margin} m",
+        "{dragon}的 {bench} 号板凳与{second}的 {other} 号板凳在 {time} s 相距 {margin} m",
     "no benches of two dragons touch until {time} s": "到 {time} s 为止，各龙之间没有板凳相碰",
     "no benches of two dragons touch until {time} s, where the last path ends":
         "到 {time} s 最后一条路径结束为止，各龙之间没有板凳相碰",
     "no benches of two dragons touch until {time} s, where bench {bench} of {dragon} folds":
-        "到 {time} s {dragon}的第 {bench} 节板凳折叠为止，各龙之间没有板凳相碰",
+        "到 {time} s {dragon}的 {bench} 号板凳折叠为止，各龙之间没有板凳相碰",
     "no benches of two dragons come within {margin} m until {time} s":
         "到 {time} s 为止，各龙之间的板凳相距从不小于 {margin} m",
     "no benches of two dragons come within {margin} m until {time} s, where the last path ends":
         "到 {time} s 最后一条路径结束为止，各龙之间的板凳相距从不小于 {margin} m",
     "no benches of two dragons come within {margin} m until {time} s, where bench {bench} of {dragon} folds":
-        "到 {time} s {dragon}的第 {bench} 节板凳折叠为止，各龙之间的板凳相距从不小于 {margin} m",
+        "到 {time} s {dragon}的 {bench} 号板凳折叠为止，各龙之间的板凳相距从不小于 {margin} m",
     "undecided from {time} s on": "从 {time} s 起未能判定",
     # After the sentences that begin in the same way.
-    "bench {bench} of {dragon}": "{dragon}的第 {bench} 节板凳",
+    "bench {bench} of {dragon}": "{dragon}的 {bench} 号板凳",
     "dragon {number}": "{number} 号龙",
     "No contact at any of these pitches": "这些螺距都没有碰撞",
     "Never within {margin} m at any of these pitches": "在这些螺距下相距从不小于 {margin} m",

@@ -75,7 +75,7 @@ GIF_BLENDS = (
 WORDS = {Language.ENGLISH: "{clock} ({time:.2f} s)", Language.CHINESE: "{clock}（{time:.2f} 秒）"}
 DIGITS = "0123456789"
 COUNTS = {Language.ENGLISH: "bar {} beat {}", Language.CHINESE: "第 {} 小节第 {} 拍"}
-TOUCHING = {Language.ENGLISH: "benches {} and {} touch\n", Language.CHINESE: "第 {} 节与第 {} 节板凳相碰（龙头为 0）\n"}
+TOUCHING = {Language.ENGLISH: "benches {} and {} touch\n", Language.CHINESE: "{} 号与 {} 号板凳相碰（龙头为 0 号）\n"}
 COUNTS_OF = {Language.ENGLISH: "{}: {}", Language.CHINESE: "{}：{}"}
 # Colour of marked benches.
 MARKED = "#F0E442"

@@ -21,7 +21,7 @@ from core.values import Floats
 # Words for the benches that touch: bench and dragon of each.
 TOUCHING = {
     Language.ENGLISH: "bench {} of {} and bench {} of {} touch\n",
-    Language.CHINESE: "第 {0} 节（{1}）与第 {2} 节（{3}）板凳相碰（龙头为 0）\n",
+    Language.CHINESE: "{1}的 {0} 号板凳与 {3}的 {2} 号板凳相碰（龙头为 0 号）\n",
 }
 # Place of the first name and distance from one name to the next, as shares of the height of the picture.
 NAME_AT, NAME_STEP = 0.97, 0.045

@@ -62,6 +62,19 @@ def handle_names(benches: int, language: Language = Language.ENGLISH) -> list[st
     return [head, *body, tail, rear] if benches > 1 else [head, rear]
 
 
+def handle_titles(benches: int, language: Language = Language.ENGLISH) -> list[str]:
+    """Name of every handle beside a drawing or in a sentence: in Chinese it says which handle of the bench it is.
+
+    >>> handle_titles(3, Language.CHINESE)
+    ['龙头前把手', '第1节龙身前把手', '龙尾前把手', '龙尾后把手']
+    """
+    names = handle_names(benches, language)
+    if language is Language.ENGLISH:
+        return names
+    last = names[-2] if benches > 1 else names[0]
+    return [*(f"{name}前把手" for name in names[:-1]), f"{last}后把手"]
+
+
 def own_names(result: Trajectory, language: Language = Language.ENGLISH, own: Sequence[str] | None = None) -> list[str]:
     """Name of every handle: the name that its bench was given, else that of handle_names().
 

@@ -17,7 +17,7 @@ from itertools import chain
 
 import numpy as np
 
-from app.files.tables import Language, handle_names
+from app.files.tables import Language, handle_titles
 from app.grade.decimals import digits_of, usual_of
 from app.grade.expected import Motion, Workbook, cells_of, contact_time, dance_of, of_dance
 from app.grade.fits import DECISIVE_LEAST, also, best_fit, findings_of, fit, matches
@@ -88,7 +88,7 @@ def _numbers_of(judgements: list[JudgedSheet]) -> int:
 
 def _few_numbers(judgements: list[JudgedSheet], count: int, language: Language) -> Note:
     """The handles that have numbers, and how many have none."""
-    names = handle_names(BENCHES, language)
+    names = handle_titles(BENCHES, language)
     filled = {k for one in judgements for k in one.handles[np.isfinite(one.off).any(axis=(0, 2))].tolist()}
     labelled = {k for one in judgements for k in one.handles.tolist() if k < HANDLES}
     shown = [names[k] for k in sorted(filled)]

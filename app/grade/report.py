@@ -10,7 +10,7 @@ from pathlib import PurePath
 from pydantic import Field
 
 from app.extras import MissingPackage
-from app.files.tables import Language, handle_names
+from app.files.tables import Language, handle_titles
 from app.grade.cells import cell_name
 from app.grade.decimals import decimals_of_file
 from app.grade.diagnosis import diagnosed, why_unexplained
@@ -296,7 +296,7 @@ def _cell(one: JudgedSheet, at: tuple[int, ...], language: Language) -> CellAnsw
         cell=cell_name(row, column),
         row=row + 1,
         column=column + 1,
-        handle=handle_names(BENCHES, language)[one.handles[h]],
+        handle=handle_titles(BENCHES, language)[one.handles[h]],
         quantity=("x", "y", "speed")[COMPONENTS[one.table.kind][c]],
         time=float(one.times[t]),
         found=float(one.values[at]),

@@ -135,7 +135,7 @@ WORDS = ERRORS | PAPER | {
     "rubric_tangents_yes": ("The path is smooth where the arcs begin and end.", "圆弧与螺线相切，路径光滑。"),
     "rubric_tangents_no": ("The path has kinks where the arcs begin or end: the arcs must be tangent to the spirals and to each other.",
         "路径在圆弧端点处有折角：圆弧应与螺线相切，且两弧相切。"),
-    "rubric_tangents_unknown": ("Continuity at the tangents: not shown here.", "切点处的连续性：此处未体现。"),
+    "rubric_tangents_unknown": ("Continuity at the tangents: not shown here.", "圆弧在切点处是否光滑相接：本文件无法判断。"),
     "rubric_speeds_share": ("{share} % of the speeds agree with the motion between two instants.",
         "{share} % 的速度与相邻时刻的位移相符。"),
     # -- verdicts and lines of the command --
@@ -173,6 +173,7 @@ WORDS = ERRORS | PAPER | {
     "turn_length": ("length of the turn", "调头曲线长度"),
     "summary": ("All files", "全部文件"),
     "and_error": ("; ", "；"),
+    "colon": (": ", "："),
     "and_breaks": ("{verdict}, {breaks}", "{verdict}，{breaks}"),
     "column_file": ("file", "文件"),
     "column_workbook": ("workbook", "工作簿"),

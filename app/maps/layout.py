@@ -370,7 +370,10 @@ class Reading:
             )
         names = _Names()
         square = replace(square, name=names.new(square.name or "square"), radius=None)
-        things = (replace(one, name=names.new(one.name or f"obstacle {k}")) for k, one in enumerate(obstacles, start=1))
+        things = (
+            replace(one, name=names.new(one.name or self.say(f"obstacle {k}", f"障碍物 {k}")))
+            for k, one in enumerate(obstacles, start=1)
+        )
         return [square, *things]
 
     def _obstacle(self, one: MapFeature) -> MapFeature:

@@ -315,7 +315,11 @@ class VenueFields(Wire):
 
     def to_place(self, dragon: Dragon) -> Place:
         """raises: InvalidValue"""
-        from app.wire.degrees import Place, place_of  # Venues take 50 ms to import, and most questions have none.
+        from app.wire.degrees import (
+            Place,
+            in_chinese,
+            place_of,
+        )  # Venues take 50 ms to import, and most questions have none.
 
         if self.venue is None:
             if self.coordinates is not None:
@@ -323,7 +327,8 @@ class VenueFields(Wire):
                 advice = ": give the venue, or leave coordinates out"
                 raise InvalidValue("coordinates", rule + advice, unit=self.coordinates)
             return Place()
-        return place_of(self.venue, self.coordinates, dragon)
+        place = place_of(self.venue, self.coordinates, dragon)
+        return in_chinese(place) if getattr(self, "language", None) == "zh" else place
 
 
 class PlacedDance(VenueFields, DanceFields):

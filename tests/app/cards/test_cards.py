@@ -97,7 +97,7 @@ def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(client, body):
 @pytest.mark.chinese_font
 def test_cards_are_written_in_chinese(client, body):
     text = text_of(client, body | FESTIVE | {"language": "zh", "last_bench": 1, "title": "元宵"}).replace(" ", "")
-    cues = "前面：无后面：1号（Wang）", "起步，方向：图上向右（0°）。", "停下，至19:45:50（16秒）。"
+    cues = "前面：无后面：1号（Wang）", "起步，朝lindentree方向走（图上右方，0°）。", "停下，至19:45:50（16秒）。"
     assert [words for words in (*cues, "元宵", "整场舞龙已检查：板凳互不相碰") if words not in text] == []
 
 

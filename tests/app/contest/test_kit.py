@@ -207,7 +207,7 @@ def test_the_report_ties_everything_together(chinese):
     assert links_of(page, chinese) > 15
     numbers_of_all = ("412.473837682", "0.450337393", "13.6212449", "8.2239839", "1.246266358", "板凳")
     assert [number for number in numbers_of_all if number not in page] == []
-    row = r"^\| 2 \| 首次碰撞时刻 \| 412\.473837682 s \| [\d., ]+ s \| 第 0 节与第 8 节板凳"
+    row = r"^\| 2 \| 首次碰撞时刻 \| 412\.473837682 s \| [\d., ]+ s \| 0 号与 8 号板凳"
     assert re.search(row, page, re.MULTILINE)
 
 

@@ -53,7 +53,7 @@ def outlines_at(time):
     ("language", "words"),
     [
         (Language.ENGLISH, "bench 2 of east and bench 0 of dragon 1 touch\n"),
-        pytest.param(Language.CHINESE, "第 2 节（east）与第 0 节（1 号龙）板凳相碰", marks=pytest.mark.chinese_font),
+        pytest.param(Language.CHINESE, "east的 2 号板凳与 1 号龙的 0 号板凳相碰", marks=pytest.mark.chinese_font),
     ],
 )
 def test_the_benches_that_touch_are_named(language, words):

@@ -103,7 +103,7 @@ def test_the_figure_shows_all_dragons_and_the_benches_that_meet(tmp_path):
         ("trajectory", {"time": 20}, "At 20 s"),
         ("contact", {"margin": 0.2}, "come within 0.2 m at"),
         ("encounter", {"stop": 12}, "no benches of two dragons touch until 12 s"),
-        pytest.param("contact", {"language": "zh"}, "north的第 0 节板凳", marks=pytest.mark.chinese_font),
+        pytest.param("contact", {"language": "zh"}, "north的 0 号板凳", marks=pytest.mark.chinese_font),
     ],
 )
 def test_the_figures_of_one_dance_take_several_in_both_languages(ask, kind, more, words):
