@@ -2,7 +2,6 @@
 
 import { tableOf, tableText } from "./benches.js";
 import { $, bearer, make, textButton } from "./elements.js";
-import { stepsOf } from "./history.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { Pause } from "./pending.js";
 import { language, nameBenches, refusalWords, say, sentencesOf } from "./text.js";
@@ -25,8 +24,10 @@ export class BenchTable {
    * group: the numbers of equal benches, which the table replaces
    * @param {State} state
    * @param {Service} service
+   * @param {any} parts have the steps that can be undone
    */
-  constructor(group, state, service) {
+  constructor(group, state, service, parts) {
+    this.parts = parts;
     this.group = group;
     this.state = state;
     this.service = service;
@@ -77,9 +78,11 @@ export class BenchTable {
   }
 
   /** Take another table, or none, as one step that can be undone. kind: of steps that are one if they follow each other soon */
-  #take(text, kind = null) {
+  async #take(text, kind = null) {
     const csv = text.trim() && text;
-    if (csv !== this.state.get("csv")) stepsOf(this.state).change({ csv }, kind);
+    if (csv === this.state.get("csv")) return this.show();
+    const { stepsOf } = await this.parts.load("history");
+    stepsOf(this.state).change({ csv }, kind);
     this.show();
   }
 

@@ -7,8 +7,9 @@ import { chooseParts } from "./layers.js";
 import { drawingOf, keptVenueOf } from "./drawing.js";
 import { $, bearer, download, make, textButton } from "./elements.js";
 import { FIELDS } from "./fields.js";
-import { announce, announceRefusal, announceSaved, endMessage } from "./overlays.js";
+import { announce, announceRefusal, endMessage } from "./overlays.js";
 import { paceTexts, passagesText } from "./passages.js";
+import { announceSaved } from "./saved.js";
 import { language, say, sentencesOf } from "./text.js";
 
 const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.gpx,.dxf,.csv,.tsv,.xlsx";

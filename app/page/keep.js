@@ -5,8 +5,9 @@ import { keptVenueOf } from "./drawing.js";
 import { $, $$, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED } from "./jobs.js";
-import { announce, announceRefusal, announceSaved, copy } from "./overlays.js";
+import { announce, announceRefusal, copy } from "./overlays.js";
 import { fitsQuery } from "./questions.js";
+import { announceSaved } from "./saved.js";
 import { language, refusalWords, say, sentencesOf } from "./text.js";
 
 const CSV_STEP = 1;

@@ -11,7 +11,7 @@ import { $, $$, onClick } from "./elements.js";
 import { CONTACT, FIELDS, strayOf } from "./fields.js";
 import { Graphs } from "./graphs.js";
 import { addLook } from "./look.js";
-import { announce, announceAgain, endMessage, keepMessageOff, lost, markContact, placeInset, showPrinted, tell } from "./overlays.js";
+import { announce, announceAgain, endMessage, lost, markContact, placeInset, showPrinted, tell } from "./overlays.js";
 import { fixed, formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
 import { timeOfDay } from "./passages.js";
@@ -77,7 +77,7 @@ const dance = new Dance($("#canvas"), $("#inset canvas"), {
 });
 const player = new Player(state, questions, showPose, showTable);
 const controls = new Controls($("#controls"), state);
-const benches = new BenchTable($("[data-group=dragon]"), state, service);
+const benches = new BenchTable($("[data-group=dragon]"), state, service, parts);
 const pace = new Pace($("[data-field=head_speed]"), state);
 const table = new Table($("#rows"), { choose, chosen: (handle) => state.set({ handle }) });
 const graphs = new Graphs(state, questions, (time) => player.seek(time));
@@ -426,7 +426,6 @@ async function showSection(name) {
 
 function listen() {
   state.listen(showState);
-  keepMessageOff();
   for (const button of $$("[data-share]")) button.addEventListener("click", openSharing);
   onClick("#lost button", () => service.retry());
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));

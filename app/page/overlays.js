@@ -1,10 +1,10 @@
 /** Elements over the picture and the page: the inset, the mark of the contact, temporary messages, the banner of a lost service. */
 
 import { Problem, Superseded } from "./api.js";
-import { unfinishedOf } from "./drawing.js";
-import { $, $$ } from "./elements.js";
+import { $ } from "./elements.js";
 import { formatNumber } from "./numbers.js";
-import { refusalWords, say, sentencesOf } from "./text.js";
+import { pending } from "./pending.js";
+import { refusalWords, say } from "./text.js";
 
 /** Time that a message stays, and additional time for each letter of a long one [ms]. */
 const [VISIBLE_FOR, LETTER] = [6_000, 80];
@@ -24,49 +24,14 @@ export function lost(seconds) {
   $("#lost span").textContent = say(seconds ? "lost" : "trying", { seconds });
 }
 
-/** Step of the places of a message that are tried [px], its widths, the widest first, and what it may not cover. */
-const [STEP, WIDTHS] = [8, ["", "17rem", "11rem", "8rem"]];
-/** Blocks after which it can stand, and parts of the height of a window at which they are looked for [1]: not those of the picture. */
-const BLOCKS = "main li, main section:not(#dance) > *, main form > *, main .answer > *";
-const IN_SIGHT = [0.7, 0.65, 0.75, 0.6, 0.8, 0.55, 0.5];
-const CONTROLS = "button, input, select, textarea, a, summary";
-
-/**
- * Put the message where it covers no control, as near as it can to its usual place: what a person needs next stays in
- * reach. Where no place is free, as in a small window, it stands among what is in sight.
- */
-function placeMessage() {
-  const box = $("#status");
-  if (!box.textContent || box.parentElement !== document.body) return;
-  const controls = $$(CONTROLS).filter((one) => one.checkVisibility({ visibilityProperty: true })).map((one) => one.getBoundingClientRect());
-  const near = controls.filter(({ width, height, bottom, top }) => width && height && bottom > 0 && top < innerHeight);
-  for (const maxWidth of WIDTHS) {
-    Object.assign(box.style, { maxWidth, translate: "" });
-    const { left, top, width, height } = box.getBoundingClientRect();
-    const isFree = ([x, y]) => near.every((one) => one.right <= x || one.left >= x + width || one.bottom <= y || one.top >= y + height);
-    const far = ([x, y]) => Math.hypot(x - left, y - top);
-    const lefts = [left, STEP, innerWidth - width - STEP];
-    const rows = Math.max(Math.floor((innerHeight - height) / STEP), 0);
-    const places = /** @type {[number, number][]} */ (Array.from({ length: rows }, (_, row) => lefts.map((x) => [x, row * STEP])).flat());
-    const place = [/** @type {[number, number]} */ ([left, top]), ...places.sort((a, b) => far(a) - far(b))].find(isFree);
-    if (!place) continue;
-    box.style.translate = `${place[0] - left}px ${place[1] - top}px`;
-    return;
-  }
-  box.remove(); // It is in sight itself.
-  const seen = IN_SIGHT.map((part) => document.elementFromPoint(innerWidth / 2, part * innerHeight)?.closest(BLOCKS));
-  const block = seen.find(Boolean) ?? $("#stage");
-  if (block.matches("li")) block.append(box);
-  else block.after(box);
-  box.scrollIntoView({ block: "nearest" });
-}
-
-/** The message keeps off the controls that come to it later, when a person scrolls or opens something. */
-export function keepMessageOff() {
-  const queue = () => requestAnimationFrame(placeMessage);
-  for (const type of ["scroll", "click"]) addEventListener(type, queue, { capture: true, passive: true });
-  new ResizeObserver(queue).observe(document.body);
-  addEventListener("resize", queue);
+const PLACING = Symbol("message");
+/** Put the message where it covers no control; what finds that place loads with the first message. */
+async function place() {
+  pending(PLACING, true);
+  // Without a network the message stays in its usual place.
+  const placing = await import("./placing.js").catch(() => null);
+  placing?.placeMessage();
+  pending(PLACING, false);
 }
 
 /**
@@ -79,15 +44,9 @@ export function announce(words, stays = false, flows = false) {
   else if (box.parentElement !== document.body) document.body.append(box);
   message = words;
   Object.assign(box, { textContent: words(), onclick: endMessage });
-  placeMessage();
+  if (box.textContent && !flows) place();
   clearTimeout(timer);
   if (!stays) timer = setTimeout(endMessage, Math.max(VISIBLE_FOR, LETTER * box.textContent.length));
-}
-
-/** Say that a file was saved, and which things of its drawing it lacks, because they have too few corners. drawing: or none; more: sentences() */
-export function announceSaved(name, drawing = null, words = () => [say("saved", { name })]) {
-  const names = drawing ? unfinishedOf(drawing) : [];
-  announce(() => sentencesOf([...words(), names.length && say("savedWithout", { names: names.map((one) => say("quoted", { name: one })).join(say("listed")) })]));
 }
 
 export const endMessage = () => announce(() => "", true);
