@@ -169,7 +169,7 @@ export class Dragons {
     const foreign = dances.findIndex(({ path }) => isForeign(path));
     if (foreign >= 0) return announce(() => say("dragonForeign", { name: dances[foreign].name ?? say("dragonNumber", { number: foreign + 1 }) }));
     const records = dances.map(recordOf);
-    const square = drawingOf({ path: null, venue, speed_limit: limit });
+    const square = drawingOf({ path: null, venue, speed_limit: limit }, (kind) => say(`thing_${kind}`));
     const numbers = Object.fromEntries(CONTACT.map((one) => [one, typeof limits[one] === "number" ? String(limits[one]) : this.state.initial(one)]));
     this.#take(records, 0, { ...this.#valuesOf(records[0], square), ...numbers, start_clock: clock, begin_clock: begins, time: null, view: null, handle: null });
     announceOpened(name, SPAN.filter((one) => typeof limits[one] === "number"));

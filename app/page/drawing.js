@@ -103,12 +103,12 @@ export function freeName(things, name, own = null) {
 const featuresOf = (venue) => (venue.type === "FeatureCollection" ? venue.features : [venue.type === "Feature" ? venue : { properties: {}, geometry: venue }]);
 const isYard = ({ properties, geometry: { type } }) => properties?.role === YARD && type === "LineString";
 
-/** Things of a GeoJSON venue, the square first, as in the service. */
-function thingsOf(venue) {
+/** Things of a GeoJSON venue, the square first, as in the service. nameOf(kind): of one without a name */
+function thingsOf(venue, nameOf) {
   const things = [];
   for (const { properties, geometry } of featuresOf(venue)) {
     const { type, coordinates } = geometry;
-    const addThing = (kind, points, more) => things.push({ kind, name: freeName(things, properties?.name || kind), points, ...more });
+    const addThing = (kind, points, more) => things.push({ kind, name: properties?.name ? freeName(things, properties.name) : "", points, ...more });
     if (properties?.role === GATE && type === "Point") addThing("gate", [place(coordinates)], typeof properties.heading === "number" ? { heading: properties.heading } : {});
     else if (isYard({ properties, geometry })) continue;
     else if (type === "Point") addThing("circle", [place(coordinates)], { radius: properties.radius });
@@ -120,14 +120,15 @@ function thingsOf(venue) {
   }
   const square = things.find(({ kind, name }) => kind === "block" && name === "square") ?? things.find(({ kind }) => kind === "block");
   if (square) square.kind = "area";
+  for (const thing of things) thing.name ||= freeName(things, nameOf(thing.kind));
   return things.filter(({ points, kind }) => kind !== "area" || Math.abs(points[0][0]) < FAR);
 }
 
-/** The drawing of a dance from a request of /check, or from an answer of /places. */
-export function drawingOf({ path, venue, speed_limit: limit, start = null }) {
+/** The drawing of a dance from a request of /check, or from an answer of /places. nameOf(kind): of a thing without a name */
+export function drawingOf({ path, venue, speed_limit: limit, start = null }, nameOf = (kind) => kind) {
   const { origin = null, grid = null } = venue ?? {};
   const yard = venue ? featuresOf(venue).find(isYard) : null;
-  const drawing = { ...EMPTY, limit: limit ?? null, things: venue ? thingsOf(venue) : [], origin, grid, yard: yard ? yard.geometry.coordinates.slice(0, -1).map(place) : null };
+  const drawing = { ...EMPTY, limit: limit ?? null, things: venue ? thingsOf(venue, nameOf) : [], origin, grid, yard: yard ? yard.geometry.coordinates.slice(0, -1).map(place) : null };
   if (!path) return drawing;
   return { ...drawing, ...(legsOf(path) ?? { path, start, points: [], begin: path.start ?? 0 }) };
 }

@@ -125,7 +125,7 @@ export class Files {
     // What a dance does not state has its default, and so have the benches of which a table takes the place; a map states none of it.
     const stated = csv ? content : { ...dragon, ...content };
     const numbers = isDance ? Object.fromEntries([...UNIFORM, ...NUMBERS].map((one) => [one, typeof stated[one] === "number" ? String(stated[one]) : this.#default(one, csv)])) : {};
-    const opened = drawingOf({ ...content, venue: typeof venue === "object" ? venue : null });
+    const opened = drawingOf({ ...content, venue: typeof venue === "object" ? venue : null }, (kind) => say(`thing_${kind}`));
     // A map without a path keeps the drawn path, and one without a venue keeps the venue; a dance has its own or none.
     const { points, straight, radius, begin, path: kept, start, things, origin, grid, yard, limit } = this.state.get("drawing");
     if (!path) Object.assign(opened, { points, straight, radius, begin, path: kept, start });

@@ -144,7 +144,7 @@ def _benches(claim: ContactClaim | EncounterClaim) -> str:
     assert claim.benches is not None
     if isinstance(claim, EncounterClaim) and claim.dragons is not None:
         (i, j), (a, b) = claim.dragons, claim.benches
-        return f"龙 {i} 的 {a} 号与龙 {j} 的 {b} 号板凳"
+        return f"{i} 号龙的 {a} 号板凳与 {j} 号龙的 {b} 号板凳"
     return f"{claim.benches[0]} 号与 {claim.benches[1]} 号板凳"
 
 
@@ -163,7 +163,7 @@ def _end(claim: ContactClaim | EncounterClaim, ends: Mapping[EndReason, str]) ->
 
 
 def _part(k: int, part: PartSummary) -> str:
-    name = f"龙 {k}" if part.name is None else f"龙 {k}（{part.name}）"
+    name = f"{k} 号龙" if part.name is None else f"{k} 号龙（{part.name}）"
     x, y = map(format_number, part.centre)
     place = f"，中心 ({x}, {y}) m" if part.centre != (0.0, 0.0) else ""
     place += f"，转过 {format_number(part.rotation)} rad" if part.rotation else ""

@@ -163,3 +163,12 @@ test("a name stands where its area is widest", () => {
       if (isInside) assert.ok(0.97 * Math.min(...ring.map(([ax, ay]) => Math.hypot(ax - px, ay - py))) < room, `${px}, ${py}`);
     }
 });
+
+test("things of a file without a name have one in the language of the page", () => {
+  const ring = [[0, 0], [9, 0], [9, 9], [0, 0]];
+  const polygon = { type: "Polygon", coordinates: [ring] };
+  const features = [polygon, polygon, { type: "Point", coordinates: [1, 1] }].map((geometry) => ({ type: "Feature", properties: { radius: 1 }, geometry }));
+  const words = { area: "广场", block: "障碍", circle: "树" };
+  const { things } = drawing.drawingOf({ venue: { type: "FeatureCollection", features } }, (kind) => words[kind]);
+  assert.deepEqual(things.map(({ name }) => name), ["广场", "障碍", "树"]);
+});
