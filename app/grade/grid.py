@@ -20,11 +20,15 @@ class UnreadableTable(Exception):
 
 @dataclass
 class Grid:
-    """Cells of one sheet, row by row; rows may differ in length. notes: remarks for the reader"""
+    """Cells of one sheet, row by row; rows may differ in length.
+
+    notes: remarks for the reader; words: the cells as they are written, if the file shows it
+    """
 
     title: str
     rows: list[list[Cell]]
     notes: list[Note] = field(default_factory=list)
+    words: list[list[str]] | None = None
 
 
 def normalized(text: str) -> str:

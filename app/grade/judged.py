@@ -194,6 +194,8 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     present, right = int((~np.isnan(off)).sum()), int((off <= RIGHT).sum())
     largest = float(np.nanmax(off)) if present else np.inf
     decimals = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None)
+    if table.shown is not None:  # zeros behind numbers that were rounded before show nothing more
+        decimals_beside = min(table.shown, decimals_beside or table.shown)
     digits = digits_of(values, decimals_beside)
     written = usual_of(digits, values)
     if decimals is not None and decimals < _decimals_of_flat(values, wanted, max(written, decimals_beside)):

@@ -20,6 +20,10 @@ TIME_INSIDE = re.compile(
     r"t\s*=\s*([-+]?\d+(?:\.\d+)?)\s*(?:s\b|sec\b|seconds?\b|秒)?|([-+]?\d+(?:\.\d+)?)\s*(?:s|sec|seconds?|秒)(?![a-z])",
     re.IGNORECASE,
 )
+# A time without its unit before an axis or a speed, as in "60 x (m)".
+TIME_BEFORE = re.compile(
+    r"([-+]?\d+(?:\.\d+)?)[\s_,:;]+((?:[xyv](?![a-z])|横坐标|纵坐标|速度|speed|velocity).*)", re.IGNORECASE
+)
 # A time after its name, as in "碰撞时刻：412.47"; and its name in the cell before the number.
 TIME_NAMED = re.compile(r"(?:时间|时刻|\btime|instant)\D{0,20}?([-+]?\d+\.\d+)", re.IGNORECASE)
 NAME_OF_TIME = re.compile(r"时间|时刻|\btime\b|instant|\bt\s*(?:[(\[][^)\]]*[)\]])?\s*[=:]?$", re.IGNORECASE)
@@ -89,6 +93,8 @@ def heading_of(cell: Cell) -> tuple[float | None, Label | None]:
     if (time := instant_of(cell)) is not None or not isinstance(cell, str):
         return time, None
     text = normalized(cell)
+    if match := TIME_BEFORE.fullmatch(text):
+        return float(match[1]), label_of(match[2])
     match = TIME_INSIDE.search(text)
     if match is None:
         return None, label_of(text)

@@ -73,6 +73,7 @@ class SheetTable:
     handles: (H,) by their labels; values: (T, H, C), converted from the units of the labels to m and m/s, NaN where
         there is none; row, column: of the same shape, places in the grid from 0
     by_order: (H,) handles by their order in the sheet
+    shown: decimals with which whole numbers are written, if all are whole and the file shows it; else None
     """
 
     title: str
@@ -84,6 +85,7 @@ class SheetTable:
     row: Ints
     column: Ints
     notes: list[Note] = field(default_factory=list)
+    shown: int | None = None
 
 
 def wide_tables(

@@ -55,7 +55,7 @@ def _columns(heads: list[Cell]) -> dict[str, int]:
             continue  # A column of one instant, which no list has.
         if TIME_WORD.search(name):
             columns.setdefault("time", k)
-        elif label and label.component is not None and label.component < len("xyv"):
+        elif label and label.handle is None and label.component is not None and label.component < len("xyv"):
             columns.setdefault("xyv"[label.component], k)
         elif is_handle_heading(name):
             columns.setdefault("handle", k)

@@ -47,6 +47,7 @@ def _of_csv(data: bytes, budget: Budget) -> Grid:
     separator = _separator_of(text)
     decimal = "." if separator == "," else ","
     rows: list[list[Cell]] = []
+    words: list[list[str]] = []
     cells = 0
     try:
         for line in csv.reader(io.StringIO(text, newline=""), delimiter=separator):
@@ -55,9 +56,10 @@ def _of_csv(data: bytes, budget: Budget) -> Grid:
             if len(rows) >= LINES_MAX or cells > CELLS_MAX:
                 raise UnreadableTable(note("too_many_cells", most=CELLS_MAX))
             rows.append([_number(word, decimal) for word in line])
+            words.append(line)
     except csv.Error as error:
         raise UnreadableTable(note("no_csv")) from error
-    return Grid("", rows)
+    return Grid("", rows, words=words)
 
 
 def _separator_of(text: str) -> str:

@@ -30,6 +30,8 @@ from app.grade.words import note
 
 # Most cells of a sheet, blanks included: a list of result1 has 337,120.
 RECTANGLE_MAX = 2_000_000
+# Zeros after the decimal point, two at least, because programs write one of their own.
+ZEROS = re.compile(r"[.,](0{2,})\s*$")
 # Words for places in the title of a sheet.
 PLACE_WORD = re.compile(r"位置|坐标|position|coordinate", re.IGNORECASE)
 
@@ -56,9 +58,21 @@ def _tables_of(grid: Grid, cells: list[list[Cell]], named: frozenset[int]) -> li
     if holds_curve(cells):
         grid.notes.append(note("curve"))
         return []
-    tables = next(filter(None, _readings(grid, cells, named)), [])
+    tables = [
+        replace(one, shown=_shown(one, grid.words)) for one in next(filter(None, _readings(grid, cells, named)), [])
+    ]
     # The title of a sheet does not tell one table of it from another.
     return [_titled(table) for table in tables] if len(tables) == 1 else [replace(table, title="") for table in tables]
+
+
+def _shown(table: SheetTable, words: list[list[str]] | None) -> int | None:
+    """The fewest decimals of most of the numbers of a table that are all whole, such as 1.00; None for other ones."""
+    known = np.isfinite(table.values)
+    if words is None or not known.any() or (table.values[known] % 1.0).any():
+        return None
+    places = zip(table.row[known].tolist(), table.column[known].tolist(), strict=True)
+    counts = [len(found[1]) for row, column in places if (found := ZEROS.search(words[row][column]))]
+    return int(np.median(counts)) if 2 * len(counts) > known.sum() else None
 
 
 def _readings(grid: Grid, cells: list[list[Cell]], named: frozenset[int]) -> Iterator[list[SheetTable]]:

@@ -194,6 +194,16 @@ def test_equal_speeds_of_two_decimals_are_right_ones_rounded():
     assert (result.sheets[1].verdict, result.diagnosis) == ("incomplete", [])
 
 
+@pytest.mark.parametrize(("speed", "verdict"), [("1.00", "incomplete"), ("1.000000", "wrong"), ("-1.00", "wrong")])
+def test_text_shows_the_decimals_of_equal_speeds(speed, verdict):
+    """All right speeds are 1.00 to two decimals, whatever the decimals of the places."""
+    text = students.lines(spiral(SPIRAL_TIMES[TENTH]), SPIRAL_TIMES[TENTH]).decode()
+    lines = [line.rpartition(",")[0] + f",{speed}" for line in text.splitlines()[1:]]
+    result = grade("\n".join(["time,handle,x,y,speed", *lines]).encode())
+    causes = {"1.00": [], "1.000000": ["equal_speeds"], "-1.00": ["speeds_negated"]}
+    assert (result.verdict, errors(result)) == (verdict, causes[speed])
+
+
 def test_speeds_of_two_decimals_are_not_said_to_be_written_with_none():
     """All right speeds are 1.00 to two decimals."""
     position, speed = (numbers.round(2) for numbers in spiral())

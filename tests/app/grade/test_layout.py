@@ -153,9 +153,10 @@ def numbers_at(times):
     return np.dstack([position.round(6), speed.round(6)])
 
 
+@pytest.mark.parametrize("heading", ["{:g}s", "{:g}"])
 @pytest.mark.parametrize("form", FORMS_BESIDE)
-def test_positions_are_graded_beside_speeds(form):
-    [heads, *rows] = in_layout(numbers_at(MINUTES), MINUTES, form, heading="{:g}s")["both"]
+def test_positions_are_graded_beside_speeds(form, heading):
+    [heads, *rows] = in_layout(numbers_at(MINUTES), MINUTES, form, heading=heading)["both"]
     lines = {NAMES[h] for h in PRINTED}
     some = [row for row in rows if not row[0] or row[0].split(" ")[0].removesuffix("x").removesuffix("y") in lines]
     sheets = grade(as_csv([heads, *some])).sheets
@@ -304,6 +305,12 @@ def test_lists_are_recognised_under_other_names(heads, title):
     lines = [",".join(map(str, row)) for row in list_of(3, HEADS[heads])]
     result = grade((title + "\n".join([heads, *lines])).encode(), "dance.csv")
     assert [(sheet.holds, sheet.right) for sheet in result.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
+
+
+def test_headings_of_single_handles_are_none_of_a_list():
+    """On its side, the corner names the handles, and below it stand times without a unit."""
+    rows = few()["位置"][1:]
+    assert right(grade(as_csv(on_side([["handle", *range(4)], *rows]))))[0] == FEW[0]
 
 
 def test_wrong_numbers_of_handles_that_are_counted_from_one_stay_those_of_their_handles():
