@@ -32,7 +32,7 @@ RUN python -m venv /opt/docs \
 # What the service never reads: pip and what compiles, IPython (for plots of uplot-python in notebooks), tests, sources
 # and symbols of compiled modules, and the parts of pyarrow that talk to other servers.
 RUN cd /opt/bench-dragon/lib/python3*/site-packages \
-    && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet cython setuptools uv pip ipython ipython-pygments-lexers \
+    && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet babel cython setuptools uv pip ipython ipython-pygments-lexers \
         jedi parso prompt_toolkit \
     && rm -r pyarrow/include pyarrow/*flight* pyarrow/*s3* \
     && find . -name '*.cpython-*.so' -exec strip --strip-unneeded {} + \

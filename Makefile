@@ -2,7 +2,7 @@
 # what the service needs, `make test` also what the tests need.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup test-setup serve test test-all machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz mutants record bench ccd docs examples figures dist wheels install-time lock versions clean
+.PHONY: help setup test-setup serve test test-all machines hunt deep rounding libreoffice lint words sweep-pitch sweep-kills job-kills soak fuzz mutants record bench ccd docs examples figures dist wheels install-time lock versions clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -38,6 +38,7 @@ help:
 	@echo 'make mutants  80 random faults put into the program, one at a time: how many do the tests notice? Some hours, continued'
 	@echo '              after an interruption'
 	@echo 'make record   960 answers of calls, commands and files into FOLDER=, compared with those of BEFORE= (2 minutes)'
+	@echo 'make words    the sentences of the code into the catalogues of core/words, where make lint misses translations'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make ccd      100,000 queries of continuous collision detection to every engine, into docs/dragon-ccd.md: some'
 	@echo '              hours, continued after an interruption (QUERIES=, SEED=)'
@@ -64,12 +65,12 @@ $(VENV)/tools: requirements.lock
 	@PYTHON='$(PYTHON)' bash .ci/make-venv $(VENV)
 	@echo 'Installing the locked packages into $(VENV) (half a minute to four minutes, once)'
 	@$(INSTALL) --only uv $(VENV) requirements.lock || echo 'uv cannot be had here: pip installs, in some minutes' >&2
-	@$(INSTALL) --only 'cython|setuptools' $(VENV) requirements.lock
+	@$(INSTALL) --only 'babel|cython|setuptools' $(VENV) requirements.lock
 	@touch $@
 
 # Never the tools, which compile the kernels meanwhile.
 $(VENV)/service: $(VENV)/tools
-	@$(INSTALL) --but 'cython|setuptools|uv' $(VENV) requirements.lock
+	@$(INSTALL) --but 'babel|cython|setuptools|uv' $(VENV) requirements.lock
 	@touch $@
 
 $(VENV)/tests: $(VENV)/service requirements-test.lock
@@ -87,7 +88,7 @@ $(VENV)/node: $(VENV)/engines .ci/typescript/node.lock
 	@touch $@
 
 # The normal install, editable: it compiles core/kernels in place, or reports why it runs uncompiled.
-$(VENV)/compiled: $(wildcard core/kernels/*.py core/kernels/*.pxd) setup.py pyproject.toml $(VENV)/tools
+$(VENV)/compiled: $(wildcard core/kernels/*.py core/kernels/*.pxd core/words/*.po) setup.py pyproject.toml $(VENV)/tools
 	@rm -f core/kernels.*.so core/kernels/*.so
 	@$(PIP) install --no-build-isolation --no-deps -e .
 	@ls core/kernels/*.so >/dev/null 2>&1 || printf '%s\n' \
@@ -130,8 +131,12 @@ lint: test-setup $(VENV)/types
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/mypy
+	@$(BIN)/python .ci/words
 	@$(BIN)/oxlint --quiet app/page
 	@$(BIN)/node $(VENV)/typescript/node_modules/typescript/bin/tsc --project jsconfig.json
+
+words: test-setup
+	@$(BIN)/python .ci/words --write
 
 sweep-pitch: test-setup
 	@$(BIN)/python -m tests.campaigns.sweep_pitch $(or $(DRAGONS),2000) $(or $(FIRST),0)

@@ -1,6 +1,7 @@
-"""The part of the build that pyproject.toml cannot express: Cython compiles the modules of core/kernels.
+"""The part of the build that pyproject.toml cannot express: Babel compiles the catalogues of core/words, and Cython the
+modules of core/kernels.
 
-All of them or none are compiled: compiled modules call each other in C, so a half-compiled package would not import.
+All modules or none are compiled: compiled modules call each other in C, so a half-compiled package would not import.
 Without a C compiler the install succeeds, and the same files run uncompiled.
 No -march=native and no -ffast-math: on one machine, compiled and uncompiled files give the same digits (the last digits
 of sin and cos depend on the C library). The flags tell the compiler that nobody reads errno or floating-point traps, so
@@ -12,6 +13,8 @@ import os
 import subprocess
 from pathlib import Path
 
+from babel.messages.mofile import write_mo
+from babel.messages.pofile import read_po
 from Cython.Build import cythonize
 from setuptools import Extension, setup
 from setuptools.command.bdist_wheel import bdist_wheel
@@ -114,6 +117,13 @@ class ReadableEditable(editable_wheel):
         self.mode = self.mode or ("compat" if str(Path.cwd()).isascii() else None)
 
 
+def compile_catalogues() -> None:
+    """Compile the sentences in other languages than English, beside their sources."""
+    for written in Path("core/words").glob("*.po"):
+        with written.open("rb") as source, written.with_suffix(".mo").open("wb") as compiled:
+            write_mo(compiled, read_po(source))
+
+
 def kernels() -> list[Extension]:
     """The modules of core/kernels, translated to C."""
     declared = {path.stem for path in Path("core/kernels").glob("*.pxd")}
@@ -133,5 +143,6 @@ def kernels() -> list[Extension]:
 
 
 if __name__ == "__main__":
+    compile_catalogues()
     commands = {"build_ext": AllOrNothing, "bdist_wheel": HonestWheel, "editable_wheel": ReadableEditable}
     setup(ext_modules=kernels(), cmdclass=commands)

@@ -11,9 +11,10 @@ from collections.abc import Callable
 
 import xlsxwriter
 
-from app.files.tables import XLSX_DECIMALS, Language, trajectory_sheets
+from app.files.tables import XLSX_DECIMALS, trajectory_sheets
 from app.files.workbooks import Worksheet, rounded_away, workbook
 from core import Dance, Dragon, Spiral, trajectory
+from core.language import speaking
 
 ROUNDS = 2
 
@@ -37,7 +38,8 @@ def cell_by_cell(sheets: list[Worksheet], options: dict[str, bool]) -> bytes:
 
 
 def main() -> None:
-    sheets = trajectory_sheets(trajectory(Dance(Dragon(), Spiral()), range(301)), Language.CHINESE)
+    with speaking("zh"):
+        sheets = trajectory_sheets(trajectory(Dance(Dragon(), Spiral()), range(301)))
     ways: dict[str, Callable[[], bytes]] = {
         "ours": lambda: workbook(sheets, XLSX_DECIMALS),
         "XlsxWriter in memory": lambda: cell_by_cell(sheets, {"in_memory": True}),

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from core.extras import wanted
+from core.language import phrase, say
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.values import Floats
@@ -77,7 +78,7 @@ def draw_speeds(axes: Axes, handles: Floats, speed: Floats) -> None:
         handles[:, 0], handles[:, 1], c=speed, s=16, cmap="cividis", zorder=3, linewidths=0,
         rasterized=len(handles) > SHAPES_MAX,
     )  # fmt: skip
-    bar = axes.figure.colorbar(dots, ax=axes, label="speed of the handle [m/s]", shrink=0.85)
+    bar = axes.figure.colorbar(dots, ax=axes, label=say("speed of the handle [m/s]"), shrink=0.85)
     bar.ax.ticklabel_format(useOffset=False)
 
 
@@ -88,7 +89,7 @@ def mark_head(axes: Axes, head: Floats, tangent: Floats, centre: tuple[float, fl
     arrow = {"arrowstyle": "->", "color": VERMILION, "shrinkA": 5, "linewidth": 1.5}
     axes.plot(*head, marker="o", markersize=9, markerfacecolor="none", markeredgecolor=VERMILION, zorder=4)
     axes.annotate("", (ahead[0], ahead[1]), xytext=(head[0], head[1]), arrowprops=arrow, zorder=5)
-    axes.text(inwards[0], inwards[1], "head", color=VERMILION, fontsize=10, ha="center", va="center", zorder=5)
+    axes.text(inwards[0], inwards[1], say("head"), color=VERMILION, fontsize=10, ha="center", va="center", zorder=5)
 
 
 def mark_pair(axes: Axes, outlines: Floats, benches: Sequence[int]) -> None:
@@ -96,9 +97,26 @@ def mark_pair(axes: Axes, outlines: Floats, benches: Sequence[int]) -> None:
     from matplotlib.patches import Polygon
 
     for k, (bench, colour, hatch) in enumerate(zip(benches, (VERMILION, BLUE), ("", "////"), strict=True)):
-        label = f"bench {bench}" + (" (head)" if bench == 0 else "")
+        label = say("bench {bench}", bench=bench) if bench else say("bench 0 (head)")
         style: dict[str, Any] = {"facecolor": colour, "hatch": hatch, "label": label, "zorder": 3 + k}
         axes.add_patch(Polygon(outlines[bench], edgecolor="black", alpha=0.85, linewidth=0.6, **style))
+
+
+# Names of the corners and edges of a bench.
+FEATURES = {
+    "front edge": phrase("front edge of bench {bench}"),
+    "rear edge": phrase("rear edge of bench {bench}"),
+    "inner edge": phrase("inner edge of bench {bench}"),
+    "outer edge": phrase("outer edge of bench {bench}"),
+    "front-outer corner": phrase("front-outer corner of bench {bench}"),
+    "front-inner corner": phrase("front-inner corner of bench {bench}"),
+    "rear-outer corner": phrase("rear-outer corner of bench {bench}"),
+    "rear-inner corner": phrase("rear-inner corner of bench {bench}"),
+}
+
+
+def _feature(kind: str, feature: BenchFeature) -> str:
+    return say(FEATURES[f"{feature.name} {kind}"], bench=feature.bench)
 
 
 def draw_enlarged(
@@ -115,8 +133,8 @@ def draw_enlarged(
     mark_pair(axes, outlines, benches)
     if edge:
         sides = _edge(outlines[edge.bench], edge.name, centre)
-        axes.plot(*sides.T, color="black", linewidth=2.5, zorder=6, label=f"{edge.name} edge of bench {edge.bench}")
-    nearest = f"{corner.name} corner of bench {corner.bench}" if corner else "nearest point"
+        axes.plot(*sides.T, color="black", linewidth=2.5, zorder=6, label=_feature("edge", edge))
+    nearest = _feature("corner", corner) if corner else say("nearest point")
     axes.plot(
         *point, marker="o", linestyle="none", markersize=11, markerfacecolor="white", markeredgecolor="black",
         markeredgewidth=2, zorder=7, label=nearest,
@@ -133,11 +151,11 @@ def _edge(outline: Floats, name: str, centre: tuple[float, float]) -> Floats:
 
 def draw_clearance(axes: Axes, time: Floats, clearance: Floats, grazes: Sequence[tuple[float, float]]) -> None:
     """Draw the clearance against time, its local minima as dots. grazes: time [s], clearance [m]"""
-    axes.plot(time, clearance, color=BLUE, linewidth=1.4, marker="." if time.size == 1 else "", label="clearance")
+    axes.plot(time, clearance, color=BLUE, linewidth=1.4, marker="." if time.size == 1 else "", label=say("clearance"))
     if grazes:
-        axes.plot(*np.transpose(grazes), "o", color=VERMILION, markersize=5, label="graze")
-    axes.axhline(0.0, color="black", linewidth=0.8, linestyle="dashed", label="touch")
-    axes.set(xlabel="time [s]", ylabel="clearance of the nearest pair [m]")
+        axes.plot(*np.transpose(grazes), "o", color=VERMILION, markersize=5, label=say("graze"))
+    axes.axhline(0.0, color="black", linewidth=0.8, linestyle="dashed", label=say("touch"))
+    axes.set(xlabel=say("time [s]"), ylabel=say("clearance of the nearest pair [m]"))
     axes.legend(fontsize=9)
 
 
@@ -152,4 +170,4 @@ def draw_scan(axes: Axes, points: Floats, pieces: Sequence[tuple[int, int]], jum
     stairs = [points[a:b] for a, b in pieces]
     axes.add_collection(LineCollection(stairs, colors=BLUE, linewidths=1.8, label=label))
     falls = [points[a - 1 : a + 1] for a, _ in pieces[1:] if points[a, 0] - points[a - 1, 0] <= jump]
-    axes.add_collection(LineCollection(falls, colors=GREY, linewidths=0.8, linestyles="dotted", label="jump"))
+    axes.add_collection(LineCollection(falls, colors=GREY, linewidths=0.8, linestyles="dotted", label=say("jump")))

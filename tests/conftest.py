@@ -126,10 +126,11 @@ def nginx_path():
 @cache
 def _has_chinese_font():
     from app.files.fonts import MissingPackage, families  # Most tests do without.
-    from app.files.tables import Language
+    from core.language import speaking
 
     try:
-        families(Language.CHINESE)
+        with speaking("zh"):
+            families()
     except MissingPackage:
         return False
     return True

@@ -21,6 +21,7 @@ from app.files.drawing import in_turn
 from app.maps.marks import line_of, mark_name
 from app.plan.sheet import PAPERS, POINT, Box, Paper, Sheet, north_arrow
 from core import Budget, Dance, Venue
+from core.language import joined, say
 from core.people.cards import Card
 from core.plots import BLUE, VERMILION
 from core.shapes.engines import widest_place
@@ -116,7 +117,7 @@ def cards_pdf(decks: Sequence[CardSheets], progress: Callable[[float], None] = l
 def _sheet(sheets: CardSheets, cards: Sequence[Card]) -> Sheet:
     """One sheet with up to ACROSS x DOWN cards. The marks where to cut stand at the corners of all cards."""
     paper = Paper("A4", *PAPERS["A4"])
-    sheet = Sheet(paper, sheets.words.say, sheets.family, sheets.budget)
+    sheet = Sheet(paper, sheets.family, sheets.budget)
     wide, high = paper.width / ACROSS, paper.height / DOWN
     for k, card in enumerate(cards):
         left, top = wide * (k % ACROSS), paper.height - high * (k // ACROSS)
@@ -130,20 +131,22 @@ def _sheet(sheets: CardSheets, cards: Sequence[Card]) -> Sheet:
 
 def _draw_card(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
     left, bottom, right, top = box
-    words, say, bench = sheets.words, sheets.words.say, card.bench
+    words, bench = sheets.words, card.bench
     number, name = str(bench.bench), words.names[bench.bench] if words.names else ""
-    name = name or (say("head", "龙头") if bench.bench == 0 else "")
+    name = name or (say("head") if bench.bench == 0 else "")
     sheet.words(left, top - 8.5, number, BENCH_TYPE, fontweight="bold")
     beside = left + sheet.width(number, BENCH_TYPE, bold=True) + 3.0
     sheet.words(beside, top - 8.5, name, 16.0, within=right - beside - 1.0, fontweight="bold")
     sheet.words(right, top - 1.5, sheets.title, 6.5, within=0.6 * (right - left), ha="right", color="#555555")
     y = top - 15.5
     stand = bench.start
-    place = say(f"Stand {words.at_mark(stand)}", f"起始：{words.at_mark(stand)}")
+    place = say("Stand {place}", place=words.at_mark(stand))
     sheet.words(left, y, place, STAND_TYPE, within=right - left, fontweight="bold")
     front = say(
-        f"front handle at x {stand.x + 0.0:.2f} m, y {stand.y + 0.0:.2f} m; a step is {words.chalk.step:g} m",
-        f"前把手在 x {stand.x + 0.0:.2f} m，y {stand.y + 0.0:.2f} m；每步 {words.chalk.step:g} m",
+        "front handle at x {x:.2f} m, y {y:.2f} m; a step is {words.chalk.step:g} m",
+        x=stand.x + 0.0,
+        y=stand.y + 0.0,
+        words=words,
     )
     sheet.words(left, y - 4.3, front, 7.5, within=right - left)
     y -= 9.7
@@ -152,12 +155,11 @@ def _draw_card(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
     sheet.line([(left, y), (right, y)], linewidth=0.6)
     y = _draw_cues(sheet, sheets, card, (left, bottom, right, y))
     marks = say(
-        "Chalk marks (x) name the metres along the path. The line is the way of your front handle; the dot of a "
-        "meeting is the middle of your bench.",
-        "粉笔标记（x）为沿路径的米数。线为你前把手的路线，相遇处的点为你这节板凳的中点。",
+        "Chalk marks (x) name the metres along the path. The line is the way of your front handle; "
+        "the dot of a meeting is the middle of your bench.",
     )
     notes = [marks, words.distances(card), words.left_out(card), sheets.verdict]
-    lines = _wrapped(sheet, say(" ", "").join(filter(None, notes)), SMALL_TYPE, right - left)
+    lines = _wrapped(sheet, joined(notes), SMALL_TYPE, right - left)
     for k, line in enumerate(lines, start=1):
         sheet.words(left, bottom + SMALL_LINE * (len(lines) - k), line, SMALL_TYPE, color="#444444")
     _draw_track(sheet, sheets, card, (left, bottom + SMALL_LINE * len(lines) + 1.0, right, y))

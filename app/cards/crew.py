@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from app.cards.words import CardWords
-from app.files.words import Say
 from app.wire.clocks import time_of_day
 from app.wire.texts import text_to_cell
+from core.language import say
 from core.people.crew import Crew, Spell
 
 COLUMNS = (
@@ -32,7 +32,7 @@ class CrewWords:
     def labels(self) -> list[str]:
         """Short names of all people: 17.2 is the second of bench 17 at the start, S3 the third spare."""
         own = [f"{bench}.{k}" for bench, count in enumerate(self.crew.needed) for k in range(1, count + 1)]
-        return own + [self.words.say(f"S{k}", f"替{k}") for k in range(1, self.crew.spares + 1)]
+        return own + [say("S{k}", k=k) for k in range(1, self.crew.spares + 1)]
 
     def clock(self, time: float) -> str | None:
         """Time of day at a time [s], if it is known."""
@@ -47,7 +47,7 @@ class CrewWords:
     @property
     def lack(self) -> list[str]:
         """That the spares are too few for all changes, how many are enough, and how many benches never change."""
-        return lack_words(self.crew.enough, len(self.crew.unrelieved), self.words.say)
+        return lack_words(self.crew.enough, len(self.crew.unrelieved))
 
     @property
     def changes(self) -> list[Spell]:
@@ -55,10 +55,10 @@ class CrewWords:
         return [one for one in self.crew.spells if one.relieved is not None]
 
 
-def lack_words(enough: int, never: int, say: Say) -> list[str]:
+def lack_words(enough: int, never: int) -> list[str]:
     """That the spares are too few for all changes. enough: spares that are not; never: benches that never change"""
-    few = say(f"too few spares for all changes: {enough} are enough", f"替补不够，不能每次全员换下：需 {enough} 名")
-    return [few] + ([say(f"{never} of the benches never change", f"{never} 节板凳始终无人换下")] if never else [])
+    few = say("too few spares for all changes: {enough} are enough", enough=enough)
+    return [few] + ([say("{never} of the benches never change", never=never)] if never else [])
 
 
 def crew_csv(crew: CrewWords) -> bytes:

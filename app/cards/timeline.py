@@ -20,6 +20,7 @@ from app.maps.marks import mark_name
 from app.plan.sheet import MARGIN, PAPERS, Paper, Sheet, Title, title_block
 from app.plan.tables import PlanTable, draw_tables
 from core import Budget
+from core.language import say
 from core.people.crew import Spell
 
 # Fonts as outlines of TrueType, so that every machine and every printer draws them alike.
@@ -52,7 +53,7 @@ class CrewSheets:
 
 def crew_pdf(sheets: CrewSheets, progress: Callable[[float], None] = lambda share: None) -> bytes:
     """The bytes of the file. raises: Halted once the budget is stopped"""
-    sink, say = io.BytesIO(), sheets.crew.words.say
+    sink = io.BytesIO()
     block = Title(sheets.title, sheets.facts, "", True, False)
 
     def drawn() -> bytes:
@@ -62,7 +63,7 @@ def crew_pdf(sheets: CrewSheets, progress: Callable[[float], None] = lambda shar
             with PdfPages(sink, metadata=metadata) as file:
                 for k, (subtitle, sheet) in enumerate(pages, start=1):
                     left, right = title_block(sheet, block, subtitle, f"{k}/{len(pages)}", None)
-                    _notes(sheet, say("carriers", "抬板人"), left, right)
+                    _notes(sheet, say("carriers"), left, right)
                     file.savefig(sheet.figure)
                     progress(k / len(pages))
         return sink.getvalue()
@@ -72,17 +73,16 @@ def crew_pdf(sheets: CrewSheets, progress: Callable[[float], None] = lambda shar
 
 def _new_sheet(sheets: CrewSheets) -> Sheet:
     short, long = PAPERS["A4"]
-    return Sheet(Paper("A4", long, short), sheets.crew.words.say, sheets.family, sheets.budget)
+    return Sheet(Paper("A4", long, short), sheets.family, sheets.budget)
 
 
 def _notes(sheet: Sheet, people: str, left: float, right: float) -> None:
     """Write the meaning of the labels in the title block."""
-    say = sheet.say
     lines = [
-        say(f"17.2: the second of the {people} of bench 17 at the start", f"17.2：开始时 17 号板凳的第 2 位{people}"),
-        say("S3: the third spare, who comes in at a change", "替3：第 3 位替补，换人时上场"),
-        say("in a bar: the bench that is carried then", "条内数字：当时所抬的板凳"),
-        say("way: of the front handle along the path", "路程：前把手沿路线走过的长度"),
+        say("17.2: the second of the {people} of bench 17 at the start", people=people),
+        say("S3: the third spare, who comes in at a change"),
+        say("in a bar: the bench that is carried then"),
+        say("way: of the front handle along the path"),
     ]
     for k, line in enumerate(lines):
         sheet.words(left + 2.0, MARGIN + 25.0 - 4.6 * k, line, 6.5, within=right - left - 4.0)
@@ -108,7 +108,7 @@ def _timelines(sheets: CrewSheets) -> Iterator[tuple[str, Sheet]]:
             for k, words in enumerate(numbers, start=1):
                 sheet.entry(right + NUMBER * k - sheet.width(words, TYPE), y + 1.2, words, TYPE)
         sheet.frame(sheet.paper.room)
-        yield sheet.say("Who carries which bench when", "谁在何时抬哪节板凳"), sheet
+        yield say("Who carries which bench when"), sheet
 
 
 def _minutes(time: float) -> str:
@@ -119,7 +119,7 @@ def _minutes(time: float) -> str:
 
 def _draw_axis(sheet: Sheet, sheets: CrewSheets) -> tuple[float, float]:
     """Draw times above the rows and name the columns; returns where the bars begin and end [mm]."""
-    say, crew = sheet.say, sheets.crew
+    crew = sheets.crew
     start, stop = crew.crew.start, crew.crew.stop
     room_left, bottom, room_right, top = sheet.paper.room
     left, right = room_left + LABEL, room_right - 3 * NUMBER - 3.0
@@ -131,7 +131,7 @@ def _draw_axis(sheet: Sheet, sheets: CrewSheets) -> tuple[float, float]:
         words = crew.words.clock.clock(start + step * k)
         if x + sheet.width(words, 6.0) < right:
             sheet.entry(x, top - AXIS + 1.5, words, 6.0)
-    for k, words in enumerate((say("time", "时间"), say("way [m]", "路程 [m]"), say("longest", "最长连续")), start=1):
+    for k, words in enumerate((say("time"), say("way [m]"), say("longest")), start=1):
         sheet.entry(right + NUMBER * k - sheet.width(words, 6.5, bold=True), top - AXIS + 1.5, words, 6.5, bold=True)
     return left, right
 
@@ -151,23 +151,23 @@ def _draw_bar(sheet: Sheet, sheets: CrewSheets, one: Spell, ends: tuple[float, f
 def _tables(sheets: CrewSheets) -> Iterator[tuple[str, Sheet]]:
     """Sheets with who is where at a time, and with the changes."""
     crew = sheets.crew
-    say, chalk = crew.words.say, crew.words.chalk
+    chalk = crew.words.chalk
     rows = []
     for one in crew.changes:
         mark, _ = chalk.nearest(one.s)
         out = crew.labels[one.relieved or 0]
         rows.append([crew.words.clock.words(one.begin), str(one.bench), out, crew.labels[one.person], mark_name(mark)])
     columns = [
-        say("time", "时间"),
-        say("bench", "板凳"),
-        say("goes out", "下场"),
-        say("comes in", "上场"),
-        say("near mark", "标记附近"),
+        say("time"),
+        say("bench"),
+        say("goes out"),
+        say("comes in"),
+        say("near mark"),
     ]
-    tables = [PlanTable(say("Changes", "换人"), columns, rows)]
+    tables = [PlanTable(say("Changes"), columns, rows)]
     tables = [sheets.roll, *tables] if sheets.roll else tables
     if not any(table.rows for table in tables):
         return
     for sheet in draw_tables(tables, lambda: _new_sheet(sheets)):
         sheet.frame(sheet.paper.room)
-        yield say("Who comes in where", "谁在何处上场"), sheet
+        yield say("Who comes in where"), sheet

@@ -7,10 +7,10 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from app.files.words import Say
 from app.maps.marks import first_mark, mark_name
 from app.plan.timing import TimeFormat
 from core import Dance
+from core.language import counted, phrase, say, sense
 from core.people.cards import Card, Cue, CueKind
 from core.people.cues import Meeting, Side, Stand
 from core.values import Point
@@ -18,17 +18,16 @@ from core.venue import Venue
 
 # Points of the compass from north, clockwise.
 COMPASS = (
-    ("north", "北"), ("north-east", "东北"), ("east", "东"), ("south-east", "东南"), ("south", "南"),
-    ("south-west", "西南"), ("west", "西"), ("north-west", "西北"),
+    phrase("north"), phrase("north-east"), phrase("east"), phrase("south-east"), phrase("south"),
+    phrase("south-west"), phrase("west"), phrase("north-west"),
 )  # fmt: skip
 
 # Directions on a plan, from the x axis counter-clockwise.
 ON_PLAN = (
-    ("to the right", "右方"), ("up and to the right", "右上方"), ("up", "上方"), ("up and to the left", "左上方"),
-    ("to the left", "左方"), ("down and to the left", "左下方"), ("down", "下方"), ("down and to the right", "右下方"),
+    phrase("to the right on the plan"), phrase("up and to the right on the plan"), phrase("up on the plan"),
+    phrase("up and to the left on the plan"), phrase("to the left on the plan"),
+    phrase("down and to the left on the plan"), phrase("down on the plan"), phrase("down and to the right on the plan"),
 )  # fmt: skip
-
-
 # Largest angle between a direction and a landmark in it [rad]; how near, how far and how wide the landmark may be [m].
 AHEAD, NEAR, FAR, WIDE = math.radians(20.0), 3.0, 80.0, 15.0
 # Names that nobody has given.
@@ -94,7 +93,6 @@ class CardWords:
     landmarks: name and middle of the things in the square that a person can walk towards
     """
 
-    say: Say
     names: tuple[str, ...]
     clock: TimeFormat
     chalk: Chalk
@@ -110,52 +108,45 @@ class CardWords:
 
     def _met_bench(self, met: Meeting) -> str:
         """The bench that is met, in words; of another dragon, with the name of that."""
-        own = self.met_name(met)
-        chinese = f"{met.bench} 号板凳{own and f'（{own}）'}"
+        bench = say("Bench {bench}", bench=self._bench(met.bench, self.met_name(met)))
         if met.dragon in (None, self.dragon):
-            return self.say(f"Bench {self.name(met.bench)}", chinese)
-        dragon, number = self.dragons[met.dragon][0], own or ("(head)" if met.bench == 0 else "")
-        return self.say(f"Bench {f'{met.bench} {number}'.rstrip()} of {dragon}", f"{dragon}的 {chinese}")
+            return bench
+        return say("{bench} of {dragon}", bench=bench, dragon=self.dragons[met.dragon][0])
 
-    def name(self, bench: int) -> str:
-        """Number and name of a bench.
-
-        >>> from app.files.tables import Language
-        >>> words = CardWords(Say(Language.ENGLISH), ("", "Li"), TimeFormat(), Chalk(0.0, 5.0, 0.75), False)
-        >>> words.name(0), words.name(1), words.direction(0.0)
-        ('0 (head)', '1 Li', ('to the right on the plan', '0°'))
-        """
-        own = self.names[bench] if self.names else ""
-        return f"{bench} {own}" if own else self.say("0 (head)", "0（龙头）") if bench == 0 else str(bench)
+    def _bench(self, number: int, name: str) -> str:
+        if name:
+            head = say("{number} {name} (head)", number=number, name=name)
+            return say("{number} {name}", number=number, name=name) if number else head
+        return sense("bench", "{number}", number=number) if number else say("0 (head)")
 
     def neighbours(self, ahead: int | None, behind: int | None) -> str:
-        """Who is before and behind a bench; None: nobody."""
-        before, after = self._neighbour(ahead), self._neighbour(behind)
-        return self.say(f"Before you: {before}.  Behind you: {after}.", f"前面：{before}    后面：{after}")
+        """Who is before and behind a bench; None: nobody.
 
-    def _neighbour(self, bench: int | None) -> str:
-        if bench is None:
-            return self.say("nobody", "无")
-        own = self.names[bench] if self.names else ""
-        chinese = f"{bench} 号" if bench else "龙头"
-        return self.say(self.name(bench), f"{chinese}（{own}）" if own else chinese)
+        >>> words = CardWords(("", "Li"), TimeFormat(), Chalk(0.0, 5.0, 0.75), False)
+        >>> words.neighbours(0, 1), words.direction(0.0)
+        ('Before you: 0 (head).  Behind you: 1 Li.', ('to the right on the plan', '0°'))
+        """
+        before, after = (
+            say("nobody") if bench is None else self._bench(bench, self.names[bench] if self.names else "")
+            for bench in (ahead, behind)
+        )
+        return say("Before you: {before}.  Behind you: {after}.", before=before, after=after)
 
     def direction(self, angle: float) -> tuple[str, str]:
         """A direction [rad] and its degrees: a point of the compass, or how it is on the plan, from its x axis."""
         degrees = math.degrees(angle)
         if self.geographic:
             bearing = (90.0 - degrees) % 360.0
-            number = f"{round(bearing) % 360:03d}°"
-            return self.say(*COMPASS[round(bearing / 45.0) % len(COMPASS)]), self.say(number, f"方位 {number}")
-        english, chinese = ON_PLAN[round(degrees / 45.0) % len(ON_PLAN)]
-        return self.say(f"{english} on the plan", f"图上{chinese}"), f"{round(degrees) % 360}°"
+            number = sense("bearing", "{degrees:03d}°", degrees=round(bearing) % 360)
+            return say(COMPASS[round(bearing / 45.0) % len(COMPASS)]), number
+        return say(ON_PLAN[round(degrees / 45.0) % len(ON_PLAN)]), f"{round(degrees) % 360}°"
 
     def walk(self, begin: Stand, angle: float) -> str:
         """How a bench begins to walk in a direction [rad]: towards a thing that has a name, if one is there."""
         (to, number), mark = self.direction(angle), self._ahead(begin, angle)
         if mark is None:
-            return self.say(f"Walk {to} ({number}).", f"起步，朝{to}走（{number}）。")
-        return self.say(f"Walk towards “{mark}”, {to} ({number}).", f"起步，朝{mark}方向走（{to}，{number}）。")
+            return say("Walk {to} ({number}).", to=to, number=number)
+        return say("Walk towards “{mark}”, {to} ({number}).", mark=mark, to=to, number=number)
 
     def _ahead(self, begin: Stand, angle: float) -> str | None:
         """Name of the landmark that is nearest to a direction from a place [rad]; None if none is near it."""
@@ -173,79 +164,91 @@ class CardWords:
         mark = mark_name(place)
         steps = self.chalk.steps(past)
         if steps == 0:
-            return self.say(f"at chalk mark {mark} m", f"在 {mark} m 粉笔标记处")
-        unit, where = "step" if abs(steps) == 1 else "steps", "past" if steps > 0 else "before"
-        chinese = f"过 {mark} m 粉笔标记 {steps} 步" if steps > 0 else f"距 {mark} m 粉笔标记还差 {-steps} 步"
-        return self.say(f"{abs(steps)} {unit} {where} chalk mark {mark} m", chinese)
+            return say("at chalk mark {mark} m", mark=mark)
+        if steps > 0:
+            return counted(
+                steps, "{count} step past chalk mark {mark} m", "{count} steps past chalk mark {mark} m", mark=mark
+            )
+        return counted(
+            -steps, "{count} step before chalk mark {mark} m", "{count} steps before chalk mark {mark} m", mark=mark
+        )
 
     def sentence(self, card: Card, cue: Cue) -> str:
         """A cue in one sentence, without its time."""
-        say, bench = self.say, card.bench
+        bench = card.bench
         match cue.kind:
             case CueKind.BEGIN:
                 return self.walk(bench.begin, bench.direction)
             case CueKind.PAUSE:
                 long, end = f"{cue.until - cue.since:.0f}", self.clock.words(cue.until)
-                return say(f"Stand still until {end} ({long} s).", f"停下，至 {end}（{long} 秒）。")
+                return say("Stand still until {end} ({long} s).", end=end, long=long)
             case CueKind.FASTEST:
                 speed, head = bench.fastest.speed, bench.head_speed
                 return say(
-                    f"Fastest: {speed:.2f} m/s (the head begins with {head:.2f} m/s).",
-                    f"最快：{speed:.2f} m/s（龙头起步时 {head:.2f} m/s）。",
+                    "Fastest: {speed:.2f} m/s (the head begins with {head:.2f} m/s).",
+                    speed=speed,
+                    head=head,
                 )
             case CueKind.DONE:
-                return say(f"Stop, {self.at_mark(bench.done)}. Done.", f"停，{self.at_mark(bench.done)}。结束。")
+                return say("Stop, {place}. Done.", place=self.at_mark(bench.done))
         assert cue.nearest is not None
         return self._met(cue, cue.nearest)
 
     def _met(self, cue: Cue, nearest: Meeting) -> str:
-        say, gap = self.say, self.say(f"{nearest.gap:.2f} m", f"距 {nearest.gap:.2f} m")
+        gap = sense("apart", "{gap:.2f} m", gap=nearest.gap)
         if nearest.gap < 0.0:
-            gap = say(f"overlapping by {-nearest.gap:.2f} m", f"重叠 {-nearest.gap:.2f} m")
-        left = nearest.side is Side.LEFT
-        side = say(f"straight on your {'left' if left else 'right'}", f"在正{'左' if left else '右'}方")
-        how = say("It goes the other way", "反向") if nearest.oncoming else say("It goes your way", "同向")
-        who = self._met_bench(nearest)
+            gap = say("overlapping by {depth:.2f} m", depth=-nearest.gap)
+        side = say("straight on your left") if nearest.side is Side.LEFT else say("straight on your right")
+        how = say("It goes the other way") if nearest.oncoming else say("It goes your way")
+        values = {"who": self._met_bench(nearest), "side": side, "gap": gap, "how": how}
         if len(cue.meetings) == 1:
-            return say(f"{who} {side}, {gap}. {how}.", f"{who}{side}，{gap}，与你{how}。")
-        met = {one.bench for one in cue.meetings}
-        others = say(runs(met), runs(met).replace(", ", "、"))
+            return say("{who} {side}, {gap}. {how}.", **values)
+        met = {meeting.bench for meeting in cue.meetings}
         since, until = self.clock.words(cue.since), self.clock.words(cue.until)
         if len(met) == 1:
-            times = len(cue.meetings)
-            span = (
-                say(f"from {since} to {until}", f"{since} 至 {until}") if since != until else say(f"at {since}", since)
-            )
+            span = say("from {since} to {until}", since=since, until=until)
+            if since == until:
+                span = say("at {time}", time=since)
             return say(
-                f"{who} {side}, {gap} at the nearest of {times} times {span}. {how}.",
-                f"{who}{side}，{span}，{times} 次，最近时{gap}，与你{how}。",
+                "{who} {side}, {gap} at the nearest of {times} times {span}. {how}.",
+                times=len(cue.meetings),
+                span=span,
+                **values,
             )
-        hows = "pass you the other way" if nearest.oncoming else "walk your way"
+        passing = say("pass you the other way") if nearest.oncoming else say("walk your way")
         return say(
-            f"{who} {side}, {gap}. Benches {others} {hows} from {since} to {until}, none nearer when "
-            "straight beside you.",
-            f"{who}{side}，{gap}。{since} 至 {until}，{others} 号与你{how}经过，在正侧方时都不比它近。",
+            "{who} {side}, {gap}. Benches {met} {passing} from {since} to {until}, none nearer when straight beside "
+            "you.",
+            met=runs(met).replace(", ", sense("list", ", ")),
+            passing=passing,
+            since=since,
+            until=until,
+            **values,
         )
 
     def left_out(self, card: Card) -> str:
         """What has no place on the card; empty if all has one."""
-        say, pauses = self.say, sum(cue.kind is CueKind.PAUSE for cue in card.left_out)
+        pauses = sum(cue.kind is CueKind.PAUSE for cue in card.left_out)
         met = sum(len(cue.meetings) for cue in card.left_out)
         parts = []
         if met and card.least_left_out is not None:
-            words = f"{card.least_left_out:.2f} m"
-            plural = "meeting" if met == 1 else "meetings"
-            parts.append(say(f"{met} {plural}, none nearer than {words} then", f"{met} 次相遇（当时均不近于 {words}）"))
+            parts.append(
+                counted(
+                    met,
+                    "{count} meeting, none nearer than {gap:.2f} m then",
+                    "{count} meetings, none nearer than {gap:.2f} m then",
+                    gap=card.least_left_out,
+                )
+            )
         if pauses:
-            parts.append(say(f"{pauses} shorter pause{'s' * (pauses > 1)}", f"{pauses} 次较短停顿"))
-        return say("Not on this card: ", "本卡未列：") + say("; ", "；").join(parts) + say(".", "。") if parts else ""
+            parts.append(counted(pauses, "{count} shorter pause", "{count} shorter pauses"))
+        return say("Not on this card: {parts}.", parts=say("; ").join(parts)) if parts else ""
 
     def distances(self, card: Card) -> str:
         """What the distances of meetings mean; empty on a card without any."""
         if not any(cue.nearest for cue in (*card.cues, *card.left_out)):
             return ""
-        return self.say(
-            "Distances are from edge to edge when the other bench is straight to your side; before and after it may be "
-            "nearer.",
-            "距离是对方在你正侧方时两凳边到边的距离，此前此后可能更近。",
+        return say(
+            "Distances are from edge to edge when the other bench is straight to your side; before "
+            "and after it may be nearer.",
         )

@@ -16,7 +16,7 @@ from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words
 from app.files.performance_tables import PerformanceTable, performance_file
-from app.files.tables import TABLE_ENDINGS, Language, trajectory_writer
+from app.files.tables import TABLE_ENDINGS, trajectory_writer
 from app.maps.dances import read_dance
 from app.questions import check as checks
 from app.questions import figures
@@ -30,6 +30,7 @@ from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import FailureKind, InvalidValue, Judgement
 from core.errors import format_bound, format_number
+from core.language import say
 
 
 def check(
@@ -66,7 +67,7 @@ def check(
     if cross_check is not None:
         dance["cross_check"] = cross_check
     request = checked(CheckRequest, dance, object_words(file))
-    with refusing(request), show.waiting("check", "检验"):
+    with refusing(request), show.waiting(say("check")):
         answer = checks.check(request, Terms())
         drawn = _drawn(request, answer, Format(ending[1:]), time) if figure else b""
         table = _table(request, answer, suffix) if suffix else b""
@@ -88,7 +89,7 @@ def _table(request: CheckRequest, answer: Report | PerformanceReport, ending: st
     dance = request.to_dance(settings.checked_benches_max)
     stop = dance.end.time if request.stop is None else min(request.stop, dance.end.time)
     seconds = TimeRange(start=answer.start, stop=stop).times_of(dance, settings.cells_max)
-    write = trajectory_writer(ending, None, Language.ENGLISH, clock_of(request, dance))
+    write = trajectory_writer(ending, None, clock_of(request, dance))
     return write(core.trajectory(dance, seconds))
 
 

@@ -13,12 +13,13 @@ from app.questions.clearance import ClearanceQuery, ClearanceRequest
 from app.questions.collision_time import CollisionQuery, CollisionRequest
 from app.wire.question import Terms
 from core.errors import format_number
+from core.language import say
 
 
 @asks(CollisionQuery, CollisionRequest)
 def collision_time(request: CollisionQuery | CollisionRequest, json: Json = False) -> None:
     """Time of first contact: when two benches first touch, or come within a margin."""
-    with show.waiting("first contact", "首次碰撞"):
+    with show.waiting(say("first contact")):
         answer = collisions.collision_time(request, Terms())
     near = f"First time that two benches are within {format_number(request.margin)} m of each other"
     title = near if request.margin else "First contact"
@@ -33,7 +34,7 @@ def clearance(request: ClearanceQuery | ClearanceRequest, json: Json = False) ->
 
     Of a FILE of several dragons, between benches of two of them.
     """
-    with show.waiting("clearance", "净距"):
+    with show.waiting(say("clearance")):
         answer = clearances.clearance(request, Terms())
     show.print_result(answer, json, _clearance_parts(answer.columns))
 

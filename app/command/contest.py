@@ -16,9 +16,8 @@ from app.contest.kit import write_kit
 from app.contest.report import answer_table
 from app.contest.solved import ContestRequest
 from app.extras import require
-from app.files.tables import Language
-from app.files.words import Say
 from core import InvalidValue
+from core.language import Language, say, speaking
 
 
 @asks(ContestRequest)
@@ -34,21 +33,20 @@ def contest(
     if folder.exists() and not folder.is_dir():
         raise InvalidValue.in_words("folder", "FOLDER must be a folder, got the file {file}", file=str(folder))
     folder.mkdir(parents=True, exist_ok=True)
-    with show.steps() as progress:
-        kit = write_kit(folder, request, language, Wanted(films, gif), progress)
-    say = Say(language)
-    print(answer_table(kit.results, say), end="")
-    for name in kit.files:
-        print(folder / name, file=sys.stderr)
-    if kit.no_turn:
-        no_answer = say(
-            f"Error: questions 4 and 5 have no answer: {kit.no_turn}; "
-            "change --turning-diameter, --turn-pitch or --ratio",
-            f"错误：问题 4 和 5 没有答案：{kit.no_turn}；请改变 --turning-diameter、--turn-pitch 或 --ratio",
-        )
-        print(no_answer, file=sys.stderr)
-    if kit.missing:
-        words = say("Error: figures and films were not written", "错误：图和动画没有写出")
-        print(f"{words}{say(': ', '：')}{kit.missing.message}", file=sys.stderr)
-    if kit.no_turn or kit.missing:
-        raise typer.Exit(1)
+    with speaking(language):
+        with show.steps() as progress:
+            kit = write_kit(folder, request, Wanted(films, gif), progress)
+        print(answer_table(kit.results), end="")
+        for name in kit.files:
+            print(folder / name, file=sys.stderr)
+        if kit.no_turn:
+            no_answer = say(
+                "Error: questions 4 and 5 have no answer: {kit.no_turn}; change --turning-diameter, "
+                "--turn-pitch or --ratio",
+                kit=kit,
+            )
+            print(no_answer, file=sys.stderr)
+        if kit.missing:
+            print(say("Error: figures and films were not written: {why}", why=kit.missing.message), file=sys.stderr)
+        if kit.no_turn or kit.missing:
+            raise typer.Exit(1)

@@ -19,12 +19,13 @@ from app.questions.turn import TurnQuery
 from app.questions.turn_time import TurnTimeQuery, TurnTimeRequest
 from app.wire.question import Terms
 from core.errors import format_number
+from core.language import say
 
 
 @asks(MinimumPitchQuery, MinimumPitchRequest)
 def minimum_pitch(request: MinimumPitchQuery | MinimumPitchRequest, json: Json = False) -> None:
     """The smallest pitch such that every larger one lets the head reach the turning circle."""
-    with show.waiting("minimum pitch", "最小螺距"):
+    with show.waiting(say("minimum pitch")):
         answer = pitches.minimum_pitch(request, Terms())
     gap = f" and no bench within {format_number(request.margin)} m of another" if request.margin else ""
     title = f"Minimum pitch for a turning circle of {format_number(request.turning_diameter)} m{gap}"
@@ -40,7 +41,7 @@ def turn(request: TurnQuery, json: Json = False) -> None:
 @asks(ShortestTurnQuery, ShortestTurnRequest)
 def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, json: Json = False) -> None:
     """The shortest turn inside its circle that the dragon can dance, and what limits it."""
-    with show.waiting("shortest turn", "最短调头曲线"):
+    with show.waiting(say("shortest turn")):
         answer = shortest.shortest_turn(request, Terms())
     gap = f" with no bench within {format_number(request.margin)} m of another" if request.margin else ""
     show.print_answer(f"Shortest turn{gap}", answer, json, margin=request.margin)
@@ -58,7 +59,7 @@ def turn_time(request: TurnTimeQuery | TurnTimeRequest, json: Json = False) -> N
 @asks(QuickestTurnQuery, QuickestTurnRequest)
 def quickest_turn(request: QuickestTurnQuery | QuickestTurnRequest, json: Json = False) -> None:
     """The turn inside its circle that takes the head the shortest time of those in a scan."""
-    with show.waiting("quickest turn", "用时最短的调头"):
+    with show.waiting(say("quickest turn")):
         answer = quickest.quickest_turn(request, Terms())
     show.print_answer(
         f"Quickest turn with no handle above {format_number(request.speed_limit)} m/s",
@@ -71,6 +72,6 @@ def quickest_turn(request: QuickestTurnQuery | QuickestTurnRequest, json: Json =
 @asks(MaximumHeadSpeedQuery, MaximumHeadSpeedRequest)
 def maximum_head_speed(request: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, json: Json = False) -> None:
     """The largest constant head speed at which no handle exceeds the limit on the way through a turn."""
-    with show.waiting("maximum head speed", "龙头最大速度"):
+    with show.waiting(say("maximum head speed")):
         answer = speeds.maximum_head_speed(request, Terms())
     show.print_answer(f"Maximum head speed for {format_number(request.speed_limit)} m/s", answer, json)

@@ -24,6 +24,7 @@ from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import FirstEncounter
 from core.errors import format_bound, format_number
+from core.language import say
 
 
 class EncounterOptions(Contact, PerformanceSpan):
@@ -47,7 +48,7 @@ def encounter(
     if figure:
         require("figures", "figure", "--figure")
     request = of_file(file, EncounterRequest, context)
-    with refusing(request), show.waiting("encounter", "两龙相遇"):
+    with refusing(request), show.waiting(say("encounter")):
         result = encounters.encounter_of(request, Terms())
         answer = Encounter.of(result, request, Terms())
         drawn = _drawn(result, ending[1:]) if figure else b""
@@ -85,7 +86,7 @@ def safe_delay(
 ) -> None:
     """The delays of one dragon at which no benches of two dragons touch, or come within a margin."""
     request = of_file(file, SafeDelayRequest, context)
-    with refusing(request), show.waiting("safe delays", "安全的等待时间"):
+    with refusing(request), show.waiting(say("safe delays")):
         answer = delays.safe_delay(request, Terms())
     show.print_result(answer, json, _delay_parts(answer))
 

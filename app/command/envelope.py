@@ -21,6 +21,7 @@ from app.questions.envelope import (
     envelopes_of,
 )
 from app.wire.question import Terms
+from core.language import say
 
 
 @asks(EnvelopeQuery, EnvelopeRequest)
@@ -39,7 +40,7 @@ def envelope(
     if output and ending_of(output) == ".dxf":
         require("dxf", "output", "DXF")
     answer: Envelope | PerformanceEnvelope
-    with show.waiting("envelope", "扫过的地面"):
+    with show.waiting(say("envelope")):
         if isinstance(request, EnvelopeRequest) and request.dances is not None:
             performance, results, grounds = envelopes_of(request, Terms())
             answer = PerformanceEnvelope.together(results, request, performance)

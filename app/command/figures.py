@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from app.command import show
-from app.command.options import asks, chosen_language, of_file, unused
+from app.command.options import asks, of_file, unused
 from app.command.paths import PathOptions, dance_of
 from app.command.usage import path_argument
 from app.extras import require
@@ -25,6 +25,7 @@ from app.questions.pitch_scan import ScanFields
 from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
+from core.language import say
 
 
 class FigureOptions(drawn.InstantQuery, ScanFields, drawn.WithLanguage):
@@ -87,19 +88,19 @@ def figures(
     files = {one: folder / f"{one.value}.{format.value}" for one in kinds}
     for picture in files.values() if folder.exists() else ():
         checked_output("format", picture)
-    drawings, language = {}, chosen_language(context)
+    drawings = {}
     for one, request in requests.items():
-        with refusing(request), show.waiting(f"figure {one.value}", f"图 {one.value}", language) as progress:
+        with refusing(request), show.waiting(say("figure {name}", name=one.value)) as progress:
             drawings[one] = FIGURES[one].to_bytes(request, Terms(progress=progress), format.media_type)
     folder.mkdir(parents=True, exist_ok=True)
     for one, data in drawings.items():
         show.write(files[one], data)
     if file and not kind:
         name = FigureKind.PITCH_SCAN.value
-        left_out = show.spoken(language)(
-            f"{name} is left out: it is about all pitches, not about one path: --kind {name} draws it for the dragon "
-            "of the FILE.",
-            f"未绘制 {name}：它针对所有螺距，而不是一条路径；--kind {name} 可为 FILE 中的龙绘制。",
+        left_out = say(
+            "{name} is left out: it is about all pitches, not about one path: --kind {name} draws it for the dragon of "
+            "the FILE.",
+            name=name,
         )
         print(left_out, file=sys.stderr)
 
@@ -125,7 +126,7 @@ def film(
     gif = checked_output("output", output, (".mp4", ".gif")) == ENDINGS[GIF_TYPE]
     require("figures" if gif else "film", "output", "A GIF" if gif else "An MP4 film, unlike a GIF,")
     form = GIF_TYPE if gif else films.FORM
-    with show.waiting(f"film {output}", f"影片 {output}", chosen_language(context)) as progress:
+    with show.waiting(say("film {name}", name=output)) as progress:
         terms = Terms(progress=progress)
         if isinstance(request, FilmRequest) and request.dances is not None:
             data = films.films(request, terms, form)

@@ -17,7 +17,6 @@ from app.command import show
 from app.command.options import Json
 from app.extras import require
 from app.files.disk import checked_output, ending_of, write_whole
-from app.files.tables import Language
 from app.files.workbooks import table_workbook
 from app.grade.judged import MISSING, WRONG
 from app.grade.layout import SHEETS, TableKind
@@ -33,12 +32,13 @@ from app.grade.report import (
     unreadable,
 )
 from app.grade.shortcuts import UNITS
-from app.grade.words import Note, note, say
+from app.grade.words import Note, note, word
 from app.processes.limits import READING_MAX, reading
 from app.wire.question import ESCAPED
 from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
 from core.errors import Parameter
+from core.language import Language, say, spoken
 
 # Endings of the files that are graded in a folder.
 ENDINGS = (".xlsx", ".xlsm", ".xls", ".csv")
@@ -56,7 +56,6 @@ def grade(
     pitch: Annotated[str | None, typer.Option(help="Answer to question 3: minimum pitch [m]")] = None,
     turn_length: Annotated[str | None, typer.Option(help="Answer to question 4: length of the turn [m]")] = None,
     speed: Annotated[str | None, typer.Option(help="Answer to question 5: maximum speed of the head [m/s]")] = None,
-    chosen: Annotated[Language | None, typer.Option("--language", help="Language of the words; default: en.")] = None,
     summary: Annotated[
         Path | None, typer.Option(help="Write a .csv or .xlsx file with one line for each number and file.")
     ] = None,
@@ -65,14 +64,13 @@ def grade(
     """Right and wrong parts of a student's results, with the known error behind each wrong one. The exit code is 0."""
     if summary and checked_output("summary", summary, (".csv", ".xlsx")) == ".xlsx":
         require("xlsx", "summary", "xlsx")
-    language = chosen or Language.ENGLISH
-    grading = show.spoken(chosen)("grading", "评阅")
+    grading = say("grading")
     numbers = {"collision_time": collision_time, "pitch": pitch, "turn_length": turn_length, "speed": speed}
     typed_numbers = {name: text for name, text in numbers.items() if text is not None}
     paths = list(_paths_of(files or []))
     if not paths and not typed_numbers:
         raise InvalidValue.in_words("files", "give at least one FILE or one number, such as --pitch 0.45")
-    answers = [_typed_answer(name, text, language) for name, text in typed_numbers.items()]
+    answers = [_typed_answer(name, text) for name, text in typed_numbers.items()]
     grades, refused = [], []
     with show.steps() if len(paths) > 1 else nullcontext(lambda what, share: None) as progress:
         for k, file in enumerate(paths):
@@ -83,25 +81,25 @@ def grade(
                     data = source.read(FILE_MAX + 1)
             except OSError as error:
                 refused.append(error)
-                grades.append(unreadable(name, note("not_opened", why=_why(error)), language))
+                grades.append(unreadable(name, note("not_opened", why=_why(error))))
             else:
-                grades.append(_graded(name, data, language))
+                grades.append(_graded(name, data))
             progress(grading, (k + 1) / len(paths))
     if refused and len(refused) == len(paths) and not answers:
         raise refused[0]
     answer = GradeAnswer(files=grades, answers=answers)
     if summary:
         as_file = _workbook if ending_of(summary) == ".xlsx" else _csv
-        write_whole(summary, as_file(answer, language))
-    show.print_result(answer, json, _parts(answer, language))
+        write_whole(summary, as_file(answer))
+    show.print_result(answer, json, _parts(answer))
 
 
-def _typed_answer(name: str, text: str, language: Language) -> TypedAnswer:
+def _typed_answer(name: str, text: str) -> TypedAnswer:
     """The grade of a typed number. raises: InvalidValue, in Chinese if that is the language"""
     try:
-        return typed(name, text, language)
+        return typed(name, text)
     except InvalidValue as error:
-        if language is not Language.CHINESE:
+        if spoken() is not Language.CHINESE:
             raise
         words = "{field} 应为大于 0、小于 1e6 的数字（单位 {unit}），例如 0.4503：现为“{text}”"
         shown = text.translate(ESCAPED)
@@ -116,13 +114,13 @@ def _why(error: OSError) -> Note | str | None:
     return note(code) if code else error.strerror
 
 
-def _graded(name: str, data: bytes, language: Language) -> FileAnswer:
+def _graded(name: str, data: bytes) -> FileAnswer:
     """The grade of one file; one that needs too much memory does not stop the grading of the others."""
     try:
         with reading():
-            return graded(name, data, language, Budget())
+            return graded(name, data, Budget())
     except TooMuchWork:
-        return unreadable(name, note("memory", most=f"{READING_MAX / 1e6:.0f}"), language)
+        return unreadable(name, note("memory", most=f"{READING_MAX / 1e6:.0f}"))
 
 
 def _paths_of(files: list[Path]) -> Iterator[Path]:
@@ -139,47 +137,47 @@ def _paths_of(files: list[Path]) -> Iterator[Path]:
             yield file
 
 
-def _heads(language: Language) -> list[str]:
-    return [say(f"column_{name}", language) for name in SUMMARY]
+def _heads() -> list[str]:
+    return [word(f"column_{name}") for name in SUMMARY]
 
 
-def _causes(one: FileAnswer | TypedAnswer, language: Language) -> list[str]:
+def _causes(one: FileAnswer | TypedAnswer) -> list[str]:
     """Short names of the known errors, those that are only possible last."""
-    certain = [say(f"name_{cause.error}", language) for cause in one.diagnosis]
-    possible = [say("may_be", language, error=say(f"name_{cause.error}", language)) for cause in one.possible]
+    certain = [word(f"name_{cause.error}") for cause in one.diagnosis]
+    possible = [word("may_be", error=word(f"name_{cause.error}")) for cause in one.possible]
     return [*certain, *possible]
 
 
-def _row(file: FileAnswer, language: Language) -> list[str | int]:
+def _row(file: FileAnswer) -> list[str | int]:
     """Cells of a file under the heads of a summary."""
-    errors = say("and_error", language).join(_causes(file, language))
-    verdict = say(file.verdict.value, language)
+    errors = word("and_error").join(_causes(file))
+    verdict = word(file.verdict.value)
     return [file.file, file.workbook or "", verdict, *_counts(file), errors, _decimals(file)]
 
 
-def _typed_row(one: TypedAnswer, language: Language) -> list[str | int]:
+def _typed_row(one: TypedAnswer) -> list[str | int]:
     """Cells of a number under the heads of a summary; a limit that it breaks comes before the causes."""
-    name = f"{say(one.answer, language)}{say('colon', language)}{one.found:.12g} {one.unit}"
-    reasons = say("and_error", language).join([*([one.breaks] if one.breaks else []), *_causes(one, language)])
-    return [name, "", say(one.verdict.value, language), "", "", "", reasons, ""]
+    name = say("{name}: {text}", name=word(one.answer), text=f"{one.found:.12g} {one.unit}")
+    reasons = word("and_error").join([*([one.breaks] if one.breaks else []), *_causes(one)])
+    return [name, "", word(one.verdict.value), "", "", "", reasons, ""]
 
 
-def _rows(answer: GradeAnswer, language: Language) -> list[list[str | int]]:
-    numbers = (_typed_row(one, language) for one in answer.answers)
-    return [*numbers, *(_row(file, language) for file in answer.files)]
+def _rows(answer: GradeAnswer) -> list[list[str | int]]:
+    numbers = (_typed_row(one) for one in answer.answers)
+    return [*numbers, *(_row(file) for file in answer.files)]
 
 
-def _csv(answer: GradeAnswer, language: Language) -> bytes:
+def _csv(answer: GradeAnswer) -> bytes:
     sink = io.StringIO()
     writer = csv.writer(sink)
-    writer.writerow(_heads(language))
-    for name, *cells in _rows(answer, language):
+    writer.writerow(_heads())
+    for name, *cells in _rows(answer):
         writer.writerow([text_to_cell(str(name)), *cells])
     return sink.getvalue().encode("utf-8-sig")
 
 
-def _workbook(answer: GradeAnswer, language: Language) -> bytes:
-    return table_workbook(say("summary", language), _heads(language), _rows(answer, language))
+def _workbook(answer: GradeAnswer) -> bytes:
+    return table_workbook(word("summary"), _heads(), _rows(answer))
 
 
 def _counts(file: FileAnswer) -> tuple[int, int, int]:
@@ -192,61 +190,62 @@ def _decimals(file: FileAnswer) -> int | str:
     return min((one.decimals for one in file.sheets if one.decimals), default="")
 
 
-def _parts(answer: GradeAnswer, language: Language) -> Iterator[show.Part]:
+def _parts(answer: GradeAnswer) -> Iterator[show.Part]:
     for one in answer.answers:
-        yield from _typed(one, language)
+        yield from _typed(one)
     for file in answer.files:
-        yield from _file(file, language)
+        yield from _file(file)
     if len(answer.files) > 1:
-        table = show.new_table(say("summary", language), *_heads(language))
+        table = show.new_table(word("summary"), *_heads())
         for file in answer.files:
-            table.add_row(*(f"{cell:,}" if isinstance(cell, int) else cell for cell in _row(file, language)))
+            table.add_row(*(f"{cell:,}" if isinstance(cell, int) else cell for cell in _row(file)))
         yield table
 
 
-def _typed(one: TypedAnswer, language: Language) -> Iterator[show.Part]:
-    name, verdict = say(one.answer, language), say(one.verdict.value, language)
-    verdict += say("to_digits", language, digits=one.digits) if one.verdict == "right" else ""
-    verdict = say("and_breaks", language, verdict=verdict, breaks=one.breaks) if one.breaks else verdict
-    yield Text(say("colon", language).join([name, f"{one.found:.12g} {one.unit}", verdict]), style="bold")
+def _typed(one: TypedAnswer) -> Iterator[show.Part]:
+    name, verdict = word(one.answer), word(one.verdict.value)
+    verdict += word("to_digits", digits=one.digits) if one.verdict == "right" else ""
+    verdict = word("and_breaks", verdict=verdict, breaks=one.breaks) if one.breaks else verdict
+    text = say("{name}: {text}", name=f"{one.found:.12g} {one.unit}", text=verdict)
+    yield Text(say("{name}: {text}", name=name, text=text), style="bold")
     yield from (f"  {words}" for words in one.notes)
     if one.verdict != "right":
-        yield "  " + say("is_right", language, right=f"{one.expected:.9f}", unit=one.unit)
-    yield from _diagnosis([*one.diagnosis, *one.possible], language)
+        yield "  " + word("is_right", right=f"{one.expected:.9f}", unit=one.unit)
+    yield from _diagnosis([*one.diagnosis, *one.possible])
     yield ""
 
 
-def _file(file: FileAnswer, language: Language) -> Iterator[show.Part]:
-    yield Text(say("colon", language).join([file.file, say(file.verdict.value, language)]), style="bold")
+def _file(file: FileAnswer) -> Iterator[show.Part]:
+    yield Text(say("{name}: {text}", name=file.file, text=word(file.verdict.value)), style="bold")
     yield from (f"  {one}" for one in file.notes)
     for sheet in file.sheets:
-        yield from _sheet(sheet, language)
-    yield from _diagnosis([*file.diagnosis, *file.possible], language)
+        yield from _sheet(sheet)
+    yield from _diagnosis([*file.diagnosis, *file.possible])
     marks = {True: "+", False: "-", None: " "}
     yield from (f"  [{marks[one.met]}] {one.words}" for one in file.rubric)
     yield ""
 
 
-def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
-    verdict = say(sheet.verdict.value, language)
+def _sheet(sheet: SheetAnswer) -> Iterator[show.Part]:
+    verdict = word(sheet.verdict.value)
     if sheet.decimals:
-        verdict += say("to_decimals", language, decimals=sheet.decimals)
-    title = sheet.sheet or say(SHEETS[TableKind(sheet.holds)], language)
+        verdict += word("to_decimals", decimals=sheet.decimals)
+    title = sheet.sheet or word(SHEETS[TableKind(sheet.holds)])
     counts = {"right": f"{sheet.right:,}", "cells": f"{sheet.cells:,}"}
-    yield "  " + say("sheet_line", language, title=title, verdict=verdict, **counts)
+    yield "  " + word("sheet_line", title=title, verdict=verdict, **counts)
     yield from (f"    {one}" for one in sheet.notes)
     for name, cell in (("worst", sheet.worst), ("first", sheet.first)):
         if cell and sheet.verdict in ("wrong", "rounded"):
             values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
-            values["quantity"] = say("quantity_speed", language) if cell.quantity == "speed" else cell.quantity
-            yield "    " + say(f"{name}_cell", language, cell=cell.cell, handle=cell.handle, **values)
+            values["quantity"] = word("quantity_speed") if cell.quantity == "speed" else cell.quantity
+            yield "    " + word(f"{name}_cell", cell=cell.cell, handle=cell.handle, **values)
     marks = set("".join(sheet.picture))
     # Marks that are all alike do not show where the errors are.
     if len(marks) > 1 and marks & {WRONG, MISSING}:
         yield from (f"    {line}" for line in sheet.picture)
 
 
-def _diagnosis(diagnosis: Sequence[DiagnosisAnswer], language: Language) -> Iterator[show.Part]:
+def _diagnosis(diagnosis: Sequence[DiagnosisAnswer]) -> Iterator[show.Part]:
     for one in diagnosis:
         yield f"  > {one.words}"
         yield f"    {one.evidence}"

@@ -18,10 +18,13 @@ import typer
 from rich.markup import escape
 
 import core
+from app.command.options import LANGUAGE
+from app.command.show import language_of_terminal
 from app.command.streams import output_fault
 from app.command.usage import Commands, Misuse, explain_values, message_of
 from core.errors import BenchDragonError
 from core.kernels import COMPILED
+from core.language import Language, speaking
 
 # Module of each command, in the order of the help. It is imported when its command is called, or the help lists it.
 MODULE_OF = {
@@ -79,6 +82,29 @@ def _errors_in_one_line() -> Iterator[None]:
     raise typer.Exit(2)
 
 
+def _speak(context: typer.Context, language: Language | None) -> None:
+    if language:
+        context.meta[LANGUAGE] = language
+        context.with_resource(speaking(language))
+
+
+def _language_option() -> Any:
+    """The option of each command that chooses the language of its words."""
+
+    def command(
+        language: Annotated[
+            Language | None,
+            typer.Option(is_eager=True, callback=_speak, help="Language of the words; default: that of the terminal."),
+        ] = None,
+    ) -> None: ...
+
+    app_of_one = typer.Typer(add_completion=False)
+    app_of_one.command()(command)
+    option = typer.main.get_command(app_of_one).params[0]
+    option.expose_value = False
+    return option
+
+
 HELP = {"help_option_names": ["-h", "--help"]}
 
 
@@ -105,6 +131,8 @@ class _Commands(Commands):
         command = typer.main.get_command(entry)
         command.name = cmd_name
         for one in (command, *getattr(command, "commands", {}).values()):
+            if not any(parameter.name == "language" for parameter in one.params):
+                one.params.append(_language_option())
             one.help = escape(one.help or "")  # A unit such as [m] must not be read as a style of rich.
             for parameter in one.params:
                 parameter.help = escape(parameter.help or "")
@@ -112,7 +140,7 @@ class _Commands(Commands):
         return command
 
     def invoke(self, ctx: Any) -> Any:
-        with _errors_in_one_line():
+        with speaking(language_of_terminal()), _errors_in_one_line():
             result = super().invoke(ctx)
             sys.stdout.flush()
             return result

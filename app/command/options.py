@@ -16,7 +16,6 @@ from pydantic import BaseModel
 
 from app.command.usage import path_argument
 from app.files.disk import display_name, object_words
-from app.files.tables import Language
 from app.maps.dances import read_dance
 from app.settings import Settings
 from app.wire.clocks import clock_at_zero
@@ -33,6 +32,8 @@ from core.errors import Given, Value
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
 Json = Annotated[bool, typer.Option("--json", help="Print the service's JSON instead of a table.")]
+# Key in the context of a command of the language that its option chose.
+LANGUAGE = "app.command.language"
 # Mark in the context of a command whose instants follow from start, stop and step.
 RANGED = "app.command.options.ranged"
 CONTEXT = inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotation=typer.Context)
@@ -42,11 +43,6 @@ def typed_options(context: typer.Context, *names: str) -> list[str]:
     """The named options that were given on the command line."""
     sources = {name: context.get_parameter_source(name) for name in names}
     return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
-
-
-def chosen_language(context: typer.Context) -> Language | None:
-    """The language that was given on the command line; None without it."""
-    return Language(context.params["language"]) if typed_options(context, "language") else None
 
 
 def unused(context: typer.Context, names: Iterable[str], why: str, **values: Value) -> None:
@@ -85,7 +81,8 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
     if instead and (strays := [name for name in Strays.model_fields if held.get(name) and name not in own]):
         print(f"{file}: ignored: {', '.join(strays)}, because {instead}.", file=sys.stderr)
     values = {name: value for name, value in held.items() if name in own or name not in CheckRequest.model_fields}
-    typed = {name: context.params[name] for name in typed_options(context, *own)}
+    given = {**context.params, "language": context.meta.get(LANGUAGE)}
+    typed = {name: given[name] for name in typed_options(context, *own)}
     # An option that may be given several times is a tuple there.
     values |= {name: list(value) if isinstance(value, tuple) else value for name, value in typed.items()}
     if isinstance(values.get("times"), str):
@@ -180,13 +177,14 @@ def asks(
                 annotation=Annotated[_without_limits(field.annotation), typer.Option(help=field.description)],
             )
             for name, field in model.model_fields.items()
+            if name != "language"  # an option of every command
         ]
         added = [_file(body), CONTEXT] if body else []
 
         def run(**values: Any) -> None:
             context = values["context"] if "context" in own else values.pop("context", None)
             file = values.pop("file", None) if body else None
-            flat = {name: values.pop(name) for name in model.model_fields}
+            flat = {name: values.pop(name) for name in model.model_fields if name != "language"}
             with _in_options(context):
                 request = of_file(file, body, context, instead) if body and file else checked(model, flat)
                 # A command with a FILE of its own names its fields itself.

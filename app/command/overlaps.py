@@ -19,6 +19,7 @@ from app.wire.messages import checked
 from app.wire.question import Terms
 from core import InvalidValue
 from core.errors import format_number
+from core.language import say
 
 
 @asks(InstantQuery)
@@ -41,7 +42,7 @@ def overlaps(
             why = "ask check or clearance about a dance"
             raise InvalidValue.in_words("file", words, reason=why, file=str(file))
         benches = checked(OverlapsRequest, values)
-    with show.waiting("overlaps", "重叠"):
+    with show.waiting(say("overlaps")):
         answer = together.overlaps(benches, Terms()) if file else together.of_dance(request, Terms())
     show.print_result(answer, json, _overlap_parts(answer, benches.margin if file else request.margin))
 

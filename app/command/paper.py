@@ -3,36 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated
 
-import typer
 from rich.text import Text
 
 from app.command import show
 from app.command.options import Json
-from app.files.tables import Language
-from app.grade.words import say
+from app.grade.words import word
 from app.questions import paper as papers
 from app.questions.paper import PaperTable
 from app.wire.question import Terms
+from core.language import say
 
 
 def paper(
-    language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
     json: Json = False,
 ) -> None:
     """The paper's numbers beside those of this program, with the reason for each difference."""
-    words = language or Language.ENGLISH
-    with show.waiting("recomputing the paper", "重新计算论文的数值", language):
-        answer = papers.paper(papers.PaperQuery(language=words), Terms())
-    show.print_result(answer, json, _parts(answer, words))
+    with show.waiting(say("recomputing the paper")):
+        answer = papers.paper(papers.PaperQuery(), Terms())
+    show.print_result(answer, json, _parts(answer))
 
 
-def _parts(answer: PaperTable, language: Language) -> Iterator[show.Part]:
+def _parts(answer: PaperTable) -> Iterator[show.Part]:
     """The numbers side by side, then each reason with its evidence; then the numbers of other publications."""
 
     def words(code: str) -> str:
-        return say(f"paper_{code}", language)
+        return word(f"paper_{code}")
 
     table = show.new_table(words("title"), *map(words, ("quantity", "paper", "ours", "difference")))
     for one in answer.rows:

@@ -10,12 +10,11 @@ from rich.table import Table
 
 from app.cards.crew import lack_words
 from app.command import show
-from app.command.options import Json, asks, chosen_language, numbers, of_file
+from app.command.options import Json, asks, numbers, of_file
 from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words
-from app.files.tables import CSV_TYPE, Language
-from app.files.words import Say
+from app.files.tables import CSV_TYPE
 from app.maps.dances import read_dance
 from app.questions.crew import QUESTION as CREW
 from app.questions.crew import Crew, CrewFields, CrewRequest, PointBody, Roll
@@ -27,6 +26,7 @@ from app.wire.question import JSON, Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
 from core.errors import Given
+from core.language import say
 
 # Form of a file by its ending.
 FORMS = {".pdf": PDF_TYPE, ".csv": CSV_TYPE, ".json": JSON}
@@ -50,7 +50,6 @@ def cues(
     step_length: Annotated[float | None, typer.Option(help="Length of a step [m]; default: 0.75")] = None,
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
     title: Annotated[str | None, typer.Option(help="Title of the dance on every card")] = None,
-    language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
 ) -> None:
     """A card for each bench: where to stand, when to walk, whom it meets and how near, where it is fastest."""
     ending = checked_output("output", output, tuple(FORMS))
@@ -58,11 +57,11 @@ def cues(
         require("figures", "output", "A card on paper")
     changes = {
         "part": part, "first_bench": first_bench, "last_bench": last_bench, "cards": bench or None, "reach": reach,
-        "step_length": step_length, "spacing": spacing, "title": title, "language": language,
+        "step_length": step_length, "spacing": spacing, "title": title,
     }  # fmt: skip
     values = read_dance(file, several=True) | {name: value for name, value in changes.items() if value is not None}
     request = checked(CuesRequest, values, object_words(file))
-    with refusing(request), show.waiting("cues", "提示卡", language) as progress:
+    with refusing(request), show.waiting(say("cues")) as progress:
         data = CUES.to_bytes(request, Terms(progress=progress), FORMS[ending])
     show.write(output, data)
 
@@ -85,7 +84,7 @@ def crew(
     request = of_file(file, CrewRequest, context)
     if point:
         request = request.model_copy(update={"points": [_point(text) for text in point]})
-    with refusing(request), show.waiting("crew", "换班", chosen_language(context)) as progress:
+    with refusing(request), show.waiting(say("crew")) as progress:
         terms = Terms(progress=progress)
         data = CREW.to_bytes(request, terms, FORMS[ending] if output else JSON)
     if output:
@@ -93,7 +92,7 @@ def crew(
     elif json:
         show.print_json(data)
     else:
-        _print_crew(Crew.model_validate_json(data), Say(chosen_language(context) or Language.ENGLISH))
+        _print_crew(Crew.model_validate_json(data))
 
 
 def _point(text: str) -> PointBody:
@@ -104,29 +103,29 @@ def _point(text: str) -> PointBody:
     return checked(PointBody, dict(zip("xy", entries, strict=True)))
 
 
-def _print_crew(answer: Crew, say: Say) -> None:
+def _print_crew(answer: Crew) -> None:
     title = say(
-        f"{answer.people} people, {answer.spares} of them spares; {answer.changes} changes",
-        f"{answer.people} 人，其中 {answer.spares} 人替补；换班 {answer.changes} 次",
+        "{answer.people} people, {answer.spares} of them spares; {answer.changes} changes",
+        answer=answer,
     )
-    heads = say("person", "人员"), say("benches", "板凳"), say("time [s]", "时间 [s]"), say("way [m]", "路程 [m]")
-    table = show.new_table(title, *heads, say("longest [s]", "最长一班 [s]"))
+    heads = say("person"), say("benches"), say("time [s]"), say("way [m]")
+    table = show.new_table(title, *heads, say("longest [s]"))
     for one in answer.carriers:
-        benches = ", ".join(dict.fromkeys(str(spell.bench) for spell in one.spells)) or say("none", "无")
+        benches = ", ".join(dict.fromkeys(str(spell.bench) for spell in one.spells)) or say("none")
         table.add_row(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
-    words = lack_words(answer.enough, len(answer.unrelieved), say)
+    words = lack_words(answer.enough, len(answer.unrelieved))
     # Before the table, which may have hundreds of rows.
-    few = [say(f"{'; '.join(words).capitalize()}.", f"{'；'.join(words)}。")] if answer.spares < answer.enough else []
-    show.print_parts(*few, table, *([_roll_table(answer.at, say)] if answer.at else []))
+    few = [say("{words}.", words=say("; ").join(words).capitalize())] if answer.spares < answer.enough else []
+    show.print_parts(*few, table, *([_roll_table(answer.at)] if answer.at else []))
 
 
-def _roll_table(roll: Roll, say: Say) -> Table:
+def _roll_table(roll: Roll) -> Table:
     time = roll.clock or f"{roll.time:g} s"
-    heads = say("bench", "板凳"), say("people", "人员"), "x [m]", "y [m]", say("mark [m]", "标记 [m]")
-    table = show.new_table(say(f"Who is where at {time}", f"{time} 时各人的位置"), *heads)
+    heads = say("bench"), say("people"), "x [m]", "y [m]", say("mark [m]")
+    table = show.new_table(say("Who is where at {time}", time=time), *heads)
     for one in roll.benches:
         name = f"{one.bench} {one.name}".rstrip()
         table.add_row(name, " ".join(one.people), f"{one.x:.2f}", f"{one.y:.2f}", f"{one.mark:g}")
     if roll.resting:
-        table.add_row(say("rest", "休息"), " ".join(roll.resting), "", "", "")
+        table.add_row(say("rest"), " ".join(roll.resting), "", "", "")
     return table

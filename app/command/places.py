@@ -14,8 +14,6 @@ from app.command.options import Json, numbers
 from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words
-from app.files.tables import Language
-from app.files.words import Say
 from app.maps.choice import PARTLY, Choice
 from app.maps.dances import read_dance
 from app.maps.layout import DanceParts
@@ -29,13 +27,15 @@ from app.wire.messages import checked
 from app.wire.question import Coordinates, Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
-from core.display import format_count
 from core.errors import Given
+from core.language import counted, phrase, say
 
 # Advice for a drawing with more than a venue may have.
 PARTLY_BY_OPTIONS = "read only some of its layers with --layers, or an area of it with --area"
-# Kinds of paths in Chinese.
-PATHS = {"spiral": "螺线", "turn": "调头曲线", "route": "路线", "waypoints": "折线"}
+# Kinds of paths.
+PATHS = {
+    "spiral": phrase("spiral"), "turn": phrase("turn"), "route": phrase("route"), "waypoints": phrase("waypoints"),
+}  # fmt: skip
 
 
 def places(
@@ -70,7 +70,6 @@ def places(
     only_layers: Annotated[
         bool, typer.Option("--only-layers", help="Name the layers of a DXF or GeoJSON, and their edges.")
     ] = False,
-    language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
     json: Json = False,
 ) -> None:
     """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ, GPX or DXF (extra dxf)."""
@@ -79,12 +78,11 @@ def places(
     if output:
         checked_output("output", output, (".json",))
     coordinates: dict[str | None, Coordinates | None] = {None: None, "metres": "metres", "degrees": "degrees"}
-    words = language or Language.ENGLISH
     if only_layers:
-        _print_layers(file, json, Say(words))
+        _print_layers(file, json)
         return
     try:
-        parts = read_map(file, coordinates[units], words, longest_chord, Choice.of(layers, area))
+        parts = read_map(file, coordinates[units], longest_chord, Choice.of(layers, area))
     except InvalidValue as error:
         raise error.because(PARTLY_BY_OPTIONS) if error.reason == PARTLY else error from None
     answer = Places.of(parts)
@@ -97,35 +95,35 @@ def places(
         return
     for note in parts.notes:
         print(note, file=sys.stderr)
-    _print(parts, Say(words))
+    _print(parts)
 
 
-def _print_layers(file: Path, json: bool, say: Say) -> None:
+def _print_layers(file: Path, json: bool) -> None:
     layers = drawn_layers(map_data(file))
     if json:
         show.print_json(Places(path=None, venue=None, dance=None, passages=None, notes=[], layers=layers).to_json())
         return
-    table = show.new_table(say("Layers", "图层"), say("layer", "图层"), say("edges", "边数"))
+    table = show.new_table(say("Layers"), say("layer"), say("edges"))
     for layer in layers:
         table.add_row(layer.name, str(layer.edges))
     show.print_parts(table)
 
 
-def _print(parts: DanceParts, say: Say) -> None:
-    heads = say("name", "名称"), say("what", "内容"), "x [m]", "y [m]"
-    table = show.new_table(say("What the map holds", "地图内容"), *heads)
+def _print(parts: DanceParts) -> None:
+    heads = say("name"), say("what"), "x [m]", "y [m]"
+    table = show.new_table(say("What the map holds"), *heads)
     for area in parts.venue.areas if parts.venue else ():
         is_square = parts.venue is not None and area is parts.venue.square
-        what = say("square", "广场") if is_square else say("obstacle", "障碍物")
+        what = say("square") if is_square else say("obstacle")
         x, y = zip(*area.rings[0], strict=True)
-        spans = (say("{} to {}", "{} 至 {}").format(f"{min(side):.3f}", f"{max(side):.3f}") for side in (x, y))
+        spans = (say("{low:.3f} to {high:.3f}", low=min(side), high=max(side)) for side in (x, y))
         table.add_row(area.name, what, *spans)
     if parts.path is not None:
         kind = str(parts.path.get("kind", "spiral"))
         points = parts.path.get("points")
-        kind = {name: say(name, words) for name, words in PATHS.items()}.get(kind, kind)
-        count = say(format_count(len(points), "point"), f"{len(points)} 点") if points else ""
-        table.add_row(say("path", "路径"), say(", ", "，").join(filter(None, (kind, count))), "", "")
+        kind = say(PATHS[kind]) if kind in PATHS else kind
+        count = counted(len(points), "{count} point", "{count} points") if points else ""
+        table.add_row(say("path"), say(", ").join(filter(None, (kind, count))), "", "")
     show.print_parts(table)
 
 
@@ -153,7 +151,7 @@ def maps(
     if longitude is not None and latitude is not None:
         values["origin"] = checked(OriginFields, {"longitude": longitude, "latitude": latitude}).model_dump()
     request = checked(MapsRequest, values, object_words(file))
-    with refusing(request), show.waiting("map", "地图"):
+    with refusing(request), show.waiting(say("map")):
         data = maps_of(request, Terms(), MapFormat(ending[1:]).media_type)
     show.write(output, data)
     if ending == ".geojson" and "origin" not in orjson.loads(data):
@@ -185,16 +183,15 @@ def plan(
     clear: Annotated[
         float | None, typer.Option(help="Width of the zone to keep clear [m]; default: the margin, or 0.5 m")
     ] = None,
-    language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
 ) -> None:
     """A PDF to print, true to scale: map, place of each person, points to paint, times (extra figures)."""
     checked_output("output", output, (".pdf",))
     require("figures", "output", "A plan")
-    changes = {"paper": paper, "title": title, "spacing": spacing, "clear": clear, "language": language}
+    changes = {"paper": paper, "title": title, "spacing": spacing, "clear": clear}
     values = read_dance(file, several=True) | {name: value for name, value in changes.items() if value is not None}
     if gate:
         values["gates"] = [_gate(text) for text in gate]
     request = checked(PlanRequest, values, object_words(file))
-    with refusing(request), show.waiting("plan", "平面图", language) as progress:
+    with refusing(request), show.waiting(say("plan")) as progress:
         data = plan_of(request, Terms(progress=progress))
     show.write(output, data)

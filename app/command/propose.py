@@ -21,6 +21,7 @@ from app.questions.proposals import Proposals, ProposalsRequest, answer_of, prop
 from app.wire.messages import checked
 from app.wire.question import Terms
 from app.wire.refusals import refusing
+from core.language import say
 
 
 def propose(
@@ -42,7 +43,7 @@ def propose(
     # A file for check may be asked about too: its path is what is looked for.
     wishes = {name: value for name, value in held.items() if name not in ("path", "head_speed", "start", "stop")}
     request = checked(ProposalsRequest, wishes, object_words(file))
-    with refusing(request), show.waiting("propose", "设计舞龙") as progress:
+    with refusing(request), show.waiting(say("propose")) as progress:
         result, place = proposed(request, Terms(progress=progress))
     answer = answer_of(request, result, place)
     if output:

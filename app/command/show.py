@@ -19,12 +19,11 @@ from rich.table import Table
 from rich.text import Text
 
 from app.files.disk import write_whole
-from app.files.tables import Language
-from app.files.words import Say
 from app.wire import answers
 from app.wire.question import Answer, unit_of
 from core.display import format_count
 from core.errors import format_number
+from core.language import Language
 
 # Decimals of lengths and speeds on a terminal.
 DISPLAY_DECIMALS = 6
@@ -51,20 +50,20 @@ LOCALE = ("LC_ALL", "LC_MESSAGES", "LANG")
 Part = Table | Text | str
 
 
-def spoken(language: Language | None) -> Say:
-    """The phrases of a language that was chosen; without a choice, those of the locale of the terminal."""
+def language_of_terminal() -> Language:
+    """The language of the locale, if there are sentences in it; else English."""
     known = (os.environ.get(name) for name in LOCALE)
     locale = next(filter(None, known), "")
-    return Say(language or (Language.CHINESE if locale.lower().startswith("zh") else Language.ENGLISH))
+    code = locale.lower().partition("_")[0]
+    return Language(code) if code in list(Language) else Language.ENGLISH
 
 
 @contextmanager
-def waiting(english: str, chinese: str, language: Language | None = None) -> Iterator[Callable[[float], None]]:
+def waiting(what: str) -> Iterator[Callable[[float], None]]:
     """A progress bar on standard error after BAR_DELAY; yields a function that takes the share done.
 
-    english, chinese: what is waited for; language: None for that of the terminal
+    what: what is waited for
     """
-    what = spoken(language)(english, chinese)
     if not sys.stderr.isatty():
         yield lambda share: None
         return

@@ -15,6 +15,7 @@ from app.questions.tolerance import ToleranceQuery, ToleranceRequest
 from app.questions.tolerance_curve import ToleranceCurveQuery, ToleranceCurveRequest
 from app.wire.question import Terms
 from core.errors import format_number
+from core.language import say
 
 # Why a question that looks for the largest stray ignores strays in a FILE: the end of a note to the user.
 FILE_STRAYS_IGNORED = "the answer is the largest stray, by people and by the play of pins together"
@@ -26,7 +27,7 @@ def tolerance(request: ToleranceQuery | ToleranceRequest, json: Json = False) ->
 
     Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.
     """
-    with show.waiting("tolerance", "容许偏移"):
+    with show.waiting(say("tolerance")):
         answer = tolerances.tolerance(request, Terms())
     show.print_answer("Tolerance to strays", answer, json)
 
@@ -34,7 +35,7 @@ def tolerance(request: ToleranceQuery | ToleranceRequest, json: Json = False) ->
 @asks(ToleranceCurveQuery, ToleranceCurveRequest, FILE_STRAYS_IGNORED)
 def tolerance_curve(request: ToleranceCurveQuery | ToleranceCurveRequest, json: Json = False) -> None:
     """Tolerance against the pitch: largest proven stray, and stray that is shown to touch."""
-    with show.waiting("tolerance curve", "容许偏移曲线") as progress:
+    with show.waiting(say("tolerance curve")) as progress:
         answer = curves.tolerance_curve(request, Terms(progress=progress))
     show.print_result(answer, json, _curve_parts(answer.columns))
 
@@ -45,7 +46,7 @@ def contact_probability(request: ContactProbabilityQuery | ContactProbabilityReq
 
     Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.
     """
-    with show.waiting("drawing dances at random", "随机抽取走位") as progress:
+    with show.waiting(say("drawing dances at random")) as progress:
         answer = chances.contact_probability(request, Terms(progress=progress))
     show.print_answer("Probability of a contact when people wobble", answer, json)
 

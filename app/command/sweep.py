@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bar
 
-from app.command.show import spoken, write
+from app.command.show import write
 from app.command.usage import Commands, path, path_argument
 from app.extras import require
 from app.files.disk import checked_output
@@ -40,11 +40,10 @@ def _bar(what: str, total: int) -> Iterator[Callable[[Progress], None]]:
     if not sys.stderr.isatty():
         yield lambda progress: None
         return
-    say = spoken(None)
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[rate]}"))
     with Bar(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(what, total=total, rate="")
-        yield lambda progress: bar.update(task, completed=progress.designs, rate=progress.words(say))
+        yield lambda progress: bar.update(task, completed=progress.designs, rate=progress.words())
 
 
 @sweep.command()

@@ -14,7 +14,7 @@ from pydantic import Field
 
 import core
 from app.command import show
-from app.command.options import Json, asks, chosen_language, numbers, typed_options, unused
+from app.command.options import Json, asks, numbers, typed_options
 from app.command.paths import PathOptions, dance_of
 from app.files import tables
 from app.files.disk import checked_output, write_whole
@@ -27,6 +27,7 @@ from app.wire.messages import checked
 from app.wire.question import measure
 from core import Dragon, InvalidValue, RunEnd, Trajectory
 from core.display import format_count
+from core.language import say
 
 # Largest number of instants that a terminal shows, if that many fit.
 PRINTED_INSTANTS = 7
@@ -58,9 +59,6 @@ def trajectory(
     request: TrajectoryOptions | TrajectoryRequest,
     context: typer.Context,
     output: Annotated[Path | None, typer.Option(help="Write a .csv, .xlsx, .arrow or .json file.")] = None,
-    language: Annotated[
-        tables.Language, typer.Option(help="Language of the names in an xlsx file.")
-    ] = tables.Language.ENGLISH,
     json: Json = False,
 ) -> None:
     """Position and speed of every handle; of a FILE of several dragons, of each."""
@@ -71,15 +69,13 @@ def trajectory(
     if output and json:
         words = "--json prints the answer and --output writes it to a file: give one of the two"
         raise InvalidValue.in_words("json", words)
-    if ending != ".xlsx":
-        unused(context, ["language"], "applies to the names in an xlsx file: give --output with .xlsx, or leave it out")
     settings = Settings()
     if isinstance(request, TrajectoryRequest) and request.dances is not None:
-        _of_several(request, context, output, ending, language)
+        _of_several(request, context, output, ending)
         return
     dance = dance_of(request, context, settings.benches_max)
     clock = clock_of(request, dance) if isinstance(request, TrajectoryRequest) else None
-    write = trajectory_writer(ending, request.decimals, language, clock) if ending else None
+    write = trajectory_writer(ending, request.decimals, clock) if ending else None
     handles, times = _handles(context.params["handles"], dance.dragon), request.times
     if typed_options(context, "times") and (ranged := typed_options(context, "start", "stop", "step")):
         raise InvalidValue.in_words("times", "--times replaces --{option}: give one of the two", option=ranged[0])
@@ -87,17 +83,16 @@ def trajectory(
         request = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": request.decimals})
     instants = request.times_of(dance, settings.cells_max)
     if dance.path.spiral is not None and instants.size and instants.min() < 0.0:
-        warning = show.spoken(chosen_language(context))(
+        warning = say(
             "Warning: the dance begins at 0 s, and before it the head is on the outward extension of the same spiral; "
-            "for the contest's turn give --path turn",
-            "注意：舞龙从 0 s 开始，此前龙头位于同一螺线向外的延长线上；竞赛的调头请用 --path turn",
+            "for the contest's turn give --path turn"
         )
         print(warning, file=sys.stderr)
-    with show.waiting("trajectory", "轨迹", chosen_language(context)):
+    with show.waiting(say("trajectory")):
         result = core.trajectory(dance, instants)
         data = write(result) if write else b""
     if ending:
-        _write(data, output, handles_of(dance), instants.size, chosen_language(context))
+        _write(data, output, handles_of(dance), instants.size)
     else:
         fold, all_instants = dance.end if dance.end.bench is not None else None, isinstance(times, (str, list))
         look = _Look("", all_instants, request.decimals, fold)
@@ -109,7 +104,6 @@ def _of_several(
     context: typer.Context,
     output: Path | None,
     ending: str | None,
-    language: tables.Language,
 ) -> None:
     """Print or write where the handles of several dragons are."""
     settings = Settings()
@@ -117,13 +111,13 @@ def _of_several(
     instants = request.times_of(performance, settings.cells_max)
     dragons = [part.dance.dragon for part in performance.parts]
     handles = _handles(context.params["handles"], min(dragons, key=lambda dragon: dragon.benches))
-    with show.waiting("trajectory", "轨迹", chosen_language(context)):
+    with show.waiting(say("trajectory")):
         results = core.performance_trajectory(performance, instants)
         clock = clock_of(request, performance)
-        table = PerformanceTable(performance, results, request.decimals, clock, language)
+        table = PerformanceTable(performance, results, request.decimals, clock)
         data = performance_file(ending, table) if ending else b""
     if ending:
-        _write(data, output, handles_of(performance), instants.size, chosen_language(context))
+        _write(data, output, handles_of(performance), instants.size)
         return
     all_instants = isinstance(request.times, list)
     for k, (part, result) in enumerate(zip(performance.parts, results, strict=True)):
@@ -134,14 +128,14 @@ def _of_several(
         show.print_parts(*_parts(result, handles, names, look))
 
 
-def _write(data: bytes, output: Path | None, handles: int, instants: int, language: tables.Language | None) -> None:
+def _write(data: bytes, output: Path | None, handles: int, instants: int) -> None:
     """Write a file, or print it."""
     if output is None:
         show.print_json(data)
         return
     write_whole(output, data)
-    words = f": {handles} handles at {instants} instants", f"：{handles} 个把手，{instants} 个时刻"
-    print(f"{output}{show.spoken(language)(*words)}", file=sys.stderr)
+    words = say("{file}: {handles} handles at {instants} instants", file=output, handles=handles, instants=instants)
+    print(words, file=sys.stderr)
 
 
 def _handles(text: str | None, dragon: Dragon) -> list[int] | None:

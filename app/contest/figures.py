@@ -21,9 +21,9 @@ from app.contest.solved import Solved
 from app.files.drawing import canvas, file_bytes, in_turn
 from app.files.fonts import families
 from app.files.tables import handle_titles
-from app.files.words import Say
 from core import Dance, bench_outlines
 from core.design.pitch_scan import JUMP_WIDTH, scan_near_minimum
+from core.language import say
 from core.plots import BLUE, GREY, PALE, VERMILION, draw_dance
 
 FORMATS = ("pdf", "svg", "png")
@@ -52,20 +52,20 @@ class Drawn:
     files: dict[str, bytes]
 
 
-def figures(solved: Solved, say: Say, progress: Callable[[float], None]) -> Iterator[Drawn]:
+def figures(solved: Solved, progress: Callable[[float], None]) -> Iterator[Drawn]:
     """Every figure, one after another. raises: MissingPackage without a font for the language"""
-    family = families(say.language)
+    family = families()
     of_turn = (geometry, amplification) if solved.turned else ()
     kinds = (positions, snapshots, clearance, staircase, *of_turn, sensitivity)
     for k, draw in enumerate(kinds, start=1):
-        drawn = in_turn(partial(_drawn, draw, solved, say, family), solved.budget)
+        drawn = in_turn(partial(_drawn, draw, solved, family), solved.budget)
         progress(k / len(kinds))
         yield drawn
 
 
-def _drawn(draw: Callable[[Solved, Say], tuple[Figure, str]], solved: Solved, say: Say, family: Sequence[str]) -> Drawn:
+def _drawn(draw: Callable[[Solved], tuple[Figure, str]], solved: Solved, family: Sequence[str]) -> Drawn:
     with matplotlib.rc_context({"font.family": family}):
-        figure, caption = draw(solved, say)
+        figure, caption = draw(solved)
         # The layout is the same for all three files, and takes as long as writing one. With the engine "none", a
         # placeholder, savefig would still draw twice.
         figure.draw_without_rendering()
@@ -73,7 +73,7 @@ def _drawn(draw: Callable[[Solved, Say], tuple[Figure, str]], solved: Solved, sa
         return Drawn(draw.__name__, caption, {kind: file_bytes(figure, kind, PNG_DPI) for kind in FORMATS})
 
 
-def positions(solved: Solved, say: Say) -> tuple[Figure, str]:
+def positions(solved: Solved) -> tuple[Figure, str]:
     """Question 1: place of every handle at the last second, and the speeds of some handles over time."""
     figure, stop = canvas(11.5, 4.8), float(solved.inwards.time[-1])
     places, rates = figure.subplots(1, 2, width_ratios=(1.15, 1.0))
@@ -81,27 +81,27 @@ def positions(solved: Solved, say: Say) -> tuple[Figure, str]:
     handles = solved.inwards.position[-1]
     draw_dance(places, solved.spiral.path, handles, bench_outlines(solved.dragon, handles), linewidth=0.3)
     dots = places.scatter(*handles.T, c=solved.inwards.speed[-1], s=11, cmap="cividis", zorder=3, linewidths=0)
-    bar = figure.colorbar(dots, ax=places, label=say("speed of the handle [m/s]", "把手速度 [m/s]"), shrink=0.85)
+    bar = figure.colorbar(dots, ax=places, label=say("speed of the handle [m/s]"), shrink=0.85)
     bar.ax.ticklabel_format(useOffset=False)
     ring: dict[str, Any] = {"markersize": 9, "markerfacecolor": "none", "markeredgecolor": VERMILION}
-    places.plot(*handles[0], "o", label=say("head", "龙头"), **ring)
+    places.plot(*handles[0], "o", label=say("head"), **ring)
     places.legend(loc="upper right", fontsize=8)
-    places.set_title(say(f"Handles at {stop:g} s", f"{stop:g} s 时的把手位置"), fontsize=10)
-    names = handle_titles(solved.dragon.benches, say.language)
+    places.set_title(say("Handles at {stop:g} s", stop=stop), fontsize=10)
+    names = handle_titles(solved.dragon.benches)
     for k, colour in zip(solved.handles, COLOURS, strict=False):
         rates.plot(solved.inwards.time, solved.inwards.speed[:, k], color=colour, linewidth=1.3, label=names[k])
-    rates.set(xlabel=say("time [s]", "时间 [s]"), ylabel=say("speed [m/s]", "速度 [m/s]"))
+    rates.set(xlabel=say("time [s]"), ylabel=say("speed [m/s]"))
     rates.ticklabel_format(useOffset=False)
     rates.legend(fontsize=8, loc="lower left")
-    rates.set_title(say("Speeds of the handles that the paper shows", "论文所列把手的速度"), fontsize=10)
+    rates.set_title(say("Speeds of the handles that the paper shows"), fontsize=10)
     caption = say(
-        f"Positions of all handles at {stop:g} s, coloured by speed (left), and speeds over time (right).",
-        f"{stop:g} s 时全部把手的位置，颜色表示速度（左）；速度随时间的变化（右）。",
+        "Positions of all handles at {stop:g} s, coloured by speed (left), and speeds over time (right).",
+        stop=stop,
     )
     return figure, caption
 
 
-def snapshots(solved: Solved, say: Say) -> tuple[Figure, str]:
+def snapshots(solved: Solved) -> tuple[Figure, str]:
     """Questions 1 and 2: the dance at its start, half way, at the last second and at first contact."""
     stop = float(solved.inwards.time[-1])
     times = [0.0, 0.5 * stop, stop, solved.met_at]
@@ -113,19 +113,19 @@ def snapshots(solved: Solved, say: Say) -> tuple[Figure, str]:
     for axes, time, handles in zip(figure.subplots(2, 2).flat, times, motion.position, strict=True):
         outlines = bench_outlines(solved.dragon, handles)
         draw_dance(axes, solved.spiral.path, handles, outlines, linewidth=0.4)
-        axes.fill(*outlines[0].T, color=VERMILION, zorder=4, label=say("head", "龙头"))
+        axes.fill(*outlines[0].T, color=VERMILION, zorder=4, label=say("head"))
         title = f"{time:g} s"
         if time == solved.met_at and pair:
             for k in filter(None, pair):  # Bench 0 is the head.
-                axes.fill(*outlines[k].T, color=BLUE, zorder=4, label=say(f"bench {k}", f"{k} 号板凳"))
-            title = say(f"First contact, {time:.6f} s", f"首次碰撞，{time:.6f} s")
+                axes.fill(*outlines[k].T, color=BLUE, zorder=4, label=say("bench {k}", k=k))
+            title = say("First contact, {time:.6f} s", time=time)
         axes.set(xlim=view, ylim=view)
         axes.set_title(title, fontsize=10)
         axes.legend(loc="upper right", fontsize=8)
-    return figure, say("Every bench at four instants.", "四个时刻的全部板凳。")
+    return figure, say("Every bench at four instants.")
 
 
-def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
+def clearance(solved: Solved) -> tuple[Figure, str]:
     """Question 2: the smallest distance between two benches over time, with its local minima."""
     figure = canvas(8.0, 4.6)
     axes = figure.subplots()
@@ -134,29 +134,28 @@ def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
     time = np.concatenate([profile.time, [t for t, _ in grazes]])
     gap = np.concatenate([1e3 * profile.clearance, [g for _, g in grazes]])
     order = np.argsort(time)
-    axes.plot(time[order], gap[order], color=BLUE, linewidth=1.2, label=say("clearance", "最小间距"))
+    axes.plot(time[order], gap[order], color=BLUE, linewidth=1.2, label=say("smallest clearance"))
     if grazes:
-        label = say("graze (local minimum)", "擦身而过（局部极小）")
+        label = say("graze (local minimum)")
         axes.plot(*np.transpose(grazes), "o", color=VERMILION, markersize=4, label=label)
-    axes.axhline(0.0, color="black", linewidth=0.8, linestyle="dashed", label=say("touch", "相碰"))
-    axes.set_xlabel(say("time [s]", "时间 [s]"))
-    axes.set_ylabel(say("clearance of the nearest pair [mm]", "最近两节板凳的间距 [mm]"))
+    axes.axhline(0.0, color="black", linewidth=0.8, linestyle="dashed", label=say("touch"))
+    axes.set_xlabel(say("time [s]"))
+    axes.set_ylabel(say("clearance of the nearest pair [mm]"))
     axes.legend(fontsize=8)
-    met = solved.contact.time is not None
-    until = ("first contact", "首次碰撞") if met else ("the end of the run", "运动结束")
+    until = say("first contact") if solved.contact.time is not None else say("the end of the run")
     caption = say(
-        f"Clearance over time up to {until[0]}, with its grazes; some are only fractions of a millimetre deep.",
-        f"{until[1]}之前的最小间距及其各次极小值：有的只低零点几毫米。",
+        "Clearance over time up to {until}, with its grazes; some are only fractions of a millimetre deep.", until=until
     )
     if near := solved.contact.certificate.least_clearance:
         caption += say(
-            f" The closest graze before it leaves {1e3 * near.clearance:.3f} mm at {near.time:.3f} s.",
-            f" 此前最险的一次擦身而过在 {near.time:.3f} s，间距仅 {1e3 * near.clearance:.3f} mm。",
+            " The closest graze before it leaves {gap:.3f} mm at {near.time:.3f} s.",
+            gap=1000.0 * near.clearance,
+            near=near,
         )
     return figure, caption
 
 
-def staircase(solved: Solved, say: Say) -> tuple[Figure, str]:
+def staircase(solved: Solved) -> tuple[Figure, str]:
     """Question 3: radius of the head at first contact, against the pitch."""
     figure, radius, least = canvas(8.0, 4.8), solved.request.turning_diameter / 2, solved.pitch.pitch
     scan, _ = scan_near_minimum(
@@ -168,44 +167,44 @@ def staircase(solved: Solved, say: Say) -> tuple[Figure, str]:
         budget=solved.budget,
     )
     axes = figure.subplots()
-    _stairs(axes, scan, radius, least, say)
-    axes.set_xlabel(say("pitch [m]", "螺距 [m]"))
-    axes.set_ylabel(say("radius of the head at first contact [m]", "首次碰撞时龙头的半径 [m]"))
+    _stairs(axes, scan, radius, least)
+    axes.set_xlabel(say("pitch [m]"))
+    axes.set_ylabel(say("radius of the head at first contact [m]"))
     axes.set_ylim(0.0, 1.25 * float(scan.radius.max(initial=radius)))
     axes.legend(loc="lower left", fontsize=8)
     near = axes.inset_axes((0.56, 0.60, 0.41, 0.36))
-    _stairs(near, scan, radius, least, say)
+    _stairs(near, scan, radius, least)
     near.set(xlim=(0.995 * least, 1.005 * least), ylim=(0.94 * radius, 1.05 * radius))
     near.tick_params(labelsize=7)
     axes.indicate_inset_zoom(near, edgecolor="black", linewidth=0.7)
     over = solved.pitch.limited_by.value == "graze"
-    jump = say(", and jumps over the circle at the minimum pitch", "，在最小螺距处跳过调头圆") if over else ""
-    falls = say("The head's radius at first contact falls in jumps", "首次碰撞时龙头的半径随螺距增大而跳跃式下降")
-    return figure, falls + say(f" as the pitch grows{jump}.", f"{jump}。")
+    jump = say(", and jumps over the circle at the minimum pitch") if over else ""
+    falls = say("The head's radius at first contact falls in jumps")
+    return figure, falls + say(" as the pitch grows{jump}.", jump=jump)
 
 
-def _stairs(axes: Axes, scan: core.PitchScan, radius: float, least: float, say: Say) -> None:
+def _stairs(axes: Axes, scan: core.PitchScan, radius: float, least: float) -> None:
     for k, (a, b) in enumerate(scan.pieces):
-        label = say("first contact", "首次碰撞") if k == 0 else None
+        label = say("first contact") if k == 0 else None
         axes.plot(scan.pitch[a:b], scan.radius[a:b], color=BLUE, linewidth=1.6, label=label)
     for a, _ in scan.pieces[1:]:
         if scan.pitch[a] - scan.pitch[a - 1] <= JUMP_WIDTH:
             fall = slice(a - 1, a + 1)
             axes.plot(scan.pitch[fall], scan.radius[fall], color=GREY, linewidth=0.8, linestyle="dotted")
-    label = say(f"turning circle, {radius:g} m", f"调头圆，{radius:g} m")
+    label = say("turning circle, {radius:g} m", radius=radius)
     axes.axhline(radius, color="black", linewidth=0.9, linestyle="dashed", label=label)
-    label = say(f"minimum pitch, {least:.9f} m", f"最小螺距，{least:.9f} m")
+    label = say("minimum pitch, {least:.9f} m", least=least)
     axes.axvline(least, color=VERMILION, linewidth=1.1, linestyle="dashdot", label=label)
 
 
-def geometry(solved: Solved, say: Say) -> tuple[Figure, str]:
+def geometry(solved: Solved) -> tuple[Figure, str]:
     """Question 4: the two arcs between the coils, with their centres and radii."""
     assert solved.turned
     turn, figure = solved.turned.path, canvas(7.0, 6.6)
     axes, radius = figure.subplots(), turn.turning_radius
     axes.set_aspect("equal")
     axes.set(xlabel="x [m]", ylabel="y [m]")
-    for s0, s1, colour, label in _stretches(turn, say):
+    for s0, s1, colour, label in _stretches(turn):
         axes.plot(*turn.position(np.linspace(s0, s1, CURVE)).T, color=colour, linewidth=2.0, label=label)
     axes.add_patch(Circle((0.0, 0.0), radius, fill=False, linestyle="dashed", color=GREY, linewidth=1.0))
     for k, (centre, size) in enumerate(zip(turn.centres, turn.radii, strict=True), start=1):
@@ -214,31 +213,32 @@ def geometry(solved: Solved, say: Say) -> tuple[Figure, str]:
         axes.plot(*np.transpose([centre, end]), color=GREY, linewidth=0.9, linestyle="dotted")
         axes.plot(*centre, "k+", markersize=9)
         axes.annotate(f"$C_{k}$, {size:.4f} m", centre, (8, -12), fontsize=9, **BESIDE)
-    names = say("entry", "入点"), say("joint", "切点"), say("exit", "出点")
+    names = say("entry"), say("joint"), say("exit")
     for point, name in zip((turn.entry, turn.tangent_point, turn.exit), names, strict=True):
         axes.plot(*point, "ko", markersize=5, zorder=6)
         axes.annotate(name, point, (8, 8), fontsize=10, zorder=7, **BESIDE)
     axes.set(xlim=(-1.6 * radius, 1.6 * radius), ylim=(-1.5 * radius, 1.5 * radius))
     axes.legend(loc="upper left", fontsize=8, framealpha=1.0)
     caption = say(
-        f"The turn: two tangent arcs inside the circle of {2 * radius:g} m, {turn.length:.7f} m long at every ratio.",
-        f"调头曲线：直径 {2 * radius:g} m 圆内的两段相切圆弧，总长 {turn.length:.7f} m，与半径之比无关。",
+        "The turn: two tangent arcs inside the circle of {diameter:g} m, {turn.length:.7f} m long at every ratio.",
+        diameter=2 * radius,
+        turn=turn,
     )
     return figure, caption
 
 
-def _stretches(turn: core.Turn, say: Say) -> list[tuple[float, float, str, str]]:
+def _stretches(turn: core.Turn) -> list[tuple[float, float, str, str]]:
     """Beginning and end [m], colour and name of each drawn piece."""
     middle, reach = turn.radii[0] * turn.angles[0], 8.0 * (2.2 * turn.turning_radius)
     return [
-        (max(turn.begin, -reach), 0.0, BLUE, say("coil inwards", "盘入螺线")),
-        (0.0, middle, VERMILION, say("first arc", "第一段圆弧")),
-        (middle, turn.length, "#E69F00", say("second arc", "第二段圆弧")),
-        (turn.length, min(turn.end, turn.length + reach), "#009E73", say("coil outwards", "盘出螺线")),
+        (max(turn.begin, -reach), 0.0, BLUE, say("coil inwards")),
+        (0.0, middle, VERMILION, say("first arc")),
+        (middle, turn.length, "#E69F00", say("second arc")),
+        (turn.length, min(turn.end, turn.length + reach), "#009E73", say("coil outwards")),
     ]
 
 
-def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
+def amplification(solved: Solved) -> tuple[Figure, str]:
     """Question 5: speeds of handles on the way through the turn, divided by that of the head."""
     assert solved.turned
     figure, turn, fastest = canvas(8.0, 4.6), solved.turned.path, solved.turned.fastest
@@ -246,30 +246,30 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
     peak = fastest.time_at_unit_head_speed
     travel = np.unique(np.concatenate([np.linspace(-5.0, peak + 40.0, 2 * CURVE), [peak]]))
     rates = core.trajectory(Dance(solved.dragon, turn), travel).speed
-    names = handle_titles(solved.dragon.benches, say.language)
+    names = handle_titles(solved.dragon.benches)
     for k, colour in zip((1, 2, 3, 8, 20), COLOURS[1:], strict=False):
         if k <= solved.dragon.benches:
             # Handles near the head are drawn on top: the handles behind repeat their motion later.
             axes.plot(travel, rates[:, k], color=colour, linewidth=1.0, label=names[k], zorder=2.0 + 1.0 / k)
-    label = say("fastest handle", "最快的把手")
+    label = say("fastest handle")
     axes.plot(travel, rates.max(axis=1), color="black", linewidth=1.8, linestyle="dashed", label=label)
     axes.plot(peak, fastest.speed_ratio, "o", color=VERMILION, markersize=7, label=f"{fastest.speed_ratio:.6f}")
-    axes.axvspan(0.0, turn.length, color=PALE, alpha=0.5, label=say("head on the arcs", "龙头在圆弧上"))
-    axes.set(xlabel=say("place of the head after the entry [m]", "龙头自入点起的路程 [m]"))
-    axes.set(ylabel=say("speed divided by the head's speed", "速度与龙头速度之比"))
+    axes.axvspan(0.0, turn.length, color=PALE, alpha=0.5, label=say("head on the arcs"))
+    axes.set(xlabel=say("place of the head after the entry [m]"))
+    axes.set(ylabel=say("speed divided by the head's speed"))
     axes.legend(fontsize=8, loc="upper right")
     caption = say(
-        f"Speed amplification in the turn: at most {fastest.speed_ratio:.6f}, so a limit of "
-        f"{solved.request.speed_limit:g} m/s allows a head speed of {fastest.head_speed:.6f} m/s.",
-        f"调头过程中的速度放大：最大 {fastest.speed_ratio:.6f} 倍，因此限速 {solved.request.speed_limit:g} m/s 时"
-        f"龙头速度最大为 {fastest.head_speed:.6f} m/s。",
+        "Speed amplification in the turn: at most {fastest.speed_ratio:.6f}, so a limit of "
+        "{solved.request.speed_limit:g} m/s allows a head speed of {fastest.head_speed:.6f} m/s.",
+        fastest=fastest,
+        solved=solved,
     )
     return figure, caption
 
 
-def sensitivity(solved: Solved, say: Say) -> tuple[Figure, str]:
+def sensitivity(solved: Solved) -> tuple[Figure, str]:
     """Change of the answers with the numbers of the problem."""
-    drawn = panels(solved, say)
+    drawn = panels(solved)
     columns = (len(drawn) + 1) // 2
     figure = canvas(4.5 * columns, 7.0)
     for axes, panel in zip_longest(figure.subplots(2, columns).flat, drawn):
@@ -278,11 +278,10 @@ def sensitivity(solved: Solved, say: Say) -> tuple[Figure, str]:
         else:
             axes.set_axis_off()
     caption = say(
-        "Sensitivity: minimum pitch against width, turning diameter and length of the bodies; first contact against "
-        "width and length; maximum head speed against the ratio of the arcs. Small dots are samples, joined only if "
-        "the answer has no jumps; large dots are the values of the problem.",
-        "灵敏度：最小螺距随板宽、调头圆直径和龙身板长的变化；首次碰撞时刻随板宽和龙身板长的变化；"
-        "龙头最大速度随圆弧半径之比的变化。小点为采样值，仅在结果不跳跃处连线；大圆点为题目给定值。",
+        "Sensitivity: minimum pitch against width, turning diameter and length of the bodies; "
+        "first contact against width and length; maximum head speed against the ratio of the arcs. "
+        "Small dots are samples, joined only if the answer has no jumps; large dots are the values "
+        "of the problem.",
     )
     return figure, caption
 

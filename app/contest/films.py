@@ -6,13 +6,14 @@ import math
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import contextmanager
+from contextvars import copy_context
 from dataclasses import dataclass
 from functools import partial
 
 from app.contest.solved import Solved
 from app.files.film_spec import ENDINGS, LOOKS, FilmSpec
-from app.files.words import Say
 from core import Budget
+from core.language import say
 
 # Names of the films, without their endings.
 FILMS = ("dance", "turn")
@@ -31,7 +32,7 @@ class Wanted:
 
 @contextmanager
 def films_beside(
-    solved: Solved, say: Say, wanted: Wanted, progress: Callable[[str, float], None]
+    solved: Solved, wanted: Wanted, progress: Callable[[str, float], None]
 ) -> Iterator[Callable[[], list[tuple[str, bytes]]]]:
     """Context in which another thread makes the films; they end with it. Yields the function that waits for films().
 
@@ -50,7 +51,8 @@ def films_beside(
             solved.budget.look()
 
     with ThreadPoolExecutor(1, "films") as threads:
-        filming = threads.submit(lambda: list(films(solved, say, wanted, budget, shares.__setitem__)))
+        drawn = partial(films, solved, wanted, budget, shares.__setitem__)
+        filming = threads.submit(copy_context().run, lambda: list(drawn()))
         try:
             yield wait_for_films
         finally:
@@ -58,7 +60,7 @@ def films_beside(
 
 
 def films(
-    solved: Solved, say: Say, wanted: Wanted, budget: Budget, progress: Callable[[str, float], None]
+    solved: Solved, wanted: Wanted, budget: Budget, progress: Callable[[str, float], None]
 ) -> Iterator[tuple[str, bytes]]:
     """Name and bytes of every wanted film; without PyAV each is a GIF.
 
@@ -69,17 +71,17 @@ def films(
     from app.files import film
 
     span = solved.request.span
-    inwards = say("Bench dragon, to first contact", "板凳龙：盘入至首次碰撞")
+    inwards = say("Bench dragon, to first contact")
     if solved.contact.time is None:
-        inwards = say("Bench dragon, to the end of the run", "板凳龙：盘入至终点")
+        inwards = say("Bench dragon, to the end of the run")
     pair = solved.contact.benches if solved.contact.time is not None else None
     kinds = [(FILMS[0], solved.spiral, 0.0, solved.met_at, inwards, pair)]
     if solved.turned:
-        kinds.append((FILMS[1], solved.turned.dance, -span, span, say("Bench dragon, the turn", "板凳龙：调头"), None))
+        kinds.append((FILMS[1], solved.turned.dance, -span, span, say("Bench dragon, the turn"), None))
     forms = list(ENDINGS) if wanted.gif else list(ENDINGS)[:1]
     for name, dance, start, stop, title, touching in kinds:
         for form in forms:
-            spec = FilmSpec(start, stop, wanted.seconds, *LOOKS[form], say.language, touching=touching)
+            spec = FilmSpec(start, stop, wanted.seconds, *LOOKS[form], touching=touching)
             file = name + ENDINGS[form]
             yield (
                 file,

@@ -25,11 +25,11 @@ from app.contest.tables import paper_tables
 from app.extras import MissingPackage, require
 from app.files.disk import write_whole
 from app.files.lock import FolderLock
-from app.files.tables import XLSX_DECIMALS, Language, instant_sheet, trajectory_sheets
-from app.files.words import Say
+from app.files.tables import XLSX_DECIMALS, instant_sheet, trajectory_sheets
 from app.files.workbooks import workbook
 from app.wire.question import Terms
 from core import InvalidValue
+from core.language import say
 
 FIGURES, TABLES = "figures", "tables"
 # Folder for files until all are ready, the file that comes last, and the name of the lock.
@@ -66,7 +66,6 @@ class Kit:
 def write_kit(
     folder: Path,
     request: ContestRequest,
-    language: Language,
     shot: films.Wanted,
     progress: Callable[[str, float], None],
 ) -> Kit:
@@ -79,12 +78,12 @@ def write_kit(
     if not lock.take():
         words = "another run writes into {folder}: wait until it is done, or give another FOLDER"
         raise InvalidValue.in_words("folder", words, folder=str(folder))
-    say, unfinished = Say(language), folder / UNFINISHED
+    unfinished = folder / UNFINISHED
     try:
-        solved = solve(request, Terms(), lambda share: progress(say("answers", "求解"), share))
-        kit = Kit(results=answers(solved, say), no_turn=solved.why_no_turn)
+        solved = solve(request, Terms(), lambda share: progress(say("answers"), share))
+        kit = Kit(results=answers(solved), no_turn=solved.why_no_turn)
         shutil.rmtree(unfinished, ignore_errors=True)
-        for name, data in files_of(solved, kit, say, shot, progress):
+        for name, data in files_of(solved, kit, shot, progress):
             (unfinished / name).parent.mkdir(parents=True, exist_ok=True)
             write_whole(unfinished / name, data)
             kit.files.append(name)
@@ -108,11 +107,11 @@ def _take_over(folder: Path, names: list[str]) -> None:
 
 
 def files_of(
-    solved: Solved, kit: Kit, say: Say, shot: films.Wanted, progress: Callable[[str, float], None]
+    solved: Solved, kit: Kit, shot: films.Wanted, progress: Callable[[str, float], None]
 ) -> Iterator[tuple[str, bytes]]:
     """Name and bytes of each file as it is made, the report last. kit: receives the reason why there are no pictures"""
-    tables = paper_tables(solved, say)
-    yield from _workbooks(solved, say.language)
+    tables = paper_tables(solved)
+    yield from _workbooks(solved)
     yield "answers.json", orjson.dumps(kit.results, option=orjson.OPT_INDENT_2) + b"\n"
     for table in tables:
         for ending, text in (("csv", table.to_csv()), ("md", table.to_markdown()), ("tex", table.to_latex())):
@@ -122,8 +121,8 @@ def files_of(
         require("figures", "folder", "a figure")
         from app.contest.figures import figures
 
-        with films.films_beside(solved, say, shot, progress) as wait_for_films:
-            for figure in figures(solved, say, lambda share: progress(say("figures", "绘图"), share)):
+        with films.films_beside(solved, shot, progress) as wait_for_films:
+            for figure in figures(solved, lambda share: progress(say("figures"), share)):
                 drawn.append(figure)
                 for ending, data in figure.files.items():
                     yield f"{FIGURES}/{figure.name}.{ending}", data
@@ -132,38 +131,32 @@ def files_of(
                 yield name, data
     except MissingPackage as missing:
         kit.missing = missing
-    page = report(solved, kit.results, tables, drawn, filmed, say)
+    page = report(solved, kit.results, tables, drawn, filmed)
     if kit.missing:
-        page += (
-            "\n"
-            + say("Not in this kit: figures and films, because ", "本文件夹没有图和动画，原因：")
-            + kit.missing.message
-            + "\n"
-        )
+        page += "\n" + say("Not in this kit: figures and films, because ") + kit.missing.message + "\n"
     yield REPORT, page.encode()
 
 
 def zip_of(
     request: ContestRequest,
-    language: Language,
     shot: films.Wanted,
     terms: Terms,
     progress: Callable[[str, float], None],
 ) -> bytes:
     """The kit as a ZIP archive with the same bytes for the same request. raises: as write_kit, but for the folder"""
     require("xlsx", "language", "contest")
-    say, sink = Say(language), io.BytesIO()
-    solved = solve(request, terms, lambda share: progress(say("answers", "求解"), share))
-    kit = Kit(results=answers(solved, say), no_turn=solved.why_no_turn)
+    sink = io.BytesIO()
+    solved = solve(request, terms, lambda share: progress(say("answers"), share))
+    kit = Kit(results=answers(solved), no_turn=solved.why_no_turn)
     with ZipFile(sink, "w") as archive:
-        for name, data in files_of(solved, kit, say, shot, progress):
+        for name, data in files_of(solved, kit, shot, progress):
             # Without a time of its own, which is then the first that an archive can have.
             archive.writestr(ZipInfo(name), data, ZIP_DEFLATED if name.endswith(TEXTS) else ZIP_STORED)
     return sink.getvalue()
 
 
-def _workbooks(solved: Solved, language: Language) -> Iterator[tuple[str, bytes]]:
-    yield "result1.xlsx", workbook(trajectory_sheets(solved.inwards, language), XLSX_DECIMALS)
-    yield "result2.xlsx", workbook([instant_sheet(solved.meeting, language)], XLSX_DECIMALS)
+def _workbooks(solved: Solved) -> Iterator[tuple[str, bytes]]:
+    yield "result1.xlsx", workbook(trajectory_sheets(solved.inwards), XLSX_DECIMALS)
+    yield "result2.xlsx", workbook([instant_sheet(solved.meeting)], XLSX_DECIMALS)
     if solved.turned:
-        yield "result4.xlsx", workbook(trajectory_sheets(solved.turned.around, language), XLSX_DECIMALS)
+        yield "result4.xlsx", workbook(trajectory_sheets(solved.turned.around), XLSX_DECIMALS)

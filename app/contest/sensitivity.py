@@ -9,8 +9,8 @@ import numpy as np
 
 import core
 from app.contest.solved import ContestRequest, Solved
-from app.files.words import Say
 from core import BenchDragonError, Budget, Dance, TooMuchWork, Turn
+from core.language import say
 
 # Number of values on each curve.
 VALUES = 25
@@ -35,7 +35,7 @@ class Panel:
     smooth: bool
 
 
-def panels(solved: Solved, say: Say) -> list[Panel]:
+def panels(solved: Solved) -> list[Panel]:
     """Change of the answers to questions 2, 3 and 5.
 
     Minimum pitch against width, turning diameter and length of a body; first contact, if there is any, against width
@@ -43,10 +43,10 @@ def panels(solved: Solved, say: Say) -> list[Panel]:
     """
     request, met = solved.request, solved.contact.time
     fastest = solved.turned.fastest.head_speed if solved.turned else None
-    pitch, contact = say("minimum pitch [m]", "最小螺距 [m]"), say("first contact [s]", "首次碰撞时刻 [s]")
-    speed = say("maximum head speed [m/s]", "龙头最大速度 [m/s]")
-    width, length = say("width of the benches [m]", "板宽 [m]"), say("length of a body bench [m]", "龙身板长 [m]")
-    diameter, ratio = say("turning diameter [m]", "调头圆直径 [m]"), say("ratio of the arcs", "圆弧半径之比")
+    pitch, contact = say("minimum pitch [m]"), say("first contact [s]")
+    speed = say("maximum head speed [m/s]")
+    width, length = say("width of the benches [m]"), say("length of a body bench [m]")
+    diameter, ratio = say("turning diameter [m]"), say("ratio of the arcs")
     wanted: list[tuple[str, str, str, tuple[float, float], Answer, float | None]] = [
         (width, pitch, "width", WIDTHS, _pitch, solved.pitch.pitch),
         (diameter, pitch, "turning_diameter", DIAMETERS, _pitch, solved.pitch.pitch),

@@ -12,9 +12,9 @@ import numpy as np
 import core
 from app.contest.solved import Solved
 from app.files.tables import XLSX_DECIMALS, handle_titles
-from app.files.words import Say
 from app.files.workbooks import rounded_away
 from core import Dance
+from core.language import say
 from core.values import Floats
 
 # Most columns of a LaTeX table in normal type; a table with more fits on the page with these commands.
@@ -71,50 +71,51 @@ def in_markdown(lines: Iterable[Sequence[str]]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def paper_tables(solved: Solved, say: Say) -> list[KitTable]:
+def paper_tables(solved: Solved) -> list[KitTable]:
     """Tables of questions 1 and 4 at the instants that the contest requires, and of question 2 at first contact."""
-    question_1, question_4 = ("", say("Question 1", "问题 1")), ("turn-", say("Question 4", "问题 4"))
-    tables = [*_over_time(solved, solved.spiral, solved.table_times, question_1, say), _at_contact(solved, say)]
+    question_1, question_4 = ("", say("Question 1")), ("turn-", say("Question 4"))
+    tables = [*_over_time(solved, solved.spiral, solved.table_times, question_1), _at_contact(solved)]
     if solved.turned:
-        tables += _over_time(solved, solved.turned.dance, solved.turn_times, question_4, say)
+        tables += _over_time(solved, solved.turned.dance, solved.turn_times, question_4)
     return tables
 
 
-def _names(solved: Solved, say: Say) -> list[str]:
+def _names(solved: Solved) -> list[str]:
     """The names of the handles in the tables."""
-    names = handle_titles(solved.dragon.benches, say.language)
+    names = handle_titles(solved.dragon.benches)
     return [names[k] for k in solved.handles]
 
 
-def _over_time(solved: Solved, dance: Dance, times: Floats, begin: tuple[str, str], say: Say) -> list[KitTable]:
+def _over_time(solved: Solved, dance: Dance, times: Floats, begin: tuple[str, str]) -> list[KitTable]:
     """Tables of positions and of speeds at times [s]. begin: first part of their names, and of their captions"""
     prefix, question = begin
     motion = core.trajectory(dance, times)
-    handles, gap = _names(solved, say), say(" ", "")
+    handles, place = _names(solved), say("{name} {axis} (m)")
     columns = [f"{time:g} s" for time in times.tolist()]
-    axes = [f"{handle}{gap}{axis} (m)" for handle in handles for axis in "xy"]
+    axes = [place.format(name=handle, axis=axis) for handle in handles for axis in "xy"]
     places = motion.position[:, solved.handles].transpose(1, 2, 0).reshape(len(axes), times.size)
     speeds = [f"{handle} (m/s)" for handle in handles]
-    corner, colon, note = say("handle", "把手"), say(": ", "："), ""
+    corner, note = say("handle"), ""
     touch = solved.contact.time
     if dance is solved.spiral and touch is not None and touch < times[-1]:
-        note = say(f" (benches have touched at {touch:.6f} s)", f"（板凳已于 {touch:.6f} s 相碰）")
-    of_places = f"{question}{colon}{say('positions', '位置')}{note}"
-    of_speeds = f"{question}{colon}{say('speeds', '速度')}{note}"
+        note = say(" (benches have touched at {touch:.6f} s)", touch=touch)
+    of_places = say("{question}: positions{note}", question=question, note=note)
+    of_speeds = say("{question}: speeds{note}", question=question, note=note)
     return [
         KitTable(f"{prefix}positions", of_places, corner, columns, axes, places),
         KitTable(f"{prefix}speeds", of_speeds, corner, columns, speeds, motion.speed[:, solved.handles].T),
     ]
 
 
-def _at_contact(solved: Solved, say: Say) -> KitTable:
+def _at_contact(solved: Solved) -> KitTable:
     """The table of question 2: at first contact, or at the end of a run without one."""
     numbers = np.column_stack([solved.meeting.position[0], solved.meeting.speed[0]])[solved.handles]
-    columns = say("x (m)|y (m)|speed (m/s)", "横坐标x (m)|纵坐标y (m)|速度 (m/s)").split("|")
+    columns = say("x (m)|y (m)|speed (m/s)").split("|")
     touched = solved.contact.time is not None
-    note = "" if touched else say(" (no contact, end of the run)", "（无碰撞，运动结束时）")
+    note = "" if touched else say(" (no contact, end of the run)")
     caption = say(
-        f"Question 2: positions and speeds at {solved.met_at:.6f} s{note}",
-        f"问题 2：{solved.met_at:.6f} s 时的位置和速度{note}",
+        "Question 2: positions and speeds at {solved.met_at:.6f} s{note}",
+        solved=solved,
+        note=note,
     )
-    return KitTable("contact", caption, say("handle", "把手"), columns, _names(solved, say), numbers)
+    return KitTable("contact", caption, say("handle"), columns, _names(solved), numbers)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
+from contextvars import copy_context
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -55,7 +56,7 @@ def in_turn(draw: Callable[[], Value], budget: Budget | None = None) -> Value:
 
     raises: Halted once the budget is stopped; what has begun goes on for nobody, as matplotlib cannot stop
     """
-    drawing = _DRAWER.submit(draw)
+    drawing = _DRAWER.submit(copy_context().run, draw)
     while budget is not None and not wait([drawing], LOOK_SECONDS).done:
         if budget.stopped:
             drawing.cancel()

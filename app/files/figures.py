@@ -13,30 +13,22 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from app.files.drawing import canvas, draw_venue, file_bytes, in_turn, look_around
-from app.files.figure_words import translate
 from app.files.fonts import families
-from app.files.tables import Language
 from core import Budget, Dragon, MinimumPitch, Venue, first_contact, trajectory
 from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan
 from core.errors import format_number, question_about
+from core.language import say
 from core.plots import GREY, VERMILION, draw_scan
 
 
-def figure_file(draw: Callable[[], Figure], format: str, language: Language, budget: Budget | None = None) -> bytes:
-    """The file of a figure with its words in this language.
-
-    raises: MissingPackage without a font for it; Halted once the budget is stopped
-    """
-    family = families(language)
+def figure_file(draw: Callable[[], Figure], format: str, budget: Budget | None = None) -> bytes:
+    """The file of a figure. raises: MissingPackage without a font; Halted once the budget is stopped"""
+    family = families()
 
     def drawn() -> bytes:
-        if language is Language.ENGLISH:
-            return file_bytes(draw(), format)
         with matplotlib.rc_context({"font.family": family}):
-            figure = draw()
-            translate(figure)
-            return file_bytes(figure, format)
+            return file_bytes(draw(), format)
 
     return in_turn(drawn, budget)
 
@@ -48,7 +40,6 @@ def trajectory_figure(
     venue: Venue | None = None,
     time: float = 300.0,
     format: str = "svg",
-    language: Language = Language.ENGLISH,
     budget: Budget | None = None,
 ) -> bytes:
     """Figure 6: every handle at one instant, coloured by its speed, on any path and in any venue.
@@ -63,11 +54,13 @@ def trajectory_figure(
         if venue:
             draw_venue(axes, venue, [result.position[0]])
             look_around(figure, axes, result.position[0])
-        words = "" if (spiral := dance.path.spiral) is None else f" (pitch {format_number(spiral.pitch)} m)"
-        axes.set_title(f"Handles and their speeds at {time:g} s{words}", fontsize=11)
+        if spiral := dance.path.spiral:
+            pitch = format_number(spiral.pitch)
+            title = say("Handles and their speeds at {time:g} s (pitch {pitch} m)", time=time, pitch=pitch)
+            axes.set_title(title, fontsize=11)
         return figure
 
-    return figure_file(drawn, format, language, budget)
+    return figure_file(drawn, format, budget)
 
 
 @question_about("dance", Dance, "the figure was not drawn")
@@ -79,7 +72,6 @@ def contact_figure(
     start: float | None = None,
     stop: float | None = None,
     format: str = "svg",
-    language: Language = Language.ENGLISH,
     budget: Budget | None = None,
 ) -> bytes:
     """Figure 7: the dance at first contact with the two benches marked, and corner, edge and point enlarged.
@@ -97,7 +89,7 @@ def contact_figure(
             axes.indicate_inset_zoom(enlarged, edgecolor="black", linewidth=0.8)
         return figure
 
-    return figure_file(drawn, format, language, budget)
+    return figure_file(drawn, format, budget)
 
 
 @question_about("dragon", Dragon, "the figure was not drawn")
@@ -109,7 +101,6 @@ def pitch_scan_figure(
     start_turns: float = 16.0,
     margin: float = 0.0,
     format: str = "svg",
-    language: Language = Language.ENGLISH,
     budget: Budget | None = None,
 ) -> bytes:
     """Figure 8: radius of the head at first contact against the pitch, jumps left blank, minimum pitch marked.
@@ -123,15 +114,27 @@ def pitch_scan_figure(
     def drawn() -> Figure:
         figure = canvas(9.0, 5.6)
         axes = figure.add_subplot()
-        near_words = f"first within {format_number(margin)} m of each other" if margin else "first contact"
-        when = f"when two benches are {near_words}" if margin else f"at {near_words}"
+        near_words = say("first contact")
+        radius, title = say("radius of the head at first contact [m]"), say("No contact at any of these pitches")
+        if margin:
+            kept = format_number(margin)
+            near_words = say("first within {margin} m of each other", margin=kept)
+            radius = say(
+                "radius of the head when two benches are first within {margin} m of each other [m]", margin=kept
+            )
+            title = say("Never within {margin} m at any of these pitches", margin=kept)
+        if scan.pitch.size and margin:
+            title = say(
+                "Radius of the head when two benches are first within {margin} m of each other, against the pitch",
+                margin=kept,
+            )
+        elif scan.pitch.size:
+            title = say("Radius of the head at first contact, against the pitch")
         _draw_scan(axes, scan, least, turning_radius, near_words)
-        axes.plot(pitches, start_turns * pitches, color=GREY, linewidth=0.9, zorder=1, label="start of the dance")
-        axes.set(xlim=(pitches[0], pitches[-1]), xlabel="pitch [m]", ylabel=f"radius of the head {when} [m]")
+        axes.plot(pitches, start_turns * pitches, color=GREY, linewidth=0.9, zorder=1, label=say("start of the dance"))
+        axes.set(xlim=(pitches[0], pitches[-1]), xlabel=say("pitch [m]"), ylabel=radius)
         axes.set_ylim(0.0, 1.2 * scan.radius.max(initial=turning_radius))
         axes.legend(loc="lower left", fontsize=9)
-        none = f"Never within {format_number(margin)} m at any" if margin else "No contact at any"
-        title = f"Radius of the head {when}, against the pitch" if scan.pitch.size else f"{none} of these pitches"
         axes.set_title(title, fontsize=11)
         near = axes.inset_axes((0.56, 0.64, 0.41, 0.33))
         _draw_scan(near, scan, least, turning_radius, near_words)
@@ -141,13 +144,12 @@ def pitch_scan_figure(
         axes.indicate_inset_zoom(near, edgecolor="black", linewidth=0.7)
         return figure
 
-    return figure_file(drawn, format, language, budget)
+    return figure_file(drawn, format, budget)
 
 
 def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius: float, near: str) -> None:
     draw_scan(axes, np.stack([scan.pitch, scan.radius], axis=-1), scan.pieces, JUMP_WIDTH, near)
-    circle = f"turning circle, {format_number(turning_radius)} m"
+    circle = say("turning circle, {radius} m", radius=format_number(turning_radius))
     axes.axhline(turning_radius, color="black", linewidth=0.9, linestyle="dashed", label=circle)
-    axes.axvline(
-        least.pitch, color=VERMILION, linewidth=1.2, linestyle="dashdot", label=f"minimum pitch, {least.pitch:.9f} m"
-    )
+    pitch = say("minimum pitch, {pitch:.9f} m", pitch=least.pitch)
+    axes.axvline(least.pitch, color=VERMILION, linewidth=1.2, linestyle="dashdot", label=pitch)

@@ -30,10 +30,10 @@ from app.files.film_planes import COLOURS, YUV, Paper, Tone
 from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families_for
 from app.files.scratch import temporary
-from app.files.tables import Language
 from app.wire.clocks import minutes_and_seconds, time_of_day
 from core import Budget, Dance, Dragon, Venue, bench_outlines, trajectory
 from core.errors import question_about
+from core.language import say
 from core.plots import BLUE, VERMILION, draw_dance
 from core.values import Floats
 
@@ -72,11 +72,7 @@ GIF_BLENDS = (
     ("white", "black"), ("white", BLUE), ("white", BODY_EDGE), ("white", VERMILION), (BLUE, BODY_EDGE),
     (BLUE, VERMILION), (BODY_EDGE, VERMILION), ("black", VERMILION), ("black", BLUE), ("white", WAY),
 )  # fmt: skip
-WORDS = {Language.ENGLISH: "{clock} ({time:.2f} s)", Language.CHINESE: "{clock}（{time:.2f} 秒）"}
 DIGITS = "0123456789"
-COUNTS = {Language.ENGLISH: "bar {} beat {}", Language.CHINESE: "第 {} 小节第 {} 拍"}
-TOUCHING = {Language.ENGLISH: "benches {} and {} touch\n", Language.CHINESE: "{} 号与 {} 号板凳相碰（龙头为 0 号）\n"}
-COUNTS_OF = {Language.ENGLISH: "{}: {}", Language.CHINESE: "{}：{}"}
 # Colour of marked benches.
 MARKED = "#F0E442"
 # Width of edges of benches [pixels], and of those that touch, as a share of the height of the picture. Benches narrower
@@ -166,7 +162,7 @@ class FilmPicture:
         self, spec: FilmSpec, venue: Venue | None, title: str, tones: tuple[Tone, ...], budget: Budget | None
     ) -> None:
         """Draw the background, and make what moves before it. raises: Halted once the budget is stopped"""
-        self.language, self.start_clock, self.spec = spec.language, spec.start_clock, spec
+        self.start_clock, self.spec = spec.start_clock, spec
         in_turn(lambda: self._draw(spec, venue, title, tones), budget)
 
     def draw_paths(self, times: Floats) -> Floats:
@@ -188,7 +184,7 @@ class FilmPicture:
         points, dragons = TYPE_SHARE * spec.height * 72.0 / DPI, self.dragons
         names = [name for k, bench in spec.marked for name in dragons[k].names[bench : bench + 1]]
         names += [area.name for area in venue.areas] if venue else []
-        family = families_for([title, *names], spec.language)
+        family = families_for([title, *names])
         with matplotlib.rc_context({"font.family": family, "font.size": points}):
             figure = Figure(figsize=(spec.width / DPI, spec.height / DPI), dpi=DPI)
             self.canvas = FigureCanvasAgg(figure)
@@ -250,7 +246,8 @@ class FilmPicture:
         outlines: (n, 4, 2) [m]; touching: the benches that are marked and named
         """
         pairs = [(0, bench) for bench in touching or ()]
-        return self.compose(time, [outlines], pairs, TOUCHING[self.language].format(*touching) if touching else "")
+        first = say("benches {a} and {b} touch\n", a=touching[0], b=touching[1]) if touching else ""
+        return self.compose(time, [outlines], pairs, first)
 
     def compose(
         self, time: float, outlines: Sequence[Floats], touching: Sequence[tuple[int, int]] = (), first: str = ""
@@ -282,12 +279,12 @@ class FilmPicture:
     def words(self, time: float) -> str:
         """The count, the clock as on the cards, and the time [s] of a picture."""
         clock = time_of_day(time, self.start_clock) if self.start_clock else minutes_and_seconds(time)
-        words = WORDS[self.language].format(clock=clock, time=time)
+        words = say("{clock} ({time:.2f} s)", clock=clock, time=time)
         music = self.spec.music
         if music and (count := music.count(time - self.spec.music_begin)):
-            counted = COUNTS[self.language].format(*count)
+            counted = say("bar {bar} beat {beat}", bar=count[0], beat=count[1])
             if self.spec.music_of:
-                counted = COUNTS_OF[self.language].format(self.spec.music_of, counted)
+                counted = say("{name}: {text}", name=self.spec.music_of, text=counted)
             words = f"{counted}  {words}"
         return words
 

@@ -7,7 +7,6 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from app.files.tables import Language
 from core.people.beats import Music
 from core.values import Floats
 
@@ -32,7 +31,6 @@ class FilmSpec:
     seconds: float = 20.0
     rate: float = 30.0
     height: int = 1080
-    language: Language = Language.ENGLISH
     start_clock: str | None = None
     touching: tuple[int, int] | None = None
     music: Music | None = None

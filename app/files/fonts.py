@@ -11,7 +11,7 @@ from pathlib import Path
 
 from app.extras import MissingPackage
 from app.files.scratch import temporary
-from app.files.tables import Language
+from core.language import Language, speaking, spoken
 
 # Font families with the characters of simplified Chinese; those made for it come first.
 CHINESE = (
@@ -29,13 +29,17 @@ FIRST_CHINESE = "\u2e80"
 TRIED = "板凳龙螺距速度首次碰撞调头把手"
 
 
-@cache
-def families(language: Language) -> tuple[str, ...]:
-    """Font families in order: a character is drawn in the first one that has it.
+def families() -> tuple[str, ...]:
+    """Font families for the language that is spoken, in order: a character is drawn in the first one that has it.
 
     raises: MissingPackage for Chinese where no font on this machine has its characters
     """
-    if language is Language.ENGLISH:
+    return _families(spoken())
+
+
+@cache
+def _families(language: Language) -> tuple[str, ...]:
+    if language is not Language.CHINESE:
         return (LATIN,)
     from matplotlib import font_manager
 
@@ -56,13 +60,14 @@ def families(language: Language) -> tuple[str, ...]:
     )
 
 
-def families_for(texts: Iterable[str], language: Language) -> tuple[str, ...]:
+def families_for(texts: Iterable[str]) -> tuple[str, ...]:
     """Font families for these texts beside words in a language: Chinese names may stand on English paper.
 
     raises: MissingPackage, as families() does
     """
     is_chinese = any(text and max(text) >= FIRST_CHINESE for text in texts)
-    return families(Language.CHINESE if is_chinese else language)
+    with speaking(Language.CHINESE if is_chinese else spoken()):
+        return families()
 
 
 @contextmanager

@@ -12,17 +12,12 @@ from app.files.film import BATCH, FilmPicture, encoded, tones_of
 from app.files.film_planes import COLOURS, Tone
 from app.files.film_spec import FilmSpec
 from app.files.performances import LEGEND_MOST, colour_of
-from app.files.tables import Language
 from core import Budget, Dragon, Performance, bench_outlines, performance_trajectory
 from core.errors import question_about
+from core.language import say
 from core.plots import draw_dance
 from core.values import Floats
 
-# Words for the benches that touch: bench and dragon of each.
-TOUCHING = {
-    Language.ENGLISH: "bench {} of {} and bench {} of {} touch\n",
-    Language.CHINESE: "{1}的 {0} 号板凳与 {3}的 {2} 号板凳相碰（龙头为 0 号）\n",
-}
 # Place of the first name and distance from one name to the next, as shares of the height of the picture.
 NAME_AT, NAME_STEP = 0.97, 0.045
 
@@ -76,8 +71,7 @@ class PerformancePicture(FilmPicture):
 
     def name_of(self, dragon: int) -> str:
         """Name of a dragon, or its number in words."""
-        chinese = self.language is Language.CHINESE
-        return self.performance.parts[dragon].name or (f"{dragon} 号龙" if chinese else f"dragon {dragon}")
+        return self.performance.parts[dragon].name or say("dragon {k}", k=dragon)
 
     def draw_paths(self, times: Floats) -> Floats:
         places = []
@@ -111,5 +105,12 @@ class PerformancePicture(FilmPicture):
         if touching is None or dragons is None:
             return self.compose(time, outlines)
         pairs = list(zip(dragons, touching, strict=True))
-        named = [word for k, bench in pairs for word in (bench, self.name_of(k))]
-        return self.compose(time, outlines, pairs, TOUCHING[self.language].format(*named))
+        dragon, second = map(self.name_of, dragons)
+        first = say(
+            "bench {bench} of {dragon} and bench {other} of {second} touch\n",
+            bench=touching[0],
+            dragon=dragon,
+            other=touching[1],
+            second=second,
+        )
+        return self.compose(time, outlines, pairs, first)

@@ -13,7 +13,6 @@ import numpy as np
 from app.extras import require
 from app.files.tables import (
     XLSX_DECIMALS,
-    Language,
     arrow_bytes,
     columns_of,
     csv_head,
@@ -33,14 +32,13 @@ class PerformanceTable:
     """The content of a file.
 
     results: a trajectory of each dragon at the same times of the performance; decimals: of x, y and speed, as for one
-    clock: time of day at time 0 of the performance, see time_of_day(); language: of the names in a workbook
+    clock: time of day at time 0 of the performance, see time_of_day()
     """
 
     performance: Performance
     results: Sequence[Trajectory]
     decimals: int | None = None
     clock: str | None = None
-    language: Language = Language.ENGLISH
 
     @property
     def names(self) -> list[tuple[str, ...]]:
@@ -89,9 +87,7 @@ def performance_xlsx(table: PerformanceTable) -> bytes:
     sheets = []
     for k, (names, result) in enumerate(zip(table.names, table.results, strict=True)):
         refuse_large_sheets(result)
-        sheets += [
-            replace(sheet, title=f"{sheet.title} {k}") for sheet in trajectory_sheets(result, table.language, names)
-        ]
+        sheets += [replace(sheet, title=f"{sheet.title} {k}") for sheet in trajectory_sheets(result, names)]
     return workbook(sheets, decimals)
 
 

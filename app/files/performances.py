@@ -12,10 +12,10 @@ from matplotlib.patches import Polygon
 
 from app.files.drawing import canvas, draw_venue
 from app.files.figures import figure_file
-from app.files.tables import Language
 from core import Budget, FirstEncounter, OutsideRun, Performance, bench_outlines, trajectory
 from core.display import display
 from core.errors import question_about
+from core.language import say
 from core.plots import BLUE, ENLARGED_MARGINS, ENLARGED_WIDTHS, PALE, SHAPES_MAX, VERMILION, plan
 from core.values import Floats
 
@@ -39,7 +39,6 @@ def encounter_figure(
     *,
     time: float | None = None,
     format: str = "svg",
-    language: Language = Language.ENGLISH,
     budget: Budget | None = None,
 ) -> bytes:
     """All dragons at the time of their encounter, and the two benches that meet enlarged; or at a time [s].
@@ -54,7 +53,7 @@ def encounter_figure(
         _refuse(performance, time)
     handles = [trajectory(part.dance, [part.own_time(time)], budget=budget).position[0] for part in performance.parts]
     outlines = [bench_outlines(part.dance.dragon, own) for part, own in zip(performance.parts, handles, strict=True)]
-    title = f"At {display(time, 's')}" if encounter is None else repr(encounter)[1:-1].partition(": ")[2]
+    title = say("At {time}", time=display(time, "s")) if encounter is None else repr(encounter)[1:-1].partition(": ")[2]
 
     def drawn() -> Figure:
         figure = canvas(11.0 if meets else 7.2, 6.0)
@@ -67,7 +66,7 @@ def encounter_figure(
         figure.suptitle(title, fontsize=11, parse_math=False)
         return figure
 
-    return figure_file(drawn, format, language, budget)
+    return figure_file(drawn, format, budget)
 
 
 def _refuse(performance: Performance, time: float) -> None:
@@ -118,7 +117,7 @@ def _draw_pair(axes: Axes, encounter: FirstEncounter, outlines: list[Floats]) ->
     for own in outlines:
         axes.add_collection(PolyCollection(list(own), facecolor="white", edgecolor=PALE, linewidth=0.8, zorder=2))
     for dragon, bench, hatch in zip(dragons, benches, ("", "////"), strict=True):
-        label = f"bench {bench} of {encounter.performance.name_of(dragon)}"
+        label = say("bench {bench} of {dragon}", bench=bench, dragon=encounter.performance.name_of(dragon))
         style: dict[str, Any] = {"facecolor": colour_of(dragon), "hatch": hatch, "label": label}
         axes.add_patch(
             Polygon(outlines[dragon][bench], edgecolor="black", alpha=0.85, linewidth=0.6, zorder=3, **style)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterator, Sequence
-from enum import StrEnum
 
 import numpy as np
 import orjson
@@ -18,6 +17,7 @@ from app.wire.answers import Columns
 from app.wire.clocks import time_of_day
 from app.wire.texts import text_to_cell
 from core import InvalidValue, TooLarge, Trajectory
+from core.language import say, sense
 from core.values import Floats
 
 # Endings that trajectory_writer() supports.
@@ -41,14 +41,7 @@ XLSX_ROWS_MAX = 1_048_576
 XLSX_COLUMNS_MAX = 16_384
 
 
-class Language(StrEnum):
-    """Language of the names in a workbook."""
-
-    ENGLISH = "en"
-    CHINESE = "zh"
-
-
-def handle_names(benches: int, language: Language = Language.ENGLISH) -> list[str]:
+def handle_names(benches: int) -> list[str]:
     """Name of every handle: that of the bench behind it; the last handle is at the rear of the tail.
 
     returns: benches + 1 names; a single bench is the head
@@ -56,35 +49,33 @@ def handle_names(benches: int, language: Language = Language.ENGLISH) -> list[st
     >>> handle_names(4)
     ['head', 'body 1', 'body 2', 'tail', 'tail (rear)']
     """
-    chinese = language is Language.CHINESE
-    body = [f"第{k}节龙身" if chinese else f"body {k}" for k in range(1, benches - 1)]
-    head, tail, rear = ("龙头", "龙尾", "龙尾（后）") if chinese else ("head", "tail", "tail (rear)")
+    name = say("body {k}")
+    body = [name.format(k=k) for k in range(1, benches - 1)]
+    head, tail, rear = say("head"), say("tail"), say("tail (rear)")
     return [head, *body, tail, rear] if benches > 1 else [head, rear]
 
 
-def handle_titles(benches: int, language: Language = Language.ENGLISH) -> list[str]:
+def handle_titles(benches: int) -> list[str]:
     """Name of every handle beside a drawing or in a sentence: in Chinese it says which handle of the bench it is.
 
-    >>> handle_titles(3, Language.CHINESE)
-    ['龙头前把手', '第1节龙身前把手', '龙尾前把手', '龙尾后把手']
+    >>> handle_titles(3)
+    ['head', 'body 1', 'tail', 'tail (rear)']
     """
-    names = handle_names(benches, language)
-    if language is Language.ENGLISH:
-        return names
+    names = handle_names(benches)
+    front, rear = sense("handle", "{bench}"), sense("handle", "{bench} (rear)")
     last = names[-2] if benches > 1 else names[0]
-    return [*(f"{name}前把手" for name in names[:-1]), f"{last}后把手"]
+    return [*(front.format(bench=name) for name in names[:-1]), rear.format(bench=last)]
 
 
-def own_names(result: Trajectory, language: Language = Language.ENGLISH, own: Sequence[str] | None = None) -> list[str]:
+def own_names(result: Trajectory, own: Sequence[str] | None = None) -> list[str]:
     """Name of every handle: the name that its bench was given, else that of handle_names().
 
     own: names of the benches, empty without; None: those of the dance of the result
     """
-    names = handle_names(result.speed.shape[-1] - 1, language)
+    names = handle_names(result.speed.shape[-1] - 1)
     if own is None:
         own = result.dance.dragon.names if result.dance else ()
-    rear = "（后）" if language is Language.CHINESE else " (rear)"
-    own_of_handles = [*own, f"{own[-1]}{rear}" if own and own[-1] else ""]
+    own_of_handles = [*own, say("{name} (rear)", name=own[-1]) if own and own[-1] else ""]
     return [name or known for name, known in zip(own_of_handles, names, strict=True)] if own else names
 
 
@@ -181,7 +172,7 @@ def arrow_bytes(columns: dict[str, np.ndarray]) -> bytes:
     return sink.getvalue()
 
 
-def trajectory_xlsx(result: Trajectory, decimals: int | None = None, language: Language = Language.ENGLISH) -> bytes:
+def trajectory_xlsx(result: Trajectory, decimals: int | None = None) -> bytes:
     """Workbook with a sheet of positions and a sheet of speeds: handles as rows, instants as columns.
 
     Positions have two rows for each handle, x above y.
@@ -189,7 +180,7 @@ def trajectory_xlsx(result: Trajectory, decimals: int | None = None, language: L
     raises: MissingPackage without xlsxwriter, TooLarge when the format has too few rows or columns
     """
     refuse_large_sheets(result)
-    return workbook(trajectory_sheets(result, language), XLSX_DECIMALS if decimals is None else decimals)
+    return workbook(trajectory_sheets(result), XLSX_DECIMALS if decimals is None else decimals)
 
 
 def refuse_large_sheets(result: Trajectory) -> None:
@@ -201,39 +192,36 @@ def refuse_large_sheets(result: Trajectory) -> None:
         raise TooLarge.in_words("format", words, got=got, reason="ask for csv", **most)
 
 
-def trajectory_sheets(result: Trajectory, language: Language, own: Sequence[str] | None = None) -> list[Worksheet]:
+def trajectory_sheets(result: Trajectory, own: Sequence[str] | None = None) -> list[Worksheet]:
     """Positions, with two rows for each handle, x above y, and speeds: handles as rows, instants as columns.
 
     own: as for own_names()
     """
     instants, handles = result.speed.shape
-    chinese = language is Language.CHINESE
-    names, gap = own_names(result, language, own), "" if chinese else " "
+    names = own_names(result, own)
     times = [f"{instant:.12g} s" for instant in result.time.tolist()]
     positions = result.position.transpose(1, 2, 0).reshape(2 * handles, instants)
-    axes = [f"{name}{gap}{axis} (m)" for name in names for axis in "xy"]
+    place, speed = say("{name} {axis} (m)"), say("{name} (m/s)")
+    axes = [place.format(name=name, axis=axis) for name in names for axis in "xy"]
+    # The contest's own workbooks have one blank after the head and the rear of the tail.
+    ends = (names[0], names[-1])
+    speeds = [f"{name} (m/s)" if name in ends else speed.format(name=name) for name in names]
     return [
-        Worksheet("位置" if chinese else "positions", times, axes, positions),
-        Worksheet("速度" if chinese else "speeds", times, _speed_labels(names, chinese), result.speed.T),
+        Worksheet(say("positions"), times, axes, positions),
+        Worksheet(say("speeds"), times, speeds, result.speed.T),
     ]
 
 
-def _speed_labels(names: Sequence[str], chinese: bool) -> list[str]:
-    """Names of the rows of speeds; the contest's own workbooks have two blanks after a body and the tail."""
-    ends = (names[0], names[-1])
-    return [f"{name}{'  ' if chinese and name not in ends else ' '}(m/s)" for name in names]
-
-
-def instant_sheet(result: Trajectory, language: Language) -> Worksheet:
+def instant_sheet(result: Trajectory) -> Worksheet:
     """A row for each handle at the only instant of a trajectory: x, y and speed."""
-    chinese, handles = language is Language.CHINESE, result.speed.shape[-1]
-    columns = ["横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"] if chinese else ["x (m)", "y (m)", "speed (m/s)"]
+    handles = result.speed.shape[-1]
+    columns = [say("x (m)"), say("y (m)"), say("speed (m/s)")]
     numbers = np.column_stack([result.position.reshape(handles, 2), result.speed.reshape(handles)])
-    return Worksheet("Sheet1", columns, own_names(result, language), numbers)
+    return Worksheet("Sheet1", columns, own_names(result), numbers)
 
 
 def trajectory_writer(
-    suffix: str, decimals: int | None, language: Language, start_clock: str | None = None
+    suffix: str, decimals: int | None, start_clock: str | None = None
 ) -> Callable[[Trajectory], bytes]:
     """Function that turns a trajectory into the bytes of a file with that suffix."""
     match suffix:
@@ -244,6 +232,6 @@ def trajectory_writer(
         case ".arrow":
             return lambda result: trajectory_arrow(result, decimals=decimals)
         case ".xlsx":
-            return lambda result: trajectory_xlsx(result, decimals=decimals, language=language)
+            return lambda result: trajectory_xlsx(result, decimals=decimals)
     words, endings = "--output must end in {endings}", ", ".join(TABLE_ENDINGS)
     raise InvalidValue.in_words("output", words, got=suffix or "no ending", endings=endings)

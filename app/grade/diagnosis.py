@@ -17,7 +17,7 @@ from itertools import chain
 
 import numpy as np
 
-from app.files.tables import Language, handle_titles
+from app.files.tables import handle_titles
 from app.grade.decimals import digits_of, usual_of
 from app.grade.expected import Motion, Workbook, cells_of, contact_time, dance_of, of_dance
 from app.grade.fits import DECISIVE_LEAST, also, best_fit, findings_of, fit, matches
@@ -30,7 +30,7 @@ from app.grade.outside import Outside, outside_of, same_cells, without
 from app.grade.pairs import pairs
 from app.grade.rings import ON_PATH, places, wrong_ring
 from app.grade.shortcuts import Finding
-from app.grade.words import Note, note, say
+from app.grade.words import Note, note, word
 from core import Budget, Dance, Spiral
 from core.values import Floats
 
@@ -75,10 +75,10 @@ def shows_errors(judgements: list[JudgedSheet]) -> bool:
     return _numbers_of(judgements) >= DECISIVE_LEAST and any(one.written >= DECIMALS_LEAST for one in judgements)
 
 
-def why_unexplained(judgements: list[JudgedSheet], language: Language) -> Note:
+def why_unexplained(judgements: list[JudgedSheet]) -> Note:
     """Why wrong numbers have no cause: they are too few, have too few decimals, or no known error gives them."""
     if (count := _numbers_of(judgements)) < DECISIVE_LEAST:
-        return _few_numbers(judgements, count, language)
+        return _few_numbers(judgements, count)
     return note("nothing_fits") if shows_errors(judgements) else note("too_few_decimals", least=DECIMALS_LEAST)
 
 
@@ -86,9 +86,9 @@ def _numbers_of(judgements: list[JudgedSheet]) -> int:
     return sum(int(np.isfinite(one.off).sum()) for one in judgements)
 
 
-def _few_numbers(judgements: list[JudgedSheet], count: int, language: Language) -> Note:
+def _few_numbers(judgements: list[JudgedSheet], count: int) -> Note:
     """The handles that have numbers, and how many have none."""
-    names = handle_titles(BENCHES, language)
+    names = handle_titles(BENCHES)
     filled = {k for one in judgements for k in one.handles[np.isfinite(one.off).any(axis=(0, 2))].tolist()}
     labelled = {k for one in judgements for k in one.handles.tolist() if k < HANDLES}
     shown = [names[k] for k in sorted(filled)]
@@ -96,7 +96,7 @@ def _few_numbers(judgements: list[JudgedSheet], count: int, language: Language) 
         "few_numbers" if labelled > filled else "few_numbers_alone",
         count=count,
         cells=f"{sum(cells_of(one.workbook, one.table.kind) for one in judgements):,}",
-        handles=say("and_error", language).join(shown),
+        handles=word("and_error").join(shown),
         empty=HANDLES - len(filled),
         least=DECISIVE_LEAST,
     )

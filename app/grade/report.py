@@ -10,7 +10,7 @@ from pathlib import PurePath
 from pydantic import Field
 
 from app.extras import MissingPackage
-from app.files.tables import Language, handle_titles
+from app.files.tables import handle_titles
 from app.grade.cells import cell_name
 from app.grade.decimals import decimals_of_file
 from app.grade.diagnosis import diagnosed, why_unexplained
@@ -33,11 +33,12 @@ from app.grade.reading import ZIP, grids_of
 from app.grade.rubric import rubric_of
 from app.grade.sheets import tables_of
 from app.grade.shortcuts import UNITS, Finding, right_answer
-from app.grade.words import Note, note, say
+from app.grade.words import Note, note, word
 from app.wire.question import Answer
 from core import Budget, InvalidValue, TooMuchWork
 from core.errors import Given, Quantity, too_much
 from core.kernels import Halted
+from core.language import joined
 
 # Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
@@ -151,26 +152,26 @@ class GradeAnswer(Answer):
     answers: list[TypedAnswer] = Field(description="One entry for each number that was typed in")
 
 
-def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
+def graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
     """The grade of one file. name: of the file, which may say which workbook it is; raises: TooMuchWork"""
     readable, remark = readable_name(name)
     try:
-        answer = _graded(readable, data, language, budget)
+        answer = _graded(readable, data, budget)
     except UnreadableTable as error:
-        return unreadable(name, error.reason, language)
+        return unreadable(name, error.reason)
     except Halted as error:
         raise too_long(data, budget) from error
     except (MissingPackage, TooMuchWork, MemoryError):
         raise
     except Exception as error:  # An error of ours in one file must not stop the grading of the others.
-        return unreadable(name, note("failed", why=f"{type(error).__name__}: {error}"[:120]), language)
-    return answer.model_copy(update={"notes": [*answer.notes, remark.text(language)]}) if remark else answer
+        return unreadable(name, note("failed", why=f"{type(error).__name__}: {error}"[:120]))
+    return answer.model_copy(update={"notes": [*answer.notes, str(remark)]}) if remark else answer
 
 
-def unreadable(name: str, why: Note, language: Language) -> FileAnswer:
+def unreadable(name: str, why: Note) -> FileAnswer:
     """The answer for a file that was not graded."""
     readable, remark = readable_name(name)
-    notes = [one.text(language) for one in (why, remark) if one]
+    notes = [str(one) for one in (why, remark) if one]
     return FileAnswer(
         file=readable, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[], notes=notes
     )
@@ -181,7 +182,7 @@ def too_long(data: bytes, budget: Budget) -> TooMuchWork:
     return too_much(budget, "name", "must name a smaller file: it was not graded {then}", Quantity(len(data), "bytes"))
 
 
-def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
+def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
     grids, notes = grids_of(data, budget)
     tables = tables_of(grids)
     if not tables:
@@ -194,29 +195,29 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
     findings = diagnosed(judgements, budget)
     judgements = with_errors(judgements, {kind for one in findings for kind in one.kinds})
     certain = [one for one in findings if one.chance <= CERTAIN]
-    sheets = [_sheet(one, language) for one in judgements]
+    sheets = [_sheet(one) for one in judgements]
     lacking = (kind for kind in KINDS[workbook] if kind not in {table.kind for table in tables})
-    sheets += [_lacking(kind, cells_of(workbook, kind), language) for kind in lacking]
+    sheets += [_lacking(kind, cells_of(workbook, kind)) for kind in lacking]
     rubric = rubric_of(judgements, certain)
     notes += [one for grid in grids for one in grid.notes]
     if (match := NAME_OF_WORKBOOK.search(PurePath(name).stem)) and match[1] != workbook.value[-1]:
         notes.append(note("named_otherwise", named=f"result{match[1]}", workbook=workbook.value))
     verdict = worst_of(sheet.verdict for sheet in sheets)
     if verdict is Rating.WRONG and not findings:
-        notes.append(why_unexplained(judgements, language))
+        notes.append(why_unexplained(judgements))
     return FileAnswer(
         file=name,
         workbook=workbook.value,
         verdict=verdict,
-        diagnosis=_diagnoses(certain, language),
-        possible=_guessed(findings, language),
+        diagnosis=_diagnoses(certain),
+        possible=_guessed(findings),
         sheets=sheets,
-        rubric=[CriterionAnswer(criterion=one.name, met=one.met, words=one.sentence.text(language)) for one in rubric],
-        notes=[one.text(language) for one in notes],
+        rubric=[CriterionAnswer(criterion=one.name, met=one.met, words=str(one.sentence)) for one in rubric],
+        notes=[str(one) for one in notes],
     )
 
 
-def typed(name: str, text: str, language: Language) -> TypedAnswer:
+def typed(name: str, text: str) -> TypedAnswer:
     """The grade of a typed number. name: one of UNITS; text: as typed, because its digits show its rounding
 
     raises: InvalidValue
@@ -233,31 +234,28 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
     return TypedAnswer(
         answer=name,
         verdict=grade.verdict,
-        breaks=grade.breaks and grade.breaks.text(language),
+        breaks=grade.breaks and str(grade.breaks),
         found=value,
         expected=right_answer(name),
         unit=UNITS[name],
         digits=len(digits) - ungraded,
-        notes=[one.text(language) for one in grade.notes],
-        diagnosis=_diagnoses([one for one in grade.findings if one.chance <= CERTAIN], language),
-        possible=_guessed(grade.findings, language),
+        notes=[str(one) for one in grade.notes],
+        diagnosis=_diagnoses([one for one in grade.findings if one.chance <= CERTAIN]),
+        possible=_guessed(grade.findings),
     )
 
 
-def _diagnoses(findings: Sequence[Finding], language: Language) -> list[DiagnosisAnswer]:
-    return [
-        DiagnosisAnswer(error=one.error, words=one.sentence.text(language), evidence=one.evidence.text(language))
-        for one in findings
-    ]
+def _diagnoses(findings: Sequence[Finding]) -> list[DiagnosisAnswer]:
+    return [DiagnosisAnswer(error=one.error, words=str(one.sentence), evidence=str(one.evidence)) for one in findings]
 
 
-def _guessed(findings: Sequence[Finding], language: Language) -> list[GuessAnswer]:
+def _guessed(findings: Sequence[Finding]) -> list[GuessAnswer]:
     """The findings that are only guesses, with their chances."""
     return [
         GuessAnswer(
             error=one.error,
-            words=say("may_be", language, error=one.sentence.text(language)),
-            evidence=f"{one.evidence.text(language)} {say('chance', language, count=round(1.0 / one.chance))}",
+            words=word("may_be", error=str(one.sentence)),
+            evidence=joined([str(one.evidence), word("chance", count=round(1.0 / one.chance))]),
             probability=one.chance,
         )
         for one in findings
@@ -265,38 +263,38 @@ def _guessed(findings: Sequence[Finding], language: Language) -> list[GuessAnswe
     ]
 
 
-def _sheet(one: JudgedSheet, language: Language) -> SheetAnswer:
+def _sheet(one: JudgedSheet) -> SheetAnswer:
     worst, first, notes = one.worst(), one.first(), [*one.notes]
     if one.verdict is Rating.ROUNDED and one.decimals is not None and not one.is_rounded:
         notes.append(note("not_rounded", written=int(one.digits.max()), decimals=one.decimals))
     return SheetAnswer(
-        sheet=_title(one, language),
+        sheet=_title(one),
         holds=one.table.kind.value,
         verdict=one.verdict,
         decimals=one.decimals if one.verdict is Rating.ROUNDED else None,
         cells=one.cells,
         right=one.right,
         missing=one.missing,
-        worst=worst and _cell(one, worst, language),
-        first=first and _cell(one, first, language),
+        worst=worst and _cell(one, worst),
+        first=first and _cell(one, first),
         picture=one.picture(),
-        notes=[known.text(language) for known in notes],
+        notes=[str(known) for known in notes],
     )
 
 
-def _title(one: JudgedSheet, language: Language) -> str:
-    return one.table.title or say(SHEETS[one.table.kind], language)
+def _title(one: JudgedSheet) -> str:
+    return one.table.title or word(SHEETS[one.table.kind])
 
 
-def _cell(one: JudgedSheet, at: tuple[int, ...], language: Language) -> CellAnswer:
+def _cell(one: JudgedSheet, at: tuple[int, ...]) -> CellAnswer:
     t, h, c = at
     row, column = int(one.table.row[at]), int(one.table.column[at])
     return CellAnswer(
-        sheet=_title(one, language),
+        sheet=_title(one),
         cell=cell_name(row, column),
         row=row + 1,
         column=column + 1,
-        handle=handle_titles(BENCHES, language)[one.handles[h]],
+        handle=handle_titles(BENCHES)[one.handles[h]],
         quantity=("x", "y", "speed")[COMPONENTS[one.table.kind][c]],
         time=float(one.times[t]),
         found=float(one.values[at]),
@@ -304,8 +302,8 @@ def _cell(one: JudgedSheet, at: tuple[int, ...], language: Language) -> CellAnsw
     )
 
 
-def _lacking(kind: TableKind, cells: int, language: Language) -> SheetAnswer:
-    sentence = say("no_sheet", language, kind=say(SHEETS[kind], language))
+def _lacking(kind: TableKind, cells: int) -> SheetAnswer:
+    sentence = word("no_sheet", kind=word(SHEETS[kind]))
     return SheetAnswer(
         sheet="", holds=kind.value, verdict=Rating.INCOMPLETE, decimals=None, cells=cells, right=0, missing=cells,
         worst=None, first=None, picture=[], notes=[sentence],

@@ -15,16 +15,21 @@ from app.wire.problem import Problem
 from app.wire.question import UNKNOWN_COST, Answer, Call, Terms, Wire
 from app.wire.refusals import reworded
 from core import BenchDragonError, Budget
+from core.language import Language, speaking
 from core.values import Progress
 
 
 @dataclass(frozen=True)
 class Task:
-    """call: operation id; request: valid input of the call, as JSON; form: media type of the answer"""
+    """call: operation id; request: valid input of the call, as JSON; form: media type of the answer
+
+    language: of its sentences, where the request does not state one
+    """
 
     call: str
     request: Any
     form: str
+    language: str = Language.ENGLISH
 
     def to_bytes(self) -> bytes:
         return json.dumps(asdict(self)).encode()
@@ -37,11 +42,12 @@ class Task:
         """The answer of the service to the call. progress, part: as in Terms"""
         call = CALLS[self.call]
         request = call.request_type.model_validate(self.request)
-        try:
-            return call.question.to_bytes(request, Terms(settings, Budget(math.inf), progress, part), self.form)
-        except BenchDragonError as error:
-            item = in_query if call.method == "GET" else in_body(self.request)
-            return refusal_problem(reworded(error, request), item)
+        with speaking(self.language):
+            try:
+                return call.question.to_bytes(request, Terms(settings, Budget(math.inf), progress, part), self.form)
+            except BenchDragonError as error:
+                item = in_query if call.method == "GET" else in_body(self.request)
+                return refusal_problem(reworded(error, request), item)
 
 
 def cost_of(call: Call, request: Wire, form: str) -> float:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import csv
 import io
 
-from app.files.words import Say
 from app.grade.grid import Cell, Grid, UnreadableTable
 from app.grade.workbook import sheets_of
 from core import Budget, InvalidValue
+from core.language import say
 
 
-def benches_of(data: bytes, budget: Budget, say: Say) -> tuple[str, list[str]]:
+def benches_of(data: bytes, budget: Budget) -> tuple[str, list[str]]:
     """The first sheet of a workbook that is not empty as CSV, and notes on what is left out.
 
     raises: InvalidValue at the field `file`; MissingPackage without openpyxl; Halted when the budget ends
@@ -19,20 +19,15 @@ def benches_of(data: bytes, budget: Budget, say: Say) -> tuple[str, list[str]]:
     try:
         grids, notes = sheets_of(data, budget)
     except UnreadableTable as error:
-        raise InvalidValue.in_words(
-            "file", "{sentence}", sentence=error.reason.text(say.language).rstrip(".。")
-        ) from error
+        raise InvalidValue.in_words("file", "{sentence}", sentence=str(error.reason).rstrip(".。")) from error
     sheets = [grid for grid in grids if any(cell is not None for row in grid.rows for cell in row)]
     if not sheets:
         raise InvalidValue("file", "must have a sheet with benches, one in a line", got="empty sheets")
-    remarks = [note.text(say.language) for note in (*notes, *sheets[0].notes)]
+    remarks = [str(note) for note in (*notes, *sheets[0].notes)]
     if len(sheets) > 1:
         others = ", ".join(grid.title for grid in sheets[1:])
         remarks.append(
-            say(
-                f"The benches are those of sheet {sheets[0].title}; left out: {others}.",
-                f"板凳取自工作表 {sheets[0].title}；未读取：{others}。",
-            )
+            say("The benches are those of sheet {title}; left out: {others}.", title=sheets[0].title, others=others)
         )
     return _csv(sheets[0]), remarks
 

@@ -8,8 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from app.files.disk import display_name, ending_of, read_json, standard_input
-from app.files.tables import Language
-from app.files.words import Say
 from app.processes.limits import reading
 from app.wire.texts import Unreadable, is_workbook, table_of, toml_of
 from core import Budget, InvalidValue
@@ -97,7 +95,7 @@ def _of_workbook(table: Path, field: str, data: bytes) -> tuple[str, list[str]]:
 
     try:
         with reading():
-            text, notes = benches_of(data, Budget(), Say(Language.ENGLISH))
+            text, notes = benches_of(data, Budget())
     except InvalidValue as error:
         words, values = f"{{table}}: {error.template}", {"table": str(table)}
         raise InvalidValue.in_words(

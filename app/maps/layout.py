@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from app.files.words import Say
 from app.maps import geojson
 from app.maps.choice import EVERYTHING, Choice
 from app.maps.features import (
@@ -37,6 +36,7 @@ from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.display import format_count
 from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
+from core.language import counted, say
 from core.names import NAME_MAX, is_printable
 from core.values import Floats, Point
 from core.venue import EDGES_MAX
@@ -118,12 +118,11 @@ class Reading:
         self,
         drawing: Drawing,
         units: Coordinates | None,
-        say: Say,
         chord: float = CHORD,
         choice: Choice = EVERYTHING,
     ) -> None:
         """choice: its area is read, in metres as they are in the file, or around the middle of a map in degrees"""
-        self.drawing, self.say, self.chord, self.notes, self.choice = drawing, say, chord, list[str](), choice
+        self.drawing, self.chord, self.notes, self.choice = drawing, chord, list[str](), choice
         self.assumed = dict[float, list[MapFeature]]()
         every = [one for one in drawing.features if one.role != MARK and any(one.rings)]
         self.features = [_closed(_with_role(one)) for one in every]
@@ -137,11 +136,15 @@ class Reading:
         self._leave_out_small()
         self.features = [self._whole(one) for one in self.features]
         for kind, count in drawing.left_out.items():
-            self._note(f"Left out: {format_count(count, kind)}.", f"未读取：{kind}，{count} 个。")
+            self.notes.append(counted(count, "Left out: {count} {kind}.", "Left out: {count} {kind}s.", kind=kind))
         for kind, count in drawing.hidden.items():
-            self._note(
-                f"Left out, because hidden: {format_count(count, kind)}.", f"未读取（已隐藏）：{kind}，{count} 个。"
+            hidden = counted(
+                count,
+                "Left out, because hidden: {count} {kind}.",
+                "Left out, because hidden: {count} {kind}s.",
+                kind=kind,
             )
+            self.notes.append(hidden)
 
     def parts(self) -> DanceParts:
         # Before anything is compared with every edge.
@@ -158,14 +161,16 @@ class Reading:
         danced = paths[:1] or ([max(free, key=length_of)] if free and not self._walls(free) else [])
         path = self._path(danced[0]) if danced else None
         if more := paths[1:]:
-            self._note(
-                f"{len(paths)} lines are called path; the first is the path, and the others are left out."
-                if len(path_lines) == len(paths)
-                else f"{len(paths)} lines are paths or tracks; one of them is the path: {danced[0].name or 'track'}.",
-                f"有 {len(paths)} 条线名为路径：取第一条，其余未读取。"
-                if len(path_lines) == len(paths)
-                else f"有 {len(paths)} 条路径或轨迹，取其中之一为路径：{danced[0].name or '轨迹'}。",
-            )
+            if len(path_lines) == len(paths):
+                self.remark(
+                    "{count} lines are called path; the first is the path, and the others are left out.",
+                    count=len(paths),
+                )
+            else:
+                name = danced[0].name or say("track")
+                self.remark(
+                    "{count} lines are paths or tracks; one of them is the path: {name}.", count=len(paths), name=name
+                )
         taken = [*danced, *more]
         others = [one for one in self.features if one is not square and not any(one is line for line in taken)]
         things = self._things(square, others)
@@ -178,9 +183,9 @@ class Reading:
     def _walls(self, free: list[MapFeature]) -> bool:
         """True if lines without a role are walls: there are several, so none of them is clearly the path."""
         if len(free) > 1:
-            self._note(
-                f"{len(free)} lines have no role, so they are walls. Give the line of the dance the name `path`.",
-                f"有 {len(free)} 条线没有说明用途，均作为墙：请将要走的那条命名为 path。",
+            self.remark(
+                "{free_count} lines have no role, so they are walls. Give the line of the dance the name `path`.",
+                free_count=len(free),
             )
         return len(free) > 1
 
@@ -197,9 +202,9 @@ class Reading:
             unit = Unit.DEGREES if _look_like_degrees(points) else Unit.METRES
         if unit is not Unit.DEGREES:
             if unit is Unit.ASSUMED_METRES:
-                self._note("The file states no unit: its numbers are metres.", "文件没有说明单位，按米读取。")
+                self.remark("The file states no unit: its numbers are metres.")
             else:
-                self._note("Coordinates are in metres.", "坐标以米为单位。")
+                self.remark("Coordinates are in metres.")
             self._choose()
             self._leave_grid(np.array([point for one in self.features for ring in one.rings for point in ring]))
             return
@@ -227,10 +232,11 @@ class Reading:
         self._join([one for one, is_cut in zip(self.features, cut, strict=True) if is_cut])
         self._choose()
         east, north = self.origin.longitude, self.origin.latitude
-        self._note(
-            f"Longitude and latitude were converted to metres around {east:.6f}, {north:.6f}: x to the east, y to the "
-            "north.",
-            f"经纬度以 {east:.6f}, {north:.6f} 为原点换算为米：x 向东，y 向北。",
+        self.remark(
+            "Longitude and latitude were converted to metres around {east:.6f}, {north:.6f}: x to the east, "
+            "y to the north.",
+            east=east,
+            north=north,
         )
 
     def _join(self, parts: list[MapFeature]) -> None:
@@ -255,9 +261,11 @@ class Reading:
         width, height = np.ptp(square, axis=0).tolist()
         if max(width, height) < DEGREES_ACROSS and np.abs(square).max() <= 180.0:
             longest = f"{DEGREES_ACROSS:g} m"
-            self._note(
-                f"The square is {width:.3g} m by {height:.3g} m, narrower than a bench of {longest}: check refuses it.",
-                f"广场只有 {width:.3g} m × {height:.3g} m，比 {longest} 的板凳还窄：check 会拒绝。",
+            self.remark(
+                "The square is {width:.3g} m by {height:.3g} m, narrower than a bench of {longest}: check refuses it.",
+                width=width,
+                height=height,
+                longest=longest,
             )
 
     def _leave_grid(self, points: Floats) -> None:
@@ -279,9 +287,10 @@ class Reading:
             raise InvalidValue("file", "must be at most {most} across, got about {across}", **values)
         moved = np.array(self.grid)
         self.features = [one.moved(lambda places: places - moved) for one in self.features]
-        self._note(
-            f"The coordinates are those of a survey grid; x = y = 0 is its x {x:.10g} m, y {y:.10g} m.",
-            f"坐标属于测量坐标系；这里的 x = y = 0 是其中的 x {x:.10g} m，y {y:.10g} m。",
+        self.remark(
+            "The coordinates are those of a survey grid; x = y = 0 is its x {x:.10g} m, y {y:.10g} m.",
+            x=x,
+            y=y,
         )
 
     def _leave_out_small(self) -> None:
@@ -294,13 +303,23 @@ class Reading:
         left_out = {id(one) for one in (*circles, *others)}
         self.features = [one for one in self.features if id(one) not in left_out]
         if circles:
-            names, count = self._listed(circles), len(circles)
-            english = f"{format_count(count, 'circle')} with a radius of less than {SIZE_MIN:g} m"
-            self._note(f"Left out: {english}: {names}.", f"未读取：{count} 个半径小于 {SIZE_MIN:g} m 的圆：{names}。")
+            small = counted(
+                len(circles),
+                "Left out: {count} circle with a radius of less than {least:g} m: {names}.",
+                "Left out: {count} circles with a radius of less than {least:g} m: {names}.",
+                least=SIZE_MIN,
+                names=self._listed(circles),
+            )
+            self.notes.append(small)
         if others:
-            names, count = self._listed(others), len(others)
-            english = f"{format_count(count, 'shape')} of less than {SIZE_MIN:g} m"
-            self._note(f"Left out: {english}: {names}.", f"未读取：{count} 个小于 {SIZE_MIN:g} m 的图形：{names}。")
+            small = counted(
+                len(others),
+                "Left out: {count} shape of less than {least:g} m: {names}.",
+                "Left out: {count} shapes of less than {least:g} m: {names}.",
+                least=SIZE_MIN,
+                names=self._listed(others),
+            )
+            self.notes.append(small)
 
     @staticmethod
     def _listed(things: Iterable[MapFeature]) -> str:
@@ -316,14 +335,12 @@ class Reading:
             return round_area(one)
         if one.radius is not None or len(one.rings[0]) < 3:
             return one
-        self._note(
-            "The line of the square does not end where it begins, so it was closed by a straight side.",
-            "广场的线没有闭合，已用直边闭合。",
-        )
+        self.remark("The line of the square does not end where it begins, so it was closed by a straight side.")
         return replace(one, shape="polygon", rings=((*one.rings[0], one.rings[0][0]),))
 
-    def _note(self, english: str, chinese: str) -> None:
-        self.notes.append(self.say(english, chinese))
+    def remark(self, template: str, /, **values: Any) -> None:
+        """Note what was assumed or left out: a template in the language, with its values."""
+        self.notes.append(say(template, **values))
 
     def _square(self) -> MapFeature | None:
         """The square: the polygon with that role, else the one that holds a part of everything else."""
@@ -331,16 +348,16 @@ class Reading:
         squares = [one for one in polygons if one.role == SQUARE]
         first = next(iter(squares), None)
         if len(squares) > 1 and (whole := merged(squares)) is not None:
-            self._note(
-                f"The square is drawn in {len(squares)} parts that share edges.",
-                f"广场由 {len(squares)} 个有公共边的部分组成。",
+            self.remark(
+                "The square is drawn in {square_count} parts that share edges.",
+                square_count=len(squares),
             )
             self.features = [whole, *(one for one in self.features if not any(one is part for part in squares))]
             return whole
         if len(squares) > 1:
-            self._note(
-                f"{len(squares)} areas are called square; the first is the square, and the others are obstacles.",
-                f"有 {len(squares)} 个区域名为广场：取第一个，其余作为障碍。",
+            self.remark(
+                "{square_count} areas are called square; the first is the square, and the others are obstacles.",
+                square_count=len(squares),
             )
         free = [one for one in polygons if one.role is None]
         if first or not free:
@@ -354,9 +371,14 @@ class Reading:
         """The square and the obstacles."""
         obstacles = [self._obstacle(one) for one in others]
         for radius, without in self.assumed.items():
-            listed = self._listed(without)
-            english = f"{format_count(len(without), 'thing')} without a radius; {radius:g} m is assumed: {listed}."
-            self._note(english, f"{len(without)} 个图形没有给出半径，取 {radius:g} m：{listed}。")
+            assumed = counted(
+                len(without),
+                "{count} thing without a radius; {radius:g} m is assumed: {names}.",
+                "{count} things without a radius; {radius:g} m is assumed: {names}.",
+                radius=radius,
+                names=self._listed(without),
+            )
+            self.notes.append(assumed)
         if square is None:
             if not obstacles:
                 return []
@@ -364,14 +386,14 @@ class Reading:
             (left, low), (right, high) = (points.min(axis=0) - AROUND).tolist(), (points.max(axis=0) + AROUND).tolist()
             outline = ((left, low), (right, low), (right, high), (left, high), (left, low))
             square = MapFeature("polygon", (outline,), "square")
-            self._note(
-                f"No polygon is the square, so it ends {AROUND:g} m beyond everything. Name one `square`.",
-                f"没有多边形是广场：取所有图形外 {AROUND:g} m 为界。请将其中一个命名为 square。",
+            self.remark(
+                "No polygon is the square, so it ends {AROUND:g} m beyond everything. Name one `square`.",
+                AROUND=AROUND,
             )
         names = _Names()
         square = replace(square, name=names.new(square.name or "square"), radius=None)
         things = (
-            replace(one, name=names.new(one.name or self.say(f"obstacle {k}", f"障碍物 {k}")))
+            replace(one, name=names.new(one.name or say("obstacle {k}", k=k)))
             for k, one in enumerate(obstacles, start=1)
         )
         return [square, *things]
@@ -392,24 +414,23 @@ class Reading:
         if stored is not None:
             if is_along(stored, points):
                 return stored
-            self._note(
-                "The line of the path was edited, so the new path goes through the points of the line.",
-                "路径的线已被移动，因此路径改为通过其各点。",
-            )
+            self.remark("The line of the path was edited, so the new path goes through the points of the line.")
         if line.times is not None:
             return self._walked(line)
-        (kept, off), name = thinned(points), line.name or self.say("a line without a name", "未命名的线")
+        (kept, off), name = thinned(points), line.name or say("a line without a name")
         if len(kept) < 2:
             apart = Quantity(POINTS_APART, "m")
             raise InvalidValue("file", "must hold a path with at least two points {apart} apart", apart=apart)
-        self._note(
-            f"The path is a smooth curve through {len(kept)} points: {name}.",
-            f"路径是通过 {len(kept)} 个点的光滑曲线：{name}。",
+        self.remark(
+            "The path is a smooth curve through {kept_count} points: {name}.",
+            kept_count=len(kept),
+            name=name,
         )
         if off > 0.0:
-            self._note(
-                f"Of its {len(points)} points the others are at most {off:.2f} m from the lines between these.",
-                f"原线有 {len(points)} 个点，其余各点离这些点之间的直线至多 {off:.2f} m。",
+            self.remark(
+                "Of its {point_count} points the others are at most {off:.2f} m from the lines between these.",
+                point_count=len(points),
+                off=off,
             )
         path = {"kind": "waypoints", "points": kept.tolist()}
         checked_path(path)
@@ -419,27 +440,31 @@ class Reading:
         """The path along a track, with a note on how far it is from what was walked."""
         points, times = np.array(line.rings[0]), np.array(line.times)
         walk = walk_of(points, times, self.chord)
-        name = line.name or self.say("a track without a name", "未命名的轨迹")
+        name = line.name or say("a track without a name")
         if walk is None:
             length = Quantity(APART, "m")
             raise InvalidValue("file", "must hold a track with points at least {length} apart", length=length)
         self.passages = walk.passages
-        english = f"The path is a smooth curve along the track {name}, {walk.length:.0f} m long, at most"
-        chinese = f"路径是沿轨迹“{name}”的光滑曲线，长 {walk.length:.0f} m，与实际走过的位置最多相差"
-        self._note(f"{english} {walk.largest:.2f} m from what was walked.", f"{chinese} {walk.largest:.2f} m。")
+        self.remark(
+            "The path is a smooth curve along the track {name}, {walk.length:.0f} m long, at most {walk.largest:.2f} m "
+            "from what was walked.",
+            name=name,
+            walk=walk,
+        )
         if walk.lost >= LOST:
-            self._note(f"It is {walk.lost:.1f} m shorter than the track.", f"它比轨迹短 {walk.lost:.1f} m。")
+            self.remark("It is {walk.lost:.1f} m shorter than the track.", walk=walk)
         if not walk.is_easy:
-            self._note(
-                f"Some bends stay tighter than {walk.radius:.1f} m, which a bench needs whose handles are "
-                f"{self.chord:.2f} m apart.",
-                f"仍有弯道的半径小于 {walk.radius:.1f} m，把手相距 {self.chord:.2f} m 的板凳无法通过。",
+            self.remark(
+                "Some bends stay tighter than {walk.radius:.1f} m, which a bench needs whose handles are "
+                "{chord:.2f} m apart.",
+                walk=walk,
+                chord=self.chord,
             )
         if walk.passages is None:
-            self._note("The track has no times that grow.", "轨迹没有递增的时间。")
+            self.remark("The track has no times that grow.")
         else:
             until = walk.passages[-1]["until_time"]
-            self._note(f"It was walked in {until:.0f} s.", f"走完用时 {until:.0f} s。")
+            self.remark("It was walked in {until:.0f} s.", until=until)
         checked_path(walk.path)
         return walk.path
 

@@ -15,8 +15,6 @@ import orjson
 from pydantic import Field
 
 from app.files.markup import states_encoding
-from app.files.tables import Language
-from app.files.words import Say
 from app.maps import dxf, geojson, gpx, kml
 from app.maps.benches import benches_of
 from app.maps.choice import EVERYTHING, PARTLY, Choice, listed
@@ -39,6 +37,7 @@ from app.wire.question import Answer, Coordinates
 from app.wire.texts import CHINESE, OLD_WORKBOOK, Unreadable, is_workbook, refuse_deep, toml_of, values_in
 from core import BenchDragonError, Budget, Dragon, InvalidValue
 from core.errors import Given, Parameter
+from core.language import say
 
 # Longest file [bytes].
 FILE_MAX = 20_000_000
@@ -89,13 +88,13 @@ class Places(Answer):
 
 
 def read_places(
-    data: bytes, units: Coordinates | None, language: Language, chord: float, choice: Choice, budget: Budget
+    data: bytes, units: Coordinates | None, chord: float, choice: Choice, budget: Budget
 ) -> Places | BenchDragonError:
     """Content of a map, or its refusal, for another process. choice: of a drawing; that counts, its layers alone"""
     try:
         if choice.counts:
             return Places(path=None, venue=None, dance=None, passages=None, notes=[], layers=drawn_layers(data))
-        return Places.of(places_of(data, units, Say(language), budget, chord, choice))
+        return Places.of(places_of(data, units, budget, chord, choice))
     except BenchDragonError as error:
         return error
 
@@ -105,7 +104,7 @@ def drawn_layers(data: bytes) -> list[DrawnLayer]:
     start = _start(data)
     if is_drawing(start):
         edges = dxf.layers_of(data)
-    elif start.startswith(b"{") and "type" in (content := _json(_in_utf8(start, Say(Language.ENGLISH))[0])):
+    elif start.startswith(b"{") and "type" in (content := _json(_in_utf8(start)[0])):
         edges = _edges_of_map(geojson.read(content, Choice(counts=True)))
     else:
         raise InvalidValue("file", "must be DXF or GeoJSON to have layers", got="another format")
@@ -117,7 +116,7 @@ def _edges_of_map(drawing: Drawing) -> dict[str, int]:
     """Edges in a venue of each layer of a map."""
     features: Sequence[MapFeature] = drawing.features
     with suppress(InvalidValue):  # A map that is too wide has layers that are not.
-        features = Reading(drawing, None, Say(Language.ENGLISH)).features
+        features = Reading(drawing, None).features
     counts: dict[str, int] = {}
     for one in features:
         layer = geojson.layer_of(one)
@@ -135,7 +134,7 @@ def is_drawing(start: bytes) -> bool:
     return start.startswith((b"0", b"999", b"AutoCAD", b"AC10"))
 
 
-def _in_part(read: Callable[[], DanceParts], choice: Choice, say: Say) -> DanceParts:
+def _in_part(read: Callable[[], DanceParts], choice: Choice) -> DanceParts:
     """Square and path in a drawing, or in a part of it; too much of it is refused with advice to read a part."""
     try:
         parts = read()
@@ -144,18 +143,24 @@ def _in_part(read: Callable[[], DanceParts], choice: Choice, say: Say) -> DanceP
     notes = list(parts.notes)
     if choice.layers is not None:
         names = listed(choice.layers)
-        notes.append(say(f"Only these layers were read: {names}.", f"只读取了这些图层：{names}。"))
+        notes.append(say("Only these layers were read: {names}.", names=names))
     if choice.area is not None:
         left, low, right, high = choice.area
-        english = f"Only what reaches into x {left:g} to {right:g} m, y {low:g} to {high:g} m was read."
-        notes.append(say(english, f"只读取了 x {left:g} 至 {right:g} m、y {low:g} 至 {high:g} m 范围内的图形。"))
+        notes.append(
+            say(
+                "Only what reaches into x {left:g} to {right:g} m, y {low:g} to {high:g} m was read.",
+                left=left,
+                right=right,
+                low=low,
+                high=high,
+            )
+        )
     return replace(parts, notes=notes)
 
 
 def places_of(
     data: bytes,
     units: Coordinates | None,
-    say: Say,
     budget: Budget | None = None,
     chord: float = CHORD,
     choice: Choice = EVERYTHING,
@@ -179,20 +184,20 @@ def places_of(
     if data.startswith(OLD_WORKBOOK):
         raise InvalidValue("file", "must be saved as .xlsx or CSV", got="a workbook in an old or encrypted form")
     if is_workbook(data):
-        csv, notes = benches_of(data, budget or Budget(), say)
+        csv, notes = benches_of(data, budget or Budget())
         return DanceParts(dance={"dragon": {"csv": csv}}, notes=notes)
     is_archive = start.startswith(b"PK")
     if is_archive:
         start = kml.unpacked(data)
     if is_archive or start.startswith((b"<", b"\0<")):
-        start, notes = (start, []) if states_encoding(start) else _in_utf8(start, say)
+        start, notes = (start, []) if states_encoding(start) else _in_utf8(start)
         drawing = gpx.read(start) if gpx.is_gpx(start) else kml.read(start)
-        parts = Reading(drawing, units, say, chord).parts()
+        parts = Reading(drawing, units, chord).parts()
         return replace(parts, notes=[*notes, *parts.notes])
     if is_drawing(start):
-        return _in_part(lambda: Reading(dxf.read(data, choice), units, say).parts(), choice, say)
-    start, notes = _in_utf8(start, say)
-    parts = _of_text(start, units, say, choice)
+        return _in_part(lambda: Reading(dxf.read(data, choice), units).parts(), choice)
+    start, notes = _in_utf8(start)
+    parts = _of_text(start, units, choice)
     return replace(parts, notes=[*notes, *parts.notes])
 
 
@@ -203,16 +208,14 @@ def _refuse_part(choice: Choice) -> None:
         raise InvalidValue("layers" if choice.layers else "area", rule)
 
 
-def _in_utf8(data: bytes, say: Say) -> tuple[bytes, list[str]]:
+def _in_utf8(data: bytes) -> tuple[bytes, list[str]]:
     """Text in UTF-8, also of a file in GB 18030, and a note on that."""
     try:
         data.decode()
     except UnicodeDecodeError:
         with suppress(UnicodeDecodeError):
             text = data.decode(CHINESE)
-            return text.encode(), [
-                say("The file is not in UTF-8; it was read as GB 18030.", "文件不是 UTF-8，按 GB 18030 读取。")
-            ]
+            return text.encode(), [say("The file is not in UTF-8; it was read as GB 18030.")]
     return data, []
 
 
@@ -223,14 +226,14 @@ def _encoded(data: bytes, coding: str) -> bytes:
         raise InvalidValue("file", "must be text in UTF-16, as its first bytes say: save it as UTF-8") from error
 
 
-def _of_geojson(content: Mapping[str, Any], units: Coordinates | None, say: Say, choice: Choice) -> DanceParts:
+def _of_geojson(content: Mapping[str, Any], units: Coordinates | None, choice: Choice) -> DanceParts:
     """Square and path in GeoJSON, or in a part of it, whose area lies around the middle of the whole map."""
     drawing = geojson.read(content, choice)
     if choice.layers is not None and choice.area is not None:
         with suppress(InvalidValue):  # of a map that is too wide for one middle
-            whole = Reading(geojson.read(content, Choice(counts=True)), units, say)
+            whole = Reading(geojson.read(content, Choice(counts=True)), units)
             drawing = replace(drawing, origin=drawing.origin or whole.origin)
-    return Reading(drawing, units, say, choice=choice).parts()
+    return Reading(drawing, units, choice=choice).parts()
 
 
 def _json(start: bytes) -> dict[str, Any]:
@@ -250,12 +253,12 @@ def _refuse_many_parts(start: bytes) -> None:
         raise InvalidValue("file", rule, got=parts, most=PARTS_MAX)
 
 
-def _of_text(start: bytes, units: Coordinates | None, say: Say, choice: Choice) -> DanceParts:
+def _of_text(start: bytes, units: Coordinates | None, choice: Choice) -> DanceParts:
     """GeoJSON, or a dance as JSON or TOML."""
     if start.startswith(b"{"):
         content = _json(start)
         if "type" in content:
-            return _in_part(partial(_of_geojson, content, units, say, choice), choice, say)
+            return _in_part(partial(_of_geojson, content, units, choice), choice)
         _refuse_part(choice)
     _refuse_many_parts(start)
     _refuse_long(start)
@@ -270,7 +273,7 @@ def _of_text(start: bytes, units: Coordinates | None, say: Say, choice: Choice) 
         raise InvalidValue("file", rule.removesuffix(": "), got="none of these", **why.values) from error
     if wild := next((one for one in values_in(content) if isinstance(one, float) and not isfinite(one)), None):
         raise InvalidValue("file", "must have finite numbers", got=Given(wild))
-    return _of_dance(content, say)
+    return _of_dance(content)
 
 
 def _refuse_long(data: bytes) -> None:
@@ -279,7 +282,7 @@ def _refuse_long(data: bytes) -> None:
         raise InvalidValue("file", "must have at most {most} bytes if it is no map", got=len(data), most=DANCE_MAX)
 
 
-def _of_dance(content: Mapping[str, Any], say: Say) -> DanceParts:
+def _of_dance(content: Mapping[str, Any]) -> DanceParts:
     """A file that describes a dance, as `check` takes it."""
     path, venue, notes = content.get("path"), content.get("venue"), []
     others = {name: value for name, value in content.items() if name not in ("path", "venue", "coordinates")}
@@ -287,7 +290,7 @@ def _of_dance(content: Mapping[str, Any], say: Say) -> DanceParts:
         checked_path(path)
     place = None
     if isinstance(venue, str):
-        notes.append(say(f"The venue is in another file: {venue}.", f"场地在另一个文件中：{venue}。"))
+        notes.append(say("The venue is in another file: {venue}.", venue=venue))
     elif not isinstance(venue, Mapping | None):
         raise InvalidValue("file", "must have a venue that is GeoJSON or the name of a file", got=Given(venue))
     elif venue is not None:
@@ -300,14 +303,13 @@ def _of_dance(content: Mapping[str, Any], say: Say) -> DanceParts:
 def read_map(
     file: Path,
     units: Coordinates | None = None,
-    language: Language = Language.ENGLISH,
     chord: float = CHORD,
     choice: Choice = EVERYTHING,
 ) -> DanceParts:
     """The square and the path in a map; arguments as for places_of(). raises: InvalidValue, TooMuchWork, OSError"""
     data = map_data(file)
     with reading():
-        return places_of(data, units, Say(language), chord=chord, choice=choice)
+        return places_of(data, units, chord=chord, choice=choice)
 
 
 def map_data(file: Path) -> bytes:

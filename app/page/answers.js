@@ -3,7 +3,7 @@
 import { button, make } from "./elements.js";
 import { strayOf } from "./fields.js";
 import { bound, fixed, formatNumber, isExact } from "./numbers.js";
-import { benchName, handleName, proofWords, refusalWords, say, sayOf, sentencesOf, titleOf } from "./text.js";
+import { benchName, handleName, refusalWords, say, sayOf, sentencesOf, titleOf } from "./text.js";
 
 /** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
 const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
@@ -111,7 +111,7 @@ function certificateWords({ outcome, certificate: { steps, clear_until: until } 
   return outcome === "undecided" ? say("certificateNone") : sayOf("certificateStart", request);
 }
 
-const methodOf = (certificate) => make("p", { ...proofWords(certificate), className: "method" });
+const methodOf = (certificate) => make("p", { textContent: certificate.method, className: "method" });
 
 /** answer: of /collision-time */
 export function showFirstContact(box, answer, request) {

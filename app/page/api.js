@@ -177,7 +177,8 @@ export class Service {
   /** The response; null if the service cannot be reached. cancel: signal of the caller, which may end the question */
   async #fetch(url, options, cancel = null) {
     try {
-      const response = await fetch(url, options);
+      const language = { "Accept-Language": document.documentElement.lang };
+      const response = await fetch(url, { ...options, headers: { ...options.headers, ...language } });
       return GATEWAY_ERRORS.includes(response.status) ? null : response;
     } catch {
       cancel?.throwIfAborted();

@@ -21,7 +21,7 @@ import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { EXTRAS, State } from "./state.js";
 import { Table } from "./table.js";
-import { handleName, language, learnProofs, learnRefusals, say, setLanguage, writeTexts } from "./text.js";
+import { handleName, language, learnRefusals, say, setLanguage, writeTexts } from "./text.js";
 import { showRefusals } from "./refusal_boxes.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), ...EXTRAS, "path", "drawing"];
@@ -85,10 +85,10 @@ const doors = new Doors(state, parts);
 addLook();
 /** What belongs to a drawn dance, what stands below the dance, a carrier's view, several dragons, and sharing; null until they have loaded. @type {any} */
 let [route, below, carrier, dragons, sharing] = [null, null, null, null, null];
-/** Proofs have their words in Chinese too. */
-let hasProofs = false;
 /** Language of the first view. */
 let begun = "";
+/** The language of the sentences that the service has sent. */
+let spoken = "";
 let limits = {};
 let paths = null;
 const DRAWING = Symbol("drawing");
@@ -334,7 +334,6 @@ function translate() {
   for (const link of $$("[data-how]")) link.href = `how?lang=${chosen}`;
   // Of a part that is not there, the texts stay in the first language until it is.
   if (chosen !== (begun ||= chosen)) for (const open of [openRoute, openBelow]) open();
-  if (chosen === "zh") openProofs();
   graphs.help();
   controls.translate(limits);
   benches.show();
@@ -347,18 +346,10 @@ function translate() {
   route?.translate();
   carrier?.show();
   dragons?.show();
-  // The names that the page gives them have changed; a carrier has them in both languages, and may have no network.
-  if (state.get("dances") && state.get("bench") === null) refresh();
+  // The sentences of the service are in the other language; a carrier has them in both, and may have no network.
+  if (spoken && spoken !== chosen && state.get("bench") === null) refresh();
+  spoken = chosen;
   announceAgain();
-}
-
-/** The words of proofs in Chinese; the service has them in English. */
-async function openProofs() {
-  const words = await parts.load("proofs");
-  if (hasProofs) return;
-  hasProofs = true;
-  learnProofs(words);
-  translate();
 }
 
 /** What belongs to a drawn dance. */

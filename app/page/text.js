@@ -95,13 +95,6 @@ export function refusalWords(problem) {
   return refusalIn ? refusalIn(one, column === 1, say) : { textContent: one.detail, lang: "en" };
 }
 
-/** The function of proofs.js; null until it has loaded. */
-let claimIn = null;
-export const learnProofs = (module) => (claimIn = module.claimInChinese);
-
-/** The proof of an answer in the language of the page: the service's own sentences, or its claim in Chinese. */
-export const proofWords = ({ method, claim }) => (column && claimIn ? { textContent: claimIn(claim) } : { textContent: method, lang: "en" });
-
 export const nameBenches = (names) => (households = names);
 const withHousehold = (words, k) => (households[k] ? say("named", { words, name: households[k] }) : words);
 

@@ -17,6 +17,7 @@ from app.maps.marks import line_of
 from app.plan.sheet import POINT, Box, PaperName, Scale, Sheet, north_arrow, scale_of
 from app.plan.timing import Timing
 from core import Dance, Venue
+from core.language import say
 from core.plots import BLUE, VERMILION
 from core.shapes.engines import Polygons, widest_place
 from core.values import Floats
@@ -219,7 +220,7 @@ def _draw_marks(sheet: Sheet, ground: GroundMap, scale: Scale, line: Floats) -> 
         sheet.line([point - TICK * normal, point + TICK * normal], linewidth=0.6, zorder=6)
     begin = scale.on_paper(path.position(ground.timing.start_place + marks.first))
     sheet.axes.plot(*begin, marker="o", markersize=4.5, markerfacecolor="white", markeredgecolor=VERMILION, zorder=7)
-    words = sheet.say("head at the start", "龙头起点")
+    words = say("head at the start")
     beside = 0.5 * sheet.width(words, 6.0) + 2.0
     look = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.8}}
     near = [(begin[0] + side * beside, begin[1] + up) for up in (4.0, -4.0) for side in (1.0, -1.0)]
@@ -292,25 +293,25 @@ def draw_legend(
     sheet: Sheet, ground: GroundMap, left: float, right: float, bottom: float, *, benches: bool, several: bool = False
 ) -> None:
     """Draw the meaning of colours and lines, in a cell of the title block. several: of a map of several dragons"""
-    say, wide = sheet.say, right - left - 14.0
+    wide = right - left - 14.0
     spacing = ground.timing.marks.spacing
     # Look of an area, or the kind of a line, and its words.
     rows: list[tuple[dict[str, Any] | Literal["path", "mark"], str]] = [
-        (IN_SWEPT, say("ground swept by benches", "板凳扫过之地")),
-        (IN_CLEAR, say(f"keep clear, {ground.width:g} m", f"保持清空，{ground.width:g} m")),
-        ("path", say("path of the handles", "把手的路线")),
+        (IN_SWEPT, say("ground swept by benches")),
+        (IN_CLEAR, say("keep clear, {ground.width:g} m", ground=ground)),
+        ("path", say("path of the handles")),
     ]
     if several:
-        rows[-1] = ("path", say("path of each dragon, in its own colour", "每条龙的路线，颜色各异"))
+        rows[-1] = ("path", say("path of each dragon, in its own colour"))
         if benches:
-            rows.append((IN_BENCH, say("bench, in the colour of its dragon", "板凳，颜色同其龙")))
+            rows.append((IN_BENCH, say("bench, in the colour of its dragon")))
     elif benches:
-        rows += [(IN_BENCH, say("bench", "板凳")), (IN_HEAD, say("head", "龙头"))]
+        rows += [(IN_BENCH, say("bench")), (IN_HEAD, say("head"))]
     else:
-        rows.append(("mark", say(f"chalk mark every {spacing:g} m", f"粉笔标记，每 {spacing:g} m")))
+        rows.append(("mark", say("chalk mark every {spacing:g} m", spacing=spacing)))
     if ground.venue and ground.venue.obstacles:
         stone = {"facecolor": STONE, "edgecolor": "black", "hatch": "////", "linewidth": 0.5}
-        rows.append((stone, say("obstacle", "障碍物")))
+        rows.append((stone, say("obstacle")))
     for k, (look, words) in enumerate(rows):
         x, y = left + 2.0, bottom + 30.0 - 5.6 - 4.3 * k
         if isinstance(look, dict):

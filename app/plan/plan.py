@@ -16,11 +16,11 @@ from matplotlib.backends.backend_pdf import PdfPages
 import core
 from app.files.drawing import in_turn
 from app.files.performances import colour_of
-from app.files.words import Say
 from app.plan.ground import GroundMap, draw_benches, draw_ground, draw_grounds, draw_legend, scale_for
 from app.plan.sheet import BLOCK, MARGIN, Paper, PaperName, Scale, Sheet, Title, title_block
 from app.plan.tables import PlanTable, draw_tables
 from app.plan.timing import TimeFormat, points_of
+from core.language import say
 
 # Fonts as outlines of TrueType: every machine and every printer draws them alike, and the text can be searched.
 FONTS: dict[Any, Any] = {"pdf.fonttype": 42, "hatch.linewidth": 0.4}
@@ -76,7 +76,6 @@ class _Page:
 def plan_pdf(
     plans: Sequence[Plan],
     together: Together | None,
-    say: Say,
     progress: Callable[[float], None] = lambda share: None,
 ) -> bytes:
     """The bytes of the plan of one dragon, or of several together and of each.
@@ -88,9 +87,9 @@ def plan_pdf(
 
     def drawn() -> bytes:
         with matplotlib.rc_context({"font.family": plans[0].family, **FONTS}):
-            pages = [] if together is None else [*_together(plans, together, say)]
+            pages = [] if together is None else [*_together(plans, together)]
             for plan, scale in zip(plans, scales, strict=True):
-                pages += [*_maps(plan, scale, say), *_tables(plan, scale.paper, say)]
+                pages += [*_maps(plan, scale), *_tables(plan, scale.paper)]
             metadata = {"Title": pages[0].title.title, "Creator": "Bench Dragon", "CreationDate": None}
             with PdfPages(sink, metadata=metadata) as file:
                 for k, page in enumerate(pages, start=1):
@@ -107,124 +106,124 @@ def plan_pdf(
     return in_turn(drawn, plans[0].budget)
 
 
-def _together(plans: Sequence[Plan], together: Together, say: Say) -> Iterator[_Page]:
+def _together(plans: Sequence[Plan], together: Together) -> Iterator[_Page]:
     """The map of all dragons, and the place of each bench at three moments."""
     grounds, first = [plan.ground for plan in plans], plans[0]
     scale = scale_for(grounds, first.paper)
-    sheet = Sheet(scale.paper, say, first.family, first.budget)
+    sheet = Sheet(scale.paper, first.family, first.budget)
     draw_grounds(sheet, grounds, together.names, scale)
-    yield _Page(first, together.title, sheet, say("Plan of the ground", "场地平面图"), scale, several=True)
+    yield _Page(first, together.title, sheet, say("Plan of the ground"), scale, several=True)
     parts, moments = together.performance.parts, together.moments
     placed = core.performance_trajectory(together.performance, moments, budget=first.budget)
     for t, time in enumerate(moments):
-        sheet = Sheet(scale.paper, say, first.family, first.budget)
+        sheet = Sheet(scale.paper, first.family, first.budget)
         frame = draw_grounds(sheet, grounds, together.names, scale)
         for k, (part, result, plan) in enumerate(zip(parts, placed, plans, strict=True)):
             outlines = core.bench_outlines(part.dance.dragon, result.position[t])
             draw_benches(sheet, scale, outlines, plan.names, frame, colour_of(k))
-        yield _Page(first, together.title, sheet, _places(together.clock.words(time), say), scale, True, True)
+        yield _Page(first, together.title, sheet, _places(together.clock.words(time)), scale, True, True)
 
 
-def _places(when: str, say: Say) -> str:
-    return say(f"Place of each bench at {when}", f"{when} 时各节板凳的位置")
+def _places(when: str) -> str:
+    return say("Place of each bench at {when}", when=when)
 
 
-def _maps(plan: Plan, scale: Scale, say: Say) -> Iterator[_Page]:
+def _maps(plan: Plan, scale: Scale) -> Iterator[_Page]:
     ground, timing = plan.ground, plan.ground.timing
-    sheet = Sheet(scale.paper, say, plan.family, plan.budget)
+    sheet = Sheet(scale.paper, plan.family, plan.budget)
     draw_ground(sheet, ground, scale, numbers=True)
-    yield _Page(plan, plan.title, sheet, say("Plan of the ground", "场地平面图"), scale)
+    yield _Page(plan, plan.title, sheet, say("Plan of the ground"), scale)
     dance = ground.dance
     for time, handles in zip(timing.moments, core.trajectory(dance, timing.moments).position, strict=True):
-        sheet = Sheet(scale.paper, say, plan.family, plan.budget)
+        sheet = Sheet(scale.paper, plan.family, plan.budget)
         frame = draw_ground(sheet, ground, scale, numbers=False)
         draw_benches(sheet, scale, core.bench_outlines(dance.dragon, handles), plan.names, frame)
-        yield _Page(plan, plan.title, sheet, _places(plan.clock.words(time), say), scale, True)
+        yield _Page(plan, plan.title, sheet, _places(plan.clock.words(time)), scale, True)
 
 
-def _tables(plan: Plan, paper: Paper, say: Say) -> Iterator[_Page]:
-    tables = [_events(plan, say), _gates(plan, say), _benches(plan, say), _marks(plan, say), _points(plan, say)]
-    for sheet in draw_tables(tables, lambda: Sheet(paper, say, plan.family, plan.budget)):
+def _tables(plan: Plan, paper: Paper) -> Iterator[_Page]:
+    tables = [_events(plan), _gates(plan), _benches(plan), _marks(plan), _points(plan)]
+    for sheet in draw_tables(tables, lambda: Sheet(paper, plan.family, plan.budget)):
         sheet.frame(paper.room)
-        yield _Page(plan, plan.title, sheet, say("Points to paint, and times", "放样点与时间表"))
+        yield _Page(plan, plan.title, sheet, say("Points to paint, and times"))
 
 
 def _notes(sheet: Sheet, plan: Plan, left: float, right: float) -> None:
     """Write the meaning of the words in the tables."""
-    say, place = sheet.say, f"{plan.ground.timing.start_place:.1f}"
+    place = f"{plan.ground.timing.start_place:.1f}"
     lines = [
-        say("mark: length along the path from mark 0 [m]", "标记：沿路线距标记 0 的长度 [m]"),
+        say("mark: length along the path from mark 0 [m]"),
         plan.times_note,
         say(
-            f"enters: the front handle passes {place} m, the place of the head at the start",
-            f"进入：前把手经过 {place} m，即龙头的起始位置",
+            "enters: the front handle passes {place} m, the place of the head at the start",
+            place=place,
         ),
-        say("bench columns: place of the front handle along the path", "各时刻：前把手沿路线的位置"),
-        say("–: not during the dance", "–：舞龙期间不发生"),
+        say("bench columns: place of the front handle along the path"),
+        say("–: not during the dance"),
     ]
     for k, line in enumerate(lines):
         sheet.words(left + 2.0, MARGIN + BLOCK - 5.0 - 4.3 * k, line, 6.5, within=right - left - 4.0)
 
 
-def _points(plan: Plan, say: Say) -> PlanTable:
+def _points(plan: Plan) -> PlanTable:
     ground, marks = plan.ground, plan.ground.timing.marks
-    spiral = [say("radius [m]", "半径 [m]"), say("angle [°]", "角度 [°]")]
-    columns = [say("mark [m]", "标记 [m]"), "x [m]", "y [m]", *spiral]
+    spiral = [say("radius [m]"), say("angle [°]")]
+    columns = [say("mark [m]"), "x [m]", "y [m]", *spiral]
     rows = [
         [name, *(f"{value:.3f}" for value in values[:3]), *(f"{value:.2f}" for value in values[3:])]
         for name, values in zip(marks.names, points_of(ground.dance, marks), strict=True)
     ]
-    return PlanTable(say("Points to paint", "放样点"), columns[: len(rows[0])], rows)
+    return PlanTable(say("Points to paint"), columns[: len(rows[0])], rows)
 
 
-def _gates(plan: Plan, say: Say) -> PlanTable:
+def _gates(plan: Plan) -> PlanTable:
     words = plan.clock.words
     rows = [[name, f"{s:.1f} m", words(head), words(tail)] for name, s, head, tail in plan.ground.timing.gates]
-    columns = [say("gate", "出入口"), say("along the path", "沿路线"), say("head", "龙头"), say("tail", "龙尾")]
-    return PlanTable(say("Head and tail at the gates", "龙头与龙尾经过出入口的时间"), columns, rows, frozenset({0}))
+    columns = [say("gate"), say("along the path"), say("head"), say("tail")]
+    return PlanTable(say("Head and tail at the gates"), columns, rows, frozenset({0}))
 
 
-def _marks(plan: Plan, say: Say) -> PlanTable:
+def _marks(plan: Plan) -> PlanTable:
     timing, words = plan.ground.timing, plan.clock.words
     passed = zip(timing.marks.names, timing.head, timing.tail, strict=True)
     rows = [[name, words(head), words(tail)] for name, head, tail in passed]
-    columns = [say("mark [m]", "标记 [m]"), say("head", "龙头"), say("tail", "龙尾")]
-    return PlanTable(say("Head and tail at the marks", "龙头与龙尾经过标记的时间"), columns, rows)
+    columns = [say("mark [m]"), say("head"), say("tail")]
+    return PlanTable(say("Head and tail at the marks"), columns, rows)
 
 
-def _benches(plan: Plan, say: Say) -> PlanTable:
+def _benches(plan: Plan) -> PlanTable:
     timing, words = plan.ground.timing, plan.clock.words
-    moments = (say(f"at {words(one)}", words(one)) for one in timing.moments)
-    columns = [say("bench", "板凳"), say("enters", "进入"), *moments]
+    moments = (say("at {time}", time=words(one)) for one in timing.moments)
+    columns = [say("bench"), say("enters"), *moments]
     rows = [
         [name, words(passes), *(f"{place:.1f}" for place in places)]
         for name, passes, places in zip(plan.names, timing.passes, timing.handles[:, :-1].T.tolist(), strict=True)
     ]
-    return PlanTable(say("Front handles of benches [m]", "各节前把手 [m]"), columns, rows, frozenset({0}))
+    return PlanTable(say("Front handles of benches [m]"), columns, rows, frozenset({0}))
 
 
-def _events(plan: Plan, say: Say) -> PlanTable:
+def _events(plan: Plan) -> PlanTable:
     """A few events of the dance with their times."""
     timing, words = plan.ground.timing, plan.clock.words
     last = timing.handles[-1]
     rows = [
-        [say("the dance begins, head at", "开始，龙头在"), f"{timing.start_place:.1f} m", words(timing.moments[0])],
-        [say("the tail enters, at", "龙尾进入"), f"{timing.start_place:.1f} m", words(timing.tail_leaves)],
-        *_speeds(plan, say),
-        [say("the dance ends, head at", "结束，龙头在"), f"{last[0]:.1f} m", words(timing.moments[-1])],
-        [say("the dance ends, tail at", "结束，龙尾在"), f"{last[-1]:.1f} m", words(timing.moments[-1])],
+        [say("the dance begins, head at"), f"{timing.start_place:.1f} m", words(timing.moments[0])],
+        [say("the tail enters, at"), f"{timing.start_place:.1f} m", words(timing.tail_leaves)],
+        *_speeds(plan),
+        [say("the dance ends, head at"), f"{last[0]:.1f} m", words(timing.moments[-1])],
+        [say("the dance ends, tail at"), f"{last[-1]:.1f} m", words(timing.moments[-1])],
     ]
-    columns = [say("event", "事件"), say("along the path", "沿路线"), say("time", "时间")]
-    return PlanTable(say("In short", "概要"), columns, rows, frozenset({0}))
+    columns = [say("event"), say("along the path"), say("time")]
+    return PlanTable(say("In short"), columns, rows, frozenset({0}))
 
 
-def _speeds(plan: Plan, say: Say) -> Iterator[list[str]]:
+def _speeds(plan: Plan) -> Iterator[list[str]]:
     """Times at which the head changes its speed, in a dance with passages."""
     dance, timing = plan.ground.dance, plan.ground.timing
     if not dance.passages:
         return
     first = timing.marks.first
     for one in dance.clock.periods(timing.moments[0], timing.moments[-1]):
-        moves = say(f"from here at {one.speed:g} m/s", f"此后速度 {one.speed:g} m/s")
-        words = moves if one.speed else say("a pause begins", "开始停顿")
+        moves = say("from here at {one.speed:g} m/s", one=one)
+        words = moves if one.speed else say("a pause begins")
         yield [words, f"{one.first - first:.1f} m", plan.clock.words(one.begin)]

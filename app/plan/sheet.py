@@ -15,9 +15,9 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch, PathPatch, Polygon, Rectangle
 from matplotlib.path import Path as Outline
 
-from app.files.words import Say
 from core import Budget, InvalidValue
 from core.errors import quantities
+from core.language import say
 from core.values import Floats
 
 PaperName = Literal["A4", "A3"]
@@ -118,7 +118,6 @@ class Sheet:
     """
 
     paper: Paper
-    say: Say
     family: tuple[str, ...]
     budget: Budget
     taken: Floats = field(default_factory=lambda: np.empty((0, 4)))
@@ -229,7 +228,7 @@ def title_block(sheet: Sheet, title: Title, subtitle: str, number: str, scale: S
 
     scale: of the map on the sheet; None: a sheet of tables, whose notes also take the place of the scale bar
     """
-    say, paper = sheet.say, sheet.paper
+    paper = sheet.paper
     left, bottom, right, top = MARGIN, MARGIN, paper.width - MARGIN, MARGIN + BLOCK
     sheet.frame((left, bottom, right, top))
     last, bar = right - 24.0, right - 24.0 - 60.0
@@ -245,7 +244,7 @@ def title_block(sheet: Sheet, title: Title, subtitle: str, number: str, scale: S
     colour = "#006400" if title.passes else "#B00000"
     sheet.words(left + 2.0, bottom + 2.0, title.verdict, 7.0, within=wide, color=colour, fontweight="bold")
     sheet.words(0.5 * (last + right), top - 6.0, paper.name, 12.0, ha="center", fontweight="bold")
-    sheet.words(0.5 * (last + right), top - 12.0, say("sheet", "图幅"), 6.5, ha="center")
+    sheet.words(0.5 * (last + right), top - 12.0, say("sheet"), 6.5, ha="center")
     sheet.words(0.5 * (last + right), top - 17.0, number, 9.0, ha="center")
     sheet.words(0.5 * (last + right), bottom + 2.0, "Bench Dragon", 5.5, ha="center", color="#555555")
     if scale is not None:
@@ -254,7 +253,7 @@ def title_block(sheet: Sheet, title: Title, subtitle: str, number: str, scale: S
 
 
 def _scale_bar(sheet: Sheet, scale: Scale, x: float, bottom: float, top: float) -> None:
-    say, length = sheet.say, scale.bar
+    length = scale.bar
     wide = length * 1000.0 / scale.ratio
     sheet.words(x, top - 8.0, f"1:{scale.ratio}", 14.0, fontweight="bold")
     y = bottom + 9.0
@@ -263,7 +262,7 @@ def _scale_bar(sheet: Sheet, scale: Scale, x: float, bottom: float, top: float) 
     for share in (0.0, 0.5, 1.0):
         words = f"{length * share:g}" + (" m" if share == 1.0 else "")
         sheet.words(x + share * wide, y + 2.4, words, 6.0, ha="center")
-    note = say(f"print at 100 %: this bar is {wide:g} mm long", f"请按 100 % 打印：此线段长 {wide:g} mm")
+    note = say("print at 100 %: this bar is {wide:g} mm long", wide=wide)
     sheet.words(x - 3.0, bottom + 3.0, note, 6.0, within=56.0)
 
 

@@ -10,11 +10,11 @@ from app.contest.films import FILMS, Wanted
 from app.contest.kit import zip_of
 from app.contest.solved import ContestRequest
 from app.files.film_spec import ENDINGS, LOOKS
-from app.files.tables import Language
 from app.questions.films import SECONDS_PER_MEGAPIXEL
 from app.wire.question import Question, Terms, check_limit, measure
 from core.errors import unanswered
 from core.kernels import Halted
+from core.language import Language
 
 ZIP_TYPE = "application/zip"
 # Time of everything but the films of the contest's dance, measured 2026-11-27 [s].
@@ -48,7 +48,7 @@ def contest_kit(request: ContestKitRequest, terms: Terms) -> bytes:
         pixels = round(sum(_megapixels(request).values()))
         check_limit("seconds", "millions of pixels", pixels, limits.film_megapixels_max, "take shorter films")
     try:
-        return zip_of(request, request.language, request.shot, terms, _overall(request, terms))
+        return zip_of(request, request.shot, terms, _overall(request, terms))
     except Halted as halted:
         raise unanswered(halted.budget, "benches", "the kit was not made", request.benches) from halted
 

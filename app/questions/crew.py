@@ -11,8 +11,7 @@ from pydantic import AfterValidator, Field
 import core
 from app.cards.crew import CrewWords, crew_csv
 from app.cards.words import CardWords, Chalk
-from app.files.tables import CSV_TYPE, Language
-from app.files.words import Say
+from app.files.tables import CSV_TYPE
 from app.maps.marks import mark_name
 from app.plan.timing import TimeFormat
 from app.questions.maps import Marked
@@ -22,6 +21,7 @@ from app.wire.dances import clock_of
 from app.wire.question import AS_WHOLE, JSON, Answer, Coordinate, Instant, OneLine, Question, Terms, Wire, measure
 from core import Dance, InvalidValue
 from core.errors import Given, Parameter, Quantity, TooLarge, question_about
+from core.language import Language, say
 from core.motion.places import handle_places
 from core.people import crew as facts
 from core.people.crew import ON_BENCH_MAX, PEOPLE_MAX, PLACES_MAX, SHIFT_MAX, Relief, places_near
@@ -199,7 +199,7 @@ def crew(request: CrewRequest, terms: Terms, form: str = JSON) -> Crew | bytes:
     ends = handle_places(dance, [start, stop], budget=terms.budget)
     clock = TimeFormat(clock_of(request, dance), request.music)
     chalk = Chalk.of(dance, float(ends[0, -1]), request.spacing, 0.75)
-    words = CardWords(Say(request.language), dance.dragon.names, clock, chalk, False)
+    words = CardWords(dance.dragon.names, clock, chalk, False)
     places = _places(request, dance, float(ends[0, -1]), float(ends[1, 0]), chalk)
     rules = Relief(request.spares, request.shift, [s for s, _ in places], request.rest)
     result = _planned(request, dance, needed, rules, terms)
@@ -304,25 +304,25 @@ def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | Non
     from app.cards.timeline import CrewSheets
     from app.files.fonts import families_for
 
-    say, result, clock = crew.words.say, crew.crew, crew.words.clock.words
-    title = request.title or say("Bench dragon", "板凳龙")
+    result, clock = crew.crew, crew.words.clock.words
+    title = request.title or say("Bench dragon")
     minutes, seconds = divmod(round(crew.longest), 60)
     facts = [
         say(
-            f"{result.people} people, {result.spares} of them spares, {len(crew.changes)} changes",
-            f"共 {result.people} 人，其中替补 {result.spares} 人；换人 {len(crew.changes)} 次",
+            "{result.people} people, {result.spares} of them spares, {change_count} changes",
+            result=result,
+            change_count=len(crew.changes),
         ),
+        say("from {start} to {stop}", start=clock(result.start), stop=clock(result.stop)),
         say(
-            f"from {clock(result.start)} to {clock(result.stop)}", f"时间 {clock(result.start)} 至 {clock(result.stop)}"
-        ),
-        say(
-            f"nobody carries longer than {minutes}:{seconds:02d} without a break",
-            f"连续抬板最长 {minutes}:{seconds:02d}",
+            "nobody carries longer than {minutes}:{seconds:02d} without a break",
+            minutes=minutes,
+            seconds=seconds,
         ),
     ]
     if not result.is_kept:
         facts += crew.lack
-    family = families_for([title], request.language)
+    family = families_for([title])
     table = None if roll is None else _roll_table(roll, crew)
     return _drawn(dance, CrewSheets(crew, title, facts, family, terms.budget, table), terms)
 
@@ -338,16 +338,16 @@ def _drawn(dance: Dance, sheets: CrewSheets, terms: Terms) -> bytes:
 def _roll_table(roll: Roll, crew: CrewWords) -> PlanTable:
     from app.plan.tables import PlanTable
 
-    say, when = crew.words.say, crew.words.clock.words(roll.time)
-    columns = [say("bench", "板凳"), say("people", "抬板人"), "x [m]", "y [m]", say("near mark", "标记附近")]
+    when = crew.words.clock.words(roll.time)
+    columns = [say("bench"), say("people"), "x [m]", "y [m]", say("near mark")]
     rows = [
         [str(one.bench), " ".join(one.people), f"{one.x:.2f}", f"{one.y:.2f}", mark_name(one.mark)]
         for one in roll.benches
     ]
     for first in range(0, len(roll.resting), RESTING_IN_ROW):
         some = roll.resting[first : first + RESTING_IN_ROW]
-        rows.append(["" if first else say("rest", "休息"), " ".join(some), "", "", ""])
-    return PlanTable(say(f"Who is where at {when}", f"{when} 时谁在何处"), columns, rows, frozenset({1}))
+        rows.append(["" if first else say("rest"), " ".join(some), "", "", ""])
+    return PlanTable(say("Who is where at {when}", when=when), columns, rows, frozenset({1}))
 
 
 def _cost(request: CrewRequest, form: str = JSON) -> float:

@@ -11,8 +11,7 @@ import core
 from app.cards.answer import Cues, PerformanceCues
 from app.cards.tables import cards_csv, performance_cards_csv
 from app.cards.words import CardWords, Chalk, landmarks_of
-from app.files.tables import CSV_TYPE, Language
-from app.files.words import Say
+from app.files.tables import CSV_TYPE
 from app.plan.timing import TimeFormat
 from app.questions.check import verdict_of
 from app.questions.maps import Marked
@@ -23,6 +22,7 @@ from app.wire.performances import NumberOrName, SeveralFields, dragons_of
 from app.wire.question import JSON, OneLine, Question, Terms, measure
 from core import Dance, FailureKind, InvalidValue, Performance
 from core.errors import Given, Parameter, TooLarge, question_about
+from core.language import Language, say
 from core.motion.places import handle_places
 from core.people.cards import Card, card_of
 from core.people.cues import FOLLOWED_MAX, REACH, REACH_MAX, bench_cues
@@ -110,16 +110,15 @@ def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | Perform
 
 def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCues | bytes:
     """The cards of several dragons."""
-    (performance, place), say = request.to_placed(terms.settings), Say(request.language)
+    performance, place = request.to_placed(terms.settings)
     parts = request.dances or []
     chosen = {k: request.benches_of(performance.parts[k].dance.dragon) for k in dragons_of(request.part, performance)}
     _refuse_many(sum(map(len, chosen.values())))
-    names = [part.name or say(f"dragon {k}", f"{k} 号龙") for k, part in enumerate(performance.parts)]
+    names = [part.name or say("dragon {k}", k=k) for k, part in enumerate(performance.parts)]
     dragons = [(name, part.dance.dragon.names) for name, part in zip(names, performance.parts, strict=True)]
     start_clock = clock_of(request, performance)
     start, stop = performance.span(request.start, request.stop)
     geographic, decks = request.origin_at(place) is not None, list[tuple[list[Card], CardWords]]()
-    landmarks = landmarks_of(place.venue)
     for k, benches in chosen.items():
         dance = performance.parts[k].dance
         _refuse_equal_names(dance.dragon, f"dances.{k}.")
@@ -127,7 +126,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
         own = core.performance_cues(performance, k, benches, reach=request.reach, **span)
         chalk = _chalk(request, dance, performance.parts[k].own_span(start, stop)[0], terms)
         clock = TimeFormat(start_clock, parts[k].music, music_begin=parts[k].delay)
-        words = CardWords(say, dance.dragon.names, clock, chalk, geographic, k, dragons, landmarks)
+        words = CardWords(dance.dragon.names, clock, chalk, geographic, k, dragons, landmarks_of(place.venue))
         decks.append(([card_of(one) for one in own], words))
     if form == JSON:
         return PerformanceCues.together(decks)
@@ -138,7 +137,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
         performance, start=start, stop=request.stop, details=False, budget=terms.budget, **limits
     )
     in_words = TimeFormat(start_clock).words
-    verdict = _failed(request, report, in_words, say) if report.failures else _passed(request, place, say)
+    verdict = _failed(request, report, in_words) if report.failures else _passed(request, place)
     dances = [(performance.parts[k].dance, names[k]) for k in chosen]
     sheets = _sheets(request, place, list(zip(dances, decks, strict=True)), verdict, terms)
     return _drawn_together(performance, sheets, terms)
@@ -161,8 +160,7 @@ def _words(request: CuesRequest, dance: Dance, place: Place, terms: Terms) -> Ca
     chalk = _chalk(request, dance, dance.span(request.start, request.stop)[0], terms)
     clock = TimeFormat(clock_of(request, dance), request.music)
     geographic = request.origin_at(place) is not None
-    landmarks = landmarks_of(place.venue)
-    return CardWords(Say(request.language), dance.dragon.names, clock, chalk, geographic, landmarks=landmarks)
+    return CardWords(dance.dragon.names, clock, chalk, geographic, landmarks=landmarks_of(place.venue))
 
 
 def _refuse_equal_names(dragon: core.Dragon, before: str = "") -> None:
@@ -180,37 +178,36 @@ def _refuse_equal_names(dragon: core.Dragon, before: str = "") -> None:
 def _verdict(request: CuesRequest, dance: Dance, place: Place, words: CardWords, terms: Terms) -> str:
     """The verdict on a single dance in a few words."""
     if dance.dragon.benches > terms.settings.checked_benches_max:
-        return words.say("Not checked: the dragon is too long", "未检查：板凳过多")
+        return say("Not checked: the dragon is too long")
     start = dance.span(request.start, request.stop)[0]
     report = verdict_of(request, dance, place.venue, start, terms)
     if report.failures:
-        return _failed(request, report, words.clock.words, words.say)
-    return _passed(request, place, words.say)
+        return _failed(request, report, words.clock.words)
+    return _passed(request, place)
 
 
-def _failed(
-    request: CuesRequest, report: core.Report | core.PerformanceReport, words: Callable[[float], str], say: Say
-) -> str:
+def _failed(request: CuesRequest, report: core.Report | core.PerformanceReport, words: Callable[[float], str]) -> str:
     """What the check of a dance that fails found, and whether its cards end there."""
-    verdict = verdict_words(report, words, say)
+    verdict = verdict_words(report, words)
     contacts = [words(failure.time) for failure in report.failures if failure.kind is FailureKind.CONTACT]
     if request.stop is None or words(request.stop) not in contacts:
-        return say(f"{verdict}.", f"{verdict}。")
-    return say(f"{verdict}; the cues end where benches touch.", f"{verdict}，提示到板凳相碰时为止。")
+        return say("{words}.", words=verdict)
+    return say("{verdict}; the cues end where benches touch.", verdict=verdict)
 
 
-def _passed(request: CuesRequest, place: Place, say: Say) -> str:
+def _titled(title: str, name: str) -> str:
+    return say("{name}: {text}", name=title, text=name) if name else title
+
+
+def _passed(request: CuesRequest, place: Place) -> str:
     """What the check of a dance that passes found."""
     margin = request.margin
-    english, chinese = ("", "") if margin == 0.0 else (f" ({margin:g} m kept clear)", f"（均留 {margin:g} m）")
+    kept = say(" ({margin:g} m kept clear)", margin=margin) if margin else ""
     if place.venue is None:
-        return say(
-            f"The whole dance was checked: nobody touches another bench{english}.",
-            f"整场舞龙已检查：板凳互不相碰{chinese}。",
-        )
+        return say("The whole dance was checked: nobody touches another bench{kept}.", kept=kept)
     return say(
-        f"The whole dance was checked: nobody touches another bench, an obstacle or the edge of the square{english}.",
-        f"整场舞龙已检查：板凳互不相碰，也不碰障碍物和场地边界{chinese}。",
+        "The whole dance was checked: nobody touches another bench, an obstacle or the edge of the square{kept}.",
+        kept=kept,
     )
 
 
@@ -228,16 +225,22 @@ def _sheets(
     from app.cards.cards import CardSheets
     from app.files.fonts import families_for
 
-    say = Say(request.language)
-    title, colon = request.title or say("Bench dragon", "板凳龙"), say(": ", "：")
+    title = request.title or say("Bench dragon")
     areas = place.venue.areas if place.venue else ()
     names = [one for (dance, name), _ in decks for one in (name, *dance.dragon.names)]
     # The cards of one dragon name those of others.
     names += [one for _, (_, words) in decks[:1] for name, own in words.dragons for one in (name, *own)]
-    family = families_for([title, *names, *(area.name for area in areas)], request.language)
+    family = families_for([title, *names, *(area.name for area in areas)])
     return [
         CardSheets(
-            dance, place.venue, cards, words, f"{title}{colon}{name}" if name else title, verdict, family, terms.budget
+            dance,
+            place.venue,
+            cards,
+            words,
+            say("{name}: {text}", name=title, text=name) if name else title,
+            verdict,
+            family,
+            terms.budget,
         )
         for (dance, name), (cards, words) in decks
     ]

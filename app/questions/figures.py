@@ -7,12 +7,12 @@ from typing import Any
 from pydantic import Field
 
 import core
-from app.files.tables import Language
 from app.questions.pitch_scan import ScanFields
 from app.wire.dances import DragonFields, PlacedDance
 from app.wire.performances import Moment, PerformanceSpan, PlacedPerformance, SeveralFields
 from app.wire.question import DanceQuery, FileFormat, Instant, Margin, Question, Terms, UniformDragon, Wire, measure
 from core.design.pitch_scan import scan_near_minimum
+from core.language import Language
 
 
 class Format(FileFormat):
@@ -101,11 +101,11 @@ def trajectory_figure(request: TrajectoryFigureQuery | TrajectoryFigureRequest, 
     if isinstance(request, TrajectoryFigureRequest) and request.dances is not None:
         performance, _ = request.to_placed(terms.settings)
         time = performance.begin if request.time is None else request.time
-        return _together(performance, None, time, FORMATS[form], request.language, terms)
+        return _together(performance, None, time, FORMATS[form], terms)
     dance = request.to_dance(terms.settings.drawn_benches_max)
     venue = request.to_place(dance.dragon).venue if isinstance(request, PlacedDance) else None
     time = dance.default_start if request.time is None else request.time
-    look: dict[str, Any] = {"format": FORMATS[form], "language": request.language, "budget": terms.budget}
+    look: dict[str, Any] = {"format": FORMATS[form], "budget": terms.budget}
     return figures.trajectory_figure(dance, venue=venue, time=time, **look)
 
 
@@ -116,13 +116,13 @@ def contact_figure(request: ContactFigureQuery | ContactFigureRequest, terms: Te
     placed: dict[str, Any] = {}
     if isinstance(request, ContactFigureRequest) and request.dances is not None:
         performance, _ = request.to_placed(terms.settings)
-        return _together(performance, request, None, FORMATS[form], request.language, terms)
+        return _together(performance, request, None, FORMATS[form], terms)
     if not isinstance(request, ContactFigureRequest):
         dance = request.to_dance(terms.settings.drawn_benches_max)
     else:
         dance = request.to_dance(terms.settings.checked_benches_max)
         placed = {"venue": request.to_place(dance.dragon).venue, "start": request.start, "stop": request.stop}
-    look: dict[str, Any] = {"format": FORMATS[form], "language": request.language}
+    look: dict[str, Any] = {"format": FORMATS[form]}
     return figures.contact_figure(dance, margin=request.margin, budget=terms.budget, **look, **placed)
 
 
@@ -130,7 +130,7 @@ def encounter_figure(request: EncounterFigureRequest, terms: Terms, form: str) -
     """Several dragons at their first encounter, with the two benches that meet enlarged, or at a given time."""
     performance, _ = request.to_placed(terms.settings)
     search = request if request.time is None else None
-    return _together(performance, search, request.time, FORMATS[form], request.language, terms)
+    return _together(performance, search, request.time, FORMATS[form], terms)
 
 
 def _together(
@@ -138,7 +138,6 @@ def _together(
     search: EncounterFigureRequest | ContactFigureRequest | None,
     time: float | None,
     format: str,
-    language: Language,
     terms: Terms,
 ) -> bytes:
     """Several dragons, drawn at the first encounter of a search, or at a time [s]."""
@@ -148,9 +147,7 @@ def _together(
     if search is not None:
         span: dict[str, Any] = {"start": search.start, "stop": search.stop}
         result = core.first_encounter(performance, margin=search.margin, budget=terms.budget, **span)
-    return performances.encounter_figure(
-        performance, result, time=time, format=format, language=language, budget=terms.budget
-    )
+    return performances.encounter_figure(performance, result, time=time, format=format, budget=terms.budget)
 
 
 def pitch_scan_figure(request: StaircaseQuery | StaircaseRequest, terms: Terms, form: str) -> bytes:
@@ -161,7 +158,7 @@ def pitch_scan_figure(request: StaircaseQuery | StaircaseRequest, terms: Terms, 
     scanned = scan_near_minimum(
         dragon, samples=request.samples, progress=terms.progress, budget=terms.budget, **request.to_circle()
     )
-    look: dict[str, Any] = {"format": FORMATS[form], "language": request.language, "budget": terms.budget}
+    look: dict[str, Any] = {"format": FORMATS[form], "budget": terms.budget}
     look |= request.to_circle()
     return figures.pitch_scan_figure(dragon, scanned, **look)
 

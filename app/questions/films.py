@@ -9,13 +9,12 @@ from pydantic import Field
 
 import core
 from app.files.film_spec import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, FilmSpec
-from app.files.tables import Language
-from app.files.words import Say
 from app.wire.dances import BenchNumber, PlacedDance, bench_of, clock_of
 from app.wire.performances import NumberOrName, PartBody, SeveralFields, dragons_of
 from app.wire.question import AS_WHOLE, Instant, OneLine, Question, Terms, Wire, check_limit, measure
 from core import Dance, Dragon, EndReason, InvalidValue, Outcome, Performance, first_contact
 from core.errors import Given, quantities
+from core.language import Language, say
 
 FORM = next(iter(ENDINGS))
 # Longest time of the dance in a film without a stop, unless benches touch earlier, and time left before a fold [s].
@@ -89,7 +88,7 @@ def film_of(
     clock = clock_of(placed, dance) if placed else None
     music = placed.music if placed else None
     look: dict[str, Any] = {"touching": touching, "music": music, "marked": benches}
-    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, **look)
+    spec = FilmSpec(start, stop, request.seconds, rate, height, clock, **look)
     venue = placed.to_place(dance.dragon).venue if placed else None
     return film.film(dance, spec, form, venue=venue, title=request.title, budget=terms.budget, progress=terms.progress)
 
@@ -107,8 +106,8 @@ def _of_several(request: FilmRequest, terms: Terms, form: str) -> bytes:
     dragons, benches = touching or (None, None)
     clock, colours = clock_of(request, performance), COLOURS[: len(performance.parts)]
     look: dict[str, Any] = {"touching": benches, "dragons": dragons, "colours": colours, "marked": marked}
-    music = shared_music(request.dances or [], Say(request.language))
-    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, **look, **music)
+    music = shared_music(request.dances or [])
+    spec = FilmSpec(start, stop, request.seconds, rate, height, clock, **look, **music)
     more: dict[str, Any] = {"budget": terms.budget, "progress": terms.progress}
     return performance_film(performance, spec, form, title=request.title, **more)
 
@@ -119,14 +118,14 @@ def _marked(words: Sequence[int | str] | None, dragons: dict[int, Dragon]) -> tu
     return tuple(dict.fromkeys((k, bench_of(*one, dragon)) for k, dragon in dragons.items() for one in named))
 
 
-def shared_music(dances: Sequence[PartBody], say: Say) -> dict[str, Any]:
+def shared_music(dances: Sequence[PartBody]) -> dict[str, Any]:
     """The beats of the first dragon that has any, when they begin, and its name if another one has others, or none."""
     own = next(((k, one) for k, one in enumerate(dances) if one.beats), None)
     if own is None:
         return {}
     k, part = own
     is_common = all((one.beats, one.delay) == (part.beats, part.delay) for one in dances)
-    name = "" if is_common else part.name or say(f"dragon {k}", f"{k} 号龙")
+    name = "" if is_common else part.name or say("dragon {k}", k=k)
     return {"music": part.music, "music_begin": part.delay, "music_of": name}
 
 

@@ -12,7 +12,6 @@ from functools import cache
 import numpy as np
 from pydantic import Field
 
-from app.files.tables import Language
 from app.grade.contacts import (
     EXACT_ANGLE,
     LOOSE_ANGLE,
@@ -26,11 +25,12 @@ from app.grade.contacts import (
     largest_sum,
 )
 from app.grade.report import DiagnosisAnswer, typed
-from app.grade.words import say
+from app.grade.words import word
 from app.wire.question import Answer, Question, Terms, Wire
 from core import Dance, Dragon, FirstContact, Spiral, clearance_profile, first_contact, minimum_pitch
 from core import trajectory as trajectory_of
 from core.design.pitch_scan import Stops
+from core.language import Language, speaking, spoken
 from core.sampling import bisect
 from core.shapes.rectangles import corners, literal_corners
 
@@ -105,9 +105,9 @@ class _Number:
     values: dict[str, float]
     evidence: dict[str, tuple[float, str]]
 
-    def in_words(self, language: Language) -> PaperNumber:
+    def in_words(self) -> PaperNumber:
         def words(code: str) -> str:
-            return say(f"paper_{self.name}{code}", language, **self.values)
+            return word(f"paper_{self.name}{code}", **self.values)
 
         return PaperNumber(
             quantity=words(""),
@@ -122,9 +122,10 @@ class _Number:
 
 
 @cache
-def comparison(language: Language = Language.ENGLISH) -> tuple[PaperNumber, ...]:
+def comparison(language: Language) -> tuple[PaperNumber, ...]:
     """The four numbers that the paper reports, for its own dragon and spiral."""
-    return tuple(number.in_words(language) for number in _numbers())
+    with speaking(language):
+        return tuple(number.in_words() for number in _numbers())
 
 
 @cache
@@ -135,21 +136,22 @@ def _numbers() -> tuple[_Number, ...]:
 
 
 @cache
-def literature(language: Language = Language.ENGLISH) -> tuple[PublishedNumber, ...]:
+def literature(language: Language) -> tuple[PublishedNumber, ...]:
     """The numbers of other publications, each with the shortcut that gives it where one is known."""
-    return tuple(
-        PublishedNumber(
-            quantity=say(name, language),
-            unit=one.unit,
-            source=source,
-            published=one.found,
-            ours=one.expected,
-            difference=one.expected - one.found,
-            diagnosis=one.diagnosis,
+    with speaking(language):
+        return tuple(
+            PublishedNumber(
+                quantity=word(name),
+                unit=one.unit,
+                source=source,
+                published=one.found,
+                ours=one.expected,
+                difference=one.expected - one.found,
+                diagnosis=one.diagnosis,
+            )
+            for source, name, text in PUBLISHED
+            for one in [typed(name, text)]
         )
-        for source, name, text in PUBLISHED
-        for one in [typed(name, text, language)]
-    )
 
 
 def _collision_time(contact: FirstContact) -> _Number:
@@ -206,7 +208,7 @@ def _contact_radius(pitch: float) -> float:
 
 def paper(request: PaperQuery, terms: Terms) -> PaperTable:
     """The paper's reported numbers beside ours, with the reason for each difference."""
-    return PaperTable(rows=list(comparison(request.language)), literature=list(literature(request.language)))
+    return PaperTable(rows=list(comparison(spoken())), literature=list(literature(spoken())))
 
 
 QUESTION = Question(paper, PaperTable, flat=PaperQuery)

@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING, Any, Literal
 from pydantic import Field
 
 import core
-from app.files.tables import Language
-from app.files.words import Say
 from app.maps.marks import marks_of
 from app.questions.check import verdict_of
 from app.questions.maps import Marked
@@ -20,8 +18,8 @@ from app.wire.degrees import Place
 from app.wire.performances import SeveralFields
 from app.wire.question import Coordinate, OneLine, Question, Terms, Wire, check_limit, measure
 from core import Dance, FailureKind, InvalidValue, Judgement
-from core.display import format_count
 from core.errors import Given, Quantity, format_number, question_about
+from core.language import Language, counted, phrase, say
 from core.motion.places import handle_places
 from core.people.crew import places_near
 from core.shapes.engines import widened
@@ -44,12 +42,12 @@ GATES_MAX = 20
 DRAGONS_MAX = 20
 # Words for each kind of failure.
 FAILURES = {
-    FailureKind.CONTACT: ("benches touch or are too near", "板凳相碰或过近"),
-    FailureKind.VENUE: ("a bench is too near to the venue", "板凳距场地边界或障碍物过近"),
-    FailureKind.OUTSIDE: ("a bench starts outside the square or in an obstacle", "有板凳起始于场外或障碍物内"),
-    FailureKind.SPEED: ("a handle is too fast", "把手速度超限"),
-    FailureKind.FOLDS: ("a bench cannot follow the path", "板凳无法继续沿路线前进"),
-    FailureKind.UNDECIDED: ("not decided", "未能判定"),
+    FailureKind.CONTACT: phrase("benches touch or are too near"),
+    FailureKind.VENUE: phrase("a bench is too near to the venue"),
+    FailureKind.OUTSIDE: phrase("a bench starts outside the square or in an obstacle"),
+    FailureKind.SPEED: phrase("a handle is too fast"),
+    FailureKind.FOLDS: phrase("a bench cannot follow the path"),
+    FailureKind.UNDECIDED: phrase("not decided"),
 }
 
 
@@ -90,17 +88,17 @@ def plan(request: PlanRequest, terms: Terms) -> bytes:
 
     if request.dances is not None:
         return _of_several(request, terms)
-    dance, say = request.to_dance(terms.settings.checked_benches_max), Say(request.language)
+    dance = request.to_dance(terms.settings.checked_benches_max)
     place, clock = request.to_place(dance.dragon), TimeFormat(clock_of(request, dance), request.music)
     span = dance.span(request.start, request.stop)
     (passes,) = _passes_of_gates(request, [dance], [span], terms.budget)
     timing = _timing(request, dance, span, passes, terms)
     swept = core.envelope(dance, start=span[0], stop=span[1], excess=EXCESS, budget=terms.budget)
     report = verdict_of(request, dance, place.venue, span[0], terms)
-    verdict = verdict_words(report, clock.words, say), report.verdict is Judgement.PASSES
+    verdict = verdict_words(report, clock.words), report.verdict is Judgement.PASSES
     common = _Common(request, place, verdict, _family(request, place, [dance.dragon], []), terms.budget)
-    times = say("times: minutes:seconds, from time 0 of the dance", "时间：自时刻 0 起的 分:秒")
-    return _drawn(dance, [common.plan_of(dance, timing, swept, clock, times)], say, terms)
+    times = say("times: minutes:seconds, from time 0 of the dance")
+    return _drawn(dance, [common.plan_of(dance, timing, swept, clock, times)], terms)
 
 
 def _of_several(request: PlanRequest, terms: Terms) -> bytes:
@@ -110,7 +108,7 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
 
     parts = request.dances or []
     check_limit("dances", "dragons of a plan", len(parts), DRAGONS_MAX, "print some of them")
-    (performance, place), say, budget = request.to_placed(terms.settings), Say(request.language), terms.budget
+    (performance, place), budget = request.to_placed(terms.settings), terms.budget
     start, stop = performance.span(request.start, request.stop)
     clock = TimeFormat(clock_of(request, performance))
     dances, spans = zip(*((part.dance, part.own_span(start, stop)) for part in performance.parts), strict=True)
@@ -119,24 +117,24 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     grounds = core.performance_envelope(performance, start=start, stop=stop, excess=EXCESS, budget=budget)
     limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
     report = core.performance_check(performance, start=start, stop=stop, details=False, budget=budget, **limits)
-    verdict = verdict_words(report, clock.words, say), report.verdict is Judgement.PASSES
-    names = [part.name or say(f"dragon {k}", f"{k} 号龙") for k, part in enumerate(performance.parts)]
+    verdict = verdict_words(report, clock.words), report.verdict is Judgement.PASSES
+    names = [part.name or say("dragon {k}", k=k) for k, part in enumerate(performance.parts)]
     common = _Common(request, place, verdict, _family(request, place, [one.dragon for one in dances], names), budget)
-    times = say("times: minutes:seconds, from time 0 of the performance", "时间：自表演时刻 0 起的 分:秒")
+    times = say("times: minutes:seconds, from time 0 of the performance")
     plans = []
     for k, (part, timing, swept) in enumerate(zip(performance.parts, timings, grounds, strict=True)):
         own_clock = TimeFormat(clock.start_clock, parts[k].music, part.delay)
         plans.append(common.plan_of(part.dance, timing, swept, own_clock, times, names[k]))
     benches = sum(one.dragon.benches for one in dances)
     facts = [
-        say(f"{len(dances)} dragons, {benches} benches", f"{len(dances)} 条龙，{benches} 节板凳"),
-        say(f"margin {format_number(request.margin)} m", f"间距 {format_number(request.margin)} m"),
-        _from_to(clock.words(start), clock.words(stop), say),
-        *_grid(place, say),
+        say("{dance_count} dragons, {benches} benches", dance_count=len(dances), benches=benches),
+        say("margin {margin} m", margin=format_number(request.margin)),
+        _from_to(clock.words(start), clock.words(stop)),
+        *_grid(place),
     ]
     moments = [start, 0.5 * (start + stop), stop]
     together = Together(performance, moments, names, clock, common.title_of(facts))
-    return _drawn_together(performance, plans, together, say, terms)
+    return _drawn_together(performance, plans, together, terms)
 
 
 def _timing(
@@ -154,9 +152,9 @@ def _family(
     from app.files.fonts import families_for
 
     areas = place.venue.areas if place.venue else ()
-    titles = [request.title or Say(request.language)("Bench dragon", "板凳龙"), *names]
+    titles = [request.title or say("Bench dragon"), *names]
     places = [*(one.name for one in request.gates), *(area.name for area in areas)]
-    return families_for([*titles, *places, *(name for dragon in dragons for name in dragon.names)], request.language)
+    return families_for([*titles, *places, *(name for dragon in dragons for name in dragon.names)])
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,10 +168,6 @@ class _Common:
     budget: core.Budget
 
     @property
-    def say(self) -> Say:
-        return Say(self.request.language)
-
-    @property
     def geographic(self) -> bool:
         return self.request.origin_at(self.place) is not None
 
@@ -181,7 +175,7 @@ class _Common:
         """The title block. name: of the dragon, empty if it is the only one, or for all of them"""
         from app.plan.sheet import Title
 
-        title = self.request.title or self.say("Bench dragon", "板凳龙")
+        title = self.request.title or say("Bench dragon")
         return Title(f"{title}: {name}" if name else title, facts, *self.verdict, self.geographic)
 
     def plan_of(
@@ -191,17 +185,17 @@ class _Common:
         from app.plan.ground import GroundMap
         from app.plan.plan import Plan
 
-        request, say = self.request, self.say
+        request = self.request
         span = clock.words(timing.moments[0]), clock.words(timing.moments[-1])
-        facts = [*_facts(dance, request.margin, say), _from_to(*span, say), *_grid(self.place, say)]
+        facts = [*_facts(dance, request.margin), _from_to(*span), *_grid(self.place)]
         width = request.clear if request.clear is not None else request.margin or CLEAR
         clear = widened(swept.polygons, width) if width else swept.polygons
         gates = [(one.name, one.x, one.y) for one in request.gates]
         venue = self.place.venue
         ground = GroundMap(dance, venue, swept.polygons, clear, width, timing, self.geographic, gates)
-        numbers = [say("head", "龙头"), *map(str, range(1, dance.dragon.benches))]
+        numbers = [say("head"), *map(str, range(1, dance.dragon.benches))]
         names = [f"{number} {own}".rstrip() for number, own in zip_longest(numbers, dance.dragon.names, fillvalue="")]
-        note = say("times: of the day", "时间：当日时刻") if clock.start_clock else times
+        note = say("times: of the day") if clock.start_clock else times
         return Plan(ground, self.family, names, clock, self.title_of(facts, name), request.paper, self.budget, note)
 
 
@@ -230,61 +224,56 @@ def _passes_of_gates(
 
 
 @question_about("dance", Dance, "the plan was not drawn")
-def _drawn(dance: Dance, plans: list[Plan], say: Say, terms: Terms) -> bytes:
+def _drawn(dance: Dance, plans: list[Plan], terms: Terms) -> bytes:
     """The bytes of the plan of a dance. raises: TooMuchWork"""
     from app.plan.plan import plan_pdf
 
-    return plan_pdf(plans, None, say, terms.progress)
+    return plan_pdf(plans, None, terms.progress)
 
 
 @question_about("performance", core.Performance, "the plan was not drawn")
-def _drawn_together(
-    performance: core.Performance, plans: list[Plan], together: Together, say: Say, terms: Terms
-) -> bytes:
+def _drawn_together(performance: core.Performance, plans: list[Plan], together: Together, terms: Terms) -> bytes:
     """The bytes of the plan of several dances. raises: TooMuchWork"""
     from app.plan.plan import plan_pdf
 
-    return plan_pdf(plans, together, say, terms.progress)
+    return plan_pdf(plans, together, terms.progress)
 
 
-def _from_to(start: str, stop: str, say: Say) -> str:
-    return say(f"from {start} to {stop}", f"时间 {start} 至 {stop}")
+def _from_to(start: str, stop: str) -> str:
+    return say("from {start} to {stop}", start=start, stop=stop)
 
 
-def _facts(dance: Dance, margin: float, say: Say) -> list[str]:
+def _facts(dance: Dance, margin: float) -> list[str]:
     """The dance in lines of the title block."""
     dragon = dance.dragon
     length = float(dragon.chords.sum())
     moving = sorted({one.speed for one in dance.passages if one.speed > 0.0} | {dance.head_speed})
-    english, chinese = (
-        to.join(format_number(one) for one in sorted({moving[0], moving[-1]})) for to in (" to ", " 至 ")
-    )
-    pauses, n = sum(one.speed == 0.0 for one in dance.passages), dragon.benches
-    paused, stopped = (f" with {format_count(pauses, 'pause')}", f"，停顿 {pauses} 次") if pauses else ("", "")
+    speeds = format_number(moving[-1])
+    if moving[0] < moving[-1]:
+        speeds = say("{low} to {high}", low=format_number(moving[0]), high=speeds)
+    pauses = sum(passage.speed == 0.0 for passage in dance.passages)
+    paused = counted(pauses, " with {count} pause", " with {count} pauses") if pauses else ""
     return [
-        say(f"{n} benches, {length:.1f} m from head to tail", f"{n} 节板凳，全长 {length:.1f} m"),
-        say(
-            f"head at {english} m/s{paused}, margin {format_number(margin)} m",
-            f"龙头速度 {chinese} m/s{stopped}，间距 {format_number(margin)} m",
-        ),
+        say("{n} benches, {length:.1f} m from head to tail", n=dragon.benches, length=length),
+        say("head at {speeds} m/s{paused}, margin {margin:g} m", speeds=speeds, paused=paused, margin=margin),
     ]
 
 
-def _grid(place: Place, say: Say) -> list[str]:
+def _grid(place: Place) -> list[str]:
     """A line about the survey grid of the venue, if it has one."""
     if place.grid is None:
         return []
     x, y = (f"{one:.10g}" for one in place.grid)
-    return [say(f"x = y = 0 is x {x} m, y {y} m of the survey grid", f"x = y = 0 为测量坐标 x {x} m，y {y} m")]
+    return [say("x = y = 0 is x {x} m, y {y} m of the survey grid", x=x, y=y)]
 
 
-def verdict_words(report: core.Report | core.PerformanceReport, words: Callable[[float], str], say: Say) -> str:
+def verdict_words(report: core.Report | core.PerformanceReport, words: Callable[[float], str]) -> str:
     """The verdict of a check in a few words."""
     if not report.failures:
-        return say("Checked: passes", "检查：通过")
+        return say("Checked: passes")
     first = report.failures[0]
-    failure = say(*FAILURES[first.kind])
-    return say(f"Checked: {failure} at {words(first.time)}", f"检查：{words(first.time)} {failure}")
+    failure = say(FAILURES[first.kind])
+    return say("Checked: {failure} at {time}", failure=failure, time=words(first.time))
 
 
 def _cost(request: PlanRequest) -> float:

@@ -28,6 +28,7 @@ from app.processes.parent import Report, answer_tasks
 from app.processes.pool import Pool
 from app.settings import Settings
 from core import BenchDragonError, Budget, InvalidValue
+from core.language import speaking, spoken
 
 logger = logging.getLogger("app.service")
 
@@ -70,7 +71,8 @@ class Graders:
             memory; ProcessEnded when no process starts
         """
         try:
-            outcome: GradingOutcome = pickle.loads(self._pool.answer(pickle.dumps((reader, arguments)), budget))
+            task = pickle.dumps((spoken(), reader, arguments))
+            outcome: GradingOutcome = pickle.loads(self._pool.answer(task, budget))
         except ProcessEnded as end:
             if not end.received:
                 raise
@@ -102,8 +104,9 @@ def outcome_of(task: bytearray, report: Report, *, memory_max: int) -> bytes:
 
 
 def _read(task: bytearray) -> object:
-    reader, arguments = pickle.loads(task)
-    return reader(*arguments, Budget())
+    language, reader, arguments = pickle.loads(task)
+    with speaking(language):
+        return reader(*arguments, Budget())
 
 
 def _unexpected(fault: Exception) -> InvalidValue:

@@ -65,6 +65,7 @@ from app.wire.problem import PROBLEM_TYPE, item_of
 from app.wire.question import JSON, FileFormat, check_limit, short_json
 from core import BenchDragonError
 from core.errors import Given, Quantity
+from core.language import spoken
 
 # Time between two checks for news, and between two signs of life while there are none [s].
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
@@ -252,7 +253,7 @@ def ask_later(
     except ValidationError as error:
         faults = [{**one, "loc": ("body", *one["loc"])} for one in error.errors()]
         return response_of(misfit_problem(faults, call.request_type, in_body(values, "/request")))
-    return take(request, Task(call.name, values, form), cost_of(call, checked, form))
+    return take(request, Task(call.name, values, form, spoken()), cost_of(call, checked, form))
 
 
 @asking.post(

@@ -154,7 +154,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         middleware=[
             Middleware(OriginForm),
             Middleware(Proxies, settings=settings),
-            *map(Middleware, (layers.RequestId, layers.SafetyHeaders, layers.HeadAsGet)),
+            *map(Middleware, (layers.RequestId, layers.SafetyHeaders, layers.Spoken, layers.HeadAsGet)),
             Middleware(layers.Metrics, registry=registry),
             Middleware(layers.Mistakes),
             Middleware(Hosts, settings=settings),

@@ -15,7 +15,9 @@ from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.logs import request_id
+from app.service.negotiation import language_of
 from app.service.problems import Refused, http_problem, server_problem
+from core.language import speaking
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -62,6 +64,14 @@ class RequestId(Layer):
             await send(message)
 
         await self.app(scope, receive, send_with_name)
+
+
+class Spoken(Layer):
+    """Answers, also errors, in the language that the client accepts."""
+
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        with speaking(language_of(Headers(scope=scope).get("accept-language"))):
+            await self.app(scope, receive, send)
 
 
 class HeadAsGet(Layer):

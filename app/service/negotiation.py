@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import re
 import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from starlette.datastructures import Headers
 
 from app.service.problems import Refused
+from core.language import Language
 
 RESPOND_ASYNC = "respond-async"
 # gzip: level 1 makes 1.8 MB of a trajectory of 3.8 MB in 60 ms; level 6 makes 1.7 MB in 350 ms (2026-11-22).
 GZIP_LEVEL, GZIP_WINDOW = 1, 31
 # End of the tag of a compressed answer: other bytes need another tag.
 GZIPPED = "-gzip"
+# What follows the language in a tag, such as zh-CN.
+REGION = re.compile(r"(?<=[A-Za-z])-[A-Za-z0-9-]+")
 
 
 def header_list(headers: Headers, name: str) -> str | None:
@@ -64,6 +68,15 @@ def accepted(header: str | None, offers: Sequence[str]) -> str | None:
 
     best = max(offers, key=quality_of)
     return best if quality_of(best) > 0 else None
+
+
+def language_of(header: str | None) -> Language:
+    """The language of an Accept-Language header that has sentences here; else English.
+
+    >>> str(language_of("de, zh-CN;q=0.9")), str(language_of("en-GB"))
+    ('zh', 'en')
+    """
+    return Language(accepted(REGION.sub("", header or ""), list(Language)) or Language.ENGLISH)
 
 
 def gzipped(blocks: Iterable[bytes]) -> Iterator[bytes]:

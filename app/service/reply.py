@@ -24,6 +24,7 @@ from app.wire.dances import TimeRange
 from app.wire.question import BYTES, UNKNOWN_COST, Call, FileFormat, Terms, Wire
 from app.wire.refusals import refusing
 from core import Budget, TooMuchWork
+from core.language import spoken
 
 # Context in which a computation has a place in a lane.
 Place = Callable[["Computation", Budget], AbstractContextManager[None]]
@@ -46,19 +47,19 @@ class Computation:
 
     @cached_property
     def tag(self) -> str:
-        """Strong tag: an answer depends only on the call, its values with all defaults, the form and the build.
+        """Strong tag: an answer depends on the call, its values with all defaults, form, language and build.
 
         Of times also on the ends that the caller gave, because the others may be moved.
         """
         times = getattr(self.inputs, "times", self.inputs)
         stated = times.stated if isinstance(times, TimeRange) else ""
-        values = "\n".join((build(), self._path, self.media_type, self.inputs.model_dump_json(), stated))
+        values = "\n".join((build(), self._path, self.media_type, spoken(), self.inputs.model_dump_json(), stated))
         return hashlib.blake2b(values.encode(), digest_size=16).hexdigest()
 
     @property
     def task(self) -> Task:
         """The same computation as a job."""
-        return Task(self.call.name, self.inputs.model_dump(mode="json", exclude_unset=True), self.media_type)
+        return Task(self.call.name, self.inputs.model_dump(mode="json", exclude_unset=True), self.media_type, spoken())
 
     def answer(self, terms: Terms) -> bytes | Iterator[bytes]:
         """The answer, whole or in blocks. raises: BenchDragonError in the words of the request"""
@@ -131,7 +132,7 @@ class Reply:
         headers = {
             "ETag": f'"{tag}"',
             "Cache-Control": f"public, max-age={self.settings.cache_seconds}",
-            "Vary": "Accept, Accept-Encoding",
+            "Vary": "Accept, Accept-Encoding, Accept-Language",
         }
         known = tags_in(header_list(self.request.headers, "if-none-match") or "")
         for one in (headers["ETag"], f'"{tag}{GZIPPED}"'):

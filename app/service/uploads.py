@@ -15,7 +15,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import BaseModel, Field
 
-from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
+from app.files.tables import CSV_TYPE, XLSX_TYPE
 from app.grade.report import TYPED, GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
 from app.maps.choice import Choice
@@ -35,6 +35,7 @@ from app.wire.question import BYTES, JSON, Answer, Coordinates, OneLine, Wire, m
 from core import BenchDragonError
 from core.errors import Quantity, too_much
 from core.kernels import Halted
+from core.language import Language, speaking
 
 GRADED = (BYTES, XLSX_TYPE, CSV_TYPE)
 # Accepted media types of maps; the form of a map follows from its first bytes, whichever of these is given.
@@ -174,10 +175,10 @@ def grade(
         raise Refused(422, detail, {"name": "name"})
     graders: Graders = request.app.state.graders
     budget = request.state.budget
-    with in_lane(request):
-        answers = [typed(name, text, inputs.language) for name, text in numbers.items()]
+    with in_lane(request), speaking(inputs.language):
+        answers = [typed(name, text) for name, text in numbers.items()]
         try:
-            files = [graders.read(budget, graded, inputs.name, data, inputs.language)] if data else []
+            files = [graders.read(budget, graded, inputs.name, data)] if data else []
         except Halted:
             raise too_long(data, budget) from None
         except BenchDragonError as error:
@@ -198,10 +199,10 @@ def places(
         raise Refused(422, detail, {"name": "file"})
     graders: Graders = request.app.state.graders
     budget = request.state.budget
-    with in_lane(request):
+    with in_lane(request), speaking(inputs.language):
         try:
-            units, language, chord = inputs.units, inputs.language, inputs.longest_chord
-            result = graders.read(budget, read_places, data, units, language, chord, inputs.to_choice())
+            units, chord = inputs.units, inputs.longest_chord
+            result = graders.read(budget, read_places, data, units, chord, inputs.to_choice())
         except Halted:
             raise too_much(
                 budget, "file", "must be smaller: it was not read {then}", Quantity(len(data), "bytes")

@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from datetime import timedelta
 from pathlib import Path
 
-from app.files.words import Say
 from app.sweeps import shards
 from app.sweeps.engines import WINDOW, SweepEngine
 from app.sweeps.processes import Processes
@@ -21,6 +20,7 @@ from app.sweeps.questions import SweepQuestion
 from app.sweeps.shards import ShardPiece
 from app.sweeps.spec import Spec
 from core import InvalidValue
+from core.language import say
 
 SPEC_FILE = "sweep.json"
 TABLE_FILE = "sweep.parquet"
@@ -43,13 +43,12 @@ class Progress:
     rate: float
     left: float | None
 
-    def words(self, say: Say) -> str:
+    def words(self) -> str:
         """Designs, rate and time left, in words."""
-        done = f"{self.designs} {say('of', '/')} {self.total}, {self.rate:.0f}/s"
         if self.left is None:
-            return done
+            return say("{run.designs} of {run.total}, {run.rate:.0f}/s", run=self)
         left = timedelta(seconds=round(self.left))
-        return done + say(f", {left} left", f"，剩余 {left}")
+        return say("{run.designs} of {run.total}, {run.rate:.0f}/s, {left} left", run=self, left=left)
 
 
 @dataclass(slots=True)

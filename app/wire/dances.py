@@ -315,11 +315,7 @@ class VenueFields(Wire):
 
     def to_place(self, dragon: Dragon) -> Place:
         """raises: InvalidValue"""
-        from app.wire.degrees import (
-            Place,
-            in_chinese,
-            place_of,
-        )  # Venues take 50 ms to import, and most questions have none.
+        from app.wire.degrees import Place, place_of  # Venues take 50 ms to import, and most questions have none.
 
         if self.venue is None:
             if self.coordinates is not None:
@@ -327,8 +323,7 @@ class VenueFields(Wire):
                 advice = ": give the venue, or leave coordinates out"
                 raise InvalidValue("coordinates", rule + advice, unit=self.coordinates)
             return Place()
-        place = place_of(self.venue, self.coordinates, dragon)
-        return in_chinese(place) if getattr(self, "language", None) == "zh" else place
+        return place_of(self.venue, self.coordinates, dragon)
 
 
 class PlacedDance(VenueFields, DanceFields):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -90,21 +90,6 @@ class Place:
     things: Sequence[Thing] = ()
     grid: Point | None = None
     asides: Sequence[Aside] = ()
-
-
-NAMELESS = re.compile(r"obstacle (\d+)")
-
-
-def in_chinese(place: Place) -> Place:
-    """The place with Chinese names of the obstacles that have none of their own."""
-
-    def named(name: str) -> str:
-        return NAMELESS.sub(r"障碍物 \1", name) if NAMELESS.fullmatch(name) else name
-
-    if place.venue is None:
-        return place
-    obstacles = tuple(replace(area, name=named(area.name)) for area in place.venue.obstacles)
-    return replace(place, venue=Venue(place.venue.square, obstacles))
 
 
 def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dragon: Dragon) -> Place:

@@ -18,6 +18,7 @@ import numpy as np
 from app.wire.question import short_json
 from core import Area, Envelope, InvalidValue, Venue
 from core.errors import COORDINATE_MAX, Given, checked_number
+from core.language import say
 from core.names import checked_name
 from core.shapes.engines import thickened
 from core.values import Point
@@ -65,7 +66,9 @@ def read_things(geometry: object, scale: Scale = METRES) -> list[Thing]:
     things = [(name, _rings(field, rings, scale, radius), radius) for name, field, rings, radius in polygons]
     square = next((k for k in whole if things[k][0] == "square"), whole[0])
     others = [polygon for k, polygon in enumerate(things) if k != square]
-    obstacles = [(name or f"obstacle {k}", rings, radius) for k, (name, rings, radius) in enumerate(others, start=1)]
+    obstacles = [
+        (name or say("obstacle {k}", k=k), rings, radius) for k, (name, rings, radius) in enumerate(others, start=1)
+    ]
     return [(things[square][0] or "square", things[square][1], None), *obstacles]
 
 

@@ -33,6 +33,7 @@ from app.settings import Settings
 from core import Budget, Dance, Dragon, Spiral, Stray, TooLarge
 from core.dragon import BENCHES_MAX, wider_pin
 from core.errors import InvalidValue, format_number
+from core.language import speaking, spoken
 from core.names import TURNING, checked_name
 from core.values import Progress, unheard
 
@@ -382,9 +383,11 @@ class Question:
         return self.cost(request, *self._form_argument(form))
 
     def encode(self, request: Wire, terms: Terms, form: str) -> bytes | Iterator[bytes]:
-        """The answer in one of its forms as bytes, whole or in blocks."""
-        result = self.answer(request, terms, *self._form_argument(form))
-        return result if isinstance(result, bytes | Iterator) else result.to_json()
+        """The answer in one of its forms as bytes, whole or in blocks; its sentences in the language of the request."""
+        language = getattr(request, "language", None) if "language" in request.model_fields_set else None
+        with speaking(language or spoken()):
+            result = self.answer(request, terms, *self._form_argument(form))
+            return result if isinstance(result, bytes | Iterator) else result.to_json()
 
     def to_bytes(self, request: Wire, terms: Terms, form: str) -> bytes:
         """The answer in one of its forms as bytes, in one piece."""

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from core.claims import chinese, english
 from core.claims.claim import Claim
 from core.display import Readable
 from core.errors import Given, InvalidValue
-
-SENTENCES = {"en": english.SENTENCES, "zh": chinese.SENTENCES}
+from core.language import Language, speaking
+from core.words.claims import claim_words
 
 
 class WithClaim(Readable):
@@ -27,22 +26,15 @@ class WithClaim(Readable):
         """The claim and its proof, in sentences."""
         return self.in_words()
 
-    def in_words(self, language: str = "en") -> str:
-        """The claim and its proof in sentences, in English (en) or Chinese (zh). raises: InvalidValue"""
-        return claim_words(self.claim, language)
+    def in_words(self, language: str | None = None) -> str:
+        """The claim and its proof in sentences. language: en, zh; else that of speaking(). raises: InvalidValue"""
+        if language is None:
+            return claim_words(self.claim)
+        if language not in list(Language):
+            raise InvalidValue("language", "must be {allowed}", got=Given(language), allowed=" or ".join(Language))
+        with speaking(language):
+            return claim_words(self.claim)
 
     def _values(self) -> list[tuple[str, object, str]]:
         """The fields to show, the sentences in place of the claim."""
         return [("method", self.method, "") if one[0] == "claim" else one for one in Readable._values(self)]
-
-
-def claim_words(claim: Claim, language: str = "en") -> str:
-    """A claim and its proof in sentences, in English (en) or Chinese (zh). raises: InvalidValue
-
-    >>> from core.claims.claim import ClaimKind, GroundClaim
-    >>> claim_words(GroundClaim(ClaimKind.SWEPT_GROUND, 0.0, 9.5, 1e-3, 2, 30.0, 88), "zh")[:25]
-    '0 s 至 9.5 s，没有板凳越出这些多边形，其'
-    """
-    if language not in SENTENCES:
-        raise InvalidValue("language", "must be en or zh", got=Given(language))
-    return SENTENCES[language][type(claim)](claim)

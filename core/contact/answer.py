@@ -13,6 +13,7 @@ from core.contact.clearance import Graze
 from core.dance import Dance, EndReason, RunEnd
 from core.display import Readable, display
 from core.errors import InvalidValue, format_number
+from core.language import phrase, say
 from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
 from core.shapes.rectangles import bench_outlines
@@ -62,6 +63,15 @@ class Evidence(WithClaim):
     clear_until: float | None
     bound: float
     least_clearance: Graze | None
+
+
+# How the title of a plot ends, by the end of the run.
+ENDS = {
+    EndReason.FOLD: phrase("{none}, but bench {bench} folds at {time:.6f} s"),
+    EndReason.CENTRE: phrase("{none}: the run ends clear at the centre, {time:.6f} s"),
+    EndReason.END: phrase("{none}: the run ends clear at the end, {time:.6f} s"),
+    EndReason.STOP: phrase("{none}: the run ends clear at the stop, {time:.6f} s"),
+}
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -143,22 +153,30 @@ class FirstContact(Readable):
         return axes
 
     def _title(self, enlarged: bool) -> str:
-        margin = self.margin
+        margin = format_number(self.margin) if self.margin else ""
         if enlarged and self.point is not None:
             place = f"({self.point[0]:.6f} m, {self.point[1]:.6f} m)"
-            near = f"Within {format_number(margin)} m: a gap of {self.gap:.6f} m at {place}"
-            return near if margin else f"They meet at {place}"
-        what = f"First within {format_number(margin)} m" if margin else "First contact"
+            if margin:
+                return say(
+                    "Within {margin} m: a gap of {gap:.6f} m at {place}", margin=margin, gap=self.gap, place=place
+                )
+            return say("They meet at {place}", place=place)
         if self.outcome is Outcome.CONTACT and self.head is not None:
-            return f"{what}: {self.time:.6f} s, head at radius {self.head.radius:.6f} m"
+            values = {"time": self.time, "radius": self.head.radius}
+            if margin:
+                return say(
+                    "First within {margin} m: {time:.6f} s, head at radius {radius:.6f} m", margin=margin, **values
+                )
+            return say("First contact: {time:.6f} s, head at radius {radius:.6f} m", **values)
         if self.outcome is Outcome.CONTACT_AT_START:
-            return f"Within {format_number(margin)} m from the start on" if margin else f"{what}: already at the start"
+            near = say("Within {margin} m from the start on", margin=margin)
+            return near if margin else say("First contact: already at the start")
         if self.outcome is Outcome.CLEAR and self.end is not None:
-            none = f"Never within {format_number(margin)} m" if margin else "No contact"
-            if self.end.reason is EndReason.FOLD:
-                return f"{none}, but bench {self.end.bench} folds at {self.end.time:.6f} s"
-            return f"{none}: the run ends clear at the {self.end.reason.value}, {self.end.time:.6f} s"
-        return f"Undecided: clear up to {self.time_bracket[0]:.6f} s" if self.time_bracket else "Undecided"
+            none = say("Never within {margin} m", margin=margin) if margin else say("No contact")
+            return say(ENDS[self.end.reason], none=none, bench=self.end.bench, time=self.end.time)
+        if self.time_bracket:
+            return say("Undecided: clear up to {time:.6f} s", time=self.time_bracket[0])
+        return say("Undecided")
 
     def _plot_time(self) -> float:
         if self.time is not None:

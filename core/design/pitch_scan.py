@@ -29,6 +29,7 @@ from core.errors import (
     too_much,
 )
 from core.kernels import Budget, Ended, Halted
+from core.language import say
 from core.paths.spiral import Spiral
 from core.tables import Column, Table
 from core.values import Floats, Progress, unheard
@@ -87,8 +88,8 @@ class PitchScan(Table):
         """
         axes = plots.wanted_axes(ax, "PitchScan.plot()")
         points = np.stack([self.pitch, self.radius], axis=-1)
-        plots.draw_scan(axes, points, self.pieces, JUMP_WIDTH, "first contact")
-        axes.set(xlabel="pitch [m]", ylabel="radius of the head at first contact [m]")
+        plots.draw_scan(axes, points, self.pieces, JUMP_WIDTH, say("first contact"))
+        axes.set(xlabel=say("pitch [m]"), ylabel=say("radius of the head at first contact [m]"))
         axes.autoscale_view()
         axes.legend(fontsize=9)
         return axes

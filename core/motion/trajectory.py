@@ -14,6 +14,7 @@ from core.display import display, format_range
 from core.error_free import paired, two_product, two_sum
 from core.errors import question_about
 from core.kernels import Budget
+from core.language import say
 from core.paths.frame import WORLD
 from core.shapes.rectangles import bench_outlines
 from core.tables import Column, Table, data_set
@@ -92,7 +93,7 @@ class Trajectory(Table):
         plots.draw_speeds(axes, handles, speed)
         centre = (0.0, 0.0) if self.dance is None else self.dance.path.frame.centre
         plots.mark_head(axes, handles[0], self._ahead(float(time), velocity[0]), centre)
-        axes.set_title(f"Handles and their speeds at {time:g} s", fontsize=11)
+        axes.set_title(say("Handles and their speeds at {time:g} s", time=time), fontsize=11)
         return axes
 
     def _ahead(self, time: float, velocity: Floats) -> Floats:

@@ -9,6 +9,7 @@ from core.claims.claim import EncounterClaim
 from core.contact.answer import Feature, Outcome
 from core.dance import EndReason
 from core.display import Readable, display
+from core.language import say
 from core.paths.path import HeadState
 from core.performance.performance import Performance, PerformanceEnd
 from core.values import Point
@@ -81,21 +82,28 @@ class FirstEncounter(Readable):
     performance: Performance = field(repr=False, compare=False)
 
     def _line(self) -> str:
-        near = "touch" if not self.margin else f"come within {display(self.margin, 'm')}"
-        near = f"may {near} with strays up to {display(self.stray, 'm')}" if self.stray else near
+        near = say("come within {margin}", margin=display(self.margin, "m")) if self.margin else say("touch")
+        if self.stray:
+            near = say("may {near} with strays up to {stray}", near=near, stray=display(self.stray, "m"))
         if self.outcome is Outcome.UNDECIDED and self.time_bracket is not None:
-            certain = ""
-            if self.overlapping is not None:
-                certain = f"; {self._pair(*self.overlapping)} {near} at {display(self.time_bracket[1], 's')}"
-            return f"undecided from {display(self.time_bracket[0], 's')} on{certain}"
+            begin, end = (display(time, "s") for time in self.time_bracket)
+            if self.overlapping is None:
+                return say("undecided from {begin} on", begin=begin)
+            pair = self._pair(*self.overlapping)
+            return say("undecided from {begin} on; {pair} {near} at {end}", begin=begin, pair=pair, near=near, end=end)
         if self.dragons is not None and self.benches is not None:
-            return f"{self._pair(self.dragons, self.benches)} {near} at {display(self.time, 's')}"
+            pair = self._pair(self.dragons, self.benches)
+            return say("{pair} {near} at {time}", pair=pair, near=near, time=display(self.time, "s"))
         assert self.end is not None
-        why = "" if self.end.reason is EndReason.STOP else f", where {self.performance.ending}"
-        return f"no benches of two dragons {near} until {display(self.end.time, 's')}{why}"
+        end = display(self.end.time, "s")
+        if self.end.reason is EndReason.STOP:
+            return say("no benches of two dragons {near} until {end}", near=near, end=end)
+        why = self.performance.ending
+        return say("no benches of two dragons {near} until {end}, where {why}", near=near, end=end, why=why)
 
     def _pair(self, dragons: tuple[int, int], benches: tuple[int, int]) -> str:
         one, two = (
-            f"bench {bench} of {self.performance.name_of(k)}" for k, bench in zip(dragons, benches, strict=True)
+            say("bench {bench} of {dragon}", bench=bench, dragon=self.performance.name_of(k))
+            for k, bench in zip(dragons, benches, strict=True)
         )
-        return f"{one} and {two}"
+        return say("{one} and {two}", one=one, two=two)

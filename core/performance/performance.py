@@ -28,6 +28,7 @@ from core.errors import (
     checked_type,
     quantities,
 )
+from core.language import say
 from core.names import checked_name
 from core.passages import TIME_MAX
 from core.values import Floats
@@ -188,7 +189,7 @@ class Performance(Readable):
 
     def name_of(self, k: int) -> str:
         """The name of a dragon, or its number."""
-        return self.parts[k].name or f"dragon {k}"
+        return self.parts[k].name or say("dragon {k}", k=k)
 
     def number_of(self, part: int | str) -> int:
         """The number of a dragon, from its name or its number. raises: InvalidValue"""
@@ -230,8 +231,8 @@ class Performance(Readable):
     def ending(self) -> str:
         """What ends it, as a clause."""
         if self.end.dragon is None:
-            return "the last path ends"
-        return f"bench {self.end.bench} of {self.name_of(self.end.dragon)} folds"
+            return say("the last path ends")
+        return say("bench {bench} of {dragon} folds", bench=self.end.bench, dragon=self.name_of(self.end.dragon))
 
     def _ending(self) -> dict[str, Value]:
         return {"end": bound(self.end.time, 9, "s"), "why": self.ending}

@@ -14,6 +14,7 @@ from core.display import format_range
 from core.dragon import Dragon
 from core.errors import Given, InvalidValue, Quantity, TooMuchWork, checked_size, question_about, too_much
 from core.kernels import Budget
+from core.language import say
 from core.paths.spiral import Spiral
 from core.tables import Column, Table
 from core.tolerance.tolerance import Tolerance, tolerance
@@ -53,7 +54,7 @@ class ToleranceCurve(Table):
         """
         axes = plots.wanted_axes(ax, "ToleranceCurve.plot()")
         axes.plot(self.pitch, self.stray, linewidth=1.2)
-        axes.set(xlabel="pitch [m]", ylabel="how far people may stray [m]")
+        axes.set(xlabel=say("pitch [m]"), ylabel=say("how far people may stray [m]"))
         axes.set_ylim(bottom=0.0)
         axes.grid(alpha=0.3)
         return axes

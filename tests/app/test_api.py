@@ -98,7 +98,7 @@ def test_the_tag_follows_the_values_and_the_form_and_nothing_else(ask):
     assert tag("clearance?stop=1") == tag("clearance?stop=1.0&pitch=0.55&step=1")
     assert tag("clearance?stop=1") != tag("clearance?stop=2")
     posted = ask.send("trajectory", SMALL)
-    assert posted.headers["vary"] == "Accept, Accept-Encoding"
+    assert posted.headers["vary"] == "Accept, Accept-Encoding, Accept-Language"
     assert posted.headers["etag"] != tag("trajectory", SMALL, CSV_TYPE)
     assert posted.headers["etag"] == tag("trajectory", {"path": {"kind": "spiral", "pitch": 0.55}, **SMALL})
 

@@ -167,8 +167,6 @@ def test_tables_for_people_hold_the_numbers_with_their_units(row):
         "trajectory --handles 0.5 -> handles[0] ... whole '0.5'",
         "trajectory --handles 0 --json -> --handles ... --output --json",
         "trajectory --handles 0 --output a.csv -> --handles ... --output --json",
-        "trajectory --language zh -> --language ... xlsx --output",
-        "trajectory --language en --output a.csv -> --language ... xlsx --output",
         "trajectory --json --output a.csv -> --json ... --output",
         "figures out --kind trajectory --turning-diameter 9 -> --turning-diameter ... trajectory",
         "figures out --kind contact --kind trajectory --samples 9 -> --samples ... contact trajectory",

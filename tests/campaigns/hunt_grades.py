@@ -11,7 +11,6 @@ from functools import cache
 
 import numpy as np
 
-from app.files.tables import Language
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import Workbook, dance_of, of_dance, times_of
 from app.grade.judged import judged
@@ -173,7 +172,7 @@ def file_fault(random):
     sheets, layout = in_random_layout(values, times, random)
     is_csv = len(sheets) == 1 and random.random() > WORKBOOKS
     data = as_csv(*sheets.values()) if is_csv else by_xlsxwriter(sheets)
-    grade = graded(f"{workbook.value}.csv", data, Language.ENGLISH, Budget())
+    grade = graded(f"{workbook.value}.csv", data, Budget())
     names, count = [one.error for one in grade.diagnosis], sum(one.right for one in grade.sheets)
     if error:
         is_fine = grade.verdict == "wrong" and names == [error]
@@ -196,7 +195,7 @@ def typed_fault(random):
     text = f"{float(rounded(np.array(value), decimals, random)) if random.random() < 0.5 else value:.{decimals}f}"
     if float(text) <= 0.0:
         return ""
-    result = typed(name, text, Language.ENGLISH)
+    result = typed(name, text)
     is_wrong = way == 0 and result.verdict == "wrong"
     is_guessed = way == 0 and result.possible
     if result.diagnosis or is_wrong or is_guessed:

@@ -9,7 +9,6 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from app.files.tables import Language
 from app.grade.report import graded
 from core import Budget
 from tests.support.students import ALL_CELLS, by_xlsxwriter, three
@@ -41,7 +40,7 @@ def main():
         return
     right = 0
     for sheets in three():
-        result = graded("upload", by_libreoffice(sheets), Language.ENGLISH, Budget())
+        result = graded("upload", by_libreoffice(sheets), Budget())
         right += sum(sheet.right for sheet in result.sheets)
         counts = ", ".join(f"{sheet.right:,}" for sheet in result.sheets)
         print(f"{result.workbook}: {result.verdict}, {counts} cells right")

@@ -19,10 +19,10 @@ from zipfile import ZipFile, is_zipfile
 
 import httpx
 
-from app.files.tables import Language
 from app.questions.registry import CALLS
 from app.service.examples import EXAMPLES
 from app.wire.question import JSON
+from core.language import Language
 from tests.campaigns.fuzz import mutant
 from tests.support.command import run
 from tests.support.serving import serving

@@ -1,4 +1,4 @@
-"""Refusals and proofs of the real service in the words of the page: sentences in both languages, with its labels."""
+"""Refusals of the real service in the words of the page: sentences in both languages, with its labels."""
 
 import ast
 import asyncio
@@ -14,10 +14,7 @@ import pytest
 
 from app.service.main import create_app
 from app.settings import Settings
-from app.wire import claims as wire
 from app.wire.problem import DETAIL_MAX
-from core.claims.claim import ContactClaim, StrayClaim
-from tests.support.every_kind import CLAIMS, SENTENCES
 from tests.support.node import evaluate
 
 pytestmark = pytest.mark.node
@@ -149,12 +146,3 @@ def _is_in(part, text):
     words = part.split()
     pairs = [" ".join(words[k : k + 2]) for k in range(max(1, len(words) - 1))]
     return all(word in text for word in words) and sum(pair not in text for pair in pairs) <= 3
-
-
-def test_every_proof_has_the_chinese_words_of_the_library():
-    claims = {name: claim for name, claim in CLAIMS.items() if isinstance(claim, (ContactClaim, StrayClaim))}
-    values = [
-        getattr(wire, type(claim).__name__).model_validate(claim).model_dump(mode="json") for claim in claims.values()
-    ]
-    proofs = evaluate("async (claims) => claims.map((await page('proofs.js')).claimInChinese)", values)
-    assert dict(zip(claims, proofs, strict=True)) == {name: SENTENCES[name][1] for name in claims}

@@ -17,7 +17,7 @@ OLD = (CONTACT, "#run-end .value", "#canvas", "#clearance .plot", "#rows")
 TITLES = ("#first-contact h3", "#run-end h3", "#clearance h2")
 # Parts with a file of each that tells that it has loaded.
 LATER = {"qr.js", "below.js", "below.css", "grade.js", "map.js", "drawn.js", "place.css", "propose.js", "refusals.js"}
-LATER |= {"sharing.js", "proofs.js"}  # the latter in Chinese
+LATER |= {"sharing.js"}
 # Answers about first contact take this long [ms], and aborted questions are counted.
 SLOW = """(milliseconds) => {
   window.quick = window.fetch;
@@ -229,7 +229,7 @@ def test_the_page_is_light_and_its_parts_load_when_a_person_first_needs_them(bro
     assert later() == {"sharing.js", "qr.js", "below.js", "below.css", "grade.js", "map.js"}
     person.types({"#pitch": "55"}, "Tab").sees({"#pitch-error": "“Pitch” must be at most 10 m"})
     person.presses("#reset-all", "[data-path=route]").sees({"#judgement .value": True})
-    assert later() == LATER - {"proofs.js"}
+    assert later() == LATER
     person.speaks("zh")
     assert later() == LATER
     context.close()

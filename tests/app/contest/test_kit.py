@@ -26,12 +26,11 @@ from app.contest.sensitivity import panels
 from app.contest.solved import ContestRequest, solve
 from app.contest.tables import paper_tables
 from app.files import drawing
-from app.files.tables import Language
-from app.files.words import Say
 from app.questions.contest_kit import ContestKitRequest, contest_kit
 from app.settings import Settings
 from app.wire.question import Terms
 from core import Budget, TooMuchWork
+from core.language import Language
 from tests.support.command import COMMAND, PATIENCE, run
 from tests.support.reference import reference
 from tests.support.refusal_rows import assert_refused, assert_refused_in_one_line
@@ -190,7 +189,7 @@ def assert_drawn(files):
 
 def test_the_first_figure_shows_positions():
     solved = solve(ContestRequest(benches=9, stop=10.0, **NO_TURN), Terms(), lambda share: None)
-    figure = next(figures(solved, Say(Language.ENGLISH), lambda share: None))
+    figure = next(figures(solved, lambda share: None))
     assert figure.name == "positions"
     assert_drawn(figure.files)
 
@@ -343,7 +342,7 @@ def test_a_folder_that_cannot_be_locked_and_a_time_after_the_fold_are_refused_in
 def test_a_table_of_instants_after_the_contact_says_so():
     request = ContestRequest(benches=40, pitch=0.45, stop=300.0, **NO_TURN)
     solved = solve(request, Terms(), lambda share: None)
-    captions = [table.caption for table in paper_tables(solved, Say(Language.ENGLISH))]
+    captions = [table.caption for table in paper_tables(solved)]
     text = f" (benches have touched at {solved.contact.time:.6f} s)"
     assert captions[:2] == [f"Question 1: positions{text}", f"Question 1: speeds{text}"]
     assert not any(text in caption for caption in captions[2:])
@@ -352,7 +351,7 @@ def test_a_table_of_instants_after_the_contact_says_so():
 def test_sensitivity_shows_first_contact(monkeypatch):
     monkeypatch.setattr("app.contest.sensitivity.VALUES", 7)
     solved = solve(ContestRequest(benches=40, stop=10.0, **NO_TURN), Terms(), lambda share: None)
-    drawn = panels(solved, Say(Language.ENGLISH))
+    drawn = panels(solved)
     assert len(drawn) == 5
     for panel in drawn:
         varied, result = zip(*panel.points, strict=True)

@@ -8,13 +8,12 @@ from matplotlib.colors import to_rgb
 from app.files.film_spec import GIF_TYPE, FilmSpec
 from app.files.performance_film import PerformancePicture
 from app.files.performances import colour_of
-from app.files.tables import Language
-from app.files.words import Say
 from app.questions.films import QUESTION, FilmRequest, shared_music
 from app.settings import Settings
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import Budget, TooMuchWork, bench_outlines, first_contact, first_encounter, performance_trajectory
+from core.language import Language, speaking
 from tests.app.files.test_film import assert_heard, decoded
 from tests.support.refusal_rows import assert_refused
 
@@ -57,8 +56,9 @@ def outlines_at(time):
     ],
 )
 def test_the_benches_that_touch_are_named(language, words):
-    stage = PerformancePicture(PERFORMANCE, FilmSpec(20.0, 30.0, height=180, language=language), "")
-    stage.picture(20.5, outlines_at(20.5), (0, 1), (2, 0))
+    with speaking(language):
+        stage = PerformancePicture(PERFORMANCE, FilmSpec(20.0, 30.0, height=180), "")
+        stage.picture(20.5, outlines_at(20.5), (0, 1), (2, 0))
     assert stage.time.text.startswith(words)
 
 
@@ -98,7 +98,7 @@ BEATS = [{"bars": 8, "tempo": 96, "step": 0.6}]
 def counted(dances, time):
     """The words of a picture at a time, before those of the time."""
     request = checked(FilmRequest, TWO | {"dances": dances})
-    spec = FilmSpec(14.0, 18.0, height=90, **shared_music(request.dances or [], Say(request.language)))
+    spec = FilmSpec(14.0, 18.0, height=90, **shared_music(request.dances or []))
     stage = PerformancePicture(request.to_placed(Settings())[0], spec, "")
     return stage.words(time).partition("  ")[0]
 

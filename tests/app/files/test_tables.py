@@ -12,8 +12,8 @@ import pytest
 
 from app.extras import MissingPackage
 from app.files import tables
-from app.files.tables import Language
 from core import Dance, Dragon, Spiral, TooLarge, Trajectory, trajectory
+from core.language import Language, speaking
 
 pytestmark = pytest.mark.uncompiled
 
@@ -67,7 +67,8 @@ def test_arrow_without_pyarrow_says_what_to_install(dance, monkeypatch):
     ids=["english", "chinese"],
 )
 def test_workbook_has_the_layout_of_the_contest(dance, language, words):
-    book = openpyxl.load_workbook(io.BytesIO(tables.trajectory_xlsx(dance, language=language)))
+    with speaking(language):
+        book = openpyxl.load_workbook(io.BytesIO(tables.trajectory_xlsx(dance)))
     (heads, *positions), (same, *speeds) = (list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets)
     assert heads == same == (None, "0 s", "0.5 s", "10 s")
     assert [*book.sheetnames, positions[0][0], speeds[-1][0]] == words
@@ -82,7 +83,8 @@ def test_workbook_has_the_layout_of_the_contest(dance, language, words):
     [(1, "龙头 龙尾（后）"), (2, "龙头 龙尾 龙尾（后）"), (4, "龙头 第1节龙身 第2节龙身 龙尾 龙尾（后）")],
 )
 def test_handles_are_named_after_the_bench_that_they_lead(benches, names):
-    assert tables.handle_names(benches, Language.CHINESE) == names.split()
+    with speaking("zh"):
+        assert tables.handle_names(benches) == names.split()
 
 
 def test_workbook_refuses_more_instants_than_it_has_columns():

@@ -6,7 +6,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from app.files.tables import Language
 from app.grade.decimals import digits_of
 from app.grade.report import graded
 from core import Budget, Dragon
@@ -101,7 +100,7 @@ def swapped():
 
 
 def grade(data):
-    return graded("upload.xlsx", data, Language.ENGLISH, Budget())
+    return graded("upload.xlsx", data, Budget())
 
 
 @cache

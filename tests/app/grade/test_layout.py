@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.files.tables import Language
 from app.grade.report import graded
 from core import Budget
 from tests.support import students
@@ -18,7 +17,7 @@ ROOT = Path(__file__).parents[3]
 
 
 def grade(data, name="result1.xlsx"):
-    return graded(name, data, Language.ENGLISH, Budget())
+    return graded(name, data, Budget())
 
 
 def changed(change):

@@ -9,11 +9,11 @@ from threading import Timer
 import openpyxl
 import pytest
 
-from app.files.tables import Language
 from app.grade.reading import FILE_MAX, grids_of
 from app.grade.report import graded
 from app.grade.workbook import ELEMENTS_MAX, UNPACKED_MAX
 from core import Budget, TooMuchWork
+from core.language import speaking
 from tests.campaigns.libreoffice import FEW, SMALL
 from tests.support.bombs import zipped
 from tests.support.depth import some
@@ -33,7 +33,7 @@ SHEETS = ("xl/worksheets/sheet1.xml", "xl/worksheets/sheet2.xml")
 
 
 def grade(data, name="result1.xlsx"):
-    return graded(name, data, Language.ENGLISH, Budget())
+    return graded(name, data, Budget())
 
 
 def by_openpyxl(sheets):
@@ -240,7 +240,7 @@ class Broken:
 
 
 def test_a_fault_in_one_file_is_reported_and_raises_nothing():
-    result = graded("result1.csv", b"a,b", Language.ENGLISH, Broken())
+    result = graded("result1.csv", b"a,b", Broken())
     assert result.verdict == "unreadable"
     assert result.notes[0].startswith("The grader failed on this file (KeyError: 'lost')")
 
@@ -315,7 +315,7 @@ def test_a_budget_ends_a_reading_that_has_begun():
     timer = Timer(0.1, budget.stop)
     timer.start()
     with pytest.raises(TooMuchWork):
-        graded("result1.xlsx", data, Language.ENGLISH, budget)
+        graded("result1.xlsx", data, budget)
     timer.join()
 
 
@@ -334,7 +334,8 @@ def test_a_table_that_is_nearly_empty_is_told_what_it_has_and_what_is_missing(ro
     result = grade(table.encode(), "index.csv")
     assert result.verdict == verdict
     assert words in " ".join([*result.notes, *(one for sheet in result.sheets for one in sheet.notes)])
-    assert graded("index.csv", table.encode(), Language.CHINESE, Budget()).verdict == verdict
+    with speaking("zh"):
+        assert graded("index.csv", table.encode(), Budget()).verdict == verdict
 
 
 def test_a_table_of_few_handles_is_told_which_are_missing():

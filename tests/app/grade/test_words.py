@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.files.tables import Language
 from app.grade import words
 from app.grade.diagnosis import speed_errors
 from app.grade.expected import Workbook, dance_of, of_dance
 from app.grade.geometry import SheetClues, geometries
 from app.grade.shortcuts import UNITS, shortcuts
+from core.language import Language, speaking
 
 GRADE = Path(words.__file__).parent
 # Names that stand in calls, as in note("empty").
@@ -30,10 +30,12 @@ def test_every_known_error_has_words(language):
     known += [(one.error, one.values) for name in UNITS for one in shortcuts(name)]
     assert {"equal_arcs_of_turn", "other_start", "central_difference", "time_steps"} <= {error for error, _ in known}
     for error, values in known:
-        text = words.say(f"error_{error}", language, **values)
+        with speaking(language):
+            text = words.word(f"error_{error}", **values)
         assert "{" not in text
     codes = {name.removeprefix("error_") for name in words.WORDS if name.startswith("error_")}
-    names = {code: words.say(f"name_{code}", language) for code in codes}
+    with speaking(language):
+        names = {code: words.word(f"name_{code}") for code in codes}
     assert {name.isascii() for name in names.values()} == {language is Language.ENGLISH}
 
 

@@ -6,8 +6,7 @@ import json
 import openpyxl
 import pytest
 
-from app.files.tables import XLSX_TYPE, Language
-from app.files.words import Say
+from app.files.tables import XLSX_TYPE
 from app.maps.places import places_of
 from core import InvalidValue
 from tests.support.command import run
@@ -74,4 +73,4 @@ def test_a_dance_may_name_a_workbook(tmp_path):
 )
 def test_a_workbook_without_benches_is_refused(data, words):
     with pytest.raises(InvalidValue, match=words):
-        places_of(data, None, Say(Language.ENGLISH))
+        places_of(data, None)

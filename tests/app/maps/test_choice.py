@@ -5,8 +5,6 @@ import io
 import ezdxf
 import pytest
 
-from app.files.tables import Language
-from app.files.words import Say
 from app.maps.choice import Choice, listed
 from app.maps.places import drawn_layers, places_of
 from core import InvalidValue
@@ -19,7 +17,6 @@ HEADERS = {"Content-Type": "image/vnd.dxf"}
 MAP = town()
 # The same in degrees of longitude and latitude.
 IN_DEGREES = town((1 / 74_630, 1 / 111_250), (9.0, 48.0))
-SAID = Say(Language.ENGLISH)
 
 
 @pytest.mark.parametrize("data", [MAP, IN_DEGREES], ids=["metres", "degrees"])
@@ -29,18 +26,18 @@ def test_a_map_of_more_than_a_venue_may_have_is_read_by_layers_or_an_area(data):
     assert list(layers) == [WALLS, "kerb", "obstacle", "SITE"]
     assert (layers[WALLS], layers["obstacle"], layers["SITE"]) == (4 * 600, 32 * TREES, 4)
     with pytest.raises(InvalidValue, match=f"got {sum(layers.values())}: read only some layers") as refusal:
-        places_of(data, None, SAID)
+        places_of(data, None)
     assert refusal.value.field == "file"
     for choice in (
         Choice.of("site,OBSTACLE", None),
         Choice.of(None, "-45,-30,45,0"),
         Choice.of("obstacle", "-45,-30,45,0"),
     ):
-        result = places_of(data, None, SAID, choice=choice)
+        result = places_of(data, None, choice=choice)
         assert sum(one.shape == "point" for one in result.things) == TREES
         assert any("were read" in note or "was read" in note for note in result.notes)
     with pytest.raises(InvalidValue, match="something reaches"):
-        places_of(data, None, SAID, choice=Choice.of(None, "500,500,600,600"))
+        places_of(data, None, choice=Choice.of(None, "500,500,600,600"))
 
 
 @pytest.fixture(scope="module")

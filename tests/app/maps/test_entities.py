@@ -9,8 +9,6 @@ import pytest
 from ezdxf.math import Vec2
 from ezdxf.render.mleader import ConnectionSide
 
-from app.files.tables import Language
-from app.files.words import Say
 from app.maps.places import places_of
 from core import InvalidValue
 from core.errors import Quantity
@@ -41,7 +39,7 @@ def drawing(space):
 
 
 def read(space):
-    return places_of(drawing(space), None, Say(Language.ENGLISH))
+    return places_of(drawing(space), None)
 
 
 def things(result):
@@ -149,7 +147,7 @@ UNMARKED = """0 SECTION 2 HEADER 9 $ACADVER 1 AC1015 9 $INSUNITS 70 6 0 ENDSEC 0
 
 
 def test_entities_without_the_markers_of_their_parts_are_read_or_named_as_left_out():
-    result = places_of("\n".join(UNMARKED.split()).encode(), None, Say(Language.ENGLISH))
+    result = places_of("\n".join(UNMARKED.split()).encode(), None)
     assert corners(result)[:4] == [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)]
     assert things(result)[1] == ("Point", [20.0, 15.0], 0.5)
     assert things(result)[0][0] == "LineString"
@@ -183,7 +181,7 @@ def test_a_note_with_an_arrow_is_left_out_by_name_also_without_markers(content):
     whole = text.getvalue()
     for kinds, word in (("none", "MULTILEADER"), (["MULTILEADER"], "damaged MULTILEADER"), ([], "damaged MULTILEADER")):
         data = whole.encode() if kinds == "none" else bare(whole, kinds)
-        result = places_of(data, None, Say(Language.ENGLISH))
+        result = places_of(data, None)
         assert [note for note in result.notes if note.startswith("Left out")] == [f"Left out: 1 {word}."]
         assert corners(result)[0] == (-50.0, -50.0)
 

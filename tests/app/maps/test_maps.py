@@ -9,8 +9,6 @@ import ezdxf
 import numpy as np
 import pytest
 
-from app.files.tables import Language
-from app.files.words import Say
 from app.maps.places import places_of
 from app.questions.maps import MapFormat, MapsRequest
 from app.settings import Settings
@@ -20,7 +18,6 @@ from tests.support.asking import assert_problem, box
 from tests.support.command import run
 from tests.support.refusal_rows import assert_refused
 
-SAY = Say(Language.ENGLISH)
 # Rounding of degrees in doubles, on places 10,000 km from the centre of the earth [m].
 ROUNDING = 1e-7
 OWN = ("name", "radius", "role", "heading")
@@ -37,7 +34,7 @@ CORNER = PATHS[0]
 
 
 def read(data, units=None):
-    return places_of(data, units, SAY)
+    return places_of(data, units)
 
 
 def read_json(value, units=None):

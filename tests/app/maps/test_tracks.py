@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
-from app.files.tables import Language
-from app.files.words import Say
 from app.maps.gpx import seconds_of
 from app.maps.places import places_of
 from app.maps.tracks import (
@@ -25,6 +23,7 @@ from app.maps.tracks import (
 )
 from app.wire.question import BYTES
 from core import Dragon, InvalidValue, Legs
+from core.language import speaking
 from core.paths.following import tightest_bend
 from tests.support.asking import assert_problem
 
@@ -40,8 +39,8 @@ def walked(times):
     return np.column_stack([np.interp(way, s, axis) for axis in CORNERS.T])
 
 
-def read(data, language=Language.ENGLISH):
-    return places_of(data.encode() if isinstance(data, str) else data, None, Say(language))
+def read(data):
+    return places_of(data.encode() if isinstance(data, str) else data, None)
 
 
 def walk_along(points, times, *chord):
@@ -236,7 +235,8 @@ def test_gpx_is_a_path_with_its_waypoints_as_obstacles():
         assert parts.passages == [{"speed": pytest.approx(1.112, abs=0.02), "until_time": 69.0}]
         assert any("at most 0.0" in note and "what was walked" in note for note in parts.notes)
         assert len(parts.venue.obstacles) == 1
-    without = read(gpx([point(k) for k in range(70)]), Language.CHINESE)
+    with speaking("zh"):
+        without = read(gpx([point(k) for k in range(70)]))
     assert without.passages is None
     assert "轨迹没有递增的时间。" in without.notes
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from contextlib import ExitStack, contextmanager
 
+import httpx
 import pytest
 
 from app.files.tables import XLSX_TYPE
@@ -159,3 +160,21 @@ def running(app, lane):
     """Number of computations in a lane, by the metric of operators."""
     registry = app.state.registry
     return registry.get_sample_value("bench_dragon_computations", {"lane": lane}) or 0.0
+
+
+def test_sentences_are_in_the_language_that_the_client_accepts(client):
+    methods = {}
+    for header in ("zh-CN,zh;q=0.9,en;q=0.1", "de, en-GB;q=0.5", ""):
+        answer = client.get("/collision-time?benches=3", headers={"Accept-Language": header})
+        assert "Accept-Language" in answer.headers["Vary"]
+        methods[answer.headers["ETag"]] = answer.json()["certificate"]["method"]
+    chinese, english = methods.values()
+    assert (chinese[:5], english[:9]) == ("3 节板凳", "3 benches")
+
+
+def test_a_job_speaks_the_language_of_its_request(service_with):
+    with httpx.Client(base_url=service_with(data=True).url) as client:
+        headers = {"Accept-Language": "zh", "Prefer": "respond-async"}
+        job = client.get("/collision-time?benches=3", headers=headers).headers["Location"]
+        wait_for(lambda: client.get(f"{job}/result").status_code == 200)
+        assert client.get(f"{job}/result").json()["certificate"]["method"].startswith("3 节板凳")

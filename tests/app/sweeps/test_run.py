@@ -2,8 +2,6 @@
 
 import pytest
 
-from app.files.tables import Language
-from app.files.words import Say
 from app.sweeps import shards
 from app.sweeps.engines import NoAnswer
 from app.sweeps.processes import CannotStart, Processes
@@ -36,7 +34,7 @@ def test_a_run_writes_every_part_says_how_far_it_is_and_removes_what_a_killed_on
     run(spec, folder, question=LAND, progress=reports.append, engine=lambda: shared)
     assert sorted(file.name for file in folder.iterdir()) == [*map(shards.part_name, range(10)), "sweep.json"]
     assert (reports[0].designs, reports[-1].designs, reports[-1].total) == (0, 60, 60)
-    assert reports[-1].words(Say(Language.ENGLISH)).endswith("0:00:00 left")
+    assert reports[-1].words().endswith("0:00:00 left")
     assert_undisturbed(folder, spec, LAND)
 
 

@@ -4,8 +4,8 @@ import pytest
 
 import core
 from core import Dance, Dragon, InvalidValue, Spiral
-from core.claims.certificate import claim_words
 from core.claims.claim import ClaimKind
+from core.words.claims import claim_words
 
 DANCE = Dance(Dragon(5), Spiral())
 
