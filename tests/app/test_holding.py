@@ -275,7 +275,8 @@ def test_by_default_one_client_cannot_take_all_places(tmp_path):
             none = f'refused_total{{lane="{lane}"}} 0.0'
             wait_for(lambda none=none: none not in metrics(service))
             assert post("127.0.0.2", service.url + path, *file) in {200, 400, 422}
-            assert {429} <= {each.result() for each in mine} <= {200, 400, 422, 429}
+            # Who comes while the other client has a place finds none (503), in place of no second one (429).
+            assert {429} <= {each.result() for each in mine} <= {200, 400, 422, 429, 503}
 
 
 def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held):

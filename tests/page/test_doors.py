@@ -57,7 +57,7 @@ def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open
         person.page.go_back()
     person.has("#doors [data-door=contest]", aria_pressed="true")
     assert "route" not in person.page.url
-    assert numbers(person) == CONTEST
+    assert numbers(person.settles()) == CONTEST
     asked = []
     person.page.on("request", lambda one: asked.append(one.url))
     person.opens("?door=village").arrives("**path=route**").sees({"#judgement h3": "Verdict on this example"})

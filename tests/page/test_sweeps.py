@@ -100,7 +100,8 @@ def _a_map_of_one_parameter_is_read_by_keyboard_and_danced(person, service):
     person.chooses({"#sweep-question": "least_clearance"}).holds({"#sweep-name-0": "pitch", "#sweep-name-1": "width"})
     person.holds({"#sweep-sweepFrom-0": "0.51", "#sweep-sweepTo-1": "0.33"})
     begins(person, "minimum_pitch", ("turning_diameter", 8, 10, 3))
-    person.sees({f"{DONE}:has-text('最小螺距，变化：调头空间直径')": True, MAP: True}).at(MAP).focus()
+    # The map of the sweep before stays until that of the new one has come.
+    person.sees({f"{DONE}:has-text('最小螺距，变化：调头空间直径')": True, "#map-value": "最小螺距"}).at(MAP).focus()
     query = {"turning_diameter": 10, "benches": 30, "cross_check": "none"}
     pitch = polite.answer(base(service), "minimum-pitch", **query)["pitch"]
     person.strikes(*["ArrowRight"] * 3).reads({READING: f"调头空间直径 [m] 10：最小螺距 [m] {pitch:.6g}"})
