@@ -54,7 +54,7 @@ def speaking(language: Language | str) -> Iterator[None]:
 
     >>> with speaking("zh"):
     ...     say("bench {k}", k=3)
-    '第 3 节板凳'
+    '3 号板凳'
     """
     before = _SPOKEN.set(Language(language))
     try:
