@@ -243,5 +243,5 @@ versions: setup
 		$(MAKE) --no-print-directory -C build/versions test ARGS=--deselect=$(WHEELS_OF_ALL) || exit 1; done
 
 clean:
-	@rm -rf $(VENV) app/guide build dist *.egg-info core/kernels.*.so core/kernels/*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks
+	@rm -rf $(VENV) app/guide build dist *.egg-info core/kernels.*.so core/kernels/*.so core/kernels/{constants,records}.pxd core/words/*.mo .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks
 	@find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,5 +1,5 @@
 """The part of the build that pyproject.toml cannot express: Babel compiles the catalogues of core/words, and Cython the
-modules of core/kernels.
+modules of core/kernels, to which it declares the names that they share.
 
 All modules or none are compiled: compiled modules call each other in C, so a half-compiled package would not import.
 Without a C compiler the install succeeds, and the same files run uncompiled.
@@ -10,7 +10,9 @@ uncompiled files.
 """
 
 import os
+import runpy
 import subprocess
+from enum import EnumType
 from pathlib import Path
 
 from babel.messages.mofile import write_mo
@@ -56,6 +58,8 @@ DIRECTIVES = {
 # One module for all holds Cython's code for memoryviews, which no loop runs: it takes the compiler half the time, and
 # no answer longer (measured 2026-11-25, fifteen questions).
 SHARED = "core.kernels._shared"
+# Modules of names alone: they are not compiled, and their .pxd follow from them.
+NAMES = {"constants", "records"}
 
 
 def family(kind: str, command: list[str]) -> str:
@@ -124,10 +128,39 @@ def compile_catalogues() -> None:
             write_mo(compiled, read_po(source))
 
 
+def declare_names(module: str) -> None:
+    """Declare the numbers, states and records of a module of core/kernels to Cython, in a .pxd beside it.
+
+    Numbers become literals, which cost nothing in inner loops, states enums and records structs. A file that stays the
+    same is not written, as Cython would translate all modules again.
+    """
+    types = {float: "double", int: "Py_ssize_t", bool: "bint"}
+    declared = [f"# Written by setup.py from {module}.py."]
+    for name, value in runpy.run_path(f"core/kernels/{module}.py").items():
+        if isinstance(value, float):
+            kind, lines = "extern from *", [f'const double {name} "{value!r}"']
+        elif isinstance(value, int):
+            kind, lines = "enum", [f"{name} = {value}"]
+        elif isinstance(value, EnumType):
+            kind, lines = f"enum {name}", [f"{state.name} = {state.value}" for state in value]
+        elif hasattr(value, "_fields"):
+            fields = value.__annotations__.items()
+            kind, lines = f"struct {name}", [f"{types.get(hint, hint.__name__)} {field}" for field, hint in fields]
+        else:
+            lines = []  # a tuple of names, or an imported name
+        if lines:
+            declared += [f"cdef {kind}:", *(f"    {line}" for line in lines)]
+    text = "\n".join([*declared, ""])
+    path = Path("core/kernels", f"{module}.pxd")
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
+
+
 def kernels() -> list[Extension]:
     """The modules of core/kernels, translated to C."""
-    declared = {path.stem for path in Path("core/kernels").glob("*.pxd")}
-    names = sorted(declared - {"constants", "records"})  # these hold names alone
+    folder = Path("core/kernels")
+    declared = {path.stem for path in folder.glob("*.pxd")} - NAMES
+    names = sorted(declared & {path.stem for path in folder.glob("*.py")})
     extensions = cythonize(
         [Extension(SHARED, ["build/_shared.c"])]
         + [Extension(f"core.kernels.{name}", [f"core/kernels/{name}.py"]) for name in names],
@@ -144,5 +177,7 @@ def kernels() -> list[Extension]:
 
 if __name__ == "__main__":
     compile_catalogues()
+    for module in NAMES:
+        declare_names(module)
     commands = {"build_ext": AllOrNothing, "bdist_wheel": HonestWheel, "editable_wheel": ReadableEditable}
     setup(ext_modules=kernels(), cmdclass=commands)

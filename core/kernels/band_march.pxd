@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Rows
 from core.kernels.constants cimport *
 from core.kernels.chain cimport extend_chain, start_chain
 from core.kernels.spiral cimport spiral_arc, spiral_theta

@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Rows
 from core.kernels.constants cimport *
 from core.kernels.budget cimport Budget
 from core.kernels.rectangles cimport rows_gap_within

@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Pairs, Pieces, Rows, Tables
 from core.kernels.constants cimport *
 from core.kernels.double_double cimport coil_theta
 from core.kernels.spiral cimport first_guess, next_handle

@@ -1,6 +1,6 @@
 """Columns of the loops' arrays, and a few numbers that the loops share.
 
-In compiled code the same names are literals, from constants.pxd; a test compares the two lists.
+In compiled code the same names are literals, which setup.py declares from this file.
 """
 
 from enum import IntEnum

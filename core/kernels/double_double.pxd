@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Pairs, Rows
 from core.kernels.constants cimport *
 from core.kernels.spiral cimport spiral_arc
 

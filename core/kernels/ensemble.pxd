@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Rows
 from core.kernels.constants cimport *
 from core.kernels.chain cimport chain_rounding, place_chain
 from core.kernels.clearance cimport beyond_box, boxes_apart, least_with, meet, row_gap, speed_along

@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Rows
 from core.kernels.constants cimport *
 from core.kernels.gap_curvature cimport band_curvatures, band_between, curvature_along, centres_apart, least_between
 from core.kernels.faces cimport band_hulls, hulls_least, hulls_most

@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Rows
 from core.kernels.constants cimport *
 from core.kernels.spiral cimport spiral_curvature
 from core.kernels.stretches cimport blur_of, steepest_curvature

@@ -1,6 +1,6 @@
 """Records: named values that inner loops pass to each other.
 
-In compiled code the same names are C structs, from records.pxd.
+In compiled code the same names are C structs, which setup.py declares from this file.
 """
 
 from typing import NamedTuple

@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Pieces, Rows
 from core.kernels.constants cimport *
 from core.kernels.route cimport first_place
 from core.kernels.spiral cimport spiral_arc

@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Pieces, Rows
 from core.kernels.constants cimport *
 from core.kernels.route cimport cubic_point, cubic_speed, route_point, theta_at
 

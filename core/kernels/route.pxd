@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Pairs, Pieces, Rows
 from core.kernels.clothoid cimport clothoid_point
 from core.kernels.constants cimport *
 from core.kernels.double_double cimport coil_theta, quotient

@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Rows
 from core.kernels.constants cimport *
 from core.kernels.bounds cimport motion_bounds, route_bounds
 from core.kernels.budget cimport Budget

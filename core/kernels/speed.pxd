@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Pieces, Rows
 from core.kernels.constants cimport *
 from core.kernels.rates cimport BOUND_ROUNDING, climbs, fastest, lay_ahead, lively_chain, rate_bound
 from core.kernels.scene cimport Interval, Scene

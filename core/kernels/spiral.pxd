@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Pairs, Rows, Tables
 from core.kernels.constants cimport *
 from core.kernels.budget cimport Budget
 from core.kernels.fold cimport first_root

@@ -1,4 +1,5 @@
 cimport cython
+from core.kernels.arrays cimport Rows, Tables
 from core.kernels.clearance cimport BLOCK, block_boxes, boxes_apart
 from core.kernels.constants cimport *
 from core.kernels.budget cimport Budget
