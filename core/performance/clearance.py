@@ -20,7 +20,7 @@ from core.contact.clearance import DIPS_REFINED, PROFILE_STEP, PROOF_WIDTHS, ROU
 from core.contact.search import SAMPLED_SHARE, SAMPLES, WORK_BUDGET
 from core.dance import checked_instants
 from core.display import Readable, display, format_count
-from core.dragon import Stray, checked_stray
+from core.dragon import Stray
 from core.errors import InvalidValue, OutsideRun, Quantity, bound, question_about
 from core.kernels import Budget, Ended
 from core.motion.trajectory import instants
@@ -191,7 +191,7 @@ def performance_least_clearance(
     >>> round(least.distance, 6), 0.0 < least.distance - least.at_least < 2e-5
     (8.7, True)
     """
-    strayed = max(checked_stray(stray, part.dance.dragon) for part in performance.parts)
+    strayed = performance.checked_stray(stray)
     if len(performance.parts) == 1:
         performance.span(start, stop)
         return None

@@ -14,7 +14,7 @@ from core.contact.first_contact import CORNERS, EDGES, OUTCOMES
 from core.contact.march import TOUCHES
 from core.contact.search import MARGIN_MAX, WORK_BUDGET
 from core.dance import EndReason
-from core.dragon import Stray, checked_stray
+from core.dragon import Stray
 from core.errors import checked_number, question_about
 from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
@@ -64,7 +64,7 @@ def first_encounter(
     """
     budget = budget or Budget()
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    strayed = max(checked_stray(stray, part.dance.dragon) for part in performance.parts)
+    strayed = performance.checked_stray(stray)
     span = performance.span(start, stop)
     stage = Stage(performance, span, margin, stray=strayed, work=WORK_BUDGET, budget=budget)
     met = marched(stage)

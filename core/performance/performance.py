@@ -15,6 +15,7 @@ import numpy as np
 
 from core.dance import Dance, EndReason, whole_seconds
 from core.display import Readable, display, format_count
+from core.dragon import Stray, checked_stray
 from core.errors import (
     Given,
     InvalidValue,
@@ -205,6 +206,10 @@ class Performance(Readable):
     def default_times(self) -> Floats:
         """Whole seconds (T,) from `begin` on, for 300 s or to the end [s]; only `begin` if there is none between."""
         return whole_seconds(self.begin, self.end.time)
+
+    def checked_stray(self, stray: float | Stray) -> float:
+        """The largest stray of a hole of any dragon [m]. raises: InvalidValue"""
+        return max(checked_stray(stray, part.dance.dragon) for part in self.parts)
 
     def span(self, start: float | None = None, stop: float | None = None) -> tuple[float, float]:
         """start and stop [s], checked to lie between begin and end and in this order.

@@ -28,7 +28,7 @@ from core.contact.march import TOUCHES
 from core.contact.search import MARGIN_MAX, WORK_BUDGET
 from core.dance import Dance
 from core.display import Readable, display
-from core.dragon import Stray, checked_stray
+from core.dragon import Stray
 from core.errors import InvalidValue, Parameter, Quantity, bound, checked_number, quantities, question_about
 from core.extremes.speed import highest_speed
 from core.kernels import Budget, Ended
@@ -128,7 +128,7 @@ def safe_delay(
     if low >= high:
         raise InvalidValue("most", "must be more than least ({least})", **quantities("s", got=high, least=low))
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    strayed = max(checked_stray(stray, one.dance.dragon) for one in performance.parts)
+    strayed = performance.checked_stray(stray)
     until = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     _refuse_folds(performance, k, low, until)
     search = _Search(performance, k, (low, high), margin, strayed, until, (budget or Budget()).within(DELAY_WORK))

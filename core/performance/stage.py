@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 
@@ -112,7 +112,7 @@ class Stage:
             search.resize(part.dance.dragon.benches)
             self.players.append(Player(part, search, first, span))
             first += part.dance.dragon.benches + 1
-        self.turning = _winding_together([part.dance.path.frame for part in performance.parts], performance)
+        self.turning = _winding_together(performance)
         self.rings = self._rings()
         self._lay_out(first)
 
@@ -170,37 +170,30 @@ class Stage:
     def _rings(self) -> dict[tuple[int, int], float]:
         """Radii outside which the benches of two dragons on spirals of one growth, centre and sense keep apart [m]."""
         clear: dict[tuple[int, int], float] = {}
-        for i in self.turning:
-            for j in self.turning:
-                one, two = self.players[i], self.players[j]
-                if i >= j or one.search.growth != two.search.growth or self.stray > 0.0:
-                    continue
-                angle = abs(
-                    math.remainder(
-                        one.part.dance.path.frame.rotation - two.part.dance.path.frame.rotation, 2.0 * math.pi
-                    )
-                )
-                radius = clear_of_each_other(
-                    one.search.growth, angle, (one.search.dragon, two.search.dragon), self.margin
-                )
-                if radius is not None:
-                    clear[i, j] = radius
+        for i, j in combinations(sorted(self.turning), 2):
+            one, two = self.players[i], self.players[j]
+            if one.search.growth != two.search.growth or self.stray > 0.0:
+                continue
+            turned, rotation = (player.part.dance.path.frame.rotation for player in (one, two))
+            angle = abs(math.remainder(turned - rotation, math.tau))
+            radius = clear_of_each_other(one.search.growth, angle, (one.search.dragon, two.search.dragon), self.margin)
+            if radius is not None:
+                clear[i, j] = radius
         return clear
 
     def clear_until(self) -> float:
         """Time until which all pairs of dragons wind outside the radius from which they keep apart [s]; the start if
         any two do not."""
         begin, until = self.span
-        for i in range(len(self.players)):
-            for j in range(i):
-                radius = self.rings.get((j, i))
-                if radius is None:
+        for pair in combinations(range(len(self.players)), 2):
+            radius = self.rings.get(pair)
+            if radius is None:
+                return begin
+            for player in (self.players[k] for k in pair):
+                travel = player.search.travel_at(radius / player.search.growth) - player.slip
+                if travel <= player.travel(begin):
                     return begin
-                for player in (self.players[i], self.players[j]):
-                    travel = player.search.travel_at(radius / player.search.growth) - player.slip
-                    if travel <= player.travel(begin):
-                        return begin
-                    until = min(until, player.clock.time(travel) + player.part.delay)
+                until = min(until, player.clock.time(travel) + player.part.delay)
         # a time that is turned into a travel and back is off by a few roundings
         return max(begin, until - WIDTH_ROUNDING * (abs(until) + abs(begin)))
 
@@ -250,9 +243,7 @@ class Stage:
         for row in (a, b):
             k = int(self.owner[row])
             player = self.players[k]
-            within = player.begin < time < player.end
-            speed = float(player.clock.speed(np.array(time - player.part.delay))) if within else 0.0
-            self.stand(k, PROBED, time, speed, row - player.first + 1)
+            self.stand(k, PROBED, time, player.speed(time, time), row - player.first + 1)
 
     def gap(self, time: float, a: int, b: int) -> float:
         """Separation of two rows at a time [m]."""
@@ -300,12 +291,13 @@ def _placed(frame: Frame) -> tuple[float, float, float, float, float]:
     return (*frame.centre, cos, sin, 1.0 if frame.clockwise else -1.0)
 
 
-def _winding_together(frames: list[Frame], performance: Performance) -> set[int]:
+def _winding_together(performance: Performance) -> set[int]:
     """The parts of the largest group on spirals with one centre and sense."""
     groups: dict[tuple[object, bool], set[int]] = {}
     for k, part in enumerate(performance.parts):
         if part.dance.path.spiral is not None:
-            groups.setdefault((frames[k].centre, frames[k].clockwise), set()).add(k)
+            frame = part.dance.path.frame
+            groups.setdefault((frame.centre, frame.clockwise), set()).add(k)
     together = max(groups.values(), key=len, default=set())
     return together if len(together) > 1 else set()
 
@@ -316,11 +308,10 @@ def clear_of_each_other(growth: float, angle: float, dragons: tuple[Dragon, Drag
     Both wind into spirals of one growth [m/rad], centre and sense, one turned against the other by an angle [rad].
     """
     rings = kernels.Rings()
-    columns = (
+    chords, overhangs, widths, lengths = (
         np.concatenate([getattr(dragon, name)[: dragon.uniform_from + 1] for dragon in dragons])
         for name in ("chords", "overhangs", "widths", "lengths")
     )
-    chords, overhangs, widths, lengths = columns
     rings.measure(chords, overhangs, widths, lengths, len(chords) - 1, 0)
 
     def clears(radius: float) -> bool:
