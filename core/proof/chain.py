@@ -89,18 +89,14 @@ class Chain(Follower["Pose"]):
 
     def arc(self, theta: arb) -> arb:
         """Arc length from the centre [m]."""
-        return self.growth / 2 * (theta * (1 + theta**2).sqrt() + theta.asinh())
+        return coil_arc(self.growth, theta)
 
     def place_after(self, way: arb) -> arb:
         """Place of the head after this way from the start. way: [m], negative outside the start; returns [rad]."""
         left = self.arc(self.start) - way
         if not left > 0:
             raise Unproven("the claim reaches past the centre of the spiral")
-        theta = (2 * left / self.growth).sqrt().mid()
-        for _ in range(20):  # Newton steps, quadratic from the first one on, because arc is convex
-            theta = (theta - (self.arc(theta) - left) / (self.growth * (1 + theta**2).sqrt())).mid()
-        around = theta + arb(0, GUESS_RADIUS)
-        return newton(theta, around, self.arc(theta) - left, self.growth * (1 + around**2).sqrt())
+        return coil_theta(self.growth, left)
 
     def far(self, bench: int, rear: arb, theta: arb) -> bool:
         """Whether all benches behind a handle at theta are apart from this one, its rear handle at rear (5., 14.)."""
@@ -115,6 +111,26 @@ class Chain(Follower["Pose"]):
             theta += delta(theta, needed)
             places.append(above(theta))
         return places
+
+
+def coil_arc(growth: arb, theta: arb) -> arb:
+    """Arc length of r = growth |theta| from its centre to theta, with the sign of theta [m]."""
+    return growth / 2 * (theta * (1 + theta**2).sqrt() + theta.asinh())
+
+
+def coil_slope(growth: arb, theta: arb) -> arb:
+    """Derivative of coil_arc() [m]."""
+    return growth * (1 + theta**2).sqrt()
+
+
+def coil_theta(growth: arb, arc: arb) -> arb:
+    """The theta at an arc length of coil_arc() [rad]."""
+    sign = 1 if arc > 0 else -1
+    theta = (sign * (2 * abs(arc) / growth).sqrt()).mid()
+    for _ in range(20):  # quadratic from the first step on: the arc is convex on either side of the centre
+        theta = (theta - (coil_arc(growth, theta) - arc) / coil_slope(growth, theta)).mid()
+    around = theta + arb(0, GUESS_RADIUS)
+    return newton(theta, around, coil_arc(growth, theta) - arc, coil_slope(growth, around))
 
 
 def newton(guess: arb, around: arb, value: arb, slope: arb) -> arb:
@@ -143,6 +159,11 @@ def delta_guess(theta: float, needed: float) -> float:
     return guess
 
 
+def squared_chord(theta: arb, d: arb) -> arb:
+    """F(theta, d)."""
+    return d**2 + 2 * theta * (theta + d) * (1 - d.cos())
+
+
 def slopes(theta: arb, d: arb) -> tuple[arb, arb]:
     """F_theta and F_d."""
     sine, cosine = d.sin_cos()
@@ -154,8 +175,7 @@ def delta(theta: arb, needed: arb) -> arb:
     """The first root d of F(theta, d) = needed (1.) [rad]."""
     guess = arb(delta_guess(float(theta), float(needed)))
     around = guess + arb(0, GUESS_RADIUS)
-    value = guess**2 + 2 * theta * (theta + guess) * (1 - guess.cos()) - needed
-    root = newton(guess, around, value, slopes(theta, around)[1])
+    root = newton(guess, around, squared_chord(theta, guess) - needed, slopes(theta, around)[1])
     if not root > 0:
         raise Unproven("the next handle is not shown to be behind")
     if not root < arb.pi() and not rises_to(theta, root):

@@ -71,8 +71,8 @@ class CollisionTimeClaim(SpiralClaim):
     def __post_init__(self) -> None:
         path, speed = Spiral(self.pitch, self.start_turns), checked_head_speed(self.head_speed)
         time = checked_number("time", self.time, "s", 0.0, path.length / speed)
-        settle(self, pitch=path.pitch, start_turns=path.start_turns, head_speed=speed, time=time)
-        settle(self, margin=checked_margin(self.margin))
+        margin = checked_margin(self.margin)
+        settle(self, pitch=path.pitch, start_turns=path.start_turns, head_speed=speed, time=time, margin=margin)
 
     @cached_property
     def chain(self) -> Chain:
@@ -114,8 +114,8 @@ class MinimumPitchClaim(SpiralClaim):
 
     def __post_init__(self) -> None:
         path, radius = Spiral(self.pitch, self.start_turns), checked_size("turning_radius", self.turning_radius)
-        settle(self, pitch=path.pitch, start_turns=path.start_turns, turning_radius=radius)
-        settle(self, margin=checked_margin(self.margin))
+        margin = checked_margin(self.margin)
+        settle(self, pitch=path.pitch, start_turns=path.start_turns, turning_radius=radius, margin=margin)
 
     @cached_property
     def chain(self) -> Chain:

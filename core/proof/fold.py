@@ -6,7 +6,7 @@ import math
 
 from flint import arb
 
-from core.proof.chain import Chain, SpiralStretch, slopes
+from core.proof.chain import Chain, SpiralStretch, slopes, squared_chord
 from core.proof.pairs import Unproven, above, below
 
 # Largest number of pieces of an angle delta before a fold counts as not proven; 20 to 60 are usual.
@@ -46,15 +46,10 @@ def verify_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
     start = chain.pose_at(0, before)
     start.grow_to(bench + 1)
     wall = _wall(float(lowest), float(start.deltas[bench]))
-    if not (start.deltas[bench] < wall and _squared_chord(highest, arb(wall)) < needed):
+    if not (start.deltas[bench] < wall and squared_chord(highest, arb(wall)) < needed):
         raise Unproven("no bound is found on the angle from bench {bench} to the next handle", bench=bench)
     if not _stays_short(lowest, wall, needed):
         raise Unproven("bench {bench} is not shown to fold", bench=bench)
-
-
-def _squared_chord(theta: arb, d: arb) -> arb:
-    """F(theta, d)."""
-    return d**2 + 2 * theta * (theta + d) * (1 - d.cos())
 
 
 def _wall(theta: float, d: float) -> float:
@@ -78,6 +73,6 @@ def _stays_short(theta: arb, wall: float, needed: arb) -> bool:
             return True
         low, high = pieces.pop()
         hull, middle = arb(low).union(arb(high)), arb((low + high) / 2)
-        if not _squared_chord(theta, middle) + slopes(theta, hull)[1] * (hull - middle) < needed:
+        if not squared_chord(theta, middle) + slopes(theta, hull)[1] * (hull - middle) < needed:
             pieces += [(low, float(middle)), (float(middle), high)]
     return False

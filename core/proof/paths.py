@@ -22,7 +22,7 @@ from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.proof.chain import Chain
-from core.proof.route import BallCoil, BallPath, Piece, RouteChain
+from core.proof.route import BallCoil, BallPath, Piece, RouteChain, turned
 from core.proof.words import spiral_words
 
 Record = Mapping[str, Any]
@@ -121,13 +121,11 @@ def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChai
 # -2 E - S n = R / cos gamma (sin 2 gamma T + cos 2 gamma n), and from C1 to E goes -n. A clockwise rotation by alpha
 # brings -n to sin alpha T - cos alpha n: alpha = pi - 2 gamma, on both arcs by symmetry.
 def _turn_path(record: Record) -> BallPath:
-    growth, radius = arb(record["pitch"]) / (2 * arb.pi()), arb(record["entry_radius"])
-    theta, start = radius / growth, 2 * arb.pi() * arb(record["start_turns"])
+    growth, radius = _growth(record), arb(record["entry_radius"])
+    theta = radius / growth
     total, ratio = radius * (1 + theta**2).sqrt() / theta, arb(record["ratio"])
     radii, angle = (total * ratio / (1 + ratio), total / (1 + ratio)), arb.pi() - 2 * (1 / theta).atan()
-    coils = BallCoil.between(growth, start, theta), BallCoil.between(growth, -theta, -start)
-    arcs = Piece(-1 / radii[0], radii[0] * angle), Piece(1 / radii[1], radii[1] * angle)
-    return BallPath((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
+    return _between_coils(record, (theta, theta), radii, (angle, angle))
 
 
 # With a free exit (core/paths/turn.py), as complex numbers: the place P(t) = growth t e^(it) of the coil inwards, its
@@ -136,7 +134,7 @@ def _turn_path(record: Record) -> BallPath:
 # goes -w, to the exit n2, so the other angle is arg(-n2 / w). Both are from 0 to 2 pi; refusing arcs of almost no
 # length (core/paths/turn.py) keeps them from the ends of that range.
 def _free_turn_path(record: Record) -> BallPath:
-    growth, ratio = arb(record["pitch"]) / (2 * arb.pi()), arb(record["ratio"])
+    growth, ratio = _growth(record), arb(record["ratio"])
     inner, outer = (arb(record[name]) / growth for name in ("entry_radius", "exit_radius"))
     (entry, n1), (opposite, n2) = (_place_and_normal(growth, theta) for theta in (inner, outer))
     apart, both = entry + opposite, ratio * n1 + n2
@@ -144,16 +142,31 @@ def _free_turn_path(record: Record) -> BallPath:
     root = (level**2 + curved * squared).sqrt()
     least = squared / (root - level) if level < 0 else (root + level) / curved
     towards = (-opposite - least * n2 - entry - ratio * least * n1) / ((1 + ratio) * least)
-    angles = [_positive_angle(-normal / towards) for normal in (n1, n2)]
-    start = 2 * arb.pi() * arb(record["start_turns"])
-    coils = BallCoil.between(growth, start, inner), BallCoil.between(growth, -outer, -start)
-    arcs = Piece(-1 / (ratio * least), ratio * least * angles[0]), Piece(1 / least, least * angles[1])
+    angles = _positive_angle(-n1 / towards), _positive_angle(-n2 / towards)
+    return _between_coils(record, (inner, outer), (ratio * least, least), angles)
+
+
+def _between_coils(
+    record: Record, thetas: tuple[arb, arb], radii: tuple[arb, arb], angles: tuple[arb, arb]
+) -> BallPath:
+    """A turn, in its own frame: thetas of the entry and the exit [rad], radii [m] and angles [rad] of its arcs."""
+    growth, start = _growth(record), _radians(record["start_turns"])
+    coils = BallCoil.between(growth, start, thetas[0]), BallCoil.between(growth, -thetas[1], -start)
+    arcs = (Piece(sign / radius, radius * angle) for sign, radius, angle in zip((-1, 1), radii, angles, strict=True))
     return BallPath((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
+
+
+def _growth(record: Record) -> arb:
+    return arb(record["pitch"]) / (2 * arb.pi())
+
+
+def _radians(turns: float) -> arb:
+    return 2 * arb.pi() * arb(turns)
 
 
 def _place_and_normal(growth: arb, theta: arb) -> tuple[acb, acb]:
     """Place of the coil inwards [m], and the normal to the right of the direction of travel."""
-    outwards = (acb(0, 1) * theta).exp()
+    outwards = turned(theta)
     return growth * theta * outwards, acb(0, 1) * outwards * acb(1, theta) / (1 + theta**2).sqrt()
 
 
@@ -175,10 +188,9 @@ def _piece(record: Record) -> tuple[Piece, acb, acb]:
     if record["kind"] == "arc":
         radius, sweep = arb(record["radius"]), arb(record["sweep"])
         sign = 1 if sweep > 0 else -1
-        outwards = (acb(0, 1) * arb(record["start_angle"])).exp()
+        outwards = turned(arb(record["start_angle"]))
         return Piece(sign / radius, radius * abs(sweep)), centre + radius * outwards, acb(0, sign) * outwards
-    first, last = (2 * arb.pi() * arb(record[name]) for name in ("start_turns", "end_turns"))
+    first, last = _radians(record["start_turns"]), _radians(record["end_turns"])
     if record["end_turns"] > record["start_turns"]:
         first, last = -first, -last
-    growth = arb(record["pitch"]) / (2 * arb.pi())
-    return BallCoil.between(growth, first, last), centre, (acb(0, 1) * arb(record["rotation"])).exp()
+    return BallCoil.between(_growth(record), first, last), centre, turned(arb(record["rotation"]))

@@ -12,11 +12,16 @@ from flint import acb, arb
 
 from core.dragon import Dragon
 from core.errors import Quantity, format_number
-from core.proof.chain import GUESS_RADIUS, Follower, delta, newton
+from core.proof.chain import GUESS_RADIUS, Follower, coil_arc, coil_slope, coil_theta, delta, newton
 from core.proof.pairs import Benches, Unproven, above
 
 # Newton steps towards a guess in doubles: each doubles the digits.
 GUESS_STEPS = 40
+
+
+def turned(angle: arb) -> acb:
+    """The unit vector at an angle [rad]."""
+    return (acb(0, 1) * angle).exp()
 
 
 @dataclass
@@ -48,12 +53,12 @@ class Piece:
         way = self.high - t
         if self.curvature == 0:
             return self.shift + self.rotation * way
-        change = (acb(0, 1) * self.curvature * way).exp() - 1
+        change = turned(self.curvature * way) - 1
         return self.shift + self.rotation * change / (acb(0, 1) * self.curvature)
 
     def tangent(self, t: arb) -> acb:
         """The direction of the dance at a parameter."""
-        return self.rotation * (acb(0, 1) * self.curvature * (self.high - t)).exp()
+        return self.rotation * turned(self.curvature * (self.high - t))
 
     def slope(self, t: arb) -> arb:
         """-ds / dt at a parameter [m]."""
@@ -87,9 +92,8 @@ class BallCoil(Piece):
     @classmethod
     def between(cls, growth: arb, first: arb, last: arb) -> BallCoil:
         """The coil from one t to another."""
-        coil = cls(arb(0), arb(0), growth=growth, first=first, last=last)
-        coil.length = coil._arc(first) - coil._arc(last)
-        return coil
+        length = coil_arc(growth, first) - coil_arc(growth, last)
+        return cls(arb(0), length, growth=growth, first=first, last=last)
 
     @property
     def inwards(self) -> bool:
@@ -101,32 +105,23 @@ class BallCoil(Piece):
             raise Unproven("a handle is not shown to be short of the centre of a coil")
         return abs(t)
 
-    def _arc(self, t: arb) -> arb:
-        return self.growth / 2 * (t * (1 + t**2).sqrt() + t.asinh())
-
     def param(self, z: arb) -> arb:
-        left = z - self.high + self._arc(self.first)
-        sign = 1 if left > 0 else -1
-        t = (sign * (2 * abs(left) / self.growth).sqrt()).mid()
-        for _ in range(20):  # quadratic from the first step on: the arc is convex on either side of the centre
-            t = (t - (self._arc(t) - left) / self.slope(t)).mid()
-        around = t + arb(0, GUESS_RADIUS)
-        return newton(t, around, self._arc(t) - left, self.slope(around))
+        return coil_theta(self.growth, z - self.high + coil_arc(self.growth, self.first))
 
     def place(self, t: arb) -> arb:
-        return self.high + self._arc(t) - self._arc(self.first)
+        return self.high + coil_arc(self.growth, t) - coil_arc(self.growth, self.first)
 
     def point(self, t: arb) -> acb:
         theta = self._theta(t)
-        return self.shift + self.rotation * self.growth * theta * (acb(0, 1) * theta).exp()
+        return self.shift + self.rotation * self.growth * theta * turned(theta)
 
     def tangent(self, t: arb) -> acb:
         theta = self._theta(t)
-        along = acb(1, theta) * (acb(0, 1) * theta).exp() / (1 + t**2).sqrt()
+        along = acb(1, theta) * turned(theta) / (1 + t**2).sqrt()
         return -self.rotation * along if self.inwards else self.rotation * along
 
     def slope(self, t: arb) -> arb:
-        return self.growth * (1 + t**2).sqrt()
+        return coil_slope(self.growth, t)
 
     def curvature_at(self, t: arb) -> arb:
         square = 1 + self._theta(t) ** 2
