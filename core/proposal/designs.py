@@ -14,7 +14,7 @@ from core.proposal.figures import DANCED, Figure, Shape
 from core.proposal.gates import Gate
 from core.proposal.legs import LegFinder
 from core.proposal.needs import Needs
-from core.proposal.walks import Pose, Step, along, length_of, moved, pieces_of, placed, stretch
+from core.proposal.walks import Pose, Step, along, in_world, length_of, moved, pieces_of, placed, stretch
 
 # Rounds of the head on a closed figure without gates, once the whole dragon stands on it [1].
 ROUNDS = {Figure.RING: 2.0, Figure.EIGHT: 1.0}
@@ -44,16 +44,8 @@ class Design:
 
 def gate_poses(gate: Gate, lead: float) -> tuple[Pose, Pose]:
     """The pose of a head that has entered by a gate this far [m], and that of one that is about to leave by it."""
-    (x, y), (cos, sin) = gate.point, gate.ahead
-    inside = (x + lead * cos, y + lead * sin)
-    return (*inside, gate.heading), (*inside, gate.heading + math.pi)
-
-
-def in_world(pose: Pose, local: Pose) -> Pose:
-    """A pose that is given beside another one."""
-    (x, y, turn), (u, v, heading) = pose, local
-    cos, sin = math.cos(turn), math.sin(turn)
-    return (x + cos * u - sin * v, y + sin * u + cos * v, heading + turn)
+    x, y, heading = moved((*gate.point, gate.heading), (lead, 0.0))
+    return (x, y, heading), (x, y, heading + math.pi)
 
 
 def street_length(needs: Needs) -> float:

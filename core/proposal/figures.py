@@ -198,7 +198,7 @@ def _serpentines(needs: Needs, widest: float, gated: bool) -> Iterator[Shape]:
             for scale in SCALES[:4]:
                 half = max(scale * least, radius)
                 if max(2.0 * (half + radius), 2.0 * radius * (lanes - 1)) <= widest:
-                    yield Shape(Figure.SERPENTINE, (float(lanes), half, radius), mirror=False)
+                    yield Shape(Figure.SERPENTINE, (float(lanes), half, radius))
 
 
 def _spirals(needs: Needs, widest: float, gated: bool) -> Iterator[Shape]:

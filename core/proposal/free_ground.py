@@ -171,9 +171,14 @@ class FreeGround:
             if not kept.any() or reach < WIDEST:
                 return float(place[0]), float(place[1]), radius, float(max(radius + WIDEST, 0.0))
             half *= 0.5
-            corners = half * np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]])
-            cells = (cells[kept][:, None] + corners).reshape(-1, 2)
+            cells = quartered(cells[kept], half)
             values = self.clearance(cells)
             if values.max() > radius:
                 best = int(values.argmax())
                 place, radius = cells[best], float(values[best])
+
+
+def quartered(middles: Floats, half: float) -> Floats:
+    """The middles (4 N, 2) of the quarters of square cells (N, 2). half: the side of a quarter, halved [m]"""
+    corners = half * np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]])
+    return (middles[:, None] + corners).reshape(-1, 2)

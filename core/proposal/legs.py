@@ -106,8 +106,7 @@ class LegFinder:
         if (steps := self.leg(begin, end)) is not None:
             return steps
         reach = self.needs.radii[-1]
-        ahead = (begin[0] + reach * math.cos(begin[2]), begin[1] + reach * math.sin(begin[2]))
-        before = (end[0] - reach * math.cos(end[2]), end[1] - reach * math.sin(end[2]))
+        ahead, before = moved(begin, (reach, 0.0))[:2], moved(end, (-reach, 0.0))[:2]
         # Ways on which benches can turn anywhere, then those that have room for straight benches.
         for room in (self.sides[self.needs.radii[-1]], self.needs.straight_side):
             line = self._line(ahead, before, room + self.needs.free)
@@ -304,7 +303,7 @@ def _bends(line: Floats, radius: float) -> list[Pose]:
             poses.append((float(b[0]), float(b[1]), before + 0.5 * turn))
             continue
         for way, heading in ((-cut, before), (cut, after)):
-            poses.append((float(b[0]) + way * math.cos(heading), float(b[1]) + way * math.sin(heading), heading))
+            poses.append(moved((float(b[0]), float(b[1]), heading), (way, 0.0)))
     return poses
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from core.paths.route import Route
 from core.proposal.figures import Shape
-from core.proposal.free_ground import FreeGround
+from core.proposal.free_ground import FreeGround, quartered
 from core.proposal.needs import Needs
 from core.proposal.walks import Pose
 from core.values import Floats
@@ -36,9 +36,9 @@ class Sampled:
     sides: Floats
 
 
-def sampled(route: Route, needs: Needs, most: int = POINTS_MAX, step: float = STEP) -> Sampled:
+def sampled(route: Route, needs: Needs, most: int = POINTS_MAX) -> Sampled:
     """Points along a path, with the room that benches need beside each: that of the sharpest bend within a chord."""
-    s = np.linspace(route.begin, route.end, min(most, int((route.end - route.begin) / step) + 2))
+    s = np.linspace(route.begin, route.end, min(most, int((route.end - route.begin) / STEP) + 2))
     sides = needs.sides(route.curvature(s))
     reach = math.ceil(needs.chord / (s[1] - s[0]))
     wide = np.pad(sides, reach, mode="edge")
@@ -89,8 +89,7 @@ def placements(ground: FreeGround, needs: Needs, shape: Shape, count: int) -> li
         if not len(kept):
             return []
         half *= 0.5
-        corners = half * np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]])
-        which, centres = np.repeat(which[kept], 4), (centres[kept][:, None] + corners).reshape(-1, 2)
+        which, centres = np.repeat(which[kept], 4), quartered(centres[kept], half)
     return best
 
 

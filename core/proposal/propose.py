@@ -274,7 +274,7 @@ def _without_stray(
             second.wish = wish
             best += [proposal for proposal in [second.certified(one, dance)] if proposal is not None]
             second.wish = steady
-    search.tried, search.checked = search.tried + second.tried, search.checked + second.checked
+    search.include(second)
     search.nearest = search.nearest or second.nearest
     if best or not 0.0 < most[0] < wish.stray:
         return tuple(sorted(best, key=_VALUES[wish.objective], reverse=True)), None
@@ -324,7 +324,7 @@ def _longest(
         search = Search(venue, with_benches(like.dragon, count), like.gates, like.wish, like.budget)
         every = (search.first(search.ranked(figure), briefly=True) for figure in figures)
         passing = next((one for one in every if one is not None), None)
-        like.tried, like.checked = like.tried + search.tried, like.checked + search.checked
+        like.include(search)
         if passing is None:
             high = count
         else:
@@ -340,7 +340,7 @@ def _failing(search: Search, venue: Venue, figures: Sequence[Figure]) -> tuple[t
     if search.nearest is None:
         last = Search(venue, with_benches(search.dragon, 1), search.gates, search.wish, search.budget)
         passing = last.check_nearest(figures)
-        search.tried, search.checked = search.tried + last.tried, search.checked + last.checked
+        search.include(last)
         if passing is not None and benches > 1:
             return (), Reason(ReasonKind.BENCHES, search.tried, 1.0, float(benches), passing[0].design.figure)
         if passing is not None and (proposal := last.certified(*passing)) is not None:

@@ -102,6 +102,10 @@ class Search:
         self.tried = self.checked = 0
         self.nearest: tuple[Rated, Report] | None = None
 
+    def include(self, other: Search) -> None:
+        """Count the dances of another search too."""
+        self.tried, self.checked = self.tried + other.tried, self.checked + other.checked
+
     def value(self, rating: PathRating) -> float:
         """Value of a rating for the objective; a dance without room for the stray is worth less than any with it."""
         if rating.stray < self.wish.stray:

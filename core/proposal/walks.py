@@ -37,6 +37,13 @@ def moved(pose: Pose, step: Step) -> Pose:
     return (x + chord * math.cos(heading + half), y + chord * math.sin(heading + half), heading + 2.0 * half)
 
 
+def in_world(pose: Pose, local: Pose) -> Pose:
+    """A pose that is given beside another one."""
+    (x, y, turn), (u, v, heading) = pose, local
+    cos, sin = math.cos(turn), math.sin(turn)
+    return (x + cos * u - sin * v, y + sin * u + cos * v, heading + turn)
+
+
 def pieces_of(pose: Pose, steps: Iterable[Step]) -> tuple[list[Piece], Pose]:
     """The pieces of a path from a pose, and the pose at its end. raises: InvalidValue for a step of almost no length"""
     pieces: list[Piece] = []
@@ -107,11 +114,10 @@ def mirrored(steps: Iterable[Step]) -> list[Step]:
 
 def placed(pieces: Iterable[Piece], pose: Pose) -> list[Piece]:
     """Pieces rotated about the origin by the heading of a pose, and moved to its place."""
-    x, y, turn = pose
-    cos, sin = math.cos(turn), math.sin(turn)
+    turn = pose[2]
 
     def at(point: Point) -> Point:
-        return (x + cos * point[0] - sin * point[1], y + sin * point[0] + cos * point[1])
+        return in_world(pose, (*point, 0.0))[:2]
 
     result: list[Piece] = []
     for piece in pieces:
