@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated, Any, TypeAlias
 
 import typer
-from rich.text import Text
 
 import core
 from app.command import show
@@ -25,12 +24,13 @@ from app.questions.figures import Format, TrajectoryFigureRequest
 from app.settings import Settings
 from app.wire.answers import Pair
 from app.wire.dances import PlacedDance, TimeRange, clock_of
+from app.wire.labels import Heading, Part, Table, judged_words, separation, value_text, value_word
 from app.wire.messages import checked
 from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import FailureKind, InvalidValue, Judgement
 from core.errors import format_bound, format_number
-from core.language import say
+from core.language import phrase, say
 
 
 def check(
@@ -124,89 +124,105 @@ def _drawn(request: CheckRequest, answer: Report | PerformanceReport, format: Fo
 # What is measured, its value, its time [s], and whose it is.
 Row: TypeAlias = tuple[str, str, float | None, str]
 VERDICTS = {
-    Judgement.PASSES: "Passes. Nothing fails.",
-    Judgement.FAILS: "Fails. Failures in order of time:",
-    Judgement.UNDECIDED: "Undecided. No failure is known, but these questions are open:",
+    Judgement.PASSES: phrase("Passes. Nothing fails."),
+    Judgement.FAILS: phrase("Fails. Failures in order of time:"),
+    Judgement.UNDECIDED: phrase("Undecided. No failure is known, but these questions are open:"),
 }
 
 
-def _report_parts(report: Report | PerformanceReport, request: CheckRequest) -> Iterator[show.Part]:
+def _report_parts(report: Report | PerformanceReport, request: CheckRequest) -> Iterator[Part]:
     """The verdict, the failures in order of time, and the measured values."""
-    yield Text(VERDICTS[report.verdict], style="bold")
+    yield Heading(say(VERDICTS[report.verdict]))
     yield from (f"  {one.clock + '  ' if one.clock else ''}{one.message}" for one in report.failures)
     if report.begins:
-        yield f"Starts {report.begins}, ends {report.ends}."
+        yield say("Starts {begin}, ends {end}.", begin=report.begins, end=report.ends)
     yield ""
-    facts = show.new_table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
+    title = say("From {start:.3f} to {stop:.3f} s", start=report.start, stop=report.stop)
+    facts = Table(title, say("what"), say("value"), say("at"), say("who"))
     rows = (
         _measured(report, request.margin, request.benches)
         if isinstance(report, Report)
         else _measured_together(report, request)
     )
     for name, value, time, who in rows:
-        facts.add_row(name, value, "" if time is None else f"{time:.6f} s", who)
+        facts.add(name, value, "" if time is None else f"{time:.6f} s", who)
     yield facts
     if at := report.origin:
-        yield f"x = y = 0 is longitude {at.longitude:.6f}, latitude {at.latitude:.6f}: the middle of the square."
+        yield say(
+            "x = y = 0 is longitude {longitude:.6f}, latitude {latitude:.6f}: the middle of the square.",
+            longitude=at.longitude, latitude=at.latitude,
+        )  # fmt: skip
 
 
 def _measured_together(report: PerformanceReport, request: CheckRequest) -> Iterator[Row]:
     """Rows of any two dragons, then those of each by itself."""
     met, dances = report.encounter, request.dances or []
-    names = [name or f"dragon {k}" for k, name in enumerate(report.names)]
+    names = [name or say("dragon {k}", k=k) for k, name in enumerate(report.names)]
 
     def pair(dragons: Pair | None, benches: Pair | None) -> str:
         both = zip(dragons or (), benches or (), strict=True)
-        return " and ".join(f"bench {bench} of {names[k]}" for k, bench in both)
+        return say(" and ").join(say("bench {bench} of {name}", bench=bench, name=names[k]) for k, bench in both)
 
-    what = f"two dragons first within {format_number(met.margin)} m" if met.margin else "first encounter"
+    near = say("two dragons first within {margin} m", margin=format_number(met.margin))
+    what = near if met.margin else say("first encounter")
     who = pair(met.dragons, met.benches)
-    yield _with_strays(what, met.stray), show.near(met.outcome.value, met.margin), met.time, who
+    yield _with_strays(what, met.stray), value_word(met.outcome.value, met.margin), met.time, who
     if check := met.cross_check:
-        yield "cross-check", f"engines {'agree' if check.agree else 'DISAGREE'}", None, ""
+        yield say("cross-check"), _agreement(check.agree), None, ""
     if least := report.least_clearance:
-        yield "least clearance of two dragons", _least(least), least.time, pair(least.dragons, least.benches)
+        yield say("least clearance of two dragons"), _least(least), least.time, pair(least.dragons, least.benches)
     for name, dance, own in zip(names, dances, report.reports, strict=True):
         if own is None:
-            yield f"{name}: stands", "", None, ""
+            yield say("{name}: stands", name=name), "", None, ""
             continue
         for what, value, time, who in _measured(own, request.margin, dance.benches):
-            yield f"{name}: {what}", value, None if time is None else time + dance.delay, who
+            yield say("{name}: {text}", name=name, text=what), value, None if time is None else time + dance.delay, who
 
 
 def _with_strays(what: str, stray: float | None) -> str:
-    return f"{what} with strays up to {format_number(stray)} m" if stray else what
+    return say("{what} with strays up to {stray} m", what=what, stray=format_number(stray)) if stray else what
+
+
+def _agreement(agree: bool) -> str:
+    return say("engines agree") if agree else say("engines DISAGREE")
+
+
+def _pair(benches: Pair) -> str:
+    return say("benches {pair}", pair=value_text(benches))
 
 
 def _least(least: LeastClearance | DragonsClearance) -> str:
-    overlap = show.separation(least.distance, " m", show.DISPLAY_DECIMALS) if least.distance < 0.0 else ""
+    overlap = separation(least.distance, " m", show.DISPLAY_DECIMALS) if least.distance < 0.0 else ""
     return overlap or _distance(least)
 
 
 def _measured(report: Report, margin: float, benches: int) -> Iterator[Row]:
     """Rows of quantity, value, time and benches."""
     contact = report.first_contact
-    pair = f"benches {show.value_text(contact.benches)}" if contact.benches else ""
-    what = f"first within {format_number(margin)} m" if margin else "first contact"
-    yield _with_strays(what, contact.stray), show.near(contact.outcome.value, margin), contact.time, pair
+    pair = _pair(contact.benches) if contact.benches else ""
+    what = say("first within {margin} m", margin=format_number(margin)) if margin else say("first contact")
+    yield _with_strays(what, contact.stray), value_word(contact.outcome.value, margin), contact.time, pair
     if check := contact.cross_check:
-        engines = f"engines {'agree' if check.agree else 'DISAGREE'}"
-        yield "cross-check", engines, None, show.judged_words(check.judged, benches)
+        yield say("cross-check"), _agreement(check.agree), None, judged_words(check.judged, benches)
     if least := report.least_clearance:
-        yield "least clearance", _least(least), least.time, f"benches {show.value_text(least.benches)}"
+        yield say("least clearance"), _least(least), least.time, _pair(least.benches)
     for area in report.venue.areas if report.venue else ():
         if near := area.nearest:
-            yield f"nearest to {area.name}", _distance(near), near.time, f"bench {near.bench}"
+            what, who = say("nearest to {name}", name=area.name), say("bench {k}", k=near.bench)
+            yield what, _distance(near), near.time, who
     if speed := report.highest_speed:
-        who = f"{'handle' if len(speed.handles) == 1 else 'handles'} {show.value_text(speed.handles)}"
-        yield "highest speed", f"{speed.speed:.6f} m/s", speed.time, who
+        several, who = len(speed.handles) > 1, value_text(speed.handles)
+        who = say("handles {which}", which=who) if several else say("handle {which}", which=who)
+        yield say("highest speed"), f"{speed.speed:.6f} m/s", speed.time, who
     elif any(one.kind is FailureKind.FOLDS for one in report.failures):
-        yield "highest speed", "grows without bound", report.stop, "towards the fold"
+        yield say("highest speed"), say("grows without bound"), report.stop, say("towards the fold")
     if bend := report.sharpest_bend:
-        yield "sharpest bend", f"{bend.angle:.6f} rad", bend.time, f"benches {show.value_text(bend.benches)}"
+        yield say("sharpest bend"), f"{bend.angle:.6f} rad", bend.time, _pair(bend.benches)
 
 
 def _distance(nearest: LeastClearance | DragonsClearance | Nearest) -> str:
     least = nearest.at_least
-    proven = "not proven" if least is None else f"proven: at least {format_bound(least, show.DISPLAY_DECIMALS)} m"
-    return f"{nearest.distance:.6f} m, {proven}"
+    if least is None:
+        return say("{distance:.6f} m, not proven", distance=nearest.distance)
+    bound = format_bound(least, show.DISPLAY_DECIMALS)
+    return say("{distance:.6f} m, proven: at least {bound} m", distance=nearest.distance, bound=bound)

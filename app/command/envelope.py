@@ -20,6 +20,7 @@ from app.questions.envelope import (
     envelope_of,
     envelopes_of,
 )
+from app.wire.labels import fields_of
 from app.wire.question import Terms
 from core.language import say
 
@@ -50,4 +51,4 @@ def envelope(
             answer, data = Envelope.of(result, request), write[0](result) if write else b""
     if output:
         show.write(output, data)
-    show.print_answer("Ground that benches sweep", answer, json)
+    show.print_result(answer, json, fields_of(say("Ground that benches sweep"), answer, request))

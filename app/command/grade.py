@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.text import Text
 
 from app.command import show
 from app.command.options import Json
@@ -34,6 +33,7 @@ from app.grade.report import (
 from app.grade.shortcuts import UNITS
 from app.grade.words import Note, note, word
 from app.processes.limits import READING_MAX, reading
+from app.wire.labels import Heading, Part, Table
 from app.wire.question import ESCAPED
 from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
@@ -190,24 +190,24 @@ def _decimals(file: FileAnswer) -> int | str:
     return min((one.decimals for one in file.sheets if one.decimals), default="")
 
 
-def _parts(answer: GradeAnswer) -> Iterator[show.Part]:
+def _parts(answer: GradeAnswer) -> Iterator[Part]:
     for one in answer.answers:
         yield from _typed(one)
     for file in answer.files:
         yield from _file(file)
     if len(answer.files) > 1:
-        table = show.new_table(word("summary"), *_heads())
+        table = Table(word("summary"), *_heads())
         for file in answer.files:
-            table.add_row(*(f"{cell:,}" if isinstance(cell, int) else cell for cell in _row(file)))
+            table.add(*(f"{cell:,}" if isinstance(cell, int) else cell for cell in _row(file)))
         yield table
 
 
-def _typed(one: TypedAnswer) -> Iterator[show.Part]:
+def _typed(one: TypedAnswer) -> Iterator[Part]:
     name, verdict = word(one.answer), word(one.verdict.value)
     verdict += word("to_digits", digits=one.digits) if one.verdict == "right" else ""
     verdict = word("and_breaks", verdict=verdict, breaks=one.breaks) if one.breaks else verdict
     text = say("{name}: {text}", name=f"{one.found:.12g} {one.unit}", text=verdict)
-    yield Text(say("{name}: {text}", name=name, text=text), style="bold")
+    yield Heading(say("{name}: {text}", name=name, text=text))
     yield from (f"  {words}" for words in one.notes)
     if one.verdict != "right":
         yield "  " + word("is_right", right=f"{one.expected:.9f}", unit=one.unit)
@@ -215,8 +215,8 @@ def _typed(one: TypedAnswer) -> Iterator[show.Part]:
     yield ""
 
 
-def _file(file: FileAnswer) -> Iterator[show.Part]:
-    yield Text(say("{name}: {text}", name=file.file, text=word(file.verdict.value)), style="bold")
+def _file(file: FileAnswer) -> Iterator[Part]:
+    yield Heading(say("{name}: {text}", name=file.file, text=word(file.verdict.value)))
     yield from (f"  {one}" for one in file.notes)
     for sheet in file.sheets:
         yield from _sheet(sheet)
@@ -226,7 +226,7 @@ def _file(file: FileAnswer) -> Iterator[show.Part]:
     yield ""
 
 
-def _sheet(sheet: SheetAnswer) -> Iterator[show.Part]:
+def _sheet(sheet: SheetAnswer) -> Iterator[Part]:
     verdict = word(sheet.verdict.value)
     if sheet.decimals:
         verdict += word("to_decimals", decimals=sheet.decimals)
@@ -245,7 +245,7 @@ def _sheet(sheet: SheetAnswer) -> Iterator[show.Part]:
         yield from (f"    {line}" for line in sheet.picture)
 
 
-def _diagnosis(diagnosis: Sequence[DiagnosisAnswer]) -> Iterator[show.Part]:
+def _diagnosis(diagnosis: Sequence[DiagnosisAnswer]) -> Iterator[Part]:
     for one in diagnosis:
         yield f"  > {one.words}"
         yield f"    {one.evidence}"

@@ -18,6 +18,7 @@ import typer
 from rich.markup import escape
 
 import core
+from app.command.asked import command_of
 from app.command.options import LANGUAGE
 from app.command.show import language_of_terminal
 from app.command.streams import output_fault
@@ -26,7 +27,8 @@ from core.errors import BenchDragonError
 from core.kernels import COMPILED
 from core.language import Language, speaking
 
-# Module of each command, in the order of the help. It is imported when its command is called, or the help lists it.
+# Module of each command, in the order of the help; none for a command that follows from its question. This module, or
+# that of the question, is imported when its command is called, or the help lists it.
 MODULE_OF = {
     "trajectory": "trajectory",
     "figures": "figures",
@@ -39,19 +41,19 @@ MODULE_OF = {
     "plan": "places",
     "cues": "people",
     "crew": "people",
-    "collision-time": "contacts",
+    "collision-time": "",
     "encounter": "encounter",
-    "safe-delay": "encounter",
-    "clearance": "contacts",
-    "minimum-pitch": "designs",
-    "turn": "designs",
-    "shortest-turn": "designs",
-    "turn-time": "designs",
-    "quickest-turn": "designs",
-    "tolerance": "strays",
-    "tolerance-curve": "strays",
-    "contact-probability": "strays",
-    "maximum-head-speed": "designs",
+    "safe-delay": "",
+    "clearance": "",
+    "minimum-pitch": "",
+    "turn": "",
+    "shortest-turn": "",
+    "turn-time": "",
+    "quickest-turn": "",
+    "tolerance": "",
+    "tolerance-curve": "",
+    "contact-probability": "",
+    "maximum-head-speed": "",
     "check": "check",
     "propose": "propose",
     "overlaps": "overlaps",
@@ -105,6 +107,15 @@ def _language_option() -> Any:
     return option
 
 
+def _entry(command: str) -> Any:
+    """The function of a command, or a typer app of several."""
+    name, module = command.replace("-", "_"), MODULE_OF[command]
+    if module:
+        return getattr(import_module(f"app.command.{module}"), name)
+    question = import_module(f"app.questions.{name}").QUESTION
+    return command_of(question, question.command)
+
+
 HELP = {"help_option_names": ["-h", "--help"]}
 
 
@@ -122,7 +133,7 @@ class _Commands(Commands):
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in MODULE_OF:
             return None
-        entry = getattr(import_module(f"app.command.{MODULE_OF[cmd_name]}"), cmd_name.replace("-", "_"))
+        entry = _entry(cmd_name)
         if not isinstance(entry, typer.Typer):
             # typer makes a command only of an app: this one has no other command.
             app_of_one = typer.Typer(context_settings=HELP, add_completion=False)

@@ -159,12 +159,13 @@ def _in_options(context: typer.Context | None) -> Iterator[None]:
 
 
 def asks(
-    model: type[BaseModel], body: type[BaseModel] | None = None, instead: str = ""
+    model: type[BaseModel], body: type[BaseModel] | None = None, instead: str = "", file_help: str = ""
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Turn the fields of a request into options of a command, whose first argument becomes the request.
 
     body: the request made from a FILE instead, if the command takes one
     instead: as for of_file()
+    file_help: what a FILE holds that the command cannot do without; by default it may be left out
     """
 
     def decorated(command: Callable[..., None]) -> Callable[..., None]:
@@ -179,7 +180,7 @@ def asks(
             for name, field in model.model_fields.items()
             if name != "language"  # an option of every command
         ]
-        added = [_file(body), CONTEXT] if body else []
+        added = [_file(body, file_help), CONTEXT] if body else []
 
         def run(**values: Any) -> None:
             context = values["context"] if "context" in own else values.pop("context", None)
@@ -203,12 +204,14 @@ def asks(
     return decorated
 
 
-def _file(body: type[BaseModel]) -> inspect.Parameter:
-    """The argument FILE of a command that also answers this request."""
+def _file(body: type[BaseModel], words: str) -> inspect.Parameter:
+    """The argument FILE of a command that answers this request. words: its help, if it must be given"""
     path = ", any path" if "path" in body.model_fields else "; its path does not count"
-    words = f"Dance as a .toml or .json file, as for check: any dragon{path}."
-    annotation = Annotated[Path | None, path_argument("FILE", words)]
-    return inspect.Parameter("file", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
+    kind: Any = Path if words else Path | None
+    default = inspect.Parameter.empty if words else None
+    words = words or f"Dance as a .toml or .json file, as for check: any dragon{path}."
+    annotation = Annotated[kind, path_argument("FILE", words)]
+    return inspect.Parameter("file", inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
 
 def _without_limits(annotation: Any) -> Any:

@@ -15,11 +15,12 @@ from app.files.disk import ending_of, read_json
 from app.questions import overlaps as together
 from app.questions.figures import InstantQuery
 from app.questions.overlaps import OverlapsAnswer, OverlapsRequest
+from app.wire.labels import Part, Table, label, separation, value_text
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import InvalidValue
 from core.errors import format_number
-from core.language import say
+from core.language import phrase, say
 
 
 @asks(InstantQuery)
@@ -47,14 +48,17 @@ def overlaps(
     show.print_result(answer, json, _overlap_parts(answer, benches.margin if file else request.margin))
 
 
-def _overlap_parts(answer: OverlapsAnswer, margin: float) -> Iterator[show.Part]:
-    title = f"Pairs within {format_number(margin)} m of each other" if margin else "Overlapping pairs"
-    table = show.new_table(title, "benches", "separation [m]", "witness a [m]", "witness b [m]")
+def _overlap_parts(answer: OverlapsAnswer, margin: float) -> Iterator[Part]:
+    near = say("Pairs within {margin} m of each other", margin=format_number(margin))
+    heads = (label(name, "m") for name in ("separation", "witness_a", "witness_b"))
+    table = Table(near if margin else say("Overlapping pairs"), label("benches"), *heads)
     for one in answer.overlaps:
-        witnesses = map(show.value_text, (one.witness_a, one.witness_b))
-        table.add_row(show.value_text(one.benches), show.separation(one.separation), *witnesses)
+        witnesses = map(value_text, (one.witness_a, one.witness_b))
+        table.add(value_text(one.benches), separation(one.separation), *witnesses)
     yield table
     check = answer.cross_check
     counts = ", ".join(f"{engine.value} {len(pairs)}" for engine, pairs in check.engines.items())
-    engines = "All four engines" if not check.left_out else "The engines that can judge a margin"
-    yield f"{engines} {'agree' if check.agree else 'DISAGREE'}; pairs found: {counts}"
+    engines = say("All four engines") if not check.left_out else say("The engines that can judge a margin")
+    agree = phrase("{engines} agree; pairs found: {counts}")
+    disagree = phrase("{engines} DISAGREE; pairs found: {counts}")
+    yield say(agree if check.agree else disagree, engines=engines, counts=counts)

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.table import Table
 
 from app.cards.crew import lack_words
 from app.command import show
@@ -21,6 +20,7 @@ from app.questions.crew import Crew, CrewFields, CrewRequest, PointBody, Roll
 from app.questions.cues import QUESTION as CUES
 from app.questions.cues import CuesRequest
 from app.questions.plan import PDF_TYPE
+from app.wire.labels import Table
 from app.wire.messages import checked
 from app.wire.question import JSON, Terms
 from app.wire.refusals import refusing
@@ -109,10 +109,10 @@ def _print_crew(answer: Crew) -> None:
         answer=answer,
     )
     heads = say("person"), say("benches"), say("time [s]"), say("way [m]")
-    table = show.new_table(title, *heads, say("longest [s]"))
+    table = Table(title, *heads, say("longest [s]"))
     for one in answer.carriers:
         benches = ", ".join(dict.fromkeys(str(spell.bench) for spell in one.spells)) or say("none")
-        table.add_row(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
+        table.add(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
     words = lack_words(answer.enough, len(answer.unrelieved))
     # Before the table, which may have hundreds of rows.
     few = [say("{words}.", words=say("; ").join(words).capitalize())] if answer.spares < answer.enough else []
@@ -122,10 +122,10 @@ def _print_crew(answer: Crew) -> None:
 def _roll_table(roll: Roll) -> Table:
     time = roll.clock or f"{roll.time:g} s"
     heads = say("bench"), say("people"), "x [m]", "y [m]", say("mark [m]")
-    table = show.new_table(say("Who is where at {time}", time=time), *heads)
+    table = Table(say("Who is where at {time}", time=time), *heads)
     for one in roll.benches:
         name = f"{one.bench} {one.name}".rstrip()
-        table.add_row(name, " ".join(one.people), f"{one.x:.2f}", f"{one.y:.2f}", f"{one.mark:g}")
+        table.add(name, " ".join(one.people), f"{one.x:.2f}", f"{one.y:.2f}", f"{one.mark:g}")
     if roll.resting:
-        table.add_row(say("rest"), " ".join(roll.resting), "", "", "")
+        table.add(say("rest"), " ".join(roll.resting), "", "", "")
     return table

@@ -23,6 +23,7 @@ from app.questions.maps import MapFormat, MapsRequest, OriginFields
 from app.questions.maps import maps as maps_of
 from app.questions.plan import PlanRequest
 from app.questions.plan import plan as plan_of
+from app.wire.labels import Table
 from app.wire.messages import checked
 from app.wire.question import Coordinates, Terms
 from app.wire.refusals import refusing
@@ -103,27 +104,27 @@ def _print_layers(file: Path, json: bool) -> None:
     if json:
         show.print_json(Places(path=None, venue=None, dance=None, passages=None, notes=[], layers=layers).to_json())
         return
-    table = show.new_table(say("Layers"), say("layer"), say("edges"))
+    table = Table(say("Layers"), say("layer"), say("edges"))
     for layer in layers:
-        table.add_row(layer.name, str(layer.edges))
+        table.add(layer.name, str(layer.edges))
     show.print_parts(table)
 
 
 def _print(parts: DanceParts) -> None:
     heads = say("name"), say("what"), "x [m]", "y [m]"
-    table = show.new_table(say("What the map holds"), *heads)
+    table = Table(say("What the map holds"), *heads)
     for area in parts.venue.areas if parts.venue else ():
         is_square = parts.venue is not None and area is parts.venue.square
         what = say("square") if is_square else say("obstacle")
         x, y = zip(*area.rings[0], strict=True)
         spans = (say("{low:.3f} to {high:.3f}", low=min(side), high=max(side)) for side in (x, y))
-        table.add_row(area.name, what, *spans)
+        table.add(area.name, what, *spans)
     if parts.path is not None:
         kind = str(parts.path.get("kind", "spiral"))
         points = parts.path.get("points")
         kind = say(PATHS[kind]) if kind in PATHS else kind
         count = counted(len(points), "{count} point", "{count} points") if points else ""
-        table.add_row(say("path"), say(", ").join(filter(None, (kind, count))), "", "")
+        table.add(say("path"), say(", ").join(filter(None, (kind, count))), "", "")
     show.print_parts(table)
 
 

@@ -8,7 +8,6 @@ from typing import Annotated, Any
 
 import orjson
 import typer
-from rich.text import Text
 
 import core
 from app.command import show
@@ -18,6 +17,7 @@ from app.extras import require
 from app.files.disk import object_words
 from app.maps.dances import read_dance
 from app.questions.proposals import Proposals, ProposalsRequest, answer_of, proposed
+from app.wire.labels import Heading, Part, Table
 from app.wire.messages import checked
 from app.wire.question import Terms
 from app.wire.refusals import refusing
@@ -64,24 +64,26 @@ def _files(result: core.Proposals, answer: Proposals) -> dict[str, bytes]:
     return files | ({"overview.png": overview(result.proposals)} if result.proposals else {})
 
 
-def _parts(answer: Proposals, objective: core.Objective) -> Iterator[show.Part]:
-    yield Text(answer.summary, style="bold")
+def _parts(answer: Proposals, objective: core.Objective) -> Iterator[Part]:
+    yield Heading(answer.summary)
     if not answer.proposals:
         return
     counts = objective is core.Objective.BENCHES
-    table = show.new_table(
-        "Proposals", "figure", *["benches"] * counts, "safe stray", "duration", "length", "turns", "nearest",
-        "with stray", "highest speed",
+    table = Table(
+        say("Proposals"), say("figure"), *[say("benches")] * counts, say("safe stray"), say("duration"),
+        say("length"), say("turns"), say("nearest"), say("with stray"), say("highest speed"),
     )  # fmt: skip
     for one in answer.proposals:
         near = f"{one.near.in_place:.3f} m, {one.near.name}"
         speed = "" if one.highest_speed is None else f"{one.highest_speed:.2f} m/s"
         row: list[Any] = [one.figure.value, *[str(_benches(one.dance["dragon"]))] * counts]
         row += [f"{one.tolerance:.3f} m", f"{one.duration:.0f} s", f"{one.length:.0f} m"]
-        table.add_row(*row, f"{one.turns:.1f}", near, f">= {one.near.distance:.3f} m", speed)
+        table.add(*row, f"{one.turns:.1f}", near, f">= {one.near.distance:.3f} m", speed)
     yield table
     if counts and answer.most_benches is not None:
-        yield f"By the area of the square, no dragon of this kind has more than {answer.most_benches} benches."
+        yield say(
+            "By the area of the square, no dragon of this kind has more than {most} benches.", most=answer.most_benches
+        )
 
 
 def _benches(dragon: dict[str, Any]) -> int:

@@ -11,6 +11,7 @@ from typing import Annotated
 import numpy as np
 import typer
 from pydantic import Field
+from rich.cells import cell_len
 
 import core
 from app.command import show
@@ -23,11 +24,11 @@ from app.files.tables import PAPER_HANDLES, TABLE_ENDINGS, trajectory_writer
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
 from app.wire.dances import TimeRange, clock_of, handles_of
+from app.wire.labels import Part, Table
 from app.wire.messages import checked
 from app.wire.question import measure
 from core import Dragon, InvalidValue, RunEnd, Trajectory
-from core.display import format_count
-from core.language import say
+from core.language import counted, say
 
 # Largest number of instants that a terminal shows, if that many fit.
 PRINTED_INSTANTS = 7
@@ -165,7 +166,7 @@ class _Look:
     fold: RunEnd | None
 
 
-def _parts(result: Trajectory, handles: Sequence[int] | None, names: Sequence[str], look: _Look) -> Iterator[show.Part]:
+def _parts(result: Trajectory, handles: Sequence[int] | None, names: Sequence[str], look: _Look) -> Iterator[Part]:
     """Tables of some handles at some instants.
 
     handles: those to show; None: those of the contest and the last; names: of all handles
@@ -177,24 +178,33 @@ def _parts(result: Trajectory, handles: Sequence[int] | None, names: Sequence[st
     x, y = result.position[..., 0], result.position[..., 1]
     places = show.DISPLAY_DECIMALS if look.decimals is None else look.decimals
     instant_names = [_instant(result, t, fold) for t in range(instants)]
-    widest = max(map(len, [*labels, "handle"]))
+    widest = max(map(cell_len, [*labels, say("handle")]))
     room = show.new_console().width - show.TABLE_SPACE - show.COLUMN_SPACE - widest
     blocks = _blocks(result, rows, instant_names, room, all_instants, places)
-    for what, values in (("x [m]", x), ("y [m]", y), ("speed [m/s]", result.speed)):
+    for what, values in (("x [m]", x), ("y [m]", y), (say("speed [m/s]"), result.speed)):
         for block in blocks:
-            table = show.new_table(f"{look.title}{what}", "handle", *(instant_names[t] for t in block))
+            table = Table(f"{look.title}{what}", say("handle"), *(instant_names[t] for t in block))
             for k, label in zip(rows, labels, strict=True):
-                table.add_row(label, *(_entry(value, places) for value in values[block, k]))
+                table.add(label, *(_entry(value, places) for value in values[block, k]))
             yield table
     count = sum(map(len, blocks))
-    words = f"{len(rows)} of {format_count(number, 'handle')}, {count} of {format_count(instants, 'instant')}"
-    choose = [name for name, some in (("--handles", handles is None), ("--times", not all_instants)) if some]
-    verb = "choose" if len(choose) > 1 else "chooses"
-    advice = ["--output has all", *([f"{' and '.join(choose)} {verb}"] if choose else [])]
-    yield f"{words}: {', '.join(advice)}."
+    of_handles = counted(number, "{rows} of {count} handle", "{rows} of {count} handles", rows=len(rows))
+    of_instants = counted(instants, "{shown} of {count} instant", "{shown} of {count} instants", shown=count)
+    texts = {"handles": of_handles, "instants": of_instants}
+    if handles is None and not all_instants:
+        yield say("{handles}, {instants}: --output has all, --handles and --times choose.", **texts)
+    elif handles is None:
+        yield say("{handles}, {instants}: --output has all, --handles chooses.", **texts)
+    elif not all_instants:
+        yield say("{handles}, {instants}: --output has all, --times chooses.", **texts)
+    else:
+        yield say("{handles}, {instants}: --output has all.", **texts)
     if fold and any(instant_names[t].endswith(NEAR_FOLD) for block in blocks for t in block):
-        when = f"Just before bench {fold.bench} folds, at {fold.time:.9f} s"
-        yield f"{NEAR_FOLD.strip()} {when}: towards that instant the speeds of handles behind it grow without bound."
+        yield say(
+            "{mark} Just before bench {bench} folds, at {time:.9f} s: towards that instant the speeds of handles "
+            "behind it grow without bound.",
+            mark=NEAR_FOLD.strip(), bench=fold.bench, time=fold.time,
+        )  # fmt: skip
 
 
 def _blocks(

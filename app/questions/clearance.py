@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from pydantic import Field
 
 import core
 from app.questions.encounter import NearPass
 from app.wire.answers import Columns, Graze, Pair
 from app.wire.dances import TimedDance, TimeRange
+from app.wire.labels import Part, Table, label, separation, value_text
 from app.wire.performances import SeveralDances
-from app.wire.question import Answer, DanceQuery, Question, Terms, measure
+from app.wire.question import Answer, Command, DanceQuery, Question, Terms, measure
+from core.errors import format_number
+from core.language import say
 
 # Time that one bench at one instant takes, measured 2026-11-22 [s].
 SECONDS_PER_CELL = 3e-6
@@ -75,6 +80,33 @@ def _cost(request: ClearanceQuery | DanceClearance) -> float:
     return request.instants() * request.benches * SECONDS_PER_CELL
 
 
+def _parts(answer: Columns) -> Iterator[Part]:
+    """Clearance at every instant, and the local minima between them."""
+    columns = answer.columns
+    pairs = [name for name in ("dragons", "benches") if name in columns]
+    heads = label("time", "s"), label("clearance", "m"), *map(label, pairs)
+    table = Table(say("Clearance"), *heads)
+    for time, clearance, *pair in zip(*(columns[name] for name in ("time", "clearance", *pairs)), strict=True):
+        table.add(format_number(time), separation(clearance), *(value_text(tuple(one.tolist())) for one in pair))
+    yield table
+    grazes = Table(say("Local minima"), *heads)
+    for graze in columns["grazes"]:
+        pair = [value_text(getattr(graze, name)) for name in pairs]
+        grazes.add(value_text(graze.time), separation(graze.clearance), *pair)
+    yield grazes if columns["grazes"] else say("No local minimum between the first and the last instant.")
+
+
 QUESTION = Question(
-    clearance, ClearanceTable, flat=ClearanceQuery, body=ClearanceRequest, cost=_cost, several=PerformanceClearanceTable
+    clearance,
+    ClearanceTable,
+    flat=ClearanceQuery,
+    body=ClearanceRequest,
+    cost=_cost,
+    several=PerformanceClearanceTable,
+    command=Command(
+        "Smallest distance between two benches that share no handle, and the pair, at every instant.\n\n"
+        "Of a FILE of several dragons, between benches of two of them.",
+        lambda request: say("Clearance"),
+        _parts,
+    ),
 )

@@ -10,9 +10,11 @@ import core
 from app.wire.answers import TOTAL_STRAY, End, Feature, Graze, Head, Pair, PairCheck, Point
 from app.wire.claims import ContactClaim
 from app.wire.dances import DanceFields, SpanFields
+from app.wire.labels import with_strays
 from app.wire.question import (
     UNKNOWN_COST,
     Answer,
+    Command,
     CrossCheck,
     DanceQuery,
     Margin,
@@ -23,6 +25,8 @@ from app.wire.question import (
     measure,
 )
 from core import Outcome
+from core.errors import format_number
+from core.language import say
 
 # Most benches of a dragon that are all judged; of a longer dragon only those near the contact are [1].
 JUDGED_MOST = 2_000
@@ -130,4 +134,17 @@ def _cost(request: CollisionQuery | CollisionRequest) -> float:
     return 0.003 + 5e-5 * judged + 2e-6 * request.benches
 
 
-QUESTION = Question(collision_time, CollisionTime, flat=CollisionQuery, body=CollisionRequest, cost=_cost)
+def _title(request: Contact) -> str:
+    near = format_number(request.margin)
+    first = say("First time that two benches are within {margin} m of each other", margin=near)
+    return with_strays(first if request.margin else say("First contact"), request.to_stray())
+
+
+QUESTION = Question(
+    collision_time,
+    CollisionTime,
+    flat=CollisionQuery,
+    body=CollisionRequest,
+    cost=_cost,
+    command=Command("Time of first contact: when two benches first touch, or come within a margin.", _title),
+)

@@ -12,7 +12,8 @@ from app.questions.tolerance import CircleQuery, SpanOrCircle, span_of
 from app.wire.answers import Pair
 from app.wire.claims import ProbabilityClaim
 from app.wire.dances import DanceFields
-from app.wire.question import UNKNOWN_COST, Answer, Question, Terms, Whole, Wire, check_limit, measure
+from app.wire.question import UNKNOWN_COST, Answer, Command, Question, Terms, Whole, Wire, check_limit, measure
+from core.language import say
 from core.tolerance.chance import CONFIDENCE, SEED_MAX
 
 # Quantiles of the times of first contact in the answer [1].
@@ -126,4 +127,16 @@ def _cost(request: ContactProbabilityRequest) -> float:
     return max(UNKNOWN_COST, SECONDS_PER_SAMPLE * request.samples)
 
 
-QUESTION = Question(contact_probability, ContactProbability, body=ContactProbabilityRequest, cost=_cost)
+QUESTION = Question(
+    contact_probability,
+    ContactProbability,
+    body=ContactProbabilityRequest,
+    cost=_cost,
+    command=Command(
+        "Probability of a contact when people wobble, from dances drawn at random.\n\n"
+        "Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.",
+        lambda request: say("Probability of a contact when people wobble"),
+        options=ContactProbabilityQuery,
+        instead="--lateral and --forward describe how people wobble",
+    ),
+)

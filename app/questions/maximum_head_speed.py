@@ -7,7 +7,9 @@ from pydantic import Field
 import core
 from app.wire.dances import DanceFields
 from app.wire.paths import AnyPath, TurnFields, TurnPath
-from app.wire.question import Answer, Instant, Question, SpeedLimit, Terms, UniformDragon, Wire, measure
+from app.wire.question import Answer, Command, Instant, Question, SpeedLimit, Terms, UniformDragon, Wire, measure
+from core.errors import format_number
+from core.language import say
 
 
 class SpeedLimitField(Wire):
@@ -59,4 +61,16 @@ def maximum_head_speed(request: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest,
     return MaximumHeadSpeed.model_validate(result)
 
 
-QUESTION = Question(maximum_head_speed, MaximumHeadSpeed, flat=MaximumHeadSpeedQuery, body=MaximumHeadSpeedRequest)
+def _title(request: SpeedLimitField) -> str:
+    return say("Maximum head speed for {speed} m/s", speed=format_number(request.speed_limit))
+
+
+QUESTION = Question(
+    maximum_head_speed,
+    MaximumHeadSpeed,
+    flat=MaximumHeadSpeedQuery,
+    body=MaximumHeadSpeedRequest,
+    command=Command(
+        "The largest constant head speed at which no handle exceeds the limit on the way through a turn.", _title
+    ),
+)

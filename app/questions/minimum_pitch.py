@@ -12,6 +12,7 @@ from app.wire.question import (
     PITCH_MAX,
     UNKNOWN_COST,
     Answer,
+    Command,
     CrossCheck,
     Question,
     Strays,
@@ -22,7 +23,8 @@ from app.wire.question import (
 )
 from core import Dragon, InvalidValue, LimitedBy
 from core.design.minimum_pitch import DRAGONS_MAX
-from core.errors import Quantity, quantities
+from core.errors import Quantity, format_number, quantities
+from core.language import say
 
 # Shortest chord and largest circle of a search that takes 20 ms [m].
 CHORD_ORDINARY, CIRCLE_ORDINARY = 0.5, 30.0
@@ -144,4 +146,20 @@ def _cost(request: MinimumPitchQuery | MinimumPitchRequest) -> float:
     return 0.02 + 1e-4 * dragon.benches
 
 
-QUESTION = Question(minimum_pitch, MinimumPitch, flat=MinimumPitchQuery, body=MinimumPitchRequest, cost=_cost)
+def _title(request: MinimumPitchQuery | MinimumPitchRequest) -> str:
+    lengths = {"diameter": format_number(request.turning_diameter), "margin": format_number(request.margin)}
+    if not request.margin:
+        return say("Minimum pitch for a turning circle of {diameter} m", **lengths)
+    return say(
+        "Minimum pitch for a turning circle of {diameter} m and no bench within {margin} m of another", **lengths
+    )
+
+
+QUESTION = Question(
+    minimum_pitch,
+    MinimumPitch,
+    flat=MinimumPitchQuery,
+    body=MinimumPitchRequest,
+    cost=_cost,
+    command=Command("The smallest pitch such that every larger one lets the head reach the turning circle.", _title),
+)

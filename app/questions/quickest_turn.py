@@ -7,8 +7,10 @@ from app.questions.maximum_head_speed import SpeedLimitField
 from app.questions.turn_time import TurnTime
 from app.wire.dances import DragonFields
 from app.wire.paths import TurnCircle
-from app.wire.question import Margin, Question, Terms, UniformDragon, measure
+from app.wire.question import Command, Margin, Question, Terms, UniformDragon, measure
 from core.design.quickest_turn import GRID
+from core.errors import format_number
+from core.language import say
 
 
 class QuickestTurnFields(SpeedLimitField, TurnCircle):
@@ -44,4 +46,14 @@ def quickest_turn(request: QuickestTurnQuery | QuickestTurnRequest, terms: Terms
     return QuickestTurn.from_core(result, scan_step=GRID * radius)
 
 
-QUESTION = Question(quickest_turn, QuickestTurn, flat=QuickestTurnQuery, body=QuickestTurnRequest)
+def _title(request: SpeedLimitField) -> str:
+    return say("Quickest turn with no handle above {speed} m/s", speed=format_number(request.speed_limit))
+
+
+QUESTION = Question(
+    quickest_turn,
+    QuickestTurn,
+    flat=QuickestTurnQuery,
+    body=QuickestTurnRequest,
+    command=Command("The turn inside its circle that takes the head the shortest time of those in a scan.", _title),
+)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Any, Self
 
 from pydantic import Field
 
 import core
 from app.wire.answers import TOTAL_STRAY, Point
-from app.wire.performances import Moment, NumberOrName, PerformanceFields, dragon_of
-from app.wire.question import Answer, Margin, Question, Strays, Terms, measure
+from app.wire.labels import Part, Table
+from app.wire.performances import FILE_OF_DANCES, Moment, NumberOrName, PerformanceFields, dragon_of
+from app.wire.question import Answer, Command, Margin, Question, Strays, Terms, measure
+from core.errors import format_bound, format_number
+from core.language import phrase, say
 from core.performance.performance import DELAY_MAX
 
 Delay = Annotated[float, Field(ge=-DELAY_MAX, le=DELAY_MAX)]
@@ -77,4 +81,39 @@ def safe_delay(request: SafeDelayRequest, terms: Terms) -> SafeDelays:
     return SafeDelays.of(result, request)
 
 
-QUESTION = Question(safe_delay, SafeDelays, body=SafeDelayRequest)
+class DelayOptions(DelayFields):
+    """The fields of a question that are options of its command."""
+
+    part: str = Field(
+        "1", description="The dragon that waits: its number in the order of the dances, from 0, or its name."
+    )
+
+
+def _parts(answer: SafeDelays) -> Iterator[Part]:
+    """The intervals of delays, the safe ones and the undecided ones."""
+    name = answer.name or say("dragon {k}", k=answer.part)
+    span = {"least": format_number(answer.least), "most": format_number(answer.most)}
+    if not answer.safe:
+        yield say("No delay of {name} from {least} to {most} s is known to be safe.", name=name, **span)
+    for title, intervals in ((SAFE, answer.safe), (UNDECIDED, answer.undecided)):
+        if intervals:
+            yield say(title, name=name, **span)
+            # Rounded inwards, so that they stay proven.
+            lines = [(format_bound(low, 6, up=True), format_bound(high, 6)) for low, high in intervals]
+            yield Table("", say("from [s]"), say("to [s]"), lines=lines)
+
+
+SAFE = phrase("Safe delays of {name} from {least} to {most} s:")
+UNDECIDED = phrase("Undecided delays of {name} from {least} to {most} s:")
+QUESTION = Question(
+    safe_delay,
+    SafeDelays,
+    body=SafeDelayRequest,
+    command=Command(
+        "The delays of one dragon at which no benches of two dragons touch, or come within a margin.",
+        lambda request: say("Safe delays"),
+        _parts,
+        options=DelayOptions,
+        file=FILE_OF_DANCES,
+    ),
+)

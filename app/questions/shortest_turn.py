@@ -9,7 +9,9 @@ from app.questions.turn import Turn
 from app.wire.answers import TOTAL_STRAY, Pair, Point
 from app.wire.dances import DragonFields
 from app.wire.paths import TurnCircle
-from app.wire.question import Margin, Question, Strays, Terms, UniformDragon, measure
+from app.wire.question import Command, Margin, Question, Strays, Terms, UniformDragon, measure
+from core.errors import format_number
+from core.language import say
 
 
 class ShortestTurnFields(Strays, TurnCircle):
@@ -89,4 +91,16 @@ def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms
     return ShortestTurn.from_result(result, stray=request.total_stray, **own, **Turn.of(result.turn).model_dump())
 
 
-QUESTION = Question(shortest_turn, ShortestTurn, flat=ShortestTurnQuery, body=ShortestTurnRequest)
+def _title(request: ShortestTurnQuery | ShortestTurnRequest) -> str:
+    if not request.margin:
+        return say("Shortest turn")
+    return say("Shortest turn with no bench within {margin} m of another", margin=format_number(request.margin))
+
+
+QUESTION = Question(
+    shortest_turn,
+    ShortestTurn,
+    flat=ShortestTurnQuery,
+    body=ShortestTurnRequest,
+    command=Command("The shortest turn inside its circle that the dragon can dance, and what limits it.", _title),
+)

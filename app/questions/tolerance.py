@@ -12,9 +12,10 @@ from app.wire.answers import Point
 from app.wire.claims import StrayClaim
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.performances import SeveralFields
-from app.wire.question import Answer, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
+from app.wire.question import Answer, Command, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
 from core import InvalidValue, Limit
 from core.errors import Quantity
+from core.language import say
 from core.tolerance.curve import time_on_circle
 
 SizeError = Annotated[float, Field(ge=0, le=5)]
@@ -207,4 +208,18 @@ def _with_errors(
     return core.uncertain_tolerance(dance.dragon, spiral.pitch, **errors, turning_radius=radius, budget=budget)
 
 
-QUESTION = Question(tolerance, Tolerance, flat=ToleranceQuery, body=ToleranceRequest, several=PerformanceTolerance)
+# Why a question that looks for the largest stray ignores strays in a FILE: the end of a note to the user.
+STRAYS_IGNORED = "the answer is the largest stray, by people and by the play of pins together"
+QUESTION = Question(
+    tolerance,
+    Tolerance,
+    flat=ToleranceQuery,
+    body=ToleranceRequest,
+    several=PerformanceTolerance,
+    command=Command(
+        "Largest proven stray without contact, and a pose that touches with a slightly larger one.\n\n"
+        "Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.",
+        lambda request: say("Tolerance to strays"),
+        instead=STRAYS_IGNORED,
+    ),
+)

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from pydantic import Field
 
 import core
 from app.questions.minimum_pitch import checked_pitch
+from app.questions.tolerance import STRAYS_IGNORED
 from app.wire.answers import Columns
 from app.wire.dances import DragonFields
+from app.wire.labels import Part, Table, label, value_text
 from app.wire.paths import WayToCircle
-from app.wire.question import Answer, Pitch, Question, Terms, UniformDragon, Whole, measure
+from app.wire.question import Answer, Command, Pitch, Question, Terms, UniformDragon, Whole, measure
 from core import Dragon, InvalidValue, Limit, TooMuchWork
-from core.errors import quantities
+from core.errors import format_number, quantities
+from core.language import say
 from core.values import Floats
 
 # Default highest pitch, as a multiple of the lowest one [1].
@@ -81,4 +86,25 @@ def tolerance_curve(request: ToleranceCurveQuery | ToleranceCurveRequest, terms:
     return Columns({"pitch": curve.pitch, "stray": curve.stray} | ends | limits)
 
 
-QUESTION = Question(tolerance_curve, ToleranceCurve, flat=ToleranceCurveQuery, body=ToleranceCurveRequest)
+def _parts(answer: Columns) -> Iterator[Part]:
+    """One row for each pitch."""
+    heads = label("pitch", "m"), label("stray", "m"), label("touching", "m"), label("limited_by")
+    table = Table(say("Tolerance to strays"), *heads)
+    for pitch, stray, touching, limit in zip(*answer.columns.values(), strict=True):
+        shown = say("unknown") if touching is None else format_number(touching)
+        table.add(format_number(pitch), format_number(stray), shown, value_text(limit))
+    yield table
+
+
+QUESTION = Question(
+    tolerance_curve,
+    ToleranceCurve,
+    flat=ToleranceCurveQuery,
+    body=ToleranceCurveRequest,
+    command=Command(
+        "Tolerance against the pitch: largest proven stray, and stray that is shown to touch.",
+        lambda request: say("Tolerance to strays"),
+        _parts,
+        instead=STRAYS_IGNORED,
+    ),
+)

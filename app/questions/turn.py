@@ -9,7 +9,8 @@ from pydantic import Field
 import core
 from app.wire.answers import Point
 from app.wire.paths import TurnFields, TurnPath
-from app.wire.question import Answer, Question, Terms, Wire, measure
+from app.wire.question import Answer, Command, Question, Terms, Wire, measure
+from core.language import say
 
 
 class TurnQuery(TurnFields):
@@ -50,4 +51,14 @@ def turn(request: TurnQuery | TurnRequest, terms: Terms) -> Turn:
     return Turn.of(request.to_turn() if isinstance(request, TurnQuery) else request.path.to_path())
 
 
-QUESTION = Question(turn, Turn, flat=TurnQuery, body=TurnRequest, cost=lambda request: 1e-3)
+QUESTION = Question(
+    turn,
+    Turn,
+    flat=TurnQuery,
+    body=TurnRequest,
+    cost=lambda request: 1e-3,
+    command=Command(
+        "Two tangent arcs that lead from a spiral inwards to the same spiral, rotated by half a turn, outwards.",
+        lambda request: say("Turn"),
+    ),
+)

@@ -11,7 +11,9 @@ from app.questions.maximum_head_speed import SpeedLimitField
 from app.questions.turn import Turn
 from app.wire.dances import DragonFields
 from app.wire.paths import TurnFields, TurnPath
-from app.wire.question import Question, Terms, UniformDragon, measure
+from app.wire.question import Command, Question, Terms, UniformDragon, measure
+from core.errors import format_number
+from core.language import say
 
 
 class TurnTimeQuery(SpeedLimitField, TurnFields, UniformDragon):
@@ -43,4 +45,16 @@ def turn_time(request: TurnTimeQuery | TurnTimeRequest, terms: Terms) -> TurnTim
     return TurnTime.from_core(core.turn_time(dragon, path, request.speed_limit, budget=terms.budget))
 
 
-QUESTION = Question(turn_time, TurnTime, flat=TurnTimeQuery, body=TurnTimeRequest)
+def _title(request: SpeedLimitField) -> str:
+    return say("Time through the turn with no handle above {speed} m/s", speed=format_number(request.speed_limit))
+
+
+QUESTION = Question(
+    turn_time,
+    TurnTime,
+    flat=TurnTimeQuery,
+    body=TurnTimeRequest,
+    command=Command(
+        "How long the head takes through a turn at the highest speed at which no handle exceeds the limit.", _title
+    ),
+)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from app.wire.degrees import Place
 
 # The rule for a field of one dance beside the dances of several.
+FILE_OF_DANCES = "Several dances, as [[dances]] of a .toml file or as dances of a .json file."
 BESIDE_SEVERAL = "must stand in each of the dances, got it beside them"
 # A time of a performance [s]: of a dance, and its delay.
 Moment = Annotated[float, Field(ge=-2 * DELAY_MAX, le=2 * DELAY_MAX)]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import lru_cache
@@ -338,6 +338,26 @@ class Terms:
 
 
 @dataclass(frozen=True)
+class Command:
+    """How a question is asked in a terminal, where fields are options, and a FILE holds the body of a request.
+
+    help: what the command answers
+    title: title of the answer, from the request
+    parts: what is printed of the answer; its fields by default, each with its label
+    options: the request as options, if no query asks the question
+    file: what FILE holds, if the command cannot do without one
+    instead: which strays count in place of those in a FILE, for a question about strays
+    """
+
+    help: str
+    title: Callable[[Any], str]
+    parts: Callable[[Any], Iterable[Any]] | None = None
+    options: type[Wire] | None = None
+    file: str = ""
+    instead: str = ""
+
+
+@dataclass(frozen=True)
 class Question:
     """One question: its requests and the function that answers it.
 
@@ -350,6 +370,7 @@ class Question:
     several: type of the answer's JSON where the request holds the dances of several dragons; None if none may
     formats: endings of its address, one for each form, if the address names the form of the answer
     cost: estimated time of the answer [s], from a request and a form, before anything is computed
+    command: how a terminal asks it; None if the command does more than ask it
     """
 
     answer: Callable[..., Any]
@@ -361,6 +382,7 @@ class Question:
     at: str = ""
     formats: type[FileFormat] | None = None
     several: type[Answer] | None = None
+    command: Command | None = None
 
     @property
     def name(self) -> str:

@@ -21,11 +21,10 @@ import typer
 
 import core
 from app.command.main import MODULE_OF, app
-from app.command.show import print_answer
-from app.questions.maximum_head_speed import MaximumHeadSpeed
 from app.questions.registry import QUESTIONS
 from app.service.workers import START_SECONDS
 from app.settings import Settings
+from core import Engine
 from core.kernels import COMPILED
 from tests.conftest import heed_ctrl_c
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
@@ -490,15 +489,6 @@ def test_the_table_on_a_terminal_has_the_decimals_that_are_asked_for():
     assert not re.search(r"\d\.\d{3}", done.stdout)
 
 
-def test_an_unknown_end_of_a_bracket_has_no_unit(capsys):
-    answer = MaximumHeadSpeed(
-        head_speed=1.5, head_speed_bracket=(None, 1.5), speed_ratio=2.0, handles=[1], time=3.0,
-        time_at_unit_head_speed=4.5, passage=None,
-    )  # fmt: skip
-    print_answer("Maximum head speed", answer, json=False)
-    assert re.search(r"head speed bracket +unknown, 1\.5 m/s *\n", capsys.readouterr().out)
-
-
 LOCALES = [
     ({"LANG": "zh_CN.UTF-8"}, None, "zh"),
     ({"LANG": "zh_CN.UTF-8"}, "en", "en"),
@@ -530,6 +520,11 @@ def test_a_command_that_is_asked_in_chinese_says_everything_in_chinese(tmp_path)
         ("trajectory", "--start", "-5", "--stop", "3", "--output", str(table)),
         ("crew", str(crew)),
         ("places", str(places)),
+        ("collision-time", "--benches", "20"),
+        ("collision-time", "--benches", "20", "--margin", "0.05", "--stray", "0.01"),
+        ("minimum-pitch", "--benches", "20"),
+        ("shortest-turn", "--benches", "3"),
+        ("overlaps", "--time", "413"),
     ):
         done = run(*arguments, "--language", "zh")
         assert done.returncode == 0
@@ -537,4 +532,13 @@ def test_a_command_that_is_asked_in_chinese_says_everything_in_chinese(tmp_path)
         words = re.sub(
             rf"{re.escape(str(tmp_path))}\S*|--path turn|\[?\b[a-z]{{1,2}}\b\]?", "", done.stdout + done.stderr
         )
-        assert set(re.findall(r"[A-Za-z]{3,}", words)) <= {"square", "well", "stage", "linden", "chestnut", "tree"}
+        assert set(re.findall(r"[A-Za-z_]{3,}", words)) <= {
+            "square",
+            "well",
+            "stage",
+            "linden",
+            "chestnut",
+            "tree",
+            "rad",
+            *Engine,
+        }
