@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from app.command import show
 from app.command.options import Json, asks
 from app.wire.labels import fields_of
-from app.wire.question import Command, Question, Terms
+from app.wire.question import Command, Question, Terms, Wire
+from app.wire.refusals import refusing
 
 # Fields of which a request about a dance, or about several, has one.
 DANCES = frozenset({"dragon", "dances"})
@@ -30,3 +32,11 @@ def command_of(question: Question, command: Command) -> Callable[..., None]:
         body = None
     ask.__name__, ask.__doc__ = question.name, command.help
     return asks(options, body, command.instead, command.file)(ask)
+
+
+def write_answer(question: Question, request: Wire, title: str, output: Path, form: str = "") -> bytes:
+    """Write the answer as a file, and return it. title: what a progress bar names; form: the default one without"""
+    with refusing(request), show.waiting(title) as progress:
+        data = question.to_bytes(request, Terms(progress=progress), form or question.forms[0])
+    show.write(output, data)
+    return data

@@ -19,6 +19,7 @@ from app.files.disk import checked_output, write_whole
 from core import InvalidValue
 from core.display import format_count
 from core.errors import Given
+from core.language import say
 
 if TYPE_CHECKING:
     from app.jobs.places import InFolder, OfService
@@ -53,12 +54,12 @@ def list_jobs(data: Data = None, url: Url = "", token: Token = "", json: Json = 
         show.print_json(orjson.dumps({"jobs": listed}))
         return
     table = Table(box=None, pad_edge=False)
-    for column in ("job", "question", "status", "progress", "asked"):
+    for column in (say("job"), say("question"), say("status"), say("progress"), say("asked")):
         table.add_column(column, no_wrap=True)
     for job in listed:
         created = datetime.fromisoformat(job["created"]).astimezone().strftime("%Y-%m-%d %H:%M:%S")
         table.add_row(job["jobID"], job["processID"], job["status"], f"{job['progress']} %", created)
-    show.print_parts(table if listed else "No jobs.")
+    show.print_parts(table if listed else say("No jobs."))
 
 
 @jobs.command("show")

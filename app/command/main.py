@@ -57,7 +57,7 @@ MODULE_OF = {
     "check": "check",
     "propose": "propose",
     "overlaps": "overlaps",
-    "paper": "paper",
+    "paper": "",
     "serve": "serve",
     "mcp": "mcp",
     "prove": "prove",

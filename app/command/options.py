@@ -28,6 +28,7 @@ from app.wire.refusals import refusing
 from core import BenchDragonError, Dance, InvalidValue, Performance
 from core.dance import DEFAULT_SPAN
 from core.errors import Given, Value
+from core.language import say
 
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
@@ -64,6 +65,12 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
     return entries
 
 
+def changed(file: Path, body: type[Model], **changes: Any) -> Model:
+    """The request in a file, with the options that were given in place of its values. raises: InvalidValue, OSError"""
+    values = read_dance(file, several=True) | {name: value for name, value in changes.items() if value is not None}
+    return checked(body, values, object_words(file))
+
+
 def of_file(file: Path, body: type[Model], context: typer.Context, instead: str = "") -> Model:
     """The request for the dance in a file, as for `check`, with the options of the question.
 
@@ -79,7 +86,8 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
     held = read_dance(file, several="dances" in own)
     _refuse_other(file, held, own)
     if instead and (strays := [name for name in Strays.model_fields if held.get(name) and name not in own]):
-        print(f"{file}: ignored: {', '.join(strays)}, because {instead}.", file=sys.stderr)
+        words = say("{file}: ignored: {names}, because {why}.", file=file, names=", ".join(strays), why=say(instead))
+        print(words, file=sys.stderr)
     values = {name: value for name, value in held.items() if name in own or name not in CheckRequest.model_fields}
     given = {**context.params, "language": context.meta.get(LANGUAGE)}
     typed = {name: given[name] for name in typed_options(context, *own)}

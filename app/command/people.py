@@ -9,12 +9,12 @@ import typer
 
 from app.cards.crew import lack_words
 from app.command import show
-from app.command.options import Json, asks, numbers, of_file
+from app.command.asked import write_answer
+from app.command.options import Json, asks, changed, numbers
 from app.command.usage import path_argument
 from app.extras import require
-from app.files.disk import checked_output, object_words
+from app.files.disk import checked_output
 from app.files.tables import CSV_TYPE
-from app.maps.dances import read_dance
 from app.questions.crew import QUESTION as CREW
 from app.questions.crew import Crew, CrewFields, CrewRequest, PointBody, Roll
 from app.questions.cues import QUESTION as CUES
@@ -28,6 +28,7 @@ from core import InvalidValue
 from core.errors import Given
 from core.language import say
 
+FILE_HELP = "Dragon, path, venue and limits as for check: .toml or .json."
 # Form of a file by its ending.
 FORMS = {".pdf": PDF_TYPE, ".csv": CSV_TYPE, ".json": JSON}
 
@@ -35,7 +36,7 @@ FORMS = {".pdf": PDF_TYPE, ".csv": CSV_TYPE, ".json": JSON}
 def cues(
     file: Annotated[
         Path,
-        path_argument("FILE", "Dragon, path, venue and limits as for check: .toml or .json."),
+        path_argument("FILE", FILE_HELP),
     ],
     output: Annotated[Path, typer.Option(help="Write a .pdf (extra figures), .csv or .json file.")] = Path("cues.pdf"),
     first_bench: Annotated[int | None, typer.Option(help="First bench with a card; default: 0, the head.")] = None,
@@ -55,22 +56,16 @@ def cues(
     ending = checked_output("output", output, tuple(FORMS))
     if ending == ".pdf":
         require("figures", "output", "A card on paper")
-    changes = {
-        "part": part, "first_bench": first_bench, "last_bench": last_bench, "cards": bench or None, "reach": reach,
-        "step_length": step_length, "spacing": spacing, "title": title,
-    }  # fmt: skip
-    values = read_dance(file, several=True) | {name: value for name, value in changes.items() if value is not None}
-    request = checked(CuesRequest, values, object_words(file))
-    with refusing(request), show.waiting(say("cues")) as progress:
-        data = CUES.to_bytes(request, Terms(progress=progress), FORMS[ending])
-    show.write(output, data)
+    request = changed(
+        file, CuesRequest, part=part, first_bench=first_bench, last_bench=last_bench, cards=bench or None, reach=reach,
+        step_length=step_length, spacing=spacing, title=title,
+    )  # fmt: skip
+    write_answer(CUES, request, say("cues"), output, FORMS[ending])
 
 
-@asks(CrewFields)
+@asks(CrewFields, CrewRequest, file_help=FILE_HELP)
 def crew(
-    options: CrewFields,
-    context: typer.Context,
-    file: Annotated[Path, path_argument("FILE", "Dragon, path, venue and limits as for check: .toml or .json.")],
+    request: CrewRequest,
     point: Annotated[
         list[str] | None, typer.Option(help="A place X,Y [m] at which people change; may be given several times.")
     ] = None,
@@ -81,7 +76,6 @@ def crew(
     ending = checked_output("output", output, tuple(FORMS)) if output else ""
     if ending == ".pdf":
         require("figures", "output", "A timeline")
-    request = of_file(file, CrewRequest, context)
     if point:
         request = request.model_copy(update={"points": [_point(text) for text in point]})
     with refusing(request), show.waiting(say("crew")) as progress:

@@ -10,23 +10,22 @@ import orjson
 import typer
 
 from app.command import show
-from app.command.options import Json, numbers
+from app.command.asked import write_answer
+from app.command.options import Json, changed, numbers
 from app.command.usage import path_argument
 from app.extras import require
-from app.files.disk import checked_output, object_words
+from app.files.disk import checked_output
 from app.maps.choice import PARTLY, Choice
-from app.maps.dances import read_dance
 from app.maps.layout import DanceParts
 from app.maps.places import Places, drawn_layers, map_data, read_map
 from app.maps.tracks import CHORD
+from app.questions.maps import QUESTION as MAPS
 from app.questions.maps import MapFormat, MapsRequest, OriginFields
-from app.questions.maps import maps as maps_of
+from app.questions.plan import QUESTION as PLAN
 from app.questions.plan import PlanRequest
-from app.questions.plan import plan as plan_of
 from app.wire.labels import Table
 from app.wire.messages import checked
-from app.wire.question import Coordinates, Terms
-from app.wire.refusals import refusing
+from app.wire.question import Coordinates
 from core import InvalidValue
 from core.errors import Given
 from core.language import counted, phrase, say
@@ -144,20 +143,18 @@ def maps(
     ending = checked_output("output", output, tuple(f".{one}" for one in MapFormat))
     if ending == ".dxf":
         require("dxf", "output", "DXF")
-    values = read_dance(file, several=True)
-    if spacing is not None:
-        values["spacing"] = spacing
     if (longitude is None) != (latitude is None):
         raise InvalidValue.in_words("longitude", "--longitude and --latitude must be given together")
-    if longitude is not None and latitude is not None:
-        values["origin"] = checked(OriginFields, {"longitude": longitude, "latitude": latitude}).model_dump()
-    request = checked(MapsRequest, values, object_words(file))
-    with refusing(request), show.waiting(say("map")):
-        data = maps_of(request, Terms(), MapFormat(ending[1:]).media_type)
-    show.write(output, data)
+    place = {"longitude": longitude, "latitude": latitude}
+    origin = None if longitude is None else checked(OriginFields, place).model_dump()
+    request = changed(file, MapsRequest, spacing=spacing, origin=origin)
+    data = write_answer(MAPS, request, say("map"), output, MapFormat(ending[1:]).media_type)
     if ending == ".geojson" and "origin" not in orjson.loads(data):
-        words = "Its coordinates are metres, not longitude and latitude"
-        print(f"{words}: --longitude and --latitude of x = y = 0 give these.", file=sys.stderr)
+        words = say(
+            "Its coordinates are metres, not longitude and latitude: --longitude and --latitude of x = y = 0 give "
+            "these."
+        )
+        print(words, file=sys.stderr)
 
 
 def _gate(text: str) -> dict[str, Any]:
@@ -188,11 +185,6 @@ def plan(
     """A PDF to print, true to scale: map, place of each person, points to paint, times (extra figures)."""
     checked_output("output", output, (".pdf",))
     require("figures", "output", "A plan")
-    changes = {"paper": paper, "title": title, "spacing": spacing, "clear": clear}
-    values = read_dance(file, several=True) | {name: value for name, value in changes.items() if value is not None}
-    if gate:
-        values["gates"] = [_gate(text) for text in gate]
-    request = checked(PlanRequest, values, object_words(file))
-    with refusing(request), show.waiting(say("plan")) as progress:
-        data = plan_of(request, Terms(progress=progress))
-    show.write(output, data)
+    gates = [_gate(text) for text in gate] if gate else None
+    request = changed(file, PlanRequest, paper=paper, title=title, spacing=spacing, clear=clear, gates=gates)
+    write_answer(PLAN, request, say("plan"), output)

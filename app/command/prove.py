@@ -35,6 +35,7 @@ from app.wire.question import DanceQuery, HeadSpeed, Instant, Margin, UniformDra
 from app.wire.texts import Unreadable, json_of
 from core import Outcome
 from core.errors import ProofRefused, Quantity, format_number
+from core.language import Phrases, say
 from core.tolerance.curve import time_on_circle
 
 if TYPE_CHECKING:
@@ -42,6 +43,8 @@ if TYPE_CHECKING:
 
 # Exit codes.
 REFUSED, WRONG_USAGE, INTERRUPTED = 1, 2, 130
+# Parts of a dance that no proof is about.
+UNPROVEN: Phrases = {"venue": "venue", "speed_limit": "speed limit"}
 Output = Annotated[Path, typer.Option(help="File for the certificate.")]
 
 
@@ -98,9 +101,9 @@ def _working(what: str) -> Iterator[Callable[[float], None]]:
             task = bar.add_task(what, total=1.0)
             yield lambda share: bar.update(task, completed=share)
     except KeyboardInterrupt:
-        code, message = INTERRUPTED, "Interrupted: nothing was written."
+        code, message = INTERRUPTED, say("Interrupted: nothing was written.")
     except ProofRefused as refused:
-        code, message = REFUSED, f"Refused: {refused.message}"
+        code, message = REFUSED, say("Refused: {why}", why=refused.message)
     except ImportError as missing:
         code, message = WRONG_USAGE, f"Error: {missing}"
     else:
@@ -249,12 +252,16 @@ def dance(
     checked_output("output", output, (".json",))
     request = checked(DanceCheck, read_dance(file))
     whole = request.to_dance(Settings().checked_benches_max)
-    for name in ("venue", "speed_limit"):
+    for name in UNPROVEN:
         if getattr(request, name) is not None:
-            print(f"The {name.replace('_', ' ')} is not part of the proof.", file=sys.stderr)
+            print(say("The {part} is not part of the proof.", part=say(UNPROVEN[name])), file=sys.stderr)
     if whole.passages:
-        speed = f"a head at a constant {format_number(whole.head_speed)} m/s"
-        print(f"Passages are not part of the proof, which is about places: its times are for {speed}.", file=sys.stderr)
+        words = say(
+            "Passages are not part of the proof, which is about places: its times are for a head at a constant {speed} "
+            "m/s.",
+            speed=format_number(whole.head_speed),
+        )
+        print(words, file=sys.stderr)
     begin, until = whole.span(whole.begin if request.start is None else request.start, request.stop)
     dance, clock = whole.steady, whole.clock
     start, stop = clock.steady(np.array([begin, until])).tolist()
@@ -299,9 +306,9 @@ def _finish(certificate: dict[str, Any], output: Path) -> None:
     with _working("writing"):
         write_whole(output, data)
     _print(checked)
-    print(f"{output}: {len(data)} bytes", file=sys.stderr)
+    print(say("{file}: {count} bytes", file=output, count=len(data)), file=sys.stderr)
 
 
 def _print(checked: Proof) -> None:
-    print(f"Proven: {checked.statement}")
-    print(f"{checked.pair_proofs} pair proofs over {checked.stretches} stretches.")
+    print(say("Proven: {statement}", statement=checked.statement))
+    print(say("{checked.pair_proofs} pair proofs over {checked.stretches} stretches.", checked=checked))

@@ -18,6 +18,7 @@ from app.command.usage import Commands, path, path_argument
 from app.extras import require
 from app.files.disk import checked_output
 from app.settings import WORKERS_MAX
+from core.language import say
 
 if TYPE_CHECKING:
     from app.sweeps.run import Progress
@@ -72,9 +73,10 @@ def run(
         try:
             run_sweep(sweep_spec, output, question=sweep_spec.asks, engine=engine, progress=progress)
         except KeyboardInterrupt:
-            print(f"Stopped: the same command continues {output}", file=sys.stderr)
+            print(say("Stopped: the same command continues {file}", file=output), file=sys.stderr)
             raise typer.Exit(INTERRUPTED) from None
-    print(f"{output}: {sweep_spec.designs} designs in {sweep_spec.shards} shards", file=sys.stderr)
+    words = say("{file}: {spec.designs} designs in {spec.shards} shards", file=output, spec=sweep_spec)
+    print(words, file=sys.stderr)
 
 
 @sweep.command()

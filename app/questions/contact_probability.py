@@ -13,7 +13,7 @@ from app.wire.answers import Pair
 from app.wire.claims import ProbabilityClaim
 from app.wire.dances import DanceFields
 from app.wire.question import UNKNOWN_COST, Answer, Command, Question, Terms, Whole, Wire, check_limit, measure
-from core.language import say
+from core.language import phrase, say
 from core.tolerance.chance import CONFIDENCE, SEED_MAX
 
 # Quantiles of the times of first contact in the answer [1].
@@ -137,6 +137,6 @@ QUESTION = Question(
         "Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.",
         lambda request: say("Probability of a contact when people wobble"),
         options=ContactProbabilityQuery,
-        instead="--lateral and --forward describe how people wobble",
+        instead=phrase("--lateral and --forward describe how people wobble"),
     ),
 )

@@ -6,6 +6,7 @@ Its four numbers and its search range are constants here; every other number is 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 
@@ -26,11 +27,12 @@ from app.grade.contacts import (
 )
 from app.grade.report import DiagnosisAnswer, typed
 from app.grade.words import word
-from app.wire.question import Answer, Question, Terms, Wire
+from app.wire.labels import Heading, Part, Table, value_text
+from app.wire.question import Answer, Command, Question, Terms, Wire
 from core import Dance, Dragon, FirstContact, Spiral, clearance_profile, first_contact, minimum_pitch
 from core import trajectory as trajectory_of
 from core.design.pitch_scan import Stops
-from core.language import Language, speaking, spoken
+from core.language import Language, say, speaking, spoken
 from core.sampling import bisect
 from core.shapes.rectangles import corners, literal_corners
 
@@ -211,4 +213,40 @@ def paper(request: PaperQuery, terms: Terms) -> PaperTable:
     return PaperTable(rows=list(comparison(spoken())), literature=list(literature(spoken())))
 
 
-QUESTION = Question(paper, PaperTable, flat=PaperQuery)
+def _parts(answer: PaperTable) -> Iterator[Part]:
+    """The numbers side by side, then each reason with its evidence; then the numbers of other publications."""
+
+    def words(code: str) -> str:
+        return word(f"paper_{code}")
+
+    table = Table(words("title"), *map(words, ("quantity", "paper", "ours", "difference")))
+    for one in answer.rows:
+        name = f"{one.quantity} [{one.unit}], {one.source}"
+        table.add(name, str(one.paper), value_text(one.ours), f"{one.difference:+.6f}")
+    yield table
+    for one in answer.rows:
+        yield Heading(one.quantity)
+        yield one.reason
+        yield from (f"  {fact.what}: {value_text(fact.value)} {fact.unit}" for fact in one.evidence)
+        yield ""
+    others = Table(words("others"), *map(words, ("quantity", "published", "ours", "difference")))
+    for other in answer.literature:
+        difference = f"{other.difference:+.6f}"
+        others.add(f"{other.quantity} [{other.unit}]", str(other.published), value_text(other.ours), difference)
+    yield others
+    for other in answer.literature:
+        yield Heading(f"{other.published} {other.unit}: {other.source}")
+        yield from [f"{error.words} {error.evidence}" for error in other.diagnosis] or [words("unknown")]
+        yield ""
+
+
+QUESTION = Question(
+    paper,
+    PaperTable,
+    flat=PaperQuery,
+    command=Command(
+        "The paper's numbers beside those of this program, with the reason for each difference.",
+        lambda request: say("recomputing the paper"),
+        _parts,
+    ),
+)

@@ -15,7 +15,7 @@ from app.wire.performances import SeveralFields
 from app.wire.question import Answer, Command, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
 from core import InvalidValue, Limit
 from core.errors import Quantity
-from core.language import say
+from core.language import phrase, say
 from core.tolerance.curve import time_on_circle
 
 SizeError = Annotated[float, Field(ge=0, le=5)]
@@ -209,7 +209,7 @@ def _with_errors(
 
 
 # Why a question that looks for the largest stray ignores strays in a FILE: the end of a note to the user.
-STRAYS_IGNORED = "the answer is the largest stray, by people and by the play of pins together"
+STRAYS_IGNORED = phrase("the answer is the largest stray, by people and by the play of pins together")
 QUESTION = Question(
     tolerance,
     Tolerance,
