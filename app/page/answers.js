@@ -1,9 +1,51 @@
 /** The answers, each with its evidence. */
 
 import { button, make } from "./elements.js";
-import { strayOf } from "./fields.js";
+import { LABELS, strayOf } from "./fields.js";
 import { bound, fixed, formatNumber, isExact } from "./numbers.js";
-import { benchName, handleName, refusalWords, say, sayOf, sentencesOf, titleOf } from "./text.js";
+import { benchName, between, handleName, phrase, refusalWords, say, sayOf, sentencesOf, titleOf } from "./text.js";
+
+/** Why every larger pitch is right. @type {Phrases} */
+const JUSTIFIED = {
+  bound: "feasible, proven for all at once",
+  scan: "feasible by a scan: up to {from} m only single pitches are proven, at most {step} mm apart",
+};
+
+/** What limits the stray. @type {Phrases} */
+const LIMITS = {
+  benches: "Limited by {a} and {b}, which are nearest to a contact at {time} s.",
+  venue: "Limited by {a} and {area}, which are nearest to a contact at {time} s.",
+  chord: "There is no limit up to half of the shortest chord.",
+};
+
+/** Why a run ends, except for a contact. @type {Phrases} */
+const ENDS = {
+  fold: "{name} cannot follow any more: the chain folds.",
+  centre: "The head is at the centre.",
+  turn: "The dance is shown from 100 m before the turn begins to 100 m after.",
+  path: "The head is at the end of its path.",
+  undecided: "The dance is shown as far as it is proven clear.",
+};
+
+/** Engines that judge a contact. @type {Phrases} */
+const ENGINES = {
+  separating_axis: "separating axis",
+  fcl: "FCL",
+  shapely: "shapely",
+  angle_sum: "angle sum (paper)",
+};
+
+/** Corners and edges of a bench. @type {Phrases} */
+const PLACES = {
+  "front-outer": "front outer corner",
+  "front-inner": "front inner corner",
+  "rear-outer": "rear outer corner",
+  "rear-inner": "rear inner corner",
+  front: "front edge",
+  rear: "rear edge",
+  outer: "outer edge",
+  inner: "inner edge",
+};
 
 /** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
 const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
@@ -18,17 +60,17 @@ const pair = ([a, b], benches) => ({ a: benchName(a, benches), b: benchName(b, b
 /** A separation in words: the gap, or for a negative one the depth of the overlap. metres: [m] */
 export function gapWords(metres) {
   const gap = millimetres(metres);
-  return gap.startsWith("-") ? say("overlap", { depth: gap.slice(1) }) : say("gap", { gap });
+  return gap.startsWith("-") ? say("overlap by {depth} mm", { depth: gap.slice(1) }) : say("gap {gap} mm", { gap });
 }
 
 /** A safe stray in centimetres, rounded down. metres: [m] */
 export const centimetres = (metres) => bound(100 * metres, 2, -1);
 const ends = ([low, high], decimals) => ({ low: bound(low, decimals, -1), high: bound(high, decimals, 1) });
-const bracket = (key, both, decimals) => [say("bracket"), say(key, ends(both, decimals))];
+const bracket = (template, both, decimals) => [say("Bracket, rounded outwards"), say(template, ends(both, decimals))];
 
 /** The section of the page "How it works" that explains the answer in a box. */
 const IDEAS = { "minimum-pitch": "staircase", tolerance: "stray", "head-speed": "chord", "turn-time": "chord", "highest-speed": "chord", "run-end": "chord" };
-const idea = ({ id }) => make("a", { href: `how?lang=${document.documentElement.lang.slice(0, 2)}#${IDEAS[id] ?? "step"}`, textContent: say("howPage") });
+const idea = ({ id }) => make("a", { href: `how?lang=${document.documentElement.lang.slice(0, 2)}#${IDEAS[id] ?? "step"}`, textContent: say("How it works") });
 
 /**
  * Replace the content of a box, but keep its details open. title: text; known: elements; outcome: colours the box; digits: the value
@@ -36,10 +78,10 @@ const idea = ({ id }) => make("a", { href: `how?lang=${document.documentElement.
  */
 function show(box, title, value, lines, known = [], { outcome = "", digits = "" } = {}) {
   const open = box.querySelector("details")?.open ?? false;
-  const details = known.length ? [make("details", { open }, make("summary", { textContent: say("how") }), ...(digits && !isExact() ? [facts([say("allDigits"), digits])] : []), ...known, idea(box))] : [];
+  const details = known.length ? [make("details", { open }, make("summary", { textContent: say("How it is known") }), ...(digits && !isExact() ? [facts([say("More digits"), digits])] : []), ...known, idea(box))] : [];
   box.dataset.outcome = outcome;
   const heading = make("h3", { textContent: title });
-  box.replaceChildren(paragraph(say("old"), { className: "old" }), heading, make("p", { className: "value" }, ...[value].flat()), ...lines.map((line) => paragraph(line)), ...details);
+  box.replaceChildren(paragraph(say("Older than your numbers"), { className: "old" }), heading, make("p", { className: "value" }, ...[value].flat()), ...lines.map((line) => paragraph(line)), ...details);
 }
 
 const facts = (...rows) => make("dl", {}, ...rows.flatMap((row) => ["dt", "dd"].map((tag, k) => make(tag, { textContent: row[k] }))));
@@ -48,20 +90,20 @@ const facts = (...rows) => make("dl", {}, ...rows.flatMap((row) => ["dt", "dd"].
 function judgedWords({ judged }, benches, request) {
   const count = judged.length;
   if (count === benches) return sayOf("judgedAll", request, { count });
-  return count === 2 ? sayOf("judgedPair", request, pair(judged, benches)) : say("judgedNear", { count, benches });
+  return count === 2 ? sayOf("judgedPair", request, pair(judged, benches)) : say(" judged the {count} of {benches} benches near the pair.", { count, benches });
 }
 
 function engines(check, benches, request) {
-  if (!check) return paragraph(say("noEngines"));
-  const word = (overlaps) => (overlaps === null ? say("noBefore") : sayOf(overlaps ? "overlapping" : "apart", request));
+  if (!check) return paragraph(say("No pair to cross-check."));
+  const word = (overlaps) => (overlaps === null ? say("contact at the start") : sayOf(overlaps ? "overlapping" : "apart", request));
   const cell = (overlaps) => make("td", { textContent: word(overlaps) });
-  const head = (key, scope) => make("th", { scope, textContent: say(key) });
-  const rows = Object.entries(check.engines).map(([name, { before, after }]) => make("tr", {}, head(name, "row"), cell(before), cell(after)));
-  const heads = make("tr", {}, ...["engine", "before", "after"].map((key) => head(key, "col")));
-  const grounds = rows.length === 1 && say("judgedGrounds", { count: check.judged.length });
-  const words = [grounds || `${say("engines", { count: rows.length })}${judgedWords(check, benches, request)}`, say(check.agree ? "agree" : "disagree")];
-  const list = check.together.map((both) => Object.values(pair(both, benches)).join(say("listed"))).join(say("semicolon"));
-  if (list) words.push(say("together", { list }));
+  const head = (words, scope) => make("th", { scope, textContent: say(words) });
+  const rows = Object.entries(check.engines).map(([name, { before, after }]) => make("tr", {}, head(ENGINES[name], "row"), cell(before), cell(after)));
+  const heads = make("tr", {}, ...[phrase("Engine"), phrase("just before"), phrase("just after")].map((words) => head(words, "col")));
+  const grounds = rows.length === 1 && say("shapely judged the area that {count} benches may cover.", { count: check.judged.length });
+  const words = [grounds || `${say("{count} engines", { count: rows.length })}${judgedWords(check, benches, request)}`, say(check.agree ? "They agree." : "They differ.")];
+  const list = check.together.map((both) => Object.values(pair(both, benches)).join(between())).join(say("; "));
+  if (list) words.push(say("At the same instant also: {list}.", { list }));
   const caption = make("caption", { textContent: sentencesOf(words) });
   return make("table", {}, caption, make("thead", {}, heads), make("tbody", {}, ...rows));
 }
@@ -73,7 +115,7 @@ const stateOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "f
 export function outcomeWords(answer, request) {
   const time = answer.time ?? answer.end?.time;
   const state = stateOf(answer);
-  if (state === "clear" && request.drawn && !(Number(request.margin) > 0 || strayOf(request) > 0)) return say("clearDrawn");
+  if (state === "clear" && request.drawn && !(Number(request.margin) > 0 || strayOf(request) > 0)) return say("Benches with each other: never touch");
   return sayOf(state, request, { time: time === undefined ? "" : formatNumber(time, 6, 2) });
 }
 
@@ -92,7 +134,7 @@ function contactLine(answer, request) {
   const state = stateOf(answer);
   if (state === "undecided") {
     const [time, late] = [bound(time_bracket[0], 9, -1), bound(time_bracket[1], 9, 1)];
-    return met ? sayOf("undecidedMet", request, { ...pair(met, benches), time, late }) : say("undecidedFrom", { time });
+    return met ? sayOf("undecidedMet", request, { ...pair(met, benches), time, late }) : say("Proven clear up to {time} s; not decided after that.", { time });
   }
   if (state === "folds") return sayOf("foldsUntil", request, { name: benchName(end.bench, benches) });
   if (state === "clear" && end && request.drawn) return sayOf("clearToEnd", request);
@@ -101,14 +143,14 @@ function contactLine(answer, request) {
   const values = { ...pair(both, benches), x, y, radius };
   if (request.drawn) return sayOf("pairDrawn", request, values);
   const millis = millimetres(gap);
-  if (millis.startsWith("-")) return say("pairOverlaps", { ...values, depth: millis.slice(1) });
+  if (millis.startsWith("-")) return say("{a} and {b} overlap by {depth} mm at ({x}, {y}) m; the head is {radius} m from the centre.", { ...values, depth: millis.slice(1) });
   return sayOf("pairMeets", request, { ...values, gap: millis });
 }
 
 /** The time up to which it is proven that nothing touches; none for a contact at the start, or an undecided search. */
 function certificateWords({ outcome, certificate: { steps, clear_until: until } }, request) {
   if (until !== null) return sayOf("certificateSteps", request, { steps, until: bound(until, 10, -1) });
-  return outcome === "undecided" ? say("certificateNone") : sayOf("certificateStart", request);
+  return outcome === "undecided" ? say("nothing is decided from the start on") : sayOf("certificateStart", request);
 }
 
 const methodOf = (certificate) => make("p", { textContent: certificate.method, className: "method" });
@@ -118,13 +160,13 @@ export function showFirstContact(box, answer, request) {
   const { time, time_bracket, certificate } = answer;
   const lines = [contactLine(answer, request)];
   const open = answer.outcome === "undecided" && !answer.overlapping;
-  const known = (values) => (open ? say("bracketOpen", values) : sayOf("bracketTime", request, values));
-  const rows = time_bracket ? [[say("bracket"), known(ends(time_bracket, 10))]] : [];
-  rows.push([say("certificate"), certificateWords(answer, request)]);
+  const known = (values) => (open ? say("clear up to {low} s; not decided up to {high} s", values) : sayOf("bracketTime", request, values));
+  const rows = time_bracket ? [[say("Bracket, rounded outwards"), known(ends(time_bracket, 10))]] : [];
+  rows.push([say("Certificate"), certificateWords(answer, request)]);
   const least = certificate.least_clearance;
   if (least) {
     const values = { ...pair(least.benches, request.benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
-    rows.push([say("leastBefore"), sayOf("leastBeforeIs", request, values)]);
+    rows.push([say("Narrowest graze"), sayOf("leastBeforeIs", request, values)]);
   }
   const state = stateOf(answer);
   const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[state] });
@@ -133,7 +175,7 @@ export function showFirstContact(box, answer, request) {
 }
 
 /** A button of an answer, with its text and its action. */
-const offer = (box, key, act) => box.querySelector("details").before(button({ textContent: say(key) }, act));
+const offer = (box, words, act) => box.querySelector("details").before(button({ textContent: say(words) }, act));
 
 /** answer: of /minimum-pitch; use(pitch) sets it; key: of the button's text */
 export function showMinimumPitch(box, answer, request, key, use) {
@@ -144,16 +186,16 @@ export function showMinimumPitch(box, answer, request, key, use) {
   const { scan_step: step, proven_up_to: upTo } = answer;
   const all = step === null && upTo === null;
   const from = bound(answer.proven_from, 9, 1);
-  const pitches = say(all ? "larger" : "largerTried");
+  const pitches = say(all ? "every larger pitch" : "every larger pitch that was tried");
   const lines = [sayOf("toCircle", request, { diameter, pitches }), limit];
   const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
-  if (islands.length) lines.push(say("islands", { list: islands.join(say("listed")) }));
+  if (islands.length) lines.push(say("Smaller pitches that also work: {list}", { list: islands.join(between()) }));
   const [low, high] = answer.pitch_bracket;
   const rows = [
-    low < high ? bracket("bracketPitch", [low, high], 13) : [say("bracket"), say("bracketNone")],
-    [say("justified"), say(`justified_${answer.justified_by}`, { from, step: step === null ? "" : millimetres(step) })],
-    [say("proven"), say(upTo === null ? "provenToAll" : "provenTo", { from, upTo })],
-    [say("evaluations"), answer.evaluations],
+    low < high ? bracket(phrase("infeasible at {low} m, feasible at {high} m"), [low, high], 13) : [say("Bracket, rounded outwards"), say("none: at every smaller pitch the dance would begin inside the circle")],
+    [say("Every larger pitch"), say(JUSTIFIED[answer.justified_by], { from, step: step === null ? "" : millimetres(step) })],
+    [say("Proven for every pitch"), say(upTo === null ? "from {from} m on, without limit" : "from {from} m to {upTo} m", { from, upTo })],
+    [say("Runs to the circle that were computed, for single pitches and for bands of pitches"), answer.evaluations],
   ];
   const known = [facts(...rows), engines(answer.cross_check, benches, request)];
   const digits = `${answer.pitch.toFixed(9)} m`;
@@ -164,82 +206,82 @@ export function showMinimumPitch(box, answer, request, key, use) {
 /** answer: of /shortest-turn; use(entry, exit) sets both radii of the turn */
 export function showShortestTurn(box, answer, request, use) {
   const { entry_radius, exit_radius, length, limited_by } = answer;
-  const lines = [say("turnIs", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) }), sayOf(`entry_${limited_by}`, request)];
-  const known = facts(bracket("bracketLength", answer.length_bracket, 9), bracket("bracketEntry", answer.entry_bracket, 9), bracket("bracketExit", answer.exit_bracket, 9));
+  const lines = [say("of two arcs inside the circle: it enters {entry} m from the centre and leaves {exit} m from it.", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) }), sayOf(`entry_${limited_by}`, request)];
+  const known = facts(bracket(phrase("none is shorter than {low} m; this one was danced: {high} m"), answer.length_bracket, 9), bracket(phrase("turns as short enter from {low} m to {high} m from the centre"), answer.entry_bracket, 9), bracket(phrase("and leave from {low} m to {high} m from it"), answer.exit_bracket, 9));
   show(box, titleOf("shortestTurn", request), `${formatNumber(length, 6, 2)} m`, lines, [known], { digits: `${length.toFixed(6)} m` });
-  offer(box, "useEntry", () => use(entry_radius, exit_radius));
+  offer(box, phrase("Dance this turn"), () => use(entry_radius, exit_radius));
 }
 
-const timeWords = ({ length, head_speed }, { speed_limit: limit }) => say("turnTimeIs", { length: length.toFixed(6), speed: head_speed.toFixed(6), limit });
+const timeWords = ({ length, head_speed }, { speed_limit: limit }) => say("for {length} m, with the head at {speed} m/s, the most at which no handle exceeds {limit} m/s.", { length: length.toFixed(6), speed: head_speed.toFixed(6), limit });
 
 /** answer: of /quickest-turn; use(entry, exit) sets both radii of the turn */
 export function showQuickestTurn(box, answer, request, use) {
   const { entry_radius, exit_radius, time, scan_step } = answer;
-  const lines = [timeWords(answer, request), say("quickestIs", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) })];
-  show(box, say("quickestTurn"), `${formatNumber(time, 6, 2)} s`, lines, [paragraph(say("quickestKnown", { step: centimetres(scan_step) }))], { digits: `${time.toFixed(6)} s` });
-  offer(box, "useQuickest", () => use(entry_radius, exit_radius));
+  const lines = [timeWords(answer, request), say("It enters {entry} m from the centre and leaves {exit} m from it. A shorter turn bends more, so the head must go slower.", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) })];
+  show(box, say("Quickest turn"), `${formatNumber(time, 6, 2)} s`, lines, [paragraph(say("With everybody in their place nothing touches in it, and no handle exceeds the limit: both are proven. That no turn is quicker is not: entries and exits {step} cm apart were tried, and the best ones refined.", { step: centimetres(scan_step) }))], { digits: `${time.toFixed(6)} s` });
+  offer(box, phrase("Dance the quickest turn"), () => use(entry_radius, exit_radius));
 }
 
 /** answer: of /turn-time */
 export function showTurnTime(box, answer, request) {
-  show(box, say("turnTime"), `${formatNumber(answer.time, 6, 2)} s`, [timeWords(answer, request)], [paragraph(say("turnTimeKnown"))], { digits: `${answer.time.toFixed(6)} s` });
+  show(box, say("Time through this turn"), `${formatNumber(answer.time, 6, 2)} s`, [timeWords(answer, request)], [paragraph(say("The length of both arcs over the maximum speed of the head, which is proven."))], { digits: `${answer.time.toFixed(6)} s` });
 }
 
 /** answer: of /maximum-head-speed; use(speed) sets it */
 export function showHeadSpeed(box, answer, request, use) {
   const { head_speed, head_speed_bracket: [low, high], handles, time } = answer;
-  const name = handles.map((handle) => handleName(handle, Number(request.benches))).join(say("listed"));
-  const lines = [say("headSpeedIs", { limit: request.speed_limit, name, time: time.toFixed(6) })];
-  const known = low === null ? paragraph(say("headSpeedOpen", { high: bound(high, 9, 1) })) : facts(bracket("bracketHeadSpeed", [low, high], 9));
-  show(box, say("headSpeed"), `${formatNumber(head_speed, 9, 3)} m/s`, lines, [known], { digits: `${head_speed.toFixed(9)} m/s` });
-  offer(box, "useSpeed", () => use(low ?? head_speed));
+  const name = handles.map((handle) => handleName(handle, Number(request.benches))).join(between());
+  const lines = [say("At this speed of the head no handle exceeds {limit} m/s; it is reached at {time} s by {name}.", { limit: request.speed_limit, name, time: time.toFixed(6) })];
+  const known = low === null ? paragraph(say("{high} m/s reaches the limit; no lower speed is proven to keep it.", { high: bound(high, 9, 1) })) : facts(bracket(phrase("{low} m/s keeps the limit, {high} m/s reaches it"), [low, high], 9));
+  show(box, say("Maximum head speed"), `${formatNumber(head_speed, 9, 3)} m/s`, lines, [known], { digits: `${head_speed.toFixed(9)} m/s` });
+  offer(box, phrase("Dance at this speed"), () => use(low ?? head_speed));
 }
 
 /** answer: of /tolerance on the way to a circle of this diameter [m]; without one, in the shown part of a turn */
 export function showTolerance(box, answer, benches, diameter) {
   const { stray, stray_bracket: [low, high], limited_by: limit, time, certificate } = answer;
   const values = { ...(answer.benches && pair(answer.benches, benches)), time: time?.toFixed(6), area: answer.area };
-  const safe = stray > 0 ? say(diameter ? "toleranceCircle" : "toleranceTurn", { diameter, stray: centimetres(stray) }) : "";
-  const lines = stray > 0 ? [safe, say(`tolerance_${limit}`, values)] : [say(high === null ? "toleranceNone" : limit === "venue" ? "tolerance_touchingVenue" : "tolerance_touching", values)];
+  const safe = stray > 0 ? say(diameter ? "Until the head is on the circle of {diameter} m, everybody may be {stray} cm from their place at any time, the play in the joints included, and nothing touches." : "In this part of the dance everybody may be {stray} cm from their place at any time, the play in the joints included, and nothing touches.", { diameter, stray: centimetres(stray) }) : "";
+  const lines = stray > 0 ? [safe, say(LIMITS[limit], values)] : [say(high === null ? "No stray is proven to be safe." : limit === "venue" ? "{a} and {area} touch, or nearly touch, at {time} s even with everybody in their place." : "{a} and {b} touch, or nearly touch, at {time} s even with everybody in their place.", values)];
   const cm = (metres, way) => bound(100 * metres, 7, way);
-  const both = high === null ? say("bracketStrayOpen", { low: cm(low, -1) }) : say("bracketStray", { low: cm(low, -1), high: cm(high, 1) });
-  const rows = [[say("bracket"), both], [say("certificate"), say("stepsTaken", { steps: certificate.steps })]];
-  show(box, say("tolerance"), `${isExact() ? centimetres(stray) : bound(100 * stray, 1, -1)} cm`, lines, [facts(...rows), methodOf(certificate)], { digits: `${centimetres(stray)} cm` });
+  const both = high === null ? say("nothing touches up to {low} cm; no pose that overlaps is known", { low: cm(low, -1) }) : say("nothing touches up to {low} cm; a pose with {high} cm overlaps", { low: cm(low, -1), high: cm(high, 1) });
+  const rows = [[say("Bracket, rounded outwards"), both], [say("Certificate"), say("{steps} proven steps", { steps: certificate.steps })]];
+  show(box, say("How far people may stray"), `${isExact() ? centimetres(stray) : bound(100 * stray, 1, -1)} cm`, lines, [facts(...rows), methodOf(certificate)], { digits: `${centimetres(stray)} cm` });
 }
 
 /** fastest: highest_speed of /check; null in a run to a fold */
 export function showHighestSpeed(box, fastest, { benches }) {
-  if (!fastest) return show(box, say("highest"), say("unbounded"), [say("towardsFold")], [paragraph(say("foldKnown"))]);
+  if (!fastest) return show(box, say("Highest speed"), say("Grows without bound"), [say("towards the fold, where a bench cannot follow any more")], [paragraph(say("Near a fold, the speed of the handle behind it grows as one over the square root of the remaining way."))]);
   const { speed, speed_bracket, time, handles } = fastest;
-  const name = handles.map((handle) => handleName(handle, benches)).join(say("listed"));
-  const whose = handles.includes(0) ? say("headFastest") : say("whose", { name, time: time.toFixed(6) });
-  const known = speed_bracket[1] === null ? [] : [facts(bracket("bracketSpeed", speed_bracket, 9))];
-  show(box, say("highest"), `${formatNumber(speed, 6, 2)} m/s`, [whose], known, { digits: `${speed.toFixed(6)} m/s` });
+  const name = handles.map((handle) => handleName(handle, benches)).join(between());
+  const whose = handles.includes(0) ? say("No handle is ever faster than the head.") : say("Reached at {time} s by {name}.", { name, time: time.toFixed(6) });
+  const known = speed_bracket[1] === null ? [] : [facts(bracket(phrase("{low} m/s is reached, {high} m/s never exceeded"), speed_bracket, 9))];
+  show(box, say("Highest speed"), `${formatNumber(speed, 6, 2)} m/s`, [whose], known, { digits: `${speed.toFixed(6)} m/s` });
 }
 
 /** begin, time: of the dance [s] */
 export function showEnd(box, answer, { begin, end: time }, request) {
   const reason = answer.end?.reason ?? { undecided: "undecided", clear: "turn" }[answer.outcome] ?? "contact";
   const name = reason === "fold" ? benchName(answer.end.bench, request.benches) : "";
-  const words = reason === "contact" ? sayOf("end_contact", request) : say(`end_${reason}`, { name });
+  const words = reason === "contact" ? sayOf("end_contact", request) : say(ENDS[reason], { name });
   const last = answer.end?.time ?? time;
-  show(box, say("end"), `${formatNumber(last, 6, 2)} s`, [words, ...(request.drawn && Math.abs(begin) >= SHOWN ? [say("endBegins", { begin: formatNumber(begin, 6, 2) })] : [])], [paragraph(say("endKnown"))], { digits: `${last.toFixed(6)} s` });
+  show(box, say("End of the run"), `${formatNumber(last, 6, 2)} s`, [words, ...(request.drawn && Math.abs(begin) >= SHOWN ? [say("Times count from 0 s; the dance begins at {begin} s.", { begin: formatNumber(begin, 6, 2) })] : [])], [paragraph(say("From the same search as the answer above."))], { digits: `${last.toFixed(6)} s` });
 }
 
 /** problem: the service's problem; null if it is shown elsewhere; names: of the fields beside which it is shown */
 export function showRefusal(box, title, problem, names) {
-  show(box, say(title), say("unanswered"), []);
+  show(box, say(title), say("No answer"), []);
   if (problem) box.append(make("p", refusalWords(problem)));
-  else box.append(paragraph(names.length ? mendWords(names) : say("seeAbove")));
+  else box.append(paragraph(names.length ? mendWords(names) : say("See the reason above.")));
 }
 
 /** What is to be mended before there is an answer. names: of fields */
-export const mendWords = (names) => say("mend", { names: [...new Set(names)].map((name) => say("quoted", { name: say(name) })).join(say("and")) });
+export const mendWords = (names) => say("An answer appears as soon as {names} is right.", { names: [...new Set(names)].map((name) => say("“{name}”", { name: say(LABELS[name]) })).join(say(" and ")) });
 
 /** The caption of the enlarged view. gap: [m] between the two benches, null while unknown */
 export function insetWords({ benches: [a, b], corner, edge }, gap, request) {
   const name = (bench) => benchName(bench, request.benches);
-  const meet = () => sayOf("insetMeet", request, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) });
-  const words = corner && edge ? meet() : [a, b].map(name).join(say("listed"));
-  return gap === null ? words : `${words}${say("semicolon")}${gapWords(gap)}`;
+  const meet = () => sayOf("insetMeet", request, { corner: say(PLACES[corner.name]), a: name(corner.bench), edge: say(PLACES[edge.name]), b: name(edge.bench) });
+  const words = corner && edge ? meet() : [a, b].map(name).join(between());
+  return gap === null ? words : `${words}${say("; ")}${gapWords(gap)}`;
 }

@@ -4,12 +4,7 @@ import { Crew } from "./crew.js";
 import { Designs } from "./designs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
-import { learn, say } from "./text.js";
-import { BELOW } from "./words/below.js";
-import { COLUMNS } from "./words/columns.js";
-
-learn(BELOW);
-learn(Object.fromEntries(Object.entries(COLUMNS).map(([name, words]) => [`column_${name}`, words])));
+import { say } from "./text.js";
 
 export class Below {
   /**
@@ -33,7 +28,7 @@ export class Below {
 
   /** paths: of the OpenAPI document; limits: name -> [low, high, unit] */
   learn(paths, limits) {
-    this.map.learn(Object.fromEntries(Object.entries(limits).map(([name, [, , unit]]) => [name, unit === "turns" ? say(unit) : unit])));
+    this.map.learn(Object.fromEntries(Object.entries(limits).map(([name, [, , unit]]) => [name, unit === "turns" ? say("turns") : unit])));
     this.keep.offer(paths);
   }
 

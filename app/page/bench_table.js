@@ -16,7 +16,7 @@ export async function tableOfFile(file, service) {
   if (typed !== null) return { text: typed, notes: [] };
   const { dance, notes } = await service.ask("places", "places", { query: { language: language() }, file, headers: bearer() });
   const text = dance?.dragon?.csv ?? null;
-  return { text, notes: text === null ? [say("csvNone", { name: file.name })] : notes };
+  return { text, notes: text === null ? [say("{name} holds no table of benches.", { name: file.name })] : notes };
 }
 
 export class BenchTable {
@@ -33,13 +33,16 @@ export class BenchTable {
     this.service = service;
     this.title = make("summary");
     const described = { "aria-describedby": "csv-help csv-error" };
-    this.text = make("textarea", { id: "csv", rows: ROWS, spellcheck: false, wrap: "off", "data-label": "csv", ...described });
-    this.file = make("input", { type: "file", id: "csv-file", accept: ".csv,.tsv,.txt,.xlsx", "data-label": "csvOpen", hidden: true });
+    this.text = make("textarea", { id: "csv", rows: ROWS, spellcheck: false, wrap: "off", "data-label": "Benches measured one by one", ...described });
+    this.file = make("input", { type: "file", id: "csv-file", accept: ".csv,.tsv,.txt,.xlsx", "data-label": "Open a table …", hidden: true });
     this.error = make("p", { id: "csv-error", className: "error", hidden: true });
     this.note = make("p", { className: "hint" });
-    const acts = { csvOpen: () => this.file.click(), csvBegin: () => this.#begin(), csvClear: () => this.#take("") };
-    const buttons = Object.entries(acts).map(([id, act]) => textButton(id, act, { id }));
-    const help = make("p", { id: "csv-help", className: "hint", "data-text": "csvHelp" });
+    const buttons = [
+      textButton("Open a table …", () => this.file.click(), { id: "csvOpen" }),
+      textButton("Begin with equal benches", () => this.#begin(), { id: "csvBegin" }),
+      textButton("Equal benches again", () => this.#take(""), { id: "csvClear" }),
+    ];
+    const help = make("p", { id: "csv-help", className: "hint", "data-text": "Paste a table or drop a file (CSV, .xlsx), head first, in metres: name (optional), length, width, overhang. Sweeps take equal benches." });
     this.box = make("details", { id: "one-by-one" }, this.title, help, this.text, this.error, this.note, make("p", { className: "buttons" }, ...buttons, this.file));
     group.append(this.box);
     this.#listen();
@@ -89,7 +92,7 @@ export class BenchTable {
   /** Begin with the present equal benches. */
   #begin() {
     const numbers = ["benches", "head_length", "body_length", "width", "overhang"].map((name) => [name, Number(this.state.get(name))]);
-    this.#take(tableOf({ ...Object.fromEntries(numbers), names: [say("theHead")] }));
+    this.#take(tableOf({ ...Object.fromEntries(numbers), names: [say("the head")] }));
   }
 
   show() {
@@ -100,8 +103,8 @@ export class BenchTable {
     this.group.classList.toggle("listed", Boolean(csv));
     $("#csvBegin").hidden = Boolean(csv);
     $("#csvClear").hidden = !csv;
-    this.title.textContent = csv ? say("csvCount", { count: listed.lengths.length }) : say("csv");
-    this.note.textContent = csv && !this.state.fits ? say("csvLong") : "";
+    this.title.textContent = csv ? say("Benches measured one by one: {count}", { count: listed.lengths.length }) : say("Benches measured one by one");
+    this.note.textContent = csv && !this.state.fits ? say("This table is too long for an address: save it as a file to share it.") : "";
   }
 
   /** error: of the service about the table, which names the line; or none */

@@ -3,6 +3,7 @@
 import * as answers from "./answers.js";
 import { $ } from "./elements.js";
 import { passagesText, quickened } from "./passages.js";
+import { phrase } from "./text.js";
 
 /**
  * Functions by the kind of answer.
@@ -17,7 +18,7 @@ export const boxes = ({ questions, state, graphs }) => ({
       if (turns) state.choosePath("spiral");
       state.set({ pitch: String(pitch) });
     };
-    answers.showMinimumPitch($("#minimum-pitch"), answer, request, turns ? "danceSpiral" : "usePitch", use);
+    answers.showMinimumPitch($("#minimum-pitch"), answer, request, turns ? phrase("Dance the spiral of this pitch") : phrase("Use this pitch"), use);
     graphs.curve();
   },
   tolerance() {

@@ -4,6 +4,15 @@ import { strayOf } from "./fields.js";
 import { say } from "./text.js";
 import { extent } from "./square.js";
 
+/** Kinds of dances. @type {Phrases} */
+export const FIGURES = {
+  spiral: "Spiral in and out",
+  eight: "Figure eight",
+  serpentine: "Serpentine",
+  ring: "Ring",
+  parade: "From gate to gate",
+};
+
 /** Angle between two benches that is worth a word [degrees]; stray that is little room for people, and a near distance [m]. */
 const [BEND, LITTLE, NEAR] = [40, 0.1, 0.3];
 /** Room around the picture and width of its lines, as parts of its larger side [1]; most points of a path. */
@@ -17,11 +26,11 @@ const twiceArea = ({ x, y }) => x.reduce((sum, one, k) => sum + one * y[(k + 1) 
 
 /** In which words proposals of one figure may differ, the first ones preferred; gates: their names. course: the part of that of /course that is danced in the square */
 const MARKS = [
-  ({ gates: [a, b] }, _, names) => (a === undefined ? "" : say("title_gates", { a: names[a], b: names[b] })),
-  (_, course) => say("title_wide", { wide: extent(course.x.map((x, k) => [x, course.y[k]])).width.toFixed(0) }),
-  (_, course) => say(twiceArea(course) > 0 ? "title_left" : "title_right"),
-  ({ turns }) => say("title_turns", { turns: turns.toFixed(1) }),
-  ({ length }) => say("title_walk", { length: length.toFixed(0) }),
+  ({ gates: [a, b] }, _, names) => (a === undefined ? "" : say("from {a} to {b}", { a: names[a], b: names[b] })),
+  (_, course) => say("{wide} m wide", { wide: extent(course.x.map((x, k) => [x, course.y[k]])).width.toFixed(0) }),
+  (_, course) => say(twiceArea(course) > 0 ? "to the left" : "to the right"),
+  ({ turns }) => say("{turns} turns", { turns: turns.toFixed(1) }),
+  ({ length }) => say("{length} m", { length: length.toFixed(0) }),
 ];
 
 /** The titles of all proposals; those of one figure are told apart by the first thing in which each differs from all others, else by a number. */
@@ -34,12 +43,12 @@ export function cardTitles({ proposals, courses, yard }, gates) {
     return { x: own.map((k) => x[k]), y: own.map((k) => y[k]) };
   });
   return proposals.map((one, at) => {
-    const figure = say(`figure_${one.figure}`);
+    const figure = say(FIGURES[one.figure]);
     const alike = [...proposals.keys()].filter((k) => proposals[k].figure === one.figure);
     if (alike.length < 2) return figure;
     const words = MARKS.map((mark) => alike.map((k) => mark(proposals[k], danced[k], gates))).find((all) => new Set(all).size === all.length);
     const place = alike.indexOf(at);
-    return say("titleWith", { figure, parts: words?.[place] ?? say("title_number", { number: place + 1 }) });
+    return say("{figure}, {parts}", { figure, parts: words?.[place] ?? say("no. {number}", { number: place + 1 }) });
   });
 }
 
@@ -48,22 +57,22 @@ export function cardWords(proposal, all, square) {
   const { dance, duration, length, tolerance, turns, near, clearance, clearance_in_place: apart, sharpest_bend: bend } = proposal;
   const most = (value) => all.length > 1 && all.every((one) => one === proposal || value(one) < value(proposal) - 1e-3);
   const stray = String(centimetresDown(tolerance));
-  const good = [say(most((one) => one.tolerance) ? "good_tolerance_best" : "good_tolerance", { stray })];
-  if (most((one) => one.duration)) good.push(say("good_long"));
-  if (most((one) => one.turns)) good.push(say("good_turns", { turns: turns.toFixed(1) }));
-  if (most((one) => -(one.sharpest_bend ?? 0))) good.push(say("good_gentle"));
+  const good = [say(most((one) => one.tolerance) ? "Most room: people may be {stray} cm from their places" : "People may be {stray} cm from their places", { stray })];
+  if (most((one) => one.duration)) good.push(say("the longest dance"));
+  if (most((one) => one.turns)) good.push(say("the most turns: {turns}", { turns: turns.toFixed(1) }));
+  if (most((one) => -(one.sharpest_bend ?? 0))) good.push(say("the gentlest bends"));
   const isPair = clearance !== null && clearance < near.distance;
   const [inPlace, strayed] = isPair ? [apart, clearance] : [near.in_place, near.distance];
-  const nearest = say(isPair ? "tight_pair" : near.name === square ? "tight_border" : "tight_near", { distance: inPlace.toFixed(2), name: near.name });
+  const nearest = say(isPair ? "benches that are not neighbours come as near as {distance} m to each other" : near.name === square ? "nobody comes nearer than {distance} m to the border of the square" : "nobody comes nearer than {distance} m to “{name}”", { distance: inPlace.toFixed(2), name: near.name });
   // The distance counts from people in place, as does the stray that is safe.
   const asked = strayOf({ stray: 0, hole: 0, pin: 0, ...dance });
-  const tight = [asked ? nearest + say("tight_strayed", { stray: Number((100 * asked).toFixed(2)), distance: strayed.toFixed(2) }) : nearest];
+  const tight = [asked ? nearest + say(" (at least {distance} m while people stray by {stray} cm)", { stray: Number((100 * asked).toFixed(2)), distance: strayed.toFixed(2) }) : nearest];
   const isTight = Math.min(clearance ?? Infinity, near.distance) < NEAR || degrees(bend ?? 0) > BEND || tolerance < LITTLE;
-  if (degrees(bend ?? 0) > BEND) tight.push(say("tight_bend", { angle: degrees(bend).toFixed(0) }));
-  if (tolerance < LITTLE) tight.push(say("tight_stray", { stray }));
+  if (degrees(bend ?? 0) > BEND) tight.push(say("bends of up to {angle}°", { angle: degrees(bend).toFixed(0) }));
+  if (tolerance < LITTLE) tight.push(say("people may be only {stray} cm from their places", { stray }));
   const benches = dance.dragon.benches ?? dance.dragon.lengths.length;
-  const size = say("cardSize", { benches, time: duration.toFixed(0), length: length.toFixed(0) });
-  return { size, good: good.join(say("comma")), tight: tight.join(say("comma")), isTight };
+  const size = say("{benches} benches, {time} s; the head walks {length} m", { benches, time: duration.toFixed(0), length: length.toFixed(0) });
+  return { size, good: good.join(say(", ")), tight: tight.join(say(", ")), isTight };
 }
 
 const pointsText = (points) => points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");

@@ -3,10 +3,11 @@
 import { Problem, Superseded } from "./api.js";
 import { $, button, hide, make, numberIn, textButton } from "./elements.js";
 import { secondsBetween, timeOfDay } from "./passages.js";
-import { benchTitle, language, learn, refusalWords, say, sentencesOf } from "./text.js";
-import { CARRIER } from "./words/carrier.js";
+import { benchTitle, language, learn, phrase, refusalWords, say, sentencesOf } from "./text.js";
 
-learn(CARRIER);
+/** Where a person stands by a mark: 1 step from it, and more. */
+const PAST = [phrase("You stand 1 step past chalk mark {mark} m (x {x} m, y {y} m)."), phrase("You stand {steps} steps past chalk mark {mark} m (x {x} m, y {y} m).")];
+const BEFORE = [phrase("You stand 1 step before chalk mark {mark} m (x {x} m, y {y} m)."), phrase("You stand {steps} steps before chalk mark {mark} m (x {x} m, y {y} m).")];
 
 /** Time between two pictures, in motion and with reduced motion [ms]. */
 const [FRAME, STEP] = [50, 500];
@@ -64,26 +65,26 @@ export class Carrier {
     this.draw = show;
     this.still = matchMedia("(prefers-reduced-motion: reduce)");
     this.title = make("h1", { id: "carrier-title" });
-    this.number = make("input", { id: "card-bench", inputMode: "numeric", autocomplete: "off", "data-label": "cardBench", onchange: ({ target }) => this.#choose(target) });
-    this.dragon = make("select", { id: "card-dragon", "data-label": "cardDragon", onchange: ({ target }) => choose(Number(target.value)) });
+    this.number = make("input", { id: "card-bench", inputMode: "numeric", autocomplete: "off", "data-label": "Bench", onchange: ({ target }) => this.#choose(target) });
+    this.dragon = make("select", { id: "card-dragon", "data-label": "Dragon", onchange: ({ target }) => choose(Number(target.value)) });
     this.other = button({}, () => state.set({ lang: LANGUAGES.find((one) => one !== language()) }));
-    const close = button({ "data-label": "cardClose", textContent: "✕" }, () => state.push({ bench: null, view: null }));
+    const close = button({ "data-label": "Close", textContent: "✕" }, () => state.push({ bench: null, view: null }));
     this.clock = make("p", { className: "clock" });
     this.when = make("p", { className: "when" });
     this.stand = make("p", { className: "stand" });
     this.beside = make("p", { className: "beside" });
     this.note = make("p", { className: "hint" });
     this.cue = make("p", { className: "cue", "aria-live": "polite" });
-    this.start = textButton("cardStart", () => this.#begin(this.#span.begin), { className: "main", id: "card-start" });
-    this.byClock = textButton("cardClock", () => this.#goByClock(), { id: "card-clock" });
-    this.again = textButton("cardAgain", () => this.#begin(this.#span.begin));
+    this.start = textButton("Start", () => this.#begin(this.#span.begin), { className: "main", id: "card-start" });
+    this.byClock = textButton("By the clock", () => this.#goByClock(), { id: "card-clock" });
+    this.again = textButton("Start again", () => this.#begin(this.#span.begin));
     const correct = (key, seconds) => textButton(key, () => this.#begin(this.#now + seconds), { "data-correct": seconds });
-    this.corrections = [correct("cardEarlier", -CORRECTION), correct("cardLater", CORRECTION)];
+    this.corrections = [correct(phrase("We are 5 s behind"), -CORRECTION), correct(phrase("We are 5 s ahead"), CORRECTION)];
     this.list = make("ol", { "aria-labelledby": "card-cues" });
-    const heading = make("h2", { id: "card-cues", "data-text": "cardCues" });
+    const heading = make("h2", { id: "card-cues", "data-text": "All cues" });
     const row = (...parts) => make("p", { className: "row" }, ...parts);
     this.present = make("div", {}, this.when, this.cue);
-    this.box = make("section", { id: "carrier", "aria-labelledby": "carrier-title" }, row(this.title, this.dragon, make("label", {}, make("span", { "data-text": "cardBench" }), this.number), this.other, close), this.clock, this.present, row(this.start));
+    this.box = make("section", { id: "carrier", "aria-labelledby": "carrier-title" }, row(this.title, this.dragon, make("label", {}, make("span", { "data-text": "Bench" }), this.number), this.other, close), this.clock, this.present, row(this.start));
     this.more = make("section", { id: "card-more", "aria-labelledby": "card-cues" }, this.stand, this.beside, heading, this.list, row(...this.corrections, this.again, this.byClock), this.note);
     $("#front").prepend(this.box);
     $("#dance").after(this.more);
@@ -169,6 +170,7 @@ export class Carrier {
     const own = { ...this.questions.cued, cards: [of.bench] };
     try {
       for (const one of [language(), ...LANGUAGES.filter((other) => other !== language())]) {
+        await learn(this.service, one, "more");
         const { cards } = await this.service.ask("cues", "cues", { body: { ...this.#body(one), ...own, language: one } });
         if (of !== this.#of) return;
         this.#cards[one] = cards[0];
@@ -186,7 +188,7 @@ export class Carrier {
   #body(lang) {
     const { dance } = this.questions;
     if (!dance.parts) return this.questions.danced();
-    return { ...dance.file, dances: dance.file.dances.map((one, k) => ({ ...one, name: dance.parts[k].names[lang] })), part: dance.active };
+    return { ...dance.file, dances: dance.file.dances.map((one, k) => ({ ...one, name: dance.parts[k].nameIn(lang) })), part: dance.active };
   }
 
   /** Go on as before the page was loaded again, or by the clock of the dance. */
@@ -261,16 +263,16 @@ export class Carrier {
     const card = this.#card;
     const benches = dance?.numbers.benches ?? Infinity;
     const name = (k) => benchTitle(k, benches);
-    const bench = this.#bench < benches ? name(this.#bench) : `${say("cardBench")} ${this.#bench}`;
-    const dragons = dance?.parts?.map(({ names }) => names[language()]) ?? [];
+    const bench = this.#bench < benches ? name(this.#bench) : `${say("Bench")} ${this.#bench}`;
+    const dragons = dance?.parts?.map(({ nameIn }) => nameIn(language())) ?? [];
     this.dragon.replaceChildren(...dragons.map((textContent, value) => make("option", { value, textContent, selected: value === dance.active })));
     this.dragon.hidden = !dragons.length;
-    this.title.textContent = dragons.length ? say("cardOf", { bench, dragon: dragons[dance.active] }) : bench;
-    document.title = `${this.title.textContent} · ${say("title")}`;
+    this.title.textContent = dragons.length ? say("{dragon}: {bench}", { bench, dragon: dragons[dance.active] }) : bench;
+    document.title = `${this.title.textContent} · ${say("Bench Dragon")}`;
     const { ahead, behind, start } = card ?? {};
-    const key = ahead ? (behind ? "cardNeighbours" : "cardLast") : behind ? "cardFirst" : "cardAlone";
+    const key = ahead ? (behind ? phrase("Before you: {ahead}. Behind you: {behind}.") : phrase("Before you: {ahead}. Nobody is behind you.")) : behind ? phrase("You lead. Behind you: {behind}.") : phrase("You dance alone.");
     this.beside.textContent = card ? say(key, { ahead: ahead && name(ahead.bench), behind: behind && name(behind.bench) }) : "";
-    const stands = start && (start.steps ? `${start.steps > 0 ? "standPast" : "standBefore"}${Math.abs(start.steps) === 1 ? "One" : ""}` : "standAt");
+    const stands = start && (start.steps ? (start.steps > 0 ? PAST : BEFORE)[Math.min(Math.abs(start.steps), 2) - 1] : phrase("You stand at chalk mark {mark} m (x {x} m, y {y} m)."));
     this.stand.textContent = card ? say(stands, { mark: start.mark, steps: Math.abs(start.steps), x: start.x.toFixed(1), y: start.y.toFixed(1) }) : "";
     this.list.replaceChildren(...(card?.cues ?? []).map((cue) => make("li", {}, make("span", { textContent: this.#timeOf(cue.time) }), make("span", { textContent: cue.words }))));
     this.byClock.hidden = !dance?.clock;
@@ -282,13 +284,13 @@ export class Carrier {
     const isWhole = this.#track?.isWhole;
     const cards = Object.keys(this.#cards).length === LANGUAGES.length;
     const isLarge = this.#track?.cells > HELD_MOST;
-    const held = cards && isWhole ? "cardHeld" : cards && isLarge ? "cardPart" : "cardLoading";
-    const distances = this.#card?.cues.some(({ nearest }) => nearest) ? ["cardDistances"] : [];
+    const held = cards && isWhole ? phrase("All is here: it goes on without the network while this page stays open. Do not reload it then.") : cards && isLarge ? phrase("The cues are here while this page stays open. The dance is too large to hold its picture, which needs the network.") : phrase("Loading: stay within reach of the network.");
+    const distances = this.#card?.cues.some(({ nearest }) => nearest) ? [phrase("Distances are from edge to edge when the other bench is straight to your side; before and after it may be nearer.")] : [];
     const { answer = null } = this.questions.dance ?? {};
-    const until = answer && answer.time !== null ? ["cardUntil"] : [];
-    const words = [...until, ...distances, this.#network ? held : "cardOffline", this.#lock ? "cardAwake" : "cardAsleep"];
-    this.note.textContent = sentencesOf(words.map((key) => say(key)));
-    this.box.dataset.held = String(held === "cardHeld");
+    const until = answer && answer.time !== null ? [phrase("Benches touch in this dance: the cues end there.")] : [];
+    const words = [...until, ...distances, this.#network ? held : phrase("No network: the card goes on while this page stays open. Do not reload it."), this.#lock ? phrase("The screen stays on.") : phrase("Set your device so that its screen stays on.")];
+    this.note.textContent = sentencesOf(words.map((one) => say(one)));
+    this.box.dataset.held = String(Boolean(cards && isWhole));
     this.box.dataset.awake = String(Boolean(this.#lock));
   }
 
@@ -322,9 +324,9 @@ export class Carrier {
     const [cue, at] = present ? [present, present.until] : [next, next?.since];
     this.present.classList.toggle("present", Boolean(present));
     const left = minutesAndSeconds(Math.max(at - time, 0));
-    const lacks = this.#bench >= benches ? say("cardNone", { bench: this.#bench, last: benches - 1 }) : refusal ? refusalWords(refusal).textContent : "";
-    put(this.when, lacks || isOver || !cue || !isGoing ? "" : !present ? say("cardIn", { time: left }) : at > time ? say("cardPaused", { time: left }) : say("cardNow"));
-    const words = isOver ? say(dance.answer.time === null ? "cardOver" : "cardTouches") : isGoing ? (cue?.words ?? "") : sentencesOf([say("cardNotBegun"), cue && `${say("cardNext")}${say("colon")}${cue.words}`]);
+    const lacks = this.#bench >= benches ? say("This dragon has no bench {bench}: its tail is bench {last}.", { bench: this.#bench, last: benches - 1 }) : refusal ? refusalWords(refusal).textContent : "";
+    put(this.when, lacks || isOver || !cue || !isGoing ? "" : !present ? say("in {time}", { time: left }) : at > time ? say("still {time}", { time: left }) : say("Now"));
+    const words = isOver ? say(dance.answer.time === null ? "The dance is over." : "Stop: benches touch here, and the cues end.") : isGoing ? (cue?.words ?? "") : sentencesOf([say("Press Start when the dance begins."), cue && `${say("Next")}${say(": ")}${cue.words}`]);
     put(this.cue, lacks || words);
     [...this.list.children].forEach((row, k) => (row.className = cues[k] === cue ? "following" : isGoing && cues[k].until <= time ? "past" : ""));
   }

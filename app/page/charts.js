@@ -1,7 +1,7 @@
 /** Charts by uPlot: clearance over time, and against the pitch stray and radius at first contact; and ticks of all axes. */
 
 import { SMALL_TYPE, colours, inType, make } from "./elements.js";
-import { say } from "./text.js";
+import { phrase, say } from "./text.js";
 
 const HEIGHT = 240;
 /** Upper end of a scale, as a multiple of its highest value [1]. */
@@ -123,7 +123,7 @@ export function clearancePlan({ time, clearance, grazes, margin, contact }) {
   const low = 1000 * Math.min(0, ...clearance);
   const high = 1000 * Math.max(margin, ...clearance) || 1;
   return {
-    labels: ["timeAxis", "clearanceAxis"],
+    labels: [phrase("time [s]"), phrase("clearance [mm]")],
     table: [time, clearance.map((one) => 1000 * one)],
     range: [ABOVE * low - 0.04 * high, ABOVE * high],
     width: 1.5,
@@ -141,7 +141,7 @@ export function clearancePlan({ time, clearance, grazes, margin, contact }) {
  */
 export function curvePlan({ pitch, stray, own, least }) {
   return {
-    labels: ["pitchAxis", "strayAxis"],
+    labels: [phrase("pitch [m]"), phrase("stray [cm]")],
     table: [pitch, stray.map((one) => 100 * one)],
     range: [0, 100 * ABOVE * Math.max(own, ...stray)],
     width: 2,
@@ -160,7 +160,7 @@ export function scanPlan({ pitch, radius, pieces, jumps, minimum_pitch, circle, 
   const samples = pitch.map((one, k) => [one, radius[k]]);
   const stretches = coarse ? [samples].filter((points) => points.length) : staircase(samples, pieces, jumps);
   return {
-    labels: ["pitchAxis", "radiusAxis"],
+    labels: [phrase("pitch [m]"), phrase("radius [m]")],
     table: [pitch, radius],
     range: [0, ABOVE * Math.max(circle, ...radius)],
     width: 0,

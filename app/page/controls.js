@@ -4,9 +4,17 @@
  */
 
 import { $$, button, make, onClick, onSlide } from "./elements.js";
-import { FIELDS } from "./fields.js";
+import { EMPTY_NAMES, FIELDS, HELPS, LABELS } from "./fields.js";
 import { Pause } from "./pending.js";
 import { refusalWords, say } from "./text.js";
+
+/** Groups of numbers. @type {Phrases} */
+const GROUPS = {
+  path: "Path",
+  dragon: "Dragon",
+  motion: "Motion",
+  people: "People",
+};
 
 /** A typed number counts after this pause [ms], or with Enter, so that half-typed numbers are not sent. */
 const TYPING = 300;
@@ -42,13 +50,13 @@ export class Controls {
     form.addEventListener("submit", (event) => event.preventDefault());
     onClick("#reset-all", () => state.reset());
     for (const [group, fields] of Map.groupBy(FIELDS, (field) => field.group)) {
-      const legend = make("legend", { "data-text": group, className: "unseen" });
+      const legend = make("legend", { "data-text": GROUPS[group], className: "unseen" });
       form.append(make("fieldset", { "data-group": group }, legend, ...fields.map((field) => this.#row(field))));
     }
     // The default pitch and the set of numbers depend on the path.
     state.listen((names) => names.forEach((name) => this.#show(name === "path" ? "pitch" : name)));
     state.listen((names) => names.has("path") && this.#offer());
-    form.append(button({ id: "more", "aria-expanded": "false", "data-text": "more" }, null));
+    form.append(button({ id: "more", "aria-expanded": "false", "data-text": "More numbers and answers" }, null));
     this.#offer();
     for (const type of ["focusin", "focusout"]) form.addEventListener(type, ({ target }) => this.#point(type === "focusin" ? target.id : null));
   }
@@ -75,8 +83,8 @@ export class Controls {
     onSlide(row.slider, () => change({ target: row.slider }));
     this.#rows.set(name, row);
     this.#show(name);
-    const label = make("label", { htmlFor: name, "data-text": name });
-    const help = make("span", { id: `${name}-help`, className: "help", "data-text": `${name}_is` });
+    const label = make("label", { htmlFor: name, "data-text": LABELS[name] });
+    const help = make("span", { id: `${name}-help`, className: "help", "data-text": HELPS[name] });
     const what = make("div", { className: "what" }, label, help, row.limits);
     row.box = make("div", { className: "field", "data-field": name, "data-doors": doors.join(" ") }, what, row.text, row.unit, row.reset, row.ends[0], row.slider, row.ends[1], row.error);
     return row.box;
@@ -122,14 +130,14 @@ export class Controls {
   /** limits: name -> [low, high, unit] as the service states them */
   translate(limits) {
     for (const [name, row] of this.#rows) {
-      const nameOfField = { name: say(name) };
-      row.slider.setAttribute("aria-label", say("slider", nameOfField));
-      row.reset.setAttribute("aria-label", say("reset", nameOfField));
-      row.ends.forEach((field, k) => field.setAttribute("aria-label", say(ENDS[k] === "min" ? "sliderFrom" : "sliderTo", nameOfField)));
+      const nameOfField = { name: say(LABELS[name]) };
+      row.slider.setAttribute("aria-label", say("{name}, slider", nameOfField));
+      row.reset.setAttribute("aria-label", say("Reset {name}", nameOfField));
+      row.ends.forEach((field, k) => field.setAttribute("aria-label", say(ENDS[k] === "min" ? "Slider of {name} begins at" : "Slider of {name} ends at", nameOfField)));
       const [low, high, unit = ""] = limits[name] ?? [];
-      row.unit.textContent = unit === "turns" ? say(unit) : FACTORS[name] > 1 ? "cm" : unit;
-      row.limits.textContent = low === undefined ? "" : say(name === "stray" ? "limits_stray" : "limits", { low: low * FACTORS[name], high: high * FACTORS[name] });
-      if (this.state.initial(name) === "") row.text.placeholder = say(`${name}_none`);
+      row.unit.textContent = unit === "turns" ? say("turns") : FACTORS[name] > 1 ? "cm" : unit;
+      row.limits.textContent = low === undefined ? "" : say(name === "stray" ? "{low} to half of the shortest distance between two handles" : "{low} to {high}", { low: low * FACTORS[name], high: high * FACTORS[name] });
+      if (this.state.initial(name) === "") row.text.placeholder = say(EMPTY_NAMES[name]);
     }
   }
 

@@ -2,12 +2,13 @@
 
 import { moved, pointsOf, removed } from "./changes.js";
 import { button, hide, make, numberIn } from "./elements.js";
+import { NAMES } from "./route.js";
 import { measures } from "./square.js";
-import { say } from "./text.js";
+import { phrase, say } from "./text.js";
 
 /** Largest coordinate and length that the service takes [m], and number of corners whose list opens by itself. */
 const [MOST, FEW] = [1e5, 12];
-const HEADS = ["corner", "x", "y", "cornerNext", "cornerAngle", "remove"];
+const HEADS = [phrase("Corner"), "x [m]", "y [m]", NAMES.cornerNext, phrase("angle"), phrase("Remove")];
 
 export class Corners {
   #rows = [];
@@ -24,7 +25,7 @@ export class Corners {
     this.refuse = refuse;
     this.title = make("summary");
     this.body = make("tbody");
-    const heads = HEADS.map((key) => make("th", { scope: "col", ...(key.length === 1 ? { textContent: `${key} [m]` } : { "data-text": key }) }));
+    const heads = HEADS.map((words) => make("th", { scope: "col", "data-text": words }));
     this.box = make("details", { id: "corners" }, this.title, make("table", {}, make("thead", {}, make("tr", {}, ...heads)), this.body));
   }
 
@@ -42,10 +43,10 @@ export class Corners {
       const number = numberIn(target.value);
       const isRight = typeof number === "number" && Math.abs(number) <= MOST;
       target.setAttribute("aria-invalid", !isRight);
-      this.refuse(isRight ? null : () => say("noNumberIn", { what: say(key), low: -MOST, high: MOST, text: target.value }));
+      this.refuse(isRight ? null : () => say("“{what}” must be a number from {low} to {high}; you typed “{text}”. The dance stays as it was.", { what: say(NAMES[key]), low: -MOST, high: MOST, text: target.value }));
       if (isRight) this.steps.take(take(number));
     };
-    return make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, "aria-label": say(key), onchange, "data-corner": k });
+    return make("input", { inputMode: "decimal", autocomplete: "off", "data-label": NAMES[key], "aria-label": say(NAMES[key]), onchange, "data-corner": k });
   }
 
   /** The drawing with the next corner at this distance from corner k, in the same direction. */
@@ -61,7 +62,7 @@ export class Corners {
     const at = (axis, value) => moved(this.#drawing, this.editor.item, k, this.#points()[k].with(axis, value));
     const fields = [this.#field("pointX", k, (x) => at(0, x)), this.#field("pointY", k, (y) => at(1, y)), this.#field("cornerNext", k, (length) => this.#lengthened(length, k))];
     const angle = make("td");
-    const drop = button({ className: "reset", textContent: "✕", "data-label": "remove", "aria-label": say("remove") }, () => this.steps.take(removed(this.#drawing, this.editor.item, k)));
+    const drop = button({ className: "reset", textContent: "✕", "data-label": "Remove", "aria-label": say("Remove") }, () => this.steps.take(removed(this.#drawing, this.editor.item, k)));
     const row = make("tr", {}, make("th", { scope: "row", textContent: k + 1 }), ...fields.map((one) => make("td", {}, one)), angle, make("td", {}, drop));
     return { fields, angle, row };
   }
@@ -83,7 +84,7 @@ export class Corners {
     }
     if (this.#item !== item) this.box.open = points.length <= FEW;
     this.#item = item;
-    this.title.textContent = say(points.length === 1 ? "cornersOf_one" : "cornersOf", { name, count: points.length });
+    this.title.textContent = say(points.length === 1 ? "Place of “{name}”" : "Corners of “{name}”: {count}", { name, count: points.length });
     const { lengths, angles } = measures(points, kind !== "wall");
     this.#rows.forEach(({ fields, angle }, k) => {
       const next = points.length > 1 ? lengths[k] : null;

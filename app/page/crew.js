@@ -4,11 +4,11 @@ import { Problem, Superseded } from "./api.js";
 import { $, button, download, make, numberIn, textButton } from "./elements.js";
 import { announce } from "./overlays.js";
 import { clockIn } from "./passages.js";
-import { benchTitle, language, refusalWords, say, sentencesOf } from "./text.js";
+import { benchTitle, between, language, phrase, refusalWords, say, sentencesOf } from "./text.js";
 
 /** Numbers of the form: the field of the service, its key, its first value; an empty one is left to the service. */
-const NUMBERS = { head_people: ["crewHead", "8"], bench_people: ["crewBench", "2"], spares: ["crewSpares", "0"], shift: ["crewShift", ""], rest: ["crewRest", "0"] };
-const POINT = { x: ["crewX", ""], y: ["crewY", ""] };
+const NUMBERS = { head_people: [phrase("on the head"), "8"], bench_people: [phrase("on every other bench"), "2"], spares: [phrase("spares"), "0"], shift: [phrase("shift [s]"), ""], rest: [phrase("least rest [s]"), "0"] };
+const POINT = { x: [phrase("change near x [m]"), ""], y: [phrase("and y [m]"), ""] };
 const FORMS = { PDF: "application/pdf", CSV: "text/csv" };
 const MINUTE = 60;
 
@@ -29,18 +29,18 @@ export class Crew {
     this.service = service;
     this.questions = questions;
     this.player = player;
-    const field = ([name, [key, value]]) => make("label", { className: "line" }, make("span", { "data-text": key }), make("input", { id: `crew-${name}`, value, inputMode: "decimal", autocomplete: "off" }));
+    const field = ([name, [words, value]]) => make("label", { className: "line" }, make("span", { "data-text": words }), make("input", { id: `crew-${name}`, value, inputMode: "decimal", autocomplete: "off" }));
     this.at = make("input", { id: "crew-at", autocomplete: "off", placeholder: "0" });
     this.result = make("div", { id: "crew-result", "aria-live": "polite" });
     const save = Object.keys(FORMS).map((form) => button({ id: `crew-${form}`, textContent: form }, () => this.#save(form)));
     this.box = make(
       "details",
       { id: "crew" },
-      make("summary", { "data-text": "crewTitle" }),
-      make("p", { className: "hint", "data-text": "crewHelp" }),
+      make("summary", { "data-text": "Who carries when" }),
+      make("p", { className: "hint", "data-text": "People change after a shift, or where a bench passes a point; spares come in. Empty: not so." }),
       ...Object.entries({ ...NUMBERS, ...POINT }).map(field),
-      make("label", { className: "line" }, make("span", { "data-text": "crewAt" }), this.at),
-      make("p", { className: "buttons" }, textButton("crewAsk", () => this.#ask(), { className: "main", id: "crew-ask" }), ...save),
+      make("label", { className: "line" }, make("span", { "data-text": "Who is where at [s], or 19:45" }), this.at),
+      make("p", { className: "buttons" }, textButton("Plan the crew", () => this.#ask(), { className: "main", id: "crew-ask" }), ...save),
       this.result,
     );
     $("#cues").before(this.box);
@@ -50,6 +50,11 @@ export class Crew {
   /** The time shown is the one asked about, until a person types another. */
   #open() {
     if (this.box.open && !this.at.value) this.at.value = this.player.time.toFixed(0);
+  }
+
+  /** What the service is asked about the shown dance, as a text; empty without one. */
+  get #dance() {
+    return this.questions.dance ? JSON.stringify(this.questions.danced()) : "";
   }
 
   /** {path, body} of the question. throws: Problem for what is no number */
@@ -67,9 +72,8 @@ export class Crew {
   }
 
   async #ask() {
-    const { dance } = this.questions;
-    if (!dance) return;
-    [this.#problem, this.#of] = [null, dance];
+    if (!this.questions.dance) return;
+    [this.#problem, this.#of] = [null, this.#dance];
     try {
       this.#answer = await this.service.ask("crew", "crew", { body: this.#question() });
     } catch (error) {
@@ -84,7 +88,7 @@ export class Crew {
     try {
       const name = `crew.${form.toLowerCase()}`;
       download(await this.service.ask(`crew ${form}`, "crew", { body: this.#question(), accept: FORMS[form] }), name);
-      announce(() => say("saved", { name }));
+      announce(() => say("Saved {name}.", { name }));
     } catch (error) {
       if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
@@ -97,17 +101,17 @@ export class Crew {
   show() {
     if (this.#problem) return this.result.replaceChildren(make("p", { className: "error", ...refusalWords(this.#problem) }));
     // People of another dance are none of this one.
-    if (!this.#answer || this.#of !== this.questions.dance) return this.result.replaceChildren();
+    if (!this.#answer || this.#of !== this.#dance) return this.result.replaceChildren();
     const { people, spares, changes, longest, enough, unrelieved, at, carriers, start, stop } = this.#answer;
-    const parts = [make("p", { textContent: say("crewIs", { people, spares, changes, longest: minutes(longest) }) })];
-    const never = unrelieved.length ? [say("crewNever", { count: unrelieved.length, benches: this.#of.numbers.benches })] : [];
-    if (spares < enough) parts.push(make("p", { className: "error", textContent: sentencesOf([say("crewLack", { enough }), ...never]) }));
+    const parts = [make("p", { textContent: say("{people} people, {spares} of them spare; {changes} changes; nobody carries longer than {longest} without a break.", { people, spares, changes, longest: minutes(longest) }) })];
+    const never = unrelieved.length ? [say("{count} of {benches} benches never change.", { count: unrelieved.length, benches: this.questions.dance.numbers.benches })] : [];
+    if (spares < enough) parts.push(make("p", { className: "error", textContent: sentencesOf([say("Too few spares: not everybody can go out at every change. {enough} spares are enough.", { enough }), ...never]) }));
     if (at) parts.push(this.#roll(at));
     this.result.replaceChildren(...parts, this.#people(carriers, start, stop));
   }
 
   #table(title, heads, rows) {
-    const head = make("tr", {}, ...heads.map((key) => make("th", { scope: "col", textContent: say(key) })));
+    const head = make("tr", {}, ...heads.map((words) => make("th", { scope: "col", textContent: say(words) })));
     const cell = (content, k) => make(k ? "td" : "th", k ? {} : { scope: "row" }, content);
     const body = rows.map((cells) => make("tr", {}, ...cells.map(cell)));
     return make("details", { open: true }, make("summary", { textContent: title }), make("table", {}, make("thead", {}, head), make("tbody", {}, ...body)));
@@ -115,9 +119,9 @@ export class Crew {
 
   /** Who is where at the time asked about. */
   #roll({ time, clock, benches, resting }) {
-    const rows = benches.map(({ bench, people, mark }) => [benchTitle(bench, benches.length), people.join(say("listed")), String(mark)]);
-    const box = this.#table(say("crewAtTime", { time: clock ?? `${time} s` }), ["crewOfBench", "crewPeople", "crewMark"], rows);
-    box.append(make("p", { textContent: say(resting.length ? "crewResting" : "crewNoneRests", { names: resting.join(say("listed")) }) }));
+    const rows = benches.map(({ bench, people, mark }) => [benchTitle(bench, benches.length), people.join(between()), String(mark)]);
+    const box = this.#table(say("Who is where at {time}", { time: clock ?? `${time} s` }), [phrase("bench"), phrase("people"), phrase("mark")], rows);
+    box.append(make("p", { textContent: say(resting.length ? "Resting: {names}." : "Nobody rests.", { names: resting.join(between()) }) }));
     return box;
   }
 
@@ -126,13 +130,13 @@ export class Crew {
     const share = (time) => `${(100 * (time - start)) / (stop - start)}%`;
     const line = (spells) => {
       const bars = spells.map(({ begin, end, bench }) => {
-        const bar = make("i", { title: `${bench}${say("colon")}${minutes(begin - start)}–${minutes(end - start)}` });
+        const bar = make("i", { title: `${bench}${say(": ")}${minutes(begin - start)}–${minutes(end - start)}` });
         Object.assign(bar.style, { left: share(begin), width: share(start + end - begin) });
         return bar;
       });
-      return make("span", { className: "bars", role: "img", "aria-label": spells.map(({ begin, end, bench }) => say("crewSpell", { bench, begin: minutes(begin - start), end: minutes(end - start) })).join(say("comma")) }, ...bars);
+      return make("span", { className: "bars", role: "img", "aria-label": spells.map(({ begin, end, bench }) => say("bench {bench} from {begin} to {end}", { bench, begin: minutes(begin - start), end: minutes(end - start) })).join(say(", ")) }, ...bars);
     };
     const rows = carriers.map(({ label, time, way, spells }) => [label, minutes(time), way.toFixed(0), line(spells)]);
-    return this.#table(say("crewCarriers"), ["crewPerson", "crewMinutes", "crewMetres", "crewTimeline"], rows);
+    return this.#table(say("Everybody's minutes and metres"), [phrase("person"), phrase("time"), phrase("way [m]"), phrase("when")], rows);
   }
 }

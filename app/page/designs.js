@@ -24,7 +24,7 @@ export class Designs {
 
   #show(columns, spec) {
     this.#spec = spec ?? null;
-    this.map.show(columns, QUESTIONS[spec?.question]?.value, `value_${spec?.question}`);
+    this.map.show(columns, QUESTIONS[spec?.question]?.value, QUESTIONS[spec?.question]?.named);
   }
 
   /** Show the dance of one design. over: its parameters; row: all columns of it */

@@ -59,8 +59,8 @@ export class Doors {
   refuse() {
     const { noDoor, strange, unread } = this.state;
     const [first] = [...unread, ...strange];
-    if (noDoor !== null) announce(() => say("noDoor", { door: noDoor.slice(0, LONGEST) }));
-    else if (first) announce(() => say("notKnown", { text: first.join("=").slice(0, LONGEST) }));
+    if (noDoor !== null) announce(() => say("The page has no door “{door}”: here is everything.", { door: noDoor.slice(0, LONGEST) }));
+    else if (first) announce(() => say("This page does not know “{text}” in the address: here is the rest.", { text: first.join("=").slice(0, LONGEST) }));
   }
 
   /** Show what belongs to the door. */

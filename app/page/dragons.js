@@ -3,7 +3,7 @@
 import { Problem, Superseded } from "./api.js";
 import { SPAN, announceOpened } from "./files.js";
 import { benchesOf, numbersOfListed } from "./benches.js";
-import { EMPTY, drawingOf, fromAddress, isArea, isWhole, keptVenueOf, venueOf } from "./drawing.js";
+import { EMPTY, THINGS, drawingOf, fromAddress, isArea, isWhole, keptVenueOf, venueOf } from "./drawing.js";
 import { $, button, download, hide, make, numberIn, textButton } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { stepsOf } from "./history.js";
@@ -16,12 +16,17 @@ import { isPresetVenue } from "./presets.js";
 import { isFurther, queued } from "./queue.js";
 import { announceSaved } from "./saved.js";
 import { circle, isInside, onBorder } from "./square.js";
-import { benchName, language, learn, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
+import { benchName, between, language, phrase, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
-import { DRAGONS } from "./words/dragons.js";
-import { ROUTE } from "./words/route.js";
 
-learn({ ...ROUTE, ...DRAGONS });
+/** Dances to begin with. @type {Phrases} */
+const PRESET_NAMES = {
+  spiral: "two in one spiral",
+  streets: "streets that cross",
+  parade: "a parade of three",
+};
+/** Names of the first dragons. */
+const COLOURED = [phrase("red"), phrase("blue"), phrase("green")];
 
 /** Colours of the dragons on a light and on a dark ground; each can be read as a name beside its head. */
 const LIGHT = ["#b3261e", "#0b5cad", "#1a6f33", "#a3158f", "#b85c00", "#0f7b7b", "#6b5b95", "#7a5200"];
@@ -85,18 +90,18 @@ export class Dragons {
     /** The dragons of which no delay of the last one is known to be safe: {text, k, problem: of the search, or null}; null without. @type {any} */
     this.note = null;
     this.apart = make("p", { className: "error", id: "dragons-apart", role: "status", hidden: true });
-    const presets = Object.keys(PRESETS).map((name) => textButton(`dragons_${name}`, () => this.begin(name), { "data-dragons": name }));
+    const presets = Object.entries(PRESET_NAMES).map(([name, words]) => textButton(words, () => this.begin(name), { "data-dragons": name }));
     this.panel = make(
       "div",
       { hidden: true },
-      make("h2", { id: "dragons-title", "data-text": "dragonsTitle" }),
-      make("p", { className: "hint", "data-text": "dragonsHelp" }),
+      make("h2", { id: "dragons-title", "data-text": "Dragons" }),
+      make("p", { className: "hint", "data-text": "The numbers below are those of the chosen dragon. All dance on one clock. Arrow keys move along a row." }),
       this.list,
       this.wrong,
       this.apart,
-      make("p", { className: "buttons" }, textButton("dragonAdd", () => this.add(), { id: "dragon-add" }), textButton("dragonSave", () => this.#save(), { id: "dragons-save" }), textButton("dragonsClose", () => this.#close(), { id: "dragons-close" })),
+      make("p", { className: "buttons" }, textButton("Add a dragon", () => this.add(), { id: "dragon-add" }), textButton("Save all as a file", () => this.#save(), { id: "dragons-save" }), textButton("One dragon again", () => this.#close(), { id: "dragons-close" })),
     );
-    this.offer = make("p", { className: "buttons" }, make("span", { className: "hint", "data-text": "dragonsOr" }), ...presets);
+    this.offer = make("p", { className: "buttons" }, make("span", { className: "hint", "data-text": "Or begin with:" }), ...presets);
     this.box.append(this.panel, this.offer);
     this.judgement = new Judgement($("#judgement"), (failure) => player.seek(failure.time), () => {});
   }
@@ -111,7 +116,7 @@ export class Dragons {
   }
 
   #nameOf(records, k, lang = language()) {
-    return records[k].name || (k < 3 ? sayIn(lang, `dragon_${k + 1}`) : sayIn(lang, "dragonNumber", { number: k + 1 }));
+    return records[k].name || (k < COLOURED.length ? sayIn(lang, COLOURED[k]) : sayIn(lang, "dragon {number}", { number: k + 1 }));
   }
 
   #colourOf = (record, k) => (/^#[0-9a-f]{6}$/.test(record.colour ?? "") ? record.colour : (isDark() ? DARK : LIGHT)[k % LIGHT.length]);
@@ -161,15 +166,15 @@ export class Dragons {
     const [isOwn, fits] = [!isPresetVenue(drawing), holds(drawing, records.map((record) => this.#valuesOf(record)))];
     const values = this.#valuesOf(records[0], isOwn && fits ? drawing : { ...EMPTY, limit: isOwn ? drawing.limit : null });
     this.#take(records, 0, { ...values, time: null, view: null, follow: false });
-    if (isOwn && !fits) announce(() => say("dragonsAlone"), false, true);
+    if (isOwn && !fits) announce(() => say("This example does not fit into your square and stands without it; undo brings your square back."), false, true);
   }
 
   /** Open a FILE of several. name: of the file */
   open({ dances, venue = null, speed_limit: limit = null, start_clock: clock = "", begin_clock: begins = "", ...limits }, name) {
     const foreign = dances.findIndex(({ path }) => isForeign(path));
-    if (foreign >= 0) return announce(() => say("dragonForeign", { name: dances[foreign].name ?? say("dragonNumber", { number: foreign + 1 }) }));
+    if (foreign >= 0) return announce(() => say("{name}: the page shows spirals around x = y = 0 that are danced clockwise; use the command for this file.", { name: dances[foreign].name ?? say("dragon {number}", { number: foreign + 1 }) }));
     const records = dances.map(recordOf);
-    const square = drawingOf({ path: null, venue, speed_limit: limit }, (kind) => say(`thing_${kind}`));
+    const square = drawingOf({ path: null, venue, speed_limit: limit }, (kind) => say(THINGS[kind]));
     const numbers = Object.fromEntries(CONTACT.map((one) => [one, typeof limits[one] === "number" ? String(limits[one]) : this.state.initial(one)]));
     this.#take(records, 0, { ...this.#valuesOf(records[0], square), ...numbers, start_clock: clock, begin_clock: begins, time: null, view: null, handle: null });
     announceOpened(name, SPAN.filter((one) => typeof limits[one] === "number"));
@@ -243,7 +248,7 @@ export class Dragons {
     if (!is) return;
     const { k, problem } = this.note;
     const words = { name: this.#nameOf(this.#records, k), most: WAIT_MOST };
-    this.apart.textContent = problem ? say("dragonNoSearch", { ...words, why: refusalWords(problem).textContent }) : say("dragonNoDelay", words);
+    this.apart.textContent = problem ? say("How long {name} has to wait was not found: {why} It dances without a delay of its own: type one, or make the dragons or the path shorter.", { ...words, why: refusalWords(problem).textContent }) : say("{name} finds no safe delay up to {most} s: on this path the dragons stand on one another, or meet. Draw another path for it, let it begin in another street, or make the dragons shorter.", words);
   }
 
   /** Copy dragon k; on a drawn path it comes in behind it. changes: of the copy; later: how much later it dances [s] */
@@ -277,7 +282,7 @@ export class Dragons {
     const number = numberIn(field.value);
     const isNumber = field.value.trim() === "" || (typeof number === "number" && Math.abs(number) <= DELAY_MOST);
     field.setAttribute("aria-invalid", !isNumber);
-    this.wrong.textContent = isNumber ? "" : say("dragonNotNumber", { text: field.value });
+    this.wrong.textContent = isNumber ? "" : say("“{text}” is no number.", { text: field.value });
     if (isNumber) this.#set(k, name, Number(number) ? String(number) : "");
   }
 
@@ -286,7 +291,7 @@ export class Dragons {
     const name = field.value.trim();
     const isTaken = records.some((_, other) => other !== k && this.#nameOf(records, other) === name);
     field.setAttribute("aria-invalid", isTaken);
-    this.wrong.textContent = isTaken ? say("dragonSameName", { name }) : "";
+    this.wrong.textContent = isTaken ? say("Another dragon is called “{name}”.", { name }) : "";
     if (!isTaken) this.#set(k, "name", name);
   }
 
@@ -316,20 +321,20 @@ export class Dragons {
   #row(records, record, k) {
     const name = this.#nameOf(records, k);
     const isActive = k === this.#active;
-    const label = (key, input) => make("label", {}, make("span", { textContent: say(key) }), input);
+    const label = (words, input) => make("label", {}, make("span", { textContent: say(words) }), input);
     const input = (key, value, properties) => make("input", { id: `${key}-${k}`, value, autocomplete: "off", ...properties });
-    const numbers = [label("dragonDelay", input("dragon-delay", record.delay ?? "0", { inputMode: "decimal", onchange: ({ target }) => this.#number(k, "delay", target) }))];
+    const numbers = [label(phrase("Delay [s]"), input("dragon-delay", record.delay ?? "0", { inputMode: "decimal", onchange: ({ target }) => this.#number(k, "delay", target) }))];
     const path = isActive ? this.state.get("path") : (record.path ?? "spiral");
-    if (path === "spiral") numbers.push(label("dragonTurn", input("dragon-turn", record.rotation ?? "0", { inputMode: "decimal", onchange: ({ target }) => this.#number(k, "rotation", target) })));
+    if (path === "spiral") numbers.push(label(phrase("Turned by [°]"), input("dragon-turn", record.rotation ?? "0", { inputMode: "decimal", onchange: ({ target }) => this.#number(k, "rotation", target) })));
     const alone = records.length < 2;
     const row = make(
       "li",
       { "data-dragon": k },
-      button({ id: `dragon-choose-${k}`, textContent: k + 1, "aria-pressed": isActive, "aria-label": say("dragonChoose", { name }) }, () => this.choose(k)),
-      input("dragon-colour", this.#colourOf(record, k), { type: "color", "aria-label": say("dragonColour"), onchange: ({ target }) => this.#set(k, "colour", target.value) }),
-      label("dragonName", input("dragon-name", name, { maxLength: 40, onchange: ({ target }) => this.#rename(k, target) })),
-      button({ id: `dragon-copy-${k}`, textContent: "×2", title: say("dragonCopy", { name }), "aria-label": say("dragonCopy", { name }) }, () => this.#copy(k)),
-      button({ id: `dragon-remove-${k}`, textContent: "✕", disabled: alone, title: say("dragonRemove", { name }), "aria-label": say("dragonRemove", { name }) }, () => this.#remove(k)),
+      button({ id: `dragon-choose-${k}`, textContent: k + 1, "aria-pressed": isActive, "aria-label": say("Choose {name}", { name }) }, () => this.choose(k)),
+      input("dragon-colour", this.#colourOf(record, k), { type: "color", "aria-label": say("Colour"), onchange: ({ target }) => this.#set(k, "colour", target.value) }),
+      label(phrase("Name"), input("dragon-name", name, { maxLength: 40, onchange: ({ target }) => this.#rename(k, target) })),
+      button({ id: `dragon-copy-${k}`, textContent: "×2", title: say("Copy {name}", { name }), "aria-label": say("Copy {name}", { name }) }, () => this.#copy(k)),
+      button({ id: `dragon-remove-${k}`, textContent: "✕", disabled: alone, title: say("Remove {name}", { name }), "aria-label": say("Remove {name}", { name }) }, () => this.#remove(k)),
       make("div", { className: "numbers" }, ...numbers),
     );
     const [first, ...others] = partsOf(row);
@@ -378,7 +383,7 @@ export class Dragons {
       const rotation = Number(record.rotation ?? 0) * DEGREE;
       const body = { dragon, path: kind === "spiral" && rotation ? { ...path, rotation } : path, head_speed, ...(passages && { passages }), ...(beats && { beats }) };
       const common = { width: numbers.width, overhang: numbers.overhang, ...this.#stray() };
-      return { kind, numbers: { ...numbers, ...common }, top, body, delay: Number(record.delay ?? 0), name: this.#nameOf(records, k), names: { en: this.#nameOf(records, k, "en"), zh: this.#nameOf(records, k, "zh") }, colour: this.#colourOf(record, k) };
+      return { kind, numbers: { ...numbers, ...common }, top, body, delay: Number(record.delay ?? 0), name: this.#nameOf(records, k), nameIn: (lang) => this.#nameOf(records, k, lang), colour: this.#colourOf(record, k) };
     });
   }
 
@@ -464,7 +469,7 @@ export class Dragons {
 
   /** The name of a bench with that of its dragon. */
   #benchOf({ parts }, dragon, bench) {
-    return say("dragonBench", { bench: benchName(bench, parts[dragon].numbers.benches), name: parts[dragon].name });
+    return say("{bench} of {name}", { bench: benchName(bench, parts[dragon].numbers.benches), name: parts[dragon].name });
   }
 
   /** One failure in a sentence. */
@@ -474,7 +479,7 @@ export class Dragons {
     if (dragons.length === 2) return sayOf("fail_contact", common, { a: this.#benchOf(dance, dragons[0], benches[0]), b: this.#benchOf(dance, dragons[1], benches[1]) });
     if (!dragons.length) return failureWords(failure, { numbers: dance.numbers, drawing: dance.drawing });
     const part = dance.parts[dragons[0]];
-    return `${part.name}${say("colon")}${failureWords(failure, { numbers: part.numbers, drawing: dance.drawing })}`;
+    return `${part.name}${say(": ")}${failureWords(failure, { numbers: part.numbers, drawing: dance.drawing })}`;
   }
 
   /** The verdict on all of them. */
@@ -484,15 +489,15 @@ export class Dragons {
     if (refusal) {
       const [, k] = /\/dances\/(\d+)\//.exec(refusal.errors[0]?.pointer ?? "") ?? [];
       const words = refusalWords(refusal.problem);
-      const name = k === undefined ? "" : `${this.#nameOf(this.#records, Number(k))}${say("colon")}`;
+      const name = k === undefined ? "" : `${this.#nameOf(this.#records, Number(k))}${say(": ")}`;
       return this.judgement.refuse(refusal.problem, null, 0, { ...words, textContent: `${name}${words.textContent}` });
     }
     if (dance?.kind !== "dances") return;
     const { time, time_bracket: bracket } = dance.answer;
     const meets = bracket && time !== null;
-    const proven = meets ? [say("dragonsLeast", { time: time.toFixed(6), low: bound(bracket[0], 9, -1), high: bound(bracket[1], 9, 1) })] : [];
+    const proven = meets ? [say("First meeting at {time} s, proven between {low} s and {high} s.", { time: time.toFixed(6), low: bound(bracket[0], 9, -1), high: bound(bracket[1], 9, 1) })] : [];
     // Behind a door stands what people say, and all digits are with the evidence.
-    const met = meets && !isExact() ? [say("dragonsMeet", { time: formatNumber(time, 6, 2) })] : proven;
+    const met = meets && !isExact() ? [say("First meeting at {time} s.", { time: formatNumber(time, 6, 2) })] : proven;
     const apart = dance.answer.outcome === "clear" ? [sayOf("dragonsApart", this.#stray())] : [];
     this.judgement.show({ ...dance, words: (failure) => this.#words(dance, failure), lines: [...met, ...apart], known: isExact() ? [] : proven }, null);
     $("#stage").setAttribute("aria-busy", "false");
@@ -501,6 +506,6 @@ export class Dragons {
   /** The caption of the magnifier: the two benches that meet. */
   insetWords({ dragons, benches }) {
     const { dance } = this.questions;
-    return [0, 1].map((k) => this.#benchOf(dance, dragons[k], benches[k])).join(say("listed"));
+    return [0, 1].map((k) => this.#benchOf(dance, dragons[k], benches[k])).join(between());
   }
 }

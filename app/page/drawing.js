@@ -12,6 +12,15 @@
 
 import { piecesOf, walkText } from "./walk.js";
 
+/** Kinds of things in a drawing. @type {Phrases} */
+export const THINGS = {
+  area: "square",
+  block: "obstacle",
+  circle: "tree",
+  wall: "wall",
+  gate: "gate",
+};
+
 export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: null, path: null, start: null, things: [], origin: null, grid: null, yard: null };
 /** Names of the parts of a drawing in an address. */
 export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "walk", "start", "origin", "grid", "yard"];

@@ -7,19 +7,15 @@ import { Files } from "./files.js";
 import { stepsOf } from "./history.js";
 import { Judgement } from "./judgement.js";
 import { knotsOf } from "./knots.js";
-import { PRESETS, shownAt } from "./presets.js";
+import { PRESETS, PRESET_NAMES, shownAt } from "./presets.js";
 import { Propose } from "./propose.js";
 import { RouteForm } from "./route.js";
-import { learn, say } from "./text.js";
+import { phrase, say } from "./text.js";
 import { layers } from "./venue.js";
-import { ROUTE } from "./words/route.js";
-import { SQUARE } from "./words/square.js";
-
-learn({ ...ROUTE, ...SQUARE });
 
 /** A first dance for a village: {drawing, with its things named in the language of the page, time at which it is shown}. */
 export function village() {
-  const things = PRESETS.village.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) }));
+  const things = PRESETS.village.things.map((thing) => ({ ...thing, name: say(thing.name) }));
   return { drawing: { ...PRESETS.village, things }, time: shownAt(PRESETS.village) };
 }
 
@@ -79,9 +75,9 @@ export class Drawn {
 
   /** The offers without a drawing: draw a path, or begin with a preset. */
   #invite() {
-    const presets = Object.keys(PRESETS).map((name) => textButton(`preset_${name}`, () => this.form.beginWith(name), { "data-preset": name }));
-    const words = (tag, key) => make(tag, { "data-text": key });
-    $("#invite").append(words("h3", "inviteTitle"), textButton("inviteDraw", () => this.#draw(), { className: "main" }), words("p", "inviteOr"), make("div", {}, ...presets));
+    const presets = Object.keys(PRESETS).map((name) => textButton(PRESET_NAMES[name], () => this.form.beginWith(name), { "data-preset": name }));
+    const words = (tag, text) => make(tag, { "data-text": text });
+    $("#invite").append(words("h3", phrase("Where should the dragon go?")), textButton("✎ Draw a path", () => this.#draw(), { className: "main" }), words("p", phrase("or begin with")), make("div", {}, ...presets));
   }
 
   /** Draw from nothing; by keyboard too, so the picture gets the focus. */

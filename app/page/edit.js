@@ -1,11 +1,21 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
 import { inserted, moved, pointsOf, removed, withPoints } from "./changes.js";
-import { freeName, yardOf } from "./drawing.js";
+import { THINGS, freeName, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
 import { onBorder, streetLength } from "./square.js";
 import { say } from "./text.js";
+
+/** What each tool does. @type {Phrases} */
+const HELPS = {
+  path: "Tap the picture to extend the path, tap the path to insert a point, drag a point to move it.",
+  area: "Tap the corners of the square one after another; drag them to move them.",
+  block: "Tap the corners of an obstacle one after another. Choose Obstacle again for the next one.",
+  circle: "Tap where a tree, a well or a person is; its radius is in the list “Square and obstacles”.",
+  wall: "Tap along the wall. Choose Wall again for the next one.",
+  gate: "Tap the border: the dragon comes in or goes out there. Beyond it a straight street of about {length} m is added, as long as your dragon, which stands in it before or after the dance.",
+};
 
 /** Largest movement of a press that is not a drag [px]; largest distance from the path, an edge or a thing of a tap that means it [px]. */
 const [TRAVEL, ON_PATH] = [3, 16];
@@ -78,8 +88,8 @@ export class Editor {
 
   /** What a tap draws with the tool. */
   get help() {
-    const words = say(`draw_${this.tool}`, { length: this.tool === "gate" ? streetLength(this.state) : "" });
-    return this.#hasKeys.matches ? `${words}${say("draw_keys")}` : words;
+    const words = say(HELPS[this.tool], { length: this.tool === "gate" ? streetLength(this.state) : "" });
+    return this.#hasKeys.matches ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 m, Enter inserts one, Delete removes it.")}` : words;
   }
 
   /** Draw with this tool from now on; a new obstacle begins with the next tap. */
@@ -126,7 +136,7 @@ export class Editor {
     while (this.#knots.length > points.length) this.#knots.pop().remove();
     while (this.#knots.length < points.length) this.box.append(this.#knot(this.#knots.length));
     points.forEach(([x, y], k) => {
-      const label = say("knot", { k: k + 1, count: points.length, x, y });
+      const label = say("Point {k} of {count}, x {x} m, y {y} m", { k: k + 1, count: points.length, x, y });
       if (this.#knots[k].getAttribute("aria-label") !== label) this.#knots[k].setAttribute("aria-label", label);
     });
   }
@@ -204,7 +214,7 @@ export class Editor {
     const drag = this.#drag;
     this.#drag = null;
     if (drag?.far) this.steps.take(this.#drawing, null, drag.base);
-    else if (drag) announce(() => say("knotChosen", { k: drag.k + 1 }));
+    else if (drag) announce(() => say("Point {k}: drag it, or delete it with ⌫. To add a point beside it, or to drag one that is a dot, enlarge the picture with + first.", { k: drag.k + 1 }));
   }
 
   #key(event, k) {
@@ -329,7 +339,7 @@ export class Editor {
     if (kind === "gate" && !yardOf(drawing).length) return;
     const point = kind === "gate" ? onBorder(yardOf(drawing), wanted).point : wanted;
     const radius = { circle: TREE_RADIUS, wall: WALL_RADIUS }[kind];
-    const thing = { kind, name: freeName(drawing.things, say(`thing_${kind}`)), points: [], ...(radius && { radius }) };
+    const thing = { kind, name: freeName(drawing.things, say(THINGS[kind])), points: [], ...(radius && { radius }) };
     this.item = drawing.things.length;
     this.steps.take(withPoints({ ...drawing, things: [...drawing.things, thing] }, this.item, [point]));
   }

@@ -83,5 +83,5 @@ export function make(tag, properties = {}, ...children) {
 
 /** A button with an action. */
 export const button = (properties, onclick, ...children) => make("button", { type: "button", onclick, ...properties }, ...children);
-/** A button with the text of a key, in the language of the page at every time. */
-export const textButton = (key, onclick, properties = {}) => button({ "data-text": key, ...properties }, onclick);
+/** A button with a text, in the language of the page at every time. text: in English */
+export const textButton = (text, onclick, properties = {}) => button({ "data-text": text, ...properties }, onclick);

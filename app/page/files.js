@@ -4,13 +4,13 @@ import { tableOfFile } from "./bench_table.js";
 import { tableOf } from "./benches.js";
 import { Problem } from "./api.js";
 import { chooseParts } from "./layers.js";
-import { drawingOf, keptVenueOf } from "./drawing.js";
+import { THINGS, drawingOf, keptVenueOf } from "./drawing.js";
 import { $, bearer, download, make, textButton } from "./elements.js";
 import { FIELDS } from "./fields.js";
 import { announce, announceRefusal, endMessage } from "./overlays.js";
 import { paceTexts, passagesText } from "./passages.js";
 import { announceSaved } from "./saved.js";
-import { language, say, sentencesOf } from "./text.js";
+import { between, language, say, sentencesOf } from "./text.js";
 
 const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.gpx,.dxf,.csv,.tsv,.xlsx";
 /** Fields of a dance's file that are numbers of the page too. */
@@ -26,7 +26,7 @@ export const SPAN = ["start", "stop"];
 
 /** Say that a file was opened, for as long as it takes to read. unread: what of it the page leaves out; notes: what else it did not take over */
 export function announceOpened(name, unread, notes = []) {
-  announce(() => sentencesOf([say("opened", { name }), unread.length && say("openedWhole", { names: unread.join(say("listed")) }), ...notes]), false, true);
+  announce(() => sentencesOf([say("Opened {name}.", { name }), unread.length && say("Left out: {names}. The page shows a dance from beginning to end.", { names: unread.join(between()) }), ...notes]), false, true);
 }
 
 export class Files {
@@ -48,7 +48,7 @@ export class Files {
       if (this.input.files[0]) this.open(this.input.files[0]);
       this.input.value = "";
     };
-    this.input = make("input", { type: "file", id: "open-file", accept: ACCEPT, "data-label": "open", hidden: true, onchange });
+    this.input = make("input", { type: "file", id: "open-file", accept: ACCEPT, "data-label": "Open …", hidden: true, onchange });
     const stage = $("#stage");
     for (const type of ["dragenter", "dragover"])
       stage.addEventListener(type, (event) => {
@@ -66,8 +66,8 @@ export class Files {
   /** Buttons that open and save. */
   buttons() {
     /** Takes the times of a track that was walked as passages; shown after such a track was opened. */
-    this.times = textButton("useTimes", () => this.#useTimes(), { id: "use-times", hidden: true });
-    return [textButton("open", () => this.input.click(), { id: "open" }), this.input, textButton("save", () => this.save(), { id: "save" }), this.times];
+    this.times = textButton("Use the walked times", () => this.#useTimes(), { id: "use-times", hidden: true });
+    return [textButton("Open …", () => this.input.click(), { id: "open" }), this.input, textButton("Save", () => this.save(), { id: "save" }), this.times];
   }
 
   /** Open a dance, or a map with a venue and a path. */
@@ -79,7 +79,7 @@ export class Files {
         this.steps.change({ csv });
         return announceOpened(file.name, [], notes);
       }
-      announce(() => say("opening", { name: file.name }), false, true);
+      announce(() => say("Reading {name} …", { name: file.name }), false, true);
       const content = (await ownDance(file)) ?? (await this.#places(file));
       if (content?.dances) await this.several(content, file.name);
       else if (content) this.#take(content, file.name);
@@ -95,7 +95,7 @@ export class Files {
     if (!layers?.length) return false;
     endMessage();
     chooseParts(layers, problem, async (part) => {
-      announce(() => say("opening", { name: file.name }), false, true);
+      announce(() => say("Reading {name} …", { name: file.name }), false, true);
       const content = await this.#places(file, part);
       this.#take(content, file.name);
     });
@@ -125,7 +125,7 @@ export class Files {
     // What a dance does not state has its default, and so have the benches of which a table takes the place; a map states none of it.
     const stated = csv ? content : { ...dragon, ...content };
     const numbers = isDance ? Object.fromEntries([...UNIFORM, ...NUMBERS].map((one) => [one, typeof stated[one] === "number" ? String(stated[one]) : this.#default(one, csv)])) : {};
-    const opened = drawingOf({ ...content, venue: typeof venue === "object" ? venue : null }, (kind) => say(`thing_${kind}`));
+    const opened = drawingOf({ ...content, venue: typeof venue === "object" ? venue : null }, (kind) => say(THINGS[kind]));
     // A map without a path keeps the drawn path, and one without a venue keeps the venue; a dance has its own or none.
     const { points, straight, radius, begin, path: kept, start, things, origin, grid, yard, limit } = this.state.get("drawing");
     if (!path) Object.assign(opened, { points, straight, radius, begin, path: kept, start });

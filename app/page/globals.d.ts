@@ -7,6 +7,8 @@ type Questions = import("./questions.js").Questions;
 type Service = import("./api.js").Service;
 type State = import("./state.js").State;
 type Steps = import("./history.js").Steps;
+/** English templates by their codes: so annotated they come into the catalogues. */
+type Phrases = Record<string, string>;
 /** x, y [m] */
 type Point = [number, number];
 /** A question to the service; what else it holds goes to fetch(). */

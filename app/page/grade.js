@@ -2,16 +2,38 @@
 
 import { Problem, Superseded } from "./api.js";
 import { $, bearer, make, onClick } from "./elements.js";
-import { refusalWords, say } from "./text.js";
+import { phrase, refusalWords, say } from "./text.js";
 
-const ANSWERS = ["collision_time", "pitch", "turn_length", "speed"];
+/** Verdicts on a file or an answer. @type {Phrases} */
+const VERDICTS = {
+  right: "right",
+  rounded: "rounded",
+  incomplete: "incomplete",
+  infeasible: "infeasible",
+  wrong: "wrong",
+  unreadable: "unreadable",
+};
+/** What a sheet holds. @type {Phrases} */
+const HOLDS = {
+  position: "positions",
+  speed: "speeds",
+  contact: "first contact",
+};
+
+/** Answers that may be typed. @type {Phrases} */
+const ANSWERS = {
+  collision_time: "First contact",
+  pitch: "Minimum pitch",
+  turn_length: "Length of the turn",
+  speed: "Maximum head speed",
+};
 /** Colour of each mark of a picture; right cells are pale. */
 const COLOURS = { ".": "--line", o: "--undecided", "#": "--contact", "?": "--border" };
 const OUTCOMES = { right: "clear", rounded: "clear", incomplete: "undecided", infeasible: "contact", wrong: "contact", unreadable: "contact" };
 const MARKS = { right: "✓", rounded: "✓", incomplete: "!", infeasible: "✕", wrong: "✕", unreadable: "✕" };
 const CELL = 6;
-/** Meaning of each mark of a picture. */
-const MEANINGS = { ".": "mark_right", o: "mark_rounded", "#": "mark_wrong", "?": "mark_missing" };
+/** Meaning of each mark of a picture. @type {Phrases} */
+const MEANINGS = { ".": "right", o: "rounded", "#": "wrong", "?": "missing" };
 /** Numbers that may be typed, with an example of each. */
 const NUMBER = /^[+-]?([0-9]{1,6}(\.[0-9]{0,20})?|\.[0-9]{1,20})(e[+-]?[0-9]{1,2})?$/i;
 const EXAMPLES = { collision_time: "412.473838", pitch: "0.450338", turn_length: "13.621245", speed: "1.246266" };
@@ -70,31 +92,31 @@ export class Grader {
   }
 
   async #grade() {
-    const typed = ANSWERS.map((name) => [name, $(`#typed-${name}`).value.trim().replace(",", ".")]).filter(([, text]) => text);
+    const typed = Object.keys(ANSWERS).map((name) => [name, $(`#typed-${name}`).value.trim().replace(",", ".")]).filter(([, text]) => text);
     const numbers = typed.filter(([, text]) => NUMBER.test(text));
     const requests = this.#files.map((file) => [{ name: file.name.slice(-200), language: this.#language }, file]);
     if (numbers.length) requests.unshift([{ language: this.#language, ...Object.fromEntries(numbers) }, undefined]);
     const wrong = typed.filter(([, text]) => !NUMBER.test(text));
     /** @type {{refused?: Element, answer?: any}[]} */
     const results = wrong.map(([name, text]) => {
-      const what = say(`typed_${name}`);
-      return refusedBox(what, { textContent: say("noNumber", { what, text, example: EXAMPLES[name] }) });
+      const what = say(ANSWERS[name]);
+      return refusedBox(what, { textContent: say("{what} must be a number such as {example}: you typed “{text}”.", { what, text, example: EXAMPLES[name] }) });
     });
     this.#answers = results;
     for (const [k, [query, file]] of requests.entries()) {
       if (file?.size === 0) {
-        results.push(refusedBox(file.name, { textContent: say("fileEmpty") }));
+        results.push(refusedBox(file.name, { textContent: say("The file is empty.") }));
         continue;
       }
-      this.#tell(say("grading", { name: file?.name ?? say("typed"), k: k + 1, count: requests.length }));
+      this.#tell(say("Grading {name} ({k} of {count}) …", { name: file?.name ?? say("Typed answers"), k: k + 1, count: requests.length }));
       try {
         results.push({ answer: await this.service.ask("grade", "grade", { query, file: file ?? new Blob(), headers: bearer() }) });
       } catch (error) {
         if (error instanceof Superseded) return;
         if (!(error instanceof Problem)) throw error;
         const { problem } = error;
-        const words = problem.template === TOO_LONG ? { textContent: say("fileTooLong", { most: problem.values.most.value / 1e6 }) } : refusalWords(problem);
-        results.push(refusedBox(file?.name ?? say("typed"), words));
+        const words = problem.template === TOO_LONG ? { textContent: say("The file is longer than {most} MB: a workbook of the contest has 2 MB.", { most: problem.values.most.value / 1e6 }) } : refusalWords(problem);
+        results.push(refusedBox(file?.name ?? say("Typed answers"), words));
       }
       if (this.#answers !== results) return;
       this.show();
@@ -114,10 +136,10 @@ const paragraph = (textContent, className = "") => make("p", { textContent, clas
 function boxes({ files, answers }) {
   const typed = answers.map((one) => {
     const { found, expected, unit, verdict, digits, notes } = one;
-    const words = verdict === "right" ? [say("digitsGo", { digits }), ...notes] : [say("rightIs", { value: expected.toFixed(9), unit }), ...notes];
-    const word = say(`verdict_${verdict}`);
-    const headline = one.breaks ? say("andBreaks", { verdict: word, breaks: one.breaks }) : word;
-    return box(`${say(`typed_${one.answer}`)}${say("colon")}${found} ${unit}`, verdict, headline, [...words.map((line) => paragraph(line)), ...diagnosis(one)]);
+    const words = verdict === "right" ? [say("Graded to its significant digits: {digits}.", { digits }), ...notes] : [say("The right value is {value} {unit}.", { value: expected.toFixed(9), unit }), ...notes];
+    const word = say(VERDICTS[verdict]);
+    const headline = one.breaks ? say("{verdict}, {breaks}", { verdict: word, breaks: one.breaks }) : word;
+    return box(`${say(ANSWERS[one.answer])}${say(": ")}${found} ${unit}`, verdict, headline, [...words.map((line) => paragraph(line)), ...diagnosis(one)]);
   });
   return [...typed, ...files.map(fileBox)];
 }
@@ -135,22 +157,22 @@ function diagnosis({ diagnosis: certain, possible }) {
 
 function fileBox(file) {
   const points = file.rubric.map(({ met, words }) => make("li", { className: `met-${met}`, textContent: words }));
-  const rubric = make("details", {}, make("summary", { textContent: say("rubric") }), make("ul", {}, ...points));
+  const rubric = make("details", {}, make("summary", { textContent: say("The points of the reviewers") }), make("ul", {}, ...points));
   const notes = file.notes.map((one) => paragraph(one));
-  return box(file.file, file.verdict, say(`verdict_${file.verdict}`), [...notes, ...diagnosis(file), ...file.sheets.flatMap(sheetParts), ...(points.length ? [rubric] : [])]);
+  return box(file.file, file.verdict, say(VERDICTS[file.verdict]), [...notes, ...diagnosis(file), ...file.sheets.flatMap(sheetParts), ...(points.length ? [rubric] : [])]);
 }
 
 function sheetParts(sheet) {
   const { right, cells, decimals, worst, first, picture, notes } = sheet;
-  const title = sheet.sheet || say(`holds_${sheet.holds}`);
-  const word = say(`verdict_${sheet.verdict}`);
-  const verdict = decimals ? say("toDecimals", { verdict: word, decimals }) : word;
-  const parts = [paragraph(say("sheetIs", { title, verdict, right, cells }), "sheet"), ...notes.map((one) => paragraph(one))];
+  const title = sheet.sheet || say(HOLDS[sheet.holds]);
+  const word = say(VERDICTS[sheet.verdict]);
+  const verdict = decimals ? say("{verdict} to {decimals} decimals", { verdict: word, decimals }) : word;
+  const parts = [paragraph(say("{title}: {verdict}, {right} of {cells} cells right", { title, verdict, right, cells }), "sheet"), ...notes.map((one) => paragraph(one))];
   if (["wrong", "rounded"].includes(sheet.verdict))
-    for (const [key, cell] of Object.entries({ worstCell: worst, firstCell: first })) {
+    for (const [template, cell] of /** @type {[string, any][]} */ ([[phrase("Worst: {cell}, {handle}, {quantity} at {time} s is {found}; the right value is {expected}."), worst], [phrase("First: {cell}, {handle}, {quantity} at {time} s is {found}; the right value is {expected}."), first]])) {
       const { found, expected, time } = cell;
-      const quantity = cell.quantity === "speed" ? say("quantity_speed") : cell.quantity;
-      parts.push(paragraph(say(key, { ...cell, quantity, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) })));
+      const quantity = cell.quantity === "speed" ? say("speed") : cell.quantity;
+      parts.push(paragraph(say(template, { ...cell, quantity, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) })));
     }
   const marks = new Set(picture.join(""));
   // Marks that are all alike do not show where the errors are.
@@ -172,7 +194,7 @@ function legend(marks) {
 function drawn(picture) {
   const width = picture[0].length;
   const size = { width: CELL * width, height: CELL * picture.length };
-  const canvas = make("canvas", { ...size, className: "marks", role: "img", "aria-label": say("marks") });
+  const canvas = make("canvas", { ...size, className: "marks", role: "img", "aria-label": say("Places of the wrong cells: handles from the top, instants from the left") });
   const context = canvas.getContext("2d");
   const style = getComputedStyle(document.documentElement);
   picture.forEach((line, row) =>

@@ -4,7 +4,7 @@ import { centimetres, gapWords, instantWords, outcomeWords } from "./answers.js"
 import { Chart, clearancePlan, curvePlan, scanPlan } from "./charts.js";
 import { $, make } from "./elements.js";
 import { CONTACT, strayOf } from "./fields.js";
-import { benchName, refusalWords, say, sayOf } from "./text.js";
+import { benchName, phrase, refusalWords, say, sayOf } from "./text.js";
 
 const PITCH_DECIMALS = 4;
 /** Difference of two times that are shown as one [s]. */
@@ -54,13 +54,13 @@ export class Graphs {
   help() {
     const request = this.state.texts(CONTACT);
     $("#clearance .hint").textContent = sayOf("clearanceHelp", request);
-    $("#scan .hint").textContent = sayOf("scanHelp", request) + (strayOf(request) > 0 ? say("scanStray") : "");
+    $("#scan .hint").textContent = sayOf("scanHelp", request) + (strayOf(request) > 0 ? say(" The curve is for people exactly in their places.") : "");
   }
 
   /** Show a refusal in place of the chart of this kind, if there is one. problem: null if it is shown elsewhere */
   refuse(kind, problem) {
     if (!(kind in this.#charts)) return;
-    this.#say(kind, problem ? refusalWords(problem) : { textContent: say("seeAbove") });
+    this.#say(kind, problem ? refusalWords(problem) : { textContent: say("See the reason above.") });
   }
 
   /** Say something in place of the chart of this kind. */
@@ -73,7 +73,7 @@ export class Graphs {
     const { answer, dance } = this.questions.answers.clearance;
     if (!answer) {
       $("#clearance").setAttribute("aria-busy", false);
-      return this.#say("clearance", { textContent: say("clearanceNone") });
+      return this.#say("clearance", { textContent: say("Only benches that share no handle have a gap: it takes three of them.") });
     }
     const { time, gap } = dance.answer;
     const { margin } = dance.numbers;
@@ -90,7 +90,7 @@ export class Graphs {
     const k = Math.min(Math.round((now - dance.begin) / step), answer.time.length - 1);
     const [a, b] = answer.benches[k].map((bench) => benchName(bench, dance.numbers.benches));
     const gap = gapWords(answer.clearance[k]);
-    const is = Math.abs(answer.time[k] - now) < INSTANT ? "clearanceAt" : "clearanceNear";
+    const is = Math.abs(answer.time[k] - now) < INSTANT ? phrase("{time} s: {gap}, {a} and {b}") : phrase("{time} s, the nearest time of the curve: {gap}, {a} and {b}");
     $("#clearance .reading").textContent = say(is, { time: instantWords(k === answer.time.length - 1 ? dance.end : answer.time[k], dance), gap, a, b });
   }
 
@@ -102,7 +102,7 @@ export class Graphs {
     this.#charts.curve.show({ ...curve.answer, own, least });
     const pitch = tolerance?.request.pitch ?? null;
     this.#charts.curve.now(pitch && Number(pitch));
-    const words = () => say("curveAt", { pitch, stray: centimetres(tolerance.answer.stray) });
+    const words = () => say("pitch {pitch} m: everybody may be {stray} cm from their place", { pitch, stray: centimetres(tolerance.answer.stray) });
     $("#curve .reading").textContent = pitch ? words() : "";
   }
 
@@ -125,8 +125,8 @@ export class Graphs {
     // With a stray the head need not stop there.
     const stops = answer.head && !(strayOf(numbers) > 0);
     const words = stops
-      ? say("scanAt", { pitch, radius: answer.head.radius.toFixed(6) })
-      : `${say("pitch")} ${pitch} m${say("colon")}${outcomeWords(answer, numbers)}`;
-    $("#scan .reading").textContent = [kind === "spiral" && words, !scan && say("scanLook")].filter(Boolean).join(" · ");
+      ? say("pitch {pitch} m: the head stops at {radius} m", { pitch, radius: answer.head.radius.toFixed(6) })
+      : `${say("Pitch")} ${pitch} m${say(": ")}${outcomeWords(answer, numbers)}`;
+    $("#scan .reading").textContent = [kind === "spiral" && words, !scan && say("first view; the jumps are still being located")].filter(Boolean).join(" · ");
   }
 }

@@ -2,7 +2,9 @@
 
 import { Problem, Superseded } from "./api.js";
 import { $, bearer, button, download, make } from "./elements.js";
+import { LABELS } from "./fields.js";
 import { announce, announceRefusal } from "./overlays.js";
+import { QUESTIONS, TABLE } from "./sweeps.js";
 import { refusalWords, say } from "./text.js";
 
 const STORED = "bench-dragon-jobs";
@@ -10,15 +12,15 @@ const STORED = "bench-dragon-jobs";
 const REMEMBERED = 50;
 /** Time between two checks of an unfinished job [ms]. */
 const LOOK = 1_000;
-/** The form in which tables of sweeps are kept, and those in which they can be saved. */
-export const TABLE = "application/vnd.apache.parquet";
+/** The forms in which tables of sweeps can be saved. */
 const TABLES = { CSV: "text/csv", Parquet: TABLE, Arrow: "application/vnd.apache.arrow.file" };
 /** Endings of file names, by media type. */
 const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv", "application/geo+json": ".geojson", "image/vnd.dxf": ".dxf", "application/pdf": ".pdf", "application/zip": ".zip", [TABLE]: ".parquet" };
-/** Names of the jobs that Keep starts. */
-const NAMES = { films: "keepFilm", "contest-kit": "keepKit", "collision-time": "keepAnswer", "minimum-pitch": "keepPitch", envelope: "keepGround", plan: "keepPlan", cues: "keepCues", check: "keepVerdict", tolerance: "keepStray", clearance: "keepClearance", trajectory: "keepTrajectory" };
+/** Names of the jobs that Keep starts. @type {Phrases} */
+const NAMES = { films: "Film of the dance", "contest-kit": "The whole contest kit", "collision-time": "First contact with its certificate", "minimum-pitch": "Minimum pitch with its proof", envelope: "Ground that benches sweep", plan: "Plan on paper, true to scale", cues: "A cue card for each bench", check: "The verdict on the whole dance", tolerance: "How far people may stray, with its proof", clearance: "Clearance, every second", trajectory: "Every handle, every second" };
 export const UNFINISHED = ["accepted", "running"];
-const STATES = { accepted: "jobWaits", running: "jobRuns", successful: "jobDone", failed: "jobFailed", dismissed: "jobDismissed" };
+/** States of a job. @type {Phrases} */
+const STATES = { accepted: "waits for its turn", running: "runs", successful: "done", failed: "failed", dismissed: "cancelled" };
 
 /** The remembered jobs; empty if the browser allows no storage. */
 function remembered() {
@@ -58,7 +60,7 @@ export class Jobs {
     follow?.(status);
     this.#jobs = new Map([[status.jobID, { spec, status, follow, opened: false }], ...this.#jobs]);
     this.#remember();
-    announce(() => say("jobStarted"));
+    announce(() => say("The job has started."));
     this.#look();
   }
 
@@ -118,7 +120,7 @@ export class Jobs {
       const forms = resultOf(job.status).type === TABLE ? Object.keys(TABLES) : [];
       $("#map-save").parentElement.hidden = !forms.length;
       $("#map-save").replaceChildren(...forms.map((form) => button({ textContent: form, "data-save": form }, () => this.#save(id, form))));
-      announce(() => say("jobReady"));
+      announce(() => say("The map is drawn."));
     } catch (error) {
       announceRefusal(error);
     }
@@ -128,7 +130,7 @@ export class Jobs {
     try {
       const name = `sweep-${id.slice(0, 8)}.${form.toLowerCase()}`;
       download(await this.service.ask(`save ${id} ${form}`, `jobs/${id}/result`, { accept: TABLES[form] }), name);
-      announce(() => say("saved", { name }));
+      announce(() => say("Saved {name}.", { name }));
     } catch (error) {
       announceRefusal(error);
     }
@@ -184,15 +186,15 @@ export class Jobs {
     const { status } = job;
     const going = UNFINISHED.includes(status.status);
     const name = what(status.processID, job.spec);
-    const labelled = (key, act) => button({ id: `${key}-${id}`, textContent: say(key), "aria-label": `${say(key)}: ${name}` }, act);
+    const labelled = (key, words, act) => button({ id: `${key}-${id}`, textContent: words, "aria-label": `${words}: ${name}` }, act);
     const words = Object.entries({ title: name, state: "" }).map(([className, textContent]) => make("span", { className, textContent }));
     const row = make("li", { "data-state": status.status }, ...words);
     if (going) row.append(make("progress", { max: 100 }));
     const { href, type } = resultOf(status);
     const buttons = make("span", { className: "buttons" });
-    if (href && isTable(status)) buttons.append(labelled("jobMap", () => this.#open(id, job)));
-    if (href) buttons.append(make("a", { href: `jobs/${id}/result`, download: `${status.processID}-${id.slice(0, 8)}${ENDINGS[type] ?? ""}`, textContent: say("jobResult") }));
-    buttons.append(going ? labelled("jobCancel", () => this.#cancel(id)) : labelled("jobRemove", () => this.#end(id)));
+    if (href && isTable(status)) buttons.append(labelled("jobMap", say("Map"), () => this.#open(id, job)));
+    if (href) buttons.append(make("a", { href: `jobs/${id}/result`, download: `${status.processID}-${id.slice(0, 8)}${ENDINGS[type] ?? ""}`, textContent: say("Result") }));
+    buttons.append(going ? labelled("jobCancel", say("Cancel"), () => this.#cancel(id)) : labelled("jobRemove", say("Remove"), () => this.#end(id)));
     row.append(buttons);
     if (status.problem) row.append(make("p", { className: "error", ...refusalWords(status.problem) }));
     return row;
@@ -206,15 +208,15 @@ const isTable = (status) => status.processID === "sweep" && ["application/json",
 function what(process, spec) {
   const name = process.replace(/_of$/, "").replaceAll("_", "-");
   if (process !== "sweep") return name in NAMES ? say(NAMES[name]) : process;
-  if (!spec) return say("sweep");
-  const names = Object.keys(spec.over).map((name) => say(name));
-  return say("sweepOver", { question: say(`sweep_${spec.question}`), names: names.join(say("and")) });
+  if (!spec) return say("Sweep");
+  const names = Object.keys(spec.over).map((name) => say(LABELS[name]));
+  return say("{question} over {names}", { question: say(QUESTIONS[spec.question].title), names: names.join(say(" and ")) });
 }
 
 /** Progress of a job: state, designs, rate and time left. */
 function stateWords({ status, done, total, rate, time_left: left }) {
   const words = [say(STATES[status])];
-  if (done !== null && status === "running") words.push(say("jobDesigns", { done, total }));
-  if (rate && total && status === "running") words.push(say("jobRate", { rate: ((rate * total) / 100).toPrecision(3), left: Math.ceil(left) }));
-  return words.join(say("comma"));
+  if (done !== null && status === "running") words.push(say("{done} of {total} designs", { done, total }));
+  if (rate && total && status === "running") words.push(say("{rate} per second, {left} s left", { rate: ((rate * total) / 100).toPrecision(3), left: Math.ceil(left) }));
+  return words.join(say(", "));
 }

@@ -8,6 +8,18 @@ import { timeOfDay, wayAt } from "./passages.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
 import { benchName, handleName, refusalWords, say, sayOf, sentencesOf } from "./text.js";
 
+/** Verdicts on a dance. @type {Phrases} */
+const VERDICTS = {
+  passes: "Can be danced",
+  fails: "Cannot be danced",
+  undecided: "Undecided",
+};
+/** Failures that have no other words. @type {Phrases} */
+const FAILURES = {
+  folds: "{a} cannot follow any more: the dragon folds.",
+  undecided: "From here on the search is undecided.",
+};
+
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
 const DECIMALS = 6;
 /** Shortest part of a path before the head that is worth a word [m]. */
@@ -25,13 +37,13 @@ export function failureWords({ kind, benches, area, peak_speed: peak }, { number
   if (kind === "venue") return sayOf("fail_venue", numbers, values);
   if (kind === "outside") {
     const square = drawing.things.find((thing) => thing.kind === "area");
-    return say(area === square?.name ? "fail_outside" : "fail_inside", values);
+    return say(area === square?.name ? "{a} starts outside {area}." : "{a} starts inside {area}.", values);
   }
   if (kind === "speed") {
-    const handle = a === undefined ? say("handle") : handleName(a, numbers.benches);
-    return say(peak === null ? "fail_speedOnly" : "fail_speed", { ...values, handle, peak: peak === null ? "" : formatNumber(peak, DECIMALS, 2) });
+    const handle = a === undefined ? say("Handle") : handleName(a, numbers.benches);
+    return say(peak === null ? "Too fast: {handle} exceeds {limit} m/s." : "Too fast: {handle} exceeds {limit} m/s; the highest speed is {peak} m/s.", { ...values, handle, peak: peak === null ? "" : formatNumber(peak, DECIMALS, 2) });
   }
-  return say(`fail_${kind}`, values);
+  return say(FAILURES[kind], values);
 }
 
 /** Radius of a bend that is too tight, and the one needed, with as many digits as it takes to tell them apart. */
@@ -48,8 +60,8 @@ function wayWords({ begin, end, numbers, extras, clock }, { length, s }, time) {
   const [first, last] = [begin, end].map((one) => wayAt(one, numbers.head_speed, extras.passages));
   const stands = first - s[0];
   const span = { way: (last - first).toFixed(1), time, from: signed(begin), to: signed(end) };
-  const way = say(Number(begin.toFixed(2)) && !clock ? "pathSpan" : "pathLength", span);
-  return [stands < STANDS ? way : sentencesOf([way, say("pathStands", { stands: stands.toFixed(1), length: length.toFixed(1) })])];
+  const way = say(Number(begin.toFixed(2)) && !clock ? "The head walks {way} m in {time} s; the clock of the picture runs from {from} s to {to} s." : "The head walks {way} m in {time} s.", span);
+  return [stands < STANDS ? way : sentencesOf([way, say("At the start the dragon stands on the first {stands} m of its path of {length} m.", { stands: stands.toFixed(1), length: length.toFixed(1) })])];
 }
 
 export class Judgement {
@@ -66,22 +78,22 @@ export class Judgement {
     const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), (dance.words ?? ((one) => failureWords(one, dance)))(failure), () => this.seek(failure)));
     const { length } = course ?? {};
     const time = (dance.end - dance.begin).toFixed(1);
-    const lines = length === undefined ? [] : Number(time) ? wayWords(dance, course, time) : [say("pathOnly", { length: length.toFixed(1) })];
+    const lines = length === undefined ? [] : Number(time) ? wayWords(dance, course, time) : [say("The path is {length} m long.", { length: length.toFixed(1) })];
     lines.push(...(dance.lines ?? []));
     const { clock } = dance;
     const [start, end] = [dance.begin, dance.answer.end?.time ?? dance.end].map((one) => clock && timeOfDay(Number(one.toFixed(DECIMALS)), clock));
-    if (clock) lines.push(say("startsEnds", { start, end }));
-    this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, { known: dance.known, title: say(isExample(dance) ? "verdictExample" : "verdictTitle") });
+    if (clock) lines.push(say("It starts at {start} and ends at {end}.", { start, end }));
+    this.#fill(outcome, mark, say(VERDICTS[dance.verdict]), lines, rows, { known: dance.known, title: say(isExample(dance) ? "Verdict on this example" : "Verdict") });
   }
 
   /** No verdict until these fields are mended, beside which the reason stands. */
   wait(fields) {
-    this.#fill("", "", say("unanswered"), [mendWords(fields)], []);
+    this.#fill("", "", say("No answer"), [mendWords(fields)], []);
   }
 
   /** Without a path: what comes next, propose or path; null hides the verdict, because something else tells it. */
   begin(next) {
-    if (next) this.#fill("", "", say(next === "propose" ? "verdict_propose" : "verdict_none"), [say(next === "propose" ? "firstPropose" : "drawFirst")], []);
+    if (next) this.#fill("", "", say(next === "propose" ? "Propose a dance" : "Draw a path"), [say(next === "propose" ? "The square is drawn. “Propose a dance” finds dances that fit into it; or draw a path yourself." : "Tap the picture at points of the head's path: two points make a path.")], []);
     hide(this.box, !next);
     Object.assign($("#verdict"), { hidden: !next, href: next === "propose" ? "#propose" : "#answers" });
   }
@@ -89,9 +101,9 @@ export class Judgement {
   /** Show why there is no verdict: bends that are too tight, or the service's refusal. */
   refuse(problem, course, benches, words = refusalWords(problem)) {
     const bends = course?.bends ?? [];
-    const sentences = bends.map((bend) => say("tightBend", { ...radiiOf(bend), bench: benchName(bend.bench, benches) }));
-    const rows = bends.map(({ points }, k) => this.#row(say("show"), sentences[k], () => this.look(points[Math.floor(points.length / 2)])));
-    this.#fill("contact", "✕", say("verdict_fails"), rows.length ? [] : [words], rows);
+    const sentences = bends.map((bend) => say("The bend is too tight: its radius is {radius} m, and {bench} needs {least} m.", { ...radiiOf(bend), bench: benchName(bend.bench, benches) }));
+    const rows = bends.map(({ points }, k) => this.#row(say("Show"), sentences[k], () => this.look(points[Math.floor(points.length / 2)])));
+    this.#fill("contact", "✕", say(VERDICTS.fails), rows.length ? [] : [words], rows);
   }
 
   #row(name, text, act) {
@@ -99,7 +111,7 @@ export class Judgement {
   }
 
   /** known: sentences of the evidence; title: what the verdict is on */
-  #fill(outcome, mark, value, lines, rows, { known = [], title = say("verdictTitle") } = {}) {
+  #fill(outcome, mark, value, lines, rows, { known = [], title = say("Verdict") } = {}) {
     const open = this.box.querySelector("details")?.open ?? false;
     const sign = make("span", { className: "mark", "aria-hidden": "true", textContent: mark });
     this.box.dataset.outcome = outcome;
@@ -107,8 +119,8 @@ export class Judgement {
     Object.assign($("#verdict"), { hidden: false, href: "#answers", textContent: [mark, value].join(" ").trim() });
     const sentences = lines.filter(Boolean).map((line) => make("p", typeof line === "string" ? { textContent: line } : line));
     const list = make("ol", { className: "failures" }, ...rows);
-    const old = make("p", { className: "old", textContent: say("old") });
-    const evidence = make("details", { open }, make("summary", { textContent: say("how") }), ...known.map((textContent) => make("p", { textContent })));
+    const old = make("p", { className: "old", textContent: say("Older than your numbers") });
+    const evidence = make("details", { open }, make("summary", { textContent: say("How it is known") }), ...known.map((textContent) => make("p", { textContent })));
     this.box.replaceChildren(old, make("h3", { textContent: title }), make("p", { className: "value" }, sign, value), ...sentences, ...(rows.length ? [list] : []), ...(known.length ? [evidence] : []));
     tell(this.box);
   }

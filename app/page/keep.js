@@ -3,12 +3,12 @@
 import { Problem, TOO_LONG, commandFor } from "./api.js";
 import { keptVenueOf } from "./drawing.js";
 import { $, $$, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
-import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
+import { CONTACT, DRAGON, FIELDS, LABELS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
 import { fitsQuery } from "./questions.js";
 import { announceSaved } from "./saved.js";
-import { language, refusalWords, say, sentencesOf } from "./text.js";
+import { between, language, phrase, refusalWords, say, sentencesOf } from "./text.js";
 
 const CSV_STEP = 1;
 const TYPES = {
@@ -30,30 +30,30 @@ const TYPES = {
 };
 /** Items to save, in the order of the page: formats, and the name of the request; slow ones become a job; hint: a button of its own; among: the list in which it stands, if not that of the files. */
 const ITEMS = [
-  { key: "keepKit", forms: ["ZIP"], ask: "kit", file: "contest-kit", job: true, hint: "keepKitIs" },
-  { key: "keepTrajectory", forms: ["CSV", "XLSX", "Arrow", "JSON"], ask: "trajectory", file: "trajectory" },
-  { key: "keepPicture", forms: ["PNG"], file: "dance" },
-  { key: "keepInstant", forms: ["SVG", "PNG"], ask: "instant", file: "instant" },
-  { key: "keepContact", forms: ["SVG", "PNG"], ask: "contact", file: "first-contact" },
-  { key: "keepStairs", forms: ["SVG", "PNG"], ask: "stairs", file: "pitch-scan" },
-  { key: "keepFilm", forms: ["MP4", "GIF"], ask: "film", file: "dance", job: true },
-  { key: "keepGround", forms: ["GeoJSON", "DXF", "JSON"], ask: "ground", file: "envelope" },
-  { key: "keepPlan", forms: ["A4", "A3"], ask: "plan", file: "plan" },
-  { key: "keepCues", forms: ["PDF", "CSV"], ask: "cues", file: "cues", among: "#cues" },
-  { key: "keepMap", forms: ["GeoJSON", "KML", "DXF"], ask: "map", file: "map" },
-  { key: "keepAnswer", forms: ["JSON"], ask: "answer", file: "first-contact" },
-  { key: "keepVerdict", forms: ["JSON"], ask: "verdict", file: "check" },
-  { key: "keepPitch", forms: ["JSON"], ask: "pitch", file: "minimum-pitch" },
-  { key: "keepStray", forms: ["JSON"], ask: "stray", file: "tolerance" },
-  { key: "keepClearance", forms: ["JSON"], ask: "clearance", file: "clearance" },
-  { key: "keepPaper", forms: ["JSON"], ask: "paper", file: "paper" },
+  { key: "keepKit", title: phrase("The whole contest kit"), forms: ["ZIP"], ask: "kit", file: "contest-kit", job: true, hint: phrase("Five answers, workbooks, tables, figures, films and a report as ZIP. It takes one to ten minutes, as fast as the machine; the button shows how far it is.") },
+  { key: "keepTrajectory", title: phrase("Every handle, every second"), forms: ["CSV", "XLSX", "Arrow", "JSON"], ask: "trajectory", file: "trajectory" },
+  { key: "keepPicture", title: phrase("The picture as it is"), forms: ["PNG"], file: "dance" },
+  { key: "keepInstant", title: phrase("Figure of this instant"), forms: ["SVG", "PNG"], ask: "instant", file: "instant" },
+  { key: "keepContact", title: phrase("Figure of the first contact"), forms: ["SVG", "PNG"], ask: "contact", file: "first-contact" },
+  { key: "keepStairs", title: phrase("Figure of the pitch chart"), forms: ["SVG", "PNG"], ask: "stairs", file: "pitch-scan" },
+  { key: "keepFilm", title: phrase("Film of the dance"), forms: ["MP4", "GIF"], ask: "film", file: "dance", job: true },
+  { key: "keepGround", title: phrase("Ground that benches sweep"), forms: ["GeoJSON", "DXF", "JSON"], ask: "ground", file: "envelope" },
+  { key: "keepPlan", title: phrase("Plan on paper, true to scale"), forms: ["A4", "A3"], ask: "plan", file: "plan" },
+  { key: "keepCues", title: phrase("A cue card for each bench"), forms: ["PDF", "CSV"], ask: "cues", file: "cues", among: "#cues" },
+  { key: "keepMap", title: phrase("Map with chalk marks"), forms: ["GeoJSON", "KML", "DXF"], ask: "map", file: "map" },
+  { key: "keepAnswer", title: phrase("First contact with its certificate"), forms: ["JSON"], ask: "answer", file: "first-contact" },
+  { key: "keepVerdict", title: phrase("The verdict on the whole dance"), forms: ["JSON"], ask: "verdict", file: "check" },
+  { key: "keepPitch", title: phrase("Minimum pitch with its proof"), forms: ["JSON"], ask: "pitch", file: "minimum-pitch" },
+  { key: "keepStray", title: phrase("How far people may stray, with its proof"), forms: ["JSON"], ask: "stray", file: "tolerance" },
+  { key: "keepClearance", title: phrase("Clearance, every second"), forms: ["JSON"], ask: "clearance", file: "clearance" },
+  { key: "keepPaper", title: phrase("The paper's numbers beside these"), forms: ["JSON"], ask: "paper", file: "paper" },
 ];
 const BESIDES = [...CONTACT, "entry_radius", "exit_radius"];
 /** Name of a file in this format. */
 const fileName = (file, form) => (["A4", "A3"].includes(form) ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
 /** Commands in addition to those of the items: for the shown answer, and for a proof. */
-const ON_SCREEN = "keepShown";
-const PROOF = "keepProof";
+const [ON_SCREEN, PROOF] = ["keepShown", "keepProof"];
+const MORE = [{ key: ON_SCREEN, title: phrase("What is shown") }, { key: PROOF, title: phrase("A proof in ball arithmetic") }];
 
 /** A figure with its words in the language of the page. */
 function figure(name, form, /** @type {any} */ { query, body }) {
@@ -126,7 +126,7 @@ const TOGETHER = {
 };
 
 /** Name a button after its item, its format and how far its job is. */
-const nameButton = (button) => button.setAttribute("aria-label", `${say(button.dataset.keep)}, ${button.dataset.form}${button.querySelector(".share").textContent}`);
+const nameButton = (button) => button.setAttribute("aria-label", `${say(ITEMS.find(({ key }) => key === button.dataset.keep).title)}, ${button.dataset.form}${button.querySelector(".share").textContent}`);
 
 export class Keep {
   /** That of each item. */
@@ -145,25 +145,25 @@ export class Keep {
     this.#rows = ITEMS.map((item) => this.#row(item));
     ITEMS.forEach(({ among = "#kept" }, k) => $(among).append(this.#rows[k]));
     const { state } = questions;
-    $("#keepCues-PDF").before(textButton("cardFollow", () => state.push({ bench: state.get("handle") ?? 0 }), { id: "card-follow" }));
-    const keys = [ON_SCREEN, ...ITEMS.filter(({ ask }) => ask).map(({ key }) => key), PROOF];
-    $("#curl-of").append(...keys.map((key) => make("option", { value: key, "data-text": key })));
+    $("#keepCues-PDF").before(textButton("Follow a bench", () => state.push({ bench: state.get("handle") ?? 0 }), { id: "card-follow" }));
+    const commands = [MORE[0], ...ITEMS.filter(({ ask }) => ask), MORE[1]];
+    $("#curl-of").append(...commands.map(({ key, title }) => make("option", { value: key, "data-text": title })));
     $("#curl-of").addEventListener("change", () => this.show());
     $("#paper").addEventListener("toggle", () => $("#paper").open && this.paper());
   }
 
   #row(item) {
     const about = (form) => ({ id: `${item.key}-${form}`, "data-keep": item.key, "data-form": form });
-    const text = (form) => (item.hint ? make("span", { "data-text": item.key }) : form);
+    const text = (form) => (item.hint ? make("span", { "data-text": item.title }) : form);
     const buttons = item.forms.map((form) => button(about(form), () => this.#save(item, form), text(form), make("span", { className: "share" })));
     if (item.hint) return make("li", { className: "whole" }, ...buttons, make("p", { className: "hint", "data-text": item.hint }));
-    return make("li", {}, make("span", { "data-text": item.key }), make("span", { className: "buttons" }, ...buttons));
+    return make("li", {}, make("span", { "data-text": item.title }), make("span", { className: "buttons" }, ...buttons));
   }
 
   /** Name each button after its item. */
   translate() {
     for (const button of $$("[data-keep]")) nameButton(button);
-    for (const film of $("#kept").querySelectorAll(".film")) Object.assign(film, { alt: say("keepFilm"), ariaLabel: say("keepFilm") });
+    for (const film of $("#kept").querySelectorAll(".film")) Object.assign(film, { alt: say("Film of the dance"), ariaLabel: say("Film of the dance") });
     this.show();
     if ($("#paper").open) this.paper();
   }
@@ -223,18 +223,18 @@ export class Keep {
     const { state } = this.questions;
     // The form in which a person types it is that of a drawn path.
     if (form === "KML" && state.get("path") === "route" && !state.get("drawing").origin) return this.#askPlace();
-    if (item.ask === "kit" && this.questions.dance.extras.csv) return announce(() => say("kitUniform"));
+    if (item.ask === "kit" && this.questions.dance.extras.csv) return announce(() => say("The kit is for equal benches: reset the table of benches."));
     try {
       if (item.job) await this.#begin(item, form);
-      if (item.ask === "kit" && this.#besides().length) announce(() => say("kitWithout", { names: this.#besides().map((name) => say(name)).join(say("listed")) }));
+      if (item.ask === "kit" && this.#besides().length) announce(() => say("The kit answers the contest's questions, without: {names}.", { names: this.#besides().map((name) => say(LABELS[name])).join(between()) }));
       if (item.job) return;
-      announce(() => say("making", { name: say(item.key) }), true);
+      announce(() => say("Being made: “{name}”. It is saved as soon as it is ready.", { name: say(item.title) }), true);
       this.#mark(item, form, true);
       const { blob, inMetres } = item.ask ? await this.#fetch(this.#requests[item.ask](this.questions, form), form) : { blob: await this.#picture(), inMetres: false };
       const name = fileName(item.file, form);
       download(blob, name);
       const canBePlaced = inMetres && item.ask === "map" && this.questions.dance.kind === "route";
-      announceSaved(name, item.ask === "map" ? this.questions.dance.drawing : null, () => [say(inMetres ? "savedMetres" : "saved", { name }), canBePlaced && say("savedPlace")]);
+      announceSaved(name, item.ask === "map" ? this.questions.dance.drawing : null, () => [say(inMetres ? "Saved {name}: its coordinates are metres, not longitude and latitude." : "Saved {name}.", { name }), canBePlaced && say("“Latitude, longitude of 0, 0”, below the square, turns them into these.")]);
     } catch (error) {
       // What takes too long for one answer is made as a job.
       if (error instanceof Problem && error.problem.type === TOO_LONG) this.#begin(item, form).catch(announceRefusal);
@@ -246,8 +246,8 @@ export class Keep {
 
   /** KML is in degrees: say where to type the place on earth of a drawn dance, and lead there. */
   #askPlace() {
-    announce(() => say("keepPlace"), false, true);
-    const field = $("#route [data-label=latitude]");
+    announce(() => say("KML is in degrees: type the latitude and longitude of x = y = 0, here in the form of the path, and save again."), false, true);
+    const field = $("#latitude");
     if (!field.checkVisibility()) $("#more").click();
     field.focus();
   }
@@ -293,13 +293,13 @@ export class Keep {
     const name = fileName(file, form);
     if (key !== "keepFilm") {
       make("a", { href: result, download: name }).click();
-      return announce(() => say("saved", { name }));
+      return announce(() => say("Saved {name}.", { name }));
     }
     const row = button.closest("li");
     row.querySelector(".film")?.remove();
     row.append(form === "GIF" ? make("img", { className: "film", src: result }) : make("video", { className: "film", src: result, controls: true }));
     this.translate();
-    announce(() => say("filmReady"));
+    announce(() => say("The film is below its button."));
   }
 
   async #picture() {
@@ -317,7 +317,7 @@ export class Keep {
     const answer = await this.service.ask("paper", "paper", REQUESTS.paper()).catch(announceRefusal);
     if (!answer) return;
     const { rows, literature } = answer;
-    const head = ["paperWhat", "paperSource", "paperTheirs", "paperOurs"].map((key) => make("th", { scope: "col", "data-text": key, textContent: say(key) }));
+    const head = [phrase("quantity"), phrase("source"), phrase("published"), phrase("here")].map((words) => make("th", { scope: "col", "data-text": words, textContent: say(words) }));
     const line = ({ quantity, unit, source, paper, published, ours, reason, diagnosis }) => {
       const cells = [source, `${paper ?? published} ${unit}`, `${ours.toFixed(9)} ${unit}`].map((textContent) => make("td", { textContent }));
       const why = reason ?? sentencesOf(diagnosis.map(({ words }) => words));

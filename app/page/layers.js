@@ -2,9 +2,10 @@
 
 import { Problem, Superseded } from "./api.js";
 import { make, numberIn, textButton } from "./elements.js";
-import { refusalWords, say, writeTexts } from "./text.js";
+import { phrase, refusalWords, say, writeTexts } from "./text.js";
 
-const SIDES = { areaLeft: "x", areaLow: "y", areaRight: "x", areaHigh: "y" };
+/** Labels of the sides of an area, and what stands in their empty fields. */
+const SIDES = [[phrase("Least x [m]"), "x"], [phrase("Least y [m]"), "y"], [phrase("Largest x [m]"), "x"], [phrase("Largest y [m]"), "y"]];
 
 /** The name of a layer as the service reads it in a list. */
 const quoted = (name) => (/[,"]/.test(name) ? `"${name.replaceAll('"', '""')}"` : name);
@@ -17,8 +18,8 @@ export function chooseParts(layers, problem, open) {
   document.getElementById("drawing-parts")?.remove();
   const why = make("p", { className: "error", role: "alert", ...refusalWords(problem) });
   const boxes = layers.map(({ name }) => make("input", { type: "checkbox", value: name }));
-  const rows = layers.map(({ name, edges }, k) => make("li", {}, make("label", {}, boxes[k], `${name} · ${say("layerEdges", { edges })}`)));
-  const sides = Object.entries(SIDES).map(([key, placeholder]) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, placeholder }));
+  const rows = layers.map(({ name, edges }, k) => make("li", {}, make("label", {}, boxes[k], `${name} · ${say("{edges} edges", { edges })}`)));
+  const sides = SIDES.map(([label, placeholder]) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": label, placeholder }));
   const leave = () => {
     box.remove();
     removeEventListener("keydown", hear);
@@ -39,11 +40,11 @@ export function chooseParts(layers, problem, open) {
       go.disabled = false;
     }
   };
-  const go = textButton("partsOpen", take, { id: "parts-open", className: "main" });
-  const close = textButton("close", leave);
-  const title = make("h2", { id: "drawing-parts-title", "data-text": "partsTitle" });
-  const area = make("p", {}, make("span", { "data-text": "partsArea" }), ...sides, make("span", { className: "unit", textContent: "m" }));
-  const box = make("div", { id: "drawing-parts", popover: "manual", role: "dialog", "aria-labelledby": title.id }, title, why, make("p", { className: "hint", "data-text": "partsHelp" }), make("ul", {}, ...rows), area, make("p", { className: "buttons" }, go, close));
+  const go = textButton("Open", take, { id: "parts-open", className: "main" });
+  const close = textButton("Close", leave);
+  const title = make("h2", { id: "drawing-parts-title", "data-text": "Open a part of the drawing" });
+  const area = make("p", {}, make("span", { "data-text": "Only what reaches into x, y to x, y" }), ...sides, make("span", { className: "unit", textContent: "m" }));
+  const box = make("div", { id: "drawing-parts", popover: "manual", role: "dialog", "aria-labelledby": title.id }, title, why, make("p", { className: "hint", "data-text": "Choose the layers with the square, what stands in it, and the path; or an area." }), make("ul", {}, ...rows), area, make("p", { className: "buttons" }, go, close));
   document.body.append(box);
   writeTexts();
   box.showPopover();

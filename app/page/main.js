@@ -21,7 +21,7 @@ import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { EXTRAS, State } from "./state.js";
 import { Table } from "./table.js";
-import { handleName, language, learnRefusals, say, setLanguage, writeTexts } from "./text.js";
+import { handleName, language, languageOf, learn, learnRefusals, say, setLanguage, writeTexts } from "./text.js";
 import { showRefusals } from "./refusal_boxes.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), ...EXTRAS, "path", "drawing"];
@@ -61,7 +61,7 @@ const service = new Service({
   back() {
     $("#lost").hidden = true;
     carrier?.network(true);
-    if (questions.dance) announce(() => say("back")); // before a first answer nobody has missed it
+    if (questions.dance) announce(() => say("The service is back.")); // before a first answer nobody has missed it
   },
   refused: async () => learnRefusals(await parts.load("refusals")),
 });
@@ -137,8 +137,8 @@ function showPose(pose) {
   const isEqual = low === null || low.toFixed(6) === high.toFixed(6);
   const few = isEqual ? 2 : [2, 3, 4, 5, 6].find((count) => low.toFixed(count) !== high.toFixed(count));
   const [speed, slowest] = [high, low].map((one) => one === null ? null : formatNumber(one, 6, few));
-  least.textContent = isEqual ? say("allEqual") : slowest;
-  largest.textContent = answers.foldOf(questions.dance.answer) === null ? `${speed} m/s` : say("legendFold", { speed });
+  least.textContent = isEqual ? say("all equal") : slowest;
+  largest.textContent = answers.foldOf(questions.dance.answer) === null ? `${speed} m/s` : say("{speed} m/s → ∞", { speed });
   showHandle();
   if (pose.dance) showTable(pose);
   route?.posed(pose);
@@ -164,8 +164,8 @@ function showTable(pose) {
   const last = fold !== null && pose.time === questions.dance.end;
   const { clock } = questions.dance;
   const time = (last ? fold : pose.time).toFixed(6);
-  $("#table-time").textContent = say(last ? "tableAtFold" : "tableAt", { time }) + (clock ? ` · ${timeOfDay(pose.time, clock)}` : "");
-  Object.assign($("#table-fold"), { hidden: fold === null, textContent: fold === null ? "" : say("nearFold", { time: fold.toFixed(6) }) });
+  $("#table-time").textContent = say(last ? "Handles 1e-6 s before the fold at {time} s" : "Handles at {time} s", { time }) + (clock ? ` · ${timeOfDay(pose.time, clock)}` : "");
+  Object.assign($("#table-fold"), { hidden: fold === null, textContent: fold === null ? "" : say("Just before the fold at {time} s: towards it the speeds grow without bound.", { time: fold.toFixed(6) }) });
 }
 
 function showTime() {
@@ -329,10 +329,12 @@ function press(name, value) {
 }
 
 function translate() {
-  const chosen = setLanguage(state.get("lang"));
+  const chosen = languageOf(state.get("lang"));
+  const loading = learn(service, chosen, "first");
+  if (loading) return loading.then(translate);
+  setLanguage(chosen);
   press("lang", chosen);
   for (const link of $$("[data-how]")) link.href = `how?lang=${chosen}`;
-  // Of a part that is not there, the texts stay in the first language until it is.
   if (chosen !== (begun ||= chosen)) for (const open of [openRoute, openBelow]) open();
   graphs.help();
   controls.translate(limits);
@@ -483,6 +485,7 @@ async function readDocument() {
   below?.learn(paths, limits);
 }
 
+await learn(service, languageOf(state.get("lang")), "first");
 listen();
 showState(new Set([...Object.keys(SHOW_STATE), "pitch"]));
 doors.refuse();

@@ -1,10 +1,11 @@
 /** The map of a sweep: a value over one parameter as a line, over two as colours with contours. */
 
 import { ticks } from "./charts.js";
+import { columnName } from "./columns.js";
 import { $, SMALL_TYPE, colours, inType, make } from "./elements.js";
-import { FIELDS } from "./fields.js";
+import { FIELDS, LABELS } from "./fields.js";
 import { palette } from "./pen.js";
-import { columnName, say } from "./text.js";
+import { say } from "./text.js";
 
 const HEIGHT = 340;
 const [LEFT, RIGHT, TOP, BOTTOM] = [64, 16, 12, 44];
@@ -21,7 +22,7 @@ export class SweepMap {
   #units = {};
   #table = null;
   #cell = null;
-  /** Key of the words for the main value. */
+  /** Name of the main value. */
   #own = {};
 
   /** open(design): values by name, and the answer's under `answer`; colour(name): of the page */
@@ -41,7 +42,7 @@ export class SweepMap {
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
-  /** columns: name -> list, the service's answer; own, title: the first shown column, and the key of its name */
+  /** columns: name -> list, the service's answer; own, title: the first shown column, and its name */
   show(columns, own, title) {
     const names = Object.keys(columns);
     const over = names.slice(names.indexOf(DESIGN) + 1, names.indexOf(ERROR));
@@ -73,7 +74,7 @@ export class SweepMap {
     Object.assign(canvas, { width: canvas.clientWidth * devicePixelRatio, height: HEIGHT * devicePixelRatio });
     context.scale(devicePixelRatio, devicePixelRatio);
     if (!this.#table) {
-      this.reading.textContent = say("mapNone");
+      this.reading.textContent = say("Only numbers over one or two parameters can be drawn.");
       return;
     }
     const { columns, over, axes } = this.#table;
@@ -114,7 +115,7 @@ export class SweepMap {
   /** Name and unit of a parameter. */
   #label(name) {
     const unit = this.#units[name] ? ` [${this.#units[name]}]` : "";
-    return FIELDS.some((field) => field.name === name) ? say(name) + unit : name;
+    return FIELDS.some((field) => field.name === name) ? say(LABELS[name]) + unit : name;
   }
 
   get #valueName() {
@@ -162,8 +163,8 @@ export class SweepMap {
     const k = this.#design(...cell);
     const places = over.map((name) => `${this.#label(name)} ${formatNumber(columns[name][k])}`);
     const value = columns[this.select.value][k];
-    const reading = value === null ? (columns["error.message"][k] ?? say("mapEmpty")) : `${this.#valueName} ${formatNumber(value)}`;
-    this.reading.textContent = `${places.join(say("comma"))}${say("colon")}${reading}`;
+    const reading = value === null ? (columns["error.message"][k] ?? say("no value")) : `${this.#valueName} ${formatNumber(value)}`;
+    this.reading.textContent = `${places.join(say(", "))}${say(": ")}${reading}`;
     this.draw();
   }
 

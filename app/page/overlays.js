@@ -21,7 +21,7 @@ let message = () => "";
 /** Say that the service is lost. seconds: until the next try, 0 during one */
 export function lost(seconds) {
   $("#lost").hidden = false;
-  $("#lost span").textContent = say(seconds ? "lost" : "trying", { seconds });
+  $("#lost span").textContent = say(seconds ? "The service does not answer. The page stays as it is; next try in {seconds} s." : "The service does not answer. The page stays as it is; trying again now.", { seconds });
 }
 
 const PLACING = Symbol("message");
@@ -65,7 +65,7 @@ export function tell(box) {
 /** Copy a text, and say whether the browser allowed it: without HTTPS many do not. */
 export async function copy(text) {
   const copied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
-  announce(() => say(copied ? "copied" : "copyFailed"));
+  announce(() => say(copied ? "Copied" : "The browser did not allow copying"));
 }
 
 /** Show the refusal of a question that a person has asked, if it was refused. flows: see announce(); throws: any other error */
@@ -97,7 +97,7 @@ export function placeInset(covered) {
 }
 
 /** What stands on paper alone: when the dance ends, and the address that shows it. end: in words, or an empty text */
-export const showPrinted = (end) => ($("#printed").textContent = `${end && say("printedEnds", { end })}\n${location.href}`);
+export const showPrinted = (end) => ($("#printed").textContent = `${end && say("The dance ends at {end}.", { end })}\n${location.href}`);
 
 /** Mark first contact on the slider of the time. answer: {time, outcome}; begin, end: of the slider [s] */
 export function markContact({ time, outcome, dragons }, begin, end) {
@@ -105,6 +105,6 @@ export function markContact({ time, outcome, dragons }, begin, end) {
   mark.hidden = !outcome.startsWith("contact");
   if (mark.hidden) return;
   mark.style.setProperty("--share", end > begin ? (time - begin) / (end - begin) : 0);
-  mark.title = say(dragons ? "meetingMark" : "contactMark", { time: formatNumber(time, 6, 2) });
+  mark.title = say(dragons ? "Two dragons meet at {time} s" : "First contact, at {time} s", { time: formatNumber(time, 6, 2) });
   mark.setAttribute("aria-label", mark.title);
 }

@@ -2,8 +2,15 @@
 
 import { button, make, numberIn, textButton } from "./elements.js";
 import { announce } from "./overlays.js";
-import { ENDS, beatsOf, beginsOf, clockIn, endOf, passagesIn, timeOfDay } from "./passages.js";
-import { refusalWords, say, sentencesOf } from "./text.js";
+import { beatsOf, beginsOf, clockIn, endOf, passagesIn, timeOfDay } from "./passages.js";
+import { phrase, refusalWords, say, sentencesOf } from "./text.js";
+
+/** How the end of a passage may be stated. @type {Phrases} */
+const END_NAMES = {
+  m: "until [m]",
+  s: "until [s]",
+  d: "for [s]",
+};
 
 /** Duration of an added pause, and of an added passage [s]. */
 const [PAUSE, LONG] = [10, 20];
@@ -25,12 +32,12 @@ export class Pace {
     this.title = make("summary");
     this.list = make("ol");
     this.error = make("p", { className: "error", hidden: true });
-    const adds = ["passageAdd", "pauseAdd"].map((id) => textButton(id, () => this.#add(id === "pauseAdd"), { id }));
-    const help = make("p", { className: "hint", "data-text": "passagesHelp" });
+    const adds = [textButton("Add a passage", () => this.#add(false), { id: "passageAdd" }), textButton("Pause at this instant", () => this.#add(true), { id: "pauseAdd" })];
+    const help = make("p", { className: "hint", "data-text": "Parts of the dance with other speeds, in order from time 0 on; then the head speed applies. Metres count from the head's place at time 0. Speed 0 is a pause." });
     const box = make("details", { id: "passages" }, this.title, help, this.list, this.error, ...adds);
     this.clock = make("input", { id: "begin_clock", autocomplete: "off", "aria-describedby": "clock-error clock-help", onchange: () => this.#start() });
     this.wrong = make("p", { id: "clock-error", className: "error", hidden: true });
-    const label = make("label", {}, make("span", { "data-text": "begin_clock" }), " ", this.clock);
+    const label = make("label", {}, make("span", { "data-text": "Starts at" }), " ", this.clock);
     /** Says when the dance ends, and of an address or a file with the time of day at time 0 when it begins. */
     this.help = make("p", { id: "clock-help", className: "hint", hidden: true });
     // Of a drawn dance it stands beside the square.
@@ -67,8 +74,8 @@ export class Pace {
 
   /** Say what a time must look like, and which one holds meanwhile. */
   #say() {
-    this.clock.placeholder = say("clockExample");
-    this.wrong.textContent = sentencesOf([say("clockWrong"), this.#begins && say("clockKept", { clock: this.#begins })]);
+    this.clock.placeholder = say("hh:mm");
+    this.wrong.textContent = sentencesOf([say("Write the time of day as 19:30 or 19:30:15."), this.#begins && say("Until then it starts at {clock}.", { clock: this.#begins })]);
   }
 
   /** Show when a dance ends, and when it begins if its time of day is given at time 0, as in old addresses and files. */
@@ -78,19 +85,19 @@ export class Pace {
     this.#say();
     if (!clock) return;
     const start = this.#begins;
-    const ends = say("clockEnds", { end: timeOfDay(Number((answer.end?.time ?? end).toFixed(DECIMALS)), clock) });
-    this.help.textContent = atZero && begin !== 0 ? sentencesOf([say("clockAtZero", { clock: atZero, start }), ends]) : ends;
+    const ends = say("It ends at {end}.", { end: timeOfDay(Number((answer.end?.time ?? end).toFixed(DECIMALS)), clock) });
+    this.help.textContent = atZero && begin !== 0 ? sentencesOf([say("The file or the address says {clock} at 0 s; the dance starts at {start}.", { clock: atZero, start }), ends]) : ends;
     if (atZero && document.activeElement !== this.clock) this.clock.value = start;
   }
 
   #row() {
-    const label = (key) => ({ "data-label": key, "aria-label": say(key) });
+    const label = (words) => ({ "data-label": words, "aria-label": say(words) });
     const onchange = () => this.state.set({ passages: this.#typed.join("_") });
-    const number = (key) => make("input", { inputMode: "decimal", autocomplete: "off", onchange, ...label(key) });
-    const unit = make("select", { onchange, ...label("passageUnit") }, ...Object.keys(ENDS).map((one) => make("option", { value: one, "data-text": `passageEnd_${one}`, textContent: say(`passageEnd_${one}`) })));
+    const number = (words) => make("input", { inputMode: "decimal", autocomplete: "off", onchange, ...label(words) });
+    const unit = make("select", { onchange, ...label(phrase("Until a place, until a time, or for a time")) }, ...Object.entries(END_NAMES).map(([value, words]) => make("option", { value, "data-text": words, textContent: say(words) })));
     const drop = () => this.state.set({ passages: this.#typed.toSpliced(this.#rows.indexOf(row), 1).join("_") });
-    const remove = button({ className: "reset", textContent: "✕", ...label("passageRemove") }, drop);
-    const row = { until: number("passageUntil"), unit, speed: number("passageSpeed") };
+    const remove = button({ className: "reset", textContent: "✕", ...label(phrase("Remove the passage")) }, drop);
+    const row = { until: number(phrase("End of the passage")), unit, speed: number(phrase("Speed of the passage")) };
     row.box = make("li", {}, unit, row.until, row.speed, make("span", { className: "unit", textContent: "m/s" }), remove);
     return row;
   }
@@ -101,7 +108,7 @@ export class Pace {
     const all = beatsOf({ passages, beats });
     if (beats && !all) {
       this.state.set({ beats: "" });
-      announce(() => say("beatsGone"));
+      announce(() => say("These speeds take the place of the beats: the film has no drum any more."));
     }
     return all;
   }
@@ -122,7 +129,7 @@ export class Pace {
     });
     this.list.parentElement.open ||= passages.length > 0;
     const bars = beats?.reduce((sum, one) => sum + one.bars, 0);
-    this.title.textContent = beats ? say("beatsKept", { bars }) : passages.length ? say("passagesCount", { count: passages.length }) : say("passages");
+    this.title.textContent = beats ? say("Speeds by the beats of a drum ({bars} bars)", { bars }) : passages.length ? say("Slower, faster, pauses: {count}", { count: passages.length }) : say("Slower, faster, pauses");
     this.#say();
     if (document.activeElement !== this.clock) this.clock.value = this.state.get("begin_clock") || this.state.get("start_clock");
   }

@@ -3,7 +3,7 @@
 import { $, make } from "./elements.js";
 import { announce } from "./overlays.js";
 import { pending } from "./pending.js";
-import { say } from "./text.js";
+import { language, learn, say } from "./text.js";
 
 /** Distance from the view at which a part loads: small until a person scrolls, because answers that come push it down. */
 const [IN_VIEW, A_SCREEN] = ["0px", "100%"];
@@ -35,12 +35,12 @@ export class Parts {
     try {
       // A browser may never repeat an import that has failed, so the file comes first; the import takes it from the cache.
       await this.service.ask(`part ${name}`, url, { accept: "text/javascript" });
-      const [module] = await Promise.all([import(url), name in STYLES && addStyle(STYLES[name])]);
+      const [module] = await Promise.all([import(url), name in STYLES && addStyle(STYLES[name]), learn(this.service, language(), "more")]);
       return module;
     } catch (error) {
       // The service was lost in between.
       console.warn(error);
-      announce(() => say("partLost"), true);
+      announce(() => say("A part of the page did not load. Load the page again: its address keeps everything."), true);
       return await new Promise(() => {});
     } finally {
       pending(what, false);

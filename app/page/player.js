@@ -85,7 +85,7 @@ export class Player {
   #typeTime() {
     if (this.#playing) this.stop();
     const clock = $("#clock");
-    const field = make("input", { id: "typed-time", inputMode: "decimal", autocomplete: "off", value: clock.textContent.split(" ")[0], "aria-label": say("typeTime") });
+    const field = make("input", { id: "typed-time", inputMode: "decimal", autocomplete: "off", value: clock.textContent.split(" ")[0], "aria-label": say("Type a time") });
     const end = () => {
       field.onblur = null;
       clock.hidden = false;
@@ -97,7 +97,7 @@ export class Player {
       end();
       if (typeof time === "number") this.seek(time);
       else if (day) this.seek(secondsBetween(start, day));
-      else announce(() => say("timeWrong", { clock: start ? say("orClock") : "" }));
+      else announce(() => say("Write the time in seconds, such as 300{clock}.", { clock: start ? say(", or as 19:31:00") : "" }));
     };
     field.onkeydown = (event) => {
       if (event.key === "Enter") take();
@@ -130,7 +130,7 @@ export class Player {
   }
 
   translate() {
-    $("#play").textContent = `${this.#playing ? "❚❚" : "▶"} ${say(this.#playing ? "pause" : "play")}`;
+    $("#play").textContent = `${this.#playing ? "❚❚" : "▶"} ${say(this.#playing ? "Pause" : "Play")}`;
   }
 
   /** After a change of the time or of the answers: show samples, and ask for the service's own numbers. */
@@ -170,7 +170,7 @@ export class Player {
     if (!dance) return this.stop();
     const refusal = dance.track?.refusal;
     if (refusal) {
-      announce(() => sentencesOf([say("notPlayed"), refusalWords(refusal).textContent]));
+      announce(() => sentencesOf([say("The dance cannot be played: step through it, or move the time."), refusalWords(refusal).textContent]));
       return this.stop();
     }
     if (!dance.track?.at(this.time)) return;

@@ -1,6 +1,17 @@
 /** Dances to begin with: paths of a straight street, an S, a figure eight, a spiral in and out, and a village square. */
 
 import { EMPTY } from "./drawing.js";
+import { phrase } from "./text.js";
+
+/** Drawings to begin with. @type {Phrases} */
+export const PRESET_NAMES = {
+  empty: "Nothing",
+  street: "Straight street",
+  s: "S",
+  eight: "Figure eight",
+  inout: "Spiral in and out",
+  village: "Village square",
+};
 
 /** When the dragon of the village is in its square [s]. */
 const IN_SQUARE = 75;
@@ -36,20 +47,20 @@ const drawings = {
     things: [
       {
         kind: "area",
-        name: "square",
+        name: phrase("square"),
         points: [
           [-70, -11], [-20, -11], [-20, -15], [20, -15], [20, 15], [15, 15], [15, 65], [9, 65], [9, 15], [-20, 15], [-20, -5], [-70, -5],
         ],
       },
-      { kind: "circle", name: "well", points: [[2.5, -2.5]], radius: 1.5 },
-      { kind: "block", name: "stage", points: box(-17, 1.5, -6, 9.5) },
-      { kind: "circle", name: "linden", points: [[11, -7]], radius: 0.4 },
-      { kind: "circle", name: "chestnut", points: [[10.5, 3.5]], radius: 0.5 },
+      { kind: "circle", name: phrase("well"), points: [[2.5, -2.5]], radius: 1.5 },
+      { kind: "block", name: phrase("stage"), points: box(-17, 1.5, -6, 9.5) },
+      { kind: "circle", name: phrase("linden tree"), points: [[11, -7]], radius: 0.4 },
+      { kind: "circle", name: phrase("chestnut tree"), points: [[10.5, 3.5]], radius: 0.5 },
     ],
   },
 };
 
-/** Things of a preset have keys of words as names. */
+/** Things of a preset have English names. */
 export const PRESETS = Object.fromEntries(Object.entries(drawings).map(([name, drawing]) => [name, { ...EMPTY, ...drawing }]));
 
 /** What stands in a square, without names and without the streets, which may be longer. */

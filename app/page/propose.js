@@ -1,12 +1,12 @@
 /** The square by its size, and dances proposed for it: one of the cards becomes the route. */
 
 import { Problem, Superseded, TOO_LONG } from "./api.js";
-import { cardPicture, cardTitles, cardWords } from "./cards.js";
+import { FIGURES, cardPicture, cardTitles, cardWords } from "./cards.js";
 import { headingOf, withPoints } from "./changes.js";
 import { Corners } from "./corners.js";
-import { EMPTY, drawingOf, freeName, venueOf, yardOf } from "./drawing.js";
+import { EMPTY, THINGS, drawingOf, freeName, venueOf, yardOf } from "./drawing.js";
 import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.js";
-import { strayOf } from "./fields.js";
+import { HELPS, LABELS, strayOf } from "./fields.js";
 import { failureWords } from "./judgement.js";
 import { knotsOf } from "./knots.js";
 import { formatNumber, toldApart } from "./numbers.js";
@@ -14,9 +14,26 @@ import { pending } from "./pending.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
 import { circle, extent, rectangle } from "./square.js";
 import { roundedRoute } from "./walk.js";
-import { benchName, learn, refusalWords, say, sentencesOf, writeTexts } from "./text.js";
-import { DANCE } from "./words/dance.js";
-import { SQUARE } from "./words/square.js";
+import { benchName, between, phrase, refusalWords, say, sentencesOf, writeTexts } from "./text.js";
+
+/** What may be put into a square. @type {Phrases} */
+const TOOLS = {
+  gate: "Gate",
+  circle: "Tree, well",
+  block: "Obstacle",
+  area: "Square",
+};
+/** Why no dance was found. @type {Phrases} */
+const LACKS = {
+  area: "The benches cover at least {need} m² at any moment; the square has {have} m².",
+  width: "No dance was found: the widest free circle is at most {have} m across, and the tightest turn of {who} that is tried takes {need} m. Make the square larger.",
+  way: "The way between {a} and {b} is at most {have} m wide at its narrowest; the benches need at least {need} m.",
+  stray: "People shall be free to be {need} m from their places; the best of {tried} tried, {figure}, allows {have} m.",
+  benches: "The dragon has {need} benches; the longest one found to fit, {figure}, has {have}.",
+  fails: "None of {tried} tried passes its check; the nearest, “{figure}”, fails at {time} s: {failure}",
+  fails_one: "Nothing was found to fit, not even one bench. Its nearest dance, “{figure}”, fails at {time} s: {failure} Make the square larger, or what stands in it, the margin and the stray smaller.",
+  fails_none: "Nothing was found to fit, not even one bench. Make the square larger, or what stands in it, the margin and the stray smaller.",
+};
 
 /** Size of a square before any is drawn [m], and the largest one. */
 const [WIDTH, HEIGHT, MOST] = [30, 40, 10_000];
@@ -24,7 +41,13 @@ const [WIDTH, HEIGHT, MOST] = [30, 40, 10_000];
 const SAME = 1e-3;
 /** Number of dances that are proposed, and time between two looks at the search [ms]. */
 const [COUNT, SECOND] = [3, 1_000];
-const OBJECTIVES = ["tolerance", "benches", "turns", "duration"];
+/** What a good dance has much of. @type {Phrases} */
+const OBJECTIVES = {
+  tolerance: "room for people",
+  benches: "as many benches as fit",
+  turns: "many turns",
+  duration: "a long dance",
+};
 /** True for a thing that has no point in the rectangle around a ring. */
 function isBeyond(thing, ring) {
   const { width, height, middle: [x, y] } = extent(ring);
@@ -38,12 +61,12 @@ function stretched(drawing, ring, points) {
   return { ...drawing, things: drawing.things.map((thing) => (thing.kind === "gate" ? { ...thing, points: thing.points.map(at) } : thing)) };
 }
 /** Words for the stray behind the door of the village, and those of the other doors. */
-const STRAY = { true: { stray: SQUARE.strayVillage, stray_is: SQUARE.strayVillage_is }, false: { stray: DANCE.stray, stray_is: DANCE.stray_is } };
+const STRAY = { true: [phrase("People may stray up to"), phrase("from their place")], false: [LABELS.stray, HELPS.stray] };
 /** A drawing without a path. */
 const { points, straight, path, start, begin } = EMPTY;
 const WITHOUT_PATH = { points, straight, path, start, begin };
 const WAITING = ["accepted", "running"];
-const field = (key, properties) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, "aria-label": say(key), ...properties });
+const field = (label, properties) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": label, "aria-label": say(label), ...properties });
 
 export class Propose {
   /** Of the last question: {key, yard, things, proposals, courses, and the rest of the answer unless it is on its way}; null before. */
@@ -76,32 +99,32 @@ export class Propose {
     /** Why a size is refused; null without. @type {(() => string) | null} */
     this.refusal = null;
     const line = (...parts) => make("p", { className: "line" }, ...parts);
-    const words = (key) => make("span", { "data-text": key });
+    const words = (text) => make("span", { "data-text": text });
     const unit = () => make("span", { textContent: "m" });
-    this.sizes = [field("placeWidth"), field("placeHeight"), field("placeDiameter")];
+    this.sizes = [field(phrase("Width of the square")), field(phrase("Length of the square")), field(phrase("Diameter of the square"))];
     const [width, height, diameter] = this.sizes;
-    const take = (key, shape, fields) => textButton("placeTake", () => this.#draw(shape, fields), { id: key, "data-label": key });
-    this.dragon = ["benches", "body_length"].map((name) => field(name, { onchange: ({ target }) => this.#setNumber(name, target) }));
-    this.objective = make("select", { "data-label": "objective", id: "objective" }, ...OBJECTIVES.map((name) => make("option", { value: name, "data-text": `objective_${name}` })));
-    this.ask = textButton("propose", () => this.#ask(), { id: "propose", className: "main" });
+    const take = (id, label, shape, fields) => textButton("Draw it", () => this.#draw(shape, fields), { id, "data-label": label });
+    this.dragon = ["benches", "body_length"].map((name) => field(LABELS[name], { onchange: ({ target }) => this.#setNumber(name, target) }));
+    this.objective = make("select", { "data-label": "Best is", id: "objective" }, ...Object.entries(OBJECTIVES).map(([value, words]) => make("option", { value, "data-text": words })));
+    this.ask = textButton("Propose a dance", () => this.#ask(), { id: "propose", className: "main" });
     this.words = make("p", { role: "status", id: "proposed" });
-    this.stop = textButton("proposeStop", () => this.#stop(), { hidden: true });
+    this.stop = textButton("Stop", () => this.#stop(), { hidden: true });
     this.cardsTitle = make("h3", { id: "cards-title" });
-    this.cardsOld = make("p", { className: "error", id: "cards-old", "data-text": "cardsOld" });
+    this.cardsOld = make("p", { className: "error", id: "cards-old", "data-text": "These were proposed for an earlier square, other gates or another dragon. Propose again." });
     this.cards = make("ol", { id: "cards" });
     this.corners = new Corners({ state, steps, editor }, (refused) => this.#tell(refused));
-    const tools = ["gate", "circle", "block", "area"].map((tool) => textButton(`tool_${tool}`, () => this.#tool(tool), { "data-add": tool }));
+    const tools = Object.entries(TOOLS).map(([tool, words]) => textButton(words, () => this.#tool(tool), { "data-add": tool }));
     box.append(
-      line(words("placeRectangle"), width, make("span", { textContent: "×" }), height, unit(), take("take-rectangle", rectangle, [width, height])),
-      line(words("placeCircle"), diameter, unit(), take("take-circle", circle, [diameter])),
+      line(words(phrase("Our square is")), width, make("span", { textContent: "×" }), height, unit(), take("take-rectangle", phrase("Draw it: the rectangle"), rectangle, [width, height])),
+      line(words(phrase("or a circle, across")), diameter, unit(), take("take-circle", phrase("Draw it: the circle"), circle, [diameter])),
       (this.wrong = make("p", { className: "error", id: "place-wrong", role: "alert" })),
       (this.help = make("p", { className: "hint", id: "add-help", role: "status" })),
       (this.tools = make("p", { className: "buttons" }, ...tools)),
-      (this.done = textButton("placeDone", () => this.editor.turn(false), { id: "place-done" })),
+      (this.done = textButton("Done", () => this.editor.turn(false), { id: "place-done" })),
       this.corners.box,
-      (this.dragonLine = line(words("placeDragon"), this.dragon[0], words("placeBenchesOf"), this.dragon[1], unit())),
+      (this.dragonLine = line(words(phrase("We have")), this.dragon[0], words(phrase("benches of")), this.dragon[1], unit())),
       (this.start = make("div")),
-      line(make("label", { htmlFor: "objective", "data-text": "objective" }), this.objective),
+      line(make("label", { htmlFor: "objective", "data-text": "Best is" }), this.objective),
       make("p", { className: "buttons" }, this.ask, this.stop),
       this.words,
       this.cardsTitle,
@@ -140,7 +163,7 @@ export class Propose {
     const numbers = fields.map(({ value }) => numberIn(value));
     fields.forEach((one, k) => one.setAttribute("aria-invalid", !(numbers[k] > 0 && numbers[k] <= MOST)));
     const wrong = fields.find((one) => one.getAttribute("aria-invalid") === "true");
-    this.refusal = wrong ? () => say("placeWrong", { what: say(wrong.dataset.label), high: MOST.toLocaleString("en"), text: wrong.value }) : null;
+    this.refusal = wrong ? () => say("“{what}” must be more than 0 m and at most {high} m; you typed “{text}”. The square stays as it was.", { what: say(wrong.dataset.label), high: MOST.toLocaleString("en"), text: wrong.value }) : null;
     if (wrong) return this.show();
     // A number typed for the other shape stays, unless it is wrong.
     for (const one of this.sizes) {
@@ -152,12 +175,12 @@ export class Propose {
     const yard = yardOf(drawing);
     const points = shape(...numbers, yard.length ? extent(yard).middle : [0, 0]);
     const k = drawing.things.findIndex(({ kind }) => kind === "area");
-    const area = { kind: "area", name: freeName(drawing.things, say("thing_area")), points };
+    const area = { kind: "area", name: freeName(drawing.things, say(THINGS.area)), points };
     const drawn = k < 0 ? { ...drawing, things: [area, ...drawing.things] } : withPoints({ ...stretched(drawing, yard, points), yard: null }, k, points);
     this.steps.change({ drawing: drawn, view: null, time: null });
     this.editor.edit(null);
     const beyond = drawing.things.filter((thing) => !["area", "gate"].includes(thing.kind) && isBeyond(thing, points)).map(({ name }) => name);
-    this.#tell(beyond.length ? () => say("placeBeyond", { names: beyond.join(say("listed")) }) : null);
+    this.#tell(beyond.length ? () => say("Outside the square now: {names}. They stay in the drawing; remove them in its list under “More numbers and answers”.", { names: beyond.join(between()) }) : null);
     requestAnimationFrame(() => this.ask.scrollIntoView({ block: "nearest" }));
   }
 
@@ -176,7 +199,7 @@ export class Propose {
   }
 
   async #ask() {
-    if (!yardOf(this.#drawing).length) return this.#tell(() => say("proposeFirst"));
+    if (!yardOf(this.#drawing).length) return this.#tell(() => say("First say how large your square is."));
     const request = this.#request();
     const search = { began: performance.now(), share: 0, job: null, end: new AbortController() };
     this.note = null;
@@ -315,8 +338,8 @@ export class Propose {
   /** What the verdict on the dance has to say of gates and of an earlier square, or an empty text. */
   get remark() {
     const { path, things, yard } = this.#drawing;
-    if (path && path === this.#made.path) return this.#made.key === this.#keyOf(this.#request()) ? "" : say("verdictOld");
-    return !yard && things.some(({ kind }) => kind === "gate") ? say("gatesApart") : "";
+    if (path && path === this.#made.path) return this.#made.key === this.#keyOf(this.#request()) ? "" : say("This dance was proposed for an earlier square, other gates or another dragon: “Propose a dance” finds one for what is shown now.");
+    return !yard && things.some(({ kind }) => kind === "gate") ? say("The verdict is on the path drawn here. Gates do not count for it: only “Propose a dance” uses them.") : "";
   }
 
   /** Why no dance was found, in words. */
@@ -329,12 +352,12 @@ export class Propose {
     const numbers = { have: less, need: kind === "stray" ? need : more };
     const first = failure && { failure: failureWords(failure, this.questions.drawn()), time: formatNumber(failure.time, 6, 2) };
     const lack = kind !== "fails" ? kind : !failure ? "fails_none" : have < need ? "fails_one" : kind;
-    return say(`lack_${lack}`, { ...names, ...numbers, ...first, tried, figure: figure ? say(`figure_${figure}`) : "" });
+    return say(LACKS[lack], { ...names, ...numbers, ...first, tried, figure: figure ? say(FIGURES[figure]) : "" });
   }
 
   /** How many benches the area of the square bounds, if they are what counts. */
   #most({ most_benches: most = null }) {
-    return this.objective.value === "benches" && most !== null ? say("proposedMost", { most }) : "";
+    return this.objective.value === "benches" && most !== null ? say("By its area the square has room for at most {most}.", { most }) : "";
   }
 
   /** After a change of anything. */
@@ -343,13 +366,15 @@ export class Propose {
     const isRoute = this.state.get("path") === "route";
     hide(this.box, !isRoute);
     this.#showStart(isRoute);
-    learn(STRAY[String(this.state.get("door") === "village")]);
+    const [label, help] = STRAY[String(this.state.get("door") === "village")];
+    $("label[for=stray]").dataset.text = label;
+    $("#stray-help").dataset.text = help;
     writeTexts();
     if (!isRoute) return;
     this.#showSizes(yardOf(drawing));
     hide(this.wrong, !this.refusal);
     this.wrong.textContent = this.refusal?.() ?? "";
-    this.help.textContent = this.editor.active ? this.editor.help : say("placeAdd");
+    this.help.textContent = this.editor.active ? this.editor.help : say("What is in it? Choose, then tap the picture.");
     // While drawing, the tools stand above the picture.
     hide(this.tools, this.editor.active);
     hide(this.done, !this.editor.active);
@@ -382,8 +407,8 @@ export class Propose {
 
   #showWords(answer) {
     const seconds = this.#search && Math.round((performance.now() - this.#search.began) / 1000);
-    const result = answer && (answer.proposals.length ? sentencesOf([say(answer.tried ? "proposed" : "proposedSoFar", { count: answer.proposals.length, tried: answer.tried }), say("proposedChoose"), this.#most(answer)]) : this.#lack(answer));
-    const going = () => say(answer ? "proposingMore" : "proposing", { seconds, count: answer?.proposals.length }) + (this.#search.job ? say("proposingShare", this.#search) : "");
+    const result = answer && (answer.proposals.length ? sentencesOf([say(answer.tried ? "The best {count} of {tried} tried; each has passed its check." : "{count} found so far.", { count: answer.proposals.length, tried: answer.tried }), say("Choose one; then you may edit it."), this.#most(answer)]) : this.#lack(answer));
+    const going = () => say(answer ? "{count} found so far, the search goes on: {seconds} s" : "Looking for dances that fit: {seconds} s", { seconds, count: answer?.proposals.length }) + (this.#search.job ? say(", {share} % of the kinds of dance tried", this.#search) : "");
     const text = this.#search ? going() : (this.note?.() ?? result ?? "");
     const problem = !this.#search && !text && this.#problem;
     Object.assign(this.words, problem ? refusalWords(problem) : { textContent: text });
@@ -394,7 +419,7 @@ export class Propose {
     const count = answer?.proposals.length ?? 0;
     hide(this.cardsTitle, !count);
     hide(this.cardsOld, !count || !isOld);
-    this.cardsTitle.textContent = count ? say(count === 1 ? "cardsTitle_one" : "cardsTitle", { count }) : "";
+    this.cardsTitle.textContent = count ? say(count === 1 ? "1 dance" : "{count} dances", { count }) : "";
     // Cards that stay the same keep the focus while the search goes on.
     const drawn = answer && JSON.stringify([answer.key, isOld, count, answer.tried, this.#chosen, this.state.get("lang")]);
     if (drawn === this.#drawn) return;

@@ -7,6 +7,7 @@ import { CONTACT, DRAGON, FIELDS, TURN, numbersOf } from "./fields.js";
 import { clockAtZero, timeAfter } from "./passages.js";
 import { Pause } from "./pending.js";
 import { EXTRAS } from "./state.js";
+import { language } from "./text.js";
 import { Track, speedTimes } from "./track.js";
 
 /** Time without a change after which input counts as paused [ms]. */
@@ -411,9 +412,9 @@ export class Questions {
     this.tell(kind);
   }
 
-  /** True if a question differs from the last one of its kind. mark: it becomes the last one */
+  /** True if a question, or its language, differs from the last one of its kind. mark: it becomes the last one */
   #isNew(kind, question, mark = true) {
-    const key = JSON.stringify(question);
+    const key = JSON.stringify([language(), question]);
     if (this.#latest.get(kind) === key) return false;
     if (mark) this.#latest.set(kind, key);
     return true;

@@ -2,10 +2,10 @@
 
 import { showRefusal } from "./answers.js";
 import { $ } from "./elements.js";
-import { refusalWords } from "./text.js";
+import { phrase, refusalWords } from "./text.js";
 
 /** Titles of the boxes that show a refusal, in the order of the page. */
-const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", quickest: "quickestTurn", time: "turnTime", head: "headSpeed", fastest: "highest" };
+const TITLES = { contact: phrase("First contact"), minimum: phrase("Minimum pitch"), tolerance: "tolerance", shortest: phrase("Shortest turn"), quickest: phrase("Quickest turn"), time: phrase("Time through this turn"), head: phrase("Maximum head speed"), fastest: "highest" };
 
 /** boxOf(kind): selector of the box of this kind of answer */
 export function showRefusals(questions, graphs, boxOf) {

@@ -1,10 +1,11 @@
 /** The service's refusals in sentences for people: with the labels and the units of the page, in both languages. */
 
-import { FIELDS } from "./fields.js";
+import { FIELDS, LABELS } from "./fields.js";
+import { phrase } from "./text.js";
 import { PLACES, REASONS, RULES, WHOLE } from "./words/refusals.js";
 
-/** Names in tables of benches and of passages: the key of their words. */
-const NAMES = { length: "csvLength", speed: "passageSpeed", until_s: "passagePlace", until_time: "passageTime", duration: "passageDuration" };
+/** Labels of the numbers, and names in tables of benches and of passages. */
+const NAMES = { ...LABELS, length: phrase("Length"), speed: phrase("Speed of the passage"), until_s: phrase("until, in metres"), until_time: phrase("until, in seconds"), duration: phrase("for, in seconds") };
 const UNITS = { m: "metres", cm: "centimetres", "m/s": "metres per second", s: "seconds", turns: "turns", rad: "radians" };
 const CHINESE = { turns: " 圈", degrees: "°" };
 /** An example of a number in each unit, for fields without a default. */
@@ -34,7 +35,7 @@ export function refusalIn(problem, chinese, say) {
   if (!rest) return new Refusal(problem, chinese, say).inWords();
   const refusal = refusalIn({ ...problem, template: template.slice(rest.length) }, chinese, say);
   if (rest === TABLE) return refusal;
-  const words = say("csvLine", { line: values.line.text, words: refusal.textContent });
+  const words = say("Line {line}: {words}", { line: values.line.text, words: refusal.textContent });
   return { textContent: words, lang: chinese ? LANGS[1] : LANGS[0] };
 }
 
@@ -108,7 +109,7 @@ class Refusal {
   /** The name of a parameter on the page. */
   label(dotted) {
     const name = lastOf(dotted);
-    return fieldOf(name) || NAMES[name] ? `“${this.say(NAMES[name] ?? name)}”` : dotted.replace(/\.(\d+)/g, "[$1]");
+    return NAMES[name] ? `“${this.say(NAMES[name])}”` : dotted.replace(/\.(\d+)/g, "[$1]");
   }
 
   /** The place of the error, with the number of a point or of a thing. */
@@ -143,7 +144,7 @@ class Refusal {
     if (!value) return undefined;
     if (word === "then") return `${value.value} ${value.unit}`;
     if (how) return how === "~" ? Number(value.value.toFixed(3)) : value.value + 1;
-    if (BENCHES.includes(word)) return value.value ? this.say("body", { k: value.value }) : this.say("theHead");
+    if (BENCHES.includes(word)) return value.value ? this.say("body {k}", { k: value.value }) : this.say("the head");
     if (value.parameter) return this.label(value.parameter);
     return value.unit ? this.quantity(value) : (value.value ?? value.text);
   }

@@ -1,11 +1,11 @@
 /** The form of a drawn dance: presets, its points and its venue as lists, files in and out. */
 
 import { bent, moved, removed, withThing } from "./changes.js";
-import { EMPTY, freeName } from "./drawing.js";
+import { EMPTY, THINGS, freeName } from "./drawing.js";
 import { button, hide, make, numberIn, textButton } from "./elements.js";
 import { laterBy, passagesText, wayAt } from "./passages.js";
-import { PRESETS, isPresetVenue, shownAt } from "./presets.js";
-import { say } from "./text.js";
+import { PRESETS, PRESET_NAMES, isPresetVenue, shownAt } from "./presets.js";
+import { phrase, say } from "./text.js";
 
 /** The number in a field; null if there is none. */
 function read(field) {
@@ -13,12 +13,25 @@ function read(field) {
   return typeof number === "number" ? number : null;
 }
 /** An element with a text, or a label, that follows the language. */
-const textElement = (tag, key, properties = {}) => make(tag, { ...properties, "data-text": key, textContent: say(key) });
-const labelled = (tag, key, properties = {}) => make(tag, { ...properties, "data-label": key, "aria-label": say(key) });
+const textElement = (tag, words, properties = {}) => make(tag, { ...properties, "data-text": words, textContent: say(words) });
+const labelled = (tag, words, properties = {}) => make(tag, { ...properties, "data-label": words, "aria-label": say(words) });
 /** Least and largest numbers of the fields, as the service takes them. */
 export const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4], gateHeading: [-360, 360] };
 const unitOf = (textContent) => make("span", { className: "unit", textContent });
 const removing = { className: "reset", textContent: "✕" };
+/** Labels of the numbers. @type {Phrases} */
+export const NAMES = {
+  pointX: "x of the point",
+  pointY: "y of the point",
+  speedLimit: "Speed limit of every handle",
+  pathBegin: "Head at time 0, along the path",
+  latitude: "Latitude of x = y = 0",
+  longitude: "Longitude of x = y = 0",
+  cornerRadius: "Radius of corners",
+  thingRadius: "Radius [m]",
+  gateHeading: "Direction of those who enter [°]",
+  cornerNext: "to the next [m]",
+};
 /** Fields that may be empty. */
 const OPTIONAL = ["speedLimit", "latitude", "longitude", "gateHeading"];
 const DEGREE = Math.PI / 180;
@@ -45,8 +58,8 @@ export class RouteForm {
     this.steps = steps;
     this.editor = editor;
     // Buttons, because the arrow keys of a list would begin anew at each step.
-    this.presets = make("div", { id: "presets", popover: "auto" }, ...["empty", ...Object.keys(PRESETS)].map((name) => textButton(`preset_${name}`, () => this.beginWith(name), { "data-begin": name })));
-    this.preset = textElement("button", "presetChoose", { id: "preset", type: "button", popoverTargetElement: this.presets });
+    this.presets = make("div", { id: "presets", popover: "auto" }, ...["empty", ...Object.keys(PRESETS)].map((name) => textButton(PRESET_NAMES[name], () => this.beginWith(name), { "data-begin": name })));
+    this.preset = textElement("button", "Begin with …", { id: "preset", type: "button", popoverTargetElement: this.presets });
     this.corner = this.#number("cornerRadius", (radius) => this.#take({ radius }));
     this.limit = this.#number("speedLimit", (limit) => this.#take({ limit }));
     this.begin = this.#number("pathBegin", (begin) => this.#take({ begin }));
@@ -57,9 +70,9 @@ export class RouteForm {
     this.pointsTitle = make("summary");
     this.thingsTitle = make("summary");
     this.note = make("p", { className: "hint", id: "route-note", role: "status" });
-    const heads = ["knotNumber", "x", "y", "straightOn", "remove"].map((key) => (key.length === 1 ? make("th", { scope: "col", textContent: `${key} [m]` }) : textElement("th", key, { scope: "col" })));
+    const heads = [phrase("Point"), "x [m]", "y [m]", phrase("Straight on"), phrase("Remove")].map((words) => textElement("th", words, { scope: "col" }));
     const table = make("table", {}, make("thead", {}, make("tr", {}, ...heads)), this.rows);
-    const field = (key, input, unit) => make("label", { className: "line" }, textElement("span", key), input, unitOf(unit));
+    const field = (key, input, unit) => make("label", { className: "line" }, textElement("span", NAMES[key]), input, unitOf(unit));
     box.append(
       make("p", { className: "buttons" }, this.preset, this.presets, ...files.buttons()),
       this.note,
@@ -67,9 +80,9 @@ export class RouteForm {
       (this.cornerLine = field("cornerRadius", this.corner, "m")),
       field("pathBegin", this.begin, "m"),
       (this.later = make("p", { className: "hint", hidden: true }, make("span"), " ", make("button", { type: "button" }))),
-      make("p", { className: "line" }, textElement("span", "origin"), ...this.origin, unitOf("°")),
+      make("p", { className: "line" }, textElement("span", "Latitude, longitude of 0, 0"), ...this.origin, unitOf("°")),
       make("details", { id: "points" }, this.pointsTitle, table),
-      make("details", { id: "things", open: true }, this.thingsTitle, this.list, textElement("p", "thingsHelp", { className: "hint" })),
+      make("details", { id: "things", open: true }, this.thingsTitle, this.list, textElement("p", "Choose one of them to move its points. Walls and trees have a radius.", { className: "hint" })),
     );
   }
 
@@ -83,12 +96,12 @@ export class RouteForm {
     const onchange = ({ target }) => {
       const number = read(target);
       const isRight = !target.value.trim() || (number !== null && low <= number && number <= high);
-      this.#mark(target, isRight ? null : () => say("noNumberIn", { what: say(key), low, high, text: target.value }));
+      this.#mark(target, isRight ? null : () => say("“{what}” must be a number from {low} to {high}; you typed “{text}”. The dance stays as it was.", { what: say(NAMES[key]), low, high, text: target.value }));
       if (!isRight) return;
       if (number === null && !OPTIONAL.includes(key)) target.value = target.kept;
       else act(number);
     };
-    return labelled("input", key, { inputMode: "decimal", autocomplete: "off", spellcheck: false, onchange });
+    return labelled("input", NAMES[key], { id: ["latitude", "longitude"].includes(key) ? key : "",  inputMode: "decimal", autocomplete: "off", spellcheck: false, onchange });
   }
 
   /** Show why a number is refused, until it is right, another one is refused or the drawing changes. words(): why; null: it is right */
@@ -119,8 +132,8 @@ export class RouteForm {
       const later = passages.length ? { passages: passagesText(laterBy(passages, place - this.#drawing.begin, begin)) } : {};
       this.steps.change({ ...later, drawing: { ...this.#drawing, begin: place } });
     };
-    words.textContent = say("beginsLater", { time: begin.toFixed(2) });
-    Object.assign(button, { textContent: say("beginThere", { place }), onclick: start });
+    words.textContent = say("The dance begins at {time} s: only then is the whole dragon on the path.", { time: begin.toFixed(2) });
+    Object.assign(button, { textContent: say("Begin at time 0: head at {place} m", { place }), onclick: start });
   }
 
   /** Set the place of x = y = 0 on earth when both of its numbers are given, or none. */
@@ -137,7 +150,7 @@ export class RouteForm {
     if (this.presets.matches(":popover-open")) this.presets.hidePopover();
     this.editor.edit(null);
     const preset = PRESETS[name] ?? EMPTY;
-    const translated = preset.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) }));
+    const translated = preset.things.map((thing) => ({ ...thing, name: say(thing.name) }));
     const drawing = { ...preset, ...(isOwn && !translated.length ? { things, origin, grid, limit } : { things: translated }) };
     this.steps.change({ drawing, view: null, time: shownAt(preset) });
   }
@@ -150,12 +163,12 @@ export class RouteForm {
     put(this.corner, radius);
     put(this.limit, limit ?? "");
     put(this.begin, begin);
-    if (origin || !this.box.contains(document.activeElement)) this.origin.forEach((one) => put(one, origin?.[one.dataset.label] ?? ""));
+    if (origin || !this.box.contains(document.activeElement)) this.origin.forEach((one) => put(one, origin?.[one.id] ?? ""));
     if (this.limit.placeholder !== say("none")) this.limit.placeholder = say("none");
     hide(this.cornerLine, !straight.some((leg) => straight.includes(leg + 1)));
-    this.pointsTitle.textContent = path && !points.length ? say("pathFile") : say("pointsTitle", { count: points.length });
-    this.thingsTitle.textContent = say("thingsTitle", { count: things.length });
-    this.note.textContent = this.state.fits ? "" : say("tooLong");
+    this.pointsTitle.textContent = path && !points.length ? say("The path is from a file; tap to draw another") : say("Points of the path: {count}", { count: points.length });
+    this.thingsTitle.textContent = say("Square and obstacles: {count}", { count: things.length });
+    this.note.textContent = this.state.fits ? "" : say("This drawing is too long for an address: save it as a file to share it.");
     this.#fit(this.#points, this.rows, points.length, (k) => this.#pointRow(k));
     this.#fit(this.#things, this.list, things.length, (k) => this.#thingRow(k));
     this.#points.forEach((row, k) => {
@@ -168,13 +181,13 @@ export class RouteForm {
       put(row.name, name);
       put(row.radius, own ?? "");
       put(row.heading, heading === null || heading === undefined ? "" : Number((heading / DEGREE).toFixed(1)));
-      if (row.heading.placeholder !== say("gateStraight")) row.heading.placeholder = say("gateStraight");
+      if (row.heading.placeholder !== say("straight")) row.heading.placeholder = say("straight");
       for (const part of [row.radius, row.unit]) hide(part, own === undefined);
       hide(row.heading, kind !== "gate");
-      row.edit.textContent = say(`thing_${kind}`);
+      row.edit.textContent = say(THINGS[kind]);
       row.edit.setAttribute("aria-pressed", this.editor.item === k);
-      row.edit.setAttribute("aria-label", say("editThing", { name }));
-      row.remove.setAttribute("aria-label", say("removeThing", { name }));
+      row.edit.setAttribute("aria-label", say("Edit {name}", { name }));
+      row.remove.setAttribute("aria-label", say("Remove {name}", { name }));
     });
   }
 
@@ -190,8 +203,8 @@ export class RouteForm {
     const fields = ["pointX", "pointY"].map((key, axis) =>
       this.#number(key, (value) => this.steps.take(moved(this.#drawing, null, k, this.#drawing.points[k].with(axis, value)))),
     );
-    const leg = labelled("input", "straightOn", { type: "checkbox", onchange: () => this.steps.take(bent(this.#drawing, k)) });
-    const remove = labelled("button", "remove", { type: "button", ...removing, onclick: () => this.steps.take(removed(this.#drawing, null, k)) });
+    const leg = labelled("input", "Straight on", { type: "checkbox", onchange: () => this.steps.take(bent(this.#drawing, k)) });
+    const remove = labelled("button", "Remove", { type: "button", ...removing, onclick: () => this.steps.take(removed(this.#drawing, null, k)) });
     const cells = [...fields, make("label", { className: "tap" }, leg), remove].map((part) => make("td", {}, part));
     return { fields, leg, box: make("tr", {}, make("th", { scope: "row", textContent: k + 1 }), ...cells) };
   }
@@ -203,12 +216,12 @@ export class RouteForm {
     };
     const rename = ({ target }) => {
       const { things } = this.#drawing;
-      const name = target.value.trim() || say(`thing_${things[k].kind}`);
+      const name = target.value.trim() || say(THINGS[things[k].kind]);
       this.steps.take(withThing(this.#drawing, k, { name: freeName(things, name, things[k]) }));
     };
     const row = {
       edit: button({}, edit),
-      name: labelled("input", "thingName", { maxLength: 200, autocomplete: "off", spellcheck: false, onchange: rename }),
+      name: labelled("input", "Name", { maxLength: 200, autocomplete: "off", spellcheck: false, onchange: rename }),
       radius: this.#number("thingRadius", (radius) => this.steps.take(withThing(this.#drawing, k, { radius }))),
       unit: unitOf("m"),
       heading: this.#number("gateHeading", (degrees) => this.steps.take(withThing(this.#drawing, k, { heading: degrees === null ? null : Number((degrees * DEGREE).toFixed(4)) }))),

@@ -17,14 +17,14 @@ export class Sharing {
     this.state = state;
     this.parts = parts;
     const box = make("div", { id: "sharing", popover: "auto", role: "dialog", "aria-labelledby": "sharing-title" });
-    this.address = make("input", { id: "address", readOnly: true, "data-label": "address", onfocus: () => this.address.select() });
-    this.code = make("canvas", { id: "qr", role: "img", "data-label": "qr" });
+    this.address = make("input", { id: "address", readOnly: true, "data-label": "Address of what is shown", onfocus: () => this.address.select() });
+    this.code = make("canvas", { id: "qr", role: "img", "data-label": "QR code of the address" });
     this.help = make("p", { id: "sharing-help", className: "hint" });
-    this.copied = textButton("copyAddress", () => copy(this.address.value), { id: "copy-address", className: "main" });
+    this.copied = textButton("Copy", () => copy(this.address.value), { id: "copy-address", className: "main" });
     const sheet = () => navigator.share({ title: document.title, url: this.address.value }).catch(() => {});
-    const close = textButton("close", () => box.hidePopover());
-    this.sheet = textButton("shareSheet", sheet, { id: "share-sheet" });
-    box.append(make("h2", { id: "sharing-title", "data-text": "share" }), this.address, this.code, this.help, make("p", { className: "buttons" }, this.copied, this.sheet, close));
+    const close = textButton("Close", () => box.hidePopover());
+    this.sheet = textButton("Send …", sheet, { id: "share-sheet" });
+    box.append(make("h2", { id: "sharing-title", "data-text": "Share" }), this.address, this.code, this.help, make("p", { className: "buttons" }, this.copied, this.sheet, close));
     document.body.append(box);
     this.box = box;
   }
@@ -36,7 +36,7 @@ export class Sharing {
     this.code.hidden = true;
     for (const part of [this.address, this.copied]) part.hidden = !fits;
     this.sheet.hidden = !fits || !navigator.share;
-    this.help.textContent = fits ? "" : say("tooLong");
+    this.help.textContent = fits ? "" : say("This drawing is too long for an address: save it as a file to share it.");
     writeTexts();
     this.box.showPopover();
     // An address without the drawing would show something else.
@@ -48,7 +48,7 @@ export class Sharing {
   /** rows: of the code; null for an address too long for one */
   #draw(rows) {
     this.code.hidden = !rows;
-    this.help.textContent = say(rows ? "sharingHelp" : "sharingLong");
+    this.help.textContent = say(rows ? "Whoever opens the address, or scans the code, sees the same." : "The address is too long for a QR code: copy it.");
     if (!rows) return;
     const size = (rows.length + 2 * QUIET) * MODULE;
     const canvas = Object.assign(this.code, { width: size, height: size });

@@ -76,7 +76,7 @@ export class Table {
     for (const [row, line] of this.#rows.entries()) {
       const k = first + row;
       const numbers = [x[k], y[k], speed[k]].map((one) => one.toFixed(DECIMALS).replace(/^-(0\.0+)$/, "$1"));
-      const texts = [say("handleNumber", { k, name: handleName(k, x.length - 1) }), ...numbers];
+      const texts = [say("{k} · {name}", { k, name: handleName(k, x.length - 1) }), ...numbers];
       texts.forEach((text, cell) => (line.cells[cell].textContent = text));
       line.cells[0].title = texts[0];
       line.className = k === this.#handle ? "chosen" : "";

@@ -2,38 +2,56 @@
 
 import { $$ } from "./elements.js";
 import { strayOf } from "./fields.js";
-import { ANSWERS } from "./words/answers.js";
-import { DANCE } from "./words/dance.js";
-import { MORE } from "./words/more.js";
+import { FORMS } from "./forms.js";
 
-/** Every word of the page in English and in Simplified Chinese, with the terms of the contest; later parts bring their own. */
-const WORDS = { ...DANCE, ...ANSWERS, ...MORE };
-/** Take the words of a part that has loaded. */
-export const learn = (words) => Object.assign(WORDS, words);
+/** Language -> English template -> its text; English needs none. */
+const CATALOGUES = {};
+/** The parts of catalogues that are needed so far: first, more or how. */
+const PARTS = new Set();
+/** Address of a part of a catalogue -> the Promise of it. */
+const loads = new Map();
 
-let column = 0;
+let spoken = "en";
 /** Names of the benches, such as households, head first; empty for benches without a name. */
 let households = [];
 
-/** Set the language to the choice, en or zh, or to the browser's preference. */
-export function setLanguage(choice) {
-  const language = choice ?? (navigator.language.toLowerCase().startsWith("zh") ? "zh" : "en");
-  column = language === "zh" ? 1 : 0;
-  document.documentElement.lang = language === "zh" ? "zh-Hans" : "en";
-  document.title = say("title");
+/** The language of a choice, or else the one that the browser prefers: en or zh. */
+export const languageOf = (choice) => choice ?? (navigator.language.toLowerCase().startsWith("zh") ? "zh" : "en");
+
+/** Take texts of a language by their English templates. */
+export const teach = (lang, texts) => (CATALOGUES[lang] = { ...CATALOGUES[lang], ...texts });
+
+/**
+ * The texts of a language, for this part of the page and those before it; null if they are here.
+ * @param {Service} service
+ */
+export function learn(service, lang, part) {
+  PARTS.add(part);
+  const names = lang === "en" ? [] : [...PARTS].map((one) => `words/${lang}-${one}.json`);
+  const missing = names.filter((name) => loads.get(name) !== null);
+  for (const name of missing)
+    if (!loads.has(name)) loads.set(name, service.ask(name, new URL(`./${name}`, import.meta.url).href).then((texts) => teach(lang, texts) && loads.set(name, null)));
+  return missing.length ? Promise.all(missing.map((name) => loads.get(name))) : null;
+}
+
+/** Set the language, whose texts are here. */
+export function setLanguage(lang) {
+  spoken = lang;
+  document.documentElement.lang = lang === "zh" ? "zh-Hans" : lang;
+  document.title = say("Bench Dragon");
   writeTexts();
-  return language;
 }
 
 /** Attribute -> element -> the text that was written, which others may have replaced since. */
 const WRITTEN = { text: new WeakMap(), label: new WeakMap() };
 
-/** Write the text or the label of every element that has a key and not yet that text; those of a part that has not loaded stay as the service wrote them. */
+/** Write the text or the label of every marked element that has not yet that text. The English one stands in the mark, or before the first time in the element. */
 export function writeTexts() {
+  for (const element of $$("[data-text='']")) element.dataset.text = element.textContent;
   const due = (name) => $$(`[data-${name}]`).filter((element) => {
-    const key = element.dataset[name];
-    if (!(key in WORDS) || WRITTEN[name].get(element) === say(key)) return false;
-    WRITTEN[name].set(element, say(key));
+    const words = say(element.dataset[name]);
+    if (WRITTEN[name].get(element) === words) return false;
+    WRITTEN[name].set(element, words);
     return true;
   });
   for (const element of due("text")) element.textContent = say(element.dataset.text);
@@ -46,43 +64,45 @@ export function writeTexts() {
 /** The language of the page for the service: en or zh. */
 export const language = () => document.documentElement.lang.slice(0, 2);
 
-/** The text of this key, with {names} replaced. */
-export const say = (key, values = {}) => filled(WORDS[key][column], values);
+/** A sentence, or a part of one, from its English template, with {names} replaced. */
+export const say = (template, values = {}) => sayIn(spoken, template, values);
 
-/** The same in a language: en or zh. */
-export const sayIn = (lang, key, values = {}) => filled(WORDS[key][lang === "zh" ? 1 : 0], values);
+/** The same in a language whose texts are here. */
+export const sayIn = (lang, template, values = {}) => filled(CATALOGUES[lang]?.[template] ?? template, values);
+
+/** The same for a template that other languages put in several ways. meaning: the one that is meant */
+export const sense = (meaning, template, values = {}) => filled(CATALOGUES[spoken]?.[`${meaning}\u0004${template}`] ?? template, values);
+
+/** A template that is said elsewhere: so marked it comes into the catalogues. */
+export const phrase = (template) => template;
+
+/** What stands between the names of a list. */
+export const between = () => sense("names", ", ");
 
 function filled(text, values) {
-  return text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
+  return text.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? values[name] : whole));
 }
 
 /** Sentences one after the other, as the language writes them. */
-export const sentencesOf = (sentences) => sentences.filter(Boolean).reduce((first, second) => (first ? say("sentences", { first, second }) : second), "");
+export const sentencesOf = (sentences) => sentences.filter(Boolean).reduce((first, second) => (first ? say("{first} {second}", { first, second }) : second), "");
 
 /**
- * The text of this key for a question: with a margin benches in contact may be apart, and with a stray they only may
- * touch. {touch} and {meet} in a text are the words for a contact. request: {margin, stray, hole, pin}, [m]
+ * The sentence of this name in FORMS for a question: with a margin benches in contact may be apart, and with a stray they
+ * only may touch. {touch} and {meet} in it are the words for a contact. request: {margin, stray, hole, pin}, [m]
  * @param {any} request
  */
-export function sayOf(key, request, values = {}) {
+export function sayOf(name, request, values = {}) {
   const [near, strays] = [Number(request.margin) > 0, strayOf(request) > 0];
-  const form = (name) => [strays && `${name}Stray`, near && `${name}Near`].find((one) => one in WORDS) ?? name;
+  const form = (key) => FORMS[[strays && `${key}Stray`, near && `${key}Near`].find((one) => one in FORMS) ?? key];
   const { margin } = request;
-  const touch = say(near ? "touchNear" : "touch", { margin });
-  return say(form(key), { margin, touch, meet: say(form("meet"), { margin, touch }), ...values });
+  const touch = near ? say("come within {margin} m", { margin }) : say("touch");
+  return say(form(name), { margin, touch, meet: say(form("meet"), { margin, touch }), ...values });
 }
 
 /** A title with the stray of the answer. */
 export function titleOf(key, request) {
   const [title, stray] = [sayOf(key, request), strayOf(request)];
-  return stray > 0 ? say(request.hole > 0 ? "withinPlay" : "within", { title, stray: Number((100 * stray).toPrecision(9)) }) : title;
-}
-
-/** Name of a value in the table of a sweep: the words of its parts, of which numbers count from 1; others stay. */
-export function columnName(name) {
-  const parts = name.split(".");
-  const words = parts.map((part) => (/^\d+$/.test(part) ? String(Number(part) + 1) : `column_${part}` in WORDS ? say(`column_${part}`) : part));
-  return words.join(" · ");
+  return stray > 0 ? say(request.hole > 0 ? "{title}, every hole within {stray} cm of its place" : "{title}, everybody within {stray} cm of their place", { title, stray: Number((100 * stray).toPrecision(9)) }) : title;
 }
 
 /** The function of refusals.js; null until it has loaded. */
@@ -92,23 +112,23 @@ export const learnRefusals = (module) => (refusalIn = module.refusalIn);
 /** A refusal of the service in the language of the page: the properties of an element. problem: a problem or one of its errors */
 export function refusalWords(problem) {
   const one = problem.errors?.[0] ?? problem;
-  return refusalIn ? refusalIn(one, column === 1, say) : { textContent: one.detail, lang: "en" };
+  return refusalIn ? refusalIn(one, spoken === "zh", say) : { textContent: one.detail, lang: "en" };
 }
 
 export const nameBenches = (names) => (households = names);
-const withHousehold = (words, k) => (households[k] ? say("named", { words, name: households[k] }) : words);
+const withHousehold = (words, k) => (households[k] ? say("{words} ({name})", { words, name: households[k] }) : words);
 
 /** Name of bench k in a sentence. */
 export function benchName(k, benches) {
-  return withHousehold(k === 0 ? say("theHead") : k === benches - 1 ? say("theTail") : say("body", { k }), k);
+  return withHousehold(k === 0 ? say("the head") : k === benches - 1 ? say("the tail") : say("body {k}", { k }), k);
 }
 
 /** Name of bench k by itself, as on a card. */
 export function benchTitle(k, benches) {
-  return withHousehold(k === 0 ? say("head") : k === benches - 1 ? say("tail") : say("body", { k }), k);
+  return withHousehold(k === 0 ? say("head") : k === benches - 1 ? say("tail") : say("body {k}", { k }), k);
 }
 
 /** Name of handle k, after the bench that it leads. */
 export function handleName(k, benches) {
-  return k === benches ? say("tailRear") : say("frontHandle", { bench: benchTitle(k, benches) });
+  return k === benches ? say("tail (rear)") : say("{bench}", { bench: benchTitle(k, benches) });
 }

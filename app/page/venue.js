@@ -8,6 +8,13 @@ import { trace } from "./pen.js";
 import { measures } from "./square.js";
 import { say } from "./text.js";
 
+/** What is wrong on a piece of the way. @type {Phrases} */
+const BREACH_NAMES = {
+  speed: "too fast",
+  margin: "too near",
+  stray: "too near if people stray",
+};
+
 // Widths of lines, radius of a ring, and height of a name on the screen [px].
 const BEND_WIDTH = 7;
 /** Colour of a stretch on which a limit fails, by the limit. */
@@ -173,11 +180,11 @@ export function layers(dance, get) {
     for (const { points, ...bend } of drawn.course?.bends ?? []) {
       const middle = points[Math.floor(points.length / 2)];
       pen.stroke(pen.circle(...middle, RING), colours.head, 3);
-      label(pen, dance.view, say("tightHere", radiiOf(bend)), middle, colours.head, colours, names, RING + 6);
+      label(pen, dance.view, say("{radius} m, needs {least} m", radiiOf(bend)), middle, colours.head, colours, names, RING + 6);
     }
     for (const kind of Object.keys(BREACHES)) {
       const first = drawn.course?.breaches?.find((one) => one.kind === kind);
-      if (first) label(pen, dance.view, say(`breach_${kind}`), first.points[Math.floor(first.points.length / 2)], colours[BREACHES[kind]], colours, names);
+      if (first) label(pen, dance.view, say(BREACH_NAMES[kind]), first.points[Math.floor(first.points.length / 2)], colours[BREACHES[kind]], colours, names);
     }
     const { pose } = dance.scene;
     if (!failure || !pose || Math.abs(pose.time - failure.time) > SAME_TIME) return;

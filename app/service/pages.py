@@ -13,8 +13,9 @@ import json
 import os
 import re
 from base64 import b64encode
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
+from importlib.resources import files
 from mimetypes import guess_type
 from pathlib import Path
 
@@ -32,6 +33,7 @@ from app.service.negotiation import GZIPPED, accepted, tags_in
 from app.service.problems import CLOSE, Refused
 from app.wire.problem import PROBLEM_TYPE
 from app.wire.question import JSON
+from core.language import COMPILED, ROOM, Language, catalogues, phrase, say, sense, speaking
 
 PAGE = Path(__file__).parent.parent / "page"
 GUIDE = Path(__file__).parent.parent / "guide"
@@ -63,38 +65,33 @@ DOCS_POLICY = f"{POLICY}; form-action 'none'"
 PYTHON = (".py", ".pyc")
 # Files that gzip makes smaller.
 TEXT = ("text/", "application/javascript", "application/json", "image/svg")
-# A word of the page in both languages, and a place for one in its HTML.
-WORD = re.compile(r'^  (\w+): \[("(?:[^"\\]|\\.)*"), ("(?:[^"\\]|\\.)*")\],$', re.MULTILINE)
-GAP = re.compile(r'(data-text="(\w+)"[^>]*>)(?=</)')
+# In the scripts of the page: its sentences are among the literals; one with a meaning; imports of other scripts.
+LITERAL = re.compile(r'"(?:[^"\\\n]|\\.)*"')
+SENSE = re.compile(r'\bsense\("([^"]+)", "([^"]+)"')
+IMPORT = re.compile(r'^(?:import|export) .*?"(\.{1,2}/[\w./-]+\.js)";$', re.MULTILINE)
+# In its HTML: an element whose text is a sentence, and a label.
+TEXT_MARK = re.compile(r"(<[^<>]*\bdata-text)(?=[\s>])([^<>]*>)([^<>]+)(?=</)")
+LABEL_MARK = re.compile(r'\bdata-label="([^"]+)"')
+# Texts of a language for the page: those of its first view, of the parts that load later, of "How it works".
+CATALOGUE = re.compile(r"words/(\w+)-(first|more|how)\.json")
 # For files whose address changes with their content: a year, the longest time that caches heed.
 KEPT = "public, max-age=31536000, immutable"
 # Pages whose addresses a person follows: a too long one is answered in sentences, by its language.
 FOLLOWED = ("/", "/how")
 # Title, what is wrong, what happens to what the address held, and the words of a link to the page.
-TOO_LONG = {
-    "en": (
-        "This address is too long",
-        "The address has {got:,} characters after its question mark; at most {most:,} can be read.",
-        "Save a large drawing as a file and send that instead of its address.",
-        "Open the page as it begins",
-    ),
-    "zh": (
-        "地址过长",
-        "地址在问号之后有 {got:,} 个字符，最多可读取 {most:,} 个。",
-        "较大的图请保存为文件，发送文件而不是地址。",
-        "从头打开页面",
-    ),
-}
+TOO_LONG = (
+    phrase("This address is too long"),
+    phrase("The address has {got:,} characters after its question mark; at most {most:,} can be read."),
+    phrase("Save a large drawing as a file and send that instead of its address."),
+    phrase("Open the page as it begins"),
+)
 # The same of an installation whose guide is not made.
-NO_GUIDE = {
-    "en": (
-        "This installation has no guide",
-        "The command “make docs” makes it in a minute or two.",
-        "Then load this page again.",
-        "Open Bench Dragon",
-    ),
-    "zh": ("尚未生成使用指南", "运行命令“make docs”，一两分钟即可生成。", "然后重新载入本页。", "打开板凳龙"),
-}
+NO_GUIDE = (
+    phrase("This installation has no guide"),
+    phrase("The command “make docs” makes it in a minute or two."),
+    phrase("Then load this page again."),
+    phrase("Open Bench Dragon"),
+)
 SENTENCES = """<!doctype html>
 <html lang="{tag}">
 <head>
@@ -120,6 +117,8 @@ SENTENCES = """<!doctype html>
 ROOTS = 8
 # Files kept in memory: those of the page, of uPlot and of Swagger UI are about 70.
 KEPT_FILES = 256
+# Tags of languages whose catalogues have another name in HTML.
+TAGS = {"zh": "zh-Hans"}
 
 
 @lru_cache(KEPT_FILES)
@@ -162,9 +161,12 @@ class Files(StaticFiles):
 
     def edition(self) -> str:
         """Name of the current files, which changes with their content; equal files have it on every machine."""
+        return _digest(tuple((path, os.stat(path).st_mtime_ns) for path in self.paths() if not path.endswith(PYTHON)))
+
+    def paths(self) -> list[str]:
+        """All files that change what a page shows."""
         folders = [folder for place in self.all_directories for folder in sorted(os.walk(place))]
-        paths = [os.path.join(folder, name) for folder, _, names in folders for name in sorted(names)]
-        return _digest(tuple((path, os.stat(path).st_mtime_ns) for path in paths if not path.endswith(PYTHON)))
+        return [os.path.join(folder, name) for folder, _, names in folders for name in sorted(names)]
 
     def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
         return ("", None) if path.endswith(PYTHON) else super().lookup_path(path)
@@ -194,32 +196,82 @@ class Files(StaticFiles):
 
 
 class Page(Files):
-    """The files of the page. Its HTML has the words that its modules would write, seconds later on a slow line."""
+    """The files of the page. Its HTML has the texts that its modules would write, seconds later on a slow line."""
 
     def written(self, name: str, language: str) -> tuple[bytes, str]:
-        """A page in a language, zh or en, and its media type."""
+        """A page in a language, and its media type."""
         return _written(self, name, language, self.edition()), "text/html"
 
-    def words(self, column: int) -> dict[str, str]:
-        """The words of the page by their keys. column: 0 for English, 1 for Chinese"""
-        files = sorted(Path(PAGE, "words").glob("*.js"))
-        texts = (self.content(f"words/{file.name}")[0].decode() for file in files)
-        return {key: json.loads(both[column]) for text in texts for key, *both in WORD.findall(text)}
+    def paths(self) -> list[str]:
+        return super().paths() + sorted(str(file) for file in files(ROOM).iterdir() if file.name.endswith(COMPILED))
+
+    def content(self, path: str) -> tuple[bytes, str]:
+        part = CATALOGUE.fullmatch(path)
+        if part and part[1] in catalogues():
+            return _texts(self, part[1], part[2], self.edition()), JSON
+        return super().content(path)
+
+    def text(self, name: str) -> str:
+        return self.content(name)[0].decode()
+
+    def modules(self, name: str) -> set[str]:
+        """A script of the page, and those that load with it."""
+        found, due = set[str](), [name]
+        while due:
+            if (script := due.pop()) not in found:
+                found.add(script)
+                near = os.path.dirname(script)
+                due += [os.path.normpath(os.path.join(near, one)) for one in IMPORT.findall(self.text(script))]
+        return found
+
+
+def _sentences(page: Page, names: Iterable[str]) -> Iterator[tuple[str, str]]:
+    """Meanings, empty without one, and texts of these files that may be in a catalogue."""
+    for name in names:
+        text = page.text(name)
+        if name.endswith(".html"):
+            yield from (("", html.unescape(mark[2])) for mark in TEXT_MARK.findall(text))
+            yield from (("", html.unescape(label)) for label in LABEL_MARK.findall(text))
+        else:
+            yield from SENSE.findall(text)
+            yield from (("", json.loads(literal)) for literal in LITERAL.findall(text) if "\\" not in literal)
 
 
 @lru_cache(8)
-def _written(files: Page, name: str, language: str, edition: str) -> bytes:
-    text, words = files.content(name)[0].decode(), files.words(language == "zh")
-    text = GAP.sub(lambda gap: gap[1] + html.escape(words.get(gap[2], ""), quote=False), text)
-    if language == "zh":
-        text = text.replace('<html lang="en">', '<html lang="zh-Hans">')
+def _texts(page: Page, language: str, part: str, edition: str) -> bytes:
+    """The sentences of a part of the page, with their texts in a language."""
+    first = page.modules("main.js") | {"index.html"}
+    how = page.modules("how/main.js") | {"how.html"}
+    scripts = {file.name for file in PAGE.glob("*.js")}
+    names = {"first": first, "how": how, "more": scripts - first}[part]
+    with speaking(language):
+        said = [
+            (meaning, text, sense(meaning, text) if meaning else say(text))
+            for meaning, text in _sentences(page, sorted(names))
+            if text
+        ]
+    return orjson.dumps({f"{meaning}\4{text}".lstrip("\4"): words for meaning, text, words in said if words != text})
+
+
+@lru_cache(8)
+def _written(page: Page, name: str, language: str, edition: str) -> bytes:
+    def translated(mark: re.Match[str]) -> str:
+        english = html.unescape(mark[3])
+        return f'{mark[1]}="{html.escape(english)}"{mark[2]}{html.escape(say(english), quote=False)}'
+
+    text = page.text(name)
+    if language != Language.ENGLISH:
+        with speaking(language):
+            text = TEXT_MARK.sub(translated, text)
+        text = text.replace('<html lang="en">', f'<html lang="{TAGS.get(language, language)}">')
     return text.replace('"page/', f'"page-{edition}/').encode()
 
 
 def language_of(request: Request) -> str:
-    """The language of a page as the page chooses it: that of its address, or that of the browser; zh or en."""
+    """The language of a page as the page chooses it: that of its address, or that of the browser, or English."""
     wanted = request.query_params.get("lang") or request.headers.get("accept-language", "")
-    return "zh" if wanted.lower().startswith("zh") else "en"
+    code = wanted.lower().partition("-")[0].partition(",")[0].partition(";")[0].strip()
+    return code if code in catalogues() else Language.ENGLISH.value
 
 
 def long_address(request: Request, got: int, most: int) -> Response | None:
@@ -238,14 +290,15 @@ def is_person(request: Request) -> bool:
 
 
 def sentences_page(
-    request: Request, status: int, words: Mapping[str, Sequence[str]], headers: Mapping[str, str], **values: int
+    request: Request, status: int, templates: Iterable[str], headers: Mapping[str, str], **values: int
 ) -> Response:
-    """A page of some sentences. words: in each language, as TOO_LONG has them; values: in them"""
+    """A page of some sentences. templates: as in TOO_LONG; values: in them"""
     language = language_of(request)
-    sentences = [sentence.format(**values) for sentence in words[language]]
+    with speaking(language):
+        sentences = [say(template, **values) for template in templates]
     path = request.scope["path"].removeprefix(request.scope["root_path"].removesuffix("/guide"))
     up = "../" * (path.count("/") - 1) or "./"
-    text = SENTENCES.format(*sentences, tag="zh-Hans" if language == "zh" else "en", up=up)
+    text = SENTENCES.format(*sentences, tag=TAGS.get(language, language), up=up)
     kept = {**headers, "Cache-Control": "no-store", "Vary": "Accept, Accept-Language"}
     return Response(text, status, kept, media_type="text/html")
 
@@ -303,10 +356,10 @@ def add_pages(app: FastAPI) -> None:
     async def described(request: Request) -> Response:
         return reply_with(request.headers, description(request.scope["root_path"]), JSON)
 
-    files = Page(directory=PAGE, packages=[("uplot", "static")])
+    own = Page(directory=PAGE, packages=[("uplot", "static")])
 
     def page(request: Request, name: str) -> Response:
-        response = reply_with(request.headers, *files.written(name, language_of(request)))
+        response = reply_with(request.headers, *own.written(name, language_of(request)))
         response.headers["Vary"] += ", Accept-Language"
         return response
 
@@ -324,5 +377,5 @@ def add_pages(app: FastAPI) -> None:
 
     app.mount("/guide", Guide(directory=GUIDE, check_dir=False))
     app.mount("/docs/assets", Files(packages=[("fastapi_swagger", "resources")]))
-    app.mount("/page-{edition}", files)
-    app.mount("/page", files)
+    app.mount("/page-{edition}", own)
+    app.mount("/page", own)

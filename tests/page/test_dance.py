@@ -212,7 +212,7 @@ def test_overlaps_margins_undecided_searches_and_extreme_dragons_are_told(open_p
     person.opens(f"?benches=60&pitch={pitch!r}")
     person.sees({"#first-contact[data-outcome=undecided]": ["216.338", "226.78"]})
     # The answer, with its details, is replaced when the words of the proof have loaded.
-    person.speaks("zh").page.locator("#first-contact .method", has_text="之前无法判定，届时").wait_for(state="attached")
+    person.speaks("zh").page.locator("#first-contact .method", has_text="之前无法判定").wait_for(state="attached")
     # Two thousand benches are drawn and listed, and two cannot touch.
     person.opens("?benches=2000&time=0").sees({"#table-time": "0.000000"}).at("#rows").press("ArrowUp")
     person.at("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")

@@ -189,7 +189,7 @@ def test_a_film_is_cancelled_then_shows_its_progress_and_opens_below_and_cue_car
     person = open_page(f"?door=village{ROUTE}").reaches_below()
     person.sees({"#kept li:visible": 4, "#people #cues": True})
     assert person.saves("#keepCues-PDF", "cues.pdf").startswith(b"%PDF")
-    person.presses("#keepMap-KML").sees({"#status": "KML is in degrees", "#route [data-label=latitude]": True})
+    person.presses("#keepMap-KML").sees({"#status": "KML is in degrees", "#latitude": True})
     person.presses("#more").settles()
     person.page.route("**/films", without(seconds=60.0))  # it is not whole before it is cancelled
     person.presses("#keepFilm-GIF", "#jobs li button").sees({"#jobs li": "cancelled", "#sweep": False})

@@ -34,6 +34,18 @@ SCROLLING = """[...document.querySelectorAll("body *")]
   .filter((one) => /auto|scroll/.test(getComputedStyle(one).overflow))
   .filter((one) => one.scrollHeight > one.clientHeight + 1 || one.scrollWidth > one.clientWidth + 1)
   .map((one) => one.id || one.className || one.tagName)"""
+# Values of a template, and its words; words of a page that are not in brackets; names, formats and units among them.
+WORDS = re.compile(r"\{\w+(?:=[\d.]+)?\}|[A-Za-z]+")
+LEFT = re.compile(r"⟦[^⟧]*⟧|\b[A-Za-z]*[a-z]{3,}\b")
+NAMES = {"English", "shapely", "Arrow", "GeoJSON", "Parquet", "square", "well", "stage", "fence"}
+# Everything that a person reads or hears, but for what is typed in a terminal, and what was told before.
+READ = """() => {
+  for (const one of document.querySelectorAll("details")) one.open = true;
+  for (const one of document.querySelectorAll("pre, #heard")) one.textContent = "";
+  const all = [...document.querySelectorAll("body *")].filter((one) => one.checkVisibility());
+  const heard = all.flatMap((one) => [one.title, one.ariaLabel, one.placeholder]);
+  return [document.title, document.body.innerText, ...heard].filter(Boolean).join("\\n");
+}"""
 # Sizes of all words in sight, on canvases too, in the usual size of the type [px].
 SIZES = """() => {
   const sizes = new Set();
@@ -246,7 +258,7 @@ def test_the_language_is_that_of_the_browser_until_another_is_chosen_and_keys_al
     person.sees({"#first-contact .value": "时碰撞", "#minimum-pitch": "最小螺距"})
     assert "Pitch" not in person.text("main")
     person.at("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
-    person.sees({"#rows tr:has-text('龙尾后把手')": True}).speaks("en").arrives("**lang=en")
+    person.sees({"#rows tr:has-text('龙尾（后）')": True}).speaks("en").arrives("**lang=en")
     person.page.reload()
     person.reads({"h1 a, h1": "Bench Dragon"})
     _keys_alone_lead_everywhere(person.settles().reaches_below())
@@ -266,6 +278,27 @@ def _keys_alone_lead_everywhere(person):
 
 
 @thorough
+def bracketed(route):
+    """A catalogue of a language in which each word is that of English, in brackets."""
+    said = {template: template.rpartition("\4")[2] for template in route.fetch().json()}
+    words = {
+        template: WORDS.sub(lambda word: word[0] if word[0][0] == "{" else f"⟦{word[0]}⟧", text)
+        for template, text in said.items()
+    }
+    route.fulfill(json=words)
+
+
+@pytest.mark.parametrize("query", ["?benches=12&time=end", "?path=turn&benches=12&time=end", VILLAGE])
+def test_no_word_of_the_page_is_outside_the_catalogue(open_page, query):
+    person = open_page(query)
+    person.page.route("**/words/zh-*.json", bracketed)
+    person.speaks("zh").reaches_below()
+    text = person.ask(READ)
+    assert text.count("⟦") > 300
+    left = {line for line in text.splitlines() for word in LEFT.findall(line) if word[0] != "⟦" and word not in NAMES}
+    assert left == set()
+
+
 def test_a_verdict_is_told_once_with_its_reasons_and_a_picture_shows_its_direction(open_page):
     person = open_page("?path=route&route=*-40,0_0,0_30,5&benches=5&things=a.square..-30,-20_9,-20_9,20_-30,20")
     reasons = person.all("#judgement .failures span").all_text_contents()

@@ -16,7 +16,7 @@ from core import Dragon
 from core.proposal.designs import street_length
 from core.proposal.needs import Needs
 from core.shapes.engines import widest_place
-from tests.support.node import evaluate
+from tests.support.node import chinese_texts, evaluate
 
 pytestmark = pytest.mark.node
 TABLES = [
@@ -66,13 +66,13 @@ def test_every_value_of_a_map_has_its_own_name_in_chinese():
         columns = answer_columns(question.answer, question.left_out)
         names |= {one.name for one in columns if one.kind in (int, float) and not one.as_json}
     assert len(names) > 50
-    script = """async (names) => {
-      const { columnName, setLanguage } = await page("text.js");
-      await page("below.js");
+    script = """async (names, texts) => {
+      const [{ setLanguage, teach }, { columnName }] = await Promise.all(["text.js", "columns.js"].map(page));
+      teach("zh", texts);
       setLanguage("zh");
       return names.map(columnName);
     }"""
-    words = evaluate(script, sorted(names))
+    words = evaluate(script, sorted(names), chinese_texts())
     assert [one for one in words if re.search("[a-z]{4}|_", one)] == []
     assert len(set(words)) == len(words)
 

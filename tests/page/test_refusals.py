@@ -15,7 +15,7 @@ import pytest
 from app.service.main import create_app
 from app.settings import Settings
 from app.wire.problem import DETAIL_MAX
-from tests.support.node import evaluate
+from tests.support.node import chinese_texts, evaluate
 
 pytestmark = pytest.mark.node
 
@@ -72,9 +72,9 @@ def refused(server):
     return refusals(server)
 
 
-WORDS = """async (refusals) => {
-  const [{ refusalIn }, { sayIn, learn }] = await Promise.all(["refusals.js", "text.js"].map(page));
-  learn((await page("words/route.js")).ROUTE);
+WORDS = """async (refusals, texts) => {
+  const [{ refusalIn }, { sayIn, teach }] = await Promise.all(["refusals.js", "text.js"].map(page));
+  teach("zh", texts);
   const say = { zh: (...all) => sayIn("zh", ...all), en: (...all) => sayIn("en", ...all) };
   return ["zh", "en"].map((one) => refusals.map((each) => refusalIn(each, one === "zh", say[one]).textContent));
 }"""
@@ -82,7 +82,7 @@ WORDS = """async (refusals) => {
 
 def test_every_refusal_is_a_sentence_in_both_languages(refused):
     assert len(refused) > 100
-    chinese, english = evaluate(WORDS, refused)
+    chinese, english = evaluate(WORDS, refused, chinese_texts())
     assert [words for words in chinese if ENGLISH.search(QUOTED.sub("", words)) or not words.endswith("。")] == []
     assert [words for words in english if INSIDE.search(words) or not words.endswith(".")] == []
 
@@ -97,7 +97,7 @@ def test_a_map_of_which_all_is_hidden_is_refused_in_both_languages(server):
     files = text.getvalue(), f"<kml><Placemark>{place}</Placemark></kml>"
     octets = {"Content-Type": "application/octet-stream"}
     problems = [httpx.post(f"{server}/places", content=one.encode(), headers=octets).json() for one in files]
-    assert evaluate(WORDS, problems) == [
+    assert evaluate(WORDS, problems, chinese_texts()) == [
         ["图纸中的图形全部隐藏（1 LINE）：请显示所在的图层。", "文件中的图形全部隐藏：请设为可见。"],
         [
             "All that the drawing holds is hidden: 1 LINE. Show its layers.",

@@ -288,7 +288,7 @@ def _files_dropped_on_the_picture_are_opened_and_maps_are_kept(person):
     assert (body["margin"], body["path"]["start"]) == (0.5, 45.0)
     assert b'"stage"' in person.reaches().saves("#keepMap-GeoJSON")
     # KML needs the place on earth, which the form takes, and the page leads there; it is in the address.
-    latitude, longitude = (f"#route [data-label={name}]" for name in ("latitude", "longitude"))
+    latitude, longitude = (f"#{name}" for name in ("latitude", "longitude"))
     person.presses("#keepMap-KML").sees({"#status": "KML is in degrees"})
     expect(person.at(latitude)).to_be_focused()
     person.types({latitude: "29,11", longitude: "119.64"}, "Tab").arrives("**origin=119.64,29.11*")

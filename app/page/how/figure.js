@@ -2,7 +2,7 @@
 
 import { Problem, Superseded } from "../api.js";
 import { button, make } from "../elements.js";
-import { refusalWords } from "../text.js";
+import { refusalWords, say } from "../text.js";
 import { Dial } from "./dial.js";
 
 /** A name in a text: a number to drag, a number of the answer, or with a value a button that sets a number. */
@@ -21,17 +21,16 @@ export class Figure {
   #outputs = new Map();
 
   /**
-   * plan: {dials, ask(ask, values) -> data, draw(svg, {width, height}, data, say) -> sheet, outputs(data, say)}, perhaps
+   * plan: {words, dials, ask(ask, values) -> data, draw(svg, {width, height}, data) -> sheet, outputs(data)}, perhaps
    * refine(ask), refused(error, values) -> data that shows what a refusal means or null, and, where the drawing is dragged,
-   * pull(place, data) -> {name of a dial: value}; word(key, values): a text; changed(): called when a number changes
+   * pull(place, data) -> {name of a dial: value}; changed(): called when a number changes
    * @param {Service} service
    */
-  constructor(section, plan, service, word, changed = () => {}) {
+  constructor(section, plan, service, changed = () => {}) {
     this.section = section;
     this.plan = plan;
     this.service = service;
-    this.word = word;
-    const dial = ([name, one]) => [name, new Dial({ ...one, unit: () => word(one.unit) }, () => {
+    const dial = ([name, one]) => [name, new Dial({ ...one, unit: () => say(one.unit) }, () => {
       changed();
       this.change();
     })];
@@ -56,10 +55,9 @@ export class Figure {
 
   /** Write all sentences in the language of the page. */
   translate() {
-    const { id } = this.section;
-    for (const [element, part] of this.#texts) element.replaceChildren(...this.#sentence(this.word(`${id}_${part}`)));
-    for (const [name, dial] of Object.entries(this.dials)) dial.show(this.word(`${id}_dial_${name}`));
-    this.svg.setAttribute("aria-label", this.word(`${id}_alt`));
+    for (const [element, part] of this.#texts) element.replaceChildren(...this.#sentence(say(this.plan.words[part] ?? "{verdict}")));
+    for (const dial of Object.values(this.dials)) dial.show(say(dial.plan.label));
+    this.svg.setAttribute("aria-label", say(this.plan.words.alt));
     this.draw();
     this.#tell();
   }
@@ -122,16 +120,16 @@ export class Figure {
   }
 
   draw() {
-    const { svg, data, plan, word } = this;
+    const { svg, data, plan } = this;
     if (!data || svg.clientWidth < NARROWEST) return;
     const width = svg.clientWidth;
     const height = Math.round(Math.min(Math.max(TALL * width, LOWEST), HIGHEST));
     svg.setAttribute("height", String(height));
     svg.replaceChildren();
-    this.sheet = plan.draw(svg, { width, height }, data, word);
+    this.sheet = plan.draw(svg, { width, height }, data);
     // On paper the drawing is scaled.
     svg.setAttribute("viewBox", `0 0 ${width} ${svg.getAttribute("height")}`);
-    for (const [name, words] of Object.entries(plan.outputs(data, word))) {
+    for (const [name, words] of Object.entries(plan.outputs(data))) {
       const output = this.#outputs.get(name);
       if (output && output.textContent !== words) output.textContent = words;
     }

@@ -7,22 +7,17 @@ import { lost } from "../overlays.js";
 import { Pause } from "../pending.js";
 import { refusalIn } from "../refusals.js";
 import { Sharing } from "../sharing.js";
-import { learnRefusals, say, setLanguage } from "../text.js";
+import { languageOf, learn, learnRefusals, say, setLanguage } from "../text.js";
 import { Figure } from "./figure.js";
 import { PLANS } from "./plans.js";
-import { WORDS } from "./words.js";
 
 const address = new URL(location.href);
-let column = 0;
-
-/** The text of this key, with the names of the values replaced; all other {names} stay. */
-const word = (key, values = {}) => WORDS[key][column].replace(/\{(\w+)\}/g, (whole, name) => values[name] ?? whole);
 
 const service = new Service({
   busy: () => {},
   lost(seconds) {
     lost(seconds);
-    for (const figure of figures) figure.lost(word(seconds ? "lost" : "trying", { seconds }));
+    for (const figure of figures) figure.lost(say(seconds ? "The service does not answer; the figure is older than your numbers. Next try in {seconds} s." : "The service does not answer; the figure is older than your numbers. Trying again now.", { seconds }));
   },
   back() {
     $("#lost").hidden = true;
@@ -31,7 +26,7 @@ const service = new Service({
   refused: async () => {},
 });
 learnRefusals({ refusalIn });
-const figures = Object.entries(PLANS).map(([id, plan]) => new Figure($(`#${id}`), plan, service, word, () => keep(id)));
+const figures = Object.entries(PLANS).map(([id, plan]) => new Figure($(`#${id}`), plan, service, () => keep(id)));
 
 /** Each number to drag with its name in the address, such as chord_turns. */
 const dials = figures.flatMap(({ section, dials: own }) => Object.entries(own).map(([name, dial]) => [`${section.id}_${name}`, dial]));
@@ -73,11 +68,11 @@ function cameFrom() {
   }
 }
 
-function translate(choice) {
-  const language = setLanguage(choice);
-  column = language === "zh" ? 1 : 0;
-  for (const element of $$("[data-word]")) element.textContent = word(element.dataset.word);
-  document.title = `${word("title")} · ${say("title")}`;
+async function translate(choice) {
+  const language = languageOf(choice);
+  await learn(service, language, "how");
+  setLanguage(language);
+  document.title = `${say("How it works")} · ${say("Bench Dragon")}`;
   for (const button of $$("[data-lang]")) button.setAttribute("aria-pressed", button.dataset.lang === language);
   const back = new URLSearchParams(cameFrom());
   if (choice) back.set("lang", choice);
@@ -100,7 +95,7 @@ new Sharing({ write, fits: true }, { load: () => import("../qr.js") });
 read();
 
 const language = address.searchParams.get("lang");
-translate(["en", "zh"].includes(language) ? language : undefined);
+await translate(["en", "zh"].includes(language) ? language : undefined);
 // The sections get their texts only now, so the browser could not scroll to the section in the address.
 const linked = figures.find(({ section }) => `#${section.id}` === location.hash);
 linked?.section.scrollIntoView();

@@ -1,7 +1,7 @@
 /** The five figures: the question of each to the service, the drawing of the answer, and the numbers in its sentences. */
 
 import { staircase } from "../charts.js";
-import { benchName } from "../text.js";
+import { benchName, phrase, say } from "../text.js";
 import { Chart, Picture, onSpiral } from "./draw.js";
 
 /** Number of the contest's benches, of drawn ones, and of judged ones if only the first ones meet [1]. */
@@ -30,9 +30,16 @@ function drawDragon(picture, pose, dragon, pair) {
 }
 
 const chord = {
+  /** @type {Phrases} */
+  words: {
+    title: "One chord after another",
+    lead: "Every handle walks on the same spiral, and each bench keeps two handles at a fixed distance: its chord. A circle of {chord} around the first handle meets the spiral behind it; the second handle stands at that point. From the second handle the next chord leads to the third, and so on to the tail.",
+    more: "The circle meets other rings too, but only the first meeting along the spiral counts: no handle jumps to another ring. Speeds need no differences in time. A bench does not stretch, so both its handles are equally fast along it, and each one's direction is known. Now let the head stand {turns} from the centre and pull the chord longer: too far in, the circle no longer finds its first meeting. The bench folds, and the dance ends there.",
+    alt: "The head of the dragon on its spiral; a circle around the first handle meets the spiral at the second",
+  },
   dials: {
-    chord: { value: 2.86, min: 0.6, max: 4, step: 0.01, decimals: 2, unit: "metre" },
-    turns: { value: 5, min: 1.5, max: 6, step: 0.05, decimals: 2, unit: "turns" },
+    chord: { label: phrase("Chord of the head bench"), value: 2.86, min: 0.6, max: 4, step: 0.01, decimals: 2, unit: "m" },
+    turns: { label: phrase("Place of the head in turns from the centre"), value: 5, min: 1.5, max: 6, step: 0.05, decimals: 2, unit: phrase("turns") },
   },
   knob: true,
   async ask(ask, { chord, turns }) {
@@ -49,7 +56,7 @@ const chord = {
     const knob = { x: [x, x + chord * Math.cos(way)], y: [y, y + chord * Math.sin(way)] };
     return { pose: knob, folds: least.value };
   },
-  draw(svg, box, { pose, folds, values }, word) {
+  draw(svg, box, { pose, folds, values }) {
     const { x, y } = pose;
     const picture = new Picture(svg, box, { x: 0, y: 0, span: 9.4 });
     picture.spiral(PITCH, 0, START_TURNS);
@@ -59,15 +66,15 @@ const chord = {
     for (let k = x.length - 1; k > 1; k--) picture.dot(x[k], y[k], "hole", 3);
     picture.dot(x[0], y[0], "center", 5);
     picture.dot(x[1], y[1], "knob", 8);
-    picture.text(word("chord_first"), x[0], y[0], "label", [10, -10]);
-    if (!folds) picture.text(word("chord_second"), x[1], y[1], "label", [12, 18]);
+    picture.text(say("head"), x[0], y[0], "label", [10, -10]);
+    if (!folds) picture.text(say("second handle"), x[1], y[1], "label", [12, 18]);
     picture.bar(1);
     return picture;
   },
   pull: ([x, y], { pose }) => ({ chord: Math.hypot(x - pose.x[0], y - pose.y[0]) }),
-  outputs({ pose: { x, y, speed }, folds }, word) {
-    if (folds) return { verdict: word("chord_folds", { least: `${folds} ${word("turns")}` }) };
-    return { verdict: word("chord_meets", { x: `${x[1].toFixed(3)} m`, y: `${y[1].toFixed(3)} m`, speed: `${speed[1].toFixed(6)} m/s` }) };
+  outputs({ pose: { x, y, speed }, folds }) {
+    if (folds) return { verdict: say("The bench folds: the circle no longer finds its first meeting, so there is no second handle. With this chord the head must be more than {least} from the centre.", { least: `${folds} ${say("turns")}` }) };
+    return { verdict: say("The second handle is at ({x}, {y}). While the head moves at 1 m/s, this handle moves at {speed}.", { x: `${x[1].toFixed(3)} m`, y: `${y[1].toFixed(3)} m`, speed: `${speed[1].toFixed(6)} m/s` }) };
   },
 };
 
@@ -76,7 +83,15 @@ let scan = null;
 const SAMPLES = 200;
 
 const stairs = {
-  dials: { pitch: { value: 0.4503, min: 0.37, max: 0.6, step: 0.0001, decimals: 4, unit: "metre" } },
+  /** @type {Phrases} */
+  words: {
+    title: "A staircase with jumps",
+    lead: "How far in does the dragon get before two benches touch? At a pitch of {pitch} the head stops {radius} from the centre: there {a} touches {b}.",
+    verdict: "A wider spiral mostly lets the head further in, but not smoothly. Compare {pitch=0.4503} with {pitch=0.4504}: a tenth of a millimetre more, and the head gets 17 cm further. At the smaller pitch a corner just catches another bench. At the larger one it just passes, and the next contact comes much later.",
+    more: "So no pitch near here lets the head stop at 4.5 m, on the edge of the turning circle. A search that halves an interval of pitches until that radius is 4.5 m looks for something that does not exist. The service asks another question: at which pitch does the least gap on the whole way to the circle just reach zero? The answer is {least}, and every larger pitch is proven to be free as well.",
+    alt: "Where the head stops against the pitch, a staircase with jumps, and the dragon at first contact",
+  },
+  dials: { pitch: { label: phrase("Pitch of the spiral"), value: 0.4503, min: 0.37, max: 0.6, step: 0.0001, decimals: 4, unit: "m" } },
   async ask(ask, { pitch }) {
     scan ??= await ask("pitch-scan", { query: { samples: SAMPLES, locate: false } });
     const contact = await ask("collision-time", { query: { pitch, cross_check: "none" } });
@@ -85,15 +100,15 @@ const stairs = {
   async refine(ask) {
     scan = { ...(await ask("pitch-scan", { query: { samples: SAMPLES } })), whole: true };
   },
-  draw(svg, { width, height }, { contact, pose, values }, word) {
+  draw(svg, { width, height }, { contact, pose, values }) {
     const isWide = width > WIDE;
     const wide = isWide ? Math.round(0.56 * width) : width;
     const tall = isWide ? height : Math.round(0.8 * width);
     if (!isWide) svg.setAttribute("height", height + tall);
-    const labels = [word("pitch_axis"), word("radius_axis")];
+    const labels = [say("pitch [m]"), say("head stops at [m]")];
     const chart = new Chart(svg, { width: wide, height }, { x: [0.365, 0.605], y: [1.5, 7], labels });
     chart.across(4.5, "turning");
-    chart.text(word("turning_circle"), 0.605, 4.5, "tick right", [-4, -6]);
+    chart.text(say("turning circle"), 0.605, 4.5, "tick right", [-4, -6]);
     drawStairs(chart);
     chart.up(values.pitch, "here");
     chart.dot(values.pitch, contact.head.radius, "now", 6);
@@ -106,9 +121,9 @@ const stairs = {
     return chart;
   },
   pull: (pitch) => ({ pitch }),
-  outputs({ contact }, word) {
+  outputs({ contact }) {
     const [a, b] = contact.benches.map((bench) => benchName(bench, 223));
-    return { radius: `${contact.head.radius.toFixed(4)} m`, a, b, least: `${scan.minimum_pitch.toFixed(9)} ${word("metre")}` };
+    return { radius: `${contact.head.radius.toFixed(4)} m`, a, b, least: `${scan.minimum_pitch.toFixed(9)} m` };
   },
 };
 
@@ -123,9 +138,16 @@ function drawStairs(chart) {
 const [BEFORE, AFTER, POINTS] = [0.1, 0.55, 53];
 
 const step = {
+  /** @type {Phrases} */
+  words: {
+    title: "Steps that are proofs",
+    lead: "Suppose that we know how far the nearest benches are apart at {time}, and again {length} later. May they have touched in between? A gap cannot change its direction at will: its second derivative is bounded, here by {bound}. So between the two instants it stays above the sagging curve.",
+    more: "In this way the service walks through the dance: in long steps where benches are far apart, in short ones where they are near. First contact of the contest's dance, at {contact}, takes {all} steps. No contact is missed, not even a very short one.",
+    alt: "The least gap over time, and under it the lowest curve that the bound allows",
+  },
   dials: {
-    time: { value: 409.7, min: 398, max: 412.4, step: 0.01, decimals: 2, unit: "second" },
-    length: { value: 0.06, min: 0.01, max: 0.5, step: 0.01, decimals: 2, unit: "second" },
+    time: { label: phrase("Start of the interval"), value: 409.7, min: 398, max: 412.4, step: 0.01, decimals: 2, unit: "s" },
+    length: { label: phrase("Length of the interval"), value: 0.06, min: 0.01, max: 0.5, step: 0.01, decimals: 2, unit: "s" },
   },
   async ask(ask, { time, length }) {
     const [start, stop] = [time, time + length];
@@ -137,11 +159,11 @@ const step = {
     this.whole ??= await ask("collision-time", { query: { cross_check: "none" } });
     return { gap, proof, start, stop, whole: this.whole };
   },
-  draw(svg, box, { gap, proof, start, stop }, word) {
+  draw(svg, box, { gap, proof, start, stop }) {
     const points = gap.time.map((time, k) => [time, MM * gap.clearance[k]]);
     const [low, high] = [start, stop].map((time) => points.find((point) => point[0] === time)[1]);
     const top = 1.15 * Math.max(...points.map((point) => point[1]));
-    const labels = [word("time_axis"), word("gap_axis")];
+    const labels = [say("time [s]"), say("least gap [mm]")];
     const range = { x: [start - BEFORE, start + AFTER], y: [-0.35 * top, top] };
     const chart = new Chart(svg, box, { ...range, labels });
     const way = proof.outcome !== "clear" ? "bad" : proof.certificate.steps > 1 ? "short" : "good";
@@ -156,13 +178,14 @@ const step = {
     return chart;
   },
   pull: (at, { start, stop }) => (at < (start + stop) / 2 ? {} : { length: at - start }),
-  outputs({ proof: { outcome, certificate: { steps, bound }, time }, whole }, word) {
-    const key = outcome === "clear" ? `step_${Math.min(steps, 2)}` : "step_contact";
+  outputs({ proof: { outcome, certificate: { steps, bound }, time }, whole }) {
+    const proven = [phrase("Here the benches are so far apart that a formula settles the whole interval without a step: no touch is possible in it."), phrase("The sagging curve stays above zero: no touch is possible in this interval. The service proves it in one step."), phrase("The sagging curve dips below zero, so one step over this interval would prove nothing. The service takes {steps} shorter steps, each of them a proof: no touch is possible in this interval either.")];
+    const verdict = outcome === "clear" ? proven[Math.min(steps, 2)] : phrase("Two benches touch in this interval, at {time} s. Until then the steps prove that nothing touches.");
     return {
       bound: `${bound.toFixed(2)} m/s²`,
-      verdict: word(key, { steps, time: time?.toFixed(6) }),
+      verdict: say(verdict, { steps, time: time?.toFixed(6) }),
       all: String(whole.certificate.steps),
-      contact: `${whole.time.toFixed(6)} ${word("second")}`,
+      contact: `${whole.time.toFixed(6)} s`,
     };
   },
 };
@@ -170,9 +193,17 @@ const step = {
 const WINDOW = [211, 221];
 
 const graze = {
+  /** @type {Phrases} */
+  words: {
+    title: "Why sampling misses a graze",
+    lead: "It seems easier to look every {step} whether benches overlap. At a pitch of {pitch} that makes {count} looks in this figure. {looked}",
+    verdict: "What really happens is the curve: {truth}",
+    more: "Look every {step=0.4}, and this graze is found; but a pitch of {pitch=0.45033} hides it again, and so on for any interval. Nor does it help to halve an interval between “apart” and “overlapping”: benches that overlap may come apart and overlap again. A step that is a proof leaves no time between two looks.",
+    alt: "The least gap over time near a graze, with the instants at which somebody looks",
+  },
   dials: {
-    step: { value: 1, min: 0.1, max: 2, step: 0.1, decimals: 1, unit: "second" },
-    pitch: { value: 0.4503, min: 0.4496, max: 0.4506, step: 0.00001, decimals: 5, unit: "metre" },
+    step: { label: phrase("Time between two looks"), value: 1, min: 0.1, max: 2, step: 0.1, decimals: 1, unit: "s" },
+    pitch: { label: phrase("Pitch of the spiral"), value: 0.4503, min: 0.4496, max: 0.4506, step: 0.00001, decimals: 5, unit: "m" },
   },
   async ask(ask, { step, pitch }) {
     const over = { pitch, benches: JUDGED, start: WINDOW[0], stop: WINDOW[1] };
@@ -184,8 +215,8 @@ const graze = {
     }
     return { looks, curve: this.curve, contact: this.contact };
   },
-  draw(svg, box, { looks, curve, contact }, word) {
-    const labels = [word("time_axis"), word("gap_axis")];
+  draw(svg, box, { looks, curve, contact }) {
+    const labels = [say("time [s]"), say("least gap [mm]")];
     const chart = new Chart(svg, box, { x: WINDOW, y: [-0.35, 1.6], labels });
     const points = curve.time.map((time, k) => [time, curve.clearance[k]]);
     for (const { time, clearance } of curve.grazes) points.push([time, clearance]);
@@ -202,19 +233,26 @@ const graze = {
     });
     return chart;
   },
-  outputs({ looks, curve, contact }, word) {
+  outputs({ looks, curve, contact }) {
     const seen = looks.clearance.filter((gap) => gap < 0).length;
     const depth = -Math.min(...curve.grazes.map(({ clearance }) => clearance));
     const [time, touches] = [contact.time.toFixed(6), contact.time < WINDOW[1]];
-    const truth = touches && depth > 0 ? word("graze_touch", { time, depth: (MM * depth).toFixed(4) }) : word("graze_free", { time });
-    return { count: String(looks.time.length), looked: word(seen ? "graze_seen" : "graze_missed", { seen }), truth };
+    const truth = touches && depth > 0 ? say("two benches touch at {time} s, and then overlap by up to {depth} mm.", { time, depth: (MM * depth).toFixed(4) }) : say("nothing touches in the figure; first contact comes at {time} s.", { time });
+    return { count: String(looks.time.length), looked: say(seen ? "In {seen} of them benches overlap." : "Every look finds all benches apart.", { seen }), truth };
   },
 };
 
 const stray = {
+  /** @type {Phrases} */
+  words: {
+    title: "How far people may stray",
+    lead: "Nobody dances to the millimetre. Let every handle be up to {stray} away from its place, in any direction, at any time. Then each bench stays inside the pale band around it; as long as the bands are apart, nothing can touch.",
+    more: "At a pitch of {pitch} people may stray by {low}, but not by {high}. The first number is proven by the same steps, taken for bands instead of benches. The second is not an estimate but an example: a place for every handle, with every chord kept, in which two benches overlap. A wider spiral buys room: at {pitch=0.70} people may stray more than twice as far as at {pitch=0.55}.",
+    alt: "The two benches that come nearest, with the bands that they may cover",
+  },
   dials: {
-    stray: { value: 3, min: 0, max: 30, step: 0.1, decimals: 1, unit: "centimetre" },
-    pitch: { value: 0.55, min: 0.46, max: 1, step: 0.01, decimals: 2, unit: "metre" },
+    stray: { label: phrase("How far every handle may stray"), value: 3, min: 0, max: 30, step: 0.1, decimals: 1, unit: "cm" },
+    pitch: { label: phrase("Pitch of the spiral"), value: 0.55, min: 0.46, max: 1, step: 0.01, decimals: 2, unit: "m" },
   },
   async ask(ask, { stray, pitch }) {
     if (this.key !== pitch) {
@@ -246,11 +284,11 @@ const stray = {
     picture.bar(0.2);
     return picture;
   },
-  outputs({ free: { stray_bracket: [low, high] }, first, values: { stray } }, word) {
+  outputs({ free: { stray_bracket: [low, high] }, first, values: { stray } }) {
     const inside = stray / CM <= low;
-    const key = inside ? "stray_safe" : first ? "stray_may" : "stray_between";
+    const verdict = inside ? phrase("With this stray nothing can touch on the whole way to the turning circle: that is proven.") : first ? phrase("From {time} s on benches may touch. The dashed outlines show how: in one pose of the whole dragon these two do.") : phrase("This stray lies between the two numbers below: neither proven safe nor shown to touch.");
     const [least, most] = [(Math.floor(CM * CM * low) / CM).toFixed(2), (Math.ceil(CM * CM * high) / CM).toFixed(2)];
-    return { low: `${least} ${word("centimetre")}`, high: `${most} ${word("centimetre")}`, verdict: word(key, { time: first?.time.toFixed(6) }) };
+    return { low: `${least} cm`, high: `${most} cm`, verdict: say(verdict, { time: first?.time.toFixed(6) }) };
   },
 };
 

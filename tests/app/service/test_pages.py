@@ -39,8 +39,8 @@ def test_a_file_is_the_same_as_gzip_and_plain_with_a_tag_of_each_form(client, pa
 def test_a_page_has_its_words_before_its_modules_come(server, query, language, lang, word):
     text = httpx.get(f"{server}/{query}", headers={"Accept-Language": language}).text
     assert f'<html lang="{lang}">' in text
-    assert f'data-text="door_contest">{word}</button>' in text
-    assert re.findall(r'data-text="(\w+)"[^>]*></', text) == []
+    assert re.search(rf'data-text(="Contest")?>{word}</button>', text)
+    assert re.findall(r"data-text[^>]*></", text) == []
 
 
 @pytest.mark.parametrize(

@@ -6,8 +6,6 @@ import { mock, test } from "node:test";
 const box = { textContent: "", after() {} };
 globalThis.document = { body: { append() {} }, documentElement: { dataset: {} }, querySelector: () => box, querySelectorAll: () => [] };
 const { announceOpened } = await import("../../../app/page/files.js");
-const { learn } = await import("../../../app/page/text.js");
-learn((await import("../../../app/page/words/route.js")).ROUTE);
 
 test("what an opened file has to say leaves by itself, later the longer it is", () => {
   mock.timers.enable({ apis: ["setTimeout"] });

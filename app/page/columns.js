@@ -1,0 +1,72 @@
+/** Names of the values in the table of a sweep. */
+
+import { say } from "./text.js";
+
+/** For each part of a dotted name. @type {Phrases} */
+const COLUMNS = {
+  angles: "angle of the arcs [rad]",
+  at_least: "proven least",
+  bench: "bench",
+  benches: "benches",
+  dragons: "dragons",
+  bound: "bound of the second derivative",
+  centres: "centres of the arcs [m]",
+  certificate: "proof",
+  clear_until: "clear until [s]",
+  clearance: "clearance [m]",
+  corner: "corner",
+  depth: "depth of the overlap [m]",
+  distance: "least clearance [m]",
+  edge: "edge",
+  end: "end of the run",
+  entry: "entry [m]",
+  entry_bracket: "bracket of the entry [m]",
+  entry_radius: "radius of the entry [m]",
+  evaluations: "evaluations",
+  exhibit: "example of a touch",
+  exit: "exit [m]",
+  exit_bracket: "bracket of the exit [m]",
+  exit_radius: "radius of the exit [m]",
+  gap: "gap [m]",
+  head: "head",
+  head_radius: "radius of the head [m]",
+  head_speed: "speed of the head [m/s]",
+  head_speed_bracket: "bracket of the speed [m/s]",
+  least_clearance: "closest pass",
+  length: "length [m]",
+  length_bracket: "bracket of the length [m]",
+  margin: "margin [m]",
+  overlapping: "overlapping benches",
+  passage: "passage",
+  pitch: "pitch [m]",
+  pitch_bracket: "bracket of the pitch [m]",
+  point: "point [m]",
+  proven_from: "proven from [m]",
+  proven_up_to: "proven up to [m]",
+  radii: "radii of the arcs [m]",
+  radius: "radius [m]",
+  ratio: "ratio of the arcs",
+  scan_step: "step of the scan",
+  simple: "simple estimate [m]",
+  speed_ratio: "speed over that of the head",
+  start: "start [s]",
+  steps: "steps",
+  stop: "stop [s]",
+  stray: "stray [m]",
+  stray_bracket: "bracket of the stray [m]",
+  stray_with_errors: "stray with errors of the benches [m]",
+  tangent_point: "point between the arcs [m]",
+  theta: "polar angle [rad]",
+  time: "time [s]",
+  time_at_unit_head_speed: "time at a head speed of 1 m/s [s]",
+  time_bracket: "bracket of the time [s]",
+  turning_diameter: "turning circle [m]",
+  x: "x [m]",
+  y: "y [m]",
+};
+
+/** Name of a value in the table of a sweep: the words of its parts, of which numbers count from 1; others stay. */
+export function columnName(name) {
+  const parts = name.split(".");
+  return parts.map((part) => (/^\d+$/.test(part) ? String(Number(part) + 1) : part in COLUMNS ? say(COLUMNS[part]) : part)).join(" · ");
+}
