@@ -32,6 +32,7 @@ from core.errors import (
     fill_template,
     quantities,
 )
+from core.language import phrase
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes
 from core.paths.following import earliest_travel, refuse_tight_bends
 from core.paths.route import Route
@@ -76,8 +77,8 @@ class RunEnd(Readable):
     def template(self) -> str:
         """The reason as the template of a clause, for messages."""
         if self.reason is EndReason.FOLD:
-            return "bench {bench} folds"
-        return "the head is at the centre" if self.reason is EndReason.CENTRE else "the path ends"
+            return phrase("bench {bench} folds")
+        return phrase("the head is at the centre") if self.reason is EndReason.CENTRE else phrase("the path ends")
 
     @property
     def values(self) -> dict[str, Value]:

@@ -23,6 +23,7 @@ from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, Self, TypeVar, cast
 
 from core.kernels import Budget, Halted
+from core.language import phrase, say, say_clauses
 
 if TYPE_CHECKING:  # NumPy takes as long to import as all of a process that runs jobs.
     from core.values import Point
@@ -37,6 +38,16 @@ SIZE_MAX = 1e4
 COORDINATE_MAX = 1e5
 # Largest angle [rad]: larger ones lose the digits that the joints need.
 ANGLE_MAX = 1e6
+# What to change if a question ended early: by what it was about, whether also about a stretch of time, and whether
+# somebody stopped it.
+LESS = {
+    ("benches", False, False): phrase("take fewer benches"),
+    ("benches", False, True): phrase("allow more time, or take fewer benches"),
+    ("benches", True, False): phrase("take fewer benches, or a shorter time"),
+    ("benches", True, True): phrase("allow more time, or take fewer benches, or a shorter time"),
+    ("dragons", True, False): phrase("take fewer dragons, or a shorter time"),
+    ("dragons", True, True): phrase("allow more time, or take fewer dragons, or a shorter time"),
+}
 # A word in a template.
 WORD = re.compile(r"\{(\w+)\}")
 
@@ -84,6 +95,29 @@ class Given(NamedTuple):
         return Given, (self.value, self.text) if can_be_sent else (None, str(self))
 
 
+class Clause(str):
+    """A text in a message that each language puts in its own words.
+
+    >>> Clause("the gates {name}", name="A")
+    'the gates A'
+    """
+
+    template: str
+    values: Mapping[str, Any]
+
+    def __new__(cls, template: str, **values: Any) -> Self:
+        clause = super().__new__(cls, fill_template(template, values))
+        clause.template, clause.values = template, values
+        return clause
+
+    def __str__(self) -> str:
+        return str.__str__(self)
+
+    def said(self) -> str:
+        """The text in the language that is spoken."""
+        return fill_message(self.template, self.values)
+
+
 # What may stand in a template. A number or a text stands there as it is.
 Value = Quantity | Parameter | Given | int | float | str
 
@@ -96,6 +130,19 @@ def quantities(unit: str, digits: int = 17, /, **numbers: float) -> dict[str, Va
 def fill_template(template: str, values: Mapping[str, Value]) -> str:
     """A template with the values in the places of their words; other words stay."""
     return WORD.sub(lambda word: format_value(values[word[1]]) if word[1] in values else word[0], template)
+
+
+def fill_message(template: str, values: Mapping[str, Value]) -> str:
+    """What fill_template() gives, in the language that is spoken."""
+    text = say_clauses(template)
+    return WORD.sub(lambda word: say_value(values[word[1]]) if word[1] in values else word[0], text)
+
+
+def say_value(value: Value) -> str:
+    """A value as it stands in a sentence of the language that is spoken."""
+    if (said := getattr(value, "said", None)) is not None:
+        return str(said())
+    return say(value) if isinstance(value, str) and value else format_value(value)
 
 
 def format_value(value: Value) -> str:
@@ -147,7 +194,8 @@ class BenchDragonError(Exception):
     got:      the given value; None if the template names it
     reason:   template of the reason, or of what to change; empty without one
     values:   of both templates, by their words
-    message:  the sentence: the template, the given value, and the reason
+    message:  the sentence: the template, the given value, and the reason, in the language spoken when it is raised;
+              the others are English in every language
 
     >>> start = Parameter("times.start")
     >>> error = InvalidValue("times.stop", "must be after {start}: it is earlier", got=3.0, start=start)
@@ -160,14 +208,15 @@ class BenchDragonError(Exception):
     def __init__(self, field: str, rule: str, /, *, got: Value | None = None, **values: Value) -> None:
         """rule: the rest of the template after the field; what follows a colon is the reason"""
         rule, _, reason = rule.partition(": ")
-        self._compose(field, f"{{field}} {rule}", reason, got, {"field": Parameter(field), **values})
+        self.compose(field, f"{{field}} {rule}", reason, got, {"field": Parameter(field), **values})
 
-    def _compose(self, field: str, template: str, reason: str, got: Value | None, values: Mapping[str, Value]) -> None:
+    def compose(self, field: str, template: str, reason: str, got: Value | None, values: Mapping[str, Value]) -> None:
+        """Put the sentence together, in the language that is spoken."""
         self.field, self.template, self.reason, self.got = field, template, reason, got
         self.values = {word: values[word] for word in WORD.findall(f"{template} {reason}") if word in values}
-        got_text = "" if got is None else f", got {format_value(got)}"
-        reason_text = f": {fill_template(reason, values)}" if reason else ""
-        self.message = fill_template(template, values) + got_text + reason_text
+        got_text = "" if got is None else say(", got ") + say_value(got)
+        reason_text = say(": ") + fill_message(reason, values) if reason else ""
+        self.message = fill_message(template, values) + got_text + reason_text
         self.args = (self.message,)
 
     @classmethod
@@ -176,7 +225,7 @@ class BenchDragonError(Exception):
     ) -> Self:
         """The error with this template, which need not begin with the field."""
         error = cls.__new__(cls)
-        error._compose(field, template, str(reason), got, values)
+        error.compose(field, template, str(reason), got, values)
         return error
 
     def with_field(self, field: str, got: Value | None = None) -> Self:
@@ -187,20 +236,20 @@ class BenchDragonError(Exception):
         """
         error = copy(self)
         values = {**self.values, "field": Parameter(field)} if "field" in self.values else self.values
-        error._compose(field, self.template, self.reason, self.got if got is None else got, values)
+        error.compose(field, self.template, self.reason, self.got if got is None else got, values)
         return error
 
     def renamed(self, name_of: Callable[[str], str], **values: Value) -> Self:
         """The same error with other names for all its parameters, and other values in the place of these."""
         error = copy(self)
         names = {word: Parameter(name_of(one.name)) for word, one in self.values.items() if isinstance(one, Parameter)}
-        error._compose(name_of(self.field), self.template, self.reason, self.got, {**self.values, **names, **values})
+        error.compose(name_of(self.field), self.template, self.reason, self.got, {**self.values, **names, **values})
         return error
 
     def because(self, reason: str) -> Self:
         """The same error with another reason."""
         error = copy(self)
-        error._compose(self.field, self.template, reason, self.got, self.values)
+        error.compose(self.field, self.template, reason, self.got, self.values)
         return error
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -235,9 +284,17 @@ def too_much(budget: Budget, field: str, rule: str, got: Value, **values: Value)
 
     rule: what must be smaller, then which answer is missing, with {then}: when the budget ended
     """
-    error = TooMuchWork(field, rule, got=got, then=budget.then, **values)
+    error = TooMuchWork(field, rule, got=got, then=_then(budget), **values)
     error.stopped = budget.stopped
     return error
+
+
+def _then(budget: Budget) -> Value:
+    """When a budget ended, as the end of a sentence."""
+    if budget.stopped:
+        return cast("Value", budget.then)
+    words = "within {work} steps of work, each a bench placed or a pair of benches tried"
+    return Clause(words, work=f"{budget.work:g}")
 
 
 def unanswered(
@@ -247,10 +304,9 @@ def unanswered(
 
     missing: which answer is missing; count, things: what the question was about; timed: about a stretch of time too
     """
-    less = f"take fewer {things}" + (", or a shorter time" if timed else "")
-    advice = f"allow more time, or {less}" if budget.stopped else less
     template = f"{missing} {{then}}, with {{count}} {things}"
-    error = TooMuchWork.in_words(field, template, reason=advice, then=budget.then, count=count)
+    advice = LESS[things, timed, budget.stopped]
+    error = TooMuchWork.in_words(field, template, reason=advice, then=_then(budget), count=count)
     error.stopped = budget.stopped
     return error
 
@@ -365,14 +421,14 @@ def checked_angle(name: str, value: Any) -> float:
     return checked_number(name, value, "rad", -ANGLE_MAX, ANGLE_MAX)
 
 
-def checked_list(name: str, value: Any, what: str) -> list[Any]:
+def checked_list(name: str, value: Any, rule: str) -> list[Any]:
     """The entries of a value that is a sequence and not a text.
 
-    raises: InvalidValue naming the field and what it must be
+    rule: "must be a list of ..."; raises: InvalidValue naming the field
     """
     try:
         if not isinstance(value, str | bytes | Mapping):
             return list(value)
     except TypeError:
         pass
-    raise InvalidValue(name, f"must be {what}", got=Given(value))
+    raise InvalidValue(name, rule, got=Given(value))

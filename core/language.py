@@ -5,6 +5,7 @@ A further language needs one file. An edge, such as a command or a request, says
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -84,6 +85,41 @@ def say(template: str, /, **values: Any) -> str:
     return text.format(**values) if values else text
 
 
+def phrase(template: str) -> str:
+    """A template that is said elsewhere: so marked it comes into the catalogues."""
+    return template
+
+
+# What stands between the clauses of a refusal: what joins them, and the name that one begins with.
+JOINTS = (
+    phrase(": "),
+    phrase(". "),
+    phrase("; "),
+    phrase(", when "),
+    phrase(", got "),
+    phrase(" {then}, with {count} benches"),
+    phrase(" {then}, with {count} dragons"),
+)
+SUBJECT = r"^\{(?:field|text)\} |(?:(?<=: )|^)\{\w+\} (?=must |is )"
+JOINT = re.compile(rf"((?<!\")(?:{'|'.join(map(re.escape, JOINTS))})|{SUBJECT})")
+
+
+def clauses(template: str) -> list[str]:
+    """The clauses of a refusal, each of which stands in the catalogues.
+
+    >>> clauses("{field} must be smaller: {why}; take fewer benches")
+    ['must be smaller', '{why}', 'take fewer benches']
+    """
+    return list(filter(None, JOINT.split(template)[::2]))
+
+
+def say_clauses(template: str) -> str:
+    """A refusal from its English template, said clause by clause; its values stay to be filled in."""
+    if _SPOKEN.get() is Language.ENGLISH:
+        return template
+    return "".join(map(say, filter(None, JOINT.split(template))))
+
+
 def sense(meaning: str, template: str, /, **values: Any) -> str:
     """What say() gives, for a template that other languages put in several ways. meaning: the one that is meant"""
     text = _translations(_SPOKEN.get()).pgettext(meaning, template)
@@ -103,8 +139,3 @@ def joined(sentences: Iterable[str]) -> str:
     """Sentences in a row; empty ones are left out."""
     said = list(filter(None, sentences))
     return reduce(lambda first, second: say("{first} {second}", first=first, second=second), said) if said else ""
-
-
-def phrase(template: str) -> str:
-    """A template that is said elsewhere: so marked it comes into the catalogues."""
-    return template

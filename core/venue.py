@@ -11,6 +11,7 @@ import numpy as np
 
 from core.display import Readable, format_range
 from core.errors import Given, InvalidValue, Value, checked_list, checked_point, checked_type
+from core.language import Phrases
 from core.names import checked_name
 from core.shapes.engines import polygon_fault
 from core.values import Floats, Point
@@ -20,15 +21,15 @@ Ring = tuple[Point, ...]
 # Largest number of edges in a venue, because each costs as much as a bench at rest. Those between equal points count.
 EDGES_MAX = 2_000
 # Form of the rings of an area, for messages.
-WORDS = "a list of rings of points [x, y] in metres"
+WORDS = "must be a list of rings of points [x, y] in metres"
 # Words in messages for the faults that polygon_fault() finds.
-FAULTS = {
-    "self-intersection": "a self-intersection",
-    "ring self-intersection": "a ring that touches itself",
-    "hole lies outside shell": "a hole outside the outer ring",
-    "holes are nested": "a hole inside another hole",
-    "interior is disconnected": "an inside cut in two by rings that touch",
-    "too few points in geometry component": "a ring of fewer than three different points",
+FAULTS: Phrases = {
+    "self-intersection": "a self-intersection at {at}",
+    "ring self-intersection": "a ring that touches itself at {at}",
+    "hole lies outside shell": "a hole outside the outer ring at {at}",
+    "holes are nested": "a hole inside another hole at {at}",
+    "interior is disconnected": "an inside cut in two by rings that touch at {at}",
+    "too few points in geometry component": "a ring of fewer than three different points at {at}",
 }
 
 
@@ -67,8 +68,8 @@ class Area(Readable):
                 raise self._refused("venue: a ring of {polygon} must be closed and have at least 4 points", got)
         if flaw := polygon_fault(self.rings):
             reason, x, y = flaw
-            fault, at = FAULTS.get(reason, f"a fault ({reason})"), f"({x:g}, {y:g}) m"
-            words = f"venue: {{polygon}} must be a valid polygon, got {fault} at {{at}}"
+            fault, at = FAULTS.get(reason, f"a fault ({reason}) at {{at}}"), f"({x:g}, {y:g}) m"
+            words = f"venue: {{polygon}} must be a valid polygon, got {fault}"
             raise self._refused(words, at=at)
 
     def _refused(self, words: str, got: Value | None = None, **values: Value) -> InvalidValue:
@@ -100,7 +101,7 @@ class Venue(Readable):
 
     def __post_init__(self) -> None:
         checked_type("venue", self.square, Area)
-        for area in checked_list("venue", self.obstacles, "a list of areas"):
+        for area in checked_list("venue", self.obstacles, "must be a list of areas"):
             checked_type("venue", area, Area)
         refuse_many_edges(ring for area in self.areas for ring in area.rings)
         names = [area.name for area in self.areas]

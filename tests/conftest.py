@@ -30,7 +30,7 @@ OUTER = tuple(json.loads(os.environ.setdefault("OUTER_VARIABLES", json.dumps(_DR
 os.environ |= {"LC_ALL": "C.UTF-8", "TERM": "xterm"}
 
 from core import kernels  # noqa: E402
-from tests.support import browser, firefox, lock, node  # noqa: E402
+from tests.support import browser, firefox, lock, node, refusals  # noqa: E402
 from tests.support.depth import DEEP  # noqa: E402
 
 ROOT = Path(__file__).parent.parent
@@ -64,6 +64,19 @@ def usual_precision():
     yield
     if flint := sys.modules.get("flint"):
         flint.ctx.prec = FLINT_BITS
+
+
+@pytest.fixture(autouse=True, scope="session")
+def refusals_without_translation():
+    return refusals.watch()
+
+
+@pytest.fixture(autouse=True)
+def every_refusal_is_in_the_catalogues(refusals_without_translation):
+    yield
+    missing = sorted(refusals_without_translation)
+    refusals_without_translation.clear()
+    assert not missing, f"no catalogue has {missing}: see .ci/words"
 
 
 @pytest.fixture(scope="module", autouse=True)

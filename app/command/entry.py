@@ -47,6 +47,6 @@ def run(app: Callable[[], object]) -> int:
     except SystemExit as end:
         return streams.finish(end.code if isinstance(end.code, int) else int(end.code is not None))
     except OSError as error:
-        print(f"Error: {streams.output_fault(error)}", file=sys.stderr)
+        streams.report(error)
         return 2
     return streams.finish(0)

@@ -9,7 +9,7 @@ check fails, and 2 for wrong usage.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, nullcontext
 from importlib import import_module
 from typing import Annotated, Any
@@ -25,7 +25,7 @@ from app.command.streams import output_fault
 from app.command.usage import Commands, Misuse, explain_values, message_of
 from core.errors import BenchDragonError
 from core.kernels import COMPILED
-from core.language import Language, speaking
+from core.language import Language, say, speaking
 
 # Module of each command, in the order of the help; none for a command that follows from its question. This module, or
 # that of the question, is imported when its command is called, or the help lists it.
@@ -67,20 +67,21 @@ MODULE_OF = {
 
 
 @contextmanager
-def _errors_in_one_line() -> Iterator[None]:
-    """Context that turns errors that a user can correct into one line on standard error and exit code 2."""
+def _errors_in_one_line(meta: Mapping[str, Any]) -> Iterator[None]:
+    """Context that turns errors that a user can correct into one line on standard error and exit code 2.
+
+    meta: of typer's context, with the language that an option chose
+    """
     try:
-        yield
+        with speaking(language_of_terminal()):
+            yield
         return
-    except BenchDragonError as error:
-        message = error.message
-    except Misuse as error:
-        message = message_of(error)
     except BrokenPipeError:  # The reader has what it wanted: typer ends the command without a word.
         raise
-    except OSError as error:
-        message = output_fault(error)
-    print(f"Error: {message}", file=sys.stderr)
+    except (BenchDragonError, Misuse, OSError) as error:
+        with speaking(meta.get(LANGUAGE) or language_of_terminal()):
+            message = output_fault(error) if isinstance(error, OSError) else message_of(error)
+            print(say("Error: {message}", message=message), file=sys.stderr)
     raise typer.Exit(2)
 
 
@@ -124,7 +125,7 @@ class _Commands(Commands):
 
     def make_context(self, info_name: Any, args: list[str], *further: Any, **extra: Any) -> Any:
         # Without any argument the parser prints the help and raises an error, although the user made no mistake.
-        with _errors_in_one_line() if args else nullcontext():
+        with _errors_in_one_line({}) if args else nullcontext():
             return super().make_context(info_name, args, *further, **extra)
 
     def list_commands(self, ctx: Any) -> list[str]:
@@ -151,7 +152,7 @@ class _Commands(Commands):
         return command
 
     def invoke(self, ctx: Any) -> Any:
-        with speaking(language_of_terminal()), _errors_in_one_line():
+        with _errors_in_one_line(ctx.meta):
             result = super().invoke(ctx)
             sys.stdout.flush()
             return result

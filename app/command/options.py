@@ -60,7 +60,9 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
             number_of(word)
             entries.append(kind(word))
         except ValueError as error:
-            rule = f"must be a {'whole number' if kind is int else 'number'}, as in --{{option}} 0,1,2"
+            rule = "must be a number, as in --{option} 0,1,2"
+            if kind is int:
+                rule = "must be a whole number, as in --{option} 0,1,2"
             raise InvalidValue(f"{option}.{k}", rule, got=Given(word), option=option) from error
     return entries
 
@@ -217,8 +219,8 @@ def _file(body: type[BaseModel], words: str) -> inspect.Parameter:
     path = ", any path" if "path" in body.model_fields else "; its path does not count"
     kind: Any = Path if words else Path | None
     default = inspect.Parameter.empty if words else None
-    words = words or f"Dance as a .toml or .json file, as for check: any dragon{path}."
-    annotation = Annotated[kind, path_argument("FILE", words)]
+    help_text = words or f"Dance as a .toml or .json file, as for check: any dragon{path}."
+    annotation = Annotated[kind, path_argument("FILE", help_text)]
     return inspect.Parameter("file", inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
 

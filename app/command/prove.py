@@ -105,7 +105,7 @@ def _working(what: str) -> Iterator[Callable[[float], None]]:
     except ProofRefused as refused:
         code, message = REFUSED, say("Refused: {why}", why=refused.message)
     except ImportError as missing:
-        code, message = WRONG_USAGE, f"Error: {missing}"
+        code, message = WRONG_USAGE, say("Error: {message}", message=missing)
     else:
         return
     print(message, file=sys.stderr)
@@ -157,8 +157,9 @@ def collision_time(request: CollisionProofRequest, output: Output = Path("collis
         if time is None:
             time = core.first_contact(dance, margin=request.margin).time
         if time is None:
-            near = "no two benches come nearer than {margin}" if request.margin else "nothing touches"
-            words, margin = f"{near}, so there is no collision time to prove", Quantity(request.margin, "m")
+            words, margin = "nothing touches, so there is no collision time to prove", Quantity(request.margin, "m")
+            if request.margin:
+                words = "no two benches come nearer than {margin}, so there is no collision time to prove"
             raise ProofRefused.in_words("time", words, reason="prove clear", margin=margin)
         certificate = prove_collision_time(dance, time, **_terms(request, progress))
     _finish(certificate, output)
@@ -282,13 +283,14 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
         if contact.outcome is Outcome.CONTACT and contact.time is not None:
             return prove_contact(dance, contact.time, **times, **terms)
         if contact.benches is None:
-            near = "come nearer than {margin}" if margin.value else "touch"
-            raise ProofRefused.in_words("time", f"the search did not decide whether two benches {near}", margin=margin)
-        near, (a, b) = "are nearer than {margin}" if margin.value else "overlap", contact.benches
-        words, at_start = (
-            f"benches {{a}} and {{b}} {near} already at the start, {{start}}",
-            Quantity(times["start"], "s"),
-        )
+            words = "the search did not decide whether two benches touch"
+            if margin.value:
+                words = "the search did not decide whether two benches come nearer than {margin}"
+            raise ProofRefused.in_words("time", words, margin=margin)
+        words, (a, b) = "benches {a} and {b} overlap already at the start, {start}", contact.benches
+        if margin.value:
+            words = "benches {a} and {b} are nearer than {margin} already at the start, {start}"
+        at_start = Quantity(times["start"], "s")
         raise ProofRefused.in_words("start", words, a=a, b=b, margin=margin, start=at_start)
 
 

@@ -9,6 +9,7 @@ import typer
 
 from app.extras import require
 from app.settings import WORKERS_MAX
+from core.language import say
 
 
 def serve(
@@ -27,7 +28,13 @@ def serve(
     try:
         processes.serve(host, port, count)
     except OSError as taken:
-        print(f"Error: cannot listen on {host}:{port}: {taken.strerror}; choose another --port", file=sys.stderr)
+        message = say(
+            "Error: cannot listen on {host}:{port}: {why}; choose another --port",
+            host=host,
+            port=port,
+            why=taken.strerror,
+        )
+        print(message, file=sys.stderr)
         raise typer.Exit(2) from taken
     except SystemExit as stop:  # The port is taken, or the address is not local; uvicorn has printed it.
         raise typer.Exit(2 if stop.code else 0) from stop

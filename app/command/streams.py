@@ -32,10 +32,20 @@ def prepare() -> None:
 
 def output_fault(error: OSError) -> str:
     """What is wrong with the file that the error names, or with standard output; nothing more is printed then."""
+    from core.language import say  # Not before there is an error.
+
     if error.filename:
         return f"{error.filename}: {error.strerror or error}"
     drop_output()
-    return f"standard output: {'it is closed' if error.errno == errno.EBADF else error.strerror or error}"
+    why = say("it is closed") if error.errno == errno.EBADF else error.strerror or error
+    return say("standard output: {why}", why=why)
+
+
+def report(error: OSError) -> None:
+    """Print what is wrong with a file or with standard output."""
+    from core.language import say
+
+    print(say("Error: {message}", message=output_fault(error)), file=sys.stderr)
 
 
 def drop_output() -> None:
@@ -53,6 +63,6 @@ def finish(code: int) -> int:
     except BrokenPipeError:  # The reader has what it wanted.
         drop_output()
     except OSError as error:
-        print(f"Error: {output_fault(error)}", file=sys.stderr)
+        report(error)
         return 2
     return code

@@ -14,6 +14,8 @@ from typer.core import TyperGroup
 
 from app.wire.messages import ALIKE_SLIP, fault_of
 from app.wire.numbers import number_of
+from core.errors import BenchDragonError, fill_message
+from core.language import say
 
 # Class of every mistake that the parser reports; typer gives it no public name.
 Misuse: Any = typer.BadParameter.__base__
@@ -68,13 +70,13 @@ def _taken(annotation: Any) -> tuple[Any, Any]:
 
 
 def message_of(error: Any) -> str:
-    """One line for a Misuse: what is wrong, where, and what to change; else the parser's own message."""
-    if isinstance(error, ExplainedMistake):
+    """One line for a Misuse: what is wrong, where, and what to change; else the error's own message."""
+    if isinstance(error, (ExplainedMistake, BenchDragonError)):
         return error.message
     if hasattr(error, "possibilities"):
         return unknown(error.option_name, [option for one in error.ctx.command.params for option in one.opts])
     if hasattr(error, "param_type") and error.param is not None and not error.message:
-        return f"{_name(error.param)} is missing"
+        return fill_message("{name} is missing", {"name": _name(error.param)})
     words = re.sub(r"\s+", " ", error.format_message().removeprefix("Invalid value: ")).rstrip(".")
     return f"{words[:1].lower()}{words[1:]}"
 
@@ -94,7 +96,9 @@ def path_argument(metavar: str, words: str) -> Any:
 def unknown(word: str, known: list[str]) -> str:
     bare = {one.lstrip("-"): one for one in known}
     near = difflib.get_close_matches(word.lstrip("-"), bare, n=1, cutoff=ALIKE_SLIP)
-    return f"{word} is unknown here: " + (f"did you mean {bare[near[0]]}?" if near else "see --help")
+    if near:
+        return fill_message("{word} is unknown here: did you mean {near}?", {"word": word, "near": bare[near[0]]})
+    return fill_message("{word} is unknown here: see --help", {"word": word})
 
 
 def _name(parameter: Any) -> str:
@@ -107,12 +111,14 @@ def _value_message(parameter: Any, kind: Any, declared: Any, value: str) -> str:
     """Message for a value that an option or argument cannot take. kind, declared: see _taken()"""
     name = _name(parameter)
     if getattr(declared, "parser", None) is path:
-        return f"{name} {EMPTY}"
+        return fill_message(f"{{name}} {EMPTY}", {"name": name})
     choices = get_args(kind) if get_origin(kind) is Literal else list(kind) if isinstance(kind, EnumType) else []
     if choices:
         *most, last = [str(getattr(choice, "value", choice)) for choice in choices]
-        return f"{name} must be {', '.join(most)} or {last}, got {value}"
+        allowed = say("{first} or {last}", first=", ".join(most), last=last)
+        return fill_message("{name} must be {allowed}, got {value}", {"name": name, "allowed": allowed, "value": value})
     if getattr(declared, "min", None) is not None and re.fullmatch(r"[-+]?\d+", value):
-        return f"{name} must be from {declared.min} to {declared.max}, got {value}"
+        values = {"name": name, "least": declared.min, "most": declared.max, "value": value}
+        return fill_message("{name} must be from {least} to {most}, got {value}", values)
     wrong = {"type": "int_parsing" if kind is int else "float_parsing", "input": value}
     return fault_of({**wrong, "loc": ("query", parameter.name)}, None).with_field(name).message

@@ -35,8 +35,8 @@ def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     ending = ending_of(file)
     if endings and ending not in endings:
         *others, last = endings
-        words = f"{', '.join(others)} or {last}" if others else last
-        values = {"got": ending or "no ending", "option": option, "endings": words}
+        allowed = f"{', '.join(others)} or {last}" if others else last
+        values = {"got": ending or "no ending", "option": option, "endings": allowed}
         raise InvalidValue.in_words(option, "--{option} must end in {endings}", **values)
     if file.is_dir():
         raise _os_error(errno.EISDIR, file)

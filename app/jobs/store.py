@@ -442,9 +442,9 @@ class Store:
         if deaths >= DEATHS_MAX:
             self.fail(job, problem)
             return
-        words = f"Its process died; the job is tried again ({deaths} of {DEATHS_MAX - 1})."
+        message = f"Its process died; the job is tried again ({deaths} of {DEATHS_MAX - 1})."
         with self._change() as run:
-            self._move(run, job, "state = 'running'", state=JobState.ACCEPTED, deaths=deaths, message=words)
+            self._move(run, job, "state = 'running'", state=JobState.ACCEPTED, deaths=deaths, message=message)
 
     def expire(self, days: float) -> None:
         """Remove calls and results of jobs this many days after their end, and the jobs after twice as many."""

@@ -14,12 +14,13 @@ from typing import Self
 from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
+from core.language import phrase
 from core.values import Point
 
 # Most layers that a refusal names.
 NAMED_MOST = 8
 # Advice for a drawing with more than a venue may have.
-PARTLY = "read only some layers of the drawing, or an area of it"
+PARTLY = phrase("read only some layers of the drawing, or an area of it")
 
 
 @dataclass(frozen=True, slots=True)

@@ -191,8 +191,8 @@ def _refuse_wide(features: list[MapFeature]) -> None:
     across = max((max(column) - min(column) for column in zip(*points, strict=True)), default=0.0)
     if across > ACROSS_MAX:
         rule = "must state its unit: without one it is read in metres, and the drawing is {across} across"
-        advice = ": set $INSUNITS, 4 for millimetres, or scale it to metres"
-        raise InvalidValue("file", rule + advice, across=Quantity(across, "", 6))
+        advice = "set $INSUNITS, 4 for millimetres, or scale it to metres"
+        raise InvalidValue("file", f"{rule}: {advice}", across=Quantity(across, "", 6))
 
 
 def _record_of(document: Any) -> Mapping[str, Any]:

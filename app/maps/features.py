@@ -14,6 +14,7 @@ import numpy as np
 from app.wire.degrees import GRID_MAX, GeographicOrigin
 from app.wire.geojson import GATE, INNER_SQUARE, Aside, Thing, outlined
 from core import InvalidValue
+from core.language import phrase
 from core.values import Floats, Point
 from core.venue import Ring
 
@@ -41,7 +42,7 @@ POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
 # Sides of the outline of one point, and of a line between two.
 SIDES = (32, 34)
 # Advice for a map that is too large.
-LEAVE_OUT = "leave out everything that does not belong to the square"
+LEAVE_OUT = phrase("leave out everything that does not belong to the square")
 
 
 def role_of(*words: object) -> str | None:

@@ -14,6 +14,7 @@ from app.maps.features import Drawing, FeatureCollector, MapFeature, Unit, role_
 from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
+from core.language import phrase
 from core.values import Point
 
 # Bytes in which the first element of a document is looked for, and its tag; zeros are of UTF-16.
@@ -21,7 +22,7 @@ HEAD, ROOT = 4_096, re.compile(rb"<(\w+:)?gpx[\s>]")
 # Deepest nesting of elements.
 DEPTH_MAX = 60
 FAULT = "must be GPX, got {fault} in line {line}"
-FORBIDDEN = "file must not have a document type or entities: save it again as plain GPX"
+FORBIDDEN = phrase("file must not have a document type or entities") + ": " + phrase("save it again as plain GPX")
 POINTS = {"trkpt": "trk", "rtept": "rte", "wpt": "wpt"}
 
 

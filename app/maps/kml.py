@@ -33,6 +33,7 @@ from app.wire.geojson import GATE, INNER_SQUARE
 from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
+from core.language import phrase
 from core.venue import Ring
 
 # Deepest nesting of elements, the largest document in a KMZ file [bytes], and most parts of it, such as pictures.
@@ -58,7 +59,7 @@ COLOURS = {
     INNER_SQUARE: "ff000000",
 }
 FAULT = "must be KML, got {fault} in line {line}"
-FORBIDDEN = "file must not have a document type or entities: save it again as plain KML"
+FORBIDDEN = phrase("file must not have a document type or entities") + ": " + phrase("save it again as plain KML")
 
 
 def unpacked(data: bytes) -> bytes:
@@ -217,8 +218,11 @@ def _points(text: str) -> Ring:
     for word in text.split():
         parts = word.split(",")
         if len(parts) > 3:
-            rule = "must have a space between two points, as in 120.1,30.2 120.3,30.4: here commas join more than three"
-            raise InvalidValue("file", f"{rule} numbers", got=Given(word))
+            rule = (
+                "must have a space between two points, as in 120.1,30.2 120.3,30.4: here commas join more than three "
+                "numbers"
+            )
+            raise InvalidValue("file", rule, got=Given(word))
         numbers = [_number(part) for part in parts[:2]]
         if len(numbers) < 2 or None in numbers:
             raise InvalidValue("file", "must have coordinates such as 120.1,30.2 in degrees", got=Given(word))

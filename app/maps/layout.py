@@ -36,7 +36,7 @@ from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.display import format_count
 from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
-from core.language import counted, say
+from core.language import counted, phrase, say
 from core.names import NAME_MAX, is_printable
 from core.values import Floats, Point
 from core.venue import EDGES_MAX
@@ -46,7 +46,7 @@ LOST = 0.5
 # Largest number of things that a note names; a list of more ends in dots.
 LISTED_MOST = 5
 # Reason of a refusal of numbers that were taken for degrees.
-GUESSED = "its numbers look like degrees; if they are metres, give the units metres"
+GUESSED = phrase("its numbers look like degrees") + "; " + phrase("if they are metres, give the units metres")
 # Free ground around everything drawn, if no polygon is the square [m].
 AROUND = 20.0
 # A map narrower than the longest bench is in degrees, if its numbers allow it: 350 km in degrees, only 3 m in metres. A
@@ -209,8 +209,10 @@ class Reading:
             self._leave_grid(np.array([point for one in self.features for ring in one.rings for point in ring]))
             return
         if (np.abs(points) > (180.0, 90.0)).any():
-            seems = ": longitude and latitude seem to be swapped" if (np.abs(points[:, 0]) <= 90.0).all() else ""
-            raise InvalidValue("file", f"must have longitudes within 180 and latitudes within 90 degrees{seems}")
+            rule = "must have longitudes within 180 and latitudes within 90 degrees"
+            if (np.abs(points[:, 0]) <= 90.0).all():
+                rule = f"{rule}: longitude and latitude seem to be swapped"
+            raise InvalidValue("file", rule)
         near = float(points[0, 0])
         self.features = [
             replace(one, rings=tuple(unwrapped(ring, near) for ring in one.rings)) for one in self.features
@@ -488,11 +490,11 @@ def _nothing_in(drawing: Drawing) -> InvalidValue:
         return InvalidValue("file", "must hold a polygon, a line or a point", got="none of these")
     hidden = ", ".join(format_count(each, kind) for kind, each in drawing.hidden.items())
     if drawing.unit is Unit.DEGREES:  # KML, which has no layers
-        rule = "must hold a polygon, a line or a point that is visible: "
-        rule += "{hidden} is hidden; make it visible" if count == 1 else "{hidden} are hidden; make them visible"
+        why = "{hidden} is hidden; make it visible" if count == 1 else "{hidden} are hidden; make them visible"
+        rule = f"must hold a polygon, a line or a point that is visible: {why}"
     else:
-        rule = "must show a polygon, a line or a point: "
-        rule += "{hidden} is hidden; show its layer" if count == 1 else "{hidden} are hidden; show their layers"
+        why = "{hidden} is hidden; show its layer" if count == 1 else "{hidden} are hidden; show their layers"
+        rule = f"must show a polygon, a line or a point: {why}"
     return InvalidValue("file", rule, hidden=hidden)
 
 

@@ -63,7 +63,7 @@ def marks_of(dance: Dance, start: float, stop: float, spacing: float) -> Marks:
     first = first_mark(dance, tail, spacing)
     low = first + spacing * np.floor((tail - first) / spacing)
     count = int((head - low) / spacing + 1e-9) + 1
-    check_limit("spacing", "marks", count, MARKS_MAX, "set them further apart")
+    check_limit("spacing", "marks must be at most {most} here", count, MARKS_MAX, "set them further apart")
     s = low + spacing * np.arange(count)
     return Marks(spacing, first, s, dance.path.position(s))
 

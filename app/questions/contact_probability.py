@@ -98,7 +98,9 @@ def contact_probability(
 ) -> ContactProbability:
     """Probability that two benches touch when people wobble, from dances drawn at random, with its limits."""
     settings = terms.settings
-    check_limit("samples", "samples", request.samples, settings.samples_max, "ask for fewer samples")
+    check_limit(
+        "samples", "samples must be at most {most} here", request.samples, settings.samples_max, "ask for fewer samples"
+    )
     dance, model = request.to_dance(settings.checked_benches_max), request.to_model()
     start, stop = span_of(request, dance)
     result = core.contact_probability(

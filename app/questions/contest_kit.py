@@ -39,14 +39,28 @@ class ContestKitRequest(ContestRequest, strict=True):
 def contest_kit(request: ContestKitRequest, terms: Terms) -> bytes:
     """The contest kit (CUMCM 2024 A) as a ZIP archive: workbooks, answers, tables, figures, films and a report."""
     limits, handles = terms.settings, request.benches + 1
-    check_limit("benches", "benches", request.benches, limits.checked_benches_max, "shorten the dragon")
+    check_limit(
+        "benches",
+        "benches must be at most {most} here",
+        request.benches,
+        limits.checked_benches_max,
+        "shorten the dragon",
+    )
     for field, instants in (("stop", request.stop + 1), ("span", 2 * request.span + 1)):
         # Two numbers for the place of a handle, as in the contest's workbooks.
         cells, most = int(2 * handles * instants), limits.workbook_cells_max
-        check_limit(field, "cells of a sheet", cells, most, "shorten the time or the dragon")
+        check_limit(
+            field, "cells of a sheet must be at most {most} here", cells, most, "shorten the time or the dragon"
+        )
     if request.films:
         pixels = round(sum(_megapixels(request).values()))
-        check_limit("seconds", "millions of pixels", pixels, limits.film_megapixels_max, "take shorter films")
+        check_limit(
+            "seconds",
+            "millions of pixels must be at most {most} here",
+            pixels,
+            limits.film_megapixels_max,
+            "take shorter films",
+        )
     try:
         return zip_of(request, request.shot, terms, _overall(request, terms))
     except Halted as halted:

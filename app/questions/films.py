@@ -162,7 +162,7 @@ def _checked_size(request: FilmFields, terms: Terms, form: str) -> tuple[int, in
     rate, height = rate_and_height(request, form)
     megapixels = round(request.seconds * rate * height * height * 16 / 9 / 1e6)
     most = terms.settings.film_megapixels_max
-    check_limit("seconds", "millions of pixels", megapixels, most, "take fewer or smaller")
+    check_limit("seconds", "millions of pixels must be at most {most} here", megapixels, most, "take fewer or smaller")
     return rate, height
 
 

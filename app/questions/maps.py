@@ -69,7 +69,13 @@ def _several(request: MapsRequest, terms: Terms) -> tuple[list[MarkedDance], deg
     for k, (part, body) in enumerate(zip(performance.parts, request.dances or (), strict=True)):
         marks = marks_of(part.dance, *part.own_span(*span), request.spacing)
         dances.append(MarkedDance(part.dance, marks, _fields_of(body.path), k, part.name))
-    check_limit("spacing", "marks", sum(len(one.marks.s) for one in dances), MARKS_MAX, "set them further apart")
+    check_limit(
+        "spacing",
+        "marks must be at most {most} here",
+        sum(len(one.marks.s) for one in dances),
+        MARKS_MAX,
+        "set them further apart",
+    )
     return dances, place
 
 

@@ -32,7 +32,13 @@ class OverlapsRequest(Wire, strict=True):
 
     def to_poses(self, poses_max: int) -> tuple[Floats, Floats, Floats]:
         """Poses (n, 3), lengths (n,) [m] and widths (n,) [m]. raises: TooLarge"""
-        check_limit("benches", "benches", len(self.benches), poses_max, "ask for fewer in one request")
+        check_limit(
+            "benches",
+            "benches must be at most {most} here",
+            len(self.benches),
+            poses_max,
+            "ask for fewer in one request",
+        )
         rows = np.array([(b.x, b.y, b.heading, b.length, b.width) for b in self.benches], dtype=np.float64)
         return rows[:, :3], rows[:, 3], rows[:, 4]
 
@@ -81,7 +87,13 @@ def _overlaps_of(
 ) -> OverlapsAnswer:
     """The overlaps of benches, and the verdict of each engine on them. raises: TooLarge, InvalidValue"""
     result = core.overlaps(poses, lengths, widths, margin=margin, chained=chained, budget=terms.budget)
-    check_limit("benches", "overlapping pairs", len(result.pairs), terms.settings.pairs_max, "move them apart")
+    check_limit(
+        "benches",
+        "overlapping pairs must be at most {most} here",
+        len(result.pairs),
+        terms.settings.pairs_max,
+        "move them apart",
+    )
     check = core.cross_check(poses, lengths, widths, margin=margin, chained=chained, budget=terms.budget)
     names, contact = tuple(Overlap.model_fields), result.contact
     columns = (contact.separation, contact.witness_a, contact.witness_b, contact.normal)

@@ -107,7 +107,9 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     from app.plan.timing import TimeFormat
 
     parts = request.dances or []
-    check_limit("dances", "dragons of a plan", len(parts), DRAGONS_MAX, "print some of them")
+    check_limit(
+        "dances", "dragons of a plan must be at most {most} here", len(parts), DRAGONS_MAX, "print some of them"
+    )
     (performance, place), budget = request.to_placed(terms.settings), terms.budget
     start, stop = performance.span(request.start, request.stop)
     clock = TimeFormat(clock_of(request, performance))

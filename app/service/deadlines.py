@@ -14,15 +14,23 @@ from app.service.lanes import Lanes
 from app.settings import Settings
 from core import Budget
 from core.errors import Quantity
+from core.language import phrase, say
 
 Handler = Callable[[Request], Coroutine[Any, Any, Response]]
+
+
+WITHIN = phrase("within {time}, the time that one answer may take here")
 
 
 class Deadline(Quantity):
     """The longest time of an answer, as the end of an error's sentence."""
 
     def __str__(self) -> str:
-        return f"within {super().__str__()}, the time that one answer may take here"
+        return WITHIN.format(time=super().__str__())
+
+    def said(self) -> str:
+        """The text in the language that is spoken."""
+        return say(WITHIN, time=super().__str__())
 
 
 @asynccontextmanager
@@ -48,7 +56,7 @@ async def _watch(request: Request, seconds: float, budget: Budget) -> None:
         budget.stop(Deadline(seconds, "s", 6))
     else:
         lanes.stopped.labels("client gone").inc()
-        budget.stop("before its client was gone")
+        budget.stop(phrase("before its client was gone"))
 
 
 class WatchedRoute(APIRoute):

@@ -65,13 +65,13 @@ from app.wire.problem import PROBLEM_TYPE, item_of
 from app.wire.question import JSON, FileFormat, check_limit, short_json
 from core import BenchDragonError
 from core.errors import Given, Quantity
-from core.language import spoken
+from core.language import phrase, spoken
 
 # Time between two checks for news, and between two signs of life while there are none [s].
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
 # Time after which a client may ask again when there was no room [s].
 COME_AGAIN = {"Retry-After": "60"}
-MAKE_ROOM = "remove jobs that you do not need, or make room"
+MAKE_ROOM = phrase("remove jobs that you do not need, or make room.")
 # Number of an event in a client's header; longer numbers are not ours, and SQLite cannot store them.
 EVENT_ID = re.compile(r"[0-9]{1,18}")
 # One range of bytes, from a first one on.
@@ -139,7 +139,7 @@ def take(request: Request, task: Task, cost: float) -> Response:
 def store_refusal(keeper: Keeper, error: OSError) -> Refused:
     """The refusal of a call while the store cannot be used, without the names of folders; the fault is logged."""
     if error.errno == errno.ENOSPC:
-        return Refused(507, f"The disk of the data folder is full: {MAKE_ROOM}.")
+        return Refused(507, f"The disk of the data folder is full: {MAKE_ROOM}")
     keeper.faults.log(str(error))
     return Refused(503, "This service takes no jobs now: the store of the jobs failed.", None, COME_AGAIN)
 
@@ -175,8 +175,8 @@ def later(request: Request, task: Task, cost: float) -> Response:
 async def store_problem(request: Request, error: Exception) -> Response:
     """The answer if SQLite cannot write or read: the disk is full or fails."""
     if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL:
-        words = "removing a job needs some room too: free some" if request.method == "DELETE" else MAKE_ROOM
-        return problem(507, "insufficient-storage", f"The disk of the data folder is full: {words}.")
+        words = "removing a job needs some room too: free some." if request.method == "DELETE" else MAKE_ROOM
+        return problem(507, "insufficient-storage", f"The disk of the data folder is full: {words}")
     keeper_of(request).faults.log(str(error))
     words = "The store of the jobs failed ({why}): try again."
     return problem(503, "service-unavailable", words, headers=COME_AGAIN, why=str(error))
@@ -268,8 +268,20 @@ def sweep(request: Request, inputs: Annotated[SweepRequest, Body(examples=[SWEEP
     form = form_of(inputs.accept, SWEEP_FORMS, {"pointer": "/accept"})
     try:
         spec = Spec.of(inputs.model_dump(exclude={"accept"}))
-        check_limit("over", "designs", spec.designs, limits.sweep_designs_max, "ask for fewer in one sweep")
-        check_limit("shard_size", "shards", spec.shards, limits.sweep_shards_max, "give a larger shard_size")
+        check_limit(
+            "over",
+            "designs must be at most {most} here",
+            spec.designs,
+            limits.sweep_designs_max,
+            "ask for fewer in one sweep",
+        )
+        check_limit(
+            "shard_size",
+            "shards must be at most {most} here",
+            spec.shards,
+            limits.sweep_shards_max,
+            "give a larger shard_size",
+        )
     except BenchDragonError as error:
         place = pointer_in_sweep(error.field, inputs)
         return problem(422, error.code, error, [item_of(error, pointer=place)])

@@ -23,6 +23,7 @@ from app.wire.question import UNKNOWN_COST
 from core import Budget, TooMuchWork
 from core.display import format_count
 from core.errors import Quantity
+from core.language import phrase
 
 # Longest estimated time of a cheap answer [s].
 CHEAP = 0.1
@@ -53,9 +54,9 @@ class Lane:
         with self._lock:
             own = [one for one in self._begun.values() if one[2] == client]
             if len(self._begun) >= self.most:
-                raise self._full(503, "The", self.most, self._begun.values())
+                raise self._full(503, "The limit of {most} at once is reached", self.most, self._begun.values())
             if client and len(own) >= self.of_client:
-                raise self._full(429, "Your", self.of_client, own)
+                raise self._full(429, "Your limit of {most} at once is reached", self.of_client, own)
             self._begun[key] = (time.monotonic(), cost, client)
         self._running.inc()
         try:
@@ -65,7 +66,7 @@ class Lane:
             with self._lock:
                 del self._begun[key]
 
-    def _full(self, status: int, whose: str, most: int, begun: Iterable[tuple[float, float, str]]) -> Refused:
+    def _full(self, status: int, words: str, most: int, begun: Iterable[tuple[float, float, str]]) -> Refused:
         """A refusal with the expected end of the first computation; a late one is expected to take as long again.
 
         None takes longer than its deadline.
@@ -75,7 +76,7 @@ class Lane:
         left = (began + cost - now if now < began + cost else now - began for began, cost, _ in begun)
         seconds = max(self.retry_after, math.ceil(min(self.longest, *left)))
         values = {"most": limit(most, f"{self.name} computation"), "seconds": Quantity(seconds, "s")}
-        words, after = f"{whose} limit of {{most}} at once is reached", {"Retry-After": str(seconds)}
+        after = {"Retry-After": str(seconds)}
         return Refused(status, words, None, after, reason="try again in {seconds}.", **values)
 
 
@@ -126,7 +127,7 @@ class Lanes:
                     heavy.enter_context(self._heavy.place(UNKNOWN_COST, client))
                 except Refused as refusal:
                     refusals.append(refusal)
-                    budget.stop("before a place among the heavy computations was free")
+                    budget.stop(phrase("before a place among the heavy computations was free"))
                 else:
                     lower_thread_priority(thread)
                     cheap.close()

@@ -18,9 +18,12 @@ from app.wire.question import short_json
 from app.wire.texts import Unfit, Unreadable
 from core import BenchDragonError, TooMuchWork
 from core.errors import Parameter, Value
+from core.language import phrase, say
 
 # Advice to a client whose answer takes too much work.
-A_JOB = "Ask for it as a job, which may take longer: POST /jobs, or this request with the header Prefer: respond-async."
+A_JOB = phrase(
+    "Ask for it as a job, which may take longer: POST /jobs, or this request with the header Prefer: respond-async."
+)
 CLOSE = {"Connection": "close"}
 METHODS = ("DELETE", "GET", "PATCH", "POST", "PUT")
 
@@ -81,7 +84,7 @@ async def core_problem(request: Request, error: BenchDragonError) -> Response:
     """Answer to a value refused by core or by a limit of the service."""
     details = refusal_problem(error, await _placing(request))
     if isinstance(error, TooMuchWork) and not _takes_file(request):
-        details.detail = f"{details.detail.removesuffix('.')}. {A_JOB}"
+        details.detail = details.detail.removesuffix(".") + say(". ") + say(A_JOB)
     return response_of(details)
 
 

@@ -9,6 +9,7 @@ from functools import partial
 from threading import Event, Thread, get_ident
 
 from core import Budget
+from core.language import phrase
 
 # Longest estimated time of a computation that the event loop runs itself [s]: a thread costs a third of a millisecond,
 # a sixth of the answer (2026-11-22). A computation that takes longer is stopped, and repeated once in a thread.
@@ -70,4 +71,4 @@ class ShortTries:
                 now = self._now
                 idle = 0 if now else idle + 1
                 if now and self._clock and self._clock() - now[0] > SHORT:
-                    now[1].stop("in a short try")
+                    now[1].stop(phrase("in a short try"))

@@ -21,12 +21,13 @@ from app.sweeps.designs import designs
 from app.sweeps.questions import SweepQuestion, refusal
 from app.sweeps.spec import Range, Spec, with_values
 from core import BenchDragonError, InvalidValue
+from core.language import phrase
 
 PART = re.compile(r"part-(\d{6})\.parquet")
 TEMPORARY = ".part-"
 # Error code for a design whose process died at each attempt.
 KILLED = "killed"
-KILLED_MESSAGE = "the process that answered this design died at each attempt"
+KILLED_MESSAGE = phrase("the process that answered this design died at each attempt")
 
 
 class OtherVersion(BenchDragonError):

@@ -122,7 +122,7 @@ def _columns(words: Iterable[str], number: int) -> list[str]:
         heading = word.partition("[")[0].partition("(")[0].strip().lower()
         column = next((column for column, known in WORDS.items() if heading in known), None)
         if column is None or column in columns:
-            rule = f"a column must be {'named once' if column else 'name, length, width or overhang'}"
+            rule = "a column must be named once" if column else "a column must be name, length, width or overhang"
             raise _line_error(number, rule, got=Given(word))
         columns.append(column)
     if missing := [column for column in SIZES if column not in columns]:
@@ -174,5 +174,7 @@ class BenchCsv(Wire, strict=True):
 
     def to_dragon(self, benches_max: int) -> Dragon:
         """raises: TooLarge, InvalidValue"""
-        check_limit("dragon.csv", "benches", self.benches, benches_max, "shorten the dragon")
+        check_limit(
+            "dragon.csv", "benches must be at most {most} here", self.benches, benches_max, "shorten the dragon"
+        )
         return self.table.to_dragon()

@@ -35,6 +35,7 @@ from app.wire.question import (
 )
 from core import Dance, Dragon, InvalidValue, Performance
 from core.errors import Given, Parameter, quantities
+from core.language import phrase
 from core.passages import PASSAGES_MAX, Passage
 from core.people.beats import Music
 from core.values import Floats
@@ -44,7 +45,7 @@ if TYPE_CHECKING:
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9
-FEWER_CELLS = "take a larger step, a shorter range or fewer benches"
+FEWER_CELLS = phrase("take a larger step, a shorter range or fewer benches")
 # Nesting depth of objects and lists: a collection of features of polygons has nine levels.
 VENUE_DEPTH_MAX = 20
 # Fields that only a dragon given bench by bench has.
@@ -76,7 +77,9 @@ class BenchByBench(Wire, strict=True):
 
     def to_dragon(self, benches_max: int) -> Dragon:
         """raises: TooLarge, InvalidValue"""
-        check_limit("dragon.lengths", "benches", self.benches, benches_max, "shorten the dragon")
+        check_limit(
+            "dragon.lengths", "benches must be at most {most} here", self.benches, benches_max, "shorten the dragon"
+        )
         return Dragon.of(self.lengths, self.widths, self.overhangs).named(self.names or ())
 
 
@@ -120,7 +123,13 @@ class TimeRange(Wire):
     def times_of(self, dance: Dance | Performance, cells_max: int) -> Floats:
         """Instants (T,) [s], none of them after the stop. raises: TooLarge, InvalidValue"""
         instants = self.instants()
-        check_limit("times.step", "instants x handles", instants * handles_of(dance), cells_max, FEWER_CELLS)
+        check_limit(
+            "times.step",
+            "instants x handles must be at most {most} here",
+            instants * handles_of(dance),
+            cells_max,
+            FEWER_CELLS,
+        )
         return np.minimum(self.start + self.step * np.arange(instants, dtype=np.float64), self.stop)
 
 
@@ -294,7 +303,13 @@ class TimedDance(DanceFields):
         else:
             steps = self.times or TimeSteps()
             return (steps if is_endless else steps.within(dance)).times_of(dance, cells_max)
-        check_limit("times", "instants x handles", len(times) * handles_of(dance), cells_max, FEWER_CELLS)
+        check_limit(
+            "times",
+            "instants x handles must be at most {most} here",
+            len(times) * handles_of(dance),
+            cells_max,
+            FEWER_CELLS,
+        )
         return np.asarray(times, dtype=np.float64)
 
 
@@ -320,8 +335,8 @@ class VenueFields(Wire):
         if self.venue is None:
             if self.coordinates is not None:
                 rule = "must stand beside a venue, whose unit it gives, got {unit} without one"
-                advice = ": give the venue, or leave coordinates out"
-                raise InvalidValue("coordinates", rule + advice, unit=self.coordinates)
+                advice = "give the venue, or leave coordinates out"
+                raise InvalidValue("coordinates", f"{rule}: {advice}", unit=self.coordinates)
             return Place()
         return place_of(self.venue, self.coordinates, dragon)
 

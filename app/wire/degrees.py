@@ -16,6 +16,7 @@ from app.wire.geojson import Aside, Polygon, Scale, Thing, asides_in, outlined, 
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.errors import Given, Parameter, checked_number, quantities
+from core.language import phrase
 from core.values import Floats, Point
 from core.venue import Ring
 
@@ -34,7 +35,7 @@ DEGREES: Scale = ("degrees", 180.0, 90.0)
 LATITUDE_FIRST: Scale = ("degrees", 90.0, 180.0)
 # Steps of Newton's method from a plane back to the ellipsoid; 10 km from the middle each step adds four digits.
 STEPS = 4
-SWAPPED = "longitude comes first and latitude second, and here they look swapped"
+SWAPPED = phrase("longitude comes first and latitude second, and here they look swapped")
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +108,9 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
         words = "give longitude and latitude without crs, or true metres with coordinates 'metres' beside the venue"
         raise InvalidValue("venue.crs", f"must be left out or name CRS84: {words}", got=Given(system_name))
     if system_name is not None and coordinates == ("metres" if geographic else "degrees"):
-        rule = f"must agree with {{crs}}: {{system}} is {'longitude and latitude' if geographic else 'something else'}"
+        rule = "must agree with {crs}: {system} is something else"
+        if geographic:
+            rule = "must agree with {crs}: {system} is longitude and latitude"
         crs, system = Parameter("venue.crs"), Given(system_name)
         raise InvalidValue("coordinates", rule, got=Given(coordinates), crs=crs, system=system)
     if coordinates == "degrees" or geographic:
@@ -192,13 +195,22 @@ def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
     left, low, right, high = _bounds([polygons[0][1][0]])
     if max(right - left, high - low) >= longest:
         return
-    looks = "longitude and latitude" if in_order else "latitude and longitude in that order"
-    rule = f"must be in metres, got what looks like {looks}, a square of {{width}} by {{height}},"
-    change = 'give "coordinates": "degrees" beside the venue (in TOML: coordinates = "degrees") to have it in metres'
+    rule = (
+        "must be in metres, got what looks like longitude and latitude, a square of {width} by {height}, "
+        "narrower than a bench of {length}"
+    )
+    advice = 'give "coordinates": "degrees" beside the venue, in TOML coordinates = "degrees", to have it in metres'
     if not in_order:
-        change = f"{SWAPPED}; put them in order, and {change}"
+        rule = (
+            "must be in metres, got what looks like latitude and longitude in that order, a square of {width} by "
+            "{height}, narrower than a bench of {length}"
+        )
+        advice = (
+            f'{SWAPPED}; put them in order, and give "coordinates": "degrees" beside the venue, in TOML '
+            'coordinates = "degrees", to have it in metres'
+        )
     values = quantities("", 6, width=right - left, height=high - low) | quantities("m", 6, length=longest)
-    raise InvalidValue("venue", f"{rule} narrower than a bench of {{length}}: {change}", **values)
+    raise InvalidValue("venue", f"{rule}: {advice}", **values)
 
 
 def _projected(polygons: list[Polygon], asides: list[Aside]) -> Place:

@@ -9,6 +9,7 @@ from app.wire.dances import SHAPES
 from app.wire.messages import fault_of, place_of
 from app.wire.problem import ERRORS_MAX, PLACE_MAX, ErrorItem, Problem, item_of, problem_of, sendable_text
 from core import BenchDragonError
+from core.language import say
 
 # A function that makes an error of the problem from the steps to its place and the error itself.
 Placing = Callable[[Sequence[Any], BenchDragonError], ErrorItem]
@@ -26,7 +27,7 @@ def misfit_problem(errors: Sequence[Any], request_type: Any, item: Placing) -> P
     errors: pydantic's, the first step to each is query or body; request_type: model of the request
     """
     faults = [(place_of(one)[1:], fault_of(one, request_type)) for one in errors[:ERRORS_MAX]]
-    more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+    more = say(" (and {count} more)", count=len(errors) - 1) if len(errors) > 1 else ""
     return problem_of(422, "invalid-value", faults[0][1], [item(*fault) for fault in faults], more)
 
 

@@ -197,8 +197,9 @@ def _place(field: str, value: object, scale: Scale) -> Point:
     unit, *limits = scale
     numbers = _listed(field, value)
     if len(numbers) not in (2, 3):
-        axes, unit = ("x, y", "metres") if scale == METRES else ("longitude, latitude", unit)
-        rule = f"must be a position [{axes}] in {unit}, got {{count}} numbers"
+        rule = "must be a position [x, y] in metres, got {count} numbers"
+        if scale != METRES:
+            rule = "must be a position [longitude, latitude] in degrees, got {count} numbers"
         raise InvalidValue(field, rule, count=len(numbers))
     x, y = (checked_number(f"{field}.{k}", numbers[k], unit, -limits[k], limits[k]) for k in range(2))
     return x, y

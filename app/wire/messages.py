@@ -17,15 +17,20 @@ from app.wire.numbers import number_of
 from app.wire.paths import KINDS
 from app.wire.question import VALUE_LENGTH_MAX, Wire, short_json, unit_of
 from core import InvalidValue
-from core.errors import Given, Parameter, Quantity, Value, format_field
+from core.errors import Clause, Given, Parameter, Quantity, Value, format_field
+from core.language import Phrases, phrase
 
 Model = TypeVar("Model", bound=BaseModel)
 # An object, in the words of JSON.
-OBJECT = "a JSON object"
+OBJECT = phrase("a JSON object")
 # Similarity above which an unknown name counts as a slip [1] (difflib); higher for a name that other calls know, such
 # as `width` for `widths`.
 ALIKE_SLIP, ALIKE = 0.6, 0.8
-IN_WORDS = {"m": "lengths are in metres", "m/s": "speeds are in metres per second", "rad": "angles are in radians"}
+IN_WORDS: Phrases = {
+    "m": "lengths are in metres",
+    "m/s": "speeds are in metres per second",
+    "rad": "angles are in radians",
+}
 
 
 def checked(model: type[Model], values: object, thing: str = OBJECT) -> Model:
@@ -76,9 +81,9 @@ def fault_of(error: Mapping[str, Any], request_type: Any, thing: str = OBJECT) -
     indices = list(takewhile(lambda part: isinstance(part, int), reversed(place)))
     subject = ".".join(map(str, [name, *reversed(indices)]))
     if AXIS in names:
-        thing += " or a list of values"
+        thing = Clause("{thing} or a list of values", thing=thing)
     elif subject == "times":
-        thing += ", or a list of instants [s]"
+        thing = Clause("{thing}, or a list of instants [s]", thing=thing)
     rule, values = _rule(error, unit, thing)
     return InvalidValue(name, rule, field=Parameter(subject), **values)
 
@@ -94,7 +99,6 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
     values: dict[str, Value] = {"got": got, "unit": unit}
     bounds = {"ge": "least", "gt": "least", "le": "most", "lt": "most"}
     values |= {word: Quantity(limits[key], unit, 15) for key, word in bounds.items() if key in limits}
-    of_unit = " [{unit}]" if unit else ""
     match kind:
         case "greater_than_equal":
             return "must be at least {least}", values
@@ -102,14 +106,15 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
             return "must be more than {least}", values
         case "less_than_equal":
             why, hint = _unit_hint(number, limits["le"], unit)
-            return f"must be at most {{most}}{why}", values | hint
+            return f"must be at most {{most}}: {why}".removesuffix(": "), values | hint
         case "finite_number":
-            return f"must be a finite number{of_unit}", values
+            return "must be a finite number [{unit}]" if unit else "must be a finite number", values
         case "float_type" if isinstance(value, int) and not isinstance(value, bool):
-            return f"must be a finite number{of_unit}", values
+            return "must be a finite number [{unit}]" if unit else "must be a finite number", values
         case "float_type" | "float_parsing":
             why, hint = _centimetres(value) if unit == "m" else ("", {})
-            return f"must be a number{of_unit}{why}", values | hint
+            rule = "must be a number [{unit}]" if unit else "must be a number"
+            return f"{rule}: {why}".removesuffix(": "), values | hint
         case "int_type" | "int_parsing" | "int_from_float" | "int_parsing_size":
             return "must be a whole number", values
         case "string_type":
@@ -123,7 +128,8 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
         case "string_too_long":
             return "must have at most {most} characters", values | {"most": limits["max_length"]}
         case "missing" | "union_tag_not_found":
-            return "is missing", {}
+            rule = "is missing"
+            return rule, {}
         case "model_type" | "model_attributes_type" | "dict_type":
             return "must be {thing}", values | {"thing": thing}
         case "list_type":
@@ -131,7 +137,7 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
             return "must be a list of numbers [{unit}]" if unit else "must be a list", values
         case "too_short":
             least, count = limits["min_length"], limits["actual_length"]
-            rule = f"must have at least {{least}} {'entry' if least == 1 else 'entries'}"
+            rule = "must have at least {least} entry" if least == 1 else "must have at least {least} entries"
             return rule, {"least": least, "got": count or Given(0, "none")}
         case "too_long":
             return "must have at most {most} entries", {"most": limits["max_length"], "got": "more"}
@@ -150,7 +156,8 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
             return error["msg"], values
         case "beside":
             return error["msg"], {}
-    return "is not valid: {why}", values | {"why": f"{error['msg'][:1].lower()}{error['msg'][1:]}"}
+    rule = "is not valid: {why}"
+    return rule, values | {"why": f"{error['msg'][:1].lower()}{error['msg'][1:]}"}
 
 
 def _quoted(words: str) -> str:
@@ -163,17 +170,21 @@ def _unknown_name(
 ) -> tuple[str, dict[str, Value]]:
     """The rule for a name that is unknown at its place, and its values."""
     if homes := _homes(name, request_type, place[1:-1]):
-        return "is unknown here: it belongs in {home}", {"home": " or ".join(homes)}
+        rule = "is unknown here: it belongs in {home}"
+        return rule, {"home": " or ".join(homes)}
     if place[-2] in KINDS:
         kinds = sorted(kind for kind in KINDS if name in names_at(request_type, (*place[1:-2], kind)))
         if kinds:
             values: dict[str, Value] = {"kind": short_json(place[-2]), "home": " or ".join(map(short_json, kinds))}
-            return "is unknown in the kind {kind}: it belongs to {home}", values
+            rule = "is unknown in the kind {kind}: it belongs to {home}"
+            return rule, values
     alike = ALIKE if name in units else ALIKE_SLIP
     near = difflib.get_close_matches(name, names_at(request_type, place[1:-1]), n=1, cutoff=alike)
     if near:
-        return "is unknown here: did you mean {near}?", {"near": near[0]}
-    return "is unknown here: leave it out", {}
+        rule = "is unknown here: did you mean {near}?"
+        return rule, {"near": near[0]}
+    rule = "is unknown here: leave it out"
+    return rule, {}
 
 
 def _field_name(names: Sequence[str], units: Mapping[str, str], place: Sequence[Any], request_type: Any) -> str:
@@ -268,10 +279,10 @@ def _centimetres(value: Any) -> tuple[str, dict[str, Value]]:
 
 def _in_metres(centimetres: float) -> tuple[str, dict[str, Value]]:
     values = {"cm": Quantity(centimetres, "cm", 6), "m": Quantity(centimetres / 100, "m", 6)}
-    return ": lengths are in metres, and {cm} is {m}", dict(values)
+    return phrase("lengths are in metres, and {cm} is {m}"), dict(values)
 
 
 def _unit_hint(value: float | None, limit: float, unit: str) -> tuple[str, dict[str, Value]]:
     if unit == "m" and value is not None and value / 100 <= limit:
         return _in_metres(value)
-    return f": {IN_WORDS[unit]}" if unit in IN_WORDS else "", {}
+    return IN_WORDS.get(unit, ""), {}

@@ -271,9 +271,15 @@ class RoutePath(Wire, strict=True):
     def to_path(self) -> Route:
         """raises: TooLarge, InvalidValue"""
         points = sum(len(piece.points) for piece in self.pieces if isinstance(piece, WaypointsPiece))
-        check_limit("path.pieces", "waypoints", points, POINTS_MAX, "take fewer")
+        check_limit("path.pieces", "waypoints must be at most {most} here", points, POINTS_MAX, "take fewer")
         turned = math.ceil(sum(piece.turned for piece in self.pieces if isinstance(piece, ClothoidPiece)))
-        check_limit("path.pieces", "radians of clothoids", turned, TURNED_MAX, "take fewer or shorter ones")
+        check_limit(
+            "path.pieces",
+            "radians of clothoids must be at most {most} here",
+            turned,
+            TURNED_MAX,
+            "take fewer or shorter ones",
+        )
         return Route([_placed(piece, f"path.pieces.{k}") for k, piece in enumerate(self.pieces)], self.start)
 
 

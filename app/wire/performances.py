@@ -87,7 +87,13 @@ class PerformanceFields(Wire, strict=True):
     def to_performance(self, settings: Settings) -> Performance:
         """raises: TooLarge, InvalidValue"""
         most = settings.performed_benches_max
-        check_limit("dances", "benches of all dragons", self.benches, most, "take fewer or shorter dragons")
+        check_limit(
+            "dances",
+            "benches of all dragons must be at most {most} here",
+            self.benches,
+            most,
+            "take fewer or shorter dragons",
+        )
         return Performance([self._part(k, most) for k in range(len(self.dances))])
 
     def _part(self, k: int, most: int) -> Part:

@@ -35,7 +35,7 @@ class Part(BaseModel):
 
 
 class Sentence(BaseModel):
-    """A sentence in English, and its parts for programs that word it themselves: template, got and reason."""
+    """A sentence, and its parts in English for programs that word it themselves: template, got and reason."""
 
     detail: str = Field(description="What is wrong and what to change")
     template: str = Field(description="What must hold; {word} stands for a value, {field} for the wrong field")

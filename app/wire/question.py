@@ -149,10 +149,10 @@ CrossCheck = Annotated[
 ]
 
 
-def check_limit(field: str, what: str, count: int, limit: int, advice: str) -> None:
-    """raises: TooLarge, at the field, when the count exceeds the limit; what: the things counted"""
+def check_limit(field: str, rule: str, count: int, limit: int, advice: str) -> None:
+    """raises: TooLarge, at the field, when the count exceeds the limit; rule: which things are counted"""
     if count > limit:
-        raise TooLarge.in_words(field, f"{what} must be at most {{most}} here", got=count, reason=advice, most=limit)
+        raise TooLarge.in_words(field, rule, got=count, reason=advice, most=limit)
 
 
 class Wire(BaseModel):
@@ -244,7 +244,9 @@ class UniformDragon(Wire):
 
     def to_dragon(self, benches_max: int) -> Dragon:
         """raises: TooLarge, InvalidValue"""
-        check_limit("dragon.benches", "benches", self.benches, benches_max, "shorten the dragon")
+        check_limit(
+            "dragon.benches", "benches must be at most {most} here", self.benches, benches_max, "shorten the dragon"
+        )
         return uniform_dragon(self.benches, self.head_length, self.body_length, self.width, self.overhang)
 
     def most_benches(self, settings: Settings) -> int:

@@ -120,8 +120,8 @@ class FirstContact(Readable):
         near = f"may {near} with strays up to {display(self.stray, 'm')}" if self.stray else near
         if self.benches is None or self.time is None:
             assert self.end is not None
-            why = "" if self.end.reason is EndReason.STOP else f", where {self.end.why}"
-            return f"no two benches {near} until {display(self.end.time, 's')}{why}"
+            where = "" if self.end.reason is EndReason.STOP else f", where {self.end.why}"
+            return f"no two benches {near} until {display(self.end.time, 's')}{where}"
         a, b = self.benches
         return f"benches {a} and {b} {near} at {display(self.time, 's')}"
 

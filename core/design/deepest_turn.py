@@ -37,6 +37,7 @@ from core.errors import (
     too_much,
 )
 from core.kernels import Budget, Halted
+from core.language import phrase
 from core.paths.following import follows
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
@@ -312,21 +313,57 @@ def coils_of(danced: Turn) -> TwoCoils:
 
 def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> TooMuchWork:
     """The error if the budget ends before the shortest turn is found. entry: the radius tried last [m]"""
-    rule = "must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry} were not all"
-    rule += " decided {then}; the {benches} chords are {shortest} to {longest} long"
+    rule = (
+        "must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry} were not all "
+        "decided {then}; the {benches} chords are {shortest} to {longest} long"
+    )
     sizes = {"entry": Quantity(entry, "m", 6), **chord_values(dragon)}
     return too_much(budget, "turning_radius", rule, Quantity(radius, "m"), **sizes)
+
+
+UNDECIDED = phrase(
+    "in a turn that begins on the circle benches come so near to the margin of {margin} that it is not decided whether "
+    "they keep it"
+)
+# Contacts in a turn, by whether there is a margin, whether there is a stray, and whether they are after the entry.
+NEAR: dict[tuple[bool, bool, bool], str] = {
+    (False, False, False): phrase(
+        "in a turn that begins on the circle benches {a} and {b} touch {time} before the entry at 1 m/s"
+    ),
+    (False, False, True): phrase(
+        "in a turn that begins on the circle benches {a} and {b} touch {time} after the entry at 1 m/s"
+    ),
+    (False, True, False): phrase(
+        "in a turn that begins on the circle benches {a} and {b} may touch with strays up to {stray} {time} "
+        "before the entry at 1 m/s"
+    ),
+    (False, True, True): phrase(
+        "in a turn that begins on the circle benches {a} and {b} may touch with strays up to {stray} {time} "
+        "after the entry at 1 m/s"
+    ),
+    (True, False, False): phrase(
+        "in a turn that begins on the circle benches {a} and {b} come within {margin} {time} before the entry at 1 m/s"
+    ),
+    (True, False, True): phrase(
+        "in a turn that begins on the circle benches {a} and {b} come within {margin} {time} after the entry at 1 m/s"
+    ),
+    (True, True, False): phrase(
+        "in a turn that begins on the circle benches {a} and {b} may come within {margin} with strays up to "
+        "{stray} {time} before the entry at 1 m/s"
+    ),
+    (True, True, True): phrase(
+        "in a turn that begins on the circle benches {a} and {b} may come within {margin} with strays up to "
+        "{stray} {time} after the entry at 1 m/s"
+    ),
+}
 
 
 def refusal(radius: float, touch: Touch, margin: float, stray: float) -> InvalidValue:
     """The error if no turn can begin on the circle."""
     (_, benches, time), values = touch, quantities("m", got=radius, margin=margin, stray=stray)
     if benches is None or time is None:
-        what = "benches come so near to the margin of {margin} that it is not decided whether they keep it"
+        why = UNDECIDED
     else:
-        near = "come within {margin}" if margin else "touch"
-        near = f"may {near} with strays up to {{stray}}" if stray else near
-        what = f"benches {{a}} and {{b}} {near} {{time}} {'after' if time >= 0.0 else 'before'} the entry at 1 m/s"
+        why = NEAR[bool(margin), bool(stray), time >= 0.0]
         values |= {"a": benches[0], "b": benches[1], "time": Quantity(round(abs(time), 6), "s")}
-    rule = f"must be larger, or the pitch: in a turn that begins on the circle {what}"
-    return InvalidValue("turning_radius", rule, **values)
+    return InvalidValue("turning_radius", f"must be larger, or the pitch: {why}", **values)

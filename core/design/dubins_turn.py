@@ -102,9 +102,12 @@ def dubins_turn(
     try:
         turn = search.shortest()
     except Halted as halted:
-        rule = "must be smaller, or benches fewer: no turn was found {then}; the {benches} chords are {shortest} to"
+        rule = (
+            "must be smaller, or benches fewer: no turn was found {then}; the {benches} chords are {shortest} to "
+            "{longest} long"
+        )
         size = Quantity(circle.radius, "m")
-        raise too_much(work, "turning_radius", rule + " {longest} long", size, **chord_values(dragon)) from halted
+        raise too_much(work, "turning_radius", rule, size, **chord_values(dragon)) from halted
     if turn is None:
         why = "in every turn with a straight piece that was tried inside it benches come within {margin}"
         values = quantities("m", got=circle.radius, margin=circle.margin)

@@ -189,8 +189,8 @@ def pitch_scan(
 
 def _too_much(budget: Budget, dragon: Dragon, pitches: Floats, pitch: float) -> TooMuchWork:
     """The error if the budget ends before the scan does; pitch: the next one [m]."""
-    missing = "the first contacts from a pitch of {pitch} on were not found {then}"
-    rule = f"must be fewer, or benches: {missing}; the {{benches}} chords are {{shortest}} to {{longest}} long"
+    why = "the first contacts from a pitch of {pitch} on were not found {then}"
+    rule = f"must be fewer, or benches: {why}; the {{benches}} chords are {{shortest}} to {{longest}} long"
     return too_much(budget, "pitches", rule, len(pitches), pitch=Quantity(pitch, "m", 6), **chord_values(dragon))
 
 

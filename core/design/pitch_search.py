@@ -234,7 +234,10 @@ def dragon_too_near(search: ContactSearch, a: int, margin: float) -> InvalidValu
         return too_near(search.nominal, straight.at, margin)
     if not search.stray:
         return too_near(search.dragon, a, margin)
-    near = "come within {margin}" if margin else "touch"
-    why = f"on a straight line, and so on every wide enough spiral, benches {{a}} and {{b}} may then {near}"
+    why = "on a straight line, and so on every wide enough spiral, benches {a} and {b} may then touch"
+    if margin:
+        why = (
+            "on a straight line, and so on every wide enough spiral, benches {a} and {b} may then come within {margin}"
+        )
     values = quantities("m", got=search.stray, margin=margin)
     return InvalidValue("stray", f"must be smaller: {why}", a=a, b=a + 2, **values)

@@ -108,11 +108,12 @@ def quickest_turn(
     try:
         turn = search.quickest()
     except Halted as halted:
-        rule = "must be smaller, or benches fewer: no turn was timed {then}; the {benches} chords are {shortest} to"
+        rule = (
+            "must be smaller, or benches fewer: no turn was timed {then}; the {benches} chords are {shortest} to "
+            "{longest} long"
+        )
         values = chord_values(dragon)
-        raise too_much(
-            search.budget, "turning_radius", rule + " {longest} long", Quantity(circle.radius, "m"), **values
-        ) from halted
+        raise too_much(search.budget, "turning_radius", rule, Quantity(circle.radius, "m"), **values) from halted
     if turn is None:
         refuse_bend(dragon, circle.turn())
         why = "in every turn that was tried inside it benches come within {margin}"

@@ -148,8 +148,10 @@ def shortest_turn(
     try:
         return search.answer()
     except Halted as halted:
-        rule = "must be smaller, or benches fewer or more alike: no turn was decided to be the shortest {then}; the"
-        rule += " {benches} chords are {shortest} to {longest} long"
+        rule = (
+            "must be smaller, or benches fewer or more alike: no turn was decided to be the shortest {then}; "
+            "the {benches} chords are {shortest} to {longest} long"
+        )
         raise too_much(work, "turning_radius", rule, Quantity(circle.radius, "m"), **chord_values(dragon)) from halted
 
 

@@ -164,13 +164,18 @@ def too_near(dragon: Dragon, a: int, margin: float) -> InvalidValue:
     b = a + 2
     chord, front, rear = (float(size) for size in (dragon.chords[a + 1], dragon.overhangs[a], dragon.overhangs[b]))
     gap = chord - front - rear
-    hardly, pair = gap > margin, "benches {a} and {b}"
-    if hardly:
-        near = "are nearer than that" if margin else "touch"
-        why = f"at a pitch of {{pitch}} {pair} {near}, and on a straight line they are {{gap}} apart"
+    hardly = gap > margin
+    if hardly and margin:
+        why = (
+            "at a pitch of {pitch} benches {a} and {b} are nearer than that, and on a straight line they are "
+            "{gap} apart"
+        )
+    elif hardly:
+        why = "at a pitch of {pitch} benches {a} and {b} touch, and on a straight line they are {gap} apart"
+    elif gap > 0.0:
+        why = "on a straight line, and so on every wide enough spiral, benches {a} and {b} are {gap} apart"
     else:
-        apart = "are {gap} apart" if gap > 0.0 else "touch"
-        why = f"on a straight line, and so on every wide enough spiral, {pair} {apart}"
+        why = "on a straight line, and so on every wide enough spiral, benches {a} and {b} touch"
     why += ": the chord of bench {between} between them is {chord}, their overhangs {front} and {rear}"
     values = quantities("m", front=front, rear=rear) | quantities("m", 6, pitch=SIZE_MAX)
     values |= quantities("m", 9, gap=gap, chord=chord) | {"a": a, "b": b, "between": a + 1}

@@ -48,9 +48,13 @@ def turn_length_bounds(
         low = search.answer().length_bracket[0]
         work.afford()
     except Halted as halted:
-        rule = "must be smaller, or benches fewer: no length was proven {then}; the {benches} chords are {shortest} to"
+        rule = (
+            "must be smaller, or benches fewer: no length was proven {then}; the {benches} chords are {shortest} "
+            "to {longest} "
+            "long"
+        )
         size = Quantity(circle.radius, "m")
-        raise too_much(work, "turning_radius", rule + " {longest} long", size, **chord_values(dragon)) from halted
+        raise too_much(work, "turning_radius", rule, size, **chord_values(dragon)) from halted
     return min(low, longest), longest
 
 

@@ -154,9 +154,10 @@ class Ways:
         field = f"dragon.lengths.{k}"
         if all((column[1:] == column[1:2]).all() for column in (dragon.lengths, dragon.widths, dragon.overhangs)):
             field = "dragon.head_length" if k == 0 and dragon.uniform_from else "dragon.body_length"
-        rule = "must be larger, or benches fewer: their minimum pitch was not found {then}"
-        shortest = "the shortest of {benches} chords is {chord} long"
-        circle = "the turning circle {diameter} across, and the last pitch tried was {pitch}"
+        rule = (
+            "must be larger, or benches fewer: their minimum pitch was not found {then}; the shortest of {benches} "
+            "chords is {chord} long, the turning circle {diameter} across, and the last pitch tried was {pitch}"
+        )
         sizes = quantities("m", 6, chord=dragon.chords[k], diameter=2.0 * self.radius, pitch=self.tried)
         values, got = {"benches": dragon.benches, **sizes}, Quantity(float(dragon.lengths[k]), "m")
-        return too_much(self.search.budget, field, f"{rule}; {shortest}, {circle}", got, **values)
+        return too_much(self.search.budget, field, rule, got, **values)

@@ -108,11 +108,14 @@ def highest_speed(
     dragon, clock, end = dance.dragon, dance.clock, dance.end
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     if dance.ends_by(end.time if stop is None else stop):
-        when, values = "before {end}, when bench {bench} folds", {"end": bound(end.time, 9, "s"), **end.values}
+        values = {"end": bound(end.time, 9, "s"), **end.values}
         if stop is None:
-            why = f"the run ends at a fold, towards which speeds grow without bound; it must be {when}"
+            why = (
+                "the run ends at a fold, towards which speeds grow without bound; "
+                "it must be before {end}, when bench {bench} folds"
+            )
             raise InvalidValue("stop", f"must be given: {why}", **values)
-        rule = f"must be {when} and speeds grow without bound"
+        rule = "must be before {end}, when bench {bench} folds and speeds grow without bound"
         raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **values)
     begin, until = dance.span(dance.begin if start is None else start, stop)
     search = ContactSearch(dragon, dance.path, 0.0, budget=budget)

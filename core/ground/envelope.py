@@ -110,8 +110,8 @@ class Envelope(WithArrays):
 
     def _rows(self) -> list[tuple[str, str]]:
         points = sum(len(ring) for rings in self.polygons for ring in rings)
-        words = f"{format_count(len(self.polygons), 'polygon')}, {points} points"
-        return [("polygons", words), *((name, text) for name, text in Readable._rows(self) if name != "polygons")]
+        size = f"{format_count(len(self.polygons), 'polygon')}, {points} points"
+        return [("polygons", size), *((name, text) for name, text in Readable._rows(self) if name != "polygons")]
 
     def distance(self, line: object) -> float:
         """Least distance of a line through points, or of a single point, from the envelope; 0 where they meet [m].
@@ -120,7 +120,8 @@ class Envelope(WithArrays):
         raises: InvalidValue (line)
         """
         points = [
-            checked_point(f"line.{k}", point) for k, point in enumerate(checked_list("line", line, "a list of points"))
+            checked_point(f"line.{k}", point)
+            for k, point in enumerate(checked_list("line", line, "must be a list of points"))
         ]
         if not points:
             raise InvalidValue("line", "must have at least one point")

@@ -63,7 +63,10 @@ def earliest_travel(dragon: Dragon, path: Path, tail_begin: float) -> float:
     low, straight = tail_begin, float(dragon.chords.sum())
     high = low + 0.5 * math.pi * straight
     if not has_room(high):
-        rule = "is too short for the whole dragon, which takes {least} of it from handle 0 to handle {last}"
+        rule = (
+            "is too short for the whole dragon, which takes {least} of it from handle 0 to handle {last} "
+            "(more along bends)"
+        )
         values = quantities("m", 9, got=path.end - path.begin, least=straight)
-        raise InvalidValue("path", f"{rule} (more along bends)", last=dragon.benches, **values)
+        raise InvalidValue("path", rule, last=dragon.benches, **values)
     return min(bisect(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)

@@ -132,7 +132,7 @@ class Legs(Route):
 
 def _checked_legs(straight: Sequence[int], legs: int) -> frozenset[int]:
     """The straight legs, each a whole number below the number of legs. raises: InvalidValue"""
-    chosen = checked_list("path.straight", straight, "a list of legs")
+    chosen = checked_list("path.straight", straight, "must be a list of legs")
     for k, leg in enumerate(chosen):
         name = f"path.straight.{k}"
         if checked_number(name, leg, "", 0, legs - 1) != int(leg):

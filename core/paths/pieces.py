@@ -76,7 +76,7 @@ def point_too_near(name: str, gap: float) -> InvalidValue:
 
 def checked_points(name: str, value: object) -> tuple[Point, ...]:
     """The value as two points or more. raises: InvalidValue"""
-    points = checked_list(name, value, "a list of points [x, y] in metres")
+    points = checked_list(name, value, "must be a list of points [x, y] in metres")
     if len(points) < 2:
         raise InvalidValue(name, "must be at least 2 points", got=len(points))
     return tuple(checked_point(f"{name}.{k}", point) for k, point in enumerate(points))

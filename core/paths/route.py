@@ -65,7 +65,7 @@ class Route(Readable):
 
     def __init__(self, pieces: Sequence[Piece], start: float = 0.0, *, budget: Budget | None = None) -> None:
         budget = budget or Budget()
-        self.pieces: tuple[Piece, ...] = tuple(checked_list("path.pieces", pieces, "a list of pieces"))
+        self.pieces: tuple[Piece, ...] = tuple(checked_list("path.pieces", pieces, "must be a list of pieces"))
         if not self.pieces:
             raise InvalidValue("path.pieces", "must hold at least one piece")
         self.start = checked_number("path.start", start, "m", -1e9, 1e9)

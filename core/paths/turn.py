@@ -198,8 +198,10 @@ def _refuse_arcs(
     name, got = next((name, Quantity(size, "m")) for name, size in sizes.items() if size is not None)
     shorter = min(r * angle for r, angle in zip(radii, angles, strict=True))
     if not (min(radii) >= SIZE_MIN and max(radii) <= SIZE_MAX and shorter >= LENGTH_MIN):
-        rule = "must leave arcs with radii from {low} to {high}, {least} long, not radii of {r1} and {r2}"
-        rule += " and a shorter arc of {shorter}"
+        rule = (
+            "must leave arcs with radii from {low} to {high}, {least} long, not radii of {r1} and {r2} and a "
+            "shorter arc of {shorter}"
+        )
         values |= quantities("", 6, low=SIZE_MIN, r1=radii[0]) | quantities("m", 6, r2=radii[1], shorter=shorter)
         equal = 0.5 * sum(radii)
         if SIZE_MIN <= equal <= SIZE_MAX and equal * min(angles) >= LENGTH_MIN:

@@ -24,6 +24,7 @@ from core.dance import Dance
 from core.display import Readable
 from core.errors import InvalidValue, Quantity, TooLarge, checked_number, checked_type, question_about
 from core.kernels import Budget
+from core.language import phrase
 from core.motion.places import Passing, handle_places
 from core.passages import S_MAX
 from core.paths.path import Path
@@ -34,9 +35,9 @@ from core.values import Floats
 SPELL_LEAST = 1e-3
 # Most people of one crew, on one bench, spells of all together, and places of changes.
 PEOPLE_MAX, ON_BENCH_MAX, SPELLS_MAX, PLACES_MAX = 20_000, 50, 100_000, 200
-PEOPLE_RULE = "people must be at most {most}, spares among them"
-CHANGES_RULE = "changes of people must be at most {most}"
-FEWER_CHANGES = "take longer shifts, fewer places or a shorter dance"
+PEOPLE_RULE = phrase("people must be at most {most}, spares among them")
+CHANGES_RULE = phrase("changes of people must be at most {most}")
+FEWER_CHANGES = phrase("take longer shifts, fewer places or a shorter dance")
 # Longest shift and rest [s].
 SHIFT_MAX = 1e6
 # Distance of the samples of a path around a point, and width to which its nearest place is narrowed [m]; most samples.

@@ -217,9 +217,10 @@ def _span(dance: Dance, start: float | None, stop: float | None) -> tuple[float,
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     if dance.ends_by(dance.end.time if stop is None else stop):
         values = {"end": bound(dance.end.time, 9, "s"), **dance.end.values}
-        rule = "must be before {end}, when bench {bench} folds and speeds grow without bound"
         if stop is None:
-            raise InvalidValue("stop", f"must be given: it {rule}", **values)
+            rule = "must be given: it must be before {end}, when bench {bench} folds and speeds grow without bound"
+            raise InvalidValue("stop", rule, **values)
+        rule = "must be before {end}, when bench {bench} folds and speeds grow without bound"
         raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **values)
     return dance.span(start, stop)
 

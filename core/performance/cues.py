@@ -72,9 +72,10 @@ def _span(performance: Performance, start: float | None, stop: float | None) -> 
     folds = performance.end.dragon
     if folds is not None and performance.parts[folds].dance.ends_by(until - performance.parts[folds].delay):
         values: dict[str, Value] = {"end": bound(performance.end.time, 9, "s"), "why": performance.ending}
-        rule = "must be before {end}, when {why} and speeds grow without bound"
         if stop is None:
-            raise InvalidValue("stop", f"must be given: it {rule}", **values)
+            rule = "must be given: it must be before {end}, when {why} and speeds grow without bound"
+            raise InvalidValue("stop", rule, **values)
+        rule = "must be before {end}, when {why} and speeds grow without bound"
         raise InvalidValue("stop", rule, got=Quantity(until, "s"), **values)
     return begin, until
 

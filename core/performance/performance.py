@@ -140,7 +140,7 @@ class Performance(Readable):
     }
 
     def __post_init__(self) -> None:
-        parts = tuple(checked_list("parts", self.parts, "a list of Part objects"))
+        parts = tuple(checked_list("parts", self.parts, "must be a list of Part objects"))
         if not 1 <= len(parts) <= PARTS_MAX:
             rule = "must be at least one" if not parts else "must be at most {most}"
             raise InvalidValue("parts", rule, got=len(parts), most=PARTS_MAX)

@@ -141,9 +141,11 @@ def _refuse_folds(performance: Performance, k: int, least: float, stop: float | 
     for number, part in enumerate(performance.parts):
         fold = part.dance.end.time + (least if number == k else part.delay)
         if part.folds and (stop is None or stop >= fold):
-            when, values = "before {fold}, when a bench of {part} may fold", {"fold": bound(fold, 6, "s")}
+            values = {"fold": bound(fold, 6, "s")}
             got = {} if stop is None else {"got": Quantity(stop, "s")}
-            rule = f"must be {'given, ' if stop is None else ''}{when}"
+            rule = "must be before {fold}, when a bench of {part} may fold"
+            if stop is None:
+                rule = "must be given, before {fold}, when a bench of {part} may fold"
             raise InvalidValue("stop", rule, part=Parameter(f"parts.{number}"), **values, **got)
 
 

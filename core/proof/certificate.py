@@ -150,8 +150,11 @@ def _steady(dance: Dance) -> Dance:
     """The dance, whose places and times are proportional. raises: InvalidValue for passages"""
     checked_type("dance", dance, Dance)
     if dance.passages:
-        rule = "must be left out for a proof, which is about places of the head: prove dance.steady"
-        raise InvalidValue("passages", f"{rule}, whose times are those places divided by its head speed")
+        rule = (
+            "must be left out for a proof, which is about places of the head: prove dance.steady, whose times are "
+            "those places divided by its head speed"
+        )
+        raise InvalidValue("passages", rule)
     return dance.steady
 
 

@@ -14,6 +14,7 @@ from core.contact.search import MARGIN_MAX
 from core.dance import checked_head_speed
 from core.dragon import Dragon
 from core.errors import SIZE_MIN, ProofRefused, Quantity, Value, checked_number, checked_size, format_number, quantities
+from core.language import phrase
 from core.paths.spiral import Spiral, end_theta
 from core.proof.chain import Chain, delta_guess
 from core.proof.fold import verify_fold
@@ -92,7 +93,7 @@ class CollisionTimeClaim(SpiralClaim):
 
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
-        verify_near(self.chain, self._after, a, b, "at {when}", when=soon_after(self.time))
+        verify_near(self.chain, self._after, a, b, when=soon_after(self.time))
         clear = bool(self.time - arb(TIME_BRACKET) > 0)
         words = contact_words([a, b], self.margin, 0.0, self.time, TIME_BRACKET, clear=clear)
         return f"{danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))}: {words}"
@@ -149,9 +150,11 @@ class MinimumPitchClaim(SpiralClaim):
             theta = head_theta(less, overlap.a, overlap.place, below(circle), above(less.start))
             theta = max(min(theta, below(less.start)), above(circle))
             return {"benches": [overlap.a, overlap.b], "head_theta": theta}
-        free = "keeps the margin of {margin} too" if self.margin else "is free of contact too"
+        words = "{step} less than pitch {pitch} is free of contact too"
+        if self.margin:
+            words = "{step} less than pitch {pitch} keeps the margin of {margin} too"
         values = quantities("m", pitch=self.pitch, margin=self.margin) | STEP
-        raise ProofRefused.in_words("claim", f"{{step}} less than pitch {{pitch}} {free}", **values)
+        raise ProofRefused.in_words("claim", words, **values)
 
     def _find_fold(self, start: float, circle: float) -> dict[str, Any]:
         """The fold on the way with PITCH_STEP less, as doubles find it; empty if no bench folds [rad]."""
@@ -169,27 +172,26 @@ class MinimumPitchClaim(SpiralClaim):
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
         less = self._less
         circle = self.turning_radius / less.growth
-        where = "on the way with {step} less"
         if "folds" in overlap:
             bench, (before, after) = overlap["folds"], overlap["head_theta"]
             if not (bench < less.count and circle <= after < before <= less.start):
-                raise Unproven(f"bench {{bench}} is not shown to fold {where}", bench=bench, **STEP)
+                raise Unproven("bench {bench} is not shown to fold on the way with {step} less", bench=bench, **STEP)
             verify_fold(less, bench, arb(before), arb(after))
-            why = f"bench {bench} cannot follow so far (it folds)"
+            ending = f"bench {bench} cannot follow so far (it folds)"
         elif "benches" in overlap:
             (a, b), theta = overlap["benches"], overlap["head_theta"]
             if not circle <= theta <= less.start:
-                raise Unproven(f"benches {{a}} and {{b}} are not shown to overlap {where}", a=a, b=b, **STEP)
-            verify_near(less, arb(theta), a, b, where, **STEP)
-            why = f"{near_words([a, b], self.margin)} on the way"
+                raise Unproven(NOT_SHOWN[False, False], a=a, b=b, **STEP)
+            verify_near(less, arb(theta), a, b, **STEP)
+            ending = f"{near_words([a, b], self.margin)} on the way"
         else:
             if not circle > less.start:
                 raise Unproven("the start is not shown to lie within the circle with {step} less", **STEP)
-            why = "the start lies within the circle"
+            ending = "the start lies within the circle"
         danced = f"{dragon_words(self.dragon)} on the spiral inwards from {format_number(self.start_turns)} turns"
         until = f"until the head is {format_number(self.turning_radius)} m from the centre"
         clear = f"with pitch {format_number(self.pitch)} m every bench follows and {apart_words(self.margin)}"
-        return f"{danced}: {clear} {until}, and with {PITCH_STEP} m less {why}. This says nothing of larger pitches."
+        return f"{danced}: {clear} {until}, and with {PITCH_STEP} m less {ending}. This says nothing of larger pitches."
 
 
 def checked_margin(margin: float) -> float:
@@ -224,15 +226,26 @@ def near_pair(chain: AnyChain, head: arb, time: float) -> list[int]:
             if pose.within(partner, chain.margin):
                 return [bench, bench + partner]
         place = pose.places[1]
-    how = "come nearer to one another than {margin}" if chain.margin > 0 else "overlap"
+    words = "no two benches overlap at {when}"
+    if chain.margin > 0:
+        words = "no two benches come nearer to one another than {margin} at {when}"
     values = {"margin": Quantity(float(chain.margin), "m"), "when": soon_after(time)}
-    raise ProofRefused.in_words("claim", f"no two benches {how} at {{when}}", **values)
+    raise ProofRefused.in_words("claim", words, **values)
 
 
-def verify_near(chain: AnyChain, head: arb, a: int, b: int, at: str, /, **values: Value) -> None:
+# What verify_near() cannot show, by whether there is a margin, and whether a time is given.
+NOT_SHOWN = {
+    (False, False): phrase("benches {a} and {b} are not shown to overlap on the way with {step} less"),
+    (False, True): phrase("benches {a} and {b} are not shown to overlap at {when}"),
+    (True, False): phrase("benches {a} and {b} are not shown to be nearer than {margin} on the way with {step} less"),
+    (True, True): phrase("benches {a} and {b} are not shown to be nearer than {margin} at {when}"),
+}
+
+
+def verify_near(chain: AnyChain, head: arb, a: int, b: int, /, **values: Value) -> None:
     """Check that benches a < b strictly overlap, or are nearer than the margin, and are not neighbours.
 
-    head: its place [rad], [m]; at, values: template of that place, and its values; raises: Unproven
+    head: its place [rad], [m]; values: its time as `when`, or the step of the pitch; raises: Unproven
     """
     checked_pair(chain, a, b)
     pose = chain.pose_at(0, head)
@@ -240,9 +253,9 @@ def verify_near(chain: AnyChain, head: arb, a: int, b: int, at: str, /, **values
     pose = chain.pose_at(a, pose.places[a])
     pose.grow_to(b - a + 1)
     if not pose.within(b - a, chain.margin):
-        how = "be nearer than {margin}" if chain.margin > 0 else "overlap"
+        words = NOT_SHOWN[chain.margin > 0, "when" in values]
         values |= {"a": a, "b": b, "margin": Quantity(float(chain.margin), "m")}
-        raise Unproven(f"benches {{a}} and {{b}} are not shown to {how} {at}", **values)
+        raise Unproven(words, **values)
 
 
 def checked_pair(chain: AnyChain, a: int, b: int) -> tuple[int, int]:

@@ -121,7 +121,7 @@ class DanceContactClaim(DanceClaim):
 
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
-        verify_near(self.chain, self._after, a, b, "at {when}", when=soon_after(self.time))
+        verify_near(self.chain, self._after, a, b, when=soon_after(self.time))
         clear = bool(self.time - arb(TIME_BRACKET) > self.start)
         words = contact_words([a, b], self.margin, self.start, self.time, TIME_BRACKET, clear=clear)
         return f"{danced_words(self.dragon, self.head_speed, path_words(self.path))}: {words}"

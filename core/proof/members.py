@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from core.errors import Given, Parameter, ProofRefused, Quantity, Value, quantities
+from core.language import phrase
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim
 from core.proof.dances import ENDINGS, DanceClearClaim, DanceContactClaim
 from core.proof.ground import ONE_BY_ONE, SIDES
@@ -113,12 +114,16 @@ def _true(name: str, value: Any) -> None:
         raise _malformed(name, "must be true", value)
 
 
-def _number(name: str, value: Any, what: str = "a number", least: float = -NUMBER_MOST) -> None:
+def _number(name: str, value: Any, *, whole: bool = False) -> None:
+    least = 0.0 if whole else -NUMBER_MOST
     if not isinstance(value, int | float) or isinstance(value, bool):
-        raise _malformed(name, f"must be {what}", value)
+        raise _malformed(name, "must be a whole number" if whole else "must be a number", value)
     if not least <= value <= NUMBER_MOST:  # also refuses NaN
         span = quantities("", 6, least=least, most=NUMBER_MOST)
-        raise _malformed(name, f"must be {what} from {{least}} to {{most}}", value, **span)
+        rule = "must be a number from {least} to {most}"
+        if whole:
+            rule = "must be a whole number from {least} to {most}"
+        raise _malformed(name, rule, value, **span)
 
 
 def _positive(name: str, value: Any) -> None:
@@ -130,7 +135,7 @@ def _positive(name: str, value: Any) -> None:
 def _whole(name: str, value: Any) -> None:
     if isinstance(value, float):
         raise _malformed(name, "must be a whole number", value)
-    _number(name, value, "a whole number", 0)
+    _number(name, value, whole=True)
 
 
 def _precision(name: str, value: Any) -> None:
@@ -193,15 +198,23 @@ def _strayed_stretch(name: str, value: Any) -> None:
                 raise _malformed(f"{place}.{i}", "must be a side, from 0 to {last}", side, last=2 * SIDES - 1)
 
 
+# What a stretch must be, by whether its places are angles, and whether it may have directions.
+STRETCH = {
+    (False, False): phrase("must be [highest place, lowest place, faces]"),
+    (False, True): phrase("must be [highest place, lowest place, faces] or [..., directions]"),
+    (True, False): phrase("must be [highest theta, lowest theta, faces]"),
+    (True, True): phrase("must be [highest theta, lowest theta, faces] or [..., directions]"),
+}
+
+
 def _stretch(letters: str, positive: bool) -> Rule:
     """[highest place, lowest place, faces], and the directions if faces has any. positive: whether places must be."""
-    place, last = "theta" if positive else "place", max(letters, default="")
+    last = max(letters, default="")
 
     def checked(name: str, value: Any) -> None:
         lengths = (3, 4) if DIRECTION in letters else (3,)
         if not isinstance(value, list) or len(value) not in lengths:
-            directions = " or [..., directions]" if len(lengths) == 2 else ""
-            raise _malformed(name, f"must be [highest {place}, lowest {place}, faces]{directions}", value)
+            raise _malformed(name, STRETCH[positive, len(lengths) == 2], value)
         high, low, faces, *rest = value
         _number(f"{name}.0", high)
         _number(f"{name}.1", low)
@@ -212,7 +225,8 @@ def _stretch(letters: str, positive: bool) -> Rule:
             raise _malformed(f"{name}.1", rule, low, front=Parameter(f"{name}.0"), at=at)
         if not set(letters).issuperset(faces):
             rule = "must be faces, digits from 0 to {last}"
-            rule += "" if DIRECTION in letters or last < DIRECTION else " but {skipped}"
+            if DIRECTION not in letters and last >= DIRECTION:
+                rule = "must be faces, digits from 0 to {last} but {skipped}"
             raise _malformed(f"{name}.2", rule, faces, last=last, skipped=DIRECTION)
         if faces.count(DIRECTION) or rest:
             _each(_number, faces.count(DIRECTION))(f"{name}.3", rest[0] if rest else None)

@@ -67,12 +67,12 @@ class ToleranceClaim(SpiralClaim):
         span = f"from {format_number(self.start)} s to {format_number(self.stop)} s"
         kept = f"while every hole is within {format_number(self.stray)} m of its place and every chord keeps its length"
         dance = danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))
-        words = f"{dance}: {kept}, {apart_words(0.0)} {span}"
+        statement = f"{dance}: {kept}, {apart_words(0.0)} {span}"
         if self.shown is None:
-            return f"{words}."
+            return f"{statement}."
         a, b = self._verify_pose(overlap, self.shown)
         pose = f"in a pose with strays below {format_number(self.shown)} m at {format_number(overlap['time'])} s"
-        return f"{words}, and benches {a} and {b} overlap {pose}."
+        return f"{statement}, and benches {a} and {b} overlap {pose}."
 
     def _verify_pose(self, overlap: dict[str, Any], most: float) -> list[int]:
         """Check that two benches that are not neighbours strictly overlap in a pose (17.), and return them.

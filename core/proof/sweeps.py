@@ -35,8 +35,9 @@ class SweepOverlap(Unfinished):
     """Benches a < b strictly overlap, or are nearer than the margin, when the front handle of a is at this place."""
 
     def __init__(self, chain: AnyChain, a: int, b: int, place: float) -> None:
-        how = "are nearer than the margin" if chain.margin > 0 else "overlap"
-        words = f"benches {{a}} and {{b}} {how} when handle {{a}} is at {{place}}"
+        words = "benches {a} and {b} overlap when handle {a} is at {place}"
+        if chain.margin > 0:
+            words = "benches {a} and {b} are nearer than the margin when handle {a} is at {place}"
         super().__init__(words, a=a, b=b, place=chain.place_quantity(place))
         self.a, self.b, self.place = a, b, place
 

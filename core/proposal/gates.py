@@ -42,7 +42,7 @@ class Gate(Readable):
 
 def checked_gates(gates: Sequence[Gate] | None, venue: Venue) -> tuple[Gate, ...]:
     """The gates, moved onto the border if they are a little off. raises: InvalidValue naming the gate"""
-    every = checked_list("gates", () if gates is None else gates, "a list of gates")
+    every = checked_list("gates", () if gates is None else gates, "must be a list of gates")
     if len(every) > GATES_MAX:
         raise InvalidValue("gates", "must be at most {most} gates", got=len(every), most=GATES_MAX)
     for k, gate in enumerate(every):

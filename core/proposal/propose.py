@@ -139,7 +139,7 @@ def _figures(figures: Sequence[str] | None, gates: int) -> list[Figure]:
         return [figure for figure in ORDER if figure is not Figure.PARADE or gates > 1]
     chosen = [
         _one(f"figures.{k}", figure, Figure)
-        for k, figure in enumerate(checked_list("figures", figures, "a list of figures"))
+        for k, figure in enumerate(checked_list("figures", figures, "must be a list of figures"))
     ]
     if not chosen:
         raise InvalidValue("figures", "must name at least one figure")

@@ -108,12 +108,15 @@ def time_on_circle(dance: Dance, radius: float) -> float:
     assert spiral is not None
     first = spiral.pitch * spiral.start_turns
     if radius >= first:
-        where = "inside" if radius > first else "on"
-        rule, pitch = f"must be smaller: at a pitch of {{pitch}} the dance starts {where} that circle", spiral.pitch
-        raise InvalidValue("turning_radius", rule, got=Quantity(radius, "m"), pitch=Quantity(pitch, "m"))
+        rule = "must be smaller: at a pitch of {pitch} the dance starts on that circle"
+        if radius > first:
+            rule = "must be smaller: at a pitch of {pitch} the dance starts inside that circle"
+        raise InvalidValue("turning_radius", rule, got=Quantity(radius, "m"), pitch=Quantity(spiral.pitch, "m"))
     time = dance.clock.time(spiral.travel_to(radius))
     if time > dance.end.time:
-        rule = f"must be larger: {dance.end.template} at {{end}}, before the head is on that circle"
+        rule = "must be larger: the head is at the centre at {end}, before the head is on that circle"
+        if dance.end.bench is not None:
+            rule = "must be larger: bench {bench} folds at {end}, before the head is on that circle"
         values = {"got": Quantity(radius, "m"), "end": Quantity(round(dance.end.time, 6), "s"), **dance.end.values}
         raise InvalidValue("turning_radius", rule, **values)
     return time

@@ -79,13 +79,13 @@ def check_sizes(dance: Dance, model: Wobble) -> None:
     """raises: InvalidValue for a model whose sizes do not fit a dance"""
     bench = int(dance.dragon.chords.argmin())
     most = SIZE_PART * float(dance.dragon.chords[bench])
-    limit, values = "{part} of the chord of bench {bench} ({most})", quantities("m", 9, most=most)
-    values |= {"part": SIZE_PART, "bench": bench}
+    values = quantities("m", 9, most=most) | {"part": SIZE_PART, "bench": bench}
     for name, size in (("lateral", model.lateral), ("forward", model.forward)):
         if size > most:
-            raise InvalidValue(f"model.{name}", f"must be at most {limit}", got=Quantity(size, "m"), **values)
+            rule = "must be at most {part} of the chord of bench {bench} ({most})"
+            raise InvalidValue(f"model.{name}", rule, got=Quantity(size, "m"), **values)
     if model.play > most:
-        rule = f"must leave a play of at most {limit} around its {{pin}}"
+        rule = "must leave a play of at most {part} of the chord of bench {bench} ({most}) around its {pin}"
         got = f"{Quantity(model.play, 'm', 9)} of play"
         raise InvalidValue("model.hole", rule, got=got, pin=Parameter("model.pin"), **values)
     if model.pitch_error > 0.0:
