@@ -1,7 +1,7 @@
 """Breaches: stretches of a path on which benches break a limit, at samples of the dance, for a drawing.
 
-A sample decides nothing: check() does. Between two samples STEP apart a bench may come nearer for a moment, and what
-stray adds to a distance is bounded from above here, so that a stretch may be marked where no person can touch anything.
+A sample decides nothing: check() does. Between two samples STEP apart a bench may come nearer for a moment. But nothing
+is marked where check() passes: the ground that benches cover if people stray is the same here and there.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from core.kernels import Budget
 from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
 from core.shapes.engines import inside
-from core.shapes.reach import gains
+from core.shapes.reach import Reach, directions, gains, reach
 from core.shapes.rectangles import bench_poses, frames
 from core.values import Floats
 from core.venue import Area, Venue
@@ -86,7 +86,7 @@ def breaches(
     (<Breach: margin from s = 11.048 to 18.974 m>,)
     """
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    strayed = gains(dance.dragon) * checked_stray(stray, dance.dragon)
+    strayed = checked_stray(stray, dance.dragon)
     limit = None if speed_limit is None else checked_limit(speed_limit)
     budget = budget or Budget()
     edges = [] if venue is None else [_frames_of(area) for area in venue.areas]
@@ -127,18 +127,25 @@ def _frames_of(area: Area) -> Floats:
 
 
 def _too_near(
-    dance: Dance, handles: Floats, venue: Venue | None, edges: list[Floats], room: tuple[float, Floats]
+    dance: Dance, handles: Floats, venue: Venue | None, edges: list[Floats], room: tuple[float, float]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """For all benches at all samples (T, n): within the margin; and with what stray adds (n,) [m]. room: both"""
-    dragon, (margin, strayed) = dance.dragon, room
+    """For all benches at all samples (T, n): within the margin; and if people stray. room: margin, stray [m]"""
+    dragon, (margin, stray) = dance.dragon, room
+    ground = reach(dragon, stray) if stray > 0.0 else None
     poses = bench_poses(handles)
     boxes = frames(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
     near = np.zeros(poses.shape[:2], dtype=bool)
     if_strayed = near.copy()
-    for a, b, who, need in _pairs(boxes, edges, margin, strayed):
+    for a, b, who, need in _pairs(boxes, edges, margin, gains(dragon) * stray):
         gap = np.empty(len(a))
         kernels.pair_gaps(np.ascontiguousarray(a), np.ascontiguousarray(b), float(need.max(initial=margin)), gap)
-        for mark, within in ((near, gap <= margin), (if_strayed, gap <= need)):
+        marks = [(near, np.flatnonzero(gap <= margin))]
+        if ground is not None:
+            close = np.flatnonzero((margin < gap) & (gap <= need))
+            marks.append(
+                (if_strayed, close[_within(ground, (a[close], b[close]), [rows[close] for rows in who], margin)])
+            )
+        for mark, within in marks:
             for rows in who:
                 mark.reshape(-1)[rows[within]] = True
     if venue is not None:
@@ -147,6 +154,29 @@ def _too_near(
         for area in venue.obstacles:
             near |= inside(area.rings, centres).reshape(near.shape)
     return near, if_strayed
+
+
+def _within(
+    ground: Reach, pairs: tuple[Floats, Floats], who: list[NDArray[np.int64]], margin: float
+) -> NDArray[np.bool_]:
+    """Whether the ground of each pair comes within the margin (m,). pairs, who: see _pairs(); an edge has no number"""
+    count, both = len(pairs[0]), np.concatenate(pairs)
+    chain, sizes = np.zeros((2 * count, kernels.CHAIN_COLUMNS)), np.zeros((2 * count, kernels.SIZE_COLUMNS))
+    chain[:, kernels.MX : kernels.UY + 1] = both[:, kernels.FRAME_X : kernels.FRAME_UY + 1]
+    sizes[:, kernels.HALF_LENGTH] = both[:, kernels.FRAME_HALF_LENGTH]
+    of = np.zeros(2 * count, dtype=np.int64)
+    for part, rows in enumerate(who):
+        benches = rows % ground.bounds.benches
+        here = slice(part * count, (part + 1) * count)
+        of[here] = ground.kinds[np.minimum(benches, len(ground.kinds) - 1)]
+        sizes[here, kernels.HALF_LENGTH] = 0.5 * ground.bounds.lengths[benches]
+        sizes[here, kernels.HALF_WIDTH] = 0.5 * ground.bounds.widths[benches]
+    near = np.zeros(count, dtype=np.uint8)
+    if count:
+        kinds = kernels.Kinds()
+        kinds.lay(ground.hulls.reshape(-1, 2), of, directions())
+        kernels.hulls_near(kinds, len(who) == 1, margin, sizes, chain, near)
+    return near.astype(bool)
 
 
 def _pairs(

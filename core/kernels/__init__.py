@@ -61,7 +61,7 @@ from core.kernels.excess import Excess
 from core.kernels.fills import fill_rectangles
 from core.kernels.fold import first_crest, first_root, fold_theta, previous_theta
 from core.kernels.gap_curvature import axis_curvature, pair_curvatures, shift_curvature
-from core.kernels.hulls import Kinds, largest_supports
+from core.kernels.hulls import Kinds, hulls_near, largest_supports
 from core.kernels.marching import March
 from core.kernels.pairs import pair_least, pair_most, pair_rounding
 from core.kernels.rates import climbs, spiral_errors

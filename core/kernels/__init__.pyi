@@ -170,6 +170,9 @@ class Kinds:
     some: bool
     def lay(self, hulls: Floats, of: Ints, directions: Floats) -> None: ...
 
+def hulls_near(
+    kinds: Kinds, edge: bool, limit: float, sizes: Floats, chain: Floats, near: NDArray[np.uint8]
+) -> None: ...
 def largest_supports(
     chord: float, overhang: float, half_width: float, stray: float, samples: Floats, directions: Floats, largest: Floats
 ) -> None: ...

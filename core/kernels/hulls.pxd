@@ -42,6 +42,11 @@ cdef Faced nearest_hulls(
     Kinds kinds, Py_ssize_t i, Py_ssize_t j, bint edge, double limit, Rows sizes, Rows chain
 ) noexcept nogil
 
+@cython.locals(k=cython.Py_ssize_t)
+cpdef void hulls_near(
+    Kinds kinds, bint edge, double limit, Rows sizes, Rows chain, unsigned char[::1] near
+) noexcept nogil
+
 @cython.locals(shift=cython.Py_ssize_t)
 cdef Corner nearest_corner(Kinds kinds, View view, Hulls hulls, Py_ssize_t k) noexcept nogil
 

@@ -198,6 +198,12 @@ def nearest_hulls(kinds, i, j, edge, limit, sizes, chain):
     return best
 
 
+def hulls_near(kinds, edge, limit, sizes, chain, near):
+    """Mark whether rows k and m + k are nearer than the limit [m], for each k of m; edge: the second are at rest."""
+    for k in range(near.shape[0]):
+        near[k] = nearest_hulls(kinds, k, near.shape[0] + k, edge, limit, sizes, chain).gap < limit
+
+
 def nearest_corner(kinds, view, hulls, k):
     """The corner of the second hull that is deepest against half plane k of the first, in its own bench's frame."""
     x = kinds.directions[k, X]

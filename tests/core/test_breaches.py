@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from core import Dance, Dragon, Legs, Venue, bench_outlines, trajectory
+from core import Dance, Dragon, Legs, Venue, bench_outlines, check, trajectory
 from core.breaches import BreachKind, breaches
 from core.motion.places import handle_places
 from tests.support.random_squares import box, polygon
@@ -38,7 +38,18 @@ def test_a_bench_beside_a_tree_marks_the_stretch_between_its_handles():
     assert 14.0 - 2.9 - 0.35 < one.start < 14.0
     assert 16.0 < one.end < 16.0 + 2.9 + 0.35
     assert one.points[[0, -1]] == pytest.approx(np.array([[one.start, 0.0], [one.end, 0.0]]))
-    assert kinds(LANE, TREE, margin=0.06, stray=0.06) == {BreachKind.MARGIN, BreachKind.STRAY}
+    assert kinds(LANE, TREE, margin=0.06, stray=0.3) == {BreachKind.MARGIN, BreachKind.STRAY}
+
+
+@pytest.mark.parametrize(("dance", "venue"), [(LANE, TREE), (BEND, ROOM)], ids=["a tree", "a bend in a room"])
+def test_nothing_is_marked_where_the_check_passes_with_people_who_stray(dance, venue):
+    verdicts = set()
+    for stray in (0.03, 0.3, 0.5, 0.54, 0.56, 0.7):
+        verdict = check(dance, venue=venue, stray=stray).verdict
+        marked = kinds(dance, venue, stray=stray)
+        assert marked == (set() if verdict == "passes" else {BreachKind.STRAY})
+        verdicts.add(verdict)
+    assert verdicts == {"passes", "fails"}
 
 
 def test_only_the_asked_time_is_looked_at():
