@@ -129,7 +129,9 @@ class Entities:
             self._add(replace(feature, rings=((self._place(entity.dxf.location),),)))
         elif kind == "CIRCLE":
             centre = self._place(entity.ocs().to_wcs(entity.dxf.center))
-            circle = replace(feature, rings=((centre,),), radius=float(entity.dxf.radius) * self.factor)
+            # A circle of radius 0 has a radius, too small for anything.
+            radius = max(float(entity.dxf.radius) * self.factor, SAME)
+            circle = replace(feature, rings=((centre,),), radius=radius)
             self._add(round_area(circle) if circle.role == SQUARE else circle)
         elif mesh := next((word for test, word in MESHES if getattr(entity, test, False)), None):
             self.collector.leave_out(mesh)

@@ -15,6 +15,7 @@ from app.maps.choice import EVERYTHING, Choice
 from app.maps.features import (
     LINE_RADIUS,
     MARK,
+    OBSTACLE,
     PATH,
     POINT_RADIUS,
     SQUARE,
@@ -31,12 +32,12 @@ from app.maps.joined import merged
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
 from app.maps.tracks import APART, CHORD, walk_of
 from app.wire.degrees import ACROSS_MAX, GRID_MAX, GeographicOrigin, Plane, middle_of, refuse_wide, unwrapped
-from app.wire.geojson import ASIDES, outlined, read_things, venue_of
+from app.wire.geojson import ASIDES, GATE, INNER_SQUARE, outlined, read_things, venue_of
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.display import format_count
 from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
-from core.language import counted, phrase, say
+from core.language import counted, phrase, say, sense
 from core.names import NAME_MAX, is_printable
 from core.values import Floats, Point
 from core.venue import EDGES_MAX
@@ -127,7 +128,7 @@ class Reading:
         every = [one for one in drawing.features if one.role != MARK and any(one.rings)]
         self.features = [_closed(_with_role(one)) for one in every]
         if not self.features:
-            raise _nothing_in(drawing)
+            raise _nothing_in(drawing) if choice.area is None else _nothing_reaches()
         self.origin, self.grid = drawing.origin, drawing.grid
         self.passages: Sequence[Mapping[str, Any]] | None = None
         self._lay_out(units)
@@ -256,7 +257,7 @@ class Reading:
             one for one in self.features if self.choice.reaches(point for ring in one.rings for point in ring)
         ]
         if not self.features:
-            raise InvalidValue("area", "must be one into which something reaches")
+            raise _nothing_reaches()
 
     def _warn_of_small(self, square: Floats) -> None:
         """Note a square that a request refuses, because its numbers may be degrees."""
@@ -326,8 +327,8 @@ class Reading:
     @staticmethod
     def _listed(things: Iterable[MapFeature]) -> str:
         """The names of the first things, and dots for more."""
-        every = [one.name or one.role or one.shape for one in things]
-        return ", ".join(every[:LISTED_MOST]) + (", …" if len(every) > LISTED_MOST else "")
+        every = [one.name or _kind_of(one) for one in things]
+        return sense("list", ", ").join([*every[:LISTED_MOST], *(["…"] if len(every) > LISTED_MOST else [])])
 
     def _whole(self, one: MapFeature) -> MapFeature:
         """The same feature; a square that is a circle, or a line that is not closed, is a polygon."""
@@ -481,6 +482,26 @@ def _is_tiny(one: MapFeature) -> bool:
 def _is_long(line: MapFeature) -> bool:
     """True for a line that may be a path."""
     return len(thinned(np.array(line.rings[0]))[0]) > 1
+
+
+def _kind_of(one: MapFeature) -> str:
+    """A word for a thing without a name: its role, or else its shape."""
+    words = {
+        SQUARE: say("square"),
+        OBSTACLE: say("obstacle"),
+        PATH: say("path"),
+        GATE: say("gate"),
+        INNER_SQUARE: say("square without streets"),
+        "point": sense("shape", "point"),
+        "line": sense("shape", "line"),
+        "polygon": sense("shape", "polygon"),
+    }
+    return words[one.role or one.shape]
+
+
+def _nothing_reaches() -> InvalidValue:
+    """The refusal of an area of a map in which nothing is drawn."""
+    return InvalidValue("area", "must be one into which something reaches")
 
 
 def _nothing_in(drawing: Drawing) -> InvalidValue:

@@ -195,7 +195,7 @@ def places_of(
         parts = Reading(drawing, units, chord).parts()
         return replace(parts, notes=[*notes, *parts.notes])
     if is_drawing(start):
-        return _in_part(lambda: Reading(dxf.read(data, choice), units).parts(), choice)
+        return _in_part(lambda: Reading(dxf.read(data, choice), units, choice=choice).parts(), choice)
     start, notes = _in_utf8(start)
     parts = _of_text(start, units, choice)
     return replace(parts, notes=[*notes, *parts.notes])

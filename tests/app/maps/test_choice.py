@@ -36,8 +36,6 @@ def test_a_map_of_more_than_a_venue_may_have_is_read_by_layers_or_an_area(data):
         result = places_of(data, None, choice=choice)
         assert sum(one.shape == "point" for one in result.things) == TREES
         assert any("were read" in note or "was read" in note for note in result.notes)
-    with pytest.raises(InvalidValue, match="something reaches"):
-        places_of(data, None, choice=Choice.of(None, "500,500,600,600"))
 
 
 @pytest.fixture(scope="module")
@@ -87,6 +85,14 @@ def test_what_is_no_layer_and_no_area_is_refused(client, plan, query, name):
     assert (answer.status_code, answer.json()["errors"][0]["name"]) == (422, name)
     for other in (MAP, b"[dragon]\nbenches = 4\n"):
         assert places(client, other, **query).json()["errors"][0]["name"] == name
+
+
+@pytest.mark.parametrize("form", ["DXF", "metres", "degrees"])
+def test_an_area_that_holds_nothing_is_refused_as_an_area(plan, form):
+    data = {"DXF": plan, "metres": MAP, "degrees": IN_DEGREES}[form]
+    with pytest.raises(InvalidValue, match="something reaches") as refusal:
+        places_of(data, None, choice=Choice.of(None, "500,500,600,600"))
+    assert refusal.value.field == "area"
 
 
 def test_the_command_reads_the_same_part(plan, tmp_path):

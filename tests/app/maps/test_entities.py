@@ -12,6 +12,7 @@ from ezdxf.render.mleader import ConnectionSide
 from app.maps.places import places_of
 from core import InvalidValue
 from core.errors import Quantity
+from core.language import speaking
 from tests.support.refusal_rows import assert_refused
 from tests.support.refused import refused
 
@@ -186,13 +187,26 @@ def test_a_note_with_an_arrow_is_left_out_by_name_also_without_markers(content):
         assert corners(result)[0] == (-50.0, -50.0)
 
 
-def test_a_circle_too_small_for_anything_is_left_out_by_its_name():
+@pytest.mark.parametrize("small", [0.0005, 0.0])
+def test_a_circle_too_small_for_anything_is_left_out_by_its_name(small):
     space = new()
-    for x, radius, layer in ((10, 0.0005, "DOT"), (20, 0.4, "TREES")):
+    for x, radius, layer in ((10, small, "DOT"), (20, 0.4, "TREES")):
         space.add_circle((x, 0), radius, dxfattribs={"layer": layer})
     result = read(space)
     assert things(result) == [("Point", [20.0, 0.0], 0.4)]
     assert "Left out: 1 circle with a radius of less than 0.001 m: DOT." in result.notes
+
+
+def test_a_note_calls_a_thing_without_a_name_by_a_word_of_its_language():
+    space = new()
+    space.add_circle((10, 5), 0.0)
+    space.add_line((20, 5), (20.0002, 5))
+    space.add_point((30, 5))
+    with speaking("zh"):
+        notes = read(space).notes
+    assert "未读取：1 个半径小于 0.001 m 的圆：点。" in notes
+    assert "未读取：1 个小于 0.001 m 的图形：线。" in notes
+    assert "Left out: 1 shape of less than 0.001 m: line." in read(space).notes
 
 
 @pytest.mark.parametrize("length", [0.0002, 0.0005, 0.02])
