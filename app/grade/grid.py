@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from dataclasses import dataclass, field
 
 from app.grade.words import Note
 
 Cell = float | str | None
+# A speed's unit with a power, as in "m·s-1"; and a unit after a slash, as in "x/m" and "v/(m/s)".
+PER_SECOND = re.compile(r"(?<=[m米])\s*[·⋅•*.]\s*(s|秒)\s*\^?\s*(?:-1|\(-1\)|\{-1\})", re.IGNORECASE)
+A_UNIT = r"(?:[cm]?m|厘米|毫米|米|rad|deg|°|弧度|度|s|秒)(?:\s*/\s*(?:s|秒))?"
+AFTER_SLASH = re.compile(
+    rf"(?<![m米])\s*/\s*(?:[(\[]\s*({A_UNIT})\s*[)\]]|({A_UNIT})(?=$|[\s,;:=(\[_]))", re.IGNORECASE
+)
 
 
 class UnreadableTable(Exception):
@@ -32,9 +39,11 @@ class Grid:
 
 
 def normalized(text: str) -> str:
-    """Text without blanks at its ends, and with half-width brackets, letters and digits and an ASCII minus sign.
+    """Text without blanks at its ends, and with half-width brackets, letters and digits and an ASCII minus sign; a unit
+    after a slash stands in brackets.
 
-    >>> normalized(" 龙尾（后） ")
-    '龙尾(后)'
+    >>> normalized(" 龙尾（后） "), normalized("速度/(m/s)")
+    ('龙尾(后)', '速度 (m/s)')
     """
-    return unicodedata.normalize("NFKC", text).replace("\u2212", "-").strip()
+    plain = unicodedata.normalize("NFKC", text).replace("\u2212", "-").strip()
+    return AFTER_SLASH.sub(lambda found: f" ({found[1] or found[2]})", PER_SECOND.sub(r"/\1", plain))

@@ -52,7 +52,7 @@ def _criteria(by_kind: dict[TableKind, JudgedSheet], errors: set[str]) -> Iterat
     consistent = _share_consistent(position, speed) if position and speed else None
     if errors & NOT_OF_POSITIONS:
         yield _criterion("speeds", False)
-    elif contact is not None and contact.verdict in GOOD:
+    elif contact is not None and contact.verdict in GOOD and np.isfinite(contact.values).all(axis=-1).any():
         yield _criterion("speeds", True)
     elif consistent is None:
         lacks_sheet = contact is None and not (position and speed)

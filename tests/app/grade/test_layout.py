@@ -112,6 +112,28 @@ def test_a_result4_without_instants_begins_at_minus_100_s():
     assert (sheet.verdict, sheet.right) == ("right", 201 * 448)
 
 
+def with_slashes(rows):
+    """The rows with units as in "x/m" and "速度/(m/s)"."""
+    return [
+        [cell.replace(" (m", "/(m").replace("/(m)", "/m") if isinstance(cell, str) else cell for cell in row]
+        for row in rows
+    ]
+
+
+@pytest.mark.parametrize("write", [lambda rows: by_xlsxwriter({"Sheet": rows}), as_csv], ids=["workbook", "CSV"])
+@pytest.mark.parametrize("turned", [False, True], ids=["rows", "columns"])
+def test_a_unit_after_a_slash_is_read_as_one_in_brackets(write, turned):
+    values, place = numbers_at(np.array([students.CONTACT])), ["对象", "x/m", "y/m", "速度/(m/s)"]
+    contact = [place, *in_layout(values, [0.0], "columns")["both"][1:]]
+    position, speed = (with_slashes(few()[title]) for title in ("位置", "速度"))
+    assert (position[1][0], speed[1][0]) == ("龙头x/m", "龙头/(m/s)")
+    contact, position, speed = (on_side(rows) if turned else rows for rows in (contact, position, speed))
+    result = grade(write(contact), "result2")
+    assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
+    assert right(grade(write(position)))[0] == FEW[0]
+    assert [(one.holds, one.right) for one in grade(write(speed)).sheets if one.right] == [("speed", FEW[1])]
+
+
 @pytest.mark.parametrize(("title", "factor"), [("位置", 100.0), ("速度", 100.0), ("速度", 1000.0)])
 def test_numbers_in_smaller_units_are_read_as_such(title, factor):
     heads, *rows = few()[title]
@@ -294,6 +316,8 @@ HEADS = {
     "时间,节点编号,横坐标,纵坐标,速度": lambda h: h + 1,
     "时刻（s）,板凳编号,x坐标（m）,y坐标（m）,速度（m/s）": lambda h: h,
     "Time [s],Index,pos_x,pos_y,Speed": lambda h: h,
+    "时间/s,把手编号,x/m,y/m,v/(m/s)": lambda h: h,
+    "t/s,node,横坐标/m,纵坐标/m,速度/(m·s⁻¹)": lambda h: h + 1,
     "时间,位置,x (m),y (m),速度 (m/s)": lambda h: students.labels("speed")[h].removesuffix(" (m/s)"),
 }
 
