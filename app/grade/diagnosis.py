@@ -21,7 +21,17 @@ from app.files.tables import handle_titles
 from app.grade.decimals import digits_of, usual_of
 from app.grade.expected import Motion, Workbook, cells_of, contact_time, dance_of, of_dance
 from app.grade.fits import DECISIVE_LEAST, also, best_fit, findings_of, fit, matches
-from app.grade.geometry import MIRRORS, Model, SheetClues, geometries, own_lengths, shifted_rows, shifted_time, time_at
+from app.grade.geometry import (
+    MIRRORS,
+    Model,
+    SheetClues,
+    geometries,
+    own_lengths,
+    shifted_rows,
+    shifted_time,
+    spiral_arc,
+    time_at,
+)
 from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
 from app.grade.layout import BENCHES, COMPONENTS, HANDLES, SHEETS, TableKind
@@ -51,6 +61,9 @@ IMAGES = [np.eye(2), *(mirror[:2, :2] for mirror in MIRRORS.values()), HALF_TURN
 INSTANT_STEP, INSTANT_FAR = 1e-4, 1e-3
 # The same in units of the last decimal, of which rounding leaves the head's place, and thus the instant, about one [1].
 ROUNDED_FAR = 2.0
+# Steps in which an instant and an angle are found together; a place counts for them up to so many times the middle
+# distance [1]; and the plane of complex numbers.
+TURNED_STEPS, OUTLIER, PLANE = 6, 5.0, np.array([1.0, 1j])
 # Largest shift of the times that speeds show, step of the search for it, and step of their derivative [s]: they hardly
 # change on the spiral, and in the turn within 0.3 s.
 SHIFT_MOST, SHIFT_STEP, SPEED_STEP = 100.0, 0.1, 0.01
@@ -340,7 +353,8 @@ def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
 
 def _at_instants(position: JudgedSheet, dance: Dance, seen: SheetClues) -> Iterator[tuple[float, Iterable[Model]]]:
     """Instants [s] of result2, each with known errors, the likeliest first: a single one at the right instant, or at
-    the one that the place of the head shows; two at the right one; then other lengths at another instant."""
+    the one that the place of the head shows; two at the right one; then turned places at another instant, and other
+    lengths."""
     right, at_right = of_dance(dance), float(position.times[0])
     yield at_right, geometries(dance, position.times, replace(seen, head=None))
     others: list[float] = []
@@ -350,6 +364,9 @@ def _at_instants(position: JudgedSheet, dance: Dance, seen: SheetClues) -> Itera
         models = geometries(dance, np.array(others[-1:]), SheetClues(turned=turned))
         yield others[-1], chain([Model("other_instant", right, _what(others[-1]), is_simplest=True)], models)
     yield at_right, pairs(dance, position.times, replace(seen, head=None))
+    if seen.head is not None and (turned_then := _turned_instant(position, dance, seen.head[0])) is not None:
+        instant, angle = turned_then
+        yield instant, geometries(dance, np.array([instant]), SheetClues(turned=angle))
     for instant in others:
         yield instant, own_lengths(dance, seen)
 
@@ -377,6 +394,33 @@ def _improved(one: JudgedSheet, right: Motion, instant: float) -> float:
         present = np.isfinite(off) & (np.abs(off) < far)
         time += float((slope * off)[present].sum() / max(float((slope**2)[present].sum()), INSTANT_STEP))
     return time if abs(time - instant) < far else instant
+
+
+def _turned_instant(one: JudgedSheet, dance: Dance, head: Floats) -> tuple[float, float] | None:
+    """The instant [s] and the angle [rad] of places that are turned about the centre, by least squares.
+
+    head: place of the head [m], whose distance from the centre tells the instant nearly; None if it tells none
+    """
+    right, path, known = of_dance(dance), dance.path.spiral, one.handles < HANDLES
+    if path is None or not np.isfinite(head).all():
+        return None
+    time, angle = float(path.length - spiral_arc(np.hypot(*head), path.growth)) / dance.head_speed, 0.0
+    values = one.values[0, known, :2] @ PLANE
+    for k in range(TURNED_STEPS):
+        if not 0.0 < time < dance.end.time:
+            return None
+        ends = right(time + INSTANT_STEP * np.array([-1.0, 0.0, 1.0]))[:, one.handles[known], :2] @ PLANE
+        if not k:
+            angle = float(np.angle(np.nansum(values * ends[1].conj())))
+        turned = ends * np.exp(1j * angle)
+        off = values - turned[1]
+        present = np.isfinite(off)
+        present[present] = np.abs(off[present]) <= OUTLIER * np.median(np.abs(off[present]))
+        slopes = np.stack([(turned[2] - turned[0]) / (2.0 * INSTANT_STEP), 1j * turned[1]], axis=-1)[present]
+        sides, wanted = (np.concatenate([each.real, each.imag]) for each in (slopes, off[present]))
+        step = np.linalg.lstsq(sides, wanted, rcond=None)[0]
+        time, angle = time + float(step[0]), angle + float(step[1])
+    return time, angle
 
 
 def _why_then(instant: float, written: int) -> list[Finding]:

@@ -299,6 +299,30 @@ def test_one_sheet_of_a_result2_does_not_miss_another(change):
     assert any("both sheets are necessary" in one.words for one in alone.rubric)
 
 
+@pytest.mark.parametrize(
+    ("angle", "decimals", "words"), [(30.0, 6, "+30°"), (-40.1, 6, "-40.1°"), (30.0, 3, "+30.000")]
+)
+def test_another_instant_is_seen_in_turned_places(angle, decimals, words):
+    position, speed = spiral(np.array([405.25]))
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    turned = (position @ np.array([[c, s], [-s, c]])).round(decimals)
+    result = grade(students.contact_workbook((turned, speed.round(decimals))))
+    assert errors(result) == ["turned", "other_instant"]
+    assert f"by {words}" in result.diagnosis[0].words
+    instant = float(result.diagnosis[1].words.removeprefix("The positions are those at ").removesuffix(" s."))
+    assert abs(instant - 405.25) < 10.0 ** (1 - decimals)
+
+
+@pytest.mark.parametrize("missing", [[0, 1], [2]], ids=["places", "speeds"])
+def test_speeds_belong_to_positions_only_where_both_are_given(missing):
+    position, speed = spiral(AT_CONTACT)
+    values = np.dstack([position, speed]).round(6)
+    values[..., missing] = np.nan
+    rows = [["" if cell != cell else cell for cell in row] for row in in_layout(values, [CONTACT], "columns")["both"]]
+    result = graded("result2.csv", as_csv(rows), Budget())
+    assert (result.workbook, met(result, "speeds")) == ("result2", None)
+
+
 def test_no_error_is_ruled_out_by_one_position():
     position, speed = spiral(AT_CONTACT)
     position[:, 1:], speed[:] = np.nan, np.nan
