@@ -67,8 +67,10 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
     return entries
 
 
-def changed(file: Path, body: type[Model], **changes: Any) -> Model:
+def changed(file: Path, body: type[Model], context: typer.Context, **changes: Any) -> Model:
     """The request in a file, with the options that were given in place of its values. raises: InvalidValue, OSError"""
+    if "language" in body.model_fields:
+        changes["language"] = context.meta.get(LANGUAGE)
     values = read_dance(file, several=True) | {name: value for name, value in changes.items() if value is not None}
     return checked(body, values, object_words(file))
 

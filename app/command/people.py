@@ -34,6 +34,7 @@ FORMS = {".pdf": PDF_TYPE, ".csv": CSV_TYPE, ".json": JSON}
 
 
 def cues(
+    context: typer.Context,
     file: Annotated[
         Path,
         path_argument("FILE", FILE_HELP),
@@ -57,8 +58,8 @@ def cues(
     if ending == ".pdf":
         require("figures", "output", "A card on paper")
     request = changed(
-        file, CuesRequest, part=part, first_bench=first_bench, last_bench=last_bench, cards=bench or None, reach=reach,
-        step_length=step_length, spacing=spacing, title=title,
+        file, CuesRequest, context, part=part, first_bench=first_bench, last_bench=last_bench, cards=bench or None,
+        reach=reach, step_length=step_length, spacing=spacing, title=title,
     )  # fmt: skip
     write_answer(CUES, request, say("cues"), output, FORMS[ending])
 

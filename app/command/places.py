@@ -128,6 +128,7 @@ def _print(parts: DanceParts) -> None:
 
 
 def maps(
+    context: typer.Context,
     file: Annotated[
         Path,
         path_argument("FILE", "Dragon, path and venue as for check, as a .toml or .json file."),
@@ -147,7 +148,7 @@ def maps(
         raise InvalidValue.in_words("longitude", "--longitude and --latitude must be given together")
     place = {"longitude": longitude, "latitude": latitude}
     origin = None if longitude is None else checked(OriginFields, place).model_dump()
-    request = changed(file, MapsRequest, spacing=spacing, origin=origin)
+    request = changed(file, MapsRequest, context, spacing=spacing, origin=origin)
     data = write_answer(MAPS, request, say("map"), output, MapFormat(ending[1:]).media_type)
     if ending == ".geojson" and "origin" not in orjson.loads(data):
         words = say(
@@ -166,6 +167,7 @@ def _gate(text: str) -> dict[str, Any]:
 
 
 def plan(
+    context: typer.Context,
     file: Annotated[
         Path,
         path_argument("FILE", "Dragon, path, venue and limits as for check: .toml or .json."),
@@ -186,5 +188,5 @@ def plan(
     checked_output("output", output, (".pdf",))
     require("figures", "output", "A plan")
     gates = [_gate(text) for text in gate] if gate else None
-    request = changed(file, PlanRequest, paper=paper, title=title, spacing=spacing, clear=clear, gates=gates)
+    request = changed(file, PlanRequest, context, paper=paper, title=title, spacing=spacing, clear=clear, gates=gates)
     write_answer(PLAN, request, say("plan"), output)
