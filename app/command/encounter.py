@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from app.command import show
-from app.command.options import Json, asks
+from app.command.options import Json, asks, of_file
+from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output
 from app.questions import encounter as encounters
@@ -17,6 +18,7 @@ from app.questions.encounter import Encounter, EncounterRequest
 from app.wire.labels import fields_of, with_strays
 from app.wire.performances import FILE_OF_DANCES, PerformanceSpan
 from app.wire.question import Terms
+from app.wire.refusals import refusing
 from core import FirstEncounter
 from core.errors import format_number
 from core.language import say
@@ -26,9 +28,11 @@ class EncounterOptions(Contact, PerformanceSpan):
     """The fields of POST /encounter that are options."""
 
 
-@asks(EncounterOptions, EncounterRequest, file_help=FILE_OF_DANCES)
+@asks(EncounterOptions)
 def encounter(
-    request: EncounterRequest,
+    options: EncounterOptions,
+    context: typer.Context,
+    file: Annotated[Path, path_argument("FILE", FILE_OF_DANCES)],
     figure: Annotated[
         Path | None, typer.Option(help="Draw all dragons at their encounter into a .svg or .png file.")
     ] = None,
@@ -38,7 +42,8 @@ def encounter(
     ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
     if figure:
         require("figures", "figure", "--figure")
-    with show.waiting(say("encounter")):
+    request = of_file(file, EncounterRequest, context)
+    with refusing(request), show.waiting(say("encounter")):
         result = encounters.encounter_of(request, Terms())
         answer = Encounter.of(result, request, Terms())
         drawn = _drawn(result, ending[1:]) if figure else b""

@@ -10,7 +10,7 @@ import typer
 from app.cards.crew import lack_words
 from app.command import show
 from app.command.asked import write_answer
-from app.command.options import Json, asks, changed, numbers
+from app.command.options import Json, asks, changed, numbers, of_file
 from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output
@@ -64,9 +64,11 @@ def cues(
     write_answer(CUES, request, say("cues"), output, FORMS[ending])
 
 
-@asks(CrewFields, CrewRequest, file_help=FILE_HELP)
+@asks(CrewFields)
 def crew(
-    request: CrewRequest,
+    options: CrewFields,
+    context: typer.Context,
+    file: Annotated[Path, path_argument("FILE", FILE_HELP)],
     point: Annotated[
         list[str] | None, typer.Option(help="A place X,Y [m] at which people change; may be given several times.")
     ] = None,
@@ -77,6 +79,7 @@ def crew(
     ending = checked_output("output", output, tuple(FORMS)) if output else ""
     if ending == ".pdf":
         require("figures", "output", "A timeline")
+    request = of_file(file, CrewRequest, context)
     if point:
         request = request.model_copy(update={"points": [_point(text) for text in point]})
     with refusing(request), show.waiting(say("crew")) as progress:
