@@ -12,7 +12,7 @@ import { bound, formatNumber, isExact } from "./numbers.js";
 import { announce } from "./overlays.js";
 import { beatsOf, passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
-import { isPresetVenue } from "./presets.js";
+import { announceReplaced, isPresetVenue } from "./presets.js";
 import { isFurther, queued } from "./queue.js";
 import { announceSaved } from "./saved.js";
 import { circle, isInside, onBorder } from "./square.js";
@@ -167,6 +167,7 @@ export class Dragons {
     const values = this.#valuesOf(records[0], isOwn && fits ? drawing : { ...EMPTY, limit: isOwn ? drawing.limit : null });
     this.#take(records, 0, { ...values, time: null, view: null, follow: false });
     if (isOwn && !fits) announce(() => say("This example does not fit into your square and stands without it; undo brings your square back."), false, true);
+    else announceReplaced(drawing, values.drawing);
   }
 
   /** Open a FILE of several. name: of the file */

@@ -1,7 +1,8 @@
 /** Dances to begin with: paths of a straight street, an S, a figure eight, a spiral in and out, and a village square. */
 
 import { EMPTY } from "./drawing.js";
-import { phrase } from "./text.js";
+import { announce } from "./overlays.js";
+import { phrase, say } from "./text.js";
 
 /** Drawings to begin with. @type {Phrases} */
 export const PRESET_NAMES = {
@@ -70,3 +71,13 @@ export const shownAt = ({ yard }) => (yard ? IN_SQUARE : null);
 /** True if these things, or this path, are those of a preset; without any they are too. */
 export const isPresetVenue = (drawing) => Object.values(PRESETS).some((one) => shapes(one) === shapes(drawing));
 export const isPresetPath = ({ points, path }) => !path && Object.values(PRESETS).some((one) => JSON.stringify(one.points) === JSON.stringify(points));
+
+/** Say what of a drawing another one has replaced, if it has. */
+export function announceReplaced(before, now) {
+  const differ = (/** @type {string[]} */ ...names) => names.some((name) => JSON.stringify(before[name]) !== JSON.stringify(now[name]));
+  const path = (before.points.length > 0 || Boolean(before.path)) && differ("points", "path");
+  const square = before.things.length > 0 && differ("things");
+  if (path && square) announce(() => say("The example has taken the place of the path and the square; Undo brings them back."));
+  else if (square) announce(() => say("The example has taken the place of the square; Undo brings it back."));
+  else if (path) announce(() => say("The example has taken the place of the path; Undo brings it back."));
+}

@@ -4,7 +4,7 @@ import { bent, moved, removed, withThing } from "./changes.js";
 import { EMPTY, THINGS, freeName } from "./drawing.js";
 import { button, hide, make, numberIn, textButton } from "./elements.js";
 import { laterBy, passagesText, wayAt } from "./passages.js";
-import { PRESETS, PRESET_NAMES, isPresetVenue, shownAt } from "./presets.js";
+import { PRESETS, PRESET_NAMES, announceReplaced, isPresetVenue, shownAt } from "./presets.js";
 import { phrase, say } from "./text.js";
 
 /** The number in a field; null if there is none. */
@@ -152,7 +152,9 @@ export class RouteForm {
     const preset = PRESETS[name] ?? EMPTY;
     const translated = preset.things.map((thing) => ({ ...thing, name: say(thing.name) }));
     const drawing = { ...preset, ...(isOwn && !translated.length ? { things, origin, grid, limit } : { things: translated }) };
+    const before = this.#drawing;
     this.steps.change({ drawing, view: null, time: shownAt(preset) });
+    announceReplaced(before, drawing);
   }
 
   /** Show the drawing; rows are made again only if their number changes. */

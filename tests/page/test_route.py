@@ -230,6 +230,9 @@ def test_every_preset_can_be_danced_leaves_a_square_of_ones_own_and_a_later_star
     person.opens("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
     for name, count in (("street", 2), ("empty", 0)):
         person.presses("#preset", f"[data-begin={name}]").sees({"#points summary": f": {count}", "#things li": 2})
+        person.sees({"#status": "has taken the place of the path; Undo brings it back"}).presses("#status")
+    person.presses("#preset", "[data-begin=village]").sees({"#status": "the place of the square; Undo brings it back"})
+    person.presses("#undo").sees({"#things li": 2})
 
 
 def test_drawings_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(open_page, tmp_path):
