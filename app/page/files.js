@@ -24,9 +24,9 @@ const PARTLY = "read only some layers of the drawing";
 /** The times of a FILE; the page shows each dance from its beginning to its end. */
 export const SPAN = ["start", "stop"];
 
-/** Say that a file was opened, for as long as it takes to read. unread: what of it the page leaves out; notes: what else it did not take over */
+/** Say that a file was opened, until a person closes it or opens the next one. unread: what of it the page leaves out; notes: what else it did not take over */
 export function announceOpened(name, unread, notes = []) {
-  announce(() => sentencesOf([say("Opened {name}.", { name }), unread.length && say("Left out: {names}. The page shows a dance from beginning to end.", { names: unread.join(between()) }), ...notes]), false, true);
+  announce(() => sentencesOf([say("Opened {name}.", { name }), unread.length && say("Left out: {names}. The page shows a dance from beginning to end.", { names: unread.join(between()) }), ...notes]), true, true);
 }
 
 export class Files {
@@ -72,6 +72,7 @@ export class Files {
 
   /** Open a dance, or a map with a venue and a path. */
   async open(file) {
+    endMessage();
     try {
       if (/\.(csv|tsv|xlsx?|ods)$/i.test(file.name)) {
         const { text: csv, notes } = await tableOfFile(file, this.service);

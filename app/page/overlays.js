@@ -17,6 +17,8 @@ let timer = 0;
 
 /** Function that gives the shown message in the language of the page. */
 let message = () => "";
+/** Function that gives the notes of an opened file, which come back after other messages until a person closes them; null without. */
+let notes = null;
 
 /** Say that the service is lost. seconds: until the next try, 0 during one */
 export function lost(seconds) {
@@ -35,10 +37,12 @@ async function place() {
 }
 
 /**
- * Show a message; it disappears by itself, on a click, or by Escape. words(): its text; stays: only the next message replaces it;
- * flows: it stands below the picture, where it covers nothing, because it takes long to read
+ * Show a message; it disappears by itself, on a click, or by Escape. words(): its text; stays: only the next message replaces it,
+ * and one that also flows comes back after it; flows: it stands below the picture, where it covers nothing, because it takes long to read
  */
 export function announce(words, stays = false, flows = false) {
+  if (stays && flows) notes = words;
+  else if (notes && !words()) return announce(notes, true, true);
   const box = $("#status");
   if (flows) $("#stage").after(box);
   else if (box.parentElement !== document.body) document.body.append(box);
@@ -46,10 +50,13 @@ export function announce(words, stays = false, flows = false) {
   Object.assign(box, { textContent: words(), onclick: endMessage });
   if (box.textContent && !flows) place();
   clearTimeout(timer);
-  if (!stays) timer = setTimeout(endMessage, Math.max(VISIBLE_FOR, LETTER * box.textContent.length));
+  if (!stays) timer = setTimeout(() => announce(() => "", true), Math.max(VISIBLE_FOR, LETTER * box.textContent.length));
 }
 
-export const endMessage = () => announce(() => "", true);
+export function endMessage() {
+  notes = null;
+  announce(() => "", true);
+}
 
 let hearing = 0;
 /** Tell an answer to those who listen, once nothing has changed for a while; the last one of several counts. box: of the answer */

@@ -1,5 +1,6 @@
 """The page for everyone: phones and wide screens, two languages, keyboard, dark, reduced motion, screen readers."""
 
+import json
 import re
 
 import pytest
@@ -154,6 +155,18 @@ def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(ope
     assert person.ask(COVERED) == []
     person.strikes("Escape").reads({"#status": ""})
     expect(person.at("#status")).to_be_hidden()
+    # Notes of a map are there as a whole, and come back after other messages, until a person closes them.
+    trees = [{"type": "Point", "coordinates": [10 * k, 9]} for k in range(12)]
+    line = {"type": "LineString", "coordinates": [[0, 0], [120, 0]]}
+    wood = json.dumps({"type": "GeometryCollection", "geometries": [line, *trees]}).encode()
+    person.page.clock.install()
+    person.takes({"name": "wood.geojson", "mimeType": "application/geo+json", "buffer": wood})
+    person.sees({"#status": ["Opened wood.geojson", "No polygon is the square"]}).settles()
+    assert person.ask(COVERED) == []
+    assert person.at("#status").evaluate("one => one.scrollHeight <= one.clientHeight")
+    person.page.clock.fast_forward(60_000)
+    person.presses("#save").sees({"#status": "Saved dance.json"}).page.clock.fast_forward(60_000)
+    person.sees({"#status": "No polygon is the square"}).presses("#status").reads({"#status": ""})
     # Nor does a short one, in any window; it says which things no file holds.
     query = "?lang=en&path=route&route=0,0_60,0&benches=5&things=b.shed..1,9_2,9~c.well.1.5,9"
     for width, height in ((1440, 900), (800, 600), (390, 844), (320, 568)):
