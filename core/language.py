@@ -100,7 +100,7 @@ JOINTS = (
     phrase(" {then}, with {count} benches"),
     phrase(" {then}, with {count} dragons"),
 )
-SUBJECT = r"^\{(?:field|text)\} |(?:(?<=: )|^)\{\w+\} (?=must |is )"
+SUBJECT = r"(?:(?<=: )|^)(?:\{\w+\} |\+ )+(?=must |is )|^\{(?:field|text)\} "
 JOINT = re.compile(rf"((?<!\")(?:{'|'.join(map(re.escape, JOINTS))})|{SUBJECT})")
 
 

@@ -279,11 +279,11 @@ def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: flo
 def refuse_bend(dragon: Dragon, danced: Turn) -> None:
     """Refuse the circle if a chord cannot follow a turn that begins on it. raises: InvalidValue (turning_radius)"""
     if not follows(dragon, danced):
-        bend = "a turn that begins on the circle bends to a radius of {bend}, too tight for the longest chord ({chord})"
+        why = "a turn that begins on the circle bends to a radius of {bend}, too tight for the longest chord ({chord})"
         sharpest, chord = 1.0 / danced.sharpest[0], float(dragon.chords.max())
         values = quantities("m", got=danced.turning_radius) | quantities("m", 4, bend=sharpest)
         values |= quantities("m", 6, chord=chord)
-        raise InvalidValue("turning_radius", f"must be larger: {bend}", **values)
+        raise InvalidValue("turning_radius", f"must be larger: {why}", **values)
 
 
 def _touch(contact: FirstContact, zero: float) -> Touch:

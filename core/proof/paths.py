@@ -51,15 +51,17 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
     recorded = []
     for k, piece in enumerate(path.pieces):
         if not isinstance(piece, pieces.Line | pieces.Arc | pieces.Coil):
-            piece_at, must = Parameter(f"path.pieces.{k}"), "{piece} must be a line, an arc or a coil"
+            piece_at = Parameter(f"path.pieces.{k}")
+            rule = "{piece} must be a line, an arc or a coil for a proof in ball arithmetic"
             if len(path.pieces) == 1:
-                must = "path must be a spiral, a turn or a route of lines, arcs and coils"
+                rule = (
+                    "path must be a spiral, a turn or a route of lines, arcs and coils for a proof in ball arithmetic"
+                )
             elif isinstance(path, ClothoidTurn):
-                must = "path must be a turn of two arcs, without `middle` and `ends`,"
-            must += " for a proof in ball arithmetic"
+                rule = "path must be a turn of two arcs, without `middle` and `ends`, for a proof in ball arithmetic"
             why = "on such a path a dance is checked in double precision, with bounds on its rounding"
             raise InvalidValue.in_words(
-                piece_at.name, must, got=type(piece).__name__.lower(), reason=why, piece=piece_at
+                piece_at.name, rule, got=type(piece).__name__.lower(), reason=why, piece=piece_at
             )
         kind, names = next((kind, names) for kind, (made, names) in PIECES.items() if isinstance(piece, made))
         recorded.append({"kind": kind} | {name: _as_numbers(name, getattr(piece, name)) for name in names})
