@@ -167,6 +167,12 @@ def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(ope
     person.page.clock.fast_forward(60_000)
     person.presses("#save").sees({"#status": "Saved dance.json"}).page.clock.fast_forward(60_000)
     person.sees({"#status": "No polygon is the square"}).presses("#status").reads({"#status": ""})
+    # The path of another map is too short, which is all that is said of it.
+    short = b'{"type": "LineString", "coordinates": [[0, 0], [4, 0]]}'
+    person.takes({"name": "short.geojson", "mimeType": "application/geo+json", "buffer": short})
+    person.sees({"#judgement": "The path is too short", "main.stale": True}).settles()
+    for old in ("#old", "#tolerance > .old"):
+        expect(person.at(old)).to_be_hidden()
     # Nor does a short one, in any window; it says which things no file holds.
     query = "?lang=en&path=route&route=0,0_60,0&benches=5&things=b.shed..1,9_2,9~c.well.1.5,9"
     for width, height in ((1440, 900), (800, 600), (390, 844), (320, 568)):
