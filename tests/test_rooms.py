@@ -28,8 +28,13 @@ def has_tests(file):
     )
 
 
+# Modules that hold names alone, from which setup.py declares those of the compiler.
+NAMES = {"constants", "records"}
+
+
 def test_every_module_of_core_has_its_file_of_tests():
-    modules = [path.relative_to(ROOT) for path in sorted((ROOT / "core").rglob("[!_]*.py"))]
+    paths = [path for path in sorted((ROOT / "core").rglob("[!_]*.py")) if path.stem not in NAMES]
+    modules = [path.relative_to(ROOT) for path in paths]
     assert len(modules) > 50
     assert [one for one in modules if not has_tests(TESTS / one.with_name(f"test_{one.name}"))] == []
 
