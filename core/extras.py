@@ -11,7 +11,8 @@ def not_installed(what: str, package: str, extra: str) -> str:
 
     what: the caller; package: its name in a package index; extra: the extra of bench-dragon that installs it
     """
-    return f"{what} needs the package {package}, which is not installed: pip install 'bench-dragon[{extra}]'"
+    words = "{what} needs the package {package}, which is not installed: pip install 'bench-dragon[{extra}]'"
+    return words.format(what=what, package=package, extra=extra)
 
 
 def wanted(module: str, extra: str, what: str) -> Any:

@@ -7,7 +7,7 @@ import { pending } from "./pending.js";
 import { refusalWords, say } from "./text.js";
 
 /** Time that a message stays, and additional time for each letter of a long one [ms]. */
-const [VISIBLE_FOR, LETTER] = [6_000, 80];
+const [VISIBLE_FOR, READ_FOR, LETTER] = [6_000, 30_000, 80];
 /** Time without a change after which an answer is told [ms]. */
 const STILL = 700;
 /** Possible corners of the inset, the preferred one first. */
@@ -17,7 +17,7 @@ let timer = 0;
 
 /** Function that gives the shown message in the language of the page. */
 let message = () => "";
-/** Function that gives the notes of an opened file, which come back after other messages until a person closes them; null without. */
+/** Function that gives the notes of an opened file, which come back after other messages until they have been read; null without. */
 let notes = null;
 
 /** Say that the service is lost. seconds: until the next try, 0 during one */
@@ -50,7 +50,9 @@ export function announce(words, stays = false, flows = false) {
   Object.assign(box, { textContent: words(), onclick: endMessage });
   if (box.textContent && !flows) place();
   clearTimeout(timer);
-  if (!stays) timer = setTimeout(() => announce(() => "", true), Math.max(VISIBLE_FOR, LETTER * box.textContent.length));
+  const time = LETTER * box.textContent.length;
+  if (stays && flows) timer = setTimeout(endMessage, Math.max(READ_FOR, time));
+  else if (!stays) timer = setTimeout(() => announce(() => "", true), Math.max(VISIBLE_FOR, time));
 }
 
 export function endMessage() {
