@@ -31,7 +31,7 @@ from app.service.problems import CLOSE, Refused
 from app.service.routes import FILE, refusals
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
-from app.wire.question import BYTES, JSON, Answer, Coordinates, OneLine, Wire, measure
+from app.wire.question import BYTES, JSON, Answer, Coordinates, OneLine, Wire, language_for, measure
 from core import BenchDragonError
 from core.errors import Quantity, too_much
 from core.kernels import Halted
@@ -175,7 +175,7 @@ def grade(
         raise Refused(422, detail, {"name": "name"})
     graders: Graders = request.app.state.graders
     budget = request.state.budget
-    with in_lane(request), speaking(inputs.language):
+    with in_lane(request), speaking(language_for(inputs)):
         answers = [typed(name, text) for name, text in numbers.items()]
         try:
             files = [graders.read(budget, graded, inputs.name, data)] if data else []
@@ -199,7 +199,7 @@ def places(
         raise Refused(422, detail, {"name": "file"})
     graders: Graders = request.app.state.graders
     budget = request.state.budget
-    with in_lane(request), speaking(inputs.language):
+    with in_lane(request), speaking(language_for(inputs)):
         try:
             units, chord = inputs.units, inputs.longest_chord
             result = graders.read(budget, read_places, data, units, chord, inputs.to_choice())

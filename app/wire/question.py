@@ -33,7 +33,7 @@ from app.settings import Settings
 from core import Budget, Dance, Dragon, Spiral, Stray, TooLarge
 from core.dragon import BENCHES_MAX, wider_pin
 from core.errors import InvalidValue, format_number
-from core.language import speaking, spoken
+from core.language import Language, speaking, spoken
 from core.names import TURNING, checked_name
 from core.values import Progress, unheard
 
@@ -408,8 +408,7 @@ class Question:
 
     def encode(self, request: Wire, terms: Terms, form: str) -> bytes | Iterator[bytes]:
         """The answer in one of its forms as bytes, whole or in blocks; its sentences in the language of the request."""
-        language = getattr(request, "language", None) if "language" in request.model_fields_set else None
-        with speaking(language or spoken()):
+        with speaking(language_for(request)):
             result = self.answer(request, terms, *self._form_argument(form))
             return result if isinstance(result, bytes | Iterator) else result.to_json()
 
@@ -443,3 +442,9 @@ def calls_of(question: Question) -> list[Call]:
         name = f"{question.name}_of" if question.flat else question.name
         calls.append(Call(name, question, "POST", question.body))
     return calls
+
+
+def language_for(inputs: BaseModel) -> Language:
+    """The language that a request states; without one, the language that its client accepts."""
+    stated = getattr(inputs, "language", None) if "language" in inputs.model_fields_set else None
+    return stated or spoken()

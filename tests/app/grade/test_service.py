@@ -39,6 +39,14 @@ def test_the_service_answers_what_the_command_answers(client, second, tmp_path, 
     assert graded(client, second, name=file.name, pitch="0.4202", language=language) == answer
 
 
+def test_the_language_stated_comes_before_the_language_accepted(client):
+    def answer(**query):
+        sent = FILE | {"Accept-Language": "zh"}
+        return client.post("/grade", content=b"a,b", params=query, headers=sent).json()
+
+    assert answer() == answer(language="zh") != answer(language="en")
+
+
 @pytest.mark.thorough
 def test_a_file_longer_than_other_bodies_is_taken(client):
     # A full result1 of 17 digits, stored rather than packed tightly, and padded beyond the limit of other bodies.
