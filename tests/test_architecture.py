@@ -6,15 +6,14 @@ import subprocess
 import sys
 from functools import cache
 from graphlib import TopologicalSorter
-from pathlib import Path
 
 import pytest
 
 import core
+from tests.conftest import ROOT
 
 pytestmark = pytest.mark.uncompiled
 
-ROOT = Path(__file__).parent.parent
 
 # Arrays whose columns core/kernels/constants.py names.
 TABLES = {"table", "pieces", "frame", "chain", "motion", "placed", "probed", "probed_later", "opening"}

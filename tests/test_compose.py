@@ -15,12 +15,11 @@ from compose_spec import PyCompose
 
 from app.settings import Settings
 from app.sweeps.spec import Spec
-from tests.conftest import STOP_TIMEOUT, wait_until_live
+from tests.conftest import ROOT, STOP_TIMEOUT, wait_until_live
 from tests.support.job_service import PATIENCE, wait_for
 from tests.support.serving import free_port
 from tests.support.sweeping import SPEC, answered, followed
 
-ROOT = Path(__file__).parent.parent
 FILE = yaml.safe_load((ROOT / "compose.yaml").read_text(encoding="utf-8"))
 SERVICES = FILE["services"]
 DOCKERFILE = (ROOT / "Dockerfile").read_text(encoding="utf-8")

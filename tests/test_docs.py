@@ -17,9 +17,9 @@ import core
 from app.command.main import MODULE_OF
 from app.questions.registry import QUESTIONS
 from app.settings import Settings
+from tests.conftest import ROOT
 from tests.support.command import PATIENCE, bin_folder
 
-ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 DOORS = ("README.md", "README.zh.md", "CONTRIBUTING.md", "SECURITY.md")
 FILES = [*(ROOT / name for name in DOORS), *sorted(DOCS.glob("*.md"))]

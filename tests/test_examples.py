@@ -1,7 +1,5 @@
 """Every file under examples/ is a request that runs, with the verdict that its comment promises."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -9,9 +7,10 @@ import core
 from app.maps.dances import read_dance
 from app.questions.check import CheckRequest
 from core import FailureKind, check
+from tests.conftest import ROOT
 from tests.support.reference import reference, reference_cases
 
-EXAMPLES = Path(__file__).parents[1] / "examples"
+EXAMPLES = ROOT / "examples"
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
 
 

@@ -18,10 +18,10 @@ from packaging.utils import canonicalize_name
 import core
 from app.service.workers import process_count
 from app.settings import WORKERS_MAX, usable_cores
+from tests.conftest import ROOT
 from tests.support.lock import PYTHONS
 from tests.support.refused import refused
 
-ROOT = Path(__file__).parent.parent
 SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = SETTINGS["project"]
 LOCKS = {path.name: path.read_text(encoding="utf-8").splitlines() for path in ROOT.glob("requirements*.lock")}

@@ -6,13 +6,13 @@ in tests/support, what runs for minutes or hours in tests/campaigns.
 
 import ast
 import re
-from pathlib import Path
 
 import pytest
 
+from tests.conftest import ROOT
+
 pytestmark = pytest.mark.uncompiled
 
-ROOT = Path(__file__).parent.parent
 TESTS = ROOT / "tests"
 
 

@@ -1,7 +1,6 @@
 """The notebook examples/tour.py: it converts, every cell runs, and its sentences are true."""
 
 import ast
-from pathlib import Path
 from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
@@ -9,8 +8,9 @@ import pytest
 from matplotlib.axes import Axes
 
 from core.display import Readable
+from tests.conftest import ROOT
 
-TOUR = Path(__file__).parents[1] / "examples" / "tour.py"
+TOUR = ROOT / "examples" / "tour.py"
 # Longest line of an answer under a cell [characters].
 DISPLAY_MOST = 220
 

@@ -8,7 +8,6 @@ import re
 import runpy
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from flint import arb, ctx, fmpz
@@ -16,11 +15,12 @@ from flint import arb, ctx, fmpz
 from core import Dance, Dragon, Spiral, first_contact
 from core.proof import chain, prove_collision_time, prove_minimum_pitch
 from tests.campaigns.differential import MAKERS, hunt, made, proven_by_core, proven_by_second, second
+from tests.conftest import ROOT
 from tests.support.depth import DEEP, examples, some, thorough
 from tests.support.forgeries import DROPPED, FORGERIES, forged, stretches
 from tests.support.reference_contacts import graze, random_contact, small
 
-VERIFY = Path(__file__).parents[1] / "examples" / "verify.py"
+VERIFY = ROOT / "examples" / "verify.py"
 PATIENCE = 600.0  # [s]: only against a run that would hang
 ARITHMETIC_CASES = 300
 CHANGED = examples(100, 2_000)

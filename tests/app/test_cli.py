@@ -12,7 +12,6 @@ import struct
 import subprocess
 import termios
 from functools import cache
-from pathlib import Path
 
 import httpx
 import openpyxl
@@ -26,8 +25,9 @@ from app.service.workers import START_SECONDS
 from app.settings import Settings
 from core import Engine
 from core.kernels import COMPILED
-from tests.conftest import heed_ctrl_c
+from tests.conftest import ROOT, heed_ctrl_c
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
+from tests.support.depth import further
 from tests.support.job_service import wait_for
 from tests.support.refusal_rows import assert_refused_in_one_line
 from tests.support.serving import sample, serving
@@ -278,7 +278,7 @@ def on_terminal(columns, *arguments):
     return re.sub(r"\x1b\[[0-9;]*m", "", seen.decode())
 
 
-@pytest.mark.parametrize("command", ["collision-time", pytest.param("paper", marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("command", further(["collision-time", "paper"], 1))
 def test_no_number_is_broken_on_a_narrow_terminal(command):
     narrow, wide = (on_terminal(columns, command) for columns in (40, 200))
     assert max(map(len, narrow.splitlines())) <= 40
@@ -392,7 +392,7 @@ def as_from_a_terminal():
     heed_ctrl_c()
 
 
-@pytest.mark.parametrize("workers", [1, pytest.param(2, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("workers", further([1, 2], 1))
 def test_serve_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ctrl_c_ends_it(tmp_path, workers):
     with serving(tmp_path / "log", workers, as_from_a_terminal) as service:
 
@@ -423,7 +423,7 @@ def test_serve_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ct
         assert "Traceback" not in service.log.read_text()
 
 
-@pytest.mark.parametrize("workers", ["1", pytest.param("2", marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("workers", further(["1", "2"], 1))
 def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server, workers):
     done = run("serve", "--port", server.rpartition(":")[2], "--workers", workers)
     assert done.returncode == 2
@@ -510,7 +510,7 @@ def test_progress_is_in_the_language_chosen_or_that_of_the_terminal(tmp_path, lo
 
 
 def test_a_command_that_is_asked_in_chinese_says_everything_in_chinese(tmp_path):
-    examples = Path(__file__).parents[2] / "examples"
+    examples = ROOT / "examples"
     table, crew, places = (
         tmp_path / "dance.xlsx",
         examples / "paper_dance.toml",

@@ -9,6 +9,7 @@ from app.maps.dances import read_dance
 from tests.conftest import ROOT
 from tests.support.asking import written
 from tests.support.command import run
+from tests.support.depth import thorough
 from tests.support.refusal_rows import assert_refused_in_one_line
 
 DANCE = """
@@ -119,7 +120,7 @@ PAPERS = [
 
 @pytest.mark.parametrize(
     ("body", "row"),
-    [*FILES, *(pytest.param(*paper, marks=pytest.mark.thorough) for paper in PAPERS)],
+    [*FILES, *thorough(*PAPERS)],
     ids=[row.split(" -")[0] for _, row in (*FILES, *PAPERS)],
 )
 def test_a_command_writes_the_file_of_the_service(client, tmp_path, monkeypatch, body, row):
@@ -203,9 +204,7 @@ MORE_MISPLACED = [
 ]
 
 
-@pytest.mark.parametrize(
-    "row", [*MISPLACED, *(pytest.param(row, marks=pytest.mark.thorough) for row in MORE_MISPLACED)]
-)
+@pytest.mark.parametrize("row", [*MISPLACED, *thorough(*MORE_MISPLACED)])
 def test_a_value_that_check_would_refuse_is_no_silent_mistake(tmp_path, row):
     command, names = row.split(": ")
     file = tmp_path / "flat.toml"

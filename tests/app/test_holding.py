@@ -22,6 +22,7 @@ import pytest
 from app.files.tables import CSV_TYPE
 from app.processes.limits import THREAD_NICENESS
 from tests.app.conftest import ANSWER_TIMEOUT
+from tests.support.depth import further, thorough
 from tests.support.job_service import is_gone, wait_for
 from tests.support.serving import serving
 
@@ -330,9 +331,7 @@ def leaves(service, stop):
 MORE = [(1, signal.SIGTERM), (2, signal.SIGKILL), (2, signal.SIGTERM), (1, signal.SIGKILL)]
 
 
-@pytest.mark.parametrize(
-    ("workers", "stop"), [(1, signal.SIGINT), *(pytest.param(*case, marks=pytest.mark.thorough) for case in MORE)]
-)
+@pytest.mark.parametrize(("workers", "stop"), [(1, signal.SIGINT), *thorough(*MORE)])
 def test_the_service_leaves_with_heavy_work_running(tmp_path, workers, stop):
     # A shell that starts the service in its background has Ctrl-C ignored.
     ignored = partial(signal.signal, signal.SIGINT, signal.SIG_IGN) if stop == signal.SIGTERM else None
@@ -340,7 +339,7 @@ def test_the_service_leaves_with_heavy_work_running(tmp_path, workers, stop):
         leaves(service, stop)
 
 
-@pytest.mark.parametrize("workers", [1, pytest.param(2, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("workers", further([1, 2], 1))
 def test_a_service_that_ends_answers_who_has_connected_and_refuses_others(tmp_path, workers):
     """A proxy sends a request to another service if this one refuses the connection, not if it resets it."""
     with serving(tmp_path / "log", workers, grace_seconds=10) as service, ExitStack() as peers:

@@ -2,7 +2,6 @@
 
 import re
 import runpy
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -10,8 +9,9 @@ import pytest
 import core
 from app.service.main import create_app
 from app.service.pages import GUIDE, guide_policy
+from tests.conftest import ROOT
 
-SITE = Path(__file__).parents[2] / "docs" / "site"
+SITE = ROOT / "docs" / "site"
 
 
 def module(name):

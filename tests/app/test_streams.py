@@ -5,12 +5,13 @@ import subprocess
 import pytest
 
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE
+from tests.support.depth import thorough
 
 pytestmark = pytest.mark.uncompiled
 
 # Short answers of every kind: JSON; help of the command and of one question, a table, the version.
 MORE = ("--help", "turn --help", "trajectory --benches 3 --times 0", "--version", "")
-COMMANDS = ("collision-time --benches 3 --json", *(pytest.param(line, marks=pytest.mark.thorough) for line in MORE))
+COMMANDS = ("collision-time --benches 3 --json", *thorough(*MORE))
 
 
 def shell(command, **environment):
@@ -53,9 +54,7 @@ LINES = ("turn --json", "places {folder}/龙.geojson", "grade --language zh --pi
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "gbk"])
-@pytest.mark.parametrize(
-    "command", ["grade {folder}/龙.csv", *(pytest.param(line, marks=pytest.mark.thorough) for line in LINES)]
-)
+@pytest.mark.parametrize("command", ["grade {folder}/龙.csv", *thorough(*LINES)])
 def test_what_a_terminal_cannot_show_is_escaped(command, encoding, tmp_path):
     ring = "[[0, 0], [9, 0], [9, 9], [0, 0]]"
     (tmp_path / "龙.geojson").write_text(f'{{"type": "Polygon", "coordinates": [{ring}]}}', encoding="utf-8")

@@ -136,7 +136,7 @@ LONG_QUESTIONS = {
 
 
 @pytest.mark.skipif(not kernels.COMPILED, reason="the kernels run uncompiled")
-@pytest.mark.parametrize("after", [0.1, pytest.param(1.0, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("after", further([0.1, 1.0], 1))
 @pytest.mark.parametrize("name", LONG_QUESTIONS)
 def test_a_long_question_ends_soon_after_another_thread_stopped_it(name, after):
     budget, stopped = Budget(WHOLE), []

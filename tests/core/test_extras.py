@@ -1,15 +1,12 @@
 """Optional packages: asked for by name where they are missing, never imported before."""
 
-import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 from core import Dance, Dragon, Spiral, clearance_profile, first_contact, trajectory
 from core.extras import wanted
 
-ROOT = Path(__file__).parents[2]
 DANCE = Dance(Dragon(5), Spiral())
 TRAJECTORY, PROFILE, CONTACT = trajectory(DANCE, 0.0), clearance_profile(DANCE, 0.0), first_contact(DANCE)
 
@@ -38,14 +35,3 @@ def test_a_package_that_lacks_something_itself_says_so(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(ModuleNotFoundError, match="something_else_that_is_missing"):
         wanted("half_a_package", "data", "this test")
-
-
-def test_asking_core_imports_no_optional_package():
-    code = """
-import sys
-from core import *
-dance = Dance(Dragon(5), Spiral())
-found = [trajectory(dance, 0.0), first_contact(dance), clearance_profile(dance, 0.0)]
-print([repr(one) for one in found] == 0, *(name for name in ("matplotlib", "pandas", "xarray") if name in sys.modules))
-"""
-    assert subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True).split() == ["False"]

@@ -10,10 +10,10 @@ import pytest
 
 import core
 from core import kernels
+from tests.conftest import ROOT
 from tests.support.depth import further
 from tests.support.every_digit import every_digit
 
-ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "core" / "kernels"
 # Modules with a .pxd beside them are compiled, except these two: their .pxd follow from them.
 NAMES = {"constants", "records"}

@@ -5,15 +5,15 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
-from pathlib import Path
 
 from babel.messages.catalog import Catalog
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
 from core.language import Language, counted, joined, say, sense, speaking, spoken
+from tests.conftest import ROOT
 
-CORE = Path(__file__).parents[2] / "core"
+CORE = ROOT / "core"
 
 
 def test_a_sentence_is_in_the_language_that_is_spoken_and_in_english_again_afterwards():

@@ -3,13 +3,12 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
+from tests.conftest import ROOT
 from tests.support.browser import starts
 
-ROOT = Path(__file__).parents[2]
 # Code that hides every installed browser.
 WITHOUT = "from tests.support import browser; browser.PLACES = ()"
 LEFT_OUT = "tests are left out: no Chrome or Chromium starts here"

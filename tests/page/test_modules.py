@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.conftest import ROOT
 from tests.support.node import PATIENCE, node_path
 
-ROOT = Path(__file__).parents[2]
 FILES = sorted((Path(__file__).parent / "modules").glob("*.test.js"))
 
 

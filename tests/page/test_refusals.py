@@ -15,11 +15,11 @@ import pytest
 from app.service.main import create_app
 from app.settings import Settings
 from app.wire.problem import DETAIL_MAX
+from tests.conftest import ROOT
 from tests.support.node import chinese_texts, evaluate
 
 pytestmark = pytest.mark.node
 
-ROOT = Path(__file__).parent.parent.parent
 # Latin letters that are not a unit, a name or a symbol, outside of quotes.
 ENGLISH = re.compile(
     r"(?<![A-Za-z])(?!GeoJSON|HTTP|TOML|JSON|KMZ?|DXF|DWG|ASCII|XML|name|length|width|overhang)[A-Za-z]{3,}"

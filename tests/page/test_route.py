@@ -1,18 +1,17 @@
 """A dance drawn on the picture by mouse, touch and keys: its verdict, its address and its files."""
 
 import json
-from pathlib import Path
 
 import openpyxl
 import pytest
 from playwright.sync_api import expect
 
+from tests.conftest import ROOT
 from tests.support import polite
 from tests.support.floor_plan import EDGES, WALLS, floor_plan, town
 from tests.support.person import COVERED, PHONE, alike
 
 thorough = pytest.mark.thorough
-ROOT = Path(__file__).parents[2]
 S_CURVE = "?path=route&route=*-80,-16_0,-16_16,-8_0,0_-16,8_*0,16_80,16"
 VILLAGE = (
     "?path=route&route=*-67,-8_-12,-8_-3,-9_6,-8_10.5,-3_7,2.5_0,3.5_-4.5,7_-1,10.5_6,10.5_*12,15_12,62&begin=45&limit=1.1"

@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,10 +14,11 @@ from app.questions.plan import PDF_TYPE
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import Budget, TooMuchWork
+from tests.conftest import ROOT
 from tests.support.paper import assert_fonts_are_within, pages_of, shapes_of, words_of
 from tests.support.refusal_rows import assert_refused
 
-VILLAGE = Path(__file__).parents[3] / "examples" / "village_square.toml"
+VILLAGE = ROOT / "examples" / "village_square.toml"
 NAMES = ["=1+1", "Wang", *[f"family {k}" for k in range(2, 24)]]
 # Pauses, and the time of the day.
 FESTIVE = {

@@ -5,7 +5,6 @@ import io
 import json
 import re
 import shlex
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,11 +17,12 @@ from app.questions.plan import PDF_TYPE
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import Budget, TooMuchWork
+from tests.conftest import ROOT
 from tests.support.command import run
 from tests.support.paper import assert_fonts_are_within, pages_of, words_of
 from tests.support.refusal_rows import assert_refused, assert_refused_in_one_line
 
-VILLAGE = Path(__file__).parents[3] / "examples" / "village_square.toml"
+VILLAGE = ROOT / "examples" / "village_square.toml"
 # Places [m], and the error with which a bench is at its place of a change [m].
 ROUNDING, AT_PLACE = 1e-9, 0.02
 PEOPLE = {"spares": 6, "shift": 40, "rest": 10, "points": [{"x": 6, "y": -8}], "start_clock": "19:44:30"}

@@ -32,6 +32,7 @@ from app.wire.question import Terms
 from core import Budget, TooMuchWork
 from core.language import Language
 from tests.support.command import COMMAND, PATIENCE, run
+from tests.support.depth import further
 from tests.support.reference import reference
 from tests.support.refusal_rows import assert_refused, assert_refused_in_one_line
 from tests.test_docs import KITS, assert_alike
@@ -255,7 +256,7 @@ def test_a_kit_beyond_a_limit_is_refused_before_any_work(client, row):
     assert_refused(client, "/contest-kit", {}, row)
 
 
-@pytest.mark.parametrize("films", [False, pytest.param(True, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("films", further([False, True], 1))
 def test_a_kit_reports_its_progress_and_ends_when_it_is_stopped(films):
     shares = []
     budget = Budget(math.inf)

@@ -2,7 +2,6 @@
 
 import io
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -30,8 +29,9 @@ from core import (
 )
 from core.people.beats import Bars, Music
 from core.plots import BLUE
+from tests.conftest import ROOT
 from tests.support.command import run
-from tests.support.depth import some
+from tests.support.depth import further, some
 from tests.support.refusal_rows import assert_refused
 
 # Colours of the head and of the body; video keeps them to within a few parts of 255.
@@ -128,7 +128,7 @@ def test_a_film_that_is_too_large_or_outside_the_run_is_refused(client, row):
     assert_refused(client, "/films", {}, row)
 
 
-@pytest.mark.parametrize("form", [MP4_TYPE, pytest.param(GIF_TYPE, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("form", further([MP4_TYPE, GIF_TYPE], 1))
 @pytest.mark.parametrize("frames", some(range(0, 20, 2), 2))
 def test_stopping_a_film_harms_no_other(form, frames):
     """Its encoder may be writing a frame. The process lives on, and the next film is drawn."""
@@ -229,7 +229,7 @@ def test_a_small_picture_and_a_long_dragon_have_fewer_numbers(benches, spacing, 
 
 
 YELLOW = (240, 228, 66)
-VILLAGE = Path(__file__).parents[3] / "examples" / "village_square.geojson"
+VILLAGE = ROOT / "examples" / "village_square.geojson"
 
 
 def village(height=540):
@@ -245,7 +245,7 @@ def village(height=540):
     return FilmPicture(dance, FilmSpec(0.0, 119.0, height=height, marked=((0, 17),)), venue, ""), venue
 
 
-@pytest.mark.parametrize("height", [540, pytest.param(1080, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("height", further([540, 1080], 1))
 def test_a_marked_bench_is_wide_enough_to_be_seen(height):
     stage, _ = village(height)
     for instant in (0.0, 40.0, 70.0, 90.0, 119.0):

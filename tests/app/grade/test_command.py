@@ -16,6 +16,7 @@ from app.grade.report import typed
 from app.grade.shortcuts import pitch_grids, shortcuts
 from core.language import speaking
 from tests.support.command import run
+from tests.support.depth import further
 from tests.support.students import CONTACT, contact_workbook, spiral
 
 
@@ -105,7 +106,7 @@ def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path):
     assert "\\xff" in run("grade", str(tmp_path / "class"), "--language", "zh").stdout
 
 
-@pytest.mark.parametrize("ending", ["xlsx", pytest.param("csv", marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("ending", further(["xlsx", "csv"], 1))
 def test_the_turn_that_the_command_writes_is_graded_right(tmp_path, ending):
     file = tmp_path / f"result4.{ending}"
     done = run("trajectory", "--path", "turn", "--start", "-100", "--stop", "100", "--output", str(file))

@@ -11,6 +11,7 @@ from app.grade.report import graded
 from core import Budget, Dragon
 from tests.campaigns.hunt_grades import hunt
 from tests.support import students
+from tests.support.depth import further
 from tests.support.student_files import as_csv, in_layout
 from tests.support.students import CONTACT, SPIRAL_TIMES, TURN_TIMES, spiral, turn
 
@@ -269,7 +270,7 @@ def test_the_errors_of_places_and_of_speeds_are_named_each(places, speeds):
     assert result.verdict == ("wrong" if wanted else "rounded" if is_rounded else "right")
 
 
-@pytest.mark.parametrize("by", [1, pytest.param(-2, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("by", further([1, -2], 1))
 def test_speeds_in_shifted_rows_are_not_called_rounded(by):
     """Those of neighbours on the spiral differ in the third decimal."""
     shifted = tuple(np.roll(part, -by, axis=1) for part in spiral())
@@ -340,7 +341,7 @@ def test_two_errors_are_reported_beside_each_other():
     assert errors(result) == ["outside_zero", "backward_difference"]
 
 
-@pytest.mark.parametrize("size", [1e-3, pytest.param(1e-6, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("size", further([1e-3, 1e-6], 1))
 def test_quotients_are_reported_beside_positions_with_noise(size):
     """Noise of the last digit, and noise that no known error explains."""
     position, speed = students.quotient(-1.0, 0.0, turn)
@@ -386,13 +387,13 @@ def test_sparse_instants_do_not_contradict_the_speeds():
     assert met(grade(students.lines((wrong, speed), SPIRAL_TIMES[::60])), "speeds") is None
 
 
-@pytest.mark.parametrize("cases", [25, pytest.param(150, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("cases", further([25, 150], 1))
 def test_nobody_is_accused_by_chance(cases):
     """Some cases of the campaign; `python -m tests.campaigns.hunt_grades` has as many as there is time for."""
     assert hunt(20261126, cases=cases)[:2] == (cases, 0)
 
 
-@pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.thorough)], ids=["some", "all"])
+@pytest.mark.parametrize("whole", further([False, True], 1), ids=["some", "all"])
 def test_right_results_have_nothing_to_diagnose(whole):
     for data in (first(spiral(), whole=whole), fourth(turn(), whole=whole)):
         result = grade(data)

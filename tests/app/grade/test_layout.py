@@ -2,18 +2,17 @@
 
 import json
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.grade.report import graded
 from core import Budget
+from tests.conftest import ROOT
 from tests.support import students
+from tests.support.depth import further
 from tests.support.student_files import NAMES, as_csv, beside, in_layout, on_side
 from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral, three
-
-ROOT = Path(__file__).parents[3]
 
 
 def grade(data, name="result1.xlsx"):
@@ -295,12 +294,12 @@ def test_sheets_with_exchanged_names_are_read_for_what_they_hold(labels):
     ]
 
 
-@pytest.mark.parametrize("coding", ["gb18030", pytest.param("utf-16", marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("coding", further(["gb18030", "utf-16"], 1))
 def test_csv_of_a_sheet_is_graded(coding):
     assert_right(wide_csv().encode(coding))
 
 
-@pytest.mark.parametrize("separator", [";", pytest.param("\t", marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("separator", further([";", "\t"], 1))
 def test_csv_with_decimal_commas_is_graded(separator):
     """Also below a title, which has no separator."""
     for title in ("", "问题一，结果\n"):

@@ -8,6 +8,7 @@ import pytest
 
 from tests.support.asking import assert_problem
 from tests.support.command import run
+from tests.support.depth import further
 from tests.support.serving import serving
 from tests.support.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
 
@@ -30,7 +31,7 @@ def first():
     return workbook(spiral(), SPIRAL_TIMES)
 
 
-@pytest.mark.parametrize("language", ["en", pytest.param("zh", marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("language", further(["en", "zh"], 1))
 def test_the_service_answers_what_the_command_answers(client, second, tmp_path, language):
     file = tmp_path / "result2.xlsx"
     file.write_bytes(second)

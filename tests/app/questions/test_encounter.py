@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -10,11 +9,12 @@ from app.questions.encounter import Encounter, EncounterRequest
 from app.wire.question import Terms
 from core import Outcome, encounter_check, first_encounter
 from tests.app.files.test_figures import texts
+from tests.conftest import ROOT
 from tests.support.asking import box, dance, json_like, written
 from tests.support.command import run
 from tests.support.reference_encounters import CASES, performance_of
 
-EXAMPLE = str(Path(__file__).parents[3] / "examples" / "two_dragons.toml")
+EXAMPLE = str(ROOT / "examples" / "two_dragons.toml")
 LANE, BESIDE = dance(3, (0, 0), (30, 0)), dance(3, (0, 2), (30, 2))
 EAST, NORTH = dance(5, (0, 0), (30, 0), name="east"), dance(5, (15, -20), (15, 20), name="north")
 TWO = {"dances": [EAST, NORTH]}

@@ -1,12 +1,11 @@
 """Safe delays of one dragon, over HTTP and from a terminal."""
 
-from pathlib import Path
-
 from app.maps.dances import read_dance
+from tests.conftest import ROOT
 from tests.support.asking import dance, written
 from tests.support.command import run
 
-EXAMPLE = Path(__file__).parents[3] / "examples" / "crossing_streets.toml"
+EXAMPLE = ROOT / "examples" / "crossing_streets.toml"
 EAST, NORTH = dance(5, (-20, 0), (20, 0)), dance(5, (0, -20), (0, 20))
 CROSSING = {"dances": [EAST | {"name": "east"}, NORTH | {"name": "3"}], "least": -60, "most": 60}
 # The first procession ends on the crossing and stands there.

@@ -15,7 +15,7 @@ import pytest
 from app.service.job_calls import JOB_CALLS
 from app.wire.problem import PROBLEM_TYPE
 from tests.support.asking import assert_problem, box
-from tests.support.depth import few
+from tests.support.depth import few, further
 from tests.support.job_service import ENDLESS, PATIENCE, SCAN, SHORT, JobService, direct, wait_for
 
 LATER = {"Prefer": "respond-async"}
@@ -189,7 +189,7 @@ def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(se
     assert {service.client.get(address + left).status_code for left in ("", "/result", "/events")} == {404}
 
 
-@pytest.mark.parametrize("is_copied", [False, pytest.param(True, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("is_copied", further([False, True], 1))
 def test_a_removed_job_leaves_no_byte_of_its_call_and_result(service, is_copied):
     """is_copied: meanwhile another process copies SQLite's log, as its lock tells."""
     address = service.post({"question": "collision_time", "request": {"pitch": 0.512345678901}})

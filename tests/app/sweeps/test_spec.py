@@ -3,15 +3,15 @@
 import json
 import re
 import tomllib
-from pathlib import Path
 
 import pytest
 
 from app.sweeps.spec import DESIGNS_MAX, SHARDS_SMALL, Spec
 from core import TooLarge
+from tests.conftest import ROOT
 from tests.support.refused import refused
 
-PAGE = Path(__file__).parents[3] / "docs" / "sweeps.md"
+PAGE = ROOT / "docs" / "sweeps.md"
 TOML = """
 question = "collision_time"
 [request]

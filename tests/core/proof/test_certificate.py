@@ -1,7 +1,5 @@
 """Proofs: claims that hold are proven and checked, claims and certificates that do not are refused."""
 
-from pathlib import Path
-
 import pytest
 from flint import ctx
 
@@ -14,7 +12,6 @@ from tests.support.forgeries import FORGERIES, assert_refused, forged, through_j
 from tests.support.reference import reference_cases
 from tests.support.reference_contacts import CONTACTS, SMALL, proof_of, proven_then_only, random_contact, small
 
-ROOT = Path(__file__).parents[3]
 PITCHES = reference_cases("minimum_pitch")
 # The reference pitches are rounded: this much more is free of contact [m].
 PITCH_ROUNDING = 1e-9
