@@ -223,12 +223,13 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
         return start - t / (b * start)  # the angular speed of the start, kept
 
     def explicit(t: Floats) -> Floats:
-        """Explicit Euler in steps of 1 s."""
-        theta, angles = start, {}
-        for second in range(int(t.max(initial=0.0)) + 1):
-            angles[float(second)] = theta
-            theta -= 1.0 / (b * math.sqrt(1.0 + theta**2))
-        return np.array([angles.get(float(one), start) for one in t])
+        """Explicit Euler in steps of 1 s, the last one as long as is left."""
+        whole = np.floor(np.maximum(t, 0.0)).astype(np.int64)
+        angles = [start]
+        for _ in range(int(whole.max(initial=0)) + 1):
+            angles.append(angles[-1] - 1.0 / (b * math.sqrt(1.0 + angles[-1] ** 2)))
+        before, after = np.array(angles)[whole], np.array(angles)[whole + 1]
+        return np.asarray(before + (np.maximum(t, 0.0) - whole) * (after - before))
 
     def rounded_head(decimals: int, t: Floats) -> Floats:
         return np.round(path.theta(t * dance.head_speed), decimals)

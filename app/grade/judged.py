@@ -194,7 +194,10 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     present, right = int((~np.isnan(off)).sum()), int((off <= RIGHT).sum())
     largest = float(np.nanmax(off)) if present else np.inf
     decimals = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None)
-    if table.shown is not None:  # zeros behind numbers that were rounded before show nothing more
+    is_vague = DECIMALS[-1] < decimals_beside < DECIMALS_OF_CONTEST and table.shown is None and _is_one_number(values)
+    if is_vague:
+        decimals_beside = DECIMALS[-1]
+    elif table.shown is not None:  # zeros behind numbers that were rounded before show nothing more
         decimals_beside = min(table.shown, decimals_beside or table.shown)
     digits = digits_of(values, decimals_beside)
     written = usual_of(digits, values)
@@ -209,6 +212,8 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
         verdict = Rating.INCOMPLETE
     else:
         verdict = Rating.RIGHT if largest <= RIGHT else Rating.ROUNDED
+    if is_vague and decimals == DECIMALS[-1]:
+        notes.append(note("vague", number=f"{np.nanmax(values):g}", decimals=decimals))
     missing = cells - present
     if missing and present:
         has_number = np.isfinite(values)
@@ -254,6 +259,12 @@ def _decimals_of_flat(values: Floats, wanted: Floats, decimals: int) -> int:
     if not known.any() or np.ptp(values[known]) > FLAT or np.ptp(wanted[known]) <= ROUNDED * 10.0 ** -DECIMALS[0]:
         return -1
     return decimals if decimals >= DECIMALS[-1] else DECIMALS_OF_CONTEST
+
+
+def _is_one_number(values: Floats) -> bool:
+    """True for one whole number in all cells, which may be rounded: beside others that are, nothing shows how far."""
+    known = values[np.isfinite(values)]
+    return bool(known.size and np.ptp(known) == 0.0 and known[0] % 1.0 == 0.0)
 
 
 def _scale(table: SheetTable, motion: Floats, notes: list[Note]) -> float:

@@ -6,7 +6,7 @@ the grid. State: none. Labels decide, in both languages and both orientations; w
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import pairwise
@@ -40,6 +40,9 @@ Columns = dict[tuple[float | None, int], tuple[int, float]]
 # Handles of the contest's dragon: the head's is 0, the rear one of the tail is the last.
 BENCHES = 223
 HANDLES = BENCHES + 1
+# Handles and instants [s] of the tables that the paper of a solution prints, by the number of these: questions 1 and 4.
+QUESTION_HANDLES = [0, 1, 51, 101, 151, 201, BENCHES]
+QUESTION_TIMES = {len(times): times for times in (range(0, 301, 60), range(-100, 101, 50))}
 # Number of first rows and columns that may hold labels.
 MARGIN = 8
 # Most lines more, or less, than there are handles in a table that numbers them.
@@ -232,7 +235,30 @@ def _tables_of(
     columns = _columns(heads, aside)
     if {X, Y} <= {component for _, component in columns}:
         return _by_columns(grid, cells, lines, heads, columns, turned)
-    return _over_time(grid, cells, lines, _times(heads, cells, aside), turned, _stated(grid, heads))
+    times, stated = _times(heads, cells, aside), _stated(grid, heads)
+    if not columns and not _instants(heads, aside):
+        handles = list(dict.fromkeys(_numbered(lines)[0].tolist()))
+        are_bare = all(label.component is None for _, label in lines) and len(handles) == len(lines)
+        are_places = are_bare and _holds_places(cells[k][aside + 1 :] for k, _ in lines)
+        if are_places and 1 < len(times) <= len(COMPONENTS[TableKind.CONTACT]):
+            return _by_columns(grid, cells, lines, heads, _of_one_instant(list(times)), turned)
+        are_printed = handles == QUESTION_HANDLES and len(times) in QUESTION_TIMES
+        if are_printed:
+            times = dict(zip(times, map(float, QUESTION_TIMES[len(times)]), strict=True))
+        is_unclear = not are_printed or (are_places and stated == SPEED)
+        if is_unclear and len(handles) < HANDLES - EXTRA_MOST and isinstance(cells[lines[0][0]][aside], float):
+            return []
+    return _over_time(grid, cells, lines, times, turned, stated)
+
+
+def _holds_places(rows: Iterable[Sequence[Cell]]) -> bool:
+    """True if a number is negative: places are on all sides of the centre, and speeds are not negative."""
+    return any(isinstance(cell, float) and cell < 0.0 for row in rows for cell in row)
+
+
+def _of_one_instant(columns: list[int]) -> Columns:
+    """Columns without headings that hold x, y and perhaps the speed."""
+    return {(None, component): (k, 1.0) for component, k in enumerate(columns)}
 
 
 def _stated(grid: Grid, heads: list[list[Cell]]) -> int:
@@ -286,16 +312,30 @@ def _numbering(column: list[Cell], names: frozenset[int]) -> list[Label | None]:
 def _numbers_of(run: Sequence[float], heads: list[str], names: frozenset[int]) -> dict[int, int]:
     """The handles that the numbers below some headings number, by their places; none if they are other numbers."""
     numbers = np.array(run)
-    counts_all = abs(numbers.size - HANDLES) <= EXTRA_MOST or numbers.size == 2 * HANDLES
-    is_counted = counts_all and numbers[0] in (0.0, 1.0) and bool(np.all(np.diff(numbers) == 1.0))
-    are_handles = bool(np.all((numbers == np.round(numbers)) & (numbers >= 0.0) & (numbers < HANDLES)))
-    is_unique = np.unique(numbers).size == numbers.size >= LABELS_LEAST
-    is_headed = any(map(is_handle_heading, heads)) or names == set(numbers.tolist())
-    if not is_counted and not (is_unique and is_headed and are_handles):
+    # x stands above y in two lines of a number.
+    once = numbers[::2] if np.array_equal(numbers[::2], numbers[1::2]) else numbers
+    counts_all = abs(once.size - HANDLES) <= EXTRA_MOST or once.size == 2 * HANDLES
+    is_counted = counts_all and once[0] in (0.0, 1.0) and bool(np.all(np.diff(once) == 1.0))
+    are_handles = bool(np.all((once == np.round(once)) & (once >= 0.0) & (once < HANDLES)))
+    is_unique = np.unique(once).size == once.size >= LABELS_LEAST
+    is_headed = any(map(is_handle_heading, heads)) or names == set(once.tolist())
+    is_sure = _lead_to_the_tail(once)
+    if not (is_counted or is_sure or (is_unique and is_headed and are_handles)):
         return {}
-    first = 1 if is_counted and numbers[0] == 1.0 else 0
-    each = 2 if numbers.size == 2 * HANDLES else 1
+    first = 1 if (is_counted and once[0] == 1.0) or (is_sure and once[-1] == HANDLES) else 0
+    each = 2 if once.size == 2 * HANDLES else 1
     return {k: (number - first) // each for k, number in enumerate(numbers.astype(int).tolist())}
+
+
+def _lead_to_the_tail(numbers: Floats) -> bool:
+    """True if whole numbers grow in unequal steps from the head, or the first body, to the rear of the tail.
+
+    Those of some handles do so, also if they count from 1, and no instants do.
+    """
+    steps, ends = np.diff(numbers), (numbers[0], numbers[-1])
+    is_whole = bool(np.all(numbers == np.round(numbers)))
+    is_uneven = numbers.size >= LABELS_LEAST and bool(steps.min() > 0.0) and bool(np.ptp(steps) > 0.0)
+    return is_whole and is_uneven and ends in ((0.0, BENCHES), (1.0, BENCHES), (1.0, HANDLES))
 
 
 def holds_angles(grid: Grid, cells: list[list[Cell]]) -> bool:
@@ -514,9 +554,6 @@ def bare_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> list[Sh
             return [] if is_curve else _by_columns(grid, cells, lines, cells[:first], headed, turned)
         if names and not _instants(cells[:first], aside):
             return []
-        # Places are on all sides of the centre; speeds at two or three instants are not negative.
-        has_places = any(isinstance(cell, float) and cell < 0.0 for row in cells[first:] for cell in row)
-        if not names and has_places and 1 < len(columns) <= len(COMPONENTS[TableKind.CONTACT]):
-            places: Columns = {(None, component): (k, 1.0) for component, k in enumerate(columns)}
-            return _by_columns(grid, cells, lines, cells[:first], places, turned)
+        if not names and _holds_places(cells[first:]) and 1 < len(columns) <= len(COMPONENTS[TableKind.CONTACT]):
+            return _by_columns(grid, cells, lines, cells[:first], _of_one_instant(columns), turned)
     return _over_time(grid, cells, lines, _times(cells[:first], cells, aside), turned)

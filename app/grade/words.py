@@ -54,7 +54,7 @@ WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.
     "file_missing": "no such file",
     "file_forbidden": "permission denied",
     "file_folder": "it is a folder",
-    "no_table": "No sheet has labels such as 龙头x (m) and times such as 0 s, or numbers for 224 handles.",
+    "no_table": "No sheet has names of three handles or more, such as 龙头x (m), or their numbers below the heading handle, with headings such as 0 s or x (m) above the columns. Without these a table must have all 224 handles, or the seven that the paper prints at its instants.",
     "no_numbers": "The sheet has labels for {handles} handles, but no numbers beside them: fill in {kind}.",
     # -- notes --
     "macros": "The workbook holds macros: they were not run.",
@@ -72,6 +72,7 @@ WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.
     "named_otherwise": "The name of the file says {named}, but its sheets are laid out as {workbook}: it was graded as {workbook}.",
     "name_coded": "The name of the file is not UTF-8: it was read as GBK.",
     "name_escaped": "The name of the file is not UTF-8: bytes that cannot be read stand as \\x and two digits.",
+    "vague": "Every number is {number}, as the right ones are if they are rounded to {decimals} decimals: more decimals would show whether they were computed.",
     "more_text": "Further cells with text: {count}.",
     "unit": "The numbers are in {unit}, and were converted.",
     "by_order": "The labels of the handles are shifted: the handles were read in the order of the rows.",

@@ -187,11 +187,13 @@ def test_equal_speeds_do_not_belong_to_the_positions():
     assert (result.sheets[1].verdict, result.sheets[1].decimals) == ("wrong", None)
 
 
-def test_equal_speeds_of_two_decimals_are_right_ones_rounded():
-    """Where all numbers of a workbook have two decimals, all speeds of 1.00 are the right ones."""
-    position, _ = spiral(SPIRAL_TIMES[:4])
-    result = grade(students.by_xlsxwriter(students.rows_of((position.round(2), np.ones((4, 224))), SPIRAL_TIMES[:4])))
+@pytest.mark.parametrize("decimals", [2, 3, 5])
+def test_equal_speeds_of_two_decimals_are_right_ones_rounded(decimals):
+    """A workbook does not show that speeds of 1.00 have two decimals; more decimals of places are said to show none."""
+    position, speed = (part.round(k) for part, k in zip(spiral(SPIRAL_TIMES[:4]), (decimals, 2), strict=True))
+    result = grade(students.by_xlsxwriter(students.rows_of((position, speed), SPIRAL_TIMES[:4])))
     assert (result.sheets[1].verdict, result.diagnosis) == ("incomplete", [])
+    assert result.sheets[1].notes[0].startswith("Every number is 1, ") is (decimals > 2)
 
 
 @pytest.mark.parametrize(("speed", "verdict"), [("1.00", "incomplete"), ("1.000000", "wrong"), ("-1.00", "wrong")])
