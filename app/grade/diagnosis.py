@@ -27,21 +27,22 @@ from app.grade.geometry import (
     SheetClues,
     geometries,
     own_lengths,
+    shift_span,
     shifted_rows,
     shifted_time,
     spiral_arc,
-    time_at,
 )
+from app.grade.instants import agreed_span, decimals_of, simplest
 from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
 from app.grade.layout import BENCHES, COMPONENTS, HANDLES, SHEETS, TableKind
 from app.grade.numbers import explained, rounded_right
 from app.grade.outside import Outside, outside_of, same_cells, without
 from app.grade.pairs import pairs
-from app.grade.rings import ON_PATH, places, wrong_ring
+from app.grade.rings import wrong_ring
 from app.grade.shortcuts import Finding
 from app.grade.words import Note, note, word
-from core import Budget, Dance, Spiral
+from core import Budget, Dance
 from core.values import Floats
 
 # Fewest decimals with which errors can be distinguished.
@@ -56,11 +57,8 @@ INSTANT_OFF = 0.1
 # Images of places that known errors give: themselves, y negated, x negated, x and y exchanged, both negated.
 HALF_TURN = np.diag([-1.0, -1.0])
 IMAGES = [np.eye(2), *(mirror[:2, :2] for mirror in MIRRORS.values()), HALF_TURN]
-# Step of the derivative by which an instant is improved [s]; and largest change, or distance of a handle that counts
-# for it [s, m].
-INSTANT_STEP, INSTANT_FAR = 1e-4, 1e-3
-# The same in units of the last decimal, of which rounding leaves the head's place, and thus the instant, about one [1].
-ROUNDED_FAR = 2.0
+# Step of the derivative by which an instant is found [s], and most decimals of one.
+INSTANT_STEP, INSTANT_DECIMALS = 1e-4, 6
 # Steps in which an instant and an angle are found together; a place counts for them up to so many times the middle
 # distance [1]; and the plane of complex numbers.
 TURNED_STEPS, OUTLIER, PLANE = 6, 5.0, np.array([1.0, 1j])
@@ -243,7 +241,7 @@ def _seen(one: JudgedSheet) -> SheetClues:
     is_head, tolerance = one.handles[order][:-1] == 0, STEADY + 2.0 * 10.0**-one.written
     head, body = (_steady(links[:, is_link & which], tolerance) for which in (is_head, ~is_head))
     chords = None if head is None or body is None else (head, body)
-    return SheetClues(_head(one), chords, _angle(one), 10.0**-one.written)
+    return SheetClues(*_lead(one), chords, _angle(one), 10.0**-one.written)
 
 
 def _angle(one: JudgedSheet) -> float | None:
@@ -289,10 +287,13 @@ def _own_quotient(one: JudgedSheet, step: float, before: int, after: int, times:
     return numbers
 
 
-def _head(one: JudgedSheet) -> Floats | None:
-    """Points of the head in the student's sheet (T, 2), NaN where they are missing."""
-    line = np.flatnonzero(one.handles == 0)
-    return one.values[:, line[0], :2] if line.size else None
+def _lead(one: JudgedSheet) -> tuple[int, Floats | None]:
+    """The first handle with places in the student's sheet, and these (T, 2), NaN where they are missing."""
+    has_places = np.isfinite(one.values[..., :2]).all(axis=2).any(axis=0) & (one.handles < HANDLES)
+    if not has_places.any():
+        return 0, None
+    line = min(np.flatnonzero(has_places).tolist(), key=lambda k: int(one.handles[k]))
+    return int(one.handles[line]), one.values[:, line, :2]
 
 
 def _equal_speeds() -> Model:
@@ -339,41 +340,48 @@ def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
     none = Model("", right)
     if not position.is_off:
         return _with_speeds([], speed, none, right, [], budget)
-    for instant, models in _at_instants(position, dance, _seen(position)):
+    for instant, decimals, models in _at_instants(position, dance, _seen(position)):
         is_other, at = instant != one.times[0], replace(position, times=np.array([instant]))
         if best := best_fit(at, models, budget):
             why = _why_then(instant, one.written) if is_other else []
             if is_other and best.model.error != "other_instant":
                 evidence = note("evidence_rounded_instant", time=f"{contact_time():.6f}")
-                why.insert(0, Finding("other_instant", note("error_other_instant", **_what(instant)), evidence))
+                sentence = note("error_other_instant", **_what(instant, decimals))
+                why.insert(0, Finding("other_instant", sentence, evidence))
             moved = replace(best.model, motion=shifted_time(best.model.motion, instant - one.times[0]).motion)
             return _with_speeds([*findings_of(best, at), *why], speed, moved, right, [], budget)
     return _with_speeds([], speed, none, right, [], budget)
 
 
-def _at_instants(position: JudgedSheet, dance: Dance, seen: SheetClues) -> Iterator[tuple[float, Iterable[Model]]]:
-    """Instants [s] of result2, each with known errors, the likeliest first: a single one at the right instant, or at
-    the one that the place of the head shows; two at the right one; then turned places at another instant, and other
-    lengths."""
+def _at_instants(position: JudgedSheet, dance: Dance, seen: SheetClues) -> Iterator[tuple[float, int, Iterable[Model]]]:
+    """Instants [s] of result2, each with its decimals and with known errors, the likeliest first: a single one at the
+    right instant, or at the one that places show; two at the right one; then turned places at another instant, and
+    other lengths."""
     right, at_right = of_dance(dance), float(position.times[0])
-    yield at_right, geometries(dance, position.times, replace(seen, head=None))
-    others: list[float] = []
-    for instant, image in _instants(dance, seen.head, 10.0**-position.written) if seen.head is not None else ():
-        others.append(_improved(replace(position, values=position.values @ image), right, instant))
+    yield at_right, INSTANT_DECIMALS, geometries(dance, position.times, replace(seen, lead=None))
+    others: list[tuple[float, int]] = []
+    for image in IMAGES if seen.lead is not None else ():
+        if (span := _instants(replace(position, values=position.values @ image), dance, seen, image)) is None:
+            continue
+        instant, decimals = simplest(span), decimals_of(span, INSTANT_DECIMALS)
+        others.append((instant, decimals))
         turned = math.pi if image is HALF_TURN else seen.turned
-        models = geometries(dance, np.array(others[-1:]), SheetClues(turned=turned))
-        yield others[-1], chain([Model("other_instant", right, _what(others[-1]), is_simplest=True)], models)
-    yield at_right, pairs(dance, position.times, replace(seen, head=None))
-    if seen.head is not None and (turned_then := _turned_instant(position, dance, seen.head[0])) is not None:
+        models = geometries(dance, np.array([instant]), SheetClues(turned=turned))
+        only = Model("other_instant", right, _what(instant, decimals), is_simplest=True)
+        yield instant, decimals, chain([only], models)
+    yield at_right, INSTANT_DECIMALS, pairs(dance, position.times, replace(seen, lead=None))
+    head = seen.lead[0] if seen.lead is not None and seen.leader == 0 else None
+    if head is not None and (turned_then := _turned_instant(position, dance, head)) is not None:
         instant, angle = turned_then
-        yield instant, geometries(dance, np.array([instant]), SheetClues(turned=angle))
-    for instant in others:
-        yield instant, own_lengths(dance, seen)
+        decimals = min(position.written + 1, INSTANT_DECIMALS)
+        yield instant, decimals, geometries(dance, np.array([instant]), SheetClues(turned=angle))
+    for instant, decimals in others:
+        yield instant, decimals, own_lengths(dance, seen)
 
 
-def _what(instant: float) -> dict[str, object]:
-    """The words for places at an instant [s]."""
-    return {"time": f"{instant:.6f}", "what": note(SHEETS[TableKind.POSITION])}
+def _what(instant: float, decimals: int) -> dict[str, object]:
+    """The words for places at an instant [s], with as many decimals as they tell."""
+    return {"time": f"{instant:.{decimals}f}", "what": note(SHEETS[TableKind.POSITION])}
 
 
 def _part(one: JudgedSheet, kind: TableKind) -> JudgedSheet:
@@ -385,15 +393,22 @@ def _part(one: JudgedSheet, kind: TableKind) -> JudgedSheet:
     return replace(one, table=table, values=values, wanted=one.wanted[..., components], written=written, digits=digits)
 
 
-def _improved(one: JudgedSheet, right: Motion, instant: float) -> float:
-    """The instant at which all handles are nearest to their places in the sheet, by least squares [s]."""
-    known, time, far = one.handles < HANDLES, instant, max(INSTANT_FAR, ROUNDED_FAR * 10.0**-one.written)
-    for _ in range(3):
-        ends = right(time + INSTANT_STEP * np.array([-1.0, 0.0, 1.0]))[:, one.handles[known], :2]
-        slope, off = (ends[2] - ends[0]) / (2.0 * INSTANT_STEP), one.values[0, known, :2] - ends[1]
-        present = np.isfinite(off) & (np.abs(off) < far)
-        time += float((slope * off)[present].sum() / max(float((slope**2)[present].sum()), INSTANT_STEP))
-    return time if abs(time - instant) < far else instant
+def _instants(one: JudgedSheet, dance: Dance, seen: SheetClues, image: Floats) -> tuple[float, float] | None:
+    """The span of instants [s] at which most handles are at their places in a sheet; None if the first one never is.
+
+    image: of the student's plane, of which the sheet holds the places
+    """
+    assert seen.lead is not None
+    first = shift_span(dance, np.zeros(1), replace(seen, lead=seen.lead @ image))
+    if first is None:
+        return None
+    known, right = one.handles < HANDLES, of_dance(dance)
+
+    def places_at(time: float) -> Floats:
+        return right(np.array([time]))[0, one.handles[known], :2]
+
+    middle, far = 0.5 * (first[0] + first[1]), 0.5 * (first[1] - first[0])
+    return agreed_span(one.values[0, known], one.rounding[0, known], places_at, middle, far)
 
 
 def _turned_instant(one: JudgedSheet, dance: Dance, head: Floats) -> tuple[float, float] | None:
@@ -434,18 +449,3 @@ def _why_then(instant: float, written: int) -> list[Finding]:
     if exact or decimals is None:
         return exact
     return explained("collision_time", round(instant, decimals), 0.5 * 10.0**-decimals)
-
-
-def _instants(dance: Dance, head: Floats, unit: float) -> Iterator[tuple[float, Floats]]:
-    """Times at which the head is at the student's place or at an image of it [s], each with the image.
-
-    unit: of the last decimal of the place [m]
-    """
-    growth = Spiral().growth
-    for image in IMAGES:
-        point = head[0] @ image
-        # A place follows from its radius, which grows by 1 m over so many metres of the path.
-        far = unit * float(np.hypot(*point)) / growth
-        s = float(places(dance.path, point, max(ON_PATH, far)))
-        if np.isfinite(s):
-            yield time_at(dance, s / dance.head_speed, point), image

@@ -17,19 +17,22 @@ import numpy as np
 
 from app.grade.chains import Bent, equal_arcs, on_bent, rounded_angles
 from app.grade.expected import PITCH, Motion, Workbook, dance_of, of_dance, right_turn
+from app.grade.instants import agreed_span, simplest
+from app.grade.judged import ARITHMETIC, ROUNDED
+from app.grade.layout import Ints
 from core import BenchDragonError, Dance, Dragon, Spiral, Turn
 from core.values import Floats
 
 # Decimals to try for a constant or an angle that was rounded early.
 CONSTANT_DECIMALS, ANGLE_DECIMALS = (2, 3, 4, 5), (1, 2, 3, 4, 5)
 PI_ROUNDED = (3.14, 3.1416)
-# Step of the search for the time at which the head passes a place [m], and largest distance from that place [m].
-PLACE_STEP, PLACE_NEAR = 0.01, 0.05
-# Most places of the head of which the mean shift is taken.
+# Steps of the search for the time at which the head, or a handle behind it, passes a place [s], and largest distance
+# from that place beside half a step [m].
+PLACE_STEP, PLACE_STEP_BEHIND, PLACE_NEAR = 0.01, 0.25, 0.05
+# Most places of a handle of which the shift is taken.
 PLACES_MOST = 50
-# Least and largest shift of the times that is looked for [s]: six decimals of the head's place show 1e-6 s; and
-# decimals of a shift that counts if few decimals of the places allow it.
-SHIFT_LEAST, SHIFT_MOST, SHIFT_DECIMALS = 1e-5, 500.0, 2
+# Least and largest shift of the times that is looked for [s]: six decimals of a place show 1e-6 s.
+SHIFT_LEAST, SHIFT_MOST = 1e-5, 500.0
 # A start counts as one of three decimals up to this distance from it [turns].
 SIMPLE_TURNS = 1e-5
 # An angle counts as one of so many decimals up to this distance from it [degrees].
@@ -78,13 +81,14 @@ class Model:
 class SheetClues:
     """What the student's sheet shows of free values.
 
-    head: (T, 2) [m], NaN where it is missing; None if the sheet has no places of the head
+    leader: first handle that has places; lead: these (T, 2) [m], NaN where they are missing; None if there are none
     chords: distances [m] between the first two handles, and between any two others, if they are steady; else None
     turned: angle [rad] by which most places are turned about the centre, counter-clockwise; None without places
     unit: of the last decimal of a place [m]
     """
 
-    head: Floats | None = None
+    leader: int = 0
+    lead: Floats | None = None
     chords: tuple[float, float] | None = None
     turned: float | None = None
     unit: float = 0.0
@@ -107,9 +111,8 @@ def geometries(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]
     else:
         yield from _other_angles(dance, spiral, times.size > 1)
         yield from _rounded_spirals(dance, spiral)
-    if seen.head is not None:
-        yield from other_starts(dance, times, seen.head, seen.unit)
-        yield from _other_questions(dance, times, seen.head, seen.unit)
+    yield from other_starts(dance, times, seen)
+    yield from _other_questions(dance, times, seen)
 
 
 def mirrored(motion: Motion, mirror: Mirror) -> Motion:
@@ -194,11 +197,11 @@ def _simple(length: float) -> float:
     return next((one for k in LENGTH_DECIMALS if abs((one := round(length, k)) - length) < MEASURED), length)
 
 
-def _other_questions(dance: Dance, times: Floats, head: Floats, unit: float) -> Iterator[Model]:
-    """The numbers of another question, at the times at which its head is at the student's places."""
+def _other_questions(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
+    """The numbers of another question, at the times at which its handles are at the student's places."""
     is_turn = dance.path.spiral is None
     other = dance_of(Workbook.RESULT1 if is_turn else Workbook.RESULT4)
-    if (shift := _shift(other, times, head, unit)) is not None:
+    if (shift := _shift(other, times, seen)) is not None:
         right = of_dance(other)
         values: dict[str, object] = {"question": 1 if is_turn else 4, "shift": f"{shift:+.6g}"}
         yield Model("other_question", lambda t: right(t + shift), values)
@@ -286,24 +289,23 @@ def arcs_of(path: Turn) -> list[tuple[complex, float, float, float]]:
     ]
 
 
-def other_starts(dance: Dance, times: Floats, head: Floats, unit: float) -> Iterator[Model]:
-    """Models with another starting turn, or with shifted times; both follow from the student's places of the head."""
-    known = np.flatnonzero(np.isfinite(head).all(axis=1))
-    if not known.size:
+def other_starts(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
+    """Models with another starting turn, or with shifted times; both follow from the student's places of one handle."""
+    if seen.lead is None or not (known := np.flatnonzero(np.isfinite(seen.lead).all(axis=1))).size:
         return
     first, spiral = known[0], dance.path.spiral
-    shift, simple = _shift(dance, times, head, unit), False
-    if spiral is not None and times[first] == 0.0:
-        seen = float(np.hypot(*head[first])) / spiral.pitch
-        turns = round(seen, 3)
-        simple = abs(turns - seen) < SIMPLE_TURNS and turns > 1.0 and abs(turns - spiral.start_turns) > 1e-3
+    shift, simple = _shift(dance, times, seen), False
+    if spiral is not None and times[first] == 0.0 and seen.leader == 0:
+        radius = float(np.hypot(*seen.lead[first])) / spiral.pitch
+        turns = round(radius, 3)
+        simple = abs(turns - radius) < SIMPLE_TURNS and turns > 1.0 and abs(turns - spiral.start_turns) > 1e-3
         if simple:
             with suppress(BenchDragonError):
                 moved = of_dance(Dance(dance.dragon, Spiral(spiral.pitch, turns)))
                 yield Model("other_start", moved, {"turns": f"{turns:g}"})
     if shift is None or abs(shift) < SHIFT_LEAST:
         return
-    if spiral is None:
+    if spiral is None and seen.leader == 0:
         yield from _other_entries(dance, right_turn(), shift)
     # Another start and a shifted time are the same motion: the simpler number of both is the likelier one.
     if not simple or abs(round(shift, 2) - shift) < SHIFT_LEAST:
@@ -330,31 +332,39 @@ def spiral_arc(radius: Floats | float, growth: float) -> Floats:
     return np.asarray(0.5 * growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta)))
 
 
-def _shift(dance: Dance, times: Floats, head: Floats, unit: float) -> float | None:
-    """Time from an instant of the sheet to that at which a dance has its head there [s]; None if it is never near."""
-    known = np.flatnonzero(np.isfinite(head).all(axis=1))
-    if not known.size:
-        return None
-    first = known[0]
-    span = np.arange(times[first] - SHIFT_MOST, min(times[first] + SHIFT_MOST, dance.end.time), PLACE_STEP)
-    off = np.linalg.norm(dance.path.position(span * dance.head_speed) - head[first], axis=-1)
-    if not off.size or off.min() > PLACE_NEAR:
-        return None
-    shift = time_at(dance, float(span[off.argmin()]), head[first]) - float(times[first])
-    # The rounding of one place moves it by as much; the mean of many places is nearer, if these have the same shift.
-    some = [k for k in known[:: max(1, known.size // PLACES_MOST)] if times[k] + shift <= dance.end.time]
-    shifts = [time_at(dance, float(times[k]) + shift, head[k]) - float(times[k]) for k in some]
-    if shifts and max(shifts) - min(shifts) < PLACE_STEP:
-        shift = float(np.mean(shifts))
-    # Few decimals leave it as uncertain as the last of them, and students err by simple numbers.
-    simple = round(shift, SHIFT_DECIMALS)
-    return simple if abs(simple - shift) < unit else shift
+def _shift(dance: Dance, times: Floats, seen: SheetClues) -> float | None:
+    """Time from an instant of the sheet to that at which a dance has its handle there [s]; None if it is never near."""
+    span = shift_span(dance, times, seen)
+    return span and simplest(span)
 
 
-def time_at(dance: Dance, time: float, point: Floats) -> float:
-    """Time near a given one at which the head is nearest to a point [s], by Newton along the path."""
-    for _ in range(5):
-        s = time * dance.head_speed
-        miss = point - dance.path.position(s)
-        time += float(miss @ dance.path.tangent(s)) / dance.head_speed
-    return time
+def shift_span(dance: Dance, times: Floats, seen: SheetClues) -> tuple[float, float] | None:
+    """The span of shifts [s] that the digits of the places of a handle allow."""
+    lead = seen.lead
+    if lead is None or not (known := np.flatnonzero(np.isfinite(lead).all(axis=1))).size:
+        return None
+    first, step = known[0], PLACE_STEP if seen.leader == 0 else PLACE_STEP_BEHIND
+    place_at = places_of(dance, seen.leader)
+    span = np.arange(times[first] - SHIFT_MOST, min(times[first] + SHIFT_MOST, dance.end.time), step)
+    off = np.linalg.norm(place_at(span) - lead[first], axis=-1)
+    if not off.size or off.min() > PLACE_NEAR + 0.5 * step:
+        return None
+    shift = float(span[off.argmin()] - times[first])
+
+    def agreed(some: Ints, shift: float, far: float) -> tuple[float, float]:
+        tolerance = np.full((some.size, 2), ROUNDED * seen.unit + ARITHMETIC)
+        return agreed_span(lead[some], tolerance, lambda by: place_at(times[some] + by), shift, far)
+
+    # One place shows it only to its rounding; all that have the same shift show it together.
+    low, high = agreed(known[:1], shift, step)
+    some = known[:: max(1, known.size // PLACES_MOST)]
+    some = some[times[some] + high <= dance.end.time]
+    return agreed(some, 0.5 * (low + high), 0.5 * (high - low))
+
+
+def places_of(dance: Dance, handle: int) -> Callable[[Floats], Floats]:
+    """The places of a handle in a dance [m], by the time."""
+    if handle == 0:
+        return lambda times: np.asarray(dance.path.position(times * dance.head_speed))
+    motion = of_dance(dance)
+    return lambda times: motion(times)[:, handle, :2]

@@ -15,7 +15,7 @@ import numpy as np
 
 from app.grade.decimals import digits_of, usual_of
 from app.grade.expected import Workbook, cells_of, contact_time, dance_of, of_dance, times_of
-from app.grade.layout import COMPONENTS, HANDLES, SHEETS, Ints, SheetTable, TableKind
+from app.grade.layout import COMPONENTS, EXTRA_MOST, HANDLES, SHEETS, Ints, SheetTable, TableKind
 from app.grade.words import Note, note
 from core.values import Floats
 
@@ -178,7 +178,12 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     is_on_path = (times >= EARLIEST) & (times <= dance_of(workbook).end.time)
     motion = of_dance(dance_of(workbook))(np.where(is_on_path, times, 0.0))[..., list(COMPONENTS[table.kind])]
     values = table.values * _scale(table, motion, notes)
-    handles = _handles(table, values, motion, notes)
+    is_vague = DECIMALS[-1] < decimals_beside < DECIMALS_OF_CONTEST and table.shown is None and _is_one_number(values)
+    if is_vague:
+        decimals_beside = DECIMALS[-1]
+    elif table.shown is not None:  # zeros behind numbers that were rounded before show nothing more
+        decimals_beside = min(table.shown, decimals_beside or table.shown)
+    handles = _handles(table, values, motion, decimals_beside, notes)
     known = handles < HANDLES
     if not known.all():
         notes.append(note("extra_handles", count=int((~known).sum())))
@@ -194,11 +199,6 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     present, right = int((~np.isnan(off)).sum()), int((off <= RIGHT).sum())
     largest = float(np.nanmax(off)) if present else np.inf
     decimals = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None)
-    is_vague = DECIMALS[-1] < decimals_beside < DECIMALS_OF_CONTEST and table.shown is None and _is_one_number(values)
-    if is_vague:
-        decimals_beside = DECIMALS[-1]
-    elif table.shown is not None:  # zeros behind numbers that were rounded before show nothing more
-        decimals_beside = min(table.shown, decimals_beside or table.shown)
     digits = digits_of(values, decimals_beside)
     written = usual_of(digits, values)
     if decimals is not None and decimals < _decimals_of_flat(values, wanted, max(written, decimals_beside)):
@@ -283,15 +283,19 @@ def _scale(table: SheetTable, motion: Floats, notes: list[Note]) -> float:
     return 1.0
 
 
-def _handles(table: SheetTable, values: Floats, motion: Floats, notes: list[Note]) -> Ints:
+def _handles(table: SheetTable, values: Floats, motion: Floats, decimals_beside: int, notes: list[Note]) -> Ints:
     """Handle of every line: by its label, or by its order if that fits more numbers."""
 
     def near(handles: Ints) -> int:
         known = handles < HANDLES
-        return int((np.abs(values[:, known] - motion[:, handles[known]]) < NEAR).sum())
+        return int((np.abs(values[:, known] - motion[:, handles[known]]) < far[:, known]).sum())
 
-    if np.array_equal(table.handles, table.by_order):
+    # Of a few handles the order does not tell which they are.
+    if np.array_equal(table.handles, table.by_order) or table.handles.size < HANDLES - EXTRA_MOST:
         return table.handles
+    far = np.full(values.shape, NEAR)
+    if table.kind is TableKind.SPEED:  # those of neighbours hardly differ
+        far = np.minimum(NEAR, ROUNDED * 10.0 ** -digits_of(values, decimals_beside) + ARITHMETIC)
     fits = near(table.by_order)
     if fits <= near(table.handles) or fits < FITTING * np.isfinite(values).sum():
         return table.handles

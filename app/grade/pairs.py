@@ -47,20 +47,18 @@ def pairs(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
     if dance.path.spiral is None:
         others += [_with_kept(one) for one in other_turns(dance, right_turn())]
     for error, mirror, values in _mirrors():
-        starts: list[Model] = []
-        if seen.head is not None:
-            # A mirror is its own inverse.
-            starts = list(other_starts(dance, times, seen.head @ mirror[:2, :2], seen.unit))
+        # A mirror is its own inverse.
+        lead = None if seen.lead is None else seen.lead @ mirror[:2, :2]
+        starts = other_starts(dance, times, replace(seen, lead=lead))
         for one in (*others, *starts):
             yield Model(error, mirrored(one.motion, mirror), values, beside=one)
     for length in lengths:
         for one in _shifted_rows(length.motion):
             yield replace(one, beside=length)
-    if seen.head is not None:
-        for one in other_starts(dance, times, seen.head, seen.unit):
-            if one.shift is not None:
-                for length in lengths:
-                    yield replace(shifted_time(length.motion, one.shift), beside=length)
+    for one in other_starts(dance, times, seen):
+        if one.shift is not None:
+            for length in lengths:
+                yield replace(shifted_time(length.motion, one.shift), beside=length)
 
 
 def _mirrors() -> Iterator[tuple[str, Mirror, dict[str, object]]]:

@@ -24,7 +24,7 @@ def test_every_known_error_has_words(language):
     known = [
         (model.error, model.values)
         for workbook, head in heads.items()
-        for model in geometries(dance_of(workbook), np.zeros(1), SheetClues(np.array(head), (2.96, 1.75)))
+        for model in geometries(dance_of(workbook), np.zeros(1), SheetClues(0, np.array(head), (2.96, 1.75)))
     ]
     known += [(model.error, model.values) for model in speed_errors(of_dance(dance_of(Workbook.RESULT1)))]
     known += [(one.error, one.values) for name in UNITS for one in shortcuts(name)]
