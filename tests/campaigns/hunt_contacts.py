@@ -62,16 +62,14 @@ def random_path(rng, dragon):
     kind = rng.choice(["spiral", "turn", "route", "coil"])
     pitch = float(rng.uniform(0.8, 2.0) * width + rng.uniform(0.0, 0.6) * chord)
     if kind == "spiral":
-        return Spiral(pitch, float(rng.uniform(1.5, 9.0)))
+        return Spiral(pitch, rng.uniform(1.5, 9.0))
     if kind == "turn":
         radius = float(rng.uniform(1.1, 3.0) * chord)
-        return Turn(
-            pitch, radius, float(rng.uniform(0.6, 2.5)), start_turns=float(radius / pitch + rng.uniform(1.0, 5.0))
-        )
+        return Turn(pitch, radius, rng.uniform(0.6, 2.5), start_turns=float(radius / pitch + rng.uniform(1.0, 5.0)))
     if kind == "coil":
         inner = 1.2 * chord / pitch
         return Route([Coil(pitch, float(inner + rng.uniform(2.0, 5.0)), float(inner))])
-    radius, sweep = float(rng.uniform(0.55, 1.5) * chord), float(rng.uniform(2.0, 3.1)) * rng.choice([-1, 1])
+    radius, sweep = float(rng.uniform(0.55, 1.5) * chord), rng.uniform(2.0, 3.1) * rng.choice([-1, 1])
     way = float(sum(dragon.chords) + rng.uniform(1.0, 6.0) * chord)
     pen = Pen(complex(-way))
     pen.line(way)
@@ -86,8 +84,8 @@ def random_passages(rng):
         return ()
     passages, time = [], 0.0
     for _ in range(int(rng.integers(1, 4))):
-        time += float(rng.uniform(0.5, 6.0))
-        passages.append(Passage(0.0 if rng.uniform() < 0.4 else float(rng.uniform(0.3, 2.0)), until_time=time))
+        time += rng.uniform(0.5, 6.0)
+        passages.append(Passage(0.0 if rng.uniform() < 0.4 else rng.uniform(0.3, 2.0), until_time=time))
     return tuple(passages)
 
 

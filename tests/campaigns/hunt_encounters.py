@@ -39,36 +39,36 @@ LONGEST = 60.0
 
 def random_dragon(rng):
     """1 to 9 benches, uniform or bench by bench; one is a cart."""
-    benches, chord = int(rng.integers(1, 10)), float(rng.uniform(0.8, 2.2))
-    width, overhang = chord * float(rng.uniform(0.1, 0.4)), chord * float(rng.choice([0.0, 0.1, 0.3]))
+    benches, chord = int(rng.integers(1, 10)), rng.uniform(0.8, 2.2)
+    width, overhang = chord * rng.uniform(0.1, 0.4), chord * float(rng.choice([0.0, 0.1, 0.3]))
     if rng.uniform() < 0.2:
         return uneven_dragon(rng, benches, chord, width, overhang)
-    head = chord * float(rng.uniform(0.8, 1.6))
+    head = chord * rng.uniform(0.8, 1.6)
     return Dragon(benches, head + 2.0 * overhang, chord + 2.0 * overhang, width, overhang)
 
 
 def random_route(rng, dragon, reach):
     """A line through the middle, an arc about it, or a coil, long enough for the dragon."""
     chord, length = float(dragon.chords.max()), float(dragon.chords.sum())
-    middle, heading = rng.uniform(-0.3, 0.3, 2) * reach, float(rng.uniform(-np.pi, np.pi))
+    middle, heading = rng.uniform(-0.3, 0.3, 2) * reach, rng.uniform(-np.pi, np.pi)
     kind = rng.choice(["line", "arc", "coil"])
     along = np.array([np.cos(heading), np.sin(heading)])
     if kind == "line":
         return Route([Line(tuple(middle - (reach + length) * along), tuple(middle + reach * along))], start=length)
     if kind == "arc":
-        radius = float(rng.uniform(1.2 * chord, max(reach, 1.5 * chord)))
-        sweep = (length / radius * 1.6 + float(rng.uniform(1.0, 5.0))) * float(rng.choice([-1.0, 1.0]))
+        radius = rng.uniform(1.2 * chord, max(reach, 1.5 * chord))
+        sweep = (length / radius * 1.6 + rng.uniform(1.0, 5.0)) * float(rng.choice([-1.0, 1.0]))
         return Route([Arc(tuple(middle), radius, heading, sweep)])
-    pitch, inner = float(rng.uniform(0.8, 2.0) * chord), float(rng.uniform(1.0, 2.0))
-    return Route([Coil(pitch, inner + float(rng.uniform(2.0, 4.0)), inner, tuple(middle), heading)])
+    pitch, inner = float(rng.uniform(0.8, 2.0) * chord), rng.uniform(1.0, 2.0)
+    return Route([Coil(pitch, inner + rng.uniform(2.0, 4.0), inner, tuple(middle), heading)])
 
 
 def random_performance(rng):
     """Two to five dragons, of which some share one spiral."""
-    count, reach = int(rng.integers(2, 6)), float(rng.uniform(5.0, 16.0))
-    shared = bool(rng.uniform() < 0.4)
-    pitch, clockwise = float(rng.uniform(0.8, 2.0) * count * 0.6), bool(rng.uniform() < 0.5)
-    centre, turn, spin = tuple(rng.uniform(-5.0, 5.0, 2)), float(rng.uniform(2.0, 6.0)), float(rng.uniform(-3.0, 3.0))
+    count, reach = int(rng.integers(2, 6)), rng.uniform(5.0, 16.0)
+    shared = rng.uniform() < 0.4
+    pitch, clockwise = float(rng.uniform(0.8, 2.0) * count * 0.6), rng.uniform() < 0.5
+    centre, turn, spin = tuple(rng.uniform(-5.0, 5.0, 2)), rng.uniform(2.0, 6.0), rng.uniform(-3.0, 3.0)
     parts = []
     for k in range(count):
         dragon = random_dragon(rng)
@@ -77,12 +77,10 @@ def random_performance(rng):
             path = Spiral(pitch, turn, centre, rotation, clockwise)
         elif rng.uniform() < 0.3:
             place = tuple(rng.uniform(-reach, reach, 2))
-            path = Spiral(
-                float(rng.uniform(0.5, 2.0)), float(rng.uniform(2.0, 6.0)), place, spin * k, bool(rng.uniform() < 0.5)
-            )
+            path = Spiral(rng.uniform(0.5, 2.0), rng.uniform(2.0, 6.0), place, spin * k, rng.uniform() < 0.5)
         else:
             path = random_route(rng, dragon, reach)
-        speed = 1.0 if shared else float(rng.uniform(0.5, 1.6))
+        speed = 1.0 if shared else rng.uniform(0.5, 1.6)
         delay = float(rng.choice([0.0, 0.0, rng.uniform(-5.0, 15.0)]))
         parts.append(Part(Dance(dragon, path, speed, random_passages(rng)), delay))
     return Performance(parts)

@@ -49,7 +49,7 @@ def turn_case(rng):
 def spiral_case(rng):
     """The same for the last turns of a long spiral."""
     dragon = random_dragon(rng)
-    pitch, turns = float(rng.uniform(0.3, 2.0)), float(10.0 ** rng.uniform(1.0, 3.0))
+    pitch, turns = rng.uniform(0.3, 2.0), float(10.0 ** rng.uniform(1.0, 3.0))
     spiral = Spiral(pitch, turns)
     dance, slow = Dance(dragon, spiral), SlowDance.of(dragon, spiral)
     left = pitch / (2.0 * math.pi) * float(arc_length(2.0 * math.pi * rng.uniform(1.0, 7.0)))

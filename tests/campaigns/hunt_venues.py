@@ -66,9 +66,9 @@ def random_obstacle(rng, slow, times):
 def random_case(seed, case):
     """dance, venue, margin, start, stop, and the slow look at the tree; raises: BenchDragonError for what is refused"""
     rng = hunting.generator(seed, case)
-    dragon, turns = random_dragon(rng, int(rng.choice([1, 2, 3, 5, 8, 12]))), float(rng.uniform(1.2, 5.0))
+    dragon, turns = random_dragon(rng, int(rng.choice([1, 2, 3, 5, 8, 12]))), rng.uniform(1.2, 5.0)
     pitch = float(rng.uniform(0.15, 1.2) * dragon.chords.max())
-    centre, rotation, clockwise = rng.uniform(-20.0, 20.0, 2), float(rng.uniform(-4.0, 4.0)), bool(rng.uniform() < 0.5)
+    centre, rotation, clockwise = rng.uniform(-20.0, 20.0, 2), rng.uniform(-4.0, 4.0), rng.uniform() < 0.5
     if case % 3 == 2:
         path, centre, rotation, clockwise = blended_route(rng, dragon), np.zeros(2), 0.0, True
         slow = SlowRoute.of(dragon, path)

@@ -88,27 +88,27 @@ def random_route(rng):
         except InvalidValue:
             continue
         if begin < end:
-            return ContactSearch(dragon, path, 0.0), float(rng.uniform(begin, end))
+            return ContactSearch(dragon, path, 0.0), rng.uniform(begin, end)
 
 
 def random_path(rng):
     """A turn, or a line and up to four pieces of any kind; curvatures jump between them, or go on."""
     if rng.random() < 0.2:
         return Turn(*rng.uniform((1.4, 4.0, 1.0), (2.5, 6.0, 2.5)).tolist())
-    pen, bend = Pen(complex(*rng.uniform(-EXTENT, EXTENT, 2)), float(rng.uniform(-9.0, 9.0))), 0.0
-    pen.line(float(rng.uniform(20.0, 90.0)))
+    pen, bend = Pen(complex(*rng.uniform(-EXTENT, EXTENT, 2)), rng.uniform(-9.0, 9.0)), 0.0
+    pen.line(rng.uniform(20.0, 90.0))
     for kind in rng.choice(["line", "arc", "coil", "clothoid", "waypoints"], rng.integers(1, 5)):
-        last = float(rng.uniform(-0.5, 0.5))
+        last = rng.uniform(-0.5, 0.5)
         sizes = {
             "line": (20.0,),
-            "arc": (float(rng.uniform(2.0, 9.0)), 5.0 * last),
+            "arc": (rng.uniform(2.0, 9.0), 5.0 * last),
             "coil": (float(10 ** rng.uniform(-0.5, 0.5)), *rng.uniform(2.0, 30.0, 2).tolist()),
             "clothoid": (bend, last, float(10 ** rng.uniform(-1.0, 1.2))),
             "waypoints": (rng.uniform((4.0, -0.7), (9.0, 0.7), (8, 2)).tolist(),),
         }
         getattr(pen, kind)(*sizes[kind])
         bend = last if kind == "clothoid" else 0.0
-    return Route(pen.pieces, start=float(rng.uniform(0.0, 100.0)))
+    return Route(pen.pieces, start=rng.uniform(0.0, 100.0))
 
 
 def compare(errors, search, head, rng):

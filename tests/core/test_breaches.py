@@ -86,7 +86,6 @@ def test_the_marked_places_are_those_of_a_slow_look_with_shapely(margin):
     assert {round(edge, 6) for one in result for edge in (one.start, one.end)} <= set(np.ravel(marked).round(6))
 
 
-@pytest.mark.parametrize(("field", "value"), [("margin", -1.0), ("speed_limit", 0.0)])
-def test_a_wrong_number_is_named(field, value):
-    with refused(field):
-        breaches(LANE, **{field: value})
+def test_a_wrong_number_is_named():
+    with refused("margin"):
+        breaches(LANE, margin=-1.0)

@@ -1,13 +1,9 @@
-"""One budget through every question: spent or stopped from another thread, it ends any of them."""
+"""One budget through every question: spent or stopped, it ends any of them; how soon: app/questions/test_bounds.py."""
 
 import inspect
-import threading
-import time
-import tracemalloc
 from contextlib import suppress
 from functools import partial
 
-import numpy as np
 import pytest
 
 import core
@@ -21,22 +17,16 @@ from core import (
     Turn,
     Waypoints,
     bench_poses,
-    clearance_profile,
     first_contact,
-    kernels,
-    maximum_head_speed,
     minimum_pitch,
-    shortest_turn,
     trajectory,
 )
 from tests.support.depth import further
 from tests.support.every_digit import every_digit
 from tests.support.public_calls import CALLS
 from tests.support.refused import refused
-from tests.support.shared_dances import lane, square
+from tests.support.shared_dances import square
 
-# A question ends within so much time of the processor after it was stopped [s].
-ENDS_WITHIN = 1.0
 WHOLE = 1e12
 
 SPIRAL = Dance(Dragon(30), Spiral(0.7, 8.0))
@@ -119,53 +109,3 @@ def test_every_public_question_about_a_dance_or_a_dragon_takes_a_budget():
     taking = {name for name in functions if "budget" in getattr(core, name).__annotations__}
     assert taking | {"Route"} == TAKING
     assert functions - taking == SMALL, "take `budget`, and decorate it with question_about() of core/errors.py"
-
-
-TINY = Dragon(6308, head_length=0.001, body_length=0.001, overhang=0.0)
-# Its last bench is longer than the others, so that the whole way out is followed.
-LONG = Dragon.of([2.2] * 1999 + [2.3], [0.3] * 2000, [0.275] * 2000)
-MANY = Dance(Dragon(20_000), lane((0.0, 0.0), (1e5, 0.0), start=0.0))
-# Questions that take seconds to minutes.
-LONG_QUESTIONS = {
-    "head speed in a turn of 200 m": partial(maximum_head_speed, Dance(LONG, Turn(10.0, 100.0, start_turns=200)), 2.0),
-    "pitch of benches of a millimetre": partial(minimum_pitch, TINY),
-    "shortest turn of a short head": partial(shortest_turn, Dragon(head_length=1.001), 1.7, ratio=1.0),
-    "trajectory of 20,000 benches": partial(trajectory, MANY, np.arange(6e4, 6.1e4)),
-    "profile of 20,000 benches": partial(clearance_profile, MANY, np.arange(6e4, 7e4)),
-}
-
-
-@pytest.mark.skipif(not kernels.COMPILED, reason="the kernels run uncompiled")
-@pytest.mark.parametrize("after", further([0.1, 1.0], 1))
-@pytest.mark.parametrize("name", LONG_QUESTIONS)
-def test_a_long_question_ends_soon_after_another_thread_stopped_it(name, after):
-    budget, stopped = Budget(WHOLE), []
-
-    def stop():
-        stopped.append(time.process_time())
-        budget.stop()
-
-    def ask():
-        while True:  # once more where the machine answers before it is stopped
-            LONG_QUESTIONS[name](budget=budget)
-
-    timer = threading.Timer(after, stop)
-    timer.start()
-    with pytest.raises(TooMuchWork) as caught:
-        ask()
-    late = time.process_time() - stopped[0]
-    timer.join()
-    assert caught.value.stopped
-    assert late < ENDS_WITHIN, f"it computed for {late:.3f} s after it was stopped"
-
-
-@pytest.mark.thorough
-def test_a_thousand_cards_keep_no_block_of_places_while_they_are_made():
-    """A view of the last row of each block held 0.7 GB."""
-    dance = core.Dance(core.Dragon(2_000), core.Spiral(1.1, 100.0))
-    tracemalloc.start()
-    with pytest.raises(core.TooMuchWork):
-        core.bench_cues(dance, range(1_000), reach=1_000.0, stop=1_000.0, budget=core.Budget(3e5))
-    most = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert most < 200e6

@@ -7,7 +7,6 @@ import pytest
 
 from core import Dance, Dragon, InvalidValue, Legs, Route, Spiral, Waypoints, course
 from core.paths.following import follows
-from tests.support.refused import refused
 
 LONG, SHORT = Dragon(4), Dragon(4, head_length=0.9, body_length=0.9, overhang=0.1)
 CORNERS = ((0.0, 0.0), (20.0, 0.0), (20.0, 20.0))
@@ -43,8 +42,3 @@ def test_a_path_has_tight_bends_for_those_dragons_that_cannot_dance_it(path, dra
         assert course(path, dragon).bends
     else:
         assert course(path, dragon).bends == ()
-
-
-def test_a_path_of_another_type_is_refused():
-    with refused("path"):
-        course("circle", LONG)

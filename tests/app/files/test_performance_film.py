@@ -12,7 +12,7 @@ from app.questions.films import QUESTION, FilmRequest, shared_music
 from app.settings import Settings
 from app.wire.messages import checked
 from app.wire.question import Terms
-from core import Budget, TooMuchWork, bench_outlines, first_contact, first_encounter, performance_trajectory
+from core import bench_outlines, first_contact, first_encounter, performance_trajectory
 from core.language import Language, speaking
 from tests.app.files.test_film import assert_heard, decoded
 from tests.support.refusal_rows import assert_refused
@@ -78,13 +78,6 @@ def test_the_film_ends_at_the_first_contact_of_a_dragon_by_itself():
     own, cut = film_of(both), film_of(both | {"stop": time + 1.0})
     assert (own[-2] == cut[-2]).all()
     assert (own[-1] != cut[-1]).any()
-
-
-def test_a_stopped_budget_ends_the_film():
-    budget = Budget()
-    budget.stop()
-    with pytest.raises(TooMuchWork):
-        QUESTION.to_bytes(checked(FilmRequest, TWO | {"stop": 30}), Terms(budget=budget), GIF_TYPE)
 
 
 @pytest.mark.parametrize("row", ['{"head_speed": 1.0} -> /head_speed', '{"stop": 99} -> /stop 41.999'])

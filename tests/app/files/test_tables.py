@@ -2,7 +2,6 @@
 
 import csv
 import io
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +9,6 @@ import openpyxl
 import pyarrow
 import pytest
 
-from app.extras import MissingPackage
 from app.files import tables
 from core import Dance, Dragon, Spiral, TooLarge, Trajectory, trajectory
 from core.language import Language, speaking
@@ -50,12 +48,6 @@ def test_arrow_reads_back_as_the_same_numbers(dance):
     table = pyarrow.ipc.open_file(tables.trajectory_arrow(dance)).read_all()
     assert tuple(table.column_names) == ("time", "handle", "x", "y", "speed")
     assert np.array_equal([column.to_numpy() for column in table.columns], columns_of(dance))
-
-
-def test_arrow_without_pyarrow_says_what_to_install(dance, monkeypatch):
-    monkeypatch.setitem(sys.modules, "pyarrow", None)
-    with pytest.raises(MissingPackage, match=r"pip install 'bench-dragon\[arrow\]'"):
-        tables.trajectory_arrow(dance)
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,6 @@ from core.contact.clearance import PROOF_WIDTHS
 from tests.core.contact.test_first_contact import ROUNDING
 from tests.support.near import assert_near
 from tests.support.random_dances import random_dance
-from tests.support.refused import refused
 from tests.support.slow_search import SlowDance
 
 PROVEN = 1.1e-5  # [m]: a least clearance is proven to this
@@ -123,9 +122,3 @@ def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips():
         assert_near(graze.clearance, values[5], ROUNDING)
         assert values.min() >= graze.clearance - ROUNDING
         assert tuple(pairs[5]) == graze.benches
-
-
-def test_a_profile_needs_two_benches_that_share_no_handle():
-    for benches in (1, 2):
-        with refused("dragon.benches"):
-            clearance_profile(Dance(Dragon(benches), Spiral()), [0.0])

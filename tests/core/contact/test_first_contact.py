@@ -25,7 +25,6 @@ from tests.support.depth import some, thorough
 from tests.support.near import assert_near
 from tests.support.random_dances import random_dance
 from tests.support.reference import reference_cases
-from tests.support.refused import refused
 from tests.support.slow_search import SlowDance
 
 CASES = reference_cases("first_contact")
@@ -37,7 +36,6 @@ ROUNDING = 1e-13
 TIED = 1e-9
 # Half width of the window around a graze in which the slow search looks for its bottom [s].
 AROUND = 0.1
-DANCE = Dance(Dragon(), Spiral())
 
 
 @pytest.mark.uncompiled
@@ -197,9 +195,3 @@ def test_without_a_certain_contact_an_undecided_search_stays_undecided():
 @pytest.mark.parametrize("margin", [0.0, MARGIN_MAX])
 def test_a_margin_at_its_limits_is_accepted(margin):
     assert first_contact(Dance(Dragon(5), Spiral()), margin=margin).outcome is not Outcome.UNDECIDED
-
-
-@pytest.mark.parametrize("margin", [-1e-12, MARGIN_MAX * 1.001])
-def test_a_margin_beyond_its_limits_is_refused(margin):
-    with refused("margin"):
-        first_contact(DANCE, margin=margin)

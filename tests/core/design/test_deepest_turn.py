@@ -113,21 +113,6 @@ def test_one_bench_is_limited_by_the_bend():
     assert deepest_turn(Dragon(1), 1.7, ratio=1.0).limited_by is TurnLimit.LEAST_RADIUS
 
 
-@pytest.mark.parametrize(
-    ("query", "words"),
-    [
-        ({"pitch": 0.5, "start_turns": 30, "turning_radius": 4.2}, "bends to a radius"),
-        ({"margin": 0.4}, r"within 0\.4 m .* s after the entry"),
-        ({"dragon": Dragon(width=1.8), "start_turns": 30}, "before the entry"),
-    ],
-    ids=["bend first", "margin", "on the coil"],
-)
-def test_a_turn_that_cannot_be_danced_even_at_the_circle_is_refused(query, words):
-    with pytest.raises(InvalidValue, match=words) as caught:
-        deepest_turn(**{"dragon": Dragon(), "pitch": 1.7, **query})
-    assert caught.value.field == "turning_radius"
-
-
 @pytest.mark.parametrize("work", [1e4, 4e4], ids=["on the first entry", "on one further in"])
 def test_work_that_ends_before_the_turn_is_found_is_an_error(monkeypatch, work):
     monkeypatch.setattr(core.design.deepest_turn, "TURN_WORK", work)

@@ -1,17 +1,10 @@
 """What questions about turns share: a circle in which nothing can be danced is refused by its name."""
 
-import pytest
-
-from core import Dragon, deepest_turn, dubins_turn, quickest_turn, shortest_turn, turn_length_bounds
+from core import Dragon, dubins_turn
 from tests.support.refused import refused
 
 
-@pytest.mark.parametrize("ask", [deepest_turn, dubins_turn, quickest_turn, shortest_turn])
-def test_every_question_refuses_a_circle_that_no_bench_can_follow(ask):
+def test_a_circle_that_no_bench_can_follow_is_refused():
+    """Other questions refuse it in tests/app/wire/test_refusals.py."""
     with refused("turning_radius"):
-        ask(Dragon(), 1.7, 1.4)
-
-
-def test_no_arc_is_so_short_that_it_cannot_be_drawn():
-    with refused("turning_radius"):
-        turn_length_bounds(Dragon(), 1e-3, 1e-3)
+        dubins_turn(Dragon(), 1.7, 1.4)

@@ -96,9 +96,3 @@ def test_the_distance_of_spectators_from_a_straight_dance():
     for line, field in (([], "line"), ([(1.0,)], "line.0"), ([(1.0, math.nan)], "line.0.1")):
         with refused(field):
             result.distance(line)
-
-
-@pytest.mark.parametrize("excess", [0.0, 2.0])
-def test_an_excess_beyond_its_limits_is_refused(excess):
-    with refused("excess"):
-        envelope(Dance(Dragon(3), Spiral()), excess=excess)

@@ -10,12 +10,10 @@ from core import (
     Route,
     TooMuchWork,
 )
-from core.errors import Quantity
 from core.kernels.constants import K_END, K_START, S_END, S_START
 from core.paths import pieces
 from tests.support.exact_chain import clothoid_place
 from tests.support.near import assert_near
-from tests.support.refused import refused
 
 # Stated accuracy of a place up to 20 m from the origin [m]; one curve written in two ways [m].
 PLACE, SAME = 1e-11, 1e-12
@@ -46,12 +44,6 @@ def test_every_row_turns_little():
     lengths = table[:, S_END] - table[:, S_START]
     assert (np.abs(table[:, [K_START, K_END]]).max(axis=1) * lengths <= pieces.ROW_TURN * (1.0 + 1e-9)).all()
     assert (table[1:, K_START] == table[:-1, K_END]).all()
-
-
-def test_a_clothoid_that_turns_too_much_is_refused_before_it_is_laid_out():
-    assert len(Route([Clothoid((0, 0), 0.0, 0.0, 1.0, 1_000.0)]).table) == 4_000
-    with refused("clothoid.length", most=Quantity(1000.0, "m", 6), turn=Quantity(1000.0, "rad", 6)):
-        Clothoid((0, 0), 0.0, 0.0, -1.0, 1_000.1)
 
 
 def test_a_spent_budget_ends_the_layout():

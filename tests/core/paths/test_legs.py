@@ -53,8 +53,3 @@ def test_every_drawn_path_is_smooth_and_goes_through_its_points(points, legs):
 def test_what_cannot_be_drawn_is_refused_by_its_place(points, straight, field):
     with refused(field):
         Legs(points, straight)
-
-
-def test_a_curve_that_turns_on_the_spot_is_refused_by_its_points():
-    with pytest.raises(InvalidValue, match=r"^path\.points .* 1 and 2$"):
-        Legs([(0.0, 0.0), (20.0, 0.0), (0.0, 0.0)], [0], end_heading=math.pi)

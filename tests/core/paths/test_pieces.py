@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from core import Clothoid, Coil, Line, Route, Waypoints
+from core import Clothoid, Route, Waypoints
 from core.kernels.constants import S_START
 from tests.support.near import assert_near
 from tests.support.refused import refused
@@ -17,14 +17,9 @@ ARC_ERROR = 1e-10  # [m]: arc length of curves through waypoints
 @pytest.mark.parametrize(
     ("field", "pieces"),
     [
-        ("path.pieces.0", lambda: [Coil(0.5, 4, 4)]),
-        ("path.pieces.1.points", lambda: [Line((-9, 0), (0, 0)), Waypoints(((0, 0), (1, 0), (0, 0)))]),
         ("waypoints.points", lambda: Waypoints(((0, 0),))),
-        ("waypoints.points.1", lambda: Waypoints(((0, 0), 7))),
         ("waypoints.points.1.1", lambda: Waypoints(((0, 0), (5, 10**400)))),
-        ("line.end.0", lambda: Line((0, 0), "ab")),
         ("clothoid.start.1", lambda: Clothoid((0, math.nan), 0.0, 0.0, 0.5, 2.0)),
-        ("clothoid.end_curvature", lambda: Clothoid((0, 0), 0.0, 0.0, 1001, 2.0)),
     ],
 )
 def test_a_piece_that_cannot_be_is_refused_at_its_place(field, pieces):

@@ -57,7 +57,6 @@ def test_beats_between_two_times_are_those_of_the_sum_and_bars_begin_with_the_fi
     [
         ("beats.0.tempo", [Bars(16, math.nan, 0.6)]),
         ("beats.0.bars", [Bars(0, 96.0, 0.6)]),
-        ("beats.0.step", [Bars(16, 96.0, 0.001)]),
         ("beats.0.beats", [Bars(16, 96.0, 0.6, beats=17)]),
         ("beats", []),
     ],

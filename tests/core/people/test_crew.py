@@ -7,9 +7,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, Passage, Spiral, TooLarge
+from core import Dance, Dragon, Passage, Spiral
 from core.motion.places import handle_places
-from core.people.crew import PEOPLE_MAX, SPELLS_MAX, Relief, crew, places_near
+from core.people.crew import Relief, crew, places_near
 from tests.support.refused import refused
 from tests.support.shared_dances import there_and_back
 
@@ -107,19 +107,11 @@ def test_the_places_near_a_point_are_those_of_a_fine_scan(path, point):
 @pytest.mark.parametrize(
     ("field", "relief", "needed"),
     [
-        ("relief.shift", Relief(2, 100.0), NEEDED),
-        *(("relief.spares", Relief(spares, 10.0), NEEDED) for spares in (0, 1.5)),
+        ("relief.spares", Relief(1.5, 10.0), NEEDED),
         ("relief.places.1", Relief(2, None, [0.0, math.nan]), NEEDED),
-        ("needed", Relief(), [8, 2]),
         ("needed.3", Relief(), [8, 2, 2, 0, 2, 2]),
     ],
 )
 def test_what_cannot_be_is_refused(field, relief, needed):
     with refused(field):
         planned(relief, needed)
-
-
-@pytest.mark.parametrize("relief", [Relief(PEOPLE_MAX), Relief(1, 0.5 * STOP / SPELLS_MAX)], ids=["people", "changes"])
-def test_more_people_or_changes_than_the_limits_are_refused(relief):
-    with pytest.raises(TooLarge):
-        planned(relief)

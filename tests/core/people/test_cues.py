@@ -77,10 +77,9 @@ def test_a_clock_that_rounds_puts_no_moment_before_the_dance(waits):
         ("benches.0", PAUSED, {"benches": [0.5]}),
         ("benches", Dance(Dragon(FOLLOWED_MAX + 1), Spiral()), {"stop": 5.0}),
         ("stop", PAUSED, {"start": 30.0, "stop": 50.0}),
-        ("stop", Dance(Dragon(9), Spiral()), {}),
         ("stop", Dance(Dragon(), Spiral()), {"stop": Dance(Dragon(), Spiral()).end.time}),
     ],
-    ids=["no bench", "no such bench", "half a bench", "too many", "stands still", "no stop", "fold"],
+    ids=["no bench", "no such bench", "half a bench", "too many", "stands still", "fold"],
 )
 def test_what_cannot_be_is_refused(field, dance, options):
     with refused(field):

@@ -102,7 +102,6 @@ def test_a_dragon_that_meets_no_other_has_the_cues_of_its_dance_on_the_clock_of_
 @pytest.mark.parametrize(
     ("arguments", "field"),
     [
-        ({"dragon": 3}, "dragon"),
         ({"dragon": 0.5}, "dragon"),
         ({"dragon": 0, "benches": [4]}, "benches.0"),
     ],

@@ -131,15 +131,3 @@ def test_following_two_benches_through_the_delays_is_work():
 def test_a_stray_makes_the_safe_intervals_shorter():
     nominal, straying = (safe_delay(streets(3, 3), 1, 0.0, 30.0, stray=stray) for stray in (0.0, 0.05))
     assert 0.1 < straying.safe[0][0] - nominal.safe[0][0] < 0.6
-
-
-@pytest.mark.parametrize(
-    ("arguments", "field"),
-    [
-        *(({"part": part}, "part") for part in (2, True, "north")),
-        ({"least": 5.0, "most": 5.0}, "most"),
-    ],
-)
-def test_impossible_questions_are_refused(arguments, field):
-    with refused(field):
-        safe_delay(streets(2, 2), **({"part": 1} | arguments))

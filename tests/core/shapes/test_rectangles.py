@@ -147,7 +147,7 @@ def test_corners_run_front_left_front_right_rear_right_rear_left():
 
 @pytest.mark.parametrize(
     "handles",
-    [1.0, [[0.0, 0.0, 0.0]], [0.0, 0.0], [[math.nan, 0.0], [0.0, 0.0]], [[math.inf, 0.0], [0.0, 0.0]]],
+    [[0.0, 0.0], [[math.nan, 0.0], [0.0, 0.0]], [[math.inf, 0.0], [0.0, 0.0]]],
 )
 def test_handles_that_are_no_places_are_refused(handles):
     with refused("handles"):

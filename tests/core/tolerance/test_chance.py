@@ -166,19 +166,6 @@ def test_a_dance_is_sampled_to_its_fold_also_on_other_pitches():
     assert all(one < other for one, other in pairwise(shares))
 
 
-@pytest.mark.parametrize(
-    ("changes", "field"),
-    [
-        ({"samples": range(-1, 3)}, "samples"),
-        ({"model": Wobble(lateral=0.3)}, "model.lateral"),
-    ],
-    ids=str,
-)
-def test_what_cannot_be_is_refused(changes, field):
-    with refused(field):
-        contact_probability(SPIRAL, **{"model": MODEL, "samples": 1, "seed": 1, **LATE, **changes})
-
-
 @pytest.mark.parametrize("name", ["correlation_time", "step"])
 def test_instants_may_not_be_so_close_that_there_are_too_many(name):
     with refused(f"model.{name}", most=10_000_000):

@@ -5,7 +5,6 @@ import pytest
 
 from core import Budget, Dance, Dragon, Spiral, TooMuchWork, minimum_pitch, tolerance, tolerance_curve
 from core.tolerance.curve import time_on_circle
-from tests.support.refused import refused
 
 DRAGON = Dragon(benches=30)
 
@@ -24,21 +23,6 @@ def test_the_tolerance_rises_with_the_pitch_and_is_the_inverse_of_the_minimum_pi
 def test_the_head_is_on_the_circle_at_that_time():
     dance = Dance(DRAGON, Spiral(0.6, 10.0), head_speed=2.0)
     assert dance.path.head(2.0 * time_on_circle(dance, 4.0)).radius == pytest.approx(4.0, abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("pitches", "options", "field"),
-    [
-        ([], {}, "pitches"),
-        ([[0.5]], {}, "pitches"),
-        ([0.5], {"start_turns": 9.0}, "turning_radius"),
-        ([0.5], {"turning_radius": 0.3}, "turning_radius"),
-    ],
-    ids=["none", "a table", "on the circle", "a fold before the circle"],
-)
-def test_impossible_curves_are_refused(pitches, options, field):
-    with refused(field):
-        tolerance_curve(DRAGON, pitches, **options)
 
 
 def test_pitches_that_are_too_many_for_the_budget_are_reported_with_how_many_were_answered():

@@ -6,7 +6,6 @@ import pytest
 from core import Dance, Dragon, Spiral, tolerance, uncertain_tolerance
 from core.tolerance.curve import time_on_circle
 from tests.support.depth import further
-from tests.support.refused import refused
 
 CIRCLE = 4.5  # radius of the turning circle [m]
 
@@ -53,9 +52,3 @@ def test_where_nothing_is_proven_the_stray_is_none():
 def test_no_stray_is_longer_than_half_a_chord():
     dragon = Dragon(20, head_length=0.5, width=0.1, overhang=0.05)
     assert uncertain_tolerance(dragon, 9.0, length_error=0.02, turning_radius=50.0) == pytest.approx(0.5 * (0.4 - 0.02))
-
-
-@pytest.mark.parametrize(("field", "error"), [("length_error", 0.83), ("pitch_error", 0.4)])
-def test_errors_beyond_all_reason_are_refused(field, error):
-    with refused(field):
-        uncertain_tolerance(Dragon(), 0.7, **{field: error})
