@@ -13,7 +13,6 @@ from app.maps.features import (
     LEAVE_OUT,
     OBSTACLE,
     PATH,
-    SQUARE,
     FeatureCollector,
     MapFeature,
     drawn_as,
@@ -22,9 +21,11 @@ from app.maps.features import (
     role_of,
     round_area,
 )
-from app.maps.joined import APART, joined
+from app.maps.joined import joined
 from app.maps.labels import MapText, are_too_many, label_of, names_of
 from app.maps.layout import refuse_many_edges_of
+from app.wire.geojson import SQUARE
+from app.wire.parts import APART
 from core import InvalidValue
 from core.values import Point
 

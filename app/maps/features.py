@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from app.wire.degrees import GRID_MAX, GeographicOrigin
-from app.wire.geojson import GATE, INNER_SQUARE, Aside, Thing, outlined
+from app.wire.geojson import GATE, INNER_SQUARE, SQUARE, Aside, Thing, outlined
 from core import InvalidValue
 from core.language import phrase
 from core.values import Floats, Point
@@ -20,7 +20,7 @@ from core.venue import Ring
 
 Shape = Literal["point", "line", "polygon"]
 # Roles of features in a dance; any other role counts as none.
-SQUARE, OBSTACLE, PATH, MARK = "square", "obstacle", "path", "mark"
+OBSTACLE, PATH, MARK = "obstacle", "path", "mark"
 # Words that give a feature its role: as its property, its folder, its layer or its name.
 WORDS = {
     SQUARE: ("square", "area", "venue", "ground", "广场", "场地"),

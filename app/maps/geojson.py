@@ -6,6 +6,7 @@ Read by hand (see app/wire/geojson.py): a map of another program may have featur
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any, TypeGuard
 
@@ -26,6 +27,7 @@ from app.maps.features import (
 )
 from app.wire.degrees import GEOGRAPHIC, crs_name
 from app.wire.geojson import DEPTH_MAX
+from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
 from core.venue import Ring
@@ -88,6 +90,14 @@ def _is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
+def _length(value: object) -> float | None:
+    """A number; some programs write it as text."""
+    if isinstance(value, str):
+        with suppress(ValueError):
+            return number_of(value)
+    return float(value) if _is_number(value) else None
+
+
 def _features(
     field: str, document: object, like: MapFeature, collector: FeatureCollector, depth: int = 0
 ) -> Iterator[MapFeature]:
@@ -105,7 +115,7 @@ def _features(
         properties = {str(name): value for name, value in stated.items()} if isinstance(stated, Mapping) else {}
         name, radius, role, layer = (_property(properties, word) for word in ("name", "radius", "role", "layer"))
         own, role = name if isinstance(name, str) and name else None, role_of(role, name, layer)
-        around = MapFeature("point", (), own, role, float(radius) if _is_number(radius) else None, properties)
+        around = MapFeature("point", (), own, role, _length(radius), properties)
         yield from _features(f"{field}.geometry", document.get("geometry"), around, collector, depth + 1)
     elif kind in COLLECTIONS:
         member = COLLECTIONS[kind]

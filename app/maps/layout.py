@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,6 @@ from app.maps.features import (
     OBSTACLE,
     PATH,
     POINT_RADIUS,
-    SQUARE,
     Drawing,
     MapFeature,
     Unit,
@@ -28,11 +26,11 @@ from app.maps.features import (
     is_aside,
     round_area,
 )
-from app.maps.joined import merged
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
 from app.maps.tracks import APART, CHORD, walk_of
 from app.wire.degrees import ACROSS_MAX, GRID_MAX, GeographicOrigin, Plane, middle_of, refuse_wide, unwrapped
-from app.wire.geojson import ASIDES, GATE, INNER_SQUARE, outlined, read_things, venue_of
+from app.wire.geojson import ASIDES, GATE, INNER_SQUARE, SQUARE, outlined, read_things, venue_of
+from app.wire.parts import is_cut, merged, whole_areas
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.display import format_count
@@ -230,9 +228,11 @@ class Reading:
         if abs(self.origin.longitude) > 180.0:
             self.origin = GeographicOrigin((self.origin.longitude + 180.0) % 360.0 - 180.0, self.origin.latitude)
         # Parts of a square are joined later, wherever they meet.
-        cut = [one.shape == "polygon" and one.role != SQUARE and _is_cut(one) for one in self.features]
-        self.features = [one.moved(plane.metres) for one in self.features]
-        self._join([one for one, is_cut in zip(self.features, cut, strict=True) if is_cut])
+        areas = [one.shape == "polygon" and one.role != SQUARE and is_cut(one.rings) for one in self.features]
+        kinds = [(one.name, one.role) if cut else None for one, cut in zip(self.features, areas, strict=True)]
+        moved = [one.moved(plane.metres) for one in self.features]
+        whole = whole_areas([one.rings for one in moved], kinds)
+        self.features = [replace(one, rings=rings) for one, rings in zip(moved, whole, strict=True) if rings]
         self._choose()
         east, north = self.origin.longitude, self.origin.latitude
         self.remark(
@@ -241,15 +241,6 @@ class Reading:
             east=east,
             north=north,
         )
-
-    def _join(self, parts: list[MapFeature]) -> None:
-        """Make one area of the parts of an area that is cut at the date line."""
-        for name, role in dict.fromkeys((one.name, one.role) for one in parts):
-            like = [one for one in parts if (one.name, one.role) == (name, role)]
-            if len(like) > 1 and (whole := merged(like)) is not None:
-                first = next(k for k, one in enumerate(self.features) if one is like[0])
-                self.features[first] = whole
-                self.features = [one for one in self.features if not any(one is part for part in like)]
 
     def _choose(self) -> None:
         """Leave out what does not reach into the chosen area."""
@@ -298,7 +289,7 @@ class Reading:
 
     def _leave_out_small(self) -> None:
         """Leave out what is smaller than anything of a venue, and name it; the only square or path stays."""
-        circles = [one for one in self.features if one.shape == "point" and 0.0 < (one.radius or 1.0) < SIZE_MIN]
+        circles = [one for one in self.features if one.shape == "point" and _is_thin(one)]
         others = [one for one in self.features if _is_tiny(one)]
         left_out = {id(one) for one in (*circles, *others)}
         large = {one.role for one in self.features if id(one) not in left_out}
@@ -350,7 +341,8 @@ class Reading:
         polygons = [one for one in self.features if one.shape == "polygon"]
         squares = [one for one in polygons if one.role == SQUARE]
         first = next(iter(squares), None)
-        if len(squares) > 1 and (whole := merged(squares)) is not None:
+        if len(squares) > 1 and (rings := merged([one.rings for one in squares])) is not None:
+            whole = replace(squares[0], rings=rings)
             self.remark(
                 "The square is drawn in {square_count} parts that share edges.",
                 square_count=len(squares),
@@ -472,8 +464,16 @@ class Reading:
         return walk.path
 
 
+def _is_thin(one: MapFeature) -> bool:
+    """True for a radius that is too small for anything of a venue."""
+    return one.radius is not None and one.radius < SIZE_MIN
+
+
 def _is_tiny(one: MapFeature) -> bool:
-    """True for a line without a width, and for a polygon, all of whose points are as good as one."""
+    """True for a wall as good as without a width, and for a line without one and a polygon, all of whose points are as
+    good as one."""
+    if one.shape == "line" and one.role != PATH and _is_thin(one):
+        return True
     if one.shape == "point" or one.radius is not None or one.times is not None:
         return False
     return bool(np.hypot(*np.ptp(np.array(one.rings[0]), axis=0)) < SIZE_MIN)
@@ -517,11 +517,6 @@ def _nothing_in(drawing: Drawing) -> InvalidValue:
         why = "{hidden} is hidden; show its layer" if count == 1 else "{hidden} are hidden; show their layers"
         rule = f"must show a polygon, a line or a point: {why}"
     return InvalidValue("file", rule, hidden=hidden)
-
-
-def _is_cut(one: MapFeature) -> bool:
-    """True for an area with a side on the date line. Its rings are in degrees."""
-    return any(abs(a[0]) == abs(b[0]) == 180.0 and a != b for a, b in pairwise(one.rings[0]))
 
 
 def _look_like_degrees(points: Floats) -> bool:

@@ -7,12 +7,26 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from app.wire.geojson import Aside, Polygon, Scale, Thing, asides_in, outlined, read_things, venue_of
+from app.wire.geojson import (
+    METRES,
+    SQUARE,
+    Aside,
+    Part,
+    Polygon,
+    Scale,
+    Thing,
+    asides_in,
+    named,
+    outlined,
+    parts_in,
+    venue_of,
+)
+from app.wire.parts import is_cut, whole_areas
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.errors import Given, Parameter, checked_number, quantities
@@ -115,7 +129,8 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
         raise InvalidValue("coordinates", rule, got=Given(coordinates), crs=crs, system=system)
     if coordinates == "degrees" or geographic:
         return _projected(_in_degrees(geometry), asides_in(geometry, DEGREES))
-    things = read_things(geometry)
+    parts = parts_in(geometry, METRES)
+    things = named(_joined(parts, _kinds(parts, [False] * len(parts))))
     polygons = outlined(things)
     _refuse_degrees(polygons, float(dragon.lengths.max()))
     origin, grid = _stated_origin(geometry.get("origin")), _stated_grid(geometry.get("grid"))
@@ -168,16 +183,30 @@ def _refuse_systems_inside(field: str, part: object) -> None:
             _refuse_systems_inside(f"{field}.{k}", item)
 
 
-def _in_degrees(geometry: Mapping[str, object]) -> list[Polygon]:
-    """The polygons in degrees. raises: InvalidValue, with a hint if longitude and latitude look swapped"""
+def _in_degrees(geometry: Mapping[str, object]) -> list[Part]:
+    """The parts of a venue in degrees. raises: InvalidValue, with a hint if longitude and latitude look swapped"""
     try:
-        return outlined(read_things(geometry, DEGREES))
+        return parts_in(geometry, DEGREES)
     except InvalidValue as error:
         try:
-            read_things(geometry, LATITUDE_FIRST)
+            parts_in(geometry, LATITUDE_FIRST)
         except InvalidValue:
             raise error from None
         raise error.because(SWAPPED) from error
+
+
+def _kinds(parts: Sequence[Part], are_cut: Sequence[bool]) -> list[Hashable]:
+    """What the parts of one area share: those of the square their name, those that are cut too; None for others."""
+    return [
+        (one.name,) if one.radius is None and (cut or one.name == SQUARE) else None
+        for one, cut in zip(parts, are_cut, strict=True)
+    ]
+
+
+def _joined(parts: Sequence[Part], kinds: Sequence[Hashable]) -> list[Part]:
+    """The parts in metres, where those of a kind that make one area are that."""
+    whole = whole_areas([one.rings for one in parts], kinds)
+    return [one._replace(rings=rings) for one, rings in zip(parts, whole, strict=True) if rings is not None]
 
 
 def _bounds(rings: list[Ring]) -> tuple[float, float, float, float]:
@@ -213,20 +242,25 @@ def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
     raise InvalidValue("venue", f"{rule}: {advice}", **values)
 
 
-def _projected(polygons: list[Polygon], asides: list[Aside]) -> Place:
-    near = polygons[0][1][0][0][0]
-    turned = [(name, tuple(unwrapped(ring, near) for ring in rings)) for name, rings in polygons]
-    origin = middle_of([turned[0][1][0]])
-    refuse_wide("venue", [ring for _, rings in turned for ring in rings], origin)
+def _projected(parts: list[Part], asides: list[Aside]) -> Place:
+    near = parts[0].rings[0][0][0]
+    parts = [one._replace(rings=tuple(unwrapped(ring, near) for ring in one.rings)) for one in parts]
+    are_cut = [is_cut(one.rings) for one in parts]
+    # A square may be drawn in several parts.
+    kinds = _kinds(parts, are_cut)
+    squares = [one.rings[0] for one, kind in zip(parts, kinds, strict=True) if kind is not None and kind == kinds[0]]
+    origin = middle_of(squares or [parts[0].rings[0]])
+    refuse_wide("venue", [ring for one in parts for ring in one.rings], origin)
     plane = Plane(origin)
 
     def placed(ring: Ring) -> Ring:
         return tuple(map(tuple, plane.metres(np.array(ring)).tolist()))
 
-    metres = [(name, tuple(map(placed, rings))) for name, rings in turned]
+    metres = [one._replace(rings=tuple(map(placed, one.rings))) for one in parts]
+    things = named(_joined(metres, kinds))
     where = GeographicOrigin((origin.longitude + 180.0) % 360.0 - 180.0, origin.latitude)
     beside = [(role, name, placed(unwrapped(ring, near)), heading) for role, name, ring, heading in asides]
-    return Place(venue_of(metres), where, [(*polygon, None) for polygon in metres], asides=beside)
+    return Place(venue_of(outlined(things)), where, things, asides=beside)
 
 
 def middle_of(rings: list[Ring]) -> GeographicOrigin:

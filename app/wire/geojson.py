@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,14 +28,17 @@ from core.venue import Ring, refuse_many_edges
 Polygon = tuple[str, tuple[Ring, ...]]
 # Name, the rings of a polygon or the points of a tree or a wall, and its radius, if it has one [m].
 Thing = tuple[str, tuple[Ring, ...], float | None]
-# Name if it has one, the field of its coordinates, the coordinates as given, and half of its width, if it has one [m].
-RawPolygon = tuple[str | None, str, object, float | None]
+# Name if it has one, the field of its coordinates, the coordinates as given, half of its width, if it has one [m], and
+# True for one of several polygons of a MultiPolygon.
+RawPolygon = tuple[str | None, str, object, float | None, bool]
 # Role, name, points and heading, if it has one [rad], of what stands in a venue for people: no bench can touch it.
 Aside = tuple[str, str | None, Ring, float | None]
 # Unit of coordinates, and the largest |x| and |y| in it.
 Scale = tuple[str, float, float]
 METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
 
+# Name of the square.
+SQUARE = "square"
 # Roles of such features, and the shape of each: a gate is a point of the border with the heading of those who enter;
 # the square as it was before streets were added beyond its gates is a closed line.
 GATE, INNER_SQUARE = "gate", "square without streets"
@@ -46,30 +49,60 @@ DEPTH_MAX = 8
 RADIUS_MIN, RADIUS_MAX = 1e-3, 1e3
 
 
+class Part(NamedTuple):
+    """A polygon, a tree or a wall of a venue as it was sent.
+
+    name: None if it has none; radius: of a tree, or half of the width of a wall [m]; several: True for one of several
+        polygons of a MultiPolygon
+    """
+
+    name: str | None
+    rings: tuple[Ring, ...]
+    radius: float | None
+    several: bool
+
+
 def read_things(geometry: object, scale: Scale = METRES) -> list[Thing]:
     """The polygons, trees and walls of a GeoJSON object, the square first.
 
-    geometry: a Polygon, a Feature of one, a GeometryCollection or a FeatureCollection of them. The square is the
-        feature whose property `name` is "square", else the first polygon; the others are obstacles, named by their
-        property `name`, else "obstacle 1" and so on. Heights are ignored. In metres a Feature of a Point or of a
-        LineString whose property `radius` is positive is an obstacle too: a tree, or a wall of twice that width.
+    geometry: a Polygon, a MultiPolygon, a Feature of one, a GeometryCollection or a FeatureCollection of them. The
+        square is the feature whose property `name` is "square", else the first polygon; the others are obstacles, named
+        by their property `name`, else "obstacle 1" and so on. Heights are ignored. In metres a Feature of a Point or of
+        a LineString whose property `radius` is positive is an obstacle too: a tree, or a wall of twice that width.
         Those that asides_in() returns are left out.
     raises: InvalidValue naming the member at fault; too many edges are refused before any coordinate is read
     """
+    return named(parts_in(geometry, scale))
+
+
+def parts_in(geometry: object, scale: Scale) -> list[Part]:
+    """The same without names for those that have none."""
     polygons = _polygons("venue", geometry)
     whole = [k for k, one in enumerate(polygons) if one[3] is None]
     if not whole:
         raise InvalidValue("venue", "must hold at least one polygon, the square")
     refuse_many_edges(
-        ring for _, _, rings, _ in polygons if isinstance(rings, list) for ring in rings if isinstance(ring, list)
+        ring for _, _, rings, *_ in polygons if isinstance(rings, list) for ring in rings if isinstance(ring, list)
     )
-    things = [(name, _rings(field, rings, scale, radius), radius) for name, field, rings, radius in polygons]
-    square = next((k for k in whole if things[k][0] == "square"), whole[0])
-    others = [polygon for k, polygon in enumerate(things) if k != square]
-    obstacles = [
-        (name or say("obstacle {k}", k=k), rings, radius) for k, (name, rings, radius) in enumerate(others, start=1)
+    parts = [
+        Part(name, _rings(field, rings, scale, radius), radius, several)
+        for name, field, rings, radius, several in polygons
     ]
-    return [(things[square][0] or "square", things[square][1], None), *obstacles]
+    square = next((k for k in whole if parts[k].name == SQUARE), whole[0])
+    return [parts[square], *(one for k, one in enumerate(parts) if k != square)]
+
+
+def named(parts: Sequence[Part]) -> list[Thing]:
+    """The parts of a venue with a name each, the square first; those of a MultiPolygon are numbered."""
+    names: list[str] = []
+    for k, part in enumerate(parts):
+        bare = unique = part.name or (say("obstacle {k}", k=k) if k else SQUARE)
+        count = 1
+        while part.several and unique in names:
+            count += 1
+            unique = f"{bare} {count}"
+        names.append(unique)
+    return [(name, part.rings, part.radius) for name, part in zip(names, parts, strict=True)]
 
 
 def asides_in(geometry: object, scale: Scale = METRES, field: str = "venue") -> list[Aside]:
@@ -150,7 +183,10 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[RawPolygon]:
         raise InvalidValue(field, "must be a GeoJSON object", got=Given(geometry, short_json(geometry)))
     kind = geometry.get("type")
     if kind == "Polygon":
-        return [(None, f"{field}.coordinates", geometry.get("coordinates"), None)]
+        return [(None, f"{field}.coordinates", geometry.get("coordinates"), None, False)]
+    if kind == "MultiPolygon":
+        several = _listed(f"{field}.coordinates", geometry.get("coordinates"), "polygon")
+        return [(None, f"{field}.coordinates.{k}", one, None, True) for k, one in enumerate(several)]
     if kind == "Feature":
         properties = geometry.get("properties")
         name = properties.get("name") if isinstance(properties, Mapping) else None
@@ -164,12 +200,12 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[RawPolygon]:
             radius = checked_number(f"{field}.properties.radius", value, "m", RADIUS_MIN, RADIUS_MAX)
             points = shape.get("coordinates")
             lines = [points] if shape["type"] == "LineString" else [[points, points]]
-            return [(name, f"{field}.geometry.coordinates", lines, radius)]
+            return [(name, f"{field}.geometry.coordinates", lines, radius, False)]
         inner = _polygons(f"{field}.geometry", shape, depth + 1)
-        return [(name or own, where, rings, width) for own, where, rings, width in inner]
+        return [(name or own, where, rings, width, several) for own, where, rings, width, several in inner]
     members = {"FeatureCollection": "features", "GeometryCollection": "geometries"}.get(str(kind))
     if members is None:
-        rule = "must be Polygon, Feature, FeatureCollection or GeometryCollection"
+        rule = "must be Polygon, MultiPolygon, Feature, FeatureCollection or GeometryCollection"
         raise InvalidValue(f"{field}.type", rule, got=Given(kind))
     items = _listed(f"{field}.{members}", geometry.get(members))
     each = (_polygons(f"{field}.{members}.{k}", item, depth + 1) for k, item in enumerate(items))

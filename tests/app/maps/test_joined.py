@@ -1,10 +1,9 @@
 """Lines that meet: those that close are an area, those of the path one line, and all others stay."""
 
 import pytest
-import shapely
 
 from app.maps.features import MapFeature
-from app.maps.joined import joined, merged
+from app.maps.joined import joined
 
 
 def lines(*all_points, layer="0", role=None):
@@ -56,27 +55,3 @@ def test_two_rings_are_two_areas_in_their_places():
     result = shapes(joined([*lines(*FOUR), MapFeature("point", (((1, 1),),), "tree"), *lines(*other)]))
     assert [shape for shape, _ in result] == ["polygon", "point", "polygon"]
     assert {x for x, _ in result[2][1]} == {20, 29}
-
-
-# Boxes of a square in parts, by a corner and their sides.
-PARTS = {
-    "halves": [(0, 0, 3, 3), (3, 0, 3, 3)],
-    "a narrow and a wide one": [(0, 0, 3, 3), (3, 1, 3, 1)],
-    "around a hole": [(0, 0, 3, 1), (0, 1, 1, 1), (2, 1, 1, 1), (0, 2, 3, 1)],
-    "apart": [(0, 0, 3, 3), (5, 0, 3, 3)],
-    "at a corner": [(0, 0, 3, 3), (3, 3, 2, 2)],
-    "overlapping": [(0, 0, 3, 3), (2, 1, 3, 3)],
-}
-SEPARATE = ("apart", "at a corner", "overlapping")
-
-
-@pytest.mark.parametrize("name", PARTS)
-def test_parts_that_share_edges_are_one_area_and_no_others(name):
-    rings = [[(x, y), (x + a, y), (x + a, y + b), (x, y + b), (x, y)] for x, y, a, b in PARTS[name]]
-    # Every second one is walked the other way around.
-    whole = merged([MapFeature("polygon", (tuple(ring[:: 1 - 2 * (k % 2)]),)) for k, ring in enumerate(rings)])
-    assert (whole is None) is (name in SEPARATE)
-    if whole is not None:
-        shape = shapely.Polygon(whole.rings[0], whole.rings[1:])
-        assert shape.is_valid
-        assert shape.equals(shapely.union_all([shapely.Polygon(ring) for ring in rings]))

@@ -183,6 +183,15 @@ def test_what_has_no_square_and_no_radius_gets_both():
     assert sum("without a radius" in note for note in result.notes) == 2
 
 
+@pytest.mark.parametrize("radius", ["0", "-0.5"])
+def test_a_thing_with_a_radius_of_nothing_is_left_out_by_its_name(radius):
+    """Some programs write a number as text."""
+    elm = thing("elm", "Point", [5.0, 5.0])
+    elm["properties"]["radius"] = radius
+    for name, result in (("elm", read_json(elm)), ("camphor", read(KML.replace("0.8", radius).encode()))):
+        assert f"Left out: 1 circle with a radius of less than 0.001 m: {name}." in result.notes
+
+
 def placemark(inner, before=""):
     return (
         f'<kml xmlns="http://www.opengis.net/kml/2.2"><Document>{before}<Placemark>{inner}</Placemark></Document></kml>'

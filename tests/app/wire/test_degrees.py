@@ -92,6 +92,15 @@ def test_a_square_on_the_date_line_is_one_square():
     assert np.abs(np.array(place.venue.square.rings[0])).max() < 60.0
 
 
+@pytest.mark.parametrize(("east", "west", "name"), [(0.5, 0.5, "square"), (180, -180, None)])
+def test_a_square_in_parts_is_one_square_also_if_it_is_cut_at_the_date_line(east, west, name):
+    """As in a map that is opened."""
+    parts = [box(east - 0.001, 0, east, 0.001), box(west, 0, west + 0.001, 0.001)]
+    shape = {"type": "MultiPolygon", "coordinates": [part["coordinates"] for part in parts]}
+    [area] = placed({"type": "Feature", "properties": {"name": name}, "geometry": shape}, "degrees").venue.areas
+    assert np.ptp(np.array(area.rings[0]), axis=0) == pytest.approx([222.6, 110.6], rel=1e-3)
+
+
 # -- the member crs ------------------------------------------------------------------------------------------
 
 
