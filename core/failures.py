@@ -1,4 +1,4 @@
-"""Failures of a dance, each in one sentence."""
+"""Failures of a dance, each in one sentence of the language that is spoken."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from core.display import Readable
 from core.dragon import Dragon
 from core.errors import format_bound, format_number
 from core.extremes.speed import SPEED_PROVEN, SPEED_ROUNDING, FirstExcess, HighestSpeed
+from core.language import phrase, say, sense
 from core.paths.path import HeadState
 
 # Widest bracket of a first excess over a speed limit [s]; of a wider one the message says "at the latest".
@@ -39,7 +40,7 @@ class Failure(Readable):
     time: first time of the failure [s]; for a search that gave up, the time until which it is proven not to fail, or
         one at which it certainly fails
     benches: those at fault (for a speed: the handle); area: the venue's polygon, None if no area is involved
-    message: one sentence
+    message: one sentence, in the language that was spoken
     time_bracket: (proven not to fail up to, failing at) [s]; None without a search
     head: state of the head at that time
     peak_speed, peak_time: for a speed, the highest one [m/s] and its time [s]. In a run to a fold, where speeds grow
@@ -66,8 +67,10 @@ def touch_failures(contact: FirstContact, least: LeastClearance | None, margin: 
     if failed or least is None or least.distance > 0.0:
         return []
     a, b = map(contact.dance.dragon.called, least.benches)
-    have = "may have" if contact.stray else "have"
-    message = f"Benches {a} and {b} {have} no gap left at {least.time:.6f} s, where the dance stops."
+    gone = phrase("Benches {a} and {b} have no gap left at {time:.6f} s, where the dance stops.")
+    if contact.stray:
+        gone = phrase("Benches {a} and {b} may have no gap left at {time:.6f} s, where the dance stops.")
+    message = say(gone, a=a, b=b, time=least.time)
     return [Failure(FailureKind.CONTACT, least.time, least.benches, None, message)]
 
 
@@ -76,45 +79,51 @@ def contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
     meet = approach_words(margin, contact.stray)
     if contact.outcome is Outcome.UNDECIDED:
         assert contact.time_bracket is not None
-        time = contact.time_bracket[0]
+        time, late = contact.time_bracket
         if contact.overlapping is not None:
             a, b = map(contact.dance.dragon.called, contact.overlapping)
-            message = _at_the_latest(f"Benches {a} and {b} {meet}", contact.time_bracket)
-            late, pair = contact.time_bracket[1], contact.overlapping
-            return [Failure(FailureKind.CONTACT, late, pair, None, message, contact.time_bracket)]
-        message = f"Whether benches {meet} is not decided from {time:.6f} s on."
+            message = say(
+                "Benches {a} and {b} {meet} at {late:.6f} s at the latest; up to {clear} s none do.",
+                a=a, b=b, meet=meet, late=late, clear=format_bound(time, 6),
+            )  # fmt: skip
+            return [Failure(FailureKind.CONTACT, late, contact.overlapping, None, message, contact.time_bracket)]
+        message = say("Whether benches {meet} is not decided from {time:.6f} s on.", meet=meet, time=time)
         return [Failure(FailureKind.UNDECIDED, time, (), None, message)]
     if contact.time is None or contact.benches is None:
         return []
     a, b = map(contact.dance.dragon.called, contact.benches)
-    message = f"Benches {a} and {b} {meet} at {contact.time:.6f} s{_gap(contact.gap, margin, 'overlap')}."
+    gap = _gap(contact.gap, margin, phrase(", and overlap by {gap:.6f} m"))
+    message = say("Benches {a} and {b} {meet} at {time:.6f} s{gap}.", a=a, b=b, meet=meet, time=contact.time, gap=gap)
     return [Failure(FailureKind.CONTACT, contact.time, contact.benches, None, message, contact.time_bracket)]
 
 
 def approach_words(margin: float, stray: float) -> str:
     """The predicate of two benches that come within the margin [m]."""
-    return _meeting(margin, "come", "", stray)
-
-
-def _at_the_latest(meet: str, bracket: tuple[float, float]) -> str:
-    """The sentence of a contact that is certain at the end of a bracket [s], but may be earlier."""
-    return f"{meet} at {bracket[1]:.6f} s at the latest; up to {format_bound(bracket[0], 6)} s none do."
-
-
-def _meeting(margin: float, come: str, near: str, stray: float = 0.0) -> str:
-    """Words for an approach within the margin. come: the verb; near: the other object, if not another bench"""
-    if stray:
-        return f"may {_meeting(margin, 'come', near)} with strays up to {format_number(stray)} m"
+    values = {"margin": format_number(margin), "stray": format_number(stray)}
+    if margin > 0.0 and stray:
+        return say("may come within {margin} m with strays up to {stray} m", **values)
     if margin > 0.0:
-        return f"{come} within {format_number(margin)} m{near and ' of '}{near}"
-    return f"{'touches' if come == 'comes' else 'touch'}{near and ' '}{near}"
+        return say("come within {margin} m", **values)
+    return say("may touch with strays up to {stray} m", **values) if stray else sense("predicate", "touch")
+
+
+def _approach_of_area(margin: float, stray: float, area: str) -> str:
+    """The predicate of a bench that comes within the margin of an area [m]."""
+    values = {"margin": format_number(margin), "stray": format_number(stray), "area": repr(area)}
+    if margin > 0.0 and stray:
+        return say("may come within {margin} m of {area} with strays up to {stray} m", **values)
+    if margin > 0.0:
+        return say("comes within {margin} m of {area}", **values)
+    if stray:
+        return say("may touch {area} with strays up to {stray} m", **values)
+    return say("touches {area}", **values)
 
 
 def _gap(gap: float | None, margin: float, overlap: str) -> str:
-    """Words for the remaining gap, if there is a margin. overlap: the verb for a negative one"""
+    """Words for the remaining gap, if there is a margin. overlap: the template for a negative one"""
     if gap is None or margin == 0.0:
         return ""
-    return f", with a gap of {gap:.6f} m" if gap > 0.0 else f", and {overlap} by {-gap:.6f} m"
+    return say(", with a gap of {gap:.6f} m", gap=gap) if gap > 0.0 else say(overlap, gap=-gap)
 
 
 def venue_failures(
@@ -125,27 +134,33 @@ def venue_failures(
         return []
     failures = [failure for area in venue.areas for failure in _area_failures(dragon, area, margin, stray)]
     if misplaced := venue.misplaced:
-        where = "outside" if misplaced.name == venue.areas[0].name else "inside"
-        at = f"({misplaced.point[0]:g}, {misplaced.point[1]:g})"
-        message = f"Bench {dragon.called(misplaced.bench)} starts {where} {misplaced.name!r}, at {at} m."
+        starts = phrase("Bench {bench} starts inside {area}, at ({x:g}, {y:g}) m.")
+        if misplaced.name == venue.areas[0].name:
+            starts = phrase("Bench {bench} starts outside {area}, at ({x:g}, {y:g}) m.")
+        x, y = misplaced.point
+        message = say(starts, bench=dragon.called(misplaced.bench), area=repr(misplaced.name), x=x, y=y)
         failures.insert(0, Failure(FailureKind.OUTSIDE, begin, (misplaced.bench,), misplaced.name, message))
     return failures
 
 
 def _area_failures(dragon: Dragon, area: AreaClearance, margin: float, stray: float) -> list[Failure]:
-    words = _meeting(margin, "comes", repr(area.name), stray)
+    meets = _approach_of_area(margin, stray, area.name)
     if area.outcome is Outcome.UNDECIDED:
         assert area.time_bracket is not None
-        time = area.time_bracket[0]
+        time, late = area.time_bracket
         if area.overlapping is not None:
-            message = _at_the_latest(f"Bench {dragon.called(area.overlapping)} {words}", area.time_bracket)
-            late, bench = area.time_bracket[1], area.overlapping
-            return [Failure(FailureKind.VENUE, late, (bench,), area.name, message, area.time_bracket)]
-        message = f"Whether a bench {words} is not decided from {time:.6f} s on."
+            message = say(
+                "Bench {bench} {meets} at {late:.6f} s at the latest; up to {clear} s none do.",
+                bench=dragon.called(area.overlapping), meets=meets, late=late, clear=format_bound(time, 6),
+            )  # fmt: skip
+            return [Failure(FailureKind.VENUE, late, (area.overlapping,), area.name, message, area.time_bracket)]
+        message = say("Whether a bench {meets} is not decided from {time:.6f} s on.", meets=meets, time=time)
         return [Failure(FailureKind.UNDECIDED, time, (), area.name, message)]
     if area.time is None or area.bench is None:
         return []
-    message = f"Bench {dragon.called(area.bench)} {words} at {area.time:.6f} s{_gap(area.gap, margin, 'overlaps it')}."
+    gap = _gap(area.gap, margin, phrase(", and overlaps it by {gap:.6f} m"))
+    bench = dragon.called(area.bench)
+    message = say("Bench {bench} {meets} at {time:.6f} s{gap}.", bench=bench, meets=meets, time=area.time, gap=gap)
     return [Failure(FailureKind.VENUE, area.time, (area.bench,), area.name, message, area.time_bracket)]
 
 
@@ -162,29 +177,41 @@ def speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float,
     time, handle = excess.time, excess.handle
     if time is None and speed is not None and speed.speed > limit * (1.0 + SPEED_ROUNDING):
         time, handle = speed.time, speed.handles[0]
-    kept = f"{format_number(limit)} m/s is proven to be kept up to {format_bound(proven, 6)} s"
+    most = format_number(limit)
+    kept = say("{limit} m/s is proven to be kept up to {until} s", limit=most, until=format_bound(proven, 6))
     if time is None and speed is not None:
-        undecided = f"Whether a handle exceeds {format_number(limit)} m/s is not decided"
-        message = f"{undecided}; {kept}, and no higher speed was found."
+        message = say(
+            "Whether a handle exceeds {limit} m/s is not decided; {kept}, and no higher speed was found.",
+            limit=most,
+            kept=kept,
+        )
         return Failure(FailureKind.UNDECIDED, proven, (), None, message, (proven, latest))
-    peak = f"towards {end.time:.6f} s, when bench {end.bench} folds, speeds grow without bound"
+    peak = say(
+        "towards {time:.6f} s, when bench {bench} folds, speeds grow without bound", time=end.time, bench=end.bench
+    )
     if speed is not None:
-        peak = f"the highest speed is {speed.speed:.6f} m/s, of handle {speed.handles[0]} at {speed.time:.6f} s"
+        peak = say(
+            "the highest speed is {speed:.6f} m/s, of handle {handle} at {time:.6f} s",
+            speed=speed.speed, handle=speed.handles[0], time=speed.time,
+        )  # fmt: skip
     highest = (speed.speed, speed.time) if speed is not None else (None, end.time)
     handles = () if time is None or handle is None else (handle,)
+    values = {"limit": most, "kept": kept, "peak": peak, "handle": handle, "time": time}
     if time is None or handle is None:
-        time, message = end.time, f"A handle exceeds {format_number(limit)} m/s: {peak}; {kept}."
+        time, message = end.time, say("A handle exceeds {limit} m/s: {peak}; {kept}.", **values)
     elif time - proven > EXCESS_KNOWN:
-        message = f"Handle {handle} exceeds {format_number(limit)} m/s at {time:.6f} s at the latest ({kept}); {peak}."
+        message = say("Handle {handle} exceeds {limit} m/s at {time:.6f} s at the latest ({kept}); {peak}.", **values)
     else:
-        message = f"Handle {handle} first exceeds {format_number(limit)} m/s at {time:.6f} s; {peak}."
+        message = say("Handle {handle} first exceeds {limit} m/s at {time:.6f} s; {peak}.", **values)
     return Failure(FailureKind.SPEED, time, handles, None, message, (proven, time), None, *highest)
 
 
 def fold_failure(dragon: Dragon, end: RunEnd, head: HeadState) -> Failure:
     """The fold of a bench at the end of the run, with the head there."""
     assert end.bench is not None
-    where = f"the head at ({head.x:.6f}, {head.y:.6f}) m, theta = {head.theta:.6f} rad"
-    folds = f"Bench {dragon.called(end.bench)} folds at {end.time:.6f} s"
-    message = f"{folds}, {where}: it cannot follow the spiral any further."
+    message = say(
+        "Bench {bench} folds at {time:.6f} s, the head at ({x:.6f}, {y:.6f}) m, theta = {theta:.6f} rad: it cannot "
+        "follow the spiral any further.",
+        bench=dragon.called(end.bench), time=end.time, x=head.x, y=head.y, theta=head.theta,
+    )  # fmt: skip
     return Failure(FailureKind.FOLDS, end.time, (end.bench,), None, message)

@@ -16,6 +16,7 @@ from core.failures import Failure, FailureKind, approach_words
 from core.ground.envelope import Envelope, envelope
 from core.judgement import Judgement, Report, check, quick_check, summary
 from core.kernels import Budget
+from core.language import say
 from core.motion.trajectory import Trajectory, trajectory
 from core.performance.answer import FirstEncounter
 from core.performance.clearance import PerformanceLeastClearance, least_over
@@ -129,37 +130,38 @@ def _of_dragon(performance: Performance, k: int, failure: Failure) -> Performanc
     """The failure of a dragon by itself, on the clock of the performance."""
     delay, bracket = performance.parts[k].delay, failure.time_bracket
     shifted = None if bracket is None else (bracket[0] + delay, bracket[1] + delay)
-    own = f" (at {failure.time + delay:.6f} s of the performance)" if delay else ""
-    name = performance.name_of(k)
-    message = failure.message if len(performance.parts) == 1 else f"{name[0].upper()}{name[1:]}{own}: {failure.message}"
+    own = say(" (at {time:.6f} s of the performance)", time=failure.time + delay) if delay else ""
+    name, message = performance.name_of(k), failure.message
+    if len(performance.parts) > 1:
+        message = say("{name}: {text}", name=f"{name[0].upper()}{name[1:]}{own}", text=message)
     return PerformanceFailure(failure.kind, failure.time + delay, (k,), failure.benches, message, shifted, failure)
 
 
 def _encounter_failures(met: FirstEncounter) -> list[PerformanceFailure]:
     """The first encounter of two dragons as a failure, or that it is undecided; none if there is none."""
-    words = approach_words(met.margin, met.stray)
+    meet = approach_words(met.margin, met.stray)
     bracket = met.time_bracket
     if met.outcome is Outcome.UNDECIDED and bracket is not None:
         if met.overlapping is None:
-            message = f"Whether benches of two dragons {words} is not decided from {bracket[0]:.6f} s on."
+            message = say(
+                "Whether benches of two dragons {meet} is not decided from {time:.6f} s on.", meet=meet, time=bracket[0]
+            )
             return [PerformanceFailure(FailureKind.UNDECIDED, bracket[0], (), (), message, None)]
         dragons, benches = met.overlapping
-        message = f"{_pair(met, dragons, benches)} {words} at {bracket[1]:.6f} s at the latest."
+        pair = _pair(met, dragons, benches)
+        message = say("{pair} {meet} at {time:.6f} s at the latest.", pair=pair, meet=meet, time=bracket[1])
         return [PerformanceFailure(FailureKind.CONTACT, bracket[1], dragons, benches, message, bracket)]
     if met.time is None or met.dragons is None or met.benches is None:
         return []
-    message = f"{_pair(met, met.dragons, met.benches)} {words} at {met.time:.6f} s."
+    message = say("{pair} {meet} at {time:.6f} s.", pair=_pair(met, met.dragons, met.benches), meet=meet, time=met.time)
     return [PerformanceFailure(FailureKind.CONTACT, met.time, met.dragons, met.benches, message, bracket)]
 
 
 def _pair(met: FirstEncounter, dragons: tuple[int, int], benches: tuple[int, int]) -> str:
     """Two benches at the beginning of a sentence, with their households and dragons."""
-    parts = met.performance.parts
-    one, two = (
-        f"ench {parts[k].dance.dragon.called(bench)} of {met.performance.name_of(k)}"
-        for k, bench in zip(dragons, benches, strict=True)
-    )
-    return f"B{one} and b{two}"
+    a, b = (met.performance.parts[k].dance.dragon.called(bench) for k, bench in zip(dragons, benches, strict=True))
+    one, two = map(met.performance.name_of, dragons)
+    return say("Bench {a} of {one} and bench {b} of {two}", a=a, one=one, b=b, two=two)
 
 
 @question_about("performance", Performance, "the trajectories were not computed")
