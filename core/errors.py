@@ -23,7 +23,7 @@ from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, Self, TypeVar, cast
 
 from core.kernels import Budget, Halted
-from core.language import phrase, say, say_clauses
+from core.language import Phrases, phrase, say, say_clauses
 
 if TYPE_CHECKING:  # NumPy takes as long to import as all of a process that runs jobs.
     from core.values import Point
@@ -48,6 +48,8 @@ LESS = {
     ("dragons", True, False): phrase("take fewer dragons, or a shorter time"),
     ("dragons", True, True): phrase("allow more time, or take fewer dragons, or a shorter time"),
 }
+# Units that are words, which each language has its own for.
+UNITS: Phrases = {"turns": "turns", "degrees": "degrees"}
 # A word in a template.
 WORD = re.compile(r"\{(\w+)\}")
 
@@ -69,6 +71,10 @@ class Quantity(NamedTuple):
     def __str__(self) -> str:
         number = format_number(self.value) if self.digits == 17 else f"{self.value:.{self.digits}g}"
         return self.text or f"{number} {self.unit}".rstrip()
+
+    def said(self) -> str:
+        """The text in the language that is spoken."""
+        return str(self).replace(self.unit, say(UNITS[self.unit])) if self.unit in UNITS else str(self)
 
 
 class Parameter(NamedTuple):
@@ -136,6 +142,12 @@ def fill_message(template: str, values: Mapping[str, Value]) -> str:
     """What fill_template() gives, in the language that is spoken."""
     text = say_clauses(template)
     return WORD.sub(lambda word: say_value(values[word[1]]) if word[1] in values else word[0], text)
+
+
+def message_of(template: str, reason: str, got: Value | None, values: Mapping[str, Value]) -> str:
+    """A refusal with the given value and the reason, in the language that is spoken."""
+    got_text = "" if got is None else say(", got ") + say_value(got)
+    return fill_message(template, values) + got_text + (say(": ") + fill_message(reason, values) if reason else "")
 
 
 def say_value(value: Value) -> str:
@@ -214,9 +226,7 @@ class BenchDragonError(Exception):
         """Put the sentence together, in the language that is spoken."""
         self.field, self.template, self.reason, self.got = field, template, reason, got
         self.values = {word: values[word] for word in WORD.findall(f"{template} {reason}") if word in values}
-        got_text = "" if got is None else say(", got ") + say_value(got)
-        reason_text = say(": ") + fill_message(reason, values) if reason else ""
-        self.message = fill_message(template, values) + got_text + reason_text
+        self.message = message_of(template, reason, got, values)
         self.args = (self.message,)
 
     @classmethod

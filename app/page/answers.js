@@ -3,7 +3,7 @@
 import { button, make } from "./elements.js";
 import { LABELS, strayOf } from "./fields.js";
 import { bound, fixed, formatNumber, isExact } from "./numbers.js";
-import { benchName, between, handleName, phrase, refusalWords, say, sayOf, sentencesOf, titleOf } from "./text.js";
+import { benchName, between, handleName, phrase, say, sayOf, sentencesOf, titleOf } from "./text.js";
 
 /** Why every larger pitch is right. @type {Phrases} */
 const JUSTIFIED = {
@@ -271,8 +271,7 @@ export function showEnd(box, answer, { begin, end: time }, request) {
 /** problem: the service's problem; null if it is shown elsewhere; names: of the fields beside which it is shown */
 export function showRefusal(box, title, problem, names) {
   show(box, say(title), say("No answer"), []);
-  if (problem) box.append(make("p", refusalWords(problem)));
-  else box.append(paragraph(names.length ? mendWords(names) : say("See the reason above.")));
+  box.append(paragraph(problem?.sentence ?? (names.length ? mendWords(names) : say("See the reason above."))));
 }
 
 /** What is to be mended before there is an answer. names: of fields */

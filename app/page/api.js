@@ -1,6 +1,7 @@
 /** The service: only the newest question of a kind gets an answer, and a lost service is tried until it is back. */
 
 import { pending } from "./pending.js";
+import { say } from "./text.js";
 
 /**
  * A superseded question may still answer for this long [ms], or for twice the time of the last one, up to a maximum: so
@@ -32,11 +33,10 @@ export function commandFor(path, body = null) {
 export class Problem extends Error {
   constructor(status, body) {
     // A proxy before the service may answer in its own words, or without any.
-    const { detail, template = detail } = body ?? {};
-    const problem = detail ? { ...body, template } : { detail: `HTTP ${status}`, template: "HTTP {status}", values: { status: { text: status } } };
-    super(problem.detail);
-    this.problem = problem;
-    this.errors = problem.errors ?? [];
+    const sentence = body?.sentence ?? body?.detail ?? say("The service answered with HTTP {status} and gave no reason.", { status });
+    super(sentence);
+    this.problem = { ...body, sentence };
+    this.errors = body?.errors ?? [];
   }
 }
 
@@ -94,8 +94,7 @@ export class Service {
   #hanging = new AbortController();
 
   /**
-   * tell: {lost(seconds until the next try, 0 during one), back(), busy(channel, whether it is busy), refused(): Promise, after
-   * which a refusal can be put into words}
+   * tell: {lost(seconds until the next try, 0 during one), back(), busy(channel, whether it is busy)}
    */
   constructor(tell) {
     this.tell = tell;
@@ -165,11 +164,7 @@ export class Service {
       signal.throwIfAborted();
       if (!response || response.ok) await this.#untilBack();
       else if (BUSY.includes(response.status) && pauseOf(response) <= MOMENT) await wait(1000 * pauseOf(response));
-      else {
-        const body = await response.json().catch(() => null);
-        await this.tell.refused();
-        throw new Problem(response.status, body);
-      }
+      else throw new Problem(response.status, await response.json().catch(() => null));
       signal.throwIfAborted();
     }
   }

@@ -4,7 +4,7 @@ import { tableOf, tableText } from "./benches.js";
 import { $, bearer, make, textButton } from "./elements.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { Pause } from "./pending.js";
-import { language, nameBenches, refusalWords, say, sentencesOf } from "./text.js";
+import { language, nameBenches, say, sentencesOf } from "./text.js";
 
 /** A typed table counts after this pause [ms]. */
 const TYPING = 500;
@@ -110,7 +110,7 @@ export class BenchTable {
   /** error: of the service about the table, which names the line; or none */
   refuse(error) {
     this.error.hidden = !error;
-    Object.assign(this.error, error ? refusalWords(error) : { textContent: "" });
+    this.error.textContent = error?.sentence ?? "";
     this.text.setAttribute("aria-invalid", Boolean(error));
   }
 }

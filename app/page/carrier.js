@@ -3,7 +3,7 @@
 import { Problem, Superseded } from "./api.js";
 import { $, button, hide, make, numberIn, textButton } from "./elements.js";
 import { secondsBetween, timeOfDay } from "./passages.js";
-import { benchTitle, language, learn, phrase, refusalWords, say, sentencesOf } from "./text.js";
+import { benchTitle, language, learn, phrase, say, sentencesOf } from "./text.js";
 
 /** Where a person stands by a mark: 1 step from it, and more. */
 const PAST = [phrase("You stand 1 step past chalk mark {mark} m (x {x} m, y {y} m)."), phrase("You stand {steps} steps past chalk mark {mark} m (x {x} m, y {y} m).")];
@@ -300,7 +300,7 @@ export class Carrier {
     if (this.#bench === null) return;
     const put = (element, text) => element.textContent === text || (element.textContent = text);
     const refusal = refusals.get("contact")?.problem ?? this.#problem;
-    if (!dance) return put(this.cue, refusal ? refusalWords(refusal).textContent : "");
+    if (!dance) return put(this.cue, refusal?.sentence ?? "");
     const { begin, end, numbers: { benches } } = dance;
     const time = this.#now;
     const pose = dance.track?.at(Math.min(Math.max(time, begin), end));
@@ -324,7 +324,7 @@ export class Carrier {
     const [cue, at] = present ? [present, present.until] : [next, next?.since];
     this.present.classList.toggle("present", Boolean(present));
     const left = minutesAndSeconds(Math.max(at - time, 0));
-    const lacks = this.#bench >= benches ? say("This dragon has no bench {bench}: its tail is bench {last}.", { bench: this.#bench, last: benches - 1 }) : refusal ? refusalWords(refusal).textContent : "";
+    const lacks = this.#bench >= benches ? say("This dragon has no bench {bench}: its tail is bench {last}.", { bench: this.#bench, last: benches - 1 }) : refusal?.sentence ?? "";
     put(this.when, lacks || isOver || !cue || !isGoing ? "" : !present ? say("in {time}", { time: left }) : at > time ? say("still {time}", { time: left }) : say("Now"));
     const words = isOver ? say(dance.answer.time === null ? "The dance is over." : "Stop: benches touch here, and the cues end.") : isGoing ? (cue?.words ?? "") : sentencesOf([say("Press Start when the dance begins."), cue && `${say("Next")}${say(": ")}${cue.words}`]);
     put(this.cue, lacks || words);

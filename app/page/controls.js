@@ -6,7 +6,7 @@
 import { $$, button, make, onClick, onSlide } from "./elements.js";
 import { EMPTY_NAMES, FIELDS, HELPS, LABELS } from "./fields.js";
 import { Pause } from "./pending.js";
-import { refusalWords, say } from "./text.js";
+import { say } from "./text.js";
 
 /** Groups of numbers. @type {Phrases} */
 const GROUPS = {
@@ -145,8 +145,8 @@ export class Controls {
   refuse(errors) {
     for (const [name, row] of this.#rows) {
       const error = errors.get(name);
-      const words = error ? refusalWords(error) : { textContent: "" };
-      if (row.error.textContent !== words.textContent) Object.assign(row.error, words);
+      const sentence = error?.sentence ?? "";
+      if (row.error.textContent !== sentence) row.error.textContent = sentence;
       row.error.hidden = !error;
       row.box.classList.toggle("wrong", Boolean(error));
       row.text.setAttribute("aria-invalid", Boolean(error));

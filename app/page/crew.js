@@ -4,7 +4,7 @@ import { Problem, Superseded } from "./api.js";
 import { $, button, download, make, numberIn, textButton } from "./elements.js";
 import { announce } from "./overlays.js";
 import { clockIn } from "./passages.js";
-import { benchTitle, between, language, phrase, refusalWords, say, sentencesOf } from "./text.js";
+import { benchTitle, between, language, phrase, say, sentencesOf } from "./text.js";
 
 /** Numbers of the form: the field of the service, its key, its first value; an empty one is left to the service. */
 const NUMBERS = { head_people: [phrase("on the head"), "8"], bench_people: [phrase("on every other bench"), "2"], spares: [phrase("spares"), "0"], shift: [phrase("shift [s]"), ""], rest: [phrase("least rest [s]"), "0"] };
@@ -99,7 +99,7 @@ export class Crew {
 
   /** After an answer, a change of the language or of the dance. */
   show() {
-    if (this.#problem) return this.result.replaceChildren(make("p", { className: "error", ...refusalWords(this.#problem) }));
+    if (this.#problem) return this.result.replaceChildren(make("p", { className: "error", textContent: this.#problem.sentence }));
     // People of another dance are none of this one.
     if (!this.#answer || this.#of !== this.#dance) return this.result.replaceChildren();
     const { people, spares, changes, longest, enough, unrelieved, at, carriers, start, stop } = this.#answer;

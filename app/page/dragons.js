@@ -16,7 +16,7 @@ import { announceReplaced, isPresetVenue } from "./presets.js";
 import { isFurther, queued } from "./queue.js";
 import { announceSaved } from "./saved.js";
 import { circle, isInside, onBorder } from "./square.js";
-import { benchName, between, language, phrase, refusalWords, say, sayIn, sayOf, writeTexts } from "./text.js";
+import { benchName, between, language, phrase, say, sayIn, sayOf, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
 
 /** Dances to begin with. @type {Phrases} */
@@ -249,7 +249,7 @@ export class Dragons {
     if (!is) return;
     const { k, problem } = this.note;
     const words = { name: this.#nameOf(this.#records, k), most: WAIT_MOST };
-    this.apart.textContent = problem ? say("How long {name} has to wait was not found: {why} It dances without a delay of its own: type one, or make the dragons or the path shorter.", { ...words, why: refusalWords(problem).textContent }) : say("{name} finds no safe delay up to {most} s: on this path the dragons stand on one another, or meet. Draw another path for it, let it begin in another street, or make the dragons shorter.", words);
+    this.apart.textContent = problem ? say("How long {name} has to wait was not found: {why} It dances without a delay of its own: type one, or make the dragons or the path shorter.", { ...words, why: problem.sentence }) : say("{name} finds no safe delay up to {most} s: on this path the dragons stand on one another, or meet. Draw another path for it, let it begin in another street, or make the dragons shorter.", words);
   }
 
   /** Copy dragon k; on a drawn path it comes in behind it. changes: of the copy; later: how much later it dances [s] */
@@ -489,9 +489,8 @@ export class Dragons {
     const refusal = refusals.get("contact");
     if (refusal) {
       const [, k] = /\/dances\/(\d+)\//.exec(refusal.errors[0]?.pointer ?? "") ?? [];
-      const words = refusalWords(refusal.problem);
       const name = k === undefined ? "" : `${this.#nameOf(this.#records, Number(k))}${say(": ")}`;
-      return this.judgement.refuse(refusal.problem, null, 0, { ...words, textContent: `${name}${words.textContent}` });
+      return this.judgement.refuse(name + refusal.problem.sentence);
     }
     if (dance?.kind !== "dances") return;
     const { time, time_bracket: bracket } = dance.answer;

@@ -2,7 +2,7 @@
 
 import { Problem, Superseded } from "./api.js";
 import { $, bearer, make, onClick } from "./elements.js";
-import { phrase, refusalWords, say } from "./text.js";
+import { phrase, say } from "./text.js";
 
 /** Verdicts on a file or an answer. @type {Phrases} */
 const VERDICTS = {
@@ -37,7 +37,6 @@ const MEANINGS = { ".": "right", o: "rounded", "#": "wrong", "?": "missing" };
 /** Numbers that may be typed, with an example of each. */
 const NUMBER = /^[+-]?([0-9]{1,6}(\.[0-9]{0,20})?|\.[0-9]{1,20})(e[+-]?[0-9]{1,2})?$/i;
 const EXAMPLES = { collision_time: "412.473838", pitch: "0.450338", turn_length: "13.621245", speed: "1.246266" };
-const TOO_LONG = "The body must be at most {most} bytes";
 
 export class Grader {
   #files = [];
@@ -105,7 +104,7 @@ export class Grader {
     this.#answers = results;
     for (const [k, [query, file]] of requests.entries()) {
       if (file?.size === 0) {
-        results.push(refusedBox(file.name, { textContent: say("The file is empty.") }));
+        results.push(refusedBox(file.name, say("The file is empty.")));
         continue;
       }
       this.#tell(say("Grading {name} ({k} of {count}) …", { name: file?.name ?? say("Typed answers"), k: k + 1, count: requests.length }));
@@ -114,9 +113,7 @@ export class Grader {
       } catch (error) {
         if (error instanceof Superseded) return;
         if (!(error instanceof Problem)) throw error;
-        const { problem } = error;
-        const words = problem.template === TOO_LONG ? { textContent: say("The file is longer than {most} MB: a workbook of the contest has 2 MB.", { most: problem.values.most.value / 1e6 }) } : refusalWords(problem);
-        results.push(refusedBox(file?.name ?? say("Typed answers"), words));
+        results.push(refusedBox(file?.name ?? say("Typed answers"), error.problem.sentence));
       }
       if (this.#answers !== results) return;
       this.show();
@@ -125,9 +122,9 @@ export class Grader {
   }
 }
 
-function refusedBox(title, words) {
+function refusedBox(title, textContent) {
   const heading = make("h3", { textContent: title });
-  return { refused: make("div", { className: "answer" }, heading, make("p", { className: "error", ...words })) };
+  return { refused: make("div", { className: "answer" }, heading, make("p", { className: "error", textContent })) };
 }
 
 const paragraph = (textContent, className = "") => make("p", { textContent, className });

@@ -4,7 +4,7 @@ import { centimetres, gapWords, instantWords, outcomeWords } from "./answers.js"
 import { Chart, clearancePlan, curvePlan, scanPlan } from "./charts.js";
 import { $, make } from "./elements.js";
 import { CONTACT, strayOf } from "./fields.js";
-import { benchName, phrase, refusalWords, say, sayOf } from "./text.js";
+import { benchName, phrase, say, sayOf } from "./text.js";
 
 const PITCH_DECIMALS = 4;
 /** Difference of two times that are shown as one [s]. */
@@ -60,20 +60,20 @@ export class Graphs {
   /** Show a refusal in place of the chart of this kind, if there is one. problem: null if it is shown elsewhere */
   refuse(kind, problem) {
     if (!(kind in this.#charts)) return;
-    this.#say(kind, problem ? refusalWords(problem) : { textContent: say("See the reason above.") });
+    this.#say(kind, problem?.sentence ?? say("See the reason above."));
   }
 
   /** Say something in place of the chart of this kind. */
-  #say(kind, words) {
+  #say(kind, textContent) {
     this.#charts[kind].show(null);
-    $(`#${kind} .reading`).replaceChildren(make("span", words));
+    $(`#${kind} .reading`).replaceChildren(make("span", { textContent }));
   }
 
   clearance() {
     const { answer, dance } = this.questions.answers.clearance;
     if (!answer) {
       $("#clearance").setAttribute("aria-busy", false);
-      return this.#say("clearance", { textContent: say("Only benches that share no handle have a gap: it takes three of them.") });
+      return this.#say("clearance", say("Only benches that share no handle have a gap: it takes three of them."));
     }
     const { time, gap } = dance.answer;
     const { margin } = dance.numbers;

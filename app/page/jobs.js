@@ -5,7 +5,7 @@ import { $, bearer, button, download, make } from "./elements.js";
 import { LABELS } from "./fields.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { QUESTIONS, TABLE } from "./sweeps.js";
-import { refusalWords, say } from "./text.js";
+import { say } from "./text.js";
 
 const STORED = "bench-dragon-jobs";
 /** Most jobs that the browser remembers. */
@@ -196,7 +196,7 @@ export class Jobs {
     if (href) buttons.append(make("a", { href: `jobs/${id}/result`, download: `${status.processID}-${id.slice(0, 8)}${ENDINGS[type] ?? ""}`, textContent: say("Result") }));
     buttons.append(going ? labelled("jobCancel", say("Cancel"), () => this.#cancel(id)) : labelled("jobRemove", say("Remove"), () => this.#end(id)));
     row.append(buttons);
-    if (status.problem) row.append(make("p", { className: "error", ...refusalWords(status.problem) }));
+    if (status.problem) row.append(make("p", { className: "error", textContent: status.problem.sentence ?? status.problem.detail }));
     return row;
   }
 }

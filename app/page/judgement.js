@@ -6,7 +6,7 @@ import { formatNumber } from "./numbers.js";
 import { tell } from "./overlays.js";
 import { timeOfDay, wayAt } from "./passages.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
-import { benchName, handleName, refusalWords, say, sayOf, sentencesOf } from "./text.js";
+import { benchName, handleName, say, sayOf, sentencesOf } from "./text.js";
 
 /** Verdicts on a dance. @type {Phrases} */
 const VERDICTS = {
@@ -99,11 +99,11 @@ export class Judgement {
   }
 
   /** Show why there is no verdict: bends that are too tight, or the service's refusal. */
-  refuse(problem, course, benches, words = refusalWords(problem)) {
+  refuse(sentence, course = null, benches = 0) {
     const bends = course?.bends ?? [];
     const sentences = bends.map((bend) => say("The bend is too tight: its radius is {radius} m, and {bench} needs {least} m.", { ...radiiOf(bend), bench: benchName(bend.bench, benches) }));
     const rows = bends.map(({ points }, k) => this.#row(say("Show"), sentences[k], () => this.look(points[Math.floor(points.length / 2)])));
-    this.#fill("contact", "✕", say(VERDICTS.fails), rows.length ? [] : [words], rows);
+    this.#fill("contact", "✕", say(VERDICTS.fails), rows.length ? [] : [sentence], rows);
   }
 
   #row(name, text, act) {

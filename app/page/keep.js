@@ -8,7 +8,7 @@ import { UNFINISHED } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
 import { fitsQuery } from "./questions.js";
 import { announceSaved } from "./saved.js";
-import { between, language, phrase, refusalWords, say, sentencesOf } from "./text.js";
+import { between, language, phrase, say, sentencesOf } from "./text.js";
 
 const CSV_STEP = 1;
 const TYPES = {
@@ -287,7 +287,7 @@ export class Keep {
     button.style.setProperty("--share", `${progress}%`);
     button.querySelector(".share").textContent = going ? ` ${progress} %` : "";
     nameButton(button);
-    if (problem) announce(() => refusalWords(problem).textContent, true);
+    if (problem) announce(() => problem.sentence, true);
     if (status !== "successful") return;
     const result = `jobs/${jobID}/result`;
     const name = fileName(file, form);

@@ -2,7 +2,7 @@
 
 import { Problem, Superseded } from "./api.js";
 import { make, numberIn, textButton } from "./elements.js";
-import { phrase, refusalWords, say, writeTexts } from "./text.js";
+import { phrase, say, writeTexts } from "./text.js";
 
 /** Labels of the sides of an area, and what stands in their empty fields. */
 const SIDES = [[phrase("Least x [m]"), "x"], [phrase("Least y [m]"), "y"], [phrase("Largest x [m]"), "x"], [phrase("Largest y [m]"), "y"]];
@@ -16,7 +16,7 @@ const quoted = (name) => (/[,"]/.test(name) ? `"${name.replaceAll('"', '""')}"` 
  */
 export function chooseParts(layers, problem, open) {
   document.getElementById("drawing-parts")?.remove();
-  const why = make("p", { className: "error", role: "alert", ...refusalWords(problem) });
+  const why = make("p", { className: "error", role: "alert", textContent: problem.sentence });
   const boxes = layers.map(({ name }) => make("input", { type: "checkbox", value: name }));
   const rows = layers.map(({ name, edges }, k) => make("li", {}, make("label", {}, boxes[k], `${name} · ${say("{edges} edges", { edges })}`)));
   const sides = SIDES.map(([label, placeholder]) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": label, placeholder }));
@@ -34,7 +34,7 @@ export function chooseParts(layers, problem, open) {
       await open(part);
       leave();
     } catch (error) {
-      if (error instanceof Problem) Object.assign(why, refusalWords(error.problem));
+      if (error instanceof Problem) why.textContent = error.problem.sentence;
       else if (!(error instanceof Superseded)) throw error;
     } finally {
       go.disabled = false;

@@ -21,7 +21,7 @@ import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { EXTRAS, State } from "./state.js";
 import { Table } from "./table.js";
-import { handleName, language, languageOf, learn, learnRefusals, say, setLanguage, writeTexts } from "./text.js";
+import { handleName, language, languageOf, learn, say, setLanguage, writeTexts } from "./text.js";
 import { showRefusals } from "./refusal_boxes.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), ...EXTRAS, "path", "drawing"];
@@ -63,7 +63,6 @@ const service = new Service({
     carrier?.network(true);
     if (questions.dance) announce(() => say("The service is back.")); // before a first answer nobody has missed it
   },
-  refused: async () => learnRefusals(await parts.load("refusals")),
 });
 const parts = new Parts(service);
 const questions = new Questions(service, state, (kind, detail) => (SHOW[kind] ?? TELL[kind])(detail));

@@ -4,7 +4,7 @@ import { Problem, Superseded } from "./api.js";
 import { $ } from "./elements.js";
 import { formatNumber } from "./numbers.js";
 import { pending } from "./pending.js";
-import { refusalWords, say } from "./text.js";
+import { say } from "./text.js";
 
 /** Time that a message stays, and additional time for each letter of a long one [ms]. */
 const [VISIBLE_FOR, READ_FOR, LETTER] = [6_000, 30_000, 80];
@@ -79,7 +79,7 @@ export async function copy(text) {
 
 /** Show the refusal of a question that a person has asked, if it was refused. flows: see announce(); throws: any other error */
 export function announceRefusal(error, flows = false) {
-  if (error instanceof Problem) announce(() => refusalWords(error.problem).textContent, false, flows);
+  if (error instanceof Problem) announce(() => error.problem.sentence, false, flows);
   else if (!(error instanceof Superseded)) throw error;
 }
 

@@ -3,7 +3,7 @@
 import { button, make, numberIn, textButton } from "./elements.js";
 import { announce } from "./overlays.js";
 import { beatsOf, beginsOf, clockIn, endOf, passagesIn, timeOfDay } from "./passages.js";
-import { phrase, refusalWords, say, sentencesOf } from "./text.js";
+import { phrase, say, sentencesOf } from "./text.js";
 
 /** How the end of a passage may be stated. @type {Phrases} */
 const END_NAMES = {
@@ -137,6 +137,6 @@ export class Pace {
   /** error: of the service about the passages, or none */
   refuse(error) {
     this.error.hidden = !error;
-    Object.assign(this.error, error ? refusalWords(error) : { textContent: "" });
+    this.error.textContent = error?.sentence ?? "";
   }
 }

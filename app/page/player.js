@@ -5,7 +5,7 @@ import { announce } from "./overlays.js";
 import { clockIn, secondsBetween } from "./passages.js";
 import { pending } from "./pending.js";
 import { RATES } from "./state.js";
-import { refusalWords, say, sentencesOf } from "./text.js";
+import { say, sentencesOf } from "./text.js";
 
 /** Time between requests for the service's own numbers in motion [ms]. */
 const EXACT_EVERY = 250;
@@ -170,7 +170,7 @@ export class Player {
     if (!dance) return this.stop();
     const refusal = dance.track?.refusal;
     if (refusal) {
-      announce(() => sentencesOf([say("The dance cannot be played: step through it, or move the time."), refusalWords(refusal).textContent]));
+      announce(() => sentencesOf([say("The dance cannot be played: step through it, or move the time."), refusal.sentence]));
       return this.stop();
     }
     if (!dance.track?.at(this.time)) return;

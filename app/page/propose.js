@@ -14,7 +14,7 @@ import { pending } from "./pending.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
 import { circle, extent, rectangle } from "./square.js";
 import { roundedRoute } from "./walk.js";
-import { benchName, between, phrase, refusalWords, say, sentencesOf, writeTexts } from "./text.js";
+import { benchName, between, phrase, say, sentencesOf, writeTexts } from "./text.js";
 
 /** What may be put into a square. @type {Phrases} */
 const TOOLS = {
@@ -411,7 +411,7 @@ export class Propose {
     const going = () => say(answer ? "{count} found so far, the search goes on: {seconds} s" : "Looking for dances that fit: {seconds} s", { seconds, count: answer?.proposals.length }) + (this.#search.job ? say(", {share} % of the kinds of dance tried", this.#search) : "");
     const text = this.#search ? going() : (this.note?.() ?? result ?? "");
     const problem = !this.#search && !text && this.#problem;
-    Object.assign(this.words, problem ? refusalWords(problem) : { textContent: text });
+    this.words.textContent = problem?.sentence ?? text;
     this.words.className = problem || (answer && !answer.proposals.length) ? "error" : "hint";
   }
 

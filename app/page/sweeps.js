@@ -3,7 +3,7 @@
 import { commandFor } from "./api.js";
 import { make } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, LABELS } from "./fields.js";
-import { phrase, refusalWords, say } from "./text.js";
+import { phrase, say } from "./text.js";
 
 const SPIRAL = [...DRAGON, "pitch", "start_turns", "head_speed"];
 const CIRCLE = [...DRAGON, "turning_diameter", "start_turns"];
@@ -130,7 +130,7 @@ export class SweepForm {
     if (this.error.textContent) return;
     await this.start(this.spec()).catch((error) => {
       if (!error.problem) throw error;
-      Object.assign(this.error, refusalWords(error.problem));
+      this.error.textContent = error.problem.sentence;
     });
   }
 }

@@ -105,16 +105,6 @@ export function titleOf(key, request) {
   return stray > 0 ? say(request.hole > 0 ? "{title}, every hole within {stray} cm of its place" : "{title}, everybody within {stray} cm of their place", { title, stray: Number((100 * stray).toPrecision(9)) }) : title;
 }
 
-/** The function of refusals.js; null until it has loaded. */
-let refusalIn = null;
-export const learnRefusals = (module) => (refusalIn = module.refusalIn);
-
-/** A refusal of the service in the language of the page: the properties of an element. problem: a problem or one of its errors */
-export function refusalWords(problem) {
-  const one = problem.errors?.[0] ?? problem;
-  return refusalIn ? refusalIn(one, spoken === "zh", say) : { textContent: one.detail, lang: "en" };
-}
-
 export const nameBenches = (names) => (households = names);
 const withHousehold = (words, k) => (households[k] ? say("{words} ({name})", { words, name: households[k] }) : words);
 

@@ -341,8 +341,8 @@ def result(request: Request, keeper: KeptKeeper, job: RequestedJob) -> Response:
     The table of a sweep that is kept as Parquet is also there in the other forms of a sweep, by the header Accept.
     """
     if not job.is_finished:
-        detail = "The job is {state}, so it has no result yet: ask again, or follow its events."
-        raise Refused(409, detail, None, {"Retry-After": "1"}, state=str(job.state))
+        words = "The job is {state}, so it has no result yet: ask again, or follow its events."
+        raise Refused(409, words, None, {"Retry-After": "1"}, state=str(job.state))
     if job.problem is not None:
         fields = orjson.loads(job.problem)
         return Response(job.problem, fields["status"], NOT_KEPT, PROBLEM_TYPE)

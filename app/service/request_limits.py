@@ -68,8 +68,8 @@ class RequestLimits(Layer):
             return Refused(414, words, None, CLOSE, got=got, reason="ask in a body.", most=self.query_max)
         stated = headers.get("content-length", "0")
         if "transfer-encoding" in headers and "content-length" in headers:
-            detail = "The length of a body is stated twice: send Content-Length or Transfer-Encoding, not both."
-            return Refused(400, detail, {"name": "Content-Length"}, CLOSE)
+            words = "The length of a body is stated twice: send Content-Length or Transfer-Encoding, not both."
+            return Refused(400, words, {"name": "Content-Length"}, CLOSE)
         return self._refused(most, int(stated)) if stated.isdecimal() and int(stated) > most else None
 
     def _refused(self, most: int, got: int | str) -> Refused:

@@ -20,6 +20,6 @@ def guard(request: Request) -> None:
     token = request.app.state.settings.token
     kind, _, credentials = request.headers.get("authorization", "").partition(" ")
     if token and not (kind.lower() == "bearer" and compare_digest(credentials.strip().encode(), token.encode())):
-        detail = "Jobs and uploads need the token of this service: send the header Authorization: Bearer TOKEN."
+        words = "Jobs and uploads need the token of this service: send the header Authorization: Bearer TOKEN."
         challenge = {"WWW-Authenticate": 'Bearer realm="bench-dragon"'}
-        raise Refused(401, detail, {"name": "Authorization"}, challenge)
+        raise Refused(401, words, {"name": "Authorization"}, challenge)

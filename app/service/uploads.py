@@ -171,8 +171,8 @@ def grade(
     """Right and wrong cells of a contest workbook, and the known error that explains the wrong ones."""
     numbers = {name: text for name in UNITS if (text := getattr(inputs, name)) is not None}
     if not data and not numbers:
-        detail = "Send a workbook or CSV as the body, or a number such as pitch in the query."
-        raise Refused(422, detail, {"name": "name"})
+        words = "Send a workbook or CSV as the body, or a number such as pitch in the query."
+        raise Refused(422, words, {"name": "name"})
     graders: Graders = request.app.state.graders
     budget = request.state.budget
     with in_lane(request), speaking(language_for(inputs)):
@@ -195,8 +195,8 @@ def places(
     The benches in a workbook become `dance.dragon.csv`.
     """
     if not data:
-        detail = "Send a map as the body: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON; or a workbook of benches."
-        raise Refused(422, detail, {"name": "file"})
+        words = "The file is empty: send GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON; or a workbook of benches."
+        raise Refused(422, words, {"name": "file"})
     graders: Graders = request.app.state.graders
     budget = request.state.budget
     with in_lane(request), speaking(language_for(inputs)):

@@ -10,6 +10,7 @@ from typing import Any
 
 from pydantic import BaseModel, Field
 
+from app.wire.sentences import sentence_for
 from core.errors import BenchDragonError, Given, Parameter, Quantity, Value
 
 PROBLEM_TYPE = "application/problem+json"
@@ -38,6 +39,7 @@ class Sentence(BaseModel):
     """A sentence, and its parts in English for programs that word it themselves: template, got and reason."""
 
     detail: str = Field(description="What is wrong and what to change")
+    sentence: str = Field(description="The same for people: with labels of fields and units as the page shows them")
     template: str = Field(description="What must hold; {word} stands for a value, {field} for the wrong field")
     got: Part | None = Field(None, description="What was given")
     reason: str | None = Field(None, description="Why it must hold, or what to change; with words as in the template")
@@ -86,9 +88,11 @@ def problem_of(
     more: stands after its message
     """
     error = BenchDragonError.in_words("", error, **values) if isinstance(error, str) else error
+    kind, listed = f"urn:problem-type:bench-dragon:{code}", list(islice(errors, ERRORS_MAX))
     sentence = sentence_of(error)
     sentence["detail"] = sendable_text(f"{error}{more}", 2 * DETAIL_MAX)
-    kind, listed = f"urn:problem-type:bench-dragon:{code}", list(islice(errors, ERRORS_MAX))
+    if listed:
+        sentence["sentence"] = listed[0].sentence
     problem = Problem(type=kind, title=title(status), status=status, errors=listed, **sentence)
     while problem.errors and len(problem.to_json()) > BYTES_MAX:
         problem.errors.pop()
@@ -97,13 +101,14 @@ def problem_of(
 
 def item_of(error: BenchDragonError, *, pointer: str | None = None, name: str | None = None) -> ErrorItem:
     """An error at its place."""
-    return ErrorItem(pointer=pointer, name=name and sendable_text(name, PLACE_MAX), **sentence_of(error))
+    return ErrorItem(pointer=pointer, name=name and sendable_text(name, PLACE_MAX), **sentence_of(error, pointer))
 
 
-def sentence_of(error: BenchDragonError) -> dict[str, Any]:
+def sentence_of(error: BenchDragonError, pointer: str | None = None) -> dict[str, Any]:
     """The fields of a Sentence."""
     return {
         "detail": sendable_text(error.message),
+        "sentence": sendable_text(sentence_for(error, pointer), 2 * DETAIL_MAX),
         "template": sendable_text(error.template),
         "got": None if error.got is None else _part(error.got),
         "reason": sendable_text(error.reason) or None,

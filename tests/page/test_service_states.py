@@ -16,7 +16,7 @@ CONTACT = "#first-contact .value"
 OLD = (CONTACT, "#run-end .value", "#canvas", "#clearance .plot", "#rows")
 TITLES = ("#first-contact h3", "#run-end h3", "#clearance h2")
 # Parts with a file of each that tells that it has loaded.
-LATER = {"qr.js", "below.js", "below.css", "grade.js", "map.js", "drawn.js", "place.css", "propose.js", "refusals.js"}
+LATER = {"qr.js", "below.js", "below.css", "grade.js", "map.js", "drawn.js", "place.css", "propose.js"}
 LATER |= {"sharing.js"}
 # Answers about first contact take this long [ms], and aborted questions are counted.
 SLOW = """(milliseconds) => {

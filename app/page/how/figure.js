@@ -2,7 +2,7 @@
 
 import { Problem, Superseded } from "../api.js";
 import { button, make } from "../elements.js";
-import { refusalWords, say } from "../text.js";
+import { say } from "../text.js";
 import { Dial } from "./dial.js";
 
 /** A name in a text: a number to drag, a number of the answer, or with a value a button that sets a number. */
@@ -115,7 +115,7 @@ export class Figure {
   /** Show the error below the drawing, which is then older than the numbers. */
   #tell() {
     const waits = this.missed && this.figure.getAttribute("aria-busy") === "true";
-    this.note.textContent = waits ? this.missed : this.#refused ? refusalWords(this.#refused).textContent : "";
+    this.note.textContent = waits ? this.missed : this.#refused?.sentence ?? "";
     this.figure.classList.toggle("stale", Boolean(this.#refused || waits));
   }
 

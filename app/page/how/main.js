@@ -5,9 +5,8 @@ import { $, $$, onClick } from "../elements.js";
 import { addLook } from "../look.js";
 import { lost } from "../overlays.js";
 import { Pause } from "../pending.js";
-import { refusalIn } from "../refusals.js";
 import { Sharing } from "../sharing.js";
-import { languageOf, learn, learnRefusals, say, setLanguage } from "../text.js";
+import { languageOf, learn, say, setLanguage } from "../text.js";
 import { Figure } from "./figure.js";
 import { PLANS } from "./plans.js";
 
@@ -23,9 +22,7 @@ const service = new Service({
     $("#lost").hidden = true;
     for (const figure of figures) figure.lost("");
   },
-  refused: async () => {},
 });
-learnRefusals({ refusalIn });
 const figures = Object.entries(PLANS).map(([id, plan]) => new Figure($(`#${id}`), plan, service, () => keep(id)));
 
 /** Each number to drag with its name in the address, such as chord_turns. */

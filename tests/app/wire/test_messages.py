@@ -93,6 +93,7 @@ def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(ask):
     assert pitch == {
         "name": "pitch",
         "detail": "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m",
+        "sentence": "“Pitch” must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m.",
         "template": "{field} must be at most {most}",
         "got": {"text": "55 m", "value": 55.0, "unit": "m"},
         "reason": "lengths are in metres, and {cm} is {m}",

@@ -2,9 +2,13 @@
 
 import json
 import re
+from pathlib import Path
 
+import httpx
 import pytest
 
+from app.wire.problem import DETAIL_MAX
+from app.wire.sentences import INSTEAD, LABELS
 from tests.support.asking import assert_problem
 from tests.support.command import run
 from tests.support.depth import few
@@ -559,3 +563,81 @@ def test_a_file_of_a_dance_is_refused_as_a_body_is(client, tmp_path, entry):
     done = run("check", str(tmp_path / "dance.json"))
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == f"Error: {post(client, call, text).json()['detail']}\n"
+
+
+# Requests that the service refuses, one a line: [query], [path, body in JSON], or [path, text of a file in Latin-1].
+WRONG = [json.loads(line) for line in Path(__file__).with_name("wrong_requests.jsonl").read_text("utf-8").splitlines()]
+# What no person should read: names of fields, and places in a body.
+DOTTED = re.compile(r"[a-z]_[a-z]|[a-z]\.[a-z]|\w\[\d|\bNone\b|POST|Authorization")
+CHINESE = re.compile("[\u4e00-\u9fff]")
+# Requests, and what people read about them.
+READ = [
+    (["collision-time?stray=0.9"], "en", "“Stray” must be at most half the chord of bench 1 (82.5 cm), got 90 cm."),
+    (["collision-time?pitch="], "en", "“Pitch” must be a number [m], got an empty field."),
+    (["collision-time?start_turns=-1"], "zh", "“起始圈数”应大于 0 圈，现为 -1 圈。"),
+    (
+        ["check", {"path": {"kind": "waypoints", "points": [[0, 0], [20, 0], [0, 0]]}}],
+        "en",
+        "The list of points must not make the curve stop or turn on the spot, as between points 1 and 2.",
+    ),
+    (["places", "PNG"], "zh", "无法读取此文件：请存为 GeoJSON、KML、KMZ 或 DXF，或 TOML、JSON 格式的舞龙文件。"),
+]
+
+
+def problems(client, requests, language="en"):
+    """What the service answers to these requests in a language, where it refuses."""
+    for path, *body in requests:
+        is_file = bool(body) and isinstance(body[0], str)
+        answer = client.request(
+            "POST" if body else "GET",
+            path,
+            content=(body[0].encode("latin-1") if is_file else json.dumps(body[0])) if body else None,
+            headers={
+                "Accept-Language": language,
+                "Content-Type": f"application/{'octet-stream' if is_file else 'json'}",
+            },
+        )
+        if answer.is_error:
+            yield answer.json()
+
+
+@pytest.fixture(scope="module")
+def refused(client, service_with):
+    """Problems of all kinds."""
+    strict = service_with(token="secret", places_bytes_max=9, deadline_seconds=0.2).url
+    with httpx.Client(base_url=strict, timeout=60.0) as other:
+        late = ["minimum-pitch?benches=9&turning_diameter=0.01"]
+        return [*problems(other, [late, ["jobs"], ["places", "PNG" * 9]]), *problems(client, WRONG)]
+
+
+def test_a_refusal_is_a_sentence_for_people(client, refused):
+    assert len(refused) > len(WRONG) - 25  # a few of the wrong texts are right for some field
+    sentences = [one["sentence"] for problem in refused for one in (problem, *problem["errors"])]
+    assert [one for one in sentences if DOTTED.search(one) or one[0].islower() or one[-1] not in ".?"] == []
+    assert INSTEAD.keys() <= {problem["template"] for problem in refused}
+    described = client.get("/openapi.json").text
+    assert [name for name in LABELS if f'"{name}"' not in described] == []
+    chinese = [problem["sentence"] for problem in problems(client, WRONG, "zh")]
+    assert [one for one in chinese if not CHINESE.search(one) or one[-1] not in "。？"] == []
+
+
+@pytest.mark.parametrize(("request_", "language", "sentence"), READ)
+def test_people_read_labels_and_the_units_of_the_page(client, request_, language, sentence):
+    assert [problem["sentence"] for problem in problems(client, [request_], language)] == [sentence]
+
+
+def test_a_refusal_is_its_template_with_the_values(refused):
+    for problem in (one for whole in refused for one in (whole, *whole["errors"])):
+        values = problem["values"]
+
+        def fill(text, values=values):
+            return re.sub(r"\{(\w+)\}", lambda word: values[word[1]]["text"] if word[1] in values else word[0], text)
+
+        value_in_words = f", got {problem['got']['text']}" if "got" in problem else ""
+        why = f": {fill(problem['reason'])}" if "reason" in problem else ""
+        whole = fill(problem["template"]) + value_in_words + why
+        rest = problem["detail"].removeprefix(whole)
+        assert not rest or rest.startswith((" (and ", ". Ask for it as a job")) or len(whole) > DETAIL_MAX, problem
+        # A template is the same for all values: it holds none of them.
+        for value in (*values.values(), *([problem["got"]] if "got" in problem else [])):
+            assert "parameter" in value or len(value["text"]) < 4 or value["text"] not in problem["template"], problem
