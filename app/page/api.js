@@ -1,7 +1,7 @@
 /** The service: only the newest question of a kind gets an answer, and a lost service is tried until it is back. */
 
 import { pending } from "./pending.js";
-import { say } from "./text.js";
+import { language, say } from "./text.js";
 
 /**
  * A superseded question may still answer for this long [ms], or for twice the time of the last one, up to a maximum: so
@@ -29,13 +29,13 @@ export function commandFor(path, body = null) {
   return `curl '${new URL(path, location.href).href}'${sent}`;
 }
 
-/** A refused request. problem: the service's problem; errors: of it */
+/** A refused request. problem: the service's problem, whose sentence is in this language; errors: of it */
 export class Problem extends Error {
   constructor(status, body) {
     // A proxy before the service may answer in its own words, or without any.
     const sentence = body?.sentence ?? body?.detail ?? say("The service answered with HTTP {status} and gave no reason.", { status });
     super(sentence);
-    this.problem = { ...body, sentence };
+    this.problem = { ...body, sentence, language: language() };
     this.errors = body?.errors ?? [];
   }
 }

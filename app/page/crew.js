@@ -99,6 +99,7 @@ export class Crew {
 
   /** After an answer, a change of the language or of the dance. */
   show() {
+    if (this.#problem && this.#problem.language !== language()) return this.#ask();
     if (this.#problem) return this.result.replaceChildren(make("p", { className: "error", textContent: this.#problem.sentence }));
     // People of another dance are none of this one.
     if (!this.#answer || this.#of !== this.#dance) return this.result.replaceChildren();

@@ -87,7 +87,7 @@ export class Dragons {
     this.list.addEventListener("keydown", (event) => this.#move(event));
     this.list.addEventListener("focusin", ({ target }) => this.#rest(target));
     this.wrong = make("p", { className: "error", role: "alert" });
-    /** The dragons of which no delay of the last one is known to be safe: {text, k, problem: of the search, or null}; null without. @type {any} */
+    /** The dragons of which no delay of the last one is known to be safe: {text, k, least: delay [s], problem: of the search, or null}; null without. @type {any} */
     this.note = null;
     this.apart = make("p", { className: "error", id: "dragons-apart", role: "status", hidden: true });
     const presets = Object.entries(PRESET_NAMES).map(([name, words]) => textButton(words, () => this.begin(name), { "data-dragons": name }));
@@ -232,7 +232,7 @@ export class Dragons {
     }
     if (this.#text !== text) return; // A person has changed the dragons meanwhile.
     const [first] = safe;
-    this.note = first ? null : { text, k, problem };
+    this.note = first ? null : { text, k, least, problem };
     if (!first) return this.#noted();
     const tenth = Math.ceil(10 * first[0]) / 10;
     const delay = tenth <= first[1] ? tenth : first[0];
@@ -247,7 +247,8 @@ export class Dragons {
     if (!is) this.note = null;
     hide(this.apart, !is);
     if (!is) return;
-    const { k, problem } = this.note;
+    const { k, least, problem } = this.note;
+    if (problem && problem.language !== language()) return this.#wait(k, least);
     const words = { name: this.#nameOf(this.#records, k), most: WAIT_MOST };
     this.apart.textContent = problem ? say("How long {name} has to wait was not found: {why} It dances without a delay of its own: type one, or make the dragons or the path shorter.", { ...words, why: problem.sentence }) : say("{name} finds no safe delay up to {most} s: on this path the dragons stand on one another, or meet. Draw another path for it, let it begin in another street, or make the dragons shorter.", words);
   }

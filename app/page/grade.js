@@ -99,7 +99,7 @@ export class Grader {
     /** @type {{refused?: Element, answer?: any}[]} */
     const results = wrong.map(([name, text]) => {
       const what = say(ANSWERS[name]);
-      return refusedBox(what, { textContent: say("{what} must be a number such as {example}: you typed “{text}”.", { what, text, example: EXAMPLES[name] }) });
+      return refusedBox(what, say("{what} must be a number such as {example}: you typed “{text}”.", { what, text, example: EXAMPLES[name] }));
     });
     this.#answers = results;
     for (const [k, [query, file]] of requests.entries()) {

@@ -203,7 +203,7 @@ def test_a_refusal_names_the_dragon_and_an_address_opens_what_can_be_read(open_p
     person = open_page(f"{few}~pitch:55!benches:9", failing=True)
     a_delay_that_is_not_found_says_why(person)
     person.opens(f"{few}~pitch:55!benches:9")
-    person.sees({"#judgement": "blue: “Pitch” must be at most 10 m; it is 55 m"})
+    person.sees({"#judgement": "blue: “Pitch” must be at most 10 m, got 55 m"})
     names = [f"{k:03}{'x' * 35}" for k in range(170)]
     person.opens(f"?lang=en&time=0&dances={'~'.join(f'name:{name}' for name in names)}")
     person.presses("#dragon-copy-169").sees({"#dragons li": 171}).settles()  # more benches than the service takes

@@ -59,7 +59,7 @@ def test_who_carries_when_and_where_is_as_the_service_says(open_page, server):
     assert person.saves("#crew-PDF").startswith(b"%PDF")
     assert person.saves("#crew-CSV").startswith(b"person,label")
     person.types({"#crew-at": "19:30:30", "#crew-shift": "600"}, "Tab").presses("#crew-ask")
-    person.sees({f"{RESULT} .error": "it is 600 s"}).types({"#crew-shift": "20"}, "Tab").presses("#crew-ask")
+    person.sees({f"{RESULT} .error": "got 600 s"}).types({"#crew-shift": "20"}, "Tab").presses("#crew-ask")
     person.sees({RESULT: "Who is where at 19:30:30"}).speaks("zh").sees({f"{RESULT} p": "其中替补 3 人"})
     # Those people were of another dance.
     person.types({"#benches": "8"}).sees({f"{RESULT} table": 0})

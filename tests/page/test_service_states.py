@@ -101,8 +101,8 @@ def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(open_pa
     person = open_page(SHORT, failing=True)
     before = None
     for name, text, words in (
-        ("pitch", "55", "“Pitch” must be at most 10 m; it is 55 m."),
-        ("turning_diameter", "wide", "you typed “wide”."),
+        ("pitch", "55", "“Pitch” must be at most 10 m, got 55 m"),
+        ("turning_diameter", "wide", 'got "wide".'),
     ):
         person.at(f"#{name}").fill(text)
         right_again(person, before)
@@ -113,7 +113,7 @@ def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(open_pa
         before = name
     # The label and the unit of a refusal have the language of the page.
     person.presses("#reset-all").sees({"#controls .error:visible": 0}).speaks("zh").types({"#pin": "10"}, "Tab")
-    person.sees({"#pin-error:lang(zh)": "（0 cm），现为 10 cm。", "#first-contact": "改正“插销直径”后即有结果。"})
+    person.sees({"#pin-error": "（0 cm），现为 10 cm。", "#first-contact": "改正“插销直径”后即有结果。"})
     # A refusal about a turn goes with the turn.
     person.opens(f"{SHORT}&path=turn&speed_limit=0&lang=en").sees({"#controls .error:visible": True})
     person.presses("[data-path=spiral]").sees({"#controls .error:visible": 0})
@@ -171,7 +171,7 @@ def test_what_a_service_refuses_to_play_stops_and_one_that_hangs_is_tried_again_
     with serving(tmp_path / "small.log", cells_max=1_500) as small:
         person = open_page("?benches=100&time=10", base=small.url, failing=True).presses("#play")
         words = ["The dance cannot be played: step through it, or move the time."]
-        person.sees({"#status": [*words, "instants times handles, and there may be 1500"]}).reads({"#play": "▶ Play"})
+        person.sees({"#status": [*words, "must be at most 1500 here"]}).reads({"#play": "▶ Play"})
     _one_check_at_a_time_asks_whether_a_hanging_service_lives(open_page)
     _the_next_try_counts_down(open_page)
 
