@@ -26,7 +26,7 @@ from app.settings import Settings
 from core import Engine
 from core.kernels import COMPILED
 from tests.conftest import ROOT, heed_ctrl_c
-from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
+from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run, said
 from tests.support.depth import further
 from tests.support.job_service import wait_for
 from tests.support.refusal_rows import assert_refused_in_one_line
@@ -35,13 +35,6 @@ from tests.support.serving import sample, serving
 # Questions besides figures that commands of another name answer, and two that none does: the page draws with course,
 # and a sweep of collision-time over the pitch is the scan.
 OTHERWISE = {"films", "proposals", "contest_kit", "course", "pitch_scan"}
-
-
-def answer_of(*arguments, **keywords):
-    """Standard output of a run that must succeed without a word on standard error."""
-    done = run(*arguments, **keywords)
-    assert (done.returncode, done.stderr) == (0, "")
-    return done.stdout
 
 
 def helps():
@@ -55,7 +48,7 @@ def helps():
 
 HELPS = dict(helps())
 # One run for all tests that ask the same.
-cached_output = cache(answer_of)
+cached_output = cache(said)
 
 
 TRAJECTORIES = [
@@ -70,7 +63,7 @@ TRAJECTORIES = [
 def test_a_trajectory_is_that_of_the_service(client, row):
     options, body = row.split(" -> ")
     answer = client.post("/trajectory", json=json.loads(body)).raise_for_status().json()
-    assert json.loads(answer_of("trajectory", *options.split(), "--json")) == answer
+    assert json.loads(said("trajectory", *options.split(), "--json")) == answer
 
 
 def test_times_before_the_dance_warn_on_a_spiral():
@@ -232,8 +225,7 @@ def test_output_takes_decimals_and_language(tmp_path):
 
 
 def test_figures_writes_the_files_that_were_asked_for(tmp_path):
-    done = run("figures", str(tmp_path / "new"), "--benches", "20", "--samples", "5")
-    assert (done.returncode, done.stdout) == (0, "")
+    assert said("figures", str(tmp_path / "new"), "--benches", "20", "--samples", "5", aside=None) == ""
     names = {file.name for file in (tmp_path / "new").iterdir()}
     assert names == {"contact.png", "pitch-scan.png", "trajectory.png"}
 
@@ -257,7 +249,7 @@ def headings(text):
 def test_up_to_seven_instants_are_shown_and_what_chooses_more_is_named(row):
     options, _, shown = row.partition(" -> ")
     instants, _, words = shown.partition(" | ")
-    table = answer_of("trajectory", *options.split())
+    table = said("trajectory", *options.split())
     assert headings(table) == [instants.split()] * 3
     assert words in table
 
@@ -296,7 +288,7 @@ def test_as_many_instants_are_shown_as_fit_the_width():
 
 def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take_and_handles_in_their_order():
     times = [str(k) for k in range(20)]
-    table = answer_of("trajectory", "--benches", "3", "--handles", "2,0,1", "--times", ",".join(times))
+    table = said("trajectory", "--benches", "3", "--handles", "2,0,1", "--times", ",".join(times))
     result = headings(table)
     assert [instant for heading in result[: len(result) // 3] for instant in heading] == times
     assert result == result[: len(result) // 3] * 3
@@ -433,14 +425,14 @@ def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server, workers):
 
 @pytest.mark.parametrize("words", HELPS, ids=" ".join)
 def test_help_prints_every_description_with_its_unit(words):
-    text = " ".join(answer_of(*words, "--help", COLUMNS="1000").split())
+    text = " ".join(said(*words, "--help", COLUMNS="1000").split())
     values = [option.help.replace("\\[", "[") for option in HELPS[words].params if option.help]
     assert [one for one in values if " ".join(one.split()) not in text] == []
     assert "completion" not in text  # `bench-dragon --help` offers it
 
 
 def test_help_names_every_command():
-    assert {*MODULE_OF} <= {*answer_of("--help", COLUMNS="100").split()}
+    assert {*MODULE_OF} <= {*said("--help", COLUMNS="100").split()}
 
 
 def test_every_question_has_its_command():
@@ -451,21 +443,21 @@ def test_every_question_has_its_command():
 
 def test_the_version_is_one_line():
     slower = "" if COMPILED else ", not compiled: many times slower"
-    assert answer_of("--version") == f"bench-dragon {core.__version__}{slower}\n"
+    assert said("--version") == f"bench-dragon {core.__version__}{slower}\n"
 
 
 def test_the_shell_completes_commands_and_options():
     request = {"_BENCH_DRAGON_COMPLETE": "complete_bash", "COMP_CWORD": "1"}
-    assert answer_of(**request, COMP_WORDS="bench-dragon coll").split() == ["collision-time"]
+    assert said(**request, COMP_WORDS="bench-dragon coll").split() == ["collision-time"]
     request["COMP_CWORD"] = "2"
-    assert answer_of(**request, COMP_WORDS="bench-dragon collision-time --pit").split() == ["--pitch"]
+    assert said(**request, COMP_WORDS="bench-dragon collision-time --pit").split() == ["--pitch"]
 
 
 FOLDING = ("trajectory", "--benches", "40", "--pitch", "1.2", "--start-turns", "8")
 
 
 def test_instants_just_before_a_fold_are_marked_and_the_fold_is_named():
-    output = answer_of(*FOLDING, "--times", "0,100,238.2149")
+    output = said(*FOLDING, "--times", "0,100,238.2149")
     assert output.count("238.2149 s *") == 3
     assert "100 s *" not in output
     words = " ".join(output.split())
@@ -473,7 +465,7 @@ def test_instants_just_before_a_fold_are_marked_and_the_fold_is_named():
         "* Just before bench 0 folds, at 238.214985392 s: towards that instant the speeds of handles behind it grow "
         "without bound."
     )
-    assert "*" not in answer_of(*FOLDING, "--times", "0,100")
+    assert "*" not in said(*FOLDING, "--times", "0,100")
 
 
 def test_bounds_are_printed_with_all_digits_or_rounded_to_the_safe_side():

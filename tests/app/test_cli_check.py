@@ -6,8 +6,7 @@ import re
 
 import pytest
 
-from tests.app.test_cli import answer_of
-from tests.support.command import run
+from tests.support.command import run, said
 
 LAST_DIGIT = 1e-6  # of a distance in a report [m]
 DANCE = """
@@ -51,7 +50,7 @@ def served(client, body):
 
 
 def checked(body, *options):
-    return answer_of("check", "-", *options, text=json.dumps(body))
+    return said("check", "-", *options, text=json.dumps(body))
 
 
 @pytest.mark.parametrize(
@@ -68,7 +67,7 @@ def checked(body, *options):
 )  # fmt: skip
 def test_a_report_says_what_fails_and_how_near(dance, text, words):
     dance.write_text(text)
-    report = answer_of("check", str(dance))
+    report = said("check", str(dance))
     assert [word for word in words.split(" | ") if word not in report] == []
     assert "contact" not in report or "margin" not in text
 
@@ -103,8 +102,7 @@ def test_what_is_not_decided_is_no_failure():
 
 def test_the_dance_is_drawn_in_its_venue(dance):
     figure = dance.with_name("dance.svg")
-    done = run("check", str(dance), "--figure", str(figure), "--time", "15", "--json")
-    assert (done.returncode, done.stderr) == (0, f"{figure}\n")
+    said("check", str(dance), "--figure", str(figure), "--time", "15", "--json", aside=f"{figure}\n")
     drawn = figure.read_text()
     assert " square -->" in drawn
     run("check", str(dance), "--figure", str(figure))
@@ -124,7 +122,7 @@ def test_the_dance_that_is_judged_is_written_as_a_table(dance):
 def test_the_last_second_of_a_table_is_not_after_the_end_of_a_path(tmp_path, more):
     table, text = tmp_path / "lane.csv", json.dumps({"start": 10, "start_clock": "19:30", **more})
     assert run("check", "-", "--output", str(table), text=text).stderr == f"{table}\n"
-    stop = json.loads(answer_of("check", "-", "--json", text=text))["stop"]
+    stop = json.loads(said("check", "-", "--json", text=text))["stop"]
     assert stop % 1.0 > 0.999
     first, *_, last = csv.DictReader(table.read_text().splitlines())
     assert (float(first["time"]), first["clock"], float(last["time"])) == (10.0, "19:30:10", stop)

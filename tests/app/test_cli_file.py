@@ -8,7 +8,7 @@ import pytest
 from app.maps.dances import read_dance
 from tests.conftest import ROOT
 from tests.support.asking import written
-from tests.support.command import run
+from tests.support.command import run, said
 from tests.support.depth import thorough
 from tests.support.refusal_rows import assert_refused_in_one_line
 
@@ -56,13 +56,6 @@ def file(tmp_path):
     return str(dance)
 
 
-def answered(line, **how):
-    """What a command prints without a word on standard error."""
-    done = run(*line.split(), **how)
-    assert (done.returncode, done.stderr) == (0, "")
-    return done.stdout
-
-
 CHECKED = {"margin": 0.2, "speed_limit": 1.5, "start": 20, "venue": YARD, "cross_check": "none"}
 # A command about the FILE, and what its body has beside the dance.
 QUESTIONS = [
@@ -92,7 +85,7 @@ def test_a_file_is_asked_as_a_body_is(client, file, row):
     call, *_ = line.split()
     body = {"dragon": BODY["dragon"]} if call in OF_DRAGONS else BODY
     answer = client.post(f"/{call}", json=body | json.loads(more)).raise_for_status().json()
-    assert json.loads(answered(f"{line.replace('FILE', file)} --json")) == answer
+    assert json.loads(said(*line.replace("FILE", str(file)).split(), "--json")) == answer
 
 
 ACCEPT = {"csv": "text/csv", "arrow": "application/vnd.apache.arrow.file", "gif": "image/gif", "pdf": "application/pdf",
@@ -127,8 +120,7 @@ def test_a_command_writes_the_file_of_the_service(client, tmp_path, monkeypatch,
     monkeypatch.chdir(tmp_path)
     line, asked = row.split(" -> ")
     (command, file, *options), (call, _, more) = line.split(), asked.partition(" ")
-    done = run(command, "-", "--output", file, *options, text=json.dumps(body))
-    assert (done.returncode, done.stdout) == (0, ""), done.stderr
+    assert said(command, "-", "--output", file, *options, aside=None, text=json.dumps(body)) == ""
     headers = {"accept": ACCEPT.get(file.partition(".")[2], "*/*")}
     known = client.post(f"/{call}", json=body | json.loads(more or "{}"), headers=headers).raise_for_status()
     assert Path(file).read_bytes() == known.content
@@ -228,13 +220,13 @@ def test_a_value_that_check_would_refuse_is_no_silent_mistake(tmp_path, row):
 def test_instants_are_those_of_start_and_stop_in_the_file(tmp_path, command, ends, options, times):
     file = tmp_path / "dance.toml"
     file.write_text(ends)
-    assert json.loads(answered(f"{command} {file} {options} --json"))["time"] == times
+    assert json.loads(said(command, str(file), *options.split(), "--json"))["time"] == times
 
 
 @pytest.mark.parametrize("text", ['{"path": {"pitch": 0.5}}', "[path]\npitch = 0.5"], ids=["json", "toml"])
 def test_standard_input_is_json_or_toml(client, text):
     answer = client.get("/collision-time?pitch=0.5").raise_for_status().json()
-    assert json.loads(answered("collision-time - --json", text=text)) == answer
+    assert json.loads(said("collision-time", "-", "--json", text=text)) == answer
 
 
 @pytest.mark.parametrize("name", ["dance.toml", "dance.json"])
@@ -272,7 +264,7 @@ def test_a_message_about_a_file_speaks_of_the_file(tmp_path, monkeypatch, name, 
 
 
 def test_a_trajectory_of_several_is_a_table_for_each():
-    table = answered("trajectory - --handles 0,3", text=json.dumps(TIMED))
+    table = said("trajectory", "-", "--handles", "0,3", text=json.dumps(TIMED))
     words = ("east: x [m]", "dragon 1: speed [m/s]", "3 =Li (rear)", "2 of 4 handles, 3 of 3 instants")
     assert [word for word in words if word not in table] == []
     row = "trajectory - --handles 0,5 -> handles[1] ... 0 3 5"
@@ -290,4 +282,4 @@ def test_a_stray_in_the_file_that_does_not_count_is_named(tmp_path, command, ign
     done = run(command, file, "--json")
     assert done.stderr.startswith(f"{file}: ignored: {', '.join(ignored)}, because ")
     counting |= {name: value for name, value in strays.items() if name not in ignored}
-    assert done.stdout == answered(f"{command} {written(tmp_path, counting)} --json")
+    assert done.stdout == said(command, written(tmp_path, counting), "--json")

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from tests.support import command
+from tests.support.command import said
 from tests.support.refusal_rows import assert_refused_in_one_line
 
 FIVE = "--benches 5 --start-turns 6"  # a dragon whose proof takes no time
@@ -23,16 +24,14 @@ def run(*arguments, **how):
 @pytest.fixture(scope="module")
 def certificate(tmp_path_factory):
     path = tmp_path_factory.mktemp("proof") / "five.json"
-    done = run("collision-time", *FIVE.split(), "--output", str(path))
-    assert done.returncode == 0, done.stderr
-    assert "benches 0 and 4 overlap" in done.stdout
+    text = said("prove", "collision-time", *FIVE.split(), "--output", str(path), aside=None)
+    assert "benches 0 and 4 overlap" in text
     return path
 
 
 def test_a_certificate_is_checked_from_a_file_and_from_standard_input(certificate):
-    for done in (run("--check", str(certificate)), run("--check", "-", text=certificate.read_text())):
-        assert (done.returncode, done.stderr) == (0, "")
-        assert "benches 0 and 4 overlap" in done.stdout
+    for file, text in ((str(certificate), None), ("-", certificate.read_text())):
+        assert "benches 0 and 4 overlap" in said("prove", "--check", file, text=text)
 
 
 def test_a_changed_certificate_is_refused(certificate):
@@ -99,11 +98,10 @@ def test_every_claim_is_proven_and_its_certificate_checked(line, words, tmp_path
 def assert_proven(arguments, words, folder):
     """What the command prints: the claim, as the check of its certificate prints it."""
     path = folder / "claim.json"
-    done = run(*arguments, "--output", str(path))
-    assert done.returncode == 0, done.stderr
-    assert words in done.stdout
-    assert run("--check", str(path)).stdout == done.stdout
-    return done.stdout
+    text = said("prove", *arguments, "--output", str(path), aside=None)
+    assert words in text
+    assert said("prove", "--check", str(path)) == text
+    return text
 
 
 def test_a_dance_from_a_file_is_proven_to_its_end(tmp_path):

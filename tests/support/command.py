@@ -76,6 +76,20 @@ def run(*arguments, text=None, room=None, **environment):
         return subprocess.CompletedProcess(command, code, files[1].read(), files[2].read())
 
 
+def said(*arguments, aside="", **how):
+    """What the command prints when it succeeds. aside: all that stands on standard error; None for anything"""
+    done = run(*arguments, **how)
+    assert (done.returncode, done.stderr) == (0, done.stderr if aside is None else aside)
+    return done.stdout
+
+
+def refusal(*arguments, **how):
+    """What stands on standard error when the command refuses, and prints nothing."""
+    done = run(*arguments, **how)
+    assert (done.returncode, done.stdout) == (2, "")
+    return done.stderr
+
+
 def _forked(arguments, environment, files, room):
     """Exit code of one run in this folder with these files as its standard input, output and error."""
     with _forked_process(str(Path.cwd()), arguments, environment, [file.fileno() for file in files], room) as peer:

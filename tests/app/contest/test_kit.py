@@ -31,7 +31,7 @@ from app.settings import Settings
 from app.wire.question import Terms
 from core import Budget, TooMuchWork
 from core.language import Language
-from tests.support.command import COMMAND, PATIENCE, run
+from tests.support.command import COMMAND, PATIENCE, refusal, run, said
 from tests.support.depth import further
 from tests.support.reference import reference
 from tests.support.refusal_rows import assert_refused, assert_refused_in_one_line
@@ -79,9 +79,7 @@ def chinese(tmp_path_factory):
 def drawn(tmp_path_factory):
     """Folder of a whole kit, and what the command printed."""
     folder = tmp_path_factory.mktemp("drawn")
-    done = run("contest", str(folder), *CHINESE)
-    assert done.returncode == 0, done.stderr
-    return folder, done.stdout
+    return folder, said("contest", str(folder), *CHINESE, aside=None)
 
 
 @cache
@@ -320,10 +318,9 @@ def test_a_second_run_into_the_same_folder_is_refused_until_the_first_has_ended_
         while not (tmp_path / UNFINISHED).is_dir():
             assert first.poll() is None
             time.sleep(0.02)
-        done = run("contest", str(tmp_path), "--no-films")
-        assert first.poll() is None  # The refusal did not wait for the first.
         words = f"Error: another run writes into {tmp_path}: wait until it is done, or give another FOLDER\n"
-        assert (done.returncode, done.stdout, done.stderr) == (2, "", words)
+        assert refusal("contest", str(tmp_path), "--no-films") == words
+        assert first.poll() is None  # The refusal did not wait for the first.
         assert (tmp_path / UNFINISHED).is_dir()
     finally:
         first.kill()

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.files.disk import write_whole
-from tests.support.command import run
+from tests.support.command import refusal, run, said
 from tests.support.refusal_rows import assert_refused_in_one_line
 
 OLD, NEW = b"what stood here before", b"what is written now"
@@ -58,9 +58,7 @@ def test_a_place_that_cannot_be_written_is_reported_in_one_line(tmp_path, argume
         command, file = with_target(arguments, folder)
         if folder == tmp_path:
             file.mkdir()
-        done = run(*command)
-        assert (done.returncode, done.stdout) == (2, "")
-        assert re.fullmatch(rf"Error: {file}: {fault}\n", done.stderr)
+        assert re.fullmatch(rf"Error: {file}: {fault}\n", refusal(*command))
 
 
 @pytest.mark.parametrize(
@@ -71,9 +69,7 @@ def test_a_place_that_cannot_be_written_is_reported_in_one_line(tmp_path, argume
 def test_a_full_disk_leaves_what_was_there_and_nothing_else(tmp_path, arguments):
     command, file = with_target(arguments, tmp_path)
     file.write_bytes(OLD)
-    done = run(*command, room=ROOM)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == f"Error: {file}: File too large\n"
+    assert refusal(*command, room=ROOM) == f"Error: {file}: File too large\n"
     assert [path.name for path in tmp_path.iterdir()] == [file.name]
     assert file.read_bytes() == OLD
 
@@ -92,7 +88,7 @@ def test_an_existing_file_is_replaced_and_keeps_its_mode(tmp_path, arguments):
     command, file = with_target(arguments, tmp_path)
     file.write_bytes(OLD)
     file.chmod(0o640)
-    assert run(*command).returncode == 0
+    said(*command, aside=None)
     assert len(file.read_bytes()) > ROOM
     assert file.stat().st_mode & 0o777 == 0o640
     assert [path.name for path in tmp_path.iterdir()] == [file.name]

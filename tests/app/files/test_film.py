@@ -30,7 +30,7 @@ from core import (
 from core.people.beats import Bars, Music
 from core.plots import BLUE
 from tests.conftest import ROOT
-from tests.support.command import run
+from tests.support.command import said
 from tests.support.depth import further, some
 from tests.support.refusal_rows import assert_refused
 
@@ -74,8 +74,7 @@ def outlines_of(dance, instant):
 
 def filmed(file, *options):
     """Frames of a film that the command writes."""
-    done = run("film", *options, "--output", str(file))
-    assert done.returncode == 0, done.stderr
+    said("film", *options, "--output", str(file), aside=None)
     return decoded(file.read_bytes())
 
 

@@ -15,7 +15,7 @@ from app.grade.numbers import TURN_OF_TWO_LEAST, gives
 from app.grade.report import typed
 from app.grade.shortcuts import pitch_grids, shortcuts
 from core.language import speaking
-from tests.support.command import run
+from tests.support.command import refusal, run, said
 from tests.support.depth import further
 from tests.support.students import CONTACT, contact_workbook, spiral
 
@@ -109,8 +109,8 @@ def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path):
 @pytest.mark.parametrize("ending", further(["xlsx", "csv"], 1))
 def test_the_turn_that_the_command_writes_is_graded_right(tmp_path, ending):
     file = tmp_path / f"result4.{ending}"
-    done = run("trajectory", "--path", "turn", "--start", "-100", "--stop", "100", "--output", str(file))
-    assert (done.returncode, done.stderr) == (0, f"{file}: 224 handles at 201 instants\n")
+    options = "--path", "turn", "--start", "-100", "--stop", "100", "--output", str(file)
+    said("trajectory", *options, aside=f"{file}: 224 handles at 201 instants\n")
     [result] = json.loads(run("grade", str(file), "--json").stdout)["files"]
     assert (result["workbook"], result["verdict"]) == ("result4", "right")
 
@@ -269,9 +269,8 @@ def test_a_summary_names_certain_and_possible_causes_in_words(class_of_three, tm
 
 def test_a_number_is_refused_in_the_language_chosen():
     for text in ("0_45", "-1"):
-        refused = run("grade", f"--pitch={text}", "--language", "zh")
-        assert (refused.returncode, refused.stdout) == (2, "")
-        assert refused.stderr.endswith(f"pitch 应为大于 0、小于 1e6 的数字（单位 m），例如 0.4503：现为“{text}”\n")
+        refused = refusal("grade", f"--pitch={text}", "--language", "zh")
+        assert refused.endswith(f"pitch 应为大于 0、小于 1e6 的数字（单位 m），例如 0.4503：现为“{text}”\n")
 
 
 @pytest.mark.parametrize(

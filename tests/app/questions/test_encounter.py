@@ -11,7 +11,7 @@ from core import Outcome, encounter_check, first_encounter
 from tests.app.files.test_figures import texts
 from tests.conftest import ROOT
 from tests.support.asking import box, dance, json_like, written
-from tests.support.command import run
+from tests.support.command import refusal, run, said
 from tests.support.reference_encounters import CASES, performance_of
 
 EXAMPLE = str(ROOT / "examples" / "two_dragons.toml")
@@ -80,9 +80,7 @@ def test_the_benches_and_the_path_of_each_dance_may_be_files(tmp_path):
 )
 def test_a_file_of_several_dragons_is_no_file_of_one(tmp_path, command, held, words):
     file = written(tmp_path, held)
-    done = run(*command.split(), file)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(f"Error: {words.format(file=file)}")
+    assert refusal(*command.split(), file).startswith(f"Error: {words.format(file=file)}")
 
 
 # -- figures -------------------------------------------------------------------------------------------------
@@ -90,8 +88,7 @@ def test_a_file_of_several_dragons_is_no_file_of_one(tmp_path, command, held, wo
 
 def test_the_figure_shows_all_dragons_and_the_benches_that_meet(tmp_path):
     svg = tmp_path / "two.svg"
-    done = run("encounter", EXAMPLE, "--figure", str(svg))
-    assert (done.returncode, done.stderr) == (0, f"{svg}\n")
+    said("encounter", EXAMPLE, "--figure", str(svg), aside=f"{svg}\n")
     words = texts(svg.read_bytes())
     for word in ("bench 3 of blue and bench 0 of red touch at 207.378361 s", "blue", "bench 0 of red", "x [m]"):
         assert word in words

@@ -11,7 +11,7 @@ from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.questions.envelope import Envelope, EnvelopeRequest
 from core import Arc, Dance, Dragon, Route, envelope
 from tests.support.asking import dance, written
-from tests.support.command import run
+from tests.support.command import run, said
 
 # Rounds on a circle, which leave a hole.
 RING = {"kind": "arc", "centre": [0, 0], "radius": 5, "start_angle": 0, "sweep": 7}
@@ -40,11 +40,10 @@ def test_several_polygons_are_a_multipolygon():
 
 def test_the_command_writes_the_files_of_the_service_with_the_hole_as_its_own_line(ask, tmp_path):
     file, drawing, table = written(tmp_path, BODY | {"spectators": SPECTATORS}), tmp_path / "x.dxf", tmp_path / "x.json"
-    done = run("envelope", file, "--output", str(drawing))
-    assert (done.returncode, done.stderr) == (0, f"{drawing}\n")
+    text = said("envelope", file, "--output", str(drawing), aside=f"{drawing}\n")
     for words in ("1 polygon, 1 hole, ", f"{ENVELOPE.distance(SPECTATORS):.9f} m"):
-        assert words in done.stdout
-    assert run("envelope", file, "--output", str(table)).returncode == 0
+        assert words in text
+    said("envelope", file, "--output", str(table), aside=None)
     assert table.read_bytes() == ask.file("envelope", BODY, GEOJSON_TYPE)
     feature = json.loads(table.read_bytes())
     assert (feature["type"], feature["properties"]["excess"]) == ("Feature", ENVELOPE.excess)

@@ -10,7 +10,7 @@ import pytest
 from app.wire.problem import DETAIL_MAX
 from app.wire.sentences import INSTEAD, LABELS
 from tests.support.asking import assert_problem
-from tests.support.command import run
+from tests.support.command import refusal
 from tests.support.depth import few
 
 # Names of core that no request has.
@@ -538,9 +538,8 @@ def test_a_name_that_the_call_does_not_take_is_refused(ask, request_):
 @pytest.mark.parametrize("request_", few([*OPTIONS], 9))
 def test_an_option_is_refused_in_the_same_words(ask, request_):
     call, _, query = request_.partition("?")
-    done = run(call, *(f"--{one.replace('_', '-')}" for one in query.split("&")))
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == f"Error: {ask.send(request_).json()['detail']}\n"
+    refused = refusal(call, *(f"--{one.replace('_', '-')}" for one in query.split("&")))
+    assert refused == f"Error: {ask.send(request_).json()['detail']}\n"
 
 
 @pytest.mark.parametrize("entry", BODIES | MANY, ids=shortened)
@@ -560,9 +559,7 @@ def test_an_invalid_path_is_refused_at_its_place_by_every_call(client, call, pat
 def test_a_file_of_a_dance_is_refused_as_a_body_is(client, tmp_path, entry):
     call, text = request_of(entry)
     (tmp_path / "dance.json").write_text(text)
-    done = run("check", str(tmp_path / "dance.json"))
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == f"Error: {post(client, call, text).json()['detail']}\n"
+    assert refusal("check", str(tmp_path / "dance.json")) == f"Error: {post(client, call, text).json()['detail']}\n"
 
 
 # Requests that the service refuses, one a line: [query], [path, body in JSON], or [path, text of a file in Latin-1].
