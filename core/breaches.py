@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
+from core.contact.between import holds_apart
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.display import WithArrays, display
@@ -90,7 +91,8 @@ def breaches(
     limit = None if speed_limit is None else checked_limit(speed_limit)
     budget = budget or Budget()
     edges = [] if venue is None else [_frames_of(area) for area in venue.areas]
-    times = _times(dance, dance.span(start, stop), sum(map(len, edges)))
+    begin, until = dance.span(start, stop)
+    times = _times(dance, (begin, until), sum(map(len, edges)))
     budget.afford(float(len(times) * dance.dragon.benches))
     motion, s = trajectory(dance, times, budget=budget), handle_places(dance, times, budget=budget)
     marks = {kind: [np.empty((0, 2))] for kind in BreachKind}
@@ -98,7 +100,8 @@ def breaches(
         fast = s[motion.speed > limit * (1.0 + SPEED_ROUNDING)]
         marks[BreachKind.SPEED].append(np.stack([fast - 0.5 * STEP, fast + 0.5 * STEP], axis=-1))
     spans = np.stack([s[:, 1:], s[:, :-1]], axis=-1)
-    near, if_strayed = _too_near(dance, motion.position, venue, edges, (margin, strayed))
+    held = strayed > 0.0 and not margin and holds_apart(dance, dance.clock.travel(until), strayed, budget)
+    near, if_strayed = _too_near(dance, motion.position, venue, edges, (margin, strayed), held)
     marks[BreachKind.MARGIN].append(spans[near])
     marks[BreachKind.STRAY].append(spans[if_strayed & ~near])
     return tuple(
@@ -127,9 +130,12 @@ def _frames_of(area: Area) -> Floats:
 
 
 def _too_near(
-    dance: Dance, handles: Floats, venue: Venue | None, edges: list[Floats], room: tuple[float, float]
+    dance: Dance, handles: Floats, venue: Venue | None, edges: list[Floats], room: tuple[float, float], held: bool
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """For all benches at all samples (T, n): within the margin; and if people stray. room: margin, stray [m]"""
+    """For all benches at all samples (T, n): within the margin; and if people stray.
+
+    room: margin, stray [m]; held: whether two with one bench between them stay apart as people stray
+    """
     dragon, (margin, stray) = dance.dragon, room
     ground = reach(dragon, stray) if stray > 0.0 else None
     poses = bench_poses(handles)
@@ -142,6 +148,8 @@ def _too_near(
         marks = [(near, np.flatnonzero(gap <= margin))]
         if ground is not None:
             close = np.flatnonzero((margin < gap) & (gap <= need))
+            if held and len(who) == 2:
+                close = close[who[1][close] - who[0][close] != 2]
             marks.append(
                 (if_strayed, close[_within(ground, (a[close], b[close]), [rows[close] for rows in who], margin)])
             )

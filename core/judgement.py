@@ -56,7 +56,8 @@ class Report(Readable):
     start, stop: the judged interval [s], which ends at a touch of two benches
     verdict: see Judgement; passed: True for PASSES
     failures: in order of time, none after the stop, with the undecided conditions
-    first_contact: within the margin; least_clearance: of any two benches, None for fewer than three
+    first_contact: within the margin; least_clearance: of any two benches, None for fewer than three, and if people
+        may stray so far that two benches are apart only because the one between them holds them
     venue: None without one
     sharpest_bend: None for a single bench
     highest_speed: None in a run to a fold, where speeds grow without bound
@@ -151,7 +152,8 @@ def _judged(
     least, touch = None, contact.time
     if contact.overlapping is not None and contact.time_bracket is not None:
         touch = contact.time_bracket[1]  # which contact is the first is not decided
-    if details or (margin > 0.0 and touch is not None):
+    held = contact.certificate.claim.between is not None
+    if not held and (details or (margin > 0.0 and touch is not None)):
         least = least_clearance(dance, stray=strayed, start=begin, stop=until, budget=budget)
         if margin > 0.0 or contact.overlapping is None:
             touch = least.time if least is not None and least.distance <= 0.0 else None

@@ -178,7 +178,8 @@ class Report(Answer):
         description="First time two benches come within the margin, or touch if it is 0"
     )
     least_clearance: LeastClearance | None = Field(
-        description="Least clearance of any two benches; null with fewer than three, or without details"
+        description="Least clearance of any two benches; null with fewer than three, without details, or if people may "
+        "stray so far that two benches are apart only because the one between them holds them"
     )
     venue: VenueClearance | None = Field(
         description="Distances between the benches and the venue, up to the end of the time checked; null without a "

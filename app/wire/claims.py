@@ -71,6 +71,10 @@ class ContactClaim(Answer):
     end: EndReason | None = Field(description="End of a run without a contact; null with one, or if undecided")
     benches: Pair | None = Field(description="Two benches that are within the margin at that time; null without")
     time: float | None = measure("s", "Time at which these are certainly within the margin; null without")
+    between: BenchBetween | None = Field(
+        description="held: two benches with one between them were left out, because it is proven to hold them apart as "
+        "people stray; null: all pairs count"
+    )
 
 
 class ClaimedPart(Answer):

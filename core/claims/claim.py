@@ -87,6 +87,14 @@ class DanceSummary(Readable):
         return cls(DragonSummary.of(dance.dragon), dance.path.summary(), dance.clock.head_speed, listed, count)
 
 
+class BenchBetween(StrEnum):
+    """Part that the bench between two others plays in a safe stray. HELD: it holds them apart, which is used;
+    UNUSED: the two that limit the stray have one between them, and are assumed to stray independently."""
+
+    HELD = "held"
+    UNUSED = "unused"
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class ContactClaim(Readable):
     """Claim of a search for first contact.
@@ -94,6 +102,7 @@ class ContactClaim(Readable):
     margin, stray: [m]; start: of the search [s]; clear_until: time until which no two benches come within the margin
         [s]; None if none is proven
     end: why a run without a contact ends there; benches, time: two benches that are within the margin at a time [s]
+    between: HELD if two benches with one between them were left out, because it holds them apart
     """
 
     kind: ClaimKind
@@ -105,6 +114,7 @@ class ContactClaim(Readable):
     end: EndReason | None = None
     benches: tuple[int, int] | None = None
     time: float | None = None
+    between: BenchBetween | None = None
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -144,14 +154,6 @@ class EncounterClaim(Readable):
     dragons: tuple[int, int] | None = None
     benches: tuple[int, int] | None = None
     time: float | None = None
-
-
-class BenchBetween(StrEnum):
-    """Part that the bench between two others plays in a safe stray. HELD: it holds them apart, which is used;
-    UNUSED: the two that limit the stray have one between them, and are assumed to stray independently."""
-
-    HELD = "held"
-    UNUSED = "unused"
 
 
 @dataclass(frozen=True, slots=True, repr=False)

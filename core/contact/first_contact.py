@@ -15,8 +15,9 @@ import math
 from functools import partial
 
 from core import kernels
-from core.claims.claim import ClaimKind, ContactClaim, DanceSummary
+from core.claims.claim import BenchBetween, ClaimKind, ContactClaim, DanceSummary
 from core.contact.answer import Evidence, Feature, FirstContact, Outcome
+from core.contact.between import holds_apart
 from core.contact.clearance import Graze, overlap_beyond
 from core.contact.fold import approach_fold
 from core.contact.march import TOUCHES
@@ -59,7 +60,8 @@ def first_contact(
 
     margin: required clearance [m]; contact means separation <= margin
     stray: largest distance of every hole from its place [m], see core/shapes/reach.py: the answer is then the first
-        time at which two benches may come within the margin, because the grounds that they may cover do
+        time at which two benches may come within the margin, because the grounds that they may cover do. Without a
+        margin, two benches with one between them do not count if it is proven to hold them apart
     start, stop: interval of the search [s]; None for dance.default_start and for the end of the run
     returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is
         at most 1e-9 s wide. It is wider where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s, on
@@ -97,8 +99,20 @@ def contact_within(
     none = type(stray) is float and stray == 0.0  # False and None are refused
     strayed = 0.0 if none else checked_stray(stray, dance.dragon)
     begin, until = dance.span(start, stop)
-    clock, head_speed, end = dance.clock, dance.clock.slowest, dance.end
     search = ContactSearch(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
+    answer = _searched(dance, search, (begin, until), stop)
+    a, b = answer.benches or answer.overlapping or (0, 0)
+    if strayed and not margin and b - a == 2 and holds_apart(dance, dance.clock.travel(until), strayed, budget):
+        search = ContactSearch(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
+        search.leave_out(2)
+        answer = _searched(dance, search, (begin, until), stop)
+    return answer
+
+
+def _searched(dance: Dance, search: ContactSearch, span: tuple[float, float], stop: float | None) -> FirstContact:
+    """The answer of a search. span: begin and end [s]; stop: the end that was wanted, None for that of the run"""
+    begin, until = span
+    clock, head_speed, end = dance.clock, dance.clock.slowest, dance.end
     search.timing = clock.rounding(until)
     first, last = clock.travel(begin), clock.travel(until)
     to_fold = dance.nears_fold(until)
@@ -130,7 +144,7 @@ def _undecided(
     clear_until = proven if proven > begin else None
     claim = ContactClaim(
         ClaimKind.UNDECIDED, DanceSummary.of(dance), search.margin, search.stray, begin, clear_until,
-        benches=overlapping, time=overlap_time,
+        benches=overlapping, time=overlap_time, between=_between(search),
     )  # fmt: skip
     graze = _graze(march, clock, begin)
     evidence = Evidence(claim, march.steps, clear_until, march.gap_curvature, graze)
@@ -192,13 +206,19 @@ def _claim(
     """What a decided search claims. span: of the search, up to the time until which it is proven to be clear [s]"""
     begin, proven = span
     about = (DanceSummary.of(dance), search.margin, search.stray, begin)
+    between = _between(search)
     if outcome is Outcome.CLEAR:
-        return ContactClaim(ClaimKind.CLEAR, *about, proven, end=end.reason)
+        return ContactClaim(ClaimKind.CLEAR, *about, proven, end=end.reason, between=between)
     if outcome is Outcome.CONTACT_AT_START:
-        return ContactClaim(ClaimKind.CONTACT_AT_START, *about, benches=march.benches, time=begin)
+        return ContactClaim(ClaimKind.CONTACT_AT_START, *about, benches=march.benches, time=begin, between=between)
     assert march.touching is not None
     kind, clear_until = (ClaimKind.CONTACT, proven) if proven > begin else (ClaimKind.CONTACT_AT_START, None)
-    return ContactClaim(kind, *about, clear_until, benches=march.benches, time=dance.clock.time(march.touching))
+    time = dance.clock.time(march.touching)
+    return ContactClaim(kind, *about, clear_until, benches=march.benches, time=time, between=between)
+
+
+def _between(search: ContactSearch) -> BenchBetween | None:
+    return BenchBetween.HELD if search.between > 1 else None
 
 
 def _touching_features(

@@ -126,6 +126,10 @@ class ContactSearch:
         self.scene.curve, self.scene.place, self.scene.margin = self.curve, self.place, self.margin
         self.scene.budget, self.scene.kinds, self.scene.between = self.budget, self.kinds, self.between
 
+    def leave_out(self, between: int) -> None:
+        """Count only pairs with at least so many benches between the two."""
+        self.between = self.scene.between = between
+
     def clear_beyond(self, radius: float) -> None:
         """Set clear_radius to the radius from which another bound exceeds the margin on this spiral [m]."""
         self.clear_radius = self.rings.clear_radius = radius * (1.0 + kernels.CLEAR_SPARE)

@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from core.claims.claim import ClaimKind
+from core.contact.between import DEPTH
 from core.contact.search import WORK_BUDGET
 from core.dance import EndReason
 from core.display import Readable, WithArrays, display
@@ -31,7 +32,6 @@ from core.performance.performance import Performance
 from core.performance.stage import Stage
 from core.shapes.reach import gains
 from core.shapes.rectangles import frames, frames_separation
-from core.tolerance.between import DEPTH
 from core.tolerance.exhibit import TRIED_STEPS, TRIED_TO, Body, Exhibit, body, extended, nearest_rotated
 from core.tolerance.safe import BELOW, GRAZE_STEPS, GRAZE_WITHIN, ROUNDS, SAMPLED_BEYOND, STRAY_MIN
 from core.tolerance.tolerance import Limit, Tolerance, tolerance

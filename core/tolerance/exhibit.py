@@ -23,10 +23,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.contact.between import DEPTH, touching_pose
 from core.display import WithArrays, display
 from core.dragon import Dragon
 from core.shapes.rectangles import bench_poses, frames, frames_separation
-from core.tolerance.between import DEPTH, touching_pose
 from core.values import Floats
 
 # Points of a grid over each rotation and over the direction [1]; range of directions around the nominal normal [rad];

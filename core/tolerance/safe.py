@@ -8,7 +8,7 @@ If two grounds meet, the stray at which these two just graze is found, and the m
 way already passed is clear with the larger stray, and so with the smaller one.
 
 All of that takes benches to stray independently. If two benches with one between them limit the stray, it may be proven
-that the bench between holds all such pairs apart with a larger one (core/tolerance/between.py); then only the other
+that the bench between holds all such pairs apart with a larger one (core/contact/between.py); then only the other
 pairs are searched again.
 """
 
@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from core.contact import clearance
+from core.contact.between import held_apart
 from core.contact.clearance import PROFILE_STEP, refined_dip
 from core.contact.fold import clear_to_fold
 from core.contact.march import TOUCHES
@@ -29,7 +30,6 @@ from core.dragon import Dragon
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.results import Dip
 from core.shapes.reach import Reach, gains, reach, simple_reach
-from core.tolerance.between import held_apart
 from core.values import Floats
 
 # Part by which the stray of the proof is below the least stray at which benches can meet [1]; the second value is for
@@ -66,7 +66,7 @@ class Field:
         """A search for contacts of the ground that benches may cover."""
         where = (self.dance.dragon, self.dance.path, 0.0, self.edges)
         search = ContactSearch(*where, work=self.work, budget=self.budget, stray=stray, covered=covered)
-        search.between = search.scene.between = self.between
+        search.leave_out(self.between)
         return search
 
     @cached_property

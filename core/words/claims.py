@@ -87,7 +87,9 @@ def claim_words(claim: Claim) -> str:
 
 def _contact(claim: ContactClaim) -> str:
     proof = PROOF if claim.dance.dragon.benches > 2 else NO_PAIR
-    return _search(claim, _dance(claim.dance), OF_ONE, ENDS, proof)
+    return _search(claim, _dance(claim.dance), OF_ONE, ENDS, proof) + (
+        say(BETWEEN[claim.between]) if claim.between else ""
+    )
 
 
 def _encounter(claim: EncounterClaim) -> str:

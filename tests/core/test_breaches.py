@@ -44,7 +44,7 @@ def test_a_bench_beside_a_tree_marks_the_stretch_between_its_handles():
 @pytest.mark.parametrize(("dance", "venue"), [(LANE, TREE), (BEND, ROOM)], ids=["a tree", "a bend in a room"])
 def test_nothing_is_marked_where_the_check_passes_with_people_who_stray(dance, venue):
     verdicts = set()
-    for stray in (0.03, 0.3, 0.5, 0.54, 0.56, 0.7):
+    for stray in (0.03, 0.3, 0.5, 0.54, 0.56, 0.7, 0.8):
         verdict = check(dance, venue=venue, stray=stray).verdict
         marked = kinds(dance, venue, stray=stray)
         assert marked == (set() if verdict == "passes" else {BreachKind.STRAY})

@@ -2,11 +2,13 @@
 
 import pytest
 
-from core import Dance, Dragon, Outcome, Spiral, first_contact, minimum_pitch, tolerance
+from core import Dance, Dragon, Outcome, Spiral, check, first_contact, minimum_pitch, tolerance
+from core.claims.claim import BenchBetween
 from core.tolerance.curve import time_on_circle
 from core.tolerance.safe import STRAY_MIN
 from core.tolerance.tolerance import Limit
 from tests.campaigns.adversaries import to_circle
+from tests.core.test_breaches import BEND
 from tests.core.tolerance.test_tolerance import BRACKET
 
 # pitch [m], a bound by hand and a contact found by hand [m], both sampled in time and rounded to 1e-5.
@@ -55,3 +57,12 @@ def test_on_the_way_to_a_fold_a_stray_that_is_safe_has_no_contact_either():
     stray = tolerance(dance).stray
     assert stray > 0.0
     assert first_contact(dance, stray=stray).outcome is Outcome.CLEAR
+
+
+def test_what_the_bench_between_holds_apart_is_no_failure_of_a_check():
+    safe = tolerance(BEND)
+    assert safe.independent < 0.55 < safe.stray
+    report = check(BEND, stray=safe.stray)
+    assert (report.passed, report.least_clearance) == (True, None)
+    assert report.first_contact.certificate.claim.between is BenchBetween.HELD
+    assert check(BEND, stray=safe.stray, margin=0.01).failures

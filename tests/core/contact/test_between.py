@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_poses, sharpest_bend, trajectory
+from core.contact.between import held_apart, sag_pulls, sags_of, touching_pose
 from core.shapes.rectangles import corners
-from core.tolerance.between import held_apart, sag_pulls, sags_of, touching_pose
 from tests.support.depth import examples
 from tests.support.shown_poses import overlap
 

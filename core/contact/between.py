@@ -86,6 +86,11 @@ def held_apart(dance: Dance, until: float, most: float, budget: Budget) -> float
     return max(0.0, _least_stray(triples, np.arcsin(sines), most + ROUNDING, budget) - ROUNDING)
 
 
+def holds_apart(dance: Dance, until: float, stray: float, budget: Budget) -> bool:
+    """Whether no two benches with one between them are known to touch with a stray [m]. until: see held_apart()"""
+    return held_apart(dance, until, stray * (1.0 + ROUNDING) + ROUNDING, budget) >= stray
+
+
 def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) -> float:
     """Lower bound of N over the shapes in which the first and the last of three benches touch, up to `most` [m].
 
