@@ -17,7 +17,7 @@ from app.extras import require
 from app.files.disk import object_words
 from app.maps.dances import read_dance
 from app.questions.proposals import Proposals, ProposalsRequest, answer_of, proposed
-from app.wire.labels import Heading, Part, Table
+from app.wire.labels import Heading, Part, Table, value_word
 from app.wire.messages import checked
 from app.wire.question import Terms
 from app.wire.refusals import refusing
@@ -69,14 +69,16 @@ def _parts(answer: Proposals, objective: core.Objective) -> Iterator[Part]:
     if not answer.proposals:
         return
     counts = objective is core.Objective.BENCHES
+    has_gates = bool(answer.proposals[0].gates)
     table = Table(
-        say("Proposals"), say("figure"), *[say("benches")] * counts, say("safe stray"), say("duration"),
-        say("length"), say("turns"), say("nearest"), say("with stray"), say("highest speed"),
+        say("Proposals"), say("figure"), *[say("gates")] * has_gates, *[say("benches")] * counts, say("safe stray"),
+        say("duration"), say("length"), say("turns"), say("nearest"), say("with stray"), say("highest speed"),
     )  # fmt: skip
     for one in answer.proposals:
         near = f"{one.near.in_place:.3f} m, {one.near.name}"
         speed = "" if one.highest_speed is None else f"{one.highest_speed:.2f} m/s"
-        row: list[Any] = [one.figure.value, *[str(_benches(one.dance["dragon"]))] * counts]
+        way = [" → ".join(map(str, one.gates))] * has_gates
+        row: list[Any] = [value_word(one.figure.value), *way, *[str(_benches(one.dance["dragon"]))] * counts]
         row += [f"{one.tolerance:.3f} m", f"{one.duration:.0f} s", f"{one.length:.0f} m"]
         table.add(*row, f"{one.turns:.1f}", near, f">= {one.near.distance:.3f} m", speed)
     yield table

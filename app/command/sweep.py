@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.cells import cell_len
 from rich.console import Console
 from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bar
@@ -23,6 +24,8 @@ from core.language import say
 if TYPE_CHECKING:
     from app.sweeps.run import Progress
 
+# Width of the names in a summary [characters].
+NAME_WIDTH = 24
 # Exit code that shells use for a command stopped by Ctrl-C.
 INTERRUPTED = 130
 
@@ -103,7 +106,7 @@ def show(
     from app.sweeps.table import summary
 
     for name, text in summary(sweep, column).lines():
-        print(f"{name:<24} {text}")
+        print(f"{name}{' ' * (NAME_WIDTH - cell_len(name))} {text}")
 
 
 @sweep.command()

@@ -8,9 +8,13 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
 
-from app.files.drawing import canvas, draw_venue, file_bytes, in_turn, with_square
+from app.files.drawing import canvas, draw_venue, with_square
+from app.files.figures import figure_file
+from app.wire.labels import value_word
 from core import Proposal, bench_outlines, trajectory
+from core.language import phrase, say
 from core.plots import GREY, VERMILION
 
 # Size of one picture [inch], pictures in a row of an overview, and points along a drawn path.
@@ -30,23 +34,31 @@ def proposal_picture(proposal: Proposal, format: str = "png") -> bytes:
     return overview([proposal], format)
 
 
-def overview(proposals: Sequence[Proposal], format: str = "png", words: Sequence[str] = ()) -> bytes:
-    """The pictures of some dances beside one another. words: a title for each; default: figure, stray and duration"""
+def overview(proposals: Sequence[Proposal], format: str = "png") -> bytes:
+    """The pictures of some dances beside one another."""
     across = min(len(proposals), ACROSS)
     down = math.ceil(len(proposals) / across)
-    titles = [*words] or [
-        f"{one.figure.value}: strays up to {one.tolerance:.2f} m, {one.duration:.0f} s" for one in proposals
-    ]
 
-    def drawn() -> bytes:
+    def drawn() -> Figure:
         figure = canvas(SIZE * across, SIZE * down)
-        for k, (one, title) in enumerate(zip(proposals, titles, strict=True)):
+        for k, one in enumerate(proposals):
             axes = figure.add_subplot(down, across, k + 1)
             _draw(axes, one)
-            axes.set_title(title, fontsize=10)
-        return file_bytes(figure, format)
+            axes.set_title(_title(one), fontsize=10)
+        return figure
 
-    return in_turn(drawn)
+    return figure_file(drawn, format)
+
+
+def _title(one: Proposal) -> str:
+    """Figure, gates, stray and duration."""
+    figure, stray, duration = value_word(one.figure.value), one.tolerance, one.duration
+    if not one.gates:
+        words = phrase("{figure}: strays up to {stray:.2f} m, {duration:.0f} s")
+        return say(words, figure=figure, stray=stray, duration=duration)
+    way = " → ".join(map(str, one.gates))
+    words = phrase("{figure} {way}: strays up to {stray:.2f} m, {duration:.0f} s")
+    return say(words, figure=figure, way=way, stray=stray, duration=duration)
 
 
 def _draw(axes: Axes, proposal: Proposal) -> None:

@@ -24,16 +24,23 @@ const degrees = (angle) => (angle * 180) / Math.PI;
 /** Twice the area that a line goes around [m2]: positive to the left. */
 const twiceArea = ({ x, y }) => x.reduce((sum, one, k) => sum + one * y[(k + 1) % x.length] - x[(k + 1) % x.length] * y[k], 0);
 
-/** In which words proposals of one figure may differ, the first ones preferred; gates: their names. course: the part of that of /course that is danced in the square */
+/** In which words proposals of one figure on one way may differ, the first ones preferred. course: the part of that of /course that is danced in the square */
 const MARKS = [
-  ({ gates: [a, b] }, _, names) => (a === undefined ? "" : say("from {a} to {b}", { a: names[a], b: names[b] })),
   (_, course) => say("{wide} m wide", { wide: extent(course.x.map((x, k) => [x, course.y[k]])).width.toFixed(0) }),
   (_, course) => say(twiceArea(course) > 0 ? "to the left" : "to the right"),
   ({ turns }) => say("{turns} turns", { turns: turns.toFixed(1) }),
   ({ length }) => say("{length} m", { length: length.toFixed(0) }),
 ];
 
-/** The titles of all proposals; those of one figure are told apart by the first thing in which each differs from all others, else by a number. */
+/** The figure of a proposal, and between which gates it leads. names: of all gates */
+function nameOf({ figure, gates: [a, b] }, names) {
+  const words = say(FIGURES[figure]);
+  if (a === b) return words;
+  const way = { a: names[a], b: names[b] };
+  return figure === "parade" ? say("From {a} to {b}", way) : say("{figure}, {parts}", { figure: words, parts: say("from {a} to {b}", way) });
+}
+
+/** The titles of all proposals; those of one figure on one way are told apart by the first thing in which each differs from all others, else by a number. gates: their names */
 export function cardTitles({ proposals, courses, yard }, gates) {
   const { width, height, middle: [left, low] } = extent(yard);
   const isInside = (x, y) => Math.abs(x - left) <= width / 2 && Math.abs(y - low) <= height / 2;
@@ -42,11 +49,11 @@ export function cardTitles({ proposals, courses, yard }, gates) {
     const own = [...s.keys()].filter((k) => s[k] >= 0 && isInside(x[k], y[k]));
     return { x: own.map((k) => x[k]), y: own.map((k) => y[k]) };
   });
-  return proposals.map((one, at) => {
-    const figure = say(FIGURES[one.figure]);
-    const alike = [...proposals.keys()].filter((k) => proposals[k].figure === one.figure);
+  const figures = proposals.map((one) => nameOf(one, gates));
+  return figures.map((figure, at) => {
+    const alike = [...figures.keys()].filter((k) => figures[k] === figure);
     if (alike.length < 2) return figure;
-    const words = MARKS.map((mark) => alike.map((k) => mark(proposals[k], danced[k], gates))).find((all) => new Set(all).size === all.length);
+    const words = MARKS.map((mark) => alike.map((k) => mark(proposals[k], danced[k]))).find((all) => new Set(all).size === all.length);
     const place = alike.indexOf(at);
     return say("{figure}, {parts}", { figure, parts: words?.[place] ?? say("no. {number}", { number: place + 1 }) });
   });

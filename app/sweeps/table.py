@@ -27,6 +27,7 @@ from app.wire.texts import TO_CELL
 from core import InvalidValue
 from core.display import format_count
 from core.errors import Given
+from core.language import say
 from core.tables import data_frame, polars_frame
 from core.values import Floats
 
@@ -219,12 +220,16 @@ class Summary:
 
     def lines(self) -> list[tuple[str, str]]:
         """Names and values as text."""
-        lines = [("designs", f"{self.rows} of {self.total}")]
-        lines += [(f"error {code}", str(count)) for code, count in sorted(self.errors.items())]
-        for word, end in (("least", self.least), ("greatest", self.greatest)):
+        lines = [(say("designs"), say("{rows} of {total}", rows=self.rows, total=self.total))]
+        lines += [(say("error {code}", code=code), str(count)) for code, count in sorted(self.errors.items())]
+        ends = (
+            (say("least {value}", value=self.value), self.least),
+            (say("greatest {value}", value=self.value), self.greatest),
+        )
+        for name, end in ends:
             if end is not None:
-                place = ", ".join(f"{name} = {at}" for name, at in end[1].items())
-                lines.append((f"{word} {self.value}", f"{end[0]} at {place}"))
+                place = ", ".join(f"{parameter} = {at}" for parameter, at in end[1].items())
+                lines.append((name, say("{number} at {place}", number=end[0], place=place)))
         return lines
 
 

@@ -43,11 +43,13 @@ LABELS: Phrases = {
 # Words of values, by their codes.
 VALUES: Phrases = {
     "bend": "bend", "benches": "benches", "bound": "bound", "centre": "centre", "chord": "chord", "circle": "circle",
-    "clear": "clear", "contact": "contact", "contact_at_start": "contact_at_start", "end": "end", "fold": "fold",
+    "clear": "clear", "contact": "contact", "contact_at_start": "contact_at_start", "eight": "eight", "end": "end",
+    "fold": "fold",
     "front": "front", "front-inner": "front-inner", "front-outer": "front-outer", "graze": "graze", "inner": "inner",
     "least_radius": "the least radius of a bend: half of the longest chord and 0.1 % more, which the proof needs",
-    "outer": "outer", "rear": "rear", "rear-inner": "rear-inner", "rear-outer": "rear-outer", "scan": "scan",
-    "start": "start", "stop": "stop", "undecided": "undecided", "venue": "venue",
+    "outer": "outer", "parade": "parade", "rear": "rear", "rear-inner": "rear-inner", "rear-outer": "rear-outer",
+    "ring": "ring", "scan": "scan", "serpentine": "serpentine", "spiral": "spiral", "start": "start", "stop": "stop",
+    "undecided": "undecided", "venue": "venue",
 }  # fmt: skip
 # The same where a margin is required, which makes a contact not always a touch.
 NEAR: Phrases = {

@@ -10,6 +10,7 @@ from core.display import Readable, display
 from core.errors import format_number
 from core.failures import Failure
 from core.judgement import Report
+from core.language import Phrases, counted, joined, phrase, say
 from core.proposal.figures import Figure
 from core.venue import Venue
 
@@ -66,28 +67,40 @@ class Reason(Readable):
     @property
     def message(self) -> str:
         """The reason in one sentence."""
-        have, need, figure = self.have or 0.0, self.need or 0.0, NAMES.get(self.figure or Figure.RING, "")
+        have, need, figure = self.have or 0.0, self.need or 0.0, say(NAMES[self.figure or Figure.RING])
         less, more = told_apart(have, need, DIGITS.get(self.kind, 0))
         if self.kind is ReasonKind.AREA:
-            return f"The benches cover at least {more} m2 at any moment; the square has {less} m2."
+            covered = phrase("The benches cover at least {more} m2 at any moment; the square has {less} m2.")
+            return say(covered, more=more, less=less)
         if self.kind is ReasonKind.WIDTH:
-            bench = "the head bench" if self.who == (0,) else f"bench {self.who[0]}"
-            turn = f"the tightest turn of {bench} that is tried takes {more} m"
-            return f"No dance was found: the widest free circle is at most {less} m across, and {turn}."
+            bench = say("the head bench") if self.who == (0,) else say("bench {k}", k=self.who[0])
+            return say(
+                "No dance was found: the widest free circle is at most {less} m across, and the tightest turn of "
+                "{bench} that is tried takes {more} m.",
+                less=less, more=more, bench=bench,
+            )  # fmt: skip
         if self.kind is ReasonKind.WAY:
-            gates = f"gate {self.who[0]} and gate {self.who[1]}"
-            room = f"is at most {less} m wide at its narrowest"
-            return f"The free ground between {gates} {room}; the benches need at least {more} m."
+            return say(
+                "The free ground between gate {a} and gate {b} is at most {less} m wide at its narrowest; the benches "
+                "need at least {more} m.",
+                a=self.who[0], b=self.who[1], less=less, more=more,
+            )  # fmt: skip
         if self.kind is ReasonKind.STRAY:
-            best = f"the best of {self.tried} tried, {figure}, allows {less} m"
-            return f"People shall be free to stray {format_number(need)} m; {best}."
+            return say(
+                "People shall be free to stray {need} m; the best of {tried} tried, {figure}, allows {less} m.",
+                need=format_number(need), tried=self.tried, figure=figure, less=less,
+            )  # fmt: skip
         if self.kind is ReasonKind.BENCHES:
-            most = f"the longest dragon that was found to fit, in {figure}, has {have:.0f}"
-            return f"The dragon has {benches_of(int(need))}; {most}."
-        none = f"None of {self.tried} tried passes its check"
+            return say(
+                "The dragon has {benches}; the longest dragon that was found to fit, in {figure}, has {have:.0f}.",
+                benches=benches_of(int(need)), figure=figure, have=have,
+            )  # fmt: skip
+        none = say("None of {tried} tried passes its check", tried=self.tried)
         if have < need:
-            none = "No dance was found, not even with one bench"
-        return f"{none}; the nearest, {figure}: {self.failure.message}" if self.failure else f"{none}."
+            none = say("No dance was found, not even with one bench")
+        if self.failure is None:
+            return say("{none}.", none=none)
+        return say("{none}; the nearest, {figure}: {failure}", none=none, figure=figure, failure=self.failure.message)
 
     def _line(self) -> str:
         return self.message
@@ -106,7 +119,7 @@ def told_apart(less: float, more: float, decimals: int) -> tuple[str, str]:
     return f"{less!r}", f"{more!r}"
 
 
-NAMES = {
+NAMES: Phrases = {
     Figure.SPIRAL: "a spiral",
     Figure.EIGHT: "a figure eight",
     Figure.SERPENTINE: "a serpentine",
@@ -117,7 +130,7 @@ NAMES = {
 
 def benches_of(count: int) -> str:
     """A number of benches in words."""
-    return f"{count} {'bench' if count == 1 else 'benches'}"
+    return counted(count, "{count} bench", "{count} benches")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -186,15 +199,27 @@ class Proposal(Readable):
     def message(self) -> str:
         """The dance in one sentence."""
         line = self._line()
-        return f"{line[0].upper()}{line[1:]}."
+        return say("{line}.", line=f"{line[0].upper()}{line[1:]}")
 
     def _line(self) -> str:
-        benches = benches_of(self.dance.dragon.benches)
-        safe = f"strays up to {display(self.tolerance, 'm', 3)} are safe"
-        near = f"{display(self.near.in_place, 'm', 3)} from {self.near.name!r}"
+        near = say("{distance} from {name}", distance=display(self.near.in_place, "m", 3), name=repr(self.near.name))
         if self.near.distance != self.near.in_place:
-            near += f", at least {display(self.near.distance, 'm', 3)} with the stray asked for"
-        return f"{NAMES[self.figure]} of {benches}, {self.duration:.0f} s, {self.length:.0f} m; {safe}; {near}"
+            least = display(self.near.distance, "m", 3)
+            near = say("{near}, at least {least} with the stray asked for", near=near, least=least)
+        return say(
+            "{figure} of {benches}{way}, {duration:.0f} s, {length:.0f} m; strays up to {stray} are safe; {near}",
+            figure=say(NAMES[self.figure]), benches=benches_of(self.dance.dragon.benches), way=self._way(),
+            duration=self.duration, length=self.length, stray=display(self.tolerance, "m", 3), near=near,
+        )  # fmt: skip
+
+    def _way(self) -> str:
+        """Between which gates it leads; empty without gates."""
+        if not self.gates:
+            return ""
+        first, last = self.gates
+        if first == last:
+            return say(" from gate {a} and back to it", a=first)
+        return say(" from gate {a} to gate {b}", a=first, b=last)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -217,8 +242,10 @@ class Proposals(Readable):
         """What was found in one sentence."""
         if self.reason is not None:
             return self.reason.message
-        return f"The best {len(self.proposals)} of {self.tried} tried, {self.checked} of them checked."
+        return say(
+            "The best {count} of {tried} tried, {checked} of them checked.",
+            count=len(self.proposals), tried=self.tried, checked=self.checked,
+        )  # fmt: skip
 
     def _line(self) -> str:
-        first = f" First: {self.proposals[0]._line()}." if self.proposals else ""
-        return self.message + first
+        return joined([self.message, *(say("First: {line}.", line=one._line()) for one in self.proposals[:1])])

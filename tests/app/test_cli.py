@@ -517,6 +517,8 @@ def test_a_command_that_is_asked_in_chinese_says_everything_in_chinese(tmp_path)
         ("minimum-pitch", "--benches", "20"),
         ("shortest-turn", "--benches", "3"),
         ("overlaps", "--time", "413"),
+        ("check", str(examples / "paper_dance.toml")),
+        ("propose", str(examples / "village_square.toml")),
     ):
         done = run(*arguments, "--language", "zh")
         assert done.returncode == 0

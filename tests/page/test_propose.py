@@ -121,7 +121,7 @@ def _gates_lie_on_the_border_and_the_dance_begins_in_their_streets(person):
     body = sent.value.post_data_json
     assert [gate["heading"] for gate in body["gates"]] == pytest.approx([0.0, math.pi], abs=1e-3)
     assert [gate["point"][0] for gate in body["gates"]] == [-12.0, 12.0]
-    person.sees({f"{CARDS}:has-text('From gate to gate')": 1}).presses(CARDS).settles().sees({CLEAR: True})
+    person.sees({f"{CARDS}:has-text('From gate to gate 2')": 3}).presses(CARDS).settles().sees({CLEAR: True})
     # The square with its streets is danced in, and the square without them is asked about again.
     assert person.address()["yard"] == "-12,-10_12,-10_12,10_-12,10"
     with person.page.expect_request("**/proposals") as again:

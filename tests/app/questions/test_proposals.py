@@ -50,6 +50,7 @@ def test_every_dance_passes_its_check_as_it_is(ask, more):
         in_place = [one["near"]["in_place"], one["clearance_in_place"]]
         assert [own["distance"], calm["least_clearance"]["distance"]] == pytest.approx(in_place, rel=0, abs=1e-9)
         assert f"from '{one['near']['name']}'" in one["summary"]
+        assert not one["gates"] or "from gate {} to gate {}".format(*one["gates"]) in one["summary"]
 
 
 def test_a_reason_stands_where_no_dance_fits(ask):
