@@ -38,6 +38,12 @@ class Language(StrEnum):
         vars()[code.upper()] = code
 
 
+def named_language(name: str) -> Language | None:
+    """The language of a locale or a tag, such as zh_CN.UTF-8 or en-GB; None if nothing is said in it."""
+    code = name.lower().replace("-", "_").partition("_")[0]
+    return Language(code) if code in list(Language) else None
+
+
 # Templates that are said elsewhere, by their codes: so annotated they come into the catalogues.
 Phrases = dict[str, str]
 

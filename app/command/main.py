@@ -25,7 +25,7 @@ from app.command.streams import output_fault
 from app.command.usage import Commands, Misuse, explain_values, message_of
 from core.errors import BenchDragonError
 from core.kernels import COMPILED
-from core.language import Language, say, speaking
+from core.language import Language, named_language, say, speaking
 
 # Module of each command, in the order of the help; none for a command that follows from its question. This module, or
 # that of the question, is imported when its command is called, or the help lists it.
@@ -117,6 +117,23 @@ def _entry(command: str) -> Any:
     return command_of(question, question.command)
 
 
+def _with_known_language(arguments: list[str]) -> list[str]:
+    """Arguments with the code of the language after --language; of a language without words here, that of English."""
+    known = [*arguments]
+    for k, argument in enumerate(arguments):
+        option, mark, name = argument.partition("=")
+        at = k if mark else k + 1
+        if option != "--language" or at == len(arguments):
+            continue
+        name = name if mark else arguments[at]
+        language = named_language(name)
+        if language is None:
+            words = say("Warning: there are no words in {name!r}, so they are in English.", name=name)
+            print(words, file=sys.stderr)
+        known[at] = (f"{option}=" if mark else "") + (language or Language.ENGLISH)
+    return known
+
+
 HELP = {"help_option_names": ["-h", "--help"]}
 
 
@@ -126,7 +143,7 @@ class _Commands(Commands):
     def make_context(self, info_name: Any, args: list[str], *further: Any, **extra: Any) -> Any:
         # Without any argument the parser prints the help and raises an error, although the user made no mistake.
         with _errors_in_one_line({}) if args else nullcontext():
-            return super().make_context(info_name, args, *further, **extra)
+            return super().make_context(info_name, _with_known_language(args), *further, **extra)
 
     def list_commands(self, ctx: Any) -> list[str]:
         return list(MODULE_OF)

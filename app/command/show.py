@@ -21,7 +21,7 @@ from app.files.disk import write_whole
 from app.wire.answers import Columns
 from app.wire.labels import Heading, Part, Table
 from app.wire.question import Answer
-from core.language import Language
+from core.language import Language, named_language
 
 # Decimals of lengths and speeds on a terminal.
 DISPLAY_DECIMALS = 6
@@ -38,9 +38,7 @@ LOCALE = ("LC_ALL", "LC_MESSAGES", "LANG")
 def language_of_terminal() -> Language:
     """The language of the locale, if there are sentences in it; else English."""
     known = (os.environ.get(name) for name in LOCALE)
-    locale = next(filter(None, known), "")
-    code = locale.lower().partition("_")[0]
-    return Language(code) if code in list(Language) else Language.ENGLISH
+    return named_language(next(filter(None, known), "")) or Language.ENGLISH
 
 
 @contextmanager

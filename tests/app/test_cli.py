@@ -486,7 +486,8 @@ LOCALES = [
     ({"LANG": "zh_CN.UTF-8"}, "en", "en"),
     ({"LC_ALL": "C", "LANG": "zh_CN.UTF-8"}, None, "en"),
     ({"LC_MESSAGES": "zh_CN", "LANG": "en_US.UTF-8"}, None, "zh"),
-    ({"LANG": "en_US.UTF-8"}, "zh", "zh"),
+    ({"LANG": "en_US.UTF-8"}, "zh-TW", "zh"),
+    ({"LANG": "zh_CN.UTF-8"}, "fr", "en"),
     ({}, None, "en"),
 ]
 
@@ -498,6 +499,8 @@ def test_progress_is_in_the_language_chosen_or_that_of_the_terminal(tmp_path, lo
     unset = dict.fromkeys(("LC_ALL", "LC_MESSAGES", "LANG"), "")
     options = ["--language", chosen] if chosen else []
     lines = run("grade", str(tmp_path), *options, **(unset | locale)).stderr.splitlines()
+    if chosen == "fr":
+        assert "'fr'" in lines.pop(0)
     assert lines == [f"{'评阅' if words == 'zh' else 'grading'}: {share} %" for share in (50, 100)]
 
 
