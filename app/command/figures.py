@@ -25,6 +25,7 @@ from app.questions.pitch_scan import ScanFields
 from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
+from core.errors import Given
 from core.language import say
 
 
@@ -83,7 +84,7 @@ def figures(
     kinds = kind or list(FigureKind)[: 2 if file else None]
     used = {name for one in kinds for name in (FIGURES[one].flat or FigureOptions).model_fields}
     why = "does not apply to the figure {kinds}: leave it out, or draw another --kind too"
-    unused(context, FigureOptions.model_fields.keys() - used, why, kinds=" or ".join(kinds))
+    unused(context, FigureOptions.model_fields.keys() - used, why, kinds=Given(kinds, say(" or ").join(kinds)))
     requests = {one: of_file(file, FIGURES[one].body or FigureOptions, context) if file else options for one in kinds}
     files = {one: folder / f"{one.value}.{format.value}" for one in kinds}
     for picture in files.values() if folder.exists() else ():

@@ -9,7 +9,7 @@ check fails, and 2 for wrong usage.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from importlib import import_module
 from typing import Annotated, Any
@@ -67,28 +67,21 @@ MODULE_OF = {
 
 
 @contextmanager
-def _errors_in_one_line(meta: Mapping[str, Any]) -> Iterator[None]:
+def _errors_in_one_line(language: Language | None) -> Iterator[None]:
     """Context that turns errors that a user can correct into one line on standard error and exit code 2.
 
-    meta: of typer's context, with the language that an option chose
+    language: of all words; None for that of the terminal
     """
-    try:
-        with speaking(language_of_terminal()):
+    with speaking(language or language_of_terminal()):
+        try:
             yield
-        return
-    except BrokenPipeError:  # The reader has what it wanted: typer ends the command without a word.
-        raise
-    except (BenchDragonError, Misuse, OSError) as error:
-        with speaking(meta.get(LANGUAGE) or language_of_terminal()):
+            return
+        except BrokenPipeError:  # The reader has what it wanted: typer ends the command without a word.
+            raise
+        except (BenchDragonError, Misuse, OSError) as error:
             message = output_fault(error) if isinstance(error, OSError) else message_of(error)
             print(say("Error: {message}", message=message), file=sys.stderr)
-    raise typer.Exit(2)
-
-
-def _speak(context: typer.Context, language: Language | None) -> None:
-    if language:
-        context.meta[LANGUAGE] = language
-        context.with_resource(speaking(language))
+        raise typer.Exit(2)
 
 
 def _language_option() -> Any:
@@ -97,7 +90,7 @@ def _language_option() -> Any:
     def command(
         language: Annotated[
             Language | None,
-            typer.Option(is_eager=True, callback=_speak, help="Language of the words; default: that of the terminal."),
+            typer.Option(help="Language of the words; default: that of the terminal."),
         ] = None,
     ) -> None: ...
 
@@ -117,9 +110,10 @@ def _entry(command: str) -> Any:
     return command_of(question, question.command)
 
 
-def _with_known_language(arguments: list[str]) -> list[str]:
-    """Arguments with the code of the language after --language; of a language without words here, that of English."""
-    known = [*arguments]
+def _with_known_language(arguments: list[str]) -> tuple[list[str], Language | None]:
+    """Arguments with the code of the language after --language, of one without words here that of English; and this
+    language, in which mistakes in the arguments are told too."""
+    known, language = [*arguments], None
     for k, argument in enumerate(arguments):
         option, mark, name = argument.partition("=")
         at = k if mark else k + 1
@@ -130,8 +124,9 @@ def _with_known_language(arguments: list[str]) -> list[str]:
         if language is None:
             words = say("Warning: there are no words in {name!r}, so they are in English.", name=name)
             print(words, file=sys.stderr)
-        known[at] = (f"{option}=" if mark else "") + (language or Language.ENGLISH)
-    return known
+        language = language or Language.ENGLISH
+        known[at] = (f"{option}=" if mark else "") + language
+    return known, language
 
 
 HELP = {"help_option_names": ["-h", "--help"]}
@@ -142,8 +137,12 @@ class _Commands(Commands):
 
     def make_context(self, info_name: Any, args: list[str], *further: Any, **extra: Any) -> Any:
         # Without any argument the parser prints the help and raises an error, although the user made no mistake.
-        with _errors_in_one_line({}) if args else nullcontext():
-            return super().make_context(info_name, _with_known_language(args), *further, **extra)
+        known, language = _with_known_language(args)
+        with _errors_in_one_line(language) if args else nullcontext():
+            context = super().make_context(info_name, known, *further, **extra)
+            if language:
+                context.meta[LANGUAGE] = language
+            return context
 
     def list_commands(self, ctx: Any) -> list[str]:
         return list(MODULE_OF)
@@ -169,7 +168,7 @@ class _Commands(Commands):
         return command
 
     def invoke(self, ctx: Any) -> Any:
-        with _errors_in_one_line(ctx.meta):
+        with _errors_in_one_line(ctx.meta.get(LANGUAGE)):
             result = super().invoke(ctx)
             sys.stdout.flush()
             return result

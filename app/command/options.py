@@ -27,7 +27,7 @@ from app.wire.question import DanceQuery, Strays
 from app.wire.refusals import refusing
 from core import BenchDragonError, Dance, InvalidValue, Performance
 from core.dance import DEFAULT_SPAN
-from core.errors import Given, Value
+from core.errors import Given, Parameter, Value
 from core.language import say
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -49,7 +49,7 @@ def typed_options(context: typer.Context, *names: str) -> list[str]:
 def unused(context: typer.Context, names: Iterable[str], why: str, **values: Value) -> None:
     """Refuse named options that were given but have no use here. why: the rest of the template, with what to change"""
     for name in typed_options(context, *names):
-        raise InvalidValue.in_words(name, f"--{{option}} {why}", option=name.replace("_", "-"), **values)
+        raise InvalidValue.in_words(name, f"{{field}} {why}", field=f"--{name.replace('_', '-')}", **values)
 
 
 def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Number]:
@@ -63,7 +63,7 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
             rule = "must be a number, as in --{option} 0,1,2"
             if kind is int:
                 rule = "must be a whole number, as in --{option} 0,1,2"
-            raise InvalidValue(f"{option}.{k}", rule, got=Given(word), option=option) from error
+            raise InvalidValue(f"{option}.{k}", rule, got=Given(word), option=Parameter(option)) from error
     return entries
 
 

@@ -32,12 +32,13 @@ def prepare() -> None:
 
 def output_fault(error: OSError) -> str:
     """What is wrong with the file that the error names, or with standard output; nothing more is printed then."""
-    from core.language import say  # Not before there is an error.
+    from app.files.disk import why_not  # Not before there is an error.
+    from core.language import say
 
     if error.filename:
-        return f"{error.filename}: {error.strerror or error}"
+        return f"{error.filename}: {why_not(error)}"
     drop_output()
-    why = say("it is closed") if error.errno == errno.EBADF else error.strerror or error
+    why = say("it is closed") if error.errno == errno.EBADF else why_not(error)
     return say("standard output: {why}", why=why)
 
 

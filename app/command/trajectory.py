@@ -28,6 +28,7 @@ from app.wire.labels import Part, Table
 from app.wire.messages import checked
 from app.wire.question import measure
 from core import Dragon, InvalidValue, RunEnd, Trajectory
+from core.errors import Parameter
 from core.language import counted, say
 
 # Largest number of instants that a terminal shows, if that many fit.
@@ -79,7 +80,9 @@ def trajectory(
     write = trajectory_writer(ending, request.decimals, clock) if ending else None
     handles, times = _handles(context.params["handles"], dance.dragon), request.times
     if typed_options(context, "times") and (ranged := typed_options(context, "start", "stop", "step")):
-        raise InvalidValue.in_words("times", "--times replaces --{option}: give one of the two", option=ranged[0])
+        raise InvalidValue.in_words(
+            "times", "--times replaces --{option}: give one of the two", option=Parameter(ranged[0])
+        )
     if isinstance(times, str):
         request = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": request.decimals})
     instants = request.times_of(dance, settings.cells_max)

@@ -14,11 +14,13 @@ from typer.core import TyperGroup
 
 from app.wire.messages import ALIKE_SLIP, fault_of
 from app.wire.numbers import number_of
-from core.errors import BenchDragonError, fill_message
+from core.errors import BenchDragonError, Given, fill_message
 from core.language import say
 
 # Class of every mistake that the parser reports; typer gives it no public name.
 Misuse: Any = typer.BadParameter.__base__
+# What the parser says of arguments for which a command has no place.
+EXTRA = re.compile(r"Got unexpected extra arguments?(?:\(s\))? \((.*)\)")
 EMPTY = "must not be an empty name: the current folder is ."
 
 
@@ -77,6 +79,8 @@ def message_of(error: Any) -> str:
         return unknown(error.option_name, [option for one in error.ctx.command.params for option in one.opts])
     if hasattr(error, "param_type") and error.param is not None and not error.message:
         return fill_message("{name} is missing", {"name": _name(error.param)})
+    if more := EXTRA.fullmatch(error.format_message()):
+        return fill_message("{words} must be left out: see --help", {"words": Given(more, more[1])})
     words = re.sub(r"\s+", " ", error.format_message().removeprefix("Invalid value: ")).rstrip(".")
     return f"{words[:1].lower()}{words[1:]}"
 
@@ -97,8 +101,11 @@ def unknown(word: str, known: list[str]) -> str:
     bare = {one.lstrip("-"): one for one in known}
     near = difflib.get_close_matches(word.lstrip("-"), bare, n=1, cutoff=ALIKE_SLIP)
     if near:
-        return fill_message("{word} is unknown here: did you mean {near}?", {"word": word, "near": bare[near[0]]})
-    return fill_message("{word} is unknown here: see --help", {"word": word})
+        return fill_message(
+            "{word} is unknown here: did you mean {near}?",
+            {"word": Given(word, word), "near": Given(near, bare[near[0]])},
+        )
+    return fill_message("{word} is unknown here: see --help", {"word": Given(word, word)})
 
 
 def _name(parameter: Any) -> str:
@@ -116,7 +123,9 @@ def _value_message(parameter: Any, kind: Any, declared: Any, value: str) -> str:
     if choices:
         *most, last = [str(getattr(choice, "value", choice)) for choice in choices]
         allowed = say("{first} or {last}", first=", ".join(most), last=last)
-        return fill_message("{name} must be {allowed}, got {value}", {"name": name, "allowed": allowed, "value": value})
+        return fill_message(
+            "{name} must be {allowed}, got {value}", {"name": name, "allowed": allowed, "value": Given(value, value)}
+        )
     if getattr(declared, "min", None) is not None and re.fullmatch(r"[-+]?\d+", value):
         values = {"name": name, "least": declared.min, "most": declared.max, "value": value}
         return fill_message("{name} must be from {least} to {most}, got {value}", values)

@@ -15,7 +15,25 @@ from app.wire.messages import OBJECT
 from app.wire.question import short_json
 from app.wire.texts import Unreadable, json_of
 from core import InvalidValue
-from core.errors import Given
+from core.errors import Given, Parameter
+from core.language import Phrases, say
+
+# What systems say of a file that cannot be used.
+SYSTEM: Phrases = {
+    "ENOENT": "No such file or directory",
+    "EACCES": "Permission denied",
+    "EEXIST": "File exists",
+    "EISDIR": "Is a directory",
+    "ENOTDIR": "Not a directory",
+    "ENOSPC": "No space left on device",
+    "EROFS": "Read-only file system",
+    "ENAMETOOLONG": "File name too long",
+}
+
+
+def why_not(error: OSError) -> str:
+    """Why a file cannot be used, in the words of the system."""
+    return say(error.strerror) if error.strerror else str(error)
 
 
 def ending_of(file: Path) -> str:
@@ -35,15 +53,15 @@ def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     ending = ending_of(file)
     if endings and ending not in endings:
         *others, last = endings
-        allowed = f"{', '.join(others)} or {last}" if others else last
-        values = {"got": ending or "no ending", "option": option, "endings": allowed}
-        raise InvalidValue.in_words(option, "--{option} must end in {endings}", **values)
+        allowed = f"{', '.join(others)}{say(' or ')}{last}" if others else last
+        words, got = "--{option} must end in {endings}", ending or "no ending"
+        raise InvalidValue.in_words(option, words, got=got, option=Parameter(option), endings=allowed)
     if file.is_dir():
         raise _os_error(errno.EISDIR, file)
     target = file.resolve()
     if not target.parent.is_dir():
         words = "--{option} must be in a folder that exists"
-        raise InvalidValue.in_words(option, words, got=str(file), option=option)
+        raise InvalidValue.in_words(option, words, got=Given(file, str(file)), option=Parameter(option))
     # write_whole() puts a new file into the folder, in the place of the old one; only a device or a pipe is written to
     # directly. An old file that is read-only must not be replaced either.
     written = [target] if target.exists() else []

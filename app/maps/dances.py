@@ -7,11 +7,12 @@ from datetime import time
 from pathlib import Path
 from typing import Any
 
-from app.files.disk import display_name, ending_of, read_json, standard_input
+from app.files.disk import display_name, ending_of, read_json, standard_input, why_not
 from app.processes.limits import reading
 from app.wire.texts import Unreadable, is_workbook, table_of, toml_of
 from core import Budget, InvalidValue
 from core.errors import Parameter
+from core.language import say
 
 # Endings of a file that describes a dance.
 DANCE_ENDINGS = (".toml", ".json")
@@ -26,7 +27,7 @@ def read_dance(file: Path, *, several: bool = False) -> dict[str, Any]:
     """
     ending = ending_of(file)
     if ending not in DANCE_ENDINGS and file.is_file():
-        words, endings = "{file} must end in {endings}", " or ".join(DANCE_ENDINGS)
+        words, endings = "{file} must end in {endings}", say(" or ").join(DANCE_ENDINGS)
         raise InvalidValue.in_words("file", words, got=ending or "no ending", file=str(file), endings=endings)
     piped = standard_input() if str(file) == "-" else b""
     if ending != ".toml" and (not piped.strip() or piped.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{")):
@@ -75,7 +76,7 @@ def _table(file: Path, field: str, table: Path) -> str:
         data = table.read_bytes()
         text, notes = _of_workbook(table, field, data) if is_workbook(data) else _of_text(data)
     except OSError as error:
-        values = {"file": str(file), "table": str(table), "why": str(error.strerror)}
+        values = {"file": str(file), "table": str(table), "why": why_not(error)}
         raise InvalidValue(field, "of {file}: {table}: {why}", **values) from error
     except Unreadable as error:
         raise error.of(field, str(table)) from error
@@ -118,7 +119,7 @@ def _drawn(file: Path, field: str, drawing: Path, seen: dict[Path, Any]) -> Any:
                 return values
         parts = seen[drawing] = seen.get(drawing) or read_map(drawing)
     except OSError as error:
-        values = {"file": str(file), "drawing": str(drawing), "why": str(error.strerror)}
+        values = {"file": str(file), "drawing": str(drawing), "why": why_not(error)}
         raise InvalidValue(field, "of {file}: {drawing}: {why}", **values) from error
     except InvalidValue as error:
         if error.field != "file":

@@ -65,7 +65,7 @@ from app.wire.problem import PROBLEM_TYPE, item_of
 from app.wire.question import JSON, FileFormat, check_limit, short_json
 from core import BenchDragonError
 from core.errors import Given, Quantity
-from core.language import phrase, spoken
+from core.language import phrase, say, spoken
 
 # Time between two checks for news, and between two signs of life while there are none [s].
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
@@ -293,7 +293,7 @@ def format_of(value: Any, formats: type[FileFormat]) -> str:
     try:
         return formats(value).media_type
     except ValueError as error:
-        values: dict[str, Any] = {"got": Given(value, short_json(value)), "formats": " or ".join(formats)}
+        values: dict[str, Any] = {"got": Given(value, short_json(value)), "formats": say(" or ").join(formats)}
         raise Refused(422, "format must be {formats}", {"pointer": "/request/format"}, **values) from error
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from starlette.datastructures import Headers
 
 from app.service.problems import Refused
-from core.language import Language
+from core.language import Language, say
 
 RESPOND_ASYNC = "respond-async"
 # gzip: level 1 makes 1.8 MB of a trajectory of 3.8 MB in 60 ms; level 6 makes 1.7 MB in 350 ms (2026-11-22).
@@ -45,7 +45,7 @@ def form_of(header: str | None, offers: Sequence[str], place: Mapping[str, str])
     form = accepted(header, offers)
     if form is None:
         words = "This call answers {offers}, but Accept asks for {asked}."
-        raise Refused(406, words, place, offers=" or ".join(offers), asked=header[:100] if header else "")
+        raise Refused(406, words, place, offers=say(" or ").join(offers), asked=header[:100] if header else "")
     return form
 
 

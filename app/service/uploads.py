@@ -35,7 +35,7 @@ from app.wire.question import BYTES, JSON, Answer, Coordinates, OneLine, Wire, l
 from core import BenchDragonError
 from core.errors import Quantity, too_much
 from core.kernels import Halted
-from core.language import Language, speaking
+from core.language import Language, say, speaking
 
 GRADED = (BYTES, XLSX_TYPE, CSV_TYPE)
 # Accepted media types of maps; the form of a map follows from its first bytes, whichever of these is given.
@@ -128,7 +128,7 @@ def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any,
             refuse_coded(request)
         kind = content_type(request)
         if data and kind not in types:
-            names = " or ".join(types)
+            names = say(" or ").join(types)
             words, place = "The body must be the file itself, of type {types}, got {type}.", {"name": "Content-Type"}
             values = {"types": names, "type": kind or "no Content-Type"}
             raise Refused(415, words, place, {"Accept-Post": ", ".join(types)}, **values)

@@ -198,7 +198,9 @@ def numbers_of(sweep: Sweep, table: pa.Table, name: str) -> Floats:
     """A column as numbers, NaN where a row has none. raises: InvalidValue for a column without numbers"""
     column = table[name]
     if not is_number(column.type):
-        raise InvalidValue("value", "must be a column of numbers: {numbers}", got=name, numbers=sweep.numbers())
+        raise InvalidValue(
+            "value", "must be a column of numbers: {numbers}", got=Given(name, name), numbers=sweep.numbers()
+        )
     numbers: Floats = column.cast(pa.float64()).to_numpy().astype(np.float64)
     return numbers
 

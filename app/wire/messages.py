@@ -18,7 +18,7 @@ from app.wire.paths import KINDS
 from app.wire.question import VALUE_LENGTH_MAX, Wire, short_json, unit_of
 from core import InvalidValue
 from core.errors import Clause, Given, Parameter, Quantity, Value, format_field
-from core.language import Phrases, phrase
+from core.language import Phrases, phrase, say
 
 Model = TypeVar("Model", bound=BaseModel)
 # An object, in the words of JSON.
@@ -171,11 +171,11 @@ def _unknown_name(
     """The rule for a name that is unknown at its place, and its values."""
     if homes := _homes(name, request_type, place[1:-1]):
         rule = "is unknown here: it belongs in {home}"
-        return rule, {"home": " or ".join(homes)}
+        return rule, {"home": say(" or ").join(homes)}
     if place[-2] in KINDS:
         kinds = sorted(kind for kind in KINDS if name in names_at(request_type, (*place[1:-2], kind)))
         if kinds:
-            values: dict[str, Value] = {"kind": short_json(place[-2]), "home": " or ".join(map(short_json, kinds))}
+            values: dict[str, Value] = {"kind": short_json(place[-2]), "home": say(" or ").join(map(short_json, kinds))}
             rule = "is unknown in the kind {kind}: it belongs to {home}"
             return rule, values
     alike = ALIKE if name in units else ALIKE_SLIP

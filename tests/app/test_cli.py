@@ -502,6 +502,9 @@ def test_progress_is_in_the_language_chosen_or_that_of_the_terminal(tmp_path, lo
     if chosen == "fr":
         assert "'fr'" in lines.pop(0)
     assert lines == [f"{'评阅' if words == 'zh' else 'grading'}: {share} %" for share in (50, 100)]
+    # So is what is said of a mistake, before all options are read.
+    *_, mistake = run("paper", "more", *options, **(unset | locale)).stderr.splitlines()
+    assert mistake.startswith("错" if words == "zh" else "E")
 
 
 def test_a_command_that_is_asked_in_chinese_says_everything_in_chinese(tmp_path):
