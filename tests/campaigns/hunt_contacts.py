@@ -44,32 +44,27 @@ def random_dragon(rng, benches=None):
     benches, chord = benches or int(rng.integers(3, 17)), 10.0 ** rng.uniform(-0.3, 0.4)
     width, overhang = chord * 10.0 ** rng.uniform(-1.0, -0.1), chord * rng.choice([0.0, 0.1, 0.25, 0.4])
     if rng.uniform() < 0.3:
-        return uneven_dragon(rng, benches, chord, width, overhang)
+        chords = chord * 10.0 ** rng.uniform(-0.15, 0.15, benches)
+        overhangs = np.full(benches, overhang) * rng.uniform(0.5, 1.0, benches)
+        return Dragon.of(chords + 2.0 * overhangs, width * rng.uniform(0.7, 1.3, benches), overhangs)
     head = chord * 10.0 ** rng.uniform(-0.2, 0.4)
     return Dragon(benches, head + 2.0 * overhang, chord + 2.0 * overhang, width, overhang)
-
-
-def uneven_dragon(rng, benches, chord, width, overhang):
-    """A dragon given bench by bench, each nearly as large as this."""
-    chords = chord * 10.0 ** rng.uniform(-0.15, 0.15, benches)
-    overhangs = np.full(benches, overhang) * rng.uniform(0.5, 1.0, benches)
-    return Dragon.of(chords + 2.0 * overhangs, width * rng.uniform(0.7, 1.3, benches), overhangs)
 
 
 def random_path(rng, dragon):
     """A spiral, a turn, or a route of lines, arcs and coils that bends back towards itself."""
     chord, width = float(dragon.chords.max()), float(dragon.widths.max())
     kind = rng.choice(["spiral", "turn", "route", "coil"])
-    pitch = float(rng.uniform(0.8, 2.0) * width + rng.uniform(0.0, 0.6) * chord)
+    pitch = rng.uniform(0.8, 2.0) * width + rng.uniform(0.0, 0.6) * chord
     if kind == "spiral":
         return Spiral(pitch, rng.uniform(1.5, 9.0))
     if kind == "turn":
-        radius = float(rng.uniform(1.1, 3.0) * chord)
-        return Turn(pitch, radius, rng.uniform(0.6, 2.5), start_turns=float(radius / pitch + rng.uniform(1.0, 5.0)))
+        radius = rng.uniform(1.1, 3.0) * chord
+        return Turn(pitch, radius, rng.uniform(0.6, 2.5), start_turns=radius / pitch + rng.uniform(1.0, 5.0))
     if kind == "coil":
         inner = 1.2 * chord / pitch
-        return Route([Coil(pitch, float(inner + rng.uniform(2.0, 5.0)), float(inner))])
-    radius, sweep = float(rng.uniform(0.55, 1.5) * chord), rng.uniform(2.0, 3.1) * rng.choice([-1, 1])
+        return Route([Coil(pitch, inner + rng.uniform(2.0, 5.0), inner)])
+    radius, sweep = rng.uniform(0.55, 1.5) * chord, rng.uniform(2.0, 3.1) * rng.choice([-1, 1])
     way = float(sum(dragon.chords) + rng.uniform(1.0, 6.0) * chord)
     pen = Pen(complex(-way))
     pen.line(way)

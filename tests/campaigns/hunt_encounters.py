@@ -13,7 +13,6 @@ from core import (
     Arc,
     Coil,
     Dance,
-    Dragon,
     Line,
     Outcome,
     Part,
@@ -24,7 +23,7 @@ from core import (
     first_encounter,
 )
 from tests.campaigns import hunting
-from tests.campaigns.hunt_contacts import SlowLook, random_margin, random_passages, uneven_dragon
+from tests.campaigns.hunt_contacts import SlowLook, random_dragon, random_margin, random_passages
 from tests.campaigns.hunt_contacts import meeting_fault as encounter_fault
 from tests.support.slow_performance import SlowPerformance
 from tests.support.slow_search import RUN
@@ -35,16 +34,6 @@ NARROW = 1e-9
 TRIALS = 6
 # Longest time that is looked at [s].
 LONGEST = 60.0
-
-
-def random_dragon(rng):
-    """1 to 9 benches, uniform or bench by bench; one is a cart."""
-    benches, chord = int(rng.integers(1, 10)), rng.uniform(0.8, 2.2)
-    width, overhang = chord * rng.uniform(0.1, 0.4), chord * float(rng.choice([0.0, 0.1, 0.3]))
-    if rng.uniform() < 0.2:
-        return uneven_dragon(rng, benches, chord, width, overhang)
-    head = chord * rng.uniform(0.8, 1.6)
-    return Dragon(benches, head + 2.0 * overhang, chord + 2.0 * overhang, width, overhang)
 
 
 def random_route(rng, dragon, reach):
@@ -59,7 +48,7 @@ def random_route(rng, dragon, reach):
         radius = rng.uniform(1.2 * chord, max(reach, 1.5 * chord))
         sweep = (length / radius * 1.6 + rng.uniform(1.0, 5.0)) * float(rng.choice([-1.0, 1.0]))
         return Route([Arc(tuple(middle), radius, heading, sweep)])
-    pitch, inner = float(rng.uniform(0.8, 2.0) * chord), rng.uniform(1.0, 2.0)
+    pitch, inner = rng.uniform(0.8, 2.0) * chord, rng.uniform(1.0, 2.0)
     return Route([Coil(pitch, inner + rng.uniform(2.0, 4.0), inner, tuple(middle), heading)])
 
 
@@ -67,11 +56,11 @@ def random_performance(rng):
     """Two to five dragons, of which some share one spiral."""
     count, reach = int(rng.integers(2, 6)), rng.uniform(5.0, 16.0)
     shared = rng.uniform() < 0.4
-    pitch, clockwise = float(rng.uniform(0.8, 2.0) * count * 0.6), rng.uniform() < 0.5
+    pitch, clockwise = rng.uniform(0.8, 2.0) * count * 0.6, rng.uniform() < 0.5
     centre, turn, spin = tuple(rng.uniform(-5.0, 5.0, 2)), rng.uniform(2.0, 6.0), rng.uniform(-3.0, 3.0)
     parts = []
     for k in range(count):
-        dragon = random_dragon(rng)
+        dragon = random_dragon(rng, int(rng.integers(1, 10)))
         if shared and rng.uniform() < 0.8:
             rotation = spin + 2.0 * np.pi * k / count + float(rng.choice([0.0, 0.0, rng.uniform(-0.3, 0.3)]))
             path = Spiral(pitch, turn, centre, rotation, clockwise)

@@ -79,9 +79,7 @@ def random_route(rng):
     while True:
         links = links_of(rng) if rng.random() < 0.5 else int(rng.integers(3, 20))
         path = random_path(rng)
-        dragon = random_dragon(
-            rng, links, float(10 ** rng.uniform(-0.7, 0.0) / path.sharpest[0] if path.sharpest[0] else 1.0)
-        )
+        dragon = random_dragon(rng, links, 10 ** rng.uniform(-0.7, 0.0) / path.sharpest[0] if path.sharpest[0] else 1.0)
         try:
             end = Dance(dragon, path).end.time
             begin = max(Dance(dragon, path, 1.0).earliest, path.begin)
@@ -102,8 +100,8 @@ def random_path(rng):
         sizes = {
             "line": (20.0,),
             "arc": (rng.uniform(2.0, 9.0), 5.0 * last),
-            "coil": (float(10 ** rng.uniform(-0.5, 0.5)), *rng.uniform(2.0, 30.0, 2).tolist()),
-            "clothoid": (bend, last, float(10 ** rng.uniform(-1.0, 1.2))),
+            "coil": (10 ** rng.uniform(-0.5, 0.5), *rng.uniform(2.0, 30.0, 2).tolist()),
+            "clothoid": (bend, last, 10 ** rng.uniform(-1.0, 1.2)),
             "waypoints": (rng.uniform((4.0, -0.7), (9.0, 0.7), (8, 2)).tolist(),),
         }
         getattr(pen, kind)(*sizes[kind])

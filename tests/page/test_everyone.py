@@ -297,7 +297,6 @@ def _keys_alone_lead_everywhere(person):
     assert wanted <= {name for name, _ in focused}
 
 
-@thorough
 def bracketed(route):
     """A catalogue of a language in which each word is that of English, in brackets."""
     said = {template: template.rpartition("\4")[2] for template in route.fetch().json()}

@@ -112,7 +112,6 @@ def _a_map_of_one_parameter_is_read_by_keyboard_and_danced(person, service):
 def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page, tmp_path):
     limits = {"token": TOKEN, "sweep_processes": 1, "sweep_designs_max": 100, "deadline_seconds": 50}
     with JobService(tmp_path, **limits) as guarded:
-        guarded.client.headers["Authorization"] = f"Bearer {TOKEN}"
         address = guarded.post(SHORT)
         person = open_page("?benches=12", base=base(guarded), failing=True, viewport=PHONE, is_mobile=True)
         begins(person, "least_clearance", ("pitch", 0.7, 0.9, 2), ("benches", 8, 10, 2))

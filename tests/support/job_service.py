@@ -51,6 +51,8 @@ class JobService:
         self.environment = environment_of({**settings, "data": folder}) | {"TEST_MARK": self.mark}
         self.port = free_port()
         self.client = httpx.Client(base_url=f"http://127.0.0.1:{self.port}", timeout=PATIENCE)
+        if "token" in settings:
+            self.client.headers["Authorization"] = f"Bearer {settings['token']}"
 
     def __enter__(self):
         self.start()

@@ -38,31 +38,27 @@ def body():
     return read_dance(VILLAGE)
 
 
-def answer_of(client, request, accept):
-    return client.post("/cues", json=request, headers={"accept": accept}).raise_for_status().content
+def cards_of(ask, request):
+    return ask("cues", request)["cards"]
 
 
-def cards_of(client, request):
-    return json.loads(answer_of(client, request, "application/json"))["cards"]
+def table_of(ask, request):
+    return list(csv.DictReader(io.StringIO(ask.file("cues", request, "text/csv").decode())))
 
 
-def table_of(client, request):
-    return list(csv.DictReader(io.StringIO(answer_of(client, request, "text/csv").decode())))
-
-
-def text_of(client, request):
-    return " ".join(map(words_of, pages_of(answer_of(client, request, "application/pdf"))))
+def text_of(ask, request):
+    return " ".join(map(words_of, pages_of(ask.file("cues", request, "application/pdf"))))
 
 
 def cells_of(one, names):
     return ["" if one[name] is None else str(one[name]) for name in names.split()]
 
 
-def test_the_table_has_the_same_numbers_and_runs_in_no_spreadsheet(client, body):
-    lines = table_of(client, body | FESTIVE)
+def test_the_table_has_the_same_numbers_and_runs_in_no_spreadsheet(ask, body):
+    lines = table_of(ask, body | FESTIVE)
     assert {line["name"] for line in lines if line["bench"] == "0"} == {"'=1+1"}
     assert not any(cell.startswith(("=", "+", "@")) for line in lines for cell in line.values())
-    for card in cards_of(client, body | FESTIVE):
+    for card in cards_of(ask, body | FESTIVE):
         stand, *others = [line for line in lines if line["bench"] == str(card["bench"])]
         at = "past_mark steps mark time clock x y"
         assert (stand["kind"], cells_of(stand, at)) == ("stand", cells_of(card["start"], at))
@@ -73,14 +69,14 @@ def test_the_table_has_the_same_numbers_and_runs_in_no_spreadsheet(client, body)
                 assert cells_of(line, "other gap side") == cells_of(met, "bench gap side")
 
 
-def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(client, body):
+def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(ask, body):
     request = body | FESTIVE | {"first_bench": 15, "last_bench": 20}
-    data = answer_of(client, request, "application/pdf")
+    data = ask.file("cues", request, "application/pdf")
     assert_fonts_are_within(data)
     first, second = pages_of(data)
     assert first.get_size() == second.get_size() == pytest.approx((595.28, 841.89), abs=0.01)
     wide, high = (0.5 * side for side in first.get_size())
-    for k, card in enumerate(cards_of(client, request)):
+    for k, card in enumerate(cards_of(ask, request)):
         left, bottom = wide * (k % 2), high * (1 - k // 2 % 2)
         text = words_of((first, second)[k // 4], left, bottom, left + wide, bottom + high).replace(" ", "")
         place = f"x {card['start']['x']:.2f} m, y {card['start']['y']:.2f} m"
@@ -95,17 +91,17 @@ def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(client, body):
 
 
 @pytest.mark.chinese_font
-def test_cards_are_written_in_chinese(client, body):
-    text = text_of(client, body | FESTIVE | {"language": "zh", "last_bench": 1, "title": "元宵"}).replace(" ", "")
+def test_cards_are_written_in_chinese(ask, body):
+    text = text_of(ask, body | FESTIVE | {"language": "zh", "last_bench": 1, "title": "元宵"}).replace(" ", "")
     cues = "前面：无后面：1号（Wang）", "起步，朝lindentree方向走（图上右方，0°）。", "停下，至19:45:50（16秒）。"
     assert [words for words in (*cues, "元宵", "整场舞龙已检查：板凳互不相碰") if words not in text] == []
 
 
-def test_cards_are_chosen_by_name_and_by_number(client, body):
+def test_cards_are_chosen_by_name_and_by_number(ask, body):
     request = body | {"dragon": {"benches": 24, "names": ["", "Wang", "17", *[""] * 21]}}  # bench 2 is named 17
-    cards = cards_of(client, request | {"cards": ["Wang", 5, "17", "6"]})
+    cards = cards_of(ask, request | {"cards": ["Wang", 5, "17", "6"]})
     assert [card["bench"] for card in cards] == [1, 5, 2, 6]
-    assert cards[1:2] == cards_of(client, request | {"first_bench": 5, "last_bench": 5})
+    assert cards[1:2] == cards_of(ask, request | {"first_bench": 5, "last_bench": 5})
 
 
 @pytest.mark.parametrize(
@@ -128,17 +124,17 @@ def test_cards_that_cannot_be_are_refused(client, body, row):
     assert_refused(client, "/cues", body, row)
 
 
-def test_a_card_of_a_dance_that_fails_says_so(client):
+def test_a_card_of_a_dance_that_fails_says_so(ask):
     spiral = {"kind": "spiral", "pitch": 0.45}
     request = {"dragon": {"benches": 60}, "path": spiral, "stop": 330, "last_bench": 0}
-    assert "Checked: benches touch" in text_of(client, request)
+    assert "Checked: benches touch" in text_of(ask, request)
 
 
 # -- several dances ------------------------------------------------------------------------------------------
 
 
-def test_the_table_of_several_names_the_dragon_of_each_line(client):
-    cards, lines = cards_of(client, TWO), table_of(client, TWO)
+def test_the_table_of_several_names_the_dragon_of_each_line(ask):
+    cards, lines = cards_of(ask, TWO), table_of(ask, TWO)
     names = "dragon dragon_name bench"
     assert [cells_of(line, names) for line in lines if line["kind"] == "stand"] == [
         cells_of(card, names) for card in cards
@@ -147,19 +143,19 @@ def test_the_table_of_several_names_the_dragon_of_each_line(client):
     assert pairs >= {("meeting", "0", "1"), ("meeting", "1", "0"), ("begin", "0", "")}
 
 
-def test_paper_of_several_has_the_sheets_of_each_dragon(client):
-    first, second = map(words_of, pages_of(answer_of(client, TWO, "application/pdf")))
+def test_paper_of_several_has_the_sheets_of_each_dragon(ask):
+    first, second = map(words_of, pages_of(ask.file("cues", TWO, "application/pdf")))
     assert "Lantern night: east" in first
     assert "Lantern night: dragon 1" in second
     assert "of east" in second
     assert all("The whole dance was checked: nobody touches another bench" in sheet for sheet in (first, second))
 
 
-def test_one_of_several_gets_cards_by_its_name_or_its_number(client):
-    whole = cards_of(client, TWO)
+def test_one_of_several_gets_cards_by_its_name_or_its_number(ask):
+    whole = cards_of(ask, TWO)
     for part, some in (("east", whole[:4]), (1, whole[4:]), ("1", whole[4:])):
-        assert cards_of(client, TWO | {"part": part}) == some
-    assert cards_of(client, TWO | {"part": 0, "cards": ["Wu"]}) == [whole[1]]
+        assert cards_of(ask, TWO | {"part": part}) == some
+    assert cards_of(ask, TWO | {"part": 0, "cards": ["Wu"]}) == [whole[1]]
 
 
 def test_a_deadline_while_cards_are_drawn_is_a_refusal():
@@ -169,16 +165,16 @@ def test_a_deadline_while_cards_are_drawn_is_a_refusal():
         CUES.to_bytes(checked(CuesRequest, TWO), terms, PDF_TYPE)
 
 
-def test_each_of_several_counts_its_own_beats_from_its_delay_on(client):
+def test_each_of_several_counts_its_own_beats_from_its_delay_on(ask):
     beats = [{"bars": 6, "tempo": 60, "step": 1}, {"bars": 2, "tempo": 60, "step": 0}]
     drummed = TWO | {"dances": [TWO["dances"][0], TWO["dances"][1] | {"beats": beats}]}
-    cards = cards_of(client, drummed)
+    cards = cards_of(ask, drummed)
     assert {cue["count"] for card in cards[:4] for cue in card["cues"]} == {None}
     cues = [cue for card in cards[4:] for cue in card["cues"]]
     for beat, count in ((round(cue["time"] - 3.0), cue["count"]) for cue in cues):
         assert count == (f"{beat // 4 + 1}.{beat % 4 + 1}" if beat <= 32 else None)
     counts = [cue["count"] or "" for card in cards for cue in card["cues"]]
-    assert [row["count"] for row in table_of(client, drummed) if row["kind"] != "stand"] == counts
+    assert [row["count"] for row in table_of(ask, drummed) if row["kind"] != "stand"] == counts
 
 
 @pytest.mark.parametrize(
@@ -197,10 +193,10 @@ def test_what_is_wrong_with_cards_of_several_is_refused(client, row):
     assert_refused(client, "/cues", TWO, row)
 
 
-def test_crosses_stand_at_the_chalk_marks_of_start_and_end(client, body):
+def test_crosses_stand_at_the_chalk_marks_of_start_and_end(ask, body):
     request = body | {"cards": [17]}
-    (card,) = cards_of(client, request)
-    boxes = np.array(shapes_of(pages_of(answer_of(client, request, "application/pdf"))[0]))
+    (card,) = cards_of(ask, request)
+    boxes = np.array(shapes_of(pages_of(ask.file("cues", request, "application/pdf"))[0]))
     sizes, middles = boxes[:, 2:] - boxes[:, :2], 0.5 * (boxes[:, 2:] + boxes[:, :2])
     wide = np.where(np.abs(sizes[:, 0] - sizes[:, 1]) < 0.01, sizes[:, 0], 0.0)
     # Arrows along the way, which leads along x for the most part.

@@ -38,13 +38,9 @@ def dance(body):
     return checked(CrewRequest, body).to_dance(100)
 
 
-def of_form(client, request, accept):
-    return client.post("/crew", json=request, headers={"accept": accept}).raise_for_status()
-
-
 @pytest.fixture(scope="module")
-def answer(client, body):
-    return of_form(client, body | PEOPLE | {"at_clock": "19:45"}, "application/json").json()
+def answer(ask, body):
+    return ask("crew", body | PEOPLE | {"at_clock": "19:45"})
 
 
 def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has_the_bench(answer, dance):
@@ -66,10 +62,10 @@ def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has
     }
 
 
-def test_the_table_has_the_same_spells(client, answer, body):
+def test_the_table_has_the_same_spells(ask, answer, body):
     names = ["=1+1", *[f"family {k}" for k in range(1, 24)]]
     request = body | PEOPLE | {"dragon": {"benches": 24, "names": names}}
-    lines = list(csv.DictReader(io.StringIO(of_form(client, request, "text/csv").text)))
+    lines = list(csv.DictReader(io.StringIO(ask.file("crew", request, "text/csv").decode())))
     columns = ("begin", "end", "way", "x", "y", "bench", "begin_clock", "relieves")
     spells = [person | spell for person in answer["carriers"] for spell in person["spells"]]
     assert sorted([line[name] for name in ("label", *columns)] for line in lines) == sorted(
@@ -78,9 +74,9 @@ def test_the_table_has_the_same_spells(client, answer, body):
     assert {line["name"] for line in lines if line["bench"] == "0"} == {"'=1+1"}
 
 
-def test_the_timeline_on_paper_names_everybody_and_every_change(client, answer, body):
+def test_the_timeline_on_paper_names_everybody_and_every_change(ask, answer, body):
     request = body | PEOPLE | {"at_clock": "19:45", "title": "Lantern night"}
-    data = of_form(client, request, "application/pdf").content
+    data = ask.file("crew", request, "application/pdf")
     assert_fonts_are_within(data)
     sheets = list(map(words_of, pages_of(data)))
     assert ["Lantern night" in sheet for sheet in sheets] == [True] * 3
@@ -90,8 +86,8 @@ def test_the_timeline_on_paper_names_everybody_and_every_change(client, answer, 
 
 
 @pytest.mark.chinese_font
-def test_the_timeline_is_written_in_chinese(client, body):
-    data = of_form(client, body | PEOPLE | {"language": "zh"}, "application/pdf").content
+def test_the_timeline_is_written_in_chinese(ask, body):
+    data = ask.file("crew", body | PEOPLE | {"language": "zh"}, "application/pdf")
     assert "谁在何时抬哪节板凳" in words_of(pages_of(data)[0]).replace(" ", "")
 
 
@@ -136,9 +132,9 @@ def test_a_deadline_while_the_timeline_is_drawn_is_a_refusal(body, monkeypatch):
         CREW.to_bytes(checked(CrewRequest, body | PEOPLE), Terms(budget=budget), PDF_TYPE)
 
 
-def test_a_clock_after_midnight_is_in_the_same_night(client, body):
+def test_a_clock_after_midnight_is_in_the_same_night(ask, body):
     request = body | {"start_clock": "23:59:15", "at_clock": "00:00:10"}
-    roll = of_form(client, request, "application/json").json()["at"]
+    roll = ask("crew", request)["at"]
     assert (roll["time"], roll["clock"]) == (55.0, "00:00:10")
 
 

@@ -78,10 +78,6 @@ def filmed(file, *options):
     return decoded(file.read_bytes())
 
 
-def film_of(client, form=MP4_TYPE, **body):
-    return client.post("/films", json=body, headers={"Accept": form}).raise_for_status().content
-
-
 def test_every_frame_shows_every_bench_where_it_is(tmp_path):
     words = "--path turn --start -20 --stop 40 --benches 30 --seconds 1 --rate 4"
     result = filmed(tmp_path / "dance.mp4", *words.split())
@@ -107,15 +103,15 @@ def test_the_last_frame_alone_marks_both_benches_that_touch(tmp_path):
         assert {k for k, place in enumerate(places) if is_like(picture[tuple(place)], HEAD)} == marked
 
 
-def test_a_film_plays_as_long_as_asked_and_a_gif_too(client):
-    data = film_of(client, **SMALL)
+def test_a_film_plays_as_long_as_asked_and_a_gif_too(ask):
+    data = ask.file("films", SMALL, MP4_TYPE)
     # A player can begin before it has all of it: the table stands before the pictures.
     assert 0 < data.find(b"moov") < data.find(b"mdat")
     with opened(data) as file:
         stream = file.streams.video[0]
         assert (stream.width, stream.height, stream.frames, float(stream.average_rate)) == (640, 360, 6, 6.0)
         assert len(file.streams.audio) == 0
-    with Image.open(io.BytesIO(film_of(client, GIF_TYPE, **SMALL))) as picture:
+    with Image.open(io.BytesIO(ask.file("films", SMALL, GIF_TYPE))) as picture:
         assert (picture.format, picture.size, picture.n_frames) == ("GIF", (640, 360), 6)
         assert 900 <= picture.info["duration"] * picture.n_frames <= 1100
 
@@ -171,17 +167,17 @@ def assert_heard(data, beats, spec):
     assert onsets(data) == pytest.approx(heard, abs=HEARD)
 
 
-def test_the_drum_of_a_film_is_on_the_beat(client):
+def test_the_drum_of_a_film_is_on_the_beat(ask):
     spec = FilmSpec(1.0, 6.0, 8.0, 10)
     times = {"start": 1.0, "stop": 6.0, "seconds": 8.0, "rate": 10, "height": 90}
     request = {"dragon": {"benches": 3}, "beats": MARCH, **times}
-    data = film_of(client, **request)
+    data = ask.file("films", request, MP4_TYPE)
     assert_heard(data, [60 / 96 * k for k in range(2, 8)] + [5.0 + 60 / 132 * k for k in range(3)], spec)
     with opened(data) as file:
         video, sound = file.streams
         assert video.frames == spec.times.size
         assert float(sound.duration * sound.time_base) == pytest.approx(8.0, abs=0.05)
-    assert film_of(client, **request) == data
+    assert ask.file("films", request, MP4_TYPE) == data
 
 
 def test_a_film_counts_bars_and_beats_and_shows_the_time_of_day():

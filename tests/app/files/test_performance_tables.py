@@ -31,21 +31,17 @@ def results():
     return [(one.position, one.speed) for one in performance_trajectory(performance, TIMES)]
 
 
-def ask(client, form="application/json", **more):
-    return client.post("/trajectory", json=TWO | more, headers={"accept": form}).raise_for_status()
-
-
-def test_json_has_a_table_for_each_dragon(client):
+def test_json_has_a_table_for_each_dragon(ask):
     for decimals in (None, 2):
-        got = ask(client, decimals=decimals).json()
+        got = ask("trajectory", TWO | {"decimals": decimals})
         assert (got["time"], [table["name"] for table in got["dances"]]) == (TIMES.tolist(), ["east", None])
         for table, (position, speed) in zip(got["dances"], results(), strict=True):
             known = np.stack([position[..., 0], position[..., 1], speed])
             assert [table["x"], table["y"], table["speed"]] == (known.round(decimals) if decimals else known).tolist()
 
 
-def test_csv_has_the_dragon_before_each_line(client):
-    heads, *lines = csv.reader(io.StringIO(ask(client, CSV_TYPE).text))
+def test_csv_has_the_dragon_before_each_line(ask):
+    heads, *lines = csv.reader(io.StringIO(ask.file("trajectory", TWO, CSV_TYPE).decode()))
     assert heads == ["dragon", "dragon_name", "time", "handle", "x", "y", "speed", "name", "clock"]
     names = ["head", "body 1", "body 2", "tail", "tail (rear)"], [
         "Zhou", "Wu", "body 2", 'Zheng, "Wang"', "'=Feng", "'=Feng (rear)",
@@ -59,17 +55,17 @@ def test_csv_has_the_dragon_before_each_line(client):
     ]
 
 
-def test_without_names_and_clock_csv_has_no_columns_for_them_and_arrow_has_the_same(client):
+def test_without_names_and_clock_csv_has_no_columns_for_them_and_arrow_has_the_same(ask):
     simple = {"dances": [TWO["dances"][0] | {"name": None}] * 2, "start_clock": None}
-    lines = list(csv.reader(io.StringIO(ask(client, CSV_TYPE, **simple).text)))
+    lines = list(csv.reader(io.StringIO(ask.file("trajectory", TWO | simple, CSV_TYPE).decode())))
     assert lines[0] == ["dragon", "time", "handle", "x", "y", "speed"]
-    table = pa.ipc.open_file(pa.BufferReader(ask(client, ARROW_TYPE, **simple).content)).read_all()
+    table = pa.ipc.open_file(pa.BufferReader(ask.file("trajectory", TWO | simple, ARROW_TYPE))).read_all()
     assert table.column_names == lines[0]
     assert table.to_pydict() == {name: [float(line[k]) for line in lines[1:]] for k, name in enumerate(lines[0])}
 
 
-def test_a_workbook_has_two_sheets_for_each_dragon_and_refuses_too_many_columns(client):
-    book = openpyxl.load_workbook(io.BytesIO(ask(client, XLSX_TYPE).content))
+def test_a_workbook_has_two_sheets_for_each_dragon_and_refuses_too_many_columns(ask):
+    book = openpyxl.load_workbook(io.BytesIO(ask.file("trajectory", TWO, XLSX_TYPE)))
     assert book.sheetnames == ["positions 0", "speeds 0", "positions 1", "speeds 1"]
     position, _ = results()[1]
     rows = list(book["positions 1"].values)

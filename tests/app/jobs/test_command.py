@@ -34,7 +34,6 @@ cancel --older-than -7d --data .                got -7d
 @pytest.fixture(scope="module")
 def service(tmp_path_factory):
     with JobService(tmp_path_factory.mktemp("jobs"), token=TOKEN) as service:
-        service.client.headers["Authorization"] = f"Bearer {TOKEN}"
         yield service
 
 

@@ -22,7 +22,6 @@ def strict(tmp_path_factory):
     limits = {"jobs_client_max": 2, "jobs_max": 4, "jobs_running_max": 1, "jobs_listeners_max": 1}
     limits["job_result_bytes_max"] = RESULT_BYTES_MAX
     with JobService(tmp_path_factory.mktemp("strict"), token=TOKEN, **limits) as service:
-        service.client.headers["Authorization"] = f"Bearer {TOKEN}"
         yield service
 
 

@@ -45,7 +45,6 @@ WRONG = """
 def service(tmp_path_factory):
     limits = {"sweep_designs_max": 500, "sweep_shards_max": 100, "sweep_processes": 1}
     with JobService(tmp_path_factory.mktemp("sweeps"), token=TOKEN, **limits) as service:
-        service.client.headers.update({"Authorization": f"Bearer {TOKEN}"})
         yield service
 
 

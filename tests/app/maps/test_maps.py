@@ -64,7 +64,7 @@ def assert_alike(features, others):
         assert own == expected
         assert feature["geometry"]["type"] == other["geometry"]["type"]
         places, expected = (np.array(each["geometry"]["coordinates"]) for each in (feature, other))
-        assert places == pytest.approx(expected, rel=0, abs=ROUNDING)
+        assert places == pytest.approx(expected, abs=ROUNDING)
 
 
 THINGS = VILLAGE["features"] + json.loads("""[

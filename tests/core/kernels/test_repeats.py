@@ -59,4 +59,4 @@ def test_a_body_that_slides_back_behind_its_start_has_the_contacts_of_the_genera
     family, every = (first_contact(Dance(each, spiral), start=start) for each in (dragon, general))
     assert family.outcome is every.outcome
     if family.outcome is Outcome.CONTACT:
-        assert family.time == pytest.approx(every.time, rel=0, abs=ACCURACY)
+        assert family.time == pytest.approx(every.time, abs=ACCURACY)

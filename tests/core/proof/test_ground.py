@@ -27,8 +27,8 @@ def test_two_derivations_of_the_ground_agree_and_hold_every_place(chord, overhan
     ground = ground_of(chord, overhang, width, stray)
     hulls = bench_hulls(supports(chord, overhang, 0.5 * width, stray))
     furthest = (hulls * directions()).sum(axis=-1)
-    assert ground.rough_supports[:WHOLE] == pytest.approx(furthest, rel=0.0, abs=ROUNDING)
-    assert ground.rough_corners[:WHOLE] == pytest.approx(hulls @ [1.0, 1.0j], rel=0.0, abs=ROUNDING)
+    assert ground.rough_supports[:WHOLE] == pytest.approx(furthest, abs=ROUNDING)
+    assert ground.rough_corners[:WHOLE] == pytest.approx(hulls @ [1.0, 1.0j], abs=ROUNDING)
     assert max(float(value.rad()) for row in ground.supports for value in row) < 1e-24
     # The polygon around both holds them, and so all places: tests/core/shapes/test_reach.py.
     assert (ground.rough_supports[WHOLE] >= furthest.max(axis=0) - ROUNDING).all()
