@@ -14,7 +14,7 @@ from core.contact.search import MARGIN_MAX
 from core.dance import checked_head_speed
 from core.dragon import Dragon
 from core.errors import SIZE_MIN, ProofRefused, Quantity, Value, checked_number, checked_size, format_number, quantities
-from core.language import phrase
+from core.language import phrase, say
 from core.paths.spiral import Spiral, end_theta
 from core.proof.chain import Chain, delta_guess
 from core.proof.fold import verify_fold
@@ -96,7 +96,8 @@ class CollisionTimeClaim(SpiralClaim):
         verify_near(self.chain, self._after, a, b, when=soon_after(self.time))
         clear = bool(self.time - arb(TIME_BRACKET) > 0)
         words = contact_words([a, b], self.margin, 0.0, self.time, TIME_BRACKET, clear=clear)
-        return f"{danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))}: {words}"
+        danced = danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))
+        return say("{name}: {text}", name=danced, text=words)
 
 
 @dataclass(frozen=True)
@@ -177,21 +178,25 @@ class MinimumPitchClaim(SpiralClaim):
             if not (bench < less.count and circle <= after < before <= less.start):
                 raise Unproven("bench {bench} is not shown to fold on the way with {step} less", bench=bench, **STEP)
             verify_fold(less, bench, arb(before), arb(after))
-            ending = f"bench {bench} cannot follow so far (it folds)"
+            ending = say("bench {bench} cannot follow so far (it folds)", bench=bench)
         elif "benches" in overlap:
             (a, b), theta = overlap["benches"], overlap["head_theta"]
             if not circle <= theta <= less.start:
                 raise Unproven(NOT_SHOWN[False, False], a=a, b=b, **STEP)
             verify_near(less, arb(theta), a, b, **STEP)
-            ending = f"{near_words([a, b], self.margin)} on the way"
+            ending = say("{pair} on the way", pair=near_words([a, b], self.margin))
         else:
             if not circle > less.start:
                 raise Unproven("the start is not shown to lie within the circle with {step} less", **STEP)
-            ending = "the start lies within the circle"
-        danced = f"{dragon_words(self.dragon)} on the spiral inwards from {format_number(self.start_turns)} turns"
-        until = f"until the head is {format_number(self.turning_radius)} m from the centre"
-        clear = f"with pitch {format_number(self.pitch)} m every bench follows and {apart_words(self.margin)}"
-        return f"{danced}: {clear} {until}, and with {PITCH_STEP} m less {ending}. This says nothing of larger pitches."
+            ending = say("the start lies within the circle")
+        turns, pitch, radius = map(format_number, (self.start_turns, self.pitch, self.turning_radius))
+        return say(
+            "{dragon} on the spiral inwards from {turns} turns: with pitch {pitch} m every bench follows and {apart} "
+            "until the head is {radius} m from the centre, and with {step} m less {ending}. This says nothing of "
+            "larger pitches.",
+            dragon=dragon_words(self.dragon), turns=turns, pitch=pitch, apart=apart_words(self.margin), radius=radius,
+            step=PITCH_STEP, ending=ending,
+        )  # fmt: skip
 
 
 def checked_margin(margin: float) -> float:

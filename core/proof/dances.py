@@ -11,6 +11,7 @@ from flint import arb
 
 from core.dance import Dance, EndReason
 from core.errors import Given, InvalidValue, format_number
+from core.language import say
 from core.proof.claims import TIME_BRACKET, Claim, checked_margin, near_pair, settle, soon_after, verify_near
 from core.proof.fold import folding
 from core.proof.pairs import Unproven, above, below
@@ -67,9 +68,12 @@ class DanceClearClaim(DanceClaim):
         return {}
 
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
-        span = f"from {format_number(self.start)} s to {format_number(self.stop)} s{self._ending()}"
         dance = danced_words(self.dragon, self.head_speed, path_words(self.path))
-        return f"{dance}: {apart_words(self.margin)} {span}."
+        return say(
+            "{dance}: {apart} from {start} s to {stop} s{ending}.",
+            dance=dance, apart=apart_words(self.margin), start=format_number(self.start),
+            stop=format_number(self.stop), ending=self._ending(),
+        )  # fmt: skip
 
     def _ending(self) -> str:
         if self.until == "stop":
@@ -79,13 +83,13 @@ class DanceClearClaim(DanceClaim):
         if isinstance(chain, RouteChain):
             if not chain.place_after(later) <= chain.path.pieces[-1].low:
                 raise Unproven("the route is not shown to end before {when}", when=when)
-            return f", and the route ends before {when}"
+            return say(", and the route ends before {when}", when=when)
         if self.until == "centre":
             if not chain.arc(chain.start) <= later:
                 raise Unproven("the head is not shown to reach the centre before {when}", when=when)
-            return f", and the head reaches the centre before {when}"
+            return say(", and the head reaches the centre before {when}", when=when)
         bench = folding(chain, chain.place_after(self.stop * arb(self.head_speed)), chain.place_after(later))
-        return f", and bench {bench} cannot follow any more (it folds) before {when}"
+        return say(", and bench {bench} cannot follow any more (it folds) before {when}", bench=bench, when=when)
 
 
 @dataclass(frozen=True)
@@ -124,7 +128,8 @@ class DanceContactClaim(DanceClaim):
         verify_near(self.chain, self._after, a, b, when=soon_after(self.time))
         clear = bool(self.time - arb(TIME_BRACKET) > self.start)
         words = contact_words([a, b], self.margin, self.start, self.time, TIME_BRACKET, clear=clear)
-        return f"{danced_words(self.dragon, self.head_speed, path_words(self.path))}: {words}"
+        danced = danced_words(self.dragon, self.head_speed, path_words(self.path))
+        return say("{name}: {text}", name=danced, text=words)
 
 
 def last_stop(dance: Dance) -> tuple[float, str]:

@@ -13,9 +13,9 @@ from typing import Any
 
 from flint import acb, arb
 
-from core.display import format_count
 from core.dragon import Dragon
 from core.errors import InvalidValue, Parameter, format_number
+from core.language import counted, say
 from core.paths import pieces
 from core.paths.clothoid_turn import ClothoidTurn
 from core.paths.route import Route
@@ -97,14 +97,22 @@ def path_words(record: Record) -> str:
     if record["kind"] == "spiral":
         return spiral_words(record["pitch"], record["start_turns"])
     if record["kind"] in ("turn", "free_turn"):
-        entered = f"which it enters {format_number(record['entry_radius'])} m from the centre at 0 s"
+        leaves = ""
         if "exit_radius" in record:
-            entered += f" and leaves {format_number(record['exit_radius'])} m from it"
-        coils = f"spirals of pitch {format_number(record['pitch'])} m and {format_number(record['start_turns'])} turns"
-        return f"the turn of ratio {format_number(record['ratio'])}, {entered}, between {coils}"
-    kinds = ", ".join(piece["kind"] for piece in record["pieces"])
-    place = f"its s = 0 at {format_number(record['start'])} m from its beginning"
-    return f"the route of {format_count(len(record['pieces']), 'piece')} ({kinds}), joined exactly, {place}"
+            leaves = say(" and leaves {radius} m from it", radius=format_number(record["exit_radius"]))
+        ratio, entry, pitch, turns = (
+            format_number(record[name]) for name in ("ratio", "entry_radius", "pitch", "start_turns")
+        )
+        return say(
+            "the turn of ratio {ratio}, which it enters {entry} m from the centre at 0 s{leaves}, between spirals of "
+            "pitch {pitch} m and {turns} turns",
+            ratio=ratio, entry=entry, leaves=leaves, pitch=pitch, turns=turns,
+        )  # fmt: skip
+    return say(
+        "the route of {pieces} ({kinds}), joined exactly, its s = 0 at {start} m from its beginning",
+        pieces=counted(len(record["pieces"]), "{count} piece", "{count} pieces"),
+        kinds=", ".join(piece["kind"] for piece in record["pieces"]), start=format_number(record["start"]),
+    )  # fmt: skip
 
 
 def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChain:

@@ -12,6 +12,7 @@ from flint import acb, arb
 from core.dance import Dance
 from core.dragon import checked_stray
 from core.errors import InvalidValue, Quantity, format_number
+from core.language import say
 from core.paths.spiral import Spiral
 from core.proof.chain import Chain
 from core.proof.claims import SpiralClaim, checked_pair, settle
@@ -64,15 +65,20 @@ class ToleranceClaim(SpiralClaim):
         return {}
 
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
-        span = f"from {format_number(self.start)} s to {format_number(self.stop)} s"
-        kept = f"while every hole is within {format_number(self.stray)} m of its place and every chord keeps its length"
         dance = danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))
-        statement = f"{dance}: {kept}, {apart_words(0.0)} {span}"
+        statement = say(
+            "{dance}: while every hole is within {stray} m of its place and every chord keeps its length, {apart} from "
+            "{start} s to {stop} s",
+            dance=dance, stray=format_number(self.stray), apart=apart_words(0.0), start=format_number(self.start),
+            stop=format_number(self.stop),
+        )  # fmt: skip
         if self.shown is None:
-            return f"{statement}."
+            return say("{statement}.", statement=statement)
         a, b = self._verify_pose(overlap, self.shown)
-        pose = f"in a pose with strays below {format_number(self.shown)} m at {format_number(overlap['time'])} s"
-        return f"{statement}, and benches {a} and {b} overlap {pose}."
+        return say(
+            "{statement}, and benches {a} and {b} overlap in a pose with strays below {shown} m at {time} s.",
+            statement=statement, a=a, b=b, shown=format_number(self.shown), time=format_number(overlap["time"]),
+        )  # fmt: skip
 
     def _verify_pose(self, overlap: dict[str, Any], most: float) -> list[int]:
         """Check that two benches that are not neighbours strictly overlap in a pose (17.), and return them.

@@ -1,4 +1,4 @@
-"""Claims in words, each number as it stands in the certificate."""
+"""Claims in words of the language that is spoken, each number as it stands in the certificate."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from itertools import groupby
 
 from core.dragon import Dragon
 from core.errors import format_number
+from core.language import counted, say
 
 # Largest number of runs of equal benches that are listed; beyond it only their number is given.
 RUNS_LISTED = 4
@@ -21,28 +22,39 @@ def dragon_words(dragon: Dragon) -> str:
     """A dragon in words."""
     rows = runs(dragon)
     if len(rows) > RUNS_LISTED:
-        return f"A dragon of {dragon.benches} benches with the sizes that the certificate lists"
-    sizes = "; ".join(
-        f"{n} of {format_number(length)} m by {format_number(width)} m, overhang {format_number(over)} m"
+        return say("A dragon of {benches} benches with the sizes that the certificate lists", benches=dragon.benches)
+    each = [
+        say(
+            "{count} of {length} m by {width} m, overhang {overhang} m",
+            count=n, length=format_number(length), width=format_number(width), overhang=format_number(over),
+        )
         for n, length, width, over in rows
+    ]  # fmt: skip
+    sizes = say("; ").join(each)
+    return counted(
+        dragon.benches, "A dragon of {count} bench ({sizes})", "A dragon of {count} benches ({sizes})", sizes=sizes
     )
-    return f"A dragon of {dragon.benches} bench{'es' if dragon.benches > 1 else ''} ({sizes})"
 
 
 def danced_words(dragon: Dragon, head_speed: float, path: str) -> str:
     """A dragon in words, with the speed of its head on a path that is given in words."""
-    return f"{dragon_words(dragon)}, its head at {format_number(head_speed)} m/s on {path}"
+    speed = format_number(head_speed)
+    return say("{dragon}, its head at {speed} m/s on {path}", dragon=dragon_words(dragon), speed=speed, path=path)
 
 
 def spiral_words(pitch: float, start_turns: float) -> str:
     """A spiral in words."""
-    return f"the spiral of pitch {format_number(pitch)} m inwards from {format_number(start_turns)} turns"
+    turns = format_number(start_turns)
+    return say("the spiral of pitch {pitch} m inwards from {turns} turns", pitch=format_number(pitch), turns=turns)
 
 
 def apart_words(margin: float) -> str:
     """The words for benches that stay apart."""
-    touch = f"come nearer to one another than {format_number(margin)} m" if margin else "touch"
-    return f"no two benches except neighbours {touch}"
+    if not margin:
+        return say("no two benches except neighbours touch")
+    return say(
+        "no two benches except neighbours come nearer to one another than {margin} m", margin=format_number(margin)
+    )
 
 
 def contact_words(benches: list[int], margin: float, start: float, time: float, bracket: str, *, clear: bool) -> str:
@@ -50,15 +62,23 @@ def contact_words(benches: list[int], margin: float, start: float, time: float, 
 
     clear: whether a clear run comes before; a contact at the start lies within twice the bracket of the start
     """
-    near = f"{near_words(benches, margin)} at {format_number(time)} + {bracket} s"
+    at = format_number(time)
+    near = say("{pair} at {time} + {bracket} s", pair=near_words(benches, margin), time=at, bracket=bracket)
     if not clear:
-        within = f"within {format_number(2.0 * float(bracket))} s of the start"
-        return f"{near}, {within}, so that no time before is claimed to be clear."
-    return f"{apart_words(margin)} from {format_number(start)} s to {format_number(time)} - {bracket} s, and {near}."
+        return say(
+            "{near}, within {within} s of the start, so that no time before is claimed to be clear.",
+            near=near,
+            within=format_number(2.0 * float(bracket)),
+        )
+    return say(
+        "{apart} from {start} s to {time} - {bracket} s, and {near}.",
+        apart=apart_words(margin), start=format_number(start), time=at, bracket=bracket, near=near,
+    )  # fmt: skip
 
 
 def near_words(benches: list[int], margin: float) -> str:
     """The words for two benches that meet."""
-    return f"benches {benches[0]} and {benches[1]} " + (
-        f"are nearer than {format_number(margin)} m" if margin else "overlap"
-    )
+    a, b = benches
+    if not margin:
+        return say("benches {a} and {b} overlap", a=a, b=b)
+    return say("benches {a} and {b} are nearer than {margin} m", a=a, b=b, margin=format_number(margin))

@@ -525,6 +525,7 @@ def test_a_command_that_is_asked_in_chinese_says_everything_in_chinese(tmp_path)
         ("overlaps", "--time", "413"),
         ("check", str(examples / "paper_dance.toml")),
         ("propose", str(examples / "village_square.toml")),
+        ("prove", "turn", "--benches", "3", "--start", "-5", "--stop", "5", "--output", str(tmp_path / "proof.json")),
     ):
         done = run(*arguments, "--language", "zh")
         assert done.returncode == 0
