@@ -80,7 +80,8 @@ def _errors_in_one_line(language: Language | None) -> Iterator[None]:
             raise
         except (BenchDragonError, Misuse, OSError) as error:
             message = output_fault(error) if isinstance(error, OSError) else message_of(error)
-            print(say("Error: {message}", message=message), file=sys.stderr)
+            if message:  # Without any argument the parser prints the help.
+                print(say("Error: {message}", message=message), file=sys.stderr)
         raise typer.Exit(2)
 
 

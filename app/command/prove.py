@@ -131,7 +131,7 @@ def check_or_prove(
 ) -> None:
     """Prove a contact, a clear run, a pitch or a stray in ball arithmetic, or check a proof (extra proof)."""
     if (check is None) == (context.invoked_subcommand is None):
-        raise typer.BadParameter("give either a claim to prove or --check FILE")
+        raise typer.BadParameter(say("give either a claim to prove or --check FILE"))
     if check is None:
         return
     data = sys.stdin.buffer.read() if str(check) == "-" else check.read_bytes()

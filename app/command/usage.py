@@ -19,8 +19,9 @@ from core.language import say
 
 # Class of every mistake that the parser reports; typer gives it no public name.
 Misuse: Any = typer.BadParameter.__base__
-# What the parser says of arguments for which a command has no place.
+# What the parser says of arguments for which a command has no place, and of an option with a value that it cannot have.
 EXTRA = re.compile(r"Got unexpected extra arguments?(?:\(s\))? \((.*)\)")
+NO_VALUE = re.compile(r"Option '?(.*?)'? does not take a value\.")
 EMPTY = "must not be an empty name: the current folder is ."
 
 
@@ -79,9 +80,14 @@ def message_of(error: Any) -> str:
         return unknown(error.option_name, [option for one in error.ctx.command.params for option in one.opts])
     if hasattr(error, "param_type") and error.param is not None and not error.message:
         return fill_message("{name} is missing", {"name": _name(error.param)})
-    if more := EXTRA.fullmatch(error.format_message()):
-        return fill_message("{words} must be left out: see --help", {"words": Given(more, more[1])})
-    words = re.sub(r"\s+", " ", error.format_message().removeprefix("Invalid value: ")).rstrip(".")
+    text = error.format_message()
+    if found := EXTRA.fullmatch(text):
+        return fill_message("{words} must be left out: see --help", {"words": Given(found, found[1])})
+    if found := NO_VALUE.fullmatch(text):
+        return fill_message("{words} must stand without a value", {"words": Given(found, found[1])})
+    if text == "Missing command.":
+        return say("a command is missing: see --help")
+    words = re.sub(r"\s+", " ", text.removeprefix("Invalid value: ")).rstrip(".")
     return f"{words[:1].lower()}{words[1:]}"
 
 
