@@ -6,8 +6,6 @@ far as the stray allows, half have the middle on the edge of all places for thei
 varied at random, by less and less. Poses beyond the stray are taken back to its edge.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

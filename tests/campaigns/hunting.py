@@ -3,8 +3,6 @@
 A campaign gives a function `fault(seed, case)` that returns the kind of the answer and its fault in words, '' for none.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from collections import Counter

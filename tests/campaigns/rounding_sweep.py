@@ -4,8 +4,6 @@ python -m tests.campaigns.rounding_sweep 10000 [SEED] compares this many gaps an
 error, in parts of its bound; exit code 1 where one exceeds its bound.
 """
 
-from __future__ import annotations
-
 import sys
 from dataclasses import dataclass, field
 from itertools import pairwise

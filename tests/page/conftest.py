@@ -1,7 +1,5 @@
 """A real Chromium on the real service: every page of a test must stay without errors and without foreign requests."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass, field
 from urllib.parse import urlsplit

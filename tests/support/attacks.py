@@ -1,7 +1,5 @@
 """Attacks: requests that once took the service down, each a function of its address; and a client that watches."""
 
-from __future__ import annotations
-
 import http.client
 import json
 import threading

@@ -7,8 +7,6 @@ standard input, output and error, exit code. Where the start itself matters, a w
 several processes, for another path of modules, and in the tests of signals, terminals and pipes.
 """
 
-from __future__ import annotations
-
 import atexit
 import contextlib
 import json

@@ -1,7 +1,5 @@
 """Random intervals of head travel on spirals and routes: their bounds, and the dragon at many instants of them."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

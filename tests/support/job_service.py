@@ -1,7 +1,5 @@
 """The real service with a data folder, and its processes, which a test may kill."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import signal

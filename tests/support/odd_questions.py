@@ -1,7 +1,5 @@
 """Quick questions for sweeps, with designs that fail or kill the process that answers them."""
 
-from __future__ import annotations
-
 import os
 import signal
 

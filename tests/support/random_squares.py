@@ -1,7 +1,5 @@
 """Random squares with obstacles and gates, random dragons, and proposals judged by samples with shapely."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """The real service as users start it, with settings of a test."""
 
-from __future__ import annotations
-
 import os
 import socket
 from contextlib import contextmanager

@@ -4,8 +4,6 @@ Handles are found and rectangles compared as in slow_search.py, and dips between
 ones.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

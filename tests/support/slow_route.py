@@ -4,8 +4,6 @@ Points follow from the definitions of an arc and a coil, and on a clothoid from 
 an arc without a bend. Every next handle is the root of a distance. Places and directions are complex numbers.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

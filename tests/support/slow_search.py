@@ -4,8 +4,6 @@ The head and every next handle are roots in a bracket, of many instants at once;
 corner. Dips between two steps are looked at again in smaller ones.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

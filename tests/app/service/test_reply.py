@@ -1,7 +1,5 @@
 """The time of an answer is estimated once, and what the event loop gives up is computed once more."""
 
-from __future__ import annotations
-
 import time
 from contextlib import ExitStack, contextmanager
 

@@ -1,7 +1,5 @@
 """Frame: a moved spiral gives the moved results of the standard one; the mirror image is made by complex numbers."""
 
-from __future__ import annotations
-
 import cmath
 
 import numpy as np
