@@ -152,7 +152,7 @@ def test_scores_count_what_differs_from_the_truth():
 
 
 @pytest.mark.parametrize(
-    ("start", "end", "bend", "h"), [(1.0, 1.0, 8.0, 1.0), (1.0, 3.0, 1.0, 1.0), (2.0, 1.5, 8.0, 1.0)]
+    ("start", "end", "bend", "h"), [(1.0, 1.0, 8.0, 1.0), (1.0, 3.0, 1.0, 0.5), (2.0, 1.5, 8.0, 2.0)]
 )
 def test_the_least_between_two_ends_is_that_of_the_parabola(start, end, bend, h):
     x = np.linspace(0.0, h, 100_001)

@@ -254,12 +254,12 @@ def test_up_to_seven_instants_are_shown_and_what_chooses_more_is_named(row):
     assert words in table
 
 
-def on_terminal(columns, *arguments):
-    """What the command prints on a terminal of a width, without colours."""
+def on_terminal(columns, *arguments, stream="stdout"):
+    """What a stream of the command shows on a terminal of a width, without colours."""
     leader, follower = pty.openpty()
     fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
-    command = [COMMAND, *arguments]
-    with subprocess.Popen(command, stdout=follower, stderr=subprocess.DEVNULL, env=ENVIRONMENT) as process:
+    streams = dict.fromkeys(("stdout", "stderr"), subprocess.DEVNULL) | {stream: follower}
+    with subprocess.Popen([COMMAND, *arguments], env=ENVIRONMENT | {"TERM": "xterm"}, **streams) as process:
         os.close(follower)
         seen = b""
         with contextlib.suppress(OSError):  # what reads a terminal without a writer gets an error, not an end of file

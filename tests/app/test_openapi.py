@@ -71,14 +71,6 @@ def calls(document):
     return [call for path in document["paths"].values() for call in path.values()]
 
 
-@pytest.fixture(scope="module")
-def fields(document, calls):
-    """Every field of every schema and every parameter, by name."""
-    schemas = document["components"]["schemas"].values()
-    entries = [pair for one in schemas for pair in one.get("properties", {}).items()]
-    return entries + [(one["name"], one | one["schema"]) for call in calls for one in call.get("parameters", [])]
-
-
 def is_tried(call, mode):
     """Every call with right values, but for the slower ones; with wrong ones if it takes any."""
     method, path = call.split()
@@ -143,7 +135,10 @@ WITHOUT_UNIT = (
 )
 
 
-def test_every_field_is_described_and_every_measure_has_its_unit(fields):
+def test_every_field_is_described_and_every_measure_has_its_unit(document, calls):
+    schemas = document["components"]["schemas"].values()
+    fields = [pair for one in schemas for pair in one.get("properties", {}).items()]
+    fields += [(one["name"], one | one["schema"]) for call in calls for one in call.get("parameters", [])]
     assert [name for name, field in fields if "$ref" not in field and not field.get("description")] == []
     bare = [name for name, field in fields if holds_floats(field) and "[" not in field["description"]]
     assert set(bare) <= set(WITHOUT_UNIT.split())

@@ -34,17 +34,12 @@ def body():
 
 
 @pytest.fixture(scope="module")
-def dance(body):
-    return checked(CrewRequest, body).to_dance(100)
-
-
-@pytest.fixture(scope="module")
 def answer(ask, body):
     return ask("crew", body | PEOPLE | {"at_clock": "19:45"})
 
 
-def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has_the_bench(answer, dance):
-    roll = answer["at"]
+def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has_the_bench(answer, body):
+    roll, dance = answer["at"], checked(CrewRequest, body).to_dance(100)
     assert (roll["time"], roll["clock"]) == (30.0, "19:45:00")
     assert [len(entry["people"]) for entry in roll["benches"]] == [8] + [2] * 23
     position = core.trajectory(dance, [30.0]).position[0]

@@ -21,23 +21,13 @@ def graded(client, data, **query):
     return answer.json()
 
 
-@pytest.fixture(scope="module")
-def second():
-    return contact_workbook(spiral(np.array([CONTACT])))
-
-
-@pytest.fixture(scope="module")
-def first():
-    return workbook(spiral(), SPIRAL_TIMES)
-
-
 @pytest.mark.parametrize("language", further(["en", "zh"], 1))
-def test_the_service_answers_what_the_command_answers(client, second, tmp_path, language):
+def test_the_service_answers_what_the_command_answers(client, tmp_path, language):
     file = tmp_path / "result2.xlsx"
-    file.write_bytes(second)
+    file.write_bytes(contact_workbook(spiral(np.array([CONTACT]))))
     answer = json.loads(run("grade", str(file), "--pitch", "0.4202", "--language", language, "--json").stdout)
     answer["files"][0]["file"] = file.name
-    assert graded(client, second, name=file.name, pitch="0.4202", language=language) == answer
+    assert graded(client, file.read_bytes(), name=file.name, pitch="0.4202", language=language) == answer
 
 
 def test_the_language_stated_comes_before_the_language_accepted(client):
@@ -57,24 +47,16 @@ def test_a_file_longer_than_other_bodies_is_taken(client):
     assert file["verdict"] == "unreadable"
 
 
-@pytest.fixture(scope="module")
-def strict(tmp_path_factory, first):
-    """A service that takes files of one length at most, and grades for a moment only."""
-    log = tmp_path_factory.mktemp("strict") / "log"
-    with serving(log, grade_bytes_max=len(first), grade_seconds=0.2) as service:
-        yield service
-
-
-def posted(service, content, query=""):
-    return httpx.post(f"{service.url}/grade{query}", content=content, headers=FILE, timeout=60)
-
-
-def test_a_file_beyond_the_limit_or_the_deadline_is_refused_and_nothing_of_it_is_logged(strict, first):
-    large, late = posted(strict, first + b"x"), posted(strict, first)
+def test_a_file_beyond_the_limit_or_the_deadline_is_refused_and_nothing_of_it_is_logged(tmp_path):
+    first = workbook(spiral(), SPIRAL_TIMES)
+    with serving(tmp_path / "log", grade_bytes_max=len(first), grade_seconds=0.2) as strict:
+        large, late, _ = (
+            httpx.post(f"{strict.url}/grade?name=secret.xlsx", content=content, headers=FILE, timeout=60)
+            for content in (first + b"x", first, b"secret,words")
+        )
     assert (large.status_code, late.status_code) == (413, 422)
     assert f"at most {len(first)} bytes, got {len(first) + 1}" in large.json()["detail"]
     assert "it was not graded within 0.2 s" in late.json()["detail"]
-    posted(strict, b"secret,words", "?name=secret.xlsx")
     log = strict.log.read_text()
     assert "POST /grade" in log
     assert "words" not in log

@@ -1,7 +1,5 @@
 """bench-dragon sweep, run as a user runs it: processes of its own, real kills, real Ctrl-C."""
 
-import os
-import pty
 import re
 import signal
 import subprocess
@@ -14,8 +12,9 @@ import pytest
 from app.sweeps.shards import parts
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
+from tests.app.test_cli import on_terminal
 from tests.conftest import heed_ctrl_c
-from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, bin_folder, run
+from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.support.job_service import is_gone, wait_for
 from tests.support.sweeping import answered
 
@@ -76,19 +75,8 @@ def test_after_ctrl_c_and_a_kill_no_worker_is_left_and_the_sweep_continues_to_th
 def test_a_terminal_shows_a_bar_and_the_sweep_is_printed_drawn_and_compacted(tmp_path):
     spec, folder = tmp_path / "spec.toml", tmp_path / "a"
     spec.write_text(SPEC)
-    parent, child = pty.openpty()
-    command = [f"{bin_folder()}/bench-dragon", "sweep", "run", spec, "--output", folder, "--workers", "1"]
-    process = subprocess.Popen(command, stderr=child, env=ENVIRONMENT | {"TERM": "xterm", "COLUMNS": "120"})
-    os.close(child)
-    text = b""
-    while True:
-        try:
-            text += os.read(parent, 65536)
-        except OSError:  # Nobody holds the other end any more.
-            break
-    os.close(parent)
-    assert process.wait(PATIENCE) == 0
-    assert re.search(rb"of 200, .*/s, 0:00:\d\d left", text)
+    bar = on_terminal(120, "sweep", "run", str(spec), "--output", str(folder), "--workers", "1", stream="stderr")
+    assert re.search(r"of 200, .*/s, 0:00:\d\d left", bar)
     lines = sweep("show", folder).stdout.splitlines()
     assert [line.split()[-1] for line in lines[:2]] == ["200", "50"]
     drawn = sweep("show", folder, "--output", tmp_path / "map.png", "--value", "head.radius")
