@@ -5,7 +5,7 @@ import { $ } from "./elements.js";
 import { phrase } from "./text.js";
 
 /** Titles of the boxes that show a refusal, in the order of the page. */
-const TITLES = { contact: phrase("First contact"), minimum: phrase("Minimum pitch"), tolerance: "tolerance", shortest: phrase("Shortest turn"), quickest: phrase("Quickest turn"), time: phrase("Time through this turn"), head: phrase("Maximum head speed"), fastest: "highest" };
+const TITLES = { contact: phrase("First contact"), minimum: phrase("Minimum pitch"), tolerance: phrase("How far people may stray"), shortest: phrase("Shortest turn"), quickest: phrase("Quickest turn"), time: phrase("Time through this turn"), head: phrase("Maximum head speed"), fastest: phrase("Highest speed") };
 
 /** boxOf(kind): selector of the box of this kind of answer */
 export function showRefusals(questions, graphs, boxOf) {
