@@ -16,6 +16,7 @@ from compose_spec import PyCompose
 from app.settings import Settings
 from app.sweeps.spec import Spec
 from tests.conftest import ROOT, STOP_TIMEOUT, wait_until_live
+from tests.support.depth import thorough
 from tests.support.job_service import PATIENCE, wait_for
 from tests.support.serving import free_port
 from tests.support.sweeping import SPEC, answered, followed
@@ -64,15 +65,11 @@ def test_its_settings_are_settings():
     assert set(SERVICES["service"]["environment"]) <= {f"BENCH_DRAGON_{name.upper()}" for name in Settings.model_fields}
 
 
-THOROUGH = pytest.mark.thorough
-
-
 @pytest.mark.parametrize(
     ("published", "token", "runs"),
     [
-        pytest.param("", "", True, marks=THOROUGH),
         ("0.0.0.0", "", False),
-        pytest.param("0.0.0.0", "x", True, marks=THOROUGH),
+        *thorough(("", "", True), ("0.0.0.0", "x", True)),
     ],
 )
 def test_the_port_is_open_to_this_machine_alone_unless_a_token_is_set(published, token, runs, tmp_path):

@@ -13,6 +13,7 @@ import pytest
 from app.service.graders import Graders
 from core import BenchDragonError, Budget, TooMuchWork
 from tests.support.bombs import GRADES, MAPS, end, fail, take_memory
+from tests.support.depth import often
 from tests.support.refused import refused
 from tests.support.serving import serving
 
@@ -64,10 +65,7 @@ def sent(service, call, data):
 
 @pytest.mark.parametrize(
     "name",
-    [
-        pytest.param(name, marks=[] if name in ("deep_toml", "bzip2_of_a_workbook") else [pytest.mark.thorough])
-        for name in MAPS | GRADES
-    ],
+    often(MAPS | GRADES, ("deep_toml", "bzip2_of_a_workbook")),
 )
 def test_a_file_that_unfolds_is_refused_within_memory_and_time(service, name):
     data, begun = (MAPS | GRADES)[name](), time.monotonic()

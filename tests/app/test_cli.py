@@ -27,7 +27,7 @@ from core import Engine
 from core.kernels import COMPILED
 from tests.conftest import ROOT, heed_ctrl_c
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run, said
-from tests.support.depth import further
+from tests.support.depth import further, thorough
 from tests.support.job_service import wait_for
 from tests.support.refusal_rows import assert_refused_in_one_line
 from tests.support.serving import sample, serving
@@ -125,10 +125,7 @@ def test_tables_for_people_hold_the_numbers_with_their_units(row):
         "serve --port x -> --port ... x",
         "figures --kind x -> --kind ... x",
         "prove -> give either a claim to prove or --check FILE",
-        pytest.param(
-            "minimum-pitch --body-length 0.001 --overhang 0 -> body_length ... benches 0.001 m",
-            marks=pytest.mark.thorough,
-        ),
+        *thorough("minimum-pitch --body-length 0.001 --overhang 0 -> body_length ... benches 0.001 m"),
         "contest '' -> FOLDER must not be an empty name",
         "figures '' -> FILE must not be an empty name",
         "trajectory '' -> FILE must not be an empty name",

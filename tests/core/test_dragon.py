@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from core import Dragon, Stray
 from core.dragon import BENCHES_MAX, checked_stray
 from core.errors import SIZE_MAX, SIZE_MIN
+from tests.support.depth import thorough
 from tests.support.refused import refused
 
 pytestmark = pytest.mark.uncompiled
@@ -19,7 +20,7 @@ SIZES = st.floats(0.5, 10.0)
     ("name", "value"),
     [
         ("benches", 1),
-        pytest.param("benches", BENCHES_MAX, marks=pytest.mark.thorough),
+        *thorough(("benches", BENCHES_MAX)),
         ("width", SIZE_MIN),
         ("width", SIZE_MAX),
         ("overhang", 0.0),

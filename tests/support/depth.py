@@ -29,6 +29,11 @@ def further(cases, quick):
     return [*islice(rest, quick), *(pytest.param(case, marks=pytest.mark.thorough) for case in rest)]
 
 
+def often(cases, quick):
+    """All cases as parameters of a test, of which those that are not among the quick ones are thorough."""
+    return [case if case in quick else thorough(case)[0] for case in cases]
+
+
 def few(cases, count):
     """All cases as parameters of a test: `count` of them, evenly spread, in every run, and the others as thorough."""
     first = {k * len(cases) // count for k in range(count)}

@@ -11,7 +11,7 @@ from app.grade.report import graded
 from core import Budget, Dragon
 from tests.campaigns.hunt_grades import hunt
 from tests.support import students
-from tests.support.depth import further
+from tests.support.depth import further, often
 from tests.support.student_files import as_csv, in_layout
 from tests.support.students import CONTACT, SPIRAL_TIMES, TURN_TIMES, spiral, turn
 
@@ -115,9 +115,7 @@ OFTEN = ("anticlockwise", "equal_arcs", "overhang_once", "wrong_ring", "forward_
          *(name for name in KNOWN if name.startswith("contact")))  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "name", [one if one in OFTEN else pytest.param(one, marks=pytest.mark.thorough) for one in KNOWN]
-)
+@pytest.mark.parametrize("name", often(KNOWN, OFTEN))
 def test_a_known_error_is_diagnosed_with_its_numbers(name):
     result = known(name)
     # What is left out is missing.
@@ -254,10 +252,7 @@ OFTEN_BESIDE |= {("negated", "right")}
 
 @pytest.mark.parametrize(
     ("places", "speeds"),
-    [
-        each if each in OFTEN_BESIDE else pytest.param(*each, marks=pytest.mark.thorough)
-        for each in itertools.product(PARTS, PARTS)
-    ],
+    often(itertools.product(PARTS, PARTS), OFTEN_BESIDE),
 )
 def test_the_errors_of_places_and_of_speeds_are_named_each(places, speeds):
     """Speeds of the same motion as the places have no error of their own, but the evidence counts them too."""

@@ -10,7 +10,7 @@ from app.grade.report import graded
 from core import Budget
 from tests.conftest import ROOT
 from tests.support import students
-from tests.support.depth import further
+from tests.support.depth import further, thorough
 from tests.support.student_files import NAMES, as_csv, beside, in_layout, on_side
 from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral, three
 
@@ -332,7 +332,7 @@ HEADS = {
 
 
 @pytest.mark.parametrize("heads", HEADS)
-@pytest.mark.parametrize("title", ["问题一的结果,,,,\n", pytest.param("", marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("title", ["问题一的结果,,,,\n", *thorough("")])
 def test_lists_are_recognised_under_other_names(heads, title):
     lines = [",".join(map(str, row)) for row in list_of(3, HEADS[heads])]
     result = grade((title + "\n".join([heads, *lines])).encode(), "dance.csv")
@@ -418,7 +418,7 @@ def wide_csv(decimals=6):
     return "\r\n".join(lines + [",".join([label, *(f"{value:.{decimals}f}" for value in row)]) for label, row in rows])
 
 
-@pytest.mark.parametrize("decimals", [5, 2, 1, *(pytest.param(k, marks=pytest.mark.thorough) for k in (3, 4))])
+@pytest.mark.parametrize("decimals", [5, 2, 1, *thorough(3, 4)])
 def test_rounded_results_are_named_with_their_decimals(decimals):
     result = grade(wide_csv(decimals).encode(), "result1.csv")
     sheet, _ = result.sheets

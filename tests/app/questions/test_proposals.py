@@ -6,6 +6,7 @@ import pytest
 
 from tests.support.asking import box, written
 from tests.support.command import run
+from tests.support.depth import thorough
 
 BODY = {
     "venue": box(0, 0, 24, 20),
@@ -26,12 +27,10 @@ TOO_NARROW = (
     "more",
     [
         {"figures": ["ring"], "count": 1},
-        pytest.param({}, marks=pytest.mark.thorough),
         {"gates": GATES, "figures": ["parade", "ring"], "speed_limit": 1.2},
-        pytest.param({"dragon": ODD}, marks=pytest.mark.thorough),
-        pytest.param({"objective": "benches", "figures": ["ring"], "count": 1}, marks=pytest.mark.thorough),
+        *thorough({}, {"dragon": ODD}, {"objective": "benches", "figures": ["ring"], "count": 1}),
     ],
-    ids=["ring", "square", "gates", "bench by bench", "most benches"],
+    ids=["ring", "gates", "square", "bench by bench", "most benches"],
 )
 def test_every_dance_passes_its_check_as_it_is(ask, more):
     answer = ask("proposals", BODY | more)

@@ -7,6 +7,7 @@ from app.sweeps.engines import NoAnswer
 from app.sweeps.processes import CannotStart, Processes
 from app.sweeps.run import missing_shards, run
 from app.sweeps.table import Sweep
+from tests.support.depth import thorough
 from tests.support.odd_questions import INTERRUPTED, LAND, UNANSWERABLE
 from tests.support.refused import refused
 from tests.support.sweeping import assert_undisturbed, grid_of, spec_of
@@ -64,9 +65,7 @@ def test_a_sweep_of_one_shard_starts_one_process(tmp_path):
     assert len(pids) == 1
 
 
-@pytest.mark.parametrize(
-    "question", [pytest.param(LAND, marks=pytest.mark.thorough), INTERRUPTED], ids=["exit", "signal"]
-)
+@pytest.mark.parametrize("question", [INTERRUPTED, *thorough(LAND)], ids=["signal", "exit"])
 def test_designs_that_kill_their_process_are_found_and_the_others_answered(shared, question, tmp_path, monkeypatch):
     if question is INTERRUPTED:  # What follows from a death is the same.
         monkeypatch.setattr("app.sweeps.run.DEATHS", 1)

@@ -16,6 +16,7 @@ from core import (
     trajectory,
     turn_time,
 )
+from tests.support.depth import thorough
 
 LIMIT = 2.0  # [m/s]
 SAMPLED = 2e-3  # [1], part of a rate that samples miss
@@ -34,7 +35,7 @@ def slow_time(turn):
     [
         (Turn(1.7), 13.6212, 1.2463, 10.93),
         (Turn(1.7, entry_radius=4.29039529, exit_radius=4.5), 11.7992, 0.9754, 12.10),
-        pytest.param(None, 9.7442, 1.3892, 7.01, marks=pytest.mark.thorough),
+        *thorough((None, 9.7442, 1.3892, 7.01)),
     ],
     ids=["contest", "shortest", "quickest of ratio 1.2"],
 )

@@ -19,7 +19,7 @@ from core import (
     shortest_turn,
 )
 from core.design.turn_bounds import ENTRY_LEAST
-from tests.support.depth import DEEP, further, some
+from tests.support.depth import DEEP, further, some, thorough
 
 WHOLE, PITCH, RADIUS = Dragon(), 1.7, 4.5
 # Lengths that others found with free entry and exit on grids of 2 mm, and bounds by hand: ratio, length [m].
@@ -95,7 +95,7 @@ def test_the_contests_turn_is_limited_by_the_least_radius_and_the_circle():
     assert alone.length_bracket == result.length_bracket
 
 
-@pytest.mark.parametrize(("ratio", "work"), [(2.0, 1e6), pytest.param(1.2, 1.2e7, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize(("ratio", "work"), [(2.0, 1e6), *thorough((1.2, 1.2e7))])
 def test_spent_work_leaves_a_wider_bracket_that_holds_the_narrow_one(ratio, work):
     whole, brief = answer(ratio), shortest_turn(Dragon(), PITCH, RADIUS, ratio, budget=Budget(work))
     assert brief.length_bracket[0] < whole.length_bracket[0] - 1e-3
