@@ -374,7 +374,10 @@ def _at_instants(position: JudgedSheet, dance: Dance, seen: SheetClues) -> Itera
     if head is not None and (turned_then := _turned_instant(position, dance, head)) is not None:
         instant, angle = turned_then
         decimals = min(position.written + 1, INSTANT_DECIMALS)
-        yield instant, decimals, geometries(dance, np.array([instant]), SheetClues(turned=angle))
+        models = geometries(dance, np.array([instant]), SheetClues(turned=angle))
+        if abs(angle) * float(np.nanmax(np.abs(position.values))) < 10.0**-position.written:  # as good as not turned
+            models = iter([Model("other_instant", right, _what(instant, decimals), is_simplest=True)])
+        yield instant, decimals, models
     for instant, decimals in others:
         yield instant, decimals, own_lengths(dance, seen)
 

@@ -178,7 +178,8 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     is_on_path = (times >= EARLIEST) & (times <= dance_of(workbook).end.time)
     motion = of_dance(dance_of(workbook))(np.where(is_on_path, times, 0.0))[..., list(COMPONENTS[table.kind])]
     values = table.values * _scale(table, motion, notes)
-    is_vague = DECIMALS[-1] < decimals_beside < DECIMALS_OF_CONTEST and table.shown is None and _is_one_number(values)
+    is_vague = 0 < decimals_beside < DECIMALS_OF_CONTEST and table.shown is None and _is_one_number(values)
+    has_fewer = is_vague and decimals_beside > DECIMALS[-1]
     if is_vague:
         decimals_beside = DECIMALS[-1]
     elif table.shown is not None:  # zeros behind numbers that were rounded before show nothing more
@@ -212,7 +213,7 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
         verdict = Rating.INCOMPLETE
     else:
         verdict = Rating.RIGHT if largest <= RIGHT else Rating.ROUNDED
-    if is_vague and decimals == DECIMALS[-1]:
+    if has_fewer and decimals == DECIMALS[-1]:
         notes.append(note("vague", number=f"{np.nanmax(values):g}", decimals=decimals))
     missing = cells - present
     if missing and present:

@@ -185,7 +185,7 @@ def test_equal_speeds_do_not_belong_to_the_positions():
     assert (result.sheets[1].verdict, result.sheets[1].decimals) == ("wrong", None)
 
 
-@pytest.mark.parametrize("decimals", [2, 3, 5])
+@pytest.mark.parametrize("decimals", [1, 2, 3, 5])
 def test_equal_speeds_of_two_decimals_are_right_ones_rounded(decimals):
     """A workbook does not show that speeds of 1.00 have two decimals; more decimals of places are said to show none."""
     position, speed = (part.round(k) for part, k in zip(spiral(SPIRAL_TIMES[:4]), (decimals, 2), strict=True))
