@@ -1,7 +1,7 @@
 """Results with one known error each are diagnosed; five with errors of no known kind are not."""
 
 import itertools
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -25,16 +25,12 @@ TENTH = slice(None, None, 10)
 FEWER = TURN_TIMES[TENTH]
 
 
-def first(results, *, whole=False):
-    return students.lines(results, SPIRAL_TIMES) if whole else tenth(results, SPIRAL_TIMES)
+def tenth(results, times, *, whole=False):
+    lines = slice(None) if whole else TENTH
+    return students.lines((results[0][lines], results[1][lines]), times[lines])
 
 
-def fourth(results, *, whole=False):
-    return students.lines(results, TURN_TIMES) if whole else tenth(results, TURN_TIMES)
-
-
-def tenth(results, times):
-    return students.lines((results[0][TENTH], results[1][TENTH]), times[TENTH])
+first, fourth = (partial(tenth, times=times) for times in (SPIRAL_TIMES, TURN_TIMES))
 
 
 # Error -> the file.

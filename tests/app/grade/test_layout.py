@@ -6,17 +6,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from app.grade.report import graded
-from core import Budget
+from tests.app.grade.test_reading import grade
 from tests.conftest import ROOT
 from tests.support import students
 from tests.support.depth import further, thorough
 from tests.support.student_files import NAMES, as_csv, beside, in_layout, on_side
 from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral, three
-
-
-def grade(data, name="result1.xlsx"):
-    return graded(name, data, Budget())
 
 
 def changed(change):

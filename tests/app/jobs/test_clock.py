@@ -2,22 +2,14 @@
 
 import sys
 import time
-from contextlib import closing
 
 import pytest
 
 from app.jobs.clock import STEP, TIMES
 from app.jobs.room import DAY
-from app.jobs.store import Store
 from tests.app.jobs.test_store import PROBLEM, ended, make, run_in, written
 
 MINUTE, HOUR = 60.0, 3600.0
-
-
-@pytest.fixture
-def store(tmp_path):
-    with closing(Store(tmp_path / "data")) as store:
-        yield store
 
 
 def jump(store, step):

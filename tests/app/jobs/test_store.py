@@ -23,12 +23,6 @@ PROBLEM = orjson.dumps({"detail": "It does not work."})
 ADDRESS = "192.0.2.77"
 
 
-@pytest.fixture
-def store(tmp_path):
-    with closing(Store(tmp_path / "data")) as store:
-        yield store
-
-
 def make(store, client="client", limits=ROOM, question="turn"):
     return store.create(question, b"call", client, limits).id
 

@@ -13,6 +13,7 @@ from app.maps.places import places_of
 from core import InvalidValue
 from core.errors import Quantity
 from core.language import speaking
+from tests.app.maps.test_maps import names
 from tests.support.refusal_rows import assert_refused
 from tests.support.refused import refused
 
@@ -47,10 +48,6 @@ def things(result):
     """Form, coordinates and radius of the obstacles."""
     values = [(one["properties"], one["geometry"]) for one in result.geometry["features"][1:]]
     return [(form["type"], form["coordinates"], own.get("radius")) for own, form in values]
-
-
-def names(result):
-    return [area.name for area in result.venue.areas]
 
 
 def corners(result):
