@@ -218,7 +218,7 @@ class Proposal(Readable):
             return ""
         first, last = self.gates
         if first == last:
-            return say(" from gate {a} and back to it", a=first)
+            return say(" by gate {a}", a=first)
         return say(" from gate {a} to gate {b}", a=first, b=last)
 
 
