@@ -11,13 +11,12 @@ from pathlib import Path
 from typing import get_args
 
 import httpx
-import numpy as np
 import pytest
 
 from app.questions.registry import CALLS
 from app.service.examples import EXAMPLES
 from tests.app.conftest import ANSWER_TIMEOUT
-from tests.support.students import CONTACT, contact_workbook, spiral
+from tests.support.students import contact_workbook
 
 pytestmark = pytest.mark.thorough  # the generator takes seconds
 PACKAGE = "generated_client"
@@ -84,7 +83,7 @@ def test_a_refusal_comes_back_as_a_problem(own):
 
 def test_a_file_is_graded(own):
     module, types = call("grading", "grade"), importlib.import_module(f"{PACKAGE}.types")
-    file = types.File(payload=io.BytesIO(contact_workbook(spiral(np.array([CONTACT])))))
+    file = types.File(payload=io.BytesIO(contact_workbook()))
     answer = module.sync(client=own, body=file, name="result2.xlsx", pitch="0.450337393")
     assert (answer.files[0].workbook, answer.files[0].verdict, answer.files[0].diagnosis) == ("result2", "right", [])
     assert (answer.answers[0].verdict, answer.answers[0].unit) == ("right", "m")

@@ -1,10 +1,9 @@
 """The page grades dropped workbooks and typed answers, in both languages, on a phone, and forgets them on request."""
 
-import numpy as np
 import pytest
 
 from core import Dragon
-from tests.support.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
+from tests.support.students import SPIRAL_TIMES, contact_workbook, spiral, workbook
 
 # Instants of a workbook that is soon read; and a short dragon: this is not about its dance.
 FEW, EASY = SPIRAL_TIMES[:21], "?benches=5&time=end"
@@ -25,7 +24,7 @@ def files(tmp_path_factory):
     position[0] = spiral(FEW)[0][0]  # right at first, as the picture shows
     contents = {
         "result1.xlsx": workbook((position, speed), FEW),
-        "result2.xlsx": contact_workbook(spiral(np.array([CONTACT]))),
+        "result2.xlsx": contact_workbook(),
         "result4.xlsx": b"PK, but no workbook",
         "result1.csv": b"",
     }

@@ -20,7 +20,7 @@ from core.kernels.constants import (
 )
 from core.values import Floats
 from tests.campaigns.rounding_sweep import random_dragon, random_path
-from tests.support.slow_search import SlowDance
+from tests.support.slow_search import SlowDance, arc_length
 
 # Rounding on routes: of a rate or direction on one some hundred metres long [1], and of coordinates there [m]; on
 # spirals: of a projected corner, relative to the largest coordinate [1], and of a travel, relative to the way [1].
@@ -78,7 +78,7 @@ def on_spiral(seed):
         spiral = Spiral(2 * np.pi * growth, 30.0)
         end = Dance(dragon, spiral).end
         theta = end.theta + 10 ** rng.uniform(-3.0, 1.3)
-        start = spiral.length - spiral.growth * 0.5 * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
+        start = spiral.length - spiral.growth * arc_length(theta)
         h = 10 ** rng.uniform(-3.0, 0.0) * dragon.chords.min()
         if start + h < end.time:
             break

@@ -32,6 +32,7 @@ from core.plots import BLUE
 from tests.conftest import ROOT
 from tests.support.command import said
 from tests.support.depth import further, some
+from tests.support.random_squares import polygon
 from tests.support.refusal_rows import assert_refused
 
 # Colours of the head and of the body; video keeps them to within a few parts of 255.
@@ -274,7 +275,7 @@ def test_names_of_areas_stand_where_these_are_wide_and_off_the_path():
     stage, venue = village()
     (names,) = stage.names
     places = map(shapely.Point, stage.axes.transData.inverted().transform(names.places))
-    square, *others = [shapely.Polygon(area.rings[0], area.rings[1:]) for area in venue.areas]
+    square, *others = map(polygon, venue.areas)
     of_square, *of_others = places
     path = shapely.LineString(stage.axes.lines[0].get_xydata())
     free = square.difference(shapely.union_all(others))

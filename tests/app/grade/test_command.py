@@ -17,7 +17,7 @@ from app.grade.shortcuts import pitch_grids, shortcuts
 from core.language import speaking
 from tests.support.command import refusal, run, said
 from tests.support.depth import further
-from tests.support.students import CONTACT, contact_workbook, spiral
+from tests.support.students import AT_CONTACT, contact_workbook, spiral
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +25,7 @@ def class_of_three(tmp_path_factory):
     folder = tmp_path_factory.mktemp("class")
     for name, data in (
         ("li", contact_workbook(spiral(np.array([412.48])))),
-        ("wang", contact_workbook(spiral(np.array([CONTACT])))),
+        ("wang", contact_workbook()),
         ("zhao", b"PK\x03\x04 cut off"),
     ):
         (folder / name).mkdir()
@@ -65,7 +65,7 @@ def test_files_stand_in_the_order_given_and_a_missing_one_is_reported(class_of_t
 
 
 def test_the_words_are_in_the_language_chosen(class_of_three, tmp_path, monkeypatch):
-    position, speed = spiral(np.array([CONTACT]))
+    position, speed = spiral(AT_CONTACT)
     speed[0, 5] += 1.0
     monkeypatch.chdir(tmp_path)
     file, summary = Path("=1+1.xlsx"), Path("grades.xlsx")
@@ -84,7 +84,7 @@ def test_the_words_are_in_the_language_chosen(class_of_three, tmp_path, monkeypa
 
 
 def test_a_picture_is_drawn_only_where_it_shows_which_numbers_are_wrong(tmp_path):
-    position, speed = spiral(np.array([CONTACT]))
+    position, speed = spiral(AT_CONTACT)
     for changed, lines in (((position * [-1.0, 1.0], speed), 14), ((-position, -speed), 0), ((position, speed), 0)):
         file = tmp_path / "result2.xlsx"
         file.write_bytes(contact_workbook(changed))
@@ -96,7 +96,7 @@ def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path):
     for name in ("李".encode("gbk"), "王".encode(), b"\xff\xfe\x81", "Li\u202e".encode()):
         folder = Path(os.fsdecode(os.path.join(os.fsencode(tmp_path), b"class", name)))
         folder.mkdir(parents=True)
-        (folder / "result2.xlsx").write_bytes(contact_workbook(spiral(np.array([CONTACT]))))
+        (folder / "result2.xlsx").write_bytes(contact_workbook())
     summary = tmp_path / "summary.csv"
     files = json.loads(run("grade", str(tmp_path / "class"), "--json", "--summary", str(summary)).stdout)["files"]
     verdicts = ["Li\\u202e right", "王 right", "李 right", "\\xff\\xfe\\x81 right"]

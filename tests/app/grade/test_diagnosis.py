@@ -13,9 +13,8 @@ from tests.campaigns.hunt_grades import hunt
 from tests.support import students
 from tests.support.depth import further, often
 from tests.support.student_files import as_csv, in_layout
-from tests.support.students import CONTACT, SPIRAL_TIMES, TURN_TIMES, spiral, turn
+from tests.support.students import AT_CONTACT, CONTACT, SPIRAL_TIMES, TURN_TIMES, spiral, turn
 
-AT_CONTACT = np.array([CONTACT])
 ONCE = Dragon(overhang=0.1375)
 
 

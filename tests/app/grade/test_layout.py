@@ -117,7 +117,7 @@ def with_slashes(rows):
 @pytest.mark.parametrize("write", [lambda rows: by_xlsxwriter({"Sheet": rows}), as_csv], ids=["workbook", "CSV"])
 @pytest.mark.parametrize("turned", [False, True], ids=["rows", "columns"])
 def test_a_unit_after_a_slash_is_read_as_one_in_brackets(write, turned):
-    values, place = numbers_at(np.array([students.CONTACT])), ["对象", "x/m", "y/m", "速度/(m/s)"]
+    values, place = numbers_at(students.AT_CONTACT), ["对象", "x/m", "y/m", "速度/(m/s)"]
     contact = [place, *in_layout(values, [0.0], "columns")["both"][1:]]
     position, speed = (with_slashes(few()[title]) for title in ("位置", "速度"))
     assert (position[1][0], speed[1][0]) == ("龙头x/m", "龙头/(m/s)")
@@ -239,7 +239,7 @@ def test_all_positions_stand_beside_all_speeds():
 
 
 def test_x_y_and_speeds_with_labels_of_their_own_are_one_table():
-    rows = in_layout(numbers_at(np.array([students.CONTACT])), [412.473838], "columns", heading="")["both"]
+    rows = in_layout(numbers_at(students.AT_CONTACT), [412.473838], "columns", heading="")["both"]
     apart = [[*row[:3], row[0], row[3]] for row in rows]
     assert right(grade(as_csv(apart), "result2.csv")) == [672]
 
@@ -274,7 +274,7 @@ def test_a_result2_may_state_its_instant_above_the_table(title, numbered):
 
 
 def test_another_number_of_seconds_in_a_title_accuses_nobody():
-    rows = in_layout(numbers_at(np.array([students.CONTACT])), [0.0], "columns", heading="")["both"]
+    rows = in_layout(numbers_at(students.AT_CONTACT), [0.0], "columns", heading="")["both"]
     result = grade(as_csv([["速度 1 m/s，步长 1 s"], *rows]), "result2.csv")
     assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
 

@@ -3,14 +3,13 @@
 import json
 
 import httpx
-import numpy as np
 import pytest
 
 from tests.support.asking import assert_problem
 from tests.support.command import run
 from tests.support.depth import further
 from tests.support.serving import serving
-from tests.support.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
+from tests.support.students import SPIRAL_TIMES, contact_workbook, spiral, workbook
 
 FILE = {"Content-Type": "application/octet-stream"}
 
@@ -24,7 +23,7 @@ def graded(client, data, **query):
 @pytest.mark.parametrize("language", further(["en", "zh"], 1))
 def test_the_service_answers_what_the_command_answers(client, tmp_path, language):
     file = tmp_path / "result2.xlsx"
-    file.write_bytes(contact_workbook(spiral(np.array([CONTACT]))))
+    file.write_bytes(contact_workbook())
     answer = json.loads(run("grade", str(file), "--pitch", "0.4202", "--language", language, "--json").stdout)
     answer["files"][0]["file"] = file.name
     assert graded(client, file.read_bytes(), name=file.name, pitch="0.4202", language=language) == answer

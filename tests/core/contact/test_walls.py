@@ -25,6 +25,7 @@ from core import (
 )
 from tests.core.test_venue import SQUARE, STAGE, WELL, box, boxed
 from tests.support.near import assert_near
+from tests.support.random_squares import polygon
 
 PROVEN = 1.1e-5  # [m]: a distance is proven to this
 AT_MARGIN = 1e-8  # [m]: the distance at the time of first coming within the margin, and in closed form
@@ -53,7 +54,7 @@ HALL = boxed("square", -70, -9, 70, 9)
 def shapely_distances(dance, area, times):
     """Distance of every bench to the edges of an area, (..., n) [m]; 0 where they cross."""
     shapes = shapely.polygons(bench_outlines(dance.dragon, trajectory(dance, times).position))
-    return shapely.distance(shapes, shapely.Polygon(area.rings[0], area.rings[1:]).boundary)
+    return shapely.distance(shapes, polygon(area).boundary)
 
 
 def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch():

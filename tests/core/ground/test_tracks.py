@@ -5,13 +5,14 @@ import pytest
 
 from core import Dance, Dragon, Spiral, trajectory
 from core.ground.tracks import REVERSAL, tracks
+from tests.support.slow_search import arc_length
 
 
 def places(dance, times):
     """Place s (T, n) of every front handle on a spiral about the origin, from its radius [m]."""
     path = dance.path
     theta = np.linalg.norm(trajectory(dance, times).position[:, :-1], axis=-1) / path.growth
-    return path.length - 0.5 * path.growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
+    return path.length - path.growth * arc_length(theta)
 
 
 @pytest.mark.parametrize(
