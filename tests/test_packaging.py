@@ -2,7 +2,6 @@
 
 import re
 import runpy
-import subprocess
 import sys
 import sysconfig
 import tomllib
@@ -21,6 +20,7 @@ from app.settings import WORKERS_MAX, usable_cores
 from tests.conftest import ROOT
 from tests.support.lock import PYTHONS
 from tests.support.refused import refused
+from tests.test_architecture import printed
 
 SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = SETTINGS["project"]
@@ -46,14 +46,9 @@ def requirements(system, extra=""):
     return {each.name for each in wanted if not each.marker or each.marker.evaluate(environment)}
 
 
-def output(code):
-    """What a new process prints."""
-    return subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True).strip()
-
-
 def test_the_version_is_that_of_the_installed_distribution_and_read_only_when_it_is_asked_for():
     assert core.__version__ == version("bench-dragon") == PROJECT["version"]
-    assert output("import sys, core; print('importlib.metadata' in sys.modules); core.__version__") == "False"
+    assert printed("import sys, core; print('importlib.metadata' in sys.modules); core.__version__") == "False"
 
 
 @pytest.mark.parametrize("package", ["app", "core"])

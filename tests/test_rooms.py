@@ -10,15 +10,11 @@ import re
 import pytest
 
 from tests.conftest import ROOT
+from tests.test_architecture import nodes
 
 pytestmark = pytest.mark.uncompiled
 
 TESTS = ROOT / "tests"
-
-
-def nodes(file):
-    """The syntax of a file."""
-    return ast.walk(ast.parse(file.read_text(encoding="utf-8")))
 
 
 def has_tests(file):
