@@ -3,7 +3,7 @@
 import { button, make } from "./elements.js";
 import { LABELS, strayOf } from "./fields.js";
 import { bound, fixed, formatNumber, isExact } from "./numbers.js";
-import { benchName, between, handleName, phrase, say, sayOf, sentencesOf, titleOf } from "./text.js";
+import { benchName, between, phrase, say, sayOf, sentencesOf, titleOf } from "./text.js";
 
 /** Why every larger pitch is right. @type {Phrases} */
 const JUSTIFIED = {
@@ -11,16 +11,8 @@ const JUSTIFIED = {
   scan: "feasible by a scan: up to {from} m only single pitches are proven, at most {step} mm apart",
 };
 
-/** What limits the stray. @type {Phrases} */
-const LIMITS = {
-  benches: "Limited by {a} and {b}, which are nearest to a contact at {time} s.",
-  venue: "Limited by {a} and {area}, which are nearest to a contact at {time} s.",
-  chord: "There is no limit up to half of the shortest chord.",
-};
-
 /** Why a run ends, except for a contact. @type {Phrases} */
 const ENDS = {
-  fold: "{name} cannot follow any more: the chain folds.",
   centre: "The head is at the centre.",
   turn: "The dance is shown from 100 m before the turn begins to 100 m after.",
   path: "The head is at the end of its path.",
@@ -128,41 +120,12 @@ export const foldOf = ({ outcome, end }) => (outcome === "clear" && end?.reason 
 /** An instant of a dance with its usual digits; just before the end it is written as the end. */
 export const instantWords = (time, { answer, end }) => formatNumber(time === end && answer.time === null ? (answer.end?.time ?? time) : time, 6, 2);
 
-function contactLine(answer, request) {
-  const { time_bracket, overlapping: met, point, benches: both, head, end, gap } = answer;
-  const { benches } = request;
-  const state = stateOf(answer);
-  if (state === "undecided") {
-    const [time, late] = [bound(time_bracket[0], 9, -1), bound(time_bracket[1], 9, 1)];
-    return met ? sayOf("undecidedMet", request, { ...pair(met, benches), time, late }) : say("Proven clear up to {time} s; not decided after that.", { time });
-  }
-  if (state === "folds") return sayOf("foldsUntil", request, { name: benchName(end.bench, benches) });
-  if (state === "clear" && end && request.drawn) return sayOf("clearToEnd", request);
-  if (state === "clear") return end ? sayOf("clearUntil", request, { time: formatNumber(end.time, 6, 2) }) : sayOf("clearAll", request);
-  const [x, y, radius] = [...point, head.radius].map((one) => formatNumber(one, 6, 2));
-  const values = { ...pair(both, benches), x, y, radius };
-  if (request.drawn) return sayOf("pairDrawn", request, values);
-  const millis = millimetres(gap);
-  if (millis.startsWith("-")) return say("{a} and {b} overlap by {depth} mm at ({x}, {y}) m; the head is {radius} m from the centre.", { ...values, depth: millis.slice(1) });
-  return sayOf("pairMeets", request, { ...values, gap: millis });
-}
-
-/** The time up to which it is proven that nothing touches; none for a contact at the start, or an undecided search. */
-function certificateWords({ outcome, certificate: { steps, clear_until: until } }, request) {
-  if (until !== null) return sayOf("certificateSteps", request, { steps, until: bound(until, 10, -1) });
-  return outcome === "undecided" ? say("nothing is decided from the start on") : sayOf("certificateStart", request);
-}
-
 const methodOf = (certificate) => make("p", { textContent: certificate.method, className: "method" });
 
 /** answer: of /collision-time */
 export function showFirstContact(box, answer, request) {
-  const { time, time_bracket, certificate } = answer;
-  const lines = [contactLine(answer, request)];
-  const open = answer.outcome === "undecided" && !answer.overlapping;
-  const known = (values) => (open ? say("clear up to {low} s; not decided up to {high} s", values) : sayOf("bracketTime", request, values));
-  const rows = time_bracket ? [[say("Bracket, rounded outwards"), known(ends(time_bracket, 10))]] : [];
-  rows.push([say("Certificate"), certificateWords(answer, request)]);
+  const { time, certificate } = answer;
+  const rows = [];
   const least = certificate.least_clearance;
   if (least) {
     const values = { ...pair(least.benches, request.benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
@@ -170,8 +133,8 @@ export function showFirstContact(box, answer, request) {
   }
   const state = stateOf(answer);
   const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[state] });
-  const evidence = [facts(...rows), methodOf(certificate), engines(answer.cross_check, request.benches, request)];
-  show(box, titleOf("firstContact", request), [mark, outcomeWords(answer, request)], lines, evidence, { outcome: state, digits: time === null || time === undefined ? "" : `${time.toFixed(6)} s` });
+  const evidence = [...(rows.length ? [facts(...rows)] : []), methodOf(certificate), engines(answer.cross_check, request.benches, request)];
+  show(box, titleOf("firstContact", request), [mark, outcomeWords(answer, request)], answer.sentences, evidence, { outcome: state, digits: time === null || time === undefined ? "" : `${time.toFixed(6)} s` });
 }
 
 /** A button of an answer, with its text and its action. */
@@ -179,17 +142,9 @@ const offer = (box, words, act) => box.querySelector("details").before(button({ 
 
 /** answer: of /minimum-pitch; use(pitch) sets it; key: of the button's text */
 export function showMinimumPitch(box, answer, request, key, use) {
-  const [benches, diameter] = [Number(request.benches), request.turning_diameter];
-  const names = answer.benches ? pair(answer.benches, benches) : {};
-  const name = answer.bench === null ? "" : benchName(answer.bench, benches);
-  const limit = sayOf(`limited_${answer.limited_by}`, request, { ...names, name, radius: answer.head_radius?.toFixed(6) });
+  const benches = Number(request.benches);
   const { scan_step: step, proven_up_to: upTo } = answer;
-  const all = step === null && upTo === null;
   const from = bound(answer.proven_from, 9, 1);
-  const pitches = say(all ? "every larger pitch" : "every larger pitch that was tried");
-  const lines = [sayOf("toCircle", request, { diameter, pitches }), limit];
-  const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
-  if (islands.length) lines.push(say("Smaller pitches that also work: {list}", { list: islands.join(between()) }));
   const [low, high] = answer.pitch_bracket;
   const rows = [
     low < high ? bracket(phrase("infeasible at {low} m, feasible at {high} m"), [low, high], 13) : [say("Bracket, rounded outwards"), say("none: at every smaller pitch the dance would begin inside the circle")],
@@ -199,71 +154,59 @@ export function showMinimumPitch(box, answer, request, key, use) {
   ];
   const known = [facts(...rows), engines(answer.cross_check, benches, request)];
   const digits = `${answer.pitch.toFixed(9)} m`;
-  show(box, titleOf("minimumPitch", request), isExact() ? digits : `${bound(100 * answer.pitch, 2, 1)} cm`, lines, known, { digits });
+  show(box, titleOf("minimumPitch", request), isExact() ? digits : `${bound(100 * answer.pitch, 2, 1)} cm`, answer.sentences, known, { digits });
   offer(box, key, () => use(high));
 }
 
 /** answer: of /shortest-turn; use(entry, exit) sets both radii of the turn */
 export function showShortestTurn(box, answer, request, use) {
-  const { entry_radius, exit_radius, length, limited_by } = answer;
-  const lines = [say("of two arcs inside the circle: it enters {entry} m from the centre and leaves {exit} m from it.", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) }), sayOf(`entry_${limited_by}`, request)];
+  const { entry_radius, exit_radius, length } = answer;
   const known = facts(bracket(phrase("none is shorter than {low} m; this one was danced: {high} m"), answer.length_bracket, 9), bracket(phrase("turns as short enter from {low} m to {high} m from the centre"), answer.entry_bracket, 9), bracket(phrase("and leave from {low} m to {high} m from it"), answer.exit_bracket, 9));
-  show(box, titleOf("shortestTurn", request), `${formatNumber(length, 6, 2)} m`, lines, [known], { digits: `${length.toFixed(6)} m` });
+  show(box, titleOf("shortestTurn", request), `${formatNumber(length, 6, 2)} m`, answer.sentences, [known], { digits: `${length.toFixed(6)} m` });
   offer(box, phrase("Dance this turn"), () => use(entry_radius, exit_radius));
 }
 
-const timeWords = ({ length, head_speed }, { speed_limit: limit }) => say("for {length} m, with the head at {speed} m/s, the most at which no handle exceeds {limit} m/s.", { length: length.toFixed(6), speed: head_speed.toFixed(6), limit });
-
 /** answer: of /quickest-turn; use(entry, exit) sets both radii of the turn */
-export function showQuickestTurn(box, answer, request, use) {
-  const { entry_radius, exit_radius, time, scan_step } = answer;
-  const lines = [timeWords(answer, request), say("It enters {entry} m from the centre and leaves {exit} m from it. A shorter turn bends more, so the head must go slower.", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) })];
-  show(box, say("Quickest turn"), `${formatNumber(time, 6, 2)} s`, lines, [paragraph(say("With everybody in their place nothing touches in it, and no handle exceeds the limit: both are proven. That no turn is quicker is not: entries and exits {step} cm apart were tried, and the best ones refined.", { step: centimetres(scan_step) }))], { digits: `${time.toFixed(6)} s` });
+export function showQuickestTurn(box, answer, use) {
+  const { entry_radius, exit_radius, time } = answer;
+  show(box, say("Quickest turn"), `${formatNumber(time, 6, 2)} s`, answer.sentences.slice(0, 2), answer.sentences.slice(2).map((one) => paragraph(one)), { digits: `${time.toFixed(6)} s` });
   offer(box, phrase("Dance the quickest turn"), () => use(entry_radius, exit_radius));
 }
 
 /** answer: of /turn-time */
-export function showTurnTime(box, answer, request) {
-  show(box, say("Time through this turn"), `${formatNumber(answer.time, 6, 2)} s`, [timeWords(answer, request)], [paragraph(say("The length of both arcs over the maximum speed of the head, which is proven."))], { digits: `${answer.time.toFixed(6)} s` });
+export function showTurnTime(box, answer) {
+  show(box, say("Time through this turn"), `${formatNumber(answer.time, 6, 2)} s`, answer.sentences, [paragraph(say("The length of both arcs over the maximum speed of the head, which is proven."))], { digits: `${answer.time.toFixed(6)} s` });
 }
 
 /** answer: of /maximum-head-speed; use(speed) sets it */
-export function showHeadSpeed(box, answer, request, use) {
-  const { head_speed, head_speed_bracket: [low, high], handles, time } = answer;
-  const name = handles.map((handle) => handleName(handle, Number(request.benches))).join(between());
-  const lines = [say("At this speed of the head no handle exceeds {limit} m/s; it is reached at {time} s by {name}.", { limit: request.speed_limit, name, time: time.toFixed(6) })];
+export function showHeadSpeed(box, answer, use) {
+  const { head_speed, head_speed_bracket: [low, high] } = answer;
   const known = low === null ? paragraph(say("{high} m/s reaches the limit; no lower speed is proven to keep it.", { high: bound(high, 9, 1) })) : facts(bracket(phrase("{low} m/s keeps the limit, {high} m/s reaches it"), [low, high], 9));
-  show(box, say("Maximum head speed"), `${formatNumber(head_speed, 9, 3)} m/s`, lines, [known], { digits: `${head_speed.toFixed(9)} m/s` });
+  show(box, say("Maximum head speed"), `${formatNumber(head_speed, 9, 3)} m/s`, answer.sentences, [known], { digits: `${head_speed.toFixed(9)} m/s` });
   offer(box, phrase("Dance at this speed"), () => use(low ?? head_speed));
 }
 
-/** answer: of /tolerance on the way to a circle of this diameter [m]; without one, in the shown part of a turn */
-export function showTolerance(box, answer, benches, diameter) {
-  const { stray, stray_bracket: [low, high], limited_by: limit, time, certificate } = answer;
-  const values = { ...(answer.benches && pair(answer.benches, benches)), time: time?.toFixed(6), area: answer.area };
-  const safe = stray > 0 ? say(diameter ? "Until the head is on the circle of {diameter} m, everybody may be {stray} cm from their place at any time, the play in the joints included, and nothing touches." : "In this part of the dance everybody may be {stray} cm from their place at any time, the play in the joints included, and nothing touches.", { diameter, stray: centimetres(stray) }) : "";
-  const lines = stray > 0 ? [safe, say(LIMITS[limit], values)] : [say(high === null ? "No stray is proven to be safe." : limit === "venue" ? "{a} and {area} touch, or nearly touch, at {time} s even with everybody in their place." : "{a} and {b} touch, or nearly touch, at {time} s even with everybody in their place.", values)];
+/** answer: of /tolerance */
+export function showTolerance(box, answer) {
+  const { stray, stray_bracket: [low, high], certificate } = answer;
   const cm = (metres, way) => bound(100 * metres, 7, way);
   const both = high === null ? say("nothing touches up to {low} cm; no pose that overlaps is known", { low: cm(low, -1) }) : say("nothing touches up to {low} cm; a pose with {high} cm overlaps", { low: cm(low, -1), high: cm(high, 1) });
-  const rows = [[say("Bracket, rounded outwards"), both], [say("Certificate"), say("{steps} proven steps", { steps: certificate.steps })]];
-  show(box, say("How far people may stray"), `${isExact() ? centimetres(stray) : bound(100 * stray, 1, -1)} cm`, lines, [facts(...rows), methodOf(certificate)], { digits: `${centimetres(stray)} cm` });
+  const rows = [[say("Bracket, rounded outwards"), both]];
+  show(box, say("How far people may stray"), `${isExact() ? centimetres(stray) : bound(100 * stray, 1, -1)} cm`, answer.sentences, [facts(...rows), methodOf(certificate)], { digits: `${centimetres(stray)} cm` });
 }
 
 /** fastest: highest_speed of /check; null in a run to a fold */
-export function showHighestSpeed(box, fastest, { benches }) {
+export function showHighestSpeed(box, fastest) {
   if (!fastest) return show(box, say("Highest speed"), say("Grows without bound"), [say("towards the fold, where a bench cannot follow any more")], [paragraph(say("Near a fold, the speed of the handle behind it grows as one over the square root of the remaining way."))]);
-  const { speed, speed_bracket, time, handles } = fastest;
-  const name = handles.map((handle) => handleName(handle, benches)).join(between());
-  const whose = handles.includes(0) ? say("No handle is ever faster than the head.") : say("Reached at {time} s by {name}.", { name, time: time.toFixed(6) });
+  const { speed, speed_bracket, sentences } = fastest;
   const known = speed_bracket[1] === null ? [] : [facts(bracket(phrase("{low} m/s is reached, {high} m/s never exceeded"), speed_bracket, 9))];
-  show(box, say("Highest speed"), `${formatNumber(speed, 6, 2)} m/s`, [whose], known, { digits: `${speed.toFixed(6)} m/s` });
+  show(box, say("Highest speed"), `${formatNumber(speed, 6, 2)} m/s`, sentences, known, { digits: `${speed.toFixed(6)} m/s` });
 }
 
 /** begin, time: of the dance [s] */
 export function showEnd(box, answer, { begin, end: time }, request) {
   const reason = answer.end?.reason ?? { undecided: "undecided", clear: "turn" }[answer.outcome] ?? "contact";
-  const name = reason === "fold" ? benchName(answer.end.bench, request.benches) : "";
-  const words = reason === "contact" ? sayOf("end_contact", request) : say(ENDS[reason], { name });
+  const words = reason === "contact" ? sayOf("end_contact", request) : reason === "fold" ? answer.sentences.at(-1) : say(ENDS[reason]);
   const last = answer.end?.time ?? time;
   show(box, say("End of the run"), `${formatNumber(last, 6, 2)} s`, [words, ...(request.drawn && Math.abs(begin) >= SHOWN ? [say("Times count from 0 s; the dance begins at {begin} s.", { begin: formatNumber(begin, 6, 2) })] : [])], [paragraph(say("From the same search as the answer above."))], { digits: `${last.toFixed(6)} s` });
 }

@@ -22,8 +22,7 @@ export const boxes = ({ questions, state, graphs }) => ({
     graphs.curve();
   },
   tolerance() {
-    const { answer, request } = questions.answers.tolerance;
-    answers.showTolerance($("#tolerance"), answer, Number(request.benches), request.turning_diameter);
+    answers.showTolerance($("#tolerance"), questions.answers.tolerance.answer);
     graphs.curve();
   },
   curve: () => graphs.curve(),
@@ -41,16 +40,13 @@ export const boxes = ({ questions, state, graphs }) => ({
     answers.showShortestTurn($("#shortest-turn"), answer, request, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
   },
   quickest() {
-    const { answer, request } = questions.answers.quickest;
-    answers.showQuickestTurn($("#quickest-turn"), answer, request, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
+    answers.showQuickestTurn($("#quickest-turn"), questions.answers.quickest.answer, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
   },
   time() {
-    const { answer, request } = questions.answers.time;
-    answers.showTurnTime($("#turn-time"), answer, request);
+    answers.showTurnTime($("#turn-time"), questions.answers.time.answer);
   },
   head() {
-    const { answer, request } = questions.answers.head;
-    answers.showHeadSpeed($("#head-speed"), answer, request, (speed) => {
+    answers.showHeadSpeed($("#head-speed"), questions.answers.head.answer, (speed) => {
       // The whole dance becomes faster or slower.
       const passages = quickened(state.extras().passages, speed / Number(state.get("head_speed")));
       state.set({ head_speed: String(speed), passages: passagesText(passages) });

@@ -5,7 +5,7 @@ import { say } from "./text.js";
 import { extent } from "./square.js";
 
 /** Kinds of dances. @type {Phrases} */
-export const FIGURES = {
+const FIGURES = {
   spiral: "Spiral in and out",
   eight: "Figure eight",
   serpentine: "Serpentine",

@@ -7,7 +7,7 @@ import { EMPTY, THINGS, drawingOf, fromAddress, isArea, isWhole, keptVenueOf, ve
 import { $, button, download, hide, make, numberIn, textButton } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { stepsOf } from "./history.js";
-import { Judgement, failureWords } from "./judgement.js";
+import { Judgement } from "./judgement.js";
 import { bound, formatNumber, isExact } from "./numbers.js";
 import { announce } from "./overlays.js";
 import { beatsOf, passagesIn } from "./passages.js";
@@ -474,16 +474,6 @@ export class Dragons {
     return say("{bench} of {name}", { bench: benchName(bench, parts[dragon].numbers.benches), name: parts[dragon].name });
   }
 
-  /** One failure in a sentence. */
-  #words(dance, failure) {
-    const { dragons, benches } = failure;
-    const common = this.#stray();
-    if (dragons.length === 2) return sayOf("fail_contact", common, { a: this.#benchOf(dance, dragons[0], benches[0]), b: this.#benchOf(dance, dragons[1], benches[1]) });
-    if (!dragons.length) return failureWords(failure, { numbers: dance.numbers, drawing: dance.drawing });
-    const part = dance.parts[dragons[0]];
-    return `${part.name}${say(": ")}${failureWords(failure, { numbers: part.numbers, drawing: dance.drawing })}`;
-  }
-
   /** The verdict on all of them. */
   judged() {
     const { dance, refusals } = this.questions;
@@ -500,7 +490,7 @@ export class Dragons {
     // Behind a door stands what people say, and all digits are with the evidence.
     const met = meets && !isExact() ? [say("First meeting at {time} s.", { time: formatNumber(time, 6, 2) })] : proven;
     const apart = dance.answer.outcome === "clear" ? [sayOf("dragonsApart", this.#stray())] : [];
-    this.judgement.show({ ...dance, words: (failure) => this.#words(dance, failure), lines: [...met, ...apart], known: isExact() ? [] : proven }, null);
+    this.judgement.show({ ...dance, lines: [...met, ...apart], known: isExact() ? [] : proven }, null);
     $("#stage").setAttribute("aria-busy", "false");
   }
 

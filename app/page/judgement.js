@@ -6,7 +6,7 @@ import { formatNumber } from "./numbers.js";
 import { tell } from "./overlays.js";
 import { timeOfDay, wayAt } from "./passages.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
-import { benchName, handleName, say, sayOf, sentencesOf } from "./text.js";
+import { say, sentencesOf } from "./text.js";
 
 /** Verdicts on a dance. @type {Phrases} */
 const VERDICTS = {
@@ -14,12 +14,6 @@ const VERDICTS = {
   fails: "Cannot be danced",
   undecided: "Undecided",
 };
-/** Failures that have no other words. @type {Phrases} */
-const FAILURES = {
-  folds: "{a} cannot follow any more: the dragon folds.",
-  undecided: "From here on the search is undecided.",
-};
-
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
 const DECIMALS = 6;
 /** Shortest part of a path before the head that is worth a word [m]. */
@@ -27,24 +21,6 @@ const STANDS = 0.05;
 
 /** True for a dance in a square that stands here to begin with. */
 const isExample = ({ drawing }) => Boolean(drawing?.things.length) && isPresetPath(drawing) && isPresetVenue(drawing);
-
-/** One failure of /check in a sentence. */
-export function failureWords({ kind, benches, area, peak_speed: peak }, { numbers, drawing }) {
-  const name = (k) => benchName(k, numbers.benches);
-  const [a, b] = benches;
-  const values = { a: a === undefined ? "" : name(a), b: b === undefined ? "" : name(b), area: area ?? "", limit: drawing.limit };
-  if (kind === "contact") return sayOf("fail_contact", numbers, values);
-  if (kind === "venue") return sayOf("fail_venue", numbers, values);
-  if (kind === "outside") {
-    const square = drawing.things.find((thing) => thing.kind === "area");
-    return say(area === square?.name ? "{a} starts outside {area}." : "{a} starts inside {area}.", values);
-  }
-  if (kind === "speed") {
-    const handle = a === undefined ? say("Handle") : handleName(a, numbers.benches);
-    return say(peak === null ? "Too fast: {handle} exceeds {limit} m/s." : "Too fast: {handle} exceeds {limit} m/s; the highest speed is {peak} m/s.", { ...values, handle, peak: peak === null ? "" : formatNumber(peak, DECIMALS, 2) });
-  }
-  return say(FAILURES[kind], values);
-}
 
 /** Radius of a bend that is too tight, and the one needed, with as many digits as it takes to tell them apart. */
 export function radiiOf({ radius, least_radius: least }) {
@@ -72,10 +48,10 @@ export class Judgement {
     this.look = look;
   }
 
-  /** Show the verdict on a dance that the service has checked. dance: may have lines to add, what is known of it, and words(failure) of its own */
+  /** Show the verdict on a dance that the service has checked. dance: may have lines to add, and what is known of it */
   show(dance, course) {
     const [outcome, mark] = OUTCOMES[dance.verdict];
-    const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), (dance.words ?? ((one) => failureWords(one, dance)))(failure), () => this.seek(failure)));
+    const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), failure.message, () => this.seek(failure)));
     const { length } = course ?? {};
     const time = (dance.end - dance.begin).toFixed(1);
     const lines = length === undefined ? [] : Number(time) ? wayWords(dance, course, time) : [say("The path is {length} m long.", { length: length.toFixed(1) })];
@@ -99,10 +75,9 @@ export class Judgement {
   }
 
   /** Show why there is no verdict: bends that are too tight, or the service's refusal. */
-  refuse(sentence, course = null, benches = 0) {
+  refuse(sentence, course = null) {
     const bends = course?.bends ?? [];
-    const sentences = bends.map((bend) => say("The bend is too tight: its radius is {radius} m, and {bench} needs {least} m.", { ...radiiOf(bend), bench: benchName(bend.bench, benches) }));
-    const rows = bends.map(({ points }, k) => this.#row(say("Show"), sentences[k], () => this.look(points[Math.floor(points.length / 2)])));
+    const rows = bends.map((bend) => this.#row(say("Show"), bend.sentence, () => this.look(bend.points[Math.floor(bend.points.length / 2)])));
     this.#fill("contact", "✕", say(VERDICTS.fails), rows.length ? [] : [sentence], rows);
   }
 

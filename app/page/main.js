@@ -216,7 +216,7 @@ const SHOW = {
   fastest() {
     const { answer, dance: of } = questions.answers.fastest;
     if (questions.answers.speeds) SHOW.speeds();
-    answers.showHighestSpeed($("#highest-speed"), answer.highest_speed, of.numbers);
+    answers.showHighestSpeed($("#highest-speed"), answer.highest_speed);
     // A refusal of the numbers that are entered now stays.
     if (of !== questions.dance || questions.refusals.has("contact")) return;
     // At rest the engines check the whole dragon; while a slider is dragged, only the pair.

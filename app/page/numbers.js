@@ -9,13 +9,6 @@ export const fixed = (value, decimals) => value.toFixed(decimals).replace(/^-(0(
 /** A number with all of its decimals, or with the few that people say. */
 export const formatNumber = (value, all, few) => fixed(value, exact ? all : few);
 
-/** Two numbers with this number of decimals, or with as many more as tell them apart. */
-export function toldApart(less, more, decimals) {
-  const most = 12;
-  while (decimals < most && less.toFixed(decimals) === more.toFixed(decimals)) decimals++;
-  return [less.toFixed(decimals), more.toFixed(decimals)];
-}
-
 /** A bound with the given number of decimals, rounded to the side on which it still holds; way: 1 up, -1 down. */
 export const bound = (value, decimals, way) => {
   const text = value.toFixed(decimals);

@@ -1,20 +1,18 @@
 /** The square by its size, and dances proposed for it: one of the cards becomes the route. */
 
 import { Problem, Superseded, TOO_LONG } from "./api.js";
-import { FIGURES, cardPicture, cardTitles, cardWords } from "./cards.js";
+import { cardPicture, cardTitles, cardWords } from "./cards.js";
 import { headingOf, withPoints } from "./changes.js";
 import { Corners } from "./corners.js";
 import { EMPTY, THINGS, drawingOf, freeName, venueOf, yardOf } from "./drawing.js";
 import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.js";
 import { HELPS, LABELS, strayOf } from "./fields.js";
-import { failureWords } from "./judgement.js";
 import { knotsOf } from "./knots.js";
-import { formatNumber, toldApart } from "./numbers.js";
 import { pending } from "./pending.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
 import { circle, extent, rectangle } from "./square.js";
 import { roundedRoute } from "./walk.js";
-import { benchName, between, phrase, say, sentencesOf, writeTexts } from "./text.js";
+import { between, language, phrase, say, sentencesOf, writeTexts } from "./text.js";
 
 /** What may be put into a square. @type {Phrases} */
 const TOOLS = {
@@ -23,18 +21,6 @@ const TOOLS = {
   block: "Obstacle",
   area: "Square",
 };
-/** Why no dance was found. @type {Phrases} */
-const LACKS = {
-  area: "The benches cover at least {need} m² at any moment; the square has {have} m².",
-  width: "No dance was found: the widest free circle is at most {have} m across, and the tightest turn of {who} that is tried takes {need} m. Make the square larger.",
-  way: "The way between {a} and {b} is at most {have} m wide at its narrowest; the benches need at least {need} m.",
-  stray: "People shall be free to be {need} m from their places; the best of {tried} tried, {figure}, allows {have} m.",
-  benches: "The dragon has {need} benches; the longest one found to fit, {figure}, has {have}.",
-  fails: "None of {tried} tried passes its check; the nearest, “{figure}”, fails at {time} s: {failure}",
-  fails_one: "Nothing was found to fit, not even one bench. Its nearest dance, “{figure}”, fails at {time} s: {failure} Make the square larger, or what stands in it, the margin and the stray smaller.",
-  fails_none: "Nothing was found to fit, not even one bench. Make the square larger, or what stands in it, the margin and the stray smaller.",
-};
-
 /** Size of a square before any is drawn [m], and the largest one. */
 const [WIDTH, HEIGHT, MOST] = [30, 40, 10_000];
 /** Difference of width and height of a round square, from rounding [m]. */
@@ -233,7 +219,7 @@ export class Propose {
 
   /** The square and the question of an answer. */
   #about(request) {
-    return { key: this.#keyOf(request), yard: yardOf(this.#drawing), things: this.#drawing.things };
+    return { key: this.#keyOf(request), yard: yardOf(this.#drawing), things: this.#drawing.things, language: language() };
   }
 
   /** Show an answer; its first cards come into view. */
@@ -342,19 +328,6 @@ export class Propose {
     return !yard && things.some(({ kind }) => kind === "gate") ? say("The verdict is on the path drawn here. Gates do not count for it: only “Propose a dance” uses them.") : "";
   }
 
-  /** Why no dance was found, in words. */
-  #lack({ reason_kind: kind, reason_values: values, tried }) {
-    const { have, need, figure, who, failure } = values;
-    const digits = { area: 1, stray: 3, benches: 0, fails: 0 }[kind] ?? 2;
-    const gates = this.#drawing.things.filter((thing) => thing.kind === "gate");
-    const names = kind === "way" ? { a: gates[who[0]]?.name, b: gates[who[1]]?.name } : { who: who.length ? benchName(who[0], Number(this.state.get("benches"))) : "" };
-    const [less, more] = typeof have === "number" ? toldApart(have, need, digits) : [];
-    const numbers = { have: less, need: kind === "stray" ? need : more };
-    const first = failure && { failure: failureWords(failure, this.questions.drawn()), time: formatNumber(failure.time, 6, 2) };
-    const lack = kind !== "fails" ? kind : !failure ? "fails_none" : have < need ? "fails_one" : kind;
-    return say(LACKS[lack], { ...names, ...numbers, ...first, tried, figure: figure ? say(FIGURES[figure]) : "" });
-  }
-
   /** How many benches the area of the square bounds, if they are what counts. */
   #most({ most_benches: most = null }) {
     return this.objective.value === "benches" && most !== null ? say("By its area the square has room for at most {most}.", { most }) : "";
@@ -384,6 +357,9 @@ export class Propose {
     hide(this.stop, !this.#search);
     this.ask.disabled = Boolean(this.#search);
     const isOld = this.#isOld;
+    // A reason in another language is asked for again.
+    const reason = this.#problem ?? (isOld || this.#answer?.proposals.length ? null : this.#answer);
+    if (reason && !this.#search && reason.language !== language()) return void this.#ask();
     this.#showWords(isOld ? null : this.#answer);
     this.#showCards(this.#answer, isOld);
   }
@@ -407,7 +383,7 @@ export class Propose {
 
   #showWords(answer) {
     const seconds = this.#search && Math.round((performance.now() - this.#search.began) / 1000);
-    const result = answer && (answer.proposals.length ? sentencesOf([say(answer.tried ? "The best {count} of {tried} tried; each has passed its check." : "{count} found so far.", { count: answer.proposals.length, tried: answer.tried }), say("Choose one; then you may edit it."), this.#most(answer)]) : this.#lack(answer));
+    const result = answer && (answer.proposals.length ? sentencesOf([say(answer.tried ? "The best {count} of {tried} tried; each has passed its check." : "{count} found so far.", { count: answer.proposals.length, tried: answer.tried }), say("Choose one; then you may edit it."), this.#most(answer)]) : answer.reason);
     const going = () => say(answer ? "{count} found so far, the search goes on: {seconds} s" : "Looking for dances that fit: {seconds} s", { seconds, count: answer?.proposals.length }) + (this.#search.job ? say(", {share} % of the kinds of dance tried", this.#search) : "");
     const text = this.#search ? going() : (this.note?.() ?? result ?? "");
     const problem = !this.#search && !text && this.#problem;

@@ -336,17 +336,16 @@ export class Questions {
     const query = this.state.texts([...HEAD, "head_speed"]);
     const dance = this.#danceOf("turn", query);
     const { head_speed, ...flat } = query;
-    const request = { ...query, benches: dance.numbers.benches };
-    return fitsQuery(dance) ? { request, query: flat } : { request, body: this.body({ speed_limit: dance.numbers.speed_limit }, dance) };
+    return fitsQuery(dance) ? { query: flat } : { body: this.body({ speed_limit: dance.numbers.speed_limit }, dance) };
   }
 
   /** The request for the time of the head through the shown turn. */
   #turnTime() {
     const query = this.state.texts(HEAD);
     const dance = this.#danceOf("turn", query);
-    if (!dance.extras.csv) return { request: query, query };
+    if (!dance.extras.csv) return { query };
     const { dragon, path } = this.body({}, dance);
-    return { request: query, body: { dragon, path, speed_limit: dance.numbers.speed_limit } };
+    return { body: { dragon, path, speed_limit: dance.numbers.speed_limit } };
   }
 
   /** The requests for the smallest pitch, and for the radius at first contact against the pitch. */

@@ -62,7 +62,7 @@ export function writeTexts() {
 }
 
 /** The language of the page for the service: en or zh. */
-export const language = () => document.documentElement.lang.slice(0, 2);
+export const language = () => spoken;
 
 /** A sentence, or a part of one, from its English template, with {names} replaced. */
 export const say = (template, values = {}) => sayIn(spoken, template, values);
@@ -88,7 +88,7 @@ export const sentencesOf = (sentences) => sentences.filter(Boolean).reduce((firs
 
 /**
  * The sentence of this name in FORMS for a question: with a margin benches in contact may be apart, and with a stray they
- * only may touch. {touch} and {meet} in it are the words for a contact. request: {margin, stray, hole, pin}, [m]
+ * only may touch. {touch} in it stands for the words for a contact. request: {margin, stray, hole, pin}, [m]
  * @param {any} request
  */
 export function sayOf(name, request, values = {}) {
@@ -96,7 +96,7 @@ export function sayOf(name, request, values = {}) {
   const form = (key) => FORMS[[strays && `${key}Stray`, near && `${key}Near`].find((one) => one in FORMS) ?? key];
   const { margin } = request;
   const touch = near ? say("come within {margin} m", { margin }) : say("touch");
-  return say(form(name), { margin, touch, meet: say(form("meet"), { margin, touch }), ...values });
+  return say(form(name), { margin, touch, ...values });
 }
 
 /** A title with the stray of the answer. */

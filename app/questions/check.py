@@ -10,11 +10,12 @@ from pydantic import Field
 import core
 from app.questions.collision_time import CollisionTime, Contact
 from app.questions.encounter import Encounter
-from app.wire.answers import DragonPair, Head, Pair, Point
+from app.wire.answers import SENTENCES, DragonPair, Head, Pair, Point
 from app.wire.clocks import clock_at_zero, time_of_day
 from app.wire.dances import PlacedDance, SpanFields, clock_of
 from app.wire.performances import SeveralFields
 from app.wire.question import UNKNOWN_COST, Answer, Question, SpeedLimit, Terms, measure
+from app.wire.readings import speed_words
 from core import Dance, Outcome, Performance, Venue
 
 if TYPE_CHECKING:
@@ -113,6 +114,7 @@ class HighestSpeed(Answer):
     time: float = measure("s", "Time at which it is reached")
     handles: list[int] = Field(description="Handles that reach it at that time")
     passage: int | None = Field(description="Index of the passage in which it is reached; null: in none")
+    sentences: list[str] = SENTENCES
 
 
 class SharpestBend(Answer):
@@ -204,8 +206,11 @@ class Report(Answer):
         failures = [Failure.of(failure, dragon, clock) for failure in result.failures]
         venue = None if result.venue is None else VenueClearance.from_result(result.venue, stray=result.venue.misplaced)
         begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
+        speed = result.highest_speed and HighestSpeed.from_result(
+            result.highest_speed, sentences=[speed_words(result.highest_speed)]
+        )
         own = {"failures": failures, "first_contact": contact, "venue": venue, "origin": place.origin}
-        return cls.from_result(result, begins=begins, ends=ends, **own)
+        return cls.from_result(result, begins=begins, ends=ends, highest_speed=speed, **own)
 
 
 class DragonFailure(Failure):

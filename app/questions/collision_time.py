@@ -7,7 +7,7 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.wire.answers import TOTAL_STRAY, End, Feature, Graze, Head, Pair, PairCheck, Point
+from app.wire.answers import SENTENCES, TOTAL_STRAY, End, Feature, Graze, Head, Pair, PairCheck, Point
 from app.wire.claims import ContactClaim
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.labels import with_strays
@@ -24,6 +24,7 @@ from app.wire.question import (
     UniformDragon,
     measure,
 )
+from app.wire.readings import contact_words
 from core import Outcome
 from core.errors import format_number
 from core.language import say
@@ -95,6 +96,7 @@ class CollisionTime(Answer):
     edge: Feature | None = Field(description="Edge that this corner touches or is nearest to")
     point: Point | None = measure("m", "Position of that corner, x and y")
     end: End | None = Field(description="End of the run, when clear")
+    sentences: list[str] = SENTENCES
     certificate: Certificate = Field(description="Evidence for the answer")
     cross_check: PairCheck | None = Field(
         description="Verdicts of the engines 1e-6 m of travel before and after the contact (for a contact at the "
@@ -108,7 +110,8 @@ class CollisionTime(Answer):
         if request.cross_check != "none":
             whole = request.cross_check == "dragon"
             check = core.contact_check(contact, whole=whole, budget=terms.budget)
-        return cls.from_result(contact, margin=request.margin, stray=request.total_stray, cross_check=check)
+        own = {"margin": request.margin, "stray": request.total_stray, "cross_check": check}
+        return cls.from_result(contact, sentences=contact_words(contact), **own)
 
 
 def collision_time(request: CollisionQuery | CollisionRequest, terms: Terms) -> CollisionTime:

@@ -11,6 +11,8 @@ from app.wire.answers import Point
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.question import Answer, Margin, Question, SpeedLimit, Strays, Terms, measure
 from core.breaches import BreachKind, breaches
+from core.language import say
+from core.proposal.answer import told_apart
 
 # A route of 1,000 points, measured 2026-11-22, and where its dance breaks limits, measured 2026-11-27 [s].
 SECONDS, BREACHES_SECONDS = 0.02, 0.08
@@ -33,6 +35,7 @@ class TightBend(Answer):
     radius: float = measure("m", "Least radius there; of a curve through waypoints, at least this")
     least_radius: float = measure("m", "Least radius that the bench can follow")
     bench: int = Field(description="The bench with the longest chord")
+    sentence: str = Field(description="The bend in one sentence")
 
 
 class Breach(Answer):
@@ -66,12 +69,24 @@ class Course(Answer):
 
 def course(request: CourseRequest, terms: Terms) -> Course:
     """The path from its beginning to its end, and its bends that are too tight for the dragon."""
-    result = core.course(request.path.to_path(), request.to_dragon(terms.settings.benches_max))
+    dragon = request.to_dragon(terms.settings.benches_max)
+    result = core.course(request.path.to_path(), dragon)
     x, y = result.points.T.tolist()
-    bends = [TightBend.from_result(bend, points=bend.points.tolist()) for bend in result.bends]
+    bends = [
+        TightBend.from_result(bend, points=bend.points.tolist(), sentence=_bend_words(bend, dragon))
+        for bend in result.bends
+    ]
     broken = _breaches(request, terms) if request.breaches and not bends else None
     lists = {"s": result.s.tolist(), "x": x, "y": y, "knots": result.knots.tolist()}
     return Course(**lists, length=result.length, bends=bends, breaches=broken)
+
+
+def _bend_words(bend: core.TightBend, dragon: core.Dragon) -> str:
+    radius, least = told_apart(bend.radius, bend.least_radius, 2)
+    return say(
+        "The bend is too tight: its radius is {radius} m, and bench {bench} needs {least} m.",
+        radius=radius, least=least, bench=dragon.called(bend.bench),
+    )  # fmt: skip
 
 
 def _breaches(request: CourseRequest, terms: Terms) -> list[Breach] | None:

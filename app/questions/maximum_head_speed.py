@@ -5,9 +5,11 @@ from __future__ import annotations
 from pydantic import Field
 
 import core
+from app.wire.answers import SENTENCES
 from app.wire.dances import DanceFields
 from app.wire.paths import AnyPath, TurnFields, TurnPath
 from app.wire.question import Answer, Command, Instant, Question, SpeedLimit, Terms, UniformDragon, Wire, measure
+from app.wire.readings import head_words
 from core.errors import format_number
 from core.language import say
 
@@ -48,17 +50,19 @@ class MaximumHeadSpeed(Answer):
     time: float = measure("s", "Time at which they reach it, at that head speed; 0 is the entry into the turn")
     time_at_unit_head_speed: float = measure("s", "The same time at a head speed of 1 m/s")
     passage: int | None = Field(description="Index of the passage in which they reach it; null: in none")
+    sentences: list[str] = SENTENCES
 
 
 def maximum_head_speed(request: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, terms: Terms) -> MaximumHeadSpeed:
     """The largest constant head speed at which no handle ever exceeds the limit."""
     dance, limit = request.to_dance(terms.settings.checked_benches_max), request.speed_limit
     if isinstance(request, MaximumHeadSpeedQuery):
-        return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dance, limit, budget=terms.budget))
-    # Core takes times at a head speed of 1 m/s.
-    start, stop = (None if time is None else time * request.head_speed for time in (request.start, request.stop))
-    result = core.maximum_head_speed(dance, limit, start=start, stop=stop, budget=terms.budget)
-    return MaximumHeadSpeed.model_validate(result)
+        result = core.maximum_head_speed(dance, limit, budget=terms.budget)
+    else:
+        # Core takes times at a head speed of 1 m/s.
+        start, stop = (None if time is None else time * request.head_speed for time in (request.start, request.stop))
+        result = core.maximum_head_speed(dance, limit, start=start, stop=stop, budget=terms.budget)
+    return MaximumHeadSpeed.from_result(result, sentences=head_words(result, limit))
 
 
 def _title(request: SpeedLimitField) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 import core
-from app.wire.answers import TOTAL_STRAY, Pair, PairCheck, Point
+from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, PairCheck, Point
 from app.wire.dances import BenchByBench, DragonFields
 from app.wire.paths import Circle, WayToCircle
 from app.wire.question import (
@@ -21,6 +21,7 @@ from app.wire.question import (
     Whole,
     measure,
 )
+from app.wire.readings import pitch_words
 from core import Dragon, InvalidValue, LimitedBy
 from core.design.minimum_pitch import DRAGONS_MAX
 from core.errors import Quantity, format_number, quantities
@@ -84,6 +85,7 @@ class MinimumPitch(Answer):
         description="The dragons of the two benches, the first bench that of dragon 0; null if both are of one dragon"
     )
     stray: float | None = TOTAL_STRAY
+    sentences: list[str] = SENTENCES
     cross_check: PairCheck | None = Field(
         description="Verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in "
         "contact (with a stray shapely's alone, for the areas that benches may cover); of several dragons bench b of "
@@ -132,7 +134,8 @@ def minimum_pitch(request: MinimumPitchQuery | MinimumPitchRequest, terms: Terms
             whole=whole,
             budget=terms.budget,
         )
-    return MinimumPitch.from_result(result, stray=request.total_stray, cross_check=check)
+    words = pitch_words(result, request.turning_diameter, request.margin, stray)
+    return MinimumPitch.from_result(result, stray=request.total_stray, sentences=words, cross_check=check)
 
 
 def _cost(request: MinimumPitchQuery | MinimumPitchRequest) -> float:

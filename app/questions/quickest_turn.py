@@ -8,9 +8,10 @@ from app.questions.turn_time import TurnTime
 from app.wire.dances import DragonFields
 from app.wire.paths import TurnCircle
 from app.wire.question import Command, Margin, Question, Terms, UniformDragon, measure
+from app.wire.readings import time_words, turn_words
 from core.design.quickest_turn import GRID
 from core.errors import format_number
-from core.language import say
+from core.language import joined, say
 
 
 class QuickestTurnFields(SpeedLimitField, TurnCircle):
@@ -43,7 +44,16 @@ def quickest_turn(request: QuickestTurnQuery | QuickestTurnRequest, terms: Terms
         dragon, request.pitch, radius, request.ratio, speed_limit=request.speed_limit, start_turns=request.start_turns,
         margin=request.margin, budget=terms.budget,
     )  # fmt: skip
-    return QuickestTurn.from_core(result, scan_step=GRID * radius)
+    words = [
+        time_words(result, request.speed_limit),
+        joined([turn_words(result.turn), say("A shorter turn bends more, so the head must go slower.")]),
+        say(
+            "With everybody in their place nothing touches in it, and no handle exceeds the limit: both are proven. "
+            "That no turn is quicker is not: entries and exits {step} cm apart were tried, and the best ones refined.",
+            step=format_number(100.0 * GRID * radius),
+        ),
+    ]
+    return QuickestTurn.from_core(result, sentences=words, scan_step=GRID * radius)
 
 
 def _title(request: SpeedLimitField) -> str:

@@ -6,10 +6,11 @@ from pydantic import Field
 
 import core
 from app.questions.turn import Turn
-from app.wire.answers import TOTAL_STRAY, Pair, Point
+from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
 from app.wire.dances import DragonFields
 from app.wire.paths import TurnCircle
 from app.wire.question import Command, Margin, Question, Strays, Terms, UniformDragon, measure
+from app.wire.readings import limit_words, turn_words
 from core.errors import format_number
 from core.language import say
 
@@ -69,6 +70,7 @@ class ShortestTurn(Turn):
     )
     evaluations: int = Field(description="Number of turns danced")
     stray: float | None = TOTAL_STRAY
+    sentences: list[str] = SENTENCES
 
 
 def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) -> ShortestTurn:
@@ -88,7 +90,9 @@ def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms
         ratio = None if request.any_ratio else request.ratio
         result = core.shortest_turn(dragon, *circle, ratio, **about, budget=terms.budget)
         own = {"benches": None, "time": None, "scan_step": 0.0}
-    return ShortestTurn.from_result(result, stray=request.total_stray, **own, **Turn.of(result.turn).model_dump())
+    words = [turn_words(result.turn), limit_words(result.limited_by, request.margin, request.to_stray())]
+    turn = Turn.of(result.turn).model_dump()
+    return ShortestTurn.from_result(result, stray=request.total_stray, sentences=words, **own, **turn)
 
 
 def _title(request: ShortestTurnQuery | ShortestTurnRequest) -> str:

@@ -8,11 +8,12 @@ from pydantic import Field
 
 import core
 from app.questions.encounter import EncounterCertificate
-from app.wire.answers import Point
+from app.wire.answers import SENTENCES, Point
 from app.wire.claims import StrayClaim
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.performances import SeveralFields
 from app.wire.question import Answer, Command, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
+from app.wire.readings import stray_words
 from core import InvalidValue, Limit
 from core.errors import Quantity
 from core.language import phrase, say
@@ -102,6 +103,7 @@ class Tolerance(Answer):
     exhibit: Shown | None = Field(description="A pose in which they overlap; null where none was found")
     start: float = measure("s", "Start of the time asked about")
     stop: float = measure("s", "End of the time asked about")
+    sentences: list[str] = SENTENCES
     certificate: StrayProof = Field(description="Proof of the safe stray")
 
 
@@ -159,7 +161,8 @@ def tolerance(request: ToleranceQuery | DanceTolerance, terms: Terms) -> Toleran
     pose = (
         None if result.exhibit is None else Shown.from_result(result.exhibit, handles=result.exhibit.handles.tolist())
     )
-    return Tolerance.from_result(result, exhibit=pose, stray_with_errors=with_errors)
+    words = stray_words(result, dance.dragon, request.turning_diameter)
+    return Tolerance.from_result(result, exhibit=pose, stray_with_errors=with_errors, sentences=words)
 
 
 def _together(request: ToleranceRequest, terms: Terms) -> PerformanceTolerance:

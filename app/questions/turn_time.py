@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Self
+from typing import Any, Self
 
 from pydantic import Field
 
 import core
 from app.questions.maximum_head_speed import SpeedLimitField
 from app.questions.turn import Turn
+from app.wire.answers import SENTENCES
 from app.wire.dances import DragonFields
 from app.wire.paths import TurnFields, TurnPath
 from app.wire.question import Command, Question, Terms, UniformDragon, measure
+from app.wire.readings import time_words
 from core.errors import format_number
 from core.language import say
 
@@ -32,9 +34,10 @@ class TurnTime(Turn):
     head_speed: float = measure("m/s", "Largest constant speed of the head at which no handle exceeds the limit")
     time: float = measure("s", "Time of the head from the entry to the exit at that speed: the length over the speed")
     handles: list[int] = Field(description="Handles that reach the limit, all at once")
+    sentences: list[str] = SENTENCES
 
     @classmethod
-    def from_core(cls, result: core.TurnTime, **own: float) -> Self:
+    def from_core(cls, result: core.TurnTime, **own: Any) -> Self:
         return cls.from_result(result, **own, **Turn.of(result.turn).model_dump())
 
 
@@ -42,7 +45,8 @@ def turn_time(request: TurnTimeQuery | TurnTimeRequest, terms: Terms) -> TurnTim
     """How long the head takes through a turn at the highest speed at which no handle exceeds the limit."""
     dragon = request.to_dragon(terms.settings.checked_benches_max)
     path = request.to_turn() if isinstance(request, TurnTimeQuery) else request.path.to_path()
-    return TurnTime.from_core(core.turn_time(dragon, path, request.speed_limit, budget=terms.budget))
+    result = core.turn_time(dragon, path, request.speed_limit, budget=terms.budget)
+    return TurnTime.from_core(result, sentences=[time_words(result, request.speed_limit)])
 
 
 def _title(request: SpeedLimitField) -> str:

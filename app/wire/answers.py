@@ -23,6 +23,8 @@ LEFT_OUT = (
     "Engines that were not asked because they cannot judge this case: the angle sum sees only corners inside a "
     "bench, so it cannot judge a margin or, at the start, benches that cross without a corner inside the other"
 )
+# Field of an answer that people read.
+SENTENCES: Any = Field(description="The answer in sentences for people")
 # Field of an answer that allows for a stray.
 TOTAL_STRAY: Any = measure(
     "m", "Largest distance of a hole from its place, by people and by play, in this answer; null: none was asked for"

@@ -6,8 +6,6 @@ import re
 
 import pytest
 
-from app.questions.proposals import Lack
-from core import Dragon, Failure, FailureKind, Figure, Reason, ReasonKind
 from tests.support.person import PHONE
 from tests.support.serving import serving
 
@@ -153,28 +151,11 @@ def test_a_square_has_typed_sizes_corners_and_sides_and_nothing_changes_or_stays
     _while_a_point_is_dragged_the_stretches_that_fail_are_coloured(person)
 
 
-# What a square without any dance that passes is answered with: the first failure of the nearest one.
-FIRST = Failure(FailureKind.VENUE, 12.3456, (3,), "linden", "")
-LACKS = [
-    Lack.of(Reason(ReasonKind.FAILS, 30, have, 8.0, Figure.EIGHT, failure=FIRST), Dragon(8)) for have in (8.0, 1.0)
-]
-WHYS = [{"reason_kind": "fails", "reason_values": lack.model_dump(mode="json")} for lack in LACKS]
-NONE, NOT_ONE = ({"proposals": [], "tried": 30, "checked": 5, **why} for why in WHYS)
-
-
 @thorough
 def test_why_none_fits_stands_in_one_sentence_and_a_search_can_be_stopped(open_page):
     person = open_page(NARROW_YARD).presses("#propose")
     person.sees({"#proposed": ["3.01 m", "3.77 m"], CARDS: 0}).speaks("zh").sees({"#proposed": "直径至多 3.01 m"})
     person.opens(f"{YARD}&lang=en")
-    person.page.route("**/proposals", lambda route: route.fulfill(json=NONE))
-    person.presses("#propose").sees({"#proposed": "fails at 12.35 s: body 3 touches linden."}).speaks("zh")
-    person.sees({"#proposed": "在 12.35 s 不合格：第3节龙身碰到linden。"}).speaks("en").page.unroute_all()
-    person.page.route("**/proposals", lambda route: route.fulfill(json=NOT_ONE))
-    person.presses("#propose").sees(
-        {"#proposed": "not even one bench. Its nearest dance, “Figure eight”, fails at 12.35 s"}
-    )
-    person.speaks("zh").sees({"#proposed": "一节板凳也找不到"}).speaks("en").page.unroute_all()
     person.page.route("**/proposals", lambda route: None)
     person.presses("#propose").sees({"#propose:disabled": True})
     person.sees({"#proposed": re.compile(r"Looking for dances that fit: \d+ s")}).presses("#place button:text('Stop')")

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { numberIn } from "../../../app/page/elements.js";
 import { numbersOf, strayOf } from "../../../app/page/fields.js";
-import { bound, formatNumber, setExact, toldApart } from "../../../app/page/numbers.js";
+import { bound, formatNumber, setExact } from "../../../app/page/numbers.js";
 
 test("a bound is rounded to the side on which it still holds", () => {
   for (const [value, decimals, way, text] of [
@@ -31,9 +31,4 @@ test("texts that are no numbers reach the service as they are", () => {
 
 test("a hole is off its place by the stray and half the play of its pin", () => {
   assert.ok(Math.abs(strayOf({ stray: "0.02", hole: "0.055", pin: "0.045" }) - 0.025) < 1e-15);
-});
-
-test("two numbers that differ are never written alike", () => {
-  assert.deepEqual(toldApart(0.4381, 0.44, 2), ["0.438", "0.440"]);
-  assert.deepEqual(toldApart(3.01, 3.91, 2), ["3.01", "3.91"]);
 });

@@ -1,0 +1,154 @@
+"""What answers say to people, each in some sentences of the language that is spoken."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import core
+from core.contact.answer import Outcome
+from core.dance import EndReason
+from core.design.deepest_turn import TurnLimit
+from core.design.pitch_search import JustifiedBy, LimitedBy
+from core.errors import format_bound, format_number
+from core.failures import approach_words, contact_failures
+from core.language import Phrases, counted, phrase, say
+from core.tolerance.tolerance import Limit
+
+# What a smaller pitch leads to.
+PITCH_LIMITS: Phrases = {
+    LimitedBy.GRAZE: "At a smaller pitch {pair} {meet} on the way, the head {radius:.6f} m from the centre.",
+    LimitedBy.CIRCLE: "At a smaller pitch {pair} {meet} just as the head reaches the circle.",
+    LimitedBy.START: "At a smaller pitch the dance would begin inside the circle, or benches {meet} at its start.",
+    LimitedBy.FOLD: "At a smaller pitch bench {bench} cannot follow the spiral until the head is on the circle.",
+}
+# What keeps a turn from being shorter.
+TURN_LIMITS: Phrases = {
+    TurnLimit.LEAST_RADIUS: (
+        "Limited by the least radius of a bend that is taken here: half of the longest distance of two handles and 0.1 "
+        "% more, which the proof needs."
+    ),
+    TurnLimit.CIRCLE: "Limited by the circle, where it begins or ends.",
+    TurnLimit.CONTACT: "Limited by contact: in turns beside it benches {meet}.",
+    TurnLimit.UNDECIDED: "Rounding hides whether benches {meet} in a shorter turn.",
+    TurnLimit.CENTRE: "There is no limit down to the deepest tried entry.",
+}
+# What limits the stray of people.
+STRAY_LIMITS: Phrases = {
+    Limit.BENCHES: "Limited by benches {a} and {b}, which are nearest to a contact at {time:.6f} s.",
+    Limit.VENUE: "Limited by bench {a} and {area}, which are nearest to a contact at {time:.6f} s.",
+    Limit.CHORD: "There is no limit up to half of the shortest chord.",
+}
+
+
+def contact_words(result: core.FirstContact) -> list[str]:
+    """When and where two benches first meet, or until when none do."""
+    if failures := contact_failures(result, result.margin):
+        words = [failures[0].message]
+        if result.outcome is not Outcome.UNDECIDED and result.point is not None and result.head is not None:
+            x, y = result.point
+            place = phrase("The place is ({x:.6f}, {y:.6f}) m.")
+            if result.head.theta is not None:
+                place = phrase("The place is ({x:.6f}, {y:.6f}) m; the head is {radius:.6f} m from the centre.")
+            words.append(say(place, x=x, y=y, radius=result.head.radius))
+            if result.stray and result.gap is not None:
+                words.append(say("Between their places there is a gap of {gap:.3f} mm.", gap=1000.0 * result.gap))
+        return words
+    meet, end = approach_words(result.margin, result.stray), result.end
+    if end is None or end.reason is EndReason.STOP:
+        return [say("No two benches {meet} in this part of the dance.", meet=meet)]
+    none = say("No two benches {meet} before the run ends at {time:.6f} s.", meet=meet, time=end.time)
+    if end.reason is not EndReason.FOLD or end.bench is None:
+        return [none]
+    bench = result.dance.dragon.called(end.bench)
+    return [none, say("The dance fails there, where bench {bench} can no longer follow the path.", bench=bench)]
+
+
+def pitch_words(result: core.MinimumPitch, diameter: float, margin: float, stray: float) -> list[str]:
+    """What the minimum pitch is good for, and what limits it. diameter: of the circle; margin, stray: [m]"""
+    meet = approach_words(margin, stray)
+    reaches = phrase("At every larger pitch the head reaches the circle of {diameter} m, and no two benches {meet}.")
+    if result.justified_by is JustifiedBy.SCAN:
+        reaches = phrase(
+            "At every larger pitch that was tried the head reaches the circle of {diameter} m, and no two benches "
+            "{meet}."
+        )
+    pair = ""
+    if result.benches is not None:
+        a, b = result.benches
+        pair = say("benches {a} and {b}", a=a, b=b)
+        if result.dragons is not None:
+            pair = say("bench {a} of dragon 0 and bench {b} of dragon {k}", a=a, b=b, k=result.dragons[1])
+    limit = say(
+        PITCH_LIMITS[result.limited_by], pair=pair, meet=meet, radius=result.head_radius or 0.0, bench=result.bench
+    )
+    words = [say(reaches, diameter=format_number(diameter), meet=meet), limit]
+    if result.other_feasible_intervals:
+        ranges = ", ".join(f"{low:.6f}–{high:.6f} m" for low, high in result.other_feasible_intervals)
+        words.append(say("Smaller pitches that also work: {list}", list=ranges))
+    return words
+
+
+def turn_words(turn: core.Turn | core.ClothoidTurn) -> str:
+    """Where a turn enters and leaves."""
+    template = phrase("It enters {entry:.6f} m from the centre and leaves {exit:.6f} m from it.")
+    return say(template, entry=turn.entry_radius, exit=turn.exit_radius)
+
+
+def limit_words(limit: TurnLimit, margin: float, stray: float) -> str:
+    """What keeps a turn from being shorter. margin, stray: [m]"""
+    return say(TURN_LIMITS[limit], meet=approach_words(margin, stray))
+
+
+def time_words(result: core.TurnTime, limit: float) -> str:
+    """How far and how fast the head goes through a turn. limit: of the speed of every handle [m/s]"""
+    template = phrase(
+        "{length:.6f} m, with the head at {speed:.6f} m/s, the most at which no handle exceeds {limit} m/s."
+    )
+    return say(template, length=result.length, speed=result.head_speed, limit=format_number(limit))
+
+
+def handles_words(handles: Sequence[int]) -> str:
+    return counted(len(handles), "handle {list}", "handles {list}", list=", ".join(map(str, handles)))
+
+
+def head_words(result: core.MaximumHeadSpeed, limit: float) -> list[str]:
+    """What the highest speed of the head means. limit: [m/s]"""
+    template = phrase(
+        "At this speed of the head no handle exceeds {limit} m/s; it is reached at {time:.6f} s by {handles}."
+    )
+    handles = handles_words(result.handles)
+    return [say(template, limit=format_number(limit), time=result.time, handles=handles)]
+
+
+def speed_words(result: core.HighestSpeed) -> str:
+    """Whose the highest speed is, and when."""
+    if 0 in result.handles:
+        return say("No handle is ever faster than the head.")
+    return say("Reached at {time:.6f} s by {handles}.", time=result.time, handles=handles_words(result.handles))
+
+
+def stray_words(result: core.Tolerance, dragon: core.Dragon, diameter: float | None) -> list[str]:
+    """How far people may stray, and what limits it. diameter: of the circle to which the question goes [m]"""
+    a, b = (None if one is None else dragon.called(one) for one in result.benches or (None, None))
+    values = {"a": a, "b": b, "area": result.area, "time": result.time or 0.0}
+    if result.stray > 0.0:
+        safe = phrase(
+            "In this part of the dance everybody may be {stray} cm from their place at any time, the play in the "
+            "joints included, and nothing touches."
+        )
+        if diameter is not None:
+            safe = phrase(
+                "Until the head is on the circle of {diameter} m, everybody may be {stray} cm from their place at any "
+                "time, the play in the joints included, and nothing touches."
+            )
+        stray = format_bound(100.0 * result.stray, 2)
+        first = say(safe, stray=stray, diameter=diameter and format_number(diameter))
+        return [first, say(STRAY_LIMITS[result.limited_by], **values)]
+    if result.stray_bracket[1] is None:
+        return [say("No stray is proven to be safe.")]
+    touch = phrase("Benches {a} and {b} touch, or nearly touch, at {time:.6f} s even with everybody in their place.")
+    if result.limited_by is Limit.VENUE:
+        touch = phrase(
+            "Bench {a} and {area} touch, or nearly touch, at {time:.6f} s even with everybody in their place."
+        )
+    return [say(touch, **values)]
