@@ -50,7 +50,9 @@ def contact_words(result: core.FirstContact) -> list[str]:
             if result.head.theta is not None:
                 place = phrase("The place is ({x:.6f}, {y:.6f}) m; the head is {radius:.6f} m from the centre.")
             words.append(say(place, x=x, y=y, radius=result.head.radius))
-            if result.stray and result.gap is not None:
+            if result.gap is not None and result.gap < 0.0:
+                words.append(say("They overlap by {depth:.3f} mm.", depth=-1000.0 * result.gap))
+            elif result.stray and result.gap is not None:
                 words.append(say("Between their places there is a gap of {gap:.3f} mm.", gap=1000.0 * result.gap))
         return words
     meet, end = approach_words(result.margin, result.stray), result.end

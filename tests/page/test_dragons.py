@@ -165,9 +165,7 @@ def test_a_parade_is_judged_played_filmed_printed_and_listed_on_a_phone_with_all
 def test_dragons_are_walked_by_keys_chosen_changed_copied_named_coloured_and_removed(open_page):
     person = begun(open_page("?door=look&lang=en&time=0&benches=9"), "spiral").focuses("#dragon-choose-0")
     walks_by_keys(person)
-    # Behind a door all digits are with the evidence.
     person.sees({"#judgement > p:has-text('First meeting at 207.38 s.')": True})
-    assert "207.378361" not in person.text("#judgement")
     person.presses("#judgement summary").sees({"#judgement details p": "207.378361 s, proven between"})
     begun(person.opens(BARE), "spiral").presses("#dragon-choose-1").has("#dragon-choose-1", aria_pressed="true")
     person.types({"#benches": "30"}).settles().presses("#dragon-choose-0").holds({"#benches": "60"}).settles()

@@ -204,9 +204,10 @@ def _the_next_try_counts_down(open_page):
     person.sees({"#lost": False, "#status": "The service is back."})
 
 
-def test_the_page_is_light_and_its_parts_load_when_a_person_first_needs_them(browser, server):
+@pytest.mark.parametrize("locale", ["en-GB", "zh-CN"])
+def test_the_page_is_light_and_its_parts_load_when_a_person_first_needs_them(browser, server, locale):
     """Bytes as a browser with an empty cache counts them."""
-    context = browser.new_context(viewport={"width": 1440, "height": 900}, locale="en-GB")
+    context = browser.new_context(viewport={"width": 1440, "height": 900}, locale=locale)
     person = Person(context.new_page())
     wire = context.new_cdp_session(person.page)
     wire.send("Network.enable")
@@ -229,7 +230,7 @@ def test_the_page_is_light_and_its_parts_load_when_a_person_first_needs_them(bro
     assert later() == {"sharing.js", "qr.js"}
     person.reaches_below()
     assert later() == {"sharing.js", "qr.js", "below.js", "below.css", "grade.js", "map.js"}
-    person.types({"#pitch": "55"}, "Tab").sees({"#pitch-error": "“Pitch” must be at most 10 m"})
+    person.types({"#pitch": "55"}, "Tab").sees({"#pitch-error": "10 m"})
     person.presses("#reset-all", "[data-path=route]").sees({"#judgement .value": True})
     assert later() == LATER
     person.speaks("zh")

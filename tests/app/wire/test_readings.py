@@ -1,0 +1,56 @@
+"""What answers say to people, in both languages."""
+
+import pytest
+
+SHORT = {"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, 0], [60, 0]]}}
+YARD = {"type": "Polygon", "coordinates": [[[0, -0.15], [80, -0.15], [80, 9], [0, 9], [0, -0.15]]]}
+# A call, its query or body, and what stands in its sentences in English; {name} is a value of the answer.
+SAID = [
+    (
+        "collision-time",
+        {"margin": 0.02},
+        "Benches 0 and 12 come within 0.02 m at {time:.6f} s | the head is 2.667989 m",
+    ),
+    (
+        "collision-time",
+        {"benches": 1},
+        "No two benches touch before the run ends at 432.917924 s. | bench 0 can no longer",
+    ),
+    ("collision-time", {"benches": 40, "stray": 0.02}, "may touch with strays up to 0.02 m | a gap of 41.728 mm"),
+    ("collision-time", SHORT | {"stop": 20}, "No two benches touch in this part of the dance."),
+    (
+        "minimum-pitch",
+        {"benches": 20},
+        "the circle of 9 m, and no two benches touch. | benches 0 and 19 touch on the way",
+    ),
+    ("minimum-pitch", {"benches": 1}, "would begin inside the circle"),
+    ("shortest-turn", {"benches": 9}, "It enters {entry_radius:.6f} m | the least radius of a bend"),
+    ("quickest-turn", {"benches": 9}, "{length:.6f} m, with the head at {head_speed:.6f} m/s | 9 cm apart were tried"),
+    ("turn-time", {"benches": 9}, "{length:.6f} m, with the head at {head_speed:.6f} m/s"),
+    ("maximum-head-speed", {"benches": 9}, "exceeds 2 m/s; it is reached at {time:.6f} s by handles"),
+    ("tolerance", {"benches": 40}, "Limited by benches 0 and 19, which are nearest to a contact at {time:.6f} s."),
+    ("tolerance", {"benches": 9}, "until the head is on the circle of 9 m | limit up to half"),
+    ("tolerance", SHORT, "In this part of the dance | There is no limit up to half of the shortest chord."),
+    ("tolerance", SHORT | {"venue": YARD}, "Bench 2 and square touch, or nearly touch, at {time:.6f} s"),
+]
+
+
+@pytest.mark.parametrize(("call", "about", "words"), SAID)
+def test_an_answer_says_what_it_means_to_people(client, call, about, words):
+    def answered(language):
+        how = {"json": about} if "path" in about else {"params": about}
+        headers = {"Accept-Language": language}
+        return client.request("POST" if "path" in about else "GET", call, headers=headers, **how).json()
+
+    answer = answered("en")
+    text = " ".join(answer["sentences"])
+    assert [part for part in words.split(" | ") if part.format(**answer).lower() not in text.lower()] == [], text
+    chinese = answered("zh")["sentences"]
+    assert len(chinese) == len(answer["sentences"])
+    assert all("\u4e00" <= one[-2] <= "\u9fff" or one[-2] in "）m" for one in chinese), chinese
+
+
+def test_a_bend_that_is_too_tight_says_what_its_bench_needs(client):
+    body = {"path": {"kind": "waypoints", "points": [[0, 0], [5, 0], [5, 1], [0, 1], [0, 20]]}}
+    for bend in client.post("course", json=body).json()["bends"]:
+        assert bend["sentence"].endswith(f"{bend['radius']:.2f} m, and bench 0 needs {bend['least_radius']:.2f} m.")
