@@ -8,7 +8,6 @@ import { $, button, download, hide, make, numberIn, textButton } from "./element
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { stepsOf } from "./history.js";
 import { Judgement } from "./judgement.js";
-import { bound, formatNumber, isExact } from "./numbers.js";
 import { announce } from "./overlays.js";
 import { beatsOf, passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
@@ -484,13 +483,8 @@ export class Dragons {
       return this.judgement.refuse(name + refusal.problem.sentence);
     }
     if (dance?.kind !== "dances") return;
-    const { time, time_bracket: bracket } = dance.answer;
-    const meets = bracket && time !== null;
-    const proven = meets ? [say("First meeting at {time} s, proven between {low} s and {high} s.", { time: time.toFixed(6), low: bound(bracket[0], 9, -1), high: bound(bracket[1], 9, 1) })] : [];
-    // Behind a door stands what people say, and all digits are with the evidence.
-    const met = meets && !isExact() ? [say("First meeting at {time} s.", { time: formatNumber(time, 6, 2) })] : proven;
     const apart = dance.answer.outcome === "clear" ? [sayOf("dragonsApart", this.#stray())] : [];
-    this.judgement.show({ ...dance, lines: [...met, ...apart], known: isExact() ? [] : proven }, null);
+    this.judgement.show({ ...dance, lines: apart, known: [dance.answer.certificate.method] }, null);
     $("#stage").setAttribute("aria-busy", "false");
   }
 
