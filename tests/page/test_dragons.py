@@ -165,7 +165,9 @@ def test_a_parade_is_judged_played_filmed_printed_and_listed_on_a_phone_with_all
 def test_dragons_are_walked_by_keys_chosen_changed_copied_named_coloured_and_removed(open_page):
     person = begun(open_page("?door=look&lang=en&time=0&benches=9"), "spiral").focuses("#dragon-choose-0")
     walks_by_keys(person)
-    person.presses("#judgement summary").sees({"#judgement details p": "Proven in steps of time for all benches at once"})
+    person.presses("#judgement summary").sees(
+        {"#judgement details p": "Proven in steps of time for all benches at once"}
+    )
     begun(person.opens(BARE), "spiral").presses("#dragon-choose-1").has("#dragon-choose-1", aria_pressed="true")
     person.types({"#benches": "30"}).settles().presses("#dragon-choose-0").holds({"#benches": "60"}).settles()
     person.presses("#dragon-copy-1").sees({"#dragons li": 3}).types({"#dragon-name-2": "blue"})
