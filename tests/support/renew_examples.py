@@ -25,7 +25,8 @@ async def renewed(examples):
 async def answer(client, call, request):
     method, path = call.split()
     response = await client.request(method, path, params=request.get("query"), json=request.get("body"))
-    return response.raise_for_status().json() if response.headers["content-type"] == JSON else None
+    response.raise_for_status()
+    return response.json() if response.headers["content-type"] == JSON else None
 
 
 def text(value, used=0, depth=0):
