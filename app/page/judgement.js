@@ -51,7 +51,7 @@ export class Judgement {
   /** Show the verdict on a dance that the service has checked. dance: may have lines to add, and what is known of it */
   show(dance, course) {
     const [outcome, mark] = OUTCOMES[dance.verdict];
-    const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), failure.message, () => this.seek(failure)));
+    const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), failure.sentence, () => this.seek(failure)));
     const { length } = course ?? {};
     const time = (dance.end - dance.begin).toFixed(1);
     const lines = length === undefined ? [] : Number(time) ? wayWords(dance, course, time) : [say("The path is {length} m long.", { length: length.toFixed(1) })];

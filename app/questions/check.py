@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Self
 
@@ -15,8 +16,9 @@ from app.wire.clocks import clock_at_zero, time_of_day
 from app.wire.dances import PlacedDance, SpanFields, clock_of
 from app.wire.performances import SeveralFields
 from app.wire.question import UNKNOWN_COST, Answer, Question, SpeedLimit, Terms, measure
-from app.wire.readings import speed_words
+from app.wire.readings import failure_words, speed_words
 from core import Dance, Outcome, Performance, Venue
+from core.language import say
 
 if TYPE_CHECKING:
     from app.wire.degrees import Place
@@ -139,6 +141,7 @@ class Failure(Answer):
     names: list[str] = Field(description="Names of these benches, empty for one without; none where no bench has any")
     clock: str | None = Field(description="Time of day of that time, if start_clock or begin_clock is given")
     message: str = Field(description="The failure in one sentence")
+    sentence: str = Field(description="The same for people: without its time, and with benches as they are called")
     time_bracket: Point | None = measure(
         "s",
         "Two times: proven not to fail up to the first; failing at the second. Null for a fold, or at the start",
@@ -150,11 +153,12 @@ class Failure(Answer):
     peak_time: float | None = measure("s", "For a speed: the time of the highest, or of the fold")
 
     @classmethod
-    def of(cls, result: core.Failure, dragon: core.Dragon, start_clock: str | None) -> Self:
+    def of(cls, result: core.Failure, dragon: core.Dragon, start_clock: str | None, sentence: str = "") -> Self:
         clock = None if start_clock is None else time_of_day(result.time, start_clock)
         # A handle has the number of the bench behind it; the last handle is at the rear of the last bench.
         benches = [min(bench, dragon.benches - 1) for bench in result.benches]
-        return cls.from_result(result, names=[dragon.names[bench] for bench in benches if dragon.names], clock=clock)
+        names = [dragon.names[bench] for bench in benches if dragon.names]
+        return cls.from_result(result, names=names, clock=clock, sentence=sentence or result.message)
 
 
 class Origin(Answer):
@@ -203,7 +207,8 @@ class Report(Answer):
     def of(cls, result: core.Report, request: DanceCheck, terms: Terms, place: Place, clock: str | None) -> Self:
         dragon = result.first_contact.dance.dragon
         contact = CollisionTime.of(result.first_contact, request, terms)
-        failures = [Failure.of(failure, dragon, clock) for failure in result.failures]
+        said = _for_people(request, place.venue)
+        failures = [Failure.of(failure, dragon, clock, said(failure, dragon)) for failure in result.failures]
         venue = None if result.venue is None else VenueClearance.from_result(result.venue, stray=result.venue.misplaced)
         begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
         speed = result.highest_speed and HighestSpeed.from_result(
@@ -223,14 +228,23 @@ class DragonFailure(Failure):
     dragon_names: list[str | None] = Field(description="Their names; null for a dragon without one")
 
     @classmethod
-    def in_performance(cls, result: core.PerformanceFailure, performance: Performance, clock: str | None) -> Self:
+    def in_performance(
+        cls,
+        result: core.PerformanceFailure,
+        performance: Performance,
+        clock: str | None,
+        said: Callable[[core.Failure, core.Dragon], str],
+    ) -> Self:
+        """said: what a failure of one dragon says to people"""
         parts, one = [performance.parts[k] for k in result.dragons], result.failure
         names = [part.name for part in parts]
         if one is not None:
             dragon, delay = parts[0].dance.dragon, parts[0].delay
             peak_time = None if one.peak_time is None else one.peak_time + delay
             own = Failure.of(replace(one, time=result.time, peak_time=peak_time), dragon, clock).model_dump()
-            own |= {"message": result.message, "time_bracket": result.time_bracket}
+            name = performance.name_of(result.dragons[0])
+            sentence = say("{name}: {text}", name=name, text=said(one, dragon))
+            own |= {"message": result.message, "sentence": sentence, "time_bracket": result.time_bracket}
             return cls(**own, dragons=result.dragons, dragon_names=names)
         households = [
             part.dance.dragon.names[bench] if part.dance.dragon.names else ""
@@ -245,6 +259,7 @@ class DragonFailure(Failure):
             peak_speed=None,
             peak_time=None,
             dragon_names=names,
+            sentence=result.message,
         )
 
 
@@ -298,7 +313,7 @@ class PerformanceReport(Answer):
     def of(cls, result: core.PerformanceReport, request: CheckRequest, terms: Terms, place: Place) -> Self:
         performance = result.performance
         clock = clock_of(request, performance)
-        least, parts = result.least_clearance, performance.parts
+        least, parts, said = result.least_clearance, performance.parts, _for_people(request, place.venue)
         own: list[Report | None] = []
         for report, part in zip(result.reports, parts, strict=True):
             zero = None if clock is None else clock_at_zero(clock, -part.delay)
@@ -306,7 +321,7 @@ class PerformanceReport(Answer):
         begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
         return cls.from_result(
             result,
-            failures=[DragonFailure.in_performance(failure, performance, clock) for failure in result.failures],
+            failures=[DragonFailure.in_performance(failure, performance, clock, said) for failure in result.failures],
             names=[part.name for part in parts],
             encounter=Encounter.of(result.encounter, request, terms),
             least_clearance=None if least is None else DragonsClearance.from_result(least),
@@ -315,6 +330,13 @@ class PerformanceReport(Answer):
             ends=ends,
             origin=place.origin,
         )
+
+
+def _for_people(request: DanceCheck, venue: Venue | None) -> Callable[[core.Failure, core.Dragon], str]:
+    """What a failure within the limits of a request says to people."""
+    limits = (request.margin, request.total_stray or 0.0, request.speed_limit)
+    square = None if venue is None else venue.square.name
+    return lambda failure, dragon: failure_words(failure, dragon, limits, square)
 
 
 def check(request: DanceCheck, terms: Terms) -> Report | PerformanceReport:

@@ -10,6 +10,7 @@ import core
 from app.wire.answers import Point
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.question import Answer, Margin, Question, SpeedLimit, Strays, Terms, measure
+from app.wire.readings import bench_words
 from core.breaches import BreachKind, breaches
 from core.language import say
 from core.proposal.answer import told_apart
@@ -84,8 +85,8 @@ def course(request: CourseRequest, terms: Terms) -> Course:
 def _bend_words(bend: core.TightBend, dragon: core.Dragon) -> str:
     radius, least = told_apart(bend.radius, bend.least_radius, 2)
     return say(
-        "The bend is too tight: its radius is {radius} m, and bench {bench} needs {least} m.",
-        radius=radius, least=least, bench=dragon.called(bend.bench),
+        "The bend is too tight: its radius is {radius} m, and {bench} needs {least} m.",
+        radius=radius, least=least, bench=bench_words(bend.bench, dragon),
     )  # fmt: skip
 
 

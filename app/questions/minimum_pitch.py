@@ -134,7 +134,7 @@ def minimum_pitch(request: MinimumPitchQuery | MinimumPitchRequest, terms: Terms
             whole=whole,
             budget=terms.budget,
         )
-    words = pitch_words(result, request.turning_diameter, request.margin, stray)
+    words = pitch_words(result, dragon, request.turning_diameter, request.margin, stray)
     return MinimumPitch.from_result(result, stray=request.total_stray, sentences=words, cross_check=check)
 
 

@@ -10,16 +10,16 @@ from core.dance import EndReason
 from core.design.deepest_turn import TurnLimit
 from core.design.pitch_search import JustifiedBy, LimitedBy
 from core.errors import format_bound, format_number
-from core.failures import approach_words, contact_failures
+from core.failures import FailureKind, approach_words, contact_failures
 from core.language import Phrases, counted, phrase, say
 from core.tolerance.tolerance import Limit
 
 # What a smaller pitch leads to.
 PITCH_LIMITS: Phrases = {
-    LimitedBy.GRAZE: "At a smaller pitch {pair} {meet} on the way, the head {radius:.6f} m from the centre.",
+    LimitedBy.GRAZE: "At a smaller pitch {pair} {meet} on the way, the head {radius:.2f} m from the centre.",
     LimitedBy.CIRCLE: "At a smaller pitch {pair} {meet} just as the head reaches the circle.",
     LimitedBy.START: "At a smaller pitch the dance would begin inside the circle, or benches {meet} at its start.",
-    LimitedBy.FOLD: "At a smaller pitch bench {bench} cannot follow the spiral until the head is on the circle.",
+    LimitedBy.FOLD: "At a smaller pitch {bench} cannot follow the spiral until the head is on the circle.",
 }
 # What keeps a turn from being shorter.
 TURN_LIMITS: Phrases = {
@@ -34,38 +34,92 @@ TURN_LIMITS: Phrases = {
 }
 # What limits the stray of people.
 STRAY_LIMITS: Phrases = {
-    Limit.BENCHES: "Limited by benches {a} and {b}, which are nearest to a contact at {time:.6f} s.",
-    Limit.VENUE: "Limited by bench {a} and {area}, which are nearest to a contact at {time:.6f} s.",
+    Limit.BENCHES: "Limited by {a} and {b}, which are nearest to a contact at {time:.2f} s.",
+    Limit.VENUE: "Limited by {a} and {area}, which are nearest to a contact at {time:.2f} s.",
     Limit.CHORD: "There is no limit up to half of the shortest chord.",
 }
 
 
+def bench_words(bench: int, dragon: core.Dragon) -> str:
+    """A bench as people call it."""
+    words = say("the head") if bench == 0 else say("the tail") if bench == dragon.benches - 1 else ""
+    words = words or say("body {k}", k=bench)
+    name = dragon.names[bench] if dragon.names else ""
+    return say("{words} ({name})", words=words, name=name) if name else words
+
+
+def _sentence(template: str, **values: object) -> str:
+    words = say(template, **values)
+    return words[:1].upper() + words[1:]
+
+
 def contact_words(result: core.FirstContact) -> list[str]:
-    """When and where two benches first meet, or until when none do."""
-    if failures := contact_failures(result, result.margin):
-        words = [failures[0].message]
-        if result.outcome is not Outcome.UNDECIDED and result.point is not None and result.head is not None:
-            x, y = result.point
-            place = phrase("The place is ({x:.6f}, {y:.6f}) m.")
-            if result.head.theta is not None:
-                place = phrase("The place is ({x:.6f}, {y:.6f}) m; the head is {radius:.6f} m from the centre.")
-            words.append(say(place, x=x, y=y, radius=result.head.radius))
-            if result.gap is not None and result.gap < 0.0:
-                words.append(say("They overlap by {depth:.3f} mm.", depth=-1000.0 * result.gap))
-            elif result.stray and result.gap is not None:
-                words.append(say("Between their places there is a gap of {gap:.3f} mm.", gap=1000.0 * result.gap))
+    """Where two benches first meet, or until when none do."""
+    dragon, end = result.dance.dragon, result.end
+    meet = approach_words(result.margin, result.stray)
+    if result.outcome is Outcome.UNDECIDED:
+        return [failure.message for failure in contact_failures(result, result.margin)]
+    if result.benches is not None and result.point is not None and result.head is not None:
+        gap, (a, b), (x, y) = result.gap or 0.0, (bench_words(k, dragon) for k in result.benches), result.point
+        met = phrase("{a} and {b} meet at ({x:.2f}, {y:.2f}) m.")
+        if result.stray:
+            met = phrase(
+                "{a} and {b} {meet} from then on, near ({x:.2f}, {y:.2f}) m; between their places there is a gap of "
+                "{gap:.3f} mm."
+            )
+        elif gap < 0.0:
+            met = phrase("{a} and {b} overlap by {depth:.3f} mm at ({x:.2f}, {y:.2f}) m.")
+        elif result.margin:
+            met = phrase("{a} and {b} {meet} at ({x:.2f}, {y:.2f}) m, with a gap of {gap:.3f} mm.")
+        millimetres = {"gap": 1000.0 * gap, "depth": -1000.0 * gap}
+        words = [_sentence(met, a=a, b=b, meet=meet, x=x, y=y, **millimetres)]
+        if result.head.theta is not None:
+            words.append(say("The head is {radius:.2f} m from the centre.", radius=result.head.radius))
         return words
-    meet, end = approach_words(result.margin, result.stray), result.end
     if end is None or end.reason is EndReason.STOP:
         return [say("No two benches {meet} in this part of the dance.", meet=meet)]
-    none = say("No two benches {meet} before the run ends at {time:.6f} s.", meet=meet, time=end.time)
+    none = say("No two benches {meet} before the run ends at {time:.2f} s.", meet=meet, time=end.time)
     if end.reason is not EndReason.FOLD or end.bench is None:
         return [none]
-    bench = result.dance.dragon.called(end.bench)
-    return [none, say("The dance fails there, where bench {bench} can no longer follow the path.", bench=bench)]
+    bench = bench_words(end.bench, dragon)
+    return [none, say("The dance fails there, where {bench} can no longer follow the path.", bench=bench)]
 
 
-def pitch_words(result: core.MinimumPitch, diameter: float, margin: float, stray: float) -> list[str]:
+def failure_words(
+    failure: core.Failure, dragon: core.Dragon, limits: tuple[float, float, float | None], square: str | None
+) -> str:
+    """What fails, without its time. limits: margin, stray [m], speed [m/s]; square: name of the area around"""
+    margin, stray, limit = limits
+    names = [bench_words(min(bench, dragon.benches - 1), dragon) for bench in failure.benches]
+    peak = failure.peak_speed
+    values = {"area": failure.area, "margin": format_number(margin), "peak": peak, "limit": limit, "meet": ""}
+    match failure.kind:
+        case FailureKind.CONTACT if not margin:
+            template, values["meet"] = phrase("{a} and {b} {meet}."), approach_words(margin, stray)
+        case FailureKind.VENUE if stray:
+            template = phrase("{a} may touch {area}.")
+        case FailureKind.VENUE if margin:
+            template = phrase("{a} comes within {margin} m of {area}.")
+        case FailureKind.VENUE:
+            template = phrase("{a} touches {area}.")
+        case FailureKind.OUTSIDE if failure.area == square:
+            template = phrase("{a} starts outside {area}.")
+        case FailureKind.OUTSIDE:
+            template = phrase("{a} starts inside {area}.")
+        case FailureKind.SPEED if names and peak is None:
+            template = phrase("Too fast: {a} exceeds {limit:g} m/s.")
+        case FailureKind.SPEED if names:
+            template = phrase("Too fast: {a} exceeds {limit:g} m/s; the highest speed is {peak:.2f} m/s.")
+        case FailureKind.FOLDS:
+            template = phrase("{a} cannot follow any more: the dragon folds.")
+        case _:
+            return failure.message
+    return _sentence(template, **dict(zip("ab", names, strict=False)), **values)
+
+
+def pitch_words(
+    result: core.MinimumPitch, dragon: core.Dragon, diameter: float, margin: float, stray: float
+) -> list[str]:
     """What the minimum pitch is good for, and what limits it. diameter: of the circle; margin, stray: [m]"""
     meet = approach_words(margin, stray)
     reaches = phrase("At every larger pitch the head reaches the circle of {diameter} m, and no two benches {meet}.")
@@ -76,13 +130,12 @@ def pitch_words(result: core.MinimumPitch, diameter: float, margin: float, stray
         )
     pair = ""
     if result.benches is not None:
-        a, b = result.benches
-        pair = say("benches {a} and {b}", a=a, b=b)
+        a, b = (bench_words(bench, dragon) for bench in result.benches)
+        pair = say("{a} and {b}", a=a, b=b)
         if result.dragons is not None:
-            pair = say("bench {a} of dragon 0 and bench {b} of dragon {k}", a=a, b=b, k=result.dragons[1])
-    limit = say(
-        PITCH_LIMITS[result.limited_by], pair=pair, meet=meet, radius=result.head_radius or 0.0, bench=result.bench
-    )
+            pair = say("{a} of dragon 0 and {b} of dragon {k}", a=a, b=b, k=result.dragons[1])
+    bench = "" if result.bench is None else bench_words(result.bench, dragon)
+    limit = say(PITCH_LIMITS[result.limited_by], pair=pair, meet=meet, radius=result.head_radius or 0.0, bench=bench)
     words = [say(reaches, diameter=format_number(diameter), meet=meet), limit]
     if result.other_feasible_intervals:
         ranges = ", ".join(f"{low:.6f}–{high:.6f} m" for low, high in result.other_feasible_intervals)
@@ -131,7 +184,7 @@ def speed_words(result: core.HighestSpeed) -> str:
 
 def stray_words(result: core.Tolerance, dragon: core.Dragon, diameter: float | None) -> list[str]:
     """How far people may stray, and what limits it. diameter: of the circle to which the question goes [m]"""
-    a, b = (None if one is None else dragon.called(one) for one in result.benches or (None, None))
+    a, b = (None if one is None else bench_words(one, dragon) for one in result.benches or (None, None))
     values = {"a": a, "b": b, "area": result.area, "time": result.time or 0.0}
     if result.stray > 0.0:
         safe = phrase(
@@ -148,9 +201,7 @@ def stray_words(result: core.Tolerance, dragon: core.Dragon, diameter: float | N
         return [first, say(STRAY_LIMITS[result.limited_by], **values)]
     if result.stray_bracket[1] is None:
         return [say("No stray is proven to be safe.")]
-    touch = phrase("Benches {a} and {b} touch, or nearly touch, at {time:.6f} s even with everybody in their place.")
+    touch = phrase("{a} and {b} touch, or nearly touch, at {time:.2f} s even with everybody in their place.")
     if result.limited_by is Limit.VENUE:
-        touch = phrase(
-            "Bench {a} and {area} touch, or nearly touch, at {time:.6f} s even with everybody in their place."
-        )
-    return [say(touch, **values)]
+        touch = phrase("{a} and {area} touch, or nearly touch, at {time:.2f} s even with everybody in their place.")
+    return [_sentence(touch, **values)]

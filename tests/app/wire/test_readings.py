@@ -9,29 +9,29 @@ SAID = [
     (
         "collision-time",
         {"margin": 0.02},
-        "Benches 0 and 12 come within 0.02 m at {time:.6f} s | the head is 2.667989 m",
+        "The head and body 12 come within 0.02 m at ({point[0]:.2f}, | The head is 2.67 m",
     ),
     (
         "collision-time",
         {"benches": 1},
-        "No two benches touch before the run ends at 432.917924 s. | bench 0 can no longer",
+        "No two benches touch before the run ends at 432.92 s. | the head can no longer",
     ),
     ("collision-time", {"benches": 40, "stray": 0.02}, "may touch with strays up to 0.02 m | a gap of 41.728 mm"),
     ("collision-time", SHORT | {"stop": 20}, "No two benches touch in this part of the dance."),
     (
         "minimum-pitch",
         {"benches": 20},
-        "the circle of 9 m, and no two benches touch. | benches 0 and 19 touch on the way",
+        "the circle of 9 m, and no two benches touch. | the head and the tail touch on the way",
     ),
     ("minimum-pitch", {"benches": 1}, "would begin inside the circle"),
     ("shortest-turn", {"benches": 9}, "It enters {entry_radius:.6f} m | the least radius of a bend"),
     ("quickest-turn", {"benches": 9}, "{length:.6f} m, with the head at {head_speed:.6f} m/s | 9 cm apart were tried"),
     ("turn-time", {"benches": 9}, "{length:.6f} m, with the head at {head_speed:.6f} m/s"),
     ("maximum-head-speed", {"benches": 9}, "exceeds 2 m/s; it is reached at {time:.6f} s by handles"),
-    ("tolerance", {"benches": 40}, "Limited by benches 0 and 19, which are nearest to a contact at {time:.6f} s."),
+    ("tolerance", {"benches": 40}, "Limited by the head and body 19, which are nearest to a contact at {time:.2f} s."),
     ("tolerance", {"benches": 9}, "until the head is on the circle of 9 m | limit up to half"),
     ("tolerance", SHORT, "In this part of the dance | There is no limit up to half of the shortest chord."),
-    ("tolerance", SHORT | {"venue": YARD}, "Bench 2 and square touch, or nearly touch, at {time:.6f} s"),
+    ("tolerance", SHORT | {"venue": YARD}, "The tail and square touch, or nearly touch, at {time:.2f} s"),
 ]
 
 
@@ -53,4 +53,21 @@ def test_an_answer_says_what_it_means_to_people(client, call, about, words):
 def test_a_bend_that_is_too_tight_says_what_its_bench_needs(client):
     body = {"path": {"kind": "waypoints", "points": [[0, 0], [5, 0], [5, 1], [0, 1], [0, 20]]}}
     for bend in client.post("course", json=body).json()["bends"]:
-        assert bend["sentence"].endswith(f"{bend['radius']:.2f} m, and bench 0 needs {bend['least_radius']:.2f} m.")
+        assert bend["sentence"].endswith(f"{bend['radius']:.2f} m, and the head needs {bend['least_radius']:.2f} m.")
+
+
+@pytest.mark.parametrize(
+    ("limits", "sentences"),
+    [
+        ({}, ["The tail touches square."]),
+        ({"margin": 0.1}, ["The tail comes within 0.1 m of square."]),
+        ({"stray": 0.1}, ["The tail may touch square."]),
+        (
+            {"speed_limit": 0.5},
+            ["The tail touches square.", "Too fast: the head exceeds 0.5 m/s; the highest speed is 1.00 m/s."],
+        ),
+    ],
+)
+def test_a_failure_names_benches_as_people_do_and_leaves_its_time_to_the_row(client, limits, sentences):
+    answer = client.post("check", json=SHORT | {"venue": YARD} | limits).json()
+    assert [one["sentence"] for one in answer["failures"]] == sentences
