@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Self
 
@@ -16,7 +15,7 @@ from app.wire.clocks import clock_at_zero, time_of_day
 from app.wire.dances import PlacedDance, SpanFields, clock_of
 from app.wire.performances import SeveralFields
 from app.wire.question import UNKNOWN_COST, Answer, Question, SpeedLimit, Terms, measure
-from app.wire.readings import failure_words, speed_words
+from app.wire.readings import Limits, encounter_words, failure_words, speed_words
 from core import Dance, Outcome, Performance, Venue
 from core.language import say
 
@@ -207,8 +206,10 @@ class Report(Answer):
     def of(cls, result: core.Report, request: DanceCheck, terms: Terms, place: Place, clock: str | None) -> Self:
         dragon = result.first_contact.dance.dragon
         contact = CollisionTime.of(result.first_contact, request, terms)
-        said = _for_people(request, place.venue)
-        failures = [Failure.of(failure, dragon, clock, said(failure, dragon)) for failure in result.failures]
+        limits = _limits(request, place.venue)
+        failures = [
+            Failure.of(failure, dragon, clock, failure_words(failure, dragon, limits)) for failure in result.failures
+        ]
         venue = None if result.venue is None else VenueClearance.from_result(result.venue, stray=result.venue.misplaced)
         begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
         speed = result.highest_speed and HighestSpeed.from_result(
@@ -229,13 +230,8 @@ class DragonFailure(Failure):
 
     @classmethod
     def in_performance(
-        cls,
-        result: core.PerformanceFailure,
-        performance: Performance,
-        clock: str | None,
-        said: Callable[[core.Failure, core.Dragon], str],
+        cls, result: core.PerformanceFailure, performance: Performance, clock: str | None, limits: Limits
     ) -> Self:
-        """said: what a failure of one dragon says to people"""
         parts, one = [performance.parts[k] for k in result.dragons], result.failure
         names = [part.name for part in parts]
         if one is not None:
@@ -243,7 +239,7 @@ class DragonFailure(Failure):
             peak_time = None if one.peak_time is None else one.peak_time + delay
             own = Failure.of(replace(one, time=result.time, peak_time=peak_time), dragon, clock).model_dump()
             name = performance.name_of(result.dragons[0])
-            sentence = say("{name}: {text}", name=name, text=said(one, dragon))
+            sentence = say("{name}: {text}", name=name, text=failure_words(one, dragon, limits))
             own |= {"message": result.message, "sentence": sentence, "time_bracket": result.time_bracket}
             return cls(**own, dragons=result.dragons, dragon_names=names)
         households = [
@@ -259,7 +255,7 @@ class DragonFailure(Failure):
             peak_speed=None,
             peak_time=None,
             dragon_names=names,
-            sentence=result.message,
+            sentence=encounter_words(result, performance, limits),
         )
 
 
@@ -313,7 +309,7 @@ class PerformanceReport(Answer):
     def of(cls, result: core.PerformanceReport, request: CheckRequest, terms: Terms, place: Place) -> Self:
         performance = result.performance
         clock = clock_of(request, performance)
-        least, parts, said = result.least_clearance, performance.parts, _for_people(request, place.venue)
+        least, parts, limits = result.least_clearance, performance.parts, _limits(request, place.venue)
         own: list[Report | None] = []
         for report, part in zip(result.reports, parts, strict=True):
             zero = None if clock is None else clock_at_zero(clock, -part.delay)
@@ -321,7 +317,7 @@ class PerformanceReport(Answer):
         begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
         return cls.from_result(
             result,
-            failures=[DragonFailure.in_performance(failure, performance, clock, said) for failure in result.failures],
+            failures=[DragonFailure.in_performance(failure, performance, clock, limits) for failure in result.failures],
             names=[part.name for part in parts],
             encounter=Encounter.of(result.encounter, request, terms),
             least_clearance=None if least is None else DragonsClearance.from_result(least),
@@ -332,11 +328,9 @@ class PerformanceReport(Answer):
         )
 
 
-def _for_people(request: DanceCheck, venue: Venue | None) -> Callable[[core.Failure, core.Dragon], str]:
-    """What a failure within the limits of a request says to people."""
-    limits = (request.margin, request.total_stray or 0.0, request.speed_limit)
+def _limits(request: DanceCheck, venue: Venue | None) -> Limits:
     square = None if venue is None else venue.square.name
-    return lambda failure, dragon: failure_words(failure, dragon, limits, square)
+    return Limits(request.margin, request.total_stray or 0.0, request.speed_limit, square)
 
 
 def check(request: DanceCheck, terms: Terms) -> Report | PerformanceReport:

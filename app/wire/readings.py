@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import core
 from core.contact.answer import Outcome
@@ -85,14 +86,38 @@ def contact_words(result: core.FirstContact) -> list[str]:
     return [none, say("The dance fails there, where {bench} can no longer follow the path.", bench=bench)]
 
 
-def failure_words(
-    failure: core.Failure, dragon: core.Dragon, limits: tuple[float, float, float | None], square: str | None
-) -> str:
-    """What fails, without its time. limits: margin, stray [m], speed [m/s]; square: name of the area around"""
-    margin, stray, limit = limits
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Limits that a dance has to keep: margin, stray [m]; speed [m/s]; square: name of the area around it"""
+
+    margin: float
+    stray: float
+    speed: float | None
+    square: str | None
+
+
+def encounter_words(failure: core.PerformanceFailure, performance: core.Performance, limits: Limits) -> str:
+    """Which benches of two dragons come too near, without the time."""
+    if len(failure.dragons) < 2:
+        return failure.message
+    a, b = (
+        say(
+            "{bench} of {name}",
+            bench=bench_words(bench, performance.parts[k].dance.dragon),
+            name=performance.name_of(k),
+        )
+        for k, bench in zip(failure.dragons, failure.benches, strict=True)
+    )
+    meet = approach_words(limits.margin, limits.stray)
+    return _sentence(phrase("{a} and {b} {meet}."), a=a, b=b, meet=meet)
+
+
+def failure_words(failure: core.Failure, dragon: core.Dragon, limits: Limits) -> str:
+    """What fails, without its time."""
+    margin, stray = limits.margin, limits.stray
     names = [bench_words(min(bench, dragon.benches - 1), dragon) for bench in failure.benches]
     peak = failure.peak_speed
-    values = {"area": failure.area, "margin": format_number(margin), "peak": peak, "limit": limit, "meet": ""}
+    values = {"area": failure.area, "margin": format_number(margin), "peak": peak, "limit": limits.speed, "meet": ""}
     match failure.kind:
         case FailureKind.CONTACT if not margin:
             template, values["meet"] = phrase("{a} and {b} {meet}."), approach_words(margin, stray)
@@ -102,7 +127,7 @@ def failure_words(
             template = phrase("{a} comes within {margin} m of {area}.")
         case FailureKind.VENUE:
             template = phrase("{a} touches {area}.")
-        case FailureKind.OUTSIDE if failure.area == square:
+        case FailureKind.OUTSIDE if failure.area == limits.square:
             template = phrase("{a} starts outside {area}.")
         case FailureKind.OUTSIDE:
             template = phrase("{a} starts inside {area}.")

@@ -123,7 +123,7 @@ def test_two_in_one_spiral_meet_when_the_reference_says_also_after_a_late_answer
     person = open_page("?door=all&lang=en&time=0")
     person.ask(OVERTAKEN)
     person.presses("#several").sees({"#dragons li": 2}).settles()
-    failure = f"Bench 3 of red and bench 0 of blue touch at {time}."
+    failure = "Body 3 of red and the head of blue touch."
     person.sees({".failures li": failure})
     person.has("#contact-mark", aria_label=f"Two dragons meet at {time}").presses("#to-end").settles()
     person.reads({"#clock": time, "#inset figcaption": "body 3 of red, the head of blue"})
@@ -132,7 +132,7 @@ def test_two_in_one_spiral_meet_when_the_reference_says_also_after_a_late_answer
     # The same address, opened by somebody else.
     other = open_page(f"?{person.page.url.partition('?')[2]}")
     assert other.text("#judgement") == person.text("#judgement")
-    other.speaks("zh").sees({"#judgement": f"红龙的 3 号板凳与蓝龙的 0 号板凳于 {time} 相碰。"})
+    other.speaks("zh").sees({"#judgement": "红龙的第3节龙身与蓝龙的龙头相碰。"})
 
 
 @thorough

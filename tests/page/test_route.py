@@ -152,7 +152,7 @@ def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its
     answer = polite.answer(server, "check", body)["failures"]
     assert [one["kind"] for one in answer] == ["venue", "speed"]
     assert person.texts(".failures li button") == [f"{one['time']:.6f} s" for one in answer]
-    person.sees({".failures li": "Bench 0 touches 'well'", ".failures li >> nth=1": "is 1.202470 m/s"})
+    person.sees({".failures li": "The head touches well.", ".failures li >> nth=1": "is 1.20 m/s"})
     person.presses(".failures li button").arrives(f"**time={round(answer[0]['time'], 9)}**")
     marked = person.sees({"#clock": f"{answer[0]['time']:.6f}"}).settles().picture()
     assert alike(marked, person.presses("#on", "#back").settles().picture())
@@ -165,8 +165,8 @@ def test_each_failure_is_shown_on_the_picture_and_the_dance_opens_again_from_its
 
 def _a_dance_that_starts_in_the_wrong_place_or_is_refused_is_said_to_be_so(person):
     for things, words in (
-        ("a.court..-9,-9_30,-9_30,9_-9,9", "starts outside 'court'"),
-        ("a.court..-30,-9_30,-9_30,9_-30,9~c.elm.2.-18,0", "starts inside 'elm'"),
+        ("a.court..-9,-9_30,-9_30,9_-9,9", "starts outside court"),
+        ("a.court..-30,-9_30,-9_30,9_-30,9~c.elm.2.-18,0", "starts inside elm"),
     ):
         person.opens(f"?path=route&benches=3&route=*-20,0_20,0&things={things}").sees({**NO, ".failures li": words})
     person.opens("?path=route&benches=9&route=*-60,0_*0,0_0,40&corner=0.3").sees(NO)
