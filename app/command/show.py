@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,10 @@ DISPLAY_DECIMALS = 6
 COLUMN_SPACE, TABLE_SPACE = 3, 1
 # Width of a table where standard output is not a terminal [characters].
 PIPE_WIDTH = 120
+# What a line may end after: a word with the space behind it, or a character that is two cells wide, with the brackets
+# and the marks that belong to it.
+WIDE = "\u1100-\u115f\u2e80-\ua4cf\uac00-\ud7a3\uf900-\ufaff\ufe30-\ufe6f\uff00-\uff60\uffe0-\uffe6"
+PIECE = re.compile(rf"\s+|[（《【「『]*(?:[{WIDE}]|[^\s{WIDE}]+)[、。，；：！？）》】」』]*")
 # A progress bar appears after this wait [s].
 BAR_DELAY = 1.0
 # Variables of the environment that name the locale of messages, the first that is set counts (POSIX, 8.2).
@@ -103,7 +108,7 @@ def print_parts(*parts: Part | RichTable) -> None:
         if isinstance(part, str):
             console.print(Text(part, style="bold") if isinstance(part, Heading) else part)
         else:
-            console.print(_fitted(_rich(part) if isinstance(part, Table) else part, console))
+            console.print(_fitted(_rich(part, console.width) if isinstance(part, Table) else part, console))
 
 
 def _fitted(table: RichTable, console: Console) -> RichTable | str:
@@ -120,8 +125,9 @@ def _fitted(table: RichTable, console: Console) -> RichTable | str:
             for row in zip(*cells, strict=True)
         ]
         return "\n\n".join([str(table.title or ""), *map("\n".join, rows)]).strip()
-    for column, width in zip(table.columns, widths, strict=True):
-        column.min_width = width
+    if table.show_header:
+        for column, width in zip(table.columns, widths, strict=True):
+            column.min_width = width
     return table
 
 
@@ -139,11 +145,36 @@ def write(file: Path, data: bytes) -> None:
     print(file, file=sys.stderr)
 
 
-def _rich(table: Table) -> RichTable:
+def _rich(table: Table, width: int) -> RichTable:
+    """width: of the terminal; the lines of a table without heads are folded to it"""
     has_heads = bool(table.heads)
     rich = RichTable(title=table.title, box=box.SIMPLE, show_header=has_heads, title_justify="left", title_style="bold")
     for k, name in enumerate(table.heads or ("", "")):
         rich.add_column(name, justify="right" if k and has_heads else "left", overflow="fold")
-    for line in table.lines:
+    for line in table.lines if has_heads else _folded_lines(table.lines, width):
         rich.add_row(*line)
     return rich
+
+
+def _folded_lines(lines: Sequence[Sequence[str]], width: int) -> list[tuple[str, str]]:
+    """Names and values in a table of a width, in which neither a number nor a word is broken that fits."""
+    room = width - TABLE_SPACE - 2 * COLUMN_SPACE
+    needed = max((cell_len(piece) for _, value in lines for piece in PIECE.findall(value)), default=0)
+    named = [(_folded(name, max(width // 4, min(width // 2, room - needed))), value) for name, value in lines]
+    room -= max((cell_len(line) for name, _ in named for line in name.split("\n")), default=0)
+    return [(name, _folded(value, room)) for name, value in named]
+
+
+def _folded(text: str, width: int) -> str:
+    """The text in lines of at most a width, as far as its words allow. Chinese has few spaces."""
+    lines: list[str] = []
+    for paragraph in text.split("\n"):
+        line = ""
+        for piece in PIECE.findall(paragraph):
+            if line.strip() and cell_len(f"{line}{piece}".rstrip()) > width:
+                lines.append(line.rstrip())
+                line = piece.lstrip()
+            else:
+                line += piece
+        lines.append(line)
+    return "\n".join(lines)

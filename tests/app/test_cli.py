@@ -17,6 +17,7 @@ import httpx
 import openpyxl
 import pytest
 import typer
+from rich.cells import cell_len
 
 import core
 from app.command.main import MODULE_OF, app
@@ -274,6 +275,14 @@ def test_no_number_is_broken_on_a_narrow_terminal(command):
     whole = re.findall(r"\d+\.\d+", wide)
     assert len(whole) > 3
     assert set(whole) == set(re.findall(r"\d+\.\d+", narrow))
+
+
+@pytest.mark.parametrize("columns", further([80, 41, 120], 1))
+def test_a_chinese_sentence_in_a_table_is_whole_at_every_width(columns):
+    method = json.loads(said("collision-time", "--language", "zh", "--json"))["certificate"]["method"]
+    output = on_terminal(columns, "collision-time", "--language", "zh")
+    assert max(map(cell_len, output.splitlines())) <= columns
+    assert "".join(method.split()) in "".join(output.split())
 
 
 def test_as_many_instants_are_shown_as_fit_the_width():
