@@ -186,7 +186,7 @@ def _counts(file: FileAnswer) -> tuple[int, int, int]:
 
 
 def _decimals(file: FileAnswer) -> int | str:
-    """Number of decimals to which a rounded file is right."""
+    """Number of decimals to which the numbers of a file are right, if they are rounded."""
     return min((one.decimals for one in file.sheets if one.decimals), default="")
 
 
@@ -228,7 +228,7 @@ def _file(file: FileAnswer) -> Iterator[Part]:
 
 def _sheet(sheet: SheetAnswer) -> Iterator[Part]:
     verdict = word(sheet.verdict.value)
-    if sheet.decimals:
+    if sheet.verdict == "rounded" and sheet.decimals:
         verdict += word("to_decimals", decimals=sheet.decimals)
     title = sheet.sheet or word(SHEETS[TableKind(sheet.holds)])
     counts = {"right": f"{sheet.right:,}", "cells": f"{sheet.cells:,}"}

@@ -47,7 +47,7 @@ class OddCells:
             return float("nan")
         place, text = cell_name(*((column, row) if self.turned else (row, column))), normalized(cell)
         try:
-            number = float(text.replace(",", "."))
+            number = float("nan" if "_" in text else text.replace(",", "."))  # Python reads 8.8_0 as 8.8
         except ValueError:
             number = float("nan")
         if np.isfinite(number):

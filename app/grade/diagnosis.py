@@ -33,7 +33,7 @@ from app.grade.geometry import (
     spiral_arc,
 )
 from app.grade.instants import agreed_span, decimals_of, simplest
-from app.grade.judged import JudgedSheet
+from app.grade.judged import JudgedSheet, Rating
 from app.grade.labels import SPEED
 from app.grade.layout import BENCHES, COMPONENTS, HANDLES, SHEETS, TableKind
 from app.grade.numbers import explained, rounded_right
@@ -90,7 +90,8 @@ def why_unexplained(judgements: list[JudgedSheet]) -> Note:
     """Why wrong numbers have no cause: they are too few, have too few decimals, or no known error gives them."""
     if (count := _numbers_of(judgements)) < DECISIVE_LEAST:
         return _few_numbers(judgements, count)
-    return note("nothing_fits") if shows_errors(judgements) else note("too_few_decimals", least=DECIMALS_LEAST)
+    wrong = [one for one in judgements if one.verdict is Rating.WRONG]
+    return note("nothing_fits") if shows_errors(wrong) else note("too_few_decimals", least=DECIMALS_LEAST)
 
 
 def _numbers_of(judgements: list[JudgedSheet]) -> int:

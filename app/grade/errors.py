@@ -70,6 +70,8 @@ ERRORS: Phrases = {
     "speed_rounded_safely": "The number is the right one, rounded down, as a highest speed must be; to the nearest digit it is {nearest} {unit}.",
     "pitch_overlap": "At this pitch benches overlap while the head goes from {first} m to {last} m from the centre: only a check of its way at radii more than {way} mm apart can miss that.",
     "pitch_rounded_safely": "The number is the right one, rounded up, as a pitch must be; to the nearest digit it is {nearest} {unit}.",
+    "turn_length_rounded_safely": "The number is the right one, rounded up, as a shortest length must be; to the nearest digit it is {nearest} {unit}.",
+    "few_digits": "The digits are too few to tell the number from a wrong one: at least {least} digits of the right value are necessary.",
     "rounded_otherwise": "The number is off by less than a unit of its last digit; to the nearest digit the right one is {nearest} {unit}.",
     "possible_turn": "A turn of this length is possible where the dance enters the circle and leaves it elsewhere: the answer is right if both places are stated. The turn from the edge of the circle is {length} m long.",
     "possible_turn_of_ratio": "A turn of this length is possible with arcs of another ratio than 2 : 1, where the dance enters the circle and leaves it elsewhere: the answer is right if the ratio and both places are stated. The turn of 2 : 1 from the edge of the circle is {length} m long.",

@@ -68,8 +68,8 @@ class JudgedSheet:
     """The judgement of a sheet.
 
     values, wanted: the student's and the right numbers (T, H, C) [m, m/s]; handles (H,), times (T,) [s]
-    decimals: number to which a rounded sheet is right; written: decimals that its numbers usually have; digits: those
-        with which each number counts (T, H, C)
+    decimals: number to which the numbers are right, if they are rounded; written: decimals that its numbers usually
+        have; digits: those with which each number counts (T, H, C)
     cells: number that the contest requires; right, missing: how many of them
     """
 
@@ -202,6 +202,8 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     decimals = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None)
     digits = digits_of(values, decimals_beside)
     written = usual_of(digits, values)
+    if decimals is None and written == 1 and not (off > ROUNDED * 10.0**-digits).any():
+        decimals = 1
     if decimals is not None and decimals < _decimals_of_flat(values, wanted, max(written, decimals_beside)):
         decimals = None
     if not present:

@@ -37,6 +37,9 @@ EXACTLY = 1e-6
 SEARCH_END = 0.5e-8
 # Longest overlap on the way to the circle that a check of it in steps may miss [m].
 OVERLAP_MOST = 0.1
+# Fewest digits of a number that is right, from its first one, or that of the right value if it comes later: a single
+# one is that of many wrong numbers too, and that of the speed of 1 m/s which the contest gives.
+DIGITS_LEAST = 2
 # Most decimals of a rounded number.
 DECIMALS_MOST = 4
 # Length that every turn exceeds whose first arc has twice the radius of the second [m], as core.shortest_turn() proves.
@@ -64,7 +67,7 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
     the other way, and nothing else follows from that. A limit is rounded to its safe side: the least pitch and the
     shortest turn up, the highest speed down; on the other side benches touch, or somebody is too fast. There it is the
     right one, rounded, only up to half of its last digit. Whatever else is wrong with a number, a limit that it breaks
-    comes first.
+    comes first. A number of too few digits to be right is incomplete.
     """
     half, excess = max(half_unit, HALF_UNIT_LEAST), beyond(name, value)
     if excess > (INFEASIBLE if excess <= HALF * half else 0.0):
@@ -73,7 +76,11 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
             safe = note(f"{name}_{way}", safe=_safe(name, _decimals_of(half)))
             return Graded(Rating.INFEASIBLE, [safe], [], broken(name, value))
         return replace(_wrong(name, value, half_unit), breaks=broken(name, value))
-    return _graded(name, value, half_unit)
+    grade = _graded(name, value, half_unit)
+    digits = math.floor(math.log10(min(value, right_answer(name)))) + 1 + _decimals_of(half)
+    if grade.verdict is Rating.WRONG or digits >= DIGITS_LEAST:
+        return grade
+    return Graded(Rating.INCOMPLETE, [note("few_digits", least=DIGITS_LEAST)], [])
 
 
 def _graded(name: str, value: float, half_unit: float) -> Graded:
@@ -84,10 +91,10 @@ def _graded(name: str, value: float, half_unit: float) -> Graded:
     words = {"nearest": f"{round(right, decimals):.{max(decimals, 0)}f}", "unit": UNITS[name]}
     if is_nearest:
         return Graded(Rating.RIGHT, [], [])
-    if is_near:
-        if name in ("pitch", "speed"):
-            return Graded(Rating.RIGHT, [note(f"{name}_rounded_safely", **words)], [])
+    if is_near and name not in SAFE_SIDE:
         return Graded(Rating.ROUNDED, [note("rounded_otherwise", **words)], [])
+    if is_near and SAFE_SIDE[name] * (value - right) > 0.0:
+        return Graded(Rating.RIGHT, [note(f"{name}_rounded_safely", **words)], [])
     if name == "turn_length" and value < right:
         kind = "possible_turn" if value + half_unit >= TURN_OF_TWO_LEAST else "possible_turn_of_ratio"
         return Graded(Rating.RIGHT, [note(kind, length=f"{right:.7f}")], [])

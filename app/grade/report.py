@@ -68,7 +68,7 @@ class SheetAnswer(Answer):
     holds: str = Field(description="position, speed, or contact: x, y and speed at first contact")
     verdict: Rating = Field(description="right, rounded, wrong, incomplete or unreadable")
     decimals: int | None = Field(
-        description="Decimals to which all cells are right, if the verdict is rounded; else null"
+        description="Decimals to which all cells that have numbers are right, if they are rounded; else null"
     )
     cells: int = Field(description="Cells that the contest requires")
     right: int = Field(description="Cells that are right within 5.1e-7")
@@ -126,8 +126,8 @@ class TypedAnswer(Answer):
 
     answer: str = Field(description="collision_time, pitch, speed or turn_length")
     verdict: Rating = Field(
-        description="right, as far as its digits go; rounded, if it is off by less than its last digit; infeasible, if "
-        "it was rounded beyond a limit; or wrong"
+        description="right, as far as its digits go; rounded, if it is off by less than its last digit; incomplete, if "
+        "it has too few digits; infeasible, if it was rounded beyond a limit; or wrong"
     )
     breaks: str | None = Field(
         default=None, description="The limit that the number breaks, and by how much, in words; null if none"
@@ -265,13 +265,16 @@ def _guessed(findings: Sequence[Finding]) -> list[GuessAnswer]:
 
 def _sheet(one: JudgedSheet) -> SheetAnswer:
     worst, first, notes = one.worst(), one.first(), [*one.notes]
-    if one.verdict is Rating.ROUNDED and one.decimals is not None and not one.is_rounded:
+    is_rounded = one.verdict in (Rating.ROUNDED, Rating.INCOMPLETE) and one.decimals is not None
+    if is_rounded and one.verdict is Rating.INCOMPLETE:
+        notes.append(note("given_to_decimals", count=f"{one.cells - one.missing:,}", decimals=one.decimals))
+    if is_rounded and not one.is_rounded:
         notes.append(note("not_rounded", written=int(one.digits.max()), decimals=one.decimals))
     return SheetAnswer(
         sheet=_title(one),
         holds=one.table.kind.value,
         verdict=one.verdict,
-        decimals=one.decimals if one.verdict is Rating.ROUNDED else None,
+        decimals=one.decimals if is_rounded else None,
         cells=one.cells,
         right=one.right,
         missing=one.missing,

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.grade.expected import Workbook
-from app.grade.judged import JudgedSheet, Rating
+from app.grade.judged import DECIMALS, JudgedSheet, Rating
 from app.grade.layout import HANDLES, TableKind
 from app.grade.shortcuts import Finding
 from app.grade.words import Note, note
@@ -47,12 +47,15 @@ def rubric_of(judgements: Sequence[JudgedSheet], findings: Sequence[Finding]) ->
 def _criteria(by_kind: dict[TableKind, JudgedSheet], errors: set[str]) -> Iterator[Criterion]:
     position, speed, contact = (by_kind.get(kind) for kind in (TableKind.POSITION, TableKind.SPEED, TableKind.CONTACT))
     placed = position or contact
-    branch = None if placed is None else "wrong_ring" not in errors if placed.verdict in GOOD or errors else None
+    branch = None if placed is None else "wrong_ring" not in errors if _is_good(placed) or errors else None
     yield _criterion("branch", branch)
     consistent = _share_consistent(position, speed) if position and speed else None
-    if errors & NOT_OF_POSITIONS:
+    has_both = bool(position and speed) or bool(
+        contact and all(np.isfinite(contact.values[..., part]).any() for part in (slice(2), slice(2, 3)))
+    )
+    if errors & NOT_OF_POSITIONS and has_both:
         yield _criterion("speeds", False)
-    elif contact is not None and contact.verdict in GOOD and np.isfinite(contact.values).all(axis=-1).any():
+    elif contact is not None and _is_good(contact) and np.isfinite(contact.values).all(axis=-1).any():
         yield _criterion("speeds", True)
     elif consistent is None:
         lacks_sheet = contact is None and not (position and speed)
@@ -68,11 +71,16 @@ def _criteria(by_kind: dict[TableKind, JudgedSheet], errors: set[str]) -> Iterat
     yield _criterion("tangents", _is_met(turning, errors & NOT_SMOOTH))
 
 
+def _is_good(one: JudgedSheet) -> bool:
+    """True if the numbers of a sheet are nearly right, to decimals enough for a point."""
+    return one.verdict in GOOD and (one.decimals is None or one.decimals >= DECIMALS[-1])
+
+
 def _is_met(one: JudgedSheet | None, against: set[str]) -> bool | None:
     """True if a point is met. An error against it counts more than numbers that are nearly right."""
     if one is None or against:
         return False if against else None
-    return one.verdict in GOOD or None
+    return _is_good(one) or None
 
 
 def _criterion(name: str, met: bool | None) -> Criterion:

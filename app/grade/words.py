@@ -110,6 +110,7 @@ WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.
     "wrong": "wrong",
     "unreadable": "unreadable",
     "not_rounded": "All numbers are right to {decimals} decimals, but are written with {written}.",
+    "given_to_decimals": "The {count} cells that have a number are right to {decimals} decimals.",
     "to_digits": ", as far as its digits go ({digits})",
     "to_decimals": " to {decimals} decimals",
     "sheet_line": "{title}: {verdict}, {right} of {cells} cells right",

@@ -288,8 +288,12 @@ def test_one_sheet_of_a_result2_does_not_miss_another(change):
     result = grade(students.contact_workbook((position * change, speed)))
     [words] = [one.words for one in result.rubric if one.criterion == "speeds"]
     assert words == "Speeds consistent with the positions: not shown here."
-    alone = grade(students.by_xlsxwriter({"位置": students.few()["位置"]}))
-    assert any("both sheets are necessary" in one.words for one in alone.rubric)
+    times = SPIRAL_TIMES[:4]
+    for sheet in ("位置", "速度"):
+        alone = grade(
+            students.by_xlsxwriter({sheet: students.rows_of((spiral(times)[0], -spiral(times)[1]), times)[sheet]})
+        )
+        assert any("both sheets are necessary" in one.words for one in alone.rubric)
 
 
 @pytest.mark.parametrize(

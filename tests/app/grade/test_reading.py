@@ -15,6 +15,7 @@ from app.grade.workbook import ELEMENTS_MAX, UNPACKED_MAX
 from core import Budget, TooMuchWork
 from core.language import speaking
 from tests.campaigns.libreoffice import FEW, SMALL
+from tests.support import students
 from tests.support.bombs import zipped
 from tests.support.depth import often, some
 from tests.support.students import (
@@ -114,6 +115,14 @@ def test_a_few_right_instants_are_incomplete():
     position, speed = result.sheets
     assert (result.verdict, position.missing, speed.missing) == ("incomplete", 297 * 448, 297 * 224)
     assert position.picture == ["." * 4] * 14
+
+
+@pytest.mark.parametrize("decimals", [4, 1])
+def test_a_few_rounded_instants_are_incomplete_and_right_to_their_decimals(decimals):
+    times = SPIRAL_TIMES[:4]
+    sheet = grade(students.lines([part.round(decimals) for part in spiral(times)], times)).sheets[0]
+    assert (sheet.verdict, sheet.decimals) == ("incomplete", decimals)
+    assert f"The 1,792 cells that have a number are right to {decimals} decimals." in sheet.notes
 
 
 def trap(place, text, coding="utf-8"):
@@ -261,10 +270,11 @@ def with_cells(cells):
 
 
 def test_text_in_number_cells_is_reported_with_its_place():
-    sheet = with_cells({"C3": "—", "D3": str, "E3": lambda value: str(value).replace(".", ",")})
+    sheet = with_cells({"C3": "—", "D3": str, "E3": lambda value: str(value).replace(".", ","), "B3": "8.8_0"})
     assert "C3 should hold a number, but holds the text “—”." in sheet.notes
+    assert "B3 should hold a number, but holds the text “8.8_0”." in sheet.notes
     assert "Numbers that are stored as text: 2, the first is in D3." in sheet.notes
-    assert sheet.right == 4 * 448 - 1
+    assert sheet.right == 4 * 448 - 2
 
 
 @pytest.mark.parametrize("word", ["NaN", "#N/A", "无"])
@@ -344,6 +354,8 @@ def test_a_table_of_few_handles_is_told_which_are_missing():
 
 
 def test_numbers_of_one_decimal_are_told_to_have_too_few():
-    rows = [f"{k},1.3,{k}.4,1" for k in range(224)]
-    [said] = grade("\n".join([",x,y,v", *rows]).encode(), "index.csv").notes
-    assert "too few decimals to tell why: at least 2 are necessary" in said
+    rows, times = [f"{k},1.3,{k}.4,1" for k in range(224)], SPIRAL_TIMES[:4]
+    position, speed = spiral(times)
+    for data in ("\n".join([",x,y,v", *rows]).encode(), students.lines(((position + 0.3).round(1), speed), times)):
+        [said] = grade(data, "index.csv").notes
+        assert "too few decimals to tell why: at least 2 are necessary" in said
