@@ -15,7 +15,7 @@ import orjson
 from app.extras import require
 from app.files.outlines import dxf_bytes, new_dxf
 from app.maps.choice import EVERYTHING, Choice
-from app.maps.entities import HOLES, MARKS, Entities
+from app.maps.entities import HOLES, MARKS, Entities, faults
 from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, grid_of, inner_point, origin_of
 from app.wire.geojson import GATE, INNER_SQUARE
 from core import InvalidValue
@@ -44,7 +44,7 @@ LAYERS = {
     INNER_SQUARE: (INNER_SQUARE.upper(), 7),
 }
 # Words of ezdxf for an entity that it has left out, with its kind in group 1.
-DELETED = re.compile(r"(?:[Dd]elet|[Rr]emov)\w*[^#]*?\b([A-Z][A-Z0-9_]+)\(#")
+DELETED = re.compile(r"(?:[Dd]elet|[Rr]emov)\w*[^#]*?\b([A-Z0-9]*[A-Z][A-Z0-9_]+)\(#")
 # Words of ezdxf for an entity without the marker of one of its parts: the marker, the kind and the handle. It names an
 # object, such as a style of lines, by the kind of what that styles. Kinds of which it misses one and that are drawn,
 # and the most kinds that are mended; and codes that stand before it.
@@ -53,6 +53,12 @@ MARKERS, KINDS_MOST = ("LWPOLYLINE", "SPLINE"), 8
 COMMON = {
     b"%d" % code for code in (5, 6, 8, 48, 60, 62, 67, 100, 102, 284, 330, 347, 360, 370, 380, 390, 410, 420, 430, 440)
 }
+# Records that are no entities, parts of a polyline, and a number that has an underscore, or a name that looks like one.
+STRUCTURE = ("SECTION", "ENDSEC", "TABLE", "ENDTAB", "BLOCK", "ENDBLK", "SEQEND", "CLASS", "EOF")
+PARTS = ("VERTEX", "SEQEND")
+UNDERSCORE = re.compile(rb"\n[^\S\n]*[-+.\d]*\d_\d")
+# Version of a drawing whose entities have markers.
+MODERN = re.compile(rb"\$ACADVER\s+1\s+AC10(?!09|06|04|03|02)")
 # Record for values that no entity can hold: the path as a request describes it, the origin, and by handle names, radii
 # of walls and headings of gates. A string of a record has at most 2,049 characters.
 RECORD, CHUNK = "BENCH_DRAGON", 2_000
@@ -83,18 +89,13 @@ def _of_document(data: bytes, read_from: Callable[[Any, list[str]], Content]) ->
     if data.startswith(b"AC10"):
         raise InvalidValue("file", "must be DXF: save it as DXF", got="DWG")
     _refuse_many(data)
-    errors = import_module("ezdxf.lldxf.const")
     # Its messages may hold parts of the file.
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:
         return read_from(*_read(data))
     except InvalidValue:
         raise
-    # Other errors that ezdxf raises for a faulty drawing.
-    except (
-        *(errors.DXFError, OSError, ValueError, ArithmeticError, LookupError, AttributeError, TypeError),
-        *(AssertionError, RuntimeError),
-    ) as error:
+    except faults() as error:
         rule, why = "must be DXF that can be read: {why}", str(error)[:200]
         raise InvalidValue("file", rule, why=why) from error
 
@@ -103,19 +104,29 @@ def _read(data: bytes) -> tuple[Any, list[str]]:
     """The document as ezdxf reads it, and the faults that it has mended.
 
     Small programs leave out the markers (code 100) of the parts of an entity. ezdxf does without those of simple ones;
-    those that it misses are written into the file, and entities of other kinds without them are left out.
+    those that it misses are written into the file, and entities of other kinds without them are left out. So is an
+    entity of which it can make nothing.
     """
-    recover, errors = import_module("ezdxf.recover"), import_module("ezdxf.lldxf.const")
+    recover = import_module("ezdxf.recover")
     missing: list[str] = []
-    attempts = 0
+    attempts, is_searched = 0, False
+    if UNDERSCORE.search(data):
+        data, missing = _without(data, _has_underscore)
     while True:
         try:
             document, audit = recover.read(io.BytesIO(data))
             return document, [*missing, *(str(fix.message) for fix in audit.fixes)]
-        except errors.DXFStructureError as error:
+        except faults() as error:
             unmarked = UNMARKED.search(str(error))
             if unmarked is None or attempts == KINDS_MOST:
-                raise
+                if is_searched:
+                    raise
+                is_searched = True
+                data, damaged = _without(data, _damage_test(data))
+                if not damaged:
+                    raise
+                missing += damaged
+                continue
             marker, kind, handle = unmarked.groups()
             data, left_out = _marked(data, kind, marker, handle)
             missing += [f"deleted {kind}(#)"] * left_out
@@ -128,10 +139,9 @@ def _marked(data: bytes, kind: str, marker: str, handle: str) -> tuple[bytes, in
     lines = data.split(b"\n")
     result: list[bytes] = []
     begin, left_out = 0, 0
-    starts = [k for k in range(0, len(lines) - 1, 2) if lines[k].strip() == b"0"]
-    for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
+    for start, end in _records(lines):
         codes = range(start + 2, end - 1, 2)
-        is_of_kind = lines[start + 1].strip().decode(errors="replace") == kind
+        is_of_kind = _kind(lines, start) == kind
         handles = (lines[k + 1].strip() for k in codes if lines[k].strip() == b"5")
         if not is_of_kind and handle.encode() not in handles:
             continue
@@ -146,6 +156,62 @@ def _marked(data: bytes, kind: str, marker: str, handle: str) -> tuple[bytes, in
         shared = [line for k in range(start + 2, own, 2) if lines[k].strip() != b"100" for line in lines[k : k + 2]]
         result += [*lines[start : start + 2], b"100", b"AcDbEntity", *shared, b"100", marker.encode(), *lines[own:end]]
     return b"\n".join([*result, *lines[begin:]]), left_out
+
+
+def _records(lines: list[bytes]) -> list[tuple[int, int]]:
+    """Of every record its first line, and the first one behind it."""
+    starts = [k for k in range(0, len(lines) - 1, 2) if lines[k].strip() == b"0"]
+    return list(zip(starts, [*starts[1:], len(lines)], strict=True))
+
+
+def _kind(lines: list[bytes], start: int) -> str:
+    return lines[start + 1].strip().decode(errors="replace").upper()
+
+
+def _without(data: bytes, is_damaged: Callable[[list[bytes]], bool]) -> tuple[bytes, list[str]]:
+    """The file without its damaged entities, and words for each of them as ezdxf has them; a polyline with a damaged
+    vertex is one."""
+    lines, entities = data.split(b"\n"), list[tuple[int, int]]()
+    for start, end in _records(lines):
+        if _kind(lines, start) in PARTS and entities and _kind(lines, entities[-1][0]) == "POLYLINE":
+            entities[-1] = (entities[-1][0], end)
+        else:
+            entities.append((start, end))
+    damaged = [
+        (start, end) for start, end in entities if _kind(lines, start) not in STRUCTURE and is_damaged(lines[start:end])
+    ]
+    kept, begin = list[bytes](), 0
+    for start, end in damaged:
+        kept += lines[begin:start]
+        begin = end
+    return b"\n".join([*kept, *lines[begin:]]), [f"deleted {_kind(lines, start)}(#)" for start, _ in damaged]
+
+
+def _has_underscore(lines: list[bytes]) -> bool:
+    """True if a number of an entity has an underscore, which Python alone takes for a part of it."""
+    types = import_module("ezdxf.lldxf.types")
+    return any(
+        b"_" in value and code.strip().isdigit() and types.TYPE_TABLE.get(int(code), str) is not str
+        for code, value in zip(lines[::2], lines[1::2], strict=False)
+    )
+
+
+def _damage_test(data: bytes) -> Callable[[list[bytes]], bool]:
+    """Whether ezdxf can make nothing of an entity, also where its markers are mended."""
+    recover, tags, factory = (import_module(f"ezdxf.{name}") for name in ("recover", "lldxf.tags", "entities.factory"))
+    extended, is_old = import_module("ezdxf.lldxf.extendedtags").ExtendedTags, not MODERN.search(data)
+    document = import_module("ezdxf").new("R12" if is_old else "R2000")
+
+    def is_damaged(lines: list[bytes]) -> bool:
+        try:
+            for record in tags.group_tags(recover.safe_tag_loader(io.BytesIO(b"\n".join([*lines, b""])))):
+                factory.load(extended(record), document)
+        except faults() as error:
+            unmarked = UNMARKED.search(str(error))
+            return unmarked is None or unmarked[2] not in MARKERS
+        return False
+
+    return is_damaged
 
 
 def _refuse_many(data: bytes) -> None:

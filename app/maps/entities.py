@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from importlib import import_module
 from math import dist, radians
 from typing import Any
 
@@ -40,12 +41,40 @@ MARKS, OF_BLOCK = "MARKS", "0"
 HOLES = "_HOLES"
 # Meshes and surfaces that DXF stores as polylines, by the name under which they are left out.
 MESHES = (("is_polygon_mesh", "POLYMESH"), ("is_poly_face_mesh", "POLYFACE"))
+# What an entity must state, because ezdxf would put a number in its place.
+STATED = {"CIRCLE": ("center", "radius"), "LINE": ("start", "end"), "POINT": ("location",)}
 # Flags of a block that stands in another file.
 EXTERNAL = 4 | 8
 # Points nearer to one another are one [m].
 SAME = 1e-9
 # The middle column and line of the nine places of an MTEXT, from 1 at the upper left.
 COLUMNS = 3
+
+
+def faults() -> tuple[type[Exception], ...]:
+    """Errors that ezdxf raises for a faulty drawing or entity."""
+    own = import_module("ezdxf.lldxf.const").DXFError
+    return (
+        *(own, OSError, ValueError, ArithmeticError, LookupError, AttributeError, TypeError),
+        *(AssertionError, RuntimeError),
+    )
+
+
+@dataclass(frozen=True)
+class OneOfBlock:
+    """A block reference as ezdxf reads it, but to one entity of its block."""
+
+    entity: Any
+    matrix: Any
+
+    def dxftype(self) -> str:
+        return "INSERT"
+
+    def matrix44(self) -> Any:
+        return self.matrix
+
+    def block(self) -> list[Any]:
+        return [self.entity]
 
 
 class Entities:
@@ -65,7 +94,12 @@ class Entities:
         self.seen, self.seen_layers = 0, dict[str, None]()
         for entity, layer in self._visible(document.modelspace()):
             if choice.has_layer(layer):
-                self._take(entity, layer)
+                try:
+                    self._take(entity, layer)
+                except InvalidValue:
+                    raise
+                except faults():
+                    self.collector.leave_out(f"damaged {entity.dxftype()}")
             else:
                 self.seen_layers[layer] = None
 
@@ -94,15 +128,35 @@ class Entities:
         if block is None or block.block.dxf.flags & EXTERNAL:
             self.collector.leave_out("missing block" if block is None else "block of another drawing")
             return
+        if not (insert.dxf.get("xscale", 1.0) and insert.dxf.get("yscale", 1.0)):
+            self.collector.leave_out("damaged INSERT")
+            return
         if not insert.dxf.get("zscale", 1.0):  # a drawing of a plan; ezdxf divides by it
             insert.dxf.zscale = 1.0
         copies = max(1, int(insert.mcount))
         if copies > 1:
             self._count(copies)
-        for one in insert.multi_insert() if copies > 1 else (insert,):
-            inside = one.virtual_entities(skipped_entity_callback=skipped)
-            yield from self._visible(inside, depth + 1, layer)
+        virtual_entities = import_module("ezdxf.explode").virtual_block_reference_entities
+        for one in self._readable("INSERT", insert.multi_insert()) if copies > 1 else (insert,):
+            matrix = one.matrix44()
+            for entity in block:
+                inside = virtual_entities(OneOfBlock(entity, matrix), skipped_entity_callback=skipped)
+                yield from self._visible(self._readable(entity.dxftype(), inside), depth + 1, layer)
         yield from self._visible(insert.attribs, DEPTH_MAX, layer)
+
+    def _readable(self, kind: str, some: Iterator[Any]) -> Iterator[Any]:
+        """Entities, up to one that cannot be read, which is left out by the kind of what they are in."""
+        while True:
+            try:
+                one = next(some, None)
+            except InvalidValue:
+                raise
+            except faults():
+                self.collector.leave_out(f"damaged {kind}")
+                return
+            if one is None:
+                return
+            yield one
 
     def _count(self, more: int) -> None:
         self.seen += more
@@ -124,7 +178,9 @@ class Entities:
         if handle in self.headings:
             own["heading"] = self.headings[handle]
         feature = MapFeature("point", (), name, role_of(layer, name), radius, own)
-        if kind in TEXTS:
+        if not all(map(entity.dxf.hasattr, STATED.get(kind, ()))):
+            self.collector.leave_out(f"damaged {kind}")
+        elif kind in TEXTS:
             self._read_text(entity, kind)
         elif kind == "POINT":
             self._add(replace(feature, rings=((self._place(entity.dxf.location),),)))

@@ -136,6 +136,19 @@ def test_a_block_of_no_height_is_drawn_with_what_is_in_it():
     assert things(read(space)) == [("Point", [10.0, 10.0], 0.3)]
 
 
+def test_a_block_squeezed_to_a_line_is_left_out_alone():
+    space = new()
+    space.doc.blocks.new("TREE").add_circle((0, 0), 0.3)
+    plan = space.doc.blocks.new("ROW")
+    plan.add_blockref("TREE", (1, 2))
+    plan.add_circle((3, 4), 0.5)
+    space.add_blockref("ROW", (29, 8), dxfattribs={"xscale": 7.25})
+    space.add_blockref("ROW", (9, 8))
+    result = places_of(drawing(space).replace(b"7.25", b"0.0"), None)
+    assert things(result) == [("Point", [10.0, 10.0], 0.3), ("Point", [12.0, 12.0], 0.5)]
+    assert "Left out: 1 damaged INSERT." in result.notes
+
+
 # Entities as small programs write them, without the markers (code 100) of their parts.
 UNMARKED = """0 SECTION 2 HEADER 9 $ACADVER 1 AC1015 9 $INSUNITS 70 6 0 ENDSEC 0 SECTION 2 ENTITIES
 0 LWPOLYLINE 8 square 90 4 70 1 10 0 20 0 10 40 20 0 10 40 20 30 10 0 20 30
@@ -150,6 +163,26 @@ def test_entities_without_the_markers_of_their_parts_are_read_or_named_as_left_o
     assert things(result)[1] == ("Point", [20.0, 15.0], 0.5)
     assert things(result)[0][0] == "LineString"
     assert "Left out: 1 damaged MULTILEADER." in result.notes
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        "HATCH 8 x -> HATCH",
+        "IMAGE 8 x 10 3 20 3 -> IMAGE",
+        "CIRCLE 8 x 10 20 20 15 40 1_0.5 -> CIRCLE",
+        "3DFACE 8 x 10 1_0 20 15 -> 3DFACE",
+        "CIRCLE 8 x 10 20 40 0.5 -> CIRCLE",
+        "LINE 8 x 10 20 20 5 -> LINE",
+        "POLYLINE 8 x 66 1 0 VERTEX 8 x 10 1_0 20 0 0 VERTEX 8 x 10 3 20 0 0 SEQEND -> POLYLINE",
+    ],
+)
+def test_an_entity_that_cannot_be_read_is_left_out_alone(row):
+    entity, kind = row.split(" -> ")
+    words = UNMARKED.replace("0 ENDSEC 0 EOF", f"0 {entity} 0 ENDSEC 0 EOF").split()
+    result = places_of("\n".join(words).encode(), None)
+    assert things(result)[1:] == [("Point", [20.0, 15.0], 0.5)]
+    assert f"Left out: 1 damaged {kind}." in result.notes
 
 
 def bare(text, kinds):
