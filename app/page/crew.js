@@ -49,7 +49,7 @@ export class Crew {
 
   /** The time shown is the one asked about, until a person types another. */
   #open() {
-    if (this.box.open && !this.at.value) this.at.value = this.player.time.toFixed(0);
+    if (this.box.open && !this.at.value) this.at.value = String(Math.trunc(this.player.time));
   }
 
   /** What the service is asked about the shown dance, as a text; empty without one. */

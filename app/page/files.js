@@ -9,7 +9,9 @@ import { $, bearer, download, make, textButton } from "./elements.js";
 import { FIELDS } from "./fields.js";
 import { announce, announceRefusal, endMessage } from "./overlays.js";
 import { paceTexts, passagesText } from "./passages.js";
+import { isPresetPath } from "./presets.js";
 import { announceSaved } from "./saved.js";
+import { isInside } from "./square.js";
 import { between, language, say, sentencesOf } from "./text.js";
 
 const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.gpx,.dxf,.csv,.tsv,.xlsx";
@@ -127,9 +129,13 @@ export class Files {
     const stated = csv ? content : { ...dragon, ...content };
     const numbers = isDance ? Object.fromEntries([...UNIFORM, ...NUMBERS].map((one) => [one, typeof stated[one] === "number" ? String(stated[one]) : this.#default(one, csv)])) : {};
     const opened = drawingOf({ ...content, venue: typeof venue === "object" ? venue : null }, (kind) => say(THINGS[kind]));
-    // A map without a path keeps the drawn path, and one without a venue keeps the venue; a dance has its own or none.
-    const { points, straight, radius, begin, path: kept, start, things, origin, grid, yard, limit } = this.state.get("drawing");
-    if (!path) Object.assign(opened, { points, straight, radius, begin, path: kept, start });
+    // A map without a path keeps the drawn path, but not that of an example which leaves its square, and one without a venue keeps the venue; a
+    // dance has its own or none.
+    const before = this.state.get("drawing");
+    const { points, straight, radius, begin, path: kept, start, things, origin, grid, yard, limit } = before;
+    const square = opened.things.find(({ kind }) => kind === "area")?.points ?? [];
+    const leaves = venue && isPresetPath(before) && points.some((point) => !isInside(square, point));
+    if (!path && !leaves) Object.assign(opened, { points, straight, radius, begin, path: kept, start });
     if (!venue && !isDance) Object.assign(opened, { things, origin, grid, yard });
     if (!isDance) opened.limit = limit;
     // A dance has its own speeds, times and benches, or none.

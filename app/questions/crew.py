@@ -17,7 +17,7 @@ from app.plan.timing import TimeFormat
 from app.questions.maps import Marked
 from app.questions.plan import PDF_TYPE
 from app.wire.clocks import DAY, checked_clock
-from app.wire.dances import clock_of
+from app.wire.dances import clock_of, starting
 from app.wire.question import AS_WHOLE, JSON, Answer, Coordinate, Instant, OneLine, Question, Terms, Wire, measure
 from core import Dance, InvalidValue
 from core.errors import Given, Parameter, Quantity, TooLarge, question_about
@@ -195,6 +195,7 @@ def _spell(one: facts.Spell, place: tuple[float, float], crew: CrewWords) -> Cre
 def crew(request: CrewRequest, terms: Terms, form: str = JSON) -> Crew | bytes:
     """Who carries which bench when: shifts, spare carriers, minutes and metres of each, and who is where at a time."""
     dance, needed = _dance(request, terms), request.needed()
+    request = starting(request, dance)
     start, stop = dance.span(request.start, request.stop)
     ends = handle_places(dance, [start, stop], budget=terms.budget)
     clock = TimeFormat(clock_of(request, dance), request.music)

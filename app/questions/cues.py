@@ -16,7 +16,7 @@ from app.plan.timing import TimeFormat
 from app.questions.check import verdict_of
 from app.questions.maps import Marked
 from app.questions.plan import PDF_TYPE, verdict_words
-from app.wire.dances import BenchNumber, bench_of, clock_of
+from app.wire.dances import BenchNumber, bench_of, clock_of, starting
 from app.wire.degrees import Place
 from app.wire.performances import NumberOrName, SeveralFields, dragons_of
 from app.wire.question import JSON, OneLine, Question, Terms, measure
@@ -93,7 +93,7 @@ def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | Perform
     if request.part is not None:
         raise InvalidValue("part", "must be left out without dances", got=Given(request.part))
     dance = request.to_dance(request.most_benches(terms.settings))
-    benches = request.benches_of(dance.dragon)
+    request, benches = starting(request, dance), request.benches_of(dance.dragon)
     _refuse_equal_names(dance.dragon)
     place = request.to_place(dance.dragon)
     own_cues = bench_cues(
@@ -116,6 +116,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     _refuse_many(sum(map(len, chosen.values())))
     names = [part.name or say("dragon {k}", k=k) for k, part in enumerate(performance.parts)]
     dragons = [(name, part.dance.dragon.names) for name, part in zip(names, performance.parts, strict=True)]
+    request = starting(request, performance)
     start_clock = clock_of(request, performance)
     start, stop = performance.span(request.start, request.stop)
     geographic, decks = request.origin_at(place) is not None, list[tuple[list[Card], CardWords]]()

@@ -13,7 +13,7 @@ import core
 from app.maps.marks import marks_of
 from app.questions.check import verdict_of
 from app.questions.maps import Marked
-from app.wire.dances import clock_of
+from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
 from app.wire.performances import SeveralFields
 from app.wire.question import Coordinate, OneLine, Question, Terms, Wire, check_limit, measure
@@ -89,6 +89,7 @@ def plan(request: PlanRequest, terms: Terms) -> bytes:
     if request.dances is not None:
         return _of_several(request, terms)
     dance = request.to_dance(terms.settings.checked_benches_max)
+    request = starting(request, dance)
     place, clock = request.to_place(dance.dragon), TimeFormat(clock_of(request, dance), request.music)
     span = dance.span(request.start, request.stop)
     (passes,) = _passes_of_gates(request, [dance], [span], terms.budget)
@@ -111,6 +112,7 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
         "dances", "dragons of a plan must be at most {most} here", len(parts), DRAGONS_MAX, "print some of them"
     )
     (performance, place), budget = request.to_placed(terms.settings), terms.budget
+    request = starting(request, performance)
     start, stop = performance.span(request.start, request.stop)
     clock = TimeFormat(clock_of(request, performance))
     dances, spans = zip(*((part.dance, part.own_span(start, stop)) for part in performance.parts), strict=True)

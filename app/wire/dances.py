@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any, Self, TypeVar
 
 import numpy as np
 from pydantic import Discriminator, Field, Tag
@@ -248,6 +248,9 @@ class DanceFields(PathFields, strict=True):
     begin_clock: BeginClock = None
 
 
+Starting = TypeVar("Starting", bound=DanceFields)
+
+
 def clock_of(request: DanceFields, dance: Dance | Performance) -> str | None:
     """The time of day at time 0 of a dance, or of several on one clock; None if the request gives none.
 
@@ -261,6 +264,13 @@ def clock_of(request: DanceFields, dance: Dance | Performance) -> str | None:
         raise InvalidValue("begin_clock", rule, got=Given(request.begin_clock), other=other)
     start = getattr(request, "start", None)
     return clock_at_zero(request.begin_clock, dance.begin if start is None else start)
+
+
+def starting(request: Starting, dance: Dance | Performance) -> Starting:
+    """A request for a span of a dance, which begins at the time of day that it says the dance begins at."""
+    if request.begin_clock is None or getattr(request, "start", None) is not None:
+        return request
+    return request.model_copy(update={"start": dance.begin})
 
 
 class SpanFields(Wire):

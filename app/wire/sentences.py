@@ -18,7 +18,7 @@ LABELS: Phrases = {
     "start_clock": "Starts at", "length": "Length", "speed": "Speed of the passage", "until_s": "until, in metres",
     "until_time": "until, in seconds", "duration": "for, in seconds",
     "head_people": "on the head", "bench_people": "on every other bench", "spares": "spares", "shift": "shift [s]",
-    "rest": "least rest [s]",
+    "rest": "least rest [s]", "at": "Who is where at [s], or 19:45",
 }  # fmt: skip
 # What a place is, with # for an index: {number} is one more than the first of them.
 PLACES: Phrases = {

@@ -180,6 +180,15 @@ def test_the_dance_starts_at_its_time_of_day_and_the_verdict_says_when_it_ends(a
     assert at_zero["begins"] == time_of_day(report["start"], "19:30")
 
 
+@pytest.mark.parametrize("call", ["cues", "crew"])
+def test_what_people_hold_begins_when_a_dance_does_that_begins_before_time_0(ask, call):
+    lane = {"kind": "route", "start": 26, "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}]}
+    body = {"dragon": {"benches": 5}, "path": lane, "begin_clock": "19:30"}
+    held, report = ask(call, body), ask("check", body)
+    first = held["cards"][0]["begin"] if call == "cues" else {"time": held["start"]}
+    assert report["start"] == first["time"] < 0.0
+
+
 @pytest.mark.parametrize(
     ("file", "options", "begin"),
     [({"start": 20}, "", 20.0), ({"start": 20}, "--start 22", 20.0), ({}, "--start 22", 7.81)],
