@@ -367,15 +367,15 @@ def _at_instants(position: JudgedSheet, dance: Dance, seen: SheetClues) -> Itera
         instant, decimals = simplest(span), decimals_of(span, INSTANT_DECIMALS)
         others.append((instant, decimals))
         turned = math.pi if image is HALF_TURN else seen.turned
-        models = geometries(dance, np.array([instant]), SheetClues(turned=turned))
+        models = geometries(dance, np.array([instant]), SheetClues(turned=turned, unit=seen.unit))
         only = Model("other_instant", right, _what(instant, decimals), is_simplest=True)
         yield instant, decimals, chain([only], models)
     yield at_right, INSTANT_DECIMALS, pairs(dance, position.times, replace(seen, lead=None))
     head = seen.lead[0] if seen.lead is not None and seen.leader == 0 else None
     if head is not None and (turned_then := _turned_instant(position, dance, head)) is not None:
         instant, angle = turned_then
-        decimals = min(position.written + 1, INSTANT_DECIMALS)
-        models = geometries(dance, np.array([instant]), SheetClues(turned=angle))
+        decimals = min(position.written, INSTANT_DECIMALS)
+        models = geometries(dance, np.array([instant]), SheetClues(turned=angle, unit=seen.unit))
         if abs(angle) * float(np.nanmax(np.abs(position.values))) < 10.0**-position.written:  # as good as not turned
             models = iter([Model("other_instant", right, _what(instant, decimals), is_simplest=True)])
         yield instant, decimals, models

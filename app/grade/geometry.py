@@ -18,7 +18,7 @@ import numpy as np
 from app.grade.chains import Bent, equal_arcs, on_bent, rounded_angles
 from app.grade.expected import PITCH, Motion, Workbook, dance_of, of_dance, right_turn
 from app.grade.instants import agreed_span, simplest
-from app.grade.judged import ARITHMETIC, ROUNDED
+from app.grade.judged import ARITHMETIC, DECIMALS_OF_CONTEST, ROUNDED
 from app.grade.layout import Ints
 from core import BenchDragonError, Dance, Dragon, Spiral, Turn
 from core.values import Floats
@@ -37,8 +37,9 @@ SHIFT_LEAST, SHIFT_MOST = 1e-5, 500.0
 SIMPLE_TURNS = 1e-5
 # An angle counts as one of so many decimals up to this distance from it [degrees].
 TURNED_DECIMALS, TURNED_OFF = 4, 1e-6
-# An entry counts as one at a radius of three decimals up to this distance from it [m].
-SIMPLE_RADIUS = 1e-6
+# An entry counts as one at a radius of three decimals up to this distance from it [m], or to this part of the last
+# decimal of a place: on a coil the radius changes by a sixteenth of the way, and all places show the way to a tenth.
+SIMPLE_RADIUS, RADIUS_OFF = 1e-6, 0.01
 # Most benches by which rows are shifted.
 ROWS_MOST = 10
 # Decimals of a length that a student types, error of a length that is measured between places of six decimals [m], and
@@ -93,6 +94,11 @@ class SheetClues:
     turned: float | None = None
     unit: float = 0.0
 
+    @property
+    def decimals(self) -> int:
+        """Decimals of a place, which all places together show of a time [s] and of an angle [degrees]."""
+        return round(-math.log10(self.unit)) if self.unit else DECIMALS_OF_CONTEST
+
 
 def geometries(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
     """Every known error in the positions, the likeliest first. times: (T,) [s] of the sheet"""
@@ -101,7 +107,7 @@ def geometries(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]
         yield Model(error, mirrored(right, mirror))
     yield from shifted_rows(right)
     if seen.turned is not None:
-        yield _turned(right, seen.turned)
+        yield _turned(right, seen.turned, seen.decimals)
     yield Model("equal_arcs", equal_arcs(dance))
     yield from other_dragons(dance)
     yield from own_lengths(dance, seen)
@@ -133,21 +139,27 @@ def _shifted(motion: Motion, by: int, times: Floats) -> Floats:
     return numbers
 
 
-def shifted_time(motion: Motion, shift: float) -> Model:
-    """The numbers of a motion at times that are later by a shift [s]."""
-    return Model("shifted_time", lambda t: motion(t + shift), {"shift": f"{shift:+.6g}"}, shift=shift)
+def shifted_time(motion: Motion, shift: float, decimals: int = DECIMALS_OF_CONTEST) -> Model:
+    """The numbers of a motion at times that are later by a shift [s], of which so many decimals are known."""
+    values: dict[str, object] = {"shift": f"{round(shift, decimals):+.6g}"}
+    return Model("shifted_time", lambda t: motion(t + shift), values, shift=shift)
 
 
-def _turned(motion: Motion, angle: float) -> Model:
-    """All places turned about the centre by one angle [rad], counter-clockwise."""
+def _turned(motion: Motion, angle: float, decimals: int) -> Model:
+    """All places turned about the centre by one angle [rad], counter-clockwise.
+
+    decimals: those of the angle in degrees that are known
+    """
     degrees = math.degrees(angle)
     if abs(round(degrees, TURNED_DECIMALS) - degrees) < TURNED_OFF:
         degrees = round(degrees, TURNED_DECIMALS)
-    if degrees == -180.0:
-        degrees = 180.0
+    if round(degrees, decimals) == -180.0:
+        degrees += 360.0
     cosine, sine = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-    return Model("turned", lambda t: motion(t) @ turn, {"angle": f"{degrees:+.6g}"})
+    is_exact = decimals >= TURNED_DECIMALS or degrees == 180.0
+    values: dict[str, object] = {"angle": f"{degrees:+.6g}" if is_exact else f"{degrees:+.{decimals}f}"}
+    return Model("turned", lambda t: motion(t) @ turn, values)
 
 
 # Lengths and overhangs of benches by the known errors in the distances of the handles [m].
@@ -203,7 +215,8 @@ def _other_questions(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[
     other = dance_of(Workbook.RESULT1 if is_turn else Workbook.RESULT4)
     if (shift := _shift(other, times, seen)) is not None:
         right = of_dance(other)
-        values: dict[str, object] = {"question": 1 if is_turn else 4, "shift": f"{shift:+.6g}"}
+        shown = f"{round(shift, seen.decimals):+.6g}"
+        values: dict[str, object] = {"question": 1 if is_turn else 4, "shift": shown}
         yield Model("other_question", lambda t: right(t + shift), values)
 
 
@@ -306,24 +319,24 @@ def other_starts(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Mode
     if shift is None or abs(shift) < SHIFT_LEAST:
         return
     if spiral is None and seen.leader == 0:
-        yield from _other_entries(dance, right_turn(), shift)
+        yield from _other_entries(dance, right_turn(), shift, seen)
     # Another start and a shifted time are the same motion: the simpler number of both is the likelier one.
     if not simple or abs(round(shift, 2) - shift) < SHIFT_LEAST:
-        yield shifted_time(of_dance(dance), shift)
+        yield shifted_time(of_dance(dance), shift, seen.decimals)
 
 
-def _other_entries(dance: Dance, path: Turn, shift: float) -> Iterator[Model]:
+def _other_entries(dance: Dance, path: Turn, shift: float, seen: SheetClues) -> Iterator[Model]:
     """The turn that begins at another distance from the centre. shift: how much later the right head is there [s]"""
     coil = Spiral(path.pitch)
     arc = spiral_arc(path.entry_radius, coil.growth) - shift * dance.head_speed
     if arc <= 0.0:
         return
     radius = coil.growth * float(coil.theta(coil.length - arc))
-    if abs(round(radius, 3) - radius) < SIMPLE_RADIUS:
+    if abs(round(radius, 3) - radius) < max(SIMPLE_RADIUS, RADIUS_OFF * seen.unit):
         radius = round(radius, 3)
     with suppress(BenchDragonError):
         entered = _on_path(dance.dragon, Turn(path.pitch, radius))
-        yield Model("other_entry_radius", entered, {"radius": f"{radius:.6g}"})
+        yield Model("other_entry_radius", entered, {"radius": f"{round(radius, seen.decimals + 2):.6g}"})
 
 
 def spiral_arc(radius: Floats | float, growth: float) -> Floats:

@@ -132,6 +132,8 @@ def test_the_numbers_of_an_error_are_reported():
     assert inverted.words.endswith("the first one's radius should be twice the second one's.")
     [rounded] = grade(first(students.rounded_head())).diagnosis
     assert rounded.words == "A number was rounded before it was used: theta of the head, 3 decimals."
+    [entry] = grade(fourth([part.round(2) for part in turn(turning_radius=4.35)])).diagnosis
+    assert entry.words.startswith("The turn begins 4.35 m from the centre")
 
 
 def met(result, criterion):
@@ -297,7 +299,8 @@ def test_one_sheet_of_a_result2_does_not_miss_another(change):
 
 
 @pytest.mark.parametrize(
-    ("angle", "decimals", "words"), [(30.0, 6, "+30°"), (-40.1, 6, "-40.1°"), (30.0, 3, "+30.000")]
+    ("angle", "decimals", "words"),
+    [(30.0, 6, "+30°"), (-40.1, 6, "-40.1°"), (30.0, 3, "+30.000°"), (40.107, 2, "+40.11°")],
 )
 def test_another_instant_is_seen_in_turned_places(angle, decimals, words):
     position, speed = spiral(np.array([405.25]))
