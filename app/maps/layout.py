@@ -28,7 +28,7 @@ from app.maps.features import (
 )
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
 from app.maps.tracks import APART, CHORD, walk_of
-from app.wire.degrees import ACROSS_MAX, GRID_MAX, GeographicOrigin, Plane, middle_of, refuse_wide, unwrapped
+from app.wire.degrees import ACROSS_MAX, GRID_MAX, TURN, GeographicOrigin, Plane, middle_of, refuse_wide, unwrapped
 from app.wire.geojson import ASIDES, GATE, INNER_SQUARE, SQUARE, outlined, read_things, venue_of
 from app.wire.parts import is_cut, merged, whole_areas
 from app.wire.question import Coordinates
@@ -207,8 +207,8 @@ class Reading:
             self._choose()
             self._leave_grid(np.array([point for one in self.features for ring in one.rings for point in ring]))
             return
-        if (np.abs(points) > (180.0, 90.0)).any():
-            rule = "must have longitudes within 180 and latitudes within 90 degrees"
+        if (np.abs(points) > (TURN, 90.0)).any():
+            rule = "must have longitudes within 360 and latitudes within 90 degrees"
             if (np.abs(points[:, 0]) <= 90.0).all():
                 rule = f"{rule}: longitude and latitude seem to be swapped"
             raise InvalidValue("file", rule)
@@ -253,7 +253,7 @@ class Reading:
     def _warn_of_small(self, square: Floats) -> None:
         """Note a square that a request refuses, because its numbers may be degrees."""
         width, height = np.ptp(square, axis=0).tolist()
-        if max(width, height) < DEGREES_ACROSS and np.abs(square).max() <= 180.0:
+        if max(width, height) < DEGREES_ACROSS and np.abs(square).max() <= TURN:
             longest = f"{DEGREES_ACROSS:g} m"
             self.remark(
                 "The square is {width:.3g} m by {height:.3g} m, narrower than a bench of {longest}: check refuses it.",
@@ -521,7 +521,10 @@ def _nothing_in(drawing: Drawing) -> InvalidValue:
 
 def _look_like_degrees(points: Floats) -> bool:
     """True if coordinates are within the limits of degrees and too near to one another for metres."""
-    if (np.abs(points) > 180.0).any() or (np.abs(points) > 90.0).all(axis=1).any():
+    east = np.abs(points[:, 0])
+    if east.max() > 180.0 and (np.abs(points[:, 1]).max() > 90.0 or east.max() > TURN or not np.ptp(points[:, 0])):
+        return False
+    if (np.abs(points[:, 1]) > 180.0).any() or (np.abs(points) > 90.0).all(axis=1).any():
         return False
     near = np.array(unwrapped(tuple(map(tuple, points.tolist())), float(points[0, 0])))
     return bool(np.ptp(near, axis=0).max() < DEGREES_ACROSS)

@@ -45,7 +45,9 @@ GRID_MAX = 1e8
 # CGCS2000, ETRS89 and NAD83.
 GEOGRAPHIC = re.compile(r"CRS:?84|\bEPSG:+[\d.]*:*(?:4326|4979|4490|4258|4269)$", re.IGNORECASE)
 
-DEGREES: Scale = ("degrees", 180.0, 90.0)
+# Programs go on beyond 180 where a map reaches over the date line: 181 is -179.
+TURN = 360.0
+DEGREES: Scale = ("degrees", TURN, 90.0)
 LATITUDE_FIRST: Scale = ("degrees", 90.0, 180.0)
 # Steps of Newton's method from a plane back to the ellipsoid; 10 km from the middle each step adds four digits.
 STEPS = 4
@@ -111,7 +113,7 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
     """The venue in a GeoJSON object.
 
     coordinates: unit of its coordinates; None: as its member `crs` says, otherwise metres
-    raises: InvalidValue, also for metres that must be degrees: all coordinates are within 180 and 90, in either order,
+    raises: InvalidValue, also for metres that must be degrees: all coordinates may be degrees, in either order,
         and the square is narrower than a bench
     """
     system_name = crs_name(geometry)
@@ -143,7 +145,7 @@ def _stated_origin(member: object) -> GeographicOrigin | None:
         return None
     if not isinstance(member, Mapping) or set(member) != {"longitude", "latitude"}:
         raise InvalidValue("venue.origin", "must have longitude and latitude in degrees, or be left out")
-    limits = {"longitude": DEGREES[1], "latitude": DEGREES[2]}
+    limits = {"longitude": 0.5 * TURN, "latitude": DEGREES[2]}
     places = (checked_number(f"venue.origin.{name}", member[name], "degrees", -m, m) for name, m in limits.items())
     return GeographicOrigin(*places)
 
@@ -217,7 +219,7 @@ def _bounds(rings: list[Ring]) -> tuple[float, float, float, float]:
 
 def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
     places = [point for _, rings in polygons for ring in rings for point in ring]
-    in_order = all(abs(x) <= 180.0 and abs(y) <= 90.0 for x, y in places)
+    in_order = all(abs(x) <= TURN and abs(y) <= 90.0 for x, y in places)
     swapped = all(abs(x) <= 90.0 and abs(y) <= 180.0 for x, y in places)
     if not places or not (in_order or swapped):
         return

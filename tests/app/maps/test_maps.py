@@ -409,6 +409,14 @@ def test_a_line_of_many_points_keeps_those_that_matter_and_says_how_near_it_stay
     assert float(said.split("at most ")[1].split(" m")[0]) <= 0.01
 
 
+@pytest.mark.parametrize("row", ["179.9995 180.0005 -> 180", "180.9995 181.0005 -> -179", "-180.0005 -179.9995 -> 180"])
+def test_longitudes_beyond_180_are_places_on_the_other_side(row):
+    west, east, middle = map(float, row.replace("->", "").split())
+    result = read_json({"type": "GeometryCollection", "geometries": [box(west, 0, east, 0.001)]})
+    assert np.ptp(rings(result)[0], axis=0) == pytest.approx([111.3, 110.6], abs=0.2)
+    assert abs(result.origin.longitude) == pytest.approx(abs(middle), abs=1e-9)
+
+
 @pytest.mark.parametrize("west", [1, 3])
 @pytest.mark.parametrize("name", ["square", None])
 def test_a_square_that_is_cut_at_the_date_line_is_one_square_around_its_middle(client, name, west):

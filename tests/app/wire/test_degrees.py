@@ -49,8 +49,8 @@ CHECK = DANCE | {"stop": 20}
 
 @pytest.mark.parametrize(
     "venue",
-    [box(0, 0, 3.42, 0.1), box(0, 0, 0.1, 3.42), box(-180.1, -90, -178, -88), box(177, 88, 179, 90.1)],
-    ids=["longer", "higher", "beyond 180", "beyond 90"],
+    [box(0, 0, 3.42, 0.1), box(0, 0, 0.1, 3.42), box(-360.1, -90, -358, -88), box(177, 88, 179, 90.1)],
+    ids=["longer", "higher", "beyond 360", "beyond 90"],
 )
 def test_what_cannot_be_degrees_or_holds_a_bench_is_in_metres(venue):
     assert placed(venue).origin is None
@@ -86,8 +86,9 @@ def east_north(origin, longitude, latitude):
     return east, north + squared * n0 * math.sin(p0) * math.cos(p0)
 
 
-def test_a_square_on_the_date_line_is_one_square():
-    place = placed(box(179.9995, 10, -179.9995, 10.001), "degrees")
+@pytest.mark.parametrize(("west", "east"), [(179.9995, -179.9995), (179.9995, 180.0005), (-180.0005, -179.9995)])
+def test_a_square_on_the_date_line_is_one_square(west, east):
+    place = placed(box(west, 10, east, 10.001), "degrees")
     assert abs(place.origin.longitude) == pytest.approx(180.0, abs=1e-9)
     assert np.abs(np.array(place.venue.square.rings[0])).max() < 60.0
 

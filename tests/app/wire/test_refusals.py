@@ -265,7 +265,7 @@ BODIES = {
     'check {"venue": SWAPPED, "coordinates": "metres"}': "/venue swapped",
     'check {"venue": SWAPPED, "coordinates": "degrees"}': "/venue/coordinates/0/0/1 swapped",
     "check {RING: [[[28, 120], [28.001, 120], [28.001, 120.001], [28, 120]]]}}": "/venue/coordinates/0/0/1 90 120",
-    "check {RING: [[[181, 0], [181.001, 0], [181, 0.001], [181, 0]]]}}": "/venue/coordinates/0/0/0 180",
+    "check {RING: [[[361, 0], [361.001, 0], [361, 0.001], [361, 0]]]}}": "/venue/coordinates/0/0/0 360",
     "check {RING: [[[120, 28], [120.3, 28], [120.3, 28.001], [120, 28.001], [120, 28]]]}}": "/venue 20 29.49",
     "check {RING: [[[120, 28], [120.001, 28], [120.001]]]}}": "/venue/coordinates/0/2 [longitude, latitude]",
     "check {RING: [[[120, 28], [120.001, 28.001], [120.001, 28], [120, 28.001], [120, 28]]]}}": (
