@@ -6,13 +6,19 @@ import { formatNumber } from "./numbers.js";
 import { tell } from "./overlays.js";
 import { timeOfDay, wayAt } from "./passages.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
-import { say, sentencesOf } from "./text.js";
+import { phrase, say, sentencesOf } from "./text.js";
 
 /** Verdicts on a dance. @type {Phrases} */
 const VERDICTS = {
   passes: "Can be danced",
   fails: "Cannot be danced",
   undecided: "Undecided",
+};
+/** What comes next without a path. */
+const NEXT = {
+  propose: [phrase("Propose a dance"), phrase("The square is drawn. “Propose a dance” finds dances that fit into it; or draw a path yourself.")],
+  choose: [phrase("Choose a dance"), phrase("Show one of the dances that were found: its answers stand here.")],
+  path: [phrase("Draw a path"), phrase("Tap the picture at points of the head's path: two points make a path.")],
 };
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
 const DECIMALS = 6;
@@ -67,11 +73,11 @@ export class Judgement {
     this.#fill("", "", say("No answer"), [mendWords(fields)], []);
   }
 
-  /** Without a path: what comes next, propose or path; null hides the verdict, because something else tells it. */
+  /** Without a path: what comes next; null hides the verdict, because something else tells it. @param {keyof typeof NEXT | null} next */
   begin(next) {
-    if (next) this.#fill("", "", say(next === "propose" ? "Propose a dance" : "Draw a path"), [say(next === "propose" ? "The square is drawn. “Propose a dance” finds dances that fit into it; or draw a path yourself." : "Tap the picture at points of the head's path: two points make a path.")], []);
+    if (next) this.#fill("", "", say(NEXT[next][0]), [say(NEXT[next][1])], []);
     hide(this.box, !next);
-    Object.assign($("#verdict"), { hidden: !next, href: next === "propose" ? "#propose" : "#answers" });
+    Object.assign($("#verdict"), { hidden: !next, href: next === "path" ? "#answers" : "#propose" });
   }
 
   /** Show why there is no verdict: bends that are too tight, or the service's refusal. */

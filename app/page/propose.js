@@ -315,10 +315,11 @@ export class Propose {
     return Boolean(this.#answer) && this.#answer.key !== this.#keyOf(this.#request());
   }
 
-  /** What comes next without a path: propose or path; null while dances are looked for or offered. */
+  /** What comes next without a path; null while dances are looked for. */
   get next() {
     if (!yardOf(this.#drawing).length) return "path";
-    return this.#search || (this.#answer?.proposals.length && !this.#isOld) ? null : "propose";
+    if (this.#search) return null;
+    return this.#answer?.proposals.length && !this.#isOld ? "choose" : "propose";
   }
 
   /** What the verdict on the dance has to say of gates and of an earlier square, or an empty text. */
