@@ -229,7 +229,7 @@ def _file(file: FileAnswer) -> Iterator[Part]:
 def _sheet(sheet: SheetAnswer) -> Iterator[Part]:
     verdict = word(sheet.verdict.value)
     if sheet.verdict == "rounded" and sheet.decimals:
-        verdict += word("to_decimals", decimals=sheet.decimals)
+        verdict += word("to_decimal" if sheet.decimals == 1 else "to_decimals", decimals=sheet.decimals)
     title = sheet.sheet or word(SHEETS[TableKind(sheet.holds)])
     counts = {"right": f"{sheet.right:,}", "cells": f"{sheet.cells:,}"}
     yield "  " + word("sheet_line", title=title, verdict=verdict, **counts)

@@ -267,7 +267,8 @@ def _sheet(one: JudgedSheet) -> SheetAnswer:
     worst, first, notes = one.worst(), one.first(), [*one.notes]
     is_rounded = one.verdict in (Rating.ROUNDED, Rating.INCOMPLETE) and one.decimals is not None
     if is_rounded and one.verdict is Rating.INCOMPLETE:
-        notes.append(note("given_to_decimals", count=f"{one.cells - one.missing:,}", decimals=one.decimals))
+        words = "given_to_decimal" if one.decimals == 1 else "given_to_decimals"
+        notes.append(note(words, count=f"{one.cells - one.missing:,}", decimals=one.decimals))
     if is_rounded and not one.is_rounded:
         notes.append(note("not_rounded", written=int(one.digits.max()), decimals=one.decimals))
     return SheetAnswer(

@@ -122,7 +122,7 @@ def test_a_few_rounded_instants_are_incomplete_and_right_to_their_decimals(decim
     times = SPIRAL_TIMES[:4]
     sheet = grade(students.lines([part.round(decimals) for part in spiral(times)], times)).sheets[0]
     assert (sheet.verdict, sheet.decimals) == ("incomplete", decimals)
-    assert f"The 1,792 cells that have a number are right to {decimals} decimals." in sheet.notes
+    assert f"The 1,792 cells that have a number are right to {decimals} decimal{'s' * (decimals > 1)}." in sheet.notes
 
 
 def trap(place, text, coding="utf-8"):
