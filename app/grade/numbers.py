@@ -70,17 +70,16 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
     comes first. A number of too few digits to be right is incomplete.
     """
     half, excess = max(half_unit, HALF_UNIT_LEAST), beyond(name, value)
+    digits = math.floor(math.log10(min(value, right_answer(name)))) + 1 + _decimals_of(half)
+    few = note("few_digits", least=DIGITS_LEAST) if digits < DIGITS_LEAST else None
     if excess > (INFEASIBLE if excess <= HALF * half else 0.0):
         if excess < 2.0 * half:
             way = "rounded_unsafely" if excess <= HALF * half else "beyond"
             safe = note(f"{name}_{way}", safe=_safe(name, _decimals_of(half)))
-            return Graded(Rating.INFEASIBLE, [safe], [], broken(name, value))
+            return Graded(Rating.INFEASIBLE, [few or safe], [], broken(name, value))
         return replace(_wrong(name, value, half_unit), breaks=broken(name, value))
     grade = _graded(name, value, half_unit)
-    digits = math.floor(math.log10(min(value, right_answer(name)))) + 1 + _decimals_of(half)
-    if grade.verdict is Rating.WRONG or digits >= DIGITS_LEAST:
-        return grade
-    return Graded(Rating.INCOMPLETE, [note("few_digits", least=DIGITS_LEAST)], [])
+    return Graded(Rating.INCOMPLETE, [few], []) if few and grade.verdict is not Rating.WRONG else grade
 
 
 def _graded(name: str, value: float, half_unit: float) -> Graded:
