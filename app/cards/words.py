@@ -56,7 +56,7 @@ def runs(numbers: Iterable[int]) -> str:
             parts[-1].append(one)
         else:
             parts.append([one])
-    return ", ".join(f"{part[0]}-{part[-1]}" if len(part) > 1 else str(part[0]) for part in parts)
+    return sense("list", ", ").join(f"{part[0]}-{part[-1]}" if len(part) > 1 else str(part[0]) for part in parts)
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,7 +219,7 @@ class CardWords:
         return say(
             "{who} {side}, {gap}. Benches {met} {passing} from {since} to {until}, none nearer when straight beside "
             "you.",
-            met=runs(met).replace(", ", sense("list", ", ")),
+            met=runs(met),
             passing=passing,
             since=since,
             until=until,

@@ -24,6 +24,7 @@ from app.questions.figures import Format, TrajectoryFigureRequest
 from app.settings import Settings
 from app.wire.answers import Pair
 from app.wire.dances import PlacedDance, TimeRange, clock_of
+from app.wire.geojson import SQUARE
 from app.wire.labels import Heading, Part, Table, judged_words, separation, value_text, value_word
 from app.wire.messages import checked
 from app.wire.question import Terms
@@ -208,7 +209,8 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[Row]:
         yield say("least clearance"), _least(least), least.time, _pair(least.benches)
     for area in report.venue.areas if report.venue else ():
         if near := area.nearest:
-            what, who = say("nearest to {name}", name=area.name), say("bench {k}", k=near.bench)
+            name = say("square") if area.name == SQUARE else area.name
+            what, who = say("nearest to {name}", name=name), say("bench {k}", k=near.bench)
             yield what, _distance(near), near.time, who
     if speed := report.highest_speed:
         several, who = len(speed.handles) > 1, value_text(speed.handles)

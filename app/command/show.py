@@ -22,7 +22,7 @@ from app.files.disk import write_whole
 from app.wire.answers import Columns
 from app.wire.labels import Heading, Part, Table
 from app.wire.question import Answer
-from core.language import Language, named_language
+from core.language import Language, named_language, say
 
 # Decimals of lengths and speeds on a terminal.
 DISPLAY_DECIMALS = 6
@@ -88,7 +88,7 @@ def steps() -> Iterator[Callable[[str, float], None]]:
         quarter = int(4.0 * share + 1e-9)
         if quarter > quarters.get(what, 0):
             quarters[what] = quarter
-            print(f"{what}: {25 * quarter} %", file=sys.stderr, flush=True)
+            print(say("{name}: {text}", name=what, text=f"{25 * quarter} %"), file=sys.stderr, flush=True)
 
     yield print_quarter
 
@@ -146,14 +146,26 @@ def write(file: Path, data: bytes) -> None:
 
 
 def _rich(table: Table, width: int) -> RichTable:
-    """width: of the terminal; the lines of a table without heads are folded to it"""
+    """width: of the terminal, to which the lines are folded"""
     has_heads = bool(table.heads)
     rich = RichTable(title=table.title, box=box.SIMPLE, show_header=has_heads, title_justify="left", title_style="bold")
     for k, name in enumerate(table.heads or ("", "")):
         rich.add_column(name, justify="right" if k and has_heads else "left", overflow="fold")
-    for line in table.lines if has_heads else _folded_lines(table.lines, width):
+    for line in _narrowed(table, width) if has_heads else _folded_lines(table.lines, width):
         rich.add_row(*line)
     return rich
+
+
+def _narrowed(table: Table, width: int) -> Sequence[Sequence[str]]:
+    """The lines of a table with heads; in one that is too wide the widest column is folded, if that is enough."""
+    columns = list(zip(table.heads, *table.lines, strict=True))
+    widths = [max(map(cell_len, column)) for column in columns]
+    widest = widths.index(max(widths))
+    room = width - TABLE_SPACE - COLUMN_SPACE * len(widths) - sum(widths) + widths[widest]
+    needed = max(cell_len(piece) for cell in columns[widest] for piece in PIECE.findall(cell))
+    if widths[widest] <= room or room < max(needed, 0.5 * widths[widest]):
+        return table.lines
+    return [[_folded(cell, room) if k == widest else cell for k, cell in enumerate(line)] for line in table.lines]
 
 
 def _folded_lines(lines: Sequence[Sequence[str]], width: int) -> list[tuple[str, str]]:

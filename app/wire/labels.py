@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from app.wire import answers
 from app.wire.question import unit_of
 from core.errors import format_number
-from core.language import Phrases, counted, say
+from core.language import Phrases, counted, say, sense
 
 # Labels of the fields of answers, by their names.
 LABELS: Phrases = {
@@ -105,7 +105,8 @@ def value_word(code: str, margin: float = 0.0) -> str:
 
 def value_text(value: Any, decimals: int = 9) -> str:
     if isinstance(value, (tuple, list)):
-        return ", ".join(value_text(entry, 12) for entry in value) or say("none")
+        between = ", " if any(isinstance(entry, float) for entry in value) else sense("list", ", ")
+        return between.join(value_text(entry, 12) for entry in value) or say("none")
     if isinstance(value, bool):
         return say("yes") if value else say("no")
     if value is None:
@@ -204,7 +205,7 @@ def _digits(value: float | tuple[float | None, ...], unit: str) -> str:
 def _feature_text(feature: answers.Feature) -> str:
     """A corner or an edge; its name is a code."""
     texts = ((label(name), value_word(value) if name == "name" else value_text(value)) for name, value in feature)
-    return ", ".join(map(" ".join, texts))
+    return say(", ").join(map(" ".join, texts))
 
 
 def _polygon_text(value: answers.Polygon | answers.MultiPolygon) -> str:
@@ -219,7 +220,9 @@ def _polygon_text(value: answers.Polygon | answers.MultiPolygon) -> str:
 def _pair_text(pair: answers.Pair | answers.DragonPair) -> str:
     if isinstance(pair, answers.DragonPair):
         both = zip(pair.benches, pair.dragons, strict=True)
-        return ", ".join(say("{bench} of dragon {dragon}", bench=bench, dragon=dragon) for bench, dragon in both)
+        return sense("list", ", ").join(
+            say("{bench} of dragon {dragon}", bench=bench, dragon=dragon) for bench, dragon in both
+        )
     return value_text(pair)
 
 
@@ -228,7 +231,7 @@ def _verdicts(check: answers.PairCheck | answers.EncounterCheck, benches: int) -
     yield label("judged"), judged_words(check.judged, benches)
     for engine, verdict in check.engines.items():
         sides = [(name, side) for name, side in verdict if side is not None]
-        yield engine.value, ", ".join(f"{label(name)} {value_text(side)}" for name, side in sides)
+        yield engine.value, say(", ").join(f"{label(name)} {value_text(side)}" for name, side in sides)
     if check.together:
         yield label("together"), "; ".join(map(_pair_text, check.together))
     if check.left_out:

@@ -12,7 +12,7 @@ from core.design.deepest_turn import TurnLimit
 from core.design.pitch_search import JustifiedBy, LimitedBy
 from core.errors import format_bound, format_number
 from core.failures import FailureKind, approach_words, contact_failures
-from core.language import Phrases, counted, phrase, say
+from core.language import Phrases, counted, phrase, say, sense
 from core.tolerance.tolerance import Limit
 
 # What a smaller pitch leads to.
@@ -188,7 +188,7 @@ def time_words(result: core.TurnTime, limit: float) -> str:
 
 
 def handles_words(handles: Sequence[int]) -> str:
-    return counted(len(handles), "handle {list}", "handles {list}", list=", ".join(map(str, handles)))
+    return counted(len(handles), "handle {list}", "handles {list}", list=sense("list", ", ").join(map(str, handles)))
 
 
 def head_words(result: core.MaximumHeadSpeed, limit: float) -> list[str]:

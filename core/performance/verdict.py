@@ -133,7 +133,9 @@ def _of_dragon(performance: Performance, k: int, failure: Failure) -> Performanc
     own = say(" (at {time:.6f} s of the performance)", time=failure.time + delay) if delay else ""
     name, message = performance.name_of(k), failure.message
     if len(performance.parts) > 1:
-        message = say("{name}: {text}", name=f"{name[0].upper()}{name[1:]}{own}", text=message)
+        if performance.parts[k].name is None:
+            name = f"{name[0].upper()}{name[1:]}"
+        message = say("{name}: {text}", name=f"{name}{own}", text=message)
     return PerformanceFailure(failure.kind, failure.time + delay, (k,), failure.benches, message, shifted, failure)
 
 

@@ -277,6 +277,21 @@ def test_no_number_is_broken_on_a_narrow_terminal(command):
     assert set(whole) == set(re.findall(r"\d+\.\d+", narrow))
 
 
+@pytest.mark.parametrize(
+    "row",
+    [
+        "two_dragons ->   blue：0 号板凳于 217.609538 s 折叠",
+        "two_dragons ->   0、4 号板凳",
+        "village_square ->   距广场最近 ",
+        "crossing_streets ->   14、15、16、17、18、19、20 号把手",
+    ],
+)
+def test_chinese_names_and_lists_of_a_check_are_written_as_people_write_them(row):
+    example, words = row.split(" -> ")
+    output = run("check", str(ROOT / "examples" / f"{example}.toml"), "--language", "zh").stdout
+    assert words in output
+
+
 @pytest.mark.parametrize("columns", further([80, 41, 120], 1))
 def test_a_chinese_sentence_in_a_table_is_whole_at_every_width(columns):
     method = json.loads(said("collision-time", "--language", "zh", "--json"))["certificate"]["method"]
@@ -507,7 +522,7 @@ def test_progress_is_in_the_language_chosen_or_that_of_the_terminal(tmp_path, lo
     lines = run("grade", str(tmp_path), *options, **(unset | locale)).stderr.splitlines()
     if chosen == "fr":
         assert "'fr'" in lines.pop(0)
-    assert lines == [f"{'评阅' if words == 'zh' else 'grading'}: {share} %" for share in (50, 100)]
+    assert lines == [f"{'评阅：' if words == 'zh' else 'grading: '}{share} %" for share in (50, 100)]
     # So is what is said of a mistake, before all options are read.
     *_, mistake = run("paper", "more", *options, **(unset | locale)).stderr.splitlines()
     assert mistake.startswith("错" if words == "zh" else "E")
