@@ -204,11 +204,11 @@ def _damage_test(data: bytes) -> Callable[[list[bytes]], bool]:
 
     def is_damaged(lines: list[bytes]) -> bool:
         try:
-            for record in tags.group_tags(recover.safe_tag_loader(io.BytesIO(b"\n".join([*lines, b""])))):
+            for record in tags.group_tags(recover.safe_tag_loader(io.BytesIO(b"\n".join([*lines, b"0", b"EOF", b""])))):
                 factory.load(extended(record), document)
         except faults() as error:
             unmarked = UNMARKED.search(str(error))
-            return unmarked is None or unmarked[2] not in MARKERS
+            return unmarked is None or unmarked[2] not in MARKERS or unmarked[2] != _kind(lines, 0)
         return False
 
     return is_damaged

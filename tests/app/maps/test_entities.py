@@ -174,6 +174,8 @@ def test_entities_without_the_markers_of_their_parts_are_read_or_named_as_left_o
         "3DFACE 8 x 10 1_0 20 15 -> 3DFACE",
         "CIRCLE 8 x 10 20 40 0.5 -> CIRCLE",
         "LINE 8 x 10 20 20 5 -> LINE",
+        "LINE 8 x 70 ten 10 20 20 5 11 20 21 9 -> LINE",
+        "HELIX 8 x 10 20 20 5 -> HELIX",
         "POLYLINE 8 x 66 1 0 VERTEX 8 x 10 1_0 20 0 0 VERTEX 8 x 10 3 20 0 0 SEQEND -> POLYLINE",
     ],
 )
