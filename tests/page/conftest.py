@@ -60,6 +60,11 @@ def is_fault(message):
     return message.type in ("error", "warning") and not message.text.startswith(READBACK)
 
 
+def question_of(answer):
+    """What was asked that was refused."""
+    return f"{answer.request.method} {answer.url} {answer.request.post_data or ''}"
+
+
 @dataclass
 class Watched:
     """A tab with a page, and the messages and requests of the page since the last check.
@@ -72,13 +77,15 @@ class Watched:
     base: str = ""
     messages: list[str] = field(default_factory=list)
     requests: list[str] = field(default_factory=list)
+    refused: list[str] = field(default_factory=list)  # address and body of each refused request
     failing: bool = False  # requests of this page are meant to fail
 
     def check(self):
         lines, request = [line for line in self.messages if line not in BUSY], list(self.requests)
-        self.messages.clear()
-        self.requests.clear()
-        assert [line for line in lines if not (self.failing and line.startswith(FAILED_REQUEST))] == []
+        refused = "\n".join(self.refused)
+        for seen in (self.messages, self.requests, self.refused):
+            seen.clear()
+        assert [line for line in lines if not (self.failing and line.startswith(FAILED_REQUEST))] == [], refused
         strangers = [
             url for url in request if urlsplit(url)[:2] != urlsplit(self.base)[:2] and not url.startswith("blob:")
         ]
@@ -124,6 +131,7 @@ class Tabs:
         page.on("console", lambda text: one.messages.append(text.text) if is_fault(text) else None)
         page.on("pageerror", lambda error: one.messages.append(str(error)))
         page.on("request", lambda request: one.requests.append(request.url))
+        page.on("response", lambda answer: one.refused.append(question_of(answer)) if answer.status == 422 else None)
         return one
 
     def take_back(self, one, base):
