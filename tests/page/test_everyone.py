@@ -203,6 +203,7 @@ def _a_swipe_up_that_begins_on_a_slider_changes_nothing(person):
 
     def swipe(dx, dy):
         slider.evaluate("one => one.scrollIntoView({ block: 'end' })")
+        slider.click(trial=True)  # waits until no swipe before moves it any more
         box = slider.bounding_box()
         person.swipes(box["x"] + 0.7 * box["width"], box["y"] + box["height"] / 2, dx, dy)
 
