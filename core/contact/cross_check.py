@@ -108,9 +108,14 @@ def contact_check(contact: FirstContact, *, whole: bool = True, budget: Budget |
     own = judged_contact(poses, size, pair, margin=contact.gap, whole=False, at_start=at_start)
     if not whole:
         return own
-    ground = judged_grounds(poses, reach(dragon, contact.stray), pair, margin=margin, at_start=at_start)
+    between = 1 if contact.certificate.claim.between is None else 2
+    ground = reach(dragon, contact.stray)
+    on_ground = judged_grounds(poses, ground, pair, margin=margin, at_start=at_start, between=between)
     return replace(
-        ground, agree=ground.agree and own.agree, engines=own.engines | ground.engines, left_out=own.left_out
+        on_ground,
+        agree=on_ground.agree and own.agree,
+        engines=own.engines | on_ground.engines,
+        left_out=own.left_out,
     )
 
 
@@ -182,11 +187,13 @@ def judged_grounds(
     margin: float = 0.0,
     at_start: bool = False,
     owners: Indices | None = None,
+    between: int = 1,
     budget: Budget | None = None,
 ) -> ContactCheck:
     """Shapely's verdict on the ground that benches may cover, as judged_contact() for the whole dragon, or for several
     equal ones.
 
+    between: fewest benches between the two of a pair of one dragon that counts
     together: pairs that meet between the two instants. The search uses the largest gap along a direction as the
     distance, which is up to SHORT less than the true one. So the grounds must be apart by the margin before, and within
     the margin and SHORT after.
@@ -195,7 +202,7 @@ def judged_grounds(
     sizes = np.tile(sizes, (len(poses[0]) // len(sizes), 1))
     judged = judged_benches(poses[1], sizes, pair, margin)
     before, after = (
-        _grounds_met(pose, ground, within, near)
+        _grounds_met(pose, ground, within, {one for one in near if owners is not None or one[1] - one[0] > between})
         for pose, within in zip(poses, (margin, margin * (1.0 + SHORT)), strict=True)
         for near in _pairs_of(Engine.SHAPELY, pose[None, judged], sizes[judged], within, judged, budget, owners)
     )

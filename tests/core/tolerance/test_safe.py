@@ -2,7 +2,7 @@
 
 import pytest
 
-from core import Dance, Dragon, Outcome, Spiral, check, first_contact, minimum_pitch, tolerance
+from core import Dance, Dragon, Legs, Outcome, Spiral, check, contact_check, first_contact, minimum_pitch, tolerance
 from core.claims.claim import BenchBetween
 from core.tolerance.curve import time_on_circle
 from core.tolerance.safe import STRAY_MIN
@@ -66,3 +66,11 @@ def test_what_the_bench_between_holds_apart_is_no_failure_of_a_check():
     assert (report.passed, report.least_clearance) == (True, None)
     assert report.first_contact.certificate.claim.between is BenchBetween.HELD
     assert check(BEND, stray=safe.stray, margin=0.01).failures
+
+
+def test_engines_agree_on_a_contact_beside_benches_that_are_held_apart():
+    there_and_back = Legs([(-40, 0), (60, 0), (70, 10), (60, 20), (10, 1.9), (-40, 1.9)], [0], radius=5.0)
+    contact = first_contact(Dance(Dragon(105), there_and_back), stray=0.7)
+    assert contact.benches[1] > contact.benches[0] + 2
+    assert contact.certificate.claim.between is BenchBetween.HELD
+    assert contact_check(contact).agree
