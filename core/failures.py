@@ -107,9 +107,9 @@ def approach_words(margin: float, stray: float) -> str:
     return say("may touch with strays up to {stray} m", **values) if stray else sense("predicate", "touch")
 
 
-def _approach_of_area(margin: float, stray: float, area: str) -> str:
-    """The predicate of a bench that comes within the margin of an area [m]."""
-    values = {"margin": format_number(margin), "stray": format_number(stray), "area": repr(area)}
+def area_approach_words(margin: float, stray: float, area: str) -> str:
+    """The predicate of a bench that comes within the margin of an area [m]. area: as it is called"""
+    values = {"margin": format_number(margin), "stray": format_number(stray), "area": area}
     if margin > 0.0 and stray:
         return say("may come within {margin} m of {area} with strays up to {stray} m", **values)
     if margin > 0.0:
@@ -144,7 +144,7 @@ def venue_failures(
 
 
 def _area_failures(dragon: Dragon, area: AreaClearance, margin: float, stray: float) -> list[Failure]:
-    meets = _approach_of_area(margin, stray, area.name)
+    meets = area_approach_words(margin, stray, repr(area.name))
     if area.outcome is Outcome.UNDECIDED:
         assert area.time_bracket is not None
         time, late = area.time_bracket

@@ -123,7 +123,8 @@ def _with_known_language(arguments: list[str]) -> tuple[list[str], Language | No
         name = name if mark else arguments[at]
         language = named_language(name)
         if language is None:
-            words = say("Warning: there are no words in {name!r}, so they are in English.", name=name)
+            with speaking(language_of_terminal()):
+                words = say("Warning: there are no words in {name!r}, so they are in English.", name=name)
             print(words, file=sys.stderr)
         language = language or Language.ENGLISH
         known[at] = (f"{option}=" if mark else "") + language

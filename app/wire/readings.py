@@ -11,7 +11,7 @@ from core.dance import EndReason
 from core.design.deepest_turn import TurnLimit
 from core.design.pitch_search import JustifiedBy, LimitedBy
 from core.errors import format_bound, format_number
-from core.failures import FailureKind, approach_words, contact_failures
+from core.failures import FailureKind, approach_words, area_approach_words, contact_failures
 from core.language import Phrases, counted, phrase, say, sense
 from core.tolerance.tolerance import Limit
 
@@ -114,19 +114,15 @@ def encounter_words(failure: core.PerformanceFailure, performance: core.Performa
 
 def failure_words(failure: core.Failure, dragon: core.Dragon, limits: Limits) -> str:
     """What fails, without its time."""
-    margin, stray = limits.margin, limits.stray
+    near, area = (limits.margin, limits.stray), failure.area or ""
     names = [bench_words(min(bench, dragon.benches - 1), dragon) for bench in failure.benches]
     peak = failure.peak_speed
-    values = {"area": failure.area, "margin": format_number(margin), "peak": peak, "limit": limits.speed, "meet": ""}
+    values = {"area": area, "peak": peak, "limit": limits.speed, "meet": ""}
     match failure.kind:
-        case FailureKind.CONTACT if not margin:
-            template, values["meet"] = phrase("{a} and {b} {meet}."), approach_words(margin, stray)
-        case FailureKind.VENUE if stray:
-            template = phrase("{a} may touch {area}.")
-        case FailureKind.VENUE if margin:
-            template = phrase("{a} comes within {margin} m of {area}.")
+        case FailureKind.CONTACT if not limits.margin:
+            template, values["meet"] = phrase("{a} and {b} {meet}."), approach_words(*near)
         case FailureKind.VENUE:
-            template = phrase("{a} touches {area}.")
+            template, values["meet"] = phrase("{a} {meet}."), area_approach_words(*near, area)
         case FailureKind.OUTSIDE if failure.area == limits.square:
             template = phrase("{a} starts outside {area}.")
         case FailureKind.OUTSIDE:

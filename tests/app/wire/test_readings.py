@@ -61,7 +61,7 @@ def test_a_bend_that_is_too_tight_says_what_its_bench_needs(client):
     [
         ({}, ["The tail touches square."]),
         ({"margin": 0.1}, ["The tail comes within 0.1 m of square."]),
-        ({"stray": 0.1}, ["The tail may touch square."]),
+        ({"stray": 0.1}, ["The tail may touch square with strays up to 0.1 m."]),
         (
             {"speed_limit": 0.5},
             ["The tail touches square.", "Too fast: the head exceeds 0.5 m/s; the highest speed is 1.00 m/s."],
