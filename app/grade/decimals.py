@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from app.grade.layout import Ints
+from app.grade.handles import Ints
 from core.values import Floats
 
 Mask = NDArray[np.bool_]

@@ -32,10 +32,11 @@ from app.grade.geometry import (
     shifted_time,
     spiral_arc,
 )
+from app.grade.handles import BENCHES, HANDLES
 from app.grade.instants import agreed_span, decimals_of, simplest
 from app.grade.judged import JudgedSheet, Rating
 from app.grade.labels import SPEED
-from app.grade.layout import BENCHES, COMPONENTS, HANDLES, SHEETS, TableKind
+from app.grade.layout import COMPONENTS, SHEETS, TableKind
 from app.grade.numbers import explained, rounded_right
 from app.grade.outside import Outside, outside_of, same_cells, without
 from app.grade.pairs import pairs

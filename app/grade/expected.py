@@ -8,7 +8,8 @@ from functools import cache
 
 import numpy as np
 
-from app.grade.layout import BENCHES, COMPONENTS, HANDLES, TableKind
+from app.grade.handles import BENCHES, HANDLES
+from app.grade.layout import COMPONENTS, TableKind
 from core import Dance, Dragon, Spiral, Turn, first_contact
 from core import trajectory as trajectory_of
 from core.values import Floats

@@ -15,9 +15,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.grade.geometry import Model
+from app.grade.handles import Ints
 from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
-from app.grade.layout import COMPONENTS, SHEETS, Ints
+from app.grade.layout import COMPONENTS, SHEETS
 from app.grade.shortcuts import Finding
 from app.grade.words import Note, note
 from core import Budget

@@ -17,9 +17,9 @@ import numpy as np
 
 from app.grade.chains import Bent, equal_arcs, on_bent, rounded_angles
 from app.grade.expected import PITCH, Motion, Workbook, dance_of, of_dance, right_turn
+from app.grade.handles import Ints
 from app.grade.instants import agreed_span, simplest
 from app.grade.judged import ARITHMETIC, DECIMALS_OF_CONTEST, ROUNDED
-from app.grade.layout import Ints
 from core import BenchDragonError, Dance, Dragon, Spiral, Turn
 from core.values import Floats
 

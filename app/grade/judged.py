@@ -15,7 +15,8 @@ import numpy as np
 
 from app.grade.decimals import digits_of, usual_of
 from app.grade.expected import Workbook, cells_of, contact_time, dance_of, of_dance, times_of
-from app.grade.layout import COMPONENTS, EXTRA_MOST, HANDLES, SHEETS, Ints, SheetTable, TableKind
+from app.grade.handles import EXTRA_MOST, HANDLES, Ints
+from app.grade.layout import COMPONENTS, SHEETS, SheetTable, TableKind
 from app.grade.words import Note, note
 from core.values import Floats
 

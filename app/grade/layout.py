@@ -9,13 +9,25 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.grade.cells import OddCells
 from app.grade.grid import Cell, Grid, normalized
+from app.grade.handles import (
+    BENCHES,
+    EXTRA_MOST,
+    HANDLES,
+    LABELS_LEAST,
+    Ints,
+    count_of_handles,
+    labels_in,
+    lines_with_labels,
+    names_in,
+    names_of,
+    numbered,
+    numbering,
+)
 from app.grade.labels import (
     ANGLE,
     HANDLE_NAME,
@@ -33,26 +45,16 @@ from app.grade.labels import (
 from app.grade.words import Note
 from core.values import Floats
 
-Ints = NDArray[np.int64]
 # Columns of numbers by their instant [s], None for one that is not given, and component: place, and factor of the unit.
 Columns = dict[tuple[float | None, int], tuple[int, float]]
 
-# Handles of the contest's dragon: the head's is 0, the rear one of the tail is the last.
-BENCHES = 223
-HANDLES = BENCHES + 1
 # Handles and instants [s] of the tables that the paper of a solution prints, by the number of these: questions 1 and 4.
 QUESTION_HANDLES = [0, 1, 51, 101, 151, 201, BENCHES]
 QUESTION_TIMES = {len(times): times for times in (range(0, 301, 60), range(-100, 101, 50))}
 # Number of first rows and columns that may hold labels.
 MARGIN = 8
-# Most lines more, or less, than there are handles in a table that numbers them.
-EXTRA_MOST = 3
 # Lines in which labels of a table beside another one are looked for, and most tables beside each other.
 LINES_LOOKED_AT, TABLES_BESIDE_MOST = 20, 8
-# First lines in which names of handles are looked for: three tables below one another.
-NAMED_LINES = 1_000
-# Fewer labels than this may be chance and are ignored.
-LABELS_LEAST = 3
 
 
 class TableKind(StrEnum):
@@ -107,33 +109,24 @@ def wide_tables(
         return []
     for first, part in _beside(cells, names):
         columns = _first_columns(part, first)
-        labels = [_labels_in(column, names) for column in columns]
+        labels = [labels_in(column, names) for column in columns]
         # An index beside the names has as many numbers.
-        counts = [_count_of_handles(_names_of(column)) for column in columns] if names else [0]
+        counts = [count_of_handles(names_of(column)) for column in columns] if names else [0]
         if max(counts) < LABELS_LEAST:
-            counts = [_count_of_handles(column) for column in labels]
+            counts = [count_of_handles(column) for column in labels]
         if max(counts) < LABELS_LEAST:
             continue
         most = int(np.argmax(counts))
         aside = first + most
         heads = [([None] * (aside - before) + row)[: len(part[0])] for row in heads]
         before, end = aside, 0
-        for lines in _blocks(part, _lines(labels[most])):
+        for lines in _blocks(part, lines_with_labels(labels[most])):
             above = part[max(end, lines[0][0] - MARGIN) : lines[0][0]]
             # A table without headings has those of the one above it, or beside it.
             heads = above if not heads or _columns(above, aside) or _instants(above, aside) else heads
             tables += _tables_of(grid, part, lines, heads, aside, turned)
             end = lines[-1][0] + 1
     return tables
-
-
-def names_in(cells: list[list[Cell]]) -> frozenset[int]:
-    """The handles that the first column with names of them names; none without one."""
-    for column in zip(*cells[:NAMED_LINES], strict=True):
-        labels = _names_of(column)
-        if _count_of_handles(labels) >= LABELS_LEAST:
-            return frozenset(_numbered(_lines_of(labels))[0].tolist())
-    return frozenset()
 
 
 def _beside(cells: list[list[Cell]], names: frozenset[int]) -> list[tuple[int, list[list[Cell]]]]:
@@ -146,7 +139,7 @@ def _beside(cells: list[list[Cell]], names: frozenset[int]) -> list[tuple[int, l
     starts, last, end = [0], None, 0
     for k in range(len(cells[0])):
         labels = _labels_beside(cells, k, rows, names)
-        if _count_of_handles(labels) < LABELS_LEAST:
+        if count_of_handles(labels) < LABELS_LEAST:
             continue
         lines = [n for n, label in enumerate(labels) if label and label.handle is not None]
         sides = range(end + 1, k), range(k + 1, len(cells[0]))
@@ -167,29 +160,12 @@ def _beside(cells: list[list[Cell]], names: frozenset[int]) -> list[tuple[int, l
 
 def _labels_beside(cells: list[list[Cell]], k: int, rows: int, names: frozenset[int]) -> list[Label | None]:
     """Labels in the first rows of a column."""
-    some = _names_of([row[k] for row in cells[:rows]])
-    if names and _count_of_handles(some) >= LABELS_LEAST:
+    some = names_of([row[k] for row in cells[:rows]])
+    if names and count_of_handles(some) >= LABELS_LEAST:
         return some
     column = [row[k] for row in cells]
     first = next((cell for cell in column if isinstance(cell, float)), None)
-    return _numbering(column, names)[:rows] if first in (0.0, 1.0) else []
-
-
-def _names_of(column: Sequence[Cell]) -> list[Label | None]:
-    return [label_of(cell) for cell in column]
-
-
-def _labels_in(column: list[Cell], names: frozenset[int]) -> list[Label | None]:
-    """Labels in a column: numbers, and names if the sheet has names."""
-    numbers = _numbering(column, names)
-    if not names:
-        return numbers
-    return [name or number for name, number in zip(_names_of(column), numbers, strict=True)]
-
-
-def _count_of_handles(labels: list[Label | None]) -> int:
-    """Number of different labels of handles; tables on their side, below each other, repeat one in a column."""
-    return len({(label.handle, label.component) for label in labels if label and label.handle is not None})
+    return numbering(column, names)[:rows] if first in (0.0, 1.0) else []
 
 
 def _differ(labels: list[Label | None], others: list[Label | None]) -> bool:
@@ -237,7 +213,7 @@ def _tables_of(
         return _by_columns(grid, cells, lines, heads, columns, turned)
     times, stated = _times(heads, cells, aside), _stated(grid, heads)
     if not columns and not _instants(heads, aside):
-        handles = list(dict.fromkeys(_numbered(lines)[0].tolist()))
+        handles = list(dict.fromkeys(numbered(lines)[0].tolist()))
         are_bare = all(label.component is None for _, label in lines) and len(handles) == len(lines)
         are_places = are_bare and _holds_places(cells[k][aside + 1 :] for k, _ in lines)
         if are_places and 1 < len(times) <= len(COMPONENTS[TableKind.CONTACT]):
@@ -287,55 +263,6 @@ def _blocks(cells: list[list[Cell]], lines: list[tuple[int, Label]]) -> list[lis
 def _first_columns(cells: list[list[Cell]], first: int) -> list[list[Cell]]:
     """The columns from `first` on that may hold labels."""
     return [[row[k] for row in cells] for k in range(first, min(first + MARGIN, len(cells[0])))]
-
-
-def _numbering(column: list[Cell], names: frozenset[int]) -> list[Label | None]:
-    """Labels of a column that numbers the handles, or their lines of x and y, from 0 or 1; elsewhere None.
-
-    It may do so again and again in tables below each other. names: handles that names label in another table, which
-    need no heading
-    """
-    labels: list[Label | None] = [None] * len(column)
-    numbers = [(k, cell) for k, cell in enumerate(column) if isinstance(cell, float)]
-    # A table below another one begins with a smaller number, below a line of its own.
-    begins = [n for n, ((k, a), (m, b)) in enumerate(pairwise(numbers), 1) if m > k + 1 and b <= a]
-    end = 0
-    for begin, after in pairwise([0, *begins, len(numbers)] if numbers else []):
-        lines, run = zip(*numbers[begin:after], strict=True)
-        heads = [normalized(cell) for cell in column[end : lines[0]] if isinstance(cell, str)]
-        for n, handle in _numbers_of(run, heads, names).items():
-            labels[lines[n]] = Label(handle, None, 1.0)
-        end = lines[-1] + 1
-    return labels
-
-
-def _numbers_of(run: Sequence[float], heads: list[str], names: frozenset[int]) -> dict[int, int]:
-    """The handles that the numbers below some headings number, by their places; none if they are other numbers."""
-    numbers = np.array(run)
-    # x stands above y in two lines of a number.
-    once = numbers[::2] if np.array_equal(numbers[::2], numbers[1::2]) else numbers
-    counts_all = abs(once.size - HANDLES) <= EXTRA_MOST or once.size == 2 * HANDLES
-    is_counted = counts_all and once[0] in (0.0, 1.0) and bool(np.all(np.diff(once) == 1.0))
-    are_handles = bool(np.all((once == np.round(once)) & (once >= 0.0) & (once < HANDLES)))
-    is_unique = np.unique(once).size == once.size >= LABELS_LEAST
-    is_headed = any(map(is_handle_heading, heads)) or names == set(once.tolist())
-    is_sure = _lead_to_the_tail(once)
-    if not (is_counted or is_sure or (is_unique and is_headed and are_handles)):
-        return {}
-    first = 1 if (is_counted and once[0] == 1.0) or (is_sure and once[-1] == HANDLES) else 0
-    each = 2 if once.size == 2 * HANDLES else 1
-    return {k: (number - first) // each for k, number in enumerate(numbers.astype(int).tolist())}
-
-
-def _lead_to_the_tail(numbers: Floats) -> bool:
-    """True if whole numbers grow in unequal steps from the head, or the first body, to the rear of the tail.
-
-    Those of some handles do so, also if they count from 1, and no instants do.
-    """
-    steps, ends = np.diff(numbers), (numbers[0], numbers[-1])
-    is_whole = bool(np.all(numbers == np.round(numbers)))
-    is_uneven = numbers.size >= LABELS_LEAST and bool(steps.min() > 0.0) and bool(np.ptp(steps) > 0.0)
-    return is_whole and is_uneven and ends in ((0.0, BENCHES), (1.0, BENCHES), (1.0, HANDLES))
 
 
 def holds_angles(grid: Grid, cells: list[list[Cell]]) -> bool:
@@ -391,25 +318,6 @@ def _instants(heads: list[list[Cell]], aside: int) -> dict[int, float]:
     )
 
 
-def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
-    """Lines with their labels. Where most labels without an axis stand above a line without one, that line is their y
-    (merged cells); one such line alone is a remark below the table, or a blank."""
-    lines = _lines_of(labels)
-    open_below = {k for k, label in lines if label.component is None and labels[k + 1 : k + 2] == [None]}
-    if 2 * len(open_below) <= len(lines):
-        return lines
-    expanded: list[tuple[int, Label]] = []
-    for k, label in lines:
-        both = [(k, replace(label, component=X)), (k + 1, replace(label, component=Y))]
-        expanded += both if k in open_below else [(k, label)]
-    return expanded
-
-
-def _lines_of(labels: list[Label | None]) -> list[tuple[int, Label]]:
-    """Lines with a label of a handle."""
-    return [(k, label) for k, label in enumerate(labels) if label is not None and label.handle is not None]
-
-
 def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict[int, float]:
     """Columns and their instants; by their order if no heading gives them. Repeated ones are those of another table."""
     columns_at: dict[float, int] = {}
@@ -423,16 +331,6 @@ def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict
     columns = range(aside + 1, len(cells[0]))
     start = -100.0 if len(columns) == 201 else 0.0
     return {k: start + n for n, k in enumerate(columns)}
-
-
-def _numbered(lines: list[tuple[int, Label]]) -> tuple[Ints, Ints]:
-    """Handle of every line, by its label and by its order. The tail follows the last body bench with a label."""
-    handles = [label.handle for _, label in lines if label.handle is not None]
-    assert len(handles) == len(lines)
-    last = max([BENCHES - 2, *handles])
-    by_label = [handle if handle >= 0 else last - handle for handle in handles]
-    order = {handle: n for n, handle in enumerate(dict.fromkeys(by_label))}
-    return np.array(by_label), np.array([order[handle] for handle in by_label])
 
 
 def _over_time(
@@ -499,7 +397,7 @@ def _columns_table(
                 row[t, :, c], column[t, :, c] = rows, k
     above, aside = (column, row) if turned else (row, column)
     instants = np.array([np.nan if time is None else time for time in times])
-    return SheetTable(grid.title, kind, instants, *_numbered(lines), values, above, aside, odd.notes())
+    return SheetTable(grid.title, kind, instants, *numbered(lines), values, above, aside, odd.notes())
 
 
 def _table_of(
@@ -515,7 +413,7 @@ def _table_of(
     lines = [(k, label) for k, label in lines if label.component in components]
     if not lines or not times:
         return None
-    by_label, places = _numbered(lines)
+    by_label, places = numbered(lines)
     handles = np.array(list(dict.fromkeys(by_label.tolist())))
     shape = (len(times), handles.size, len(components))
     values, row, odd = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), OddCells(turned)

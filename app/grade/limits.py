@@ -10,7 +10,7 @@ from contextlib import suppress
 import core
 from app.grade.contacts import TURNING_RADIUS
 from app.grade.expected import Workbook, dance_of
-from app.grade.layout import BENCHES
+from app.grade.handles import BENCHES
 from app.grade.shortcuts import SPEED_LIMIT, right_answer
 from app.grade.words import Note, note
 from core import BenchDragonError, Dance, Dragon, Spiral

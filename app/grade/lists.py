@@ -11,18 +11,9 @@ import numpy as np
 
 from app.grade.cells import OddCells
 from app.grade.grid import Cell, Grid, normalized
+from app.grade.handles import BENCHES, EXTRA_MOST, HANDLES, LABELS_LEAST, Ints
 from app.grade.labels import TIME_WORD, heading_of, instant_of, is_handle_heading, label_of, stated_instant
-from app.grade.layout import (
-    BENCHES,
-    COMPONENTS,
-    EXTRA_MOST,
-    HANDLES,
-    LABELS_LEAST,
-    MARGIN,
-    Ints,
-    SheetTable,
-    TableKind,
-)
+from app.grade.layout import COMPONENTS, MARGIN, SheetTable, TableKind
 from core.values import Floats
 
 # Lines whose labels are looked at.

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.grade.expected import Workbook, dance_of, of_dance
+from app.grade.handles import HANDLES
 from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
-from app.grade.layout import COMPONENTS, HANDLES, SHEETS, TableKind
+from app.grade.layout import COMPONENTS, SHEETS, TableKind
 from app.grade.shortcuts import Finding
 from app.grade.words import note
 

@@ -16,6 +16,7 @@ from app.grade.decimals import decimals_of_file
 from app.grade.diagnosis import diagnosed, why_unexplained
 from app.grade.expected import KINDS, cells_of
 from app.grade.grid import UnreadableTable
+from app.grade.handles import BENCHES
 from app.grade.judged import (
     DECIMALS_OF_CONTEST,
     NAME_OF_WORKBOOK,
@@ -26,7 +27,7 @@ from app.grade.judged import (
     workbook_of,
     worst_of,
 )
-from app.grade.layout import BENCHES, COMPONENTS, SHEETS, TableKind
+from app.grade.layout import COMPONENTS, SHEETS, TableKind
 from app.grade.names import readable_name
 from app.grade.numbers import CERTAIN, graded_number
 from app.grade.reading import ZIP, grids_of

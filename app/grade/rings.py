@@ -14,9 +14,9 @@ import numpy as np
 
 from app.grade.expected import dance_of, right_turn
 from app.grade.geometry import arcs_of, spiral_arc
+from app.grade.handles import HANDLES
 from app.grade.judged import RIGHT, JudgedSheet
 from app.grade.labels import X, Y
-from app.grade.layout import HANDLES
 from app.grade.shortcuts import Finding
 from app.grade.words import note
 from core.paths.path import Path

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.grade.expected import Workbook
+from app.grade.handles import HANDLES
 from app.grade.judged import DECIMALS, JudgedSheet, Rating
-from app.grade.layout import HANDLES, TableKind
+from app.grade.layout import TableKind
 from app.grade.shortcuts import Finding
 from app.grade.words import Note, note
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from app.grade.expected import Workbook, times_of
 from app.grade.grid import Cell, Grid, normalized
+from app.grade.handles import names_in
 from app.grade.labels import SPEED_WORD, X, Y
 from app.grade.layout import (
     COMPONENTS,
@@ -22,7 +23,6 @@ from app.grade.layout import (
     bare_tables,
     holds_angles,
     holds_curve,
-    names_in,
     wide_tables,
 )
 from app.grade.lists import lists_of

@@ -13,8 +13,9 @@ import numpy as np
 
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import Workbook, dance_of, of_dance, times_of
+from app.grade.handles import HANDLES
 from app.grade.judged import judged
-from app.grade.layout import COMPONENTS, HANDLES, SheetTable, TableKind
+from app.grade.layout import COMPONENTS, SheetTable, TableKind
 from app.grade.report import graded, typed
 from app.grade.shortcuts import UNITS, right_answer
 from core import Budget
