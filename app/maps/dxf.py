@@ -53,10 +53,14 @@ MARKERS, KINDS_MOST = ("LWPOLYLINE", "SPLINE"), 8
 COMMON = {
     b"%d" % code for code in (5, 6, 8, 48, 60, 62, 67, 100, 102, 284, 330, 347, 360, 370, 380, 390, 410, 420, 430, 440)
 }
-# Records that are no entities, parts of a polyline, and a number that has an underscore, or a name that looks like one.
+# Records that are no entities, parts of a polyline, and a code of a real number before what is no number as DXF has it:
+# ezdxf reads the beginning of 0,5 and of 1.2.3, and Python reads 1_0.
 STRUCTURE = ("SECTION", "ENDSEC", "TABLE", "ENDTAB", "BLOCK", "ENDBLK", "SEQEND", "CLASS", "EOF")
 PARTS = ("VERTEX", "SEQEND")
-UNDERSCORE = re.compile(rb"\n[^\S\n]*[-+.\d]*\d_\d")
+MISREAD = re.compile(
+    rb"\n[^\S\n]*(?:[1-5]\d|1[1-4]\d|2[1-3]\d|46\d|10[1-5]\d)[^\S\n]*\n"
+    rb"(?![^\S\n]*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?[^\S\n]*(?:\n|\Z))"
+)
 # Version of a drawing whose entities have markers.
 MODERN = re.compile(rb"\$ACADVER\s+1\s+AC10(?!09|06|04|03|02)")
 # Record for values that no entity can hold: the path as a request describes it, the origin, and by handle names, radii
@@ -110,8 +114,8 @@ def _read(data: bytes) -> tuple[Any, list[str]]:
     recover = import_module("ezdxf.recover")
     missing: list[str] = []
     attempts, is_searched = 0, False
-    if UNDERSCORE.search(data):
-        data, missing = _without(data, _has_underscore)
+    if MISREAD.search(data):
+        data, missing = _without(data, _is_misread)
     while True:
         try:
             document, audit = recover.read(io.BytesIO(data))
@@ -187,13 +191,8 @@ def _without(data: bytes, is_damaged: Callable[[list[bytes]], bool]) -> tuple[by
     return b"\n".join([*kept, *lines[begin:]]), [f"deleted {_kind(lines, start)}(#)" for start, _ in damaged]
 
 
-def _has_underscore(lines: list[bytes]) -> bool:
-    """True if a number of an entity has an underscore, which Python alone takes for a part of it."""
-    types = import_module("ezdxf.lldxf.types")
-    return any(
-        b"_" in value and code.strip().isdigit() and types.TYPE_TABLE.get(int(code), str) is not str
-        for code, value in zip(lines[::2], lines[1::2], strict=False)
-    )
+def _is_misread(lines: list[bytes]) -> bool:
+    return MISREAD.search(b"\n" + b"\n".join(lines)) is not None
 
 
 def _damage_test(data: bytes) -> Callable[[list[bytes]], bool]:
@@ -228,7 +227,7 @@ def _drawing(document: Any, fixes: Iterable[str], choice: Choice) -> Drawing:
     record, entities = _record_of(document), _entities(document, choice)
     choice.refuse_unknown(entities.seen_layers)
     for fix in fixes:
-        if (deleted := DELETED.search(fix)) and not _is_object(deleted[1]):
+        if (deleted := DELETED.search(fix)) and not _is_undrawn(deleted[1]):
             entities.collector.leave_out(f"damaged {deleted[1]}")
     features, collector = tuple(entities.features()), entities.collector
     if code not in UNITS:
@@ -245,10 +244,10 @@ def _drawing(document: Any, fixes: Iterable[str], choice: Choice) -> Drawing:
     )
 
 
-def _is_object(kind: str) -> bool:
-    """True for what stands nowhere in a drawing, such as a style or a dictionary."""
+def _is_undrawn(kind: str) -> bool:
+    """True for what stands nowhere in a drawing, such as a style, a view or a dictionary."""
     classes = import_module("ezdxf.entities.factory").ENTITY_CLASSES
-    return kind in classes and issubclass(classes[kind], import_module("ezdxf.entities").DXFObject)
+    return kind in classes and not issubclass(classes[kind], import_module("ezdxf.entities").DXFGraphic)
 
 
 def _refuse_wide(features: list[MapFeature]) -> None:
