@@ -80,9 +80,12 @@ def every_refusal_is_in_the_catalogues(refusals_without_translation):
 
 
 @pytest.fixture(scope="module", autouse=True)
-def freed_memory_goes_back():
-    """What the tests of a module freed does not stay with the process, as glibc has it: up to 210 MB, in 15 ms."""
+def freed_memory_goes_back(request):
+    """What the functions of a module remember ends with its tests, and does not stay with the process, as glibc has it."""
     yield
+    for function in vars(request.module).values():
+        if hasattr(function, "cache_clear") and function.__module__ == request.module.__name__ and not SHUFFLE:
+            function.cache_clear()
     if trim := getattr(CDLL(None), "malloc_trim", None):
         trim(0)
 
