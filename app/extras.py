@@ -9,7 +9,8 @@ from core.extras import not_installed
 
 _DXF, _FIGURES, _SWEEP, _XLSX = ("ezdxf",), ("matplotlib",), ("pyarrow",), ("xlsxwriter", "openpyxl")
 _CALLS = ("fastapi", "fastapi_swagger", "mcp", "prometheus_client", "starlette", "uplot", "uvicorn")
-_SERVICE = (*_CALLS, "av", *_DXF, *_FIGURES, *_SWEEP, *_XLSX)
+_PAPER = ("typst", *_FIGURES)
+_SERVICE = (*_CALLS, "av", *_DXF, *_PAPER, *_SWEEP, *_XLSX)
 # Modules that each extra of pyproject.toml installs, as far as this program imports them.
 MODULES = {
     "arrow": ("pyarrow",),
@@ -19,6 +20,7 @@ MODULES = {
     "dxf": _DXF,
     "figures": _FIGURES,
     "film": ("av", *_FIGURES),
+    "paper": _PAPER,
     "polars": ("polars",),
     "proof": ("flint",),
     "service": _SERVICE,

@@ -19,7 +19,8 @@ from matplotlib.patches import Circle
 from app.cards.words import CardWords
 from app.files.drawing import in_turn
 from app.maps.marks import line_of, mark_name
-from app.plan.sheet import PAPERS, POINT, Box, Paper, Sheet, north_arrow
+from app.plan.paper import PAPERS, Box, Paper
+from app.plan.sheet import POINT, Sheet, north_arrow
 from core import Budget, Dance, Venue
 from core.language import joined, say
 from core.people.cards import Card

@@ -17,7 +17,8 @@ from matplotlib.backends.backend_pdf import PdfPages
 from app.cards.crew import CrewWords
 from app.files.drawing import in_turn
 from app.maps.marks import mark_name
-from app.plan.sheet import MARGIN, PAPERS, Paper, Sheet, Title, title_block
+from app.plan.paper import MARGIN, PAPERS, Paper, Title
+from app.plan.sheet import Sheet, title_block
 from app.plan.tables import PlanTable, draw_tables
 from core import Budget
 from core.language import say
@@ -62,7 +63,7 @@ def crew_pdf(sheets: CrewSheets, progress: Callable[[float], None] = lambda shar
             metadata = {"Title": sheets.title, "Creator": "Bench Dragon", "CreationDate": None}
             with PdfPages(sink, metadata=metadata) as file:
                 for k, (subtitle, sheet) in enumerate(pages, start=1):
-                    left, right = title_block(sheet, block, subtitle, f"{k}/{len(pages)}", None)
+                    left, right = title_block(sheet, block, subtitle, f"{k}/{len(pages)}")
                     _notes(sheet, say("carriers"), left, right)
                     file.savefig(sheet.figure)
                     progress(k / len(pages))

@@ -184,9 +184,9 @@ def plan(
         float | None, typer.Option(help="Width of the zone to keep clear [m]; default: the margin, or 0.5 m")
     ] = None,
 ) -> None:
-    """A PDF to print, true to scale: map, place of each person, points to paint, times (extra figures)."""
+    """A PDF to print, true to scale: map, place of each person, points to paint, times (extra paper)."""
     checked_output("output", output, (".pdf",))
-    require("figures", "output", "A plan")
+    require("paper", "output", "A plan")
     gates = [_gate(text) for text in gate] if gate else None
     request = changed(file, PlanRequest, context, paper=paper, title=title, spacing=spacing, clear=clear, gates=gates)
     write_answer(PLAN, request, say("plan"), output)

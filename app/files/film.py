@@ -24,11 +24,12 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from app.files.drawing import draw_areas, in_turn, with_square
+from app.files.drawing import draw_areas, in_turn
 from app.files.film_labels import MARKED_SHARE, CornerText, Labels, LabelsBeside, NameLabels, numbered, size_of
 from app.files.film_planes import COLOURS, YUV, Paper, Tone
 from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families_for
+from app.files.looks import with_square
 from app.files.scratch import temporary
 from app.wire.clocks import minutes_and_seconds, time_of_day
 from core import Budget, Dance, Dragon, Venue, bench_outlines, trajectory

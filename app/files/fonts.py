@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from pathlib import Path
@@ -50,9 +50,14 @@ def _families(language: Language) -> tuple[str, ...]:
     for file in font_manager.findSystemFonts():  # matplotlib's own list may be older than this font
         if file not in known:
             manager.addfont(file)
-    installed = {font.name: font for font in reversed(manager.ttflist)}
-    if name := next((name for name in CHINESE if name in installed and draws_our_words(installed[name])), None):
-        return (name, LATIN)
+    installed = {font.name: font for font in reversed(manager.ttflist) if font.name in CHINESE}
+    return (chinese_among([name for name, font in installed.items() if draws_our_words(font)]), LATIN)
+
+
+def chinese_among(families: Collection[str]) -> str:
+    """The first of the Chinese fonts among those of a machine. raises: MissingPackage if there is none"""
+    if name := next((name for name in CHINESE if name in families), None):
+        return name
     raise MissingPackage.in_words(
         "language",
         "--language zh needs a font with Chinese characters, which this machine does not have: install "
@@ -61,13 +66,14 @@ def _families(language: Language) -> tuple[str, ...]:
 
 
 def families_for(texts: Iterable[str]) -> tuple[str, ...]:
-    """Font families for these texts beside words in a language: Chinese names may stand on English paper.
-
-    raises: MissingPackage, as families() does
-    """
-    is_chinese = any(text and max(text) >= FIRST_CHINESE for text in texts)
-    with speaking(Language.CHINESE if is_chinese else spoken()):
+    """Font families for these texts beside words in a language. raises: MissingPackage, as families() does"""
+    with speaking(language_of(texts)):
         return families()
+
+
+def language_of(texts: Iterable[str]) -> Language:
+    """The language that decides on the font of these texts: Chinese names may stand among English words."""
+    return Language.CHINESE if any(text and max(text) >= FIRST_CHINESE for text in texts) else spoken()
 
 
 @contextmanager

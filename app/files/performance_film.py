@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from app.files.film import BATCH, FilmPicture, encoded, tones_of
 from app.files.film_planes import COLOURS, Tone
 from app.files.film_spec import FilmSpec
-from app.files.performances import LEGEND_MOST, colour_of
+from app.files.looks import colour_of
+from app.files.performances import LEGEND_MOST
 from core import Budget, Dragon, Performance, bench_outlines, performance_trajectory
 from core.errors import question_about
 from core.language import say

@@ -12,24 +12,18 @@ from matplotlib.patches import Polygon
 
 from app.files.drawing import canvas, draw_venue
 from app.files.figures import figure_file
+from app.files.looks import colour_of
 from core import Budget, FirstEncounter, OutsideRun, Performance, bench_outlines, trajectory
 from core.display import display
 from core.errors import question_about
 from core.language import say
-from core.plots import BLUE, ENLARGED_MARGINS, ENLARGED_WIDTHS, PALE, SHAPES_MAX, VERMILION, plan
+from core.plots import ENLARGED_MARGINS, ENLARGED_WIDTHS, PALE, SHAPES_MAX, plan
 from core.values import Floats
 
-# Colours of the dragons in turn (Okabe and Ito).
-COLOURS = (BLUE, VERMILION, "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 # Most dragons whose names stand in the legend [1].
 LEGEND_MOST = 12
 # Time before the end of a performance at which it is drawn if no dragons meet [s].
 BEFORE_END = 1e-3
-
-
-def colour_of(dragon: int) -> str:
-    """Colour of one of several dragons, by its number."""
-    return COLOURS[dragon % len(COLOURS)]
 
 
 @question_about("performance", Performance, "the figure was not drawn")

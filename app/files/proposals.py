@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from app.files.drawing import canvas, draw_venue, with_square
+from app.files.drawing import canvas, draw_venue
 from app.files.figures import figure_file
+from app.files.looks import with_square
 from app.wire.labels import value_word
 from core import Proposal, bench_outlines, trajectory
 from core.language import phrase, say

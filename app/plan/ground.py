@@ -5,31 +5,31 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal
 
 import numpy as np
-from matplotlib.patches import Rectangle
 
-from app.files.drawing import with_square
-from app.files.performances import colour_of
+from app.files.looks import colour_of, with_square
+from app.files.typeset import POINT, Face
 from app.maps.features import inner_point
 from app.maps.marks import line_of
-from app.plan.sheet import POINT, Box, PaperName, Scale, Sheet, north_arrow, scale_of
+from app.plan.drawing import HATCHED, MapDrawing, Scale, look, scale_of, svg_of
+from app.plan.paper import Box, PaperName, Places
 from app.plan.timing import Timing
-from core import Dance, Venue
+from core import Budget, Dance, Venue
 from core.language import say
 from core.plots import BLUE, VERMILION
 from core.shapes.engines import Polygons, widest_place
 from core.values import Floats
 
-EDGE, STONE = "#B8860B", "#D9D9D9"
-# Looks of the ground that benches sweep, of the zone to keep clear, of the head and of the other benches.
-IN_SWEPT: dict[str, Any] = {"facecolor": "#FFE3B3", "edgecolor": EDGE, "linewidth": 0.3}
-IN_CLEAR: dict[str, Any] = {"facecolor": "#FFF6E5", "edgecolor": EDGE, "linestyle": (0, (4, 2)), "linewidth": 0.5}
-IN_HEAD: dict[str, Any] = {"facecolor": VERMILION, "edgecolor": "black", "linewidth": 0.3}
-IN_BENCH = IN_HEAD | {"facecolor": "#9CC7E5"}
-# Text turned about its middle.
-CENTRED: dict[str, Any] = {"ha": "center", "va": "center_baseline", "rotation_mode": "anchor"}
+EDGE = "#B8860B"
+# Looks of the ground that benches sweep, of the zone to keep clear, of the head and the other benches, and of stone.
+IN_SWEPT = look("#FFE3B3", EDGE, 0.3)
+IN_CLEAR = look("#FFF6E5", EDGE, 0.5, (4, 2))
+IN_HEAD, IN_BENCH = look(VERMILION, width=0.3), look("#9CC7E5", width=0.3)
+IN_STONE = look(HATCHED, width=0.7)
+# White gaps in outlines that go on beyond the sheet, near its edge, and above what they are.
+BROKEN, CUT = (2, 2), 8
+IN_CUT = look(edge="white", width=1.3, dash=BROKEN) + ' clip-path="url(#edge)"'
 # Distance of two points of an outline [mm].
 SEEN = 0.12
 # Half the length of a mark, distance of its number from the path, and spacing of the arrows along the path [mm].
@@ -38,10 +38,17 @@ TICK, BESIDE, ARROWS = 1.1, 2.6, 45.0
 SMALLEST = 3.4
 # Distance of the name of a dragon from its path [mm], and shares of the path, in order, at which the name may stand.
 NAME_AWAY, NAME_PLACES = 3.5, (0.04, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9, 0.97)
-# Type of numbers at marks, of names, of benches, and of coordinates along the frame [pt].
-MARK_TYPE, NAME_TYPE, BENCH_TYPE, COORDINATE_TYPE = 5.5, 7.0, 5.0, 5.0
+# Least distance of a name from its bench [mm].
+BESIDE_BENCH = 0.62
+# Type of numbers at marks, of names and of benches [pt].
+MARK_TYPE, NAME_TYPE, BENCH_TYPE = 5.5, 7.0, 5.0
 # Numbers that are multiples of this are placed first, because not all of them may have room.
 ROUND = 4
+# A swatch of the legend [mm], and an area, a line and a line with a mark in it [parts of a millimetre].
+SWATCH = (0.0, 0.0, 8.3, 2.6)
+AREA, LINE, MARK = "M30-20H800V-240H30z", "M30-130H800", "M30-130H800M400-20V-240"
+# A circle of radius 1; every sixth point of it is a corner of a square.
+CIRCLE = np.stack([np.cos(turns := np.pi * (np.arange(24) / 12.0 + 0.25)), np.sin(turns)], axis=1)
 
 
 @dataclass(frozen=True)
@@ -75,36 +82,33 @@ def scale_for(grounds: Sequence[GroundMap], name: PaperName) -> Scale:
     return scale_of(name, *with_square(grounds[0].venue, low, high))
 
 
-def draw_ground(sheet: Sheet, ground: GroundMap, scale: Scale, *, numbers: bool) -> Rectangle:
-    """Draw the map on a sheet; returns its frame. numbers: of the marks, and the names of obstacles"""
-    frame = _draw_areas(sheet, [ground], scale)
+def draw_ground(ground: GroundMap, scale: Scale, face: Face, budget: Budget, *, numbers: bool) -> MapDrawing:
+    """The map of a dragon. numbers: of the marks"""
+    drawing = _draw_areas([ground], scale, face, budget)
     line = scale.on_paper(ground.line)
-    sheet.line(line, frame, color=BLUE, linewidth=0.9 if numbers else 0.4, zorder=4)
+    drawing.line(line, 4, 0.9 if numbers else 0.4, BLUE)
     if numbers:
-        _draw_arrows(sheet, line, frame)
-        _draw_gates(sheet, ground, scale)
-        _draw_marks(sheet, ground, scale, line)
-    return frame
+        _draw_arrows(drawing, line)
+        _draw_gates(drawing, ground)
+        _draw_marks(drawing, ground, line)
+    return drawing
 
 
-def draw_grounds(sheet: Sheet, grounds: Sequence[GroundMap], names: Sequence[str], scale: Scale) -> Rectangle:
-    """Draw one map of several dragons on a sheet; returns its frame. names: of the dragons, beside their paths"""
-    frame = _draw_areas(sheet, grounds, scale)
+def draw_grounds(
+    grounds: Sequence[GroundMap], names: Sequence[str], scale: Scale, face: Face, budget: Budget
+) -> MapDrawing:
+    """One map of several dragons. names: of the dragons, beside their paths"""
+    drawing = _draw_areas(grounds, scale, face, budget)
     lines = [scale.on_paper(ground.line) for ground in grounds]
     for k, line in enumerate(lines):
-        colour = colour_of(k)
-        sheet.line(line, frame, color=colour, linewidth=0.9, zorder=4)
-        _draw_arrows(sheet, line, frame, colour)
-    _draw_gates(sheet, grounds[0], scale)
+        drawing.line(line, 4, 0.9, colour_of(k))
+        _draw_arrows(drawing, line, colour_of(k))
+    _draw_gates(drawing, grounds[0])
     for k, (line, name) in enumerate(zip(lines, names, strict=True)):
-        places = _beside(line, 0.5 * sheet.width(name, NAME_TYPE, bold=True))
-        look: dict[str, Any] = {
-            "color": colour_of(k),
-            "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.8},
-        }
-        if not sheet.label(name, NAME_TYPE, places, scale.paper.room, fontweight="bold", **look):
-            sheet.words(*places[0], name, NAME_TYPE, ha="center", fontweight="bold", **look)
-    return frame
+        places = _beside(line, 0.5 * drawing.width(name, NAME_TYPE, bold=True))
+        if not drawing.label(name, NAME_TYPE, places, bold=True, colour=colour_of(k), on_paper=True):
+            drawing.write(name, *places[0], NAME_TYPE, bold=True, colour=colour_of(k), on_paper=True)
+    return drawing
 
 
 def _beside(line: Floats, half: float) -> list[tuple[float, float]]:
@@ -118,17 +122,17 @@ def _beside(line: Floats, half: float) -> list[tuple[float, float]]:
     return [(x, y) for x, y in np.array(places).tolist()]
 
 
-def _draw_areas(sheet: Sheet, grounds: Sequence[GroundMap], scale: Scale) -> Rectangle:
-    """Draw frame, coordinates, swept ground, the zone to keep clear and the venue; returns the frame."""
-    room = scale.paper.room
-    frame = sheet.frame(room)
-    _draw_coordinates(sheet, scale, room)
-    north_arrow(sheet, room[2] - 7.0, room[3] - 16.0, grounds[0].geographic)
-    for order, (name, look) in enumerate((("clear", IN_CLEAR), ("swept", IN_SWEPT)), start=1):
+def _draw_areas(grounds: Sequence[GroundMap], scale: Scale, face: Face, budget: Budget) -> MapDrawing:
+    """A map with coordinates, swept ground, the zone to keep clear and the venue."""
+    drawing = MapDrawing(scale, face, budget)
+    _draw_coordinates(drawing)
+    right, top = drawing.room[2:]
+    drawing.places.take(np.array([right - 10.0, top - 17.0, right - 4.0, top]))  # An arrow stands there.
+    for height, (name, attributes) in enumerate((("clear", IN_CLEAR), ("swept", IN_SWEPT)), start=1):
         for rings in [rings for ground in grounds for rings in getattr(ground, name)]:
-            sheet.area([_drawn(scale.on_paper(ring)) for ring in rings], frame, zorder=order, **look)
-    _draw_venue(sheet, grounds[0], scale, frame)
-    return frame
+            drawing.shape([_drawn(scale.on_paper(ring)) for ring in rings], attributes, height)
+    _draw_venue(drawing, grounds[0].venue)
+    return drawing
 
 
 def _drawn(ring: Floats) -> Floats:
@@ -138,47 +142,53 @@ def _drawn(ring: Floats) -> Floats:
     return np.concatenate([ring[kept], ring[:1]]) if kept.size > ROUND else ring
 
 
-def _draw_coordinates(sheet: Sheet, scale: Scale, room: Box) -> None:
-    """Draw short lines with their x or y [m] along the frame, one for each length of the scale bar."""
-    step, unit = scale.bar, 1000.0 / scale.ratio
-    for axis, (near, far) in enumerate(((room[0], room[2]), (room[1], room[3]))):
-        low, high = (scale.middle[axis] + (end - 0.5 * (near + far)) / unit for end in (near, far))
-        for value in np.arange(np.ceil(low / step), np.floor(high / step) + 1.0) * step:
-            place = 0.5 * (near + far) + (value - scale.middle[axis]) * unit
-            if not near + 8.0 < place < far - 8.0:
-                continue
-            words = f"{value + 0.0:g}"
-            if axis == 0:
-                sheet.line([(place, room[1]), (place, room[1] + 1.5)], linewidth=0.4)
-                sheet.words(place, room[1] + 2.2, words, COORDINATE_TYPE, ha="center", color="#555555")
-                sheet.take(np.array([place - 4.0, room[1], place + 4.0, room[1] + 4.5]))
-            else:
-                sheet.line([(room[0], place), (room[0] + 1.5, place)], linewidth=0.4)
-                sheet.words(room[0] + 2.2, place - 0.7, words, COORDINATE_TYPE, color="#555555")
-                sheet.take(np.array([room[0], place - 1.5, room[0] + 9.0, place + 1.5]))
+def _draw_coordinates(drawing: MapDrawing) -> None:
+    """Name x and y [m] along the frame, one for each length of the scale bar."""
+    scale, (left, bottom, right, top) = drawing.scale, drawing.room
+    step = scale.bar
+    for axis, (near, far) in enumerate(((left, right), (bottom, top))):
+        middle, count = round(scale.middle[axis] / step), int((far - near) * scale.ratio / 2000.0 / step) + 1
+        for value in (step * k for k in range(middle - count, middle + count + 1)):
+            place = float(scale.on_paper(np.full(2, value))[axis])
+            if near + 8.0 < place < far - 8.0:
+                drawing.ticks.append((axis, place - near, f"{value + 0.0:g}"))
+                box = (
+                    (left, place - 1.5, left + 9.0, place + 1.5)
+                    if axis
+                    else (place - 4.0, bottom, place + 4.0, bottom + 4.5)
+                )
+                drawing.places.take(np.array(box))
 
 
-def _draw_venue(sheet: Sheet, ground: GroundMap, scale: Scale, frame: Rectangle) -> None:
-    if ground.venue is None:
+def _draw_venue(drawing: MapDrawing, venue: Venue | None) -> None:
+    if venue is None:
         return
-    square = ground.venue.square
-    for area in ground.venue.areas:
+    square, scale = venue.square, drawing.scale
+    for area in venue.areas:
         rings = [scale.on_paper(np.array(ring)) for ring in area.rings]
+        if len(cut := np.concatenate([_leaving(ring, drawing.room) for ring in rings])):
+            drawing.shape(cut, IN_CUT, CUT, "")
         if area is square:
-            sheet.area(rings, frame, facecolor="none", edgecolor="black", linewidth=1.2, zorder=5)
+            drawing.shape(rings, look(width=1.2), 5)
             continue
-        sheet.area(rings, frame, facecolor=STONE, edgecolor="black", hatch="////", linewidth=0.7, zorder=3)
+        drawing.shape(rings, IN_STONE, 3)
         x, y = scale.on_paper(np.array(inner_point(area.rings))).tolist()
         (left, low), (right, high) = rings[0].min(axis=0).tolist(), rings[0].max(axis=0).tolist()
-        beside = 0.5 * sheet.width(area.name, NAME_TYPE) + 1.0
+        beside = 0.5 * drawing.width(area.name, NAME_TYPE) + 1.0
         wide = 2.0 * beside < right - left and high - low > 4.0
         around = [(right + beside, y), (left - beside, y), (x, high + 2.0), (x, low - 2.0)]
-        look = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.6}} if wide else {}
-        sheet.label(area.name, NAME_TYPE, [(x, y), *around] if wide else around, scale.paper.room, **look)
-        sheet.take(np.array([left, low, right, high]))
+        drawing.label(area.name, NAME_TYPE, [(x, y), *around] if wide else around, on_paper=wide)
+        drawing.places.take(np.array([left, low, right, high]))
     middle = scale.on_paper(np.array(widest_place(square.rings)[:2]))
-    places = _inside(scale.on_paper(np.array(square.rings[0])), middle, 0.5 * sheet.width(square.name, NAME_TYPE) + 1.5)
-    sheet.label(square.name, NAME_TYPE, places, scale.paper.room)
+    beside = 0.5 * drawing.width(square.name, NAME_TYPE) + 1.5
+    drawing.label(square.name, NAME_TYPE, _inside(scale.on_paper(np.array(square.rings[0])), middle, beside))
+
+
+def _leaving(ring: Floats, room: Box) -> Floats:
+    """The sides of a ring (N, 2, 2) of which an end is outside the room."""
+    outside = np.any((ring < room[:2]) | (ring > room[2:]), axis=1)
+    sides: Floats = np.stack([ring[:-1], ring[1:]], axis=1)[outside[:-1] | outside[1:]]
+    return sides
 
 
 def _inside(ring: Floats, middle: Floats, beside: float) -> list[tuple[float, float]]:
@@ -195,74 +205,66 @@ def _inside(ring: Floats, middle: Floats, beside: float) -> list[tuple[float, fl
     return middles
 
 
-def _draw_arrows(sheet: Sheet, line: Floats, frame: Rectangle, colour: str = BLUE) -> None:
+def _draw_arrows(drawing: MapDrawing, line: Floats, colour: str = BLUE) -> None:
     """Draw arrows along the path, in the direction of the dance."""
     steps = np.hypot(*np.diff(line, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])
     for place in np.arange(0.5 * ARROWS, along[-1], ARROWS):
         k = int(np.searchsorted(along, place))
         tangent = (line[k] - line[k - 1]) / max(steps[k - 1], 1e-9)
-        normal = np.array([-tangent[1], tangent[0]])
-        tip = line[k] + 1.6 * tangent
-        sheet.shape(
-            np.array([tip, line[k] - 1.0 * tangent + 0.9 * normal, line[k] - 1.0 * tangent - 0.9 * normal]), frame,
-            facecolor=colour, linewidth=0.0, zorder=6,
-        )  # fmt: skip
+        side, back = 0.9 * np.array([-tangent[1], tangent[0]]), line[k] - 1.0 * tangent
+        drawing.shape([np.array([line[k] + 1.6 * tangent, back + side, back - side])], look(colour), 6)
 
 
-def _draw_marks(sheet: Sheet, ground: GroundMap, scale: Scale, line: Floats) -> None:
+def _draw_marks(drawing: MapDrawing, ground: GroundMap, line: Floats) -> None:
     """Draw marks with their numbers beside the path, or on it where another part of the path is beside it."""
-    room = scale.paper.room
-    marks, path = ground.timing.marks, ground.dance.path
+    marks, path, scale = ground.timing.marks, ground.dance.path, drawing.scale
+    names = marks.names
     points, tangents = scale.on_paper(marks.points), path.tangent(marks.s)
     normals = np.stack([-tangents[:, 1], tangents[:, 0]], axis=-1)
-    for point, normal in zip(points, normals, strict=True):
-        sheet.line([point - TICK * normal, point + TICK * normal], linewidth=0.6, zorder=6)
-    begin = scale.on_paper(path.position(ground.timing.start_place + marks.first))
-    sheet.axes.plot(*begin, marker="o", markersize=4.5, markerfacecolor="white", markeredgecolor=VERMILION, zorder=7)
-    words = say("head at the start")
-    beside = 0.5 * sheet.width(words, 6.0) + 2.0
-    look = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.8}}
-    near = [(begin[0] + side * beside, begin[1] + up) for up in (4.0, -4.0) for side in (1.0, -1.0)]
-    sheet.label(words, 6.0, near, room, color=VERMILION, **look)
     ticks = np.stack([points - TICK * normals, points + TICK * normals])
-    sheet.take(np.concatenate([ticks.min(axis=0), ticks.max(axis=0)], axis=1))
+    for tick in ticks.swapaxes(0, 1):
+        drawing.line(tick, 6, 0.6)
+    begin = scale.on_paper(path.position(ground.timing.start_place + marks.first))
+    drawing.shape([begin + 0.8 * CIRCLE], look("white", VERMILION, 1.0), 7)
+    words = say("head at the start")
+    beside = 0.5 * drawing.width(words, 6.0) + 2.0
+    near = [(begin[0] + side * beside, begin[1] + up) for up in (4.0, -4.0) for side in (1.0, -1.0)]
+    drawing.label(words, 6.0, near, colour=VERMILION, on_paper=True)
+    drawing.places.take(np.concatenate([ticks.min(axis=0), ticks.max(axis=0)], axis=1))
+    on_path = Places()
+    on_path.take(np.concatenate([line, line], axis=1))
     for k in sorted(range(len(points)), key=lambda k: (k % ROUND != 0, k)):
         near_by = [points[k] + side * BESIDE * normals[k] for side in (1.0, -1.0, 1.5, -1.5)]
-        wide = 0.5 * sheet.width(marks.names[k], MARK_TYPE)
-        free = [one for one in near_by if not (np.abs(line - one) < (wide, 1.0)).all(axis=1).any()]
+        wide = 0.5 * drawing.width(names[k], MARK_TYPE)
+        free = [(x, y) for x, y in near_by if on_path.is_free((x - wide, y - 1.0, x + wide, y + 1.0))]
         along = [points[k] + side * (wide + 1.0) * tangents[k] for side in (1.0, -1.0)]
-        sheet.label(marks.names[k], MARK_TYPE, free or along, room, **look)
+        drawing.label(names[k], MARK_TYPE, free or along, on_paper=True, order=k + 1)
 
 
-def _draw_gates(sheet: Sheet, ground: GroundMap, scale: Scale) -> None:
+def _draw_gates(drawing: MapDrawing, ground: GroundMap) -> None:
     """Draw each gate as a small square with its name beside it."""
-    left, bottom, right, top = scale.paper.room
+    left, bottom, right, top = drawing.room
     for name, *place in ground.gates:
-        x, y = scale.on_paper(np.array(place)).tolist()
+        x, y = drawing.scale.on_paper(np.array(place)).tolist()
         if not (left < x < right and bottom < y < top):
             continue
-        sheet.axes.plot(x, y, marker="s", markersize=4.0, markerfacecolor="white", markeredgecolor="black", zorder=7)
-        sheet.take(np.array([x - 1.0, y - 1.0, x + 1.0, y + 1.0]))
-        beside = 0.5 * sheet.width(name, NAME_TYPE) + 2.0
+        drawing.shape([np.array([x, y]) + 1.0 * CIRCLE[::6]], look("white", width=1.0), 7)
+        drawing.places.take(np.array([x - 1.0, y - 1.0, x + 1.0, y + 1.0]))
+        beside = 0.5 * drawing.width(name, NAME_TYPE) + 2.0
         near = [(x + beside, y), (x - beside, y), (x, y + 3.0), (x, y - 3.0)]
-        sheet.label(
-            name, NAME_TYPE, near, scale.paper.room, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4}
-        )
+        drawing.label(name, NAME_TYPE, near, on_paper=True)
 
 
-def draw_benches(
-    sheet: Sheet, scale: Scale, outlines: Floats, names: Sequence[str], frame: Rectangle, colour: str = ""
-) -> None:
+def draw_benches(drawing: MapDrawing, outlines: Floats, names: Sequence[str], colour: str = "") -> None:
     """Draw every bench in its true size, with its name where there is room for it.
 
     outlines: corners (n, 4, 2) [m]; colour: of all benches, empty for those of the only dragon
     """
-    own = {"facecolor": colour} if colour else {}
-    room = scale.paper.room
-    corners = scale.on_paper(outlines)
+    own = look(colour, width=0.3) if colour else ""
+    corners = drawing.scale.on_paper(outlines)
     for k, bench in enumerate(corners):
-        sheet.shape(bench, frame, zorder=5, **(IN_BENCH if k else IN_HEAD) | own)
+        drawing.shape([bench], own or (IN_BENCH if k else IN_HEAD), 5)
     middles = corners.mean(axis=1)
     across = corners[:, 0] - corners[:, 1]
     wide = np.hypot(*across.T)
@@ -270,54 +272,48 @@ def draw_benches(
     # Text must not cover a bench, which is taken as eight boxes along its length.
     shares = ((np.arange(8) + 0.5) / 8.0)[None, :, None]
     spots = (shares * corners[:, 0:1] + (1.0 - shares) * corners[:, 3:4] - 0.5 * across[:, None]).reshape(-1, 2)
-    sheet.take(np.concatenate([spots - 0.4, spots + 0.4], axis=1))
+    drawing.places.take(np.concatenate([spots - 0.4, spots + 0.4], axis=1))
+    drawing.width("".join(names), BENCH_TYPE)  # All characters are measured at once.
     # The names of the head, the tail and every tenth bench are placed first, because there may not be room for all.
     last = len(names) - 1
     for k in sorted(range(len(names)), key=lambda k: (k not in (0, last), k % 10 != 0, k % 5 != 0, k)):
-        size = min(NAME_TYPE, 0.8 * wide[k] / POINT)
+        size = min(NAME_TYPE, 0.8 * float(wide[k]) / POINT)
         long = np.hypot(*(corners[k, 0] - corners[k, 3]))
-        if size >= SMALLEST and sheet.width(names[k], size) < 0.9 * long:
-            turned = (np.degrees(np.arctan2(normals[k, 1], normals[k, 0])) - 90.0 + 90.0) % 180.0 - 90.0
+        if size >= SMALLEST and drawing.width(names[k], size) < 0.9 * long:
+            turned = float(np.degrees(np.arctan2(normals[k, 1], normals[k, 0]))) % 180.0 - 90.0
             x, y = middles[k].tolist()
-            sheet.words(x, y, names[k], size, rotation=turned, **CENTRED)
+            drawing.write(names[k], x, y, size, turned=-turned, order=k + 1)
             continue
         size = NAME_TYPE if k == 0 else BENCH_TYPE
-        # Text is wider than it is high.
-        reach = 0.5 * wide[k] + 1.5 + 0.5 * abs(normals[k, 0]) * sheet.width(names[k], size)
-        places = [middles[k] + side * reach * normals[k] for side in (1.0, -1.0)]
-        if not sheet.label(names[k], size, places, room):
-            sheet.label(names[k].partition(" ")[0], size, places, room)
+        for words in (names[k], names[k].partition(" ")[0]):
+            # Text is wider than it is high.
+            across_text = size * POINT + abs(normals[k, 0]) * drawing.width(words, size)
+            reach = 0.5 * (wide[k] + across_text) + BESIDE_BENCH
+            if drawing.label(
+                words, size, [middles[k] + side * reach * normals[k] for side in (1.0, -1.0)], order=k + 1
+            ):
+                break
 
 
-def draw_legend(
-    sheet: Sheet, ground: GroundMap, left: float, right: float, bottom: float, *, benches: bool, several: bool = False
-) -> None:
-    """Draw the meaning of colours and lines, in a cell of the title block. several: of a map of several dragons"""
-    wide = right - left - 14.0
-    spacing = ground.timing.marks.spacing
-    # Look of an area, or the kind of a line, and its words.
-    rows: list[tuple[dict[str, Any] | Literal["path", "mark"], str]] = [
-        (IN_SWEPT, say("ground swept by benches")),
-        (IN_CLEAR, say("keep clear, {ground.width:g} m", ground=ground)),
-        ("path", say("path of the handles")),
+def legend_of(drawing: MapDrawing, ground: GroundMap, benches: bool, several: bool) -> list[tuple[str, str]]:
+    """The meaning of colours and lines: a picture of each, and its words.
+
+    benches: True if they are on the map; several: True for a map of several dragons
+    """
+    on_path = look(edge=BLUE, width=0.9)
+    rows = [
+        (AREA, IN_SWEPT, say("ground swept by benches")),
+        (AREA, IN_CLEAR, say("keep clear, {ground.width:g} m", ground=ground)),
+        (LINE, on_path, say("path of each dragon, in its own colour") if several else say("path of the handles")),
     ]
-    if several:
-        rows[-1] = ("path", say("path of each dragon, in its own colour"))
-        if benches:
-            rows.append((IN_BENCH, say("bench, in the colour of its dragon")))
+    if several and benches:
+        rows.append((AREA, IN_BENCH, say("bench, in the colour of its dragon")))
     elif benches:
-        rows += [(IN_BENCH, say("bench")), (IN_HEAD, say("head"))]
-    else:
-        rows.append(("mark", say("chalk mark every {spacing:g} m", spacing=spacing)))
+        rows += [(AREA, IN_BENCH, say("bench")), (AREA, IN_HEAD, say("head"))]
+    elif not several:
+        rows.append((MARK, on_path, say("chalk mark every {spacing:g} m", spacing=ground.timing.marks.spacing)))
     if ground.venue and ground.venue.obstacles:
-        stone = {"facecolor": STONE, "edgecolor": "black", "hatch": "////", "linewidth": 0.5}
-        rows.append((stone, say("obstacle")))
-    for k, (look, words) in enumerate(rows):
-        x, y = left + 2.0, bottom + 30.0 - 5.6 - 4.3 * k
-        if isinstance(look, dict):
-            sheet.shape(np.array([(x, y), (x + 8.0, y), (x + 8.0, y + 2.6), (x, y + 2.6)]), **look)
-        else:
-            sheet.line([(x, y + 1.3), (x + 8.0, y + 1.3)], color=BLUE, linewidth=0.9)
-        if look == "mark":
-            sheet.line([(x + 4.0, y + 0.2), (x + 4.0, y + 2.4)], linewidth=0.6)
-        sheet.words(x + 10.0, y + 0.4, words, 6.5, within=wide)
+        rows.append((AREA, IN_STONE, say("obstacle")))
+    if any(height == CUT for height, _ in drawing.shapes):
+        rows.append((LINE, look(width=1.2, dash=BROKEN), say("goes on beyond the sheet")))
+    return [(svg_of(SWATCH, [f'<path d="{shape}" {one}/>']), words) for shape, one, words in rows]

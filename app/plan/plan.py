@@ -1,41 +1,39 @@
 """The plan of a dance as PDF: the map true to scale, the benches at three moments, the points to paint, the times.
 
-The same dance gives the same bytes on the same versions of the libraries, because the file holds no date.
+The same dance gives the same bytes on the same fonts and versions of the libraries, because the file holds no date.
 """
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from importlib.resources import files
 from typing import Any
 
-import matplotlib
-from matplotlib.backends.backend_pdf import PdfPages
-
 import core
-from app.files.drawing import in_turn
-from app.files.performances import colour_of
-from app.plan.ground import GroundMap, draw_benches, draw_ground, draw_grounds, draw_legend, scale_for
-from app.plan.sheet import BLOCK, MARGIN, Paper, PaperName, Scale, Sheet, Title, title_block
-from app.plan.tables import PlanTable, draw_tables
+from app.files.looks import colour_of
+from app.files.typeset import Face, typeset
+from app.plan.drawing import PAD, MapDrawing, Scale
+from app.plan.ground import GroundMap, draw_benches, draw_ground, draw_grounds, legend_of, scale_for
+from app.plan.paper import MARGIN, Paper, PaperName, Title
+from app.plan.tables import BLOCK_SPACE, COLUMN_SPACE, ROW, WIDEST, PlanTable, widths_of
 from app.plan.timing import TimeFormat, points_of
 from core.language import say
 
-# Fonts as outlines of TrueType: every machine and every printer draws them alike, and the text can be searched.
-FONTS: dict[Any, Any] = {"pdf.fonttype": 42, "hatch.linewidth": 0.4}
+# A sheet as the template takes it: its words, and the names of its pictures.
+Json = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
     """The content of a plan.
 
-    family: fonts; names: of the benches; clock: format of times; title: of the block on every sheet
+    face: of all text; names: of the benches; clock: format of times; title: of the block on every sheet
     times_note: what the times are
     """
 
     ground: GroundMap
-    family: tuple[str, ...]
+    face: Face
     names: Sequence[str]
     clock: TimeFormat
     title: Title
@@ -59,20 +57,6 @@ class Together:
     title: Title
 
 
-@dataclass(frozen=True, slots=True)
-class _Page:
-    """A sheet of a plan, its title and subtitle, the scale of its map (None: a sheet of tables), whether benches stand
-    on it, and whether it shows several dragons."""
-
-    plan: Plan
-    title: Title
-    sheet: Sheet
-    subtitle: str
-    scale: Scale | None = None
-    benches: bool = False
-    several: bool = False
-
-
 def plan_pdf(
     plans: Sequence[Plan],
     together: Together | None,
@@ -82,76 +66,88 @@ def plan_pdf(
 
     raises: InvalidValue if it is too large for the paper at every scale; Halted once the budget is stopped
     """
-    scales = [scale_for([plan.ground], plan.paper) for plan in plans]
-    sink = io.BytesIO()
-
-    def drawn() -> bytes:
-        with matplotlib.rc_context({"font.family": plans[0].family, **FONTS}):
-            pages = [] if together is None else [*_together(plans, together)]
-            for plan, scale in zip(plans, scales, strict=True):
-                pages += [*_maps(plan, scale), *_tables(plan, scale.paper)]
-            metadata = {"Title": pages[0].title.title, "Creator": "Bench Dragon", "CreationDate": None}
-            with PdfPages(sink, metadata=metadata) as file:
-                for k, page in enumerate(pages, start=1):
-                    cell = title_block(page.sheet, page.title, page.subtitle, f"{k}/{len(pages)}", page.scale)
-                    if page.scale is not None:
-                        look = {"benches": page.benches, "several": page.several}
-                        draw_legend(page.sheet, page.plan.ground, *cell, MARGIN, **look)
-                    else:
-                        _notes(page.sheet, page.plan, *cell)
-                    file.savefig(page.sheet.figure)
-                    progress(k / len(pages))
-        return sink.getvalue()
-
-    return in_turn(drawn, plans[0].budget)
+    scales, first = [scale_for([plan.ground], plan.paper) for plan in plans], plans[0]
+    sheets = [] if together is None else [*_together(plans, together)]
+    for k, (plan, scale) in enumerate(zip(plans, scales, strict=True), start=1):
+        sheets += [*_maps(plan, scale), _tables(plan, scale.paper)]
+        progress(0.5 * k / len(plans))
+    template = files("app.plan").joinpath("plan.typ").read_bytes()
+    words = {"title": sheets[0]["title"], "paper": first.paper, "sheet": say("sheet")}
+    data = typeset(template, first.face, {**words, "sheets": sheets}, first.budget)
+    progress(1.0)
+    return data
 
 
-def _together(plans: Sequence[Plan], together: Together) -> Iterator[_Page]:
+def _block(title: Title, subtitle: str, paper: Paper) -> Json:
+    """A sheet with its title block."""
+    size = {"width": paper.width, "height": paper.height}
+    return {**size, **{one.name: getattr(title, one.name) for one in fields(title)}, "subtitle": subtitle}
+
+
+def _map(plan: Plan, title: Title, subtitle: str, drawing: MapDrawing, *shown: bool) -> Json:
+    """A sheet with a map. shown: whether benches are on it, and whether several dragons are"""
+    ratio, bar = drawing.scale.ratio, drawing.scale.bar
+    marks, wide = ["0", f"{0.5 * bar:g}", f"{bar:g} m"], bar * 1000.0 / ratio
+    note = say("print at 100 %: this bar is {wide:g} mm long", wide=wide)
+    return {
+        **_block(title, subtitle, drawing.scale.paper),
+        **drawing.to_json(),
+        "bar": {"scale": f"1:{ratio}", "marks": marks, "wide": wide, "note": note},
+        "legend": legend_of(drawing, plan.ground, *shown),
+        "alt": say("Map, 1:{ratio}", ratio=ratio),
+    }
+
+
+def _tables(plan: Plan, paper: Paper) -> Json:
+    """Sheets with tables side by side, as many as they need."""
+    every = (_events(plan), _gates(plan), _benches(plan), _marks(plan), _points(plan))
+    tables = [_table(plan.face, one) for one in every if one.rows]
+    room, least = paper.width - 2.0 * (MARGIN + PAD), max(sum(one["widths"]) for one in tables)
+    side_by_side = max(1, int((room + BLOCK_SPACE) / (least + BLOCK_SPACE)))
+    block = _block(plan.title, say("Points to paint, and times"), paper)
+    return {**block, "tables": tables, "side_by_side": side_by_side, "notes": _notes(plan)}
+
+
+def _table(face: Face, table: PlanTable) -> Json:
+    """A table, the width of its columns and the height of a row [mm], None: as its words need."""
+    widths = widths_of(face.width, table)
+    words = {"heading": table.heading, "columns": table.columns, "rows": table.rows, "left": sorted(table.left)}
+    return {**words, "widths": [COLUMN_SPACE + one for one in widths], "row": ROW if max(widths) < WIDEST else None}
+
+
+def _together(plans: Sequence[Plan], together: Together) -> Iterator[Json]:
     """The map of all dragons, and the place of each bench at three moments."""
-    grounds, first = [plan.ground for plan in plans], plans[0]
-    scale = scale_for(grounds, first.paper)
-    sheet = Sheet(scale.paper, first.family, first.budget)
-    draw_grounds(sheet, grounds, together.names, scale)
-    yield _Page(first, together.title, sheet, say("Plan of the ground"), scale, several=True)
+    grounds, first, title = [plan.ground for plan in plans], plans[0], together.title
+    drawn = grounds, together.names, scale_for(grounds, first.paper), first.face, first.budget
+    yield _map(first, title, say("Plan of the ground"), draw_grounds(*drawn), False, True)
     parts, moments = together.performance.parts, together.moments
     placed = core.performance_trajectory(together.performance, moments, budget=first.budget)
     for t, time in enumerate(moments):
-        sheet = Sheet(scale.paper, first.family, first.budget)
-        frame = draw_grounds(sheet, grounds, together.names, scale)
+        drawing = draw_grounds(*drawn)
         for k, (part, result, plan) in enumerate(zip(parts, placed, plans, strict=True)):
-            outlines = core.bench_outlines(part.dance.dragon, result.position[t])
-            draw_benches(sheet, scale, outlines, plan.names, frame, colour_of(k))
-        yield _Page(first, together.title, sheet, _places(together.clock.words(time)), scale, True, True)
+            draw_benches(drawing, core.bench_outlines(part.dance.dragon, result.position[t]), plan.names, colour_of(k))
+        yield _map(first, title, _places(together.clock.words(time)), drawing, True, True)
 
 
 def _places(when: str) -> str:
     return say("Place of each bench at {when}", when=when)
 
 
-def _maps(plan: Plan, scale: Scale) -> Iterator[_Page]:
-    ground, timing = plan.ground, plan.ground.timing
-    sheet = Sheet(scale.paper, plan.family, plan.budget)
-    draw_ground(sheet, ground, scale, numbers=True)
-    yield _Page(plan, plan.title, sheet, say("Plan of the ground"), scale)
-    dance = ground.dance
-    for time, handles in zip(timing.moments, core.trajectory(dance, timing.moments).position, strict=True):
-        sheet = Sheet(scale.paper, plan.family, plan.budget)
-        frame = draw_ground(sheet, ground, scale, numbers=False)
-        draw_benches(sheet, scale, core.bench_outlines(dance.dragon, handles), plan.names, frame)
-        yield _Page(plan, plan.title, sheet, _places(plan.clock.words(time)), scale, True)
+def _maps(plan: Plan, scale: Scale) -> Iterator[Json]:
+    """The map of one dragon, and the place of each of its benches at three moments."""
+    ground, moments = plan.ground, plan.ground.timing.moments
+    drawn = ground, scale, plan.face, plan.budget
+    yield _map(plan, plan.title, say("Plan of the ground"), draw_ground(*drawn, numbers=True), False, False)
+    for time, handles in zip(moments, core.trajectory(ground.dance, moments).position, strict=True):
+        drawing = draw_ground(*drawn, numbers=False)
+        draw_benches(drawing, core.bench_outlines(ground.dance.dragon, handles), plan.names)
+        yield _map(plan, plan.title, _places(plan.clock.words(time)), drawing, True, False)
 
 
-def _tables(plan: Plan, paper: Paper) -> Iterator[_Page]:
-    tables = [_events(plan), _gates(plan), _benches(plan), _marks(plan), _points(plan)]
-    for sheet in draw_tables(tables, lambda: Sheet(paper, plan.family, plan.budget)):
-        sheet.frame(paper.room)
-        yield _Page(plan, plan.title, sheet, say("Points to paint, and times"))
-
-
-def _notes(sheet: Sheet, plan: Plan, left: float, right: float) -> None:
-    """Write the meaning of the words in the tables."""
+def _notes(plan: Plan) -> list[str]:
+    """The meaning of the words in the tables."""
     place = f"{plan.ground.timing.start_place:.1f}"
-    lines = [
+    return [
         say("mark: length along the path from mark 0 [m]"),
         plan.times_note,
         say(
@@ -161,8 +157,6 @@ def _notes(sheet: Sheet, plan: Plan, left: float, right: float) -> None:
         say("bench columns: place of the front handle along the path"),
         say("–: not during the dance"),
     ]
-    for k, line in enumerate(lines):
-        sheet.words(left + 2.0, MARGIN + BLOCK - 5.0 - 4.3 * k, line, 6.5, within=right - left - 4.0)
 
 
 def _points(plan: Plan) -> PlanTable:

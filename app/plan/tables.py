@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.plan.sheet import Sheet
+if TYPE_CHECKING:
+    from app.plan.sheet import Sheet
 
 # Height of a row and of a heading [mm], type of rows and of headings [pt], space between columns and blocks [mm].
 ROW, HEADING = 4.0, 7.0
@@ -29,14 +31,14 @@ class PlanTable:
     left: frozenset[int] = frozenset()
 
 
-def widths_of(sheet: Sheet, table: PlanTable) -> list[float]:
-    """Width of each column [mm]."""
-    heads = [sheet.width(word, TYPE, bold=True) for word in table.columns]
-    widest = [max(sheet.width(word, TYPE) for word in column) for column in zip(*table.rows, strict=True)]
+def widths_of(width: Callable[[str, float, bool], float], table: PlanTable) -> list[float]:
+    """Width of each column [mm]. width: of a text, in type of a size [pt], and bold or not"""
+    heads = [width(word, TYPE, True) for word in table.columns]
+    widest = [max(width(word, TYPE, False) for word in set(column)) for column in zip(*table.rows, strict=True)]
     widths = [min(WIDEST, max(pair)) for pair in zip(heads, widest, strict=True)]
     wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
     # A heading that is wider than all columns together makes them wider.
-    more = max(0.0, sheet.width(table.heading, HEADING_TYPE, bold=True) - wide)
+    more = max(0.0, width(table.heading, HEADING_TYPE, True) - wide)
     return [width + more / len(widths) for width in widths]
 
 
@@ -49,7 +51,7 @@ def draw_tables(tables: Sequence[PlanTable], new_sheet: Callable[[], Sheet]) -> 
     for table in tables:
         if not table.rows:
             continue
-        done, widths = 0, widths_of(sheets[0], table)
+        done, widths = 0, widths_of(sheets[0].width, table)
         wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
         while done < len(table.rows):
             fits = int((y - bottom - HEADING - ROW) / ROW)

@@ -95,8 +95,8 @@ def film_of(
 
 def _of_several(request: FilmRequest, terms: Terms, form: str) -> bytes:
     """A film of several dragons. Its drum is that of the first of them that has beats."""
+    from app.files.looks import COLOURS
     from app.files.performance_film import performance_film
-    from app.files.performances import COLOURS
 
     rate, height = _checked_size(request, terms, form)
     performance, _ = request.to_placed(terms.settings)

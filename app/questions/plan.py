@@ -25,8 +25,9 @@ from core.people.crew import places_near
 from core.shapes.engines import widened
 
 if TYPE_CHECKING:
+    from app.files.typeset import Face
+    from app.plan.paper import Title
     from app.plan.plan import Plan, Together
-    from app.plan.sheet import Title
     from app.plan.timing import TimeFormat, Timing
 
 PDF_TYPE = "application/pdf"
@@ -34,8 +35,8 @@ PDF_TYPE = "application/pdf"
 EXCESS = 0.01
 # Width of the zone to keep clear if there is no margin [m].
 CLEAR = 0.5
-# Time of the default dance's plan, measured 2026-11-22 [s].
-SECONDS = 4.0
+# Time of the default dance's plan, measured 2026-11-29 [s].
+SECONDS = 0.5
 # Most gates of a plan.
 GATES_MAX = 20
 # Most dragons of a plan: all its sheets are laid out before the first one is written.
@@ -97,7 +98,7 @@ def plan(request: PlanRequest, terms: Terms) -> bytes:
     swept = core.envelope(dance, start=span[0], stop=span[1], excess=EXCESS, budget=terms.budget)
     report = verdict_of(request, dance, place.venue, span[0], terms)
     verdict = verdict_words(report, clock.words), report.verdict is Judgement.PASSES
-    common = _Common(request, place, verdict, _family(request, place, [dance.dragon], []), terms.budget)
+    common = _Common(request, place, verdict, _face(request, place, [dance.dragon], []), terms.budget)
     times = say("times: minutes:seconds, from time 0 of the dance")
     return _drawn(dance, [common.plan_of(dance, timing, swept, clock, times)], terms)
 
@@ -123,7 +124,7 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     report = core.performance_check(performance, start=start, stop=stop, details=False, budget=budget, **limits)
     verdict = verdict_words(report, clock.words), report.verdict is Judgement.PASSES
     names = [part.name or say("dragon {k}", k=k) for k, part in enumerate(performance.parts)]
-    common = _Common(request, place, verdict, _family(request, place, [one.dragon for one in dances], names), budget)
+    common = _Common(request, place, verdict, _face(request, place, [one.dragon for one in dances], names), budget)
     times = say("times: minutes:seconds, from time 0 of the performance")
     plans = []
     for k, (part, timing, swept) in enumerate(zip(performance.parts, timings, grounds, strict=True)):
@@ -149,16 +150,14 @@ def _timing(
     return timing_of(dance, marks_of(dance, *span, request.spacing), *span, passes, terms.budget)
 
 
-def _family(
-    request: PlanRequest, place: Place, dragons: Sequence[core.Dragon], names: Sequence[str]
-) -> tuple[str, ...]:
-    """Names of the fonts that have every character of the plan. names: of the dragons"""
-    from app.files.fonts import families_for
+def _face(request: PlanRequest, place: Place, dragons: Sequence[core.Dragon], names: Sequence[str]) -> Face:
+    """The face that has every character of the plan. names: of the dragons"""
+    from app.files.typeset import face_for
 
     areas = place.venue.areas if place.venue else ()
     titles = [request.title or say("Bench dragon"), *names]
     places = [*(one.name for one in request.gates), *(area.name for area in areas)]
-    return families_for([*titles, *places, *(name for dragon in dragons for name in dragon.names)])
+    return face_for([*titles, *places, *(name for dragon in dragons for name in dragon.names)])
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,7 +167,7 @@ class _Common:
     request: PlanRequest
     place: Place
     verdict: tuple[str, bool]
-    family: tuple[str, ...]
+    face: Face
     budget: core.Budget
 
     @property
@@ -177,7 +176,7 @@ class _Common:
 
     def title_of(self, facts: list[str], name: str = "") -> Title:
         """The title block. name: of the dragon, empty if it is the only one, or for all of them"""
-        from app.plan.sheet import Title
+        from app.plan.paper import Title
 
         title = self.request.title or say("Bench dragon")
         return Title(f"{title}: {name}" if name else title, facts, *self.verdict, self.geographic)
@@ -200,7 +199,7 @@ class _Common:
         numbers = [say("head"), *map(str, range(1, dance.dragon.benches))]
         names = [f"{number} {own}".rstrip() for number, own in zip_longest(numbers, dance.dragon.names, fillvalue="")]
         note = say("times: of the day") if clock.start_clock else times
-        return Plan(ground, self.family, names, clock, self.title_of(facts, name), request.paper, self.budget, note)
+        return Plan(ground, self.face, names, clock, self.title_of(facts, name), request.paper, self.budget, note)
 
 
 def _passes_of_gates(

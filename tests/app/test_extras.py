@@ -73,7 +73,7 @@ xlsx     xlsxwriter    grade result2.xlsx
 arrow    pyarrow       trajectory --output dance.arrow
 dxf      ezdxf         envelope --output ground.dxf
 dxf      ezdxf         maps no-such-file.toml --output dance.dxf
-figures  matplotlib    plan no-such-file.toml
+paper    typst         plan no-such-file.toml
 figures  matplotlib    cues no-such-file.toml
 figures  matplotlib    crew no-such-file.toml --output crew.pdf
 service  fastapi       mcp

@@ -34,7 +34,7 @@ ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.sta
 ROOT = Path(__file__).parents[2]
 PATIENCE = 300.0  # [s]: only against a test that would hang
 # Modules that the command imports at their first use: those of the extras, parts of matplotlib and scipy, and engines.
-USED = ("dxf", "figures", "proof", "sweep", "xlsx")
+USED = ("dxf", "paper", "proof", "sweep", "xlsx")
 LAZY = (
     *("matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"),
     *("fcl", "scipy.interpolate", "scipy.special", "shapely"),

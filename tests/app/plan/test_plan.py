@@ -1,21 +1,20 @@
 """The plan on paper, opened again by another program: true to scale, words that can be found, fonts within."""
 
-import ctypes
 import json
 import re
 
 import numpy as np
-import pypdfium2.raw as pdfium
 import pytest
 from matplotlib import font_manager
 
 from app.files import fonts
-from app.plan.sheet import MARGIN, RATIOS, scale_of
+from app.plan.drawing import RATIOS, scale_of
+from app.plan.paper import MARGIN
 from app.questions.plan import PDF_TYPE, PlanRequest
 from app.questions.plan import QUESTION as PLAN
 from app.wire.messages import checked
 from app.wire.question import Terms
-from core import InvalidValue
+from core import Budget, InvalidValue, TooMuchWork
 from tests.support.paper import assert_fonts_are_within, pages_of, shapes_of, words_of
 from tests.support.refusal_rows import assert_refused
 
@@ -90,6 +89,9 @@ def test_all_that_is_promised_can_be_found_as_words(pages):
     assert len(pages) == 5
     first = "Lantern night|kiosk|N|keep clear, 0.3 m|chalk mark every 5 m|Checked: passes|1/5"
     assert [word for word in first.split("|") if word not in texts[0]] == []
+    # The title is read first, and the marks in the order of the path.
+    assert texts[0].startswith("Lantern night Plan of the ground 6 benches, 11.1 m from head to tail")
+    assert texts[0].endswith("0 5 10 15 20 25 30 35 40")
     for k, time in enumerate(("0:11.1", "0:25.6", "0:40.0")):
         assert f"Place of each bench at {time}" in texts[1 + k]
     # The dragon is 2.86 + 5 x 1.65 = 11.11 m long, and goes the 28.89 m to the end at 1 m/s.
@@ -99,22 +101,11 @@ def test_all_that_is_promised_can_be_found_as_words(pages):
     assert [word for word in f"{ends}|{rows}".split("|") if word not in texts[4]] == []
 
 
-def test_every_font_is_in_the_file(data):
+def test_the_file_holds_its_fonts_and_tags_and_names_its_language(data):
     assert_fonts_are_within(data)
-
-
-def test_no_words_are_painted_over(pages):
-    drawn = list(pages[-1].get_objects())
-    colour = [ctypes.c_uint() for _ in range(4)]
-    bands = [
-        k
-        for k, one in enumerate(drawn)
-        if one.type == pdfium.FPDF_PAGEOBJ_PATH
-        and pdfium.FPDFPageObj_GetFillColor(one.raw, *map(ctypes.byref, colour))
-        and {part.value for part in colour[:3]} == {242}
-    ]
-    assert len(bands) > 10
-    assert max(bands) < min(k for k, one in enumerate(drawn) if one.type == pdfium.FPDF_PAGEOBJ_TEXT)
+    assert [
+        tag for tag in (b"/Lang(en)", b"/S/H1", b"/S/Table", b"/S/TH", b"/Alt(Map, 1:200)") if tag not in data
+    ] == []
 
 
 def test_nothing_leaves_the_paper_and_no_sheet_is_empty(pages):
@@ -138,18 +129,39 @@ def test_a_path_that_goes_on_beyond_the_map_ends_at_its_frame():
     assert picture.min() == 255
 
 
+def test_a_street_that_the_sheet_cuts_is_broken_at_its_edge():
+    venue = json.loads(
+        json.dumps(BODY["venue"]).replace("[45, 12]", "[45, 12], [23, 12], [23, 250], [17, 250], [17, 12]")
+    )
+    page = plan_of(BODY, venue=venue)[0]
+    assert "goes on beyond the sheet" in words_of(page)
+    dots = 20  # in a millimetre
+    # The street is 6 m wide, and its middle that of the sheet.
+    column = page.render(scale=dots * POINT).to_numpy()[:, int(dots * (size(page)[0] / 2.0 + 15.0))].max(axis=1) < 128
+    top = int(dots * MARGIN)
+    assert 0.2 < column[top + dots // 2 : top + 6 * dots].mean() < 0.8
+    assert column[top + 7 * dots : top + 12 * dots].all()
+
+
+def test_a_deadline_while_the_sheets_are_set_is_a_refusal():
+    budget = Budget()
+    terms = Terms(budget=budget, progress=lambda share: budget.stop("within 2 s"))  # Maps are drawn before.
+    with pytest.raises(TooMuchWork, match="the plan was not drawn within 2 s"):
+        PLAN.to_bytes(checked(PlanRequest, BODY), terms, PDF_TYPE)
+
+
 @pytest.mark.chinese_font
 def test_a_plan_in_chinese_on_a3():
     dragon = {"benches": 6, "names": ["龙头组", "王家", "", "", "", "李家"]}
     pages = plan_of(BODY, dragon=dragon, start_clock="19:30", language="zh", paper="A3", title="板凳龙 2027")
     expected = {
-        0: ("板凳龙 2027", "保持清空", "检查：通过", "1:200"),
+        0: ("板凳龙 2027", "保持清空", "检查：通过", "1:125"),
         1: ("5 李家",),
         4: ("1 王家 19:30:13", "40.0 m 19:30:40"),
     }
     assert [word for k, words in expected.items() for word in words if word not in words_of(pages[k])] == []
     assert size(pages[0]) == pytest.approx([420.0, 297.0], abs=0.01)
-    assert holds_box(pages[0], 30.0, 20.0)
+    assert holds_box(pages[0], 48.0, 32.0)
 
 
 SPIRAL = {"kind": "spiral", "pitch": 0.4, "start_turns": 6, "centre": [9, 9]}

@@ -1,0 +1,51 @@
+"""Paper set by Typst: what is typed stays text."""
+
+import pytest
+
+from app.extras import MissingPackage
+from app.files.fonts import LATIN, chinese_among
+from app.files.typeset import Face, typeset
+from tests.support.paper import pages_of, words_of
+
+TEMPLATE = b"""
+#let data = json("data.json")
+#set document(title: data.title, date: none)
+#set text(font: data.fonts, lang: data.language)
+#set page(width: 600mm)
+#heading(data.title)
+#for one in data.names { par(one) }
+"""
+NAMES = [
+    '#set page(width: 1mm) *bold* _it_ $x^2$ `raw` "q" \\ // c',
+    "<label> @ref [link](y) = - + ~ {} ]",
+    "\u05e9\u05dc\u05d5\u05dd",
+    "x" * 200,
+    "\U0001f600",
+]
+FACE = Face((LATIN,))
+
+
+def test_what_is_typed_is_text_and_never_markup():
+    data = [typeset(TEMPLATE, FACE, {"title": "#1 *night*", "names": NAMES}) for _ in range(2)]
+    assert data[0] == data[1]
+    (page,) = pages_of(data[0])
+    words = words_of(page)
+    assert words.startswith("#1 *night*")
+    assert [name for name in NAMES if name not in words and name[::-1] not in words] == []
+    assert page.pdf.get_metadata_dict()["Title"] == "#1 *night*"
+
+
+def test_a_template_that_fails_says_why():
+    with pytest.raises(RuntimeError, match="the file was not typeset: panicked with: no paper"):
+        typeset(b'#panic("no paper")', FACE, {})
+
+
+def test_widths_are_those_on_paper():
+    """DejaVu Sans: a digit is 0.636 as wide as its type is high, and a blank 0.318."""
+    assert FACE.width("0 0", 72.0) == pytest.approx(25.4 * 1.59, abs=0.05)
+
+
+def test_a_machine_without_a_chinese_font_says_what_to_install():
+    assert chinese_among({LATIN, "SimHei", "Noto Sans CJK SC"}) == "Noto Sans CJK SC"
+    with pytest.raises(MissingPackage, match="install fonts-wqy-microhei or fonts-noto-cjk"):
+        chinese_among({LATIN})
