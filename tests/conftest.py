@@ -81,7 +81,7 @@ def every_refusal_is_in_the_catalogues(refusals_without_translation):
 
 @pytest.fixture(scope="module", autouse=True)
 def freed_memory_goes_back(request):
-    """What the functions of a module remember ends with its tests, and does not stay with the process, as glibc has it."""
+    """What the functions of a module remember ends with its tests, and does not stay with the process."""
     yield
     for function in vars(request.module).values():
         if hasattr(function, "cache_clear") and function.__module__ == request.module.__name__ and not SHUFFLE:

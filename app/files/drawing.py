@@ -6,9 +6,11 @@ They use matplotlib's objects, not pyplot: the only global state is the setting 
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
+from contextvars import copy_context
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import matplotlib
 import numpy as np
@@ -20,19 +22,22 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import Stroke
 from matplotlib.text import Text
 
-from app.files.turns import Turns
-from core import Venue
+from core import Budget, Venue
+from core.kernels import Halted
 from core.plots import PALE
 from core.shapes.engines import thickened, widest_place
 from core.values import Floats
 
+Value = TypeVar("Value")
 matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
 # TrueType: journals refuse fonts of type 3.
 matplotlib.rcParams["pdf.fonttype"] = 42
 
 # One drawing at a time: matplotlib does not guarantee that its font caches are safe for threads. Always in one thread:
 # matplotlib opens the two files of a font once for each thread that draws, and forty threads answer requests.
-in_turn = Turns("drawing")
+_DRAWER = ThreadPoolExecutor(1, "drawing")
+# Time between two looks at the budget of who waits for a drawing [s].
+LOOK_SECONDS = 0.05
 PNG_DPI = 120
 # Width of the part of a venue drawn around the dragon, as a fraction of the dragon's extent [1].
 AROUND = 0.6
@@ -42,6 +47,19 @@ NAME_TYPE, HALO, NAME_AWAY = 8.0, 0.35, 4.0
 # Distance from a line within which no name of a square stands, if there is room elsewhere [m], and of the points of a
 # line that a name may not cover [pixels].
 LINE_AWAY, LINE_STEP = 0.5, 3.0
+
+
+def in_turn(draw: Callable[[], Value], budget: Budget | None = None) -> Value:
+    """The value of a drawing function, called when all earlier ones are done. It must not call in_turn() itself.
+
+    raises: Halted once the budget is stopped; what has begun goes on for nobody, as matplotlib cannot stop
+    """
+    drawing = _DRAWER.submit(copy_context().run, draw)
+    while budget is not None and not wait([drawing], LOOK_SECONDS).done:
+        if budget.stopped:
+            drawing.cancel()
+            raise Halted(budget)
+    return drawing.result()
 
 
 def canvas(width: float, height: float) -> Figure:

@@ -26,7 +26,6 @@ from app.contest.sensitivity import panels
 from app.contest.solved import ContestRequest, solve
 from app.contest.tables import paper_tables
 from app.files import drawing
-from app.files.turns import LOOK_SECONDS
 from app.questions.contest_kit import ContestKitRequest, contest_kit
 from app.settings import Settings
 from app.wire.question import Terms
@@ -278,7 +277,7 @@ def test_a_kit_that_waits_for_other_drawings_ends_when_it_is_stopped():
 
     def long():
         solved.wait(PATIENCE)
-        time.sleep(10 * LOOK_SECONDS)  # the kit's first drawing stands behind this one meanwhile
+        time.sleep(10 * drawing.LOOK_SECONDS)  # the kit's first drawing stands behind this one meanwhile
         budget.stop()
 
     def listen(share):

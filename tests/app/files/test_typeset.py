@@ -1,10 +1,15 @@
 """Paper set by Typst: what is typed stays text."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import pytest
 
 from app.extras import MissingPackage
 from app.files.fonts import LATIN, chinese_among
-from app.files.typeset import Face, typeset
+from app.files.typeset import Face, typeset, typesetting
+from core import Budget
+from core.kernels import Halted
+from tests.support.job_service import wait_for
 from tests.support.paper import pages_of, words_of
 
 TEMPLATE = b"""
@@ -49,3 +54,14 @@ def test_a_machine_without_a_chinese_font_says_what_to_install():
     assert chinese_among({LATIN, "SimHei", "Noto Sans CJK SC"}) == "Noto Sans CJK SC"
     with pytest.raises(MissingPackage, match="install fonts-wqy-microhei or fonts-noto-cjk"):
         chinese_among({LATIN})
+
+
+def test_a_file_that_takes_too_long_ends_with_its_budget_and_the_next_one_is_set():
+    budget = Budget()
+    with ThreadPoolExecutor() as pool:
+        long = pool.submit(typeset, b"#for i in range(30000) { for j in range(30000) {} }", FACE, {}, budget)
+        wait_for(lambda: typesetting.pids)
+        budget.stop()
+        with pytest.raises(Halted):
+            long.result()
+    assert typeset(b"short", FACE, {}).startswith(b"%PDF")

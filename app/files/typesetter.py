@@ -1,0 +1,81 @@
+"""Typesetting in a separate process: python -m app.start app.files.typesetter
+
+Nothing can stop Typst, and what it has read of a file it keeps. So a process typesets one file after another with low
+priority, is killed at the deadline or when the client is gone, and ends once it has needed much memory. The process
+that asks never imports Typst.
+
+task    a function of this module by its name, and its arguments
+answer  its value, or the words of its error
+"""
+
+from __future__ import annotations
+
+import pickle
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import orjson
+import typst
+
+from app.processes.limits import end_first, lower_priority
+from app.processes.parent import Report, answer_tasks
+
+# Width of each character in type of 1 pt [pt]; between two others, because a blank alone has none.
+MEASURE = b"""
+#let data = json("data.json")
+#set text(font: data.fonts, size: 100pt, weight: data.weight)
+#context {
+  let wide(words) = measure(text(words)).width.pt()
+  [#metadata(data.texts.map(one => (wide("|" + one + "|") - wide("||")) / 100)) <widths>]
+}
+"""
+
+
+@cache
+def _fonts() -> typst.Fonts:
+    """The fonts of this machine, and those that come with matplotlib, which is not imported for them."""
+    package = find_spec("matplotlib")
+    places = (package.submodule_search_locations if package else None) or ()
+    folders = [Path(place) / "mpl-data/fonts/ttf" for place in places]
+    return typst.Fonts(include_embedded_fonts=False, font_paths=folders)
+
+
+def families() -> list[str]:
+    """Names of the fonts."""
+    return _fonts().families()
+
+
+def widths(data: bytes) -> list[float]:
+    """Widths of texts in type of 1 pt [pt]. data: their fonts, weight and the texts as JSON"""
+    files: Any = {"main.typ": MEASURE, "data.json": data}  # Typst's types know of no files by their names.
+    options: dict[str, Any] = {"field": "value", "one": True}
+    found = typst.query(files, "<widths>", font_paths=_fonts(), ignore_system_fonts=True, **options)
+    measured: list[float] = orjson.loads(found)
+    return measured
+
+
+def pdf(template: bytes, data: bytes) -> bytes:
+    """The bytes of a PDF, of a template that reads data.json."""
+    files: Any = {"main.typ": template, "data.json": data}
+    content: bytes = typst.compile(files, font_paths=_fonts(), ignore_system_fonts=True, timestamp=0)
+    return content
+
+
+FUNCTIONS = {function.__name__: function for function in (families, widths, pdf)}
+
+
+def _answer(task: bytearray, report: Report) -> bytes:
+    name, arguments = pickle.loads(task)
+    try:
+        return pickle.dumps((FUNCTIONS[name](*arguments), ""))
+    except BaseException as error:  # A panic of Rust is no Exception.
+        return pickle.dumps((None, str(error)))
+
+
+def main() -> None:
+    """Typeset files until the parent ends."""
+    lower_priority()
+    end_first()
+    answer_tasks(_answer)
