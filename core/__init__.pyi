@@ -10,6 +10,7 @@ from .claims.claim import (
     PartSummary,
     ProbabilityClaim,
     StrayClaim,
+    TailClaim,
 )
 from .contact.answer import Evidence, Feature, FirstContact, Outcome
 from .contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
@@ -50,6 +51,8 @@ from .extremes.speed import (
 )
 from .failures import Failure, FailureKind
 from .ground.envelope import Envelope, SweepProof, envelope
+from .ground.loose_tail import TailProof, TailReach, tail_reach
+from .ground.stays import Stay, Stays, stays
 from .judgement import Judgement, Report, check, quick_check
 from .kernels import Budget
 from .motion.trajectory import Trajectory, trajectory
@@ -204,10 +207,15 @@ __all__ = [
     "Spell",
     "Spiral",
     "Stand",
+    "Stay",
+    "Stays",
     "Stray",
     "StrayClaim",
     "StrayProof",
     "SweepProof",
+    "TailClaim",
+    "TailProof",
+    "TailReach",
     "TightBend",
     "Tolerance",
     "ToleranceCurve",
@@ -261,6 +269,8 @@ __all__ = [
     "separation",
     "sharpest_bend",
     "shortest_turn",
+    "stays",
+    "tail_reach",
     "tolerance",
     "tolerance_curve",
     "trajectory",

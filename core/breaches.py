@@ -26,9 +26,9 @@ from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
 from core.shapes.engines import inside
 from core.shapes.reach import Reach, directions, gains, reach
-from core.shapes.rectangles import bench_poses, frames
+from core.shapes.rectangles import bench_poses, edge_frames, frames
 from core.values import Floats
-from core.venue import Area, Venue
+from core.venue import Venue
 
 # Travel of the head between two samples [m], and most samples; fewer where benches and edges make more than PAIRS.
 STEP, SAMPLES_MAX, PAIRS = 0.3, 600, 4e6
@@ -90,7 +90,7 @@ def breaches(
     strayed = checked_stray(stray, dance.dragon)
     limit = None if speed_limit is None else checked_limit(speed_limit)
     budget = budget or Budget()
-    edges = [] if venue is None else [_frames_of(area) for area in venue.areas]
+    edges = [] if venue is None else [edge_frames(area.edges) for area in venue.areas]
     begin, until = dance.span(start, stop)
     times = _times(dance, (begin, until), sum(map(len, edges)))
     budget.afford(float(len(times) * dance.dragon.benches))
@@ -118,15 +118,6 @@ def _times(dance: Dance, span: tuple[float, float], edges: int) -> Floats:
     benches = dance.dragon.benches
     most = min(SAMPLES_MAX, max(SAMPLES_MIN, int(PAIRS / (benches * (0.5 * benches + edges)))))
     return np.linspace(begin, until, min(most, int(way / STEP) + 2))
-
-
-def _frames_of(area: Area) -> Floats:
-    """The edges of an area as rectangles without a width (E, 6) [m]."""
-    a, b = area.edges[:, :2], area.edges[:, 2:]
-    way = b - a
-    lengths = np.hypot(*way.T)
-    poses = np.column_stack([0.5 * (a + b), np.arctan2(way[:, 1], way[:, 0])])
-    return frames(poses, np.column_stack([lengths, np.zeros(len(way))]))
 
 
 def _too_near(

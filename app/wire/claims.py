@@ -149,3 +149,15 @@ class GroundClaim(Answer):
     sizes: int = Field(description="Number of different sizes of benches")
     length: float = measure("m", "Length of the path that these pass")
     cells: int = Field(description="Number of stretches of the path, each with a bound on the motion")
+
+
+class TailClaim(Answer):
+    """Claim of the ground of a loose tail."""
+
+    kind: ClaimKind = KIND
+    start: float = measure("s", "Start of the time asked about")
+    stop: float = measure("s", "End of the time asked about")
+    benches: int = Field(description="Number of loose benches, the last ones")
+    reach: float = measure("m", "Furthest that they come from the handle that still follows the path")
+    stray: float = measure("m", "Largest distance of that handle from its place")
+    excess: float = measure("m", "Furthest that the polygons go beyond the reach from places of the handle")

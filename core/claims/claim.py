@@ -27,6 +27,7 @@ class ClaimKind(StrEnum):
     UNDECIDED: no two come within the margin up to a time, and it is not decided whether any do after that
     SAFE_STRAY, NO_SAFE_STRAY: nothing touches while no hole strays further; no such stray is known
     CONTACT_PROBABILITY: of dances drawn at random; SWEPT_GROUND: of the polygons around all that benches sweep
+    LOOSE_TAIL: of the polygons around all that loose benches can reach
     """
 
     CLEAR = "clear"
@@ -37,6 +38,7 @@ class ClaimKind(StrEnum):
     NO_SAFE_STRAY = "no_safe_stray"
     CONTACT_PROBABILITY = "contact_probability"
     SWEPT_GROUND = "swept_ground"
+    LOOSE_TAIL = "loose_tail"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -210,6 +212,24 @@ class GroundClaim(Readable):
     cells: int
 
 
+@dataclass(frozen=True, slots=True, repr=False)
+class TailClaim(Readable):
+    """Claim of the ground of a loose tail: it holds all that the last benches can reach when they are let go.
+
+    start, stop: [s]; benches: loose ones; reach: of them from the handle that still follows [m]; stray: of that [m]
+    excess: furthest that the polygons go beyond the reach from places of the handle [m]
+    """
+
+    kind: ClaimKind
+    start: float
+    stop: float
+    benches: int
+    reach: float
+    stray: float
+    excess: float
+    _units = {"reach": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+
 def format_safe(stray: float) -> str:
     """A stray that is proven safe [m], rounded down to 1e-12 m, so that it stays proven.
 
@@ -219,4 +239,4 @@ def format_safe(stray: float) -> str:
     return format_number(float(format_bound(stray, 12)))
 
 
-Claim = ContactClaim | EncounterClaim | StrayClaim | ProbabilityClaim | GroundClaim
+Claim = ContactClaim | EncounterClaim | StrayClaim | ProbabilityClaim | GroundClaim | TailClaim

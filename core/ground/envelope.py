@@ -55,7 +55,7 @@ from core.errors import InvalidValue, checked_list, checked_number, checked_poin
 from core.ground.tracks import Track, tracks
 from core.kernels import Budget
 from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, RADIUS
-from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
+from core.shapes.engines import GRID, GROWTH_MOST, Polygons, area_of, distance_from, united
 from core.shapes.rectangles import bench_outlines
 from core.values import Floats
 
@@ -165,7 +165,7 @@ def envelope(
     length = sum(track.length for track in swept)
     claim = GroundClaim(ClaimKind.SWEPT_GROUND, begin, until, most, len(swept), length, cells)
     proof = SweepProof(claim, cells)
-    area = sum(0.5 * float(_cross(ring[:-1], ring[1:]).sum()) for rings in polygons for ring in rings)
+    area = area_of(polygons)
     frame, onwards = dance.path.frame, slice(None, None, 1 if dance.path.frame.clockwise else -1)
     # in the world frame, each ring still in its direction
     polygons = tuple(tuple(frame.points(ring)[onwards] for ring in rings) for rings in polygons)

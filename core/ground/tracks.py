@@ -60,7 +60,7 @@ class Track:
 def tracks(dance: Dance, begin: float, until: float) -> list[Track]:
     """The tracks of all sizes of benches between two travels of the head [m]."""
     dragon = dance.dragon
-    lows, highs, spares = _stretches(dance, begin, until)
+    lows, highs, spares = stretches(dance, begin, until)
     sizes = np.stack([dragon.chords, dragon.lengths, dragon.widths], axis=1)
     _, firsts, kinds = np.unique(sizes, axis=0, return_index=True, return_inverse=True)
     result = []
@@ -75,7 +75,7 @@ def tracks(dance: Dance, begin: float, until: float) -> list[Track]:
     return result
 
 
-def _stretches(dance: Dance, begin: float, until: float) -> tuple[Floats, Floats, Floats]:
+def stretches(dance: Dance, begin: float, until: float) -> tuple[Floats, Floats, Floats]:
     """Least and largest place s of the front handle of every bench (n,), with the spare that both have (n,) [m]."""
     path, chords = dance.path, dance.dragon.chords
     spares = np.full(chords.size, PLACE_ROUNDING + path.slide)

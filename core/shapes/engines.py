@@ -347,6 +347,12 @@ def thickened(line: Floats, radius: float) -> Polygons:
     return _rings(shapely.buffer(shapely.LineString(line), ARC_GROWTH * radius, quad_segs=ARC_CHORDS))
 
 
+def area_of(polygons: Polygons) -> float:
+    """Area of polygons [m2]."""
+    edges = ((ring[:-1], ring[1:]) for rings in polygons for ring in rings)
+    return sum(0.5 * float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()) for a, b in edges)
+
+
 def _rings(ground: object) -> Polygons:
     import shapely
 

@@ -103,6 +103,15 @@ def frames(poses: Floats, sizes: Floats) -> Floats:
     return out
 
 
+def edge_frames(edges: Floats) -> Floats:
+    """Edges (E, 4), x, y, x, y [m], as rectangles without a width, in the form of the kernels (E, 6)."""
+    a, b = edges[:, :2], edges[:, 2:]
+    way = b - a
+    lengths = np.hypot(*way.T)
+    poses = np.column_stack([0.5 * (a + b), np.arctan2(way[:, 1], way[:, 0])])
+    return frames(poses, np.column_stack([lengths, np.zeros(len(way))]))
+
+
 def corners(poses: Floats, sizes: Floats) -> Floats:
     """Corners (..., 4, 2) [m]: front-left, front-right, rear-right, rear-left.
 

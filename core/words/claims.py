@@ -21,11 +21,12 @@ from core.claims.claim import (
     PartSummary,
     ProbabilityClaim,
     StrayClaim,
+    TailClaim,
     format_safe,
 )
 from core.dance import EndReason
 from core.display import format_range
-from core.errors import format_number
+from core.errors import format_bound, format_number
 from core.language import counted, phrase, say, sense
 from core.passages import Passage
 from core.paths.path import PathSummary
@@ -210,6 +211,22 @@ def _ground(claim: GroundClaim) -> str:
     )
 
 
+def _tail(claim: TailClaim) -> str:
+    reach, excess = (format_number(float(format_bound(one, 6, up=True))) for one in (claim.reach, claim.excess))
+    return say(
+        "Whenever from {start} to {stop} s {loose} while the others dance on, the polygons hold all that they can "
+        "reach: as links that turn freely they come at most {reach} m from the handle that still follows the path"
+        "{strayed}, and the polygons hold all points that near to any of its places. No point of theirs is more than "
+        "{excess} m further away.",
+        start=format_number(claim.start),
+        stop=format_number(claim.stop),
+        loose=counted(claim.benches, "the last bench is let go", "the last {count} benches are let go"),
+        reach=reach,
+        strayed=say(" or {stray} m beside it", stray=format_number(claim.stray)) if claim.stray else "",
+        excess=excess,
+    )
+
+
 def _near(claim: ContactClaim | EncounterClaim, *, may: bool = False) -> str:
     margin = format_number(claim.margin)
     if not claim.margin:
@@ -332,4 +349,5 @@ SENTENCES: dict[type[Claim], Callable[[Any], str]] = {
     StrayClaim: _stray,
     ProbabilityClaim: _probability,
     GroundClaim: _ground,
+    TailClaim: _tail,
 }

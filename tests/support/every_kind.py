@@ -14,6 +14,7 @@ from core.claims.claim import (
     PartSummary,
     ProbabilityClaim,
     StrayClaim,
+    TailClaim,
 )
 from core.paths.path import PathSummary
 
@@ -76,6 +77,8 @@ CLAIMS = {
     "probability with bounds": ProbabilityClaim(ClaimKind.CONTACT_PROBABILITY, 9, 100, 21, 0.5, 0.95, 0.25, 0.0125, 3),
     "probability of wide strays": ProbabilityClaim(ClaimKind.CONTACT_PROBABILITY, 9, 9, 21, 0.5, 0.95, 1.5, 0.0125, 0),
     "ground": GroundClaim(ClaimKind.SWEPT_GROUND, 0.0, 9.5, 0.00099987, 1, 30.125, 88),
+    "loose tail": TailClaim(ClaimKind.LOOSE_TAIL, 0.0, 9.5, 3, 5.2310005, 0.0, 0.06),
+    "loose tail of people who stray": TailClaim(ClaimKind.LOOSE_TAIL, 0.0, 9.5, 1, 1.93, 0.05, 0.06),
 }
 
 # Sentences of each claim, in English and in Chinese: a file of its name, both, and an empty line.

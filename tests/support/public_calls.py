@@ -71,6 +71,8 @@ OWN = {
         "count": 1,
     },
     core.safe_delay: {"part": 1, "least": 0.0, "most": 9.0},
+    core.stays: {"area": SQUARE.square},
+    core.tail_reach: {"benches": 2},
     core.separation: {"poses_a": POSES, "sizes_a": [2.0, 1.0], "poses_b": POSES, "sizes_b": [2.0, 1.0]},
     core.tolerance_curve: {"pitches": [0.9], "start_turns": 6.0},
     core.turn_time: {"path": core.Turn(1.7)},
