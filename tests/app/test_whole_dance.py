@@ -10,7 +10,6 @@ import pytest
 import core
 from app.wire.benches import bench_table
 from app.wire.clocks import time_of_day
-from core import InvalidValue
 from tests.support.asking import box, line, written
 from tests.support.command import refusal, run, said
 from tests.support.paper import pages_of, words_of
@@ -52,16 +51,13 @@ def rows_of(text):
 # -- places, speeds and names --------------------------------------------------------------------------------
 
 
-def test_a_table_has_places_speeds_names_and_the_time_of_day(ask):
+def test_places_and_speeds_of_a_dance_with_passages_and_pauses_are_those_of_core(ask):
     body = DANCE | CLOCK | {"times": [10.0, 50.0, 130.25]}
     got, known = ask("trajectory", body), core.trajectory(PLACED, body["times"])
     assert np.stack([got["x"], got["y"]], axis=-1).tolist() == known.position.tolist()
     assert got["speed"] == known.speed.tolist()
     assert got["speed"][1] == [0.0] * 5
     assert ask("trajectory", body | {"dragon": {"csv": TABLE}}) == got
-    rows = rows_of(ask.file("trajectory", body, "text/csv"))
-    assert [row["name"] for row in rows[:5]] == ["Zhou", "Li, the elder", "body 2", "Wu", "Wu (rear)"]
-    assert [row["clock"] for row in rows[::5]] == ["19:30:10", "19:30:50", "19:32:10"]
 
 
 def test_failures_say_who_and_at_what_time_of_day(ask):
@@ -98,32 +94,6 @@ def test_a_file_may_name_a_table_of_benches_and_a_time_of_day(tmp_path):
 
 
 BARE_TABLE = "Zhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\n"
-
-
-@pytest.mark.parametrize(
-    ("text", "line_", "words"),
-    [
-        ("", 1, "columns"),
-        ("length,width\n", 1, "overhang"),
-        ("length,width,overhang,weight\n", 1, "'weight'"),
-        ("length,length,width,overhang\n", 1, "once"),
-        ("\n\nlength,width,overhang\n", 4, "first bench"),
-        ("length,width,overhang\n2.2,0.3\n", 2, "3 entries"),
-        ("length,width,overhang\n2.2,wide,0.3\n", 2, "width must be a number in metres, got 'wide'"),
-        ("length,width,overhang\n2.2,nan,0.3\n", 2, "width"),
-        ("length,width,overhang\n\n2.2,0.3,1.1\n", 3, "overhang must be less than half of the length, 2.2 m"),
-        ("Zhou,3.41,0.3\n", 1, "Zhou"),
-        ("3.41,0.3,0.275\n2.2,0.3\n", 2, "3 entries, as the first line has, got 2"),
-        ("3.41,0.3\n", 1, "column"),
-        ("sep=;\n", 1, "column"),
-        (BARE_TABLE + "Wu,wide,0.3,0.275\n", 3, "length"),
-    ],
-)
-def test_a_bad_line_of_a_table_is_named_by_its_number(text, line_, words):
-    with pytest.raises(InvalidValue) as refused:
-        bench_table(text).to_dragon()
-    assert refused.value.message.startswith(f"line {line_}: ")
-    assert words in refused.value.message
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ from PIL import Image, ImageSequence
 from app.files.film import DPI, FRONT_SHARE, MARKED_LEAST, FilmPicture, film
 from app.files.film_labels import numbered, pictures_of, size_of
 from app.files.film_spec import GIF_TYPE, MP4_TYPE, FilmSpec
+from app.wire.degrees import place_of
 from core import (
-    Area,
     Budget,
     Dance,
     Dragon,
@@ -20,7 +20,6 @@ from core import (
     Spiral,
     TooMuchWork,
     Turn,
-    Venue,
     Waypoints,
     bench_outlines,
     bench_poses,
@@ -33,7 +32,6 @@ from tests.conftest import ROOT
 from tests.support.command import said
 from tests.support.depth import further, some
 from tests.support.random_squares import polygon
-from tests.support.refusal_rows import assert_refused
 
 # Colours of the head and of the body; video keeps them to within a few parts of 255.
 HEAD, BODY, NEAR = (213, 94, 0), (0, 114, 178), 60
@@ -115,13 +113,6 @@ def test_a_film_plays_as_long_as_asked_and_a_gif_too(ask):
     with Image.open(io.BytesIO(ask.file("films", SMALL, GIF_TYPE))) as picture:
         assert (picture.format, picture.size, picture.n_frames) == ("GIF", (640, 360), 6)
         assert 900 <= picture.info["duration"] * picture.n_frames <= 1100
-
-
-@pytest.mark.parametrize(
-    "row", ['{"seconds": 120, "rate": 60, "height": 2160} -> /seconds 4000', '{"stop": 500} -> /stop']
-)
-def test_a_film_that_is_too_large_or_outside_the_run_is_refused(client, row):
-    assert_refused(client, "/films", {}, row)
 
 
 @pytest.mark.parametrize("form", further([MP4_TYPE, GIF_TYPE], 1))
@@ -230,11 +221,7 @@ VILLAGE = ROOT / "examples" / "village_square.geojson"
 
 def village(height=540):
     """A picture of a dragon that winds across the village square, so far away that a bench is two pixels wide."""
-    square, *obstacles = (
-        Area(one["properties"]["name"], tuple(tuple(map(tuple, ring)) for ring in one["geometry"]["coordinates"]))
-        for one in json.loads(VILLAGE.read_bytes())["features"]
-    )
-    venue = Venue(square, obstacles)
+    venue = place_of(json.loads(VILLAGE.read_bytes()), None, Dragon()).venue
     winding = Waypoints([(-67, -8), (-12, -8), (-3, -9), (6, -8), (10.5, -3), (7, 2.5), (0, 3.5), (-4.5, 7), (-1, 10.5),
                          (6, 10.5), (12, 15), (12, 62)])  # fmt: skip
     dance = Dance(Dragon(benches=24), Route([winding], start=50.0))

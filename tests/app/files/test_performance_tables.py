@@ -15,7 +15,6 @@ from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
 from core import TooLarge, performance_trajectory
 from core.language import speaking
-from tests.support.refusal_rows import assert_refused
 
 TWO = json.loads("""{"dances": [
     {"name": "east", "dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[0, 0], [40, 0]]}},
@@ -78,15 +77,3 @@ def test_a_workbook_has_two_sheets_for_each_dragon_and_refuses_too_many_columns(
     many = performance_trajectory(performance, np.linspace(15.0, 20.0, 20_000))
     with pytest.raises(TooLarge, match="xlsx holds at most"):
         performance_file(".xlsx", PerformanceTable(performance, many))
-
-
-@pytest.mark.parametrize(
-    "row",
-    [
-        '{"beats": []} -> /beats',
-        '{"times": {"start": 9, "stop": 5}} -> /times/stop times.start 9 5',
-        '{"times": {"step": 1e-6}} -> /times/step instants',
-    ],
-)
-def test_a_wrong_value_is_refused(client, row):
-    assert_refused(client, "/trajectory", TWO, row)
