@@ -9,16 +9,11 @@ from app.processes.parent import answer_tasks
 
 
 def answer(task, report):
-    """What a task asks for: its own length, reports, a print, a death, a long time, or memory."""
-    word, _, rest = bytes(task).partition(b" ")
-    if word == b"report":
-        for part in rest.split():
-            report(part)
-    elif word == b"print":
+    """What a task asks for: its own length, a print, a long time with a report, or memory."""
+    word = bytes(task)
+    if word == b"print":
         os.write(1, b"straight to the file descriptor\n")
         print("by Python", flush=True)
-    elif word == b"die":
-        os._exit(11)
     elif word == b"sleep":
         child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"])
         report(b"%d" % child.pid)

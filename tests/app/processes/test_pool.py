@@ -12,7 +12,7 @@ import psutil
 import pytest
 
 from app.processes.child import ProcessEnded
-from app.processes.pool import STARTS, Pool
+from app.processes.pool import Pool
 from core import Budget
 from core.kernels import Halted
 from tests.conftest import ROOT
@@ -31,13 +31,6 @@ def answered(pool, task=b"a", budget=None):
     """Process that answered, and the length of the task."""
     pid, length = map(int, pool.answer(task, budget).split())
     return pid, length
-
-
-def test_one_process_answers_one_task_after_another(pool):
-    assert answered(pool) == (pool.pids[0], 1)
-    assert answered(pool, b"", Budget()) == (pool.pids[0], 0)
-    assert answered(pool, bytes(30_000_000)) == (pool.pids[0], 30_000_000)
-    assert len(pool.pids) == 1
 
 
 def test_tasks_at_the_same_time_have_processes_of_their_own_and_few_wait_afterwards(pool):
@@ -59,23 +52,10 @@ def test_tasks_at_the_same_time_have_processes_of_their_own_and_few_wait_afterwa
     assert len(pool.pids) <= 2
 
 
-def test_reports_come_in_order_before_the_answer(pool):
-    reports = []
-    pool.answer(b"report a b c", report=lambda report: reports.append(bytes(report)))
-    assert reports == [b"a", b"b", b"c"]
-
-
 def test_what_a_task_prints_is_no_answer(pool, capfd):
     with closing(Pool(MODULE, waiting=1)) as fresh:  # its standard error is the one that is captured here
         assert answered(fresh, b"print")[1] == 5
     assert capfd.readouterr().err == "straight to the file descriptor\nby Python\n"
-
-
-def test_a_task_that_ends_its_process_is_not_given_to_another(pool):
-    with pytest.raises(ProcessEnded, match="exit code 11 during its task") as caught:
-        pool.answer(b"die")
-    assert caught.value.received
-    assert answered(pool)[1] == 1
 
 
 def test_a_process_that_is_killed_while_it_waits_or_needed_much_memory_takes_no_other_task(pool):
@@ -86,14 +66,6 @@ def test_a_process_that_is_killed_while_it_waits_or_needed_much_memory_takes_no_
     pid, _ = answered(pool, b"memory")
     assert is_gone(pid)
     assert answered(pool)[0] != pid
-
-
-def test_processes_that_do_not_start_are_counted(tmp_path, monkeypatch):
-    (tmp_path / "broken.py").write_text(f"open({str(tmp_path / 'log')!r}, 'a').write('started ')\nraise SystemExit(3)")
-    monkeypatch.syspath_prepend(str(tmp_path))
-    with closing(Pool("broken", waiting=1)) as broken, pytest.raises(ProcessEnded, match="exit code 3 before its task"):
-        broken.answer(b"a")
-    assert (tmp_path / "log").read_text().split() == ["started"] * STARTS
 
 
 def test_a_pool_that_closes_ends_its_processes_and_starts_none():
