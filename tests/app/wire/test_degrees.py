@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.wire.degrees import ACROSS_MAX, place_of
+from app.wire.degrees import ACROSS_MAX, AXIS, place_of
 from core import Dragon
 from tests.support.asking import box, written
 from tests.support.command import run
@@ -15,20 +15,6 @@ from tests.support.refused import refused
 
 # Longitude and latitude are differences of doubles near 120 degrees: 1e-14 degrees [m].
 PLACED = 2e-8
-
-LONGITUDE, LATITUDE = 120.1551, 28.9703
-# Metres along a meridian and a parallel for a degree there, by the series of the WGS 84 ellipsoid (NGA TR8350.2).
-PHI = math.radians(LATITUDE)
-ALONG_MERIDIAN = 111_132.954 - 559.822 * math.cos(2 * PHI) + 1.175 * math.cos(4 * PHI) - 0.0023 * math.cos(6 * PHI)
-ALONG_PARALLEL = 111_412.877 * math.cos(PHI) - 93.503 * math.cos(3 * PHI) + 0.118 * math.cos(5 * PHI)
-SERIES = 1e-6  # how good the series is, as a part of the length [1]
-
-
-def around(half, longitude=LONGITUDE, latitude=LATITUDE):
-    """A square in degrees. half: distance from its middle to each side [m]"""
-    east = half / (ALONG_PARALLEL / math.cos(PHI) * math.cos(math.radians(latitude)))
-    north = half / ALONG_MERIDIAN
-    return box(longitude - east, latitude - north, longitude + east, latitude + north)
 
 
 def with_crs(name, venue):
@@ -39,9 +25,7 @@ def placed(venue, coordinates=None, dragon=Dragon()):  # noqa: B008
     return place_of(venue, coordinates, dragon)
 
 
-METRES, DEGREES = box(-40, -40, 40, 40), around(40.0)
-DANCE = {"dragon": {"benches": 20}, "path": {"pitch": 1.7, "start_turns": 6}}
-CHECK = DANCE | {"stop": 20}
+METRES, DEGREES = box(-40, -40, 40, 40), box(120.1547, 28.97, 120.1555, 28.9706)
 
 
 # -- degrees or metres ----------------------------------------------------------------------------------------
@@ -86,13 +70,6 @@ def east_north(origin, longitude, latitude):
     return east, north + squared * n0 * math.sin(p0) * math.cos(p0)
 
 
-@pytest.mark.parametrize(("west", "east"), [(179.9995, -179.9995), (179.9995, 180.0005), (-180.0005, -179.9995)])
-def test_a_square_on_the_date_line_is_one_square(west, east):
-    place = placed(box(west, 10, east, 10.001), "degrees")
-    assert abs(place.origin.longitude) == pytest.approx(180.0, abs=1e-9)
-    assert np.abs(np.array(place.venue.square.rings[0])).max() < 60.0
-
-
 @pytest.mark.parametrize(("east", "west", "name"), [(0.5, 0.5, "square"), (180, -180, None)])
 def test_a_square_in_parts_is_one_square_also_if_it_is_cut_at_the_date_line(east, west, name):
     """As in a map that is opened."""
@@ -119,9 +96,10 @@ def test_another_crs_or_none_is_believed_to_be_in_metres_if_the_user_says_so():
 
 
 def test_the_limit_of_a_venue_is_where_it_says():
-    assert placed(around(0.495 * ACROSS_MAX, latitude=0.1), "degrees").venue is not None
+    degrees = math.degrees(ACROSS_MAX / AXIS)
+    assert placed(box(0, 0, 0.99 * degrees, 0.001), "degrees").venue is not None
     with refused("venue"):
-        placed(around(0.505 * ACROSS_MAX, latitude=0.1), "degrees")
+        placed(box(0, 0, 1.01 * degrees, 0.001), "degrees")
 
 
 # -- on the command line -----------------------------------------------------------------------------------------
@@ -129,5 +107,6 @@ def test_the_limit_of_a_venue_is_where_it_says():
 
 def test_the_command_takes_a_venue_in_degrees(tmp_path):
     written(tmp_path, DEGREES, "square.geojson")
-    file = written(tmp_path, CHECK | {"venue": "square.geojson", "coordinates": "degrees"})
+    dance = {"path": {"pitch": 1.7, "start_turns": 6}, "dragon": {"benches": 20}, "stop": 20}
+    file = written(tmp_path, dance | {"venue": "square.geojson", "coordinates": "degrees"})
     assert "x = y = 0 is longitude 120.155100, latitude 28.970300" in run("check", file).stdout
