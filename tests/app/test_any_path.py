@@ -9,7 +9,6 @@ import pytest
 
 import core
 from app.questions.shortest_turn import ShortestTurnRequest, shortest_turn
-from app.wire.paths import path_of
 from app.wire.question import Terms
 from tests.support.asking import line
 
@@ -38,16 +37,6 @@ def test_a_turn_of_any_ratio_is_that_of_core():
     answer = shortest_turn(request, Terms(budget=core.Budget(1e7)))
     known = core.shortest_turn(core.Dragon(), 1.7, ratio=None, budget=core.Budget(1e7))
     assert (answer.ratio, answer.length_bracket) == (known.turn.ratio, known.length_bracket)
-
-
-def test_a_turn_with_clothoids_is_a_turn_for_every_question(ask):
-    """As in docs/contest.md, and as its pieces."""
-    shape = {"ratio": 1.0, "middle": 4.0, "ends": 0.5}
-    timed = ask("turn-time", {"path": TURN | shape})
-    assert (round(timed["length"], 4), round(timed["head_speed"], 4), round(timed["time"], 2)) == (13.4102, 1.739, 7.71)
-    paths = (TURN | shape, path_of(core.ClothoidTurn(1.7, **shape)))
-    whole, pieces = (ask("check", {"dragon": SHORT, "path": path, "start": -20.0, "stop": 40.0}) for path in paths)
-    assert whole == pieces
 
 
 # -- routes and waypoints ------------------------------------------------------------------------------------
@@ -120,10 +109,3 @@ def test_a_start_or_stop_that_is_left_out_lies_in_the_run(ask, call, given):
     )
     if times is None:
         assert ask(call, body)["time"] == got
-
-
-@pytest.mark.parametrize("start", [0, 9], ids=["late", "past"])
-def test_without_a_start_a_search_begins_when_the_whole_dragon_is_on_the_path(ask, start):
-    got = ask("collision-time", ON_LANE | {"path": route(LANE, start=start), "margin": 1.2, "cross_check": "none"})
-    assert got["outcome"] == "contact_at_start"
-    assert got["time"] == pytest.approx(7.81 - start, abs=BEGIN_TOLERANCE)

@@ -2,13 +2,11 @@
 
 import pytest
 
-import core
 from app.command.main import MODULE_OF
 from app.questions.registry import QUESTIONS
 from app.service.examples import EXAMPLES
 from app.wire.dances import TimeSteps, UniformBody
 from app.wire.paths import TurnFields
-from core.tolerance.curve import time_on_circle
 from tests.support.asking import dance, written
 from tests.support.command import said
 from tests.support.depth import few
@@ -98,7 +96,7 @@ def test_an_empty_body_asks_what_an_empty_query_asks(question):
 @pytest.mark.parametrize("asked", few(BODIES, 5), ids=label)
 def test_a_job_has_the_answer_of_its_call(client, asked):
     path, body = asked[0].path, asked[1]
-    job = client.post(path, json=body, headers={"Prefer": "respond-async"})
+    job = client.post(path, json=body, headers={"Prefer": "wait=5, respond-async"})
     assert (job.status_code, job.headers["preference-applied"]) == (202, "respond-async")
     assert job.json()["processID"].removesuffix("_of") == asked[0].name
     address = job.headers["location"]
@@ -133,16 +131,6 @@ def test_several_dances_are_described_beside_one_and_null_stands_for_one(ask, na
     ask(call, TWO)
     for field in {"dragon", "path", "head_speed", "passages", "beats"} & question.body.model_fields.keys():
         ask.refuses(f"/{field}", call, TWO | {field: question.body().model_dump(mode="json")[field]})
-
-
-def test_a_circle_ends_the_dance_where_a_time_would(ask):
-    flat = {"benches": 30, "pitch": 0.6, "start_turns": 9}
-    path = {"kind": "spiral", "pitch": 0.6, "start_turns": 9}
-    stop = time_on_circle(core.Dance(core.Dragon(30), core.Spiral(0.6, 9.0)), 4.0)
-    body = {"dragon": {"benches": 30}, "path": path}
-    on_circle = ask("tolerance", turning_diameter=8, **flat)
-    assert ask("tolerance", body | {"stop": stop}) | {"sentences": on_circle["sentences"]} == on_circle
-    assert ask("tolerance", body | {"turning_diameter": 8}) == on_circle
 
 
 def test_the_first_contact_of_any_dragon_on_any_path_is_that_of_its_check(ask):

@@ -35,10 +35,6 @@ def two():
     return Performance([Part(Dance(Dragon(5), ways[0]), name="east"), Part(Dance(Dragon(5), ways[1]), LATE)])
 
 
-def columns(motion):
-    return motion.position[..., 0], motion.position[..., 1], motion.speed
-
-
 def venue(left, low, right, high):
     return Venue(Area("square", (((left, low), (right, low), (right, high), (left, high), (left, low)),)))
 
@@ -64,16 +60,6 @@ REQUESTS = {
         {"dragon": {"benches": 40}, "path": {"pitch": 1.7}},
         lambda: core.first_contact(Dance(Dragon(40), Spiral(1.7))),
         "outcome time benches end.reason end.time end.bench",
-    ),
-    "collision-time at the start": (
-        {"dragon": {"benches": 60}, "path": {"pitch": 0.25, "start_turns": 8}},
-        lambda: {"cross_check": core.contact_check(core.first_contact(Dance(Dragon(60), Spiral(0.25, 8.0))))},
-        "cross_check.agree cross_check.engines cross_check.together cross_check.judged",
-    ),
-    "trajectory": (
-        {"dragon": {"benches": 40}, "path": {"pitch": 0.5, "start_turns": 8}, "times": [10, 20.5]},
-        lambda: dict(zip(("x", "y", "speed"), columns(core.trajectory(CLOSE, [10.0, 20.5])), strict=True)),
-        "x y speed",
     ),
     "minimum-pitch": (
         {"dragon": {"benches": 30}, "stray": 0.02},

@@ -23,16 +23,6 @@ def test_sizes_may_be_known_only_to_within_an_error(ask):
     assert ask("tolerance", **SMALL, pitch=0.7) == got | {"stray_with_errors": None}
 
 
-def test_the_curve_begins_at_the_minimum_pitch_and_holds_the_tolerances_of_core(ask):
-    got = ask("tolerance-curve", benches=40, samples=3)
-    least = core.minimum_pitch(Dragon(40)).pitch
-    assert got["pitch"] == pytest.approx([least, 1.5 * least, 2.0 * least], rel=1e-5)
-    curve = core.tolerance_curve(Dragon(40), got["pitch"])
-    assert got["stray"] == curve.stray.tolist()
-    assert got["touching"] == [one.stray_bracket[1] for one in curve.tolerances]
-    assert got["stray"][0] == pytest.approx(0.0, abs=1e-6)
-
-
 def test_a_curve_is_answered_where_a_dance_at_the_minimum_pitch_begins_on_the_circle(ask):
     got = ask("tolerance-curve", benches=2, start_turns=9, samples=2)
     assert got["pitch"][0] == pytest.approx(0.5, rel=1e-5)
