@@ -6,7 +6,6 @@ from functools import cache
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 
-from app.questions.registry import QUESTIONS
 from app.service.examples import EXAMPLES, FILE
 from app.service.main import create_app
 from app.settings import Settings
@@ -36,6 +35,7 @@ RIGHT, WRONG = "positive", "negative"
 
 DOCUMENT = create_app(Settings()).openapi()
 CALLS = [f"{method.upper()} {path}" for path, methods in DOCUMENT["paths"].items() for method in methods]
+DESCRIBED = [call for methods in DOCUMENT["paths"].values() for call in methods.values()]
 
 
 def without_tuples(schema):
@@ -59,16 +59,6 @@ def operations():
     described = schemathesis.openapi.from_dict(without_tuples(DOCUMENT)).get_all_operations()
     calls = {call.label: call for call in (operation.ok() for operation in described)}
     return calls, [check for check in CHECKS.get_all() if check.__name__ != UNCHECKED]
-
-
-@pytest.fixture(scope="module")
-def document(ask):
-    return ask("openapi.json")
-
-
-@pytest.fixture(scope="module")
-def calls(document):
-    return [call for path in document["paths"].values() for call in path.values()]
 
 
 def is_tried(call, mode):
@@ -135,10 +125,10 @@ WITHOUT_UNIT = (
 )
 
 
-def test_every_field_is_described_and_every_measure_has_its_unit(document, calls):
-    schemas = document["components"]["schemas"].values()
+def test_every_field_is_described_and_every_measure_has_its_unit():
+    schemas = DOCUMENT["components"]["schemas"].values()
     fields = [pair for one in schemas for pair in one.get("properties", {}).items()]
-    fields += [(one["name"], one | one["schema"]) for call in calls for one in call.get("parameters", [])]
+    fields += [(one["name"], one | one["schema"]) for call in DESCRIBED for one in call.get("parameters", [])]
     assert [name for name, field in fields if "$ref" not in field and not field.get("description")] == []
     bare = [name for name, field in fields if holds_floats(field) and "[" not in field["description"]]
     assert set(bare) <= set(WITHOUT_UNIT.split())
@@ -147,18 +137,14 @@ def test_every_field_is_described_and_every_measure_has_its_unit(document, calls
     assert [name for name, field in in_words if not field["description"].endswith(f"[{field.get('x-unit')}]")] == []
 
 
-def test_calls_are_named_as_their_questions_and_lock_nothing(calls):
-    named = {call["operationId"]: call["security"] for call in calls}
-    both = {f"{name}_of" for name, question in QUESTIONS.items() if question.flat and question.body}
-    jobs = {"ask_later", "list_jobs", "job_status", "dismiss_job", "job_result", "job_events", "sweep"}
-    assert named.keys() == QUESTIONS.keys() | both | jobs | {"grade", "places", "healthz", "readyz"}
-    # A service may have a token for who makes and lists jobs, and who sends files.
-    guarded = {"ask_later", "list_jobs", "sweep", "grade", "places"}
-    assert named == {name: [{"token": []}, {}] if name in guarded else [] for name in named}
+def test_a_token_may_guard_the_calls_that_make_and_list_jobs_and_take_files():
+    locks = {call["operationId"]: call["security"] for call in DESCRIBED if call["security"]}
+    guarded = ("ask_later", "list_jobs", "sweep", "grade", "places")
+    assert locks == {name: [{"token": []}, {}] for name in guarded}
 
 
-def test_paths_are_distinguished_by_their_kind(document):
-    schemas = document["components"]["schemas"]
+def test_paths_are_distinguished_by_their_kind():
+    schemas = DOCUMENT["components"]["schemas"]
     path, _ = schemas["CheckRequest"]["properties"]["path"]["anyOf"]
     documented = path["discriminator"]["mapping"]
     assert sorted(documented.values()) == sorted(one["$ref"] for one in path["oneOf"])
@@ -168,9 +154,9 @@ def test_paths_are_distinguished_by_their_kind(document):
 
 
 @pytest.mark.parametrize("call", ["trajectory", "turn", "maximum-head-speed"])
-def test_null_counts_as_left_out_where_the_schema_cannot_state_the_default(document, ask, call):
-    form = document["paths"][f"/{call}"]["post"]["requestBody"]["content"][JSON]["schema"]["$ref"].rpartition("/")[2]
-    fields = document["components"]["schemas"][form]["properties"].items()
+def test_null_counts_as_left_out_where_the_schema_cannot_state_the_default(ask, call):
+    form = DOCUMENT["paths"][f"/{call}"]["post"]["requestBody"]["content"][JSON]["schema"]["$ref"].rpartition("/")[2]
+    fields = DOCUMENT["components"]["schemas"][form]["properties"].items()
     nulls = {
         name: None for name, field in fields if {"type": "null"} in field.get("anyOf", []) and "default" not in field
     }
@@ -190,9 +176,9 @@ def test_the_most_benches_stated_are_the_most_taken():
 
 
 @pytest.mark.parametrize("call", EXAMPLES)
-def test_the_example_of_every_call_is_true(ask, document, call):
+def test_the_example_of_every_call_is_true(ask, call):
     example, (method, path) = EXAMPLES[call], call.split()
-    forms = document["paths"][path][method.lower()]["responses"]["200"]["content"]
+    forms = DOCUMENT["paths"][path][method.lower()]["responses"]["200"]["content"]
     # Many clients ask for the form that stands first.
     got = ask.send(path[1:], example.body, next(iter(forms)), **example.query).raise_for_status()
     if got.headers["content-type"] == JSON:
@@ -221,8 +207,8 @@ def same(got, documented):
 FILES = ("/contest-kit", "/figures", "/films", "/grade", "/healthz", "/maps", "/places", "/plan", "/readyz")
 
 
-def test_every_call_has_an_example_and_its_problems(document):
-    for path, methods in document["paths"].items():
+def test_every_call_has_an_example_and_its_problems():
+    for path, methods in DOCUMENT["paths"].items():
         for method, call in () if path.startswith(FILES) else methods.items():
             # Answers about jobs are never the same.
             of_job = path.startswith(("/jobs", "/sweeps"))
