@@ -94,6 +94,7 @@ VILLAGE = read_dance(ROOT / "examples" / "village_square.toml")
 # Commands that write a file about a dance on standard input, with the call and what its body has beside the dance.
 FILES = [
     *((TIMED, f"trajectory two.{ending} -> trajectory") for ending in ("csv", "arrow", "xlsx", "json")),
+    *((BODY | {"times": [6, 9]}, f"trajectory one.{ending} -> trajectory") for ending in ("csv", "arrow", "xlsx")),
     (TWO, 'film two.gif --seconds 0.2 --rate 10 --height 90 -> films {"seconds": 0.2, "rate": 10, "height": 90}'),
     (TWO, "maps two.geojson -> maps.geojson"),
     (TWO, "maps two.dxf -> maps.dxf"),
@@ -165,6 +166,7 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(client, file, tmp
         "figures nothing.toml -> nothing.toml: No such file or directory",
         "figures FILE FOLDER --samples 3 -> --samples ... trajectory contact",
         "collision-time nothing.toml -> nothing.toml: No such file or directory",
+        "crew FILE --spares 2 --point 6 -> --point ... X,Y '6'",
     ],
 )
 def test_what_does_not_go_with_a_file_is_refused(file, tmp_path, row):

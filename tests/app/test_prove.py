@@ -53,12 +53,6 @@ def test_a_malformed_certificate_is_one_line_that_names_the_member(text, named):
     assert_wrong("--check -", f"the certificate is malformed: {named}", text=text)
 
 
-@pytest.mark.parametrize(("time", "when"), [((), "0"), (("--time", "1e-11"), "1e-11")], ids=["searched", "stated"])
-def test_a_contact_at_the_start_claims_no_time_before(tmp_path, time, when):
-    words = f"benches 0 and 33 are nearer than 0.2 m at {when} + 1e-10 s, within 2e-10 s of the start, so that no time"
-    assert_proven(("collision-time", "--margin", "0.2", *time), words, tmp_path)
-
-
 LINES = """
 margin = 0.2
 dragon = {{benches = 6}}
@@ -71,6 +65,7 @@ pieces = [
 """
 
 
+START = "benches 0 and 33 are nearer than 0.2 m at {} + 1e-10 s, within 2e-10 s of the start, so that no time"
 SMALL_CIRCLE = "--turning-diameter 4 --benches 11 --start-turns 5"
 
 
@@ -78,6 +73,8 @@ SMALL_CIRCLE = "--turning-diameter 4 --benches 11 --start-turns 5"
     ("line", "words"),
     [
         (f"collision-time {FIVE} --margin 0.1", "are nearer than 0.1 m at"),
+        ("collision-time --margin 0.2", START.format("0")),
+        ("collision-time --margin 0.2 --time 1e-11", START.format("1e-11")),
         (f"minimum-pitch {SMALL_CIRCLE} --every-pair", "with 1e-6 m less benches 0 and 7 overlap on the way"),
         (f"minimum-pitch {SMALL_CIRCLE} --margin 0.05", "come nearer to one another than 0.05 m until the head is 2 m"),
         (f"minimum-pitch {FOLDING}", "with 1e-6 m less bench 0 cannot follow so far (it folds)"),

@@ -3,13 +3,14 @@
 import os
 import subprocess
 import sys
+from functools import partial
+from pathlib import Path
 
 import httpx
 import pytest
 
-from tests.conftest import wait_until_live
-from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
-from tests.support.serving import free_port
+from tests.support.command import ENVIRONMENT, PATIENCE, run
+from tests.support.serving import serving
 
 
 def test_a_module_is_called_with_its_own_arguments(tmp_path):
@@ -42,23 +43,17 @@ def test_the_command_does_not_import_the_packages_of_another_program(words, othe
 
 
 @pytest.mark.thorough
-def test_nor_do_the_processes_of_the_service(other_program, tmp_path):
-    port, log = free_port(), tmp_path / "log"
-    environment = ENVIRONMENT | {"PYTHONPATH": other_program, "BENCH_DRAGON_DATA": str(tmp_path / "data")}
-    command = [COMMAND, "serve", "--port", str(port), "--workers", "2"]
-    with log.open("w") as output:
-        process = subprocess.Popen(command, env=environment, stdout=output, stderr=output)
-    try:
-        wait_until_live(process, port, log)
-        with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE) as client:
-            square = '{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}'
-            client.post("/places", content=square, headers={"Content-Type": "application/geo+json"}).raise_for_status()
-            made = client.post("/jobs", json={"question": "collision_time", "request": {"benches": 3}})
-            assert '"successful"' in client.get(made.headers["location"] + "/events").text
-    finally:
-        process.terminate()
-        process.wait(PATIENCE)
-    assert "Error" not in log.read_text()
+def test_nor_do_the_processes_of_the_service(other_program, tmp_path, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", other_program)
+    with (
+        serving(tmp_path / "log", 2, partial(os.chdir, Path.cwd()), data=tmp_path / "data") as service,
+        httpx.Client(base_url=service.url, timeout=PATIENCE) as client,
+    ):
+        square = '{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}'
+        client.post("/places", content=square, headers={"Content-Type": "application/geo+json"}).raise_for_status()
+        made = client.post("/jobs", json={"question": "collision_time", "request": {"benches": 3}})
+        assert '"successful"' in client.get(made.headers["location"] + "/events").text
+    assert "Error" not in service.log.read_text()
 
 
 def test_a_library_of_the_user_is_still_imported(other_program):
