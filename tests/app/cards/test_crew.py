@@ -4,7 +4,6 @@ import csv
 import io
 import json
 import re
-import shlex
 
 import numpy as np
 import pytest
@@ -20,26 +19,21 @@ from core import Budget, TooMuchWork
 from tests.conftest import ROOT
 from tests.support.command import run
 from tests.support.paper import assert_fonts_are_within, pages_of, words_of
-from tests.support.refusal_rows import assert_refused, assert_refused_in_one_line
+from tests.support.refusal_rows import assert_refused
 
-VILLAGE = ROOT / "examples" / "village_square.toml"
+VILLAGE = read_dance(ROOT / "examples" / "village_square.toml")
 # Places [m], and the error with which a bench is at its place of a change [m].
 ROUNDING, AT_PLACE = 1e-9, 0.02
 PEOPLE = {"spares": 6, "shift": 40, "rest": 10, "points": [{"x": 6, "y": -8}], "start_clock": "19:44:30"}
 
 
 @pytest.fixture(scope="module")
-def body():
-    return read_dance(VILLAGE)
+def answer(ask):
+    return ask("crew", VILLAGE | PEOPLE | {"at_clock": "19:45"})
 
 
-@pytest.fixture(scope="module")
-def answer(ask, body):
-    return ask("crew", body | PEOPLE | {"at_clock": "19:45"})
-
-
-def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has_the_bench(answer, body):
-    roll, dance = answer["at"], checked(CrewRequest, body).to_dance(100)
+def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has_the_bench(answer):
+    roll, dance = answer["at"], checked(CrewRequest, VILLAGE).to_dance(100)
     assert (roll["time"], roll["clock"]) == (30.0, "19:45:00")
     assert [len(entry["people"]) for entry in roll["benches"]] == [8] + [2] * 23
     position = core.trajectory(dance, [30.0]).position[0]
@@ -57,9 +51,9 @@ def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has
     }
 
 
-def test_the_table_has_the_same_spells(ask, answer, body):
+def test_the_table_has_the_same_spells(ask, answer):
     names = ["=1+1", *[f"family {k}" for k in range(1, 24)]]
-    request = body | PEOPLE | {"dragon": {"benches": 24, "names": names}}
+    request = VILLAGE | PEOPLE | {"dragon": {"benches": 24, "names": names}}
     lines = list(csv.DictReader(io.StringIO(ask.file("crew", request, "text/csv").decode())))
     columns = ("begin", "end", "way", "x", "y", "bench", "begin_clock", "relieves")
     spells = [person | spell for person in answer["carriers"] for spell in person["spells"]]
@@ -69,8 +63,8 @@ def test_the_table_has_the_same_spells(ask, answer, body):
     assert {line["name"] for line in lines if line["bench"] == "0"} == {"'=1+1"}
 
 
-def test_the_timeline_on_paper_names_everybody_and_every_change(ask, answer, body):
-    request = body | PEOPLE | {"at_clock": "19:45", "title": "Lantern night"}
+def test_the_timeline_on_paper_names_everybody_and_every_change(ask, answer):
+    request = VILLAGE | PEOPLE | {"at_clock": "19:45", "title": "Lantern night"}
     data = ask.file("crew", request, "application/pdf")
     assert_fonts_are_within(data)
     sheets = list(map(words_of, pages_of(data)))
@@ -81,13 +75,13 @@ def test_the_timeline_on_paper_names_everybody_and_every_change(ask, answer, bod
 
 
 @pytest.mark.chinese_font
-def test_the_timeline_is_written_in_chinese(ask, body):
-    data = ask.file("crew", body | PEOPLE | {"language": "zh"}, "application/pdf")
+def test_the_timeline_is_written_in_chinese(ask):
+    data = ask.file("crew", VILLAGE | PEOPLE | {"language": "zh"}, "application/pdf")
     assert "谁在何时抬哪节板凳" in words_of(pages_of(data)[0]).replace(" ", "")
 
 
-def test_a_terminal_shows_who_is_where(body):
-    text = json.dumps(body | {"start_clock": "19:44:30", "at": 30})
+def test_a_terminal_shows_who_is_where():
+    text = json.dumps(VILLAGE | {"start_clock": "19:44:30", "at": 30})
     table = run("crew", "-", "--spares", "6", "--point", "6,-8", text=text).stdout
     assert re.match(r"Too few spares for all changes: \d+ are enough.*\n\s*60 people, 6 of them spares", table)
     assert "Who is where at 19:45:00" in table
@@ -111,11 +105,11 @@ def test_a_terminal_shows_who_is_where(body):
         '{"head_people": 0} -> /head_people',
     ],
 )
-def test_a_crew_that_cannot_be_is_refused(client, body, row):
-    assert_refused(client, "/crew", body, row)
+def test_a_crew_that_cannot_be_is_refused(client, row):
+    assert_refused(client, "/crew", VILLAGE, row)
 
 
-def test_a_deadline_while_the_timeline_is_drawn_is_a_refusal(body, monkeypatch):
+def test_a_deadline_while_the_timeline_is_drawn_is_a_refusal(monkeypatch):
     budget = Budget()
 
     def late(draw, _):
@@ -124,14 +118,10 @@ def test_a_deadline_while_the_timeline_is_drawn_is_a_refusal(body, monkeypatch):
 
     monkeypatch.setattr("app.cards.timeline.in_turn", late)
     with pytest.raises(TooMuchWork, match="within 2 s"):
-        CREW.to_bytes(checked(CrewRequest, body | PEOPLE), Terms(budget=budget), PDF_TYPE)
+        CREW.to_bytes(checked(CrewRequest, VILLAGE | PEOPLE), Terms(budget=budget), PDF_TYPE)
 
 
-def test_a_clock_after_midnight_is_in_the_same_night(ask, body):
-    request = body | {"start_clock": "23:59:15", "at_clock": "00:00:10"}
+def test_a_clock_after_midnight_is_in_the_same_night(ask):
+    request = VILLAGE | {"start_clock": "23:59:15", "at_clock": "00:00:10"}
     roll = ask("crew", request)["at"]
     assert (roll["time"], roll["clock"]) == (55.0, "00:00:10")
-
-
-def test_a_point_in_a_terminal_is_two_numbers():
-    assert_refused_in_one_line(f"crew {shlex.quote(str(VILLAGE))} --spares 2 --point 6 -> --point ... X,Y '6'")
