@@ -33,10 +33,19 @@ def written(store, data=b"answer"):
     return file
 
 
+def database(folder):
+    """The database of a store, beside its own connection."""
+    return closing(sqlite3.connect(folder / "jobs.sqlite", isolation_level=None, check_same_thread=False))
+
+
 def run_in(store, command, *values):
-    """Rows that a command finds or changes in the database of the store, beside its own connection."""
-    with closing(sqlite3.connect(store.folder / "jobs.sqlite", isolation_level=None)) as other:
+    """Rows that a command finds or changes in the database of the store."""
+    with database(store.folder) as other:
         return other.execute(command, values).fetchall()
+
+
+def holds(folder, text):
+    return any(text.encode() in file.read_bytes() for file in folder.iterdir() if file.is_file())
 
 
 def ended(store, client="client", limits=ROOM):
@@ -140,8 +149,7 @@ def test_no_job_is_taken_where_there_is_no_room(store, limit, most, error):
 
 
 def test_a_folder_of_another_layout_is_not_touched(store):
-    with closing(sqlite3.connect(store.folder / "jobs.sqlite", isolation_level=None)) as connection:
-        connection.execute("PRAGMA user_version = 99")
+    run_in(store, "PRAGMA user_version = 99")
     with pytest.raises(OSError, match="to another version"):
         Store(store.folder)
 
@@ -174,7 +182,7 @@ def test_jobs_of_the_layouts_before_are_taken_over_without_the_addresses_of_thei
         ("b", ADDRESS, "running", 2, None),
         ("c", "", "successful", 3, time.time()),
     ]
-    with closing(sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None)) as old:
+    with database(tmp_path) as old:
         old.executescript(LAYOUTS[layout])
         old.executemany(
             "INSERT INTO jobs (id, question, call, client, state, created, updated, message, finished)"
@@ -195,13 +203,13 @@ def test_jobs_of_the_layouts_before_are_taken_over_without_the_addresses_of_thei
     with closing(Store(tmp_path)) as store:
         store.begin()
         assert store.take() == "a"
-    assert not any(ADDRESS.encode() in file.read_bytes() for file in tmp_path.iterdir() if file.is_file())
+    assert not holds(tmp_path, ADDRESS)
 
 
 def test_jobs_of_the_layout_with_calls_among_the_jobs_are_taken_over(tmp_path):
     with closing(Store(tmp_path)) as store:
         job = make(store, ADDRESS)
-    with closing(sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None)) as old:
+    with database(tmp_path) as old:
         old.executescript(
             "ALTER TABLE jobs ADD COLUMN call BLOB; UPDATE jobs SET call = (SELECT data FROM calls WHERE job = id);"
             "DROP TABLE calls; ALTER TABLE jobs DROP COLUMN call_size; PRAGMA user_version = 3;"
@@ -218,10 +226,9 @@ def test_of_a_client_a_hash_is_kept_which_another_folder_does_not_have(tmp_path)
     for folder in (tmp_path / "a", tmp_path / "b"):
         with closing(Store(folder)) as store:
             make(store, ADDRESS)
-            assert not any(ADDRESS.encode() in file.read_bytes() for file in folder.iterdir() if file.is_file())
+            assert not holds(folder, ADDRESS)
+            names |= set(*run_in(store, "SELECT client FROM jobs"))
         assert (folder / "client.key").stat().st_mode & 0o077 == 0
-        with closing(sqlite3.connect(folder / "jobs.sqlite")) as database:
-            names |= set(database.execute("SELECT client FROM jobs").fetchone())
     assert len([name for name in names if re.fullmatch("[0-9a-f]{24}", name)]) == 2
 
 
@@ -320,7 +327,7 @@ def test_who_comes_under_a_new_address_or_removes_its_jobs_does_not_come_before_
 
 def test_a_store_is_opened_while_another_process_makes_its_database(tmp_path):
     """SQLite refuses at once to change the mode of a database while another connection writes."""
-    with closing(sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None, check_same_thread=False)) as other:
+    with database(tmp_path) as other:
         other.execute("BEGIN IMMEDIATE")
         made = Timer(0.2, other.commit)
         made.start()
@@ -357,11 +364,8 @@ def test_expired_calls_and_jobs_leave_no_byte(store):
     assert list(in_turn(store)) == [job]
     run_in(store, "UPDATE jobs SET finished = finished - ?", DAY)
 
-    def has(words):
-        return any(words in (store.folder / name).read_bytes() for name in ("jobs.sqlite", "jobs.sqlite-wal"))
-
-    for days, left, words in ((0.75, 1, b"a call like no other"), (0.25, 0, job.encode())):
-        assert has(words)
+    for days, left, words in ((0.75, 1, "a call like no other"), (0.25, 0, job)):
+        assert holds(store.folder, words)
         store.expire(days)
         store.clear()
-        assert (has(words), len(store.all())) == (False, left)
+        assert (holds(store.folder, words), len(store.all())) == (False, left)
