@@ -24,7 +24,7 @@ from app.processes.limits import THREAD_NICENESS
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.support.depth import further, thorough
 from tests.support.job_service import is_gone, wait_for
-from tests.support.serving import serving
+from tests.support.serving import sample, serving
 
 HEAD_SECONDS, GRACE_SECONDS = 0.5, 1
 # Longest wait for what should come within the times above on a busy machine [s].
@@ -222,8 +222,7 @@ def working(service, *clients):
 
 
 def computing(service):
-    match = re.search(r'computations{lane="heavy"} (\S+)', metrics(service))
-    return float(match[1]) if match else 0.0
+    return sample(service.url, 'bench_dragon_computations{lane="heavy"}')
 
 
 def client_at(address, seconds=SOON):

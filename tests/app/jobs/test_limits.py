@@ -29,6 +29,7 @@ def test_without_the_token_no_job_is_made_and_none_is_listed_and_no_file_taken(s
     later, typed, file = {"Prefer": "respond-async"}, {"Content-Type": "application/json"}, {"Content-Type": BYTES}
     for method, call, body, headers in (
         ("POST", "/jobs", b'{"question": "turn"}', typed),
+        ("POST", "/sweeps", b'{"question": "turn", "over": {"pitch": [1.7]}}', typed),
         ("GET", "/jobs", None, {}),
         ("GET", "/collision-time", None, later),
         ("POST", "/grade?name=result1.csv", b"1,2", file),

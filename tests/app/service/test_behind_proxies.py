@@ -27,14 +27,20 @@ def shown(beginning, **changes):
     return text
 
 
+def addresses_of(services):
+    """What stands in the place of the addresses that the documentation shows."""
+    return {f"127.0.0.1:800{k}": f"127.0.0.1:{port}" for k, port in enumerate(services, 1)}
+
+
 @contextmanager
-def nginx(folder, services, *, under_path=False):
-    """The address at which nginx passes requests on to these ports. under_path: at /dragon/"""
+def nginx(folder, services):
+    """The address at which nginx passes requests on to these ports, also those below /dragon/"""
     port, file = free_port(), folder / "nginx.conf"
-    changes = {"127.0.0.1:8001": f"127.0.0.1:{services[0]}", "127.0.0.1:8002": f"127.0.0.1:{services[1]}"}
-    if under_path:
-        changes["    location / {"] = f"{shown('location /dragon/')}    location / {{"
-    http = shown("upstream dragon", **changes, **{"listen 80;": f"listen 127.0.0.1:{port};"})
+    changes = {
+        "listen 80;": f"listen 127.0.0.1:{port};",
+        "    location / {": f"{shown('location /dragon/')}    location / {{",
+    }
+    http = shown("upstream dragon", **addresses_of(services), **changes)
     paths = "".join(f"{name}_temp_path {folder}/{name};\n" for name in FOLDERS)
     file.write_text(
         f"pid {folder}/pid;\nerror_log {folder}/errors;\nevents {{}}\nhttp {{\naccess_log off;\n{paths}{http}}}\n"
@@ -49,10 +55,8 @@ def nginx(folder, services, *, under_path=False):
 def caddy(folder, services):
     """The address at which Caddy passes requests below /dragon/ on to these ports."""
     port, file = free_port(), folder / "Caddyfile"
-    changes = {"127.0.0.1:8001": f"127.0.0.1:{services[0]}", "127.0.0.1:8002": f"127.0.0.1:{services[1]}"}
-    file.write_text(
-        "{\nadmin off\n}\n" + shown("dance.example", **changes, **{"dance.example": f"http://127.0.0.1:{port}"})
-    )
+    changes = addresses_of(services) | {"dance.example": f"http://127.0.0.1:{port}"}
+    file.write_text("{\nadmin off\n}\n" + shown("dance.example", **changes))
     with running(port, folder / "errors", "caddy", "run", "--config", file, "--adapter", "caddyfile"):
         yield f"http://127.0.0.1:{port}"
 
@@ -97,7 +101,11 @@ def wait_until_answered(clients):
 @pytest.mark.thorough
 def test_a_rolling_restart_loses_no_answer_and_no_job(tmp_path):
     folder = tmp_path / "data"
-    with JobService(folder) as one, JobService(folder) as other, nginx(tmp_path, [one.port, other.port]) as url:
+    with (
+        JobService(folder) as one,
+        JobService(folder) as other,
+        nginx(tmp_path, [one.port, other.port]) as url,
+    ):
         clients = [Client(url, 0.5 + k / 100) for k in range(CLIENTS)]
         for client in clients:
             client.start()
@@ -121,27 +129,23 @@ def test_a_rolling_restart_loses_no_answer_and_no_job(tmp_path):
         assert {one.finished(job)["status"] for job in jobs} == {"successful"}
 
 
-def addresses_under_a_path(url):
-    """Location of a new job, and where the description says that the service is, through a proxy under a path."""
-    with httpx.Client(base_url=f"{url}/dragon", timeout=PATIENCE) as client:
+PROXIES = [pytest.param(nginx, marks=pytest.mark.nginx), pytest.param(caddy, marks=pytest.mark.caddy)]
+
+
+@pytest.mark.parametrize("proxy", PROXIES)
+def test_under_a_path_of_a_proxy_addresses_are_whole(tmp_path, proxy):
+    with (
+        serving(tmp_path / "log") as service,
+        proxy(tmp_path, [service.address[1]] * 2) as url,
+        httpx.Client(base_url=f"{url}/dragon", timeout=PATIENCE) as client,
+    ):
         assert client.get("/").status_code == client.get("/page/style.css").status_code == 200
         job = client.post("/jobs", json=SHORT)
         location = job.headers["Location"]
         assert [link["href"].startswith(location) for link in job.json()["links"]] == [True, True]
         assert httpx.get(f"{url}{location}").status_code == 200
-        return location.rpartition("/")[0], client.get("/openapi.json").json()["servers"][0]["url"]
-
-
-@pytest.mark.nginx
-def test_under_a_path_of_nginx_addresses_are_whole(tmp_path):
-    with serving(tmp_path / "log") as service, nginx(tmp_path, [service.address[1]] * 2, under_path=True) as url:
-        assert addresses_under_a_path(url) == ("/dragon/jobs", "/dragon")
-
-
-@pytest.mark.caddy
-def test_under_a_path_of_caddy_addresses_are_whole(tmp_path):
-    with serving(tmp_path / "log") as service, caddy(tmp_path, [service.address[1]] * 2) as url:
-        assert addresses_under_a_path(url) == ("/dragon/jobs", "/dragon")
+        described = client.get("/openapi.json").json()["servers"][0]["url"]
+        assert (location.rpartition("/")[0], described) == ("/dragon/jobs", "/dragon")
 
 
 # A setting, the path that the proxy sends, its header, and the Location that follows.

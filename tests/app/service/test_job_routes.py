@@ -67,16 +67,6 @@ def events_of(service, address, last=None):
     return list(zip(numbers, entries, strict=True))
 
 
-def test_a_query_is_answered_later_for_who_prefers_that(service):
-    call = "/collision-time?pitch=0.51"
-    later = service.client.get(call, headers={"Prefer": "wait=5, respond-async"})
-    assert (later.status_code, later.headers["preference-applied"]) == (202, "respond-async")
-    assert later.json()["processID"] == "collision_time"
-    address = later.headers["location"]
-    assert service.finished(address)["status"] == "successful"
-    assert service.client.get(f"{address}/result").content == service.client.get(call).content
-
-
 @pytest.mark.parametrize("path", ["/healthz", "/metrics", "/docs", "/page/main.js"])
 def test_what_is_no_question_is_answered_at_once(service, path):
     assert service.client.get(path, headers=LATER).status_code == 200

@@ -50,9 +50,7 @@ def test_an_incomplete_sweep_is_shown_but_not_compacted(folder):
 def test_csv_and_a_dataframe_have_every_row_and_numbers_as_numbers(folder):
     sweep = Sweep(folder, SPEC)
     sweep.to_csv(folder / "a.csv")
-    with (folder / "a.csv").open(newline="") as source:
-        rows = list(csv.DictReader(source))
-    frame = sweep.to_dataframe()
+    rows, frame = list(csv.DictReader((folder / "a.csv").read_text().splitlines())), sweep.to_dataframe()
     assert [int(row["design"]) for row in rows] == list(frame["design"]) == list(range(40))
     heights = [str(x * y) if x not in (13, 14) else "" for x in range(20) for y in (1, 2)]
     assert [row["height"] for row in rows] == heights
