@@ -52,9 +52,9 @@ def by_pandas_with_numbers(rows):
     return [[None, "handle", *rows[0][1:]], *([k, *row] for k, row in enumerate(rows[1:]))]
 
 
-def numbered(rows):
+def numbered(rows, numbers=range(448)):
     """Numbers of the handles, or of the lines of x and y, in the place of their names."""
-    return [rows[0], *([k, *row[1:]] for k, row in enumerate(rows[1:]))]
+    return [rows[0], *([k, *row[1:]] for k, row in zip(numbers, rows[1:], strict=False))]
 
 
 @cache
@@ -81,6 +81,15 @@ FEW = [4 * 448, 4 * 224]
 
 def right(result):
     return [sheet.right for sheet in result.sheets]
+
+
+def held(result):
+    """What its tables hold, and the number of right cells of each."""
+    return sorted((sheet.holds, sheet.right) for sheet in result.sheets)
+
+
+def assert_right_contact(result):
+    assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
 
 
 def assert_right(data):
@@ -115,17 +124,15 @@ def with_slashes(rows):
 
 
 @pytest.mark.parametrize("write", [lambda rows: by_xlsxwriter({"Sheet": rows}), as_csv], ids=["workbook", "CSV"])
-@pytest.mark.parametrize("turned", [False, True], ids=["rows", "columns"])
-def test_a_unit_after_a_slash_is_read_as_one_in_brackets(write, turned):
+@pytest.mark.parametrize("turn", [list, on_side], ids=["rows", "columns"])
+def test_a_unit_after_a_slash_is_read_as_one_in_brackets(write, turn):
     values, place = numbers_at(students.AT_CONTACT), ["对象", "x/m", "y/m", "速度/(m/s)"]
     contact = [place, *in_layout(values, [0.0], "columns")["both"][1:]]
     position, speed = (with_slashes(few()[title]) for title in ("位置", "速度"))
     assert (position[1][0], speed[1][0]) == ("龙头x/m", "龙头/(m/s)")
-    contact, position, speed = (on_side(rows) if turned else rows for rows in (contact, position, speed))
-    result = grade(write(contact), "result2")
-    assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
-    assert right(grade(write(position)))[0] == FEW[0]
-    assert [(one.holds, one.right) for one in grade(write(speed)).sheets if one.right] == [("speed", FEW[1])]
+    assert_right_contact(grade(write(turn(contact)), "result2"))
+    assert right(grade(write(turn(position))))[0] == FEW[0]
+    assert ("speed", FEW[1]) in held(grade(write(turn(speed))))
 
 
 @pytest.mark.parametrize(("title", "factor"), [("位置", 100.0), ("速度", 100.0), ("速度", 1000.0)])
@@ -174,11 +181,12 @@ def test_positions_are_graded_beside_speeds(form, heading):
     [heads, *rows] = in_layout(numbers_at(MINUTES), MINUTES, form, heading=heading)["both"]
     lines = {NAMES[h] for h in PRINTED}
     some = [row for row in rows if not row[0] or row[0].split(" ")[0].removesuffix("x").removesuffix("y") in lines]
-    sheets = grade(as_csv([heads, *some])).sheets
-    assert [(sheet.holds, sheet.verdict, sheet.right) for sheet in sheets] == [
-        ("position", "incomplete", 84),
-        ("speed", "incomplete", 42),
-    ]
+    assert_printed(grade(as_csv([heads, *some])))
+
+
+def assert_printed(result):
+    """All numbers that the paper prints are right."""
+    assert (result.verdict, held(result)) == ("incomplete", [("position", 84), ("speed", 42)])
 
 
 def printed(corner=""):
@@ -195,10 +203,8 @@ def without_heads(rows):
 
 def test_printed_handles_are_known_by_their_numbers_alone():
     """Those lead in unequal steps from the head to the tail, as no instants do; six columns are the printed ones."""
-    (_, *positions), (_, *speeds) = printed()
-    position = [[PRINTED[k // 2], *row[1:]] for k, row in enumerate(positions)]
-    speed = [[h, *row[1:]] for h, row in zip(PRINTED, speeds, strict=True)]
-    assert right(grade(by_xlsxwriter({"a": position, "b": on_side(speed)}))) == [84, 42]
+    (_, *position), (_, *speed) = map(numbered, printed(), (sorted(2 * PRINTED), PRINTED))
+    assert_printed(grade(by_xlsxwriter({"a": position, "b": on_side(speed)})))
     [why] = grade(by_xlsxwriter({"c": [row[:4] for row in speed]})).notes
     assert "headings such as 0 s or x (m)" in why
 
@@ -220,8 +226,7 @@ SIDES = {
 def test_tables_beside_each_other_are_graded_at_their_times(side, corner):
     rows = SIDES[side](*printed(corner))
     for result in (grade(as_csv(rows)), grade(by_xlsxwriter({"Sheet": rows}))):
-        sheets = sorted((sheet.holds, sheet.verdict, sheet.right) for sheet in result.sheets)
-        assert sheets == [("position", "incomplete", 84), ("speed", "incomplete", 42)]
+        assert_printed(result)
 
 
 def test_tables_of_one_sheet_are_named_by_what_they_hold():
@@ -249,8 +254,7 @@ def test_a_result2_may_state_its_instant_in_a_column_or_a_heading(form):
     """The instant with six decimals is right, and so are the numbers at this instant. A column numbers the handles."""
     for time in (students.CONTACT, 412.473838):
         sheets = in_layout(numbers_at(np.array([time])), [412.473838], form, numbered=True)
-        result = grade(as_csv(*sheets.values()), "result2.csv")
-        assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
+        assert_right_contact(grade(as_csv(*sheets.values()), "result2.csv"))
 
 
 TITLES = {
@@ -269,14 +273,13 @@ def test_a_result2_may_state_its_instant_above_the_table(title, numbered):
     rows[0] = ["handle" if numbered else "", "x (m)", "y (m)", "v (m/s)"]
     assert right(grade(as_csv(rows), "result2.csv"))[0] < 672
     rows = TITLES[title](rows)
-    for result in (grade(as_csv(rows), "result2.csv"), grade(by_xlsxwriter({"Sheet": rows}), "result2.xlsx")):
-        assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
+    assert_right_contact(grade(as_csv(rows), "result2.csv"))
+    assert_right_contact(grade(by_xlsxwriter({"Sheet": rows}), "result2.xlsx"))
 
 
 def test_another_number_of_seconds_in_a_title_accuses_nobody():
     rows = in_layout(numbers_at(students.AT_CONTACT), [0.0], "columns", heading="")["both"]
-    result = grade(as_csv([["速度 1 m/s，步长 1 s"], *rows]), "result2.csv")
-    assert (result.workbook, result.verdict, right(result)) == ("result2", "right", [672])
+    assert_right_contact(grade(as_csv([["速度 1 m/s，步长 1 s"], *rows]), "result2.csv"))
 
 
 @pytest.mark.parametrize("heads", ["theta,radius,x,y", "n,theta,radius,x,y", ",radius,x,y", "u,x,y", "a,b,c"])
@@ -292,7 +295,7 @@ def test_a_table_that_is_not_of_the_contest_is_unreadable(heads, count):
 def test_sheets_with_exchanged_names_are_read_for_what_they_hold(labels):
     position, speed = (rows if labels else numbered(rows) for rows in few().values())
     result = grade(by_xlsxwriter({"速度": position, "位置": speed}))
-    assert [(sheet.holds, sheet.right) for sheet in result.sheets] == [("position", FEW[0]), ("speed", FEW[1])]
+    assert held(result) == [("position", FEW[0]), ("speed", FEW[1])]
     assert [sheet.notes[0] for sheet in result.sheets] == [
         "The sheet 速度 holds positions, in spite of its title.",
         "The sheet 位置 holds speeds, in spite of its title.",
@@ -331,7 +334,7 @@ HEADS = {
 def test_lists_are_recognised_under_other_names(heads, title):
     lines = [",".join(map(str, row)) for row in list_of(3, HEADS[heads])]
     result = grade((title + "\n".join([heads, *lines])).encode(), "dance.csv")
-    assert [(sheet.holds, sheet.right) for sheet in result.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
+    assert held(result) == [("position", 3 * 448), ("speed", 3 * 224)]
 
 
 def test_headings_of_single_handles_are_none_of_a_list():
@@ -432,18 +435,12 @@ NUMBERED = {
 @pytest.mark.parametrize("side", NUMBERED)
 def test_speeds_of_numbered_handles_are_graded_beside_positions_of_named_ones(side):
     """All handles, or the printed ones, with a heading above their numbers or none."""
-    heads, *rows = few()["速度"]
-    every = few()["位置"], [heads, *([h, *row[1:]] for h, row in enumerate(rows))]
-    position, [times, *speeds] = printed()
     for name in ("", "把手"):
-        some = position, [[name, *times[1:]], *([h, *row[1:]] for h, row in zip(PRINTED, speeds, strict=True))]
-        assert right(grade(by_xlsxwriter(dict(zip(("位置", "速度"), some, strict=True))))) == [84, 42]
-        for tables, counts in ((every, FEW), (some, [84, 42])):
-            sheets = grade(as_csv(NUMBERED[side](*tables))).sheets
-            assert sorted((sheet.holds, sheet.right) for sheet in sheets) == [
-                ("position", counts[0]),
-                ("speed", counts[1]),
-            ]
+        position, speed = printed()[0], numbered(printed(name)[1], PRINTED)
+        assert_printed(grade(by_xlsxwriter({"位置": position, "速度": speed})))
+        assert_printed(grade(as_csv(NUMBERED[side](position, speed))))
+    every = grade(as_csv(NUMBERED[side](few()["位置"], numbered(few()["速度"]))))
+    assert held(every) == [("position", FEW[0]), ("speed", FEW[1])]
 
 
 def axis_of(name, k, way):
@@ -451,13 +448,9 @@ def axis_of(name, k, way):
     heads, *rows = few()["位置"]
     rows = rows[k::2]
     bare = [[row[0].replace(f"{name} (m)", ""), *row[1:]] for row in rows]
-    tables = {
-        "labels": [heads, *rows],
-        "corner": [[f"{name} (m)", *heads[1:]], *bare],
-        "title": [[f"{name}坐标"], heads, *bare],
-        "numbers": [[f"{name} (m)", *heads[1:]], *([h, *row[1:]] for h, row in enumerate(bare))],
-    }
-    return tables[way]
+    corner = [[f"{name} (m)", *heads[1:]], *bare]
+    title = [[f"{name}坐标"], heads, *bare]
+    return {"labels": [heads, *rows], "corner": corner, "title": title, "numbers": numbered(corner)}[way]
 
 
 @pytest.mark.parametrize("way", ["labels", "corner", "title", "numbers"])
