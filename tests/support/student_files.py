@@ -2,7 +2,7 @@
 
 from itertools import zip_longest
 
-from tests.support.students import labels
+from tests.support.students import by_xlsxwriter, labels
 
 NAMES = [label.removesuffix(" (m/s)") for label in labels("speed")]
 # Forms of a table: a line for each handle and instant; a line for each handle, under one heading or two; lines of x, y
@@ -72,6 +72,11 @@ def on_side(rows):
 
 def as_csv(rows):
     return "\n".join(",".join("" if cell is None else str(cell) for cell in row) for row in rows).encode()
+
+
+def as_file(sheets):
+    """A CSV of one sheet, a workbook of several."""
+    return by_xlsxwriter(sheets) if len(sheets) > 1 else as_csv(*sheets.values())
 
 
 def in_random_layout(values, times, random):

@@ -12,7 +12,7 @@ from core import Budget, Dragon
 from tests.campaigns.hunt_grades import hunt
 from tests.support import students
 from tests.support.depth import further, often
-from tests.support.student_files import as_csv, in_layout
+from tests.support.student_files import as_csv, as_file, in_layout
 from tests.support.students import AT_CONTACT, CONTACT, SPIRAL_TIMES, TURN_TIMES, spiral, turn
 
 ONCE = Dragon(overhang=0.1375)
@@ -462,9 +462,7 @@ def test_numbers_of_unequal_decimals_are_neither_accused_nor_excused(way):
     for error, results in ({"": spiral(times)} | wrong).items():
         values = np.dstack(UNEVEN[way](*results))
         for form in ("sheets", "list", "beside"):
-            sheets = in_layout(values, times, form)
-            is_workbook = len(sheets) > 1
-            result = grade(students.by_xlsxwriter(sheets) if is_workbook else as_csv(*sheets.values()))
+            result = grade(as_file(in_layout(values, times, form)))
             assert errors(result) == ([error] if error else [])
             assert (result.verdict == "wrong") is bool(error)
 

@@ -10,7 +10,7 @@ from tests.app.grade.test_reading import grade
 from tests.conftest import ROOT
 from tests.support import students
 from tests.support.depth import further, thorough
-from tests.support.student_files import NAMES, as_csv, beside, in_layout, on_side
+from tests.support.student_files import FORMS, as_csv, as_file, beside, in_layout, on_side
 from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral, three
 
 
@@ -166,7 +166,6 @@ def test_a_missing_sheet_makes_the_file_incomplete(written):
 
 # The numbers that the paper prints: seven handles at six instants.
 PRINTED, MINUTES = [0, 1, 51, 101, 151, 201, 223], SPIRAL_TIMES[::60]
-FORMS_BESIDE = ("columns", "two heads", "stack", "stack with heads")
 
 
 def numbers_at(times):
@@ -175,13 +174,15 @@ def numbers_at(times):
     return np.dstack([position.round(6), speed.round(6)])
 
 
-@pytest.mark.parametrize("heading", ["{:g}s", "{:g}"])
-@pytest.mark.parametrize("form", FORMS_BESIDE)
-def test_positions_are_graded_beside_speeds(form, heading):
-    [heads, *rows] = in_layout(numbers_at(MINUTES), MINUTES, form, heading=heading)["both"]
-    lines = {NAMES[h] for h in PRINTED}
-    some = [row for row in rows if not row[0] or row[0].split(" ")[0].removesuffix("x").removesuffix("y") in lines]
-    assert_printed(grade(as_csv([heads, *some])))
+@pytest.mark.parametrize("form", FORMS)
+def test_tables_of_every_form_are_graded_beside_each_other(form):
+    """The instant of result2 with six decimals is right, and so are the numbers then, which are of numbered handles."""
+    for heading in ("{:g}s", "{:g}"):
+        sheets = in_layout(numbers_at(MINUTES), MINUTES, form, heading=heading)
+        assert held(grade(as_file(sheets))) == [("position", 6 * 448), ("speed", 6 * 224)]
+    for time in (students.CONTACT, 412.473838):
+        sheets = in_layout(numbers_at(np.array([time])), [412.473838], form, numbered=True)
+        assert_right_contact(grade(as_file(sheets), "result2"))
 
 
 def assert_printed(result):
@@ -236,25 +237,10 @@ def test_tables_of_one_sheet_are_named_by_what_they_hold():
         assert [(sheet.sheet, len(sheet.notes)) for sheet in sheets] == [("positions", 1), ("speeds", 1)]
 
 
-def test_all_positions_stand_beside_all_speeds():
-    position, speed = few().values()
-    for sides in ((position, speed), (numbered(position), numbered(speed))):
-        sheets = grade(as_csv(beside(*sides))).sheets
-        assert [(sheet.right, len(sheet.notes)) for sheet in sheets] == [(count, 1) for count in FEW]
-
-
 def test_x_y_and_speeds_with_labels_of_their_own_are_one_table():
     rows = in_layout(numbers_at(students.AT_CONTACT), [412.473838], "columns", heading="")["both"]
     apart = [[*row[:3], row[0], row[3]] for row in rows]
     assert right(grade(as_csv(apart), "result2.csv")) == [672]
-
-
-@pytest.mark.parametrize("form", ["list", *FORMS_BESIDE, "beside"])
-def test_a_result2_may_state_its_instant_in_a_column_or_a_heading(form):
-    """The instant with six decimals is right, and so are the numbers at this instant. A column numbers the handles."""
-    for time in (students.CONTACT, 412.473838):
-        sheets = in_layout(numbers_at(np.array([time])), [412.473838], form, numbered=True)
-        assert_right_contact(grade(as_csv(*sheets.values()), "result2.csv"))
 
 
 TITLES = {

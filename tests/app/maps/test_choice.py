@@ -1,13 +1,11 @@
 """A drawing of more than a venue may have is read in part: some of its layers, or an area of it."""
 
-import io
-
-import ezdxf
 import pytest
 
 from app.maps.choice import Choice, listed
 from app.maps.places import drawn_layers, places_of
 from core import InvalidValue
+from tests.app.maps.test_entities import drawing, new
 from tests.support.command import run
 from tests.support.floor_plan import EDGES, SITE, TREES, WALLS, floor_plan, town
 
@@ -57,14 +55,11 @@ def test_the_layers_of_a_drawing_that_is_refused_are_listed_with_their_edges(cli
 
 
 def test_a_layer_has_as_many_edges_in_the_list_as_when_it_is_read(client):
-    document = ezdxf.new("R2010")
-    document.header["$INSUNITS"] = 4  # millimetres
+    space = new(unit=4, square=False)  # millimetres
     points = [(0, 0, 0, 0, 1), (60_000, 0, 0, 0, 1)]  # two half circles
-    document.modelspace().add_lwpolyline(points, close=True, dxfattribs={"layer": "SQUARE"})
-    text = io.StringIO()
-    document.write(text)
-    (layer,) = places(client, text.getvalue().encode(), only_layers=True).json()["layers"]
-    (square,) = places(client, text.getvalue().encode()).json()["venue"]["features"]
+    space.add_lwpolyline(points, close=True, dxfattribs={"layer": "SQUARE"})
+    (layer,) = places(client, drawing(space), only_layers=True).json()["layers"]
+    (square,) = places(client, drawing(space)).json()["venue"]["features"]
     assert layer == {"name": "SQUARE", "edges": len(square["geometry"]["coordinates"][0]) - 1}
 
 
@@ -95,11 +90,12 @@ def test_an_area_that_holds_nothing_is_refused_as_an_area(plan, form):
     assert refusal.value.field == "area"
 
 
-def test_the_command_reads_the_same_part(plan, tmp_path):
+def test_the_command_reads_the_same_part_and_names_its_options(plan, tmp_path):
     file = tmp_path / "plan.dxf"
     file.write_bytes(plan)
     assert run("places", str(file), "--layers", "SITE,TREES").stdout.count("obstacle") >= TREES
     assert "A-HATCH" in run("places", str(file), "--only-layers").stdout
+    assert "with --layers, or an area of it with --area" in run("places", str(file)).stderr
 
 
 def test_a_layer_with_a_comma_in_its_name_is_chosen_in_quotation_marks(client, plan):
@@ -108,9 +104,3 @@ def test_a_layer_with_a_comma_in_its_name_is_chosen_in_quotation_marks(client, p
         assert any(f'"{WALLS}"' in note for note in notes)
     assert f'"{WALLS}"' in places(client, plan, layers=WALLS).json()["detail"]
     assert places(client, plan, layers=f'"{WALLS}').json()["errors"][0]["name"] == "layers"
-
-
-def test_the_command_names_its_options_where_a_drawing_is_too_large(plan, tmp_path):
-    file = tmp_path / "plan.dxf"
-    file.write_bytes(plan)
-    assert "with --layers, or an area of it with --area" in run("places", str(file)).stderr

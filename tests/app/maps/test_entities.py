@@ -13,7 +13,7 @@ from app.maps.places import places_of
 from core import InvalidValue
 from core.errors import Quantity
 from core.language import speaking
-from tests.app.maps.test_maps import names
+from tests.app.maps.test_maps import names, posted
 from tests.support.refusal_rows import assert_refused
 from tests.support.refused import refused
 
@@ -53,11 +53,6 @@ def things(result):
 def corners(result):
     """The outline of the square."""
     return [*result.venue.square.rings[0]]
-
-
-def posted(client, data):
-    headers = {"Content-Type": "image/vnd.dxf"}
-    return client.post("/places", content=data, headers=headers).raise_for_status().json()
 
 
 def test_an_array_of_blocks_has_all_of_them():
@@ -190,9 +185,9 @@ def test_an_entity_that_cannot_be_read_is_left_out_alone(row):
     assert f"Left out: 1 damaged {kind}." in result.notes
 
 
-def bare(text, kinds):
+def bare(data, kinds):
     """A drawing without the markers of some kinds, or of all of them."""
-    lines, result, kind = text.split("\n"), [], ""
+    lines, result, kind = data.decode().split("\n"), [], ""
     for code, value in zip(lines[::2], lines[1::2], strict=False):
         kind = value.strip() if code.strip() == "0" else kind
         if code.strip() != "100" or (kinds and kind not in kinds):
@@ -212,12 +207,13 @@ def test_a_note_with_an_arrow_is_left_out_by_name_also_without_markers(content):
         leader.set_content("TAG")
     leader.add_leader_line(ConnectionSide.left, [Vec2(5, 5)])
     leader.build(insert=Vec2(10, 10))
-    text = io.StringIO()
-    space.doc.write(text)
-    whole = text.getvalue()
-    for kinds, word in (("none", "MULTILEADER"), (["MULTILEADER"], "damaged MULTILEADER"), ([], "damaged MULTILEADER")):
-        data = whole.encode() if kinds == "none" else bare(whole, kinds)
-        result = places_of(data, None)
+    data = drawing(space)
+    for part, word in (
+        (data, "MULTILEADER"),
+        (bare(data, ["MULTILEADER"]), "damaged MULTILEADER"),
+        (bare(data, []), "damaged MULTILEADER"),
+    ):
+        result = places_of(part, None)
         assert [note for note in result.notes if note.startswith("Left out")] == [f"Left out: 1 {word}."]
         assert corners(result)[0] == (-50.0, -50.0)
 

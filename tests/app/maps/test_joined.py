@@ -31,18 +31,13 @@ def test_ends_within_five_millimetres_meet(apart, kinds):
     assert [shape for shape, _ in shapes(joined(lines(*near)))] == kinds
 
 
-def test_lines_of_two_layers_do_not_meet():
-    mixed = [*lines(*FOUR[:3]), *lines(FOUR[3], layer="WALL")]
-    assert joined(mixed) == mixed
-
-
-def test_lines_that_do_not_close_stay():
-    assert joined(lines(*FOUR[:3])) == lines(*FOUR[:3])
-
-
-def test_where_three_lines_meet_all_stay():
-    crossing = lines(*FOUR, [(0, 0), (9, 9)])
-    assert joined(crossing) == crossing
+@pytest.mark.parametrize(
+    "features",
+    [[*lines(*FOUR[:3]), *lines(FOUR[3], layer="WALL")], lines(*FOUR[:3]), lines(*FOUR, [(0, 0), (9, 9)])],
+    ids=["of two layers", "that do not close", "of which three meet"],
+)
+def test_lines_stay(features):
+    assert joined(features) == features
 
 
 def test_a_path_that_closes_stays_a_line():

@@ -357,17 +357,13 @@ def test_a_map_of_several_dances_has_the_path_and_the_marks_of_each(client):
     for k, (dance, name) in enumerate(zip(TWO["dances"], ("low", "1"), strict=True)):
         start, stop = performance.parts[k].own_span(*performance.span())
         alone = TWO | {"dances": None, "start": start, "stop": stop, "dragon": dance["dragon"], "path": dance["path"]}
-        roles = {"path", "mark"}
-        known = [
-            feature
+        wanted = [
+            (f"{name} {feature['properties']['name']}", dance.get("name"), feature["geometry"])
             for feature in map_of(client, "geojson", **alone).json()["features"]
-            if feature["properties"]["role"] in roles
+            if feature["properties"]["role"] in ("path", "mark")
         ]
-        some = [feature for feature in features if feature["properties"].get("dragon") == k]
-        assert [feature["geometry"] for feature in some] == [feature["geometry"] for feature in known]
-        words = [f"{name} {feature['properties']['name']}" for feature in known]
-        assert [feature["properties"]["name"] for feature in some] == words
-        assert {feature["properties"]["dragon_name"] for feature in some} == {dance.get("name")}
+        own = [feature for feature in features if feature["properties"].get("dragon") == k]
+        assert wanted == [(one["properties"]["name"], one["properties"]["dragon_name"], one["geometry"]) for one in own]
 
 
 @pytest.mark.parametrize("format", MapFormat)

@@ -32,11 +32,24 @@ REST = (80.0, 140.0)  # [s] of standing still
 NOISE = 1.2  # [m]
 
 
+def ways_to(corners):
+    """Length of the way to each corner [m]."""
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(corners, axis=0).T))])
+
+
+def places_along(corners, way):
+    """Places on the straight lines between corners. way: to each of them [m]"""
+    return np.column_stack([np.interp(way, ways_to(corners), axis) for axis in corners.T])
+
+
 def walked(times):
     """Places of somebody who walks around a square at 1 m/s, and stands still for a minute."""
-    way = times - np.clip(times - REST[0], 0.0, REST[1] - REST[0])
-    s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(CORNERS, axis=0).T))])
-    return np.column_stack([np.interp(way, s, axis) for axis in CORNERS.T])
+    return places_along(CORNERS, times - np.clip(times - REST[0], 0.0, REST[1] - REST[0]))
+
+
+def with_noise(points, noise, seed):
+    """Points that a receiver takes for these, each with noise of its own [m]."""
+    return points + np.random.default_rng(seed).normal(0.0, noise, points.shape)
 
 
 def read(data):
@@ -55,6 +68,11 @@ def noisy(seed):
     return walked(times) + smooth, times
 
 
+def assert_easy(walk, path, dragon):
+    assert walk.is_easy
+    assert not path.tighter(tightest_bend(dragon)[0])
+
+
 def farthest(points, path):
     """How far the points are from a path at most [m]."""
     line = path.position(np.linspace(path.begin, path.end, 4_000))
@@ -65,8 +83,7 @@ def farthest(points, path):
 def test_a_noisy_walk_becomes_a_path_that_benches_follow(seed):
     points, times = noisy(seed)
     walk, path = walk_along(points, times)
-    assert walk.is_easy
-    assert not path.tighter(tightest_bend(Dragon())[0])
+    assert_easy(walk, path, Dragon())
     # The distance of a place from the way at its time is never below that from the whole way.
     assert farthest(points, path) <= walk.largest + 0.2
     assert walk.largest < 6.0 * NOISE
@@ -78,8 +95,7 @@ def test_a_walk_is_smoothed_as_the_longest_bench_needs(chord):
     points, _ = noisy(0)
     (walk, path), (usual, _) = walk_along(points, None, chord), walk_along(points, None)
     assert (walk.width < usual.width) is (chord < CHORD)
-    assert walk.is_easy
-    assert not path.tighter(tightest_bend(Dragon(9, chord, 1.0, overhang=0.0))[0])
+    assert_easy(walk, path, Dragon(9, chord, 1.0, overhang=0.0))
 
 
 @pytest.mark.parametrize("noise", [0.8, 1.5])
@@ -87,8 +103,7 @@ def test_a_walk_is_smoothed_as_the_longest_bench_needs(chord):
 def test_noise_of_every_point_is_no_change_of_speed(noise, seed):
     """One pace, a pause, the same pace: not a passage for each few metres of noise."""
     times = np.arange(0.0, 250.0)
-    points = walked(times) + np.random.default_rng(seed).normal(0.0, noise, (len(times), 2))
-    walk, _ = walk_along(points, times)
+    walk, _ = walk_along(with_noise(walked(times), noise, seed), times)
     assert [passage["speed"] for passage in walk.passages] == pytest.approx([1.0, 0.0, 1.0], abs=0.1)
     assert [passage["until_time"] for passage in walk.passages] == pytest.approx([*REST, times[-1]], abs=6.0)
     assert walk.passages[1]["speed"] == 0.0
@@ -115,7 +130,7 @@ def coil(pitch, turns, first):
 def test_a_close_coil_keeps_its_windings_and_the_times_of_its_walk(pitch, noise, turns, seed):
     points, length = coil(pitch, turns, 1.0)
     times = np.arange(float(len(points)))
-    walk, path = walk_along(points + np.random.default_rng(seed).normal(0.0, noise, points.shape), times)
+    walk, path = walk_along(with_noise(points, noise, seed), times)
     assert not walk.is_easy
     assert farthest(points, path) < 5.0 * noise
     assert walk.largest < 7.0 * noise
@@ -125,9 +140,8 @@ def test_a_close_coil_keeps_its_windings_and_the_times_of_its_walk(pitch, noise,
 
 
 def test_a_square_wave_of_short_legs_keeps_its_height():
-    corners = [(5.0 * k + x, 5.0 * ((k + 1) % 2)) for k in range(8) for x in (0.0, 5.0)]
-    wave = np.column_stack([np.interp(np.arange(76.0), np.arange(16) * 5.0, axis) for axis in np.array(corners).T])
-    walk, path = walk_along(wave, None)
+    corners = np.array([(5.0 * k + x, 5.0 * ((k + 1) % 2)) for k in range(8) for x in (0.0, 5.0)])
+    walk, path = walk_along(places_along(corners, np.arange(76.0)), None)
     height = path.position(np.linspace(path.begin, path.end, 1_000))[:, 1]
     assert walk.is_easy
     assert np.ptp(height) > 4.6
@@ -148,11 +162,10 @@ SQUARES = {
 @pytest.mark.parametrize("name", SQUARES)
 def test_a_walk_of_right_angles_loses_little_more_than_the_least_arcs(name, spaced):
     corners = np.array(SQUARES[name], dtype=float)
-    s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(corners, axis=0).T))])
+    s = ways_to(corners)
     along = s if spaced is None else np.union1d(s, np.arange(0.0, s[-1], spaced))
-    walk, path = walk_along(np.column_stack([np.interp(along, s, axis) for axis in corners.T]), along)
-    assert walk.is_easy
-    assert not path.tighter(tightest_bend(Dragon())[0])
+    walk, path = walk_along(places_along(corners, along), along)
+    assert_easy(walk, path, Dragon())
     least = (2.0 - 0.5 * math.pi) * EASIEST * (len(corners) - 2)
     assert s[-1] - walk.length <= DEARER * least
     assert walk.passages is not None
@@ -163,7 +176,7 @@ def test_a_walk_of_right_angles_loses_little_more_than_the_least_arcs(name, spac
 def test_hairpins_that_no_bench_follows_stay_where_they_were_walked(noise):
     legs = [np.column_stack([np.arange(31.0)[:: 1 - 2 * (row % 2)], np.full(31, 2.0 * row)]) for row in range(8)]
     points = np.concatenate(legs)
-    walk, path = walk_along(points + np.random.default_rng(5).normal(0.0, noise, points.shape), None)
+    walk, path = walk_along(with_noise(points, noise, 5), None)
     assert not walk.is_easy
     assert walk.largest < 0.3 + 5.0 * noise
     assert walk.length > 235.0
@@ -172,8 +185,7 @@ def test_hairpins_that_no_bench_follows_stay_where_they_were_walked(noise):
 
 @pytest.mark.parametrize("noise", [0.1, 0.5, 2.0])
 def test_the_noise_of_a_receiver_is_measured_beside_corners(noise):
-    points = walked(np.arange(0.0, 250.0, 0.5))
-    points += np.random.default_rng(0).normal(0.0, noise, points.shape)
+    points = with_noise(walked(np.arange(0.0, 250.0, 0.5)), noise, 0)
     assert noise_of(points) == pytest.approx(noise, rel=0.1)
     assert noise_of(walked(np.arange(200.0))) < 1e-9
 
