@@ -6,11 +6,10 @@ import math
 import re
 from datetime import datetime, timedelta
 
-import pypdfium2
 import pytest
 from playwright.sync_api import expect
 
-from tests.support import polite
+from tests.support import paper, polite
 from tests.support.person import PHONE
 from tests.support.serving import free_port, serving
 
@@ -157,30 +156,32 @@ def test_the_view_opens_from_the_page_chooses_benches_and_dragons_closes_where_i
     goes_by_the_time_of_day(open_page, server)
 
 
+def printed_cues(person):
+    """Lines of the cards of bench 7 that the page saves."""
+    cards = csv.DictReader(person.saves("#keepCues-CSV").decode().splitlines())
+    return [one for one in cards if one["bench"] == "7"]
+
+
 def paper_and_phone_tell_of_the_dance_from_its_beginning(person):
     """The head is in the square at time 0, and the dragon begins earlier."""
     person.opens(f"?door=all&lang=en&{BEFORE_ZERO}&time=0").reaches_below()
-    cards = list(csv.DictReader(person.saves("#keepCues-CSV").decode().splitlines()))
-    own = [one for one in cards if one["bench"] == "7"]
+    own = printed_cues(person)
     verdict = json.loads(person.saves("#keepVerdict-JSON"))
     length = verdict["stop"] - verdict["start"]
     longest = f"nobody carries longer than {int(length // 60)}:{int(length % 60):02d}"
     person.presses("#crew summary", "#crew-ask").sees({"#crew-result p": longest})
-    sheets = pypdfium2.PdfDocument(person.saves("#keepPlan-A4"))
-    text = "".join(page.get_textpage().get_text_bounded() for page in sheets)
-    assert "from -0:13.9 to" in text
+    assert "from -0:13.9 to" in " ".join(map(paper.words_of, paper.pages_of(person.saves("#keepPlan-A4"))))
     held(person.opens(f"?door=all&lang=en&{BEFORE_ZERO}&bench=7"))
     assert cues_of(person) == [one["words"] for one in own[1:]]
     mark, x, y = (float(own[0][name]) for name in ("mark", "x", "y"))
     person.sees({"#card-more .stand": [f"chalk mark {mark:g} m", f"(x {x:.1f} m, y {y:.1f} m)"]})
     # Where benches touch, the cues of both end, and both say so.
     person.opens(f"?door=all&lang=en&{TOUCHING}").reaches_below()
-    own = [one for one in csv.DictReader(person.saves("#keepCues-CSV").decode().splitlines()) if one["bench"] == "7"]
+    own = printed_cues(person)
     verdict = json.loads(person.saves("#keepVerdict-JSON"))
     assert float(own[-1]["time"]) == pytest.approx(verdict["failures"][0]["time"], abs=1e-3)
-    sheets = pypdfium2.PdfDocument(person.saves("#keepCues-PDF"))
-    text = " ".join(sheets[0].get_textpage().get_text_bounded().split())
-    assert "the cues end where benches touch." in text
+    first, *_ = paper.pages_of(person.saves("#keepCues-PDF"))
+    assert "the cues end where benches touch." in paper.words_of(first)
     held(person.opens(f"?door=all&lang=en&{TOUCHING}&bench=7"))
     assert cues_of(person) == [one["words"] for one in own[1:]]
     person.sees({HINT: "Benches touch in this dance: the cues end there."})

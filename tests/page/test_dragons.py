@@ -40,6 +40,8 @@ def file_of(person):
     return json.loads(person.saves("#dragons-save"))
 
 
+# Two streets that cross, H m wide on both sides of their middles.
+CROSS = "a.yard..-60,-H_-H,-H_-H,-60_H,-60_H,-H_60,-H_60,H_H,H_H,60_-H,60_-H,H_-60,H"
 OWN = {"things": "a.yard..-150,-90_150,-90_150,90_-150,90~c.well.1.0,80", "route": "0,0_60,5", "limit": "1.5"}
 
 
@@ -91,13 +93,8 @@ def test_dragons_to_begin_with_leave_what_a_person_has_drawn_and_who_waits_is_le
     person.settles().holds({"#dragon-colour-0": "#ff8b7c"})
     assert [person.coloured(one) > 0 for one in ("#ff8b7c", COLOURS[0])] == [True, False]
     # The benches must fit too: streets of 0.2 m hold the corners of the paths alone.
-    for half, fits in ((0.1, False), (3, True)):
-        corners = [(-60, -half), (-half, -half), (-half, -60), (half, -60), (half, -half), (60, -half)]
-        corners += [(-x, -y) for x, y in corners]
-        cross = {
-            "things": f"a.yard..{'_'.join(f'{x},{y}'.replace('.', '!') for x, y in corners)}",
-            "route": "*-59,0_59,0",
-        }
+    for half, fits in (("0!1", False), ("3", True)):
+        cross = {"things": CROSS.replace("H", half), "route": "*-59,0_59,0"}
         person.opens(f"?door=all&lang=en&path=route&benches=3&begin=8&{urlencode(cross)}").presses("#several").settles()
         assert ("things" in person.presses("[data-dragons=streets]").settles().address()) is fits
 

@@ -44,8 +44,7 @@ def test_dragged_numbers_get_the_answers_of_the_service_also_after_it_was_lost(o
     dial(person, "staircase", "Pitch of the spiral").press("ArrowUp")
     contact = answer_of(server, "collision-time", path={"kind": "spiral", "pitch": 0.4504})
     person.sees({"#staircase .lead": [f"{contact['head']['radius']:.4f} m", f"body {contact['benches'][1]}."]})
-    step = dial(person, "step", "Length of the interval")
-    step.press("PageUp")
+    dial(person, "step", "Length of the interval").press("PageUp")
     proof = answer_of(server, "collision-time", dragon={"benches": 40}, start=409.7, stop=409.86, cross_check="none")
     steps = proof["certificate"]["steps"]
     assert steps > 1
@@ -68,7 +67,7 @@ def test_dragged_numbers_get_the_answers_of_the_service_also_after_it_was_lost(o
     assert len(lefts) > len(SECTIONS)
     assert len(set(lefts)) == 1
     person.page.route("**/*", lambda route: route.abort())
-    dial(person, "chord", "Chord of the head bench").press("ArrowUp")
+    length.press("ArrowUp")
     person.sees({"#lost:visible": "does not answer", "#chord .note": "the figure is older than your numbers"})
     person.reads({"#step .note": ""})
     person.page.unroute("**/*")
@@ -78,7 +77,7 @@ def test_dragged_numbers_get_the_answers_of_the_service_also_after_it_was_lost(o
     # A number that waits for the service that is back is not said to be older, in any language.
     held = person.holds_back("**/trajectory*")
     with person.page.expect_request("**/trajectory*"):
-        dial(person, "chord", "Chord of the head bench").press("ArrowUp")
+        length.press("ArrowUp")
     person.presses("[data-lang=zh]").sees({"#chord figure[aria-busy=true]:not(.stale)": True})
     person.reads({"#chord .note": ""})
     held.let_go()

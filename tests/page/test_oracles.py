@@ -5,7 +5,6 @@ import re
 
 import numpy as np
 import pytest
-import shapely
 import zxingcpp
 
 from app.service.main import create_app
@@ -15,7 +14,6 @@ from app.wire.benches import bench_table
 from core import Dragon
 from core.proposal.designs import street_length
 from core.proposal.needs import Needs
-from core.shapes.engines import widest_place
 from tests.support.node import chinese_texts, evaluate
 
 pytestmark = pytest.mark.node
@@ -46,18 +44,6 @@ def test_qr_codes_of_every_length_can_be_read_and_a_too_long_text_has_none():
         written = np.append(dark[8, [0, 1, 2, 3, 4, 5, 7, 8]], dark[[7, 5, 4, 3, 2, 1, 0, -8], 8])
         assert "".join(map(str, written.astype(int))) == "1110111110001001"
     assert none is None
-
-
-def test_a_name_stands_where_an_area_is_widest():
-    # A square of 40 m with a street of 60 m.
-    street = [[0, 0], [40, 0], [40, 18], [100, 18], [100, 22], [40, 22], [40, 40], [0, 40]]
-    x, y, width = evaluate("async (area) => (await page('venue.js')).widest(area)", street)
-    *_, radius = widest_place([[*street, street[0]]])
-    square = shapely.Polygon(street)
-    assert square.contains(shapely.Point(x, y))
-    room = shapely.distance(square.boundary, shapely.Point(x, y))
-    assert 0.5 * width == pytest.approx(room, rel=0.01)
-    assert room > 0.97 * radius
 
 
 def test_every_value_of_a_map_has_its_own_name_in_chinese():
