@@ -1,4 +1,4 @@
-"""The page and the states of the service: refusals, slow answers, superseded questions, loss, parts, weight."""
+"""The page and the states of the service: refusals, slow answers, loss, parts, weight."""
 
 from urllib.parse import urlencode, urlsplit
 
@@ -18,35 +18,6 @@ TITLES = ("#first-contact h3", "#run-end h3", "#clearance h2")
 # Parts with a file of each that tells that it has loaded.
 LATER = {"qr.js", "below.js", "below.css", "grade.js", "map.js", "drawn.js", "place.css", "propose.js"}
 LATER |= {"sharing.js"}
-# Answers about first contact take this long [ms], and aborted questions are counted.
-SLOW = """(milliseconds) => {
-  window.quick = window.fetch;
-  window.aborted = 0;
-  window.fetch = async (url, options) => {
-    if (!String(url).startsWith("collision-time")) return quick(url, options);
-    await new Promise((resolve, reject) => {
-      setTimeout(resolve, milliseconds);
-      options.signal.addEventListener("abort", () => {
-        window.aborted++;
-        reject(options.signal.reason);
-      });
-    });
-    return quick(url, options);
-  };
-}"""
-# Drags until two answers were shown.
-DRAGGED = """async () => {
-  let shown = 0;
-  const answers = document.querySelector("#first-contact");
-  new MutationObserver(() => shown++).observe(answers, { childList: true });
-  const slider = document.querySelector("#controls input[type=range]");
-  for (let k = 0; k < 60 && shown < 2; k++) {
-    slider.value = 0.6 + 0.001 * k;
-    slider.dispatchEvent(new Event("input", { bubbles: true }));
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
-  return shown;
-}"""
 
 
 def contact(server, **query):
@@ -108,25 +79,10 @@ def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(open_pa
     # A refusal about a turn goes with the turn.
     person.opens(f"{SHORT}&path=turn&speed_limit=0&lang=en").sees({"#controls .error:visible": True})
     person.presses("[data-path=spiral]").sees({"#controls .error:visible": 0})
-    _a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_again(person.opens(SHORT))
-
-
-def _a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_again(person):
-    held = []
-    person.page.route("**/minimum-pitch*", lambda one: held.append(one))
-    with person.page.expect_request("**/minimum-pitch*"):
-        person.types({"#turning_diameter": "wide"}, "Tab")
-    person.presses("#reset-all")
-    with person.page.expect_request("**/minimum-pitch*"):  # about right numbers, after the refusal of the former
-        held.pop().continue_()
-    person.sees({"#turning_diameter-error": False})
-    held.pop().continue_()
-    person.page.unroute_all()
-    person.settles().sees({"#turning_diameter-error": False, "#minimum-pitch .value": True})
 
 
 @thorough
-def test_old_answers_turn_pale_until_new_ones_come_and_superseded_questions_are_aborted(open_page, server):
+def test_old_answers_turn_pale_until_new_ones_come(open_page, server):
     person = open_page(SHORT, failing=True)
     assert {person.style(place, "opacity") for place in OLD} == {"1"}
     person.page.route("**/collision-time*", lambda route: None)
@@ -140,21 +96,8 @@ def test_old_answers_turn_pale_until_new_ones_come_and_superseded_questions_are_
     person.page.route("**/collision-time*", lambda route: route.fulfill(status=500, body=problem))
     person.types({"#pitch": "0.51"}, "Tab").sees({"#first-contact": "The service failed here."})
     person.page.unroute_all()
-    busy = {"status": 503, "headers": {"Retry-After": "1"}, "body": "{}"}
-    person.page.route("**/collision-time*", lambda route: route.fulfill(**busy), times=1)
     person.types({"#pitch": "0.52"}, "Tab").sees({CONTACT: contact(server, benches=20, pitch=0.52)}).settles()
     assert {person.style(place, "opacity") for place in OLD} == {"1"}
-    _a_dragged_slider_does_not_wait(person, server)
-
-
-def _a_dragged_slider_does_not_wait(person, server):
-    person.ask(SLOW, 400)
-    assert person.ask(DRAGGED) >= 2
-    person.settles().at("#controls input[type=range]").fill("0.55")
-    for _ in range(20):
-        person.at("#controls input[type=range]").press("ArrowLeft")
-    person.holds({"#pitch": "0.53"}).sees({CONTACT: contact(server, benches=20, pitch=0.53)})
-    assert person.ask("window.aborted") >= 1
 
 
 @thorough

@@ -1,19 +1,31 @@
-/** How often the page asks whether the service is alive, and what it tells of one that is lost. */
+/** Which questions get an answer, how often the page asks whether the service is alive, and what it tells of one that is lost. */
 
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, mock, test } from "node:test";
 
 globalThis.document = { hidden: false, querySelector: () => null, querySelectorAll: () => [], documentElement: { dataset: {} } };
-const { Service } = await import("../../../app/page/api.js");
+const { Problem, Service, Superseded } = await import("../../../app/page/api.js");
 const begun = (tell = {}) => new Service({ lost() {}, back() {}, busy() {}, refused: async () => {}, ...tell });
-const passes = (milliseconds) => (mock.timers.tick(milliseconds), new Promise((resolve) => setImmediate(resolve)));
+const answering = (status, body, headers = {}) => ({ ok: status === 200, status, headers: new Headers(headers), json: async () => body });
+let clock = 0;
+const passes = (milliseconds) => {
+  clock += milliseconds;
+  mock.timers.tick(milliseconds);
+  return new Promise((resolve) => setImmediate(resolve));
+};
 
-beforeEach(() => mock.timers.enable({ apis: ["setTimeout"] }));
-afterEach(() => mock.timers.reset());
+beforeEach(() => {
+  mock.timers.enable({ apis: ["setTimeout"] });
+  mock.method(performance, "now", () => clock);
+});
+afterEach(() => {
+  mock.timers.reset();
+  mock.restoreAll();
+});
 
 test("a service that answers is asked every five seconds whether it is alive, also while much is asked", async () => {
   const asked = [];
-  globalThis.fetch = async (url) => (asked.push(url), { ok: true, status: 200, json: async () => ({}) });
+  globalThis.fetch = async (url) => (asked.push(url), answering(200, {}));
   const service = begun();
   for (let k = 0; k < 300; k++) {
     await service.ask("contact", "collision-time");
@@ -49,7 +61,7 @@ test("the next try at a service that hangs is counted down, after a longer time 
   const told = [];
   let [answers, hung] = [false, null];
   globalThis.fetch = async (url, { signal }) => {
-    if (answers) return { ok: true, status: 200, json: async () => "answer" };
+    if (answers) return answering(200, "answer");
     if (url === "healthz" && !hung) await (hung = new Promise((resolve) => signal.addEventListener("abort", resolve)));
     throw new TypeError("lost");
   };
@@ -68,4 +80,56 @@ test("the next try at a service that hangs is counted down, after a longer time 
   await passes(0);
   assert.equal(await asked, "answer");
   assert.deepEqual(told.slice(-2), [0, "back"]);
+});
+
+test("who drags a number sees answers meanwhile, also slow ones, and the newest one at last; others are given up", async () => {
+  const shown = [];
+  let aborted = 0;
+  globalThis.fetch = (url, { signal }) =>
+    new Promise((resolve, reject) => {
+      setTimeout(() => resolve(answering(200, url)), 400);
+      signal.addEventListener("abort", () => {
+        aborted++;
+        reject(signal.reason);
+      });
+    });
+  const service = begun();
+  for (let k = 0; k < 60; k++) {
+    service.ask("contact", `dragged-${k}`).then((answer) => shown.push(answer), (error) => assert.ok(error instanceof Superseded));
+    await passes(50);
+  }
+  assert.ok(shown.length >= 2, `${shown.length} answers in 3 s`);
+  assert.ok(aborted >= 1);
+  for (let k = 0; k < 40; k++) await passes(50);
+  assert.equal(shown.at(-1), "dragged-59");
+});
+
+test("a refusal that comes late is not shown beside numbers that are right again", async () => {
+  const held = [];
+  globalThis.fetch = () => new Promise((resolve) => held.push(resolve));
+  const service = begun();
+  const wrong = assert.rejects(service.ask("pitch", "wrong"), Superseded);
+  const right = service.ask("pitch", "right");
+  held.pop()(answering(422, { detail: "wide" }));
+  await wrong;
+  await passes(0);
+  held.pop()(answering(200, 0.45));
+  assert.equal(await right, 0.45);
+  const again = assert.rejects(service.ask("pitch", "wrong"), Problem);
+  await passes(0);
+  held.pop()(answering(422, { detail: "wide" }));
+  await again;
+});
+
+test("a busy service is asked again when it says so, if that is soon", async () => {
+  const answers = [answering(503, {}, { "Retry-After": "1" }), answering(200, "answer"), answering(503, {}, { "Retry-After": "60" })];
+  globalThis.fetch = async () => answers.shift();
+  const service = begun();
+  const asked = service.ask("contact", "collision-time");
+  await passes(0);
+  await passes(999);
+  assert.equal(answers.length, 2);
+  await passes(1);
+  assert.equal(await asked, "answer");
+  await assert.rejects(service.ask("contact", "collision-time"), Problem);
 });
