@@ -33,7 +33,7 @@ def test_a_lost_service_is_reported_and_what_a_person_does_meanwhile_is_done_whe
         person = open_page(f"?{urlencode(numbers)}", base=f"http://127.0.0.1:{port}", failing=True)
         answer, before = person.text(CONTACT), person.picture()
     # An idle page notices it too.
-    person.sees({"#lost:visible": ["does not answer", "next try in ", "trying again now"]})
+    person.sees({"#lost:visible": ["does not answer", "next try in "]})
     person.types({"#pitch": "0.5"}, "Tab")
     assert person.text(CONTACT) == answer
     assert alike(person.picture(), before)

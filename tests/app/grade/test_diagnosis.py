@@ -301,11 +301,9 @@ def test_one_sheet_of_a_result2_does_not_miss_another(change):
     result = grade_contact((position * change, speed))
     [words] = [one.words for one in result.rubric if one.criterion == "speeds"]
     assert words == "Speeds consistent with the positions: not shown here."
-    times = SPIRAL_TIMES[:4]
-    for sheet in ("位置", "速度"):
-        alone = grade(
-            students.by_xlsxwriter({sheet: students.rows_of((spiral(times)[0], -spiral(times)[1]), times)[sheet]})
-        )
+    position, speed = spiral(SPIRAL_TIMES[:4])
+    for title, rows in students.rows_of((position, -speed), SPIRAL_TIMES[:4]).items():
+        alone = grade(students.by_xlsxwriter({title: rows}))
         assert any("both sheets are necessary" in one.words for one in alone.rubric)
 
 
