@@ -1,4 +1,4 @@
-/** What is said of an opened file, and of a lost service. */
+/** What is said of an opened file. */
 
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, mock, test } from "node:test";
@@ -10,7 +10,7 @@ globalThis.ResizeObserver = class {
   observe() {}
 };
 const { announceOpened } = await import("../../../app/page/files.js");
-const { announce, lost } = await import("../../../app/page/overlays.js");
+const { announce } = await import("../../../app/page/overlays.js");
 const NOTE = "Coordinates are in metres. ".repeat(10);
 
 beforeEach(() => mock.timers.enable({ apis: ["setTimeout"] }));
@@ -33,12 +33,4 @@ test("it comes back after another message, until a person has had time to read i
   assert.match(box.textContent, /metres/);
   mock.timers.tick(60_000);
   assert.equal(box.textContent, "");
-});
-
-test("a lost service is said to be tried again in some seconds, or now", () => {
-  lost(2);
-  assert.match(box.textContent, /does not answer.*next try in 2 s/);
-  lost(0);
-  assert.match(box.textContent, /trying again now/);
-  assert.equal(box.hidden, false);
 });
