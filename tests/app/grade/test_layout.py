@@ -10,7 +10,7 @@ from tests.app.grade.test_reading import grade
 from tests.conftest import ROOT
 from tests.support import students
 from tests.support.depth import further, thorough
-from tests.support.student_files import FORMS, as_csv, as_file, beside, in_layout, on_side
+from tests.support.student_files import FORMS, NAMES, as_csv, as_file, beside, in_layout, on_side
 from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral, three
 
 
@@ -211,7 +211,7 @@ def test_printed_handles_are_known_by_their_numbers_alone():
 
 
 SIDES = {
-    "a gap": lambda position, speed: beside(position, speed),
+    "a gap": beside,
     "no gap": lambda position, speed: beside(position, speed, 0),
     "titles": lambda position, speed: beside([["位置"], *position], [["速度"], *speed]),
     "titles beside": lambda position, speed: beside([["位置"], *position], [["", "速度"], *speed]),
@@ -300,18 +300,19 @@ def test_csv_with_decimal_commas_is_graded(separator):
         assert_right((title + wide_csv().replace(",", separator).replace(".", ",")).encode())
 
 
-# Headings of lists with a line for each handle and instant, and the name of a handle in them.
+FROM_0, FROM_1 = range(224), range(1, 225)
+# Headings of lists with a line for each handle and instant, and the names of the handles in them.
 HEADS = {
-    "time,handle,x,y,speed": lambda h: h,
-    "time,section,x_position,y_position,velocity": lambda h: h,
-    "t,node,x,y,v": lambda h: h + 1,
-    "time (s),bench,X,Y,speed (m/s)": lambda h: h,
-    "时间,节点编号,横坐标,纵坐标,速度": lambda h: h + 1,
-    "时刻（s）,板凳编号,x坐标（m）,y坐标（m）,速度（m/s）": lambda h: h,
-    "Time [s],Index,pos_x,pos_y,Speed": lambda h: h,
-    "时间/s,把手编号,x/m,y/m,v/(m/s)": lambda h: h,
-    "t/s,node,横坐标/m,纵坐标/m,速度/(m·s⁻¹)": lambda h: h + 1,
-    "时间,位置,x (m),y (m),速度 (m/s)": lambda h: students.labels("speed")[h].removesuffix(" (m/s)"),
+    "time,handle,x,y,speed": FROM_0,
+    "time,section,x_position,y_position,velocity": FROM_0,
+    "t,node,x,y,v": FROM_1,
+    "time (s),bench,X,Y,speed (m/s)": FROM_0,
+    "时间,节点编号,横坐标,纵坐标,速度": FROM_1,
+    "时刻（s）,板凳编号,x坐标（m）,y坐标（m）,速度（m/s）": FROM_0,
+    "Time [s],Index,pos_x,pos_y,Speed": FROM_0,
+    "时间/s,把手编号,x/m,y/m,v/(m/s)": FROM_0,
+    "t/s,node,横坐标/m,纵坐标/m,速度/(m·s⁻¹)": FROM_1,
+    "时间,位置,x (m),y (m),速度 (m/s)": NAMES,
 }
 
 
@@ -331,17 +332,17 @@ def test_headings_of_single_handles_are_none_of_a_list():
 
 def test_wrong_numbers_of_handles_that_are_counted_from_one_stay_those_of_their_handles():
     """They do not fit the order of the lines either, which tells that right ones are counted from one."""
-    rows = list_of(3, lambda h: h + 1)
+    rows = list_of(3, FROM_1)
     lines = [",".join(map(str, [time, handle, y, x, speed])) for time, handle, x, y, speed in rows]
     result = grade("\n".join(["time,node,x,y,v", *lines]).encode(), "dance.csv")
     assert [one.error for one in result.diagnosis] == ["axes_exchanged"]
     assert [sheet.missing for sheet in result.sheets] == [298 * 448, 298 * 224]
 
 
-def list_of(instants, name):
+def list_of(instants, names):
     position, speed = spiral(SPIRAL_TIMES[:instants])
     lines = [(t, h) for t in range(instants) for h in range(224)]
-    return [[t, name(h), *map(float, position[t, h].round(6)), float(speed[t, h].round(6))] for t, h in lines]
+    return [[t, names[h], *map(float, position[t, h].round(6)), float(speed[t, h].round(6))] for t, h in lines]
 
 
 @pytest.mark.parametrize("below", [[], [[None] * 5], [["注：保留六位小数"]]], ids=["nothing", "a blank", "a remark"])
@@ -412,9 +413,7 @@ def test_rounded_results_are_named_with_their_decimals(decimals):
 NUMBERED = {
     "below": lambda position, speed: [*position, [], *speed],
     "below, without a line between": lambda position, speed: [*position, *speed],
-    "beside": beside,
-    "speeds first": lambda position, speed: beside(speed, position),
-    "on its side": lambda position, speed: on_side(beside(position, speed)),
+    **{name: SIDES[name] for name in ("a gap", "speeds first", "on its side")},
 }
 
 

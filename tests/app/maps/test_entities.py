@@ -13,7 +13,7 @@ from app.maps.places import places_of
 from core import InvalidValue
 from core.errors import Quantity
 from core.language import speaking
-from tests.app.maps.test_maps import names, posted
+from tests.app.maps.test_maps import map_of, names, posted, things
 from tests.support.refusal_rows import assert_refused
 from tests.support.refused import refused
 
@@ -42,12 +42,6 @@ def drawing(space):
 
 def read(space):
     return places_of(drawing(space), None)
-
-
-def things(result):
-    """Form, coordinates and radius of the obstacles."""
-    values = [(one["properties"], one["geometry"]) for one in result.geometry["features"][1:]]
-    return [(form["type"], form["coordinates"], own.get("radius")) for own, form in values]
 
 
 def corners(result):
@@ -401,18 +395,17 @@ def test_a_survey_grid_is_moved_to_its_middle_and_kept(client, x, y):
     assert got["path"]["points"] == [[-40.0, 0.0], [40.0, -9.0]]
     assert f"The coordinates are those of a survey grid; x = y = 0 is its x {x:.10g} m, y {y:.10g} m." in got["notes"]
     # What goes out is on the grid again, and comes in as it was.
-    body = {"dragon": {"benches": 2}, "path": got["path"], "venue": got["venue"]}
-    assert client.post("/check", json=body).status_code == 200
-    drawn, features = (client.post(f"/maps.{form}", json=body).raise_for_status() for form in ("dxf", "geojson"))
+    place = {"path": got["path"], "venue": got["venue"]}
+    assert client.post("/check", json={"dragon": {"benches": 2}, **place}).status_code == 200
+    drawn, features = (map_of(client, form, **place) for form in ("dxf", "geojson"))
     [circle] = ezdxf.read(io.StringIO(drawn.text)).modelspace().query("CIRCLE[layer=='OBSTACLES']")
     assert [*circle.dxf.center][:2] == [x + 5, y + 5] == features.json()["features"][1]["geometry"]["coordinates"]
     for out in (drawn, features):
         again = posted(client, out.content)
         assert got["path"].items() <= again["path"].items()
-        assert [again["venue"]["grid"], *(feature["geometry"] for feature in again["venue"]["features"])] == [
-            got["venue"]["grid"],
-            *(feature["geometry"] for feature in got["venue"]["features"]),
-        ]
+        assert again["venue"]["grid"] == got["venue"]["grid"]
+        before, after = ([one["geometry"] for one in answer["venue"]["features"]] for answer in (got, again))
+        assert before == after
 
 
 @pytest.mark.parametrize("row", ['{"x": 1.0} -> ', '{"x": 1.0, "y": 1e9} -> /y 1e+08', '"here" -> '])

@@ -49,6 +49,12 @@ def names(result):
     return [area.name for area in result.venue.areas]
 
 
+def things(result):
+    """Form, coordinates and radius of the obstacles."""
+    values = [(one["properties"], one["geometry"]) for one in result.geometry["features"][1:]]
+    return [(form["type"], form["coordinates"], own.get("radius")) for own, form in values]
+
+
 def map_of(client, form, **body):
     return client.post(f"/maps.{form}", json={"dragon": {"benches": 2}, **body}).raise_for_status()
 
@@ -175,10 +181,7 @@ def test_what_has_no_square_and_no_radius_gets_both():
     result = read_json(collection)
     assert rings(result)[0].min(axis=0).tolist() == [-20.0, -20.0]
     # They stay points and lines with a radius, for a request and for whoever moves them.
-    things = [
-        (*feature["geometry"].values(), feature["properties"]["radius"]) for feature in result.geometry["features"][1:]
-    ]
-    assert things == forms
+    assert things(result) == forms
     assert names(result)[1:] == [f"obstacle {k}" for k in range(1, 5)]
     assert sum("without a radius" in note for note in result.notes) == 2
 
