@@ -282,7 +282,7 @@ def test_a_limit_that_is_broken_stands_in_the_first_line_and_in_a_summary(tmp_pa
 
 
 def test_a_number_is_refused_in_the_language_chosen():
-    for text in ("0_45", "-1"):
+    for text in ("0_45", "4.5e", "1e999", "inf", "-1", ""):
         refused = refusal("grade", f"--pitch={text}", "--language", "zh")
         assert refused.endswith(f"pitch 应为大于 0、小于 1e6 的数字（单位 m），例如 0.4503：现为“{text}”\n")
 
@@ -332,6 +332,7 @@ def test_the_shortest_right_turn_is_the_proven_one(ratio):
         ("0.4503374", 7),
         ("1.250", 4),
         ("1.2462663581", 7),
+        ("0.45033739312345678", 17),
     ],
 )
 def test_the_digits_that_were_graded_are_reported(text, digits):
