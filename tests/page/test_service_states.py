@@ -19,6 +19,13 @@ TITLES = ("#first-contact h3", "#run-end h3", "#clearance h2")
 LATER = {"qr.js", "below.js", "below.css", "grade.js", "map.js", "drawn.js", "place.css", "propose.js"}
 LATER |= {"sharing.js"}
 
+# Keeps the messages of the page, which leave by themselves.
+TOLD = """() => {
+  window.told = [];
+  const box = document.querySelector("#status");
+  new MutationObserver(() => told.push(box.textContent)).observe(box, { childList: true });
+}"""
+
 
 def contact(server, **query):
     return f"{polite.answer(server, 'collision-time', **query)['time']:.6f}"
@@ -44,11 +51,10 @@ def test_a_lost_service_is_reported_and_what_a_person_does_meanwhile_is_done_whe
             {"#lost": False, CONTACT: contact(server, **numbers, pitch=0.5), "#grades .value": "✓正确", "h1": "板凳龙"}
         )
         person.speaks("en").reaches_below()
-    person.sees({"#lost": "does not answer"})
+    person.sees({"#lost": "does not answer"}).ask(TOLD)
     with serving(tmp_path / "hurried.log", port=port, deadline_seconds=1e-9) as hurried:
-        person.sees({"#lost": False, "#status": "The service is back."}).presses("#keepGround-JSON").has(
-            "#jobs li", data_state="successful"
-        )
+        person.page.wait_for_function("() => told.includes('The service is back.')")
+        person.sees({"#lost": False}).presses("#keepGround-JSON").has("#jobs li", data_state="successful")
         assert polite.answer(hurried.url, person.at("#jobs a[download]").get_attribute("href"))["area"] > 0.0
 
 
