@@ -149,8 +149,8 @@ def test_the_numbers_of_an_error_are_reported():
     assert one.words == "The speeds are forward difference quotients with a step of 0.1 s."
     inverted, *_ = known("ratio_inverted").diagnosis
     assert inverted.words.endswith("the first one's radius should be twice the second one's.")
-    [rounded] = grade(first(students.rounded_head())).diagnosis
-    assert rounded.words == "A number was rounded before it was used: theta of the head, 3 decimals."
+    [early] = grade(first(students.rounded_head())).diagnosis
+    assert early.words == "A number was rounded before it was used: theta of the head, 3 decimals."
     [entry] = grade(fourth(rounded(turn(turning_radius=4.35), 2))).diagnosis
     assert entry.words.startswith("The turn begins 4.35 m from the centre")
 
