@@ -39,7 +39,7 @@ def cues(
         Path,
         path_argument("FILE", FILE_HELP),
     ],
-    output: Annotated[Path, typer.Option(help="Write a .pdf (extra figures), .csv or .json file.")] = Path("cues.pdf"),
+    output: Annotated[Path, typer.Option(help="Write a .pdf (extra paper), .csv or .json file.")] = Path("cues.pdf"),
     first_bench: Annotated[int | None, typer.Option(help="First bench with a card; default: 0, the head.")] = None,
     last_bench: Annotated[int | None, typer.Option(help="Last bench with a card; default: the tail.")] = None,
     bench: Annotated[
@@ -56,7 +56,7 @@ def cues(
     """A card for each bench: where to stand, when to walk, whom it meets and how near, where it is fastest."""
     ending = checked_output("output", output, tuple(FORMS))
     if ending == ".pdf":
-        require("figures", "output", "A card on paper")
+        require("paper", "output", "A card on paper")
     request = changed(
         file, CuesRequest, context, part=part, first_bench=first_bench, last_bench=last_bench, cards=bench or None,
         reach=reach, step_length=step_length, spacing=spacing, title=title,
@@ -72,13 +72,13 @@ def crew(
     point: Annotated[
         list[str] | None, typer.Option(help="A place X,Y [m] at which people change; may be given several times.")
     ] = None,
-    output: Annotated[Path | None, typer.Option(help="Write a .pdf (extra figures), .csv or .json file.")] = None,
+    output: Annotated[Path | None, typer.Option(help="Write a .pdf (extra paper), .csv or .json file.")] = None,
     json: Json = False,
 ) -> None:
     """Who carries which bench when: shifts, spare carriers, minutes and metres of each, and who is where at a time."""
     ending = checked_output("output", output, tuple(FORMS)) if output else ""
     if ending == ".pdf":
-        require("figures", "output", "A timeline")
+        require("paper", "output", "A timeline")
     request = of_file(file, CrewRequest, context)
     if point:
         request = request.model_copy(update={"points": [_point(text) for text in point]})

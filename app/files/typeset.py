@@ -1,7 +1,8 @@
 """Paper as tagged PDF, set by Typst: a template and data in, the bytes of a file out.
 
-The data are JSON, which the template reads from data.json: no text becomes markup. Pictures in them are SVG. Equal data
-give equal bytes on the same fonts and the same version of Typst, because the file holds no date.
+The data are JSON, which the template reads from data.json: no text becomes markup. Pictures in them are SVG. A template
+may import paper.typ. Equal data give equal bytes on the same fonts and the same version of Typst, because the file
+holds no date.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import pickle
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
+from importlib.resources import files
 from typing import Any
 
 import orjson
@@ -24,6 +26,15 @@ from core.language import Language, spoken
 POINT = 25.4 / 72.0
 # Characters whose widths are kept.
 WIDTHS_MOST = 20_000
+# Width of each character in type of 1 pt [pt]; between two others, because a blank alone has none.
+WIDTHS = b"""
+#let data = json("data.json")
+#set text(font: data.fonts, size: 100pt, weight: data.weight)
+#context {
+  let wide(words) = measure(text(words)).width.pt()
+  [#metadata(data.texts.map(one => (wide("|" + one + "|") - wide("||")) / 100)) <measured>]
+}
+"""
 # The processes that typeset.
 typesetting = Pool("app.files.typesetter", waiting=1)
 
@@ -58,8 +69,9 @@ class Face:
         if new := set(words) - widths.keys():
             if len(widths) > WIDTHS_MOST:
                 _widths.cache_clear()  # What is kept here goes on for this text.
-            data = {"fonts": self.families, "weight": "bold" if bold else "regular", "texts": sorted(new)}
-            widths.update(zip(data["texts"], _asked(None, "widths", orjson.dumps(data)), strict=True))
+            texts = sorted(new)
+            data = {"weight": "bold" if bold else "regular", "texts": texts}
+            widths.update(zip(texts, measured(WIDTHS, self, data), strict=True))
         return POINT * size * sum(widths[character] for character in words)
 
 
@@ -79,12 +91,22 @@ def face_for(texts: Iterable[str]) -> Face:
     return Face((chinese, LATIN) if spoken() is Language.CHINESE else (LATIN, chinese))
 
 
-def typeset(template: bytes, face: Face, data: Mapping[str, Any], budget: Budget | None = None) -> bytes:
-    """The bytes of a PDF. The template also gets the names of the fonts and the code of the language that is spoken.
+def _files(template: bytes, face: Face, data: Mapping[str, Any]) -> dict[str, bytes]:
+    """A template, what it may import, and its data with the names of the fonts and the language that is spoken."""
+    words = orjson.dumps({**data, "fonts": face.families, "language": spoken()})
+    return {
+        "main.typ": template,
+        "paper.typ": files("app.files").joinpath("paper.typ").read_bytes(),
+        "data.json": words,
+    }
 
-    raises: Halted once the budget is stopped
-    """
-    content: bytes = _asked(
-        budget, "pdf", template, orjson.dumps({**data, "fonts": face.families, "language": spoken()})
-    )
+
+def measured(template: bytes, face: Face, data: Mapping[str, Any], budget: Budget | None = None) -> Any:
+    """What a template says under the label measured. raises: Halted once the budget is stopped"""
+    return _asked(budget, "measured", _files(template, face, data))
+
+
+def typeset(template: bytes, face: Face, data: Mapping[str, Any], budget: Budget | None = None) -> bytes:
+    """The bytes of a PDF. raises: Halted once the budget is stopped"""
+    content: bytes = _asked(budget, "pdf", _files(template, face, data))
     return content

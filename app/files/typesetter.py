@@ -22,16 +22,6 @@ import typst
 from app.processes.limits import end_first, lower_priority
 from app.processes.parent import Report, answer_tasks
 
-# Width of each character in type of 1 pt [pt]; between two others, because a blank alone has none.
-MEASURE = b"""
-#let data = json("data.json")
-#set text(font: data.fonts, size: 100pt, weight: data.weight)
-#context {
-  let wide(words) = measure(text(words)).width.pt()
-  [#metadata(data.texts.map(one => (wide("|" + one + "|") - wide("||")) / 100)) <widths>]
-}
-"""
-
 
 @cache
 def _fonts() -> typst.Fonts:
@@ -47,23 +37,18 @@ def families() -> list[str]:
     return _fonts().families()
 
 
-def widths(data: bytes) -> list[float]:
-    """Widths of texts in type of 1 pt [pt]. data: their fonts, weight and the texts as JSON"""
-    files: Any = {"main.typ": MEASURE, "data.json": data}  # Typst's types know of no files by their names.
-    options: dict[str, Any] = {"field": "value", "one": True}
-    found = typst.query(files, "<widths>", font_paths=_fonts(), ignore_system_fonts=True, **options)
-    measured: list[float] = orjson.loads(found)
-    return measured
+def measured(files: Any) -> Any:
+    """What the template main.typ says under the label measured. files: content by name"""
+    options: dict[str, Any] = {"field": "value", "one": True}  # Typst's types know of no files by their names.
+    return orjson.loads(typst.query(files, "<measured>", font_paths=_fonts(), ignore_system_fonts=True, **options))
 
 
-def pdf(template: bytes, data: bytes) -> bytes:
-    """The bytes of a PDF, of a template that reads data.json."""
-    files: Any = {"main.typ": template, "data.json": data}
-    content: bytes = typst.compile(files, font_paths=_fonts(), ignore_system_fonts=True, timestamp=0)
-    return content
+def pdf(files: Any) -> bytes:
+    """The bytes of a PDF that can be read aloud, of the template main.typ. files: content by name"""
+    return typst.compile(files, font_paths=_fonts(), ignore_system_fonts=True, timestamp=0, pdf_standards=["ua-1"])
 
 
-FUNCTIONS = {function.__name__: function for function in (families, widths, pdf)}
+FUNCTIONS = {function.__name__: function for function in (families, measured, pdf)}
 
 
 def _answer(task: bytearray, report: Report) -> bytes:

@@ -34,7 +34,7 @@ class Scale:
     """1 : ratio, with the world's `middle` [m] in the middle of a sheet's room."""
 
     paper: Paper
-    ratio: int
+    ratio: float
     middle: tuple[float, float]
 
     def on_paper(self, points: Floats) -> Floats:
@@ -59,7 +59,7 @@ def scale_of(name: PaperName, low: Floats, high: Floats) -> Scale:
     short, long = PAPERS[name]
     size, middle = (high - low) * 1000.0, (0.5 * (low + high)).tolist()
     for ratio in RATIOS:
-        for paper in (Paper(name, long, short), Paper(name, short, long)):
+        for paper in (Paper(long, short), Paper(short, long)):
             left, bottom, right, top = paper.room
             room = np.array([right - left, top - bottom]) - 2.0 * PAD
             if (size / ratio <= room).all():

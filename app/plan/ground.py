@@ -21,7 +21,7 @@ from core.plots import BLUE, VERMILION
 from core.shapes.engines import Polygons, widest_place
 from core.values import Floats
 
-EDGE = "#B8860B"
+EDGE, GREY = "#B8860B", "#888888"
 # Looks of the ground that benches sweep, of the zone to keep clear, of the head and the other benches, and of stone.
 IN_SWEPT = look("#FFE3B3", EDGE, 0.3)
 IN_CLEAR = look("#FFF6E5", EDGE, 0.5, (4, 2))
@@ -88,7 +88,7 @@ def draw_ground(ground: GroundMap, scale: Scale, face: Face, budget: Budget, *, 
     line = scale.on_paper(ground.line)
     drawing.line(line, 4, 0.9 if numbers else 0.4, BLUE)
     if numbers:
-        _draw_arrows(drawing, line)
+        draw_arrows(drawing, line)
         _draw_gates(drawing, ground)
         _draw_marks(drawing, ground, line)
     return drawing
@@ -102,7 +102,7 @@ def draw_grounds(
     lines = [scale.on_paper(ground.line) for ground in grounds]
     for k, line in enumerate(lines):
         drawing.line(line, 4, 0.9, colour_of(k))
-        _draw_arrows(drawing, line, colour_of(k))
+        draw_arrows(drawing, line, colour_of(k))
     _draw_gates(drawing, grounds[0])
     for k, (line, name) in enumerate(zip(lines, names, strict=True)):
         places = _beside(line, 0.5 * drawing.width(name, NAME_TYPE, bold=True))
@@ -130,16 +130,16 @@ def _draw_areas(grounds: Sequence[GroundMap], scale: Scale, face: Face, budget: 
     drawing.places.take(np.array([right - 10.0, top - 17.0, right - 4.0, top]))  # An arrow stands there.
     for height, (name, attributes) in enumerate((("clear", IN_CLEAR), ("swept", IN_SWEPT)), start=1):
         for rings in [rings for ground in grounds for rings in getattr(ground, name)]:
-            drawing.shape([_drawn(scale.on_paper(ring)) for ring in rings], attributes, height)
-    _draw_venue(drawing, grounds[0].venue)
+            drawing.shape([thinned(scale.on_paper(ring)) for ring in rings], attributes, height)
+    draw_venue(drawing, grounds[0].venue)
     return drawing
 
 
-def _drawn(ring: Floats) -> Floats:
-    """A closed ring, without points that are too close together to be seen on paper."""
-    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(ring, axis=0).T))])
-    _, kept = np.unique((along / SEEN).astype(int), return_index=True)
-    return np.concatenate([ring[kept], ring[:1]]) if kept.size > ROUND else ring
+def thinned(line: Floats, apart: float = SEEN) -> Floats:
+    """A line, or a closed ring, without points that are too close together to be seen on paper. apart: [mm]"""
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+    _, kept = np.unique((along / apart).astype(int), return_index=True)
+    return np.concatenate([line[kept], line[-1:]]) if kept.size > ROUND else line
 
 
 def _draw_coordinates(drawing: MapDrawing) -> None:
@@ -160,18 +160,22 @@ def _draw_coordinates(drawing: MapDrawing) -> None:
                 drawing.places.take(np.array(box))
 
 
-def _draw_venue(drawing: MapDrawing, venue: Venue | None) -> None:
+def draw_venue(drawing: MapDrawing, venue: Venue | None, *, small: bool = False) -> None:
+    """Draw the square and its obstacles, with their names where there is room.
+
+    small: True for thin lines, whole up to the edge of the map, and a square without its name
+    """
     if venue is None:
         return
     square, scale = venue.square, drawing.scale
     for area in venue.areas:
         rings = [scale.on_paper(np.array(ring)) for ring in area.rings]
-        if len(cut := np.concatenate([_leaving(ring, drawing.room) for ring in rings])):
+        if not small and len(cut := np.concatenate([_leaving(ring, drawing.room) for ring in rings])):
             drawing.shape(cut, IN_CUT, CUT, "")
         if area is square:
-            drawing.shape(rings, look(width=1.2), 5)
+            drawing.shape(rings, look(edge=GREY, width=0.5) if small else look(width=1.2), 5)
             continue
-        drawing.shape(rings, IN_STONE, 3)
+        drawing.shape(rings, look("#D9D9D9", GREY, 0.5) if small else IN_STONE, 3)
         x, y = scale.on_paper(np.array(inner_point(area.rings))).tolist()
         (left, low), (right, high) = rings[0].min(axis=0).tolist(), rings[0].max(axis=0).tolist()
         beside = 0.5 * drawing.width(area.name, NAME_TYPE) + 1.0
@@ -179,6 +183,8 @@ def _draw_venue(drawing: MapDrawing, venue: Venue | None) -> None:
         around = [(right + beside, y), (left - beside, y), (x, high + 2.0), (x, low - 2.0)]
         drawing.label(area.name, NAME_TYPE, [(x, y), *around] if wide else around, on_paper=wide)
         drawing.places.take(np.array([left, low, right, high]))
+    if small:
+        return
     middle = scale.on_paper(np.array(widest_place(square.rings)[:2]))
     beside = 0.5 * drawing.width(square.name, NAME_TYPE) + 1.5
     drawing.label(square.name, NAME_TYPE, _inside(scale.on_paper(np.array(square.rings[0])), middle, beside))
@@ -205,11 +211,11 @@ def _inside(ring: Floats, middle: Floats, beside: float) -> list[tuple[float, fl
     return middles
 
 
-def _draw_arrows(drawing: MapDrawing, line: Floats, colour: str = BLUE) -> None:
-    """Draw arrows along the path, in the direction of the dance."""
+def draw_arrows(drawing: MapDrawing, line: Floats, colour: str = BLUE, apart: float = ARROWS) -> None:
+    """Draw arrows along a path, in the direction of the dance. apart: their distance [mm]"""
     steps = np.hypot(*np.diff(line, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])
-    for place in np.arange(0.5 * ARROWS, along[-1], ARROWS):
+    for place in np.arange(0.5 * apart, along[-1], apart):
         k = int(np.searchsorted(along, place))
         tangent = (line[k] - line[k - 1]) / max(steps[k - 1], 1e-9)
         side, back = 0.9 * np.array([-tangent[1], tangent[0]]), line[k] - 1.0 * tangent

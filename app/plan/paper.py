@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import product
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -24,16 +24,17 @@ CELL = 8.0
 
 @dataclass(frozen=True, slots=True)
 class Paper:
-    """A sheet by its name, its width and its height [mm]."""
+    """A sheet, or a picture on one, by its width and height, its margin and the height of its title block [mm]."""
 
-    name: PaperName
     width: float
     height: float
+    margin: float = MARGIN
+    block: float = BLOCK
 
     @property
     def room(self) -> Box:
         """Left, bottom, right and top of the area above the title block [mm]."""
-        return MARGIN, MARGIN + BLOCK, self.width - MARGIN, self.height - MARGIN
+        return self.margin, self.margin + self.block, self.width - self.margin, self.height - self.margin
 
 
 class Places:
@@ -92,3 +93,8 @@ class Title:
     verdict: str
     passes: bool
     geographic: bool
+
+    def sheet(self, subtitle: str, paper: Paper) -> dict[str, Any]:
+        """A sheet as the template takes it, with this title block. subtitle: what it shows"""
+        size = {"width": paper.width, "height": paper.height}
+        return {**size, **{one.name: getattr(self, one.name) for one in fields(self)}, "subtitle": subtitle}

@@ -6,22 +6,18 @@ The same dance gives the same bytes on the same fonts and versions of the librar
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from importlib.resources import files
-from typing import Any
 
 import core
 from app.files.looks import colour_of
 from app.files.typeset import Face, typeset
-from app.plan.drawing import PAD, MapDrawing, Scale
+from app.plan.drawing import MapDrawing, Scale
 from app.plan.ground import GroundMap, draw_benches, draw_ground, draw_grounds, legend_of, scale_for
-from app.plan.paper import MARGIN, Paper, PaperName, Title
-from app.plan.tables import BLOCK_SPACE, COLUMN_SPACE, ROW, WIDEST, PlanTable, widths_of
+from app.plan.paper import Paper, PaperName, Title
+from app.plan.tables import Json, PlanTable, tables_sheet
 from app.plan.timing import TimeFormat, points_of
 from core.language import say
-
-# A sheet as the template takes it: its words, and the names of its pictures.
-Json = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,19 +74,13 @@ def plan_pdf(
     return data
 
 
-def _block(title: Title, subtitle: str, paper: Paper) -> Json:
-    """A sheet with its title block."""
-    size = {"width": paper.width, "height": paper.height}
-    return {**size, **{one.name: getattr(title, one.name) for one in fields(title)}, "subtitle": subtitle}
-
-
 def _map(plan: Plan, title: Title, subtitle: str, drawing: MapDrawing, *shown: bool) -> Json:
     """A sheet with a map. shown: whether benches are on it, and whether several dragons are"""
     ratio, bar = drawing.scale.ratio, drawing.scale.bar
     marks, wide = ["0", f"{0.5 * bar:g}", f"{bar:g} m"], bar * 1000.0 / ratio
     note = say("print at 100 %: this bar is {wide:g} mm long", wide=wide)
     return {
-        **_block(title, subtitle, drawing.scale.paper),
+        **title.sheet(subtitle, drawing.scale.paper),
         **drawing.to_json(),
         "bar": {"scale": f"1:{ratio}", "marks": marks, "wide": wide, "note": note},
         "legend": legend_of(drawing, plan.ground, *shown),
@@ -99,20 +89,10 @@ def _map(plan: Plan, title: Title, subtitle: str, drawing: MapDrawing, *shown: b
 
 
 def _tables(plan: Plan, paper: Paper) -> Json:
-    """Sheets with tables side by side, as many as they need."""
-    every = (_events(plan), _gates(plan), _benches(plan), _marks(plan), _points(plan))
-    tables = [_table(plan.face, one) for one in every if one.rows]
-    room, least = paper.width - 2.0 * (MARGIN + PAD), max(sum(one["widths"]) for one in tables)
-    side_by_side = max(1, int((room + BLOCK_SPACE) / (least + BLOCK_SPACE)))
-    block = _block(plan.title, say("Points to paint, and times"), paper)
-    return {**block, "tables": tables, "side_by_side": side_by_side, "notes": _notes(plan)}
-
-
-def _table(face: Face, table: PlanTable) -> Json:
-    """A table, the width of its columns and the height of a row [mm], None: as its words need."""
-    widths = widths_of(face.width, table)
-    words = {"heading": table.heading, "columns": table.columns, "rows": table.rows, "left": sorted(table.left)}
-    return {**words, "widths": [COLUMN_SPACE + one for one in widths], "row": ROW if max(widths) < WIDEST else None}
+    """The sheets with tables."""
+    block = plan.title.sheet(say("Points to paint, and times"), paper)
+    tables = _events(plan), _gates(plan), _benches(plan), _marks(plan), _points(plan)
+    return tables_sheet(plan.face, block, tables, _notes(plan))
 
 
 def _together(plans: Sequence[Plan], together: Together) -> Iterator[Json]:

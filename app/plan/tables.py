@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
+from app.plan.paper import MARGIN
 
 if TYPE_CHECKING:
-    from app.plan.sheet import Sheet
+    from app.files.typeset import Face
 
-# Height of a row and of a heading [mm], type of rows and of headings [pt], space between columns and blocks [mm].
-ROW, HEADING = 4.0, 7.0
-TYPE, HEADING_TYPE = 7.0, 9.0
+# A sheet as the template takes it: its words, and the names of its pictures.
+Json = dict[str, Any]
+# Height of a row [mm], type of rows and of headings [pt], space between columns and blocks [mm].
+ROW, TYPE, HEADING_TYPE = 4.0, 7.0, 9.0
 COLUMN_SPACE, BLOCK_SPACE = 3.0, 7.0
-# Least number of rows that must fit where a table begins.
-ROWS_LEAST = 4
+# Space between a table and the frame of its sheet [mm].
+PAD = 3.0
 # Longest entry [mm]; a longer one is set smaller.
 WIDEST = 45.0
 
@@ -42,57 +43,16 @@ def widths_of(width: Callable[[str, float, bool], float], table: PlanTable) -> l
     return [width + more / len(widths) for width in widths]
 
 
-def draw_tables(tables: Sequence[PlanTable], new_sheet: Callable[[], Sheet]) -> list[Sheet]:
-    """Draw tables in order, in blocks side by side, on as many sheets as they need."""
-    sheets = [new_sheet()]
-    room = sheets[0].paper.room
-    left, bottom, most, top = room[0] + 3.0, room[1] + 3.0, room[2] - 3.0, room[3] - 3.0
-    x, y, right = left, top, left
-    for table in tables:
-        if not table.rows:
-            continue
-        done, widths = 0, widths_of(sheets[0].width, table)
-        wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
-        while done < len(table.rows):
-            fits = int((y - bottom - HEADING - ROW) / ROW)
-            if fits < min(ROWS_LEAST, len(table.rows) - done) or x + wide > most + 0.01:
-                if y == top and x == left:
-                    fits = max(1, fits)  # A table wider than a sheet fits on no new sheet either.
-                else:
-                    x, y = right + BLOCK_SPACE, top
-                    if x + wide > most:
-                        sheets.append(new_sheet())
-                        x, y, right = left, top, left
-                    continue
-            left_over = len(table.rows) - done - fits
-            if 0 < left_over < ROWS_LEAST < fits:  # Avoid a block of only a row or two.
-                fits -= ROWS_LEAST
-            some = table.rows[done : done + fits]
-            y = _draw_block(sheets[-1], table, some, widths, (x, y))
-            done, right = done + len(some), max(right, x + wide)
-    return sheets
+def tables_sheet(face: Face, block: Mapping[str, Any], tables: Iterable[PlanTable], notes: Sequence[str]) -> Json:
+    """Tables side by side, which fill as many sheets as they need. block: of their title; notes: on them, in it"""
+    words = [_table(face, one) for one in tables if one.rows]
+    room, least = block["width"] - 2.0 * (MARGIN + PAD), max(sum(one["widths"]) for one in words)
+    side_by_side = max(1, int((room + BLOCK_SPACE) / (least + BLOCK_SPACE)))
+    return {**block, "tables": words, "side_by_side": side_by_side, "notes": notes}
 
 
-def _draw_block(
-    sheet: Sheet, table: PlanTable, rows: Sequence[Sequence[str]], widths: Sequence[float], at: tuple[float, float]
-) -> float:
-    """Draw some rows of a table below and right of a corner; returns where the next block may begin."""
-    x, y = at
-    wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
-    sheet.words(x, y - 4.5, table.heading, HEADING_TYPE, within=wide, fontweight="bold")
-    y -= HEADING + ROW
-    for k, row in enumerate([table.columns, *rows]):
-        if k % 2 == 0 and k:
-            corners = [(x - 1.0, y - 1.1), (x + wide + 1.0, y - 1.1), (x + wide + 1.0, y + 2.9), (x - 1.0, y + 2.9)]
-            sheet.shape(np.array(corners), facecolor="#F2F2F2", linewidth=0.0, zorder=0)
-        place = x
-        for column, (word, width) in enumerate(zip(row, widths, strict=True)):
-            size, bold = TYPE, k == 0
-            if (long := sheet.width(word, size, bold)) > width:
-                size, long = size * width / long, width
-            sheet.entry(place if column in table.left else place + width - long, y, word, size, bold=bold)
-            place += width + COLUMN_SPACE
-        if k == 0:
-            sheet.line([(x - 1.0, y - 1.1), (x + wide + 1.0, y - 1.1)], linewidth=0.5)
-        y -= ROW
-    return y - 2.0
+def _table(face: Face, table: PlanTable) -> Json:
+    """A table, the width of its columns and the height of a row [mm], None: as its words need."""
+    widths = widths_of(face.width, table)
+    words = {"heading": table.heading, "columns": table.columns, "rows": table.rows, "left": sorted(table.left)}
+    return {**words, "widths": [COLUMN_SPACE + one for one in widths], "row": ROW if max(widths) < WIDEST else None}

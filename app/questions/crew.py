@@ -303,7 +303,7 @@ def _roll(time: float, crew: CrewWords, dance: Dance, terms: Terms) -> Roll:
 def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | None, terms: Terms) -> bytes:
     """The crew as PDF."""
     from app.cards.timeline import CrewSheets
-    from app.files.fonts import families_for
+    from app.files.typeset import face_for
 
     result, clock = crew.crew, crew.words.clock.words
     title = request.title or say("Bench dragon")
@@ -323,9 +323,9 @@ def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | Non
     ]
     if not result.is_kept:
         facts += crew.lack
-    family = families_for([title])
+    face = face_for([title])
     table = None if roll is None else _roll_table(roll, crew)
-    return _drawn(dance, CrewSheets(crew, title, facts, family, terms.budget, table), terms)
+    return _drawn(dance, CrewSheets(crew, title, facts, face, terms.budget, table), terms)
 
 
 @question_about("dance", Dance, "the timeline was not drawn")

@@ -196,10 +196,6 @@ def _failed(request: CuesRequest, report: core.Report | core.PerformanceReport, 
     return say("{verdict}; the cues end where benches touch.", verdict=verdict)
 
 
-def _titled(title: str, name: str) -> str:
-    return say("{name}: {text}", name=title, text=name) if name else title
-
-
 def _passed(request: CuesRequest, place: Place) -> str:
     """What the check of a dance that passes found."""
     margin = request.margin
@@ -224,25 +220,16 @@ def _sheets(
     decks: for each dragon its dance, its name, which is empty for the only one, its cards, and their words
     """
     from app.cards.cards import CardSheets
-    from app.files.fonts import families_for
+    from app.files.typeset import face_for
 
     title = request.title or say("Bench dragon")
     areas = place.venue.areas if place.venue else ()
     names = [one for (dance, name), _ in decks for one in (name, *dance.dragon.names)]
     # The cards of one dragon name those of others.
     names += [one for _, (_, words) in decks[:1] for name, own in words.dragons for one in (name, *own)]
-    family = families_for([title, *names, *(area.name for area in areas)])
+    face = face_for([title, *names, *(area.name for area in areas)])
     return [
-        CardSheets(
-            dance,
-            place.venue,
-            cards,
-            words,
-            say("{name}: {text}", name=title, text=name) if name else title,
-            verdict,
-            family,
-            terms.budget,
-        )
+        CardSheets(dance, name, place.venue, cards, words, title, verdict, face, terms.budget)
         for (dance, name), (cards, words) in decks
     ]
 

@@ -74,8 +74,8 @@ arrow    pyarrow       trajectory --output dance.arrow
 dxf      ezdxf         envelope --output ground.dxf
 dxf      ezdxf         maps no-such-file.toml --output dance.dxf
 paper    typst         plan no-such-file.toml
-figures  matplotlib    cues no-such-file.toml
-figures  matplotlib    crew no-such-file.toml --output crew.pdf
+paper    typst         cues no-such-file.toml
+paper    typst         crew no-such-file.toml --output crew.pdf
 service  fastapi       mcp
 sweep    pyarrow       sweep run no-such-spec.toml --output folder
 proof    python-flint  prove collision-time

@@ -67,6 +67,7 @@ def test_the_timeline_on_paper_names_everybody_and_every_change(ask, answer):
     request = VILLAGE | PEOPLE | {"at_clock": "19:45", "title": "Lantern night"}
     data = ask.file("crew", request, "application/pdf")
     assert_fonts_are_within(data)
+    assert [tag for tag in (b"/Lang(en)", b"/S/H1", b"/S/H2", b"/S/Table", b"/S/TH") if tag not in data] == []
     sheets = list(map(words_of, pages_of(data)))
     assert ["Lantern night" in sheet for sheet in sheets] == [True] * 3
     assert "Who is where at 19:45:00" in sheets[-1]
@@ -109,16 +110,11 @@ def test_a_crew_that_cannot_be_is_refused(client, row):
     assert_refused(client, "/crew", VILLAGE, row)
 
 
-def test_a_deadline_while_the_timeline_is_drawn_is_a_refusal(monkeypatch):
+def test_a_deadline_while_the_timeline_is_set_is_a_refusal():
     budget = Budget()
-
-    def late(draw, _):
-        budget.stop("within 2 s")
-        return draw()
-
-    monkeypatch.setattr("app.cards.timeline.in_turn", late)
-    with pytest.raises(TooMuchWork, match="within 2 s"):
-        CREW.to_bytes(checked(CrewRequest, VILLAGE | PEOPLE), Terms(budget=budget), PDF_TYPE)
+    terms = Terms(budget=budget, progress=lambda _: budget.stop("within 2 s"))
+    with pytest.raises(TooMuchWork, match="the timeline was not drawn within 2 s"):
+        CREW.to_bytes(checked(CrewRequest, VILLAGE | PEOPLE), terms, PDF_TYPE)
 
 
 def test_a_clock_after_midnight_is_in_the_same_night(ask):

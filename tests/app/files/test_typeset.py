@@ -64,4 +64,4 @@ def test_a_file_that_takes_too_long_ends_with_its_budget_and_the_next_one_is_set
         budget.stop()
         with pytest.raises(Halted):
             long.result()
-    assert typeset(b"short", FACE, {}).startswith(b"%PDF")
+    assert typeset(b"#set document(title: [short])", FACE, {}).startswith(b"%PDF")
