@@ -9,7 +9,7 @@ from core.extras import not_installed
 
 _DXF, _FIGURES, _SWEEP, _XLSX = ("ezdxf",), ("matplotlib",), ("pyarrow",), ("xlsxwriter", "openpyxl")
 _CALLS = ("fastapi", "fastapi_swagger", "mcp", "prometheus_client", "starlette", "uplot", "uvicorn")
-_PAPER = ("typst", *_FIGURES)
+_PAPER = ("typst", "segno", *_FIGURES)
 _SERVICE = (*_CALLS, "av", *_DXF, *_PAPER, *_SWEEP, *_XLSX)
 # Modules that each extra of pyproject.toml installs, as far as this program imports them.
 MODULES = {

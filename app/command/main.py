@@ -39,6 +39,7 @@ MODULE_OF = {
     "places": "places",
     "maps": "places",
     "plan": "places",
+    "safety-sheet": "places",
     "cues": "people",
     "crew": "people",
     "collision-time": "",

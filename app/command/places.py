@@ -21,11 +21,13 @@ from app.maps.places import Places, drawn_layers, map_data, read_map
 from app.maps.tracks import CHORD
 from app.questions.maps import QUESTION as MAPS
 from app.questions.maps import MapFormat, MapsRequest, OriginFields
+from app.questions.plan import PDF_TYPE, PlanRequest
 from app.questions.plan import QUESTION as PLAN
-from app.questions.plan import PlanRequest
+from app.questions.safety_sheet import QUESTION as SAFETY_SHEET
+from app.questions.safety_sheet import SafetySheetRequest
 from app.wire.labels import Table
 from app.wire.messages import checked
-from app.wire.question import Coordinates
+from app.wire.question import JSON, Coordinates
 from core import InvalidValue
 from core.errors import Given
 from core.language import counted, phrase, say
@@ -190,3 +192,56 @@ def plan(
     gates = [_gate(text) for text in gate] if gate else None
     request = changed(file, PlanRequest, context, paper=paper, title=title, spacing=spacing, clear=clear, gates=gates)
     write_answer(PLAN, request, say("plan"), output)
+
+
+def _lane(text: str) -> dict[str, Any]:
+    """A lane of an option. raises: InvalidValue"""
+    name, *rest = text.split(",")
+    if len(rest) < 5 or len(rest) % 2 == 0 or not name:
+        raise InvalidValue.in_words("lane", "--lane must be NAME,WIDTH,X,Y,X,Y,... [m]", got=Given(text))
+    width, *places = numbers("lane", ",".join(rest), float)
+    return {
+        "name": name,
+        "width": width,
+        "points": [list(pair) for pair in zip(places[::2], places[1::2], strict=True)],
+    }
+
+
+def safety_sheet(
+    context: typer.Context,
+    file: Annotated[
+        Path,
+        path_argument("FILE", "Dragon, path, venue and limits as for check: .toml or .json."),
+    ],
+    output: Annotated[Path, typer.Option(help="Write a .pdf or .json file.")] = Path("safety-sheet.pdf"),
+    title: Annotated[str | None, typer.Option(help="Title of the dance")] = None,
+    lane: Annotated[
+        list[str] | None,
+        typer.Option(help="NAME,WIDTH,X,Y,X,Y,... of a lane to keep free and its middle; may be given several times."),
+    ] = None,
+    gate: Annotated[
+        list[str] | None,
+        typer.Option(help="NAME,X,Y of a gate whose times the sheet names; may be given several times."),
+    ] = None,
+    spectators: Annotated[
+        float | None, typer.Option(help="Distance of people from the ground that benches sweep [m]; default: 1")
+    ] = None,
+    loose: Annotated[int | None, typer.Option(help="Last benches that may be let go; default: 3, or all")] = None,
+    reaction: Annotated[
+        float | None, typer.Option(help="Time from the call to stop until all stand [s]; default: 2")
+    ] = None,
+    stopper: Annotated[str | None, typer.Option(help="Who stops the dance")] = None,
+    date: Annotated[str | None, typer.Option(help="Date of the sheet; default: a line to fill in")] = None,
+    address: Annotated[str | None, typer.Option(help="Address of the dance, which stands there as a QR code")] = None,
+) -> None:
+    """One page for whoever permits a festival: verdict, nearest approaches, ground and lanes to keep free, stopping."""
+    ending = checked_output("output", output, (".pdf", ".json"))
+    if ending == ".pdf":
+        require("paper", "output", "A safety sheet")
+    gates, lanes = ([read(text) for text in texts] if texts else None for read, texts in ((_gate, gate), (_lane, lane)))
+    request = changed(
+        file, SafetySheetRequest, context, title=title, gates=gates, lanes=lanes, spectators=spectators, loose=loose,
+        reaction=reaction, stopper=stopper, date=date, address=address,
+    )  # fmt: skip
+    form = PDF_TYPE if ending == ".pdf" else JSON
+    write_answer(SAFETY_SHEET, request, say("safety sheet"), output, form)

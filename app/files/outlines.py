@@ -50,7 +50,7 @@ def _feature(envelope: Envelope, own: dict[str, Any] | None = None) -> dict[str,
         "stop": envelope.stop,
     }
     properties = known | {"certificate": envelope.certificate.method} | (own or {})
-    return {"type": "Feature", "properties": properties, "geometry": geometry_of(envelope)}
+    return {"type": "Feature", "properties": properties, "geometry": geometry_of(envelope.polygons)}
 
 
 def new_dxf(layers: Iterable[tuple[str, int]]) -> Any:

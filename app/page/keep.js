@@ -39,6 +39,7 @@ const ITEMS = [
   { key: "keepFilm", title: phrase("Film of the dance"), forms: ["MP4", "GIF"], ask: "film", file: "dance", job: true },
   { key: "keepGround", title: phrase("Ground that benches sweep"), forms: ["GeoJSON", "DXF", "JSON"], ask: "ground", file: "envelope" },
   { key: "keepPlan", title: phrase("Plan on paper, true to scale"), forms: ["A4", "A3"], ask: "plan", file: "plan" },
+  { key: "keepSafety", title: phrase("Safety sheet, for whoever permits it"), forms: ["PDF"], ask: "safety", file: "safety-sheet" },
   { key: "keepCues", title: phrase("A cue card for each bench"), forms: ["PDF", "CSV"], ask: "cues", file: "cues", among: "#cues" },
   { key: "keepMap", title: phrase("Map with chalk marks"), forms: ["GeoJSON", "KML", "DXF"], ask: "map", file: "map" },
   { key: "keepAnswer", title: phrase("First contact with its certificate"), forms: ["JSON"], ask: "answer", file: "first-contact" },
@@ -49,6 +50,8 @@ const ITEMS = [
   { key: "keepPaper", title: phrase("The paper's numbers beside these"), forms: ["JSON"], ask: "paper", file: "paper" },
 ];
 const BESIDES = [...CONTACT, "entry_radius", "exit_radius"];
+/** Longest address that stands on paper as a code: a phone reads it from a hand's breadth. */
+const ADDRESS_MOST = 300;
 /** Name of a file in this format. */
 const fileName = (file, form) => (["A4", "A3"].includes(form) ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
 /** Commands in addition to those of the items: for the shown answer, and for a proof. */
@@ -95,6 +98,7 @@ const REQUESTS = {
   },
   ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
   plan: (questions, paper) => ({ path: "plan", body: questions.danced({ paper, language: language() }) }),
+  safety: (questions) => ({ path: "safety-sheet", body: questions.danced({ language: language(), ...(location.href.length < ADDRESS_MOST && { address: location.href }) }) }),
   cues: (questions) => ({ path: "cues", body: questions.danced({ ...questions.cued, language: language() }) }),
   map(questions, form) {
     const drawing = questions.dance.kind === "route" ? questions.state.get("drawing") : null;

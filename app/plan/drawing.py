@@ -51,20 +51,26 @@ class Scale:
 
 
 def scale_of(name: PaperName, low: Floats, high: Floats) -> Scale:
-    """The largest scale at which a box fits on the paper, with the paper upright or across.
+    """scale_in() on a sheet, upright or across."""
+    short, long = PAPERS[name]
+    return scale_in((Paper(long, short), Paper(short, long)), low, high, name)
+
+
+def scale_in(papers: Sequence[Paper], low: Floats, high: Floats, name: PaperName = "A4") -> Scale:
+    """The largest scale at which a box fits on one of several papers. name: of the paper, for people
 
     low, high: corners of the box, (2,) [m]
     raises: InvalidValue if it fits at no scale
     """
-    short, long = PAPERS[name]
     size, middle = (high - low) * 1000.0, (0.5 * (low + high)).tolist()
     for ratio in RATIOS:
-        for paper in (Paper(long, short), Paper(short, long)):
+        for paper in papers:
             left, bottom, right, top = paper.room
             room = np.array([right - left, top - bottom]) - 2.0 * PAD
             if (size / ratio <= room).all():
                 return Scale(paper, ratio, (middle[0], middle[1]))
-    values = quantities("m", 6, got=max(size) / 1000.0, most=min(PAPERS[name]) * RATIOS[-1] / 1000.0)
+    short = min(min(paper.width, paper.height) for paper in papers)
+    values = quantities("m", 6, got=max(size) / 1000.0, most=short * RATIOS[-1] / 1000.0)
     rule = "must be less than {most} across, to fit on {paper} at 1:{ratio}"
     raise InvalidValue("path", rule, paper=name, ratio=RATIOS[-1], **values)
 

@@ -27,6 +27,8 @@ IN_SWEPT = look("#FFE3B3", EDGE, 0.3)
 IN_CLEAR = look("#FFF6E5", EDGE, 0.5, (4, 2))
 IN_HEAD, IN_BENCH = look(VERMILION, width=0.3), look("#9CC7E5", width=0.3)
 IN_STONE = look(HATCHED, width=0.7)
+# Looks of a lane to keep free, and of the ground that a loose tail can reach.
+IN_LANE, IN_LOOSE = look("#CFE3F1", BLUE, 0.4), look(edge=VERMILION, width=0.6, dash=(3, 2))
 # White gaps in outlines that go on beyond the sheet, near its edge, and above what they are.
 BROKEN, CUT = (2, 2), 8
 IN_CUT = look(edge="white", width=1.3, dash=BROKEN) + ' clip-path="url(#edge)"'
@@ -301,6 +303,50 @@ def draw_benches(drawing: MapDrawing, outlines: Floats, names: Sequence[str], co
                 break
 
 
+@dataclass(frozen=True)
+class SafetyLayers:
+    """What a safety sheet shows besides a map's ground: the line behind which people stand is that around `clear`.
+
+    loose: ground that the last benches can reach when they are let go; lanes: name and rings of each lane to keep free
+    """
+
+    loose: Polygons
+    lanes: Sequence[tuple[str, Sequence[Floats]]]
+    box: tuple[Floats, Floats]
+
+
+def draw_safety(ground: GroundMap, layers: SafetyLayers, scale: Scale, face: Face, budget: Budget) -> MapDrawing:
+    """The map of a safety sheet: ground swept and to keep clear, loose tail, lanes, path and gates."""
+    drawing = _draw_areas([ground], scale, face, budget)
+    for name, rings in layers.lanes:
+        placed = [scale.on_paper(ring) for ring in rings]
+        drawing.shape(placed, IN_LANE, 2.5)
+        x, y = placed[0].mean(axis=0).tolist()
+        drawing.label(name, NAME_TYPE, [(x, y), (x, y + 4.0), (x, y - 4.0)], on_paper=True)
+    for rings in layers.loose:
+        drawing.shape([thinned(scale.on_paper(ring)) for ring in rings], IN_LOOSE, 4)
+    line = scale.on_paper(ground.line)
+    drawing.line(line, 4.5, 0.7, BLUE)
+    draw_arrows(drawing, line)
+    _draw_gates(drawing, ground)
+    return drawing
+
+
+def legend_of_safety(ground: GroundMap, layers: SafetyLayers) -> list[tuple[str, str]]:
+    """The meaning of colours and lines on the map of a safety sheet."""
+    rows = [
+        (AREA, IN_SWEPT, say("ground swept by benches")),
+        (AREA, IN_CLEAR, say("people stay out of it")),
+        (AREA, IN_LOOSE, say("reach of the last benches, let go")),
+        (LINE, look(edge=BLUE, width=0.9), say("path of the handles")),
+    ]
+    if layers.lanes:
+        rows.append((AREA, IN_LANE, say("lane to keep free")))
+    if ground.venue and ground.venue.obstacles:
+        rows.append((AREA, IN_STONE, say("obstacle")))
+    return _swatches(rows)
+
+
 def legend_of(drawing: MapDrawing, ground: GroundMap, benches: bool, several: bool) -> list[tuple[str, str]]:
     """The meaning of colours and lines: a picture of each, and its words.
 
@@ -322,4 +368,9 @@ def legend_of(drawing: MapDrawing, ground: GroundMap, benches: bool, several: bo
         rows.append((AREA, IN_STONE, say("obstacle")))
     if any(height == CUT for height, _ in drawing.shapes):
         rows.append((LINE, look(width=1.2, dash=BROKEN), say("goes on beyond the sheet")))
+    return _swatches(rows)
+
+
+def _swatches(rows: Sequence[tuple[str, str, str]]) -> list[tuple[str, str]]:
+    """A picture and words of each row of a legend: shape, look, words."""
     return [(svg_of(SWATCH, [f'<path d="{shape}" {one}/>']), words) for shape, one, words in rows]

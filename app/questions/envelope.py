@@ -76,7 +76,7 @@ class Envelope(Answer):
     def of(cls, result: core.Envelope, request: EnvelopeQuery | EnvelopeRequest) -> Self:
         line = request.spectators if isinstance(request, EnvelopeRequest) else None
         distance = None if line is None else result.distance(line)
-        return cls.from_result(result, envelope=geometry_of(result), distance=distance)
+        return cls.from_result(result, envelope=geometry_of(result.polygons), distance=distance)
 
 
 class NamedDragon(Answer):

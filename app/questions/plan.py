@@ -61,7 +61,20 @@ class PlanGate(Wire, strict=True):
     within: float = measure("m", "Largest distance of the path from the place where it passes it", 5.0, ge=0, le=100)
 
 
-class DancePlan(Marked):
+class GatedDance(Marked):
+    """A dance, as for /check, its gates, and the words on its paper."""
+
+    gates: list[PlanGate] = Field(
+        [],
+        max_length=GATES_MAX,
+        fail_fast=True,
+        description="Gates and other places by name: the paper shows when head and tail pass each",
+    )
+    title: OneLine = Field("", max_length=80, description="Title of the dance")
+    language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
+
+
+class DancePlan(GatedDance):
     """A dance, as for /check, and the look of its plan."""
 
     paper: Literal["A4", "A3"] = Field("A4", description="Size of the paper")
@@ -69,14 +82,6 @@ class DancePlan(Marked):
         "m", "Width of the zone to keep clear around the swept ground; default: the margin, or 0.5 m without one", None,
         ge=0, le=100,
     )  # fmt: skip
-    gates: list[PlanGate] = Field(
-        [],
-        max_length=GATES_MAX,
-        fail_fast=True,
-        description="Gates and other places by name: the plan shows them, and when head and tail pass each",
-    )
-    title: OneLine = Field("", max_length=80, description="Title of the plan")
-    language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
 
 class PlanRequest(SeveralFields, DancePlan):
@@ -93,8 +98,8 @@ def plan(request: PlanRequest, terms: Terms) -> bytes:
     request = starting(request, dance)
     place, clock = request.to_place(dance.dragon), TimeFormat(clock_of(request, dance), request.music)
     span = dance.span(request.start, request.stop)
-    (passes,) = _passes_of_gates(request, [dance], [span], terms.budget)
-    timing = _timing(request, dance, span, passes, terms)
+    (passes,) = passes_of_gates(request, [dance], [span], terms.budget)
+    timing = timing_of_marks(request, dance, span, passes, terms)
     swept = core.envelope(dance, start=span[0], stop=span[1], excess=EXCESS, budget=terms.budget)
     report = verdict_of(request, dance, place.venue, span[0], terms)
     verdict = verdict_words(report, clock.words), report.verdict is Judgement.PASSES
@@ -117,8 +122,8 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     start, stop = performance.span(request.start, request.stop)
     clock = TimeFormat(clock_of(request, performance))
     dances, spans = zip(*((part.dance, part.own_span(start, stop)) for part in performance.parts), strict=True)
-    passes = _passes_of_gates(request, dances, spans, budget)
-    timings = [_timing(request, *one, terms) for one in zip(dances, spans, passes, strict=True)]
+    passes = passes_of_gates(request, dances, spans, budget)
+    timings = [timing_of_marks(request, *one, terms) for one in zip(dances, spans, passes, strict=True)]
     grounds = core.performance_envelope(performance, start=start, stop=stop, excess=EXCESS, budget=budget)
     limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
     report = core.performance_check(performance, start=start, stop=stop, details=False, budget=budget, **limits)
@@ -142,8 +147,8 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     return _drawn_together(performance, plans, together, terms)
 
 
-def _timing(
-    request: PlanRequest, dance: Dance, span: tuple[float, float], passes: list[tuple[str, float]], terms: Terms
+def timing_of_marks(
+    request: GatedDance, dance: Dance, span: tuple[float, float], passes: list[tuple[str, float]], terms: Terms
 ) -> Timing:
     from app.plan.timing import timing_of
 
@@ -202,8 +207,8 @@ class _Common:
         return Plan(ground, self.face, names, clock, self.title_of(facts, name), request.paper, self.budget, note)
 
 
-def _passes_of_gates(
-    request: PlanRequest, dances: Sequence[Dance], spans: Sequence[tuple[float, float]], budget: core.Budget
+def passes_of_gates(
+    request: GatedDance, dances: Sequence[Dance], spans: Sequence[tuple[float, float]], budget: core.Budget
 ) -> list[list[tuple[str, float]]]:
     """For each dance, name and s [m] of each pass of a gate, in order along its path.
 

@@ -265,6 +265,7 @@ NO_ROWS = {
     "proposals": "its answers are dances: sweep check",
     "crew": "its answer is a list of people: sweep check",
     "cues": "its answer is a card for each bench: sweep check",
+    "safety_sheet": "its answer is many numbers on one page: sweep check",
     "paper": "it takes no parameters",
     **{name: PICTURE for name, question in KNOWN.items() if question.model is None},
 }

@@ -16,11 +16,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.wire.question import short_json
-from core import Area, Envelope, InvalidValue, Venue
+from core import Area, InvalidValue, Venue
 from core.errors import COORDINATE_MAX, Given, checked_number
 from core.language import say
 from core.names import checked_name
-from core.shapes.engines import thickened
+from core.shapes.engines import Polygons, thickened
 from core.values import Point
 from core.venue import Ring, refuse_many_edges
 
@@ -153,12 +153,18 @@ def venue_of(polygons: Sequence[Polygon]) -> Venue:
     return Venue(square, tuple(obstacles))
 
 
-def geometry_of(envelope: Envelope) -> dict[str, object]:
-    """The polygons of an envelope as a geometry, in metres."""
-    several = [[ring.tolist() for ring in rings] for rings in envelope.polygons]
+def geometry_of(polygons: Polygons) -> dict[str, object]:
+    """Polygons as a geometry, in metres."""
+    several = [[ring.tolist() for ring in rings] for rings in polygons]
     if len(several) == 1:
         return {"type": "Polygon", "coordinates": several[0]}
     return {"type": "MultiPolygon", "coordinates": several}
+
+
+def rings_of(geometry: Any) -> Polygons:
+    """The polygons of a geometry that geometry_of() made."""
+    several = [geometry.coordinates] if geometry.type == "Polygon" else geometry.coordinates
+    return tuple(tuple(np.array(ring) for ring in rings) for rings in several)
 
 
 def venue_geometry(venue: Venue, origin: Any = None) -> dict[str, object]:

@@ -347,6 +347,27 @@ def thickened(line: Floats, radius: float) -> Polygons:
     return _rings(shapely.buffer(shapely.LineString(line), ARC_GROWTH * radius, quad_segs=ARC_CHORDS))
 
 
+def lane_rings(middle: Floats, width: float) -> tuple[Floats, ...]:
+    """Rings of a lane of a width around a line through points (P, 2), square at its ends [m]."""
+    import shapely
+
+    lane = shapely.buffer(shapely.LineString(middle), 0.5 * width, cap_style="flat", join_style="mitre")
+    return _rings(lane)[0]
+
+
+def free_width(polygons: Polygons, middle: Floats, width: float) -> float:
+    """Width of a lane around a line through points (P, 2) that polygons leave free all along [m]: on both sides of the
+    line together, 0 where they come over it."""
+    import shapely
+
+    ground = shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in polygons])
+    line, free = shapely.LineString(middle), 0.0
+    for side in (0.5 * width, -0.5 * width):
+        beside = shapely.intersection(ground, shapely.buffer(line, side, single_sided=True, join_style="mitre"))
+        free += 0.5 * width if beside.is_empty else float(shapely.distance(line, beside))
+    return 0.0 if shapely.intersects(line, ground) else free
+
+
 def area_of(polygons: Polygons) -> float:
     """Area of polygons [m2]."""
     edges = ((ring[:-1], ring[1:]) for rings in polygons for ring in rings)

@@ -25,7 +25,10 @@ SECTIONS = {
     "students": ("Students", ["contest", "grade", "method", "paper"]),
     "organisers": (
         "Organisers",
-        ["paths-and-venues", "propose", "maps", "plan", "cues", "crew", "performances", "tolerance", "envelope"],
+        [
+            *("paths-and-venues", "propose", "maps", "plan", "safety-sheet", "cues", "crew", "performances"),
+            *("tolerance", "envelope"),
+        ],
     ),
     "scientists": ("Scientists", ["library", "proofs", "claims", "sweeps", "performance", "dragon-ccd"]),
     "operators": ("Operators", ["http", "operations", "assistants"]),

@@ -74,6 +74,7 @@ arrow    pyarrow       trajectory --output dance.arrow
 dxf      ezdxf         envelope --output ground.dxf
 dxf      ezdxf         maps no-such-file.toml --output dance.dxf
 paper    typst         plan no-such-file.toml
+paper    typst         safety-sheet no-such-file.toml
 paper    typst         cues no-such-file.toml
 paper    typst         crew no-such-file.toml --output crew.pdf
 service  fastapi       mcp

@@ -67,6 +67,7 @@ LARGEST = {
     "films": {"dragon": {"benches": 500}, "path": COIL, "seconds": 60},
     "maps": IN_TURN,
     "plan": CROSSING,
+    "safety_sheet": IN_TURN,
     "cues": {"dragon": {"benches": 2000}, "path": COIL, "last_bench": 999, "reach": 1000, "stop": 1000},
     "crew": ON_COIL,
     "contest_kit": {},

@@ -1,0 +1,155 @@
+"""The safety sheet: each of its numbers again from the trajectory by plain code."""
+
+import json
+
+import numpy as np
+import pytest
+import shapely
+import zxingcpp
+
+from app.questions.plan import PDF_TYPE
+from core import Dance, Dragon, Line, Route, bench_outlines, trajectory
+from tests.support.asking import box, line
+from tests.support.paper import pages_of, words_of
+
+STREET = {"dragon": {"benches": 5}, "path": line((0, 0), (60, 0))}
+YARD = {"type": "GeometryCollection", "geometries": [box(-5, -8, 65, 8), box(20, 1.0, 22, 3.0)]}
+BODY = STREET | {
+    "venue": YARD,
+    "margin": 0.1,
+    "stray": 0.05,
+    "speed_limit": 1.5,
+    "spectators": 2.0,
+    "loose": 2,
+    "reaction": 1.5,
+    "gates": [{"name": "east gate", "x": 50, "y": 0.2}],
+    "lanes": [
+        {"name": "ambulances", "points": [[30, -8], [30, 8]], "width": 4},
+        {"name": "north lane", "points": [[0, 3], [60, 3]], "width": 6.5},
+    ],
+}
+DANCE = Dance(Dragon(5), Route([Line((0.0, 0.0), (60.0, 0.0))]))
+STEP = 0.01  # [s]
+
+
+def benches(answer):
+    times = np.arange(answer["start"], answer["stop"], STEP)
+    motion = trajectory(DANCE, times)
+    corners = bench_outlines(DANCE.dragon, motion.position)
+    return times, motion, shapely.polygons(corners.reshape(-1, 4, 2)).reshape(corners.shape[:2])
+
+
+def polygon(geometry):
+    return shapely.from_geojson(json.dumps(geometry))
+
+
+def test_the_nearest_approach_of_each_thing_is_that_of_small_steps(ask):
+    answer = ask("safety-sheet", BODY)
+    times, _, outlines = benches(answer)
+    tree = shapely.box(20, 1.0, 22, 3.0)
+    apart = shapely.distance(outlines, tree).min(axis=1)
+    near = next(one for one in answer["approaches"] if one["area"] not in (None, "square"))
+    assert near["distance"] == pytest.approx(apart.min(), abs=1e-6)
+    assert near["at_least"] <= apart.min() + 1e-9
+    assert times[0] <= near["time"] <= times[-1]
+    pair = next(one for one in answer["approaches"] if one["area"] is None)
+    assert pair["distance"] == pytest.approx(min(
+        shapely.distance(outlines[:, a], outlines[:, b]).min() for a in range(5) for b in range(a + 2, 5)
+    ), abs=1e-6)  # fmt: skip
+    assert [one["distance"] for one in answer["approaches"]] == sorted(one["distance"] for one in answer["approaches"])
+
+
+def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
+    answer = ask("safety-sheet", BODY)
+    times, motion, outlines = benches(answer)
+    swept, kept, loose = (polygon(one) for one in (
+        answer["swept"]["ground"], answer["spectators"], answer["loose_tail"]["ground"]
+    ))  # fmt: skip
+    assert shapely.contains(swept, outlines[::20]).all()
+    assert swept.area == pytest.approx(answer["swept"]["area"])
+    assert shapely.contains(kept, shapely.buffer(swept, 2.0 + 0.05))
+    assert not shapely.contains(kept, shapely.buffer(swept, 2.0 + 0.3))
+    joint = motion.position[::20, 3]
+    assert answer["loose_tail"]["reach"] == pytest.approx(1.65 + np.hypot(1.65 + 0.275, 0.15))
+    assert shapely.contains(loose, shapely.buffer(shapely.points(joint), 0.999 * answer["loose_tail"]["reach"])).all()
+    crossed, beside = answer["lanes"]
+    inside = (shapely.distance(outlines, shapely.box(28, -8, 32, 8)) <= 0.0).any(axis=1)
+    assert crossed["free_width"] == 0.0
+    assert crossed["total"] == pytest.approx(inside.sum() * STEP, abs=0.3)  # people may stray, forwards too
+    (stay,) = crossed["stays"]
+    assert stay["begin"] <= times[inside].min()
+    assert stay["end"] >= times[inside].max()
+    assert (stay["first"], stay["last"]) == (0, 4)
+    (stay,) = beside["stays"]
+    assert (stay["begin"], stay["end"]) == (answer["start"], answer["stop"])
+    assert 3.25 + 2.7 < beside["free_width"] < 3.25 + 2.85
+    (gate,) = answer["gates"]
+    passed = [times[np.argmax(motion.position[:, k, 0] >= 50.0)] for k in (0, -1)]
+    assert (gate["head"], gate["lasts"]) == pytest.approx((passed[0], 2.86 + 4 * 1.65), abs=0.02)
+    assert answer["fastest"]["speed"] == pytest.approx(motion.speed.max())
+    assert answer["stopping"]["distance"] == pytest.approx(1.5 * motion.speed.max(), abs=1e-6)
+
+
+def test_what_is_assumed_is_told_from_what_is_given(ask):
+    yours = {one["label"]: one["yours"] for one in ask("safety-sheet", BODY)["assumptions"]}
+    assert yours["people stand back"]
+    assert not yours["speed of the head"]
+    bare = ask("safety-sheet", STREET)
+    assert [one["label"] for one in bare["assumptions"] if one["yours"]] == ["benches"]
+    assert (bare["lanes"], bare["gates"]) == ([], [])
+
+
+@pytest.mark.parametrize(
+    ("more", "verdict", "words"),
+    [({}, "passes", "It can be danced"), ({"speed_limit": 0.5}, "fails", "It cannot be danced like this")],
+    ids=["passes", "fails"],
+)
+def test_the_verdict_is_said_in_two_sentences(ask, more, verdict, words):
+    answer = ask("safety-sheet", BODY | more)
+    assert answer["verdict"] == verdict
+    assert answer["sentences"][0].startswith(words)
+    assert len(answer["sentences"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("more", "expected"),
+    [
+        ({"loose": 6}, "/loose 6 5"),
+        ({"lanes": [{"name": "a", "points": [[0, 0], [0, 0]]}]}, "/lanes/0/points line"),
+        ({"gates": [{"name": "far", "x": 0, "y": 90}]}, "/gates/0 far 5"),
+    ],
+    ids=["more loose benches than there are", "a lane without a length", "a gate off the path"],
+)
+def test_what_the_dance_does_not_have_is_refused(ask, more, expected):
+    ask.refuses(expected, "safety-sheet", BODY | more)
+
+
+ADDRESS = "https://dragon.example/?door=village&benches=5"
+SAID = {
+    "en": ["It can be danced", "Nearest approaches", "ambulances, 4 m wide", "Li Wei"],
+    "zh": ["可以舞", "最近之处", "ambulances，宽 4 m", "Li Wei"],
+}
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_the_page_has_its_words_in_order_a_map_to_scale_and_a_code_that_a_phone_reads(ask, language):
+    body = BODY | {"title": "Lantern festival", "language": language, "address": ADDRESS, "stopper": "Li Wei"}
+    data = ask.file("safety-sheet", body, PDF_TYPE)
+    (page,) = pages_of(data)
+    words = words_of(page)
+    verdict, near, lane, stop = (words.index(one) for one in SAID[language])
+    assert 0 == words.index("Lantern festival") < verdict < near < lane < stop
+    for dpi in (150, 300):
+        code = zxingcpp.read_barcode(page.render(scale=dpi / 72).to_pil())
+        assert code.text == ADDRESS
+    assert data == ask.file("safety-sheet", body, PDF_TYPE)
+
+
+def test_many_lanes_and_gates_take_a_second_page_and_nothing_is_lost(ask):
+    lanes = [{"name": f"lane number {k}", "points": [[30 + k, -8], [30 + k, 8]], "width": 1} for k in range(10)]
+    gates = [{"name": f"gate number {k}", "x": 10 + 2 * k, "y": 0} for k in range(20)]
+    pages = pages_of(ask.file("safety-sheet", BODY | {"lanes": lanes, "gates": gates}, PDF_TYPE))
+    words = " ".join(map(words_of, pages))
+    assert len(pages) == 2
+    assert [one["name"] for one in (*lanes, *gates) if one["name"] not in words] == []
+    assert "signature" in words_of(pages[-1])
