@@ -27,7 +27,8 @@ from app.questions.safety_sheet import QUESTION as SAFETY_SHEET
 from app.questions.safety_sheet import SafetySheetRequest
 from app.wire.labels import Table
 from app.wire.messages import checked
-from app.wire.question import JSON, Coordinates
+from app.wire.question import JSON, Coordinates, Terms
+from app.wire.refusals import refusing
 from core import InvalidValue
 from core.errors import Given
 from core.language import counted, phrase, say
@@ -233,9 +234,10 @@ def safety_sheet(
     stopper: Annotated[str | None, typer.Option(help="Who stops the dance")] = None,
     date: Annotated[str | None, typer.Option(help="Date of the sheet; default: a line to fill in")] = None,
     address: Annotated[str | None, typer.Option(help="Address of the dance, which stands there as a QR code")] = None,
+    json: Json = False,
 ) -> None:
     """One page for whoever permits a festival: verdict, nearest approaches, ground and lanes to keep free, stopping."""
-    ending = checked_output("output", output, (".pdf", ".json"))
+    ending = ".json" if json else checked_output("output", output, (".pdf", ".json"))
     if ending == ".pdf":
         require("paper", "output", "A safety sheet")
     gates, lanes = ([read(text) for text in texts] if texts else None for read, texts in ((_gate, gate), (_lane, lane)))
@@ -243,5 +245,8 @@ def safety_sheet(
         file, SafetySheetRequest, context, title=title, gates=gates, lanes=lanes, spectators=spectators, loose=loose,
         reaction=reaction, stopper=stopper, date=date, address=address,
     )  # fmt: skip
-    form = PDF_TYPE if ending == ".pdf" else JSON
-    write_answer(SAFETY_SHEET, request, say("safety sheet"), output, form)
+    if json:
+        with refusing(request), show.waiting(say("safety sheet")) as progress:
+            show.print_json(SAFETY_SHEET.to_bytes(request, Terms(progress=progress), JSON))
+    else:
+        write_answer(SAFETY_SHEET, request, say("safety sheet"), output, PDF_TYPE if ending == ".pdf" else JSON)
