@@ -19,7 +19,8 @@ import orjson
 from app.files.fonts import LATIN, chinese_among, language_of
 from app.processes.child import ProcessEnded
 from app.processes.pool import Pool
-from core import Budget
+from core import Budget, TooMuchWork
+from core.errors import Quantity
 from core.language import Language, spoken
 
 # Millimetres in a point of type.
@@ -35,8 +36,10 @@ WIDTHS = b"""
   [#metadata(data.texts.map(one => (wide("|" + one + "|") - wide("||")) / 100)) <measured>]
 }
 """
+# Memory of a process that typesets [bytes], of address space: the largest plan takes 0.4 GB.
+MEMORY_MAX = 1_500_000_000
 # The processes that typeset.
-typesetting = Pool("app.files.typesetter", waiting=1)
+typesetting = Pool("app.files.typesetter", str(MEMORY_MAX), waiting=1)
 
 
 def _asked(budget: Budget | None, name: str, *arguments: object) -> Any:
@@ -46,6 +49,9 @@ def _asked(budget: Budget | None, name: str, *arguments: object) -> Any:
     try:
         value, error = pickle.loads(typesetting.answer(pickle.dumps((name, arguments)), budget))
     except ProcessEnded as end:
+        if end.received:  # Without memory the process ends.
+            words = "the paper must have fewer pages: setting it takes more than {most} of memory"
+            raise TooMuchWork.in_words("dance", words, most=Quantity(MEMORY_MAX / 1e6, "MB", 6)) from None
         value, error = None, str(end)
     if error:
         raise RuntimeError(f"the file was not typeset: {error}")

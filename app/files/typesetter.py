@@ -1,8 +1,8 @@
-"""Typesetting in a separate process: python -m app.start app.files.typesetter
+"""Typesetting in a separate process: python -m app.start app.files.typesetter BYTES
 
 Nothing can stop Typst, and what it has read of a file it keeps. So a process typesets one file after another with low
-priority, is killed at the deadline or when the client is gone, and ends once it has needed much memory. The process
-that asks never imports Typst.
+priority, is killed at the deadline or when the client is gone, and ends once it has needed much memory. Its address
+space has a limit, BYTES. The process that asks never imports Typst.
 
 task    a function of this module by its name, and its arguments
 answer  its value, or the words of its error
@@ -10,7 +10,9 @@ answer  its value, or the words of its error
 
 from __future__ import annotations
 
+import os
 import pickle
+import sys
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -19,7 +21,7 @@ from typing import Any
 import orjson
 import typst
 
-from app.processes.limits import end_first, lower_priority
+from app.processes.limits import end_first, limit_memory, lower_priority
 from app.processes.parent import Report, answer_tasks
 
 
@@ -63,4 +65,6 @@ def main() -> None:
     """Typeset files until the parent ends."""
     lower_priority()
     end_first()
+    limit_memory(int(sys.argv[1]))
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # Without memory Rust writes its stack there; all else is an answer.
     answer_tasks(_answer)

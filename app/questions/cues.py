@@ -30,8 +30,8 @@ from core.people.cues import FOLLOWED_MAX, REACH, REACH_MAX, bench_cues
 if TYPE_CHECKING:
     from app.cards.cards import CardSheets
 
-# Estimated time of the cues of a bench and of its card on paper [s], measured 2026-11-27.
-SECONDS_PER_BENCH, SECONDS_PER_CARD = 0.02, 0.05
+# Estimated time of the cues of a bench and of its card on paper [s], measured 2026-11-29.
+SECONDS_PER_BENCH, SECONDS_PER_CARD = 0.02, 0.01
 
 
 class DanceCues(Marked, strict=True):

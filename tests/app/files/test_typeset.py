@@ -7,7 +7,7 @@ import pytest
 from app.extras import MissingPackage
 from app.files.fonts import LATIN, chinese_among
 from app.files.typeset import Face, typeset, typesetting
-from core import Budget
+from core import Budget, TooMuchWork
 from core.kernels import Halted
 from tests.support.job_service import wait_for
 from tests.support.paper import pages_of, words_of
@@ -43,6 +43,13 @@ def test_what_is_typed_is_text_and_never_markup():
 def test_a_template_that_fails_says_why():
     with pytest.raises(RuntimeError, match="the file was not typeset: panicked with: no paper"):
         typeset(b'#panic("no paper")', FACE, {})
+
+
+def test_a_file_that_needs_too_much_memory_is_refused_in_a_sentence_and_the_next_one_is_set(capfd):
+    with pytest.raises(TooMuchWork, match="the paper must have fewer pages: setting it takes more than 1500 MB"):
+        typeset(b'#("a" * 2000000000)', FACE, {})
+    assert capfd.readouterr() == ("", "")
+    assert typeset(TEMPLATE, FACE, {"title": "short", "names": []}).startswith(b"%PDF")
 
 
 def test_widths_are_those_on_paper():
