@@ -272,7 +272,8 @@ class Dance(Readable):
         if until <= begin:
             if stop is None:
                 raise self._past_the_end("start", "must be before", begin)
-            raise InvalidValue("stop", "must be after start ({start})", **quantities("s", got=until, start=begin))
+            after = Quantity(begin, "s", 9)
+            raise InvalidValue("stop", "must be after start ({start})", got=Quantity(until, "s"), start=after)
         return begin, until
 
     def _before_the_start(self, name: str, time: float) -> OutsideRun:

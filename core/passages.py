@@ -75,14 +75,16 @@ def _ended(k: int, passage: Passage, time: Decimal, travel: Decimal) -> tuple[De
     if passage.until_time is not None:
         if passage.until_time <= float(time):
             rule, got = "must be after the passage begins, at {begin}", Quantity(passage.until_time, "s")
-            raise InvalidValue(f"passages.{k}.until_time", rule, got=got, begin=Quantity(float(time), "s"))
+            raise InvalidValue(f"passages.{k}.until_time", rule, got=got, begin=Quantity(float(time), "s", 9))
         end = Decimal(passage.until_time)
         return end, travel + (end - time) * Decimal(passage.speed)
     until = passage.until_s
     assert until is not None
     if until <= float(travel):
         rule = "must be further than where the passage begins, at {begin}"
-        raise InvalidValue(f"passages.{k}.until_s", rule, got=Quantity(until, "m"), begin=Quantity(float(travel), "m"))
+        raise InvalidValue(
+            f"passages.{k}.until_s", rule, got=Quantity(until, "m"), begin=Quantity(float(travel), "m", 9)
+        )
     return time + (Decimal(until) - travel) / Decimal(passage.speed), Decimal(until)
 
 

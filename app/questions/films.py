@@ -13,7 +13,7 @@ from app.wire.dances import BenchNumber, PlacedDance, bench_of, clock_of
 from app.wire.performances import NumberOrName, PartBody, SeveralFields, dragons_of
 from app.wire.question import AS_WHOLE, Instant, OneLine, Question, Terms, Wire, check_limit, measure
 from core import Dance, Dragon, EndReason, InvalidValue, Outcome, Performance, first_contact
-from core.errors import Given, quantities
+from core.errors import Given, Quantity, bound
 from core.language import Language, say
 
 FORM = next(iter(ENDINGS))
@@ -183,7 +183,7 @@ def span_of(request: FilmFields, dance: Dance, terms: Terms) -> tuple[float, flo
     end = dance.end
     until = min(end.time - (BEFORE_FOLD if end.reason is EndReason.FOLD else 0.0), start + LONGEST)
     if until <= start:
-        values = quantities("s", got=start, end=until) | end.values
+        values = {"got": Quantity(start, "s"), "end": bound(until, 9, "s"), **end.values}
         raise InvalidValue("start", f"must be before {{end}}, when {end.template}", **values)
     contact = first_contact(dance, start=start, stop=until, budget=terms.budget)
     if contact.outcome is Outcome.CONTACT and contact.time is not None:

@@ -320,7 +320,7 @@ def _checked_relief(relief: Relief, carriers: int, duration: float) -> Relief:
     if shift is not None:
         shift = checked_number("relief.shift", shift, "s", 0.0, SHIFT_MAX, open_low=True)
         if shift >= duration:
-            rule, most = "must be shorter than the dance, which takes {most}", Quantity(duration, "s")
+            rule, most = "must be shorter than the dance, which takes {most}", Quantity(duration, "s", 9)
             raise InvalidValue("relief.shift", rule, got=Quantity(shift, "s"), most=most)
         if duration / shift > SPELLS_MAX:
             raise TooLarge.in_words("relief.shift", CHANGES_RULE, reason=FEWER_CHANGES, most=SPELLS_MAX)

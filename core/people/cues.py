@@ -168,7 +168,7 @@ def bench_cues(
     begin, until = _span(dance, start, stop)
     walks = [one for one in dance.clock.periods(begin, until) if one.speed > 0.0]
     if not walks:
-        values = {"got": Quantity(until, "s"), "begin": Quantity(begin, "s")}
+        values = {"got": Quantity(until, "s"), "begin": Quantity(begin, "s", 9)}
         raise InvalidValue("stop", "must be after the head begins to walk: it stands still from {begin} on", **values)
     budget, steady = budget or Budget(), steady_dance(dance)
     travels = _travels(steady, walks[0].first, walks[-1].last)

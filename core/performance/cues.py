@@ -87,7 +87,7 @@ def _refuse_one_that_stands(performance: Performance, dragon: int, begin: float,
     walks = (one.end - one.begin for one in part.dance.clock.periods(first, last) if one.speed > 0.0)
     if last - first < STANDING or not any(walks):
         rule = "must be after dragon {dragon} begins to walk: it stands still from {begin} on"
-        raise InvalidValue("stop", rule, got=Quantity(until, "s"), dragon=dragon, begin=Quantity(begin, "s"))
+        raise InvalidValue("stop", rule, got=Quantity(until, "s"), dragon=dragon, begin=Quantity(begin, "s", 9))
 
 
 def _times(performance: Performance, begin: float, until: float) -> Floats:

@@ -229,7 +229,8 @@ class Performance(Readable):
                 rule = "must be at most {end}" if name == "stop" else "must be before {end}"
                 raise OutsideRun(name, f"{rule}, when {{why}}", got=Quantity(time, "s"), **self._ending())
         if until <= begin:
-            raise InvalidValue("stop", "must be after start ({start})", **quantities("s", got=until, start=begin))
+            after = Quantity(begin, "s", 9)
+            raise InvalidValue("stop", "must be after start ({start})", got=Quantity(until, "s"), start=after)
         return begin, until
 
     @property

@@ -132,7 +132,7 @@ def contact_probability(
     if count > INSTANTS_MAX:
         field, factor = ("step", 1) if model.step else ("correlation_time", INSTANTS_PER_TIME)
         least = factor * (until - begin) / (INSTANTS_MAX - 1)
-        rule, got = "must be at least {least}: a dance has at most {most} instants", Quantity(factor * widest, "s")
+        rule, got = "must be at least {least}: a dance has at most {most} instants", Quantity(factor * widest, "s", 9)
         raise InvalidValue(f"model.{field}", rule, got=got, least=Quantity(least, "s", 3), most=INSTANTS_MAX)
     budget = budget or Budget()
     step = (until - begin) / (count - 1)

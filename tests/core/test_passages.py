@@ -112,6 +112,8 @@ def test_a_dance_is_played_faster_as_a_whole_until_a_passage_reaches_the_limit()
         ("passages.0.speed", [Passage(1e-9, 5.0)]),
         ("passages.0", [Passage(1.0, 5.0, 5.0)]),
         ("passages.1.until_s", [Passage(1.0, 5.0), Passage(2.0, 5.0)]),
+        ("passages.1.until_time", [Passage(0.7, 5.0), Passage(2.0, until_time=5.0)]),
+        ("passages.2.until_s", [Passage(0.7, until_time=1.0 / 3.0), Passage(0.3, until_time=1.0), Passage(2.0, 0.1)]),
         ("passages.1", [Passage(1.0, 5.0), 3.0]),
         ("passages", [Passage(1.0, 5.0)] * 1001),
     ],
