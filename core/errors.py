@@ -23,7 +23,7 @@ from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, Self, TypeVar, cast
 
 from core.kernels import Budget, Halted
-from core.language import Phrases, phrase, say, say_clauses
+from core.language import Listed, Phrases, phrase, say, say_clauses
 
 if TYPE_CHECKING:  # NumPy takes as long to import as all of a process that runs jobs.
     from core.values import Point
@@ -125,7 +125,7 @@ class Clause(str):
 
 
 # What may stand in a template. A number or a text stands there as it is.
-Value = Quantity | Parameter | Given | int | float | str
+Value = Quantity | Parameter | Given | Listed | int | float | str
 
 
 def quantities(unit: str, digits: int = 17, /, **numbers: float) -> dict[str, Value]:

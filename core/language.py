@@ -141,6 +141,19 @@ def counted(count: int, one: str, many: str, /, **values: Any) -> str:
     return _translations(_SPOKEN.get()).ngettext(one, many, count).format(count=count, **values)
 
 
+class Listed(tuple[object, ...]):
+    """Parts of a list, which as text stand in a row as the language that is spoken writes it.
+
+    >>> str(Listed([3, 4])), f"handles {Listed([3])}"
+    ('3, 4', 'handles 3')
+    """
+
+    __slots__ = ()
+
+    def __str__(self) -> str:
+        return sense("list", ", ").join(map(str, self))
+
+
 def joined(sentences: Iterable[str]) -> str:
     """Sentences in a row; empty ones are left out."""
     said = list(filter(None, sentences))

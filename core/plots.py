@@ -7,15 +7,16 @@ set) and differ in brightness, hatch or line style for print.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from core.extras import wanted
-from core.language import phrase, say
+from core.language import say
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.values import Floats
+from core.words.features import BenchFeature, feature_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,15 +29,6 @@ HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
 # Half the side of the enlarged view, in widths of the wider bench, and its minimum, in margins.
 ENLARGED_WIDTHS = 1.5
 ENLARGED_MARGINS = 1.5
-
-
-class BenchFeature(Protocol):
-    """A corner or an edge of a bench."""
-
-    @property
-    def bench(self) -> int: ...
-    @property
-    def name(self) -> str: ...
 
 
 def wanted_axes(axes: Axes | None, what: str) -> Axes:
@@ -102,23 +94,6 @@ def mark_pair(axes: Axes, outlines: Floats, benches: Sequence[int]) -> None:
         axes.add_patch(Polygon(outlines[bench], edgecolor="black", alpha=0.85, linewidth=0.6, **style))
 
 
-# Names of the corners and edges of a bench.
-FEATURES = {
-    "front edge": phrase("front edge of bench {bench}"),
-    "rear edge": phrase("rear edge of bench {bench}"),
-    "inner edge": phrase("inner edge of bench {bench}"),
-    "outer edge": phrase("outer edge of bench {bench}"),
-    "front-outer corner": phrase("front-outer corner of bench {bench}"),
-    "front-inner corner": phrase("front-inner corner of bench {bench}"),
-    "rear-outer corner": phrase("rear-outer corner of bench {bench}"),
-    "rear-inner corner": phrase("rear-inner corner of bench {bench}"),
-}
-
-
-def _feature(kind: str, feature: BenchFeature) -> str:
-    return say(FEATURES[f"{feature.name} {kind}"], bench=feature.bench)
-
-
 def draw_enlarged(
     axes: Axes, outlines: Floats, benches: Sequence[int], point: Sequence[float], half: float,
     corner: BenchFeature | None, edge: BenchFeature | None, centre: tuple[float, float],
@@ -133,8 +108,8 @@ def draw_enlarged(
     mark_pair(axes, outlines, benches)
     if edge:
         sides = _edge(outlines[edge.bench], edge.name, centre)
-        axes.plot(*sides.T, color="black", linewidth=2.5, zorder=6, label=_feature("edge", edge))
-    nearest = _feature("corner", corner) if corner else say("nearest point")
+        axes.plot(*sides.T, color="black", linewidth=2.5, zorder=6, label=feature_words(edge))
+    nearest = feature_words(corner) if corner else say("nearest point")
     axes.plot(
         *point, marker="o", linestyle="none", markersize=11, markerfacecolor="white", markeredgecolor="black",
         markeredgewidth=2, zorder=7, label=nearest,

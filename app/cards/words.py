@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from app.maps.marks import first_mark, mark_name
 from app.plan.timing import TimeFormat
 from core import Dance
-from core.language import counted, phrase, say, sense
+from core.language import Listed, counted, phrase, say, sense
 from core.people.cards import Card, Cue, CueKind
 from core.people.cues import Meeting, Side, Stand
 from core.values import Point
@@ -56,7 +56,7 @@ def runs(numbers: Iterable[int]) -> str:
             parts[-1].append(one)
         else:
             parts.append([one])
-    return sense("list", ", ").join(f"{part[0]}-{part[-1]}" if len(part) > 1 else str(part[0]) for part in parts)
+    return str(Listed(f"{part[0]}-{part[-1]}" if len(part) > 1 else part[0] for part in parts))
 
 
 @dataclass(frozen=True, slots=True)

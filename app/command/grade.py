@@ -38,7 +38,7 @@ from app.wire.question import ESCAPED
 from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
 from core.errors import Parameter
-from core.language import Language, say, spoken
+from core.language import Language, Listed, say, spoken
 
 # Endings of the files that are graded in a folder.
 ENDINGS = (".xlsx", ".xlsm", ".xls", ".csv")
@@ -130,7 +130,7 @@ def _paths_of(files: list[Path]) -> Iterator[Path]:
             inside = sorted(path for path in file.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
             visible = [path for path in inside if not path.name.startswith(("~$", "."))]
             if not visible:
-                words, values = "{folder} must hold a file that ends in {endings}", {"endings": ", ".join(ENDINGS)}
+                words, values = "{folder} must hold a file that ends in {endings}", {"endings": Listed(ENDINGS)}
                 raise InvalidValue.in_words("files", words, got="a folder without any", folder=str(file), **values)
             yield from visible
         else:
@@ -229,7 +229,8 @@ def _file(file: FileAnswer) -> Iterator[Part]:
 def _sheet(sheet: SheetAnswer) -> Iterator[Part]:
     verdict = word(sheet.verdict.value)
     if sheet.verdict == "rounded" and sheet.decimals:
-        verdict += word("to_decimal" if sheet.decimals == 1 else "to_decimals", decimals=sheet.decimals)
+        words = "rounded_to_decimal" if sheet.decimals == 1 else "rounded_to_decimals"
+        verdict = word(words, decimals=sheet.decimals)
     title = sheet.sheet or word(SHEETS[TableKind(sheet.holds)])
     counts = {"right": f"{sheet.right:,}", "cells": f"{sheet.cells:,}"}
     yield "  " + word("sheet_line", title=title, verdict=verdict, **counts)

@@ -19,7 +19,7 @@ from app.files.disk import checked_output, write_whole
 from core import InvalidValue
 from core.display import format_count
 from core.errors import Given
-from core.language import say
+from core.language import Listed, say
 
 if TYPE_CHECKING:
     from app.jobs.places import InFolder, OfService
@@ -96,7 +96,7 @@ def cancel(
         print(f"{job}: {place.cancel(job)}")
         return
     counts = place.cancel_all(before)
-    print(", ".join(f"{format_count(count, 'job')} {what}" for what, count in counts.items()))
+    print(Listed(f"{format_count(count, 'job')} {what}" for what, count in counts.items()))
 
 
 def _seconds(text: str) -> float:

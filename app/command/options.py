@@ -28,7 +28,7 @@ from app.wire.refusals import refusing
 from core import BenchDragonError, Dance, InvalidValue, Performance
 from core.dance import DEFAULT_SPAN
 from core.errors import Given, Parameter, Value
-from core.language import say
+from core.language import Listed, say
 
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
@@ -90,7 +90,7 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
     held = read_dance(file, several="dances" in own)
     _refuse_other(file, held, own)
     if instead and (strays := [name for name in Strays.model_fields if held.get(name) and name not in own]):
-        words = say("{file}: ignored: {names}, because {why}.", file=file, names=", ".join(strays), why=say(instead))
+        words = say("{file}: ignored: {names}, because {why}.", file=file, names=Listed(strays), why=say(instead))
         print(words, file=sys.stderr)
     values = {name: value for name, value in held.items() if name in own or name not in CheckRequest.model_fields}
     given = {**context.params, "language": context.meta.get(LANGUAGE)}

@@ -15,12 +15,12 @@ from app.files.disk import ending_of, read_json
 from app.questions import overlaps as together
 from app.questions.figures import InstantQuery
 from app.questions.overlaps import OverlapsAnswer, OverlapsRequest
-from app.wire.labels import Part, Table, label, separation, value_text
+from app.wire.labels import Part, Table, label, separation, value_text, value_word
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import InvalidValue
 from core.errors import format_number
-from core.language import phrase, say
+from core.language import Listed, phrase, say
 
 
 @asks(InstantQuery)
@@ -57,7 +57,7 @@ def _overlap_parts(answer: OverlapsAnswer, margin: float) -> Iterator[Part]:
         table.add(value_text(one.benches), separation(one.separation), *witnesses)
     yield table
     check = answer.cross_check
-    counts = ", ".join(f"{engine.value} {len(pairs)}" for engine, pairs in check.engines.items())
+    counts = Listed(f"{value_word(engine.value)} {len(pairs)}" for engine, pairs in check.engines.items())
     engines = say("All four engines") if not check.left_out else say("The engines that can judge a margin")
     agree = phrase("{engines} agree; pairs found: {counts}")
     disagree = phrase("{engines} DISAGREE; pairs found: {counts}")

@@ -26,7 +26,7 @@ from app.wire.question import JSON, Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
 from core.errors import Given
-from core.language import say, sense
+from core.language import Listed, say
 
 FILE_HELP = "Dragon, path, venue and limits as for check: .toml or .json."
 # Form of a file by its ending.
@@ -109,7 +109,7 @@ def _print_crew(answer: Crew) -> None:
     heads = say("person"), say("benches"), say("time [s]"), say("way [m]")
     table = Table(title, *heads, say("longest [s]"))
     for one in answer.carriers:
-        benches = sense("list", ", ").join(dict.fromkeys(str(spell.bench) for spell in one.spells)) or say("none")
+        benches = str(Listed(dict.fromkeys(spell.bench for spell in one.spells))) or say("none")
         table.add(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
     words = lack_words(answer.enough, len(answer.unrelieved))
     # Before the table, which may have hundreds of rows.

@@ -15,7 +15,7 @@ from typer.core import TyperGroup
 from app.wire.messages import ALIKE_SLIP, fault_of
 from app.wire.numbers import number_of
 from core.errors import BenchDragonError, Given, fill_message
-from core.language import say
+from core.language import Listed, say
 
 # Class of every mistake that the parser reports; typer gives it no public name.
 Misuse: Any = typer.BadParameter.__base__
@@ -128,7 +128,7 @@ def _value_message(parameter: Any, kind: Any, declared: Any, value: str) -> str:
     choices = get_args(kind) if get_origin(kind) is Literal else list(kind) if isinstance(kind, EnumType) else []
     if choices:
         *most, last = [str(getattr(choice, "value", choice)) for choice in choices]
-        allowed = say("{first} or {last}", first=", ".join(most), last=last)
+        allowed = say("{first} or {last}", first=Listed(most), last=last)
         return fill_message(
             "{name} must be {allowed}, got {value}", {"name": name, "allowed": allowed, "value": Given(value, value)}
         )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from app.contest.solved import Solved, Turned
 from core import EndReason, MinimumPitch, Outcome, ShortestTurn
-from core.language import say, sense
+from core.language import Listed, say
 
 
 @dataclass(frozen=True)
@@ -161,7 +161,7 @@ def _times(turned: Turned, limit: float) -> list[Result]:
 
 def _speed(turned: Turned, limit: float) -> Result:
     fastest = turned.fastest
-    handles = sense("list", ", ").join(map(str, fastest.handles))
+    handles = Listed(fastest.handles)
     how = say(
         "handles {handles} reach {limit:g} m/s at {fastest.time:.6f} s, {fastest.speed_ratio:.6f} "
         "times the head's speed",

@@ -9,7 +9,7 @@ from app.contest.answers import Result
 from app.contest.solved import Solved
 from app.contest.tables import KitTable, in_markdown
 from core.errors import format_number
-from core.language import say, sense
+from core.language import Listed, say
 
 if TYPE_CHECKING:
     from app.contest.figures import Drawn
@@ -49,9 +49,7 @@ def report(
         answer_table(results),
         _ratio(solved),
         say("## Workbooks"),
-        say(
-            "{books}: all handles, six decimals, halves rounded away from zero.", books=sense("list", ", ").join(books)
-        ),
+        say("{books}: all handles, six decimals, halves rounded away from zero.", books=Listed(books)),
         say("## Tables"),
     ]
     for table in tables:
@@ -63,7 +61,7 @@ def report(
         links = " ".join(f"[{kind}](figures/{one.name}.{kind})" for kind in one.files)
         parts.append(f"![{one.name}](figures/{one.name}.png)\n\n*{one.caption}* ({links})")
     if films:
-        parts += [say("## Films"), sense("list", ", ").join(f"[{name}]({name})" for name in films)]
+        parts += [say("## Films"), str(Listed(f"[{name}]({name})" for name in films))]
     return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
 
 

@@ -16,7 +16,7 @@ from app.wire.question import short_json
 from app.wire.texts import Unreadable, json_of
 from core import InvalidValue
 from core.errors import Given, Parameter
-from core.language import Phrases, say
+from core.language import Listed, Phrases, say
 
 # What systems say of a file that cannot be used.
 SYSTEM: Phrases = {
@@ -53,7 +53,7 @@ def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     ending = ending_of(file)
     if endings and ending not in endings:
         *others, last = endings
-        allowed = f"{', '.join(others)}{say(' or ')}{last}" if others else last
+        allowed = f"{Listed(others)}{say(' or ')}{last}" if others else last
         words, got = "--{option} must end in {endings}", ending or "no ending"
         raise InvalidValue.in_words(option, words, got=got, option=Parameter(option), endings=allowed)
     if file.is_dir():

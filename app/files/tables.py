@@ -17,7 +17,7 @@ from app.wire.answers import Columns
 from app.wire.clocks import time_of_day
 from app.wire.texts import text_to_cell
 from core import InvalidValue, TooLarge, Trajectory
-from core.language import say, sense
+from core.language import Listed, say, sense
 from core.values import Floats
 
 # Endings that trajectory_writer() supports.
@@ -233,5 +233,5 @@ def trajectory_writer(
             return lambda result: trajectory_arrow(result, decimals=decimals)
         case ".xlsx":
             return lambda result: trajectory_xlsx(result, decimals=decimals)
-    words, endings = "--output must end in {endings}", ", ".join(TABLE_ENDINGS)
+    words, endings = "--output must end in {endings}", Listed(TABLE_ENDINGS)
     raise InvalidValue.in_words("output", words, got=suffix or "no ending", endings=endings)

@@ -14,6 +14,7 @@ from app.grade.handles import BENCHES
 from app.grade.shortcuts import SPEED_LIMIT, right_answer
 from app.grade.words import Note, note
 from core import BenchDragonError, Dance, Dragon, Spiral
+from core.language import Listed
 
 # Shortest turn that counts as possible [m]: question 4 leaves open the ratio, and where the dance enters and leaves the
 # circle. core.turn_length_bounds(core.Dragon(), 1.7, ratio=None) proves in a minute that in every shorter turn an arc
@@ -54,8 +55,8 @@ def _too_fast(speed: float) -> Note:
     reached = speed * most.speed_ratio
     decimals = next((k for k in DECIMALS if round(reached, k) > SPEED_LIMIT), DECIMALS[-1])
     values = {"limit": f"{SPEED_LIMIT:g}", "speed": f"{reached:.{decimals}f}"}
-    values["handles"] = ", ".join(map(str, most.handles))
-    return note("breaks_speed", time=f"{most.time_at_unit_head_speed / speed:.3f}", **values)
+    time = f"{most.time_at_unit_head_speed / speed:.3f}"
+    return note("breaks_speed", time=time, handles=Listed(most.handles), **values)
 
 
 def _contact(pitch: float) -> Note:

@@ -8,7 +8,7 @@ import io
 from app.grade.grid import Cell, Grid, UnreadableTable
 from app.grade.workbook import sheets_of
 from core import Budget, InvalidValue
-from core.language import say
+from core.language import Listed, say
 
 
 def benches_of(data: bytes, budget: Budget) -> tuple[str, list[str]]:
@@ -25,7 +25,7 @@ def benches_of(data: bytes, budget: Budget) -> tuple[str, list[str]]:
         raise InvalidValue("file", "must have a sheet with benches, one in a line", got="empty sheets")
     remarks = [str(note) for note in (*notes, *sheets[0].notes)]
     if len(sheets) > 1:
-        others = ", ".join(grid.title for grid in sheets[1:])
+        others = Listed(grid.title for grid in sheets[1:])
         remarks.append(
             say("The benches are those of sheet {title}; left out: {others}.", title=sheets[0].title, others=others)
         )

@@ -15,7 +15,7 @@ import numpy as np
 
 from app.maps.features import LEAVE_OUT, POINTS_MAX
 from core import InvalidValue
-from core.errors import Quantity
+from core.errors import Clause, Quantity
 from core.values import Floats
 
 # Largest distance of a curve from the straight lines that replace it [m].
@@ -162,7 +162,7 @@ def _side(a: Floats, b: Floats, bulge: float, factor: float) -> Floats:
 # derivative, which are differences of P. A chord over a step h is at most h^2 / 8 times that from it.
 def _spline(entity: Any, sag: float) -> Floats:
     if len(entity.fit_points) > FIT_POINTS_MAX and not len(entity.control_points):
-        raise Damaged(f"SPLINE through more than {FIT_POINTS_MAX} points")
+        raise Damaged(Clause("SPLINE through more than {most} points", most=FIT_POINTS_MAX))
     tool = entity.construction_tool()
     control = np.array([[float(point.x), float(point.y), 1.0] for point in tool.control_points])
     knots, degree = np.array(tool.knots(), dtype=float), int(tool.order) - 1

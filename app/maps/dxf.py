@@ -16,7 +16,7 @@ from app.extras import require
 from app.files.outlines import dxf_bytes, new_dxf
 from app.maps.choice import EVERYTHING, Choice
 from app.maps.entities import HOLES, MARKS, Entities, faults
-from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, grid_of, inner_point, origin_of
+from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, damaged_kind, grid_of, inner_point, origin_of
 from app.wire.geojson import GATE, INNER_SQUARE
 from core import InvalidValue
 from core.errors import Quantity
@@ -228,7 +228,7 @@ def _drawing(document: Any, fixes: Iterable[str], choice: Choice) -> Drawing:
     choice.refuse_unknown(entities.seen_layers)
     for fix in fixes:
         if (deleted := DELETED.search(fix)) and not _is_undrawn(deleted[1]):
-            entities.collector.leave_out(f"damaged {deleted[1]}")
+            entities.collector.leave_out(damaged_kind(deleted[1]))
     features, collector = tuple(entities.features()), entities.collector
     if code not in UNITS:
         _refuse_wide(collector.features)

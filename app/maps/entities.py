@@ -16,6 +16,7 @@ from app.maps.features import (
     PATH,
     FeatureCollector,
     MapFeature,
+    damaged_kind,
     drawn_as,
     edges_of,
     holds,
@@ -28,6 +29,8 @@ from app.maps.layout import refuse_many_edges_of
 from app.wire.geojson import SQUARE
 from app.wire.parts import APART
 from core import InvalidValue
+from core.errors import Clause
+from core.language import phrase
 from core.values import Point
 
 # Deepest nesting of blocks, and most entities of a drawing, without and with those that are not read; those of a block
@@ -99,7 +102,7 @@ class Entities:
                 except InvalidValue:
                     raise
                 except faults():
-                    self.collector.leave_out(f"damaged {entity.dxftype()}")
+                    self.collector.leave_out(damaged_kind(entity.dxftype()))
             else:
                 self.seen_layers[layer] = None
 
@@ -126,10 +129,10 @@ class Entities:
 
         block = insert.block()
         if block is None or block.block.dxf.flags & EXTERNAL:
-            self.collector.leave_out("missing block" if block is None else "block of another drawing")
+            self.collector.leave_out(phrase("missing block") if block is None else phrase("block of another drawing"))
             return
         if not (insert.dxf.get("xscale", 1.0) and insert.dxf.get("yscale", 1.0)):
-            self.collector.leave_out("damaged INSERT")
+            self.collector.leave_out(damaged_kind("INSERT"))
             return
         if not insert.dxf.get("zscale", 1.0):  # a drawing of a plan; ezdxf divides by it
             insert.dxf.zscale = 1.0
@@ -152,7 +155,7 @@ class Entities:
             except InvalidValue:
                 raise
             except faults():
-                self.collector.leave_out(f"damaged {kind}")
+                self.collector.leave_out(damaged_kind(kind))
                 return
             if one is None:
                 return
@@ -179,7 +182,7 @@ class Entities:
             own["heading"] = self.headings[handle]
         feature = MapFeature("point", (), name, role_of(layer, name), radius, own)
         if not all(map(entity.dxf.hasattr, STATED.get(kind, ()))):
-            self.collector.leave_out(f"damaged {kind}")
+            self.collector.leave_out(damaged_kind(kind))
         elif kind in TEXTS:
             self._read_text(entity, kind)
         elif kind == "POINT":
@@ -214,11 +217,11 @@ class Entities:
         try:
             places = [(x, y) for x, y in points_of(entity, self.factor).tolist()]
         except Damaged as error:
-            self.collector.leave_out(str(error) or f"damaged {entity.dxftype()}")
+            self.collector.leave_out(error.args[0] if error.args else damaged_kind(entity.dxftype()))
             return
         points = tuple(b for a, b in zip((None, *places), places, strict=False) if a is None or dist(a, b) > SAME)
         if len(points) < 2:
-            self.collector.leave_out(f"{entity.dxftype()} of one point")
+            self.collector.leave_out(Clause("one-point {kind}", kind=entity.dxftype()))
             return
         closed = bool(getattr(entity, "closed", False) or getattr(entity, "is_closed", False))
         if closed and points[0] != points[-1]:
@@ -263,7 +266,7 @@ class Entities:
         refuse_many_edges_of(polygons, [one for one in self.collector.features if one.shape != "polygon"])
         features = list(_with_holes(joined(self.collector.features)))
         if are_too_many(features, self.labels):
-            self.collector.left_out["text"] = len(self.labels)
+            self.collector.left_out[phrase("text")] = len(self.labels)
             self.labels = []
         words = names_of(features, self.labels)
         for k, feature in enumerate(features):

@@ -14,6 +14,7 @@ import numpy as np
 from app.wire.degrees import GRID_MAX, GeographicOrigin
 from app.wire.geojson import GATE, INNER_SQUARE, SQUARE, Aside, Thing, outlined
 from core import InvalidValue
+from core.errors import Clause
 from core.language import phrase
 from core.values import Floats, Point
 from core.venue import Ring
@@ -151,6 +152,16 @@ class FeatureCollector:
 
     def hide(self, kind: str) -> None:
         self.hidden[kind] = self.hidden.get(kind, 0) + 1
+
+
+def damaged_kind(kind: str) -> Clause:
+    """What was left out because it cannot be read."""
+    return Clause("damaged {kind}", kind=kind)
+
+
+def empty_kind(kind: str) -> Clause:
+    """What was left out because it has no points."""
+    return Clause("empty {kind}", kind=kind)
 
 
 def drawn_as(line: MapFeature) -> MapFeature:

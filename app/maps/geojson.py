@@ -21,6 +21,7 @@ from app.maps.features import (
     Shape,
     Unit,
     drawn_as,
+    empty_kind,
     grid_of,
     origin_of,
     role_of,
@@ -30,6 +31,7 @@ from app.wire.geojson import DEPTH_MAX
 from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
+from core.language import Listed
 from core.venue import Ring
 
 # For each geometry: the shape of its parts, and the depth of its lists of points in its coordinates.
@@ -105,7 +107,7 @@ def _features(
     if depth > DEPTH_MAX:
         raise InvalidValue(field, "must not nest objects deeper than {most}", most=DEPTH_MAX)
     if document is None and depth:
-        collector.leave_out("feature without geometry")
+        collector.leave_out(empty_kind("Feature"))
         return
     kind = document.get("type") if isinstance(document, Mapping) else None
     if not isinstance(document, Mapping) or not isinstance(kind, str):
@@ -127,7 +129,7 @@ def _features(
             one = replace(like, shape=shape, rings=rings)
             yield drawn_as(one) if shape == "line" else one  # Some programs draw a polygon as a line.
     else:
-        known = ", ".join([*GEOMETRIES, "Feature", *COLLECTIONS])
+        known = Listed([*GEOMETRIES, "Feature", *COLLECTIONS])
         raise InvalidValue(f"{field}.type", "must be one of {known}", got=Given(kind), known=known)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from datetime import datetime
 
 from app.files.markup import read_document
-from app.maps.features import Drawing, FeatureCollector, MapFeature, Unit, role_of
+from app.maps.features import Drawing, FeatureCollector, MapFeature, Unit, empty_kind, role_of
 from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
@@ -86,7 +86,7 @@ class _TrackReader:
 
     def _finish(self, kind: str) -> None:
         if not self.points:
-            return self.collector.leave_out(f"empty {kind}")
+            return self.collector.leave_out(empty_kind(kind))
         name = self.name or None
         if kind == "wpt":
             return self.collector.add(MapFeature("point", (tuple(self.points[:1]),), name, role_of(name)))

@@ -24,6 +24,7 @@ from app.maps.features import (
     Shape,
     Unit,
     drawn_as,
+    empty_kind,
     grid_of,
     origin_of,
     role_of,
@@ -169,7 +170,7 @@ class _FeatureReader:
     def _place(self, points: Ring) -> None:
         around = next((one for one in reversed(self.stack) if one in SHAPES and one != "LinearRing"), self.stack[-1])
         if not points:
-            self.collector.leave_out(f"empty {around}")
+            self.collector.leave_out(empty_kind(around))
         elif "Polygon" in self.stack:
             self.rings.append(points)
         elif self.stack[-1] in SHAPES:

@@ -33,9 +33,8 @@ from app.wire.geojson import ASIDES, GATE, INNER_SQUARE, SQUARE, outlined, read_
 from app.wire.parts import is_cut, merged, whole_areas
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
-from core.display import format_count
-from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
-from core.language import counted, phrase, say, sense
+from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities, say_value
+from core.language import Listed, counted, phrase, say, sense
 from core.names import NAME_MAX, is_printable
 from core.values import Floats, Point
 from core.venue import EDGES_MAX
@@ -135,13 +134,15 @@ class Reading:
         self._leave_out_small()
         self.features = [self._whole(one) for one in self.features]
         for kind, count in drawing.left_out.items():
-            self.notes.append(counted(count, "Left out: {count} {kind}.", "Left out: {count} {kind}s.", kind=kind))
+            self.notes.append(
+                counted(count, "Left out: {count} {kind}.", "Left out: {count} {kind}s.", kind=_word_of(kind))
+            )
         for kind, count in drawing.hidden.items():
             hidden = counted(
                 count,
                 "Left out, because hidden: {count} {kind}.",
                 "Left out, because hidden: {count} {kind}s.",
-                kind=kind,
+                kind=_word_of(kind),
             )
             self.notes.append(hidden)
 
@@ -319,7 +320,7 @@ class Reading:
     def _listed(things: Iterable[MapFeature]) -> str:
         """The names of the first things, and dots for more."""
         every = [one.name or _kind_of(one) for one in things]
-        return sense("list", ", ").join([*every[:LISTED_MOST], *(["…"] if len(every) > LISTED_MOST else [])])
+        return str(Listed([*every[:LISTED_MOST], *(["…"] if len(every) > LISTED_MOST else [])]))
 
     def _whole(self, one: MapFeature) -> MapFeature:
         """The same feature; a square that is a circle, or a line that is not closed, is a polygon."""
@@ -492,11 +493,18 @@ def _kind_of(one: MapFeature) -> str:
         PATH: say("path"),
         GATE: say("gate"),
         INNER_SQUARE: say("square without streets"),
+    }
+    return words[one.role] if one.role else _word_of(one.shape)
+
+
+def _word_of(kind: str) -> str:
+    """A word for a shape, or for what a format calls a kind of thing."""
+    words = {
         "point": sense("shape", "point"),
         "line": sense("shape", "line"),
         "polygon": sense("shape", "polygon"),
     }
-    return words[one.role or one.shape]
+    return words.get(kind) or say_value(kind)
 
 
 def _nothing_reaches() -> InvalidValue:
@@ -509,7 +517,9 @@ def _nothing_in(drawing: Drawing) -> InvalidValue:
     count = sum(drawing.hidden.values())
     if not count:
         return InvalidValue("file", "must hold a polygon, a line or a point", got="none of these")
-    hidden = ", ".join(format_count(each, kind) for kind, each in drawing.hidden.items())
+    hidden = Listed(
+        counted(each, "{count} {kind}", "{count} {kind}s", kind=_word_of(kind)) for kind, each in drawing.hidden.items()
+    )
     if drawing.unit is Unit.DEGREES:  # KML, which has no layers
         why = "{hidden} is hidden; make it visible" if count == 1 else "{hidden} are hidden; make them visible"
         rule = f"must hold a polygon, a line or a point that is visible: {why}"

@@ -162,8 +162,7 @@ function fileBox(file) {
 function sheetParts(sheet) {
   const { right, cells, decimals, worst, first, picture, notes } = sheet;
   const title = sheet.sheet || say(HOLDS[sheet.holds]);
-  const word = say(VERDICTS[sheet.verdict]);
-  const verdict = decimals && sheet.verdict === "rounded" ? say(decimals === 1 ? phrase("{verdict} to 1 decimal") : phrase("{verdict} to {decimals} decimals"), { verdict: word, decimals }) : word;
+  const verdict = decimals && sheet.verdict === "rounded" ? say(decimals === 1 ? phrase("rounded to 1 decimal") : phrase("rounded to {decimals} decimals"), { decimals }) : say(VERDICTS[sheet.verdict]);
   const parts = [paragraph(say("{title}: {verdict}, {right} of {cells} cells right", { title, verdict, right, cells }), "sheet"), ...notes.map((one) => paragraph(one))];
   if (["wrong", "rounded"].includes(sheet.verdict))
     for (const [template, cell] of /** @type {[string, any][]} */ ([[phrase("Worst: {cell}, {handle}, {quantity} at {time} s is {found}; the right value is {expected}."), worst], [phrase("First: {cell}, {handle}, {quantity} at {time} s is {found}; the right value is {expected}."), first]])) {

@@ -65,7 +65,7 @@ from app.wire.problem import PROBLEM_TYPE, item_of
 from app.wire.question import JSON, FileFormat, check_limit, short_json
 from core import BenchDragonError
 from core.errors import Given, Quantity
-from core.language import phrase, say, spoken
+from core.language import Listed, phrase, say, spoken
 
 # Time between two checks for news, and between two signs of life while there are none [s].
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
@@ -240,7 +240,7 @@ def ask_later(
     if inputs.question not in CALLS:
         near = difflib.get_close_matches(inputs.question, CALLS, n=1)
         advice = "did you mean {near}?" if near else "it must be one of {known}"
-        values: dict[str, Any] = {"near": near[0] if near else "", "known": ", ".join(sorted(CALLS))}
+        values: dict[str, Any] = {"near": near[0] if near else "", "known": Listed(sorted(CALLS))}
         values["question"] = short_json(inputs.question)
         raise Refused(422, "question {question} is unknown here", {"pointer": "/question"}, reason=advice, **values)
     call, values = CALLS[inputs.question], dict(inputs.request)

@@ -30,6 +30,7 @@ from app.wire.question import Answer, DanceQuery, Terms, measure
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 from core.errors import Given
+from core.language import Listed
 from core.values import Floats
 
 # The service's default limits, so that a row does not depend on the machine that computes it.
@@ -279,7 +280,7 @@ def question_of(name: str, parameters: Collection[str] = ()) -> SweepQuestion:
     if why := NO_ROWS.get(name.removesuffix("_of")):
         raise InvalidValue("question", "{name} cannot be swept, because {why}", name=name, why=why)
     if name not in QUESTIONS:
-        raise InvalidValue("question", "must be one of {known}", got=Given(name), known=", ".join(QUESTIONS))
+        raise InvalidValue("question", "must be one of {known}", got=Given(name), known=Listed(QUESTIONS))
     names = [parameter.partition(".")[0] for parameter in parameters]
     return max(QUESTIONS[name], key=lambda way: sum(one in way.request.model_fields for one in names))
 

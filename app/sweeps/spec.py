@@ -22,6 +22,7 @@ from app.wire.question import AS_WHOLE, Whole, measure, shallow
 from app.wire.texts import Unreadable, json_of, toml_of
 from core import InvalidValue, TooLarge
 from core.errors import Given
+from core.language import Listed
 
 DESIGNS_MAX = 10**8
 SHARDS_MAX = 10**6
@@ -194,7 +195,7 @@ class Spec(_Strict):
             words = "needs a range without a count, and there is none: leave samples out, or remove a count"
             if self.sampled:
                 words = "must say how to sample {ranges}: give samples, or give the range a count"
-            raise InvalidValue("samples", words, ranges=", ".join(self.sampled))
+            raise InvalidValue("samples", words, ranges=Listed(self.sampled))
         if len(self.sampled) > SOBOL_DIMENSIONS:
             rule, got = "must have at most {most} sampled ranges", len(self.sampled)
             raise TooLarge("over", rule, got=got, most=SOBOL_DIMENSIONS)

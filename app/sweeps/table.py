@@ -27,7 +27,7 @@ from app.wire.texts import TO_CELL
 from core import InvalidValue
 from core.display import format_count
 from core.errors import Given
-from core.language import say
+from core.language import Listed, say
 from core.tables import data_frame, polars_frame
 from core.values import Floats
 
@@ -93,9 +93,9 @@ class Sweep:
                 raise InvalidValue("value", rule, got=Given(name), numbers=self.numbers())
         return pa.concat_tables(tables)
 
-    def numbers(self) -> str:
+    def numbers(self) -> Listed:
         """Names of the columns of numbers, for messages."""
-        return ", ".join(field.name for field in next(self.tables()).schema if is_number(field.type))
+        return Listed(field.name for field in next(self.tables()).schema if is_number(field.type))
 
     def to_dataframe(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
         """One row for each answered design. raises: ImportError without pandas, naming the extra; InvalidValue"""
@@ -230,7 +230,7 @@ class Summary:
         )
         for name, end in ends:
             if end is not None:
-                place = ", ".join(f"{parameter} = {at}" for parameter, at in end[1].items())
+                place = Listed(f"{parameter} = {at}" for parameter, at in end[1].items())
                 lines.append((name, say("{number} at {place}", number=end[0], place=place)))
         return lines
 

@@ -11,7 +11,8 @@ from pydantic import BaseModel
 from app.wire import answers
 from app.wire.question import unit_of
 from core.errors import format_number
-from core.language import Phrases, counted, say, sense
+from core.language import Listed, Phrases, counted, say
+from core.words.features import feature_words
 
 # Labels of the fields of answers, by their names.
 LABELS: Phrases = {
@@ -42,13 +43,13 @@ LABELS: Phrases = {
 }  # fmt: skip
 # Words of values, by their codes.
 VALUES: Phrases = {
-    "bend": "bend", "benches": "benches", "bound": "bound", "centre": "centre", "chord": "chord", "circle": "circle",
-    "clear": "clear", "contact": "contact", "contact_at_start": "contact_at_start", "eight": "eight", "end": "end",
-    "fold": "fold",
-    "front": "front", "front-inner": "front-inner", "front-outer": "front-outer", "graze": "graze", "inner": "inner",
+    "angle_sum": "angle sum", "benches": "benches", "bend": "bend", "bound": "bound", "centre": "centre",
+    "chord": "chord", "circle": "circle", "clear": "clear", "contact": "contact",
+    "contact_at_start": "contact_at_start", "eight": "eight", "end": "end", "fcl": "FCL", "fold": "fold",
+    "graze": "graze",
     "least_radius": "the least radius of a bend: half of the longest chord and 0.1 % more, which the proof needs",
-    "outer": "outer", "parade": "parade", "rear": "rear", "rear-inner": "rear-inner", "rear-outer": "rear-outer",
-    "ring": "ring", "scan": "scan", "serpentine": "serpentine", "spiral": "spiral", "start": "start", "stop": "stop",
+    "parade": "parade", "ring": "ring", "scan": "scan", "separating_axis": "separating axis",
+    "serpentine": "serpentine", "shapely": "shapely", "spiral": "spiral", "start": "start", "stop": "stop",
     "undecided": "undecided", "venue": "venue",
 }  # fmt: skip
 # The same where a margin is required, which makes a contact not always a touch.
@@ -105,8 +106,9 @@ def value_word(code: str, margin: float = 0.0) -> str:
 
 def value_text(value: Any, decimals: int = 9) -> str:
     if isinstance(value, (tuple, list)):
-        between = ", " if any(isinstance(entry, float) for entry in value) else sense("list", ", ")
-        return between.join(value_text(entry, 12) for entry in value) or say("none")
+        texts = [value_text(entry, 12) for entry in value]
+        is_point = any(isinstance(entry, float) for entry in value)
+        return (", ".join(texts) if is_point else str(Listed(texts))) or say("none")
     if isinstance(value, bool):
         return say("yes") if value else say("no")
     if value is None:
@@ -203,9 +205,9 @@ def _digits(value: float | tuple[float | None, ...], unit: str) -> str:
 
 
 def _feature_text(feature: answers.Feature) -> str:
-    """A corner or an edge; its name is a code."""
-    texts = ((label(name), value_word(value) if name == "name" else value_text(value)) for name, value in feature)
-    return say(", ").join(map(" ".join, texts))
+    """A corner or an edge of a bench, perhaps of one of several dragons."""
+    words, dragon = feature_words(feature), getattr(feature, "dragon", None)
+    return words if dragon is None else say("{feature} of dragon {dragon}", feature=words, dragon=dragon)
 
 
 def _polygon_text(value: answers.Polygon | answers.MultiPolygon) -> str:
@@ -220,9 +222,7 @@ def _polygon_text(value: answers.Polygon | answers.MultiPolygon) -> str:
 def _pair_text(pair: answers.Pair | answers.DragonPair) -> str:
     if isinstance(pair, answers.DragonPair):
         both = zip(pair.benches, pair.dragons, strict=True)
-        return sense("list", ", ").join(
-            say("{bench} of dragon {dragon}", bench=bench, dragon=dragon) for bench, dragon in both
-        )
+        return str(Listed(say("{bench} of dragon {dragon}", bench=bench, dragon=dragon) for bench, dragon in both))
     return value_text(pair)
 
 
@@ -231,9 +231,9 @@ def _verdicts(check: answers.PairCheck | answers.EncounterCheck, benches: int) -
     yield label("judged"), judged_words(check.judged, benches)
     for engine, verdict in check.engines.items():
         sides = [(name, side) for name, side in verdict if side is not None]
-        yield engine.value, say(", ").join(f"{label(name)} {value_text(side)}" for name, side in sides)
+        yield value_word(engine.value), say(", ").join(f"{label(name)} {value_text(side)}" for name, side in sides)
     if check.together:
-        yield label("together"), "; ".join(map(_pair_text, check.together))
+        yield label("together"), say("; ").join(map(_pair_text, check.together))
     if check.left_out:
         yield label("left_out"), value_text(check.left_out)
 

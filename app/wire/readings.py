@@ -12,7 +12,7 @@ from core.design.deepest_turn import TurnLimit
 from core.design.pitch_search import JustifiedBy, LimitedBy
 from core.errors import format_bound, format_number
 from core.failures import FailureKind, approach_words, area_approach_words, contact_failures
-from core.language import Phrases, counted, phrase, say, sense
+from core.language import Listed, Phrases, counted, phrase, say
 from core.tolerance.tolerance import Limit
 
 # What a smaller pitch leads to.
@@ -159,7 +159,7 @@ def pitch_words(
     limit = say(PITCH_LIMITS[result.limited_by], pair=pair, meet=meet, radius=result.head_radius or 0.0, bench=bench)
     words = [say(reaches, diameter=format_number(diameter), meet=meet), limit]
     if result.other_feasible_intervals:
-        ranges = ", ".join(f"{low:.6f}–{high:.6f} m" for low, high in result.other_feasible_intervals)
+        ranges = Listed(f"{low:.6f}–{high:.6f} m" for low, high in result.other_feasible_intervals)
         words.append(say("Smaller pitches that also work: {list}", list=ranges))
     return words
 
@@ -184,7 +184,7 @@ def time_words(result: core.TurnTime, limit: float) -> str:
 
 
 def handles_words(handles: Sequence[int]) -> str:
-    return counted(len(handles), "handle {list}", "handles {list}", list=sense("list", ", ").join(map(str, handles)))
+    return counted(len(handles), "handle {list}", "handles {list}", list=Listed(handles))
 
 
 def head_words(result: core.MaximumHeadSpeed, limit: float) -> list[str]:

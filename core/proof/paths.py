@@ -15,7 +15,7 @@ from flint import acb, arb
 
 from core.dragon import Dragon
 from core.errors import InvalidValue, Parameter, format_number
-from core.language import counted, say
+from core.language import Listed, counted, say
 from core.paths import pieces
 from core.paths.clothoid_turn import ClothoidTurn
 from core.paths.route import Route
@@ -111,7 +111,7 @@ def path_words(record: Record) -> str:
     return say(
         "the route of {pieces} ({kinds}), joined exactly, its s = 0 at {start} m from its beginning",
         pieces=counted(len(record["pieces"]), "{count} piece", "{count} pieces"),
-        kinds=", ".join(piece["kind"] for piece in record["pieces"]), start=format_number(record["start"]),
+        kinds=Listed(piece["kind"] for piece in record["pieces"]), start=format_number(record["start"]),
     )  # fmt: skip
 
 

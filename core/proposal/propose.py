@@ -23,6 +23,7 @@ from core.errors import (
 from core.extremes.speed import checked_limit
 from core.judgement import quick_check
 from core.kernels import Budget, Halted
+from core.language import Listed
 from core.proposal.answer import Objective, Proposal, Proposals, Reason, ReasonKind
 from core.proposal.figures import Figure
 from core.proposal.free_ground import FreeGround
@@ -130,7 +131,7 @@ def _one(name: str, value: str, kind: type[Kind]) -> Kind:
     try:
         return kind(value)
     except ValueError as error:
-        raise InvalidValue(name, "must be one of {names}", got=Given(value), names=", ".join(kind)) from error
+        raise InvalidValue(name, "must be one of {names}", got=Given(value), names=Listed(kind)) from error
 
 
 def _figures(figures: Sequence[str] | None, gates: int) -> list[Figure]:

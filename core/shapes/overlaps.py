@@ -24,6 +24,7 @@ from core.errors import (
     question_about,
 )
 from core.kernels import Budget
+from core.language import Listed
 from core.shapes.engines import JUDGES, Engine, able, engine_pairs
 from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
 from core.values import Floats
@@ -112,7 +113,7 @@ def overlaps(
     """
     pose, size, margin = checked_benches(poses, lengths, widths, margin)
     if not isinstance(engine, str) or engine not in list(Engine):
-        raise InvalidValue("engine", "must be one of {engines}", got=Given(engine), engines=", ".join(Engine))
+        raise InvalidValue("engine", "must be one of {engines}", got=Given(engine), engines=Listed(Engine))
     (pairs,) = engine_pairs(engine, pose[None], size, margin, chained=chained, budget=budget)
     frame = frames(pose, size)
     return Overlaps(pairs, frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]))

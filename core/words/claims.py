@@ -27,7 +27,7 @@ from core.claims.claim import (
 from core.dance import EndReason
 from core.display import format_range
 from core.errors import format_bound, format_number
-from core.language import counted, phrase, say, sense
+from core.language import Listed, counted, phrase, say, sense
 from core.passages import Passage
 from core.paths.path import PathSummary
 
@@ -295,7 +295,7 @@ def _dance(dance: DanceSummary) -> str:
     speed, count = format_number(dance.head_speed), dance.passage_count
     head = say("the head at {speed} m/s", speed=speed)
     if dance.passages:
-        passages = sense("list", ", ").join(map(_passage, dance.passages))
+        passages = Listed(map(_passage, dance.passages))
         head = say("the head at {passages}, and then at {speed} m/s", passages=passages, speed=speed)
     elif count:
         head = say("the head at {speed} m/s after {count} passages given one by one", speed=speed, count=count)
@@ -327,7 +327,7 @@ def _path(path: PathSummary) -> str:
         "a route from s = {begin} m to {end} m ({pieces})",
         begin=format_number(path.begin),
         end=format_number(path.end),
-        pieces=sense("list", ", ").join(_piece(piece) for piece in path.pieces),
+        pieces=Listed(_piece(piece) for piece in path.pieces),
     )
 
 

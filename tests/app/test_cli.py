@@ -23,7 +23,6 @@ from app.command.main import MODULE_OF, app
 from app.questions.registry import QUESTIONS
 from app.service.workers import START_SECONDS
 from app.settings import Settings
-from core import Engine
 from core.kernels import COMPILED
 from tests.conftest import ROOT, heed_ctrl_c
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run, said
@@ -77,9 +76,11 @@ def test_times_before_the_dance_warn_on_a_spiral():
     "row",
     [
         "trajectory -> handle | 223 tail (rear) | speed [m/s] | 300 s | 0.996478",
-        "collision-time -> 412.473837682 s | 0, 8 | front-outer | judged | all 223 benches | before no, after yes",
+        "collision-time -> 412.473837682 s | 0, 8 | front-outer corner of bench 0 | judged | all 223 benches",
+        "collision-time --cross-check pair -> cross check: FCL | before no, after yes",
+        "collision-time --language zh --cross-check pair -> 0 号板凳的前外角 | 交叉检验：分离轴 | 交叉检验：角度和",
         "collision-time --cross-check pair -> only benches 0, 8",
-        "collision-time --margin 0.05 -> left out | angle_sum | within 0.05 m",
+        "collision-time --margin 0.05 -> left out | angle sum | within 0.05 m",
         "collision-time --margin 0.2 -> within 0.2 m from the start on | 0.169278671 m",
         "collision-time --pitch 1.2 --margin 0.05 -> never within 0.05 m",
         "collision-time --benches 3000 -> 119 of 3,000 benches, from 0 to 287: those near the pair",
@@ -525,5 +526,5 @@ def test_a_command_that_is_asked_in_chinese_says_everything_in_chinese(tmp_path,
     assert done.returncode == 0
     # Names of files and of things in a map, and units, are no words of the command.
     words = re.sub(rf"{re.escape(str(tmp_path))}\S*|--path turn|\[?\b[a-z]{{1,2}}\b\]?", "", done.stdout + done.stderr)
-    names = {"square", "well", "stage", "linden", "chestnut", "tree", "rad", *Engine}
+    names = {"square", "well", "stage", "linden", "chestnut", "tree", "rad", "FCL", "shapely"}
     assert set(re.findall(r"[A-Za-z_]{3,}", words)) <= names

@@ -10,7 +10,7 @@ from babel.messages.catalog import Catalog
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
-from core.language import Language, counted, joined, say, sense, speaking, spoken
+from core.language import Language, Listed, counted, joined, say, speaking, spoken
 from tests.conftest import ROOT
 
 CORE = ROOT / "core"
@@ -25,8 +25,8 @@ def test_a_sentence_is_in_the_language_that_is_spoken_and_in_english_again_after
         with speaking(Language.ENGLISH):
             assert joined(["One.", "", "Two."]) == "One. Two."
         assert joined(["一。", "二。"]) == "一。二。"
-        assert sense("list", ", ") == "、"
-    assert (spoken(), say("bench {bench}", bench=8), sense("list", ", ")) == (Language.ENGLISH, "bench 8", ", ")
+        assert str(Listed([3, "b"])) == "3、b"
+    assert (spoken(), say("bench {bench}", bench=8), str(Listed([3, "b"]))) == (Language.ENGLISH, "bench 8", "3, b")
 
 
 def test_a_thread_speaks_the_language_of_its_task():

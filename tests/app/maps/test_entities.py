@@ -264,6 +264,9 @@ def test_where_all_is_hidden_the_refusal_says_what():
     space.add_line((0, 9), (9, 9), dxfattribs={"layer": "PLAN"})
     with pytest.raises(InvalidValue, match=r"2 LINEs are hidden; show their layers$"):
         read(space)
+    space.add_point((0, 0), dxfattribs={"layer": "PLAN"})
+    with speaking("zh"), pytest.raises(InvalidValue, match=r"2 个 LINE、1 个 POINT 被隐藏"):
+        read(space)
 
 
 def test_entities_of_a_block_take_its_layer():
