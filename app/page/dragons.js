@@ -8,7 +8,7 @@ import { $, button, download, hide, make, numberIn, textButton } from "./element
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { stepsOf } from "./history.js";
 import { Judgement } from "./judgement.js";
-import { announce } from "./overlays.js";
+import { announce, announceStep } from "./overlays.js";
 import { beatsOf, passagesIn } from "./passages.js";
 import { pending } from "./pending.js";
 import { announceReplaced, isPresetVenue } from "./presets.js";
@@ -165,7 +165,7 @@ export class Dragons {
     const [isOwn, fits] = [!isPresetVenue(drawing), holds(drawing, records.map((record) => this.#valuesOf(record)))];
     const values = this.#valuesOf(records[0], isOwn && fits ? drawing : { ...EMPTY, limit: isOwn ? drawing.limit : null });
     this.#take(records, 0, { ...values, time: null, view: null, follow: false });
-    if (isOwn && !fits) announce(() => say("This example does not fit into your square and stands without it; undo brings your square back."), false, true);
+    if (isOwn && !fits) announceStep(() => say("This example does not fit into your square and stands without it; undo brings your square back."), true);
     else announceReplaced(drawing, values.drawing);
   }
 

@@ -1,6 +1,7 @@
 /** Undo and redo of a whole dance: path, benches, speeds, dragons and square. Each step is an entry of the browser's history too, so that its back button works. */
 
 import { $, hide, onClick } from "./elements.js";
+import { endStepMessage } from "./overlays.js";
 
 /** Changes of the same kind within this time [ms] are one step, such as arrow keys or digits of a number. */
 const TOGETHER = 1_000;
@@ -75,6 +76,7 @@ export class Steps {
     to.push(this.#present(values));
     this.#last.kind = null;
     this.state.push(values);
+    endStepMessage();
     this.changed();
   }
 }
@@ -97,6 +99,7 @@ function addSteps(state) {
   });
   onClick("#undo", () => steps.undo());
   onClick("#redo", () => steps.redo());
+  addEventListener("popstate", endStepMessage);
   addEventListener("keydown", (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
     if (event.target instanceof Element && event.target.matches("input, textarea")) return;

@@ -55,6 +55,20 @@ export function announce(words, stays = false, flows = false) {
   else if (!stays) timer = setTimeout(() => announce(() => "", true), Math.max(VISIBLE_FOR, time));
 }
 
+/** The words of a message about a step. @type {(() => string) | null} */
+let aboutStep = null;
+
+/** Show a message about a step, which goes when a step is taken back. flows: as for announce() */
+export function announceStep(words, flows = false) {
+  announce(words, false, flows);
+  aboutStep = words;
+}
+
+export function endStepMessage() {
+  if (aboutStep && message === aboutStep) announce(() => "", true);
+  aboutStep = null;
+}
+
 export function endMessage() {
   notes = null;
   announce(() => "", true);

@@ -1,7 +1,7 @@
 /** Dances to begin with: paths of a straight street, an S, a figure eight, a spiral in and out, and a village square. */
 
 import { EMPTY } from "./drawing.js";
-import { announce } from "./overlays.js";
+import { announceStep } from "./overlays.js";
 import { phrase, say } from "./text.js";
 
 /** Drawings to begin with. @type {Phrases} */
@@ -77,7 +77,7 @@ export function announceReplaced(before, now) {
   const differ = (/** @type {string[]} */ ...names) => names.some((name) => JSON.stringify(before[name]) !== JSON.stringify(now[name]));
   const path = (before.points.length > 0 || Boolean(before.path)) && differ("points", "path");
   const square = before.things.length > 0 && differ("things");
-  if (path && square) announce(() => say("The example has taken the place of the path and the square; Undo brings them back."));
-  else if (square) announce(() => say("The example has taken the place of the square; Undo brings it back."));
-  else if (path) announce(() => say("The example has taken the place of the path; Undo brings it back."));
+  if (path && square) announceStep(() => say("The example has taken the place of the path and the square; Undo brings them back."));
+  else if (square) announceStep(() => say("The example has taken the place of the square; Undo brings it back."));
+  else if (path) announceStep(() => say("The example has taken the place of the path; Undo brings it back."));
 }

@@ -77,6 +77,7 @@ def test_dragons_to_begin_with_leave_what_a_person_has_drawn_and_who_waits_is_le
     assert "things" not in now
     person.sees({"#status": "undo brings your square back"})
     assert person.presses("#undo").settles().address()["things"] == small["things"]
+    assert person.text("#status") == ""
     person.opens("?door=village&lang=zh").settles().opens(f"?{urlencode(person.address() | {'door': 'all'})}")
     person.presses("#several").settles().presses("[data-dragons=parade]").sees(
         {"#status": "已取代原有的路线和广场；撤销"}

@@ -232,6 +232,7 @@ def test_every_preset_can_be_danced_leaves_a_square_of_ones_own_and_a_later_star
         person.sees({"#status": "has taken the place of the path; Undo brings it back"}).presses("#status")
     person.presses("#preset", "[data-begin=village]").sees({"#status": "the place of the square; Undo brings it back"})
     person.presses("#undo").sees({"#things li": 2})
+    assert person.text("#status") == ""
 
 
 def test_drawings_maps_tables_and_workbooks_are_opened_and_a_survey_grid_is_kept(open_page, tmp_path):
