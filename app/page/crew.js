@@ -113,7 +113,8 @@ export class Crew {
 
   #table(title, heads, rows) {
     const head = make("tr", {}, ...heads.map((words) => make("th", { scope: "col", textContent: say(words) })));
-    const cell = (content, k) => make(k ? "td" : "th", k ? {} : { scope: "row" }, content);
+    const isNumber = (content) => typeof content === "string" && /^\d/.test(content);
+    const cell = (content, k) => make(k ? "td" : "th", { className: isNumber(content) ? "number" : "", ...(k ? {} : { scope: "row" }) }, content);
     const body = rows.map((cells) => make("tr", {}, ...cells.map(cell)));
     return make("details", { open: true }, make("summary", { textContent: title }), make("table", {}, make("thead", {}, head), make("tbody", {}, ...body)));
   }

@@ -323,7 +323,7 @@ export class Keep {
     const { rows, literature } = answer;
     const head = [phrase("quantity"), phrase("source"), phrase("published"), phrase("here")].map((words) => make("th", { scope: "col", "data-text": words, textContent: say(words) }));
     const line = ({ quantity, unit, source, paper, published, ours, reason, diagnosis }) => {
-      const cells = [source, `${paper ?? published} ${unit}`, `${ours.toFixed(9)} ${unit}`].map((textContent) => make("td", { textContent }));
+      const cells = [source, `${paper ?? published} ${unit}`, `${ours.toFixed(9)} ${unit}`].map((textContent, k) => make("td", { textContent, className: k ? "number" : "" }));
       const why = reason ?? sentencesOf(diagnosis.map(({ words }) => words));
       const row = make("tr", {}, make("th", { scope: "row", textContent: quantity }), ...cells);
       return why ? [row, make("tr", {}, make("td", { colSpan: 4, className: "hint", textContent: why }))] : [row];

@@ -176,6 +176,24 @@ def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(ope
         assert person.ask(COVERED) == []
 
 
+# The numbers in tables that stand on more than one line.
+BROKEN = """() => {
+  const broken = [];
+  for (const cell of document.querySelectorAll("td, th")) {
+    if (!cell.checkVisibility()) continue;
+    const walker = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT);
+    for (let text = walker.nextNode(); text; text = walker.nextNode())
+      for (const number of text.data.matchAll(/(?<![\\w./])\\d[\\d.:]*(?![\\w./])/g)) {
+        const range = document.createRange();
+        range.setStart(text, number.index);
+        range.setEnd(text, number.index + number[0].length);
+        if (new Set([...range.getClientRects()].map((box) => Math.round(box.top))).size > 1) broken.push(text.data);
+      }
+  }
+  return broken;
+}"""
+
+
 @thorough
 def test_on_a_phone_a_finger_hits_every_control_of_other_dances_and_scrolls_over_a_slider(open_page):
     person = open_page("?benches=40", **PHONE)
@@ -186,6 +204,13 @@ def test_on_a_phone_a_finger_hits_every_control_of_other_dances_and_scrolls_over
     person.opens("?benches=5&time=20&lang=en").reaches_below().presses("#crew summary", "#crew-ask")
     assert not person.sees({"#crew-result table": 2}).overflows(390)
     assert person.findings("#crew") == []
+    person.presses("#paper summary").sees({"#paper table": 1})
+    for language in ("en", "zh"):
+        person.speaks(language)
+        for width in (390, 360):
+            person.page.set_viewport_size({"width": width, "height": 800})
+            assert not person.settles().overflows(width)
+            assert person.ask(BROKEN) == []
 
 
 def _a_swipe_up_that_begins_on_a_slider_changes_nothing(person):
