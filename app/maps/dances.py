@@ -9,6 +9,7 @@ from typing import Any
 
 from app.files.disk import display_name, ending_of, read_json, standard_input, why_not
 from app.processes.limits import reading
+from app.wire.benches import bench_table
 from app.wire.texts import Unreadable, is_workbook, table_of, toml_of
 from core import Budget, InvalidValue
 from core.errors import Parameter
@@ -74,12 +75,16 @@ def _table(file: Path, field: str, table: Path) -> str:
     """The benches of a CSV file or a workbook that a dance names at a field, as CSV. raises: InvalidValue"""
     try:
         data = table.read_bytes()
-        text, notes = _of_workbook(table, field, data) if is_workbook(data) else _of_text(data)
+        text, notes = _of_workbook(data) if is_workbook(data) else _of_text(data)
+        bench_table(text).to_dragon()
     except OSError as error:
         values = {"file": str(file), "table": str(table), "why": why_not(error)}
         raise InvalidValue(field, "of {file}: {table}: {why}", **values) from error
     except Unreadable as error:
         raise error.of(field, str(table)) from error
+    except InvalidValue as error:
+        words, values = f"{{table}}: {error.template}", {**error.values, "table": str(table)}
+        raise InvalidValue.in_words(field, words, got=error.got, reason=error.reason, **values) from error
     for note in notes:
         print(f"{table}{note}", file=sys.stderr)
     return text
@@ -90,18 +95,12 @@ def _of_text(data: bytes) -> tuple[str, list[str]]:
     return text, [" is not in UTF-8; it was read as GB 18030."] if is_chinese else []
 
 
-def _of_workbook(table: Path, field: str, data: bytes) -> tuple[str, list[str]]:
-    """The benches of a workbook, and notes. raises: InvalidValue that names the workbook"""
+def _of_workbook(data: bytes) -> tuple[str, list[str]]:
+    """The benches of a workbook, and notes. raises: InvalidValue"""
     from app.maps.benches import benches_of  # The import takes time, and most dances name no workbook.
 
-    try:
-        with reading():
-            text, notes = benches_of(data, Budget())
-    except InvalidValue as error:
-        words, values = f"{{table}}: {error.template}", {"table": str(table)}
-        raise InvalidValue.in_words(
-            field, words, got=error.got, reason=error.reason, **error.values, **values
-        ) from error
+    with reading():
+        text, notes = benches_of(data, Budget())
     return text, [f": {note}" for note in notes]
 
 

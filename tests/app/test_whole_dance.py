@@ -131,6 +131,14 @@ def test_a_table_of_a_spreadsheet_is_read_in_its_encoding(tmp_path, coding):
     assert (note in done.stderr) == (coding == "gb18030")
 
 
+def test_a_fault_in_a_table_names_the_file_and_the_line(tmp_path):
+    (tmp_path / "b.csv").write_text("length,width,overhang\n3.41,0.3\n")
+    done = run("check", written(tmp_path, {"dragon": "b.csv", "stop": 5}))
+    assert done.returncode != 0
+    assert f"{tmp_path / 'b.csv'}: line 2: must have 3 entries" in done.stderr
+    assert "dragon.csv" not in done.stderr
+
+
 # -- times of day --------------------------------------------------------------------------------------------
 
 
