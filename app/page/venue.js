@@ -2,7 +2,7 @@
 
 import { headingOf } from "./changes.js";
 import { isWhole, yardOf } from "./drawing.js";
-import { SMALL_TYPE, inType } from "./elements.js";
+import { $, SMALL_TYPE, inType } from "./elements.js";
 import { radiiOf } from "./judgement.js";
 import { trace } from "./pen.js";
 import { measures } from "./square.js";
@@ -15,13 +15,13 @@ const BREACH_NAMES = {
   stray: "too near if people stray",
 };
 
-// Widths of lines, radius of a ring, and height of a name on the screen [px].
+// Widths of lines, radius of a ring, and width of the line around a name on the screen [px].
 const BEND_WIDTH = 7;
 /** Colour of a stretch on which a limit fails, by the limit. */
 const BREACHES = { speed: "speed", margin: "head", stray: "pick" };
 const FAULT_WIDTH = 4;
 const RING = 14;
-const NAME_HEIGHT = 13;
+const HALO = 4;
 /** Width and length of the arrow of a gate, and the shortest side that has its length [px]. */
 const [GATE, GATE_LENGTH, SIDE] = [4, 26, 44];
 /** A failure is drawn at times that differ from its own by at most this [s]. */
@@ -66,6 +66,30 @@ function drawMeasures(pen, view, colours, { kind, points }, held, taken) {
   });
 }
 
+/** Whether a line of text [left, bottom, width] overlaps none of those taken, each of this height [px]. */
+export const isClear = (/** @type {number[]} */ [left, bottom, width], /** @type {number[][]} */ taken, /** @type {number} */ high) =>
+  taken.every(([other, below, wide]) => Math.abs(bottom - below) >= high || left > other + wide || other > left + width);
+
+/** Lines [left, bottom, width] that fill a box, each of this height [px]. */
+export function linesIn(/** @type {{ left: number, top: number, bottom: number, width: number }} */ { left, top, bottom, width }, /** @type {number} */ high) {
+  const count = Math.max(Math.ceil((bottom - top) / high), 1);
+  return Array.from({ length: count }, (_, k) => [left, bottom - (k * (bottom - top)) / count, width]);
+}
+
+/** The lines that the controls on the picture take, which no name covers. */
+function linesOfControls(/** @type {HTMLCanvasElement} */ canvas) {
+  const { left, top } = canvas.getBoundingClientRect();
+  const box = $("#views").getBoundingClientRect();
+  return linesIn({ left: box.left - left, top: box.top - top, bottom: box.bottom - top, width: box.width }, inType(SMALL_TYPE));
+}
+
+/** How large a thing is, for the order in which names are drawn [m²]. */
+function sizeOf({ kind, points, radius }) {
+  if (kind === "circle") return Math.PI * radius ** 2;
+  const [xs, ys] = [0, 1].map((axis) => points.map((point) => point[axis]));
+  return (Math.max(...xs) - Math.min(...xs)) * (Math.max(...ys) - Math.min(...ys));
+}
+
 /**
  * Draw a name beside its place, where it overlaps none of the names before it, whose boxes are in `taken`. Without room a
  * name in the colour of text is left out until the picture is enlarged; one in another colour is drawn nevertheless.
@@ -76,12 +100,13 @@ function label(pen, view, text, /** @type {number[]} */ [x, y, room = 0], colour
   context.save();
   context.translate(x, y);
   context.scale(1 / pen.scale, -1 / pen.scale);
-  Object.assign(context, { font: `600 ${inType(SMALL_TYPE)}px system-ui, sans-serif`, lineWidth: 4, lineJoin: "round", strokeStyle: colours.card, fillStyle: colour, textAlign: "left" });
+  Object.assign(context, { font: `600 ${inType(SMALL_TYPE)}px system-ui, sans-serif`, lineWidth: HALO, lineJoin: "round", strokeStyle: colours.card, fillStyle: colour, textAlign: "left" });
   const { width } = context.measureText(text);
-  const centred = width < room * pen.scale ? [[-width / 2, NAME_HEIGHT / 2]] : [];
-  const beside = [away, -width / 2, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT].map((dy) => [dx, dy]));
+  const high = inType(SMALL_TYPE);
+  const centred = width < room * pen.scale ? [[-width / 2, high / 2]] : [];
+  const beside = [away, -width / 2, -away - width].flatMap((dx) => [-away, away + high].map((dy) => [dx, dy]));
   const isInside = (/** @type {number[]} */ [dx]) => atX + dx >= 0 && atX + dx + width <= view.width;
-  const isFree = (/** @type {number[]} */ [dx, dy]) => taken.every(([left, bottom, wide]) => Math.abs(atY + dy - bottom) >= NAME_HEIGHT || atX + dx > left + wide || left > atX + dx + width);
+  const isFree = (/** @type {number[]} */ [dx, dy]) => isClear([atX + dx - HALO, atY + dy, width + 2 * HALO], taken, high + HALO);
   const places = [...centred, ...beside];
   const place = places.find((one) => isInside(one) && isFree(one)) ?? (colour === colours.text ? null : (places.find(isInside) ?? places[0]));
   if (place) {
@@ -153,8 +178,10 @@ export function layers(dance, get) {
     for (const bend of drawn.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
   };
   const name = (pen, colours, { drawing, editing, selected, failure }, names) => {
-    for (const [k, thing] of drawing.things.entries()) {
-      const isMeant = selected === k || failure?.area === thing.name;
+    const isMeantOne = (k) => selected === k || failure?.area === drawing.things[k].name;
+    const order = [...drawing.things.keys()].sort((a, b) => Number(isMeantOne(b)) - Number(isMeantOne(a)) || sizeOf(drawing.things[b]) - sizeOf(drawing.things[a]));
+    for (const k of order) {
+      const [thing, isMeant] = [drawing.things[k], isMeantOne(k)];
       const colour = isMeant ? colours.pick : colours.text;
       // The square itself is known by its border.
       if (thing.points.length && (editing || isMeant || thing.kind !== "area")) label(pen, dance.view, thing.name, labelPlace(thing), colour, colours, names);
@@ -163,7 +190,9 @@ export function layers(dance, get) {
   // The dragon passes over the names, but what is edited can be read everywhere.
   const names = (pen, colours) => {
     const drawn = get();
-    if (drawn && !drawn.editing) name(pen, colours, drawn, pen.names);
+    if (!drawn) return;
+    pen.names.push(...linesOfControls(pen.context.canvas));
+    if (!drawn.editing) name(pen, colours, drawn, pen.names);
   };
   const above = (pen, colours) => {
     const drawn = get();

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { SHADES, addGround, edge, outline, palette, scaleBar } from "../../../app/page/pen.js";
+import { isClear, linesIn } from "../../../app/page/venue.js";
 
 const [CHORD, OVERHANG, WIDTH, STRAY] = [1.65, 0.275, 0.3, 0.05];
 const SIZE = { overhang: OVERHANG, width: WIDTH };
@@ -82,4 +83,14 @@ test("the drawn ground is what strayed benches cover and little more", () => {
   const [beside, end] = [WIDTH / 2 + 1.01 * STRAY, CHORD / 2 + OVERHANG + 1.37 * STRAY];
   for (const along of [-1, 0, 1]) for (const side of [-1, 1]) assert.ok(!ground.holds(placed([(along * CHORD) / 2, side * beside])));
   for (const way of [-1, 1]) assert.ok(!ground.holds(placed([way * end, 0])));
+});
+
+test("a name has room where it overlaps no other one and no control", () => {
+  const controls = linesIn({ left: 10, top: 10, bottom: 190, width: 35 }, 13);
+  assert.ok(controls.every(([left, bottom, width], k) => left === 10 && width === 35 && bottom > 10 && (!k || controls[k - 1][1] - bottom <= 13)));
+  const high = 17;
+  for (const bottom of [12, 100, 190]) assert.equal(isClear([30, bottom, 60], controls, high), false);
+  assert.equal(isClear([46, 100, 60], controls, high), true);
+  assert.equal(isClear([30, 190 + high, 60], controls, high), true);
+  assert.equal(isClear([0, 16, 50], [[40, 0, 9]], high), false);
 });
