@@ -34,7 +34,9 @@ from core.errors import Given
 from core.language import counted, phrase, say
 
 # Advice for a drawing with more than a venue may have.
-PARTLY_BY_OPTIONS = phrase("read only some of its layers with --layers, or an area of it with --area")
+PARTLY_BY_OPTIONS = phrase(
+    "read only some of its layers with --layers, or an area of it with --area, or draw it with fewer points"
+)
 # Kinds of paths.
 PATHS = {
     "spiral": phrase("spiral"), "turn": phrase("turn"), "route": phrase("route"), "waypoints": phrase("waypoints"),

@@ -20,7 +20,7 @@ from core.values import Point
 # Most layers that a refusal names.
 NAMED_MOST = 8
 # Advice for a drawing with more than a venue may have.
-PARTLY = phrase("read only some layers of the drawing, or an area of it")
+PARTLY = phrase("read only some layers of the drawing, or an area of it, or draw it with fewer points")
 
 
 @dataclass(frozen=True, slots=True)

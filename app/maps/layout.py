@@ -95,8 +95,7 @@ def refuse_many_edges_of(things: Sequence[MapFeature], beside: Sequence[MapFeatu
     """raises: InvalidValue at the field `file` for more edges than a venue may have, counted with those beside them"""
     if sum(map(edges_of, things)) > EDGES_MAX:
         got = sum(map(edges_of, [*things, *beside]))
-        advice = "draw with fewer points, or leave out everything that does not belong to the square"
-        raise InvalidValue("file", f"must have at most {{most}} edges: {advice}", got=got, most=EDGES_MAX)
+        raise InvalidValue("file", "must have at most {most} edges", got=got, most=EDGES_MAX)
 
 
 def _checked(things: list[MapFeature]) -> Venue:
