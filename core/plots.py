@@ -7,16 +7,15 @@ set) and differ in brightness, hatch or line style for print.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from core.extras import wanted
-from core.language import say
+from core.language import Phrases, say
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.values import Floats
-from core.words.features import BenchFeature, feature_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,6 +28,15 @@ HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
 # Half the side of the enlarged view, in widths of the wider bench, and its minimum, in margins.
 ENLARGED_WIDTHS = 1.5
 ENLARGED_MARGINS = 1.5
+
+
+class BenchFeature(Protocol):
+    """A corner or an edge of a bench, by its name."""
+
+    @property
+    def bench(self) -> int: ...
+    @property
+    def name(self) -> str: ...
 
 
 def wanted_axes(axes: Axes | None, what: str) -> Axes:
@@ -92,6 +100,23 @@ def mark_pair(axes: Axes, outlines: Floats, benches: Sequence[int]) -> None:
         label = say("bench {bench}", bench=bench) if bench else say("bench 0 (head)")
         style: dict[str, Any] = {"facecolor": colour, "hatch": hatch, "label": label, "zorder": 3 + k}
         axes.add_patch(Polygon(outlines[bench], edgecolor="black", alpha=0.85, linewidth=0.6, **style))
+
+
+# Words for the corners and edges of a bench, by their names.
+FEATURES: Phrases = {
+    "front": "front edge of bench {bench}",
+    "rear": "rear edge of bench {bench}",
+    "inner": "inner edge of bench {bench}",
+    "outer": "outer edge of bench {bench}",
+    "front-outer": "front-outer corner of bench {bench}",
+    "front-inner": "front-inner corner of bench {bench}",
+    "rear-outer": "rear-outer corner of bench {bench}",
+    "rear-inner": "rear-inner corner of bench {bench}",
+}
+
+
+def feature_words(feature: BenchFeature) -> str:
+    return say(FEATURES[feature.name], bench=feature.bench)
 
 
 def draw_enlarged(

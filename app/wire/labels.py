@@ -12,7 +12,7 @@ from app.wire import answers
 from app.wire.question import unit_of
 from core.errors import format_number
 from core.language import Listed, Phrases, counted, say
-from core.words.features import feature_words
+from core.plots import feature_words
 
 # Labels of the fields of answers, by their names.
 LABELS: Phrases = {
