@@ -83,8 +83,10 @@ def _table(file: Path, field: str, table: Path) -> str:
     except Unreadable as error:
         raise error.of(field, str(table)) from error
     except InvalidValue as error:
-        words, values = f"{{table}}: {error.template}", {**error.values, "table": str(table)}
-        raise InvalidValue.in_words(field, words, got=error.got, reason=error.reason, **values) from error
+        words, inner = f"{{table}}: {error.template}", {**error.values}
+        raise InvalidValue.in_words(
+            field, words, got=error.got, reason=error.reason, **inner, table=str(table)
+        ) from error
     for note in notes:
         print(f"{table}{note}", file=sys.stderr)
     return text
