@@ -96,7 +96,7 @@ class LegFinder:
         the straight line; p after the end the bench is (f - p) / c of that beside it, most for f = p + (c - p) / 3, and
         its end, an overhang o before the handle, o / c of it to the other side.
         """
-        chord, overhang = self.needs.chord, float(self.needs.dragon.overhangs.max())
+        chord, overhang = self.needs.chord, self.needs.overhang
         left = np.clip(chord - away, 0.0, chord)
         beside: Floats = (2.0 / 27.0 * left + 0.5 * overhang) * left**2 / (radius * chord)
         return beside

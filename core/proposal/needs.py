@@ -55,6 +55,11 @@ class Needs:
         return float(self._kinds(self.dragon.chords).max())
 
     @cached_property
+    def overhang(self) -> float:
+        """The longest overhang [m]."""
+        return float(self._kinds(self.dragon.overhangs).max())
+
+    @cached_property
     def tight(self) -> float:
         """Radius of the tightest bend [m]."""
         return TIGHT * tightest_bend(self.dragon)[0]
@@ -108,9 +113,8 @@ class Needs:
 
     def outer(self, radius: float) -> float:
         """Radius of the circle in which the longest bench turns on a bend of a radius, without margin and stray [m]."""
-        overhang = float(self._kinds(self.dragon.overhangs).max())
         middle = math.sqrt(radius**2 - 0.25 * self.chord**2)
-        return math.hypot(middle + self.straight_side, 0.5 * self.chord + overhang)
+        return math.hypot(middle + self.straight_side, 0.5 * self.chord + self.overhang)
 
     def length_along(self, radius: float) -> float:
         """From the first handle to the last one along a circle of a radius that benches can follow [m]."""

@@ -110,7 +110,7 @@ def propose(
         return Proposals((), 0, 0, lack, most)
     best, reason = _collected(search, kinds, int(count), on_proposal, progress or unheard), None
     if not best:
-        best, reason = _otherwise(search, venue, kinds, on_proposal)
+        best, reason = _otherwise(search, venue, kinds, int(count), on_proposal)
     return Proposals(best, search.tried, search.checked, reason, most)
 
 
@@ -183,12 +183,16 @@ _VALUES: dict[Objective, Callable[[Proposal], Any]] = {
 
 
 def _otherwise(
-    search: Search, venue: Venue, figures: Sequence[Figure], on_proposal: Callable[[Proposal], None]
+    search: Search, venue: Venue, figures: Sequence[Figure], count: int, on_proposal: Callable[[Proposal], None]
 ) -> tuple[tuple[Proposal, ...], Reason | None]:
     """Proposals of a second search, or why no dance was found, by the first cause that holds."""
     narrow = _too_narrow(search, venue, figures)
     if narrow is not None:
         return (), narrow
+    if search.look_closely():
+        best = _collected(search, figures, count, on_proposal, unheard)
+        if best:
+            return best, None
     if search.wish.stray > 0.0:
         best, reason = _without_stray(search, venue, figures)
         for proposal in best:
@@ -262,7 +266,7 @@ def _without_stray(
     """
     wish, most = search.wish, (0.0, figures[0])
     steady = Wish(0.0, wish.margin, wish.speed_limit, Objective.TOLERANCE)
-    second = Search(venue, search.dragon, search.gates, steady, search.budget)
+    second = search.of(venue, search.dragon, steady)
     best = []
     for figure in figures:
         passing = second.first(second.ranked(figure))
@@ -322,7 +326,7 @@ def _longest(
     low, high, best = 0, limit + 1, None
     while high - low > 1:
         count = min(max(count, low + 1), high - 1)
-        search = Search(venue, with_benches(like.dragon, count), like.gates, like.wish, like.budget)
+        search = like.of(venue, with_benches(like.dragon, count), like.wish)
         every = (search.first(search.ranked(figure), briefly=True) for figure in figures)
         passing = next((one for one in every if one is not None), None)
         like.include(search)
@@ -339,7 +343,7 @@ def _failing(search: Search, venue: Venue, figures: Sequence[Figure]) -> tuple[t
     this dance, if it passes."""
     benches, last = search.dragon.benches, search
     if search.nearest is None:
-        last = Search(venue, with_benches(search.dragon, 1), search.gates, search.wish, search.budget)
+        last = search.of(venue, with_benches(search.dragon, 1), search.wish)
         passing = last.check_nearest(figures)
         search.include(last)
         if passing is not None and benches > 1:
@@ -397,5 +401,5 @@ def _most_benches(
         progress(k / len(figures))
     best, reason = tuple(sorted(every, key=_VALUES[Objective.BENCHES], reverse=True)[:count]), None
     if not best:
-        best, reason = _otherwise(search, venue, figures, on_proposal)
+        best, reason = _otherwise(search, venue, figures, count, on_proposal)
     return Proposals(best, search.tried, search.checked, reason, most)

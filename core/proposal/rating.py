@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.paths.route import Route
+from core.proposal.footprint import DENSE, SPAN, room_beside, standing
 from core.proposal.free_ground import FreeGround
 from core.proposal.needs import Needs
 from core.proposal.places import Sampled, sampled
@@ -36,14 +37,30 @@ class PathRating:
         return min(self.venue, self.own)
 
 
-def rated(ground: FreeGround, needs: Needs, route: Route, streets: tuple[float, float] = (0.0, 0.0)) -> PathRating:
-    """The rating of a path. streets: lengths of its straight ends in streets, where there is room [m]"""
+def rated(
+    ground: FreeGround,
+    needs: Needs,
+    route: Route,
+    streets: tuple[float, float] = (0.0, 0.0),
+    *,
+    closely: bool = False,
+) -> PathRating:
+    """The rating of a path.
+
+    streets: lengths of its straight ends in streets, where there is room [m]
+    closely: the room to the edges is measured bench by bench, where one width beside the path is not there
+    """
     path = sampled(route, needs)
     inside = (path.s > route.begin + streets[0]) & (path.s < route.end - streets[1])
     points, sides = path.points[inside], path.sides[inside]
     roughly = ground.nearest_node(*points.T) - sides
     near = roughly <= roughly.min(initial=math.inf) + 2.0 * ground.node_error  # the others have more room
     room = ground.clearance(points[near]) - sides[near] - needs.margin
+    if closely and room.min(initial=math.inf) < needs.gain * needs.stray:
+        dense = np.linspace(route.begin, route.end, math.ceil((route.end - route.begin) / DENSE) + 2)
+        fronts = path.s[inside]
+        benches = standing(dense, route.position(dense), fronts[fronts > route.begin + SPAN * needs.chord], needs.chord)
+        room = room_beside(ground, needs, *benches) - needs.margin
     turned = np.abs(route.curvature(path.s)).mean() * (route.end - route.begin) / math.tau
     venue = float(room.min(initial=math.inf)) / needs.gain
     return PathRating(venue, strands(path, needs) / (2.0 * needs.gain), route.end - route.begin, float(turned))

@@ -23,6 +23,7 @@ from core.judgement import Report, check, quick_check
 from core.kernels import Budget
 from core.paths.route import Route
 from core.proposal.answer import Near, Objective, Proposal
+from core.proposal.channels import ChannelLegFinder
 from core.proposal.designs import Design, laid_out, stand_length, street_length, with_gates
 from core.proposal.figures import Figure, Shape, shapes, tight_rings
 from core.proposal.free_ground import FreeGround
@@ -31,7 +32,7 @@ from core.proposal.legs import LegFinder
 from core.proposal.needs import Needs
 from core.proposal.places import placements, sampled
 from core.proposal.rating import PathRating, rated, strands
-from core.proposal.walks import Pose
+from core.proposal.walks import Pose, moved
 from core.tolerance.tolerance import tolerance
 from core.values import Progress, unheard
 from core.venue import Venue
@@ -85,6 +86,7 @@ class Wish:
 class Search:
     """The search for one dragon in one venue.
 
+    closely: designs lead through channels and are measured bench by bench, see look_closely()
     tried, checked: numbers of dances that were rated, and judged by a check
     nearest: the best-rated dance that failed its check, with its report
     """
@@ -98,9 +100,28 @@ class Search:
         self.venue = with_streets(venue, gates, (self.street_width, least), street) if gates else venue
         square = venue.square.edges.reshape(-1, 2)
         self.ground = FreeGround(self.venue, (square.min(axis=0), square.max(axis=0)))
-        self.ways = LegFinder(self.ground, self.needs, budget)
+        self.ways, self.closely = LegFinder(self.ground, self.needs, budget), False
         self.tried = self.checked = 0
         self.nearest: tuple[Rated, Report] | None = None
+
+    def look_closely(self) -> bool:
+        """Lay out designs through channels from now on, measured bench by bench; False if there is no channel."""
+        if self.closely or not self.gates:
+            return False
+        wide = self.ways.sides[self.needs.radii[0]] + self.needs.free
+        leads = (0.0, self.needs.chord)
+        entered = [moved((*gate.point, gate.heading), (lead, 0.0))[:2] for gate in self.gates for lead in leads]
+        if self.ground.clearance(np.array(entered)).min() >= wide and not self.ways.channels:
+            return False
+        self.closely, self.ways = True, ChannelLegFinder(self.ground, self.needs, self.budget)
+        return True
+
+    def of(self, venue: Venue, dragon: Dragon, wish: Wish) -> Search:
+        """A search for another dragon or wish between the same gates, as close as this one. venue: without streets"""
+        other = Search(venue, dragon, self.gates, wish, self.budget)
+        if self.closely:
+            other.look_closely()
+        return other
 
     def include(self, other: Search) -> None:
         """Count the dances of another search too."""
@@ -175,7 +196,7 @@ class Search:
         if route is None:
             return None
         ends = stand_length(self.needs) if design.gates else 0.0
-        rating = rated(self.ground, self.needs, route, (ends, ends))
+        rating = rated(self.ground, self.needs, route, (ends, ends), closely=self.closely)
         shape = design.shape
         if rating.venue < self.wish.stray and shape is not None and shape.round and not design.gates:
             # Within a circle without obstacles benches take only the room outside their path.
@@ -351,11 +372,11 @@ def _apart(design: Design, other: Design, way: float) -> bool:
 
 
 def _move(axis: int, step: float) -> Callable[[Design], Design]:
-    def moved(design: Design) -> Design:
+    def shifted(design: Design) -> Design:
         x, y, turn = (value + step * (k == axis) for k, value in enumerate(design.pose))
         return replace(design, pose=(x, y, turn))
 
-    return moved
+    return shifted
 
 
 def _resize(k: int, factor: float) -> Callable[[Design], Design]:

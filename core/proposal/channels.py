@@ -1,0 +1,200 @@
+"""Legs that turn in the open and are straight in channels: from gate to gate, or from a gate to a figure.
+
+A stretch is a straight way with room for straight benches: ahead of a gate, back from the other, or along the middle of
+a channel. It is left, and entered, where one side of it opens, or a part of a chord before or behind that place. From
+stretch to stretch leads one of Dubins' paths, and the shortest chain of them is the leg. Room is measured bench by
+bench, as a bend beside the wall of a channel needs little on its outer side.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from heapq import heappop, heappush
+
+import numpy as np
+
+from core.proposal.footprint import DENSE, SPAN, room_beside, standing
+from core.proposal.legs import DETOUR, LEG_WORK, STEP, LegFinder, points_along
+from core.proposal.walks import Pose, Step, dubins, length_of, long_enough, moved
+from core.values import Floats
+
+# Distance of benches that are measured [m].
+BENCH_STEP = 0.3
+# Room that a leg may lack by this estimate, whose check decides [m].
+LACK = 0.005
+# Bends begin this far behind the place where a side opens, in chords, the most convenient first; and at parts of a
+# stretch [1].
+LEADS, PARTS = (1.0, 0.5, 1.5, 0.0), 6
+# Places at which a stretch is left or entered, channels, and chains of channels that are looked at for one leg [1].
+PLACES_MOST, CHANNELS_NEAR, CHAINS_MOST = 10, 8, 24
+# Work of one leg that is measured bench by bench, for each edge [1], see core/kernels/constants.py.
+BENCH_WORK = 60.0
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A straight way. first, last: poses at its ends; into, out: ways before its first pose at which it is entered, and
+    behind its last one at which it is left, each with a rank, the most convenient one 0 [m]"""
+
+    first: Pose
+    last: Pose
+    into: tuple[tuple[int, float], ...] = ((0, 0.0),)
+    out: tuple[tuple[int, float], ...] = ((0, 0.0),)
+
+    @property
+    def length(self) -> float:
+        """From the first pose to the last one [m]."""
+        return math.dist(self.first[:2], self.last[:2])
+
+
+class ChannelLegFinder(LegFinder):
+    """Legs that are straight in channels, where there is no other one."""
+
+    def free(self, begin: Pose, steps: Sequence[Step], radius: float, *, eased: bool = False) -> bool:
+        """True if benches on these steps, and on a straight way before and behind, have room with margin and stray."""
+        reach = SPAN * self.needs.chord
+        points, _ = points_along(begin, steps)
+        self.budget.afford(LEG_WORK)
+        least = self.needs.straight_side + self.needs.free
+        if (self.ground.nearest_node(*points.T) < least - self.ground.node_error).any():
+            return False
+        if self.ground.clearance(points).min() < least - LACK:
+            return False
+        points, s = points_along(moved(begin, (-reach, 0.0)), [(reach, 0.0), *steps, (self.needs.chord, 0.0)], DENSE)
+        self.budget.afford(BENCH_WORK * len(self.ground.edges))
+        fronts = np.linspace(reach, s[-1], max(2, math.ceil((s[-1] - reach) / BENCH_STEP)))
+        room = room_beside(self.ground, self.needs, *standing(s, points, fronts, self.needs.chord))
+        return bool(room.min() >= self.needs.free - LACK)
+
+    def around(self, begin: Pose, end: Pose) -> list[Step] | None:
+        """A leg around obstacles, or straight through channels and with bends between."""
+        if (begin, end) not in self._ways:
+            self._ways[begin, end] = super().around(begin, end) or self._chained(begin, end)
+        return self._ways[begin, end]
+
+    def walk(self, begin: Pose, end: Pose) -> list[Step] | None:
+        """A leg around obstacles, or straight through channels and with bends between."""
+        return self.around(begin, end)
+
+    @cached_property
+    def _ways(self) -> dict[tuple[Pose, Pose], list[Step] | None]:
+        return {}
+
+    @cached_property
+    def _outs(self) -> dict[Pose, tuple[tuple[int, float], ...]]:
+        return {}
+
+    def _chained(self, begin: Pose, end: Pose) -> list[Step] | None:
+        """The shortest chain of stretches and legs between them; None if none was found.
+
+        A chain is looked at in the order of a lower bound of its length, that of straight ways to the next stretch, and
+        comes back with its own length once the leg to this stretch is found.
+        """
+        stretches = [Stretch(begin, begin, out=self._left(begin)), *self._between(begin, end)]
+        stretches.append(Stretch(end, end, into=self._left(_back(end))))
+        goal, reached, looked = len(stretches) - 1, {0: 0.0}, 0
+        queue: list[tuple[float, int, int, int, list[Step]]] = []
+        count = 0
+
+        def look_from(k: int, length: float, steps: list[Step]) -> None:
+            nonlocal count
+            for j, other in enumerate(stretches[1:], start=1):
+                if j not in reached:
+                    count += 1
+                    bound = length + math.dist(stretches[k].last[:2], other.first[:2]) + other.length
+                    heappush(queue, (round(bound, 6), count, k, j, steps))
+
+        legs: dict[tuple[int, int], list[Step] | None] = {}
+        look_from(0, 0.0, [])
+        while queue and looked < CHAINS_MOST:
+            _, order, k, j, steps = heappop(queue)
+            if k < 0:
+                if j not in reached:
+                    reached[j] = length_of(steps)
+                    if j == goal:
+                        return steps if long_enough(steps) else None
+                    look_from(j, reached[j], steps)
+                continue
+            if j in reached or (k, j) in legs:
+                continue
+            looked += 1
+            legs[k, j] = leg = self._to_next(stretches[k], stretches[j])
+            if leg is not None:
+                whole = [*steps, *leg, (stretches[j].length, 0.0)]
+                heappush(queue, (round(length_of(whole), 6), order, -1, j, whole))
+        return None
+
+    def _to_next(self, one: Stretch, other: Stretch) -> list[Step] | None:
+        """The leg from the end of a stretch to the beginning of the next one, the easiest bends first."""
+        pairs = sorted((a + b, out + into, out, into) for a, out in one.out for b, into in other.into)
+        for radius in self.needs.radii:
+            for _, _, out, into in pairs:
+                first, last = moved(one.last, (out, 0.0)), moved(other.first, (-into, 0.0))
+                longest = DETOUR * (math.dist(first[:2], last[:2]) + radius)
+                for path in dubins(first, last, radius):
+                    if length_of(path) > longest:
+                        break
+                    steps = [(out, 0.0), *path, (into, 0.0)]
+                    if long_enough(steps) and self.free(first, path, radius):
+                        return steps
+        return None
+
+    def _between(self, begin: Pose, end: Pose) -> list[Stretch]:
+        """The channels that are nearest to the way between two poses."""
+
+        def way(channel: tuple[Pose, float]) -> float:
+            entry, length = channel
+            return math.dist(begin[:2], entry[:2]) + math.dist(moved(entry, (length, 0.0))[:2], end[:2])
+
+        stretches = []
+        for entry, length in sorted(self.channels, key=way)[:CHANNELS_NEAR]:
+            last = moved(entry, (length, 0.0))
+            stretches.append(Stretch(entry, last, self._left(_back(entry)), self._left(last)))
+        return stretches
+
+    def _left(self, pose: Pose) -> tuple[tuple[int, float], ...]:
+        """Ways straight ahead of a pose after which benches may turn, with their ranks [m]: behind places where the
+        ground beside is at least a chord wide, and at parts of the way."""
+        if pose not in self._outs:
+            self._outs[pose] = self._places(pose)
+        return self._outs[pose]
+
+    def _places(self, pose: Pose) -> tuple[tuple[int, float], ...]:
+        extent = math.hypot(*(self.ground.high - self.ground.low))
+        points, t = points_along(pose, [(extent, 0.0)])
+        self.budget.afford(LEG_WORK + BENCH_WORK * len(self.ground.edges))
+        narrow = np.flatnonzero(self.ground.clearance(points) < self.needs.straight_side + self.needs.free)
+        count = int(narrow[0]) if len(narrow) else len(t)
+        if count < 2:
+            return ((0, 0.0),)
+        most, places = float(t[count - 1]), []
+        for side in (0.5 * math.pi, -0.5 * math.pi):
+            wide = self._room_to(points[:count], pose[2] + side) >= self.needs.chord
+            opens = t[:count][wide & ~np.concatenate([[False], wide[:-1]])]
+            places += [(rank, float(at) + lead * self.needs.chord) for at in opens for rank, lead in enumerate(LEADS)]
+        places += [(len(LEADS), most * part / PARTS) for part in range(PARTS)]
+        kept: dict[float, int] = {}
+        for rank, place in sorted(places):
+            if place <= most and all(abs(place - other) > STEP for other in kept):
+                kept[place] = rank
+        return tuple((rank, place) for place, rank in list(kept.items())[:PLACES_MOST])
+
+    def _room_to(self, points: Floats, heading: float) -> Floats:
+        """Way from points (N, 2) to the nearest edge in a direction (N,) [m]; infinite without one."""
+        u = np.array([math.cos(heading), math.sin(heading)])
+        side = np.array([-u[1], u[0]])
+        a, b = self.ground.edges[:, :2], self.ground.edges[:, 2:]
+        p, q = (a - points[:, None]) @ side, (b - points[:, None]) @ side
+        crosses = (p > 0.0) != (q > 0.0)
+        part = p / np.where(crosses, p - q, 1.0)
+        way = (a - points[:, None]) @ u + part * ((b - a) @ u)
+        nearest: Floats = np.where(crosses & (way >= 0.0), way, math.inf).min(axis=1)
+        return nearest
+
+
+def _back(pose: Pose) -> Pose:
+    """The pose turned around."""
+    return (pose[0], pose[1], pose[2] + math.pi)
