@@ -16,6 +16,11 @@ from core.venue import Area, Venue
 
 # Largest distance of a gate from the border [m]: coordinates that were measured with a tape or read from a map.
 ON_BORDER = 0.25
+# Largest angle between the heading of a gate and straight across the border [deg].
+CROSSED_MOST = 80.0
+# Most that a border leads ahead of those who enter, where a street joins it, per way beside them [1]: as a border does
+# that is crossed with the largest heading that a gate may have. Walls of a channel behind a gate lead further ahead.
+AHEAD_MOST = math.tan(math.radians(CROSSED_MOST))
 # Largest difference of the distances of two sides from a gate at their corner [m].
 AT_CORNER = 1e-9
 # Largest number of gates [1].
@@ -67,7 +72,7 @@ def _on_border(name: str, gate: Gate, square: Area) -> Gate:
         rule = "must be on the border of the square: it is {off} from it, more than {most}"
         raise InvalidValue(f"{name}.point", rule, **quantities("m", 4, off=float(distance[k]), most=ON_BORDER))
     x, y = nearest[k].tolist()
-    if into[k] < math.cos(math.radians(80.0)):
+    if into[k] < math.cos(math.radians(CROSSED_MOST)):
         rule = "must lead into the square, within 80 degrees of straight across its border"
         raise InvalidValue(f"{name}.heading", rule, got=Quantity(gate.heading, "rad", 6))
     return Gate((x, y), gate.heading)
@@ -114,8 +119,8 @@ def _with_street(ring: tuple[Point, ...], gate: Gate, width: float, length: floa
     nearest = [_distance(a, b, at) for a, b in zip(points, np.roll(points, -1, axis=0), strict=True)]
     on = int(np.argmin(nearest))
     forwards, backwards = np.roll(points, -on - 1, axis=0), np.roll(points, -on - 1, axis=0)[::-1]
-    right, first = _side(forwards, at, -side, 0.5 * width)
-    left, last = _side(backwards, at, side, 0.5 * width)
+    right, first = _side(forwards, at, ahead, -side, 0.5 * width)
+    left, last = _side(backwards, at, ahead, side, 0.5 * width)
     kept = forwards[first : len(points) - last]
     if right is None or left is None or not len(kept):
         return None
@@ -131,12 +136,14 @@ def _distance(a: Floats, b: Floats, point: Floats) -> float:
     return float(np.hypot(*(a + along * way - point)))
 
 
-def _side(points: Floats, at: Floats, side: Floats, half: float) -> tuple[Floats | None, int]:
+def _side(points: Floats, at: Floats, ahead: Floats, side: Floats, half: float) -> tuple[Floats | None, int]:
     """The place of the border, from a gate along these points, that is `half` to a side of it; and the next point.
-    None without one."""
+    None without one, or if the border leads further ahead than AHEAD_MOST to it: the street would take away the walls
+    of a channel behind the gate."""
     beside, before, reached = (points - at) @ side, at, 0.0
     for k, (point, offset) in enumerate(zip(points, beside.tolist(), strict=True)):
         if offset >= half:
-            return before + (half - reached) / (offset - reached) * (point - before), k
+            place: Floats = before + (half - reached) / (offset - reached) * (point - before)
+            return (None, 0) if (place - at) @ ahead > AHEAD_MOST * half + AT_CORNER else (place, k)
         before, reached = point, offset
     return None, 0
