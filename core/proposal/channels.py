@@ -23,11 +23,13 @@ from core.values import Floats
 
 # Distance of benches that are measured [m].
 BENCH_STEP = 0.3
-# Room that a leg may lack by this estimate, whose check decides [m].
-LACK = 0.005
+# Room that a leg has besides, for what is between the benches that are measured [m].
+SPARE = 0.003
 # Bends begin this far behind the place where a side opens, in chords, the most convenient first; and at parts of a
 # stretch [1].
 LEADS, PARTS = (1.0, 0.5, 1.5, 0.0), 6
+# Radius of a gentle bend, in easy ones [1]: benches need less room outside it, so it fits beside the wall of a channel.
+GENTLE = 1.7
 # Places at which a stretch is left or entered, channels, and chains of channels that are looked at for one leg [1].
 PLACES_MOST, CHANNELS_NEAR, CHAINS_MOST = 10, 8, 24
 # Work of one leg that is measured bench by bench, for each edge [1], see core/kernels/constants.py.
@@ -61,13 +63,13 @@ class ChannelLegFinder(LegFinder):
         least = self.needs.straight_side + self.needs.free
         if (self.ground.nearest_node(*points.T) < least - self.ground.node_error).any():
             return False
-        if self.ground.clearance(points).min() < least - LACK:
+        if self.ground.clearance(points).min() < least:
             return False
         points, s = points_along(moved(begin, (-reach, 0.0)), [(reach, 0.0), *steps, (self.needs.chord, 0.0)], DENSE)
         self.budget.afford(BENCH_WORK * len(self.ground.edges))
         fronts = np.linspace(reach, s[-1], max(2, math.ceil((s[-1] - reach) / BENCH_STEP)))
         room = room_beside(self.ground, self.needs, *standing(s, points, fronts, self.needs.chord))
-        return bool(room.min() >= self.needs.free - LACK)
+        return bool(room.min() >= self.needs.free + SPARE)
 
     def around(self, begin: Pose, end: Pose) -> list[Step] | None:
         """A leg around obstacles, or straight through channels and with bends between."""
@@ -128,9 +130,10 @@ class ChannelLegFinder(LegFinder):
         return None
 
     def _to_next(self, one: Stretch, other: Stretch) -> list[Step] | None:
-        """The leg from the end of a stretch to the beginning of the next one, the easiest bends first."""
+        """The leg from the end of a stretch to the beginning of the next one, the easiest bends first and a gentle one,
+        which takes the most ground, last."""
         pairs = sorted((a + b, out + into, out, into) for a, out in one.out for b, into in other.into)
-        for radius in self.needs.radii:
+        for radius in (*self.needs.radii, GENTLE * self.needs.radii[0]):
             for _, _, out, into in pairs:
                 first, last = moved(one.last, (out, 0.0)), moved(other.first, (-into, 0.0))
                 longest = DETOUR * (math.dist(first[:2], last[:2]) + radius)

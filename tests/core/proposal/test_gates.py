@@ -61,3 +61,13 @@ def test_a_street_without_room_is_refused(venue, point):
     gates = checked_gates([Gate(point, 0.0)], venue)
     with refused("gates.0.point"):
         with_streets(venue, gates, (3.0, 3.0), 30.0)
+
+
+@pytest.mark.parametrize("width", [0.7, 1.0])
+def test_a_street_leaves_the_walls_of_a_channel_behind_its_gate(width):
+    ring = [(0, 0), (10, 0), (10, -8), (26, -8), (26, 8), (10, 8), (10, width), (0, width)]
+    hall = Venue(Area("hall", (closed(ring),)))
+    gate = checked_gates([Gate((0.0, 0.5 * width), 0.0)], hall)[0]
+    added = polygon(with_streets(hall, [gate], (2.4, 0.5), 30.0).square).difference(polygon(hall.square))
+    assert added.area == pytest.approx(0.5 * 30.0)
+    assert added.bounds[2] == pytest.approx(0.0)

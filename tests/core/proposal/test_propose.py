@@ -205,18 +205,82 @@ def test_a_walk_turns_where_there_is_room_and_is_straight_elsewhere(name):
     assert [refuted(case, one) for one in result.proposals] == [""], result.message
 
 
+def bend(width, other):
+    """Two channels into one side of a room, of which each is the only way to a gate."""
+    ring = [(0, 0), (30, 0), (30, width), (20, width), (20, 10.8 - other), (30, 10.8 - other), (30, 10.8), (0, 10.8)]
+    return ring, ((30, 0.5 * width), math.pi), ((30, 10.8 - 0.5 * other), math.pi)
+
+
+def corner(width):
+    """A room between two channels that are square to each other."""
+    half = 0.5 * width
+    low = [(0, 4), (10, 4), (10, 0), (24, 0), (24, 12), (18 + half, 12), (18 + half, 22)]
+    high = [(18 - half, 22), (18 - half, 12), (10, 12), (10, 4 + width), (0, 4 + width)]
+    return [*low, *high], ((0, 4 + half), 0.0), ((18, 22), -0.5 * math.pi)
+
+
+def rooms(width):
+    """Two rooms with a channel between and one to each gate, on three lines."""
+    low = [(0, 8), (8, 8), (8, 0), (20, 0), (20, 1), (30, 1), (30, 0), (44, 0), (44, 8), (52, 8)]
+    high = [(52, 8), (44, 8), (44, 12), (30, 12), (30, 1), (20, 1), (20, 12), (8, 12), (8, 8), (0, 8)]
+    up = [(x, y + width * (y in (1, 8))) for x, y in high]
+    return [*low, *up], ((0, 8 + 0.5 * width), 0.0), ((52, 8 + 0.5 * width), math.pi)
+
+
+def hall(width):
+    """A channel into a room with a gate in its long side."""
+    ring = [(0, 0), (10, 0), (10, -8), (26, -8), (26, 8), (10, 8), (10, width), (0, width)]
+    return ring, ((0, 0.5 * width), 0.0), ((18, 8), -0.5 * math.pi)
+
+
+BETWEEN_CHANNELS = {
+    "a bend of 0.8 m": (bend(0.8, 0.8), 0.0),
+    "a bend of 0.6 m": (bend(0.6, 0.6), 0.3),
+    "a turned bend of 0.9 m": (bend(0.9, 0.9), 2.5),
+    "a bend of 0.7 m and 1.3 m": (bend(0.7, 1.3), 1.1),
+    "a corner of 0.7 m": (corner(0.7), 0.4),
+    "rooms in a row": (rooms(0.7), 0.4),
+    "one channel and a wide gate": (hall(0.8), 0.2),
+}
+
+
+def turned(point, angle):
+    x, y = point
+    return x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)
+
+
+@pytest.mark.parametrize("name", BETWEEN_CHANNELS)
+def test_a_walk_between_narrow_channels_turns_in_the_open_ground_between_them(name):
+    (corners, *gates), angle = BETWEEN_CHANNELS[name]
+    ring = [turned(point, angle) for point in corners]
+    venue = Venue(Area("square", ((*ring, ring[0]),)))
+    case = Case(venue, Dragon(3), tuple(Gate(turned(at, angle), heading + angle) for at, heading in gates), LIMITS)
+    result = case.proposals(figures=["parade"], count=1)
+    assert [refuted(case, one) for one in result.proposals] == [""], result.message
+
+
+@pytest.mark.thorough
+def test_figures_are_danced_in_a_room_behind_two_narrow_channels():
+    corners, *gates = bend(0.8, 0.8)
+    venue = Venue(Area("square", ((*corners, corners[0]),)))
+    case = Case(venue, Dragon(3), tuple(Gate(*gate) for gate in gates), LIMITS)
+    result = case.proposals()
+    assert {one.figure for one in result.proposals} > {Figure.PARADE}
+    assert [refuted(case, one) for one in result.proposals] == [""] * 3
+
+
 def test_where_not_even_one_bench_fits_the_reason_is_what_fails_in_its_nearest_dance():
     blocks = (
         box("low", 8, 0, 2, 6.03),
         box("high", 8, 6.63, 2, 13.37),
-        box("next", 14, 0, 2, 15),
-        box("last", 14, 15.6, 2, 4),
+        box("next", 12.5, 0, 3, 15),
+        box("last", 12.5, 15.6, 3, 4),
     )
     gates = Gate((0.0, 10.1), 0.0), Gate((24.0, 10.1), math.pi)
     square = Venue(box("square", 0, 0, 24, 20), blocks)
     reason = propose(square, Dragon(4), gates=gates, figures=["parade"]).reason
     assert (reason.kind, reason.have, reason.need, reason.figure) == (ReasonKind.FAILS, 1, 4, Figure.PARADE)
-    assert (reason.failure.kind, reason.failure.area) == (FailureKind.VENUE, "high")
+    assert (reason.failure.kind, reason.failure.area) == (FailureKind.VENUE, "next")
     assert reason.message.endswith(f"not even with one bench; the nearest, a parade: {reason.failure.message}")
 
 
