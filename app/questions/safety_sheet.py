@@ -24,7 +24,7 @@ from app.wire.readings import Limits, bench_words, failure_words, handles_words
 from core import Area, Dance, InvalidValue, Judgement
 from core.dragon import checked_stray
 from core.errors import format_number, question_about
-from core.language import counted, say, sense
+from core.language import Listed, counted, say, sense
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
 from core.shapes.engines import Polygons, free_width, lane_rings, widened
@@ -414,7 +414,7 @@ def lane_words(lane: Lane, clock: TimeFormat) -> str:
     name, width = lane.name, format_number(lane.width)
     if not lane.stays:
         return say("{name}, {width} m wide: no bench is ever in it.", name=name, width=width)
-    stays = sense("list", ", ").join(
+    stays = Listed(
         say("from {start} to {stop}", start=clock.words(one.begin), stop=clock.words(one.end)) for one in lane.stays[:4]
     )
     more = say(" and later") if len(lane.stays) > 4 else ""
