@@ -61,7 +61,7 @@ def test_csv_and_a_dataframe_have_every_row_and_numbers_as_numbers(folder):
 def test_a_folder_without_a_sweep_of_another_version_or_without_rows_is_refused(folder, tmp_path):
     with refused("folder", file="sweep.json"):
         Sweep.open(tmp_path / "nowhere")
-    with refused("value", numbers="design, x, y, height, around.0, around.1"):
+    with refused("value", numbers=("design", "x", "y", "height", "around.0", "around.1")):
         Sweep(folder, SPEC).table(["depth"])
     begin(tmp_path / "new", SPEC)
     with refused("folder", folder=str(tmp_path / "new")):
