@@ -521,7 +521,8 @@ def test_progress_is_in_the_language_chosen_or_that_of_the_terminal(tmp_path, lo
     ],
 )
 def test_a_command_that_is_asked_in_chinese_says_everything_in_chinese(tmp_path, line):
-    words = line.replace("FOLDER", str(tmp_path)).replace("EXAMPLES", str(ROOT / "examples")).split()
+    places = {"FOLDER": str(tmp_path), "EXAMPLES": str(ROOT / "examples")}
+    words = [re.sub("|".join(places), lambda match: places[match[0]], word) for word in line.split()]
     done = run(*words, "--language", "zh")
     assert done.returncode == 0
     # Names of files and of things in a map, and units, are no words of the command.
