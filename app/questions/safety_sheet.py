@@ -141,7 +141,7 @@ class GatePass(Answer):
         return cls(name=name, head=head, tail=tail, lasts=None if head is None or tail is None else tail - head)
 
 
-class Fastest(Answer):
+class FastestCarriers(Answer):
     """The fastest carriers."""
 
     speed: float = measure("m/s", "Highest speed found")
@@ -174,7 +174,9 @@ class SafetySheet(Answer):
     loose_tail: LooseTail = Field(description="The ground that the last benches can reach when they are let go")
     lanes: list[Lane] = Field(description="The lanes to keep free, in the order of the request")
     gates: list[GatePass] = Field(description="Passes of the gates, in the order of the path")
-    fastest: Fastest | None = Field(description="The fastest carriers; null in a run to a fold, without a bound")
+    fastest: FastestCarriers | None = Field(
+        description="The fastest carriers; null in a run to a fold, without a bound"
+    )
     stopping: Stopping | None = Field(description="How far it goes on after the call to stop; null without a speed")
 
 
@@ -357,11 +359,11 @@ class _Judged:
         passing, last = Passing(self.dance, start, stop, budget=terms.budget), self.dance.dragon.benches
         return [GatePass.between(name, passing.when(0, s), passing.when(last, s)) for name, s in passes]
 
-    def _fastest(self) -> Fastest | None:
+    def _fastest(self) -> FastestCarriers | None:
         if (highest := self.report.highest_speed) is None:
             return None
         point = trajectory(self.dance, [highest.time]).position[0, highest.handles[0]].tolist()
-        return Fastest.from_result(highest, at_most=highest.speed_bracket[1], point=point)
+        return FastestCarriers.from_result(highest, at_most=highest.speed_bracket[1], point=point)
 
 
 @question_about("dance", Dance, "the safety sheet was not drawn")

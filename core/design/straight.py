@@ -177,14 +177,14 @@ def too_near(dragon: Dragon, a: int, margin: float) -> InvalidValue:
     else:
         why = "on a straight line, and so on every wide enough spiral, benches {a} and {b} touch"
     why += ": the chord of bench {between} between them is {chord}, their overhangs {front} and {rear}"
-    values = quantities("m", front=front, rear=rear) | quantities("m", 6, pitch=SIZE_MAX)
+    values = quantities("m", 9, front=front, rear=rear) | quantities("m", 6, pitch=SIZE_MAX)
     values |= quantities("m", 9, gap=gap, chord=chord) | {"a": a, "b": b, "between": a + 1}
     if gap > 0.0 and margin:
         rule = "must be smaller" if hardly else "must be less than {gap}"
         return InvalidValue("margin", f"{rule}: {why}", got=Quantity(margin, "m"), **values)
     if all((column[1:] == column[1]).all() for column in (dragon.lengths, dragon.widths)) and front == rear:
         body = float(dragon.lengths[a + 1])
-        values |= quantities("m", got=front, length=body, quarter=0.25 * body)
+        values |= quantities("m", 9, got=front, length=body, quarter=0.25 * body)
         rule = "must be smaller" if hardly else "must be less than a quarter of {body} ({length} / 4 = {quarter})"
         return InvalidValue("dragon.overhang", f"{rule}: {why}", body=Parameter("dragon.body_length"), **values)
     rule = "must be smaller" if hardly else "must be less than the chord of bench {between} ({chord})"

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from tests.support import polite
+from tests.support import paper, polite
 from tests.support.person import alike
 
 thorough = pytest.mark.thorough
@@ -109,8 +109,8 @@ def test_passages_and_the_time_of_day_change_every_time_of_a_spiral_and_of_a_dra
     failure = polite.answer(server, "check", body)["failures"][0]
     person.opens(f"?{STREET}&begin=30&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
     person.reads({".failures button": f"{failure['time']:.6f} s · {failure['clock']}"}).reaches()
-    sides = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", person.saves("#keepPlan-A3"))
-    assert max(map(float, sides[0])) == pytest.approx(A3_WIDE, abs=1)
+    (first, *_) = paper.pages_of(person.saves("#keepPlan-A3"))
+    assert max(first.get_size()) == pytest.approx(A3_WIDE, abs=1)
     # Head and first bench lead by 16 s of the 80 s of the path.
     person.opens(f"?{STREET}&start_clock=19:30").sees({"#judgement": "It starts at 19:30:16"})
     person.types({"#begin_clock": "20:00"}, "Tab").settles()
