@@ -8,8 +8,9 @@ the handle, and all places of the handle are a stretch of the path.
 Between two of its points, L apart along the path and d apart in the plane, the stretch stays within
     sqrt(L^2 - d^2) / 2
 of the line from one to the other: the sum of the distances of any point of it from both is at most L, so it lies in the
-ellipse with the two as foci, and that is the shorter half axis. The polygons hold all points within R plus the largest
-of these of the lines.
+ellipse with the two as foci, and that is the shorter half axis. Nor is a point of the line further from the stretch,
+which crosses the ellipse from one focus to the other. The polygons hold all points within R plus the largest of these
+of the lines.
 """
 
 from __future__ import annotations
@@ -83,7 +84,7 @@ def tail_reach(
 
     benches: number of loose benches, at most all; stray: of the handle that still follows [m]
     start, stop: [s]; defaults: dance.begin and the end of the run
-    excess: largest error of the stretch that the handle passes [m]; arcs around its ends and bends add 1 % of the reach
+    excess: largest error of the stretch that the handle passes [m]; arcs around its ends and bends add 2 % of the reach
     Loose benches keep to the ground: they are links that turn freely, without any limit of speed or force.
     raises: InvalidValue; OutsideRun; TooMuchWork
 
@@ -105,6 +106,7 @@ def tail_reach(
     while True:
         count = 2 + math.ceil((high - low) / step)
         budget.afford(POINT_WORK * count)
+        budget.afford()  # before so many points are placed
         places = np.linspace(low, high, count)
         points, length = dance.path.position(places), (high - low) / (count - 1)
         apart = np.hypot(*np.diff(points, axis=0).T)
@@ -114,7 +116,7 @@ def tail_reach(
         step *= 0.5
     reach = reach_of(dance.dragon, first)
     polygons = thickened(points, reach + strayed + beside)
-    most = (GROWTH_MOST - 1.0) * (reach + strayed + beside) + beside + strayed + float(spares[first])
+    most = (GROWTH_MOST - 1.0) * (reach + strayed + beside) + strayed + 2.0 * beside + float(spares[first])
     claim = TailClaim(ClaimKind.LOOSE_TAIL, begin, until, loose, reach, strayed, most)
     return TailReach(polygons, loose, reach, most, area_of(polygons), begin, until, TailProof(claim))
 
