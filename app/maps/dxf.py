@@ -192,7 +192,8 @@ def _without(data: bytes, is_damaged: Callable[[list[bytes]], bool]) -> tuple[by
 
 
 def _is_misread(lines: list[bytes]) -> bool:
-    return MISREAD.search(b"\n" + b"\n".join(lines)) is not None
+    """True if something drawn has a number that DXF does not have."""
+    return not _is_undrawn(_kind(lines, 0)) and MISREAD.search(b"\n" + b"\n".join(lines)) is not None
 
 
 def _damage_test(data: bytes) -> Callable[[list[bytes]], bool]:

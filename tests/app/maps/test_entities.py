@@ -189,6 +189,17 @@ def bare(data, kinds):
     return "\n".join([*result, ""]).encode()
 
 
+def test_a_number_that_dxf_does_not_have_leaves_out_no_layer():
+    space = new()
+    space.doc.layers.add("CHAIRS").off()
+    space.add_circle((3, 3), 0.5, dxfattribs={"layer": "CHAIRS"})
+    data = drawing(space)
+    broken = data.replace(b"\n  2\nCHAIRS\n", b"\n  2\nCHAIRS\n 48\n1,5\n", 1)
+    assert broken != data
+    assert "Left out, because hidden: 1 CIRCLE." in places_of(data, None).notes
+    assert places_of(broken, None).notes == places_of(data, None).notes
+
+
 @pytest.mark.parametrize("content", ["text", "block"])
 def test_a_note_with_an_arrow_is_left_out_by_name_also_without_markers(content):
     space = new()
