@@ -7,11 +7,13 @@ holds no date.
 
 from __future__ import annotations
 
+import atexit
 import pickle
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from signal import SIGABRT
 from typing import Any
 
 import orjson
@@ -40,6 +42,7 @@ WIDTHS = b"""
 MEMORY_MAX = 1_500_000_000
 # The processes that typeset.
 typesetting = Pool("app.files.typesetter", str(MEMORY_MAX), waiting=1)
+atexit.register(typesetting.close)
 
 
 def _asked(budget: Budget | None, name: str, *arguments: object) -> Any:
@@ -49,7 +52,7 @@ def _asked(budget: Budget | None, name: str, *arguments: object) -> Any:
     try:
         value, error = pickle.loads(typesetting.answer(pickle.dumps((name, arguments)), budget))
     except ProcessEnded as end:
-        if end.received:  # Without memory the process ends.
+        if end.code == -SIGABRT:  # So it ends without memory.
             words = "the paper must have fewer pages: setting it takes more than {most} of memory"
             raise TooMuchWork.in_words("dance", words, most=Quantity(MEMORY_MAX / 1e6, "MB", 6)) from None
         value, error = None, str(end)

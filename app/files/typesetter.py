@@ -57,6 +57,8 @@ def _answer(task: bytearray, report: Report) -> bytes:
     name, arguments = pickle.loads(task)
     try:
         return pickle.dumps((FUNCTIONS[name](*arguments), ""))
+    except MemoryError:
+        os.abort()  # as Rust does
     except BaseException as error:  # A panic of Rust is no Exception.
         return pickle.dumps((None, str(error)))
 

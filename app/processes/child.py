@@ -24,7 +24,7 @@ class ProcessEnded(Exception):
     """
 
     def __init__(self, code: int, received: bool) -> None:
-        self.how, self.received = cause_of(code), received
+        self.code, self.how, self.received = code, cause_of(code), received
         super().__init__(f"a process ended by {self.how} {'during' if received else 'before'} its task")
 
 

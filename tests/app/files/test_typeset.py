@@ -1,6 +1,9 @@
 """Paper set by Typst: what is typed stays text."""
 
+import os
+import signal
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 
 import pytest
 
@@ -72,3 +75,21 @@ def test_a_file_that_takes_too_long_ends_with_its_budget_and_the_next_one_is_set
         with pytest.raises(Halted):
             long.result()
     assert typeset(b"#set document(title: [short])", FACE, {}).startswith(b"%PDF")
+
+
+def killed():
+    """Kill the processes that there are; one that had no task yet is replaced."""
+    for pid in typesetting.pids:
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+    return True
+
+
+def test_a_process_that_is_killed_is_no_lack_of_memory_and_the_next_file_is_set():
+    with ThreadPoolExecutor() as pool:
+        long = pool.submit(typeset, b"#for i in range(30000) { for j in range(30000) {} }", FACE, {})
+        wait_for(lambda: typesetting.pids)
+        wait_for(lambda: killed() and long.done())
+        with pytest.raises(RuntimeError, match="signal 9"):
+            long.result()
+    assert typeset(TEMPLATE, FACE, {"title": "short", "names": []}).startswith(b"%PDF")
