@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
 import orjson
 import typer
@@ -16,7 +16,7 @@ from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output
 from app.maps.choice import PARTLY, Choice
-from app.maps.layout import DanceParts
+from app.maps.dance_parts import DanceParts
 from app.maps.places import Places, drawn_layers, map_data, read_map
 from app.maps.tracks import CHORD
 from app.questions.maps import QUESTION as MAPS
@@ -163,6 +163,12 @@ def maps(
         print(words, file=sys.stderr)
 
 
+Gates: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(help="NAME,X,Y of a gate whose times the paper names; may be given several times."),
+]
+
+
 def _gate(text: str) -> dict[str, Any]:
     """A gate of an option. raises: InvalidValue"""
     name, *place = text.rsplit(",", 2)
@@ -181,10 +187,7 @@ def plan(
     paper: Annotated[Literal["A4", "A3"] | None, typer.Option(help="Size of the paper; default: A4.")] = None,
     title: Annotated[str | None, typer.Option(help="Title of the plan")] = None,
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
-    gate: Annotated[
-        list[str] | None,
-        typer.Option(help="NAME,X,Y of a gate whose times the plan names; may be given several times."),
-    ] = None,
+    gate: Gates = None,
     clear: Annotated[
         float | None, typer.Option(help="Width of the zone to keep clear [m]; default: the margin, or 0.5 m")
     ] = None,
@@ -222,10 +225,7 @@ def safety_sheet(
         list[str] | None,
         typer.Option(help="NAME,WIDTH,X,Y,X,Y,... of a lane to keep free and its middle; may be given several times."),
     ] = None,
-    gate: Annotated[
-        list[str] | None,
-        typer.Option(help="NAME,X,Y of a gate whose times the sheet names; may be given several times."),
-    ] = None,
+    gate: Gates = None,
     spectators: Annotated[
         float | None, typer.Option(help="Distance of people from the ground that benches sweep [m]; default: 1")
     ] = None,

@@ -10,6 +10,7 @@ from typing import Any
 
 from app.maps.choice import EVERYTHING, Choice
 from app.maps.curves import Damaged, points_of
+from app.maps.dance_parts import refuse_many_edges_of
 from app.maps.features import (
     LEAVE_OUT,
     OBSTACLE,
@@ -25,7 +26,6 @@ from app.maps.features import (
 )
 from app.maps.joined import joined
 from app.maps.labels import MapText, are_too_many, label_of, names_of
-from app.maps.layout import refuse_many_edges_of
 from app.wire.geojson import SQUARE
 from app.wire.parts import APART
 from core import InvalidValue

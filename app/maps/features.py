@@ -14,8 +14,8 @@ import numpy as np
 from app.wire.degrees import GRID_MAX, GeographicOrigin
 from app.wire.geojson import GATE, INNER_SQUARE, SQUARE, Aside, Thing, outlined
 from core import InvalidValue
-from core.errors import Clause
-from core.language import phrase
+from core.errors import Clause, say_value
+from core.language import phrase, say, sense
 from core.values import Floats, Point
 from core.venue import Ring
 
@@ -162,6 +162,28 @@ def damaged_kind(kind: str) -> Clause:
 def empty_kind(kind: str) -> Clause:
     """What was left out because it has no points."""
     return Clause("empty {kind}", kind=kind)
+
+
+def kind_of(one: MapFeature) -> str:
+    """A word for a thing without a name: its role, or else its shape."""
+    words = {
+        SQUARE: say("square"),
+        OBSTACLE: say("obstacle"),
+        PATH: say("path"),
+        GATE: say("gate"),
+        INNER_SQUARE: say("square without streets"),
+    }
+    return words[one.role] if one.role else word_of(one.shape)
+
+
+def word_of(kind: str) -> str:
+    """A word for a shape, or for what a format calls a kind of thing."""
+    words = {
+        "point": sense("shape", "point"),
+        "line": sense("shape", "line"),
+        "polygon": sense("shape", "polygon"),
+    }
+    return words.get(kind) or say_value(kind)
 
 
 def drawn_as(line: MapFeature) -> MapFeature:

@@ -4,40 +4,39 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from app.maps import geojson
 from app.maps.choice import EVERYTHING, Choice
+from app.maps.dance_parts import DanceParts, checked_venue, refuse_many_edges_of
 from app.maps.features import (
     LINE_RADIUS,
     MARK,
-    OBSTACLE,
     PATH,
     POINT_RADIUS,
     Drawing,
     MapFeature,
     Unit,
     area_of,
-    edges_of,
     holds_any,
     is_aside,
+    kind_of,
     round_area,
+    word_of,
 )
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
 from app.maps.tracks import APART, CHORD, walk_of
 from app.wire.degrees import ACROSS_MAX, GRID_MAX, TURN, GeographicOrigin, Plane, middle_of, refuse_wide, unwrapped
-from app.wire.geojson import ASIDES, GATE, INNER_SQUARE, SQUARE, outlined, read_things, venue_of
+from app.wire.geojson import ASIDES, SQUARE
 from app.wire.parts import is_cut, merged, whole_areas
 from app.wire.question import Coordinates
-from core import Dragon, InvalidValue, Venue
-from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities, say_value
-from core.language import Listed, counted, phrase, say, sense
+from core import Dragon, InvalidValue
+from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
+from core.language import Listed, counted, phrase, say
 from core.names import NAME_MAX, is_printable
-from core.values import Floats, Point
-from core.venue import EDGES_MAX
+from core.values import Floats
 
 # Length that a path has less than its track from which on a note says so [m].
 LOST = 0.5
@@ -50,62 +49,6 @@ AROUND = 20.0
 # A map narrower than the longest bench is in degrees, if its numbers allow it: 350 km in degrees, only 3 m in metres. A
 # request refuses metres by the same rule.
 DEGREES_ACROSS = float(Dragon().lengths.max())
-
-
-@dataclass(frozen=True)
-class DanceParts:
-    """The parts of a dance in a file.
-
-    path: in the form of a request; venue: in metres, the square first; origin: place of x = y = 0; grid: the same on a
-        survey grid [m]
-    things: features of the venue, where trees and walls have a radius; gates, and the square without streets
-    dance: the other fields of a file that describes a dance; notes: assumptions, and things left out
-    passages: speeds at which a track was walked, in the form of a request
-    """
-
-    path: Mapping[str, Any] | None = None
-    venue: Venue | None = None
-    origin: GeographicOrigin | None = None
-    dance: Mapping[str, Any] | None = None
-    notes: Sequence[str] = ()
-    things: Sequence[MapFeature] = ()
-    grid: Point | None = None
-    passages: Sequence[Mapping[str, Any]] | None = None
-
-    @property
-    def geometry(self) -> dict[str, Any] | None:
-        """The venue as GeoJSON in metres, in the form of a request."""
-        if self.venue is None:
-            return None
-        origin = {} if self.origin is None else {"origin": asdict(self.origin)}
-        grid = {} if self.grid is None else {"grid": dict(zip("xy", self.grid, strict=True))}
-        return {"type": "FeatureCollection", **origin, **grid, "features": [_geojson_of(one) for one in self.things]}
-
-
-def _geojson_of(one: MapFeature) -> dict[str, Any]:
-    properties: dict[str, object] = {"name": one.name} | ({} if one.radius is None else {"radius": one.radius})
-    if is_aside(one):
-        properties |= {"role": one.role} | {
-            name: one.properties[name] for name in ("heading",) if name in one.properties
-        }
-    return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
-
-
-def refuse_many_edges_of(things: Sequence[MapFeature], beside: Sequence[MapFeature] = ()) -> None:
-    """raises: InvalidValue at the field `file` for more edges than a venue may have, counted with those beside them"""
-    if sum(map(edges_of, things)) > EDGES_MAX:
-        got = sum(map(edges_of, [*things, *beside]))
-        raise InvalidValue("file", "must have at most {most} edges", got=got, most=EDGES_MAX)
-
-
-def _checked(things: list[MapFeature]) -> Venue:
-    """The venue of features, checked like a request, so that a request can use them."""
-    collection = {"type": "FeatureCollection", "features": [_geojson_of(one) for one in things]}
-    refuse_many_edges_of(things)
-    try:
-        return venue_of(outlined(read_things(collection)))
-    except InvalidValue as error:
-        raise error.with_field("file") from error
 
 
 # State:  `drawing`, in degrees or metres; from it `features`, in metres and without marks, and `origin`.
@@ -135,14 +78,14 @@ class Reading:
         self.features = [self._whole(one) for one in self.features]
         for kind, count in drawing.left_out.items():
             self.notes.append(
-                counted(count, "Left out: {count} {kind}.", "Left out: {count} {kind}s.", kind=_word_of(kind))
+                counted(count, "Left out: {count} {kind}.", "Left out: {count} {kind}s.", kind=word_of(kind))
             )
         for kind, count in drawing.hidden.items():
             hidden = counted(
                 count,
                 "Left out, because hidden: {count} {kind}.",
                 "Left out, because hidden: {count} {kind}s.",
-                kind=_word_of(kind),
+                kind=word_of(kind),
             )
             self.notes.append(hidden)
 
@@ -174,7 +117,7 @@ class Reading:
         taken = [*danced, *more]
         others = [one for one in self.features if one is not square and not any(one is line for line in taken)]
         things = self._things(square, others)
-        venue = _checked(things) if things else None
+        venue = checked_venue(things) if things else None
         things += self.asides if things else []
         if venue is not None:
             self._warn_of_small(np.array(venue.square.rings[0]))
@@ -319,7 +262,7 @@ class Reading:
     @staticmethod
     def _listed(things: Iterable[MapFeature]) -> str:
         """The names of the first things, and dots for more."""
-        every = [one.name or _kind_of(one) for one in things]
+        every = [one.name or kind_of(one) for one in things]
         return str(Listed([*every[:LISTED_MOST], *(["…"] if len(every) > LISTED_MOST else [])]))
 
     def _whole(self, one: MapFeature) -> MapFeature:
@@ -485,28 +428,6 @@ def _is_long(line: MapFeature) -> bool:
     return len(thinned(np.array(line.rings[0]))[0]) > 1
 
 
-def _kind_of(one: MapFeature) -> str:
-    """A word for a thing without a name: its role, or else its shape."""
-    words = {
-        SQUARE: say("square"),
-        OBSTACLE: say("obstacle"),
-        PATH: say("path"),
-        GATE: say("gate"),
-        INNER_SQUARE: say("square without streets"),
-    }
-    return words[one.role] if one.role else _word_of(one.shape)
-
-
-def _word_of(kind: str) -> str:
-    """A word for a shape, or for what a format calls a kind of thing."""
-    words = {
-        "point": sense("shape", "point"),
-        "line": sense("shape", "line"),
-        "polygon": sense("shape", "polygon"),
-    }
-    return words.get(kind) or say_value(kind)
-
-
 def _nothing_reaches() -> InvalidValue:
     """The refusal of an area of a map in which nothing is drawn."""
     return InvalidValue("area", "must be one into which something reaches")
@@ -518,7 +439,7 @@ def _nothing_in(drawing: Drawing) -> InvalidValue:
     if not count:
         return InvalidValue("file", "must hold a polygon, a line or a point", got="none of these")
     hidden = Listed(
-        counted(each, "{count} {kind}", "{count} {kind}s", kind=_word_of(kind)) for kind, each in drawing.hidden.items()
+        counted(each, "{count} {kind}", "{count} {kind}s", kind=word_of(kind)) for kind, each in drawing.hidden.items()
     )
     if drawing.unit is Unit.DEGREES:  # KML, which has no layers
         why = "{hidden} is hidden; make it visible" if count == 1 else "{hidden} are hidden; make them visible"

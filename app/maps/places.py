@@ -18,6 +18,7 @@ from app.files.markup import states_encoding
 from app.maps import dxf, geojson, gpx, kml
 from app.maps.benches import benches_of
 from app.maps.choice import EVERYTHING, PARTLY, Choice, listed
+from app.maps.dance_parts import DanceParts
 from app.maps.features import (
     FEATURES_MAX,
     LEAVE_OUT,
@@ -28,7 +29,7 @@ from app.maps.features import (
     edges_of,
     features_of,
 )
-from app.maps.layout import DanceParts, Reading
+from app.maps.layout import Reading
 from app.maps.lines import checked_path
 from app.maps.tracks import CHORD
 from app.processes.limits import reading
