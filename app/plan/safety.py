@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.metadata import version
 from importlib.resources import files
 from typing import Any
 
 import segno
 
+import core
 from app.files.typeset import Face, typeset
 from app.plan.drawing import scale_in
 from app.plan.ground import GroundMap, SafetyLayers, draw_safety, legend_of_safety
@@ -55,7 +55,7 @@ def safety_pdf(words: SafetyWords, ground: GroundMap, layers: SafetyLayers, face
         "title": words.title,
         "subtitle": words.subtitle,
         "dated": say("date: {date}", date=words.date or "_" * 16),
-        "version": f"Bench Dragon {version('bench-dragon')}",
+        "version": f"Bench Dragon {core.__version__}",
         "verdict": words.verdict,
         "sentences": words.sentences,
         "map": {

@@ -206,7 +206,7 @@ class Report(Answer):
     def of(cls, result: core.Report, request: DanceCheck, terms: Terms, place: Place, clock: str | None) -> Self:
         dragon = result.first_contact.dance.dragon
         contact = CollisionTime.of(result.first_contact, request, terms)
-        limits = _limits(request, place.venue)
+        limits = limits_of(request, place.venue)
         failures = [
             Failure.of(failure, dragon, clock, failure_words(failure, dragon, limits)) for failure in result.failures
         ]
@@ -309,7 +309,7 @@ class PerformanceReport(Answer):
     def of(cls, result: core.PerformanceReport, request: CheckRequest, terms: Terms, place: Place) -> Self:
         performance = result.performance
         clock = clock_of(request, performance)
-        least, parts, limits = result.least_clearance, performance.parts, _limits(request, place.venue)
+        least, parts, limits = result.least_clearance, performance.parts, limits_of(request, place.venue)
         own: list[Report | None] = []
         for report, part in zip(result.reports, parts, strict=True):
             zero = None if clock is None else clock_at_zero(clock, -part.delay)
@@ -328,7 +328,8 @@ class PerformanceReport(Answer):
         )
 
 
-def _limits(request: DanceCheck, venue: Venue | None) -> Limits:
+def limits_of(request: DanceCheck, venue: Venue | None) -> Limits:
+    """What a request wants a dance to keep."""
     square = None if venue is None else venue.square.name
     return Limits(request.margin, request.total_stray or 0.0, request.speed_limit, square)
 

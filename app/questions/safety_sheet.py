@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -12,24 +13,24 @@ from pydantic import Field
 
 import core
 from app.plan.timing import TimeFormat
-from app.questions.check import verdict_of
+from app.questions.check import limits_of, verdict_of
 from app.questions.plan import PDF_TYPE, GatedDance, passes_of_gates, timing_of_marks
 from app.wire.answers import MultiPolygon, Point, Polygon
 from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
-from app.wire.geojson import geometry_of, rings_of
+from app.wire.geojson import geometry_of
 from app.wire.paths import Point as PointField
 from app.wire.question import JSON, UNKNOWN_COST, Answer, OneLine, Question, Terms, Wire, measure
-from app.wire.readings import Limits, bench_words, failure_words, handles_words
-from core import Area, Dance, InvalidValue, Judgement
-from core.dragon import checked_stray
-from core.errors import format_number, question_about
-from core.language import Listed, counted, say, sense
+from app.wire.readings import bench_words, failure_words, handles_words
+from core import Area, Dance, FailureKind, InvalidValue, Judgement
+from core.errors import format_bound, format_number, question_about
+from core.language import Listed, counted, joined, say, sense
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
 from core.shapes.engines import Polygons, free_width, lane_rings, widened
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses
+from core.values import Floats
 
 if TYPE_CHECKING:
     from app.files.typeset import Face
@@ -50,6 +51,19 @@ class LaneBody(Wire, strict=True):
     name: OneLine = Field(min_length=1, max_length=40, description="Its name")
     points: list[PointField] = measure("m", "Points of its middle line, x and y", min_length=2, max_length=50)
     width: float = measure("m", "Its width", 3.5, ge=0.5, le=50)
+
+    @property
+    def middle(self) -> Floats:
+        """Points of its middle line (P, 2) [m]."""
+        return np.array(self.points, dtype=np.float64)
+
+    def to_area(self, field: str) -> Area:
+        """The ground of it. raises: InvalidValue"""
+        try:
+            rings = lane_rings(self.middle, self.width)
+            return Area(self.name, tuple(tuple((x, y) for x, y in ring.tolist()) for ring in rings))
+        except (InvalidValue, ValueError) as error:
+            raise InvalidValue(f"{field}.points", "must be a line with a length") from error
 
 
 class SafetySheetRequest(GatedDance, strict=True):
@@ -122,7 +136,9 @@ class Lane(Answer):
     name: str = Field(description="Its name")
     width: float = measure("m", "Its width")
     free_width: float = measure(
-        "m", "Proven: this width of it is never swept, on one side of its middle line or around it; 0: benches cross it"
+        "m",
+        "Proven: a strip of this width is never swept, all along it, around its middle line or along one of its sides; "
+        "0: none is known",
     )
     stays: list[Stay] = Field(description="Times at which benches are in it, those of people who stray included")
     total: float = measure("s", "All these times together")
@@ -183,15 +199,12 @@ class SafetySheet(Answer):
 def safety_sheet(request: SafetySheetRequest, terms: Terms, form: str = JSON) -> SafetySheet | bytes:
     """One page for whoever permits a festival: verdict, nearest approaches, ground to keep free, lanes, stopping."""
     dance = request.to_dance(terms.settings.checked_benches_max)
-    request = starting(request, dance)
-    judged = _Judged.of(request, dance, terms)
+    judged = _Judged.of(starting(request, dance), dance, terms)
     answer = judged.answer(terms)
-    if form == JSON:
-        return answer
-    return judged.drawn(answer, terms)
+    return answer if form == JSON else judged.drawn(answer, terms)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Judged:
     """A dance with the verdict on it, and the stretch of it that the sheet is about."""
 
@@ -211,30 +224,49 @@ class _Judged:
         report = verdict_of(request, dance, place.venue, start, terms)
         return cls(request, dance, place, report, {"start": start, "stop": report.stop, "budget": terms.budget})
 
-    @property
-    def stray(self) -> float:
-        """Furthest that a point of a bench is from its place as people stray [m]."""
-        strayed = checked_stray(self.request.to_stray(), self.dance.dragon)
-        return float(gains(self.dance.dragon).max()) * strayed
+    @cached_property
+    def swept(self) -> core.Envelope:
+        """The ground that benches sweep with everybody in place."""
+        return core.envelope(self.dance, excess=EXCESS, **self.span)
+
+    @cached_property
+    def covered(self) -> Polygons:
+        """The same as people stray."""
+        dragon, stray = self.dance.dragon, self.request.to_stray()
+        return widened(self.swept.polygons, float(gains(dragon).max()) * stray) if stray else self.swept.polygons
+
+    @cached_property
+    def closed(self) -> Polygons:
+        """Ground to keep people out of."""
+        away = self.request.spectators
+        return widened(self.covered, away) if away else self.covered
+
+    @cached_property
+    def loose(self) -> core.TailReach:
+        """The ground that the last benches can reach when they are let go."""
+        benches = loose_of(self.request, self.dance.dragon)
+        return core.tail_reach(self.dance, benches, stray=self.request.to_stray(), **self.span)
+
+    @cached_property
+    def lanes(self) -> list[Area]:
+        """The lanes to keep free. raises: InvalidValue"""
+        return [one.to_area(f"lanes.{k}") for k, one in enumerate(self.request.lanes)]
 
     def answer(self, terms: Terms) -> SafetySheet:
-        request, dance, report, span = self.request, self.dance, self.report, self.span
-        swept = core.envelope(dance, excess=EXCESS, **span)
+        request, report, swept, loose = self.request, self.report, self.swept, self.loose
         terms.progress(0.4)
-        ground = widened(swept.polygons, self.stray) if self.stray else swept.polygons
-        loose = core.tail_reach(dance, loose_of(request, dance.dragon), stray=request.to_stray(), **span)
-        lanes = [self._lane(k, ground) for k in range(len(request.lanes))]
+        lanes = [self._lane(body, area) for body, area in zip(request.lanes, self.lanes, strict=True)]
         terms.progress(0.7)
         fastest = self._fastest()
         return SafetySheet(
             verdict=report.verdict,
             sentences=self.sentences(),
-            start=span["start"],
-            stop=span["stop"],
-            assumptions=assumptions_of(request, dance.dragon),
+            start=self.span["start"],
+            stop=self.span["stop"],
+            assumptions=assumptions_of(request, self.dance.dragon),
             approaches=sorted(self._approaches(), key=lambda one: one.distance)[:APPROACHES],
             swept=Ground(ground=geometry_of(swept.polygons), area=swept.area, excess=swept.excess),
-            spectators=geometry_of(widened(ground, request.spectators) if request.spectators else ground),
+            spectators=geometry_of(self.closed),
             loose_tail=LooseTail.from_result(loose, ground=geometry_of(loose.polygons)),
             lanes=lanes,
             gates=self._gates(terms),
@@ -253,19 +285,18 @@ class _Judged:
 
         request, dance, venue = self.request, self.dance, self.place.venue
         clock = TimeFormat(clock_of(request, dance), request.music)
-        swept, kept, loose = (
-            rings_of(one) for one in (answer.swept.ground, answer.spectators, answer.loose_tail.ground)
-        )
-        passes = [(one.name, one.x, one.y) for one in request.gates]
+        gates = [(one.name, one.x, one.y) for one in request.gates]
         timing = timing_of_marks(request, dance, (answer.start, answer.stop), [], terms)
-        geographic = request.origin_at(self.place) is not None
-        ground = GroundMap(dance, venue, swept, kept, request.spectators, timing, geographic, passes)
-        lanes = [(one.name, lane_rings(np.array(one.points, dtype=np.float64), one.width)) for one in request.lanes]
-        corners = np.concatenate([rings[0] for rings in (*kept, *loose)])
+        geographic, loose = request.origin_at(self.place) is not None, self.loose.polygons
+        ground = GroundMap(
+            dance, venue, self.swept.polygons, self.closed, request.spectators, timing, geographic, gates
+        )
+        lanes = [(one.name, [np.array(ring) for ring in one.rings]) for one in self.lanes]
+        corners = np.concatenate([rings[0] for rings in (*self.closed, *loose)])
         layers = SafetyLayers(loose, lanes, with_square(venue, corners.min(axis=0), corners.max(axis=0)))
         title = request.title or say("Bench dragon")
         areas = [area.name for area in venue.areas] if venue else []
-        names = [*areas, *(name for name, *_ in passes), *(name for name, _ in lanes), *dance.dragon.names]
+        names = [*areas, *(name for name, *_ in gates), *(name for name, _ in lanes), *dance.dragon.names]
         face = face_for([title, request.stopper, *names])
 
         def table(heading: str, columns: list[str], rows: list[list[str]], wide: list[float], left: list[int]) -> Json:
@@ -300,15 +331,14 @@ class _Judged:
         request, report, dragon = self.request, self.report, self.dance.dragon
         if report.verdict is Judgement.PASSES:
             return [passed_words(request, self.place.venue is not None), known_words()]
-        first = report.failures[0]
-        square = None if self.place.venue is None else self.place.venue.square.name
-        limits = Limits(request.margin, request.total_stray or 0.0, request.speed_limit, square)
-        words = failure_words(first, dragon, limits)
-        if report.verdict is Judgement.FAILS:
-            fails = say("It cannot be danced like this: {failure}", failure=words)
-            return [fails, say("The first failure is at {time:.1f} s; it is certain.", time=first.time)]
-        undecided = say("It is not known whether it can be danced: {failure}", failure=words)
-        return [undecided, say("Up to {time:.1f} s nothing fails, which is proven.", time=first.time)]
+        certain = report.verdict is Judgement.FAILS
+        first = next(one for one in report.failures if not certain or one.kind is not FailureKind.UNDECIDED)
+        failure = failure_words(first, dragon, limits_of(request, self.place.venue))
+        if certain:
+            fails = say("It cannot be danced like this: {failure}", failure=failure)
+            return [fails, say("That is certain, at {time:.1f} s.", time=first.time)]
+        undecided = say("It is not known whether it can be danced: {failure}", failure=failure)
+        return [undecided, say("Up to {time} s nothing fails, which is proven.", time=format_bound(first.time, 1))]
 
     def _approaches(self) -> Iterator[Approach]:
         """How near benches come to each area, and at places apart to one another, with everybody in place."""
@@ -340,18 +370,13 @@ class _Judged:
             distance=gap, at_least=at_least, time=time, benches=list(benches), area=None, point=[x, y], sentence=words
         )
 
-    def _lane(self, k: int, ground: Polygons) -> Lane:
-        body, field = self.request.lanes[k], f"lanes.{k}"
-        middle = np.array(body.points, dtype=np.float64)
-        try:
-            rings = lane_rings(middle, body.width)
-            area = Area(body.name, tuple(tuple(map(tuple, ring.tolist())) for ring in rings))
-        except (InvalidValue, ValueError) as error:
-            raise InvalidValue(f"{field}.points", "must be a line that does not come back to itself") from error
-        found = core.stays(self.dance, area, stray=self.request.to_stray(), **self.span)
-        free = free_width(ground, middle, body.width)
-        stays = [Stay.from_result(one) for one in found.stays]
-        return Lane(name=body.name, width=body.width, free_width=free, stays=stays, total=found.total)
+    def _lane(self, body: LaneBody, area: Area) -> Lane:
+        free, stays = free_width(self.covered, body.middle, body.width), list[Stay]()
+        if free < body.width:
+            found = core.stays(self.dance, area, stray=self.request.to_stray(), **self.span)
+            stays = [Stay.from_result(one) for one in found.stays]
+        total = sum(one.end - one.begin for one in stays)
+        return Lane(name=body.name, width=body.width, free_width=free, stays=stays, total=total)
 
     def _gates(self, terms: Terms) -> list[GatePass]:
         start, stop = self.span["start"], self.span["stop"]
@@ -380,8 +405,9 @@ def parts_of(answer: SafetySheet, request: SafetySheetRequest, clock: TimeFormat
     ground = [
         say("Benches sweep {area:.0f} m2; people stand {away} m and more from it.", area=swept.area,
             away=format_number(request.spectators)),
-        counted(tail.benches, "The last bench, let go, reaches {reach:.1f} m from the bench before it.",
-                "The last {count} benches, let go, reach {reach:.1f} m from the bench before them.", reach=tail.reach),
+        counted(tail.benches, "The last bench, let go, comes at most {reach} m from its front handle.",
+                "The last {count} benches, let go, come at most {reach} m from the front handle of the first of them.",
+                reach=format_bound(tail.reach, 1, up=True)),
     ]  # fmt: skip
     parts = [(say("Ground"), ground)]
     if answer.lanes:
@@ -403,7 +429,8 @@ def parts_of(answer: SafetySheet, request: SafetySheetRequest, clock: TimeFormat
         lines = [
             say("Fastest: {handles} with {speed:.2f} m/s at {time}, at x {x:.1f} m, y {y:.1f} m.",
                 handles=handles_words(fastest.handles), speed=fastest.speed, time=clock.words(fastest.time), x=x, y=y),
-            say("After the call to stop, nobody goes further than {way:.1f} m.", way=answer.stopping.distance),
+            say("After the call to stop, nobody goes further than {way} m.",
+                way=format_bound(answer.stopping.distance, 1, up=True)),
         ]  # fmt: skip
         if request.stopper:
             lines.append(say("Who stops the dance: {name}", name=request.stopper))
@@ -420,10 +447,12 @@ def lane_words(lane: Lane, clock: TimeFormat) -> str:
         say("from {start} to {stop}", start=clock.words(one.begin), stop=clock.words(one.end)) for one in lane.stays[:4]
     )
     more = say(" and later") if len(lane.stays) > 4 else ""
-    return say(
-        "{name}, {width} m wide: benches are in it {stays}{more}, {seconds:.0f} s in all; {free:.1f} m of its width "
-        "stay free.", name=name, width=width, stays=stays, more=more, seconds=lane.total, free=lane.free_width,
+    words = say(
+        "{name}, {width} m wide: benches are in it {stays}{more}, {seconds:.0f} s in all.",
+        name=name, width=width, stays=stays, more=more, seconds=lane.total,
     )  # fmt: skip
+    free = format_bound(lane.free_width, 1)
+    return joined([words, say("At least {free} m of its width stay free.", free=free) if float(free) else ""])
 
 
 def passed_words(request: SafetySheetRequest, venue: bool) -> str:

@@ -161,12 +161,6 @@ def geometry_of(polygons: Polygons) -> dict[str, object]:
     return {"type": "MultiPolygon", "coordinates": several}
 
 
-def rings_of(geometry: Any) -> Polygons:
-    """The polygons of a geometry that geometry_of() made."""
-    several = [geometry.coordinates] if geometry.type == "Polygon" else geometry.coordinates
-    return tuple(tuple(np.array(ring) for ring in rings) for rings in several)
-
-
 def venue_geometry(venue: Venue, origin: Any = None) -> dict[str, object]:
     """A venue in metres, the square first. origin: its longitude and latitude [degrees], None if unknown"""
     features = [

@@ -356,16 +356,21 @@ def lane_rings(middle: Floats, width: float) -> tuple[Floats, ...]:
 
 
 def free_width(polygons: Polygons, middle: Floats, width: float) -> float:
-    """Width of a lane around a line through points (P, 2) that polygons leave free all along [m]: on both sides of the
-    line together, 0 where they come over it."""
+    """Width of a lane around a line through points (P, 2) that polygons leave free all along [m]: of the widest strip
+    around the line or along one of the lane's sides; 0 where they reach from side to side."""
     import shapely
 
     ground = shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in polygons])
-    line, free = shapely.LineString(middle), 0.0
+    line, around, along = shapely.LineString(middle), 0.0, [0.0]
+    lane = shapely.buffer(line, 0.5 * width, cap_style="flat", join_style="mitre")
+    within = shapely.intersection(ground, lane)
+    if within.is_empty:
+        return width
     for side in (0.5 * width, -0.5 * width):
         beside = shapely.intersection(ground, shapely.buffer(line, side, single_sided=True, join_style="mitre"))
-        free += 0.5 * width if beside.is_empty else float(shapely.distance(line, beside))
-    return 0.0 if shapely.intersects(line, ground) else free
+        around += 0.5 * width if beside.is_empty else float(shapely.distance(line, beside))
+        along.append(float(shapely.distance(shapely.offset_curve(line, side, join_style="mitre"), within)))
+    return max(*along, 0.0 if shapely.intersects(line, ground) else around)
 
 
 def area_of(polygons: Polygons) -> float:

@@ -26,6 +26,7 @@ BODY = STREET | {
     "lanes": [
         {"name": "ambulances", "points": [[30, -8], [30, 8]], "width": 4},
         {"name": "north lane", "points": [[0, 3], [60, 3]], "width": 6.5},
+        {"name": "over the path", "points": [[0, 0], [60, 0]], "width": 4},
     ],
 }
 DANCE = Dance(Dragon(5), Route([Line((0.0, 0.0), (60.0, 0.0))]))
@@ -72,7 +73,7 @@ def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
     joint = motion.position[::20, 3]
     assert answer["loose_tail"]["reach"] == pytest.approx(1.65 + np.hypot(1.65 + 0.275, 0.15))
     assert shapely.contains(loose, shapely.buffer(shapely.points(joint), 0.999 * answer["loose_tail"]["reach"])).all()
-    crossed, beside = answer["lanes"]
+    crossed, beside, over = answer["lanes"]
     inside = (shapely.distance(outlines, shapely.box(28, -8, 32, 8)) <= 0.0).any(axis=1)
     assert crossed["free_width"] == 0.0
     assert crossed["total"] == pytest.approx(inside.sum() * STEP, abs=0.3)  # people may stray, forwards too
@@ -83,6 +84,7 @@ def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
     (stay,) = beside["stays"]
     assert (stay["begin"], stay["end"]) == (answer["start"], answer["stop"])
     assert 3.25 + 2.7 < beside["free_width"] < 3.25 + 2.85
+    assert 2.0 - 0.15 - 0.1 < over["free_width"] < 2.0 - 0.15 - 0.05
     (gate,) = answer["gates"]
     passed = [times[np.argmax(motion.position[:, k, 0] >= 50.0)] for k in (0, -1)]
     assert (gate["head"], gate["lasts"]) == pytest.approx((passed[0], 2.86 + 4 * 1.65), abs=0.02)
@@ -101,8 +103,13 @@ def test_what_is_assumed_is_told_from_what_is_given(ask):
 
 @pytest.mark.parametrize(
     ("more", "verdict", "words"),
-    [({}, "passes", "It can be danced"), ({"speed_limit": 0.5}, "fails", "It cannot be danced like this")],
-    ids=["passes", "fails"],
+    [
+        ({}, "passes", "It can be danced"),
+        ({"speed_limit": 0.5}, "fails", "It cannot be danced like this"),
+        ({"dragon": {"benches": 1}, "lanes": [], "loose": 1}, "passes", "It can be danced"),
+        ({"margin": 1.5, "start": 20}, "fails", "It cannot be danced like this"),
+    ],
+    ids=["passes", "too fast", "one bench", "too near from the start on"],
 )
 def test_the_verdict_is_said_in_two_sentences(ask, more, verdict, words):
     answer = ask("safety-sheet", BODY | more)
@@ -137,6 +144,7 @@ def test_the_page_has_its_words_in_order_a_map_to_scale_and_a_code_that_a_phone_
     data = ask.file("safety-sheet", body, PDF_TYPE)
     (page,) = pages_of(data)
     words = words_of(page)
+    assert "3.6 m" in words  # the reach of two loose benches, 3.58 m, rounded up
     verdict, near, lane, stop = (words.index(one) for one in SAID[language])
     assert 0 == words.index("Lantern festival") < verdict < near < lane < stop
     for dpi in (150, 300):
