@@ -19,7 +19,7 @@ from copy import copy
 from copyreg import __newobj__  # type: ignore[attr-defined]
 from functools import wraps
 from inspect import signature
-from numbers import Integral, Real
+from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, Self, TypeVar, cast
 
 from core.kernels import Budget, Halted
@@ -359,12 +359,11 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
 
 
 def checked_count(name: str, value: object, low: int, high: int) -> int:
-    """The value as an int if it is a whole number in [low, high]. raises: InvalidValue"""
-    if not isinstance(value, Integral) or isinstance(value, bool) or not low <= int(value) <= high:
-        raise InvalidValue(
-            name, "must be a whole number from {least} to {most}", got=Given(value), least=low, most=high
-        )
-    return int(value)
+    """The value as an int if it is a whole number in [low, high]; 5.0 is one. raises: InvalidValue"""
+    number = checked_number(name, value, "", float(low), float(high))
+    if number != int(number):
+        raise InvalidValue(name, "must be a whole number", got=number)
+    return int(number)
 
 
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:

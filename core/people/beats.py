@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from core.display import Readable
-from core.errors import Given, InvalidValue, Quantity, checked_number, checked_type
+from core.errors import Given, InvalidValue, Quantity, checked_count, checked_number, checked_type
 from core.passages import PASSAGES_MAX, Passage
 from core.values import Floats
 
@@ -123,15 +123,10 @@ def _checked(stretches: Sequence[Bars]) -> tuple[Bars, ...]:
 def _checked_bars(name: str, one: Bars) -> Bars:
     if not isinstance(one, Bars):
         raise InvalidValue(name, "must be a Bars", got=Given(one))
-    whole = []
-    for field, value, limits in (("bars", one.bars, BARS), ("beats", one.beats, IN_BAR)):
-        number = checked_number(f"{name}.{field}", value, "", *map(float, limits))
-        if number != int(number):
-            raise InvalidValue(f"{name}.{field}", "must be a whole number", got=number)
-        whole.append(int(number))
+    bars, beats = checked_count(f"{name}.bars", one.bars, *BARS), checked_count(f"{name}.beats", one.beats, *IN_BAR)
     tempo = checked_number(f"{name}.tempo", one.tempo, "steps a minute", *TEMPO)
     step = checked_number(f"{name}.step", one.step, "m", *STEP)
     if 0.0 < step < STEP_LEAST:
         rule, least = "must be 0, to mark time, or at least {least}", Quantity(STEP_LEAST, "m")
         raise InvalidValue(f"{name}.step", rule, got=Quantity(step, "m"), least=least)
-    return Bars(whole[0], tempo, step, whole[1])
+    return Bars(bars, tempo, step, beats)

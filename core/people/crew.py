@@ -22,7 +22,7 @@ import numpy as np
 
 from core.dance import Dance
 from core.display import Readable
-from core.errors import InvalidValue, Quantity, TooLarge, checked_number, checked_type, question_about
+from core.errors import InvalidValue, Quantity, TooLarge, checked_count, checked_number, checked_type, question_about
 from core.kernels import Budget
 from core.language import phrase
 from core.motion.places import Passing, handle_places
@@ -296,9 +296,7 @@ def _checked_needed(dance: Dance, needed: Sequence[int]) -> list[int]:
         rule = "must have a number of people for each of the {benches} benches"
         raise InvalidValue("needed", rule, got=len(needed), benches=dance.dragon.benches)
     for k, count in enumerate(needed):
-        number = checked_number(f"needed.{k}", count, "", 1.0, ON_BENCH_MAX)
-        if number != int(number):
-            raise InvalidValue(f"needed.{k}", "must be a whole number", got=number)
+        checked_count(f"needed.{k}", count, 1, ON_BENCH_MAX)
     total = int(sum(needed))
     if total > PEOPLE_MAX:
         raise TooLarge.in_words("needed", PEOPLE_RULE, got=total, most=PEOPLE_MAX)
@@ -308,11 +306,9 @@ def _checked_needed(dance: Dance, needed: Sequence[int]) -> list[int]:
 def _checked_relief(relief: Relief, carriers: int, duration: float) -> Relief:
     """The rules, checked. carriers: people at the start; duration: of the dance [s]. raises: InvalidValue, TooLarge"""
     checked_type("relief", relief, Relief)
-    spares = checked_number("relief.spares", relief.spares, "", 0.0, PEOPLE_MAX)
-    if spares != int(spares):
-        raise InvalidValue("relief.spares", "must be a whole number", got=spares)
+    spares = checked_count("relief.spares", relief.spares, 0, PEOPLE_MAX)
     if carriers + spares > PEOPLE_MAX:
-        raise TooLarge.in_words("relief.spares", PEOPLE_RULE, got=int(carriers + spares), most=PEOPLE_MAX)
+        raise TooLarge.in_words("relief.spares", PEOPLE_RULE, got=carriers + spares, most=PEOPLE_MAX)
     if len(relief.places) > PLACES_MAX:
         raise InvalidValue("relief.places", "must be at most {most}", got=len(relief.places), most=PLACES_MAX)
     places = [checked_number(f"relief.places.{k}", s, "m", -S_MAX, S_MAX) for k, s in enumerate(relief.places)]
@@ -327,7 +323,7 @@ def _checked_relief(relief: Relief, carriers: int, duration: float) -> Relief:
     if not spares and (places or shift is not None):
         raise InvalidValue("relief.spares", "must be at least 1 where people change: nobody could come in", got=0)
     rest = checked_number("relief.rest", relief.rest, "s", 0.0, SHIFT_MAX)
-    return Relief(int(spares), shift, tuple(places), rest)
+    return Relief(spares, shift, tuple(places), rest)
 
 
 def _with_places(

@@ -20,7 +20,7 @@ import numpy as np
 
 from core.dance import Dance
 from core.display import LINE_DIGITS, Readable, display, format_count
-from core.errors import InvalidValue, Quantity, bound, checked_number, checked_type, question_about
+from core.errors import InvalidValue, Quantity, bound, checked_count, checked_number, checked_type, question_about
 from core.kernels import Budget
 from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
@@ -205,11 +205,7 @@ def _checked_benches(dance: Dance, benches: Sequence[int] | None) -> list[int]:
     if not 1 <= len(followed) <= FOLLOWED_MAX:
         rule = "must name from 1 to {most} benches"
         raise InvalidValue("benches", rule, got=len(followed), most=FOLLOWED_MAX)
-    for k, bench in enumerate(followed):
-        number = checked_number(f"benches.{k}", bench, "", 0.0, count - 1.0)
-        if number != int(number):
-            raise InvalidValue(f"benches.{k}", "must be a whole number", got=number)
-    return [int(bench) for bench in followed]
+    return [checked_count(f"benches.{k}", bench, 0, count - 1) for k, bench in enumerate(followed)]
 
 
 def _span(dance: Dance, start: float | None, stop: float | None) -> tuple[float, float]:

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.errors import InvalidValue, Quantity, Value, bound, checked_number, question_about
+from core.errors import InvalidValue, Quantity, Value, bound, checked_count, checked_number, question_about
 from core.kernels import Budget
 from core.people.cues import REACH, REACH_MAX, BenchCues, Meeting, Side, Stand, bench_cues
 from core.people.meetings import ROWS_MAX, STEP, Chain, Indices, MeetingColumns, meetings_in
@@ -47,17 +47,15 @@ def performance_cues(
     (1, 0, 'left', 2.7, True)
     """
     budget = budget or Budget()
-    number = checked_number("dragon", dragon, "", 0.0, len(performance.parts) - 1.0)
-    if number != int(number):
-        raise InvalidValue("dragon", "must be a whole number", got=number)
+    number = checked_count("dragon", dragon, 0, len(performance.parts) - 1)
     reach = checked_number("reach", reach, "m", 0.0, REACH_MAX)
     begin, until = _span(performance, start, stop)
-    part = performance.parts[int(number)]
-    _refuse_one_that_stands(performance, int(number), begin, until)
+    part = performance.parts[number]
+    _refuse_one_that_stands(performance, number, begin, until)
     first, last = part.own_span(begin, until)
     own = bench_cues(part.dance, benches, reach=reach, start=first, stop=last, budget=budget)
     chain, firsts = _chain_of(performance)
-    followed = [int(firsts[int(number)]) + one.bench for one in own]
+    followed = [int(firsts[number]) + one.bench for one in own]
     met = meetings_in(chain, followed, _times(performance, begin, until), reach, budget)
     meetings = _meetings(chain, firsts, met, budget)
     return tuple(

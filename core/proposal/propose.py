@@ -15,6 +15,7 @@ from core.errors import (
     Given,
     InvalidValue,
     TooMuchWork,
+    checked_count,
     checked_list,
     checked_number,
     checked_type,
@@ -95,8 +96,7 @@ def propose(
     wish = _wish(dragon, wishes)
     doors = checked_gates(gates, venue)
     kinds = _figures(wishes.get("figures"), len(doors))
-    if checked_number("count", count, "", 1, COUNT_MOST) != int(count):
-        raise InvalidValue("count", "must be a whole number", got=Given(count))
+    count = checked_count("count", count, 1, COUNT_MOST)
     if dragon.benches > BENCHES_MOST:
         raise InvalidValue("dragon.benches", "must be at most {most}", got=dragon.benches, most=BENCHES_MOST)
     work = (budget or Budget()).within(PROPOSE_WORK)
@@ -104,13 +104,13 @@ def propose(
     search = Search(venue, dragon, doors, wish, work)
     most = None if doors else _area_bound(search, dragon)
     if wish.objective is Objective.BENCHES:
-        return _most_benches(search, venue, kinds, int(count), most, on_proposal, progress or unheard)
+        return _most_benches(search, venue, kinds, count, most, on_proposal, progress or unheard)
     if most is not None and search.needs.least_area > search.ground.area:
         lack = Reason(ReasonKind.AREA, 0, search.ground.area, search.needs.least_area)
         return Proposals((), 0, 0, lack, most)
-    best, reason = _collected(search, kinds, int(count), on_proposal, progress or unheard), None
+    best, reason = _collected(search, kinds, count, on_proposal, progress or unheard), None
     if not best:
-        best, reason = _otherwise(search, venue, kinds, int(count), on_proposal)
+        best, reason = _otherwise(search, venue, kinds, count, on_proposal)
     return Proposals(best, search.tried, search.checked, reason, most)
 
 
