@@ -52,6 +52,8 @@ const ITEMS = [
 const BESIDES = [...CONTACT, "entry_radius", "exit_radius"];
 /** Longest address that stands on paper as a code: a phone reads it from a hand's breadth. */
 const ADDRESS_MOST = 300;
+/** Whether the address of the page leads there from another device too, and fits on paper. */
+const isPrintable = () => location.href.length < ADDRESS_MOST && !/^(localhost|127\.[\d.]+|\[::1\])$/.test(location.hostname);
 /** Name of a file in this format. */
 const fileName = (file, form) => (["A4", "A3"].includes(form) ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
 /** Commands in addition to those of the items: for the shown answer, and for a proof. */
@@ -98,7 +100,7 @@ const REQUESTS = {
   },
   ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
   plan: (questions, paper) => ({ path: "plan", body: questions.danced({ paper, language: language() }) }),
-  safety: (questions) => ({ path: "safety-sheet", body: questions.danced({ language: language(), ...(location.href.length < ADDRESS_MOST && { address: location.href }) }) }),
+  safety: (questions) => ({ path: "safety-sheet", body: questions.danced({ language: language(), ...(isPrintable() && { address: location.href }) }) }),
   cues: (questions) => ({ path: "cues", body: questions.danced({ ...questions.cued, language: language() }) }),
   map(questions, form) {
     const drawing = questions.dance.kind === "route" ? questions.state.get("drawing") : null;
