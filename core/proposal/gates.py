@@ -18,11 +18,12 @@ from core.venue import Area, Venue
 ON_BORDER = 0.25
 # Largest angle between the heading of a gate and straight across the border [deg].
 CROSSED_MOST = 80.0
-# Most that a border leads ahead of those who enter, where a street joins it, per way beside them [1]: as a border does
-# that is crossed with the largest heading that a gate may have. Walls of a channel behind a gate lead further ahead.
-AHEAD_MOST = math.tan(math.radians(CROSSED_MOST))
+# Most by which a border beside a gate leads into the square per way along it [1], at 60 degrees: steeper is a wall.
+STEEPEST = math.tan(math.radians(60.0))
 # Largest difference of the distances of two sides from a gate at their corner [m].
 AT_CORNER = 1e-9
+# Way between a street and a border that it passes [m].
+PASSED = 1e-3
 # Largest number of gates [1].
 GATES_MAX = 8
 
@@ -57,25 +58,38 @@ def checked_gates(gates: Sequence[Gate] | None, venue: Venue) -> tuple[Gate, ...
 
 def _on_border(name: str, gate: Gate, square: Area) -> Gate:
     """The gate at the nearest place of the outer border. raises: InvalidValue"""
-    ring = np.array(square.rings[0])
-    a, b = ring[:-1], ring[1:]
-    way = b - a
-    squared = np.maximum((way * way).sum(axis=1), 1e-300)
-    along = np.clip(((gate.point - a) * way).sum(axis=1) / squared, 0.0, 1.0)
-    nearest = a + along[:, None] * way
-    distance = np.hypot(*(nearest - gate.point).T)
-    left = math.copysign(1.0, _signed_area(square.rings[0]))
-    into = left * ((np.stack([-way[:, 1], way[:, 0]], axis=1) @ gate.ahead) / np.sqrt(squared))
-    # At a corner the side counts that is crossed straighter.
-    k = int(np.where(distance <= distance.min() + AT_CORNER, into, -math.inf).argmax())
-    if distance[k] > ON_BORDER:
+    points = _counter_clockwise(square.rings[0])
+    _, nearest, into = _crossed(points, gate)
+    off = math.dist(nearest, gate.point)
+    if off > ON_BORDER:
         rule = "must be on the border of the square: it is {off} from it, more than {most}"
-        raise InvalidValue(f"{name}.point", rule, **quantities("m", 4, off=float(distance[k]), most=ON_BORDER))
-    x, y = nearest[k].tolist()
-    if into[k] < math.cos(math.radians(CROSSED_MOST)):
+        raise InvalidValue(f"{name}.point", rule, **quantities("m", 4, off=off, most=ON_BORDER))
+    if float((into @ gate.ahead).max()) < math.cos(math.radians(CROSSED_MOST)):
         rule = "must lead into the square, within 80 degrees of straight across its border"
         raise InvalidValue(f"{name}.heading", rule, got=Quantity(gate.heading, "rad", 6))
-    return Gate((x, y), gate.heading)
+    return Gate(nearest, gate.heading)
+
+
+def _counter_clockwise(ring: tuple[Point, ...]) -> Floats:
+    """The corners of a ring, each once, counter-clockwise [m]. Shape (corners, 2)."""
+    return np.array(ring[:-1] if _signed_area(ring) > 0.0 else ring[:0:-1])
+
+
+def _crossed(points: Floats, gate: Gate) -> tuple[int, Point, Floats]:
+    """Which side of these corners a gate crosses, its place there [m], and the unit vectors into the square.
+
+    It is the nearest side; at a corner it is the one that is crossed straighter, and the vectors are those of both.
+    """
+    ways = np.roll(points, -1, axis=0) - points
+    squared = np.maximum((ways * ways).sum(axis=1), 1e-300)
+    along = np.clip(((gate.point - points) * ways).sum(axis=1) / squared, 0.0, 1.0)
+    nearest = points + along[:, None] * ways
+    distance = np.hypot(*(nearest - gate.point).T)
+    into = np.stack([-ways[:, 1], ways[:, 0]], axis=1) / np.sqrt(squared)[:, None]
+    there = distance <= distance.min() + AT_CORNER
+    k = int(np.where(there, into @ gate.ahead, -math.inf).argmax())
+    x, y = nearest[k].tolist()
+    return k, (x, y), into[there]
 
 
 def _signed_area(ring: tuple[Point, ...]) -> float:
@@ -85,65 +99,96 @@ def _signed_area(ring: tuple[Point, ...]) -> float:
 def with_streets(venue: Venue, gates: Sequence[Gate], widths: tuple[float, float], length: float) -> Venue:
     """The venue with a straight street beyond every gate, whose dragon may stand there.
 
-    widths: of a street, and where the border of the square has no room for it [m]; length: [m]
+    The mouth of a street is the border beside its gate; where that bends steeply into the square, it is a wall, which
+    a wide street ends behind.
+
+    widths: of a street, and where there is no room for it [m]; length: [m]
     raises: InvalidValue naming the gate whose street has no room on the border, or runs back into the square
     """
     rings = venue.square.rings
     for k, gate in enumerate(gates):
         place = f"gates.{k}.point"
-        ring, width = _with_street(rings[0], gate, widths[0], length), widths[0]
-        if ring is None:
-            ring, width = _with_street(rings[0], gate, widths[1], length), widths[1]
+        area, ring = None, None
+        for width in widths:
+            ring = _with_street(rings[0], gate, width, min(widths), length)
+            area = _area(venue.square.name, (ring, *rings[1:])) if ring is not None else None
+            if area is not None:
+                break
         sizes = quantities("m", 4, width=width, length=length)
         if ring is None:
             rule = "must have {width} of border for its street, and the square is narrower there"
             raise InvalidValue(place, rule, width=sizes["width"])
-        rings = (ring, *rings[1:])
-        try:
-            Area(venue.square.name, rings)
-        except InvalidValue as error:
+        if area is None:
             rule = "must lead to a straight street, {width} wide and {length} long, that does not meet the square again"
-            raise InvalidValue(place, rule, **sizes) from error
+            raise InvalidValue(place, rule, **sizes)
+        rings = area.rings
     return Venue(Area(venue.square.name, rings), venue.obstacles)
 
 
-def _with_street(ring: tuple[Point, ...], gate: Gate, width: float, length: float) -> tuple[Point, ...] | None:
-    """The ring with a street; None if the border does not reach both sides of the street.
+def _area(name: str, rings: tuple[tuple[Point, ...], ...]) -> Area | None:
+    """An area with these rings; None if they meet."""
+    try:
+        return Area(name, rings)
+    except InvalidValue:
+        return None
 
-    From the gate along the border both ways, the street begins where the border is half a width beside its axis. A ring
-    that goes counter-clockwise leads to the right of those who enter.
+
+def _with_street(
+    ring: tuple[Point, ...], gate: Gate, width: float, least: float, length: float
+) -> tuple[Point, ...] | None:
+    """The ring with a street; None if the gate's side of the square is narrower than the least width [m].
+
+    A ring that goes counter-clockwise leads to the right of those who enter.
     """
-    points = np.array(ring[:-1] if _signed_area(ring) > 0.0 else ring[:0:-1])
+    points = _counter_clockwise(ring)
+    on, _, into = _crossed(points, gate)
     at, ahead = np.array(gate.point), np.array(gate.ahead)
-    side = np.array([-ahead[1], ahead[0]])
-    nearest = [_distance(a, b, at) for a, b in zip(points, np.roll(points, -1, axis=0), strict=True)]
-    on = int(np.argmin(nearest))
-    forwards, backwards = np.roll(points, -on - 1, axis=0), np.roll(points, -on - 1, axis=0)[::-1]
-    right, first = _side(forwards, at, ahead, -side, 0.5 * width)
-    left, last = _side(backwards, at, ahead, side, 0.5 * width)
+    side, across = np.array([-ahead[1], ahead[0]]), into.sum(axis=0)
+    across /= np.hypot(*across)
+    forwards = np.roll(points, -on - 1, axis=0)
+    right, first = _side(forwards, at, ahead, -side, across, (0.5 * width, 0.5 * least))
+    left, last = _side(forwards[::-1], at, ahead, side, across, (0.5 * width, 0.5 * least))
     kept = forwards[first : len(points) - last]
-    if right is None or left is None or not len(kept):
+    if not right or not left or not len(kept):
         return None
     back = at - length * ahead
-    path = [*kept, left, back + 0.5 * width * side, back - 0.5 * width * side, right, kept[0]]
+    path = [*kept, *left[::-1], back + 0.5 * width * side, back - 0.5 * width * side, *right, kept[0]]
     return tuple((float(x), float(y)) for x, y in path)
 
 
-def _distance(a: Floats, b: Floats, point: Floats) -> float:
-    """Distance of a point from the line between two points [m]."""
-    way = b - a
-    along = min(max(float((point - a) @ way) / max(float(way @ way), 1e-300), 0.0), 1.0)
-    return float(np.hypot(*(a + along * way - point)))
+# From the gate along the border, the street begins where the border is half a width beside its axis. But where the
+# border becomes steep before, a wall begins: the street stands behind it, on the line that the gate's border has, or
+# where the wall leads back across that line, behind the wall.
+def _side(
+    points: Floats, at: Floats, ahead: Floats, side: Floats, into: Floats, halves: tuple[float, float]
+) -> tuple[list[Floats], int]:
+    """The places by which a side of a street joins the border, from its full width on, and the next of these points.
 
-
-def _side(points: Floats, at: Floats, ahead: Floats, side: Floats, half: float) -> tuple[Floats | None, int]:
-    """The place of the border, from a gate along these points, that is `half` to a side of it; and the next point.
-    None without one, or if the border leads further ahead than AHEAD_MOST to it: the street would take away the walls
-    of a channel behind the gate."""
-    beside, before, reached = (points - at) @ side, at, 0.0
-    for k, (point, offset) in enumerate(zip(points, beside.tolist(), strict=True)):
-        if offset >= half:
-            place: Floats = before + (half - reached) / (offset - reached) * (point - before)
-            return (None, 0) if (place - at) @ ahead > AHEAD_MOST * half + AT_CORNER else (place, k)
-        before, reached = point, offset
-    return None, 0
+    points: of the border, from the gate on; into: unit vector straight across the border at the gate
+    halves: half the width of the street, and the least one up to a wall [m]
+    returns: no places if the border does not reach the width, or a wall is nearer than the least
+    """
+    half, least = halves
+    along = np.array([-into[1], into[0]]) * math.copysign(1.0, into[0] * side[1] - into[1] * side[0])
+    beside, frame = (points - at) @ side, (points - at) @ np.stack([along, into], axis=1)
+    wall: Floats | None = None
+    before, reached, last, kept, depth = at, 0.0, np.zeros(2), 0, 0.0
+    for k, (point, offset, place) in enumerate(zip(points, beside.tolist(), frame, strict=True)):
+        run, rise = (place - last).tolist()
+        if wall is None and rise > AT_CORNER and rise > STEEPEST * run:
+            if reached < least:
+                return [], 0
+            wall, kept, depth = before, k, max(-float(last[1]), 0.0)
+        share = min((half - reached) / (offset - reached), 1.0) if offset >= half else 1.0
+        if wall is None and offset >= half:
+            return [before + share * (point - before)], k
+        depth = max(depth, -float(last[1] + share * rise))
+        if wall is not None and offset >= half:
+            break
+        before, reached, last = point, offset, place
+    if wall is None:
+        return [], 0
+    down = depth + PASSED if depth > 0.0 else 0.0
+    corner = at - down * into + (half + down * float(into @ side)) / float(along @ side) * along
+    behind = (float((wall - at) @ into) + down) / float(ahead @ into)
+    return [corner, *([wall - behind * ahead] if behind > AT_CORNER else []), wall], kept
