@@ -70,7 +70,7 @@ class Excess:
                         self.interval.widen(h, rounding)
                         upper = rate_bound(scene, self.interval, self.calm)
                         if upper < FREE:
-                            rate, k = certain_rate(scene.curve, self.interval, rounding)
+                            rate, k = certain_rate(self.interval, rounding)
                 links += 1
                 if links > most_links or scene.budget.uses_up(max(self.interval.handles, 0) + 1):
                     outcome = Judged.UNDECIDED

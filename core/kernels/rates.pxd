@@ -35,5 +35,5 @@ cdef double rate_bound(Scene scene, Interval interval, double calm) noexcept nog
 @cython.locals(kink=cython.bint)
 cdef double handle_bound(Scene scene, Interval interval, Py_ssize_t k, double enough) noexcept nogil
 @cython.locals(k=cython.Py_ssize_t)
-cdef (double, Py_ssize_t) certain_rate(Curve curve, Interval interval, double rounding) noexcept nogil
+cdef (double, Py_ssize_t) certain_rate(Interval interval, double rounding) noexcept nogil
 cdef Py_ssize_t lay_ahead(Scene scene, Interval interval, double calm, Py_ssize_t placed, double place) noexcept nogil

@@ -229,14 +229,14 @@ def handle_bound(scene, interval, k, enough):
     return min(bound, smooth + error + interval.motion[k, CLIMB_ERROR] * h)
 
 
-def certain_rate(curve, interval, rounding):
+def certain_rate(interval, rounding):
     """Lower bound of one handle's |rate| over the last 2 `rounding` [m] of a bounded interval, and that handle.
 
     The bound is at least 1, the rate of the head itself.
     """
     best = 1.0
     at = 0
-    if not curve.is_spiral or interval.motion[interval.handles, RATE_LOW] <= 0.0:
+    if interval.motion[interval.handles, RATE_LOW] <= 0.0:
         for k in range(1, interval.handles + 1):
             rate = fabs(interval.after[k, RATE]) - interval.motion[k, RATE_ERROR]
             rate -= 2.0 * rounding * interval.motion[k, RATE_RATE]

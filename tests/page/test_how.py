@@ -49,6 +49,9 @@ def test_dragged_numbers_get_the_answers_of_the_service_also_after_it_was_lost(o
     steps = proof["certificate"]["steps"]
     assert steps > 1
     person.sees({"#step .verdict": f"The service takes {steps} shorter steps"})
+    # The lowest curve spans the interval.
+    span, arch = person.box("#step .span"), person.box("#step .arch")
+    assert [arch["x"], arch["width"]] == pytest.approx([span["x"], span["width"]], abs=12.0)
     person.sees({"#graze .lead": "Every look finds all benches apart", "#stray .exhibit": 0})
     person.presses("#graze .try").sees({"#graze .lead": "In 1 of them benches overlap"})
     free = int(1e4 * polite.answer(server, "tolerance", pitch=0.55)["stray"]) / 100
