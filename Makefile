@@ -154,7 +154,8 @@ fuzz: test-setup
 	@$(BIN)/python -m tests.campaigns.fuzz $(or $(CASES),10000) $(or $(MUTANTS),12000) $(or $(SEED),0) $(or $(FILES),5000)
 
 record: test-setup
-	@$(BIN)/python -m tests.campaigns.recording $(or $(FOLDER),build/recording) $(BEFORE)
+	@$(BIN)/python -m tests.campaigns.recording $(or $(FOLDER),build/recording)
+	@$(if $(BEFORE),diff --recursive $(BEFORE) $(or $(FOLDER),build/recording))
 
 mutants: test-setup $(VENV)/mutants
 	@$(BIN)/python -m tests.campaigns.mutants try

@@ -10,12 +10,14 @@ from functools import partial
 import numpy as np
 import shapely
 
-from core import Area, Dance, Judgement, Outcome, Spiral, Venue, check, venue_clearance
+from core import Area, Dance, Judgement, Outcome, Part, Spiral, Venue, check, venue_clearance
 from tests.campaigns import hunting
 from tests.campaigns.hunt_clothoids import blended_route
 from tests.campaigns.hunt_contacts import GAP, meeting_fault, random_dragon, random_margin
-from tests.support.slow_route import SlowRoute
-from tests.support.slow_search import RUN, Samples, SlowDance, benches_of, corners_of
+from tests.support.random_squares import closed
+from tests.support.shared_dances import square
+from tests.support.slow_performance import SlowPart
+from tests.support.slow_search import RUN, Samples, benches_of, corners_of
 
 # Number of poses on the way, evenly spaced in time and towards the fold in its square root.
 POSES = 600
@@ -28,33 +30,32 @@ WIDE = 60.0
 
 
 class SlowVenue(Samples):
-    """Distances of all benches from one area at many times, in the frame of the spiral."""
+    """Distances of all benches from one area at many times."""
 
-    def __init__(self, slow, boundary, times):
-        self.slow, self.boundary = slow, boundary
+    def __init__(self, part, boundary, times):
+        self.part, self.boundary = part, boundary
         super().__init__(self.distances, times)
 
     def distances(self, times):
         """(T,) least distance at times (T,) [m]; where they cross, minus the length of the boundary in a bench."""
-        benches = shapely.polygons(corners_of(*benches_of(self.slow.handles(times), self.slow.sides)))
+        benches = shapely.polygons(corners_of(*benches_of(self.part.handles(times), self.part.slow.sides)))
         apart = shapely.distance(benches, self.boundary)
         cut = apart <= 0.0
         apart[cut] = -shapely.length(shapely.intersection(benches[cut], self.boundary))
         return apart.min(axis=1)
 
 
-def random_obstacle(rng, slow, times):
-    """A triangle (3, 2) in the frame of the spiral, with a corner beside a bench or anywhere."""
-    last = float(times[-1] - (times[-1] - times[0]) * rng.uniform() ** 3)
-    handles = slow.handles([last])[0]
+def random_obstacle(rng, part, times):
+    """A triangle (3, 2) with a corner beside a bench or anywhere."""
+    handles, slow = part.handles(times[-1:] - (times[-1] - times[0]) * rng.uniform() ** 3)[0], part.slow
     bench = int(min(rng.integers(0, 4), len(slow.chords) - 1))
     front, rear = handles[bench], handles[bench + 1]
     along = (front - rear) / np.linalg.norm(front - rear)
     left = np.array([-along[1], along[0]]) * rng.choice([-1.0, 1.0])
     length, width = 0.5 * slow.lengths[bench], 0.5 * slow.widths[bench]
     gap = 10.0 ** rng.uniform(-6.0, 0.0)
-    is_beside, part = rng.uniform() < 0.5, rng.uniform(-1.0, 1.0)
-    ahead, aside = (length * part, width + gap) if is_beside else (length + gap, width * part)
+    is_beside, share = rng.uniform() < 0.5, rng.uniform(-1.0, 1.0)
+    ahead, aside = (length * share, width + gap) if is_beside else (length + gap, width * share)
     corner, away = 0.5 * (front + rear) + along * ahead + left * aside, left if is_beside else along
     if rng.uniform() < 0.2:
         corner = rng.uniform(-1.0, 1.0, 2) * np.linalg.norm(handles[0]) * 1.5
@@ -69,29 +70,18 @@ def random_case(seed, case):
     dragon, turns = random_dragon(rng, int(rng.choice([1, 2, 3, 5, 8, 12]))), rng.uniform(1.2, 5.0)
     pitch = float(rng.uniform(0.15, 1.2) * dragon.chords.max())
     centre, rotation, clockwise = rng.uniform(-20.0, 20.0, 2), rng.uniform(-4.0, 4.0), rng.uniform() < 0.5
-    if case % 3 == 2:
-        path, centre, rotation, clockwise = blended_route(rng, dragon), np.zeros(2), 0.0, True
-        slow = SlowRoute.of(dragon, path)
-    else:
-        path, slow = (
-            Spiral(pitch, turns, tuple(centre), rotation, clockwise),
-            SlowDance.of(dragon, Spiral(pitch, turns)),
-        )
+    path = blended_route(rng, dragon) if case % 3 == 2 else Spiral(pitch, turns, tuple(centre), rotation, clockwise)
     dance = Dance(dragon, path)
-    end = RUN * min(slow.end(), dance.end.time)  # the slow one may step over a fold beside the centre
+    placed = SlowPart(Part(dance))
+    end = RUN * min(placed.slow.end(), dance.end.time)  # the slow one may step over a fold beside the centre
     start = float(dance.begin + (end - dance.begin) * rng.choice([0.0, rng.uniform(0.0, 0.9)]))
     stop = None if rng.uniform() < 0.6 else float(start + (end - start) * rng.uniform(0.5, 1.0))
     until = end if stop is None else stop
     part = np.linspace(0.0, 1.0, POSES)
     times = np.unique(start + (until - start) * np.concatenate([part, 1.0 - (1.0 - part) ** 2]))
-    triangle = random_obstacle(rng, slow, times)
-    mirrored = triangle if clockwise else triangle * [1.0, -1.0]
-    cos, sin = np.cos(rotation), np.sin(rotation)
-    placed = centre + mirrored @ np.array([[cos, sin], [-sin, cos]])
-    ring = [*map(tuple, placed.tolist()), tuple(placed[0].tolist())]
-    square = [(-WIDE, -WIDE), (WIDE, -WIDE), (WIDE, WIDE), (-WIDE, WIDE), (-WIDE, -WIDE)]
-    venue = Venue(Area("square", (tuple(square),)), (Area("tree", (tuple(ring),)),))
-    look = SlowVenue(slow, shapely.Polygon(triangle).boundary, times)
+    triangle = random_obstacle(rng, placed, times)
+    venue = Venue(square(WIDE).square, (Area("tree", (closed(triangle),)),))
+    look = SlowVenue(placed, shapely.Polygon(triangle).boundary, times)
     margin = random_margin(rng, dragon.widths.max(), look.least()[0])
     return dance, venue, margin, start, stop, look
 

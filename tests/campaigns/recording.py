@@ -1,7 +1,7 @@
 """What the program answers: 960 requests over all calls, commands, tables, files and refusals, kept in a folder.
 
-python -m tests.campaigns.recording FOLDER [BEFORE] writes them into FOLDER and compares them with those of BEFORE:
-every number, name and code must be equal; sentences that differ are listed, to be read.
+python -m tests.campaigns.recording FOLDER writes them into FOLDER, a value in each line. `make record BEFORE=` shows
+what differs from those of another folder.
 """
 
 import contextlib
@@ -144,39 +144,5 @@ def keep(folder, name, head, parts):
     file.write_text(json.dumps(content, indent=1, ensure_ascii=False, sort_keys=True))
 
 
-def leaves(value, at=""):
-    """Address and value of everything in an answer that is no list and no object."""
-    if isinstance(value, dict | list):
-        for key, inner in value.items() if isinstance(value, dict) else enumerate(value):
-            yield from leaves(inner, f"{at}/{key}")
-    else:
-        yield at, value
-
-
-def is_sentence(value):
-    return isinstance(value, str) and bool(re.search(r"[A-Za-z]{2,} +\S|[\u4e00-\u9fff]", value))
-
-
-def compare(folder, before):
-    """Number of answers whose data differ; what differs is printed."""
-    names, wrong = {file.name for each in (folder, before) for file in each.iterdir()}, 0
-    for name in sorted(names):
-        files = [each / name for each in (before, folder)]
-        old, new = (dict(leaves(json.loads(file.read_text()))) if file.exists() else {} for file in files)
-        different = [(at, old.get(at), new.get(at)) for at in {**old, **new} if old.get(at) != new.get(at)]
-        data = [at for at, *both in different if not all(map(is_sentence, both))]
-        wrong += bool(data)
-        for at, *both in different[:20]:
-            print("DATA" if at in data else "words", name, at, *both, sep="\n  ")
-    print(f"{len(names)} answers, data of {wrong} differ")
-    return wrong
-
-
-def main():
-    folder, *before = (Path(word) for word in sys.argv[1:])
-    record(folder)
-    sys.exit(bool(before and compare(folder, before[0])))
-
-
 if __name__ == "__main__":
-    main()
+    record(Path(sys.argv[1]))

@@ -1,4 +1,4 @@
-"""The search of the page tests for a browser, and the message of a run without one."""
+"""A run of the page tests on a machine without a browser."""
 
 import os
 import subprocess
@@ -7,7 +7,6 @@ import sys
 import pytest
 
 from tests.conftest import ROOT
-from tests.support.browser import starts
 
 # Code that hides every installed browser.
 WITHOUT = "from tests.support import browser; browser.PLACES = ()"
@@ -16,36 +15,12 @@ LEFT_OUT = "tests are left out: no Chrome or Chromium starts here"
 pytestmark = pytest.mark.uncompiled
 
 
-def program(path, says, code):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(f"#!/bin/sh\nprintf '%s' '{says}'\nexit {code}\n")
-    path.chmod(0o755)
-    return str(path)
-
-
 def bare(folder):
     """An environment that names no browser."""
     unset = ("CHROME", "EVERY_TEST", "PLAYWRIGHT_BROWSERS_PATH", "XDG_CACHE_HOME")
     kept = {name: value for name, value in os.environ.items() if name not in unset}
     # Plugins of pytest that these tests do not use would take two seconds to load.
     return {**kept, "HOME": str(folder), "PATH": str(folder), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
-
-
-@pytest.mark.parametrize(
-    ("says", "code", "works"),
-    [
-        ("Chromium 131.0.6778.85 built on Debian", 0, True),
-        ("requires the chromium snap to be installed", 1, False),
-        ("Firefox 140", 0, False),
-    ],
-    ids=["chromium", "stub", "another"],
-)
-def test_a_browser_is_what_says_that_it_is_one(tmp_path, says, code, works):
-    assert starts(program(tmp_path / "chromium", says, code)) is works
-
-
-def test_what_is_missing_is_no_browser(tmp_path):
-    assert not starts(str(tmp_path / "nothing"))
 
 
 def without_browser(folder, *arguments, **more):
@@ -62,8 +37,8 @@ def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path):
 
 
 def test_where_every_test_must_run_a_missing_browser_is_an_error(tmp_path):
-    # Of modules that import little.
-    here = "tests/page/test_browser.py::test_what_is_missing_is_no_browser"
+    # Of a module that imports little.
+    here = "tests/core/test_names.py"
     done = without_browser(tmp_path, "tests/page/test_everyone.py", here, EVERY_TEST="1")
     assert (done.stdout.count(LEFT_OUT), done.returncode) == (1, pytest.ExitCode.USAGE_ERROR)
     assert "passed" not in done.stdout

@@ -25,53 +25,6 @@ def wobbler(size, sizes):
     return made
 
 
-def laid_out(wanted, chords, front_play=None, rear_play=None):
-    """Oracle: front and rear holes (2, n, ...) of benches whose people want their pins here (n + 1, ...) [m].
-
-    Each rear hole is as near to where its person wants it as the chord allows. All places are complex numbers.
-    """
-    still, pin, holes = np.zeros(len(chords)), wanted[0], []
-    plays = [still if play is None else play for play in (front_play, rear_play)]
-    for want, chord, ahead, behind in zip(wanted[1:], chords, *plays, strict=True):
-        front = pin + ahead
-        way = want + behind - front
-        holes.append((front, front + way * (chord / abs(way))))
-        pin = holes[-1][1] - behind
-    return np.moveaxis(holes, 0, 1)
-
-
-def test_chords_and_joints_are_kept_and_each_rear_hole_is_where_its_person_wants_it_as_nearly_as_can_be():
-    rng = np.random.default_rng(3)
-    made, state = wobbler(0.02, SIZES), np.zeros((21, 2))
-    play = rng.uniform(-0.004, 0.004, (20, 4))
-    made.dance(np.zeros(1), rng.standard_normal((1, 21, 2)), play, PLACES[:1], TANGENTS[:1], NOT_SAFE[:1], state)
-    places, tangents = PLACES[0] @ [1.0, 1.0j], TANGENTS[0] @ [1.0, 1.0j]
-    wanted = places + (0.02j * state[:, 0] + 0.01 * state[:, 1]) * tangents
-    middle, along = (np.asarray(made.chain)[:-1, [x, y]] @ [1.0, 1.0j] for x, y in ((MX, MY), (UX, UY)))
-    expected = laid_out(wanted, DRAGON.chords, play[:, :2] @ [1.0, 1.0j], play[:, 2:] @ [1.0, 1.0j])
-    front, rear = middle + np.array([[0.5], [-0.5]]) * DRAGON.chords * along
-    assert [front, rear] == pytest.approx(expected, abs=ROUNDING)
-    strays = np.abs([front - places[:-1], rear - places[1:]])
-    assert made.furthest == pytest.approx(strays.max(), abs=ROUNDING)
-
-
-def test_people_stand_alike_as_their_correlations_say():
-    rng = np.random.default_rng(4)
-    made, stood = wobbler(0.0, SIZES), []
-    memory = np.array([0.0, MEMORY, MEMORY])
-    for _ in range(4_000):
-        state = np.zeros((21, 2))
-        for t in range(3):
-            made.dance(memory[t : t + 1], rng.standard_normal((1, 21, 2)), NO_PLAY, PLACES, TANGENTS, NOT_SAFE, state)
-            stood.append(state.copy())
-    samples = np.reshape(stood, (-1, 3, 21, 2))  # samples, instants, people, directions
-    spread = 5.0 / np.sqrt(len(samples))  # five standard deviations of a correlation near 0, more of one near 1
-    for instants, people in [(0, 0), (0, 1), (0, 3), (1, 0), (2, 0), (1, 1), (2, 2)]:
-        alike = (samples[:, 0, 5] * samples[:, instants, 5 + people]).mean(axis=0)
-        assert alike == pytest.approx(ALONG**people * MEMORY**instants, abs=2.0 * spread)
-    assert abs((samples[:, 0, 5, 0] * samples[:, 0, 5, 1]).mean()) < spread
-
-
 def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them():
     safe, gain = np.empty((20, 20)), gains(DRAGON)
     wobbler(0.05, SIZES).measure(MOST, gain, PLACES, safe)

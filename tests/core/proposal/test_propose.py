@@ -8,7 +8,7 @@ from core import Area, Budget, Dragon, FailureKind, Figure, Gate, Objective, Rea
 from core.proposal.propose import BENCHES_MOST
 from tests.campaigns.hunt_proposals import fault
 from tests.support.depth import further, some, thorough
-from tests.support.random_squares import Case, box, refuted
+from tests.support.random_squares import Case, box, closed, refuted
 from tests.support.refused import refused
 
 # What an organiser has: 30 m x 40 m with two trees and a stage, and 40 benches of 2 m.
@@ -156,53 +156,11 @@ def test_what_was_found_before_the_work_ended_is_proposed():
         within(Budget(1e3))
 
 
-# Squares [m] with what stands in them, and both gates: a channel between blocks, a short square.
-STRAIGHT = {
-    "channel of 0.6 m": ((24, 20), [(6, 0, 12, 9.8), (6, 10.4, 12, 9.6)], [(0, 10.1), (24, 10.1)]),
-    "a square of 5 m": ((5, 9), [], [(0, 4.5), (5, 4.5)]),
-}
-
-
-@pytest.mark.parametrize("name", STRAIGHT)
-def test_whoever_walks_straight_from_gate_to_gate_needs_no_room_to_turn(name):
-    size, blocks, (west, east) = STRAIGHT[name]
-    venue = Venue(box("square", 0, 0, *size), tuple(box(f"block {k}", *block) for k, block in enumerate(blocks)))
-    case = Case(venue, Dragon(4), (Gate(west, 0.0), Gate(east, math.pi)), LIMITS)
-    (one,) = case.proposals(figures=["parade"], count=1).proposals
-    assert refuted(case, one) == ""
-
-
 @pytest.mark.parametrize(("side", "benches"), [(3.95, 1), (4.0, 2), (5.0, 4), (6.0, 1)])
 def test_a_short_dragon_dances_in_a_square_in_which_its_tightest_circle_just_fits(side, benches):
     case = Case(Venue(box("yard", 0, 0, side, side)), Dragon(benches), (), LIMITS)
     result = case.proposals()
     assert [refuted(case, one) for one in result.proposals] == [""] * max(len(result.proposals), 1), result.message
-
-
-CHANNEL = box("low", 8, 0, 8, 9.8), box("high", 8, 10.4, 8, 9.6)
-STREETS = ((0, 3), (17, 3), (17, 20), (13, 20), (13, 7), (0, 7), (0, 3))
-TURNING = {
-    "a channel beside the gate": (Venue(box("square", 0, 0, 24, 20), CHANNEL), ((0, 14), 0.0), ((24, 10.1), math.pi)),
-    "a channel beside both gates": (
-        Venue(box("square", 0, 0, 24, 20), (box("low", 8, 0, 8, 12.05), box("high", 8, 12.95, 8, 7.05))),
-        ((0, 10), 0.0),
-        ((24, 10), math.pi),
-    ),
-    "a narrow channel beside both gates": (
-        Venue(box("square", 0, 0, 24, 20), (box("low", 8, 0, 8, 6.03), box("high", 8, 6.63, 8, 13.37))),
-        ((0, 10.1), 0.0),
-        ((24, 10.1), math.pi),
-    ),
-    "two streets": (Venue(Area("streets", (STREETS,))), ((0, 5), 0.0), ((15, 20), -0.5 * math.pi)),
-}
-
-
-@pytest.mark.parametrize("name", TURNING)
-def test_a_walk_turns_where_there_is_room_and_is_straight_elsewhere(name):
-    venue, begin, end = TURNING[name]
-    case = Case(venue, Dragon(4), (Gate(*begin), Gate(*end)), LIMITS)
-    result = case.proposals(figures=["parade"], count=1)
-    assert [refuted(case, one) for one in result.proposals] == [""], result.message
 
 
 def bend(width, other):
@@ -233,14 +191,23 @@ def hall(width):
     return ring, ((0, 0.5 * width), 0.0), ((18, 8), -0.5 * math.pi)
 
 
-BETWEEN_CHANNELS = {
-    "a bend of 0.8 m": (bend(0.8, 0.8), 0.0),
-    "a bend of 0.6 m": (bend(0.6, 0.6), 0.3),
-    "a turned bend of 0.9 m": (bend(0.9, 0.9), 2.5),
-    "a bend of 0.7 m and 1.3 m": (bend(0.7, 1.3), 1.1),
-    "a corner of 0.7 m": (corner(0.7), 0.4),
-    "rooms in a row": (rooms(0.7), 0.4),
-    "one channel and a wide gate": (hall(0.8), 0.2),
+YARD, STREETS = [(0, 0), (24, 0), (24, 20), (0, 20)], [(0, 3), (17, 3), (17, 20), (13, 20), (13, 7), (0, 7)]
+LOW_WEST, LOW_EAST = ((0, 10.1), 0.0), ((24, 10.1), math.pi)
+# Corners of a square [m], the gates of a walk, the angle by which all is turned [rad], and what stands in it.
+WALKS = {
+    "straight through a channel": (YARD, LOW_WEST, LOW_EAST, 0.0, (6, 0, 12, 9.8), (6, 10.4, 12, 9.6)),
+    "straight through 5 m": ([(0, 0), (5, 0), (5, 9), (0, 9)], ((0, 4.5), 0.0), ((5, 4.5), math.pi), 0.0),
+    "a channel beside a gate": (YARD, ((0, 14), 0.0), LOW_EAST, 0.0, (8, 0, 8, 9.8), (8, 10.4, 8, 9.6)),
+    "beside both": (YARD, ((0, 10), 0.0), ((24, 10), math.pi), 0.0, (8, 0, 8, 12.05), (8, 12.95, 8, 7.05)),
+    "a narrow one beside both": (YARD, LOW_WEST, LOW_EAST, 0.0, (8, 0, 8, 6.03), (8, 6.63, 8, 13.37)),
+    "two streets": (STREETS, ((0, 5), 0.0), ((15, 20), -0.5 * math.pi), 0.0),
+    "a bend of 0.8 m": (*bend(0.8, 0.8), 0.0),
+    "a bend of 0.6 m": (*bend(0.6, 0.6), 0.3),
+    "a turned bend of 0.9 m": (*bend(0.9, 0.9), 2.5),
+    "a bend of 0.7 m and 1.3 m": (*bend(0.7, 1.3), 1.1),
+    "a corner of 0.7 m": (*corner(0.7), 0.4),
+    "rooms in a row": (*rooms(0.7), 0.4),
+    "one channel and a wide gate": (*hall(0.8), 0.2),
 }
 
 
@@ -249,45 +216,40 @@ def turned(point, angle):
     return x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)
 
 
-@pytest.mark.parametrize("name", BETWEEN_CHANNELS)
-def test_a_walk_between_narrow_channels_turns_in_the_open_ground_between_them(name):
-    (corners, *gates), angle = BETWEEN_CHANNELS[name]
-    ring = [turned(point, angle) for point in corners]
-    venue = Venue(Area("square", ((*ring, ring[0]),)))
-    case = Case(venue, Dragon(3), tuple(Gate(turned(at, angle), heading + angle) for at, heading in gates), LIMITS)
+def walk(ring, begin, end, angle, *blocks, benches=4):
+    """A walk from gate to gate."""
+    square = Area("square", (closed([turned(point, angle) for point in ring]),))
+    venue = Venue(square, tuple(box(f"block {k}", *block) for k, block in enumerate(blocks)))
+    gates = tuple(Gate(turned(at, angle), heading + angle) for at, heading in (begin, end))
+    return Case(venue, Dragon(benches), gates, LIMITS)
+
+
+@pytest.mark.parametrize("name", WALKS)
+def test_a_walk_turns_where_there_is_room_and_is_straight_in_channels(name):
+    case = walk(*WALKS[name])
     result = case.proposals(figures=["parade"], count=1)
     assert [refuted(case, one) for one in result.proposals] == [""], result.message
 
 
 @pytest.mark.thorough
 def test_figures_are_danced_in_a_room_behind_two_narrow_channels():
-    corners, *gates = bend(0.8, 0.8)
-    venue = Venue(Area("square", ((*corners, corners[0]),)))
-    case = Case(venue, Dragon(3), tuple(Gate(*gate) for gate in gates), LIMITS)
+    case = walk(*WALKS["a bend of 0.8 m"])
     result = case.proposals()
     assert {one.figure for one in result.proposals} > {Figure.PARADE}
     assert [refuted(case, one) for one in result.proposals] == [""] * 3
 
 
 def test_where_not_even_one_bench_fits_the_reason_is_what_fails_in_its_nearest_dance():
-    blocks = (
-        box("low", 8, 0, 2, 6.03),
-        box("high", 8, 6.63, 2, 13.37),
-        box("next", 12.5, 0, 3, 15),
-        box("last", 12.5, 15.6, 3, 4),
-    )
-    gates = Gate((0.0, 10.1), 0.0), Gate((24.0, 10.1), math.pi)
-    square = Venue(box("square", 0, 0, 24, 20), blocks)
-    reason = propose(square, Dragon(4), gates=gates, figures=["parade"]).reason
+    blocks = (8, 0, 2, 6.03), (8, 6.63, 2, 13.37), (12.5, 0, 3, 15), (12.5, 15.6, 3, 4)
+    reason = walk(YARD, LOW_WEST, LOW_EAST, 0.0, *blocks, benches=4).proposals(figures=["parade"]).reason
     assert (reason.kind, reason.have, reason.need, reason.figure) == (ReasonKind.FAILS, 1, 4, Figure.PARADE)
-    assert (reason.failure.kind, reason.failure.area) == (FailureKind.VENUE, "next")
+    assert (reason.failure.kind, reason.failure.area) == (FailureKind.VENUE, "block 2")
     assert reason.message.endswith(f"not even with one bench; the nearest, a parade: {reason.failure.message}")
 
 
 def test_a_way_is_refused_by_a_bound_that_no_dance_can_do_without():
-    blocks = box("low", 6, 0, 12, 9.81), box("high", 6, 10.19, 12, 9.81)
-    gates = Gate((0.0, 10.0), 0.0), Gate((24.0, 10.0), math.pi)
-    reason = propose(Venue(box("square", 0, 0, 24, 20), blocks), Dragon(2), gates=gates, figures=["parade"]).reason
+    blocks = (6, 0, 12, 9.91), (6, 10.29, 12, 9.71)
+    reason = walk(YARD, LOW_WEST, LOW_EAST, 0.0, *blocks, benches=2).proposals(figures=["parade"]).reason
     assert (reason.kind, reason.who) == (ReasonKind.WAY, (0, 1))
     assert 0.38 <= reason.have < 0.39
     assert reason.need == pytest.approx(0.3 + 2.0 * 0.05)

@@ -24,7 +24,6 @@ from core import (
 from core.sampling import bisect
 from core.tolerance.chance import CONFIDENCE, clopper_pearson
 from core.tolerance.union_bound import union_bound
-from tests.core.kernels.test_wobble import laid_out
 from tests.support.refused import refused
 
 SPIRAL = Dance(Dragon(20), Spiral())
@@ -41,6 +40,21 @@ OPPOSITE = 20.0 + 1.5 * np.pi + 1.95
 def poses_of(holes):
     """Poses of benches with these holes (2, n), complex numbers."""
     return bench_poses(np.stack([holes.real, holes.imag], axis=-1).swapaxes(0, 1))[:, 0]
+
+
+def laid_out(wanted, chords, front_play=None, rear_play=None):
+    """Oracle: front and rear holes (2, n, ...) of benches whose people want their pins here (n + 1, ...) [m].
+
+    Each rear hole is as near to where its person wants it as the chord allows. All places are complex numbers.
+    """
+    still, pin, holes = np.zeros(len(chords)), wanted[0], []
+    plays = [still if play is None else play for play in (front_play, rear_play)]
+    for want, chord, ahead, behind in zip(wanted[1:], chords, *plays, strict=True):
+        front = pin + ahead
+        way = want + behind - front
+        holes.append((front, front + way * (chord / abs(way))))
+        pin = holes[-1][1] - behind
+    return np.moveaxis(holes, 0, 1)
 
 
 def gap_of_all_alike(places, left, aside):
@@ -87,25 +101,37 @@ def test_the_probability_of_a_hairpin_is_that_of_its_quadrature():
         assert 0.99 * factor < bound / rare < 1.01 * factor
 
 
-def test_play_and_an_error_of_the_pitch_together_are_those_of_chains_laid_out_one_by_one():
-    """Nobody wobbles; each dragon is laid out in Python, on its own spiral, with the play of its own pins."""
-    size, model, dragon = 0.02, Wobble(0.0, 0.0, hole=0.06, pin=0.05, pitch_error=0.02), SPIRAL.dragon
+def test_each_dragon_is_the_one_that_is_laid_out_step_by_step():
+    """On its own spiral, with the play of its own pins, and people who wobble along the chain and in time."""
+    model, dragon = Wobble(0.02, 0.01, 4.0, 3.0, hole=0.06, pin=0.05, pitch_error=0.02), SPIRAL.dragon
     start, touching = LATE["start"], []
-    result = contact_probability(SPIRAL, model, 300, 5, start=start, stop=start + 1e-6)
-    radius = float(SPIRAL.path.head(start).radius)
+    result = contact_probability(SPIRAL, model, 300, 5, start=start, stop=start + 1.5)
+    times = np.linspace(start, start + 1.5, 3)
+    memory, radii = np.exp(-result.step / 4.0), [float(SPIRAL.path.head(time).radius) for time in times]
     sizes = np.stack([dragon.lengths, dragon.widths], axis=1)
     first, second = np.triu_indices(20, 2)
     for sample in range(300):
-        spiral = Spiral(0.55 + size * numbers(5, sample, 1).standard_normal(), 20.0)
-        places = trajectory(Dance(dragon, spiral), spiral.travel_to(radius)).position @ [1.0, 1j]
+        spiral = Spiral(0.55 + model.pitch_error * numbers(5, sample, 1).standard_normal(), 20.0)
+        motion = trajectory(Dance(dragon, spiral), [spiral.travel_to(radius) for radius in radii])
+        places, ahead = motion.position @ [1.0, 1j], motion.velocity @ [1.0, 1j] / motion.speed
         distance, turn = numbers(5, sample, 0).random((2, 20, 2))
         play = model.play * np.sqrt(distance) * np.exp(2j * np.pi * turn)
-        holes = laid_out(places, dragon.chords, *play.T)
-        assert result.strays[sample] == pytest.approx(abs(holes - [places[:-1], places[1:]]).max(), abs=1e-7)
-        poses = poses_of(holes)
-        gaps = separation(poses[first], sizes[first], poses[second], sizes[second]).separation
-        touching += [sample] if gaps.min() <= 0.0 else []
-    assert result.sample.tolist() == touching
+        wish = numbers(5, sample, 2).standard_normal((3, 21, 2)) @ [1j * model.lateral, model.forward]
+        for k in range(1, 21):
+            wish[:, k] = model.along * wish[:, k - 1] + np.sqrt(1.0 - model.along**2) * wish[:, k]
+        furthest = 0.0
+        for t in range(3):
+            if t:
+                wish[t] = memory * wish[t - 1] + np.sqrt(1.0 - memory**2) * wish[t]
+            holes = laid_out(places[t] + wish[t] * ahead[t], dragon.chords, *play.T)
+            furthest = max(furthest, abs(holes - [places[t, :-1], places[t, 1:]]).max())
+            poses = poses_of(holes)
+            gaps = separation(poses[first], sizes[first], poses[second], sizes[second]).separation
+            if gaps.min() <= 0.0:
+                touching.append((sample, times[t]))
+                break
+        assert result.strays[sample] == pytest.approx(furthest, abs=1e-7)
+    assert list(zip(result.sample.tolist(), result.time.tolist(), strict=True)) == touching
     assert 20 < len(touching) < 200
 
 

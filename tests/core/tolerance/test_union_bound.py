@@ -5,7 +5,7 @@ import pytest
 
 from core import Budget, Dance, Dragon, Spiral, Wobble, contact_probability, trajectory
 from core.tolerance.union_bound import first_order, left_out, union_bound
-from tests.core.kernels.test_wobble import laid_out
+from tests.core.tolerance.test_chance import laid_out
 
 DANCE = Dance(Dragon(12), Spiral())
 TIMES = np.array([300.0, 340.0])
