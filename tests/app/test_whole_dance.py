@@ -90,7 +90,8 @@ def test_a_file_may_name_a_table_of_benches_and_a_time_of_day(tmp_path):
     assert '"Li, the elder",19:30:00' in rows[2]
     benches.write_text(TABLE.replace("Wu;2,2", "Wu;220"))
     text = "line 6: length must be from 0.001 to 50 m, got 220 m: lengths are in metres, and 220 cm is 2.2 m"
-    assert text in refusal("check", str(dance)).replace("\n", " ")
+    refused = refusal("check", str(dance)).replace("\n", " ")
+    assert (f"{benches}: {text}" in refused, "dragon.csv" in refused) == (True, False)
 
 
 BARE_TABLE = "Zhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\n"
@@ -129,14 +130,6 @@ def test_a_table_of_a_spreadsheet_is_read_in_its_encoding(tmp_path, coding):
     assert done.returncode == 0, done.stderr
     note = f"{tmp_path / 'benches.csv'} is not in UTF-8; it was read as GB 18030."
     assert (note in done.stderr) == (coding == "gb18030")
-
-
-def test_a_fault_in_a_table_names_the_file_and_the_line(tmp_path):
-    (tmp_path / "b.csv").write_text("length,width,overhang\n3.41,0.3\n")
-    done = run("check", written(tmp_path, {"dragon": "b.csv", "stop": 5}))
-    assert done.returncode != 0
-    assert f"{tmp_path / 'b.csv'}: line 2: must have 3 entries" in done.stderr
-    assert "dragon.csv" not in done.stderr
 
 
 # -- times of day --------------------------------------------------------------------------------------------

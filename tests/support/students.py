@@ -13,7 +13,7 @@ from openpyxl import Workbook
 
 from app.files.workbooks import Worksheet
 from app.files.workbooks import workbook as written
-from core import Dance, Dragon, Spiral, Turn, trajectory
+from core import Coil, Dance, Dragon, Line, Route, Spiral, Turn, trajectory
 from tests.support.slow_search import arc_length
 
 SPIRAL_TIMES, TURN_TIMES = np.arange(301.0), np.arange(-100.0, 101.0)
@@ -102,16 +102,10 @@ def outside(value):
 
 def on_line():
     """Handles that are not yet on the spiral stand on its tangent at the start, a chord apart, at the head's speed."""
-    position, speed = spiral()
-    beyond = is_outside(position)
-    back = np.array([math.cos(math.atan(START)), math.sin(math.atan(START))])
-    for row, is_beyond in zip(position, beyond, strict=True):
-        for k in np.flatnonzero(is_beyond).tolist():
-            start = row[k - 1] if is_beyond[k - 1] else np.array([8.8, 0.0])
-            away = start - row[k - 1]
-            across = back @ away
-            row[k] = start + (-across + math.sqrt(across**2 - away @ away + Dragon().chords[k - 1] ** 2)) * back
-    return position, np.where(beyond, 1.0, speed)
+    begin = 400.0 * np.array([math.cos(math.atan(START)), math.sin(math.atan(START))]) + [8.8, 0.0]
+    path = Route([Line(tuple(begin), (8.8, 0.0)), Coil(0.55, 16.0, 3.0)], 400.0)
+    position, speed = of(Dance(Dragon(), path), SPIRAL_TIMES)
+    return position, np.where(is_outside(position), 1.0, speed)
 
 
 def bisected(excess, low, high):

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from app.maps.dances import read_dance
-from app.questions.cues import QUESTION as CUES
-from app.questions.cues import CuesRequest
 from app.questions.plan import PDF_TYPE
+from app.questions.registry import QUESTIONS
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import Budget, TooMuchWork
@@ -150,13 +149,6 @@ def test_one_of_several_gets_cards_by_its_name_or_its_number(ask):
     assert cards_of(ask, TWO | {"part": 0, "cards": ["Wu"]}) == [whole[1]]
 
 
-def test_a_deadline_while_cards_are_drawn_is_a_refusal():
-    budget = Budget()
-    terms = Terms(budget=budget, progress=lambda _: budget.stop("within 2 s"))
-    with pytest.raises(TooMuchWork, match="within 2 s"):
-        CUES.to_bytes(checked(CuesRequest, TWO), terms, PDF_TYPE)
-
-
 def test_each_of_several_counts_its_own_beats_from_its_delay_on(ask):
     beats = [{"bars": 6, "tempo": 60, "step": 1}, {"bars": 2, "tempo": 60, "step": 0}]
     drummed = TWO | {"dances": [TWO["dances"][0], TWO["dances"][1] | {"beats": beats}]}
@@ -200,3 +192,15 @@ def test_crosses_stand_at_the_chalk_marks_of_start_and_end(ask):
     # The street of the start leads along x, that of the end along y.
     assert before == pytest.approx(start - [scale * card["start"]["past_mark"], 0.0], abs=0.05)
     assert ahead == pytest.approx(done - [0.0, scale * card["done"]["past_mark"]], abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("name", "body", "paper"),
+    [("plan", VILLAGE, "plan was"), ("cues", VILLAGE, "cards were"), ("cues", TWO, "cards were"),
+     ("crew", VILLAGE, "timeline was")],
+)  # fmt: skip
+def test_a_deadline_while_a_paper_is_set_is_a_refusal(name, body, paper):
+    question, budget = QUESTIONS[name], Budget()
+    terms = Terms(budget=budget, progress=lambda _: budget.stop("within 2 s"))
+    with pytest.raises(TooMuchWork, match=f"the {paper} not drawn within 2 s"):
+        question.to_bytes(checked(question.body, body), terms, PDF_TYPE)

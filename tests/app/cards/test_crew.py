@@ -10,12 +10,8 @@ import pytest
 
 import core
 from app.maps.dances import read_dance
-from app.questions.crew import QUESTION as CREW
 from app.questions.crew import CrewRequest
-from app.questions.plan import PDF_TYPE
 from app.wire.messages import checked
-from app.wire.question import Terms
-from core import Budget, TooMuchWork
 from tests.conftest import ROOT
 from tests.support.command import run
 from tests.support.paper import assert_fonts_are_within, pages_of, words_of
@@ -108,13 +104,6 @@ def test_a_terminal_shows_who_is_where():
 )
 def test_a_crew_that_cannot_be_is_refused(client, row):
     assert_refused(client, "/crew", VILLAGE, row)
-
-
-def test_a_deadline_while_the_timeline_is_set_is_a_refusal():
-    budget = Budget()
-    terms = Terms(budget=budget, progress=lambda _: budget.stop("within 2 s"))
-    with pytest.raises(TooMuchWork, match="the timeline was not drawn within 2 s"):
-        CREW.to_bytes(checked(CrewRequest, VILLAGE | PEOPLE), terms, PDF_TYPE)
 
 
 def test_a_clock_after_midnight_is_in_the_same_night(ask):

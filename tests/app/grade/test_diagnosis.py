@@ -195,12 +195,6 @@ def test_a_rounded_instant_that_fits_a_shortcut_is_only_a_guess():
     assert met(result, "refined") is not True
 
 
-def test_equal_speeds_do_not_belong_to_the_positions():
-    result = known("equal_speeds")
-    assert met(result, "speeds") is False
-    assert (result.sheets[1].verdict, result.sheets[1].decimals) == ("wrong", None)
-
-
 @pytest.mark.parametrize("decimals", [1, 2, 3, 5])
 def test_equal_speeds_of_two_decimals_are_right_ones_rounded(decimals):
     """A workbook does not show that speeds of 1.00 have two decimals; more decimals of places are said to show none."""
@@ -218,12 +212,6 @@ def test_text_shows_the_decimals_of_equal_speeds(speed, verdict):
     result = grade("\n".join(["time,handle,x,y,speed", *lines]).encode())
     causes = {"1.00": [], "1.000000": ["equal_speeds"], "-1.00": ["speeds_negated"]}
     assert (result.verdict, errors(result)) == (verdict, causes[speed])
-
-
-def test_speeds_of_two_decimals_are_not_said_to_be_written_with_none():
-    """All right speeds are 1.00 to two decimals."""
-    _, sheet = grade(students.by_xlsxwriter(students.rows_of(rounded(spiral(), 2), SPIRAL_TIMES))).sheets
-    assert (sheet.verdict, sheet.decimals, sheet.notes) == ("rounded", 2, [])
 
 
 def test_a_table_has_the_decimals_of_its_numbers_that_show_some():
@@ -285,14 +273,10 @@ def test_the_errors_of_places_and_of_speeds_are_named_each(places, speeds):
 @pytest.mark.parametrize("by", further([1, -2], 1))
 def test_speeds_in_shifted_rows_are_not_called_rounded(by):
     """Those of neighbours on the spiral differ in the third decimal."""
-    results = shifted(spiral(), by)
-    result = grade(first(results, whole=True))
+    result = grade(first(shifted(spiral(), by), whole=True))
     assert [one.verdict for one in result.sheets] == ["wrong", "wrong"]
     assert errors(result) == ["shifted_rows"]
     assert result.diagnosis[0].words.endswith(f"numbers of handle k {'+' if by > 0 else '-'} {abs(by)}.")
-    alone = grade(first((spiral()[0], results[1]), whole=True))
-    assert [one.verdict for one in alone.sheets] == ["right", "wrong"]
-    assert errors(alone) == ["shifted_rows"]
 
 
 @pytest.mark.parametrize("change", [[-1.0, 1.0], [1.0, -1.0]])
@@ -390,13 +374,6 @@ def test_nobody_is_accused_by_chance(cases):
     assert hunt(20261126, cases=cases)[:2] == (cases, 0)
 
 
-@pytest.mark.parametrize("decimals", [2, 3, 4])
-def test_another_instant_is_seen_in_a_mirror_too_and_in_few_decimals(decimals):
-    """The place of the head alone leaves the instant as uncertain as its last decimal: all handles tell it."""
-    result = grade_contact(rounded(students.mirrored(spiral(np.array([412.5]))), decimals))
-    assert errors(result)[:2] == ["anticlockwise", "other_instant"]
-
-
 @pytest.mark.parametrize("handles", [[0, 1, 51, 101, 151, 201, 223], range(1, 224)], ids=["printed", "no head"])
 def test_another_instant_is_seen_in_few_decimals_of_any_handles(handles):
     """The rounding of one place leaves it uncertain; all places tell it together."""
@@ -469,7 +446,7 @@ TWO = {
     ("x_negated", "shifted_rows"): lambda times, dance: turned_x(shifted(dance(times))),
     ("x_negated", "length_for_chord"): lambda times, dance: turned_x(dance(times, dragon=Dragon(overhang=0.0))),
     ("axes_exchanged", "shifted_time"): lambda times, dance: exchanged(dance(times - 1.0)),
-    ("turned", "head_as_body"): lambda times, dance: half_turned(dance(times, dragon=Dragon(head_length=2.2))),
+    ("turned", "head_as_body"): lambda times, dance: turned(dance(times, dragon=Dragon(head_length=2.2)), 180.0),
     ("shifted_rows", "length_for_chord"): lambda times, dance: shifted(dance(times, dragon=Dragon(overhang=0.0))),
     ("shifted_time", "length_for_chord"): lambda times, dance: dance(times - 1.0, dragon=Dragon(overhang=0.0)),
     ("speeds_negated", "equal_speeds"): lambda times, dance: (dance(times)[0], -np.ones((len(times), 224))),
@@ -482,10 +459,6 @@ def turned_x(results):
 
 def exchanged(results):
     return results[0][..., ::-1], results[1]
-
-
-def half_turned(results):
-    return -results[0], results[1]
 
 
 @pytest.mark.parametrize("decimals", [6, 3])

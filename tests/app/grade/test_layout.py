@@ -1,13 +1,9 @@
 """Sheets in other layouts, units and formats are recognised."""
 
-import json
-from functools import cache
-
 import numpy as np
 import pytest
 
 from tests.app.grade.test_reading import grade
-from tests.conftest import ROOT
 from tests.support import students
 from tests.support.depth import further, thorough
 from tests.support.student_files import FORMS, NAMES, as_csv, as_file, beside, in_layout, on_side
@@ -57,24 +53,13 @@ def numbered(rows, numbers=range(448)):
     return [rows[0], *([k, *row[1:]] for k, row in zip(numbers, rows[1:], strict=False))]
 
 
-@cache
-def contest_labels():
-    """The first column of the contest's sheets of positions and speeds, by its length."""
-    sheets = json.loads((ROOT / "tests/reference/contest_workbooks.json").read_text())["workbooks"]["result1"]
-    return {len(sheet["first_column"]): sheet["first_column"] for sheet in sheets}
-
-
-def by_the_contest(rows):
-    return [[label, *row[1:]] for label, row in zip(contest_labels()[len(rows)], rows, strict=True)]
-
-
 def without_axes(rows):
     """Each handle's name twice, above x and above y."""
     return [rows[0], *([label.removesuffix("x (m)").removesuffix("y (m)"), *row] for label, *row in rows[1:])]
 
 
-LAYOUTS = [by_the_contest, by_wps, by_google, by_pandas_without_index, by_pandas_with_numbers, transposed,
-           transposed_bare, bare_times, without_axes]  # fmt: skip
+LAYOUTS = [by_wps, by_google, by_pandas_without_index, by_pandas_with_numbers, transposed, transposed_bare, bare_times,
+           without_axes]  # fmt: skip
 # Right cells of positions and of speeds, of few instants.
 FEW = [4 * 448, 4 * 224]
 
@@ -113,26 +98,6 @@ def test_a_whole_result1_may_stand_on_its_side():
 def test_a_result4_without_instants_begins_at_minus_100_s():
     sheet, _ = grade(as_csv(three()[2]["位置"][1:]), "result4.csv").sheets
     assert (sheet.verdict, sheet.right) == ("right", 201 * 448)
-
-
-def with_slashes(rows):
-    """The rows with units as in "x/m" and "速度/(m/s)"."""
-    return [
-        [cell.replace(" (m", "/(m").replace("/(m)", "/m") if isinstance(cell, str) else cell for cell in row]
-        for row in rows
-    ]
-
-
-@pytest.mark.parametrize("write", [lambda rows: by_xlsxwriter({"Sheet": rows}), as_csv], ids=["workbook", "CSV"])
-@pytest.mark.parametrize("turn", [list, on_side], ids=["rows", "columns"])
-def test_a_unit_after_a_slash_is_read_as_one_in_brackets(write, turn):
-    values, place = numbers_at(students.AT_CONTACT), ["对象", "x/m", "y/m", "速度/(m/s)"]
-    contact = [place, *in_layout(values, [0.0], "columns")["both"][1:]]
-    position, speed = (with_slashes(few()[title]) for title in ("位置", "速度"))
-    assert (position[1][0], speed[1][0]) == ("龙头x/m", "龙头/(m/s)")
-    assert_right_contact(grade(write(turn(contact)), "result2"))
-    assert right(grade(write(turn(position))))[0] == FEW[0]
-    assert ("speed", FEW[1]) in held(grade(write(turn(speed))))
 
 
 @pytest.mark.parametrize(("title", "factor"), [("位置", 100.0), ("速度", 100.0), ("速度", 1000.0)])
@@ -428,22 +393,14 @@ def test_speeds_of_numbered_handles_are_graded_beside_positions_of_named_ones(si
     assert held(every) == [("position", FEW[0]), ("speed", FEW[1])]
 
 
-def axis_of(name, k, way):
-    """A table of x or of y: its axis stands in the labels, in the corner, or in a title."""
+@pytest.mark.parametrize("has_title", [False, True], ids=["labels", "title"])
+def test_a_table_of_x_and_one_of_y_are_joined(has_title):
+    """The axis stands in the labels or in a title; tables of every form have it in the corner."""
     heads, *rows = few()["位置"]
-    rows = rows[k::2]
-    bare = [[row[0].replace(f"{name} (m)", ""), *row[1:]] for row in rows]
-    corner = [[f"{name} (m)", *heads[1:]], *bare]
-    title = [[f"{name}坐标"], heads, *bare]
-    return {"labels": [heads, *rows], "corner": corner, "title": title, "numbers": numbered(corner)}[way]
-
-
-@pytest.mark.parametrize("way", ["labels", "corner", "title", "numbers"])
-def test_a_table_of_x_and_one_of_y_are_joined(way):
-    x, y = (axis_of(name, k, way) for k, name in enumerate("xy"))
-    one_line = [[None, "x", *[None] * 3, "y"], [None, *2 * x[1 if way == "title" else 0][1:]]]
-    spread = [*one_line, *(left + right[1:] for left, right in zip(x[-224:], y[-224:], strict=True))]
-    below, sides = as_csv([*x, [], *y]), as_csv(beside(x, y))
-    for data in (below, sides, by_xlsxwriter({"x": x, "y": y}), *([as_csv(spread)] if way == "corner" else [])):
+    if has_title:
+        x, y = ([[f"{name}坐标"], heads, *without_axes(few()["位置"])[k + 1 :: 2]] for k, name in enumerate("xy"))
+    else:
+        x, y = ([heads, *rows[k::2]] for k in range(2))
+    for data in (as_csv([*x, [], *y]), as_csv(beside(x, y)), by_xlsxwriter({"x": x, "y": y})):
         [sheet, _] = grade(data).sheets
         assert (sheet.holds, sheet.right) == ("position", FEW[0])

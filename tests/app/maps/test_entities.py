@@ -223,16 +223,6 @@ def test_a_note_with_an_arrow_is_left_out_by_name_also_without_markers(content):
         assert corners(result)[0] == (-50.0, -50.0)
 
 
-@pytest.mark.parametrize("small", [0.0005, 0.0])
-def test_a_circle_too_small_for_anything_is_left_out_by_its_name(small):
-    space = new()
-    for x, radius, layer in ((10, small, "DOT"), (20, 0.4, "TREES")):
-        space.add_circle((x, 0), radius, dxfattribs={"layer": layer})
-    result = read(space)
-    assert things(result) == [("Point", [20.0, 0.0], 0.4)]
-    assert "Left out: 1 circle with a radius of less than 0.001 m: DOT." in result.notes
-
-
 def test_a_note_calls_a_thing_without_a_name_by_a_word_of_its_language():
     space = new()
     space.add_circle((10, 5), 0.0)
@@ -252,11 +242,12 @@ def test_a_stroke_in_a_plan_is_neither_its_path_nor_a_refusal(length):
     space.add_line((8, 5), (8 + length, 5), dxfattribs={"layer": "STROKE"})
     space.add_arc((12, 5), 0.5 * length, 0, 90, dxfattribs={"layer": "DOT"})
     space.add_lwpolyline([(16, 5), (16 + length, 5), (16, 5 + length)], close=True, dxfattribs={"layer": "CHIP"})
+    space.add_circle((20, 5), length, dxfattribs={"layer": "NAIL"})
     result = read(space)
     assert result.path is None
-    is_left_out = "Left out: 3 shapes of less than 0.001 m: STROKE, DOT, CHIP." in result.notes
-    assert is_left_out is (length < 0.001)
-    assert len(things(result)) == (1 if is_left_out else 4)
+    notes = ["3 shapes of less than 0.001 m: STROKE, DOT, CHIP.", "1 circle with a radius of less than 0.001 m: NAIL."]
+    assert [f"Left out: {note}" in result.notes for note in notes] == [length < 0.001] * 2
+    assert len(things(result)) == (1 if length < 0.001 else 5)
 
 
 def test_of_two_areas_called_square_a_tiny_one_is_left_out():

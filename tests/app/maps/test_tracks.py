@@ -22,7 +22,7 @@ from app.maps.tracks import (
     walk_of,
 )
 from app.wire.question import BYTES
-from core import Dragon, InvalidValue, Legs
+from core import Coil, Dragon, InvalidValue, Legs, Route
 from core.language import speaking
 from core.paths.following import tightest_bend
 from tests.support.asking import assert_problem
@@ -115,26 +115,17 @@ def test_a_walk_there_and_back_on_one_line_turns_on_the_spot():
         walk_of(np.concatenate([there, there[::-1]]), None)
 
 
-def coil(pitch, turns, first):
-    """Points of a coil, one a metre from a radius on [m], and its length [m]."""
-    theta = [2.0 * math.pi * first / pitch]
-    while theta[-1] < 2.0 * math.pi * (turns + first / pitch):
-        theta.append(theta[-1] + 2.0 * math.pi / pitch / theta[-1])
-    theta = np.array(theta)
-    points = (pitch / (2.0 * math.pi) * theta)[:, None] * np.column_stack([np.cos(theta), np.sin(theta)])
-    return points, float(len(theta) - 1)
-
-
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize(("pitch", "noise", "turns"), [(1.0, 0.1, 6), (1.2, 0.2, 8), (1.5, 0.3, 6)])
 def test_a_close_coil_keeps_its_windings_and_the_times_of_its_walk(pitch, noise, turns, seed):
-    points, length = coil(pitch, turns, 1.0)
-    times = np.arange(float(len(points)))
+    coil = Route([Coil(pitch, 1.0 / pitch, turns + 1.0 / pitch)])
+    times = np.arange(coil.end)
+    points = coil.position(times)
     walk, path = walk_along(with_noise(points, noise, seed), times)
     assert not walk.is_easy
     assert farthest(points, path) < 5.0 * noise
     assert walk.largest < 7.0 * noise
-    assert 0.93 * length < walk.length < 1.03 * length
+    assert 0.93 * coil.end < walk.length < 1.03 * coil.end
     assert [passage["speed"] for passage in walk.passages] == pytest.approx([1.0] * len(walk.passages), abs=0.5)
     assert len(walk.passages) < 8
 

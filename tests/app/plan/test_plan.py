@@ -14,7 +14,7 @@ from app.questions.plan import PDF_TYPE, PlanRequest
 from app.questions.plan import QUESTION as PLAN
 from app.wire.messages import checked
 from app.wire.question import Terms
-from core import Budget, InvalidValue, TooMuchWork
+from core import InvalidValue
 from tests.support.paper import assert_fonts_are_within, pages_of, shapes_of, words_of
 from tests.support.refusal_rows import assert_refused
 
@@ -141,13 +141,6 @@ def test_a_street_that_the_sheet_cuts_is_broken_at_its_edge():
     top = int(dots * MARGIN)
     assert 0.2 < column[top + dots // 2 : top + 6 * dots].mean() < 0.8
     assert column[top + 7 * dots : top + 12 * dots].all()
-
-
-def test_a_deadline_while_the_sheets_are_set_is_a_refusal():
-    budget = Budget()
-    terms = Terms(budget=budget, progress=lambda share: budget.stop("within 2 s"))  # Maps are drawn before.
-    with pytest.raises(TooMuchWork, match="the plan was not drawn within 2 s"):
-        PLAN.to_bytes(checked(PlanRequest, BODY), terms, PDF_TYPE)
 
 
 @pytest.mark.chinese_font
