@@ -50,21 +50,6 @@ HELPS = dict(helps())
 cached_output = cache(said)
 
 
-TRAJECTORIES = [
-    '--start 1 --stop 2 --step 0.5 --decimals 6 -> {"times": {"start": 1, "stop": 2, "step": 0.5}, "decimals": 6}',
-    '--times 0,9 --head-length 3 -> {"times": [0, 9], "dragon": {"head_length": 3}}',
-    '--times 0,12.5,3 -> {"times": [0, 12.5, 3]}',
-    '--benches 3 --path turn --times -9,0 -> {"dragon": {"benches": 3}, "path": {"kind": "turn"}, "times": [-9, 0]}',
-]
-
-
-@pytest.mark.parametrize("row", TRAJECTORIES)
-def test_a_trajectory_is_that_of_the_service(client, row):
-    options, body = row.split(" -> ")
-    answer = client.post("/trajectory", json=json.loads(body)).raise_for_status().json()
-    assert json.loads(said("trajectory", *options.split(), "--json")) == answer
-
-
 def test_times_before_the_dance_warn_on_a_spiral():
     warned = run("trajectory", "--benches", "3", "--pitch", "1.7", "--times", "-100,0", "--json")
     assert warned.returncode == 0

@@ -6,6 +6,8 @@ import re
 
 import pytest
 
+from tests.support.asking import box
+from tests.support.asking import dance as dance_along
 from tests.support.command import run, said
 
 LAST_DIGIT = 1e-6  # of a distance in a report [m]
@@ -33,7 +35,7 @@ BODY = json.loads("""{
 }""")
 FOLDING = {"dragon": {"benches": 40}, "path": {"pitch": 1.2, "start_turns": 8}}
 # Two dragons, each in a lane whose sides are a rounding shorter than 40 m.
-LANES = [{"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, y], [40, y]]}} for y in (0, 5)]
+LANES = [dance_along(3, (0, y), (40, y)) for y in (0, 5)]
 
 
 @pytest.fixture
@@ -84,10 +86,8 @@ def test_a_least_clearance_is_not_rounded_above_what_is_proven(client):
 
 
 def test_what_is_not_decided_is_no_failure():
-    yard = [[-70, -9], [70, -9], [70, 0.35 + 1e-14], [-70, 0.35 + 1e-14], [-70, -9]]
     lane = {"kind": "route", "pieces": [{"kind": "line", "start": [-60, 0], "end": [60, 0]}], "start": 60}
-    venue = {"type": "Polygon", "coordinates": [yard]}
-    body = {"dragon": {"benches": 5}, "path": lane, "venue": venue, "margin": 0.2, "start": 0}
+    body = {"dragon": {"benches": 5}, "path": lane, "venue": box(-70, -9, 70, 0.35 + 1e-14), "margin": 0.2, "start": 0}
     answer = json.loads(checked(body, "--json"))
     assert (answer["verdict"], answer["passed"]) == ("undecided", False)
     report = checked(body)

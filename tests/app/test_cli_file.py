@@ -7,7 +7,7 @@ import pytest
 
 from app.maps.dances import read_dance
 from tests.conftest import ROOT
-from tests.support.asking import written
+from tests.support.asking import box, written
 from tests.support.command import run, said
 from tests.support.depth import thorough
 from tests.support.refusal_rows import assert_refused_in_one_line
@@ -37,7 +37,7 @@ BODY = json.loads("""{
     "path": {"kind": "waypoints", "points": [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]},
     "head_speed": 2.0
 }""")
-YARD = {"type": "Polygon", "coordinates": [[[-5, -25], [45, -25], [45, 20], [-5, 20], [-5, -25]]]}
+YARD = box(-5, -25, 45, 20)
 # Two dragons in the lanes of a square.
 TWO = json.loads("""{"dances": [
     {"name": "east", "dragon": {"benches": 4}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}},
@@ -57,8 +57,12 @@ def file(tmp_path):
 
 
 CHECKED = {"margin": 0.2, "speed_limit": 1.5, "start": 20, "venue": YARD, "cross_check": "none"}
-# A command about the FILE, and what its body has beside the dance.
+# A command, also about the FILE, and what its body has beside the dance.
 QUESTIONS = [
+    'trajectory --start 1 --stop 2 --step 0.5 -> {"times": {"start": 1, "stop": 2, "step": 0.5}}',
+    'trajectory --times 0,9 --head-length 3 -> {"times": [0, 9], "dragon": {"head_length": 3}}',
+    'trajectory --times 0,12.5,3 -> {"times": [0, 12.5, 3]}',
+    'trajectory --path turn --times -9,0 -> {"path": {"kind": "turn"}, "times": [-9, 0]}',
     'collision-time FILE -> {"margin": 0.2, "start": 20}',
     'collision-time FILE --margin 0.1 -> {"margin": 0.1, "start": 20}',
     'collision-time FILE --cross-check none -> {"margin": 0.2, "start": 20, "cross_check": "none"}',
@@ -80,10 +84,10 @@ OF_DRAGONS = ("minimum-pitch", "shortest-turn", "tolerance-curve")
 
 
 @pytest.mark.parametrize("row", QUESTIONS)
-def test_a_file_is_asked_as_a_body_is(client, file, row):
+def test_options_and_a_file_ask_as_a_body_does(client, file, row):
     line, more = row.split(" -> ")
     call, *_ = line.split()
-    body = {"dragon": BODY["dragon"]} if call in OF_DRAGONS else BODY
+    body = {"dragon": BODY["dragon"]} if call in OF_DRAGONS else BODY if "FILE" in line else {}
     answer = client.post(f"/{call}", json=body | json.loads(more)).raise_for_status().json()
     assert json.loads(said(*line.replace("FILE", str(file)).split(), "--json")) == answer
 

@@ -22,6 +22,7 @@ import pytest
 from app.files.tables import CSV_TYPE
 from app.processes.limits import THREAD_NICENESS
 from tests.app.conftest import ANSWER_TIMEOUT
+from tests.support.asking import box
 from tests.support.depth import further, thorough
 from tests.support.job_service import is_gone, wait_for
 from tests.support.serving import sample, serving
@@ -31,7 +32,6 @@ HEAD_SECONDS, GRACE_SECONDS = 0.5, 1
 SOON = 15.0
 # Seconds of compiled work that nothing stops: under the limits, and refused to a second client.
 HEAVY = "/minimum-pitch?benches=6308&body_length=0.001&head_length=0.001&overhang=0"
-SQUARE = {"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]}
 PROBLEM = "application/problem+json"
 # Default of deadline_seconds: a computation that blocks a place is over then [s].
 DEADLINE = 10
@@ -204,8 +204,8 @@ def test_who_asks_for_another_host_is_refused_where_a_setting_names_the_hosts(tm
 
 @pytest.mark.parametrize("name", ["a$\\frac{$", "<&>", "龙", "_^{}"])
 def test_a_name_is_drawn_as_it_is(held, name):
-    venue = {"type": "Feature", "properties": {"name": name}, "geometry": SQUARE}
-    answer = httpx.post(f"{held.url}/figures/trajectory.svg", json={"venue": venue}, timeout=SOON).raise_for_status()
+    body = {"venue": box(-30, -30, 30, 30, name=name)}
+    answer = httpx.post(f"{held.url}/figures/trajectory.svg", json=body, timeout=SOON).raise_for_status()
     # matplotlib writes every text of a figure into a comment beside its outlines.
     assert any(escape(name) in comment for comment in re.findall("<!--(.*?)-->", answer.text, re.DOTALL))
 

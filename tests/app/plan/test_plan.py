@@ -15,6 +15,7 @@ from app.questions.plan import QUESTION as PLAN
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import InvalidValue
+from tests.support.asking import box
 from tests.support.paper import assert_fonts_are_within, pages_of, shapes_of, words_of
 from tests.support.refusal_rows import assert_refused
 
@@ -168,15 +169,15 @@ def test_a_spiral_has_its_radius_and_angle_and_its_failure_in_the_title():
 
 
 def test_a_square_from_a_survey_says_where_its_origin_is():
-    square, grid = [[-20, -20], [20, -20], [20, 20], [-20, 20], [-20, -20]], {"x": 499_950.0, "y": 3_170_000.25}
+    square = box(-20, -20, 20, 20) | {"grid": {"x": 499_950.0, "y": 3_170_000.25}}
     body = {"dragon": {"benches": 9}, "path": {"kind": "spiral", "pitch": 1.0, "start_turns": 6}}
-    words = words_of(plan_of(body, venue={"type": "Polygon", "coordinates": [square], "grid": grid})[0])
+    words = words_of(plan_of(body, venue=square)[0])
     assert "x = y = 0 is x 499950 m, y 3170000.25 m of the survey grid" in words
 
 
 def test_the_largest_scale_that_fits_is_taken_and_none_is_refused():
-    box = np.zeros(2), np.array([50.0, 20.0])
-    assert (scale_of("A4", *box).ratio, scale_of("A3", *box).ratio) == (200, 200)
+    corners = np.zeros(2), np.array([50.0, 20.0])
+    assert (scale_of("A4", *corners).ratio, scale_of("A3", *corners).ratio) == (200, 200)
     turned = scale_of("A4", np.zeros(2), np.array([17.0, 22.0]))
     assert (turned.ratio, turned.paper.width) == (100, 210.0)
     assert turned.on_paper(np.array([8.5, 11.0])) == pytest.approx([105.0, 10.0 + 30.0 + (297.0 - 50.0) / 2.0])

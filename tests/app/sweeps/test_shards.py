@@ -13,6 +13,7 @@ from app.questions.registry import CALLS
 from app.sweeps.questions import NO_ROWS, QUESTIONS, TrajectoryRow, question_of
 from app.sweeps.shards import OtherVersion, ShardPiece, checked_part, part_name, write_part
 from app.sweeps.spec import Spec
+from tests.support.asking import dance
 from tests.support.odd_questions import LAND
 from tests.support.refused import refused
 from tests.support.sweeping import answered, spec_of
@@ -29,7 +30,7 @@ def rows(name, request, over):
 
 
 BENCH = {"x": 0.0, "y": 0.0, "heading": 0.0, "length": 2.2, "width": 0.3}
-LANES = [{"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, y], [20, y]]}} for y in (0, 9)]
+LANES = [dance(3, (0, y), (20, y)) for y in (0, 9)]
 FLAT, BODY = {"benches": 8}, {"dragon": {"benches": 8}}
 # The request, the name of a parameter and a good value of it, where they are not those of most questions.
 REQUESTS = {

@@ -2,8 +2,9 @@
 
 import pytest
 
-SHORT = {"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, 0], [60, 0]]}}
-YARD = {"type": "Polygon", "coordinates": [[[0, -0.15], [80, -0.15], [80, 9], [0, 9], [0, -0.15]]]}
+from tests.support.asking import box, dance, line
+
+SHORT, YARD = dance(3, (0, 0), (60, 0)), box(0, -0.15, 80, 9)
 # A call, its query or body, and what stands in its sentences in English; {name} is a value of the answer.
 SAID = [
     (
@@ -51,7 +52,7 @@ def test_an_answer_says_what_it_means_to_people(client, call, about, words):
 
 
 def test_a_bend_that_is_too_tight_says_what_its_bench_needs(client):
-    body = {"path": {"kind": "waypoints", "points": [[0, 0], [5, 0], [5, 1], [0, 1], [0, 20]]}}
+    body = {"path": line((0, 0), (5, 0), (5, 1), (0, 1), (0, 20))}
     for bend in client.post("course", json=body).json()["bends"]:
         assert bend["sentence"].endswith(f"{bend['radius']:.2f} m, and the head needs {bend['least_radius']:.2f} m.")
 
