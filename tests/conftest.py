@@ -5,7 +5,6 @@ import http.client
 import json
 import os
 import random
-import shlex
 import shutil
 import signal
 import sys
@@ -211,13 +210,6 @@ def pytest_collection():
 
 
 def pytest_terminal_summary(terminalreporter, config):
-    failed = [report.nodeid for kind in ("failed", "error") for report in terminalreporter.stats.get(kind, [])]
-    if failed:
-        terminalreporter.section("to repeat each alone")
-        python = Path(sys.executable)
-        python = python.relative_to(ROOT) if python.is_relative_to(ROOT) else python
-        for name in dict.fromkeys(failed):
-            terminalreporter.write_line(f"{python} -m pytest {shlex.quote(name)}")
     for reason, count in config.stash.get(LEFT_OUT, {}).items():
         terminalreporter.write_line(f"{count} tests are left out: {reason}", yellow=True)
     if _lacking(config):

@@ -24,6 +24,7 @@ import sys
 import tempfile
 from dataclasses import asdict, dataclass
 from functools import cache
+from itertools import islice, starmap
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -112,9 +113,8 @@ def draw_python(room, chance, place):
     for site in sites:
         operator, occurrence = chance.choice(kept[site])
         text = (ROOT / site[0]).read_text("utf-8")
-        changed = mutate_code(text, get_operator(operator)(), occurrence)
-        if changed and (fault := fault_of(site[0], operator.partition("/")[2], text, changed)):
-            yield fault
+        if changed := mutate_code(text, get_operator(operator)(), occurrence):
+            yield site[0], operator.partition("/")[2], text, changed
 
 
 def draw_page(chance, place):
@@ -133,8 +133,7 @@ def draw_page(chance, place):
             sum(map(len, lines[: at["line"]])) + at["column"]
             for at in (mutant["location"]["start"], mutant["location"]["end"])
         )
-        if fault := fault_of(path, mutant["mutatorName"], text, text[:start] + mutant["replacement"] + text[end:]):
-            yield fault
+        yield path, mutant["mutatorName"], text, text[:start] + mutant["replacement"] + text[end:]
 
 
 def draw(count, seed):
@@ -146,7 +145,7 @@ def draw(count, seed):
         for room, share in SHARES.items():
             chance = random.Random(f"{seed} {room}")
             drawn = draw_page(chance, place) if room == "app/page" else draw_python(room, chance, place)
-            faults += [fault for fault, _ in zip(drawn, range(round(share * count)), strict=False)]
+            faults += islice(filter(None, starmap(fault_of, drawn)), round(share * count))
     FAULTS.write_text(json.dumps([asdict(fault) for fault in faults], indent=1, ensure_ascii=False) + "\n", "utf-8")
 
 

@@ -145,4 +145,5 @@ def keep(folder, name, head, parts):
 
 
 if __name__ == "__main__":
-    record(Path(sys.argv[1]))
+    (folder,) = sys.argv[1:]
+    record(Path(folder))

@@ -37,7 +37,6 @@ class Kept:
 
     def __init__(self, log, *command):
         self._log, self._command = log, command
-        self.starts = 0
         self.start()
 
     def start(self):
@@ -45,7 +44,6 @@ class Kept:
         environment = {**os.environ, "PYTHONPATH": str(ROOT)}
         with self._log.open("ab") as log:
             self.process = subprocess.Popen(self._command, stdout=log, stderr=log, env=environment)
-        self.starts += 1
 
     def keep(self):
         """Start it again if it ended."""

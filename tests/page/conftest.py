@@ -1,6 +1,5 @@
 """A real Chromium on the real service: every page of a test must stay without errors and without foreign requests."""
 
-import json
 from dataclasses import dataclass, field
 from urllib.parse import urlsplit
 
@@ -67,106 +66,48 @@ def question_of(answer):
 
 @dataclass
 class Watched:
-    """A tab with a page, and the messages and requests of the page since the last check.
-
-    way: the options of its context, in JSON
-    """
+    """A tab with a page, and its messages and requests."""
 
     page: Page
-    way: str
-    base: str = ""
+    base: str
+    failing: bool  # requests of this page are meant to fail
     messages: list[str] = field(default_factory=list)
     requests: list[str] = field(default_factory=list)
     refused: list[str] = field(default_factory=list)  # address and body of each refused request
-    failing: bool = False  # requests of this page are meant to fail
+
+    def __post_init__(self):
+        self.page.on("console", lambda text: self.messages.append(text.text) if is_fault(text) else None)
+        self.page.on("pageerror", lambda error: self.messages.append(str(error)))
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.on("response", lambda one: self.refused.append(question_of(one)) if one.status == 422 else None)
 
     def check(self):
-        lines, request = [line for line in self.messages if line not in BUSY], list(self.requests)
-        refused = "\n".join(self.refused)
-        for seen in (self.messages, self.requests, self.refused):
-            seen.clear()
-        assert [line for line in lines if not (self.failing and line.startswith(FAILED_REQUEST))] == [], refused
-        strangers = [
-            url for url in request if urlsplit(url)[:2] != urlsplit(self.base)[:2] and not url.startswith("blob:")
-        ]
-        assert strangers == []
-
-    def leave(self):
-        """Empty the tab, so that it is like a new one."""
-        options = json.loads(self.way)
-        self.page.unroute_all()
-        self.page.evaluate("() => { try { localStorage.clear(); } catch {} }")  # A page of a browser's error has none.
-        self.page.goto("about:blank")
-        self.page.mouse.move(0, 0)
-        if options["viewport"] and self.page.viewport_size != options["viewport"]:
-            self.page.set_viewport_size(options["viewport"])
-        colours, motion = options.get("color_scheme", "light"), options.get("reduced_motion", "no-preference")
-        self.page.emulate_media(media="null", color_scheme=colours, reduced_motion=motion)
-
-
-class Tabs:
-    """Tabs of the browser, of which the empty ones are used again; tabs with the same options share a cache."""
-
-    def __init__(self, browser):
-        self.browser = browser
-        self._contexts = {}
-        self._empty = {}
-
-    def opened(self, address, base, without="", **options):
-        """A page that loads anew. In an empty tab it takes three quarters of the processor time of one in a new tab."""
-        way = json.dumps({"viewport": WIDE, "locale": "en-GB", **options}, sort_keys=True)
-        one = self._empty[way].pop() if self._empty.get(way) else self._new(way)
-        one.base, one.failing = base, False
-        if without:
-            one.page.route(without, lambda route: None)
-        one.page.goto(f"{base}/{address}")
-        return one
-
-    def _new(self, way):
-        if way not in self._contexts:
-            self._contexts[way] = self.browser.new_context(**json.loads(way))
-            self._contexts[way].set_default_timeout(TIMEOUT)
-        page = self._contexts[way].new_page()
-        one = Watched(page, way)
-        page.on("console", lambda text: one.messages.append(text.text) if is_fault(text) else None)
-        page.on("pageerror", lambda error: one.messages.append(str(error)))
-        page.on("request", lambda request: one.requests.append(request.url))
-        page.on("response", lambda answer: one.refused.append(question_of(answer)) if answer.status == 422 else None)
-        return one
-
-    def take_back(self, one, base):
-        """Take a tab back, and check its page. base: of the service to which tabs return; others are closed"""
-        if one.base == base:
-            one.leave()
-            self._empty.setdefault(one.way, []).append(one)
-        else:
-            one.page.close()
-        one.check()
-
-
-@pytest.fixture(scope="session")
-def tabs(browser):
-    return Tabs(browser)
+        lines = [line for line in self.messages if line not in BUSY]
+        assert [line for line in lines if not (self.failing and line.startswith(FAILED_REQUEST))] == [], self.refused
+        home = urlsplit(self.base)[:2]
+        assert [url for url in self.requests if urlsplit(url)[:2] != home and not url.startswith("blob:")] == []
 
 
 @pytest.fixture
-def open_page(tabs, server):
-    """open_page(query, failing=False, base=server, without="", **options of the context): a page of this test alone.
+def open_page(browser, server):
+    """open_page(query, failing=False, base=server, **options of the context): a page of this test alone.
 
     query: by default that of the dance at its end, at rest; a bare address opens in motion
     rest: it has all its answers
     failing: requests of this page are meant to fail, of which the browser itself writes a line
-    without: pattern of the requests that get no answer
     """
     pages = []
 
-    def opened(query=HOME, *, failing=False, base=server, without="", rest=True, **options):
-        one = tabs.opened(query, base, without, **options)
-        one.failing = failing
-        pages.append(one)
-        person = Person(one.page)
+    def opened(query=HOME, *, failing=False, base=server, rest=True, **options):
+        context = browser.new_context(**{"viewport": WIDE, "locale": "en-GB", **options})
+        context.set_default_timeout(TIMEOUT)
+        pages.append(Watched(context.new_page(), base, failing))
+        person = Person(pages[-1].page)
+        person.page.goto(f"{base}/{query}")
         return person.settles() if rest else person
 
     yield opened
     for one in pages:
-        tabs.take_back(one, server)
+        one.page.context.close()
+    for one in pages:
+        one.check()

@@ -228,11 +228,8 @@ def a_delay_that_is_not_found_says_why(person):
     person.types({"#dragon-delay-1": "40"}).sees({"#dragons-apart": False})
 
 
-BEATS = [{"bars": 4, "tempo": 96, "step": 0.6, "beats": 4}, {"bars": 6, "tempo": 120, "step": 0.5, "beats": 3}]
-
-
 @thorough
-def test_a_saved_file_opens_again_with_its_beats_and_what_the_page_leaves_out_is_named(open_page, tmp_path):
+def test_a_saved_file_opens_again_and_what_the_page_leaves_out_is_named(open_page, tmp_path):
     file = tmp_path / "two.json"
 
     def opened(content, words="Opened two.json", language="en"):
@@ -248,23 +245,3 @@ def test_a_saved_file_opens_again_with_its_beats_and_what_the_page_leaves_out_is
     dance = {"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, 0], [60, 0]]}}
     for part in (dance, {"dances": [dance, {**dance, "delay": 60}]}):
         opened({**part, "start": 20, "stop": 40}, "start、stop", "zh")
-    path = {"kind": "waypoints", "points": [[-40, 0], [0, 0], [20, 10], [40, 0], [80, 0]]}
-    dance = {"dragon": {"benches": 9}, "path": path, "beats": BEATS}
-    opened({"dances": [dance, {**dance, "delay": 90, "beats": BEATS[:1]}]}).sees({"#dragons li": 2}).reaches_below()
-    keeps_the_beats_until_the_speeds_are_changed(person)
-
-
-def keeps_the_beats_until_the_speeds_are_changed(person):
-    """In film and file."""
-
-    def film():
-        """The body of the request for a film, as the command that the page shows."""
-        text = person.chooses({"#curl-of": "keepFilm"}).all("#curl").text_content()
-        return json.loads(text.partition("-d '")[2].rpartition("'")[0])["request"]
-
-    for body in (film(), file_of(person)):
-        assert [one["beats"] for one in body["dances"]] == [BEATS, BEATS[:1]]
-    person.presses("#dragon-choose-0", "#dragons-close").settles()
-    assert (film()["beats"], json.loads(person.saves("#save"))["beats"]) == (BEATS, BEATS)
-    person.types({"#passages li >> nth=1 >> input >> nth=1": "0.2"}).settles()
-    assert [one["speed"] for one in film()["passages"]] == [0.96, 0.2]

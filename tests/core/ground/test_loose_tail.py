@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from core import Dance, Dragon, Route, Spiral, Turn, tail_reach, trajectory
+from core import Dance, Dragon, Route, Spiral, Turn, bench_outlines, tail_reach, trajectory
 from tests.core.ground.test_envelope import MIXED, WINDING, ground
 from tests.support.refused import refused
 from tests.support.shared_dances import lane
@@ -20,18 +20,17 @@ DANCES = {
 
 
 def thrown(dance, benches, times, random):
-    """Corners of loose benches behind a handle on the path, each link turned at random, half of them nearly alike."""
+    """Rear corners of loose benches behind a handle on the path, each turned at random, half of them nearly alike."""
     dragon, first = dance.dragon, dance.dragon.benches - benches
     joint = trajectory(dance, times).position[:, first]
     spread = np.where(random.random(len(times)) < 0.5, 0.05, math.pi)[:, None]
     angles = random.uniform(-math.pi, math.pi, (len(times), 1)) + spread * random.uniform(
         -1.0, 1.0, (len(times), benches)
     )
-    ways = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    handles = joint[:, None] + np.cumsum(ways * dragon.chords[first:, None], axis=1)
-    sides = 0.5 * dragon.widths[first:, None] * np.stack([-ways[..., 1], ways[..., 0]], axis=-1)
-    rear = handles + ways * dragon.overhangs[first:, None]
-    return np.concatenate([rear + sides, rear - sides], axis=1).reshape(-1, 2)
+    ways = np.stack([np.cos(angles), np.sin(angles)], axis=-1) * dragon.chords[first:, None]
+    handles = np.cumsum(np.concatenate([joint[:, None], ways], axis=1), axis=1)
+    loose = Dragon.of(dragon.lengths[first:], dragon.widths[first:], dragon.overhangs[first:])
+    return bench_outlines(loose, handles)[:, :, 2:].reshape(-1, 2)
 
 
 @pytest.mark.parametrize("name", DANCES)

@@ -4,26 +4,24 @@ import numpy as np
 import pytest
 import shapely
 
-from core import Area, Dance, Dragon, Line, Route, Spiral, Turn, bench_outlines, stays, trajectory
+from core import Area, Dance, Dragon, Route, Spiral, Turn, bench_outlines, stays, trajectory
 from tests.core.ground.test_envelope import MIXED, WINDING
+from tests.support.random_squares import box, polygon
 from tests.support.refused import refused
+from tests.support.shared_dances import lane
 
 STEP = 0.005  # [s]
 
 
-def box(name, left, low, right, high):
-    return Area(name, (((left, low), (right, low), (right, high), (left, high), (left, low)),))
-
-
-HOLED = Area("yard", (((-9, -9), (9, -9), (9, 9), (-9, 9), (-9, -9)), ((-8, -8), (-8, 8), (8, 8), (8, -8), (-8, -8))))
+HOLED = Area("yard", (*box("yard", -9, -9, 18, 18).rings, *box("hole", -8, -8, 16, 16).rings))
 CASES = {
-    "a lane across a street": (Dance(Dragon(5), Route([Line((0, 0), (60, 0))])), box("lane", 30, -9, 33.5, 9), 0.0),
-    "a lane with a margin": (Dance(Dragon(5), Route([Line((0, 0), (60, 0))])), box("lane", 30, 0.4, 33.5, 9), 0.5),
-    "many sizes": (Dance(MIXED, Route([WINDING], start=15.0), 0.7), box("lane", 20, 6, 40, 8), 0.1),
-    "the contest's turn": (Dance(Dragon(20), Turn(1.7)), box("lane", -1, -1, 30, 1.5), 0.0),
-    "a thin wall": (Dance(Dragon(4), Spiral(1.7)), box("wall", 10, -40, 10.01, 40), 0.0),
+    "a lane across a street": (Dance(Dragon(5), lane((0, 0), (60, 0))), box("lane", 30, -9, 3.5, 18), 0.0),
+    "a lane with a margin": (Dance(Dragon(5), lane((0, 0), (60, 0))), box("lane", 30, 0.4, 3.5, 8.6), 0.5),
+    "many sizes": (Dance(MIXED, Route([WINDING], start=15.0), 0.7), box("lane", 20, 6, 20, 2), 0.1),
+    "the contest's turn": (Dance(Dragon(20), Turn(1.7)), box("lane", -1, -1, 31, 2.5), 0.0),
+    "a thin wall": (Dance(Dragon(4), Spiral(1.7)), box("wall", 10, -40, 0.01, 80), 0.0),
     "a yard with a hole": (Dance(Dragon(20), Turn(1.7)), HOLED, 0.0),
-    "one that nobody comes to": (Dance(Dragon(5), Route([Line((0, 0), (60, 0))])), box("lane", 30, 1, 33.5, 9), 0.0),
+    "one that nobody comes to": (Dance(Dragon(5), lane((0, 0), (60, 0))), box("lane", 30, 1, 3.5, 8), 0.0),
 }
 
 
@@ -35,14 +33,13 @@ def test_benches_are_in_an_area_at_no_other_time_and_at_nearly_all_of_these(name
     times = np.arange(result.start, result.stop, STEP)
     corners = bench_outlines(dance.dragon, trajectory(dance, times).position)
     benches = shapely.polygons(corners.reshape(-1, 4, 2)).reshape(corners.shape[:2])
-    lane = shapely.Polygon(area.rings[0], area.rings[1:])
-    inside = (shapely.distance(lane, benches) <= margin).any(axis=1)
+    inside = (shapely.distance(polygon(area), benches) <= margin).any(axis=1)
     said = np.zeros(len(times), dtype=bool)
     for one in result.stays:
         said |= (one.begin <= times) & (times <= one.end)
         for time, bench in ((one.begin, one.first), (one.end, one.last)):
             outline = shapely.Polygon(bench_outlines(dance.dragon, trajectory(dance, [time]).position)[0, bench])
-            assert shapely.distance(lane, outline) <= margin + 2e-3
+            assert shapely.distance(polygon(area), outline) <= margin + 2e-3
     assert not (inside & ~said).any()
     assert (said & ~inside).sum() * STEP <= 0.02 * max(1, len(result.stays))
     assert result.total == pytest.approx(inside.sum() * STEP, abs=0.03 * max(1, len(result.stays)))
@@ -51,9 +48,9 @@ def test_benches_are_in_an_area_at_no_other_time_and_at_nearly_all_of_these(name
 
 
 def test_stays_end_where_the_dance_does_and_a_fold_needs_an_end():
-    dance = Dance(Dragon(5), Route([Line((0, 0), (60, 0))]))
-    result = stays(dance, box("lane", 50, -2, 70, 2), start=20.0)
+    dance = Dance(Dragon(5), lane((0, 0), (60, 0)))
+    result = stays(dance, box("lane", 50, -2, 20, 4), start=20.0)
     assert result.stays[-1].end == result.stop
     assert result.stays[-1].last == 0
     with refused("stop"):
-        stays(Dance(Dragon(5), Spiral()), box("lane", -2, -2, 2, 2))
+        stays(Dance(Dragon(5), Spiral()), box("lane", -2, -2, 4, 4))

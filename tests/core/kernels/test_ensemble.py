@@ -9,7 +9,7 @@ from core import Arc, Dance, Dragon, Part, Passage, Performance, Route, Spiral, 
 from core.kernels import Rings, spirals_least
 from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, FREE, OMEGA
 from core.performance.stage import Stage, clear_of_each_other
-from core.shapes.rectangles import frames, frames_separation
+from tests.support.slow_performance import SlowPerformance
 
 # Instants within a step at which gaps and motions are measured [1], and what a difference quotient may miss [1].
 INSTANTS, QUOTIENT = 41, 1e-4
@@ -20,7 +20,6 @@ PARTS = [
     Part(Dance(Dragon(5), Route([Arc((3.0, -1.0), 9.0, 0.3, 5.0)]), 1.5, [Passage(0.8, until_time=30.0)]), -1.0),
 ]
 STEPS = [(20.0, 20.6), (24.0, 24.05), (27.3, 28.5)]
-SIZES = np.concatenate([np.stack([part.dance.dragon.lengths, part.dance.dragon.widths], -1) for part in PARTS])
 
 
 def staged(begin, until):
@@ -39,13 +38,6 @@ def poses(*times):
 def rows_of(stage):
     """The row of each bench; the last handle of a dragon has one too."""
     return np.concatenate([np.arange(one.first, one.first + one.benches) for one in stage.players])
-
-
-def all_gaps(stage, *times):
-    """Gaps (T, pairs) of the benches of different dragons [m]."""
-    frame, owner = frames(poses(*times), SIZES), stage.owner[rows_of(stage)]
-    a, b = np.nonzero(owner[:, None] < owner)
-    return frames_separation(frame[:, a], frame[:, b]).separation
 
 
 @pytest.mark.parametrize(("begin", "until"), STEPS)
@@ -68,7 +60,7 @@ def test_no_gap_of_two_dragons_falls_below_the_bound_of_a_step(begin, until):
     stage = staged(begin, until)
     least = stage.ensemble.least
     assert least < FREE  # some were near enough to be tried
-    assert all_gaps(stage, *np.linspace(begin, until, INSTANTS).tolist()).min() >= least
+    assert SlowPerformance(PARTS).clearance(np.linspace(begin, until, INSTANTS))[0].min() >= least
 
 
 @pytest.mark.parametrize(("count", "pitch"), [(2, 1.1), (3, 1.6), (2, 1.3)])

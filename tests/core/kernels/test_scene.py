@@ -12,15 +12,9 @@ from core.kernels.constants import (
     FRAME_COLUMNS,
     FRAME_X,
     FRAME_Y,
-    MX,
-    MY,
     RATE,
     SIZE_COLUMNS,
     SWAY,
-    TX,
-    TY,
-    UX,
-    UY,
 )
 
 
@@ -34,21 +28,15 @@ def test_an_interval_whose_chain_folds_has_no_bounds():
     assert not ContactSearch(Dragon(5), Spiral(), 0.0).interval.lay_out(0.1, 0.01, 5)
 
 
-@pytest.mark.parametrize("count", [2, 3])
-def test_copies_stand_where_turned_dragons_stand_with_larger_errors(count):
-    search = SearchBetween(Dragon(12), Spiral(), count, 0.0, work=1e7, budget=Budget(), stray=0.0)
+def test_copies_move_as_the_dragon_does_with_larger_errors():
+    """Where they stand: tests/core/design/test_pitch_search.py."""
+    search = SearchBetween(Dragon(12), Spiral(), 3, 0.0, work=1e7, budget=Budget(), stray=0.0)
     assert search.interval.lay_out(search.place - 20.0, 0.05, 12)
-    for k in range(1, count):
-        rows = slice(13 * k, 13 * k + 12)
-        handles = slice(13 * k, 13 * k + 13)
-        for x, y in ((MX, MY), (UX, UY), (TX, TY)):
-            of_copy, of_dragon = (handles, slice(13)) if x == TX else (rows, slice(12))
-            turned = search.placed[of_dragon, [x, y]] @ [1.0, 1.0j] * np.exp(2j * np.pi * k / count)
-            assert search.placed[of_copy, [x, y]] @ [1.0, 1.0j] == pytest.approx(turned, abs=1e-14)
-        for error in (ERROR, SWAY):
-            assert (search.placed[rows, error] > search.placed[:12, error]).all()
-        assert (search.placed[handles, RATE] == search.placed[:13, RATE]).all()
-        assert (search.motion[rows] == search.motion[:12]).all()
+    placed, motion = (rows.reshape(3, 13, -1) for rows in (np.asarray(search.placed), np.asarray(search.motion)))
+    for error in (ERROR, SWAY):
+        assert (placed[1:, :12, error] > placed[0, :12, error]).all()
+    assert (placed[1:, :, RATE] == placed[0, :, RATE]).all()
+    assert (motion[1:, :12] == motion[0, :12]).all()
 
 
 def test_the_error_of_edges_at_rest_is_that_of_the_furthest():

@@ -26,7 +26,7 @@ from tests.support.random_squares import box
 from tests.support.random_strays import random_strays
 from tests.support.shared_dances import CROSSING, EAST, OPPOSITE, on_lanes
 from tests.support.slow_performance import SlowPerformance
-from tests.support.slow_search import rectangles_gap
+from tests.support.slow_search import benches_of, nearest
 
 # Random strays of each pair of benches at each time [1]; times looked at, and their distance [s].
 STRAYS, TIMES, STEP = 4000, 9, 0.05
@@ -39,20 +39,12 @@ ANSWERS = {
 }
 
 
-def rectangle(holes, dragon, bench):
-    """Centres, directions and half sides of a bench whose two holes are at (N, 2, 2)."""
-    along = holes[:, 0] - holes[:, 1]
-    side = np.array([dragon.lengths[bench], dragon.widths[bench]]) / 2.0
-    return holes.mean(axis=1), along / np.linalg.norm(along, axis=1)[:, None], np.tile(side, (len(holes), 1))
-
-
 def strayed(rng, handles, dragon, bench, stray):
-    """A bench with two holes (STRAYS, 2, 2) that stray by no more than `stray` and keep its chord."""
+    """Two holes (STRAYS, 2, 2) of a bench that stray by no more than `stray` and keep its chord."""
     front, rear = handles[bench], handles[bench + 1]
     along = (front - rear) / np.linalg.norm(front - rear)
     turned = np.array([along, [-along[1], along[0]]])
-    holes = np.stack([front, rear]) + random_strays(rng, float(dragon.chords[bench]), stray, STRAYS) @ turned
-    return rectangle(holes, dragon, bench)
+    return np.stack([front, rear]) + random_strays(rng, float(dragon.chords[bench]), stray, STRAYS) @ turned
 
 
 @pytest.mark.parametrize("name", further(ANSWERS, 2))
@@ -61,26 +53,29 @@ def test_no_random_stray_touches_and_the_pose_beyond_does(name):
     answer = performance_tolerance(performance, stop=stop)
     pose = answer.exhibit
     assert (answer.limited_by, answer.dragons) == (Limit.BENCHES, (0, 1))
-    slow, rng, nearest = SlowPerformance(performance.parts), np.random.default_rng(49), math.inf
+    slow, rng, least = SlowPerformance(performance.parts), np.random.default_rng(49), math.inf
     times = np.clip(answer.time + STEP * (np.arange(TIMES) - TIMES // 2), answer.start, answer.stop)
     dragons = [part.dance.dragon for part in performance.parts]
+
+    def gaps(first, second, pair):
+        """Gaps (N,) of two benches whose holes are there (N, 2, 2) [m]."""
+        placed = zip((first, second), slow.parts, pair, strict=True)
+        return nearest(*(benches_of(holes, part.slow.sides[[k]]) for holes, part, k in placed))[0]
+
     for one, two in zip(*(part.handles(times) for part in slow.parts), strict=True):
         for a, b in {answer.benches, *np.ndindex(3, 3)}:
-            gaps = rectangles_gap(
-                *strayed(rng, one, dragons[0], a, answer.stray), *strayed(rng, two, dragons[1], b, answer.stray)
-            )
-            nearest = min(nearest, float(gaps.min()))
+            holes = strayed(rng, one, dragons[0], a, answer.stray), strayed(rng, two, dragons[1], b, answer.stray)
+            least = min(least, float(gaps(*holes, (a, b)).min()))
     # These strays do reach far.
-    assert 0.0 < nearest < 0.5 * performance_least_clearance(performance, stop=stop).distance
+    assert 0.0 < least < 0.5 * performance_least_clearance(performance, stop=stop).distance
     assert answer.stray_bracket == (answer.stray, pose.stray)
     assert 0.0 < pose.stray - answer.stray < 0.02 * answer.stray
-    rectangles = []
-    for part, dragon, handles, bench in zip(slow.parts, dragons, pose.handles, pose.benches, strict=True):
+    for part, dragon, handles in zip(slow.parts, dragons, pose.handles, strict=True):
         chords = np.linalg.norm(np.diff(handles, axis=0), axis=1)
         assert chords == pytest.approx(dragon.chords, abs=CHORD_WITHIN + ROUNDED)
         assert np.linalg.norm(handles - part.handles(np.array([pose.time]))[0], axis=1).max() <= pose.stray + 1e-9
-        rectangles += rectangle(handles[None, bench : bench + 2], dragon, bench)
-    assert rectangles_gap(*rectangles)[0] == pytest.approx(-pose.depth, rel=1e-3)
+    holes = (handles[None, k : k + 2] for handles, k in zip(pose.handles, pose.benches, strict=True))
+    assert gaps(*holes, pose.benches)[0] == pytest.approx(-pose.depth, rel=1e-3)
     assert pose.depth > 0.0
 
 
