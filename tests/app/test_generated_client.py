@@ -75,12 +75,6 @@ def test_every_question_is_answered(own, client, asked):
     assert answer.to_dict() == response.raise_for_status().json()
 
 
-def test_a_refusal_comes_back_as_a_problem(own):
-    problem = call("questions", "collision_time").sync(client=own, overhang=2.0)
-    assert (problem.status, type(problem).__name__) == (422, "Problem")
-    assert problem.errors[0].name == "overhang"
-
-
 def test_a_file_is_graded(own):
     module, types = call("grading", "grade"), importlib.import_module(f"{PACKAGE}.types")
     file = types.File(payload=io.BytesIO(contact_workbook()))

@@ -4,6 +4,9 @@ import io
 import json
 
 import ezdxf
+import numpy as np
+
+from tests.support.asking import box
 
 # Layers and the edges of each in a venue, where a line and a tree have those of outlines; that of the walls, and the
 # square of the site [m].
@@ -20,8 +23,7 @@ def floor_plan():
     space = document.modelspace()
 
     def outline(layer, x, y, width, height):
-        corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
-        points = [(1000 * a, 1000 * b) for a, b in corners]
+        points = 1000 * np.array(box(x, y, x + width, y + height)["coordinates"][0][:-1])
         space.add_lwpolyline(points, close=True, dxfattribs={"layer": layer})
 
     chair = document.blocks.new("CHAIR")
@@ -45,8 +47,7 @@ def floor_plan():
 
 
 def area(layer, x, y, width, height):
-    corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height), (x, y)]
-    return {"type": "Feature", "properties": layer, "geometry": {"type": "Polygon", "coordinates": [corners]}}
+    return {"type": "Feature", "properties": layer, "geometry": box(x, y, x + width, y + height)}
 
 
 def thing(properties, kind, *places):
@@ -62,15 +63,7 @@ def town(scale=(1.0, 1.0), middle=(0.0, 0.0)):
         *(area({"layer": WALLS}, -38 + k % 30 * 2, 11 + k // 30 * 0.5, 1, 0.3) for k in range(600)),
         *(thing({"name": "kerb"}, "LineString", (k, 5), (k + 1, 5), (k + 1, 6)) for k in range(20)),
     ]
-    return json.dumps(placed({"type": "FeatureCollection", "features": features}, scale, middle)).encode()
-
-
-def placed(value, scale, middle):
-    """GeoJSON with every position scaled and moved."""
-    if isinstance(value, dict):
-        return {name: placed(one, scale, middle) for name, one in value.items()}
-    if not isinstance(value, (list, tuple)):
-        return value
-    if isinstance(value[0], (int, float)):
-        return [a * s + m for a, s, m in zip(value, scale, middle, strict=True)]
-    return [placed(one, scale, middle) for one in value]
+    for one in features:
+        places = one["geometry"]["coordinates"]
+        one["geometry"]["coordinates"] = (np.array(places) * scale + middle).tolist()
+    return json.dumps({"type": "FeatureCollection", "features": features}).encode()

@@ -36,9 +36,8 @@ class SlowPart:
         """(T, n + 1, 2) [m]"""
         own = self.slow.handles(travelled(self.dance, np.clip(times - self.delay, self.begin, self.end)))
         centre, rotation, clockwise = self.place
-        x, y = own[..., 0], own[..., 1] if clockwise else -own[..., 1]
-        turned = [x * np.cos(rotation) - y * np.sin(rotation), x * np.sin(rotation) + y * np.cos(rotation)]
-        return np.stack(turned, axis=-1) + centre
+        places = own @ [1.0, 1.0j if clockwise else -1.0j] * np.exp(1j * rotation) + complex(*centre)
+        return np.stack([places.real, places.imag], axis=-1)
 
 
 class SlowPerformance:

@@ -14,6 +14,7 @@ from app.questions.cues import QUESTION as CUES
 from app.questions.cues import CuesRequest
 from app.questions.plan import PDF_TYPE
 from app.settings import Settings
+from app.wire.clocks import time_of_day
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core.people.cards import card_of
@@ -49,15 +50,12 @@ def name_of(dragon, bench):
     return "" if dragon else NAMES[bench]
 
 
-def clock(time):
-    return f"19:{45 + int(time) // 60:02d}:{int(time) % 60:02d}"
-
-
 def assert_same(answer, value, names):
     """The answer has these values of a result of core, and the time of the day."""
     known = json_like(value)
     assert [answer[name] for name in names.split()] == [known[name] for name in names.split()]
-    assert answer.get("clock", clock(value.time)) == clock(value.time)
+    clock = time_of_day(value.time, "19:45")
+    assert answer.get("clock", clock) == clock
 
 
 def assert_met(answer, met):

@@ -181,17 +181,6 @@ def test_a_film_counts_bars_and_beats_and_shows_the_time_of_day():
         assert stage.time.text == words
 
 
-def digits_at(picture, row, column, word):
-    """True if these digits stand in a picture of 1080 rows, with their middle at a place to within a pixel."""
-    digits = pictures_of([word], size_of(1080), BLUE, DPI)[0]
-    full, digits, (high, wide) = digits[..., 3] == 255, digits[..., :3], digits.shape[:2]
-    top, left = row - high // 2 - 1, column - wide // 2 - 1
-    windows = np.lib.stride_tricks.sliding_window_view(
-        picture[top : top + high + 2, left : left + wide + 2], digits.shape
-    )
-    return (windows.reshape(-1, *digits.shape)[:, full] == digits[full]).all(axis=(1, 2)).any()
-
-
 def fronts(stage, outlines):
     """Rows and columns halfway from the middle of each bench to its front."""
     return on_picture(stage, 0.5 * (outlines.mean(axis=1) + outlines[:, :2].mean(axis=1)))
@@ -202,9 +191,13 @@ def test_the_head_and_every_tenth_bench_have_their_numbers():
     stage = FilmPicture(dance, FilmSpec(0.0, 300.0), None, "")
     for instant in (0.0, 171.3):
         outlines = outlines_of(dance, instant)
-        picture = stage.frame(instant, outlines)
-        places = fronts(stage, outlines)
-        assert [k for k in range(223) if digits_at(picture, *places[k], str(k))] == list(range(0, 223, 10)), instant
+        picture, places = stage.frame(instant, outlines), fronts(stage, outlines)
+        for k, (_, left, top) in zip(range(0, 223, 10), stage.layers[0].labels[0].placed, strict=True):
+            digits = pictures_of([str(k)], size_of(1080), BLUE, DPI)[0]
+            high, wide, _ = digits.shape
+            assert np.abs(places[k] - (top + 0.5 * high, left + 0.5 * wide)).max() <= 1.0
+            there = picture[top : top + high, left : left + wide]
+            assert (there == digits[..., :3])[digits[..., 3] == 255].all(), (instant, k)
 
 
 @pytest.mark.parametrize(

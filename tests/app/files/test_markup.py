@@ -31,11 +31,6 @@ def test_long_texts_are_read_and_long_tags_are_not():
             texts(long)
 
 
-def test_a_document_type_is_refused():
-    with pytest.raises(ValueError, match="declared"):
-        texts(b"<!DOCTYPE a><a/>")
-
-
 NAME = "广场"
 
 

@@ -58,9 +58,6 @@ KNOWN = {
     "outside_blank": lambda: first(students.outside(np.nan)),
     "outside_line": lambda: first(students.on_line()),
     "contact: other_instant": lambda: students.contact_workbook(spiral(np.array([412.48]))),
-    "contact: axes_exchanged": lambda: of_contact(order=[1, 0, 2]),
-    "contact: shifted_rows": lambda: of_contact(rows=1),
-    "contact: speeds_negated": lambda: of_contact([1.0, 1.0, -1.0]),
 }
 # What no student does: each is wrong, and none of the known errors gives it.
 UNKNOWN = {
@@ -85,13 +82,6 @@ def turned(results, degrees):
     """The places turned about the centre against the clock."""
     c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     return results[0] @ np.array([[c, s], [-s, c]]), results[1]
-
-
-def of_contact(signs=1.0, order=(0, 1, 2), rows=0):
-    """A result2 with changed signs, another order of x, y and speed, or rows that are shifted."""
-    position, speed = spiral(AT_CONTACT)
-    numbers = np.roll((np.dstack([position, speed]) * signs)[..., list(order)], -rows, axis=1)
-    return students.contact_workbook((numbers[..., :2], numbers[..., 2]))
 
 
 def one_cell():

@@ -37,15 +37,6 @@ def test_the_language_stated_comes_before_the_language_accepted(client):
     assert answer() == answer(language="zh") != answer(language="en")
 
 
-@pytest.mark.thorough
-def test_a_file_longer_than_other_bodies_is_taken(client):
-    # A full result1 of 17 digits, stored rather than packed tightly, and padded beyond the limit of other bodies.
-    data = workbook(spiral(), SPIRAL_TIMES, 15)
-    assert graded(client, data, name="result1.xlsx")["files"][0]["verdict"] == "right"
-    [file] = graded(client, b"text " * 1_000_000)["files"]
-    assert file["verdict"] == "unreadable"
-
-
 def test_a_file_beyond_the_limit_or_the_deadline_is_refused_and_nothing_of_it_is_logged(tmp_path):
     first = workbook(spiral(), SPIRAL_TIMES)
     with serving(tmp_path / "log", grade_bytes_max=len(first), grade_seconds=0.2) as strict:

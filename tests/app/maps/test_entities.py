@@ -117,22 +117,14 @@ def test_what_cannot_be_seen_or_read_is_left_out_and_said():
     }  # fmt: skip
 
 
-def test_a_block_of_no_height_is_drawn_with_what_is_in_it():
-    space = new()
-    space.doc.blocks.new("TREE").add_circle((0, 0), 0.3)
-    space.doc.blocks.new("ROW").add_blockref("TREE", (1, 2))
-    space.add_blockref("ROW", (9, 8), dxfattribs={"zscale": 0.0})
-    assert things(read(space)) == [("Point", [10.0, 10.0], 0.3)]
-
-
-def test_a_block_squeezed_to_a_line_is_left_out_alone():
+def test_a_block_squeezed_to_a_line_is_left_out_and_one_of_no_height_is_drawn():
     space = new()
     space.doc.blocks.new("TREE").add_circle((0, 0), 0.3)
     plan = space.doc.blocks.new("ROW")
     plan.add_blockref("TREE", (1, 2))
     plan.add_circle((3, 4), 0.5)
     space.add_blockref("ROW", (29, 8), dxfattribs={"xscale": 7.25})
-    space.add_blockref("ROW", (9, 8))
+    space.add_blockref("ROW", (9, 8), dxfattribs={"zscale": 0.0})
     result = places_of(drawing(space).replace(b"7.25", b"0.0"), None)
     assert things(result) == [("Point", [10.0, 10.0], 0.3), ("Point", [12.0, 12.0], 0.5)]
     assert "Left out: 1 damaged INSERT." in result.notes

@@ -130,15 +130,6 @@ def test_a_close_coil_keeps_its_windings_and_the_times_of_its_walk(pitch, noise,
     assert len(walk.passages) < 8
 
 
-def test_a_square_wave_of_short_legs_keeps_its_height():
-    corners = np.array([(5.0 * k + x, 5.0 * ((k + 1) % 2)) for k in range(8) for x in (0.0, 5.0)])
-    walk, path = walk_along(places_along(corners, np.arange(76.0)), None)
-    height = path.position(np.linspace(path.begin, path.end, 1_000))[:, 1]
-    assert walk.is_easy
-    assert np.ptp(height) > 4.6
-    assert walk.largest < 1.5
-
-
 # Radius of the arcs that would cost least [m], and how much more than they a smooth curve may cost [1].
 EASIEST, DEARER = 1.1 * tightest_bend(Dragon())[0], 1.2
 SQUARES = {
@@ -161,17 +152,6 @@ def test_a_walk_of_right_angles_loses_little_more_than_the_least_arcs(name, spac
     assert s[-1] - walk.length <= DEARER * least
     assert walk.passages is not None
     assert all(one["speed"] == pytest.approx(1.0, abs=0.15) for one in walk.passages)
-
-
-@pytest.mark.parametrize("noise", [0.0, 0.3])
-def test_hairpins_that_no_bench_follows_stay_where_they_were_walked(noise):
-    legs = [np.column_stack([np.arange(31.0)[:: 1 - 2 * (row % 2)], np.full(31, 2.0 * row)]) for row in range(8)]
-    points = np.concatenate(legs)
-    walk, path = walk_along(with_noise(points, noise, 5), None)
-    assert not walk.is_easy
-    assert walk.largest < 0.3 + 5.0 * noise
-    assert walk.length > 235.0
-    assert farthest(points, path) < 0.3 + 5.0 * noise
 
 
 @pytest.mark.parametrize("noise", [0.1, 0.5, 2.0])
