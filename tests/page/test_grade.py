@@ -3,7 +3,7 @@
 import pytest
 
 from core import Dragon
-from tests.support.students import SPIRAL_TIMES, contact_workbook, spiral, workbook
+from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, contact_workbook, rows_of, spiral
 
 # Instants of a workbook that is soon read; and a short dragon: this is not about its dance.
 FEW, EASY = SPIRAL_TIMES[:21], "?benches=5&time=end"
@@ -23,7 +23,7 @@ def files(tmp_path_factory):
     position, speed = spiral(FEW, Dragon(overhang=0.0))
     position[0] = spiral(FEW)[0][0]  # right at first, as the picture shows
     contents = {
-        "result1.xlsx": workbook((position, speed), FEW),
+        "result1.xlsx": by_xlsxwriter(rows_of((position, speed), FEW)),
         "result2.xlsx": contact_workbook(),
         "result4.xlsx": b"PK, but no workbook",
         "result1.csv": b"",

@@ -33,7 +33,7 @@ DOWNLOADS = (
     "chromium_headless_shell-*/chrome*/*headless?shell",
     "chromium_headless_shell-*/chrome*/*headless?shell.exe",
 )
-ANSWER_TIMEOUT = 20.0  # [s] for --version, which takes 0.05 s, and 0.4 s from a cold disk
+ANSWER_TIMEOUT = 120.0  # [s] for --version, which takes 0.05 s, and 0.4 s from a cold disk
 FONT = "fonts-wqy-microhei"
 MISSING = "no Chrome or Chromium starts here: make test installs one if it can; otherwise set CHROME to the path of one"
 
@@ -60,17 +60,22 @@ def candidates():
     yield from _downloads()
 
 
+def version_of(program):
+    """What a program answers to --version; empty where it does not run, or fails."""
+    try:
+        answer = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=ANSWER_TIMEOUT)
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return answer.stdout if answer.returncode == 0 else ""
+
+
 def starts(program):
     """True if it runs and reports its version. Ubuntu's /usr/bin/chromium-browser only says that a snap is missing."""
     if not os.access(program, os.X_OK):
         return False
     if sys.platform == "win32":
         return True  # There --version opens a window.
-    try:
-        request = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=ANSWER_TIMEOUT)
-    except (OSError, subprocess.TimeoutExpired):
-        return False
-    return request.returncode == 0 and "Chrom" in request.stdout
+    return "Chrom" in version_of(program)
 
 
 @cache

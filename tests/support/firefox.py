@@ -15,6 +15,7 @@ from functools import cache
 
 from websockets.sync.client import connect
 
+from tests.support.browser import version_of
 from tests.support.pending import QUIET
 
 NAMES = ("firefox-esr", "firefox")
@@ -38,14 +39,8 @@ SETTINGS = {
 @cache
 def firefox_path():
     """Path of the first Firefox that reports its version. Ubuntu's command only says that a snap is missing."""
-    for program in filter(None, [os.environ.get("FIREFOX"), *map(shutil.which, NAMES)]):
-        try:
-            version = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=PATIENCE)
-        except (OSError, subprocess.TimeoutExpired):
-            continue
-        if version.returncode == 0 and "Firefox" in version.stdout:
-            return program
-    return None
+    programs = filter(None, [os.environ.get("FIREFOX"), *map(shutil.which, NAMES)])
+    return next((program for program in programs if "Firefox" in version_of(program)), None)
 
 
 class Firefox:

@@ -10,13 +10,15 @@ from pathlib import Path
 
 from babel.messages.pofile import read_po
 
+from tests.support.browser import version_of
+
 PAGE = Path(__file__).parents[2] / "app" / "page"
 CATALOGUE = Path(__file__).parents[2] / "core" / "words" / "zh_CN.po"
 OLDEST = (22, 7)  # the first that takes a module of the page for what it is
 MISSING = (
     "they run modules of the page in Node.js: make test-setup installs it, else apt install nodejs (22.7 or later)"
 )
-PATIENCE = 120.0  # longest wait for the version of a Node.js, and for a value [s]
+PATIENCE = 120.0  # longest wait for a value [s]
 # Enough of a document to load any module, and to set the language. Then the value for these arguments, in JSON.
 PROGRAM = """
 const root = { dataset: {}, lang: "" };
@@ -32,11 +34,7 @@ process.stdout.write(JSON.stringify(await (%s)(...JSON.parse(text))) ?? "null");
 def node_path():
     """Path of a Node.js that is new enough: that of the environment of this Python, or one in PATH."""
     for program in (str(Path(sys.executable).parent / "node"), shutil.which("node")):
-        try:
-            done = subprocess.run([str(program), "--version"], capture_output=True, text=True, timeout=PATIENCE)
-        except (OSError, subprocess.TimeoutExpired):
-            continue
-        found = re.match(r"v(\d+)\.(\d+)", done.stdout)
+        found = re.match(r"v(\d+)\.(\d+)", version_of(str(program)))
         if found and tuple(map(int, found.groups())) >= OLDEST:
             return program
     return None

@@ -9,10 +9,7 @@ from functools import cache
 
 import numpy as np
 import xlsxwriter
-from openpyxl import Workbook
 
-from app.files.workbooks import Worksheet
-from app.files.workbooks import workbook as written
 from core import Coil, Dance, Dragon, Line, Route, Spiral, Turn, trajectory
 from tests.support.slow_search import arc_length
 
@@ -70,22 +67,18 @@ def mirrored(results):
     return results[0] * [1.0, -1.0], results[1]
 
 
-def with_speeds(results, speed):
-    return results[0], speed
-
-
 def quotient(before, after, motion=spiral):
     """Speeds as distance over time between two moments. before, after: of them, from the time of the row [s]"""
     times = SPIRAL_TIMES if motion is spiral else TURN_TIMES
     way = motion(times + after)[0] - motion(times + before)[0]
-    return with_speeds(motion(times), np.hypot(way[..., 0], way[..., 1]) / (after - before))
+    return motion(times)[0], np.hypot(way[..., 0], way[..., 1]) / (after - before)
 
 
 def gradient():
     """Speeds by numpy.gradient from the places as they stand in the table, with six decimals."""
     position = np.round(spiral()[0], 6)
     velocity = np.gradient(position, axis=0)
-    return with_speeds((position, velocity), np.hypot(velocity[..., 0], velocity[..., 1]))
+    return position, np.hypot(velocity[..., 0], velocity[..., 1])
 
 
 def is_outside(position):
@@ -222,18 +215,6 @@ def sheets(results):
     return np.round(position.transpose(1, 2, 0).reshape(-1, len(position)), 6), np.round(speed.T, 6)
 
 
-def workbook(results, times, decimals=6):
-    """result1 or result4 with labels that are nearly the contest's."""
-    columns = [f"{t:g} s" for t in times]
-    return written(
-        [
-            Worksheet(title, columns, labels(kind), rows)
-            for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True)
-        ],
-        decimals,
-    )
-
-
 def lines(results, times):
     """CSV with a line for each handle and instant; reading it takes much less time than a workbook."""
     rows = (
@@ -253,14 +234,8 @@ def contact_rows(results):
 
 
 def contact_workbook(results=None):
-    """result2 as openpyxl writes it; the right one unless results are given."""
-    book = Workbook(write_only=True)
-    sheet = book.create_sheet("Sheet1")
-    for row in contact_rows(results or spiral(AT_CONTACT)):
-        sheet.append(row)
-    sink = io.BytesIO()
-    book.save(sink)
-    return sink.getvalue()
+    """result2; the right one unless results are given."""
+    return by_xlsxwriter({"Sheet1": contact_rows(results or spiral(AT_CONTACT))})
 
 
 def rows_of(results, times):

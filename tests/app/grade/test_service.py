@@ -9,7 +9,7 @@ from tests.support.asking import assert_problem
 from tests.support.command import run
 from tests.support.depth import further
 from tests.support.serving import serving
-from tests.support.students import SPIRAL_TIMES, contact_workbook, spiral, workbook
+from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, contact_workbook, rows_of, spiral
 
 FILE = {"Content-Type": "application/octet-stream"}
 
@@ -38,7 +38,7 @@ def test_the_language_stated_comes_before_the_language_accepted(client):
 
 
 def test_a_file_beyond_the_limit_or_the_deadline_is_refused_and_nothing_of_it_is_logged(tmp_path):
-    first = workbook(spiral(), SPIRAL_TIMES)
+    first = by_xlsxwriter(rows_of(spiral(), SPIRAL_TIMES))
     with serving(tmp_path / "log", grade_bytes_max=len(first), grade_seconds=0.2) as strict:
         large, late, _ = (
             httpx.post(f"{strict.url}/grade?name=secret.xlsx", content=content, headers=FILE, timeout=60)
