@@ -12,6 +12,7 @@ import httpx
 import psutil
 
 from app.files.tables import XLSX_TYPE
+from app.questions.registry import CALLS
 from tests.conftest import STOP_TIMEOUT, wait_until_live
 from tests.support.command import serve
 from tests.support.largest import THIN
@@ -152,23 +153,9 @@ def _has_job(pid):
 def direct(client, wanted):
     """The answer of the call itself, with nothing of jobs."""
     call, values = CALLS[wanted["question"]], dict(wanted.get("request", {}))
-    method, path = call.split()
-    if "{format}" in path:
-        path = path.format(format=values.pop("format"))
+    path = call.question.path.format(format=values.pop("format", ""))
     headers = {"Accept": wanted.get("accept", "*/*")}
-    if method == "GET":
-        return client.get(path, params=values, headers=headers)
-    return client.post(path, json=values, headers=headers)
-
-
-CALLS = {
-    "trajectory": "POST /trajectory",
-    "collision_time": "GET /collision-time",
-    "pitch_scan": "GET /pitch-scan",
-    "overlaps": "POST /overlaps",
-    "check": "POST /check",
-    "trajectory_figure": "GET /figures/trajectory.{format}",
-}
+    return client.request(call.method, path, headers=headers, **{"params" if call.method == "GET" else "json": values})
 
 
 def is_gone(pid):
