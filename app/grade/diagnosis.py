@@ -66,8 +66,11 @@ TURNED_STEPS, OUTLIER, PLANE = 6, 5.0, np.array([1.0, 1j])
 # Largest shift of the times that speeds show, step of the search for it, and step of their derivative [s]: they hardly
 # change on the spiral, and in the turn within 0.3 s.
 SHIFT_MOST, SHIFT_STEP, SPEED_STEP = 100.0, 0.1, 0.01
-# A shift that speeds show counts as one of two decimals up to this distance from it [s].
-SIMPLE_SHIFT = 2e-3
+# Speeds count for it that a further shift up to these explains, round after round [s]; and its uncertainty, in units of
+# what their largest roundings give if all are independent.
+SHIFT_FAR, SHIFT_OFF = (1e3, 1e3, 1e3, 1e-3), 2.5
+# Largest uncertainty of a shift that is named [s].
+SHIFT_KNOWN = 0.5
 
 
 def diagnosed(judgements: list[JudgedSheet], budget: Budget) -> list[Finding]:
@@ -192,7 +195,7 @@ def _negated_beside(motion: Motion) -> Iterator[Model]:
 def _other_times(dance: Dance, speed: JudgedSheet) -> Iterator[Model]:
     """The right speeds of other times, which follow from all speeds of the sheet by least squares."""
     right, known = of_dance(dance), speed.handles < HANDLES
-    values = speed.values[:, known, 0]
+    values, rounding = speed.values[:, known, 0], speed.rounding[:, known, 0]
     spread = np.nan_to_num(np.where(np.isfinite(values), np.abs(values - 1.0), np.nan)).sum(axis=1)
     row = int(spread.argmax())
     shifts = np.arange(-SHIFT_MOST, SHIFT_MOST, SHIFT_STEP)
@@ -206,20 +209,25 @@ def _other_times(dance: Dance, speed: JudgedSheet) -> Iterator[Model]:
         return
     off = np.abs(speeds_at(speed.times[row] + shifts)[:, present] - values[row, present])
     shift = float(shifts[np.median(off, axis=1).argmin()])
-    for _ in range(3):
+    off_by = SHIFT_STEP
+    for far in SHIFT_FAR:
         before, middle, after = (speeds_at(speed.times + shift + step) for step in (-SPEED_STEP, 0.0, SPEED_STEP))
         slope, miss = (after - before) / (2.0 * SPEED_STEP), values - middle
-        counts = np.isfinite(miss)
-        shift += float((slope * miss)[counts].sum() / max(float((slope**2)[counts].sum()), SPEED_STEP**4))
-    if abs(shift) > 2.0 * SHIFT_MOST:
+        counts = np.abs(miss) <= np.maximum(far * np.abs(slope), rounding)
+        weight = max(float((slope**2)[counts].sum()), SPEED_STEP**4)
+        shift += float((slope * miss)[counts].sum()) / weight
+        off_by = SHIFT_OFF * float(np.hypot.reduce((slope * rounding)[counts])) / weight
+    if abs(shift) > 2.0 * SHIFT_MOST or off_by > SHIFT_KNOWN:
         return
-    shift = round(shift, 2) if abs(round(shift, 2) - shift) < SIMPLE_SHIFT else shift
+    at_first = float(speed.times[0]) if speed.workbook is Workbook.RESULT2 else 0.0
+    span = at_first + shift - off_by, at_first + shift + off_by
+    time, decimals = simplest(span), decimals_of(span, INSTANT_DECIMALS)
+    shift = time - at_first
     if speed.workbook is Workbook.RESULT2:
-        instant = float(speed.times[0]) + shift
-        values_of = {"time": f"{instant:.3f}", "what": note(SHEETS[TableKind.SPEED])}
+        values_of = {"time": f"{time:.{decimals}f}", "what": note(SHEETS[TableKind.SPEED])}
         yield Model("other_instant", shifted_time(right, shift).motion, values_of)
     else:
-        yield shifted_time(right, shift)
+        yield shifted_time(right, shift, decimals)
 
 
 def _of_no_motion(speed: JudgedSheet, motion: Motion) -> Finding:

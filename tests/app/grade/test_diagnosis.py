@@ -253,6 +253,13 @@ def test_the_errors_of_places_and_of_speeds_are_named_each(places, speeds):
     assert result.verdict == ("wrong" if wanted else "rounded" if is_rounded else "right")
 
 
+@pytest.mark.parametrize(("by", "decimals"), [(0.582, 6), (-0.09, 4), (-0.437, 5)])
+def test_speeds_of_other_times_tell_no_digit_of_the_shift_that_they_do_not_know(by, decimals):
+    places, speeds = turn()[0], np.round(turn(TURN_TIMES + by)[1], decimals)
+    (error,) = grade(students.lines((places, speeds), TURN_TIMES)).diagnosis
+    assert f"{by:+} s" in error.words
+
+
 @pytest.mark.parametrize("by", further([1, -2], 1))
 def test_speeds_in_shifted_rows_are_not_called_rounded(by):
     """Those of neighbours on the spiral differ in the third decimal."""
