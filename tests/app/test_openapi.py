@@ -143,14 +143,11 @@ def test_a_token_may_guard_the_calls_that_make_and_list_jobs_and_take_files():
     assert locks == {name: [{"token": []}, {}] for name in guarded}
 
 
-def test_paths_are_distinguished_by_their_kind():
+def test_every_path_says_its_kind():
     schemas = DOCUMENT["components"]["schemas"]
     path, _ = schemas["CheckRequest"]["properties"]["path"]["anyOf"]
-    documented = path["discriminator"]["mapping"]
-    assert sorted(documented.values()) == sorted(one["$ref"] for one in path["oneOf"])
-    shapes = {kind: schemas[ref.rpartition("/")[2]] for kind, ref in documented.items()}
-    assert all("kind" in shape["required"] for shape in shapes.values())
-    assert [shape["properties"]["kind"]["const"] for shape in shapes.values()] == [*shapes]
+    kinds = path["discriminator"]["mapping"].values()
+    assert all("kind" in schemas[kind.rpartition("/")[2]]["required"] for kind in kinds)
 
 
 @pytest.mark.parametrize("call", ["trajectory", "turn", "maximum-head-speed"])

@@ -294,12 +294,6 @@ def test_a_pitch_where_a_search_stopped_is_traced_to_all_steps_that_give_it():
     assert "the number is 0.450331367 m; the given value is 0.450331369 m" in guess.evidence
 
 
-def test_no_pitch_of_two_decimals_has_a_cause():
-    for hundredths in range(30, 60):
-        result = typed("pitch", f"0.{hundredths}")
-        assert (result.diagnosis, result.possible) == ([], [])
-
-
 def test_the_stated_chance_is_that_of_random_numbers():
     """Of all pitches of four decimals as far from the right one as 0.4202, or nearer, so many fit a known error."""
     texts = [f"{k / 10000:.4f}" for k in range(4202, 4806)]

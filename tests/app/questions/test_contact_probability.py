@@ -2,16 +2,12 @@
 
 import numpy as np
 
-import core
-
-MODEL = {"lateral": 0.02, "forward": 0.005, "correlation_time": 4.0, "step": 0.5, "hole": 0.055, "pin": 0.05}
+from tests.app.questions.test_registry import REQUESTS
 
 
 def test_quantiles_and_the_pair_are_of_the_first_contacts(ask):
-    window = {"start": 395.0, "stop": 405.0}
-    got = ask("contact-probability", {"dragon": {"benches": 20}, **MODEL, "samples": 60, "seed": 3, **window})
-    dance = core.Dance(core.Dragon(20), core.Spiral())
-    result = core.contact_probability(dance, core.Wobble(**MODEL), 60, 3, **window)
+    body, request, _ = REQUESTS["contact-probability"]
+    got, result = ask("contact-probability", body), request()
     assert 5 < result.contacts < 60
     assert got["time_quantiles"] == np.quantile(result.time, (0.05, 0.5, 0.95)).tolist()
     pairs = result.benches.tolist()
