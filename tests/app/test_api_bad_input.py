@@ -10,12 +10,6 @@ from tests.support.asking import assert_problem
 HEADS = "GET, HEAD, OPTIONS, POST"
 
 
-@pytest.fixture(autouse=True)
-def next_request_is_answered(client):
-    yield
-    assert client.post("/trajectory", json={"times": [0], "dragon": {"benches": 2}}).status_code == 200
-
-
 @pytest.mark.parametrize("body", ["[]", "3", "null"])
 def test_a_body_that_is_no_object_is_a_problem(client, body):
     answer = client.post("/trajectory", content=body, headers={"Content-Type": JSON})

