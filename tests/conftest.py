@@ -1,7 +1,6 @@
 """Fixtures that several kinds of tests share."""
 
 import gc
-import http.client
 import json
 import os
 import random
@@ -9,10 +8,12 @@ import shutil
 import signal
 import sys
 import time
+from contextlib import suppress
 from ctypes import CDLL
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
+from urllib.request import urlopen
 
 import pytest
 
@@ -234,14 +235,8 @@ def wait_until_live(process, port, log):
     """Return when /healthz answers 200; fail with the server's log if it cannot start."""
     end = time.monotonic() + START_TIMEOUT
     while process.poll() is None and time.monotonic() < end:
-        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=5)
-        try:
-            connection.request("GET", "/healthz")
-            if connection.getresponse().status == http.client.OK:
-                return
-        except OSError:
-            time.sleep(0.05)
-        finally:
-            connection.close()
+        with suppress(OSError), urlopen(f"http://127.0.0.1:{port}/healthz", timeout=5):
+            return
+        time.sleep(0.05)
     process.kill()
     pytest.fail(f"the server did not start:\n{log.read_text()}")

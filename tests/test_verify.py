@@ -16,6 +16,7 @@ from core import Dance, Dragon, Spiral, first_contact
 from core.proof import chain, prove_collision_time, prove_minimum_pitch
 from tests.campaigns.differential import MAKERS, hunt, made, proven_by_core, proven_by_second, second
 from tests.conftest import ROOT
+from tests.core.proof.test_claims import OF_GRAZE
 from tests.support.depth import DEEP, examples, some, thorough
 from tests.support.forgeries import DROPPED, FORGERIES, forged, stretches
 from tests.support.reference_contacts import graze, random_contact, small
@@ -177,10 +178,7 @@ def test_an_accident_is_refused_by_the_digest():
 @pytest.mark.parametrize(
     ("edit", "reason"),
     [
-        ('overlap = {"benches": [0, 12], "head_theta": 40.0}', "on the way"),  # within the circle
-        ('overlap = {"benches": [0, 12], "head_theta": 43.0}', "not shown to overlap"),
-        ('overlap = {"benches": [0, 12], "head_theta": 44.5}', "on the way"),  # before the start
-        ('overlap = {"start_within_circle": true}', "does not lie within it"),
+        *OF_GRAZE,
         ('overlap = {"benches": [0, 12]}', "head_theta is missing"),
         ("claim.pitch += -1e-8", "not proven"),
         *thorough(("claim.pitch += 1.1e-6", "not proven"), ("claim.turning_radius += -1e-3", "not proven")),

@@ -8,27 +8,23 @@ import pytest
 
 from tests.conftest import ROOT
 
-# Code that hides every installed browser.
-WITHOUT = "from tests.support import browser; browser.PLACES = ()"
+# Code of a machine that has none.
+WITHOUT = "from tests.support import browser; browser.browser_path = lambda: None"
 LEFT_OUT = "tests are left out: no Chrome or Chromium starts here"
 
 pytestmark = pytest.mark.uncompiled
 
 
-def bare(folder):
-    """An environment that names no browser."""
-    unset = ("CHROME", "EVERY_TEST", "PLAYWRIGHT_BROWSERS_PATH", "XDG_CACHE_HOME")
-    kept = {name: value for name, value in os.environ.items() if name not in unset}
-    # Plugins of pytest that these tests do not use would take two seconds to load.
-    return {**kept, "HOME": str(folder), "PATH": str(folder), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
-
-
 def without_browser(folder, *arguments, **more):
     """A run of pytest on a machine without a browser, in every process that it starts."""
     (folder / "without_browser.py").write_text(WITHOUT)
-    environment = bare(folder) | {"PYTEST_PLUGINS": "without_browser", "PYTHONPATH": f"{folder}:{ROOT}"} | more
+    kept = {name: value for name, value in os.environ.items() if name != "EVERY_TEST"}
+    # Plugins of pytest that these tests do not use would take two seconds to load.
+    kept |= {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_PLUGINS": "without_browser"}
     command = [sys.executable, "-m", "pytest", "-q", *arguments]
-    return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+    return subprocess.run(
+        command, cwd=ROOT, env={**kept, "PYTHONPATH": f"{folder}:{ROOT}", **more}, capture_output=True, text=True
+    )
 
 
 def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path):

@@ -5,7 +5,7 @@ from urllib.parse import urlencode, urlsplit
 import pytest
 
 from tests.support import polite
-from tests.support.person import Person, alike
+from tests.support.person import alike
 from tests.support.serving import free_port, serving
 
 thorough = pytest.mark.thorough
@@ -19,6 +19,9 @@ TITLES = ("#first-contact h3", "#run-end h3", "#clearance h2")
 LATER = {"qr.js", "below.js", "below.css", "grade.js", "map.js", "drawn.js", "place.css", "propose.js"}
 LATER |= {"sharing.js"}
 
+# Address and bytes of all that was loaded.
+WEIGHTS = """() => performance.getEntries().filter((one) => "transferSize" in one)
+  .map((one) => [one.name, one.transferSize])"""
 # Keeps the messages of the page, which leave by themselves.
 TOLD = """() => {
   window.told = [];
@@ -115,26 +118,18 @@ def test_what_a_service_refuses_to_play_stops(open_page, tmp_path):
 
 
 @pytest.mark.parametrize("locale", ["en-GB", "zh-CN"])
-def test_the_page_is_light_and_its_parts_load_when_a_person_first_needs_them(browser, server, locale):
+def test_the_page_is_light_and_its_parts_load_when_a_person_first_needs_them(open_page, locale):
     """Bytes as a browser with an empty cache counts them."""
-    context = browser.new_context(viewport={"width": 1440, "height": 900}, locale=locale)
-    person = Person(context.new_page())
-    wire = context.new_cdp_session(person.page)
-    wire.send("Network.enable")
-    urls = {}
-    weights = {}
-    wire.on("Network.requestWillBeSent", lambda event: urls.update({event["requestId"]: event["request"]["url"]}))
-    wire.on("Network.loadingFinished", lambda event: weights.update({event["requestId"]: event["encodedDataLength"]}))
+    person = open_page("?benches=5&time=end", failing=True, locale=locale).sees({CONTACT: True})
+    weights = person.ask(WEIGHTS)
+    own = [size for url, size in weights if ("/page-" in url and "uPlot" not in url) or "/?benches=" in url]
+    assert 1 < len(weights) < FILES_MAX
+    assert 0 < sum(own) < OWN_MAX
+    assert sum(size for _, size in weights) < ALL_MAX
 
     def later():
-        return LATER & {urlsplit(url).path.rpartition("/")[2] for url in urls.values()}
+        return LATER & {urlsplit(url).path.rpartition("/")[2] for url, _ in person.ask(WEIGHTS)}
 
-    person.page.goto(f"{server}/?benches=5&time=end")
-    person.settles().sees({CONTACT: True})
-    own = [one for one in weights if ("/page-" in urls[one] and "uPlot" not in urls[one]) or "/?benches=" in urls[one]]
-    assert 1 < len(urls) < FILES_MAX
-    assert 0 < sum(weights[one] for one in own) < OWN_MAX
-    assert sum(weights.values()) < ALL_MAX
     assert later() == set()
     person.presses("#share").sees({"#qr": True}).strikes("Escape")
     assert later() == {"sharing.js", "qr.js"}
@@ -145,4 +140,3 @@ def test_the_page_is_light_and_its_parts_load_when_a_person_first_needs_them(bro
     assert later() == LATER
     person.speaks("zh")
     assert later() == LATER
-    context.close()

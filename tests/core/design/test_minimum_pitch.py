@@ -43,13 +43,6 @@ def test_every_case_of_the_reference_is_met(case):
     assert np.array(result.other_feasible_intervals) == pytest.approx(np.array(islands), abs=ACCURACY)
 
 
-def least_gap(dragon, result, turns):
-    """Least separation of the stated pair at the stated place of the head, by a slow dance [m]."""
-    dance = SlowDance.of(dragon, Spiral(result.pitch, turns))
-    there = float(dance.way - dance.growth * arc_length(result.head_radius / dance.growth))
-    return dance.pair_gap(there, result.benches)
-
-
 def test_benches_out_of_reach_change_nothing():
     few, many = (minimum_pitch(Dragon(benches)).pitch for benches in (80, 10_000))
     assert many == pytest.approx(few, abs=1e-12)
@@ -101,7 +94,9 @@ def test_a_start_inside_a_graze_passes_it_and_names_the_pair_that_repeats_it():
     assert inside.pitch == pytest.approx(before.pitch, abs=ACCURACY)
     assert inside.head_radius < inside.pitch * 4.06 < before.head_radius
     for turns, result in results.items():
-        assert least_gap(dragon, result, turns) == pytest.approx(margin, abs=ACCURACY)
+        dance = SlowDance.of(dragon, Spiral(result.pitch, turns))
+        there = float(dance.way - dance.growth * arc_length(result.head_radius / dance.growth))
+        assert dance.pair_gap(there, result.benches) == pytest.approx(margin, abs=ACCURACY)
 
 
 SHORT = Dragon(6, 1.21, 0.93, 0.61, 0.0)

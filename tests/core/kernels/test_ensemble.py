@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from core import Arc, Dance, Dragon, Part, Passage, Performance, Route, Spiral, bench_poses, trajectory
-from core.kernels import Rings, spirals_least
+from core.design.ways import SearchBetween
+from core.kernels import Budget, spirals_least
 from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, FREE, OMEGA
 from core.performance.stage import Stage, clear_of_each_other
 from tests.support.slow_performance import SlowPerformance
@@ -65,11 +66,10 @@ def test_no_gap_of_two_dragons_falls_below_the_bound_of_a_step(begin, until):
 
 @pytest.mark.parametrize(("count", "pitch"), [(2, 1.1), (3, 1.6), (2, 1.3)])
 def test_further_out_in_one_spiral_no_gap_falls_below_the_ring_bound(count, pitch):
-    angle, dragon, rings = 2.0 * math.pi / count, Dragon(60), Rings()
+    angle, dragon = 2.0 * math.pi / count, Dragon(60)
+    rings = SearchBetween(dragon, Spiral(pitch), count, 0.0, work=1e7, budget=Budget(), stray=0.0).rings
     parts = [Part(Dance(dragon, Spiral(pitch, 9.0, rotation=angle * k), 1.0 + 0.1 * k)) for k in range(count)]
     growth = pitch / (2.0 * math.pi)
-    columns = (np.ascontiguousarray(getattr(dragon, name)) for name in ("chords", "overhangs", "widths", "lengths"))
-    rings.measure(*columns, 1, 0)
     stage = Stage(Performance(parts), (0.0, 30.0), 0.0)
     for time in np.linspace(0.0, 30.0, 7).tolist():
         stage.enter(time, 30.0)

@@ -169,26 +169,12 @@ def bend(width, other):
     return ring, ((30, 0.5 * width), math.pi), ((30, 10.8 - 0.5 * other), math.pi)
 
 
-def corner(width):
-    """A room between two channels that are square to each other."""
-    half = 0.5 * width
-    low = [(0, 4), (10, 4), (10, 0), (24, 0), (24, 12), (18 + half, 12), (18 + half, 22)]
-    high = [(18 - half, 22), (18 - half, 12), (10, 12), (10, 4 + width), (0, 4 + width)]
-    return [*low, *high], ((0, 4 + half), 0.0), ((18, 22), -0.5 * math.pi)
-
-
 def rooms(width):
     """Two rooms with a channel between and one to each gate, on three lines."""
     low = [(0, 8), (8, 8), (8, 0), (20, 0), (20, 1), (30, 1), (30, 0), (44, 0), (44, 8), (52, 8)]
     high = [(52, 8), (44, 8), (44, 12), (30, 12), (30, 1), (20, 1), (20, 12), (8, 12), (8, 8), (0, 8)]
     up = [(x, y + width * (y in (1, 8))) for x, y in high]
     return [*low, *up], ((0, 8 + 0.5 * width), 0.0), ((52, 8 + 0.5 * width), math.pi)
-
-
-def hall(width):
-    """A channel into a room with a gate in its long side."""
-    ring = [(0, 0), (10, 0), (10, -8), (26, -8), (26, 8), (10, 8), (10, width), (0, width)]
-    return ring, ((0, 0.5 * width), 0.0), ((18, 8), -0.5 * math.pi)
 
 
 YARD, STREETS = [(0, 0), (24, 0), (24, 20), (0, 20)], [(0, 3), (17, 3), (17, 20), (13, 20), (13, 7), (0, 7)]
@@ -205,9 +191,7 @@ WALKS = {
     "a bend of 0.6 m": (*bend(0.6, 0.6), 0.3),
     "a turned bend of 0.9 m": (*bend(0.9, 0.9), 2.5),
     "a bend of 0.7 m and 1.3 m": (*bend(0.7, 1.3), 1.1),
-    "a corner of 0.7 m": (*corner(0.7), 0.4),
     "rooms in a row": (*rooms(0.7), 0.4),
-    "one channel and a wide gate": (*hall(0.8), 0.2),
 }
 
 
