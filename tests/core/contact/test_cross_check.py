@@ -54,6 +54,12 @@ def moved(contact, shift):
     return replace(contact, time=low + shift, time_bracket=(low + shift, high + shift))
 
 
+def assert_judged(check, agree, verdict, engines=Engine):
+    """These engines, and no others, all find this, and agree or not with what is claimed."""
+    assert check.agree == agree
+    assert check.engines == dict.fromkeys(engines, verdict)
+
+
 # -- what is true ---------------------------------------------------------------------------------------------
 
 
@@ -103,9 +109,7 @@ def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact):
     ids=["wrong pair", "too early", "too late"],
 )
 def test_a_wrong_pair_or_time_is_noticed_by_every_engine(contact, whole, shift, benches, verdict):
-    check = contact_check(replace(moved(contact, shift), benches=benches), whole=whole)
-    assert not check.agree
-    assert check.engines == dict.fromkeys(Engine, verdict)
+    assert_judged(contact_check(replace(moved(contact, shift), benches=benches), whole=whole), False, verdict)
 
 
 @pytest.mark.parametrize(
@@ -121,8 +125,8 @@ def test_a_third_bench_is_noticed_by_every_engine_but_not_by_the_pair_alone(inst
     check, of_pair = (
         judged_contact(poses, sizes_of(DRAGON), contact.benches, margin=margin, whole=whole) for whole in (True, False)
     )
-    assert (check.agree, check.together) == (False, ())
-    assert check.engines == dict.fromkeys(EXACT if margin else Engine, verdict)
+    assert_judged(check, False, verdict, EXACT if margin else Engine)
+    assert check.together == ()
     assert (of_pair.agree, of_pair.judged) == (True, contact.benches)
 
 
@@ -133,9 +137,8 @@ def test_a_pair_that_meets_at_the_same_instant_is_hardly_within_the_margin(deep,
     after = apart.copy()
     after[[2, 6], 1] = 0.5 - np.array([0.1, deep]) * TOGETHER_DEPTH
     check = judged_contact(np.array([apart, after]), np.tile([2.0, 0.5], (7, 1)), (0, 2))
-    assert check.agree == together
+    assert_judged(check, together, AS_REPORTED if together else NEVER)
     assert check.together == (((4, 6),) if together else ())
-    assert check.engines == dict.fromkeys(Engine, AS_REPORTED if together else NEVER)
 
 
 def test_an_engine_that_differs_makes_them_disagree():
@@ -173,7 +176,7 @@ def test_benches_left_out_make_no_neighbours_of_those_beside_them():
     poses[:, 2, :2] = [[0.0, 0.55], [0.0, 0.45]]
     check = judged_contact(poses, np.tile([2.0, 0.5], (count, 1)), (0, 2))
     assert 1 not in check.judged
-    assert check.engines == dict.fromkeys(Engine, AS_REPORTED)
+    assert_judged(check, True, AS_REPORTED)
 
 
 @as_dragon_and_pair

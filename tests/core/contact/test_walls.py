@@ -29,23 +29,13 @@ from tests.support.random_squares import polygon
 
 PROVEN = 1.1e-5  # [m]: a distance is proven to this
 AT_MARGIN = 1e-8  # [m]: the distance at the time of first coming within the margin, and in closed form
-DRAGON = Dragon(benches=12)
-# Around a hall of 12 x 6 m with rounded corners, anti-clockwise; one lap is 2 (12 + 6) + 4 pi long.
-LAP = Route(
-    [
-        Line((-30, 0), (12, 0)),
-        Arc((12, 2), 2, -0.5 * math.pi, 0.5 * math.pi),
-        Line((14, 2), (14, 8)),
-        Arc((12, 8), 2, 0, 0.5 * math.pi),
-        Line((12, 10), (0, 10)),
-        Arc((0, 8), 2, 0.5 * math.pi, 0.5 * math.pi),
-        Line((-2, 8), (-2, 2)),
-    ],
-    start=30.0,
-)
 VENUE = Venue(Area("square", (SQUARE,)), (Area("well", (WELL,)), Area("stage", (STAGE,))))
-VENUE_ROUND = Venue(boxed("square", -13, -14, 13.5, 12.5))
-LAPPING = Dance(DRAGON, LAP)
+AROUND = boxed("square", -13, -14, 13.5, 12.5)
+# Beside two sides of a stage, and round the corner between them.
+CORNER = Dance(
+    Dragon(12),
+    Route([Line((-30, 0), (12, 0)), Arc((12, 2), 2, -0.5 * math.pi, 0.5 * math.pi), Line((14, 2), (14, 8))], 30.0),
+)
 # Along the x axis, beside which walls stand in a hall.
 STRAIGHT = Route([Line((-60, 0), (60, 0))], start=60.0)
 HALL = boxed("square", -70, -9, 70, 9)
@@ -73,7 +63,7 @@ TREE_DISTANCE, TREE_TIME = 3.0085432166, 6.5032
 @pytest.mark.parametrize("stop", [8.36, None])
 def test_a_tree_beside_the_last_metres_before_a_fold_is_seen(stop):
     dance = Dance(Dragon(1), Spiral(0.8, 2.38))
-    tree = venue_clearance(dance, Venue(VENUE_ROUND.square, (TREE,)), stop=stop).areas[1]
+    tree = venue_clearance(dance, Venue(AROUND, (TREE,)), stop=stop).areas[1]
     assert tree.outcome is Outcome.CLEAR
     assert_near([tree.nearest.distance, *tree.nearest.wall], [TREE_DISTANCE, *TREE.rings[0][0]], 1e-8)
     assert tree.nearest.at_least <= TREE_DISTANCE
@@ -90,7 +80,7 @@ def test_a_wall_just_before_the_fold_is_met_when_a_bench_gets_there(before):
     corner, side = rear - 0.001 * out, 0.02 * np.array([-out[1], out[0]])
     ring = [tuple(place) for place in (corner, corner + 0.5 * out - side, corner + 0.5 * out + side, corner)]
     post = Area("post", (tuple(ring),))
-    result = venue_clearance(dance, Venue(VENUE_ROUND.square, (post,)), start=dance.end.time - 2.0 * before).areas[1]
+    result = venue_clearance(dance, Venue(AROUND, (post,)), start=dance.end.time - 2.0 * before).areas[1]
     assert shapely_distances(dance, post, at).min() == 0.0
     assert result.outcome in (Outcome.CONTACT, Outcome.CONTACT_AT_START)
     if result.time_bracket is not None:
@@ -145,7 +135,7 @@ LAKE = box(-32, -1, 3, 1)
     ids=["inside", "wholly outside", "in a hole", "in an obstacle"],
 )
 def test_a_dragon_that_starts_outside_or_in_an_obstacle_is_misplaced(venue, misplaced):
-    result = venue_clearance(LAPPING, venue)
+    result = venue_clearance(CORNER, venue)
     assert (result.misplaced and (result.misplaced.name, result.misplaced.bench)) == (misplaced and (misplaced, 0))
     assert result.areas[0].outcome is (Outcome.CONTACT if venue.square.rings[1:] else Outcome.CLEAR)
     for area in result.areas:

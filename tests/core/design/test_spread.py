@@ -7,11 +7,9 @@ import pytest
 
 from core.design.spread import Spread
 from tests.campaigns.sweep_pitch import random_case
+from tests.core.design.test_straight import assert_bounded
 from tests.support.depth import further, some
 from tests.support.slow_pitch import SlowWays
-
-# Rounding of a slow clearance on ways of metres [m], and on a wide spiral per metre of its growth [1].
-ROUNDING, ROUNDING_PER_GROWTH = 1e-11, 1e-12
 
 
 @pytest.mark.parametrize("seed", further(some(range(40), 12), 3))
@@ -21,13 +19,13 @@ def test_dragons_keep_a_cleared_margin_at_every_larger_growth(seed):
     dragon, rng = dragon.leading(min(dragon.benches, 30)), np.random.default_rng(seed)
     count = int(rng.integers(2, 6))
     spread, bounds = Spread(dragon, count), 0
+
+    def least(wider):
+        return SlowWays.of(dragon, math.tau * wider, max(turns, 2.0 * radius / wider / math.pi), radius, count).least()
+
     for growth in spread.chord * 10.0 ** rng.uniform(-0.5, 2.0, 5):
         margins = [part * radius for part in (0.0, 0.1, 0.3, 1.0) if spread.clears(growth, radius, part * radius)]
-        if not margins:
-            continue
-        bounds += 1
-        for wider in growth * np.array([1.0, 1.0 + 10.0 ** rng.uniform(-2.0, 1.0)]):
-            begin = max(turns, 2.0 * radius / wider / math.pi)
-            slow = SlowWays.of(dragon, math.tau * wider, begin, radius, count).least()
-            assert slow >= margins[-1] - ROUNDING - ROUNDING_PER_GROWTH * wider
+        if margins:
+            bounds += 1
+            assert_bounded(rng, growth, margins[-1], least)
     assert bounds

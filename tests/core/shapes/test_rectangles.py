@@ -38,20 +38,25 @@ pairs = st.tuples(poses, sizes, poses, sizes)
 FIELDS = "separation", "witness_a", "witness_b", "normal"
 
 
+def assert_separated(pose_a, size_a, pose_b, size_b):
+    """The separations of pairs are those of the oracle; their witnesses lie on both boundaries, a step apart."""
+    result = separation(pose_a, size_a, pose_b, size_b)
+    oracle = minkowski_separation(corners(pose_a, size_a), corners(pose_b, size_b))
+    step = result.separation[:, None] * result.normal
+    assert_near(result.separation, oracle, ORACLE_ROUNDING)
+    assert_near(result.witness_b - result.witness_a, step, ROUNDING)
+    assert_near(np.hypot(*result.normal.T), 1.0, ROUNDING)
+    assert_near(outside(result.witness_a, pose_a, size_a), 0.0, ROUNDING)
+    assert_near(outside(result.witness_b, pose_b, size_b), 0.0, ROUNDING)
+    # moved back by it, they touch
+    back = pose_b - np.pad(step, ((0, 0), (0, 1)))
+    assert_near(separation(pose_a, size_a, back, size_b).separation, 0.0, ROUNDING)
+
+
 @settings(deadline=None, max_examples=60)
 @given(pairs)
 def test_witnesses_lie_on_both_boundaries_and_differ_by_separation_times_unit_normal(pair):
-    pose_a, size_a, pose_b, size_b = pair
-    result = separation(*pair)
-    assert_near(
-        result.separation, minkowski_separation(corners(*pair[:2])[None], corners(*pair[2:])[None])[0], ROUNDING
-    )
-    step = result.separation * result.normal
-    assert_near(result.witness_b - result.witness_a, step, ROUNDING)
-    assert_near(np.hypot(*result.normal), 1.0, ROUNDING)
-    assert_near([outside(result.witness_a, *pair[:2]), outside(result.witness_b, *pair[2:])], [0.0, 0.0], ROUNDING)
-    # moved back by it, they touch
-    assert_near(separation(pose_a, size_a, pose_b - np.append(step, 0.0), size_b).separation, 0.0, ROUNDING)
+    assert_separated(*(part[None] for part in pair))
 
 
 @settings(deadline=None, max_examples=60)
@@ -100,10 +105,7 @@ def test_nearly_parallel_edges_keep_their_distance_and_witnesses(turn, gap):
     shift = np.concatenate([np.linspace(-2.5, 2.5, 401), little, -little])
     pose = np.stack([shift, np.full_like(shift, 0.3 + gap), np.full_like(shift, turn)], axis=-1)
     still, size = np.zeros_like(pose), np.full((shift.size, 2), BENCH)
-    result = separation(still, size, pose, size)
-    assert_near(result.separation, minkowski_separation(corners(still, size), corners(pose, size)), ORACLE_ROUNDING)
-    off = outside(result.witness_a, still, size), outside(result.witness_b, pose, size)
-    assert_near(off, np.zeros((2, shift.size)), ROUNDING)
+    assert_separated(still, size, pose, size)
 
 
 def test_witness_of_parallel_edges_does_not_depend_on_rounding():

@@ -16,8 +16,7 @@ from core import (
     tolerance,
     venue_clearance,
 )
-from tests.core.contact.test_walls import DRAGON as LAPPING
-from tests.core.contact.test_walls import LAP, VENUE
+from tests.core.contact.test_walls import CORNER, VENUE
 
 DANCE = Dance(Dragon(), Spiral())
 # Stray [m]; the minimum pitch [m] and the first contact [s] of a bound that is a little less sharp.
@@ -44,7 +43,7 @@ QUESTIONS = {
     "first contact": lambda **options: first_contact(DANCE, **options),
     "minimum pitch": lambda **options: minimum_pitch(Dragon(), **options),
     "shortest turn": lambda **options: deepest_turn(Dragon(3), 1.7, **options).turn.entry_radius,
-    "venue": lambda **options: venue_clearance(Dance(LAPPING, LAP), VENUE, **options),
+    "venue": lambda **options: venue_clearance(CORNER, VENUE, **options),
     "check": lambda **options: check(DANCE, **options),
 }
 
@@ -56,7 +55,7 @@ def test_a_stray_of_0_changes_no_bit(name):
 
 
 def test_a_stray_brings_benches_nearer_to_a_wall_by_it_and_at_most_half_more():
-    still, strayed = (venue_clearance(Dance(LAPPING, LAP), VENUE, stray=stray, stop=10.0) for stray in (0.0, 0.02))
+    still, strayed = (venue_clearance(CORNER, VENUE, stray=stray, stop=10.0) for stray in (0.0, 0.02))
     for before, after in zip(still.areas, strayed.areas, strict=True):
         assert 0.02 - 1e-9 < before.nearest.distance - after.nearest.distance < 0.03
 
