@@ -1,30 +1,23 @@
-"""Types of arrays and points: results of numbers given as integers hold doubles, as their annotations say."""
+"""Types of arrays and points of every public value, also of integers: doubles, as their annotations say."""
 
-from typing import get_args
+from dataclasses import is_dataclass
 
 import numpy as np
-import pytest
 
 import core
 from core.values import Floats, Point
-from tests.core.test_display import DANCE, hints
-
-RESULTS = [
-    core.trajectory(DANCE, [0, 300]),
-    core.first_contact(DANCE, start=410),
-    core.course(core.Route([core.Line((0, 0), (9, 0))]), core.Dragon(2)),
-    core.Dragon.of([3, 2], [1, 1], [0, 0]),
-    core.Line((0, 0), (9, 0)),
-]
+from tests.core.test_display import DANCE, INPUTS, hints, parts, results
 
 
-@pytest.mark.parametrize("result", RESULTS, ids=lambda result: type(result).__name__)
-def test_arrays_hold_doubles_and_points_two_floats(result):
-    values = {name: hint for name, hint in hints(type(result)).items() if hint in (Floats, Point, Point | None)}
-    assert values
-    for name, hint in values.items():
-        value = getattr(result, name)
-        if hint == Floats:
-            assert (type(value), value.dtype) == (np.ndarray, get_args(get_args(Floats)[1])[0])
-        else:
-            assert tuple(type(part) for part in value) == get_args(Point)
+def test_arrays_hold_doubles_and_points_two_floats():
+    line = core.Line((0, 0), (9, 0))
+    of_integers = [core.trajectory(DANCE, [0, 300]), core.first_contact(DANCE, start=410)]
+    course = core.course(core.Route([line]), core.Dragon(2))
+    dragon = core.Dragon.of([3, 2], [1, 1], [0, 0])
+    for one in filter(is_dataclass, parts([*results(), *INPUTS, *of_integers, course, dragon, line])):
+        for name, hint in hints(type(one)).items():
+            value = getattr(one, name)
+            if hint == Floats:
+                assert (type(value), value.dtype) == (np.ndarray, np.float64)
+            elif value is not None and hint in (Point, Point | None):
+                assert [*map(type, value)] == [float, float]
