@@ -1,19 +1,19 @@
 """Fixtures that several kinds of tests share."""
 
 import gc
+import http.client
 import json
 import os
 import random
+import shlex
 import shutil
 import signal
 import sys
 import time
-from contextlib import suppress
 from ctypes import CDLL
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
-from urllib.request import urlopen
 
 import pytest
 
@@ -211,6 +211,13 @@ def pytest_collection():
 
 
 def pytest_terminal_summary(terminalreporter, config):
+    failed = [report.nodeid for kind in ("failed", "error") for report in terminalreporter.stats.get(kind, [])]
+    if failed:
+        terminalreporter.section("to repeat each alone")
+        python = Path(sys.executable)
+        python = python.relative_to(ROOT) if python.is_relative_to(ROOT) else python
+        for name in dict.fromkeys(failed):
+            terminalreporter.write_line(f"{python} -m pytest {shlex.quote(name)}")
     for reason, count in config.stash.get(LEFT_OUT, {}).items():
         terminalreporter.write_line(f"{count} tests are left out: {reason}", yellow=True)
     if _lacking(config):
@@ -235,8 +242,14 @@ def wait_until_live(process, port, log):
     """Return when /healthz answers 200; fail with the server's log if it cannot start."""
     end = time.monotonic() + START_TIMEOUT
     while process.poll() is None and time.monotonic() < end:
-        with suppress(OSError), urlopen(f"http://127.0.0.1:{port}/healthz", timeout=5):
-            return
-        time.sleep(0.05)
+        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=5)
+        try:
+            connection.request("GET", "/healthz")
+            if connection.getresponse().status == http.client.OK:
+                return
+        except OSError:
+            time.sleep(0.05)
+        finally:
+            connection.close()
     process.kill()
     pytest.fail(f"the server did not start:\n{log.read_text()}")
