@@ -157,14 +157,21 @@ def parts(folder: Path) -> set[int]:
     return {int(match[1]) for match in matches if match}
 
 
+@contextmanager
+def refusing_damage(file: Path) -> Iterator[None]:
+    """Context in which a file is opened and read. raises: InvalidValue for one that is damaged or of another kind"""
+    try:
+        yield
+    except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
+        words = "{file} is not part of a sweep: remove it and run the sweep again"
+        raise InvalidValue.in_words("folder", words, file=str(file)) from error
+
+
 def checked_part(folder: Path, spec: Spec, shard: int) -> pq.ParquetFile:
     """The file of a shard. raises: InvalidValue for a file of another sweep, or an incomplete one"""
     file = folder / part_name(shard)
-    try:
+    with refusing_damage(file):
         opened = pq.ParquetFile(file)
-    except (pa.ArrowInvalid, OSError) as error:
-        words = "{file} is not part of a sweep: remove it and run the sweep again"
-        raise InvalidValue.in_words("folder", words, file=str(file)) from error
     if (opened.schema_arrow.metadata or {}).get(b"bench-dragon sweep") != spec.name.encode():
         opened.close()
         words = "{file} belongs to another sweep: remove it and run the sweep again"

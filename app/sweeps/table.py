@@ -75,10 +75,12 @@ class Sweep:
         """The available rows, shard by shard. columns: to read. raises: InvalidValue"""
         whole = self.folder / TABLE_FILE
         if whole.exists():
-            yield from rows_of(whole, columns)
+            with shards.refusing_damage(whole):
+                yield from rows_of(whole, columns)
             return
         for shard in sorted(shards.parts(self.folder)):
-            with shards.checked_part(self.folder, self.spec, shard) as opened:
+            opened = shards.checked_part(self.folder, self.spec, shard)
+            with shards.refusing_damage(self.folder / shards.part_name(shard)), opened:
                 yield opened.read(columns=columns)
 
     def table(self, columns: Sequence[str] | None = None) -> pa.Table:

@@ -72,6 +72,17 @@ def test_a_folder_without_a_sweep_of_another_version_or_without_rows_is_refused(
         Sweep.open(folder)
 
 
+@pytest.mark.parametrize("name", [shards.part_name(2), "sweep.parquet"])
+def test_a_file_whose_pages_are_damaged_is_named(folder, name):
+    sweep = Sweep(folder, SPEC)
+    if name == "sweep.parquet":
+        sweep.compact()
+    data = (folder / name).read_bytes()
+    (folder / name).write_bytes(data[:4] + bytes(60) + data[64:])
+    with refused("folder", file=str(folder / name)):
+        sweep.table()
+
+
 def test_a_spec_of_bodies_comes_back_from_its_folder(tmp_path):
     over = {"path.pitch": [0.5], "dragon.width": {"start": 0.2, "stop": 0.3, "count": 2}}
     spec = Spec.of({"question": "check", "over": over, "request": {"dragon": {"benches": 5}}})
