@@ -10,19 +10,18 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from importlib import import_module
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 
 import core
 from app.command.asked import command_of
 from app.command.options import LANGUAGE
 from app.command.show import language_of_terminal
 from app.command.streams import output_fault
-from app.command.usage import Commands, Misuse, explain_values, message_of
+from app.command.usage import Commands, Misuse, explain_values, message_of, say_help
 from core.errors import BenchDragonError
 from core.kernels import COMPILED
 from core.language import Language, named_language, say, speaking
@@ -112,27 +111,28 @@ def _entry(command: str) -> Any:
     return command_of(question, question.command)
 
 
+HELP = {"help_option_names": ["-h", "--help"]}
+
+
 def _with_known_language(arguments: list[str]) -> tuple[list[str], Language | None]:
     """Arguments with the code of the language after --language, of one without words here that of English; and this
-    language, in which mistakes in the arguments are told too."""
-    known, language = [*arguments], None
-    for k, argument in enumerate(arguments):
-        option, mark, name = argument.partition("=")
-        at = k if mark else k + 1
-        if option != "--language" or at == len(arguments):
+    language, in which mistakes in the arguments are told too. Beside --help it may stand anywhere: it is taken out."""
+    known, language, rest = list[str](), None, iter(arguments)
+    for argument in rest:
+        option, mark, after = argument.partition("=")
+        name = after if mark or option != "--language" else next(rest, None)
+        if option != "--language" or name is None:
+            known.append(argument)
             continue
-        name = name if mark else arguments[at]
         language = named_language(name)
         if language is None:
             with speaking(language_of_terminal()):
                 words = say("Warning: there are no words in {name!r}, so they are in English.", name=name)
             print(words, file=sys.stderr)
         language = language or Language.ENGLISH
-        known[at] = (f"{option}=" if mark else "") + language
+        if not {*HELP["help_option_names"]} & {*arguments}:
+            known += [option, language]
     return known, language
-
-
-HELP = {"help_option_names": ["-h", "--help"]}
 
 
 class _Commands(Commands):
@@ -141,7 +141,8 @@ class _Commands(Commands):
     def make_context(self, info_name: Any, args: list[str], *further: Any, **extra: Any) -> Any:
         # Without any argument the parser prints the help and raises an error, although the user made no mistake.
         known, language = _with_known_language(args)
-        with _errors_in_one_line(language) if args else nullcontext():
+        with _errors_in_one_line(language) if args else speaking(language_of_terminal()):
+            say_help(self)
             context = super().make_context(info_name, known, *further, **extra)
             if language:
                 context.meta[LANGUAGE] = language
@@ -164,9 +165,7 @@ class _Commands(Commands):
         for one in (command, *getattr(command, "commands", {}).values()):
             if not any(parameter.name == "language" for parameter in one.params):
                 one.params.append(_language_option())
-            one.help = escape(one.help or "")  # A unit such as [m] must not be read as a style of rich.
-            for parameter in one.params:
-                parameter.help = escape(parameter.help or "")
+            say_help(one)
             explain_values(one)
         return command
 

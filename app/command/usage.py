@@ -6,16 +6,20 @@ import difflib
 import inspect
 import re
 from enum import EnumType
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
+from rich import _wrap
+from rich.markup import escape
 from typer.core import TyperGroup
 
+from app.command.show import PIECE
 from app.wire.messages import ALIKE_SLIP, fault_of
 from app.wire.numbers import number_of
 from core.errors import BenchDragonError, Given, fill_message
-from core.language import Listed, say
+from core.language import Language, Listed, Phrases, phrase, say, spoken
 
 # Class of every mistake that the parser reports; typer gives it no public name.
 Misuse: Any = typer.BadParameter.__base__
@@ -23,6 +27,18 @@ Misuse: Any = typer.BadParameter.__base__
 EXTRA = re.compile(r"Got unexpected extra arguments?(?:\(s\))? \((.*)\)")
 NO_VALUE = re.compile(r"Option '?(.*?)'? does not take a value\.")
 EMPTY = "must not be an empty name: the current folder is ."
+# The parser's own words in a help, by their names in typer.rich_utils, and two that have no name there.
+USAGE, SHOW_HELP = phrase("Usage: "), phrase("Show this message and exit.")
+HELP_WORDS: Phrases = {
+    "ARGUMENTS_PANEL_TITLE": "Arguments",
+    "OPTIONS_PANEL_TITLE": "Options",
+    "COMMANDS_PANEL_TITLE": "Commands",
+    "DEFAULT_STRING": "[default: {}]",
+    "ENVVAR_STRING": "[env var: {}]",
+    "REQUIRED_LONG_STRING": "[required]",
+}
+# What rich keeps in one line of a help: by itself it takes a Chinese sentence for one word.
+WORD = re.compile(rf"(?:{PIECE.pattern})\s*")
 
 
 class ExplainedMistake(typer.BadParameter):
@@ -89,6 +105,34 @@ def message_of(error: Any) -> str:
         return say("a command is missing: see --help")
     words = re.sub(r"\s+", " ", text.removeprefix("Invalid value: ")).rstrip(".")
     return f"{words[:1].lower()}{words[1:]}"
+
+
+def say_help(command: Any) -> None:
+    """Let the help of a command, and the parser's words in it, be in the language that is spoken."""
+    for one in (command, *command.params):
+        # A unit such as [m] must not be read as a style of rich.
+        one.help = escape(say(one.help)) if one.help else ""
+    format_help, get_usage = command.format_help, command.get_usage
+
+    def format_in_words(context: Any, formatter: Any) -> None:
+        parser: Any = import_module("typer.rich_utils")  # This takes 0.1 s, and only a help needs it.
+        highlight = parser.OptionHighlighter()
+        highlight.highlights = [*highlight.highlights, f"(?P<usage>{say(USAGE)})"]
+
+        def folded(text: Any) -> Any:
+            """Text of which nothing is cut off; in English rich cuts long names."""
+            text = highlight(text)
+            text.overflow = None if spoken() is Language.ENGLISH else "fold"
+            return text
+
+        for name, words in HELP_WORDS.items():
+            setattr(parser, name, say(words))
+        parser.highlighter, _wrap.re_word = folded, WORD
+        command.get_help_option(context).help = say(SHOW_HELP)
+        format_help(context, formatter)
+
+    command.format_help = format_in_words
+    command.get_usage = lambda context: get_usage(context).replace(USAGE, say(USAGE), 1)
 
 
 def path(text: str | Path) -> Path:

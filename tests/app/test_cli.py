@@ -17,6 +17,7 @@ import openpyxl
 import pytest
 import typer
 from rich.cells import cell_len
+from rich.markup import render
 
 import core
 from app.command.main import MODULE_OF, app
@@ -24,6 +25,7 @@ from app.questions.registry import QUESTIONS
 from app.service.workers import START_SECONDS
 from app.settings import Settings
 from core.kernels import COMPILED
+from core.language import say, speaking
 from tests.conftest import ROOT, heed_ctrl_c
 from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run, said
 from tests.support.depth import further, thorough
@@ -37,8 +39,9 @@ OTHERWISE = {"films", "proposals", "contest_kit", "course", "pitch_scan"}
 
 
 def helps():
-    """Every command that has a help, by its words."""
+    """Every command that has a help, by its words: that of the whole program by none."""
     group = typer.main.get_command(app)
+    yield (), group
     for name in group.list_commands(None):
         command = group.get_command(None, name)
         yield (name,), command
@@ -405,12 +408,27 @@ def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server, workers):
     assert "Traceback" not in done.stderr
 
 
+def descriptions(words):
+    """English help of the options and arguments of a command."""
+    return [render(one.help).plain for one in HELPS[words].params if one.help]
+
+
 @pytest.mark.parametrize("words", HELPS, ids=" ".join)
 def test_help_prints_every_description_with_its_unit(words):
     text = " ".join(said(*words, "--help", COLUMNS="1000").split())
-    values = [option.help.replace("\\[", "[") for option in HELPS[words].params if option.help]
-    assert [one for one in values if " ".join(one.split()) not in text] == []
-    assert "completion" not in text  # `bench-dragon --help` offers it
+    assert [one for one in descriptions(words) if " ".join(one.split()) not in text] == []
+    assert ("completion" in text) == (words == ())
+
+
+@pytest.mark.parametrize("words", HELPS, ids=" ".join)
+def test_help_in_chinese_is_whole_and_has_no_english_sentence(words):
+    _, usage, *lines = filter(None, said("--language", "zh", *words, "-h", TERM="dumb", COLUMNS="60").splitlines())
+    assert "用法： bench-dragon" in usage
+    assert re.findall("[A-Za-z]+[,;]? [a-z]+ [a-z]+|Options|Arguments|Commands|default:|required", str(lines)) == []
+    assert {*map(cell_len, lines)} == {60}
+    text = "".join(line.strip("│ ").rpartition("  ")[2] for line in lines).replace(" ", "")
+    with speaking("zh"):
+        assert [one for one in descriptions(words) if say(one) == one or say(one).replace(" ", "") not in text] == []
 
 
 def test_help_names_every_command():
