@@ -18,6 +18,7 @@ import socket
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -26,6 +27,7 @@ from typing import TYPE_CHECKING, Any
 
 import uvicorn
 from uvicorn.supervisors import Multiprocess
+from uvicorn.supervisors.multiprocess import Process
 
 from app.files.fonts import kept_list
 from app.files.scratch import temporary
@@ -52,6 +54,8 @@ COUNTS_BYTES = 4 * COUNTS_FILE
 # A process that is silent for longer is replaced [s]. It starts in up to ten seconds on a busy machine; once it serves,
 # it answers within 0.4 s, also under all attacks of `make soak` at once (2026-11-23).
 START_SECONDS, SILENT_SECONDS = 60, 10
+# Longest time from the end of the pipe of a process to its own end [s].
+ENDING_SECONDS = 1
 # Time that a connection without a request stays open [s]: longer than a proxy keeps one (nginx: 60 s), which may send a
 # request at the moment in which it is closed, and cannot know whether it may send it again.
 IDLE_SECONDS = 75
@@ -113,7 +117,7 @@ class _Supervisor(Multiprocess):
         handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
         super().init_processes()
         signal.signal(signal.SIGINT, handler)
-        self._close_child_ends()
+        self._take_over()
 
     def terminate_all(self) -> None:
         # An open socket would let connections wait for processes that accept none, and be reset in the end. A client
@@ -122,21 +126,26 @@ class _Supervisor(Multiprocess):
             shared.close()
         super().terminate_all()
 
-    def _close_child_ends(self) -> None:
+    def _take_over(self) -> None:
         for process in self.processes:
             process.child_conn.close()
+            process.kill = partial(self._kill, process)  # type: ignore[method-assign]
+
+    def _kill(self, process: Process) -> None:
+        """End a process that does not answer; one that has ended by itself is logged with the cause."""
+        process.process.join(ENDING_SECONDS)
+        if process.exitcode is not None:
+            cause = cause_of(process.exitcode)
+            logger.error("Child process [%s] was ended by %s. Without memory Linux sends 9.", process.pid, cause)
+        Process.kill(process)
 
     def keep_subprocess_alive(self) -> None:
         # uvicorn has one time limit for all processes: the long one as long as any of them has not answered.
         before = {process.pid for process in self.processes}
-        ended = [child for child in self.processes if child.exitcode is not None]
         self.config.timeout_worker_healthcheck = SILENT_SECONDS if before <= self.answered else START_SECONDS
         super().keep_subprocess_alive()
-        for child in ended:
-            cause = cause_of(child.exitcode or 0)
-            logger.error("Child process [%s] was ended by %s. Without memory Linux sends 9.", child.pid, cause)
         self.config.timeout_worker_healthcheck = START_SECONDS
-        self._close_child_ends()
+        self._take_over()
         after = {process.pid for process in self.processes}
         if self.counts and (gone := self.running - after):
             # Imported late, because a new process decides at the import whether its counts are shared.
