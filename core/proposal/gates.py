@@ -18,8 +18,9 @@ from core.venue import Area, Venue
 ON_BORDER = 0.25
 # Largest angle between the heading of a gate and straight across the border [deg].
 CROSSED_MOST = 80.0
-# Most by which a border beside a gate leads into the square per way along it [1], at 60 degrees: steeper is a wall.
-STEEPEST = math.tan(math.radians(60.0))
+# Most by which a border beside a gate leads into the square per way along it [1]: steeper is a wall, at 60 degrees
+# within the least width of a street, and at 30 beyond it.
+STEEPEST, STEEPEST_BEYOND = math.tan(math.radians(60.0)), math.tan(math.radians(30.0))
 # Largest difference of the distances of two sides from a gate at their corner [m].
 AT_CORNER = 1e-9
 # Way between a street and a border that it passes [m].
@@ -157,8 +158,8 @@ def _with_street(
 
 
 # From the gate along the border, the street begins where the border is half a width beside its axis. But where the
-# border becomes steep before, a wall begins: the street stands behind it, on the line that the gate's border has, or
-# where the wall leads back across that line, behind the wall.
+# border becomes steep before, and beside the least width, a wall begins: the street stands behind it, on the line that
+# the gate's border has, or where the wall leads back across that line, behind the wall.
 def _side(
     points: Floats, at: Floats, ahead: Floats, side: Floats, into: Floats, halves: tuple[float, float]
 ) -> tuple[list[Floats], int]:
@@ -175,10 +176,14 @@ def _side(
     before, reached, last, kept, depth = at, 0.0, np.zeros(2), 0, 0.0
     for k, (point, offset, place) in enumerate(zip(points, beside.tolist(), frame, strict=True)):
         run, rise = (place - last).tolist()
-        if wall is None and rise > AT_CORNER and rise > STEEPEST * run:
-            if reached < least:
+        if wall is None and rise > AT_CORNER and rise > STEEPEST_BEYOND * run:
+            if reached < least and rise > STEEPEST * run:
                 return [], 0
-            wall, kept, depth = before, k, max(-float(last[1]), 0.0)
+            if max(reached, offset) >= least:
+                begun = (least - reached) / (offset - reached) if reached < least else 0.0
+                wall, kept = before + begun * (point - before), k
+                reached, last = max(reached, least), last + begun * (place - last)
+                depth, before, rise = max(-float(last[1]), 0.0), wall, float(place[1] - last[1])
         share = min((half - reached) / (offset - reached), 1.0) if offset >= half else 1.0
         if wall is None and offset >= half:
             return [before + share * (point - before)], k
