@@ -24,8 +24,6 @@ from app.grade.words import Note, note
 HALF = 1.02
 # Half of the last decimal that the contest asks for: a number is graded to six decimals, if it has more.
 HALF_UNIT_LEAST = 0.5e-6
-# How far beyond its limit a number still counts as the nearest one [m, m/s].
-INFEASIBLE = 1e-5
 # Largest half of the last digit, relative to the number, at which a shortcut is reported [1]: 1.3 has too few digits.
 DIGITS_SHARE = 2e-3
 # Largest chance of a fit at which a shortcut is a diagnosis, and at which it is reported as a guess [1].
@@ -65,14 +63,14 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
 
     A number is right if it is the right one to its own digits. One that is off by less than its last digit was rounded
     the other way, and nothing else follows from that. A limit is rounded to its safe side: the least pitch and the
-    shortest turn up, the highest speed down; on the other side benches touch, or somebody is too fast. There it is the
-    right one, rounded, only up to half of its last digit. Whatever else is wrong with a number, a limit that it breaks
+    shortest turn up, the highest speed down; on the other side benches touch, or somebody is too fast. It is kept to
+    half of the last decimal that the contest asks for. Whatever else is wrong with a number, a limit that it breaks
     comes first. A number of too few digits to be right is incomplete.
     """
     half, excess = max(half_unit, HALF_UNIT_LEAST), beyond(name, value)
     digits = math.floor(math.log10(min(value, right_answer(name)))) + 1 + _decimals_of(half)
     few = note("few_digits", least=DIGITS_LEAST) if digits < DIGITS_LEAST else None
-    if excess > (INFEASIBLE if excess <= HALF * half else 0.0):
+    if excess > HALF * HALF_UNIT_LEAST:
         if excess < 2.0 * half:
             way = "rounded_unsafely" if excess <= HALF * half else "beyond"
             safe = note(f"{name}_{way}", safe=_safe(name, _decimals_of(half)))
