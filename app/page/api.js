@@ -36,7 +36,8 @@ export class Problem extends Error {
     const sentence = body?.sentence ?? body?.detail ?? say("The service answered with HTTP {status} and gave no reason.", { status });
     super(sentence);
     this.problem = { ...body, sentence, language: language() };
-    this.errors = body?.errors ?? [];
+    // That the time did not suffice is no fault of a number.
+    this.errors = body?.type === TOO_LONG ? [] : (body?.errors ?? []);
   }
 }
 

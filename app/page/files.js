@@ -7,7 +7,7 @@ import { chooseParts } from "./layers.js";
 import { THINGS, drawingOf, keptVenueOf } from "./drawing.js";
 import { $, bearer, download, make, textButton } from "./elements.js";
 import { FIELDS } from "./fields.js";
-import { announce, announceRefusal, endMessage } from "./overlays.js";
+import { MEANWHILE, announce, announceRefusal, endMeanwhile, endMessage } from "./overlays.js";
 import { paceTexts, passagesText } from "./passages.js";
 import { isPresetPath } from "./presets.js";
 import { announceSaved } from "./saved.js";
@@ -75,6 +75,7 @@ export class Files {
   /** Open a dance, or a map with a venue and a path. */
   async open(file) {
     endMessage();
+    const reading = () => say("Reading {name} …", { name: file.name });
     try {
       if (/\.(csv|tsv|xlsx?|ods)$/i.test(file.name)) {
         const { text: csv, notes } = await tableOfFile(file, this.service);
@@ -82,24 +83,26 @@ export class Files {
         this.steps.change({ csv });
         return announceOpened(file.name, [], notes);
       }
-      announce(() => say("Reading {name} …", { name: file.name }), false, true);
+      announce(reading, MEANWHILE, true);
       const content = (await ownDance(file)) ?? (await this.#places(file));
       if (content?.dances) await this.several(content, file.name);
       else if (content) this.#take(content, file.name);
     } catch (error) {
       const hasParts = error instanceof Problem && (/\.dxf$/i.test(file.name) || error.problem.reason?.startsWith(PARTLY));
-      if (!hasParts || !(await this.#offerParts(file, error.problem))) announceRefusal(error, true);
+      if (!hasParts || !(await this.#offerParts(file, error.problem, reading))) announceRefusal(error, true);
+    } finally {
+      endMeanwhile(reading);
     }
   }
 
   /** Offer to open a part of a drawing that is refused as a whole; false for a file without layers. */
-  async #offerParts(file, problem) {
+  async #offerParts(file, problem, reading) {
     const { layers } = await this.service.ask("places", "places", { query: { only_layers: true }, file, headers: bearer() }).catch(() => ({ layers: null }));
     if (!layers?.length) return false;
     endMessage();
     chooseParts(layers, problem, async (part) => {
-      announce(() => say("Reading {name} …", { name: file.name }), false, true);
-      const content = await this.#places(file, part);
+      announce(reading, MEANWHILE, true);
+      const content = await this.#places(file, part).finally(() => endMeanwhile(reading));
       this.#take(content, file.name);
     });
     return true;

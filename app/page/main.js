@@ -163,7 +163,7 @@ function showTable(pose) {
   const last = fold !== null && pose.time === questions.dance.end;
   const { clock } = questions.dance;
   const time = (last ? fold : pose.time).toFixed(6);
-  $("#table-time").textContent = say(last ? "Handles 1e-6 s before the fold at {time} s" : "Handles at {time} s", { time }) + (clock ? ` · ${timeOfDay(pose.time, clock)}` : "");
+  $("#table-time").textContent = say(last ? "Handles 1e-6 s before the fold at {time} s" : "Handles at {time} s", { time }) + (clock ? ` · ${timeOfDay(Number(time), clock)}` : "");
   Object.assign($("#table-fold"), { hidden: fold === null, textContent: fold === null ? "" : say("Just before the fold at {time} s: towards it the speeds grow without bound.", { time: fold.toFixed(6) }) });
 }
 
@@ -174,7 +174,7 @@ function showTime() {
   $("#time").value = time;
   $("#time").setAttribute("aria-valuetext", text);
   const clock = questions.dance?.clock;
-  $("#clock").textContent = clock ? `${text}\n${timeOfDay(time, clock)}` : text;
+  $("#clock").textContent = clock ? `${text}\n${timeOfDay(Number.parseFloat(text), clock)}` : text;
   graphs.time(time);
 }
 

@@ -13,6 +13,9 @@ const STILL = 700;
 /** Possible corners of the inset, the preferred one first. */
 const CORNERS = ["top-right", "bottom-right", "top-left"];
 
+/** Stays, until what it tells of has ended, or the next message comes. */
+export const MEANWHILE = "meanwhile";
+
 let timer = 0;
 
 /** Function that gives the shown message in the language of the page. */
@@ -38,10 +41,10 @@ async function place() {
 
 /**
  * Show a message; it disappears by itself, on a click, or by Escape. words(): its text; stays: only the next message replaces it,
- * and one that also flows comes back after it; flows: it stands below the picture, where it covers nothing, because it takes long to read
+ * and one that also flows comes back after it, but not one of MEANWHILE; flows: it stands below the picture, where it covers nothing, because it takes long to read
  */
-export function announce(words, stays = false, flows = false) {
-  if (stays && flows) notes = words;
+export function announce(words, stays = /** @type {boolean | string} */ (false), flows = false) {
+  if (stays === true && flows) notes = words;
   else if (notes && !words()) return announce(notes, true, true);
   const box = $("#status");
   if (flows) $("#stage").after(box);
@@ -51,7 +54,7 @@ export function announce(words, stays = false, flows = false) {
   if (box.textContent && !flows) place();
   clearTimeout(timer);
   const time = LETTER * box.textContent.length;
-  if (stays && flows) timer = setTimeout(endMessage, Math.max(READ_FOR, time));
+  if (stays === true && flows) timer = setTimeout(endMessage, Math.max(READ_FOR, time));
   else if (!stays) timer = setTimeout(() => announce(() => "", true), Math.max(VISIBLE_FOR, time));
 }
 
@@ -67,6 +70,11 @@ export function announceStep(words, flows = false) {
 export function endStepMessage() {
   if (aboutStep && message === aboutStep) announce(() => "", true);
   aboutStep = null;
+}
+
+/** The message about what has ended goes, if it is still there. */
+export function endMeanwhile(words) {
+  if (message === words) announce(() => "", true);
 }
 
 export function endMessage() {

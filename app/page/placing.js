@@ -2,12 +2,12 @@
 
 import { $, $$ } from "./elements.js";
 
-/** Step of the places of a message that are tried [px], its widths, the widest first, and what it may not cover. */
+/** Step of the places of a message that are tried [px], its widths, the widest first, and what it may not cover: controls, and what to do next. */
 const [STEP, WIDTHS] = [8, ["", "17rem", "11rem", "8rem"]];
 /** Blocks after which it can stand, and parts of the height of a window at which they are looked for [1]: not those of the picture. */
 const BLOCKS = "main li, main section:not(#dance) > *, main form > *, main .answer > *";
 const IN_SIGHT = [0.7, 0.65, 0.75, 0.6, 0.8, 0.55, 0.5];
-const CONTROLS = "button, input, select, textarea, a, summary";
+const CONTROLS = "button, input, select, textarea, a, summary, #draw-help, #add-help";
 
 let isListening = false;
 

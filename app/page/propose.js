@@ -197,12 +197,14 @@ export class Propose {
     try {
       const answer = await this.#answerTo(request, search);
       if (search !== this.#search) return;
-      // Cards that are there stay in their places: somebody may be reading them.
+      // Cards that are there stay in their places: somebody may be reading them. A better dance takes the place of another.
       const { proposals: found, courses: theirs } = this.#answer ?? { proposals: [], courses: [] };
-      const texts = new Set(found.map((one) => JSON.stringify(one)));
-      const further = answer.proposals.filter((one) => !texts.has(JSON.stringify(one)));
-      const courses = await Promise.all(further.map((one, k) => this.#courseOf(one, found.length + k)));
-      this.#take({ ...this.#about(request), ...answer, proposals: [...found, ...further], courses: [...theirs, ...courses] });
+      const texts = answer.proposals.map((one) => JSON.stringify(one));
+      const known = found.map((one) => texts.indexOf(JSON.stringify(one)));
+      const further = [...texts.keys()].filter((k) => !known.includes(k));
+      const order = [...known.map((k) => (k < 0 ? further.shift() : k)), ...further].filter((k) => k !== undefined);
+      const courses = await Promise.all(order.map((k) => theirs[known.indexOf(k)] ?? this.#courseOf(answer.proposals[k], k)));
+      this.#take({ ...this.#about(request), ...answer, proposals: order.map((k) => answer.proposals[k]), courses });
     } catch (error) {
       if (search !== this.#search) return;
       if (error instanceof Problem) this.#problem = error.problem;

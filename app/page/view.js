@@ -34,6 +34,8 @@ export class View {
     canvas.addEventListener("pointerdown", (event) => this.#down(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
     for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, (event) => this.#up(event));
+    // A tap may move the picture away: the click that a browser sends after it would meet what is there then.
+    canvas.addEventListener("touchend", (event) => event.cancelable && event.preventDefault());
   }
 
   /** Read and keep the size of the canvas, because reading it during a change costs a layout of the whole page. */

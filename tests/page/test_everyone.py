@@ -194,6 +194,24 @@ BROKEN = """() => {
 }"""
 
 
+def test_a_message_on_a_tablet_leaves_what_comes_next_and_a_tap_presses_nothing_that_comes_under_it(open_page):
+    person = open_page("?door=village", failing=True, **PHONE | {"viewport": {"width": 1024, "height": 768}})
+    person.takes({"name": "x.csv", "mimeType": "text/csv", "buffer": b"3.41,0.3,0.275\n2.2,0.3,0.275\n"})
+    person.sees({"#status": "Opened x.csv"}).settles().at("#follow").tap()
+    person.presses("#place button:has-text('Tree, well')").settles()
+    for place in ("#canvas", ".knot"):
+        person.at(place).tap()
+    person.sees({"#status": "Point 1"}).settles()
+    assert person.ask(COVERED) == []
+    person = open_page("?door=village&path=route", failing=True, **PHONE)
+    person.at("#invite button").tap()
+    box = person.settles().box("#canvas")
+    for right, down in ((-80, 70), (0, 80)):
+        person.page.touchscreen.tap(box["x"] + box["width"] / 2 + right, box["y"] + box["height"] / 2 + down)
+        person.settles()
+    assert person.ask("[document.activeElement.id, scrollY]") == ["canvas", 0]
+
+
 @thorough
 def test_on_a_phone_a_finger_hits_every_control_of_other_dances_and_scrolls_over_a_slider(open_page):
     person = open_page("?benches=40", **PHONE)

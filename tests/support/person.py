@@ -17,8 +17,10 @@ IS_SIZED = """() => {
   const { height, clientHeight } = document.querySelector("#canvas");
   return Math.abs(height - clientHeight * devicePixelRatio) < 1;
 }"""
-# Controls that lie below the message.
-COVERED = """() => [...document.querySelectorAll("button, input, select, a, summary")].filter((one) => {
+# Controls, and lines of what to do next, that lie below the message.
+COVERED = """() => [
+  ...document.querySelectorAll("button, input, select, a, summary, #draw-help, #add-help"),
+].filter((one) => {
   const { left, right, top, bottom } = one.getBoundingClientRect();
   const above = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
   return one.checkVisibility({ visibilityProperty: true }) && above?.closest("#status");
