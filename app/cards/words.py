@@ -205,10 +205,10 @@ class CardWords:
             return say("{who} {side}, {gap}. {how}.", **values)
         met = {meeting.bench for meeting in cue.meetings}
         since, until = self.clock.words(cue.since), self.clock.words(cue.until)
+        span = say("from {since} to {until}", since=since, until=until)
+        if since == until:
+            span = say("at {time}", time=since)
         if len(met) == 1:
-            span = say("from {since} to {until}", since=since, until=until)
-            if since == until:
-                span = say("at {time}", time=since)
             return say(
                 "{who} {side}, {gap} at the nearest of {times} times {span}. {how}.",
                 times=len(cue.meetings),
@@ -217,12 +217,10 @@ class CardWords:
             )
         passing = say("pass you the other way") if nearest.oncoming else say("walk your way")
         return say(
-            "{who} {side}, {gap}. Benches {met} {passing} from {since} to {until}, none nearer when straight beside "
-            "you.",
+            "{who} {side}, {gap}. Benches {met} {passing} {span}, none nearer when straight beside you.",
             met=runs(met),
             passing=passing,
-            since=since,
-            until=until,
+            span=span,
             **values,
         )
 

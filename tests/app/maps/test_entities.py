@@ -253,10 +253,10 @@ def test_where_all_is_hidden_the_refusal_says_what():
     space = new(square=False)
     space.doc.layers.add("PLAN").freeze()
     space.add_line((0, 0), (9, 0), dxfattribs={"layer": "PLAN"})
-    with pytest.raises(InvalidValue, match=r"1 LINE is hidden; show its layer$"):
+    with pytest.raises(InvalidValue, match=r"1 LINE is hidden; show it or its layer$"):
         read(space)
     space.add_line((0, 9), (9, 9), dxfattribs={"layer": "PLAN"})
-    with pytest.raises(InvalidValue, match=r"2 LINEs are hidden; show their layers$"):
+    with pytest.raises(InvalidValue, match=r"2 LINEs are hidden; show them or their layers$"):
         read(space)
     space.add_point((0, 0), dxfattribs={"layer": "PLAN"})
     with speaking("zh"), pytest.raises(InvalidValue, match=r"2 个 LINE、1 个 POINT 被隐藏"):
