@@ -34,8 +34,10 @@ RUN python -m venv /opt/docs \
 RUN cd /opt/bench-dragon/lib/python3*/site-packages \
     && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet babel cython setuptools uv pip ipython ipython-pygments-lexers \
         jedi parso prompt_toolkit \
-    && rm -r pyarrow/include pyarrow/*flight* pyarrow/*s3* \
-    && find . -name '*.cpython-*.so' -exec strip --strip-unneeded {} + \
+    && rm -rf pyarrow/include pyarrow/*flight* pyarrow/*s3* pyarrow/*gcsfs* pyarrow/*azurefs* pyarrow/*hdfs* \
+        pyarrow/*orc* pyarrow/*feather* pyarrow/libarrow_python*.so pyarrow/*.1.0 \
+    && find . -type f \( -name '*.cpython-*.so' -o -name '*.abi3.so' -o -path './pyarrow/lib*.so*' \) \
+        -exec strip --strip-unneeded {} + \
     && find . ! -path './core/*' \( -name '*.[ch]' -o -name '*.pyx' -o -name '*.pxi' \) -delete \
     && find . -depth -type d \( -name tests -o -name __pycache__ \) -exec rm -r {} +
 
