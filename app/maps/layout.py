@@ -445,7 +445,11 @@ def _nothing_in(drawing: Drawing) -> InvalidValue:
         why = "{hidden} is hidden; make it visible" if count == 1 else "{hidden} are hidden; make them visible"
         rule = f"must hold a polygon, a line or a point that is visible: {why}"
     else:
-        why = "{hidden} is hidden; show it or its layer" if count == 1 else "{hidden} are hidden; show them or their layers"
+        why = (
+            "{hidden} is hidden; show it or its layer"
+            if count == 1
+            else "{hidden} are hidden; show them or their layers"
+        )
         rule = f"must show a polygon, a line or a point: {why}"
     return InvalidValue("file", rule, hidden=hidden)
 
