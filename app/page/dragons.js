@@ -480,7 +480,7 @@ export class Dragons {
     if (refusal) {
       const [, k] = /\/dances\/(\d+)\//.exec(refusal.errors[0]?.pointer ?? "") ?? [];
       const name = k === undefined ? "" : `${this.#nameOf(this.#records, Number(k))}${say(": ")}`;
-      return this.judgement.refuse(name + refusal.problem.sentence);
+      return this.judgement.refuse({ ...refusal.problem, sentence: name + refusal.problem.sentence });
     }
     if (dance?.kind !== "dances") return;
     const apart = dance.answer.outcome === "clear" ? [sayOf("dragonsApart", this.#stray())] : [];

@@ -160,7 +160,7 @@ export class Drawn {
     $("#clock-help").hidden = true;
     const fields = this.questions.refusals.has("contact") ? this.questions.fieldsOf("contact") : [];
     if (fields.length) this.judgement.wait(fields);
-    else this.judgement.refuse(refusal.problem.sentence, this.questions.course);
+    else this.judgement.refuse(refusal.problem, this.questions.course);
   }
 
   /** Move the benches at fault into view once, after a pose is shown. */

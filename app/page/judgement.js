@@ -1,6 +1,7 @@
 /** The verdict on the drawn dance, and each failure in order of time with a button that shows it. */
 
 import { mendWords } from "./answers.js";
+import { TOO_LONG } from "./api.js";
 import { $, button, hide, make } from "./elements.js";
 import { formatNumber } from "./numbers.js";
 import { tell } from "./overlays.js";
@@ -80,8 +81,9 @@ export class Judgement {
     Object.assign($("#verdict"), { hidden: !next, href: next === "path" ? "#answers" : "#propose" });
   }
 
-  /** Show why there is no verdict: bends that are too tight, or the service's refusal. */
-  refuse(sentence, course = null) {
+  /** Show why there is no verdict: bends that are too tight, or the service's refusal, which is none where the time did not suffice. */
+  refuse({ sentence, type }, course = null) {
+    if (type === TOO_LONG) return this.#fill("undecided", "?", say(VERDICTS.undecided), [sentence], []);
     const bends = course?.bends ?? [];
     const rows = bends.map((bend) => this.#row(say("Show"), bend.sentence, () => this.look(bend.points[Math.floor(bend.points.length / 2)])));
     this.#fill("contact", "✕", say(VERDICTS.fails), rows.length ? [] : [sentence], rows);

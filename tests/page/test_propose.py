@@ -180,6 +180,9 @@ def test_a_long_search_is_a_job_whose_cards_come_meanwhile_and_keep_their_places
         with person.page.expect_request(lambda request: request.method == "DELETE"):
             person.presses(CARDS)
         person.sees({"#proposed": "found so far."}).settles().sees({f"{CARDS}[aria-pressed=true]": 1})
+        # Where the time does not suffice, nothing is said to fail, and no number to be wrong.
+        person = open_page("?path=route&route=*-3000,0_3000,0&benches=2000", base=service.url, failing=True)
+        person.sees({"#judgement .value": "Undecided", "[aria-invalid=true]": 0})
 
 
 def _what_was_drawn_before_leaves_nothing(person):

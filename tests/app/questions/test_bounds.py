@@ -19,6 +19,8 @@ from tests.support.largest import LARGEST
 # Time after which a call is stopped [s], and the longest time of the processor until it has ended [s].
 STOPPED, ENDS_WITHIN = 0.5, 1.0
 GROWS, KEEPS = 200.0, 100.0  # [MB]
+# Times that a call is asked: in the first ones modules and caches come, which are kept.
+ROUNDS = 3
 
 
 def test_every_call_has_a_largest_input():
@@ -61,9 +63,11 @@ def memory():
 
 @pytest.mark.parametrize("name", few(list(LARGEST), 8))
 def test_a_call_that_is_stopped_ends_soon_and_gives_its_memory_back(name):
-    asked(name)  # Modules and caches are kept.
-    before = memory()
-    late, most = asked(name)
-    assert late < ENDS_WITHIN, f"{name} computed for {late:.2f} s after it was stopped"
+    for _ in range(ROUNDS):
+        before = memory()
+        late, most = asked(name)
+        assert late < ENDS_WITHIN, f"{name} computed for {late:.2f} s after it was stopped"
+        if most - before < GROWS and memory() - before < KEEPS:
+            break
     assert most - before < GROWS
     assert memory() - before < KEEPS
