@@ -172,7 +172,10 @@ def test_a_long_search_is_a_job_whose_cards_come_meanwhile_and_keep_their_places
         proposed(person).settles("search").sees({"#proposed": "each has passed its check"})
         orders = [ways for ways in person.ask("window.orders") if ways]
         assert len(orders[-1]) >= 2
-        assert all(after[: len(before)] == before for before, after in itertools.pairwise(orders))
+        for before, after in itertools.pairwise(orders):
+            assert len(after) < len(before) or [one for one in before if one in after] == [
+                one for one, now in zip(before, after, strict=False) if one == now
+            ]
         # A long search, so that it still goes on when a slow browser has drawn the first cards; a chosen one ends it.
         things = "a.square..0,0_80,0_80,70_0,70~c.linden.0!5.24,21~c.elm.0!5.56,45"
         person = open_page(f"{EMPTY}&benches=100&things={things}", base=service.url, failing=True)
