@@ -123,8 +123,8 @@ def test_a_crash_and_a_hang_are_rows_of_the_report_and_a_run_continues_where_it_
         os.kill(worker.process.pid, end)
         rows.append(worker.answered(tmp_path / "queries-0000.npz", len(shard)))
     worker.stop()
-    assert [ENDS[row[-1]] for row in rows[0]] == ["crash", *["answered"] * 5]
-    assert [ENDS[row[-1]] for row in rows[1]] == ["hang", *["answered"] * 5]
+    for end, some_rows in zip(("crash", "hang"), rows, strict=True):
+        assert [ENDS[row[-1]] for row in some_rows] == [end, *["answered"] * 5]
     fields = {"touches": np.ones(6, dtype=np.int8), "travel": np.arange(6.0)}
     save(kept := answers_path(tmp_path / "queries-0000.npz", "ipctk"), fields)
     run(tmp_path, 0, len(shard), ("ours", "ipctk"))

@@ -280,11 +280,15 @@ def test_its_arithmetic_encloses_that_of_flint(verify):
             assert inside(verify, result / point, x / y)
 
 
+def bend_behind(verify, theta, chord):
+    growth = verify.exactly(0.55) / (verify.TWO * verify.PI)
+    return verify.bend(verify.exactly(theta), verify.Bench(chord, 0.3, 0.0, growth))
+
+
 @pytest.mark.parametrize("theta", [14.735, 15.0, 30.0, 100.0, 6e5])
 @pytest.mark.parametrize("chord", [0.1, 1.65, 2.86])
 def test_its_bends_are_those_of_core_proof(verify, theta, chord):
-    growth = verify.exactly(0.55) / (verify.TWO * verify.PI)
-    result = verify.bend(verify.exactly(theta), verify.Bench(chord, 0.3, 0.0, growth))
+    result = bend_behind(verify, theta, chord)
     assert result.hi - result.lo < BEND_WIDTH_MOST * verify.UNIT
     with ctx.workprec(400):
         needed = (arb(chord) / (arb(0.55) / (2 * arb.pi()))) ** 2
@@ -296,6 +300,5 @@ def test_its_bends_are_those_of_core_proof(verify, theta, chord):
 
 
 def test_past_the_fold_there_is_no_bend(verify):
-    growth = verify.exactly(0.55) / (verify.TWO * verify.PI)
     with pytest.raises(verify.Refused, match="no root"):
-        verify.bend(verify.exactly(14.73), verify.Bench(2.86, 0.3, 0.0, growth))
+        bend_behind(verify, 14.73, 2.86)

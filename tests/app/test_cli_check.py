@@ -47,10 +47,6 @@ def dance(tmp_path):
     return file
 
 
-def served(client, body):
-    return client.post("/check", json=body).raise_for_status().json()
-
-
 def checked(body, *options):
     return said("check", "-", *options, text=json.dumps(body))
 
@@ -79,8 +75,8 @@ def test_a_report_says_what_fails_and_how_near(dance, text, words):
     assert "contact" not in report or "margin" not in text
 
 
-def test_a_least_clearance_is_not_rounded_above_what_is_proven(client):
-    proven = served(client, FOLDING)["least_clearance"]["at_least"]
+def test_a_least_clearance_is_not_rounded_above_what_is_proven(ask):
+    proven = ask("check", FOLDING)["least_clearance"]["at_least"]
     (displayed,) = re.findall(r"proven: at least ([\d.]+) m", checked(FOLDING))
     assert proven - LAST_DIGIT < float(displayed) <= proven
 

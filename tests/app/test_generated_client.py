@@ -7,7 +7,6 @@ import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 from typing import get_args
 
 import httpx
@@ -17,6 +16,7 @@ from app.questions.registry import CALLS
 from app.service.examples import EXAMPLES
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.support.students import contact_workbook
+from tests.support.wheels import PATH
 
 pytestmark = pytest.mark.thorough  # the generator takes seconds
 PACKAGE = "generated_client"
@@ -31,9 +31,8 @@ def words(server, tmp_path_factory):
     description.write_bytes(httpx.get(f"{server}/openapi.json", timeout=ANSWER_TIMEOUT).content)
     command = [sys.executable, "-m", "openapi_python_client", "generate", "--meta", "none"]
     command += ["--path", str(description), "--output-path", str(folder / PACKAGE)]
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
     # Its formatter would keep a cache where the first user of this machine has one.
-    environment = os.environ | {"PATH": path, "RUFF_CACHE_DIR": str(folder / "cache")}
+    environment = os.environ | {"PATH": PATH, "RUFF_CACHE_DIR": str(folder / "cache")}
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     sys.path.insert(0, str(folder))

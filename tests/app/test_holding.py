@@ -309,17 +309,13 @@ def test_a_long_path_is_cut_in_the_log(held):
     assert max(map(len, held.log.read_text().splitlines())) < 5_000
 
 
-def family(pid):
-    parent = psutil.Process(pid)
-    return [parent, *parent.children(recursive=True)]
-
-
 def leaves(service, stop):
     """Stop a service while it computes, and see that none of its processes is left."""
     with connected(service, f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode()):
         # Where each process shows its own metrics, one look may meet the other process.
         wait_for(lambda: computing(service) == 1)
-        processes = family(service.process.pid)
+        parent = psutil.Process(service.process.pid)
+        processes = [parent, *parent.children(recursive=True)]
         os.kill(service.process.pid, stop)
         service.process.wait(SOON)
         wait_for(lambda: all(is_gone(process.pid) for process in processes))

@@ -1,18 +1,16 @@
 """Parts of a dance in addition to its path: passages, place of the spiral, names of benches, time of day."""
 
 import csv
-import io
 import json
 
-import numpy as np
 import pytest
 
 import core
 from app.wire.benches import bench_table
 from app.wire.clocks import time_of_day
-from tests.support.asking import box, line, written
+from tests.support.asking import assert_motion, box, line, written
 from tests.support.command import refusal, run, said
-from tests.support.paper import pages_of, words_of
+from tests.support.paper import sheets_of
 
 NAMES = ["Zhou", "Li, the elder", "", "Wu"]
 DRAGON = {"lengths": [3.41, 2.2, 2.2, 2.2], "widths": [0.3] * 4, "overhangs": [0.275] * 4}
@@ -44,18 +42,13 @@ PLACED = core.Dance(
 ON_LANE = {"dragon": {"benches": 4}, "path": line((0, 0), (60, 0))}
 
 
-def rows_of(text):
-    return list(csv.DictReader(io.StringIO(text.decode() if isinstance(text, bytes) else text)))
-
-
 # -- places, speeds and names --------------------------------------------------------------------------------
 
 
 def test_places_and_speeds_of_a_dance_with_passages_and_pauses_are_those_of_core(ask):
     body = DANCE | CLOCK | {"times": [10.0, 50.0, 130.25]}
-    got, known = ask("trajectory", body), core.trajectory(PLACED, body["times"])
-    assert np.stack([got["x"], got["y"]], axis=-1).tolist() == known.position.tolist()
-    assert got["speed"] == known.speed.tolist()
+    got = ask("trajectory", body)
+    assert_motion(got, core.trajectory(PLACED, body["times"]))
     assert got["speed"][1] == [0.0] * 5
     assert ask("trajectory", body | {"dragon": {"csv": TABLE}}) == got
 
@@ -167,7 +160,7 @@ def test_what_people_hold_begins_when_a_dance_does_that_begins_before_time_0(ask
 def test_a_dance_starts_at_its_time_of_day_wherever_a_table_begins(tmp_path, file, options, begin):
     dance, table = written(tmp_path, ON_LANE | {"begin_clock": "19:30"} | file), tmp_path / "all.csv"
     said("trajectory", dance, *options.split(), "--output", str(table), aside=None)
-    first = rows_of(table.read_text())[0]
+    first = next(csv.DictReader(table.read_text().splitlines()))
     assert first["clock"] == f"19:30:{int(float(first['time']) - begin):02d}"
 
 
@@ -196,5 +189,5 @@ def test_durations_and_beats_give_the_speeds_that_their_passages_give(ask, same)
 
 
 def test_a_plan_counts_in_bars_and_beats(ask):
-    pages = pages_of(ask.file("plan", MARCH | {"beats": BEATS, "head_speed": 0.9}, "application/pdf"))
-    assert "5.1 0:10.0" in " ".join(map(words_of, pages))
+    sheets = sheets_of(ask.file("plan", MARCH | {"beats": BEATS, "head_speed": 0.9}, "application/pdf"))
+    assert "5.1 0:10.0" in " ".join(sheets)

@@ -24,18 +24,6 @@ ROUNDS, FIRST, SHRINK = 16, 0.3, 0.6
 ANY_TIMES, ANY_DRAWS = 30, 1_000
 
 
-@dataclass
-class Sought:
-    """Result of a search: poses tried, and their least gap [m]."""
-
-    poses: int = 0
-    nearest: float = math.inf
-
-    def add(self, gaps):
-        self.poses, self.nearest = self.poses + gaps.size, min(self.nearest, float(gaps.min()))
-        return gaps
-
-
 def to_circle(pitch):
     """The default dragon on a spiral, and when its head is on the circle [s]."""
     spiral = Spiral(pitch)
@@ -81,12 +69,13 @@ class PairAtTime:
         return np.stack(parts, axis=1)
 
     def vary(self, rng, shapes, sought):
-        """Vary the best shapes so far by less and less."""
+        """Vary the best shapes so far by less and less. sought: gets their gaps"""
         for k in range(ROUNDS):
             off = rng.normal(0.0, FIRST * SHRINK**k * self.stray, (VARIANTS, *shapes.shape))
             off[0] = 0.0
             strays = self.laid((shapes + off).reshape(-1, 2, 3))
-            shapes = _shapes(strays[np.argsort(sought.add(self.gaps(strays)))[:VARIED]])
+            sought.append(self.gaps(strays))
+            shapes = _shapes(strays[np.argsort(sought[-1])[:VARIED]])
 
 
 def _shapes(strays):
@@ -97,29 +86,29 @@ def _shapes(strays):
 
 
 def seek(dance, known, part=0.999, draws=DRAWS):
-    """Look for contacts of a default dance with this part of its tolerance, where and when benches are the nearest."""
+    """Gaps [m] of poses of a default dance with this part of its tolerance, where and when benches are the nearest."""
     assert known.time is not None
-    stray, rng, sought = part * known.stray, np.random.default_rng(7), Sought()
+    stray, rng, sought = part * known.stray, np.random.default_rng(7), []
     at = known.time
     for time, pair in [(at, (0, 19)), (at - 1.0, (0, 19)), (known.stop, (0, 18)), (322.9, (0, 17)), (320.0, (1, 20))]:
         place = PairAtTime(dance, time, pair, stray)
         strays = place.drawn(rng, draws)
-        gaps = sought.add(place.gaps(strays))
-        place.vary(rng, _shapes(strays[np.argsort(gaps)[:VARIED]]), sought)
+        sought.append(place.gaps(strays))
+        place.vary(rng, _shapes(strays[np.argsort(sought[-1])[:VARIED]]), sought)
     others = clearance_profile(dance, rng.uniform(0.0, known.stop, ANY_TIMES))
     for time, (a, b) in zip(others.time.tolist(), others.benches.tolist(), strict=True):
         place = PairAtTime(dance, time, (a, b), stray)
-        sought.add(place.gaps(place.drawn(rng, ANY_DRAWS)))
-    return sought
+        sought.append(place.gaps(place.drawn(rng, ANY_DRAWS)))
+    return np.concatenate(sought)
 
 
 def main():
     dance, stop = to_circle(0.55)
     known = tolerance(dance, stop=stop)
-    sought = seek(dance, known)
-    result = "none touches" if sought.nearest > 0.0 else "some touch"
+    gaps = seek(dance, known)
+    result = "none touches" if gaps.min() > 0.0 else "some touch"
     most = 0.999 * known.stray
-    print(f"{sought.poses} poses with strays up to {most:.6f} m: {result}; the nearest gap is {sought.nearest:.2e} m")
+    print(f"{gaps.size} poses with strays up to {most:.6f} m: {result}; the nearest gap is {gaps.min():.2e} m")
 
 
 if __name__ == "__main__":

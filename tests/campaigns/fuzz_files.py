@@ -11,6 +11,7 @@ import ezdxf
 import httpx
 
 from tests.campaigns.fuzz import SLOWEST, Tally
+from tests.support.asking import box
 from tests.support.bombs import GRADES, MAPS, lying, zipped
 from tests.support.students import by_xlsxwriter, few
 
@@ -55,14 +56,15 @@ KML = """<?xml version="1.0" encoding="UTF-8"?>
 <Polygon><outerBoundaryIs><LinearRing><coordinates>120,30 120.0004,30 120.0004,30.0003 120,30.0003 120,30
 </coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark><Placemark><name>Route</name><LineString>
 <coordinates>120.0001,30.0002 120.0003,30.0002</coordinates></LineString></Placemark></Document></kml>"""
-SQUARE = [[-50, -50], [50, -50], [50, 50], [-50, 50], [-50, -50]]
 LINES = [[[0, 0], [9, 9]], [[1, 1], [2, 5]]]
 THINGS = (
-    ({"name": "square"}, {"type": "Polygon", "coordinates": [SQUARE]}),
     ({"name": "elm", "radius": 0.5}, {"type": "Point", "coordinates": [3, 4]}),
     ({"role": "path"}, {"type": "MultiLineString", "coordinates": LINES}),
 )
-FEATURES = [{"type": "Feature", "properties": own, "geometry": form} for own, form in THINGS]
+FEATURES = [
+    box(-50, -50, 50, 50, name="square"),
+    *({"type": "Feature", "properties": own, "geometry": form} for own, form in THINGS),
+]
 GEOJSON = {"type": "FeatureCollection", "grid": {"x": 5e5, "y": 3e6}, "features": FEATURES}
 DANCE = {"dragon": {"benches": 4}, "path": {"kind": "spiral", "pitch": 1.5}, "venue": GEOJSON, "margin": 0.1}
 TOML = 'margin = 0.1\nvenue = "square.kml"\n[dragon]\nbenches = 4\n[path]\nkind = "spiral"\npitch = 1.5\n'
@@ -81,7 +83,7 @@ def samples():
 @cache
 def small_bombs():
     both = (("places", MAPS), ("grade", GRADES))
-    return [(call, made()) for call, some in both for name, made in some.items() if len(made()) < 100_000]
+    return [(call, made()) for call, some in both for made in some.values() if len(made()) < 100_000]
 
 
 def damaged(data, chance):

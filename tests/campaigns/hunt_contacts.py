@@ -84,9 +84,10 @@ def random_passages(rng):
     return tuple(passages)
 
 
-def random_margin(rng, size, low):
-    """A part of a size, or half of the time one near the least gap: benches that just graze meet slowly [m]."""
-    margin = float(rng.choice([0.0, 0.0, 0.05, 0.2]) * size)
+def random_margin(rng, look, dragon=None):
+    """A part of a width, or half of the time one near the least gap: benches that just graze meet slowly [m]."""
+    low, _ = look.least()
+    margin = float(rng.choice([0.0, 0.0, 0.05, 0.2]) * (dragon.widths.max() if dragon else 1.0))
     if rng.uniform() < 0.5 and 0.0 < low < 1e3:
         margin = max(low + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-11.0, -2.0), 0.0)
     return margin
@@ -120,13 +121,8 @@ def random_case(seed, case, any_path=random_path):
     )
     if look.until < ends - 1.0:  # only so much is looked at
         stop = float(dance.clock.time(look.until))
-    margin = random_margin(rng, dragon.widths.max(), look.least()[0])
+    margin = random_margin(rng, look, dragon)
     return dance, margin, start, stop, look
-
-
-def fault(seed, case, any_path=random_path):
-    """The kind of one random answer, and its fault in words ('' for none)."""
-    return hunting.unless_refused(lambda: judged(*random_case(seed, case, any_path)))
 
 
 def judged(dance, margin, start, stop, look, accuracy=GAP):
@@ -206,6 +202,7 @@ def least_fault(dance, least, look, contact, accuracy):
     return ""
 
 
+fault = partial(hunting.unless_refused, judged, random_case)
 hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":

@@ -88,13 +88,8 @@ def random_case(seed, case):
         end = begin + RUN * (end - begin)
     start = begin + (end - begin) * float(rng.choice([0.0, rng.uniform(0.0, 0.8)]))
     look = SlowLook(SlowPerformance(performance.parts), start, min(end, start + LONGEST))
-    margin = random_margin(rng, 1.0, look.least()[0])
+    margin = random_margin(rng, look)
     return performance, margin, start, look.until, look
-
-
-def fault(seed, case):
-    """The kind of one random answer, and its fault in words ('' for none)."""
-    return hunting.unless_refused(lambda: judged(*random_case(seed, case)))
 
 
 def judged(performance, margin, start, stop, look):
@@ -111,6 +106,7 @@ def judged(performance, margin, start, stop, look):
     return kind, wrong and f"{wrong} in {performance.parts!r}, margin {margin!r}, {start} to {stop}"
 
 
+fault = partial(hunting.unless_refused, judged, random_case)
 hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":

@@ -23,7 +23,6 @@ from tests.campaigns import hunting
 from tests.support.student_files import as_csv, in_random_layout
 from tests.support.students import by_xlsxwriter
 
-Random = np.random.Generator
 SECONDS = 120.0
 # Shares of typed numbers and of files among the cases, and of sheets with all instants: others have every 25th.
 TYPED, FILES, WHOLE, THINNED = 0.4, 0.2, 0.02, 25
@@ -53,10 +52,15 @@ def noise(values, random):
     return values + random.normal(0.0, 10.0 ** -random.uniform(2.0, 8.0), values.shape)
 
 
+def with_one_kind(values, random):
+    """A copy of the numbers, and its positions alone or its speeds alone, to be changed in it."""
+    result = values.copy()
+    return result, result[..., [slice(0, 2), slice(2, 3)][random.integers(2)]]
+
+
 def noise_of_one_kind(values, random):
-    """Noise in the positions alone, or in the speeds alone."""
-    result, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
-    result[..., which] += random.normal(0.0, 10.0 ** -random.uniform(2.0, 8.0), result[..., which].shape)
+    result, some = with_one_kind(values, random)
+    some += random.normal(0.0, 10.0 ** -random.uniform(2.0, 8.0), some.shape)
     return result
 
 
@@ -76,8 +80,8 @@ def of_solver(values, random):
 
 def biased(values, random):
     """All speeds, or all places, too small or too large by the same part."""
-    result, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
-    result[..., which] *= 1.0 + random.normal(0.0, 10.0 ** -random.uniform(4.0, 8.0))
+    result, some = with_one_kind(values, random)
+    some *= 1.0 + random.normal(0.0, 10.0 ** -random.uniform(4.0, 8.0))
     return result
 
 

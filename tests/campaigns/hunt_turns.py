@@ -40,7 +40,7 @@ def turn_case(rng):
     slow = SlowRoute.of(dragon, dance.path)
     look = SlowLook(slow, dance.begin, slow.end())
     stop = look.until if look.until < slow.end() - 1.0 else None
-    return dance, random_margin(rng, dragon.widths.max(), look.least()[0]), dance.begin, stop, look, GAP
+    return dance, random_margin(rng, look, dragon), dance.begin, stop, look, GAP
 
 
 def spiral_case(rng):
@@ -54,13 +54,13 @@ def spiral_case(rng):
     start = float(max(fold - left, 0.0))
     look = SlowLook(slow, start, float(max(fold - BEFORE_FOLD * slow.chords.min(), start)))
     accuracy = GAP + OF_PATH * slow.way
-    return dance, random_margin(rng, dragon.widths.max(), look.least()[0]), start, look.until, look, accuracy
+    return dance, random_margin(rng, look, dragon), start, look.until, look, accuracy
 
 
 def fault(seed, case):
     """The kind of one random answer, and its fault in words ('' for none)."""
     kind, make = [("turn", turn_case), ("long spiral", spiral_case)][case % 2]
-    outcome, wrong = hunting.unless_refused(lambda: judged(*make(hunting.generator(seed, case))))
+    outcome, wrong = hunting.unless_refused(judged, make, hunting.generator(seed, case))
     return f"{kind}: {outcome}", wrong
 
 

@@ -82,13 +82,8 @@ def random_case(seed, case):
     triangle = random_obstacle(rng, placed, times)
     venue = Venue(square(WIDE).square, (Area("tree", (closed(triangle),)),))
     look = SlowVenue(placed, shapely.Polygon(triangle).boundary, times)
-    margin = random_margin(rng, dragon.widths.max(), look.least()[0])
+    margin = random_margin(rng, look, dragon)
     return dance, venue, margin, start, stop, look
-
-
-def fault(seed, case):
-    """The kind of one random answer, and its fault in words ('' for none)."""
-    return hunting.unless_refused(lambda: judged(*random_case(seed, case)))
 
 
 def judged(dance, venue, margin, start, stop, look):
@@ -129,6 +124,7 @@ def area_fault(tree, margin, look):
     return meeting_fault(tree, margin, look, GAP, 1e2 * GAP)
 
 
+fault = partial(hunting.unless_refused, judged, random_case)
 hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":

@@ -29,10 +29,10 @@ def generator(seed, case):
     return np.random.default_rng([seed, case])
 
 
-def unless_refused(answer):
-    """Kind and fault of an answer; what core refuses is a kind too."""
+def unless_refused(judged, case_of, *case):
+    """The kind of the answer of a case, and its fault in words ('' for none); what core refuses is a kind too."""
     try:
-        return answer()
+        return judged(*case_of(*case))
     except BenchDragonError as refused:
         return f"refused: {type(refused).__name__}", ""
 

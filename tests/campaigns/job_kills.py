@@ -60,10 +60,7 @@ def kill_one(service, chance):
         return ""
     chance.choice(result).kill()
     if role == "parent":
-        service.process.wait()
-        # Nobody outlives the parent, so the port is free again.
-        wait_for(lambda: not service.processes(), PATIENCE)
-        service.start()
+        service.start_again()
     return role
 
 

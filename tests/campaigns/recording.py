@@ -24,20 +24,20 @@ from app.service.examples import EXAMPLES
 from app.wire.question import JSON
 from core.language import Language
 from tests.campaigns.fuzz import mutant
+from tests.support.asking import box
 from tests.support.command import run
 from tests.support.serving import serving
 
 MUTANTS = 6
 SEED = 67
 # Calls without an example: figures, files and maps, with a request of few seconds.
-RING = [[-20, -20], [20, -20], [20, 20], [-20, 20], [-20, -20]]
 DANCE = {"dragon": {"benches": 12}, "path": {"kind": "spiral", "start_turns": 9}}
 QUERY, FILM = {"benches": 12, "start_turns": 9}, DANCE | {"height": 90, "seconds": 0.2}
 SMALL = {"films": FILM, "contest_kit": {"benches": 5, "films": False, "span": 2, "stop": 20}, "maps": DANCE}
 # Files beside which the commands run, and what is asked of each; a line of one word is also asked for its help, with an
 # option that is not there, and with values that are refused.
 SPIRAL = {"kind": "spiral", "start_turns": 9}
-PLACED = {"type": "Feature", "properties": {"name": "square"}, "geometry": {"type": "Polygon", "coordinates": [RING]}}
+PLACED = box(-20, -20, 20, 20, name="square")
 FILES = {
     "dance.json": {"dragon": {"benches": 12}, "path": SPIRAL, "venue": PLACED},
     "two.json": {"dances": [{"dragon": {"benches": 5}, "path": SPIRAL}, {"dragon": {"benches": 5}, "path": SPIRAL}]},

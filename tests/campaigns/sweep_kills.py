@@ -21,6 +21,7 @@ from app.sweeps.run import run
 from app.sweeps.shards import parts
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
+from tests.support.command import COMMAND
 from tests.support.serving import free_port
 
 ROOT = Path(__file__).parents[2]
@@ -29,7 +30,6 @@ LOOK, PATIENCE = 0.1, 300.0
 SHARDS = 200
 KINDS = ["scheduler", "worker", "client"]
 DASK = (sys.executable, "-m", "dask")
-COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
 
 
 class Kept:

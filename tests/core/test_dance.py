@@ -22,7 +22,7 @@ from core import (
     venue_clearance,
 )
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN
-from tests.support.random_dances import DANCES
+from tests.support.random_dances import DANCES, unlike_dance
 from tests.support.reference import reference
 from tests.support.refused import refused
 from tests.support.shared_dances import square
@@ -63,11 +63,8 @@ def test_a_chord_that_just_folds_ends_the_run_before_the_centre(excess):
 
 @pytest.mark.parametrize("seed", range(12))
 def test_a_run_of_unlike_benches_ends_where_the_slow_chain_stops(seed):
-    rng = np.random.default_rng(seed)
-    benches = int(rng.integers(1, 8))
-    dragon = Dragon.of(10 ** rng.uniform(-0.5, 0.6, benches), [0.1] * benches, [0.05] * benches)
-    spiral = Spiral(10 ** rng.uniform(-0.5, 0.8), 4.0)
-    assert Dance(dragon, spiral).end.time == pytest.approx(SlowDance.of(dragon, spiral).end(), abs=SLOW_END)
+    dance = unlike_dance(np.random.default_rng(seed))
+    assert dance.end.time == pytest.approx(SlowDance.of(dance.dragon, dance.path).end(), abs=SLOW_END)
 
 
 @settings(max_examples=40, deadline=None)

@@ -169,7 +169,7 @@ def paper_and_phone_tell_of_the_dance_from_its_beginning(person):
     longest = f"nobody carries longer than {int(length // 60)}:{int(length % 60):02d}"
     person.presses("#crew summary", "#crew-ask").sees({"#crew-result p": longest})
     for item in ("#keepPlan-A4", "#keepSafety-PDF"):
-        assert "from -0:13.9 to" in " ".join(map(paper.words_of, paper.pages_of(person.saves(item))))
+        assert "from -0:13.9 to" in " ".join(paper.sheets_of(person.saves(item)))
     held(person.opens(f"?door=all&lang=en&{BEFORE_ZERO}&bench=7"))
     assert cues_of(person) == [one["words"] for one in own[1:]]
     mark, x, y = (float(own[0][name]) for name in ("mark", "x", "y"))

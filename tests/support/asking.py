@@ -66,6 +66,12 @@ def json_like(value):
     return value.value if isinstance(value, Enum) else value
 
 
+def assert_motion(answer, motion):
+    """Places and speeds of an answer are those of core."""
+    assert np.stack([answer["x"], answer["y"]], axis=-1).tolist() == motion.position.tolist()
+    assert answer["speed"] == motion.speed.tolist()
+
+
 def polygon(*rings, name=None):
     """A polygon of GeoJSON; with a name a feature. Rings that are open are closed."""
     closed = [[*map(list, ring), *([] if ring[0] == ring[-1] else [list(ring[0])])] for ring in rings]

@@ -21,6 +21,11 @@ def box_at(entry, leaving, ratio, half):
     return box_of(1.7, turns, 0, centre, half, LEAST), centre
 
 
+def place_in(centres, halves, rng):
+    """A random place in each box."""
+    return centres + halves * rng.uniform(-1.0, 1.0, centres.shape)
+
+
 def turn_at(point):
     """The turn at a point of a box that the benches can follow; None if there is none."""
     entry, leaving = float(point[0]), float(point[0] + GROWTH * point[1])

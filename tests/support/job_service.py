@@ -79,6 +79,13 @@ class JobService:
             self.process.wait()
             self.scratch.cleanup()
 
+    def start_again(self):
+        """Kills the first process, which all others follow, and starts the service anew."""
+        self.process.kill()
+        self.process.wait()
+        wait_for(lambda: not self.processes())
+        self.start()
+
     def processes(self):
         """All processes of this service that live, wherever they belong by now."""
         first = self.process.pid

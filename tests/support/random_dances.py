@@ -40,6 +40,13 @@ def random_dragon(rng, bench_by_bench):
     return Dragon.of(chords + 2 * overhang, widths, np.full(benches, overhang))
 
 
+def unlike_dance(rng):
+    """A few benches of any lengths on a spiral of any pitch."""
+    benches = int(rng.integers(1, 8))
+    dragon = Dragon.of(10 ** rng.uniform(-0.5, 0.6, benches), [0.1] * benches, [0.05] * benches)
+    return Dance(dragon, Spiral(10 ** rng.uniform(-0.5, 0.8), 4.0))
+
+
 def random_dance(seed, bench_by_bench):
     """A dance, and the slow one: its dragon stands apart at the start of a spiral short enough for the slow search."""
     rng = np.random.default_rng(seed)

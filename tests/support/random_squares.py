@@ -112,6 +112,13 @@ def refuted(case, proposal):
     return ""
 
 
+def free_ground(venue):
+    """Oracle: the square without its obstacles, and the radius of the widest circle in it [m]."""
+    free = polygon(venue.square).difference(shapely.union_all([polygon(one) for one in venue.obstacles]))
+    circles = [shapely.maximum_inscribed_circle(part, tolerance=1e-4) for part in shapely.get_parts(free)]
+    return free, max(circle.length for circle in circles)
+
+
 def wrong_reason(case, result):
     """What is wrong with a reason by other means; empty if nothing."""
     reason = result.reason
@@ -124,9 +131,7 @@ def wrong_reason(case, result):
         return f"{have} is not less than {need}"
     if reason.kind is core.ReasonKind.WIDTH:
         # Within the triangles of the free ground lies no wider circle than the polygon has.
-        free = polygon(case.venue.square).difference(shapely.union_all([polygon(one) for one in case.venue.obstacles]))
-        parts = shapely.get_parts(free)
-        widest = max(shapely.maximum_inscribed_circle(part, tolerance=1e-3).length for part in parts)
+        _, widest = free_ground(case.venue)
         return "" if 2.0 * widest <= have + 1e-2 and have <= 2.0 * widest + 0.05 else f"the widest circle: {2 * widest}"
     if reason.kind is core.ReasonKind.STRAY:
         again = case.proposals(stray=0.98 * have)

@@ -15,6 +15,11 @@ def benches(*poses):
     return np.array(poses, dtype=float).reshape(-1, 3), np.full(len(poses), LENGTH), np.full(len(poses), WIDTH)
 
 
+def lengths_and_widths(dragon):
+    """Sizes (n, 2) of its benches [m]."""
+    return np.stack([dragon.lengths, dragon.widths], axis=-1)
+
+
 def crowd(count, seed, *, side, smallest=0.05, largest=5.0):
     """Benches of mixed sizes in a square."""
     random = np.random.default_rng(seed)

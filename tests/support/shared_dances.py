@@ -5,6 +5,8 @@ import math
 from core import Arc, Dance, Dragon, Line, Part, Performance, Route, Spiral, Venue
 from tests.support.random_squares import box
 
+FIVE_LENGTHS = Dragon.of([3.0, 1.5, 2.5, 1.2, 2.0], [0.3] * 5, [0.2] * 5)
+UNLIKE = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 4, [0.3, 0.5] * 10, [0.2] * 20)
 # Two streets that cross in their middles [m].
 EAST, NORTH = ((-40.0, 0.0), (40.0, 0.0)), ((0.0, -40.0), (0.0, 40.0))
 
@@ -40,6 +42,7 @@ def side_by_side():
     return Performance([Part(Dance(Dragon(3), Spiral(1.2, 2.0, (x, 0.0)))) for x in (0.0, 9.0)])
 
 
+STREET = Dance(Dragon(5), lane((0, 0), (60, 0)))
 OPPOSITE = in_one_spiral(60)
 # The second one is later and faster, so that it goes behind the first.
 CROSSING = Performance(

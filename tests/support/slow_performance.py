@@ -10,7 +10,7 @@ import numpy as np
 
 from core import Spiral
 from tests.support.slow_route import SlowRoute
-from tests.support.slow_search import SlowDance, benches_of, nearest
+from tests.support.slow_search import SlowDance, benches_of, in_plane, nearest
 
 
 def travelled(dance, times):
@@ -37,7 +37,7 @@ class SlowPart:
         own = self.slow.handles(travelled(self.dance, np.clip(times - self.delay, self.begin, self.end)))
         centre, rotation, clockwise = self.place
         places = own @ [1.0, 1.0j if clockwise else -1.0j] * np.exp(1j * rotation) + complex(*centre)
-        return np.stack([places.real, places.imag], axis=-1)
+        return in_plane(places)
 
 
 class SlowPerformance:

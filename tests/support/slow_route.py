@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import Arc, Clothoid, Coil, Line
-from tests.support.slow_search import SlowDance, arc_length, head_angle, sizes_of
+from tests.support.slow_search import SlowDance, arc_length, head_angle, in_plane, sizes_of
 
 # Steps of Newton's towards a handle, then of a bisection if those do not suffice, and the distance that does [m].
 NEWTON_STEPS, HALVINGS, CLOSE = 12, 60, 1e-11
@@ -117,5 +117,4 @@ class SlowRoute(SlowDance):
         for chord in self.chords[:benches]:
             s, points = self.behind(s, rows[-1], chord)
             rows.append(points)
-        places = np.stack(rows, axis=1)
-        return np.stack([places.real, places.imag], axis=-1)
+        return in_plane(np.stack(rows, axis=1))

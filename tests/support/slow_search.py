@@ -24,6 +24,11 @@ LOWEST, REFINED = 4, 3
 RUN = 1.0 - 1e-7
 
 
+def in_plane(points):
+    """Complex numbers as points (..., 2)."""
+    return np.stack([points.real, points.imag], axis=-1)
+
+
 def arc_length(theta):
     return 0.5 * (theta * np.sqrt(1.0 + theta**2) + np.arcsinh(theta))
 

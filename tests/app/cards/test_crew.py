@@ -14,7 +14,7 @@ from app.questions.crew import CrewRequest
 from app.wire.messages import checked
 from tests.conftest import ROOT
 from tests.support.command import run
-from tests.support.paper import assert_fonts_are_within, pages_of, words_of
+from tests.support.paper import assert_printable, sheets_of
 from tests.support.refusal_rows import assert_refused
 
 VILLAGE = read_dance(ROOT / "examples" / "village_square.toml")
@@ -62,9 +62,8 @@ def test_the_table_has_the_same_spells(ask, answer):
 def test_the_timeline_on_paper_names_everybody_and_every_change(ask, answer):
     request = VILLAGE | PEOPLE | {"at_clock": "19:45", "title": "Lantern night"}
     data = ask.file("crew", request, "application/pdf")
-    assert_fonts_are_within(data)
-    assert [tag for tag in (b"/Lang(en)", b"/S/H1", b"/S/H2", b"/S/Table", b"/S/TH") if tag not in data] == []
-    sheets = list(map(words_of, pages_of(data)))
+    assert_printable(data, b"/Lang(en)", b"/S/H1", b"/S/H2", b"/S/Table", b"/S/TH")
+    sheets = sheets_of(data)
     assert ["Lantern night" in sheet for sheet in sheets] == [True] * 3
     assert "Who is where at 19:45:00" in sheets[-1]
     words = {word for one in answer["carriers"] for word in (one["label"], f"{one['way']:.0f}")}
@@ -74,7 +73,7 @@ def test_the_timeline_on_paper_names_everybody_and_every_change(ask, answer):
 @pytest.mark.chinese_font
 def test_the_timeline_is_written_in_chinese(ask):
     data = ask.file("crew", VILLAGE | PEOPLE | {"language": "zh"}, "application/pdf")
-    assert "谁在何时抬哪节板凳" in words_of(pages_of(data)[0]).replace(" ", "")
+    assert "谁在何时抬哪节板凳" in sheets_of(data)[0].replace(" ", "")
 
 
 def test_a_terminal_shows_who_is_where():

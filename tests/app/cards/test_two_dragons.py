@@ -19,7 +19,7 @@ from app.wire.messages import checked
 from app.wire.question import Terms
 from core.people.cards import card_of
 from tests.support.asking import json_like
-from tests.support.paper import pages_of, words_of
+from tests.support.paper import sheets_of
 
 # Both wind into one spiral from opposite sides. The second one begins later, hurries, pauses, and goes on slowly.
 NAMES = ["Zhou", "Wu", "", "Wang", *[f"family {k}" for k in range(4, 20)]]
@@ -104,7 +104,7 @@ def numbers_in(runs):
 
 def test_the_words_of_a_meeting_name_all_benches_and_the_paper_has_them(pairs):
     paper = CUES.to_bytes(checked(CuesRequest, TWO), Terms(), PDF_TYPE)  # which no deadline ends
-    text = "".join(map(words_of, pages_of(paper))).replace(" ", "")
+    text = "".join(sheets_of(paper)).replace(" ", "")
     again = 0
     for cue in [cue for card, *_ in pairs for cue in card["cues"]]:
         assert "".join(cue["words"].split()) in text

@@ -93,10 +93,6 @@ def sheets_are_dropped():
     sheets.cache_clear()
 
 
-def numbers(sheet):
-    return np.array([row[1:] for row in sheet.iter_rows(min_row=2, values_only=True)])
-
-
 @pytest.mark.thorough
 @pytest.mark.chinese_font
 def test_the_readme_shows_the_last_line_that_the_command_prints(drawn):
@@ -114,7 +110,7 @@ def test_a_workbook_has_the_labels_of_the_contest_to_the_blank_and_numbers_of_si
         top = [cell.value for cell in sheet[1]]
         assert (top[:4], top[-1]) == (known["first_row_start"], known["first_row_end"])
         assert (sheet.freeze_panes, sheet["B2"].number_format) == ("B2", "0.000000")
-        values = numbers(sheet) * 1e6
+        values = 1e6 * np.array([row[1:] for row in sheet.iter_rows(min_row=2, values_only=True)])
         assert np.abs(values - values.round()).max() < 1e-6
 
 

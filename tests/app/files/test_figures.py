@@ -9,10 +9,11 @@ from xml.etree import ElementTree
 import pytest
 
 from app.files import figures
-from core import Area, Dance, Dragon, Line, Route, Spiral, Venue, first_contact, minimum_pitch
+from core import Area, Dance, Dragon, Spiral, Venue, first_contact, minimum_pitch
 from core.design.pitch_scan import scan_near_minimum
 from core.language import speaking
 from tests.support.depth import some
+from tests.support.shared_dances import STREET
 
 SMALL = Dragon(benches=30)
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -65,7 +66,7 @@ def test_contact_figure_with_a_margin_states_it():
     [
         (Dance(Dragon(10), Spiral()), {"margin": 0.3}, "front-outer corner of bench 0", "edge"),
         (
-            Dance(Dragon(5), Route([Line((0.0, 0.0), (60.0, 0.0))])),
+            STREET,
             {"margin": 1.2, "start": 20.0},
             "front edge of bench 2",
             "corner",

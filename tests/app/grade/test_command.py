@@ -45,6 +45,10 @@ def verdicts_in(summary):
     return [f"{Path(file).parent.name} {verdict}" for file, _, verdict, *_ in rows_of(summary)[1:]]
 
 
+def verdicts_of(files):
+    return [f"{Path(file['file']).parent.name} {file['verdict']}" for file in files]
+
+
 def test_a_folder_is_graded_by_path_with_exit_code_0(class_of_three, tmp_path):
     summary = tmp_path / "summary.csv"
     done = run("grade", str(class_of_three), "--json", "--summary", str(summary))
@@ -52,7 +56,7 @@ def test_a_folder_is_graded_by_path_with_exit_code_0(class_of_three, tmp_path):
     assert done.stderr.splitlines() == ["grading: 25 %", "grading: 50 %", "grading: 100 %"]
     files = json.loads(done.stdout)["files"]
     verdicts = ["li wrong", "wang right", "zhao unreadable"]
-    assert [f"{Path(file['file']).parent.name} {file['verdict']}" for file in files] == verdicts
+    assert verdicts_of(files) == verdicts
     assert [error["error"] for error in files[0]["diagnosis"]] == ["other_instant", "time_steps"]
     assert verdicts_in(summary) == verdicts
 
@@ -102,7 +106,7 @@ def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path):
     summary = tmp_path / "summary.csv"
     files = json.loads(run("grade", str(tmp_path / "class"), "--json", "--summary", str(summary)).stdout)["files"]
     verdicts = ["Li\\u202e right", "王 right", "李 right", "\\xff\\xfe\\x81 right"]
-    assert [f"{Path(file['file']).parent.name} {file['verdict']}" for file in files] == verdicts
+    assert verdicts_of(files) == verdicts
     assert [len(file["notes"]) for file in files] == [0, 0, 1, 1]
     assert verdicts_in(summary) == verdicts
     assert "\\xff" in run("grade", str(tmp_path / "class"), "--language", "zh").stdout

@@ -10,27 +10,18 @@ from tests.support.student_files import FORMS, NAMES, as_csv, as_file, beside, i
 from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral, three
 
 
-def changed(change):
-    return by_xlsxwriter({title: change(rows) for title, rows in few().items()})
-
-
-def transposed(rows):
-    return [list(row) for row in zip(*rows, strict=True)]
-
-
 def bare_times(rows):
     return [[None, *range(len(rows[0]) - 1)], *rows[1:]]
 
 
 def transposed_bare(rows):
-    return transposed(bare_times(rows))
+    return on_side(bare_times(rows))
 
 
 def by_wps(rows):
     """A title, a head of two lines, labels without blanks and with full-width brackets, a note below."""
     labels = [[str(row[0]).replace(" ", "").replace("(", "（").replace(")", "）"), *row[1:]] for row in rows[1:]]
-    heads = [["把手", "时间（s）"], [None, *range(len(rows[0]) - 1)]]
-    return [["表1 问题一结果"], *heads, *labels, [], ["注：保留六位小数"]]
+    return [["表1 问题一结果"], ["把手", "时间（s）"], bare_times(rows)[0], *labels, [], ["注：保留六位小数"]]
 
 
 def by_google(rows):
@@ -58,7 +49,7 @@ def without_axes(rows):
     return [rows[0], *([label.removesuffix("x (m)").removesuffix("y (m)"), *row] for label, *row in rows[1:])]
 
 
-LAYOUTS = [by_wps, by_google, by_pandas_without_index, by_pandas_with_numbers, transposed, transposed_bare, bare_times,
+LAYOUTS = [by_wps, by_google, by_pandas_without_index, by_pandas_with_numbers, on_side, transposed_bare, bare_times,
            without_axes]  # fmt: skip
 # Right cells of positions and of speeds, of few instants.
 FEW = [4 * 448, 4 * 224]
@@ -85,14 +76,13 @@ def assert_right(data):
 
 @pytest.mark.parametrize("change", LAYOUTS, ids=lambda change: change.__name__)
 def test_other_layouts_are_recognised(change):
-    result = grade(changed(change))
+    result = grade(by_xlsxwriter({title: change(rows) for title, rows in few().items()}))
     assert right(result) == FEW, result
 
 
 def test_a_whole_result1_may_stand_on_its_side():
     # It has more instants than handles, so that its last lines are as many as the handles.
-    lines = [line.split(",") for line in wide_csv().splitlines()]
-    assert_right("\n".join(",".join(line) for line in zip(*lines, strict=True)).encode())
+    assert_right(as_csv(on_side([line.split(",") for line in wide_csv().splitlines()])))
 
 
 def test_a_result4_without_instants_begins_at_minus_100_s():
@@ -345,7 +335,7 @@ def test_empty_columns_and_rows_count_as_missing_instants_and_handles():
         row[202:] = [""] * 100
     for row in rows[21:23]:
         row[1:] = [""] * 301
-    sheet, _ = grade("\n".join(map(",".join, rows)).encode(), "result1.csv").sheets
+    sheet, _ = grade(as_csv(rows), "result1.csv").sheets
     assert sheet.notes == [f"{100 * 448 + 201 * 2} cells are missing (1 handles and 100 instants without any)."]
 
 

@@ -134,12 +134,16 @@ def test_a_job_that_runs_too_long_is_ended(tmp_path):
         wait_for(lambda: not service.of("child"))
 
 
+def assert_has_no_store(service):
+    refused = service.client.post("/jobs", json=SHORT)
+    assert (refused.status_code, str(service.folder) in refused.text) == (503, False)
+
+
 def test_a_data_folder_that_cannot_be_used_costs_the_jobs_alone(tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("no folder")
     with JobService(blocked) as service:
-        refused = service.client.post("/jobs", json=SHORT)
-        assert (refused.status_code, str(tmp_path) in refused.text) == (503, False)
+        assert_has_no_store(service)
         assert service.client.get("/collision-time").status_code == 200
         assert service.client.get("/readyz").status_code == 503
 
@@ -167,8 +171,7 @@ def test_a_store_that_fails_while_the_service_runs_promises_nothing(tmp_path, ha
             assert statuses(address, f"{address}/result") == [503, 503]
             assert service.client.delete(address).headers["content-type"] == PROBLEM_TYPE
             assert "bench_dragon_jobs_store_failed 1.0" in service.client.get("/metrics").text
-        refused = service.client.post("/jobs", json=SHORT)
-        assert (refused.status_code, str(tmp_path) in refused.text) == (503, False)
+        assert_has_no_store(service)
         assert statuses("/readyz", "/collision-time", "/metrics") == [503, 200, 200]
         # The keeper looks at the store each second, and says what is wrong.
         wait_for(lambda: fault in service.log.read_text("utf-8"))

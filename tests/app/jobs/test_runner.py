@@ -78,11 +78,7 @@ def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service):
     kill(service, "worker")
     waits = post(service, SHORT)
     assert service.status(unfinished)["status"] in ("accepted", "running")
-    service.process.kill()
-    service.process.wait()
-    # Runner, children and processes that serve follow the parent.
-    wait_for(lambda: not service.processes())
-    service.start()
+    service.start_again()
     assert service.status(done)["status"] == "successful"
     assert service.result(done).content == result
     assert_same(service, waits, SHORT)

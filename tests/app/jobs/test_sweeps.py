@@ -98,10 +98,7 @@ def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_i
         killed = {child.pid for child in service.of("child") if child.kill() is None}
         if kill == 2:  # The runner has seen the last death, and then all of the service is killed.
             wait_for(lambda killed=killed: {child.pid for child in service.of("child")} - killed)
-            service.process.kill()
-            service.process.wait()
-            wait_for(lambda: not service.processes())
-            service.start()
+            service.start_again()
         service.until(address, "running")
         wait_for(lambda: service.of("child"))
         assert there.items() <= parts(service).items()

@@ -16,6 +16,7 @@ from core.language import speaking
 from tests.app.maps.test_maps import map_of, names, posted, things
 from tests.support.refusal_rows import assert_refused
 from tests.support.refused import refused
+from tests.support.slow_search import in_plane
 
 
 def new(unit=6, version="R2010", square=True):
@@ -26,6 +27,17 @@ def new(unit=6, version="R2010", square=True):
     if square:
         ring(space, 50, layer="SQUARE")
     return space
+
+
+@pytest.fixture
+def space():
+    return new()
+
+
+@pytest.fixture
+def empty():
+    """The space of a drawing without a square."""
+    return new(square=False)
 
 
 def ring(space, half, x=0.0, y=0.0, close=True, **attributes):
@@ -49,8 +61,7 @@ def corners(result):
     return [*result.venue.square.rings[0]]
 
 
-def test_an_array_of_blocks_has_all_of_them():
-    space = new()
+def test_an_array_of_blocks_has_all_of_them(space):
     space.doc.blocks.new("TREE").add_circle((0, 0), 0.4)
     array = {"row_count": 2, "column_count": 3, "row_spacing": 4.0, "column_spacing": 5.0}
     space.add_blockref("TREE", (0, 0), dxfattribs=array)
@@ -73,12 +84,11 @@ def test_a_drawing_without_a_unit_is_in_metres_or_refused_where_it_cannot_be(ver
     assert "The file states no unit: its numbers are metres." in result.notes
 
 
-def test_a_map_that_is_too_wide_for_a_dance_is_refused():
-    space = new(square=False)
+def test_a_map_that_is_too_wide_for_a_dance_is_refused(empty):
     for x in (500_000.0, 600_000.0):
-        space.add_circle((x, 3_000_000.0), 1.0)
+        empty.add_circle((x, 3_000_000.0), 1.0)
     with pytest.raises(InvalidValue, match="20 km across, got about 100 km"):
-        read(space)
+        read(empty)
 
 
 @pytest.mark.parametrize(
@@ -90,8 +100,7 @@ def test_every_unit_of_a_drawing_is_known(unit, metres):
     assert things(read(space)) == [("Point", [pytest.approx(30.0), 0.0], pytest.approx(2.0))]
 
 
-def test_what_cannot_be_seen_or_read_is_left_out_and_said():
-    space = new()
+def test_what_cannot_be_seen_or_read_is_left_out_and_said(space):
     document = space.doc
     document.layers.add("TREES").off()
     document.layers.add("OLD").freeze()
@@ -117,8 +126,7 @@ def test_what_cannot_be_seen_or_read_is_left_out_and_said():
     }  # fmt: skip
 
 
-def test_a_block_squeezed_to_a_line_is_left_out_and_one_of_no_height_is_drawn():
-    space = new()
+def test_a_block_squeezed_to_a_line_is_left_out_and_one_of_no_height_is_drawn(space):
     space.doc.blocks.new("TREE").add_circle((0, 0), 0.3)
     plan = space.doc.blocks.new("ROW")
     plan.add_blockref("TREE", (1, 2))
@@ -181,8 +189,7 @@ def bare(data, kinds):
     return "\n".join([*result, ""]).encode()
 
 
-def test_a_number_that_dxf_does_not_have_leaves_out_no_layer():
-    space = new()
+def test_a_number_that_dxf_does_not_have_leaves_out_no_layer(space):
     space.doc.layers.add("CHAIRS").off()
     space.add_circle((3, 3), 0.5, dxfattribs={"layer": "CHAIRS"})
     data = drawing(space)
@@ -193,8 +200,7 @@ def test_a_number_that_dxf_does_not_have_leaves_out_no_layer():
 
 
 @pytest.mark.parametrize("content", ["text", "block"])
-def test_a_note_with_an_arrow_is_left_out_by_name_also_without_markers(content):
-    space = new()
+def test_a_note_with_an_arrow_is_left_out_by_name_also_without_markers(content, space):
     if content == "text":
         leader = space.add_multileader_mtext("Standard")
         leader.set_content("Old oak")
@@ -215,8 +221,7 @@ def test_a_note_with_an_arrow_is_left_out_by_name_also_without_markers(content):
         assert corners(result)[0] == (-50.0, -50.0)
 
 
-def test_a_note_calls_a_thing_without_a_name_by_a_word_of_its_language():
-    space = new()
+def test_a_note_calls_a_thing_without_a_name_by_a_word_of_its_language(space):
     space.add_circle((10, 5), 0.0)
     space.add_line((20, 5), (20.0002, 5))
     space.add_point((30, 5))
@@ -228,8 +233,7 @@ def test_a_note_calls_a_thing_without_a_name_by_a_word_of_its_language():
 
 
 @pytest.mark.parametrize("length", [0.0002, 0.0005, 0.02])
-def test_a_stroke_in_a_plan_is_neither_its_path_nor_a_refusal(length):
-    space = new()
+def test_a_stroke_in_a_plan_is_neither_its_path_nor_a_refusal(length, space):
     space.add_circle((20, 0), 0.4, dxfattribs={"layer": "TREES"})
     space.add_line((8, 5), (8 + length, 5), dxfattribs={"layer": "STROKE"})
     space.add_arc((12, 5), 0.5 * length, 0, 90, dxfattribs={"layer": "DOT"})
@@ -242,39 +246,35 @@ def test_a_stroke_in_a_plan_is_neither_its_path_nor_a_refusal(length):
     assert len(things(result)) == (1 if length < 0.001 else 5)
 
 
-def test_of_two_areas_called_square_a_tiny_one_is_left_out():
-    space = new(square=False)
+def test_of_two_areas_called_square_a_tiny_one_is_left_out(empty):
     for half in (0.0002, 40):
-        ring(space, half, layer="SQUARE")
-    assert corners(read(space))[0] == (-40.0, -40.0)
+        ring(empty, half, layer="SQUARE")
+    assert corners(read(empty))[0] == (-40.0, -40.0)
 
 
-def test_where_all_is_hidden_the_refusal_says_what():
-    space = new(square=False)
-    space.doc.layers.add("PLAN").freeze()
-    space.add_line((0, 0), (9, 0), dxfattribs={"layer": "PLAN"})
+def test_where_all_is_hidden_the_refusal_says_what(empty):
+    empty.doc.layers.add("PLAN").freeze()
+    empty.add_line((0, 0), (9, 0), dxfattribs={"layer": "PLAN"})
     with pytest.raises(InvalidValue, match=r"1 LINE is hidden; show it or its layer$"):
-        read(space)
-    space.add_line((0, 9), (9, 9), dxfattribs={"layer": "PLAN"})
+        read(empty)
+    empty.add_line((0, 9), (9, 9), dxfattribs={"layer": "PLAN"})
     with pytest.raises(InvalidValue, match=r"2 LINEs are hidden; show them or their layers$"):
-        read(space)
-    space.add_point((0, 0), dxfattribs={"layer": "PLAN"})
+        read(empty)
+    empty.add_point((0, 0), dxfattribs={"layer": "PLAN"})
     with speaking("zh"), pytest.raises(InvalidValue, match=r"2 个 LINE、1 个 POINT 被隐藏"):
-        read(space)
+        read(empty)
 
 
-def test_entities_of_a_block_take_its_layer():
-    space = new(square=False)
-    ring(space.doc.blocks.new("BED"), 1, 1, 1)
-    space.add_blockref("BED", (5, 5), dxfattribs={"layer": "障碍"})
-    ring(space, 60)
-    result = read(space)
+def test_entities_of_a_block_take_its_layer(empty):
+    ring(empty.doc.blocks.new("BED"), 1, 1, 1)
+    empty.add_blockref("BED", (5, 5), dxfattribs={"layer": "障碍"})
+    ring(empty, 60)
+    result = read(empty)
     assert corners(result)[0] == (-60.0, -60.0)
     assert [form for form, *_ in things(result)] == ["Polygon"]
 
 
-def test_only_a_ring_in_an_area_of_its_layer_is_a_hole():
-    space = new()
+def test_only_a_ring_in_an_area_of_its_layer_is_a_hole(space):
     ring(space, 5, layer="HOUSE")
     for x in (0, 30):
         ring(space, 2, x, layer="HOUSE_HOLES")
@@ -285,8 +285,7 @@ def test_only_a_ring_in_an_area_of_its_layer_is_a_hole():
     assert round_ones == [("Point", [0.0, 30.0], 0.4), ("Point", [0.0, 0.0], 0.3)]
 
 
-def test_a_closed_spline_is_the_area_in_it():
-    space = new()
+def test_a_closed_spline_is_the_area_in_it(space):
     sides = [(0, 0, 0), (10, 0, 0), (10, 10, 0), (0, 10, 0)]
     entity = space.add_spline(degree=3, dxfattribs={"layer": "OBSTACLES", "flags": 3})
     entity.control_points, entity.knots = [*sides, *sides[:3]], range(11)
@@ -311,19 +310,17 @@ def test_a_wide_line_is_a_wall_of_its_width(unit, metres):
     assert [(form, radius) for form, _, radius in things(read(space))] == radii
 
 
-def test_the_wide_outline_of_an_area_is_a_wall_around_it():
-    space = new(square=False)
-    ring(space, 60, const_width=1.0)
-    ring(space, 2, const_width=1.0, layer="OBSTACLES")
-    result = read(space)
+def test_the_wide_outline_of_an_area_is_a_wall_around_it(empty):
+    ring(empty, 60, const_width=1.0)
+    ring(empty, 2, const_width=1.0, layer="OBSTACLES")
+    result = read(empty)
     assert corners(result)[0] == (-60.0, -60.0)
     (*_, around), (area, rings, none), (line, places, radius) = things(result)
     assert (area, line, none, radius, around) == ("Polygon", "LineString", None, 0.5, 0.5)
     assert rings[0] == places
 
 
-def test_a_text_names_what_it_stands_in_or_beside():
-    space = new()
+def test_a_text_names_what_it_stands_in_or_beside(space):
     space.add_lwpolyline([(20, 20), (30, 20)], dxfattribs={"layer": "WALL", "const_width": 0.6})
     space.add_text("garden wall", height=2.5, dxfattribs={"insert": (22, 21)})
     space.add_circle((0, 0), 1.0)
@@ -334,8 +331,7 @@ def test_a_text_names_what_it_stands_in_or_beside():
     assert names(read(space)) == ["square", "garden wall", "old elm", "bed of roses"]
 
 
-def test_an_attribute_of_a_block_names_what_is_beside_it():
-    space = new()
+def test_an_attribute_of_a_block_names_what_is_beside_it(space):
     block = space.doc.blocks.new("TREE")
     block.add_circle((0, 0), 0.4)
     block.add_attdef("NAME", (0.5, 0), height=0.3)
@@ -343,10 +339,9 @@ def test_an_attribute_of_a_block_names_what_is_beside_it():
     assert names(read(space))[1:] == ["camphor"]
 
 
-def test_a_circle_on_the_layer_of_the_square_is_a_round_square():
-    space = new(square=False)
-    space.add_circle((5, 0), 30.0, dxfattribs={"layer": "SQUARE"})
-    away = np.hypot(*(np.array(corners(read(space))) - (5.0, 0.0)).T)
+def test_a_circle_on_the_layer_of_the_square_is_a_round_square(empty):
+    empty.add_circle((5, 0), 30.0, dxfattribs={"layer": "SQUARE"})
+    away = np.hypot(*(np.array(corners(read(empty))) - (5.0, 0.0)).T)
     assert away == pytest.approx(30.0)
     assert len(away) > 100
 
@@ -364,11 +359,10 @@ def test_lines_and_arcs_of_the_path_are_one_path():
     assert "2 lines are called path; the first is the path, and the others are left out." in result.notes
 
 
-def test_the_line_of_a_square_that_is_not_closed_is_closed_and_said():
-    space = new(square=False)
-    ring(space, 60, close=False, layer="SQUARE")
-    space.add_circle((5, 5), 1.0)
-    result = read(space)
+def test_the_line_of_a_square_that_is_not_closed_is_closed_and_said(empty):
+    ring(empty, 60, close=False, layer="SQUARE")
+    empty.add_circle((5, 5), 1.0)
+    result = read(empty)
     assert len(corners(result)) == 5
     assert any("does not end where it begins" in note for note in result.notes)
 
@@ -415,7 +409,7 @@ def test_a_venue_says_its_grid_in_two_numbers(client, row):
 
 def rounded(corner_count, place=0.0):
     angles = np.linspace(0.0, 2 * np.pi, corner_count, endpoint=False)
-    return (20.0 * np.stack([np.cos(angles), np.sin(angles)], axis=-1) + place).tolist()
+    return (20.0 * in_plane(np.exp(1j * angles)) + place).tolist()
 
 
 @pytest.mark.parametrize("square", [True, False])
@@ -429,12 +423,11 @@ def test_many_edges_are_refused_before_they_are_compared(square):
     assert time.process_time() - begun < 10.0  # It took 20 s.
 
 
-def test_a_long_path_beside_the_square_is_compared():
-    space = new(square=False)
-    space.add_lwpolyline(rounded(1_900), close=True)
+def test_a_long_path_beside_the_square_is_compared(empty):
+    empty.add_lwpolyline(rounded(1_900), close=True)
     line = [(300.0 + 0.001 * k, 300.0) for k in range(15_000)]
-    space.add_lwpolyline(line, dxfattribs={"layer": "PATH"})
-    result = read(space)
+    empty.add_lwpolyline(line, dxfattribs={"layer": "PATH"})
+    result = read(empty)
     assert result.path is not None
     assert any("No polygon is the square" in note for note in result.notes)
 
@@ -448,8 +441,7 @@ def test_names_of_a_chinese_drawing_are_read():
     assert names(read(space))[1:] == ["樟树"]
 
 
-def test_more_texts_than_can_be_compared_name_nothing_and_are_said():
-    space = new()
+def test_more_texts_than_can_be_compared_name_nothing_and_are_said(space):
     for k in range(3_000):
         space.add_text("x", height=0.1, dxfattribs={"insert": (0, 0.01 * k)})
     space.add_lwpolyline([(300.0 + 0.1 * k, 300.0) for k in range(1_500)], dxfattribs={"layer": "PATH"})

@@ -8,13 +8,14 @@ import shapely
 import zxingcpp
 
 from app.questions.plan import PDF_TYPE
-from core import Dance, Dragon, Line, Route, bench_outlines, trajectory
+from core import bench_outlines, trajectory
 from tests.support.asking import box, line
-from tests.support.paper import pages_of, words_of
+from tests.support.paper import pages_of, sheets_of, words_of
+from tests.support.shared_dances import STREET
 
-STREET = {"dragon": {"benches": 5}, "path": line((0, 0), (60, 0))}
+IN_STREET = {"dragon": {"benches": 5}, "path": line((0, 0), (60, 0))}
 YARD = {"type": "GeometryCollection", "geometries": [box(-5, -8, 65, 8), box(20, 1.0, 22, 3.0)]}
-BODY = STREET | {
+BODY = IN_STREET | {
     "venue": YARD,
     "margin": 0.1,
     "stray": 0.05,
@@ -29,19 +30,14 @@ BODY = STREET | {
         {"name": "over the path", "points": [[0, 0], [60, 0]], "width": 4},
     ],
 }
-DANCE = Dance(Dragon(5), Route([Line((0.0, 0.0), (60.0, 0.0))]))
 STEP = 0.01  # [s]
 
 
 def benches(answer):
     times = np.arange(answer["start"], answer["stop"], STEP)
-    motion = trajectory(DANCE, times)
-    corners = bench_outlines(DANCE.dragon, motion.position)
+    motion = trajectory(STREET, times)
+    corners = bench_outlines(STREET.dragon, motion.position)
     return times, motion, shapely.polygons(corners.reshape(-1, 4, 2)).reshape(corners.shape[:2])
-
-
-def polygon(geometry):
-    return shapely.from_geojson(json.dumps(geometry))
 
 
 def test_the_nearest_approach_of_each_thing_is_that_of_the_check_with_every_bench_in_its_place(ask):
@@ -57,7 +53,7 @@ def test_the_nearest_approach_of_each_thing_is_that_of_the_check_with_every_benc
 def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
     answer = ask("safety-sheet", BODY)
     times, motion, outlines = benches(answer)
-    swept, kept, loose = (polygon(one) for one in (
+    swept, kept, loose = (shapely.from_geojson(json.dumps(one)) for one in (
         answer["swept"]["ground"], answer["spectators"], answer["loose_tail"]["ground"]
     ))  # fmt: skip
     assert shapely.contains(swept, outlines[::20]).all()
@@ -90,7 +86,7 @@ def test_what_is_assumed_is_told_from_what_is_given(ask):
     yours = {one["label"]: one["yours"] for one in ask("safety-sheet", BODY)["assumptions"]}
     assert yours["people stand back"]
     assert not yours["speed of the head"]
-    bare = ask("safety-sheet", STREET)
+    bare = ask("safety-sheet", IN_STREET)
     assert [one["label"] for one in bare["assumptions"] if one["yours"]] == ["benches"]
     assert (bare["lanes"], bare["gates"]) == ([], [])
 
@@ -150,8 +146,8 @@ def test_the_page_has_its_words_in_order_a_map_to_scale_and_a_code_that_a_phone_
 def test_many_lanes_and_gates_take_a_second_page_and_nothing_is_lost(ask):
     lanes = [{"name": f"lane number {k}", "points": [[30 + k, -8], [30 + k, 8]], "width": 1} for k in range(10)]
     gates = [{"name": f"gate number {k}", "x": 10 + 2 * k, "y": 0} for k in range(20)]
-    pages = pages_of(ask.file("safety-sheet", BODY | {"lanes": lanes, "gates": gates}, PDF_TYPE))
-    words = " ".join(map(words_of, pages))
-    assert len(pages) == 2
+    sheets = sheets_of(ask.file("safety-sheet", BODY | {"lanes": lanes, "gates": gates}, PDF_TYPE))
+    words = " ".join(sheets)
+    assert len(sheets) == 2
     assert [one["name"] for one in (*lanes, *gates) if one["name"] not in words] == []
-    assert "signature" in words_of(pages[-1])
+    assert "signature" in sheets[-1]

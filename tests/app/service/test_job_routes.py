@@ -6,7 +6,7 @@ import socket
 import sqlite3
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import ExitStack, closing
 from threading import Timer
 
 import httpx
@@ -31,19 +31,11 @@ def service(tmp_path_factory):
         yield service
 
 
-@contextmanager
-def writing(service):
-    """While another process writes to the store, so that every change of it waits."""
-    with closing(sqlite3.connect(service.folder / "jobs.sqlite", isolation_level=None)) as other:
-        other.execute("BEGIN IMMEDIATE")
-        yield
-        other.execute("ROLLBACK")
-
-
 def keeps_no_page_waiting(service, ask):
     """Statuses of many changes of the store, more than the service has threads, while another process writes to it."""
     with ThreadPoolExecutor(60) as threads:
-        with writing(service):
+        with closing(sqlite3.connect(service.folder / "jobs.sqlite", isolation_level=None)) as other:
+            other.execute("BEGIN IMMEDIATE")
             changes = [threads.submit(ask, k) for k in range(60)]
             time.sleep(HELD)
             for page in ("/", "/how", "/readyz"):

@@ -1,7 +1,7 @@
 """The time of an answer is estimated once, and what the event loop gives up is computed once more."""
 
 import time
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 
 import httpx
 import pytest
@@ -92,11 +92,8 @@ def answer_of(app, counting, method="GET"):
     return ask(app, "/counting", method)
 
 
-@contextmanager
 def heavy_lane_full(app):
-    lanes = app.state.lanes
-    with lanes.place(UNKNOWN_COST, JSON, "another client"):
-        yield
+    return app.state.lanes.place(UNKNOWN_COST, JSON, "another client")
 
 
 @pytest.mark.parametrize(

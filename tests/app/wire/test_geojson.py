@@ -29,10 +29,6 @@ def features(*members):
     return {"type": "FeatureCollection", "features": list(members)}
 
 
-def collection(*members):
-    return {"type": "GeometryCollection", "geometries": list(members)}
-
-
 def raw(*rings):
     """A polygon of rings as they are, closed or not."""
     return {"type": "Polygon", "coordinates": list(rings)}
@@ -52,7 +48,7 @@ def test_the_square_is_the_feature_of_that_name_or_else_the_first():
     unnamed = {"type": "Feature", "properties": {"name": None}, "geometry": box(15, 0, 18, 3)}
     venue = read(features(polygon(WELL, name="well"), box(*SQUARE, name="square"), unnamed))
     assert [area.name for area in venue.areas] == ["square", "well", "obstacle 2"]
-    first = read(collection(box(*SQUARE), polygon(WELL)))
+    first = read({"type": "GeometryCollection", "geometries": [box(*SQUARE), polygon(WELL)]})
     assert ([area.name for area in first.areas], first.square.rings[0][0]) == (["square", "obstacle 1"], (-35.0, -5.0))
 
 

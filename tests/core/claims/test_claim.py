@@ -8,9 +8,7 @@ from core import (
     Dance,
     Dragon,
     EndReason,
-    Line,
     Passage,
-    Route,
     Spiral,
     Turn,
     clearance_profile,
@@ -18,6 +16,7 @@ from core import (
     tolerance,
 )
 from core.claims.claim import PASSAGES_LISTED, ClaimKind, DanceSummary, DragonSummary, format_safe
+from tests.support.shared_dances import STREET
 
 
 @pytest.mark.parametrize("stray", [0.04654398712345678, 1.0 / 3.0, 0.1 + 0.2, 2.0**-20, 0.825])
@@ -67,7 +66,7 @@ def test_a_start_within_rounding_of_the_margin_claims_no_clear_time():
 
 
 def test_a_claim_is_plain_values_that_another_process_can_have():
-    claim = tolerance(Dance(Dragon(5), Route([Line((0.0, 0.0), (60.0, 0.0))])), start=20.0).certificate.claim
+    claim = tolerance(STREET, start=20.0).certificate.claim
     assert (claim.kind, claim.touches, claim.start, claim.venue) == (ClaimKind.SAFE_STRAY, False, 20.0, False)
     again = pickle.loads(pickle.dumps(claim))
     assert (again, hash(again)) == (claim, hash(claim))

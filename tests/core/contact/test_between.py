@@ -9,7 +9,9 @@ from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_poses, s
 from core.contact.between import held_apart, sag_pulls, sags_of, touching_pose
 from core.shapes.rectangles import corners
 from tests.support.depth import examples
+from tests.support.scenes import lengths_and_widths
 from tests.support.shown_poses import overlap
+from tests.support.slow_search import in_plane
 
 FAR = 9.0  # a stray above all that are found [m]
 
@@ -42,7 +44,7 @@ def strayed_threes(rng, chords, places, stray):
         wrong = abs(abs(np.diff(moved, axis=1)) - chords).max(axis=1)
         kept.append(moved[wrong < 1e-6])
     poses = np.concatenate(kept)
-    return np.stack([poses.real, poses.imag], axis=-1)
+    return in_plane(poses)
 
 
 @pytest.mark.parametrize(
@@ -62,7 +64,7 @@ def test_no_pose_within_the_bound_touches(radius, dragon, least):
     places = trajectory(dance, [41.0, 42.5, 44.0]).position @ [1.0, 1j]
     for k in (0, 1):
         poses = strayed_threes(rng, dragon.chords[k : k + 3], places[:, k : k + 4], 0.999 * safe)
-        sizes = np.stack([dragon.lengths, dragon.widths], axis=1)[k : k + 3]
+        sizes = lengths_and_widths(dragon)[k : k + 3]
         first, _, last = np.moveaxis(corners(bench_poses(poses), sizes), 1, 0)
         assert overlap(first, last).max() == 0.0
         count += len(poses)
@@ -87,7 +89,7 @@ def test_a_pose_on_a_line_strays_little_more_than_must_be():
         (-1.65 * np.arange(4.0), 1.4326),
         (1.45j * (1.0 - np.exp(1j * turn * np.arange(4.0))), 1.0939),
     ):
-        places = np.stack([places.real, places.imag], axis=1)
+        places = in_plane(places)
         assert least - 1e-4 < np.hypot(*(touching_pose(three, places) - places).T).max() < 1.02 * least
 
 

@@ -22,6 +22,7 @@ from core.contact.clearance import PROOF_WIDTHS
 from tests.core.contact.test_first_contact import ROUNDING
 from tests.support.near import assert_near
 from tests.support.random_dances import random_dance
+from tests.support.shared_dances import UNLIKE
 from tests.support.slow_search import SlowDance
 
 PROVEN = 1.1e-5  # [m]: a least clearance is proven to this
@@ -36,7 +37,7 @@ TURN = Turn(1.7)
         (DANCE, 0.0, 412.0),
         (Dance(Dragon(60), Spiral(0.7)), 100.0, 250.0),
         (Dance(Dragon(40, head_length=2.2), TURN), -10.0, 60.0),
-        (Dance(Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 4, [0.3, 0.5] * 10, [0.2] * 20), TURN), 0.0, 40.0),
+        (Dance(UNLIKE, TURN), 0.0, 40.0),
     ],
     ids=["default", "wide coil", "turn", "benches of many sizes"],
 )

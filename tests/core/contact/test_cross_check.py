@@ -20,7 +20,7 @@ from core.shapes.engines import Engine
 from core.shapes.overlaps import Verdict
 from tests.support.depth import examples
 from tests.support.random_dances import random_dragon
-from tests.support.scenes import unlinked_pairs
+from tests.support.scenes import lengths_and_widths, unlinked_pairs
 
 EXACT = (Engine.SEPARATING_AXIS, Engine.FCL, Engine.SHAPELY)
 AS_REPORTED, NEVER, ALWAYS = (Verdict(before=a, after=b) for a, b in ((False, True), (False, False), (True, True)))
@@ -36,10 +36,6 @@ as_dragon_and_pair = pytest.mark.parametrize("whole", [True, False], ids=["drago
 @pytest.fixture(scope="module")
 def contact():
     return first_contact(DANCE)
-
-
-def sizes_of(dragon):
-    return np.stack([dragon.lengths, dragon.widths], axis=-1)
 
 
 def poses_around(contact, travel):
@@ -83,8 +79,8 @@ def test_the_whole_dragon_is_as_reported_on_random_dragons():
             continue
         assert check.agree, (dragon, path, margin, check)
         before, after = poses_around(contact, 2.0 * CHECK_TRAVEL)
-        assert unlinked_pairs(before, sizes_of(dragon), margin) == set()
-        assert unlinked_pairs(after, sizes_of(dragon), margin) == {contact.benches, *check.together}
+        assert unlinked_pairs(before, lengths_and_widths(dragon), margin) == set()
+        assert unlinked_pairs(after, lengths_and_widths(dragon), margin) == {contact.benches, *check.together}
         checked += 1
     assert checked > examples(6, 60)
 
@@ -123,7 +119,8 @@ def test_a_third_bench_is_noticed_by_every_engine_but_not_by_the_pair_alone(inst
     poses = poses_around(contact, CHECK_TRAVEL)
     poses[instants, 100] = poses[instants, 150] + [0.4, 0.05, 0.3]
     check, of_pair = (
-        judged_contact(poses, sizes_of(DRAGON), contact.benches, margin=margin, whole=whole) for whole in (True, False)
+        judged_contact(poses, lengths_and_widths(DRAGON), contact.benches, margin=margin, whole=whole)
+        for whole in (True, False)
     )
     assert_judged(check, False, verdict, EXACT if margin else Engine)
     assert check.together == ()

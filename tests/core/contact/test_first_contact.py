@@ -38,6 +38,11 @@ TIED = 1e-9
 AROUND = 0.1
 
 
+def assert_bracketed(contact):
+    clear, within = contact.time_bracket
+    assert within - ACCURACY <= clear <= contact.time <= within
+
+
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("name", CASES)
 def test_every_case_of_the_reference_is_met(name):
@@ -51,8 +56,7 @@ def test_every_case_of_the_reference_is_met(name):
         assert list(contact.benches) == case["benches"]
         assert (contact.corner.bench, contact.corner.name) == tuple(case["corner"].values())
         assert (contact.edge.bench, contact.edge.name) == tuple(case["edge"].values())
-        clear, within = contact.time_bracket
-        assert within - ACCURACY <= clear <= contact.time <= within
+        assert_bracketed(contact)
         assert contact.end is None
     elif contact.outcome is Outcome.CLEAR:
         assert (contact.time, contact.time_bracket, contact.benches, contact.gap) == (None, None, None, None)
@@ -160,8 +164,7 @@ def test_a_slow_contact_before_time_zero_is_decided_as_the_same_one_after_it(sta
     turn, spiral = Dance(SLOW, Turn(1.0, 1.5, start_turns=8.0)), Dance(SLOW, Spiral(1.0, 8.0))
     later, contact, least = first_contact(spiral), first_contact(turn, start=start), least_clearance(turn, start=start)
     assert (later.outcome, contact.outcome) == (Outcome.CONTACT, Outcome.CONTACT)
-    clear, within = contact.time_bracket
-    assert within - ACCURACY <= clear <= contact.time <= within
+    assert_bracketed(contact)
     assert_near([contact.time, least.time], [later.time + turn.begin] * 2, ACCURACY)
     assert contact.benches == later.benches
     assert (least.distance, least.at_least, least.benches) == (0.0, 0.0, contact.benches)

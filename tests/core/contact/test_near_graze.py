@@ -3,7 +3,6 @@
 from decimal import Decimal, localcontext
 from functools import cache
 
-import numpy as np
 import pytest
 
 import core.contact.near_graze
@@ -33,6 +32,7 @@ from core.kernels import Ended
 from core.kernels.results import Marched
 from tests.support.depth import thorough
 from tests.support.near import assert_near
+from tests.support.scenes import lengths_and_widths
 
 # Positions of the kernels [m]: on a route a kilometre long an arc length is good to 2e-13 m.
 DOUBLE = 1e-12
@@ -71,7 +71,7 @@ def test_benches_stand_where_the_kernels_put_them(path, travel, pair):
     for bench in benches:
         assert abs(bench.along[0] ** 2 + bench.along[1] ** 2 - 1) < PRECISE
     poses = bench_poses(trajectory(Dance(DRAGON, path), travel).position)
-    sizes = np.stack([DRAGON.lengths, DRAGON.widths], axis=-1)
+    sizes = lengths_and_widths(DRAGON)
     result = separation(*(column[bench] for bench in pair for column in (poses, sizes))).separation
     assert_near(float(exact_separation(*benches)[0]), result, DOUBLE)
 

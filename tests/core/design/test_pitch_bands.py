@@ -12,6 +12,7 @@ from core.kernels import Ended
 from core.kernels.constants import MX, MY, SHIFT_CENTRE, SHIFT_CORNER, SHIFT_OMEGA, SHIFT_PULL, UX, UY
 from core.shapes.rectangles import corners
 from tests.support.random_dances import random_dragon
+from tests.support.scenes import lengths_and_widths
 
 # Rounding of a corner's place [m], of which a second difference quotient sees four times as much over the square step.
 ROUNDING = 1e-13
@@ -55,7 +56,7 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed):
     assert band.result().steps == 1  # whose bounds are there still
     moved = int(np.count_nonzero(bands.shifts[:, SHIFT_CENTRE]))
     assert moved > 2
-    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)[:moved]
+    sizes = lengths_and_widths(dragon)[:moved]
     for growth in rng.uniform(low, high, 8):
         step, radius = STEP * growth, rng.uniform(inner, outer)
         if not low + step < growth < high - step:

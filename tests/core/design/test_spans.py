@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from core.design.spans import mean_value, parameters
+from tests.support.boxes_of_turns import place_in
 
 pytestmark = pytest.mark.uncompiled
 
@@ -24,7 +25,7 @@ def test_spans_hold_the_values_and_slopes_of_a_formula():
     result = x.sine() + -(x.scaled(0.3).exponential() * y.cosine() / y.squared().plus(1.0))
     form = mean_value(value(*centres), result.slopes, halves)
     for _ in range(PLACES):
-        x, y = centres + halves * rng.uniform(-1.0, 1.0, centres.shape)
+        x, y = place_in(centres, halves, rng)
         at, by_x, by_y = value(x, y), value(x + STEP, y) - value(x - STEP, y), value(x, y + STEP) - value(x, y - STEP)
         for span, inside, error in (
             (result.value, at, ROUNDED),

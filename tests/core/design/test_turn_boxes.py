@@ -8,7 +8,7 @@ import pytest
 from core import Turn
 from core.design.turn_bounds import Multipliers, lower_lengths
 from core.design.turn_boxes import sizes_of, too_tight, turns_in
-from tests.support.boxes_of_turns import GROWTH, LEAST
+from tests.support.boxes_of_turns import GROWTH, LEAST, place_in
 
 pytestmark = pytest.mark.uncompiled
 
@@ -40,7 +40,7 @@ def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest):
     spans = (*turns.radii, *turns.angles, turns.length, turns.exit)
     holds = (every, every, turns.whole, turns.whole, turns.whole, every)
     for _ in range(PLACES):
-        at = centres + halves * rng.uniform(-1.0, 1.0, centres.shape)
+        at = place_in(centres, halves, rng)
         sizes = sizes_of(GROWTH, *at)
         for span, size, counts in zip(spans, sizes, holds, strict=True):
             assert not (counts & ((size < span.low - ROUNDED) | (size > span.high + ROUNDED))).any()
@@ -59,7 +59,7 @@ def test_boxes_that_are_too_tight_have_no_turn_that_benches_can_follow(largest, 
     centres[2] *= 7.0
     tight, followed = too_tight(GROWTH, centres, halves, LEAST), np.zeros(centres.shape[1], dtype=bool)
     for _ in range(PLACES):
-        radii = sizes_of(GROWTH, *(centres + halves * rng.uniform(-1.0, 1.0, centres.shape)))[:2]
+        radii = sizes_of(GROWTH, *place_in(centres, halves, rng))[:2]
         followed |= radii.min(axis=0) >= LEAST
     assert followed.sum() > 20
     assert not (tight & followed).any()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, Passage, Spiral, Turn, sharpest_bend, trajectory
+from tests.support.shared_dances import UNLIKE
 
 ANGLE_ERROR = 1e-12  # [rad]
 ROUNDING = 1e-12  # [s]
@@ -22,7 +23,7 @@ def dense_bends(dance, times):
         (Dance(Dragon(), TURN), -100.0, 100.0),
         (Dance(Dragon(50), TURN), 30.0, 34.0),
         (Dance(Dragon(12, head_length=1.6), TURN), 0.0, 30.0),
-        (Dance(Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 4, [0.3, 0.5] * 10, [0.2] * 20), TURN), 0.0, 40.0),
+        (Dance(UNLIKE, TURN), 0.0, 40.0),
         (Dance(Dragon(40), Spiral()), 0.0, 400.0),
     ],
     ids=["turn", "turn behind the head", "a short head", "benches of many sizes", "spiral"],

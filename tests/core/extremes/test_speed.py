@@ -26,6 +26,7 @@ from core import (
 )
 from core.contact.search import ContactSearch
 from core.extremes.speed import RATE_TOLERANCE
+from tests.support.random_dances import unlike_dance
 from tests.support.reference import reference
 from tests.support.refused import refused
 
@@ -135,9 +136,7 @@ def test_a_peak_beside_the_centre_is_proven_in_few_intervals(benches, pitch):
 @pytest.mark.parametrize("seed", range(12))
 def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed):
     rng = np.random.default_rng(seed)
-    benches = int(rng.integers(1, 8))
-    dragon = Dragon.of(10 ** rng.uniform(-0.5, 0.6, benches), [0.1] * benches, [0.05] * benches)
-    dance = Dance(dragon, Spiral(10 ** rng.uniform(-0.5, 0.8), 4.0))
+    dance = unlike_dance(rng)
     stop = dance.end.time * (1.0 - (dance.end.reason is EndReason.FOLD) * 10 ** rng.uniform(-6.0, -2.0))
     assert INTERVAL_LINKS * intervals_of(dance, stop) < LINKS_MOST
     times = stop * (1.0 - np.concatenate([np.linspace(0.0, 1.0, 5_001), np.geomspace(1e-9, 1.0, 2_001)]))

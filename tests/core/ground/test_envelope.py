@@ -27,12 +27,13 @@ RING = 5.0  # radius of a round dance [m]
 WINDING = Waypoints(((0.0, 0.0), (25.0, 0.0), (35.0, 8.0), (28.0, 16.0), (10.0, 12.0)))
 MIXED = Dragon.of([3.4, 1.5, 2.2, 4.0, 2.2], [0.3, 0.5, 0.3, 0.2, 0.3], [0.2, 0.1, 0.275, 0.5, 0.275])
 ROUNDS = Dance(Dragon(6), Route([Arc((0.0, 0.0), RING, 0.0, 15.0)], start=40.0))
+WOUND = Dance(MIXED, Route([WINDING], start=15.0), 0.7)
 # Dances, each with start and stop [s].
 DANCES = {
     "the default up to its contact": (Dance(Dragon(examples(40, 223)), Spiral()), 350.0, 412.4738),
     "to the fold": (Dance(Dragon(20), Spiral()), 415.0, None),
     "the contest's turn": (Dance(Dragon(20), Turn(1.7)), -10.0, 50.0),
-    "waypoints, benches of many sizes": (Dance(MIXED, Route([WINDING], start=15.0), 0.7), None, None),
+    "waypoints, benches of many sizes": (WOUND, None, None),
     "rounds": (ROUNDS, None, None),
     "straight on": (Dance(Dragon(3), lane((0.0, 0.0), (20.0, 5.0), start=9.0)), None, None),
 }

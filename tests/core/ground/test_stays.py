@@ -5,23 +5,23 @@ import pytest
 import shapely
 
 from core import Area, Dance, Dragon, Route, Spiral, Turn, bench_outlines, stays, trajectory
-from tests.core.ground.test_envelope import MIXED, WINDING
+from tests.core.ground.test_envelope import WOUND
 from tests.support.random_squares import box, polygon
 from tests.support.refused import refused
-from tests.support.shared_dances import lane
+from tests.support.shared_dances import STREET
 
 STEP = 0.005  # [s]
 
 
 HOLED = Area("yard", (*box("yard", -9, -9, 18, 18).rings, *box("hole", -8, -8, 16, 16).rings))
 CASES = {
-    "a lane across a street": (Dance(Dragon(5), lane((0, 0), (60, 0))), box("lane", 30, -9, 3.5, 18), 0.0),
-    "a lane with a margin": (Dance(Dragon(5), lane((0, 0), (60, 0))), box("lane", 30, 0.4, 3.5, 8.6), 0.5),
-    "many sizes": (Dance(MIXED, Route([WINDING], start=15.0), 0.7), box("lane", 20, 6, 20, 2), 0.1),
+    "a lane across a street": (STREET, box("lane", 30, -9, 3.5, 18), 0.0),
+    "a lane with a margin": (STREET, box("lane", 30, 0.4, 3.5, 8.6), 0.5),
+    "many sizes": (WOUND, box("lane", 20, 6, 20, 2), 0.1),
     "the contest's turn": (Dance(Dragon(20), Turn(1.7)), box("lane", -1, -1, 31, 2.5), 0.0),
     "a thin wall": (Dance(Dragon(4), Spiral(1.7)), box("wall", 10, -40, 0.01, 80), 0.0),
     "a yard with a hole": (Dance(Dragon(20), Turn(1.7)), HOLED, 0.0),
-    "one that nobody comes to": (Dance(Dragon(5), lane((0, 0), (60, 0))), box("lane", 30, 1, 3.5, 8), 0.0),
+    "one that nobody comes to": (STREET, box("lane", 30, 1, 3.5, 8), 0.0),
 }
 
 
@@ -48,8 +48,7 @@ def test_benches_are_in_an_area_at_no_other_time_and_at_nearly_all_of_these(name
 
 
 def test_stays_end_where_the_dance_does_and_a_fold_needs_an_end():
-    dance = Dance(Dragon(5), lane((0, 0), (60, 0)))
-    result = stays(dance, box("lane", 50, -2, 20, 4), start=20.0)
+    result = stays(STREET, box("lane", 50, -2, 20, 4), start=20.0)
     assert result.stays[-1].end == result.stop
     assert result.stays[-1].last == 0
     with refused("stop"):

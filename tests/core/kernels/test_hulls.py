@@ -9,6 +9,7 @@ import shapely
 from core.kernels import Rings, Scene, meet, spiral_curve
 from core.kernels.constants import CHAIN_COLUMNS, DIRECTIONS, MX, MY, SIZE_COLUMNS, UX, UY
 from core.shapes.reach import bench_hulls, directions, supports
+from tests.support.slow_search import in_plane
 
 # The largest gap along an axis falls short of the distance by no more than this part of it [1].
 SHORT = 1.0 - math.cos(math.pi / DIRECTIONS)
@@ -24,7 +25,7 @@ def test_the_separation_is_that_of_the_nearest_hulls_in_either_order():
     scene.kinds.lay(HULLS.reshape(-1, 2), np.array([0, 1], dtype=np.int64), directions())
     rng, apart = np.random.default_rng(4), 0
     for places, angles in zip(rng.uniform(-1.6, 1.6, (200, 2, 2)), rng.uniform(-np.pi, np.pi, (200, 2)), strict=True):
-        turns = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        turns = in_plane(np.exp(1j * angles))
         chain[:, [MX, MY]], chain[:, [UX, UY]] = places, turns
         moved = [hull @ [[c, s], [-s, c]] + place for hull, (c, s), place in zip(HULLS, turns, places, strict=True)]
         first, second = (shapely.convex_hull(shapely.multipoints(hulls)) for hulls in moved)

@@ -14,7 +14,6 @@ NOMINAL = trajectory(Dance(DRAGON, Spiral()), np.arange(280.0, 300.0))
 PLACES, TANGENTS = NOMINAL.position, NOMINAL.velocity / NOMINAL.speed[..., None]
 SIZES, NO_PLAY, NOT_SAFE = sizes_of(DRAGON), np.zeros((20, 4)), np.zeros((20, 20))
 ALONG, MEMORY, MOST = 0.7, 0.9, 0.4
-ROUNDING = 1e-12  # [m]
 
 
 def wobbler(size, sizes):

@@ -10,6 +10,7 @@ from core import Dragon, Spiral
 from core.proof.chain import Chain, Pose, SpiralStretch, delta, newton
 from core.proof.pairs import Unproven
 from tests.support.proof_shapes import polygon
+from tests.support.shared_dances import FIVE_LENGTHS
 from tests.support.slow_search import chord_squared
 
 # A delta from doubles, where F is steep, is this near to the true one [rad].
@@ -22,7 +23,7 @@ PLACES = {
     "far outside": (Dragon(), Spiral(), 0, 90.0, 90.8),
     "before the contact": (Dragon(), Spiral(), 0, 26.2, 26.5),
     "handle 1 turns back": (Dragon(400, 3.61, 2.4, 0.12, 0.1), Spiral(0.48, 25.0), 0, 20.732, 20.7326),
-    "bench by bench": (Dragon.of([3.0, 1.5, 2.5, 1.2, 2.0], [0.3] * 5, [0.2] * 5), Spiral(), 1, 30.0, 30.6),
+    "bench by bench": (FIVE_LENGTHS, Spiral(), 1, 30.0, 30.6),
 }
 
 

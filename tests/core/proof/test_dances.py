@@ -13,6 +13,7 @@ from tests.support.forgeries import assert_refused, stretches, through_json
 from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
 from tests.support.reference_contacts import CONTACTS, proven_then_only
 from tests.support.refused import refused
+from tests.support.shared_dances import FIVE_LENGTHS
 
 # A difference of a margin from the least clearance that is refused [m].
 MARGIN_OFF = 1e-6
@@ -55,7 +56,7 @@ def certificate_of(kind):
             (Dance(Dragon(5), Spiral()), 0.1),
             (Dance(Dragon(20), Spiral(0.55, 9.0)), 0.05),
             (Dance(Dragon(12, 1.8, 2.2, 0.25, 0.15), Spiral(0.5, 6.0)), 0.03),
-            (Dance(Dragon.of([3.0, 1.5, 2.5, 1.2, 2.0], [0.3] * 5, [0.2] * 5), Spiral(0.6, 6.0)), 0.1),
+            (Dance(FIVE_LENGTHS, Spiral(0.6, 6.0)), 0.1),
         ),
     ],
 )

@@ -12,6 +12,7 @@ from core.tolerance.curve import time_on_circle
 from tests.support.forgeries import DROPPED, assert_refused, stretches, through_json
 from tests.support.refused import refused
 from tests.support.shown_poses import overlap
+from tests.support.slow_search import in_plane
 
 DANCE = Dance(Dragon(12), Spiral(0.7, 5.0))
 SPAN = {"start": 40.0, "stop": time_on_circle(DANCE, 1.5)}
@@ -46,7 +47,7 @@ def test_both_ends_of_a_tolerance_are_proven():
 def test_the_pose_of_a_certificate_is_a_contact_in_doubles_too():
     pose, dragon = small()["overlap"], DANCE.dragon
     headings = np.array(pose["headings"])
-    steps = dragon.chords[:, None] * np.stack([np.cos(headings), np.sin(headings)], axis=-1)
+    steps = dragon.chords[:, None] * in_plane(np.exp(1j * headings))
     handles = pose["head"] - np.concatenate([np.zeros((1, 2)), steps.cumsum(axis=0)])
     strays = np.hypot(*(handles - trajectory(DANCE, pose["time"]).position).T)
     assert strays.max() < small()["claim"]["shown"] + REBUILT

@@ -6,7 +6,7 @@ import shapely
 
 from core import Area, Venue
 from core.proposal.free_ground import WIDEST, FreeGround
-from tests.support.random_squares import box, polygon, random_case
+from tests.support.random_squares import box, free_ground, polygon, random_case
 
 SAME = 1e-9  # [m]: at coordinates to 50 m
 
@@ -17,19 +17,15 @@ def test_clearances_and_the_widest_circle_are_those_of_shapely(seed):
     ground = FreeGround(venue)
     points = np.random.default_rng(seed).uniform(ground.low - 2.0, ground.high + 2.0, (400, 2))
     places = shapely.points(points)
-    obstacles = shapely.union_all([polygon(one) for one in venue.obstacles])
-    left = polygon(venue.square).difference(obstacles)
+    left, widest = free_ground(venue)
     borders = [polygon(one).boundary for one in (venue.square, *venue.obstacles)]
     nearest = np.min([shapely.distance(border, places) for border in borders], axis=0)
-    free = shapely.contains(polygon(venue.square), places) & ~shapely.intersects(obstacles, places)
     clearance = ground.clearance(points)
-    assert clearance == pytest.approx(np.where(free, nearest, -nearest), abs=SAME)
+    assert clearance == pytest.approx(np.where(shapely.contains(left, places), nearest, -nearest), abs=SAME)
     held = ((points > ground.low) & (points < ground.high)).all(axis=1)
     for rough in (ground.nearest_node(*points[held].T), ground.roughly(points[held])):
         assert np.abs(rough - clearance[held]).max() <= ground.node_error + SAME
     x, y, radius, most = ground.widest_circle
-    parts = shapely.get_parts(left)
-    widest = max(shapely.maximum_inscribed_circle(part, tolerance=1e-4).length for part in parts)
     assert radius == pytest.approx(float(ground.clearance(np.array([[x, y]]))[0]), abs=SAME)
     assert widest - WIDEST - 1e-3 <= radius <= widest + 1e-3
     assert widest - SAME <= most <= widest + WIDEST + 1e-3

@@ -171,10 +171,10 @@ def bend(width, other):
 
 def rooms(width):
     """Two rooms with a channel between and one to each gate, on three lines."""
-    low = [(0, 8), (8, 8), (8, 0), (20, 0), (20, 1), (30, 1), (30, 0), (44, 0), (44, 8), (52, 8)]
-    high = [(52, 8), (44, 8), (44, 12), (30, 12), (30, 1), (20, 1), (20, 12), (8, 12), (8, 8), (0, 8)]
-    up = [(x, y + width * (y in (1, 8))) for x, y in high]
-    return [*low, *up], ((0, 8 + 0.5 * width), 0.0), ((52, 8 + 0.5 * width), math.pi)
+    across, low, high = (0, 8, 8, 20, 20, 30, 30, 44, 44, 52), (8, 8, 0, 0, 1, 1, 0, 0, 8, 8), (8, 8, 12, 12, 1)
+    up = [y + width * (y in (1, 8)) for y in (*high, *high[::-1])]
+    ring = [*zip(across, low, strict=True), *zip(across[::-1], up, strict=True)]
+    return ring, ((0, 8 + 0.5 * width), 0.0), ((52, 8 + 0.5 * width), math.pi)
 
 
 YARD, STREETS = [(0, 0), (24, 0), (24, 20), (0, 20)], [(0, 3), (17, 3), (17, 20), (13, 20), (13, 7), (0, 7)]

@@ -25,6 +25,8 @@ from core.sampling import bisect
 from core.tolerance.chance import CONFIDENCE, clopper_pearson
 from core.tolerance.union_bound import union_bound
 from tests.support.refused import refused
+from tests.support.scenes import lengths_and_widths
+from tests.support.slow_search import in_plane
 
 SPIRAL = Dance(Dragon(20), Spiral())
 # Shortly before the first contact of that dance [s].
@@ -39,7 +41,7 @@ OPPOSITE = 20.0 + 1.5 * np.pi + 1.95
 
 def poses_of(holes):
     """Poses of benches with these holes (2, n), complex numbers."""
-    return bench_poses(np.stack([holes.real, holes.imag], axis=-1).swapaxes(0, 1))[:, 0]
+    return bench_poses(in_plane(holes).swapaxes(0, 1))[:, 0]
 
 
 def laid_out(wanted, chords, front_play=None, rear_play=None):
@@ -55,6 +57,12 @@ def laid_out(wanted, chords, front_play=None, rear_play=None):
         holes.append((front, front + way * (chord / abs(way))))
         pin = holes[-1][1] - behind
     return np.moveaxis(holes, 0, 1)
+
+
+def correlate(wishes, along):
+    """Make independent numbers (N, n + 1, ...) of variance 1 those of people who heed the one before them."""
+    for k in range(1, wishes.shape[1]):
+        wishes[:, k] = along * wishes[:, k - 1] + np.sqrt(1.0 - along**2) * wishes[:, k]
 
 
 def gap_of_all_alike(places, left, aside):
@@ -108,7 +116,7 @@ def test_each_dragon_is_the_one_that_is_laid_out_step_by_step():
     result = contact_probability(SPIRAL, model, 300, 5, start=start, stop=start + 1.5)
     times = np.linspace(start, start + 1.5, 3)
     memory, radii = np.exp(-result.step / 4.0), [float(SPIRAL.path.head(time).radius) for time in times]
-    sizes = np.stack([dragon.lengths, dragon.widths], axis=1)
+    sizes = lengths_and_widths(dragon)
     first, second = np.triu_indices(20, 2)
     for sample in range(300):
         spiral = Spiral(0.55 + model.pitch_error * numbers(5, sample, 1).standard_normal(), 20.0)
@@ -117,8 +125,7 @@ def test_each_dragon_is_the_one_that_is_laid_out_step_by_step():
         distance, turn = numbers(5, sample, 0).random((2, 20, 2))
         play = model.play * np.sqrt(distance) * np.exp(2j * np.pi * turn)
         wish = numbers(5, sample, 2).standard_normal((3, 21, 2)) @ [1j * model.lateral, model.forward]
-        for k in range(1, 21):
-            wish[:, k] = model.along * wish[:, k - 1] + np.sqrt(1.0 - model.along**2) * wish[:, k]
+        correlate(wish, model.along)
         furthest = 0.0
         for t in range(3):
             if t:

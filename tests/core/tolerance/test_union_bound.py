@@ -5,7 +5,8 @@ import pytest
 
 from core import Budget, Dance, Dragon, Spiral, Wobble, contact_probability, trajectory
 from core.tolerance.union_bound import first_order, left_out, union_bound
-from tests.core.tolerance.test_chance import laid_out
+from tests.core.tolerance.test_chance import correlate, laid_out
+from tests.support.slow_search import in_plane
 
 DANCE = Dance(Dragon(12), Spiral())
 TIMES = np.array([300.0, 340.0])
@@ -20,8 +21,7 @@ def chains(model):
     rng, chords = np.random.default_rng(1), DANCE.dragon.chords
     places, ahead = PLACED.position[-1] @ [1.0, 1j], TANGENTS[-1] @ [1.0, 1j]
     z = rng.standard_normal((COUNT, len(places), 2))
-    for k in range(1, len(places)):
-        z[:, k] = model.along * z[:, k - 1] + np.sqrt(1.0 - model.along**2) * z[:, k]
+    correlate(z, model.along)
     wants = (z @ [1j * model.lateral, model.forward]) * ahead
     linear, small = [wants[:, 0]], []
     for k, chord in enumerate(chords.tolist()):
@@ -33,11 +33,6 @@ def chains(model):
     front, rear = laid_out((places + wants).T, chords)
     strays = np.concatenate([front[:1], rear]).T - places
     return laid, in_plane(strays), in_plane(np.stack(linear, axis=1)), np.stack(small, axis=1)
-
-
-def in_plane(points):
-    """Complex numbers as points (..., 2)."""
-    return np.stack([points.real, points.imag], axis=-1)
 
 
 def test_chains_drawn_at_random_have_the_covariances_of_the_first_order():
