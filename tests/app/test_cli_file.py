@@ -273,8 +273,7 @@ def test_a_trajectory_of_several_is_a_table_for_each():
     table = said("trajectory", "-", "--handles", "0,3", text=json.dumps(TIMED))
     words = ("east: x [m]", "dragon 1: speed [m/s]", "3 =Li (rear)", "2 of 4 handles, 3 of 3 instants")
     assert [word for word in words if word not in table] == []
-    row = "trajectory - --handles 0,5 -> handles[1] ... 0 3 5"
-    assert_refused_in_one_line(row, text=json.dumps(TIMED))
+    assert_refused_in_one_line("trajectory - --handles 0,5 -> handles[1] ... 0 3 5", text=json.dumps(TIMED))
 
 
 @pytest.mark.parametrize(

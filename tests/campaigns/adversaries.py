@@ -7,13 +7,13 @@ varied at random, by less and less. Poses beyond the stray are taken back to its
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from core import Dance, Dragon, Spiral, bench_poses, clearance_profile, tolerance, trajectory
 from core.shapes.rectangles import frames, frames_separation
 from tests.support.random_strays import random_strays, strays_of
+from tests.support.scenes import lengths_and_widths
 
 CIRCLE = 4.5  # radius of the turning circle [m]
 # Poses drawn at random for a place; those of them that are varied, and how often [1].
@@ -32,21 +32,14 @@ def to_circle(pitch):
     return Dance(Dragon(), spiral), spiral.length - length
 
 
-@dataclass
 class PairAtTime:
     """Two benches of a dance at a time. stray: largest distance of their holes from their places [m]"""
 
-    dance: Dance
-    time: float
-    pair: tuple[int, int]
-    stray: float
-
-    def __post_init__(self):
-        handles = trajectory(self.dance, self.time).position
-        self.handles = np.array([handles[k : k + 2] for k in self.pair])
-        dragon, bench = self.dance.dragon, list(self.pair)
-        self.chords = dragon.chords[bench].tolist()
-        self.sizes = np.stack([dragon.lengths[bench], dragon.widths[bench]], axis=-1)
+    def __init__(self, dance, time, pair, stray):
+        handles, bench = trajectory(dance, time).position, list(pair)
+        self.stray, self.handles = stray, np.array([handles[k : k + 2] for k in pair])
+        self.chords = dance.dragon.chords[bench].tolist()
+        self.sizes = lengths_and_widths(dance.dragon)[bench]
         heading = bench_poses(self.handles)[:, 0, 2]
         cosine, sine = np.cos(heading), np.sin(heading)
         self.turns = np.moveaxis(np.array([[cosine, sine], [-sine, cosine]]), -1, 0)

@@ -162,8 +162,7 @@ def disagreement(certificate):
         finer_first, finer_other = proven_by_core(finer), proven_by_second(finer)
         if finer_first[0] and finer_other[0]:
             return ""
-    who = "core/proof" if first[0] else "verify.py"
-    return f"only {who} proves it: {first[1][:300]} | {other[1][:300]}"
+    return f"only {'core/proof' if first[0] else 'verify.py'} proves it: {first[1][:300]} | {other[1][:300]}"
 
 
 def changed(certificate, dice):

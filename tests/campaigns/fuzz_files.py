@@ -82,8 +82,8 @@ def samples():
 
 @cache
 def small_bombs():
-    both = (("places", MAPS), ("grade", GRADES))
-    return [(call, made()) for call, some in both for made in some.values() if len(made()) < 100_000]
+    calls = {"places": MAPS, "grade": GRADES}.items()
+    return [(call, made()) for call, some in calls for made in some.values() if len(made()) < 100_000]
 
 
 def damaged(data, chance):
@@ -129,8 +129,7 @@ def _number(data, chance):
 
 
 def _text(data, chance):
-    coding = chance.choice(ENCODINGS)
-    return data.decode("utf-8", "replace").encode(coding, "replace")
+    return data.decode("utf-8", "replace").encode(chance.choice(ENCODINGS), "replace")
 
 
 def _repacked(data, chance):

@@ -121,8 +121,7 @@ def random_case(seed, case, any_path=random_path):
     )
     if look.until < ends - 1.0:  # only so much is looked at
         stop = float(dance.clock.time(look.until))
-    margin = random_margin(rng, look, dragon)
-    return dance, margin, start, stop, look
+    return dance, random_margin(rng, look, dragon), start, stop, look
 
 
 def judged(dance, margin, start, stop, look, accuracy=GAP):

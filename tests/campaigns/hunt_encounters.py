@@ -88,8 +88,7 @@ def random_case(seed, case):
         end = begin + RUN * (end - begin)
     start = begin + (end - begin) * float(rng.choice([0.0, rng.uniform(0.0, 0.8)]))
     look = SlowLook(SlowPerformance(performance.parts), start, min(end, start + LONGEST))
-    margin = random_margin(rng, look)
-    return performance, margin, start, look.until, look
+    return performance, random_margin(rng, look), start, look.until, look
 
 
 def judged(performance, margin, start, stop, look):

@@ -183,16 +183,16 @@ def file_fault(random):
         is_fine = grade.verdict == "wrong" and names == [error]
     else:
         is_fine = grade.verdict in ("right", "incomplete") and (names, count) == ([], values.size)
-    what = f"{workbook.value}, {error or 'right'}, {layout}"
-    return "" if is_fine else f"{what}: {grade.verdict.value}, {count} right, {', '.join(names)}"
+    if is_fine:
+        return ""
+    return f"{workbook.value}, {error or 'right'}, {layout}: {grade.verdict.value}, {count} right, {', '.join(names)}"
 
 
 def typed_fault(random):
     """What the grader finds in a number that is right to its digits, nearly right, or random; empty for nothing."""
     name = list(UNITS)[random.integers(len(UNITS))]
-    exact, decimals = right_answer(name), int(random.integers(*TYPED_DECIMALS))
+    value, decimals = right_answer(name), int(random.integers(*TYPED_DECIMALS))
     way = random.integers(3)
-    value = exact
     if way == 1:
         value *= 1.0 + random.normal(0.0, 10.0 ** -random.uniform(2.0, 9.0))
     elif way == 2:
@@ -201,9 +201,7 @@ def typed_fault(random):
     if float(text) <= 0.0:
         return ""
     result = typed(name, text)
-    is_wrong = way == 0 and result.verdict == "wrong"
-    is_guessed = way == 0 and result.possible
-    if result.diagnosis or is_wrong or is_guessed:
+    if result.diagnosis or (way == 0 and (result.verdict == "wrong" or result.possible)):
         return f"{name} {text}: {result.verdict.value}, {', '.join(one.error for one in result.diagnosis)}"
     return ""
 

@@ -82,8 +82,7 @@ def random_case(seed, case):
     triangle = random_obstacle(rng, placed, times)
     venue = Venue(square(WIDE).square, (Area("tree", (closed(triangle),)),))
     look = SlowVenue(placed, shapely.Polygon(triangle).boundary, times)
-    margin = random_margin(rng, look, dragon)
-    return dance, venue, margin, start, stop, look
+    return dance, venue, random_margin(rng, look, dragon), start, stop, look
 
 
 def judged(dance, venue, margin, start, stop, look):

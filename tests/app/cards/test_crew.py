@@ -106,6 +106,5 @@ def test_a_crew_that_cannot_be_is_refused(client, row):
 
 
 def test_a_clock_after_midnight_is_in_the_same_night(ask):
-    request = VILLAGE | {"start_clock": "23:59:15", "at_clock": "00:00:10"}
-    roll = ask("crew", request)["at"]
+    roll = ask("crew", VILLAGE | {"start_clock": "23:59:15", "at_clock": "00:00:10"})["at"]
     assert (roll["time"], roll["clock"]) == (55.0, "00:00:10")

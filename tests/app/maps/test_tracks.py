@@ -156,8 +156,7 @@ def test_a_walk_of_right_angles_loses_little_more_than_the_least_arcs(name, spac
 
 @pytest.mark.parametrize("noise", [0.1, 0.5, 2.0])
 def test_the_noise_of_a_receiver_is_measured_beside_corners(noise):
-    points = with_noise(walked(np.arange(0.0, 250.0, 0.5)), noise, 0)
-    assert noise_of(points) == pytest.approx(noise, rel=0.1)
+    assert noise_of(with_noise(walked(np.arange(0.0, 250.0, 0.5)), noise, 0)) == pytest.approx(noise, rel=0.1)
     assert noise_of(walked(np.arange(200.0))) < 1e-9
 
 

@@ -100,7 +100,6 @@ def heavy_lane_full(app):
     ("method", "cost", "work", "computed"),
     [
         ("GET", SHORT, quick, 1),
-        ("GET", SHORT, slow_at_first, 2),
         ("GET", SHORT, long, 2),
         ("GET", 2 * SHORT, quick, 1),
         ("GET", UNKNOWN_COST, long, 1),
@@ -153,8 +152,7 @@ def test_workbooks_have_places_of_their_own():
 
 def running(app, lane):
     """Number of computations in a lane, by the metric of operators."""
-    registry = app.state.registry
-    return registry.get_sample_value("bench_dragon_computations", {"lane": lane}) or 0.0
+    return app.state.registry.get_sample_value("bench_dragon_computations", {"lane": lane}) or 0.0
 
 
 def test_sentences_are_in_the_language_that_the_client_accepts(client):

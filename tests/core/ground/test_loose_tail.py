@@ -43,15 +43,13 @@ def test_a_tail_let_go_at_any_time_stays_in_its_ground_and_nearly_fills_it(name)
     assert polygons.area == pytest.approx(result.area)
     assert result.excess < 0.03 * result.reach + 0.02
     random = np.random.default_rng(71)
-    times = random.uniform(result.start, result.stop, 4_000)
-    points = thrown(dance, benches, times, random)
+    points = thrown(dance, benches, random.uniform(result.start, result.stop, 4_000), random)
     shapely.prepare(polygons)
     assert shapely.contains_xy(polygons, points).all()
     joint = trajectory(dance, np.linspace(result.start, result.stop, 3_000)).position[:, -1 - benches]
-    within = shapely.LineString(joint).buffer(result.reach + result.excess, quad_segs=256)
-    assert within.contains(polygons)
-    far = shapely.distance(shapely.points(points), shapely.LineString(joint)).max()
-    assert far > 0.97 * result.reach
+    way = shapely.LineString(joint)
+    assert way.buffer(result.reach + result.excess, quad_segs=256).contains(polygons)
+    assert shapely.distance(shapely.points(points), way).max() > 0.97 * result.reach
 
 
 STRAIGHT = Dance(Dragon(3), lane((0.0, 0.0), (30.0, 0.0), start=9.0))

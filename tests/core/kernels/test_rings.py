@@ -70,8 +70,7 @@ def test_no_clearance_falls_below_the_ring_bound_further_out(dragon, pitch, stra
 def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_margin(pitch, margin):
     rings, growth = ContactSearch(Dragon(), Spiral(pitch), margin).rings, Spiral(pitch).growth
     radii = np.array([0.998, 1.0, 1.1, 10.0]) * rings.clear_radius
-    clears = [ring_clears(growth, growth, radius, margin, rings) for radius in radii]
-    assert clears == [False, True, True, True]
+    assert [ring_clears(growth, growth, radius, margin, rings) for radius in radii] == [False, True, True, True]
 
 
 def test_no_radius_is_clear_where_rings_are_narrower_than_benches():
