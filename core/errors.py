@@ -41,11 +41,11 @@ ANGLE_MAX = 1e6
 # What to change if a question ended early: by what it was about, whether also about a stretch of time, and whether
 # somebody stopped it.
 LESS = {
-    ("benches", False, False): phrase("take fewer benches"),
+    ("benches", False, False): phrase("allow more work, or take fewer benches"),
     ("benches", False, True): phrase("allow more time, or take fewer benches"),
-    ("benches", True, False): phrase("take fewer benches, or a shorter time"),
+    ("benches", True, False): phrase("allow more work, or take fewer benches, or a shorter time"),
     ("benches", True, True): phrase("allow more time, or take fewer benches, or a shorter time"),
-    ("dragons", True, False): phrase("take fewer dragons, or a shorter time"),
+    ("dragons", True, False): phrase("allow more work, or take fewer dragons, or a shorter time"),
     ("dragons", True, True): phrase("allow more time, or take fewer dragons, or a shorter time"),
 }
 # Units that are words, which each language has its own for.
