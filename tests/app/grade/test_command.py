@@ -175,6 +175,7 @@ TYPED = [
     "pitch 0.4504 -> right | rounded up, as a pitch must be",
     "pitch 0.46 -> right | rounded up, as a pitch must be",
     "speed 1.25 -> infeasible | 1.24 m/s is the highest of as many digits",
+    "speed 1.24627 -> infeasible | 1.24626 m/s is the highest of as many digits",
     "speed 1.247 -> infeasible | exceeds 2 m/s: 1.246 m/s is the highest of as many digits",
     "speed 1.2463 -> infeasible | 1.2462 m/s is the highest of as many digits",
     "pitch 4.5e-1 -> infeasible | rounded down: benches touch at this pitch, and 0.46 m is",
