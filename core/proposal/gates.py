@@ -106,13 +106,12 @@ def with_streets(venue: Venue, gates: Sequence[Gate], widths: tuple[float, float
     widths: of a street, and where there is no room for it [m]; length: [m]
     raises: InvalidValue naming the gate whose street has no room on the border, or runs back into the square
     """
-    rings = venue.square.rings
+    square = venue.square
     for k, gate in enumerate(gates):
         place = f"gates.{k}.point"
-        area, ring = None, None
         for width in widths:
-            ring = _with_street(rings[0], gate, width, min(widths), length)
-            area = _area(venue.square.name, (ring, *rings[1:])) if ring is not None else None
+            ring = _with_street(square.rings[0], gate, width, min(widths), length)
+            area = None if ring is None else _area(square.name, (ring, *square.rings[1:]))
             if area is not None:
                 break
         sizes = quantities("m", 4, width=width, length=length)
@@ -122,8 +121,8 @@ def with_streets(venue: Venue, gates: Sequence[Gate], widths: tuple[float, float
         if area is None:
             rule = "must lead to a straight street, {width} wide and {length} long, that does not meet the square again"
             raise InvalidValue(place, rule, **sizes)
-        rings = area.rings
-    return Venue(Area(venue.square.name, rings), venue.obstacles)
+        square = area
+    return Venue(square, venue.obstacles)
 
 
 def _area(name: str, rings: tuple[tuple[Point, ...], ...]) -> Area | None:
