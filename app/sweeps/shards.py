@@ -159,11 +159,14 @@ def parts(folder: Path) -> set[int]:
 
 @contextmanager
 def refusing_damage(file: Path) -> Iterator[None]:
-    """Context in which a file is opened and read. raises: InvalidValue for one that is damaged or of another kind"""
+    """Context in which a file is opened and read. raises: InvalidValue for one that is damaged or of another kind;
+    OSError of the system"""
     try:
         yield
     except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
-        words = "{file} is not part of a sweep: remove it and run the sweep again"
+        if isinstance(error, OSError) and error.errno is not None:  # it cannot be read at all
+            raise
+        words = "{file} is damaged or not part of a sweep: remove it and run the sweep again"
         raise InvalidValue.in_words("folder", words, file=str(file)) from error
 
 
