@@ -209,12 +209,13 @@ def _other_times(dance: Dance, speed: JudgedSheet) -> Iterator[Model]:
         return
     off = np.abs(speeds_at(speed.times[row] + shifts)[:, present] - values[row, present])
     shift = float(shifts[np.median(off, axis=1).argmin()])
-    off_by = SHIFT_STEP
     for far in SHIFT_FAR:
         before, middle, after = (speeds_at(speed.times + shift + step) for step in (-SPEED_STEP, 0.0, SPEED_STEP))
         slope, miss = (after - before) / (2.0 * SPEED_STEP), values - middle
         counts = np.abs(miss) <= np.maximum(far * np.abs(slope), rounding)
-        weight = max(float((slope**2)[counts].sum()), SPEED_STEP**4)
+        weight = float((slope**2)[counts].sum())
+        if weight < SPEED_STEP**4:  # speeds that do not change tell no time
+            return
         shift += float((slope * miss)[counts].sum()) / weight
         off_by = SHIFT_OFF * float(np.hypot.reduce((slope * rounding)[counts])) / weight
     if abs(shift) > 2.0 * SHIFT_MOST or off_by > SHIFT_KNOWN:
