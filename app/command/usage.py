@@ -5,13 +5,13 @@ from __future__ import annotations
 import difflib
 import inspect
 import re
+from contextlib import suppress
 from enum import EnumType
 from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
-from rich import _wrap
 from rich.markup import escape
 from typer.core import TyperGroup
 
@@ -127,7 +127,10 @@ def say_help(command: Any) -> None:
 
         for name, words in HELP_WORDS.items():
             setattr(parser, name, say(words))
-        parser.highlighter, _wrap.re_word = folded, WORD
+        parser.highlighter = folded
+        if spoken() is not Language.ENGLISH:
+            with suppress(ImportError):  # a private module of rich
+                import_module("rich._wrap").re_word = WORD  # type: ignore[attr-defined]
         command.get_help_option(context).help = say(SHOW_HELP)
         format_help(context, formatter)
 
