@@ -12,15 +12,26 @@ import numpy as np
 from pydantic import Field
 
 import core
+from app.plan.safety_answer import (
+    Approach,
+    Assumption,
+    FastestCarriers,
+    GatePass,
+    Ground,
+    Lane,
+    LooseTail,
+    SafetySheet,
+    Stay,
+    Stopping,
+)
 from app.plan.timing import TimeFormat
 from app.questions.check import limits_of, verdict_of
 from app.questions.plan import PDF_TYPE, GatedDance, passes_of_gates, timing_of_marks
-from app.wire.answers import MultiPolygon, Point, Polygon
 from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
 from app.wire.geojson import geometry_of
 from app.wire.paths import Point as PointField
-from app.wire.question import JSON, UNKNOWN_COST, Answer, OneLine, Question, Terms, Wire, measure
+from app.wire.question import JSON, UNKNOWN_COST, OneLine, Question, Terms, Wire, measure
 from app.wire.readings import bench_words, failure_words, handles_words
 from core import Area, Dance, FailureKind, InvalidValue, Judgement
 from core.errors import format_bound, format_number, question_about
@@ -84,116 +95,6 @@ class SafetySheetRequest(GatedDance, strict=True):
     address: OneLine = Field(
         "", max_length=500, description="Address of the dance, which stands on the sheet as a code"
     )
-
-
-class Assumption(Answer):
-    """One value that the sheet rests on."""
-
-    label: str = Field(description="What it is, in the language asked for")
-    text: str = Field(description="The value with its unit")
-    yours: bool = Field(description="True: the request gives it; false: it is assumed")
-
-
-class Approach(Answer):
-    """How near a bench comes to another one, or to an edge of the venue, with everybody in place."""
-
-    distance: float = measure("m", "Smallest distance found")
-    at_least: float | None = measure("m", "Proven lower bound; null: none was proven")
-    time: float = measure("s", "Time of the smallest distance")
-    benches: list[int] = Field(description="The two benches, or the one that comes near the edge")
-    area: str | None = Field(description="Name of the area; null for two benches")
-    point: Point = measure("m", "Place: of the bench's point, or between both benches, x and y")
-    sentence: str = Field(description="The same in a sentence")
-
-
-class Ground(Answer):
-    """Ground as polygons."""
-
-    ground: Polygon | MultiPolygon = Field(description="GeoJSON geometry in metres")
-    area: float = measure("m2", "Area of it")
-    excess: float = measure("m", "Proven: no point of it is further than this beyond what it has to hold")
-
-
-class LooseTail(Ground):
-    """The ground that the last benches can reach when they are let go."""
-
-    benches: int = Field(description="Number of these benches")
-    reach: float = measure("m", "Furthest that they come from the handle that still follows the path")
-
-
-class Stay(Answer):
-    """A time during which benches are in a lane."""
-
-    begin: float = measure("s", "The lane is proven to be clear before it")
-    end: float = measure("s", "The lane is proven to be clear after it")
-    first: int = Field(description="The bench that comes first")
-    last: int = Field(description="The bench that leaves last")
-
-
-class Lane(Answer):
-    """A lane to keep free."""
-
-    name: str = Field(description="Its name")
-    width: float = measure("m", "Its width")
-    free_width: float = measure(
-        "m",
-        "Proven: a strip of this width is never swept, all along it, around its middle line or along one of its sides; "
-        "0: none is known",
-    )
-    stays: list[Stay] = Field(description="Times at which benches are in it, those of people who stray included")
-    total: float = measure("s", "All these times together")
-
-
-class GatePass(Answer):
-    """One pass of the dragon through a gate."""
-
-    name: str = Field(description="Name of the gate")
-    head: float | None = measure("s", "Time at which the head passes it; null: not in this time")
-    tail: float | None = measure("s", "Time at which the tail passes it; null: not in this time")
-    lasts: float | None = measure("s", "From head to tail; null where one of these is missing")
-
-    @classmethod
-    def between(cls, name: str, head: float | None, tail: float | None) -> Self:
-        return cls(name=name, head=head, tail=tail, lasts=None if head is None or tail is None else tail - head)
-
-
-class FastestCarriers(Answer):
-    """The fastest carriers."""
-
-    speed: float = measure("m/s", "Highest speed found")
-    at_most: float | None = measure("m/s", "Proven upper bound; null: none was proven")
-    time: float = measure("s", "Its time")
-    handles: list[int] = Field(description="Handles that reach it")
-    point: Point = measure("m", "Place of the first of them, x and y")
-
-
-class Stopping(Answer):
-    """How far the dance goes on after the call to stop."""
-
-    reaction: float = measure("s", "Time until everybody stands")
-    distance: float = measure("m", "Furthest that anybody goes on in that time, at the highest speed")
-
-
-class SafetySheet(Answer):
-    """What whoever permits a festival asks for. Nothing is proven for a dance that is danced otherwise."""
-
-    verdict: Judgement = Field(description="passes, fails or undecided, as /check says it")
-    sentences: list[str] = Field(description="The verdict, and how it is known, in two sentences for a layman")
-    start: float = measure("s", "Start of the time judged")
-    stop: float = measure("s", "End of the time judged")
-    assumptions: list[Assumption] = Field(description="What it rests on")
-    approaches: list[Approach] = Field(description="The nearest approaches, nearest first")
-    swept: Ground = Field(description="The ground that benches sweep with everybody in place")
-    spectators: Polygon | MultiPolygon = Field(
-        description="Ground to keep people out of, GeoJSON in metres: swept ground, stray, and the distance asked for"
-    )
-    loose_tail: LooseTail = Field(description="The ground that the last benches can reach when they are let go")
-    lanes: list[Lane] = Field(description="The lanes to keep free, in the order of the request")
-    gates: list[GatePass] = Field(description="Passes of the gates, in the order of the path")
-    fastest: FastestCarriers | None = Field(
-        description="The fastest carriers; null in a run to a fold, without a bound"
-    )
-    stopping: Stopping | None = Field(description="How far it goes on after the call to stop; null without a speed")
 
 
 def safety_sheet(request: SafetySheetRequest, terms: Terms, form: str = JSON) -> SafetySheet | bytes:
