@@ -50,13 +50,19 @@ class BreachKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class Breach(WithArrays):
-    """A stretch of the path where benches or handles break a limit. start, end: s [m]; points: along it, (P, 2) [m]"""
+    """A stretch of the path where benches or handles break a limit.
+
+    kind: kind of limit. speed: a handle is faster than the limit; margin: a bench comes within the margin of another
+        one or of the venue's edges, or stands outside; stray: it may, if people stray
+    start: start of the stretch, along the path [m]
+    end: end of the stretch, along the path [m]
+    points: points along it, x and y [m]
+    """
 
     kind: BreachKind
     start: float
     end: float
     points: Floats
-    _units = {"end": "m", "start": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
         return f"{self.kind.value} from s = {display(self.start)} to {display(self.end, 'm')}"

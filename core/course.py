@@ -24,9 +24,12 @@ BEND_POINTS = 24
 class TightBend(WithArrays):
     """A part of a path that curves too tightly for the longest bench; for angles of benches see SharpestBend.
 
-    start, end: s of its ends [m]; points: along it, (P, 2) [m]
-    radius: smallest radius there, for a cubic a lower bound [m]; least_radius: radius that the bench needs [m]
-    bench: the one with the longest chord
+    start: start of the stretch, along the path [m]
+    end: end of the stretch, along the path [m]
+    points: points along it, x and y [m]
+    radius: least radius there; of a curve through waypoints, at least this [m]
+    least_radius: least radius that the bench can follow [m]
+    bench: the bench with the longest chord
     """
 
     start: float
@@ -35,7 +38,6 @@ class TightBend(WithArrays):
     radius: float
     least_radius: float
     bench: int
-    _units = {"end": "m", "least_radius": "m", "start": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
         return f"radius {display(self.radius, 'm')} from s = {display(self.start)} to {display(self.end, 'm')}"
@@ -45,8 +47,11 @@ class TightBend(WithArrays):
 class Course(WithArrays):
     """The points of a path for a drawing.
 
-    s: (P,) [m]; points: (P, 2) x, y [m]; length: of the path [m]
-    knots: s of the points that define the path, empty for other paths [m]; bends: those that are too tight
+    s: arc length along the path of P points, 0 where the head is at time 0 [m]
+    points: the points, (P, 2), x and y [m]
+    length: length of the path [m]
+    knots: arc length of each waypoint (for a rounded corner, of its middle); empty for other paths [m]
+    bends: bends that are too tight, along the path
     """
 
     s: Floats
@@ -54,7 +59,6 @@ class Course(WithArrays):
     length: float
     knots: Floats
     bends: tuple[TightBend, ...]
-    _units = {"knots": "m", "length": "m", "s": "m"}  # noqa: RUF012 - as above
 
     def _line(self) -> str:
         return f"{display(self.length, 'm')}, {format_count(len(self.bends), 'bend')} too tight"

@@ -61,7 +61,14 @@ class EndReason(StrEnum):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class RunEnd(Readable):
-    """End of the run: reason, time [s], theta of the head on a spiral [rad], and the bench that folds if one does."""
+    """End of a run on which no two benches come within the margin, or touch if it is 0.
+
+    reason: fold: a bench cannot follow any more; centre: the head reaches the centre; end: the path ends; stop: the
+        requested time ends
+    time: time of the end [s]
+    theta: polar angle of the head at that time, on a spiral that folds or ends [rad]
+    bench: the bench that folds; None if none does
+    """
 
     reason: EndReason
     time: float

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import inspect
+import re
 from collections.abc import Sequence
 from dataclasses import fields
 from enum import Enum
+from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,6 +39,8 @@ _FIELDS = {
     "m/rad": "growth",
     "m/s": "head_speed head_speed_bracket peak_speed speed speed_bracket velocity",
 }
+# What a line of a docstring says of a field.
+ENTRY = re.compile(r"(?P<name>\w+): (?P<words>.*?)(?: \[(?P<unit>[^\]]*)\])?")
 UNITS = {name: unit for unit, names in _FIELDS.items() for name in names.split()}
 
 
@@ -87,9 +93,34 @@ class WithArrays(Readable):
         return all(_equal(getattr(self, name), getattr(other, name)) for name in names)
 
 
+class Meaning(NamedTuple):
+    """What a field is in words, and its unit, empty for what is no quantity."""
+
+    words: str
+    unit: str
+
+
+@cache
+def meanings(kind: type) -> dict[str, Meaning]:
+    """What the fields and properties of a class are.
+
+    Its docstring says it once for all readers, the service's description among them: after the first paragraph each
+    field has a line `name: words [unit]`, continued by indented lines. A property says it in its own first line.
+    """
+    result: dict[str, Meaning] = {}
+    for base in reversed(kind.__mro__):
+        texts = {name: inspect.getdoc(one) or "" for name, one in vars(base).items() if isinstance(one, property)}
+        lines = [f"{name}: {text.partition(chr(10))[0].removesuffix('.')}" for name, text in texts.items()]
+        own = inspect.cleandoc(base.__doc__ or "").partition("\n\n")[2]
+        lines += re.sub(r"\n {4}", " ", own).split("\n")
+        result |= {one["name"]: Meaning(one["words"], one["unit"] or "") for one in map(ENTRY.fullmatch, lines) if one}
+    return result
+
+
 def units_of(kind: type) -> dict[str, str]:
     """Units by field name: those of the class itself, else those of all fields of this name."""
-    return UNITS | getattr(kind, "_units", {})
+    own = {name: meaning.unit for name, meaning in meanings(kind).items() if meaning.unit}
+    return UNITS | own | getattr(kind, "_units", {})
 
 
 def display(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:

@@ -37,14 +37,17 @@ class FailureKind(StrEnum):
 class Failure(Readable):
     """One failed or undecided condition.
 
-    time: first time of the failure [s]; for a search that gave up, the time until which it is proven not to fail, or
-        one at which it certainly fails
-    benches: those at fault (for a speed: the handle); area: the venue's polygon, None if no area is involved
-    message: one sentence, in the language that was spoken
-    time_bracket: (proven not to fail up to, failing at) [s]; None without a search
-    head: state of the head at that time
-    peak_speed, peak_time: for a speed, the highest one [m/s] and its time [s]. In a run to a fold, where speeds grow
-        without bound: None and the time of the fold; None for all other failures
+    kind: kind of failure
+    time: first time of the failure, or the first at which it is certain; for an undecided condition, the time until
+        which it is proven to hold; for a speed, the first instant above the limit [s]
+    benches: benches at fault; for a speed, the handles
+    area: area of the venue; None if the venue is not involved
+    message: the failure in one sentence, in the language that was spoken
+    time_bracket: two times: proven not to fail up to the first; failing at the second. None for a fold, or at the start
+        [s]
+    head: the head at that time
+    peak_speed: for a speed: the highest over the dance; None if it grows without bound towards a fold [m/s]
+    peak_time: for a speed: the time of the highest, or of the fold [s]
     """
 
     kind: FailureKind

@@ -51,17 +51,21 @@ def summary(verdict: Judgement, start: float, stop: float, failures: Sequence[st
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Report(Readable):
-    """The verdict on a dance, and the answers behind it.
+    """Verdict on the dance, which stops at a contact or a fold.
 
-    start, stop: the judged interval [s], which ends at a touch of two benches
-    verdict: see Judgement; passed: True for PASSES
-    failures: in order of time, none after the stop, with the undecided conditions
-    first_contact: within the margin; least_clearance: of any two benches, None for fewer than three, and if people
-        may stray so far that two benches are apart only because the one between them holds them
-    venue: None without one
-    sharpest_bend: None for a single bench
-    highest_speed: None in a run to a fold, where speeds grow without bound
-    A quick check leaves venue, sharpest_bend and highest_speed None if the verdict does not need them.
+    start: start of the time checked [s]
+    stop: end of the time checked [s]
+    verdict: passes: nothing fails; fails: at least one condition certainly fails; undecided: neither is proven
+    passed: true if the verdict is passes
+    failures: failed and undecided conditions, in order of time, until the dance stops
+    first_contact: first time two benches come within the margin, or touch if it is 0
+    least_clearance: least clearance of any two benches; None with fewer than three, without details, or if people may
+        stray so far that two benches are apart only because the one between them holds them
+    venue: distances between the benches and the venue, up to the end of the time checked; None without a venue
+    highest_speed: highest speed of any handle; None in a run to a fold, where speed has no bound, or without details
+    sharpest_bend: sharpest bend between two consecutive benches; None for a single bench, or without details
+
+    Without details, venue, sharpest_bend and highest_speed are None if the verdict does not need them.
     """
 
     start: float

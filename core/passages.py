@@ -23,7 +23,9 @@ NODE_DIGITS = 60
 class Passage(Readable):
     """A part of the dance with one speed of the head. It begins where the passage before it ends, or at time 0.
 
-    speed: [m/s], 0 for a pause; until_s: s of the head at its end [m], or until_time: time of its end [s]
+    speed: speed of the head, 0 for a pause [m/s]
+    until_s: arc length of the head at its end; None if a time ends it [m]
+    until_time: time of its end; None if a place ends it [s]
     """
 
     speed: float

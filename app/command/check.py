@@ -19,7 +19,7 @@ from app.files.tables import TABLE_ENDINGS, trajectory_writer
 from app.maps.dances import read_dance
 from app.questions import check as checks
 from app.questions import figures
-from app.questions.check import CheckRequest, DragonsClearance, LeastClearance, Nearest, PerformanceReport, Report
+from app.questions.check import CheckRequest, DragonsClearance, PerformanceReport, Report
 from app.questions.figures import Format, TrajectoryFigureRequest
 from app.settings import Settings
 from app.wire.answers import Pair
@@ -192,7 +192,7 @@ def _pair(benches: Pair) -> str:
     return say("benches {pair}", pair=value_text(benches))
 
 
-def _least(least: LeastClearance | DragonsClearance) -> str:
+def _least(least: core.LeastClearance | DragonsClearance) -> str:
     overlap = separation(least.distance, " m", show.DISPLAY_DECIMALS) if least.distance < 0.0 else ""
     return overlap or _distance(least)
 
@@ -222,7 +222,7 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[Row]:
         yield say("sharpest bend"), f"{bend.angle:.6f} rad", bend.time, _pair(bend.benches)
 
 
-def _distance(nearest: LeastClearance | DragonsClearance | Nearest) -> str:
+def _distance(nearest: core.LeastClearance | DragonsClearance | core.Nearest) -> str:
     least = nearest.at_least
     if least is None:
         return say("{distance:.6f} m, not proven", distance=nearest.distance)

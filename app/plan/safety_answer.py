@@ -6,6 +6,7 @@ from typing import Self
 
 from pydantic import Field
 
+import core
 from app.wire.answers import MultiPolygon, Point, Polygon
 from app.wire.question import Answer, measure
 from core import Judgement
@@ -39,20 +40,11 @@ class Ground(Answer):
     excess: float = measure("m", "Proven: no point of it is further than this beyond what it has to hold")
 
 
-class LooseTail(Ground):
+class LooseTail(Ground, of=core.TailReach):
     """The ground that the last benches can reach when they are let go."""
 
-    benches: int = Field(description="Number of these benches")
-    reach: float = measure("m", "Furthest that they come from the handle that still follows the path")
-
-
-class Stay(Answer):
-    """A time during which benches are in a lane."""
-
-    begin: float = measure("s", "The lane is proven to be clear before it")
-    end: float = measure("s", "The lane is proven to be clear after it")
-    first: int = Field(description="The bench that comes first")
-    last: int = Field(description="The bench that leaves last")
+    benches: int
+    reach: float
 
 
 class Lane(Answer):
@@ -65,7 +57,7 @@ class Lane(Answer):
         "Proven: a strip of this width is never swept, all along it, around its middle line or along one of its sides; "
         "0: none is known",
     )
-    stays: list[Stay] = Field(description="Times at which benches are in it, those of people who stray included")
+    stays: list[core.Stay] = Field(description="Times at which benches are in it, those of people who stray included")
     total: float = measure("s", "All these times together")
 
 
@@ -82,13 +74,13 @@ class GatePass(Answer):
         return cls(name=name, head=head, tail=tail, lasts=None if head is None or tail is None else tail - head)
 
 
-class FastestCarriers(Answer):
+class FastestCarriers(Answer, of=core.HighestSpeed):
     """The fastest carriers."""
 
-    speed: float = measure("m/s", "Highest speed found")
+    speed: float
     at_most: float | None = measure("m/s", "Proven upper bound; null: none was proven")
-    time: float = measure("s", "Its time")
-    handles: list[int] = Field(description="Handles that reach it")
+    time: float
+    handles: list[int]
     point: Point = measure("m", "Place of the first of them, x and y")
 
 

@@ -10,7 +10,7 @@ from pydantic import Field
 import core
 from app.questions.collision_time import CollisionTime, Contact
 from app.questions.encounter import Encounter
-from app.wire.answers import SENTENCES, DragonPair, Head, Pair, Point
+from app.wire.answers import SENTENCES, DragonPair, Point
 from app.wire.clocks import clock_at_zero, time_of_day
 from app.wire.dances import PlacedDance, SpanFields, clock_of
 from app.wire.performances import SeveralFields
@@ -40,116 +40,54 @@ class CheckRequest(SeveralFields, DanceCheck, strict=True):
     """Verdict on a dance: dragon, path, venue and limits; or on several dances on one clock."""
 
 
-class LeastClearance(Answer):
-    """The least clearance over the dance."""
-
-    distance: float = measure(
-        "m",
-        "Smallest distance found; 0 at the first touch, or at a later one if it is undecided which is the first; if "
-        "benches overlap at the start, minus the depth",
-    )
-    at_least: float | None = measure(
-        "m", "Proven lower bound; null: the search gave up before proving one, or the distance is below zero"
-    )
-    time: float = measure("s", "Time of the smallest distance")
-    benches: Pair = Field(description="The pair at that distance")
-
-
-class Nearest(Answer):
-    """Smallest distance between the benches and the edges of one area."""
-
-    distance: float = measure("m", "Smallest distance found; 0 at the first touch")
-    at_least: float | None = measure("m", "Proven lower bound; null: the search gave up before proving one")
-    time: float = measure("s", "Time of the smallest distance")
-    bench: int = Field(description="The bench at that distance")
-    point: Point = measure("m", "Nearest point of the bench, x and y")
-    wall: Point = measure("m", "Nearest point of the area, x and y")
-
-
-class AreaClearance(Answer):
+class AreaClearance(Answer, of=core.AreaClearance):
     """Distance between the benches and the edges of the square or of one obstacle."""
 
-    name: str = Field(description="Name of the area")
-    outcome: Outcome = Field(description="Whether a bench comes within the margin, or touches if it is 0")
-    time: float | None = measure("s", "First such time; null when clear or undecided")
-    time_bracket: Point | None = measure(
-        "s",
-        "Two times: proven clear up to the first; within the margin at the second. If undecided, the second is the end "
-        "of the search unless overlapping names a bench",
-    )
-    overlapping: int | None = Field(
-        description="If undecided: the bench that is certainly within the margin, or touches, at the second of these "
-        "times; null if none is, or not undecided"
-    )
-    bench: int | None = Field(description="The first bench within the margin, or touching if it is 0")
-    gap: float | None = measure(
-        "m", "Distance to the area at that time: the margin, or less if it is nearer from the start"
-    )
-    point: Point | None = measure("m", "Point of that bench nearest to the area, x and y")
-    nearest: Nearest | None = Field(description="Smallest distance over the dance; null without details")
+    name: str
+    outcome: Outcome
+    time: float | None
+    time_bracket: Point | None
+    overlapping: int | None
+    bench: int | None
+    gap: float | None
+    point: Point | None
+    nearest: core.Nearest | None
 
 
-class Misplaced(Answer):
-    """A bench that starts outside the square or inside an obstacle."""
-
-    name: str = Field(description="Name of the square or of the obstacle")
-    bench: int = Field(description="The bench")
-    point: Point = measure("m", "Centre of the bench, x and y")
-
-
-class VenueClearance(Answer):
+class VenueClearance(Answer, of=core.VenueClearance):
     """Distances between the benches and the venue."""
 
-    misplaced: Misplaced | None = Field(description="The first bench that starts outside the square or in an obstacle")
-    stray: Misplaced | None = Field(description="The same as misplaced, under its former name")
-    areas: list[AreaClearance] = Field(description="The square, then the obstacles")
+    misplaced: core.Misplaced | None
+    stray: core.Misplaced | None = Field(description="The same as misplaced, under its former name")
+    areas: list[AreaClearance]
 
 
-class HighestSpeed(Answer):
+class HighestSpeed(Answer, of=core.HighestSpeed):
     """The highest speed of any handle over continuous time."""
 
-    speed: float = measure("m/s", "Highest speed found")
-    speed_bracket: tuple[float, float | None] = measure(
-        "m/s", "Highest speed found, then a proven upper bound (null if the search gave up before proving one)"
-    )
-    time: float = measure("s", "Time at which it is reached")
-    handles: list[int] = Field(description="Handles that reach it at that time")
-    passage: int | None = Field(description="Index of the passage in which it is reached; null: in none")
+    speed: float
+    speed_bracket: tuple[float, float | None]
+    time: float
+    handles: list[int]
+    passage: int | None
     sentences: list[str] = SENTENCES
 
 
-class SharpestBend(Answer):
-    """Largest angle between two consecutive benches."""
-
-    angle: float = measure("rad", "Angle between their headings")
-    time: float = measure("s", "Time at which it is reached")
-    benches: Pair = Field(description="The two benches")
-
-
-class Failure(Answer):
+class Failure(Answer, of=core.Failure):
     """One failed or undecided condition."""
 
-    kind: core.FailureKind = Field(description="Kind of failure")
-    time: float = measure(
-        "s",
-        "First time of the failure, or the first at which it is certain; for an undecided condition, the time until "
-        "which it is proven to hold; for a speed, the first instant above the limit",
-    )
-    benches: list[int] = Field(description="Benches at fault; for a speed, the handles")
-    area: str | None = Field(description="Area of the venue; null if the venue is not involved")
+    kind: core.FailureKind
+    time: float
+    benches: list[int]
+    area: str | None
     names: list[str] = Field(description="Names of these benches, empty for one without; none where no bench has any")
     clock: str | None = Field(description="Time of day of that time, if start_clock or begin_clock is given")
-    message: str = Field(description="The failure in one sentence")
+    message: str
     sentence: str = Field(description="The same for people: without its time, and with benches as they are called")
-    time_bracket: Point | None = measure(
-        "s",
-        "Two times: proven not to fail up to the first; failing at the second. Null for a fold, or at the start",
-    )
-    head: Head | None = Field(description="The head at that time")
-    peak_speed: float | None = measure(
-        "m/s", "For a speed: the highest over the dance; null if it grows without bound towards a fold"
-    )
-    peak_time: float | None = measure("s", "For a speed: the time of the highest, or of the fold")
+    time_bracket: Point | None
+    head: core.HeadState | None
+    peak_speed: float | None
+    peak_time: float | None
 
     @classmethod
     def of(cls, result: core.Failure, dragon: core.Dragon, start_clock: str | None, sentence: str = "") -> Self:
@@ -167,35 +105,19 @@ class Origin(Answer):
     latitude: float = measure("degrees", "Latitude, north positive")
 
 
-class Report(Answer):
+class Report(Answer, of=core.Report):
     """Verdict on the dance, which stops at a contact or a fold."""
 
-    verdict: core.Judgement = Field(
-        description="passes: nothing fails; fails: at least one condition certainly fails; undecided: neither is proven"
-    )
-    passed: bool = Field(description="True if the verdict is passes")
-    failures: list[Failure] = Field(
-        description="Failed and undecided conditions, in order of time, until the dance stops"
-    )
-    start: float = measure("s", "Start of the time checked")
-    stop: float = measure("s", "End of the time checked")
-    first_contact: CollisionTime = Field(
-        description="First time two benches come within the margin, or touch if it is 0"
-    )
-    least_clearance: LeastClearance | None = Field(
-        description="Least clearance of any two benches; null with fewer than three, without details, or if people may "
-        "stray so far that two benches are apart only because the one between them holds them"
-    )
-    venue: VenueClearance | None = Field(
-        description="Distances between the benches and the venue, up to the end of the time checked; null without a "
-        "venue"
-    )
-    highest_speed: HighestSpeed | None = Field(
-        description="Highest speed of any handle; null in a run to a fold, where speed has no bound, or without details"
-    )
-    sharpest_bend: SharpestBend | None = Field(
-        description="Sharpest bend between two consecutive benches; null for a single bench, or without details"
-    )
+    verdict: core.Judgement
+    passed: bool
+    failures: list[Failure]
+    start: float
+    stop: float
+    first_contact: CollisionTime
+    least_clearance: core.LeastClearance | None
+    venue: VenueClearance | None
+    highest_speed: HighestSpeed | None
+    sharpest_bend: core.SharpestBend | None
     begins: str | None = Field(description="Time of day at start, if start_clock or begin_clock is given")
     ends: str | None = Field(description="Time of day at stop, if start_clock or begin_clock is given")
     origin: Origin | None = Field(
@@ -219,13 +141,10 @@ class Report(Answer):
         return cls.from_result(result, begins=begins, ends=ends, highest_speed=speed, **own)
 
 
-class DragonFailure(Failure):
+class DragonFailure(Failure, of=core.PerformanceFailure):
     """One failed or undecided condition of a dragon, or of two together; times are those of the performance."""
 
-    dragons: list[int] = Field(
-        description="The dragon at fault, or the two that come within the margin, in the order of the dances; empty if "
-        "it is undecided which"
-    )
+    dragons: list[int]
     dragon_names: list[str | None] = Field(description="Their names; null for a dragon without one")
 
     @classmethod
@@ -259,46 +178,28 @@ class DragonFailure(Failure):
         )
 
 
-class DragonsClearance(DragonPair):
+class DragonsClearance(DragonPair, of=core.PerformanceLeastClearance):
     """The least clearance between two dragons over the performance."""
 
-    distance: float = measure(
-        "m",
-        "Smallest distance found; 0 at the first touch, or at a later one if it is undecided which is the first; if "
-        "two dragons overlap at the start, minus the depth",
-    )
-    at_least: float | None = measure(
-        "m", "Proven lower bound; null: the search gave up before proving one, or the distance is below zero"
-    )
-    time: float = measure("s", "Time of the smallest distance")
+    distance: float
+    at_least: float | None
+    time: float
 
 
-class PerformanceReport(Answer):
+class PerformanceReport(Answer, of=core.PerformanceReport):
     """Verdict on several dances on one clock."""
 
-    verdict: core.Judgement = Field(
-        description="passes: nothing fails; fails: at least one condition certainly fails; undecided: neither is proven"
-    )
-    passed: bool = Field(description="True if the verdict is passes")
-    failures: list[DragonFailure] = Field(
-        description="Failed and undecided conditions of each dragon by itself, and the first encounter of two, in "
-        "order of time"
-    )
-    start: float = measure("s", "Start of the time checked")
-    stop: float = measure("s", "End of the time checked")
+    verdict: core.Judgement
+    passed: bool
+    failures: list[DragonFailure]
+    start: float
+    stop: float
     names: list[str | None] = Field(
         description="Names of the dragons, null for one without, in the order of the dances"
     )
-    encounter: Encounter = Field(
-        description="First time that benches of two dragons come within the margin, or touch if it is 0"
-    )
-    least_clearance: DragonsClearance | None = Field(
-        description="Least clearance between two dragons; null for a single one, or without details"
-    )
-    reports: list[Report | None] = Field(
-        description="Verdict on each dragon by itself in the venue, on the clock of its own dance, which is 0 at its "
-        "delay; null for one that stands during the whole time checked"
-    )
+    encounter: Encounter
+    least_clearance: DragonsClearance | None
+    reports: list[Report | None]
     begins: str | None = Field(description="Time of day at start, if start_clock or begin_clock is given")
     ends: str | None = Field(description="Time of day at stop, if start_clock or begin_clock is given")
     origin: Origin | None = Field(

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from pydantic import Field
-
 import core
 from app.questions.encounter import NearPass
-from app.wire.answers import Columns, Graze, Pair
+from app.wire.answers import Columns, Pair
 from app.wire.dances import TimedDance, TimeRange
 from app.wire.labels import Part, Table, label, separation, value_text
 from app.wire.performances import SeveralDances
-from app.wire.question import Answer, Command, DanceQuery, Question, Terms, measure
+from app.wire.question import Answer, Command, DanceQuery, Question, Terms
 from core.errors import format_number
 from core.language import say
 
@@ -32,23 +30,23 @@ class ClearanceRequest(SeveralDances, DanceClearance):
     """Smallest distance between two benches over time, on any path; of several dragons, between two of them."""
 
 
-class ClearanceTable(Answer):
+class ClearanceTable(Answer, of=core.ClearanceProfile):
     """Columns with one entry per instant, and the local minima between the instants."""
 
-    time: list[float] = measure("s", "Instants")
-    clearance: list[float] = measure("m", "Smallest separation of two benches that are not neighbours")
-    benches: list[Pair] = Field(description="The pair with that separation")
-    grazes: list[Graze] = Field(description="Local minima between the first and the last instant, refined")
+    time: list[float]
+    clearance: list[float]
+    benches: list[Pair]
+    grazes: list[core.Graze]
 
 
-class PerformanceClearanceTable(Answer):
+class PerformanceClearanceTable(Answer, of=core.PerformanceClearance):
     """Columns with one entry per instant, and the local minima between the instants."""
 
-    time: list[float] = measure("s", "Instants")
-    clearance: list[float] = measure("m", "Smallest separation of two benches of different dragons")
-    dragons: list[Pair] = Field(description="The two dragons with that separation, in the order of the dances, from 0")
-    benches: list[Pair] = Field(description="Their benches, one of each")
-    grazes: list[NearPass] = Field(description="Local minima between the first and the last instant, refined")
+    time: list[float]
+    clearance: list[float]
+    dragons: list[Pair]
+    benches: list[Pair]
+    grazes: list[NearPass]
 
 
 def clearance(request: ClearanceQuery | DanceClearance, terms: Terms) -> Columns:

@@ -7,8 +7,7 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.wire.answers import SENTENCES, TOTAL_STRAY, End, Feature, Graze, Head, Pair, PairCheck, Point
-from app.wire.claims import ContactClaim
+from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.labels import with_strays
 from app.wire.question import (
@@ -22,7 +21,6 @@ from app.wire.question import (
     Strays,
     Terms,
     UniformDragon,
-    measure,
 )
 from app.wire.readings import contact_words
 from core import Outcome
@@ -48,57 +46,36 @@ class CollisionRequest(Contact, SpanFields, DanceFields, strict=True):
     """First time that two benches touch, or come within a margin, on any path."""
 
 
-class Certificate(Answer):
+class Certificate(Answer, of=core.Evidence):
     """Evidence for the answer."""
 
-    method: str = Field(description="The claim and its proof, in sentences")
-    claim: ContactClaim = Field(description="The claim as a kind and values")
-    steps: int = Field(description="Number of proven steps")
-    clear_until: float | None = measure(
-        "s",
-        "Time until which no two benches come within the margin, or touch if it is 0; null if no time is "
-        "proven clear: benches touch or are nearer at the start, or nothing is decided from the start",
-    )
-    bound: float = measure("1/m", "Largest bound on the second derivative of a gap that a step used")
-    least_clearance: Graze | None = Field(
-        description="Narrowest graze before the contact, or over the whole run if there is none"
-    )
+    method: str
+    claim: core.ContactClaim
+    steps: int
+    clear_until: float | None
+    bound: float
+    least_clearance: core.Graze | None
 
 
-class CollisionTime(Answer):
+class CollisionTime(Answer, of=core.FirstContact):
     """First time that two benches that share no handle come within the margin, or touch if it is 0."""
 
-    outcome: Outcome = Field(
-        description="End of the search; contact: two benches come within the margin, or touch if it is 0"
-    )
-    margin: float = measure("m", "Required clearance; 0: only a touch counts as a contact")
+    outcome: Outcome
+    margin: float
     stray: float | None = TOTAL_STRAY
-    time: float | None = measure(
-        "s", "First time within the margin, or touching if it is 0; null when clear or undecided"
-    )
-    time_bracket: Point | None = measure(
-        "s",
-        "Two times: no contact is proven up to the first, and a contact is certain at the second. If undecided, the "
-        "second is the end of the search, unless a pair is certainly within the margin then (overlapping)",
-    )
-    overlapping: Pair | None = Field(
-        description="If undecided: the pair that is certainly within the margin, or overlaps, at the second of these "
-        "times, perhaps not for the first time; null if no contact is certain, or not undecided"
-    )
-    head: Head | None = Field(description="The head at that time")
-    benches: Pair | None = Field(description="The pair in contact")
-    gap: float | None = measure(
-        "m",
-        "Gap between the two at that time, each in its place: the margin, or less if they are nearer from the start, "
-        "or more with a stray",
-    )
-    corner: Feature | None = Field(description="Corner that touches or is nearest")
-    edge: Feature | None = Field(description="Edge that this corner touches or is nearest to")
-    point: Point | None = measure("m", "Position of that corner, x and y")
-    end: End | None = Field(description="End of the run, when clear")
+    time: float | None
+    time_bracket: Point | None
+    overlapping: Pair | None
+    head: core.HeadState | None
+    benches: Pair | None
+    gap: float | None
+    corner: core.Feature | None
+    edge: core.Feature | None
+    point: Point | None
+    end: core.RunEnd | None
     sentences: list[str] = SENTENCES
-    certificate: Certificate = Field(description="Evidence for the answer")
-    cross_check: PairCheck | None = Field(
+    certificate: Certificate
+    cross_check: core.ContactCheck | None = Field(
         description="Verdicts of the engines 1e-6 m of travel before and after the contact (for a contact at the "
         "start: at the start and after it). With a stray they judge the pair at its own distance, and shapely the "
         "grounds that all benches may cover; null without a contact or if not requested"

@@ -10,7 +10,6 @@ from pydantic import Field
 import core
 from app.questions.tolerance import CircleQuery, SpanOrCircle, span_of
 from app.wire.answers import Pair
-from app.wire.claims import ProbabilityClaim
 from app.wire.dances import DanceFields
 from app.wire.question import UNKNOWN_COST, Answer, Command, Question, Terms, Whole, Wire, check_limit, measure
 from core.language import phrase, say
@@ -90,7 +89,7 @@ class ContactProbability(Answer):
     stop: float = measure("s", "Last instant")
     seed: int = Field(description="Seed of the random numbers")
     method: str = Field(description="The model and its evidence, in sentences")
-    claim: ProbabilityClaim = Field(description="The claim as a kind and values")
+    claim: core.ProbabilityClaim = Field(description="The claim as a kind and values")
 
 
 def contact_probability(

@@ -27,15 +27,15 @@ class CourseRequest(Strays, SpanFields, PlacedDance, strict=True):
     speed_limit: SpeedLimit | None = measure("m/s", "Highest speed allowed for any handle; default: no limit", None)
 
 
-class TightBend(Answer):
+class TightBend(Answer, of=core.TightBend):
     """A stretch of the path that the longest bench cannot follow."""
 
-    start: float = measure("m", "Start of the stretch, along the path")
-    end: float = measure("m", "End of the stretch, along the path")
-    points: list[Point] = measure("m", "Points along it, x and y")
-    radius: float = measure("m", "Least radius there; of a curve through waypoints, at least this")
-    least_radius: float = measure("m", "Least radius that the bench can follow")
-    bench: int = Field(description="The bench with the longest chord")
+    start: float
+    end: float
+    points: list[Point]
+    radius: float
+    least_radius: float
+    bench: int
     sentence: str = Field(description="The bend in one sentence")
 
 
@@ -51,17 +51,15 @@ class Breach(Answer):
     points: list[Point] = measure("m", "Points along it, x and y")
 
 
-class Course(Answer):
+class Course(Answer, of=core.Course):
     """A path as it is drawn, whether or not it can be danced."""
 
-    s: list[float] = measure("m", "Arc length along the path of P points, 0 where the head is at time 0")
+    s: list[float]
     x: list[float] = measure("m", "P entries")
     y: list[float] = measure("m", "P entries")
-    length: float = measure("m", "Length of the path")
-    knots: list[float] = measure(
-        "m", "Arc length of each waypoint (for a rounded corner, of its middle); empty for other paths"
-    )
-    bends: list[TightBend] = Field(description="Bends that are too tight, along the path")
+    length: float
+    knots: list[float]
+    bends: list[TightBend]
     breaches: list[Breach] | None = Field(
         description="Stretches on which a limit is broken, at samples of the dance 0.3 m apart: a view, not a verdict, "
         "which POST /check gives; null unless asked for, and where the dragon cannot follow the path"

@@ -12,7 +12,6 @@ import core
 from app.files import outlines
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.wire.answers import MultiPolygon, Polygon
-from app.wire.claims import GroundClaim
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.geojson import geometry_of
 from app.wire.paths import Point
@@ -48,29 +47,29 @@ class EnvelopeRequest(SeveralDances, WholeSpan, DanceFields, strict=True):
     )
 
 
-class SweepProof(Answer):
+class SweepProof(Answer, of=core.SweepProof):
     """Proven bounds of the envelope."""
 
-    method: str = Field(description="The claim and its proof, in sentences")
-    claim: GroundClaim = Field(description="The claim as a kind and values")
-    cells: int = Field(description="Number of stretches of the path, each with a bound on the motion")
+    method: str
+    claim: core.GroundClaim
+    cells: int
 
 
-class Envelope(Answer):
+class Envelope(Answer, of=core.Envelope):
     """The ground that benches sweep."""
 
     envelope: Annotated[Polygon | MultiPolygon, Field(discriminator="type")] = Field(
         description="GeoJSON geometry in metres that holds every pose of every bench, holes kept"
     )
-    excess: float = measure("m", "Proven: no point of it is further than this from ground that a bench covers")
-    area: float = measure("m2", "Area of it")
-    start: float = measure("s", "Start of the time asked about")
-    stop: float = measure("s", "End of the time asked about")
+    excess: float
+    area: float
+    start: float
+    stop: float
     distance: float | None = measure(
         "m",
         "Least distance of the spectators' line from it, 0 where they meet: no bench comes nearer; null without them",
     )
-    certificate: SweepProof = Field(description="Proven bounds of the envelope")
+    certificate: SweepProof
 
     @classmethod
     def of(cls, result: core.Envelope, request: EnvelopeQuery | EnvelopeRequest) -> Self:

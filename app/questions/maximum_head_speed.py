@@ -38,18 +38,16 @@ class MaximumHeadSpeedRequest(SpeedLimitField, DanceFields, strict=True):
     )
 
 
-class MaximumHeadSpeed(Answer):
+class MaximumHeadSpeed(Answer, of=core.MaximumHeadSpeed):
     """The largest constant head speed at which no handle ever exceeds the limit; passages keep their ratio to it."""
 
-    head_speed: float = measure("m/s")
-    head_speed_bracket: tuple[float | None, float] = measure(
-        "m/s", "Proven to keep the limit (null if the search gave up before proving one); found to reach it"
-    )
-    speed_ratio: float = Field(description="Highest speed of any handle divided by that of the head")
-    handles: list[int] = Field(description="Handles that reach the limit at that time")
-    time: float = measure("s", "Time at which they reach it, at that head speed; 0 is the entry into the turn")
-    time_at_unit_head_speed: float = measure("s", "The same time at a head speed of 1 m/s")
-    passage: int | None = Field(description="Index of the passage in which they reach it; null: in none")
+    head_speed: float
+    head_speed_bracket: tuple[float | None, float]
+    speed_ratio: float
+    handles: list[int]
+    time: float
+    time_at_unit_head_speed: float
+    passage: int | None
     sentences: list[str] = SENTENCES
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 import core
-from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, PairCheck, Point
+from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
 from app.wire.dances import BenchByBench, DragonFields
 from app.wire.paths import Circle, WayToCircle
 from app.wire.question import (
@@ -19,7 +19,6 @@ from app.wire.question import (
     Terms,
     UniformDragon,
     Whole,
-    measure,
 )
 from app.wire.readings import pitch_words
 from core import Dragon, InvalidValue, LimitedBy
@@ -52,41 +51,26 @@ class MinimumPitchRequest(PitchFields, DragonFields, strict=True):
     """Smallest pitch such that every larger one reaches the circle, for any dragon."""
 
 
-class MinimumPitch(Answer):
+class MinimumPitch(Answer, of=core.MinimumPitch):
     """The smallest pitch such that every larger one lets the head reach the turning circle without two benches nearer
     than the margin (touching, if it is 0)."""
 
-    pitch: float = measure("m")
-    pitch_bracket: Point = measure(
-        "m", "Infeasible pitch; feasible pitch; equal if any smaller pitch would begin inside the circle"
-    )
-    limited_by: core.LimitedBy = Field(
-        description="Effect of a slightly smaller pitch. graze: contact on the way; circle: contact when the "
-        "head is on the circle; start: contact at the start or, if benches is null, a start inside the circle; fold: a "
-        "bench cannot follow the head as far as the circle. Contact: within the margin, or a touch if it is 0"
-    )
-    benches: Pair | None = Field(
-        description="The pair in contact at a slightly smaller pitch; null for a fold or if there is none"
-    )
-    bench: int | None = Field(description="The bench that folds at a slightly smaller pitch; null if none does")
-    head_radius: float | None = measure("m", "Distance of the head from the centre at that moment")
-    other_feasible_intervals: list[Point] = measure("m", "Intervals of smaller pitches that are feasible too")
-    justified_by: core.JustifiedBy = Field(
-        description="Evidence that larger pitches are feasible. bound: proven for all; scan: below proven_from only "
-        "single pitches are proven, at most scan_step apart, so a narrower infeasible range there is not excluded"
-    )
-    proven_from: float = measure("m", "Every pitch from this one up is proven feasible; equals pitch without a scan")
-    proven_up_to: float | None = measure("m", "Upper end of the proven pitches; null: no upper end")
-    scan_step: float | None = measure("m", "Largest distance between two pitches of the scan; null: no scan")
-    evaluations: int = Field(
-        description="Number of runs to the circle computed, for single pitches or for whole bands of pitches"
-    )
-    dragons: Pair | None = Field(
-        description="The dragons of the two benches, the first bench that of dragon 0; null if both are of one dragon"
-    )
+    pitch: float
+    pitch_bracket: Point
+    limited_by: core.LimitedBy
+    benches: Pair | None
+    bench: int | None
+    head_radius: float | None
+    other_feasible_intervals: list[Point]
+    justified_by: core.JustifiedBy
+    proven_from: float
+    proven_up_to: float | None
+    scan_step: float | None
+    evaluations: int
+    dragons: Pair | None
     stray: float | None = TOTAL_STRAY
     sentences: list[str] = SENTENCES
-    cross_check: PairCheck | None = Field(
+    cross_check: core.ContactCheck | None = Field(
         description="Verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in "
         "contact (with a stray shapely's alone, for the areas that benches may cover); of several dragons bench b of "
         "dragon k has the number k times the benches of one, plus b; null without a pair or if not requested"

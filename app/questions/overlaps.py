@@ -43,14 +43,14 @@ class OverlapsRequest(Wire, strict=True):
         return rows[:, :3], rows[:, 3], rows[:, 4]
 
 
-class Overlap(Answer):
+class Overlap(Answer, of=core.Separation):
     """Two benches within the margin, or overlapping if it is 0. witness_b - witness_a = separation * normal."""
 
     benches: Pair = Field(description="The pair a, b")
-    separation: float = measure("m", "Signed distance; minus the penetration depth if they overlap")
-    witness_a: Point = measure("m", "Point of a that realises the separation, x and y")
-    witness_b: Point = measure("m", "Point of b that realises the separation, x and y")
-    normal: Point = Field(description="Unit vector from a to b")
+    separation: float
+    witness_a: Point
+    witness_b: Point
+    normal: Point
 
 
 class OverlapsCheck(Answer):

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 from pydantic import Field
 
+import core
 from app.questions.minimum_pitch import checked_pitch
 from app.wire.answers import Columns, Pair, Point
 from app.wire.dances import DragonFields
 from app.wire.paths import Circle
 from app.wire.question import UNKNOWN_COST, Answer, Question, Terms, UniformDragon, Whole, measure
-from core.design.pitch_scan import JUMP, pitches_near, scan_near_minimum
+from core.design.pitch_scan import pitches_near, scan_near_minimum
 
 # Time of a first contact near the minimum pitch, measured 2026-11-22 [s].
 SECONDS_PER_SAMPLE = 1.5e-3
@@ -43,16 +44,13 @@ class Jump(Answer):
     radius: Point = measure("m", "Radius at these two pitches")
 
 
-class PitchScanTable(Answer):
+class PitchScanTable(Answer, of=core.PitchScan):
     """Columns with one entry per sampled pitch at which two benches come within the margin, or touch if it is 0,
     and the jumps of the radius besides."""
 
-    pitch: list[float] = measure("m", "Samples, ascending; a pitch without contact has no entry")
-    radius: list[float] = measure("m", "Distance of the head from the centre at first contact")
-    pieces: list[Pair] = Field(
-        description="Stretches without a jump, as indices [from, to) into pitch and radius; if jumps are not located, "
-        f"without a fall of more than {JUMP:g} m"
-    )
+    pitch: list[float]
+    radius: list[float]
+    pieces: list[Pair]
     jumps: list[Jump] = Field(description="Jumps of the radius, ascending; empty if jumps are not located")
     minimum_pitch: float = measure("m", "Minimum pitch, around which the scanned pitches lie")
 

@@ -58,17 +58,6 @@ class ProposalsRequest(VenueFields, DragonFields, strict=True):
     count: Whole = Field(3, ge=1, le=COUNT_MOST, description="Number of proposals")
 
 
-class Near(Answer):
-    """What the benches come nearest to."""
-
-    name: str = Field(description="Name of the square or of the obstacle")
-    distance: float = measure(
-        "m", "Smallest distance found of all ground that benches may cover with the stray of the request"
-    )
-    time: float = measure("s", "Time at which it is reached")
-    in_place: float = measure("m", "Smallest distance from it with everybody in place")
-
-
 class Proposal(Answer):
     """A dance that fits, which passes its check."""
 
@@ -87,7 +76,7 @@ class Proposal(Answer):
     )
     clearance_in_place: float | None = measure("m", "The same with everybody in place")
     highest_speed: float | None = measure("m/s", "Highest speed of any handle")
-    near: Near = Field(description="What the benches come nearest to")
+    near: core.Near = Field(description="What the benches come nearest to")
     gates: list[int] = Field(description="Numbers of the gates by which it enters and leaves; none without gates")
     summary: str = Field(description="The proposal in one sentence")
 

@@ -42,28 +42,20 @@ class SafeDelayRequest(DelayFields, PerformanceFields, strict=True):
     """The delays of one dragon at which no benches of two dragons touch, or come within a margin."""
 
 
-class SafeDelays(Answer):
+class SafeDelays(Answer, of=core.SafeDelays):
     """The delays of one dragon at which no benches of two dragons come within the margin, or touch if it is 0."""
 
-    part: int = Field(description="Number of the dragon that waits")
+    part: int
     name: str | None = Field(description="Its name; null without")
     first_safe: float | None = measure("s", "The shortest safe delay; null: none is known")
-    safe: list[Point] = measure(
-        "s",
-        "Intervals of delays, each proven safe for all of its delays. An end is within 0.01 s of a delay that is not, "
-        "or at an end of the interval that was asked about, or at an undecided one",
-    )
-    undecided: list[Point] = measure(
-        "s",
-        "Intervals of delays of which neither is proven; at all other delays two dragons certainly come within "
-        "the margin, but for 0.01 s beside a safe interval",
-    )
-    least: float = measure("s", "Shortest delay of the question")
-    most: float = measure("s", "Longest delay of the question")
-    margin: float = measure("m", "The required margin; 0: only a touch counts")
+    safe: list[Point]
+    undecided: list[Point]
+    least: float
+    most: float
+    margin: float
     stray: float | None = TOTAL_STRAY
-    stop: float | None = measure("s", "End of the judged time; null: the end of the performance at every delay")
-    marches: int = Field(description="Number of searches")
+    stop: float | None
+    marches: int
 
     @classmethod
     def of(cls, result: core.SafeDelays, request: SafeDelayRequest) -> Self:

@@ -21,7 +21,6 @@ from app.plan.safety_answer import (
     Lane,
     LooseTail,
     SafetySheet,
-    Stay,
     Stopping,
 )
 from app.plan.timing import TimeFormat
@@ -272,10 +271,10 @@ class _Judged:
         )
 
     def _lane(self, body: LaneBody, area: Area) -> Lane:
-        free, stays = free_width(self.covered, body.middle, body.width), list[Stay]()
+        free, stays = free_width(self.covered, body.middle, body.width), list[core.Stay]()
         if free < body.width:
             found = core.stays(self.dance, area, stray=self.request.to_stray(), **self.span)
-            stays = [Stay.from_result(one) for one in found.stays]
+            stays = list(found.stays)
         total = sum(one.end - one.begin for one in stays)
         return Lane(name=body.name, width=body.width, free_width=free, stays=stays, total=total)
 

@@ -9,7 +9,6 @@ from pydantic import Field
 import core
 from app.questions.encounter import EncounterCertificate
 from app.wire.answers import SENTENCES, Point
-from app.wire.claims import StrayClaim
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.performances import SeveralFields
 from app.wire.question import Answer, Command, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
@@ -58,95 +57,68 @@ class ToleranceRequest(SeveralFields, DanceTolerance, strict=True):
     """Largest proven stray in any dance, or in several on one clock, for contacts of benches and with a venue."""
 
 
-class Shown(Answer):
+class Shown(Answer, of=core.Exhibit):
     """A pose of the whole dragon with unchanged chords, in which the benches that limit the stray overlap."""
 
-    handles: list[Point] = measure("m", "Places of the handles, x and y, head first")
-    depth: float = measure("m", "Depth of the overlap")
-    stray: float = measure("m", "Largest distance of a handle from its place")
+    handles: list[Point]
+    depth: float
+    stray: float
 
 
-class StrayProof(Answer):
+class StrayProof(Answer, of=core.StrayProof):
     """Evidence for the safe stray."""
 
-    method: str = Field(description="The claim and its proof, in sentences")
-    claim: StrayClaim = Field(description="The claim as a kind and values")
-    steps: int = Field(description="Number of steps taken")
+    method: str
+    claim: core.StrayClaim
+    steps: int
 
 
-class Tolerance(Answer):
+class Tolerance(Answer, of=core.Tolerance):
     """Largest distance of every hole from its place, at any time, without any contact."""
 
-    stray: float = measure(
-        "m", "Proven safe: while no hole is further from its place, nothing touches; 0: no stray is known to be safe"
-    )
-    simple: float = measure(
-        "m", "Answer of the simple bound: each point of a bench moves at most its own factor times the stray"
-    )
+    stray: float
+    simple: float
     stray_with_errors: float | None = measure(
         "m",
         "Proven safe whatever the sizes are within length_error and pitch_error, 0: none is known to be; null without "
         "such errors",
     )
-    stray_bracket: tuple[float, float | None] = measure(
-        "m", "Proven safe; shown to touch, null where no such pose was found"
-    )
-    limited_by: Limit = Field(
-        description="Effect of a larger stray. benches: two benches touch; venue: a bench and an edge of the venue; "
-        "chord: no contact up to half of the shortest chord"
-    )
-    time: float | None = measure("s", "Time at which these are nearest to touching; null if nothing limits the stray")
-    benches: tuple[int, int | None] | None = Field(
-        description="The pair, the second null for an edge of the venue; null if nothing limits the stray"
-    )
-    area: str | None = Field(description="Name of the square or of the obstacle; null if none limits the stray")
-    exhibit: Shown | None = Field(description="A pose in which they overlap; null where none was found")
-    start: float = measure("s", "Start of the time asked about")
-    stop: float = measure("s", "End of the time asked about")
+    stray_bracket: tuple[float, float | None]
+    limited_by: Limit
+    time: float | None
+    benches: tuple[int, int | None] | None
+    area: str | None
+    exhibit: Shown | None
+    start: float
+    stop: float
     sentences: list[str] = SENTENCES
-    certificate: StrayProof = Field(description="Proof of the safe stray")
+    certificate: StrayProof
 
 
-class ShownTogether(Answer):
+class ShownTogether(Answer, of=core.PerformanceExhibit):
     """Poses of one or two whole dragons with unchanged chords, in which the benches that limit the stray overlap."""
 
-    handles: list[list[Point]] = measure("m", "Places of the handles of each of these dragons, x and y, head first")
-    depth: float = measure("m", "Depth of the overlap")
-    stray: float = measure("m", "Largest distance of a handle from its place")
+    handles: list[list[Point]]
+    depth: float
+    stray: float
 
 
-class PerformanceTolerance(Answer):
+class PerformanceTolerance(Answer, of=core.PerformanceTolerance):
     """Largest distance of every hole of several dragons from its place, at any time, without any contact."""
 
-    stray: float = measure(
-        "m",
-        "Proven safe: while no hole is further from its place, nothing touches, neither benches of one dragon nor of "
-        "two nor the venue; 0: no stray is known to be safe",
-    )
-    stray_bracket: tuple[float, float | None] = measure(
-        "m", "Proven safe; shown to touch, null where no such poses were found"
-    )
-    limited_by: Limit = Field(
-        description="Effect of a larger stray. benches: two benches touch; venue: a bench and an edge of the venue; "
-        "chord: no contact up to half of the shortest chord"
-    )
-    dragons: list[int] = Field(
-        description="The dragon whose benches limit the stray, or the two with one each, in the order of the dances; "
-        "empty if nothing limits it"
-    )
+    stray: float
+    stray_bracket: tuple[float, float | None]
+    limited_by: Limit
+    dragons: list[int]
     names: list[str | None] = Field(description="Their names; null for a dragon without one")
-    time: float | None = measure("s", "Time at which these are nearest to touching; null if nothing limits the stray")
-    benches: tuple[int, int | None] | None = Field(
-        description="The pair, the second null for an edge of the venue; null if nothing limits the stray"
-    )
-    area: str | None = Field(description="Name of the square or of the obstacle; null if none limits the stray")
-    exhibit: ShownTogether | None = Field(description="Poses in which they overlap; null where none were found")
+    time: float | None
+    benches: tuple[int, int | None] | None
+    area: str | None
+    exhibit: ShownTogether | None
     own: list[float] = measure("m", "Safe stray of each dragon by itself in the venue")
-    start: float = measure("s", "Start of the time asked about")
-    stop: float = measure("s", "End of the time asked about")
-    certificate: EncounterCertificate | None = Field(
-        description="Proof that no two dragons touch with the stray; null for one dragon, or without a safe stray"
-    )
+    start: float
+    stop: float
+    certificate: EncounterCertificate | None
 
 
 def tolerance(request: ToleranceQuery | DanceTolerance, terms: Terms) -> Tolerance | PerformanceTolerance:

@@ -55,11 +55,11 @@ class ToleranceCurveRequest(CurveFields, DragonFields, strict=True):
     """Tolerance to strays, against the pitch, of any dragon."""
 
 
-class ToleranceCurve(Answer):
+class ToleranceCurve(Answer, of=core.ToleranceCurve):
     """Columns with one entry for each pitch, from the start of the dance until the head is on the circle."""
 
-    pitch: list[float] = measure("m", "Ascending")
-    stray: list[float] = measure("m", "Proven safe: while no hole is further from its place, nothing touches")
+    pitch: list[float]
+    stray: list[float]
     touching: list[float | None] = measure("m", "Shown to touch; null where no such pose was found")
     limited_by: list[Limit] = Field(
         description="Effect of a larger stray. benches: two benches touch; chord: no contact up to half of the "

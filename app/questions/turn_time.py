@@ -12,7 +12,7 @@ from app.questions.turn import Turn
 from app.wire.answers import SENTENCES
 from app.wire.dances import DragonFields
 from app.wire.paths import TurnFields, TurnPath
-from app.wire.question import Command, Question, Terms, UniformDragon, measure
+from app.wire.question import Command, Question, Terms, UniformDragon
 from app.wire.readings import time_words
 from core.errors import format_number
 from core.language import say
@@ -28,12 +28,12 @@ class TurnTimeRequest(SpeedLimitField, DragonFields, strict=True):
     path: TurnPath = Field(default_factory=lambda: TurnPath(kind="turn"), description="The turn")
 
 
-class TurnTime(Turn):
+class TurnTime(Turn, of=core.TurnTime):
     """The turn, and how long the head takes through it as fast as the limit allows."""
 
-    head_speed: float = measure("m/s", "Largest constant speed of the head at which no handle exceeds the limit")
-    time: float = measure("s", "Time of the head from the entry to the exit at that speed: the length over the speed")
-    handles: list[int] = Field(description="Handles that reach the limit, all at once")
+    head_speed: float
+    time: float
+    handles: list[int]
     sentences: list[str] = SENTENCES
 
     @classmethod

@@ -28,6 +28,7 @@ from app.service import middleware as layers
 from app.service import problems, routes, uploads
 from app.service.assistants import add_assistants
 from app.service.bodies import refuse_query
+from app.service.described import with_values
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
 from app.service.hosts import Hosts, OriginForm
@@ -205,7 +206,7 @@ def _add_reader_metrics(app: FastAPI, settings: Settings, registry: CollectorReg
 
 def _openapi(app: FastAPI) -> dict[str, Any]:
     if app.openapi_schema is None:
-        schema = FastAPI.openapi(app)
+        schema = app.openapi_schema = with_values(FastAPI.openapi(app))
         # Examples are added here, because FastAPI drops every null in an example that a route declares.
         for name, example in EXAMPLES.items():
             method, path = name.split()

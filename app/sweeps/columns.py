@@ -16,6 +16,9 @@ import orjson
 import pyarrow as pa
 from pydantic import BaseModel
 
+from app.wire.question import typed_fields
+from core.display import Readable
+
 TYPES = {bool: pa.bool_(), int: pa.int64(), float: pa.float64(), str: pa.string()}
 
 
@@ -48,7 +51,7 @@ def _dumped(value: Any) -> Any:
 
 
 @lru_cache(maxsize=16)
-def answer_columns(model: type[BaseModel], left_out: frozenset[str] = frozenset()) -> tuple[Column, ...]:
+def answer_columns(model: type[BaseModel | Readable], left_out: frozenset[str] = frozenset()) -> tuple[Column, ...]:
     """A column for every number, text and truth value of an answer: dotted names for inner objects and pairs, JSON for
     lists of any length. left_out: fields without columns"""
     return tuple(_columns_of(model, (), left_out))
@@ -61,9 +64,9 @@ def _columns_of(kind: Any, steps: tuple[str | int, ...], left_out: frozenset[str
     options = [one for one in get_args(kind) if one is not NoneType]
     if get_origin(kind) in (Union, UnionType) and len(options) == 1:
         yield from _columns_of(options[0], steps, left_out)
-    elif isinstance(kind, type) and issubclass(kind, BaseModel):
-        for inner, field in kind.model_fields.items():
-            yield from _columns_of(field.annotation, (*steps, inner), left_out)
+    elif isinstance(kind, type) and issubclass(kind, BaseModel | Readable):
+        for inner, (annotation, _) in typed_fields(kind).items():
+            yield from _columns_of(annotation, (*steps, inner), left_out)
     elif get_origin(kind) is tuple and Ellipsis not in options:
         for k, option in enumerate(get_args(kind)):
             yield from _columns_of(option, (*steps, k), left_out)

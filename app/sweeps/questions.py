@@ -15,7 +15,7 @@ from pydantic import BaseModel, Field
 
 import core
 from app.questions import clearance, overlaps
-from app.questions.check import DanceCheck, DragonsClearance, LeastClearance
+from app.questions.check import DanceCheck, DragonsClearance
 from app.questions.clearance import DanceClearance
 from app.questions.registry import CALLS
 from app.questions.registry import QUESTIONS as KNOWN
@@ -207,12 +207,12 @@ def overlaps_row(request: overlaps.OverlapsRequest, terms: Terms) -> OverlapsRow
     )
 
 
-def least_clearance(request: DanceQuery | DanceFields, terms: Terms) -> LeastClearance:
+def least_clearance(request: DanceQuery | DanceFields, terms: Terms) -> core.LeastClearance:
     """The least separation of two benches that share no handle, over the whole dance."""
     least = core.least_clearance(request.to_dance(terms.settings.checked_benches_max), budget=terms.budget)
     if least is None:
         raise InvalidValue("dragon.benches", "must be at least 3, so that two share no handle", got=request.benches)
-    return LeastClearance.model_validate(least)
+    return least
 
 
 def dragons_least_clearance(request: PerformanceFields, terms: Terms) -> DragonsClearance:
@@ -235,7 +235,7 @@ _ALL = {
     "quickest_turn": _ways("quickest_turn", 1.0, "time"),
     "maximum_head_speed": _ways("maximum_head_speed", 5e-2, "head_speed"),
     "least_clearance": _ways(
-        "check", 2e-2, "distance", answer=least_clearance, model=LeastClearance, flat=DanceQuery, body=DanceFields
+        "check", 2e-2, "distance", answer=least_clearance, model=core.LeastClearance, flat=DanceQuery, body=DanceFields
     )
     + _several(
         "check", 1.0, "distance", answer=dragons_least_clearance, model=DragonsClearance, body=PerformanceFields

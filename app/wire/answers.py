@@ -31,44 +31,6 @@ TOTAL_STRAY: Any = measure(
 )
 
 
-class Head(Answer):
-    """Handle 0 at first contact."""
-
-    theta: float | None = measure("rad", "Polar angle on a spiral, unwrapped; null on any other path")
-    radius: float = measure("m", "Distance from the origin, which is the centre of a spiral")
-    x: float = measure("m")
-    y: float = measure("m")
-
-
-class Feature(Answer):
-    """A corner or an edge of one bench."""
-
-    bench: int = Field(description="Number of the bench; 0 is the head")
-    name: str = Field(
-        description="front or rear (towards the lower or higher handle), outer or inner (seen from the centre), or both"
-    )
-
-
-class End(Answer):
-    """End of a run on which no two benches come within the margin, or touch if it is 0."""
-
-    reason: core.EndReason = Field(
-        description="fold: a bench cannot follow any more; centre: the head reaches the centre; end: the path ends; "
-        "stop: the requested time ends"
-    )
-    time: float = measure("s")
-    theta: float | None = measure("rad", "Polar angle of the head at that time, on a spiral that folds or ends")
-    bench: int | None = Field(description="The bench that folds; null if none does")
-
-
-class Graze(Answer):
-    """A local minimum of the clearance over time."""
-
-    time: float = measure("s")
-    clearance: float = measure("m")
-    benches: Pair = Field(description="The pair")
-
-
 class Polygon(Answer):
     """A polygon as in GeoJSON."""
 
@@ -83,38 +45,6 @@ class MultiPolygon(Answer):
     coordinates: list[list[list[Point]]] = measure("m", "The rings of each polygon: closed, points x and y")
 
 
-class Verdict(Answer):
-    """Findings of one engine among the benches judged, without pairs of neighbours."""
-
-    before: bool | None = Field(
-        description="Whether it finds any two overlapping, or within the margin, just before; null for a contact "
-        "at the start"
-    )
-    after: bool = Field(
-        description="Whether it finds the reported pair overlapping, or within the margin, just after, and no "
-        "other pairs except those in together. For a contact at the start other pairs are allowed"
-    )
-
-
-class PairCheck(Answer):
-    """Verdicts of independent engines just before and just after; within the margin counts as overlapping."""
-
-    agree: bool = Field(description="True if every engine asked finds nothing before, and only the reported pair after")
-    judged: list[int] = Field(
-        description="Benches judged: all, or only those near the pair, or the pair, if there are more than 2,000 or "
-        "they are very crowded; with cross_check=pair only the pair"
-    )
-    engines: dict[Engine, Verdict] = Field(
-        description="Verdict of each engine; angle_sum cannot judge a margin, so it is asked only if the margin is 0"
-    )
-    together: list[Pair] = Field(
-        description="Other pairs that come within the margin, or touch if it is 0, at the same time as the "
-        "reported one, as when a corner meets two benches of a straight row at once: apart just before, and barely "
-        "within the margin just after"
-    )
-    left_out: list[Engine] = Field(description=LEFT_OUT)
-
-
 class DragonPair(Answer):
     """Two benches of two dragons."""
 
@@ -126,21 +56,22 @@ class DragonPair(Answer):
         return cls(dragons=pair[0], benches=pair[1])
 
 
-class EncounterCheck(Answer):
+class OwnedFeature(Answer, of=core.Feature):
+    """A corner or an edge of one bench of one dragon."""
+
+    bench: int
+    name: str
+    dragon: int = Field(description="Number of the dragon, in the order of the dances")
+
+
+class EncounterCheck(Answer, of=core.EncounterCheck):
     """Verdicts of independent engines on the benches of several dragons; within the margin counts as overlapping."""
 
-    agree: bool = Field(description="True if every engine asked finds nothing before, and only the reported pair after")
-    judged: list[list[int]] = Field(
-        description="Benches judged, a list for each dragon: all, or only those near the pair if there are more than "
-        "2,000 or they are very crowded; with cross_check=pair or a stray only the pair"
-    )
-    engines: dict[Engine, Verdict] = Field(
-        description="Verdict of each engine; angle_sum cannot judge a margin, so it is asked only if the margin is 0"
-    )
-    together: list[DragonPair] = Field(
-        description="Other pairs that come within the margin, or touch if it is 0, at the same time as the reported one"
-    )
-    left_out: list[Engine] = Field(description=LEFT_OUT)
+    agree: bool
+    judged: list[list[int]]
+    engines: dict[Engine, core.Verdict]
+    together: list[DragonPair]
+    left_out: list[Engine]
 
     @classmethod
     def of(cls, check: core.EncounterCheck) -> Self:

@@ -8,8 +8,10 @@ from typing import Any
 
 from pydantic import BaseModel
 
+import core
 from app.wire import answers
-from app.wire.question import unit_of
+from app.wire.question import typed_fields
+from core.display import Readable
 from core.errors import format_number
 from core.language import Listed, Phrases, counted, say
 from core.plots import feature_words
@@ -145,30 +147,34 @@ def fields_of(title: str, answer: BaseModel, request: Any = None) -> Iterator[Pa
     yield Table(title, lines=lines_of(answer, request))
 
 
-def lines_of(answer: BaseModel, request: Any = None, outer: str = "") -> Iterator[tuple[str, str]]:
+def lines_of(answer: BaseModel | Readable, request: Any = None, outer: str = "") -> Iterator[tuple[str, str]]:
     """Label and text of every field of an answer that has a value.
 
     request: to which it answers; with a margin, and with benches if the answer names those judged
     outer: label of the field in which the answer stands
     """
-    for name, field in type(answer).model_fields.items():
+    for name, (_, unit) in typed_fields(type(answer)).items():
         value = getattr(answer, name)
         if name in UNSHOWN:
             continue
         what = _inside(outer, label(name))
-        if isinstance(value, answers.PairCheck | answers.EncounterCheck):
+        if isinstance(value, core.ContactCheck | answers.EncounterCheck):
             yield from ((_inside(what, engine), text) for engine, text in _verdicts(value, request.benches))
-        elif isinstance(value, list | tuple) and isinstance(next(iter(value), None), BaseModel) and _is_short(value):
+        elif isinstance(value, list | tuple) and _is_short(value) and value and _has_fields(value[0]):
             for k, entry in enumerate(value):
                 yield from lines_of(entry, request, f"{what}[{k}]")
-        elif isinstance(value, BaseModel) and not isinstance(value, tuple(PARTS)):
+        elif _has_fields(value) and not isinstance(value, tuple(PARTS)):
             yield from lines_of(value, request, what)
         elif name in ("outcome", "limited_by"):
             yield what, value_word(value.value, getattr(request, "margin", 0.0))
         elif value is not None:
-            yield what, _field_text(name, value, unit_of(field))
+            yield what, _field_text(name, value, unit)
         elif name in NULLS:
             yield what, say(NULLS[name])
+
+
+def _has_fields(value: Any) -> bool:
+    return isinstance(value, BaseModel | Readable)
 
 
 def _inside(outer: str, inner: str) -> str:
@@ -204,7 +210,7 @@ def _digits(value: float | tuple[float | None, ...], unit: str) -> str:
     return words if each else f"{words} {unit}".rstrip()
 
 
-def _feature_text(feature: answers.Feature) -> str:
+def _feature_text(feature: core.Feature | answers.OwnedFeature) -> str:
     """A corner or an edge of a bench, perhaps of one of several dragons."""
     words, dragon = feature_words(feature), getattr(feature, "dragon", None)
     return words if dragon is None else say("{feature} of dragon {dragon}", feature=words, dragon=dragon)
@@ -226,11 +232,11 @@ def _pair_text(pair: answers.Pair | answers.DragonPair) -> str:
     return value_text(pair)
 
 
-def _verdicts(check: answers.PairCheck | answers.EncounterCheck, benches: int) -> Iterator[tuple[str, str]]:
+def _verdicts(check: core.ContactCheck | answers.EncounterCheck, benches: int) -> Iterator[tuple[str, str]]:
     yield label("agree"), value_text(check.agree)
     yield label("judged"), judged_words(check.judged, benches)
     for engine, verdict in check.engines.items():
-        sides = [(name, side) for name, side in verdict if side is not None]
+        sides = [(name, side) for name in ("before", "after") if (side := getattr(verdict, name)) is not None]
         yield value_word(engine.value), say(", ").join(f"{label(name)} {value_text(side)}" for name, side in sides)
     if check.together:
         yield label("together"), say("; ").join(map(_pair_text, check.together))
@@ -239,11 +245,12 @@ def _verdicts(check: answers.PairCheck | answers.EncounterCheck, benches: int) -
 
 
 # Parts of answers that are one text.
-PARTS: dict[type[BaseModel], Callable[[Any], str]] = {
+PARTS: dict[type[BaseModel | Readable], Callable[[Any], str]] = {
     answers.Polygon: _polygon_text,
     answers.MultiPolygon: _polygon_text,
     answers.DragonPair: _pair_text,
-    answers.Feature: _feature_text,
+    answers.OwnedFeature: _feature_text,
+    core.Feature: _feature_text,
 }
 
 

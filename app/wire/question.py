@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from enum import StrEnum
 from functools import lru_cache
 from types import NoneType
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self, get_args, get_type_hints
 
 from pydantic import (
     AfterValidator,
@@ -31,6 +32,7 @@ from pydantic_core import CoreSchema, PydanticCustomError
 
 from app.settings import Settings
 from core import Budget, Dance, Dragon, Spiral, Stray, TooLarge
+from core.display import meanings
 from core.dragon import BENCHES_MAX, wider_pin
 from core.errors import InvalidValue, format_number
 from core.language import Language, speaking, spoken
@@ -107,6 +109,14 @@ def unit_of(field: FieldInfo) -> str:
     """Unit of a field; empty for a pure number and for a field that is not a number."""
     extra = field.json_schema_extra
     return str(extra["x-unit"]) if isinstance(extra, dict) and "x-unit" in extra else ""
+
+
+def typed_fields(kind: Any) -> dict[str, tuple[Any, str]]:
+    """Type and unit of every field of an answer, or of a value of core in one."""
+    if issubclass(kind, BaseModel):
+        return {name: (field.annotation, unit_of(field)) for name, field in kind.model_fields.items()}
+    types, known = get_type_hints(kind), meanings(kind)
+    return {one.name: (types[one.name], known[one.name].unit) for one in fields(kind)}
 
 
 def _whole(value: Any) -> Any:
@@ -215,10 +225,38 @@ class Wire(BaseModel):
         return schema
 
 
-class Answer(BaseModel):
-    """An answer or a part of one: finite numbers only, so that a mistake of ours becomes an error and never a NaN."""
+def described(name: str, kind: type) -> FieldInfo | None:
+    """What a value of core says of one of its fields, as a field of the description; None if it says nothing."""
+    meaning = meanings(kind).get(name)
+    if meaning is None:
+        return None
+    words = re.sub(r"(^|\. )([a-z])(?!\w+:|[xy]\b)", lambda one: one[1] + one[2].upper(), meaning.words)
+    words = re.sub(r"(?<=\. )None\b", "Null", words).replace("None", "null")
+    field: FieldInfo = measure(meaning.unit, words) if meaning.unit else Field(description=words)
+    return field
 
-    model_config = ConfigDict(allow_inf_nan=False, from_attributes=True, defer_build=True)
+
+class Answer(BaseModel):
+    """An answer or a part of one: finite numbers only, so that a mistake of ours becomes an error and never a NaN.
+
+    A part that says what a value of core says is that value itself. Where an answer says more, `of` is the value whose
+    docstring describes the fields of the same names.
+    """
+
+    model_config = ConfigDict(
+        allow_inf_nan=False, from_attributes=True, defer_build=True, revalidate_instances="always"
+    )
+
+    def __init_subclass__(cls, of: type | None = None, **options: Any) -> None:
+        super().__init_subclass__(**options)
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, of: type | None = None, **options: Any) -> None:
+        super().__pydantic_init_subclass__(**options)
+        for name, known in ((name, described(name, of)) for name in cls.model_fields if of):
+            if known and cls.model_fields[name].description is None:
+                cls.model_fields[name].description = known.description
+                cls.model_fields[name].json_schema_extra = known.json_schema_extra
 
     def to_json(self) -> bytes:
         return self.model_dump_json().encode()

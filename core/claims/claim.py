@@ -43,11 +43,15 @@ class ClaimKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class DragonSummary(Readable):
-    """Benches of a dragon [m].
+    """Benches of a dragon.
 
-    lengths, widths: the smallest and the largest one
-    head_length, body_length, width, overhang: None for benches that are not all alike behind the head; a dragon of one
-        bench has no body_length
+    benches: number of benches
+    lengths: the shortest and the longest length [m]
+    widths: the smallest and the largest width [m]
+    head_length: length of the head's bench; None for benches given one by one [m]
+    body_length: length of every other bench; None without one, or for benches given one by one [m]
+    width: width of every bench; None for benches given one by one [m]
+    overhang: overhang of every bench; None for benches given one by one [m]
     """
 
     benches: int
@@ -70,10 +74,13 @@ class DragonSummary(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class DanceSummary(Readable):
-    """A dance.
+    """A dance that a claim is about.
 
-    head_speed: outside the passages [m/s]; passages: those before that speed, none if there are more than
-    PASSAGES_LISTED; passage_count: the number of all
+    dragon: the benches
+    path: the path
+    head_speed: speed of the head outside the passages [m/s]
+    passages: passages with other speeds; none if there are more than six
+    passage_count: number of all passages
     """
 
     dragon: DragonSummary
@@ -101,10 +108,17 @@ class BenchBetween(StrEnum):
 class ContactClaim(Readable):
     """Claim of a search for first contact.
 
-    margin, stray: [m]; start: of the search [s]; clear_until: time until which no two benches come within the margin
-        [s]; None if none is proven
-    end: why a run without a contact ends there; benches, time: two benches that are within the margin at a time [s]
-    between: HELD if two benches with one between them were left out, because it holds them apart
+    kind: kind of the claim
+    dance: the dance
+    margin: required clearance [m]
+    stray: largest distance of a hole from its place [m]
+    start: start of the search [s]
+    clear_until: time until which no two benches come within the margin; None if none is proven [s]
+    end: end of a run without a contact; None with one, or if undecided
+    benches: two benches that are within the margin at that time; None without
+    time: time at which these are certainly within the margin; None without [s]
+    between: held: two benches with one between them were left out, because it is proven to hold them apart as people
+        stray; None: all pairs count
     """
 
     kind: ClaimKind
@@ -123,8 +137,12 @@ class ContactClaim(Readable):
 class PartSummary(Readable):
     """A part of a performance.
 
-    name: of the dragon, None without; delay: time of the performance at time 0 of the dance [s]
-    centre (x, y) [m], rotation [rad], clockwise: the place of a spiral; (0, 0), 0 and True for a route
+    name: name of the dragon; None without
+    dance: its dance
+    delay: time of the performance at time 0 of the dance [s]
+    centre: centre of a spiral, x and y; 0, 0 for a route [m]
+    rotation: rotation of a spiral; 0 for a route [rad]
+    clockwise: direction of the dance on a spiral; true for a route
     """
 
     name: str | None
@@ -139,9 +157,18 @@ class PartSummary(Readable):
 class EncounterClaim(Readable):
     """Claim of a search for the first encounter of two dragons.
 
-    parts: of the performance, none if there are more than PARTS_LISTED; part_count, bench_count: number of all parts,
-        and of their benches
-    margin, stray, start, clear_until, end, benches, time: as in a ContactClaim; dragons: those of these two benches
+    kind: kind of the claim
+    parts: the parts of the performance; none if there are more than six
+    part_count: number of all parts
+    bench_count: number of the benches of all parts
+    margin: required clearance [m]
+    stray: largest distance of a hole from its place [m]
+    start: start of the search [s]
+    clear_until: time until which no benches of two dragons come within the margin; None if none is proven [s]
+    end: end without an encounter; None with one, or if undecided
+    dragons: two dragons whose benches are within the margin at that time; None without
+    benches: these benches, one of each dragon; None without
+    time: time at which these are certainly within the margin; None without [s]
     """
 
     kind: ClaimKind
@@ -160,10 +187,17 @@ class EncounterClaim(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class StrayClaim(Readable):
-    """Claim of a tolerance.
+    """Claim of a tolerance to strays.
 
-    venue: whether the edges of a venue count; start, stop: [s]; stray: proven safe [m], 0 if none is known to be
-    touches: whether something touches without any stray; between: None without two benches with one between them
+    kind: kind of the claim
+    dance: the dance
+    venue: whether the edges of a venue count
+    start: start of the time asked about [s]
+    stop: end of the time asked about [s]
+    stray: stray that is proven safe; 0: no stray is known to be safe [m]
+    touches: whether there is a contact with everybody in place
+    between: part of the bench between two others. held: it holds them apart, which is used; unused: the two that limit
+        the stray have one between them, and are assumed to stray independently; None: neither
     """
 
     kind: ClaimKind
@@ -180,8 +214,15 @@ class StrayClaim(Readable):
 class ProbabilityClaim(Readable):
     """Claim of a probability from dances drawn at random.
 
-    confidence: of its limits; step: between two instants [s]; union_bound: upper bound of the probability, None without
-    tolerance: stray within which nothing touches [m], None or 0 without; within: samples without a larger stray
+    kind: kind of the claim
+    contacts: number of samples with a contact
+    samples: number of samples
+    instants: number of instants of each sample
+    step: time between two instants [s]
+    confidence: probability that the limits hold
+    union_bound: upper bound of the probability of the model; None without
+    tolerance: stray that is proven safe; None or 0: none is known [m]
+    within: number of samples without a larger stray
     """
 
     kind: ClaimKind
@@ -199,8 +240,13 @@ class ProbabilityClaim(Readable):
 class GroundClaim(Readable):
     """Claim of an envelope: it holds all ground that benches cover between two times, and reaches little further.
 
-    start, stop: [s]; excess: furthest that it reaches [m]; sizes: different benches; length: of path that they pass [m]
-    cells: stretches of the path, each with a bound on the motion
+    kind: kind of the claim
+    start: start of the time asked about [s]
+    stop: end of the time asked about [s]
+    excess: furthest that the polygons reach beyond ground that a bench covers [m]
+    sizes: number of different sizes of benches
+    length: length of the path that these pass [m]
+    cells: number of stretches of the path, each with a bound on the motion
     """
 
     kind: ClaimKind
@@ -216,7 +262,12 @@ class GroundClaim(Readable):
 class TailClaim(Readable):
     """Claim of the ground of a loose tail: it holds all that the last benches can reach when they are let go.
 
-    start, stop: [s]; benches: loose ones; reach: of them from the handle that still follows [m]; stray: of that [m]
+    kind: kind of the claim
+    start: start of the time asked about [s]
+    stop: end of the time asked about [s]
+    benches: number of loose benches, the last ones
+    reach: furthest that they come from the handle that still follows the path [m]
+    stray: largest distance of that handle from its place [m]
     excess: furthest that the polygons go beyond the reach from places of the handle [m]
     """
 
@@ -227,7 +278,6 @@ class TailClaim(Readable):
     reach: float
     stray: float
     excess: float
-    _units = {"reach": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 def format_safe(stray: float) -> str:

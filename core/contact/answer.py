@@ -36,8 +36,12 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Feature(Readable):
-    """A corner or an edge of one bench. Corners: front-outer, front-inner, rear-outer, rear-inner;
-    edges: front, rear, outer, inner. front is towards the lower handle, outer away from the centre."""
+    """A corner or an edge of one bench. The front is towards the lower handle, the outer side away from the centre.
+
+    bench: number of the bench; 0 is the head
+    name: front or rear (towards the lower or higher handle), outer or inner (seen from the centre), or both for a
+        corner
+    """
 
     bench: int
     name: str
@@ -50,12 +54,12 @@ class Feature(Readable):
 class Evidence(WithClaim):
     """Evidence for the answer; a certificate that others can check comes from `core.proof`.
 
-    claim: what is known, as a kind and values; method: the claim and its proof in sentences (core/claims)
+    claim: the claim as a kind and values
     steps: number of proven steps
-    clear_until: time until which nothing touches [s]; None if no time is proven clear, because benches touch at the
-        start or the search is undecided from the start
-    bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
-    least_clearance: the narrowest graze met before the contact (or over the whole run), None if none
+    clear_until: time until which no two benches come within the margin, or touch if it is 0; None if no time is proven
+        clear: benches touch or are nearer at the start, or nothing is decided from the start [s]
+    bound: largest bound on the second derivative of a gap along the head's way that a step used [1/m]
+    least_clearance: narrowest graze before the contact, or over the whole run if there is none; None without a graze
     """
 
     claim: ContactClaim
@@ -76,18 +80,27 @@ ENDS = {
 
 @dataclass(frozen=True, slots=True, repr=False)
 class FirstContact(Readable):
-    """First time at which two benches that share no handle come within the margin.
+    """First time at which two benches that share no handle come within the margin, or touch if it is 0.
 
-    outcome: what the search found; certificate: how that is known
-    time: [s], None if clear or undecided; 0 for contact_at_start
-    time_bracket: (proven clear up to, overlapping at) [s], at most 1e-9 s wide, see first_contact(); if undecided of
-        any width, or up to the end of the search if no overlap is certain; None if clear or at the start
-    overlapping: if undecided, the pair that is certainly within the margin at the end of the bracket; None if none is
-    head: state of the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet
-    point: (x, y) [m] of the corner; end: end of the run if clear
-    gap: separation of the pair in its nominal places at that time [m]: the margin, or another value at the start or
-        with a stray; None without a pair
-    margin, stray: [m]; dance: the dance of the question
+    outcome: end of the search; contact: two benches come within the margin, or touch if it is 0
+    time: first time within the margin, or touching if it is 0; None when clear or undecided [s]
+    time_bracket: two times, at most 1e-9 s apart: no contact is proven up to the first, and a contact is certain at the
+        second. If undecided they may be further apart, and the second is the end of the search, unless a pair is
+        certainly within the margin then (overlapping). None if clear or at the start [s]
+    overlapping: if undecided: the pair that is certainly within the margin, or overlaps, at the second of these times,
+        perhaps not for the first time; None if no contact is certain, or not undecided
+    head: the head at that time
+    benches: the pair in contact, the smaller number first
+    corner: corner that touches or is nearest
+    edge: edge that this corner touches or is nearest to
+    point: position of that corner, x and y [m]
+    end: end of the run, when clear
+    certificate: evidence for the answer
+    gap: gap between the two at that time, each in its place: the margin, or less if they are nearer from the start, or
+        more with a stray [m]
+    margin: required clearance; 0: only a touch counts as a contact [m]
+    stray: largest distance of a hole from its place, by people and by play [m]
+    dance: the dance of the question
     """
 
     outcome: Outcome

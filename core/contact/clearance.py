@@ -46,7 +46,12 @@ Pair = tuple[int, int]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Graze(Readable):
-    """A local minimum of the clearance over time: time [s], clearance [m], the pair."""
+    """A local minimum of the clearance over time.
+
+    time: time of the minimum [s]
+    clearance: clearance at that time [m]
+    benches: the pair
+    """
 
     time: float
     clearance: float
@@ -55,9 +60,12 @@ class Graze(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class ClearanceProfile(Table):
-    """time (...) [s], clearance (...) [m], benches (..., 2), and the local minima between the first and last time.
+    """Columns, (T,) for a list of instants and empty for one, and the local minima between them.
 
-    ... is (T,) for a list of times and empty for one time.
+    time: instants [s]
+    clearance: smallest separation of two benches that are not neighbours [m]
+    benches: the pair with that separation, (T, 2)
+    grazes: local minima between the first and the last instant, refined
     """
 
     time: Floats
@@ -102,14 +110,16 @@ class ClearanceProfile(Table):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class LeastClearance(Readable):
-    """The least clearance over an interval of the dance.
+    """The least clearance over the dance.
 
-    distance: the least one found [m], reached at `time` [s] by `benches`. If benches touch, it is 0 at the first touch,
-        without a statement on later times; if they overlap at the start, it is their negative separation there. If it
-        is not decided when they touch first, it is 0 at a time at which they do
-    at_least: proven lower bound [m], PROOF_WIDTHS[0] below the distance or, if that needs too many steps,
-        PROOF_WIDTHS[1]; None if the search gave up first, if benches overlap at the start, or if their first touch is
-        not decided
+    distance: smallest distance found; 0 at the first touch, or at a later one if it is undecided which is the first; if
+        benches overlap at the start, minus the depth [m]
+    at_least: proven lower bound; None: the search gave up before proving one, or the distance is below zero [m]
+    time: time of the smallest distance [s]
+    benches: the pair at that distance
+
+    After a first touch nothing is said. The lower bound is PROOF_WIDTHS[0] below the distance or, if that needs too
+    many steps, PROOF_WIDTHS[1]; there is none if the first touch is not decided.
     """
 
     distance: float

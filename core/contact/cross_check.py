@@ -44,19 +44,20 @@ CLOSE_MAX = 30_000
 
 @dataclass(frozen=True, slots=True, repr=False)
 class ContactCheck(Readable):
-    """The engines' verdicts on a reported contact.
+    """Verdicts of independent engines just before and just after; within the margin counts as overlapping.
 
-    agree: True if every engine finds nothing before, and only the reported pair after
-    engines: verdict of each. before: True if it finds two judged benches within the margin just before; None for a
-        contact at the start. after: True if it finds the reported pair just after, and no others except those of
-        `together`; at the start it may find others too
-    judged: the judged benches, ascending: all, only the pair, or, in a dragon that is too long or too crowded, those
-        near the pair
-    together: other pairs that meet at the same time, to the resolution of the two poses: apart before, and after within
-        the margin by at most TOGETHER_DEPTH. A corner that meets a straight row where two of its benches overlap
-        touches both at once. Only the exact separation decides this; engines may find these pairs or not.
-    left_out: engines that cannot judge the case. The angle sum sees only corners inside a bench, so it cannot judge a
-        margin or, at the start, benches that cross without a corner inside the other
+    agree: True if every engine asked finds nothing before, and only the reported pair after
+    judged: benches judged: all, or only those near the pair, or the pair, if there are more than 2,000 or they are very
+        crowded; with cross_check=pair only the pair
+    engines: verdict of each engine; angle_sum cannot judge a margin, so it is asked only if the margin is 0
+    together: other pairs that come within the margin, or touch if it is 0, at the same time as the reported one, as
+        when a corner meets two benches of a straight row at once: apart just before, and barely within the margin just
+        after
+    left_out: engines that were not asked because they cannot judge this case: the angle sum sees only corners inside a
+        bench, so it cannot judge a margin or, at the start, benches that cross without a corner inside the other
+
+    The exact separation alone decides what is together, by a depth of at most TOGETHER_DEPTH: engines may find these
+    pairs or not.
     """
 
     agree: bool

@@ -29,11 +29,14 @@ from core.venue import Area, Venue
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Nearest(Readable):
-    """Smallest distance between the benches and an area's edges, holes included.
+    """Smallest distance between the benches and the edges of one area, holes included.
 
-    distance: the least one found [m], reached at `time` [s] by `bench`; 0 at the first touch
-    at_least: proven lower bound [m], see LeastClearance; None if the search gave up first
-    point: nearest point of the bench; wall: nearest point of the area (x, y) [m]
+    distance: smallest distance found; 0 at the first touch [m]
+    at_least: proven lower bound, as in a LeastClearance; None: the search gave up before proving one [m]
+    time: time of the smallest distance [s]
+    bench: the bench at that distance
+    point: nearest point of the bench, x and y [m]
+    wall: nearest point of the area, x and y [m]
     """
 
     distance: float
@@ -46,15 +49,19 @@ class Nearest(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class AreaClearance(Readable):
-    """The benches and the edges of one area, by the name of the area.
+    """Distance between the benches and the edges of the square or of one obstacle.
 
-    outcome: of the search for a bench within the margin; time: of the first one [s], None if clear or undecided
-    time_bracket: (proven clear up to, within the margin at) [s], see venue_clearance(); if undecided of any width, or
-        up to the end of the search if no contact is certain; None if clear or at the start
-    bench, point (x, y) [m]: the first bench within the margin, and its nearest point
-    gap: between that bench and the edge at that time [m]: the margin to rounding, except for contact_at_start
-    nearest: None if it was not requested
-    overlapping: if undecided, the bench that is certainly within the margin at the end of the bracket; None if none is
+    name: name of the area
+    outcome: whether a bench comes within the margin, or touches if it is 0
+    time: first such time; None when clear or undecided [s]
+    time_bracket: two times: proven clear up to the first; within the margin at the second. If undecided, the second is
+        the end of the search unless overlapping names a bench; None if clear or at the start [s]
+    overlapping: if undecided: the bench that is certainly within the margin, or touches, at the second of these times;
+        None if none is, or not undecided
+    bench: the first bench within the margin, or touching if it is 0
+    gap: distance to the area at that time: the margin to rounding, or less if it is nearer from the start [m]
+    point: point of that bench nearest to the area, x and y [m]
+    nearest: smallest distance over the dance; None without details
     """
 
     name: str
@@ -74,7 +81,12 @@ class AreaClearance(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Misplaced(Readable):
-    """A bench that starts outside the square or in an obstacle: the area's name, the bench, its centre (x, y) [m]."""
+    """A bench that starts outside the square or inside an obstacle.
+
+    name: name of the square or of the obstacle
+    bench: the bench
+    point: centre of the bench, x and y [m]
+    """
 
     name: str
     bench: int
@@ -83,9 +95,10 @@ class Misplaced(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class VenueClearance(Readable):
-    """The benches in the venue.
+    """Distances between the benches and the venue.
 
-    misplaced: the first bench that starts outside the square or in an obstacle; areas: the square, then the obstacles
+    misplaced: the first bench that starts outside the square or in an obstacle
+    areas: the square, then the obstacles
     """
 
     misplaced: Misplaced | None

@@ -36,21 +36,23 @@ Intervals = tuple[tuple[float, float], ...]
 class MinimumPitch(Readable):
     """The smallest pitch such that every larger one is free of contact down to the turning circle.
 
-    pitch: [m]; pitch_bracket: (infeasible, feasible) [m], with equal ends if the start is the limit without a contact;
-        pitches in between are undecided: more than 1e-9 m on wide spirals, or where a fold disappears on the way
-    limited_by: a graze on the way; contact exactly on the circle; the start, where the dance would touch or, without a
-        contact, begin inside the circle; or the fold: a bench could not follow the head as far as the circle
-    benches: the pair that touches just below; bench: the one that folds there; head_radius: of the head then [m], at a
-        fold that of the circle
-    other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
-    justified_by: evidence for every larger pitch; with a scan, below proven_from only single ones are proven, at most
-        scan_step [m] apart, and a narrower range of infeasible ones is not excluded there
-    proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is `pitch` without a scan, the
-        second is None for every larger pitch
-    scan_step: of this scan for feasible pitches, None without one; a PitchScan samples the radius of first contact
-    dragons: (0, k) with several dragons in the spiral, if bench benches[0] of dragon 0 and bench benches[1] of dragon k
-        touch just below; None for two benches of one dragon
-    evaluations: number of ways marched from the start to the circle, plus that of bands of pitches (pitch_bands.py)
+    pitch: the minimum pitch [m]
+    pitch_bracket: infeasible pitch; feasible pitch; equal if any smaller pitch would begin inside the circle. Those in
+        between are undecided: more than 1e-9 m on wide spirals, or where a fold disappears on the way [m]
+    limited_by: effect of a slightly smaller pitch. graze: contact on the way; circle: contact when the head is on the
+        circle; start: contact at the start or, if benches is None, a start inside the circle; fold: a bench cannot
+        follow the head as far as the circle. Contact: within the margin, or a touch if it is 0
+    benches: the pair in contact at a slightly smaller pitch; None for a fold or if there is none
+    bench: the bench that folds at a slightly smaller pitch; None if none does
+    head_radius: distance of the head from the centre at that moment [m]
+    other_feasible_intervals: intervals of smaller pitches that are feasible too, found on a grid of 400 pitches [m]
+    justified_by: evidence that larger pitches are feasible. bound: proven for all; scan: below proven_from only single
+        pitches are proven, at most scan_step apart, so a narrower infeasible range there is not excluded
+    proven_from: every pitch from this one up is proven feasible; equals pitch without a scan [m]
+    proven_up_to: upper end of the proven pitches; None: no upper end [m]
+    scan_step: largest distance between two pitches of the scan; None: no scan [m]
+    evaluations: number of runs to the circle computed, for single pitches or for whole bands of pitches
+    dragons: the dragons of the two benches, the first bench that of dragon 0; None if both are of one dragon
     """
 
     pitch: float

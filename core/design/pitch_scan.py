@@ -53,8 +53,10 @@ SCAN_FROM, SCAN_TO = 0.8, 1.35
 class PitchScan(Table):
     """Head radius at first contact against pitch.
 
-    pitch, radius: (N,) [m], ascending; a run without contact has no entry
-    pieces: (start, end) indices of the continuous parts; between two of them the radius jumps, or there is no contact
+    pitch: samples, ascending; a pitch without contact has no entry [m]
+    radius: distance of the head from the centre at first contact [m]
+    pieces: stretches without a jump, as indices [from, to) into pitch and radius; between two of them the radius jumps,
+        or there is no contact
     """
 
     pitch: Floats

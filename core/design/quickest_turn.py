@@ -49,8 +49,14 @@ BESIDE = 100.0
 
 @dataclass(frozen=True, slots=True, repr=False)
 class TurnTime(Readable):
-    """How long a turn takes: length [m]; head_speed: the largest at which no handle exceeds the limit [m/s]; time: of
-    the head from the entry to the exit at that speed [s]; handles: those that reach the limit, at once."""
+    """How long a turn takes.
+
+    turn: the turn
+    length: its length [m]
+    head_speed: largest constant speed of the head at which no handle exceeds the limit [m/s]
+    time: time of the head from the entry to the exit at that speed: the length over the speed [s]
+    handles: handles that reach the limit, all at once
+    """
 
     turn: Turn | ClothoidTurn
     length: float

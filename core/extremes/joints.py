@@ -30,7 +30,12 @@ BATCH = 1_000
 
 @dataclass(frozen=True, slots=True, repr=False)
 class SharpestBend(Readable):
-    """The largest angle between two consecutive benches [rad], its time [s], the benches. TightBend is about a path."""
+    """Largest angle between two consecutive benches; of a path see TightBend.
+
+    angle: angle between their headings [rad]
+    time: time at which it is reached [s]
+    benches: the two benches
+    """
 
     angle: float
     time: float

@@ -49,10 +49,14 @@ HALVINGS = 50
 
 @dataclass(frozen=True, slots=True, repr=False)
 class HighestSpeed(Readable):
-    """speed: the highest one found [m/s]; time [s]; handles: those that reach it together
-    speed_bracket: (found, proven upper bound: None if the proof was given up) [m/s]; in the last moments before a fold
-        the one found may be too high by 1e-6 of it
-    passage: index of its passage; None outside all passages"""
+    """The highest speed of any handle over continuous time.
+
+    speed: highest speed found; in the last moments before a fold it may be too high by 1e-6 of it [m/s]
+    speed_bracket: highest speed found, then a proven upper bound (None if the search gave up before proving one) [m/s]
+    time: time at which it is reached [s]
+    handles: handles that reach it at that time
+    passage: index of the passage in which it is reached; None: in none
+    """
 
     speed: float
     speed_bracket: tuple[float, float | None]
@@ -63,11 +67,17 @@ class HighestSpeed(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class MaximumHeadSpeed(Readable):
-    """head_speed: the largest one [m/s]
-    head_speed_bracket: (proven to keep the limit: None if the proof was given up, found to reach it) [m/s]
-    speed_ratio: highest handle speed over head speed; handles: those that reach the limit together
-    time: time at which they reach it, at that head speed [s]; time_at_unit_head_speed [s]
-    passage: index of its passage; None outside all passages"""
+    """The largest speed of the head at which no handle exceeds a limit.
+
+    head_speed: the largest one [m/s]
+    head_speed_bracket: proven to keep the limit (None if the search gave up before proving one); found to reach it
+        [m/s]
+    speed_ratio: highest speed of any handle divided by that of the head
+    handles: handles that reach the limit at that time
+    time: time at which they reach it, at that head speed; 0 is the entry into a turn [s]
+    time_at_unit_head_speed: the same time at a head speed of 1 m/s [s]
+    passage: index of the passage in which they reach it; None: in none
+    """
 
     head_speed: float
     head_speed_bracket: tuple[float | None, float]

@@ -81,7 +81,11 @@ CELL_WORK, ENVELOPE_WORK = 200.0, 1e8
 
 @dataclass(frozen=True, slots=True, repr=False)
 class SweepProof(WithClaim):
-    """Evidence of an envelope: the claim, and the number of cells."""
+    """Proven bounds of an envelope.
+
+    claim: the claim as a kind and values
+    cells: number of stretches of the path, each with a bound on the motion
+    """
 
     claim: GroundClaim
     cells: int
@@ -92,8 +96,11 @@ class Envelope(WithArrays):
     """The ground that benches sweep.
 
     polygons: for each its outer ring, counter-clockwise, then its holes, clockwise; rings are closed, (points, 2) [m]
-    excess: largest distance of any point of them from ground that a bench covers [m]; area: of all polygons [m2]
-    start, stop: the interval of time [s]
+    excess: no point of it is further than this from ground that a bench covers, which is proven [m]
+    area: area of all polygons [m2]
+    start: start of the time asked about [s]
+    stop: end of the time asked about [s]
+    certificate: proven bounds of the envelope
     """
 
     polygons: Polygons
@@ -102,7 +109,6 @@ class Envelope(WithArrays):
     start: float
     stop: float
     certificate: SweepProof
-    _units = {"area": "m2", "polygons": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
         beyond = f"at most {self.excess:.3g} m beyond the benches"

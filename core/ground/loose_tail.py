@@ -40,7 +40,10 @@ POINT_WORK, TAIL_WORK = 20.0, 1e7
 
 @dataclass(frozen=True, slots=True, repr=False)
 class TailProof(WithClaim):
-    """Evidence of the ground of a loose tail: the claim."""
+    """Evidence of the ground of a loose tail.
+
+    claim: the claim as a kind and values
+    """
 
     claim: TailClaim
 
@@ -50,9 +53,13 @@ class TailReach(WithArrays):
     """The ground that loose benches can reach.
 
     polygons: for each its outer ring, counter-clockwise, then its holes, clockwise; rings are closed, (points, 2) [m]
-    benches: the last ones, that are loose [1]; reach: furthest that they come from the handle that still follows [m]
-    excess: largest distance of any point of the polygons from ground within that reach [m]; area: of all of them [m2]
-    start, stop: the interval of time [s]
+    benches: number of loose benches, the last ones
+    reach: furthest that they come from the handle that still follows the path [m]
+    excess: largest distance of any point of the polygons from ground within that reach [m]
+    area: area of all polygons [m2]
+    start: start of the time asked about [s]
+    stop: end of the time asked about [s]
+    certificate: evidence for the ground
     """
 
     polygons: Polygons
@@ -63,7 +70,6 @@ class TailReach(WithArrays):
     start: float
     stop: float
     certificate: TailProof
-    _units = {"area": "m2", "polygons": "m", "reach": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
         return f"{self.benches} loose benches within {self.reach:.3f} m, {self.area:.6g} m2"

@@ -37,14 +37,18 @@ PAIR_WORK, STAYS_WORK = 0.2, 2e7
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Stay(Readable):
-    """A time during which benches are in an area: from begin to end [s]; first, last: the bench that comes first, and
-    the one that leaves last."""
+    """A time during which benches are in an area.
+
+    begin: the area is proven to be clear before it [s]
+    end: the area is proven to be clear after it [s]
+    first: the bench that comes first
+    last: the bench that leaves last
+    """
 
     begin: float
     end: float
     first: int
     last: int
-    _units = {"begin": "s", "end": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     @property
     def duration(self) -> float:
@@ -56,8 +60,10 @@ class Stay(Readable):
 class Stays(Readable):
     """The times at which a bench is in an area, or within the margin of it.
 
-    name: of the area; stays: in order, apart. Proven: at all other times from start to stop it is clear
-    start, stop: the interval of time [s]
+    name: name of the area
+    stays: these times in order, apart; proven: at all other times from start to stop it is clear
+    start: start of the time asked about [s]
+    stop: end of the time asked about [s]
     """
 
     name: str

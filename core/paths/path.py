@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol, Self
+from typing import Literal, Protocol, Self
 
 from core import kernels
 from core.display import Readable
@@ -15,8 +15,13 @@ Columns = tuple[Floats, Floats, Floats]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class HeadState(Readable):
-    """Handle 0 at one instant: theta on a spiral in its own frame [rad, unwrapped], None on a route; radius from the
-    centre of the spiral, or from the origin [m]; x [m], y [m]."""
+    """Handle 0 at one instant.
+
+    theta: polar angle on a spiral in its own frame, unwrapped; None on any other path [rad]
+    radius: distance from the centre of a spiral, or from the origin [m]
+    x: x of the handle [m]
+    y: y of the handle [m]
+    """
 
     theta: float | None
     radius: float
@@ -28,17 +33,20 @@ class HeadState(Readable):
 class PathSummary(Readable):
     """A path by all that matters for a claim.
 
-    kind: spiral or route; pitch [m], start_turns: of a spiral; begin, end: smallest and largest s of the head [m]
-    pieces: kinds of the pieces of a route in their order, or the different kinds if there are many
+    kind: spiral, or route: any other path
+    begin: smallest arc length of the head; 0 is its place at time 0 [m]
+    end: largest arc length of the head [m]
+    pitch: pitch of a spiral; None on a route [m]
+    start_turns: turns from the centre to the start of a spiral; None on a route [turns]
+    pieces: kinds of the pieces of a route, in order; of more than six pieces only the different kinds
     """
 
-    kind: str
+    kind: Literal["spiral", "route"]
     begin: float
     end: float
     pitch: float | None = None
     start_turns: float | None = None
     pieces: tuple[str, ...] = ()
-    _units = {"begin": "m", "end": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 class Path(Protocol):

@@ -17,7 +17,13 @@ from core.values import Point
 
 @dataclass(frozen=True, slots=True, repr=False)
 class NearPass(Readable):
-    """A local minimum of the clearance between dragons: time [s], clearance [m], the dragons and their benches."""
+    """A local minimum of the clearance between dragons over time.
+
+    time: time of the minimum [s]
+    clearance: clearance at that time [m]
+    dragons: the two dragons
+    benches: the bench of each
+    """
 
     time: float
     clearance: float
@@ -29,11 +35,12 @@ class NearPass(Readable):
 class EncounterEvidence(WithClaim):
     """Evidence for the answer.
 
-    claim: what is known, as a kind and values; method: the claim and its proof in sentences (core/claims)
+    claim: the claim as a kind and values
     steps: number of proven steps
-    clear_until: time until which no benches of two dragons come within the margin [s]; None if no time is proven clear
-    bound: the largest bound on the second derivative of a gap in time that a step used [m/s^2]
-    least_clearance: the narrowest pass of two dragons seen before the encounter, None if none was
+    clear_until: time until which no benches of two dragons come within the margin, or touch if it is 0; None if no time
+        is proven clear [s]
+    bound: largest bound on the second derivative of a gap in time that a step used [m/s^2]
+    least_clearance: narrowest pass of two dragons seen before the encounter; None if none was
     """
 
     claim: EncounterClaim
@@ -41,25 +48,32 @@ class EncounterEvidence(WithClaim):
     clear_until: float | None
     bound: float
     least_clearance: NearPass | None
-    _units = {"bound": "m/s^2"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class FirstEncounter(Readable):
-    """First time at which benches of two different dragons come within the margin.
+    """First time at which benches of two different dragons come within the margin, or touch if it is 0.
 
-    outcome: what the search found; certificate: how that is known
-    time: [s], None if clear or undecided; the start for contact_at_start
-    time_bracket: (proven clear up to, within the margin at) [s], see first_encounter(); if undecided of any width, or
-        up to the end of the search if no encounter is certain; None if clear or at the start
-    dragons: (i, j), i < j; benches: (a, b), bench a of dragon i and bench b of dragon j; corner, edge: the features
-        that meet, each with the number of its bench in its own dragon; feature_dragons: the dragons of corner and edge
-    point: (x, y) [m] where they meet; heads: states of the heads of both dragons at that time, theta in the own frame
-        of each spiral, x and y in the world
-    overlapping: if undecided, (dragons, benches) that are certainly within the margin at the end of the bracket
-    gap: separation of the two benches in their nominal places at that time [m]: the margin, or another value at the
-        start or with a stray
-    end: see PerformanceEnd, if clear; margin, stray: [m]; performance: of the question
+    outcome: end of the search; contact: benches of two dragons come within the margin, or touch if it is 0
+    time: first time within the margin, or touching if it is 0; None when clear or undecided [s]
+    time_bracket: two times: proven clear up to the first; within the margin at the second. If undecided, the second is
+        the end of the search, unless overlapping names two benches; None if clear or at the start [s]
+    dragons: the two dragons, in the order of the dances, from 0
+    benches: their benches that meet, or come nearer than the margin, one of each
+    corner: corner that touches or is nearest, with the number of its bench in its own dragon
+    edge: edge that this corner touches or is nearest to
+    feature_dragons: the dragons of corner and edge
+    point: position of that corner, x and y [m]
+    heads: the heads of both at that time, theta in the own frame of each spiral, x and y in the world
+    overlapping: if undecided: the benches that are certainly within the margin, or overlap, at the second of these
+        times, perhaps not for the first time; None if none are, or not undecided
+    end: end of the performance, when clear
+    certificate: evidence for the answer
+    gap: gap between the two benches at that time, each in its place: the margin, or less if they are nearer from the
+        start, or more with a stray [m]
+    margin: required clearance; 0: only a touch counts [m]
+    stray: largest distance of a hole from its place, by people and by play [m]
+    performance: the performance of the question
     """
 
     outcome: Outcome

@@ -36,10 +36,13 @@ from core.values import Floats
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class PerformanceClearance(Table):
-    """time (...) [s], clearance (...) [m], dragons (..., 2), benches (..., 2), one of each, and the local minima
-    between the first and last time.
+    """Columns, (T,) for a list of instants and empty for one, and the local minima between them.
 
-    ... is (T,) for a list of times and empty for one time.
+    time: instants [s]
+    clearance: smallest separation of two benches of different dragons [m]
+    dragons: the two dragons with that separation, in the order of the dances, from 0
+    benches: their benches, one of each
+    grazes: local minima between the first and the last instant, refined
     """
 
     time: Floats
@@ -68,14 +71,17 @@ class PerformanceClearance(Table):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class PerformanceLeastClearance(Readable):
-    """The least clearance between different dragons over an interval of the performance.
+    """The least clearance between two dragons over the performance.
 
-    distance: the least one found [m], reached at `time` [s] by `benches`, one of each of `dragons`. If two dragons
-        touch, it is 0 at the first touch, without a statement on later times; if they overlap at the start, it is their
-        negative separation there. If it is not decided when they touch first, it is 0 at a time at which they do
-    at_least: proven lower bound [m], PROOF_WIDTHS[0] below the distance or, if that needs too many steps,
-        PROOF_WIDTHS[1], or more where a bench folds; None if the search gave up first, if dragons overlap at the start,
-        or if their first touch is not decided
+    dragons: the dragons, in the order of the dances
+    benches: a bench of each
+    distance: smallest distance found; 0 at the first touch, or at a later one if it is undecided which is the first; if
+        two dragons overlap at the start, minus the depth [m]
+    at_least: proven lower bound; None: the search gave up before proving one, or the distance is below zero [m]
+    time: time of the smallest distance [s]
+
+    After a first touch nothing is said. The lower bound is PROOF_WIDTHS[0] below the distance or, if that needs too
+    many steps, PROOF_WIDTHS[1], or more where a bench folds; there is none if the first touch is not decided.
     """
 
     distance: float

@@ -25,13 +25,16 @@ Pairing = tuple[tuple[int, int], tuple[int, int]]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class EncounterCheck(Readable):
-    """The engines' verdicts on a reported encounter. Only pairs of benches of two dragons count.
+    """Verdicts of independent engines on the benches of several dragons; within the margin counts as overlapping.
 
-    agree: True if every engine finds no pair before, and only the reported one after
-    engines: verdict of each, as in a ContactCheck
-    judged: the judged benches of every dragon: all, or in a scene that is too large or too crowded those near the pair
-    together: other pairs that meet at the same time, as in a ContactCheck: (dragons, benches) of each
-    left_out: engines that cannot judge the case, as in a ContactCheck
+    agree: True if every engine asked finds nothing before, and only the reported pair after
+    judged: benches judged, a list for each dragon: all, or only those near the pair if there are more than 2,000 or
+        they are very crowded; with cross_check=pair or a stray only the pair
+    engines: verdict of each engine; angle_sum cannot judge a margin, so it is asked only if the margin is 0
+    together: other pairs that come within the margin, or touch if it is 0, at the same time as the reported one
+    left_out: engines that were not asked because they cannot judge this case: the angle sum sees only corners inside a
+        bench, so it cannot judge a margin or, at the start, benches that cross without a corner inside the other
+
     With a stray only the reported pair is judged, with its gap at that time as the margin.
     """
 

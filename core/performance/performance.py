@@ -94,9 +94,12 @@ class Part(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class PerformanceEnd(Readable):
-    """End of a performance: reason, time [s]; the dragon that folds and its bench, None if all paths end.
+    """End of a performance on which no benches of two dragons come within the margin, or touch if it is 0.
 
-    reason: FOLD, END, or STOP at the end of the time that was asked about
+    reason: fold: a bench cannot follow any more; end: all paths end; stop: the requested time ends
+    time: time of the end [s]
+    dragon: the dragon that folds; None if none does
+    bench: the bench that folds; None if none does
     """
 
     reason: EndReason

@@ -64,12 +64,18 @@ Stretches = list[tuple[float, float]]
 class SafeDelays(Readable):
     """The delays of one dragon at which no dragons of a performance meet.
 
-    safe: intervals of delays that are proven safe [s]; each end is within END_WIDTH of a delay that is not, or at an
-        end of the question's interval, or at an undecided one
-    undecided: intervals of which neither is proven [s]. At all other delays two dragons certainly meet, but for
-        END_WIDTH beside a safe interval
-    part: number of the dragon; least, most: the interval of the question [s]; margin, stray: [m]
-    stop: end of the judged time [s], None for the end of the performance at every delay; marches: number of searches
+    safe: intervals of delays that are proven safe; an end is within 0.01 s of a delay that is not, or at an end of the
+        interval that was asked about, or at an undecided one [s]
+    undecided: intervals of which neither is proven. At all other delays two dragons certainly meet, but for 0.01 s
+        beside a safe interval [s]
+    part: number of the dragon
+    least: shortest delay of the question [s]
+    most: longest delay of the question [s]
+    margin: the required margin; 0: only a touch counts [m]
+    stray: largest distance of a hole from its place, by people and by play [m]
+    stop: end of the judged time; None: the end of the performance at every delay [s]
+    marches: number of searches
+    performance: the performance of the question
     """
 
     safe: Intervals
@@ -82,7 +88,6 @@ class SafeDelays(Readable):
     stop: float | None
     marches: int
     performance: Performance = field(repr=False, compare=False)
-    _units = {"safe": "s", "undecided": "s", "least": "s", "most": "s"}  # noqa: RUF012 - a field may not be annotated here
 
     def _line(self) -> str:
         def listed(intervals: Intervals) -> str:

@@ -40,11 +40,14 @@ from core.values import Floats
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class PerformanceExhibit(WithArrays):
-    """Poses of one or two whole dragons in which two benches overlap.
+    """Poses of one or two whole dragons in which two benches overlap, every chord as long as it should be to rounding.
 
-    time: of the performance [s]; dragons: the one with both benches, or the two with one each; handles: (n + 1, 2) of
-        each of these dragons [m], every chord as long as it should be to rounding; benches: the pair, the second None
-        for an edge of the venue; depth: of the overlap [m]; stray: the largest distance of a hole from its place [m]
+    time: time of the poses [s]
+    dragons: the dragon with both benches, or the two with one each
+    handles: places of the handles of each of these dragons, x and y, head first [m]
+    benches: the pair, the second None for an edge of the venue
+    depth: depth of the overlap [m]
+    stray: largest distance of a handle from its place [m]
     """
 
     time: float
@@ -53,7 +56,6 @@ class PerformanceExhibit(WithArrays):
     benches: tuple[int, int | None]
     depth: float
     stray: float
-    _units = {"handles": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
         depth, stray = display(self.depth, "m"), display(self.stray, "m")
@@ -64,17 +66,23 @@ class PerformanceExhibit(WithArrays):
 class PerformanceTolerance(Readable):
     """Tolerance of a performance to strays of people.
 
-    stray: [m], proven safe: while no hole is further from its place at any instant, nothing touches; 0: no stray is
-        known to be safe, for instance because two dragons touch without any
-    stray_bracket: (proven safe, shown to touch) [m]; the second one None if no contact was shown
-    limited_by: see Limit; dragons: the one, or the two, whose benches would touch first with a larger stray, none if
-        nothing limits it; time: of the performance, at which they are nearest to meeting [s]; benches: these two, the
-        second one None for the venue; area: its name. None if nothing limits it
-    exhibit: poses in which these two overlap, with strays up to the second end of the bracket
+    stray: proven safe: while no hole is further from its place, nothing touches, neither benches of one dragon nor of
+        two nor the venue; 0: no stray is known to be safe, for instance because two dragons touch without any [m]
+    stray_bracket: proven safe; shown to touch, None where no such poses were found [m]
+    limited_by: effect of a larger stray. benches: two benches touch; venue: a bench and an edge of the venue; chord: no
+        contact up to half of the shortest chord
+    dragons: the dragon whose benches limit the stray, or the two with one each, in the order of the dances; empty if
+        nothing limits it
+    time: time at which these are nearest to touching; None if nothing limits the stray [s]
+    benches: the pair, the second None for an edge of the venue; None if nothing limits the stray
+    area: name of the square or of the obstacle; None if none limits the stray
+    exhibit: poses in which they overlap, with strays up to the second end of the bracket; None where none were found
     own: the tolerance of each dragon by itself in the venue, on the clock of its own dance; one that stands has that of
         the first or the last STANDING of its dance
-    certificate: evidence that no two dragons touch with the stray; None for one dragon, or without a safe stray
-    start, stop: the interval of time [s]
+    certificate: proof that no two dragons touch with the stray; None for one dragon, or without a safe stray
+    start: start of the time asked about [s]
+    stop: end of the time asked about [s]
+    performance: the performance of the question
     """
 
     stray: float

@@ -26,12 +26,17 @@ from core.performance.performance import Part, Performance
 
 @dataclass(frozen=True, slots=True, repr=False)
 class PerformanceFailure(Readable):
-    """One failed or undecided condition of a performance.
+    """One failed or undecided condition of a dragon, or of two together; times are those of the performance.
 
-    kind: see FailureKind; time: of the performance [s], as in a Failure; dragons: the one at fault, or the two that
-        meet; benches: those at fault, for two dragons one of each; message: one sentence that names the dragon
-    time_bracket: (proven not to fail up to, failing at) on the clock of the performance [s]; None without a search
-    failure: of a dragon by itself, on the clock of its own dance; None for two dragons
+    kind: kind of failure
+    time: first time of the failure, as in a Failure [s]
+    dragons: the dragon at fault, or the two that come within the margin, in the order of the dances; empty if it is
+        undecided which
+    benches: benches at fault, of two dragons one of each; for a speed, the handles
+    message: the failure in one sentence, which names the dragon
+    time_bracket: two times: proven not to fail up to the first; failing at the second. None for a fold, or at the start
+        [s]
+    failure: that of a dragon by itself, on the clock of its own dance; None for two dragons
     """
 
     kind: FailureKind
@@ -48,13 +53,19 @@ class PerformanceFailure(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class PerformanceReport(Readable):
-    """The verdict on a performance, and the answers behind it.
+    """Verdict on several dances on one clock.
 
-    start, stop: the judged interval [s]; verdict: see Judgement; passed: True for PASSES
-    failures: in order of time; a dragon by itself is judged to the stop, or to a touch of two of its own benches, also
-        after an encounter
-    encounter: the first one of two dragons; least_clearance: between any two, None for one dragon and without details
-    reports: of each dragon by itself, on the clock of its own dance; None for one that stands during the whole interval
+    start: start of the time checked [s]
+    stop: end of the time checked [s]
+    verdict: passes: nothing fails; fails: at least one condition certainly fails; undecided: neither is proven
+    passed: true if the verdict is passes
+    failures: failed and undecided conditions of each dragon by itself, and the first encounter of two, in order of
+        time. A dragon by itself is judged to the stop, or to a touch of two of its own benches, also after an encounter
+    encounter: first time that benches of two dragons come within the margin, or touch if it is 0
+    least_clearance: least clearance between two dragons; None for a single one, or without details
+    reports: verdict on each dragon by itself in the venue, on the clock of its own dance, which is 0 at its delay; None
+        for one that stands during the whole time checked
+    performance: the performance of the question
     """
 
     start: float

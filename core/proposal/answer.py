@@ -135,9 +135,11 @@ def benches_of(count: int) -> str:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Near(Readable):
-    """What the benches come nearest to: the name of the square or of an obstacle, the distance [m], the time [s].
+    """What the benches come nearest to.
 
-    distance: from all ground that benches may cover when people stray by what was asked for [m]
+    name: name of the square or of the obstacle
+    distance: smallest distance found of all ground that benches may cover with the stray of the request [m]
+    time: time at which it is reached [s]
     in_place: the same with everybody in place [m]
     """
 
@@ -145,7 +147,6 @@ class Near(Readable):
     distance: float
     time: float
     in_place: float
-    _units = {"in_place": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @dataclass(frozen=True, slots=True, repr=False)

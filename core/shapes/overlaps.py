@@ -82,7 +82,12 @@ class CrossCheck(WithArrays):
 
 @dataclass(frozen=True, slots=True)
 class Verdict(Readable):
-    """True if an engine finds the pair overlapping just before, and just after first contact; None: no time before."""
+    """Findings of one engine among the benches judged, without pairs of neighbours.
+
+    before: whether it finds any two overlapping, or within the margin, just before; None for a contact at the start
+    after: whether it finds the reported pair overlapping, or within the margin, just after, and no other pairs except
+        those in together. For a contact at the start other pairs are allowed
+    """
 
     before: bool | None
     after: bool

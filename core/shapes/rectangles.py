@@ -57,8 +57,12 @@ PAPER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class Separation(WithArrays):
-    """separation (...) [m]: > 0 apart, 0 touching, < 0 minus the penetration depth;
-    witness_a, witness_b (..., 2) [m]; normal (..., 2) from a to b.
+    """Signed distance of two shapes, for one pair or for arrays of pairs (...).
+
+    separation: signed distance; minus the penetration depth if they overlap [m]
+    witness_a: point of a that realises the separation, x and y [m]
+    witness_b: point of b that realises the separation, x and y [m]
+    normal: unit vector from a to b
 
     Invariant: witness_b - witness_a == separation * normal, also in penetration.
     """

@@ -31,7 +31,9 @@ CURVE_MOST = 10_000
 class ToleranceCurve(Table):
     """Stray that is safe at each of some pitches of a spiral, on the way to a turning circle.
 
-    pitch: (N,) [m], as given; stray: (N,) [m], proven safe; tolerances: the whole answers
+    pitch: pitches, (N,), as given [m]
+    stray: proven safe: while no hole is further from its place, nothing touches, (N,) [m]
+    tolerances: the whole answers
     """
 
     pitch: Floats

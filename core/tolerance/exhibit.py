@@ -44,10 +44,13 @@ THREES_TRIED = 4
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class Exhibit(WithArrays):
-    """A pose of the whole dragon in which two benches overlap.
+    """A pose of the whole dragon in which two benches overlap, every chord as long as it should be to rounding.
 
-    time: [s]; handles: (n + 1, 2) [m], every chord as long as it should be to rounding; benches: the pair, the second
-        None for an edge of the venue; depth: of the overlap [m]; stray: the largest distance of a hole from its place
+    handles: places of the handles, x and y, head first [m]
+    time: time of the pose [s]
+    benches: the pair, the second None for an edge of the venue
+    depth: depth of the overlap [m]
+    stray: largest distance of a handle from its place [m]
     """
 
     time: float
@@ -55,7 +58,6 @@ class Exhibit(WithArrays):
     benches: tuple[int, int | None]
     depth: float
     stray: float
-    _units = {"handles": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
         a, b = self.benches

@@ -40,7 +40,11 @@ class Limit(StrEnum):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class StrayProof(WithClaim):
-    """Evidence of the safe stray: the claim, and the number of steps that the march took."""
+    """Evidence of the safe stray.
+
+    claim: the claim as a kind and values
+    steps: number of steps taken
+    """
 
     claim: StrayClaim
     steps: int
@@ -50,17 +54,22 @@ class StrayProof(WithClaim):
 class Tolerance(Readable):
     """Tolerance of a dance to strays of people.
 
-    stray: [m], proven safe: while no hole is further from its place at any instant, nothing touches; 0: no stray is
-        known to be safe, for instance because benches touch without any
-    independent: stray proven safe without the help of benches that hold their neighbours apart [m]; equal to stray
-        unless such a bench helps
-    simple: stray that is safe by the simple bound, by which no point moves further than its bench's gain times the
-        stray [m]; from samples, and safe because it is not above the stray
-    stray_bracket: (proven safe, shown to touch) [m]; the second one None if no contact was shown
-    limited_by: see Limit; time: at which the two that limit it are nearest to meeting [s]; benches: these two, the
-        second one None for the venue; area: its name. All None if nothing limits it
-    exhibit: a pose of the whole dragon in which the two overlap, with strays up to the second end of the bracket
-    start, stop: the interval of time [s]
+    stray: proven safe: while no hole is further from its place, nothing touches; 0: no stray is known to be safe, for
+        instance because benches touch without any [m]
+    independent: stray proven safe without the help of benches that hold their neighbours apart; equal to stray unless
+        such a bench helps [m]
+    simple: answer of the simple bound: each point of a bench moves at most its own factor times the stray; from
+        samples, and safe because it is not above the stray [m]
+    stray_bracket: proven safe; shown to touch, None where no such pose was found [m]
+    limited_by: effect of a larger stray. benches: two benches touch; venue: a bench and an edge of the venue; chord: no
+        contact up to half of the shortest chord
+    time: time at which these are nearest to touching; None if nothing limits the stray [s]
+    benches: the pair, the second None for an edge of the venue; None if nothing limits the stray
+    area: name of the square or of the obstacle; None if none limits the stray
+    exhibit: a pose in which they overlap, with strays up to the second end of the bracket; None where none was found
+    start: start of the time asked about [s]
+    stop: end of the time asked about [s]
+    certificate: proof of the safe stray
     """
 
     stray: float
