@@ -157,9 +157,12 @@ class Clock:
 class Dance(Readable):
     """A dragon that follows a path. Every question about a given path takes a dance.
 
+    dragon: the benches
+    path: the path
     head_speed: speed of the head outside the passages [m/s]
     passages: parts with other speeds, one after another from time 0 on
     end: end of the run: the fold or the centre of a spiral, the end of a route
+
     raises: InvalidValue for values of other types, for a dragon that cannot stand at the start of a spiral
         (path.start_turns), and for a bend of a route too tight for a chord (path); `earliest` refuses a short route
 

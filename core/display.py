@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import fields
 from enum import Enum
 from functools import cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,30 +18,8 @@ LINE_DIGITS, TABLE_DIGITS = 9, 15
 TEXT_MOST, REPR_MOST = 60, 160
 # Most entries of a list in a table; a longer list shows its first entries.
 ENTRIES_MOST = 6
-# Units by field name, because a name has one meaning. A class whose field means something else overrides it in
-# `_units`.
-_FIELDS = {
-    "rad": "angle end_heading rotation start_angle start_heading start_theta sweep theta",
-    "m": """
-        at_least body_length centre chords clearance depth distance entry_bracket excess exit_bracket forward gap
-        head_length head_radius hole independent lateral length length_bracket lengths margin other_feasible_intervals
-        overhang overhangs people pin pitch pitch_bracket pitch_error point points position proven_from proven_up_to
-        radius rings scan_step separation simple stray stray_bracket strays tolerance until_s wall width widths
-        witness_a witness_b x y
-    """,
-    "1/m": "bound",
-    "s": """
-        clear_until correlation_time delay peak_time start step stop time time_at_unit_head_speed time_bracket
-        until_time
-    """,
-    "": "confidence correlation_benches limits normal probability speed_ratio union_bound",
-    "turns": "end_turns start_turns",
-    "m/rad": "growth",
-    "m/s": "head_speed head_speed_bracket peak_speed speed speed_bracket velocity",
-}
 # What a line of a docstring says of a field.
 ENTRY = re.compile(r"(?P<name>\w+): (?P<words>.*?)(?: \[(?P<unit>[^\]]*)\])?")
-UNITS = {name: unit for unit, names in _FIELDS.items() for name in names.split()}
 
 
 class Readable:
@@ -51,7 +29,6 @@ class Readable:
     """
 
     __slots__ = ()
-    _units: dict[str, str] = {}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {self._line()}>"
@@ -75,9 +52,10 @@ class Readable:
     def _values(self) -> list[tuple[str, object, str]]:
         """Name, value and unit of every field that has a value."""
         every = [field.name for field in fields(self) if field.repr]  # type: ignore[arg-type]
-        units = units_of(type(self))
-        values = [(name, getattr(self, name)) for name in every]
-        return [(name.replace("_", " "), value, units.get(name, "")) for name, value in values if value is not None]
+        kind: Any = type(self)
+        known = meanings(kind)
+        values = [(name, getattr(self, name), known.get(name, NONE).unit) for name in every]
+        return [(name.replace("_", " "), value, unit) for name, value, unit in values if value is not None]
 
 
 class WithArrays(Readable):
@@ -100,9 +78,13 @@ class Meaning(NamedTuple):
     unit: str
 
 
+# Of a class without docstrings, which Python leaves out when it is asked to (-OO).
+NONE = Meaning("", "")
+
+
 @cache
-def meanings(kind: type) -> dict[str, Meaning]:
-    """What the fields and properties of a class are.
+def meanings(kind: Any) -> dict[str, Meaning]:
+    """What the fields and properties of a class are. kind: the class
 
     Its docstring says it once for all readers, the service's description among them: after the first paragraph each
     field has a line `name: words [unit]`, continued by indented lines. A property says it in its own first line.
@@ -115,12 +97,6 @@ def meanings(kind: type) -> dict[str, Meaning]:
         lines += re.sub(r"\n {4}", " ", own).split("\n")
         result |= {one["name"]: Meaning(one["words"], one["unit"] or "") for one in map(ENTRY.fullmatch, lines) if one}
     return result
-
-
-def units_of(kind: type) -> dict[str, str]:
-    """Units by field name: those of the class itself, else those of all fields of this name."""
-    own = {name: meaning.unit for name, meaning in meanings(kind).items() if meaning.unit}
-    return UNITS | own | getattr(kind, "_units", {})
 
 
 def display(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:

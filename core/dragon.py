@@ -70,7 +70,10 @@ class Dragon(Readable):
     """n benches in a row, joined by n + 1 handles; bench 0 is the head, handle 0 leads.
 
     benches: number of benches; there is one more handle
-    lengths, widths, overhangs, chords: (n,) [m], read-only; chord = length - 2 overhang > 0
+    lengths: length of each bench, (n,), read-only [m]
+    widths: width of each bench, (n,), read-only [m]
+    overhangs: distance from each handle to the nearer end of its bench, (n,), read-only [m]
+    chords: distance of the two handles of each bench, length - 2 overhang > 0, (n,), read-only [m]
     uniform_from: index of the bench from which all benches to the tail are equal (0 or 1 for a uniform body)
     names: one for each bench, empty for a bench without; no entries if no bench has a name
 
@@ -212,8 +215,11 @@ class Dragon(Readable):
 class Stray(Readable):
     """Largest distance of every hole from its place, by people and by play.
 
-    people: largest distance of a person from the nominal place [m]; hole, pin: diameters in a joint [m]. A pin has
-    (hole - pin) / 2 of play on every side, which adds to the stray of people.
+    people: largest distance of a person from the nominal place [m]
+    hole: diameter of the holes in the benches [m]
+    pin: diameter of the pins in these holes [m]
+
+    A pin has (hole - pin) / 2 of play on every side, which adds to the stray of people.
 
     >>> Stray(people=0.02, hole=0.055, pin=0.045).total
     0.025

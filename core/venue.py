@@ -44,7 +44,9 @@ def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
 class Area(Readable):
     """A polygon: the square, or an obstacle in it.
 
-    rings: the outer one, then the holes; each closed, at least 4 points (x, y) [m]
+    name: its name
+    rings: the outer ring, then the holes; each closed, at least 4 points, x and y [m]
+
     raises: InvalidValue with the reason and the place of a fault. Too many edges are refused first, because the time of
         the check grows faster than their number.
     """
@@ -91,6 +93,9 @@ class Area(Readable):
 @dataclass(frozen=True, repr=False)
 class Venue(Readable):
     """The square with its holes, and the obstacles in it.
+
+    square: the square
+    obstacles: the obstacles
 
     >>> Venue(Area("square", (((0, 0), (9, 0), (9, 9), (0, 0)),))).square.edges.shape
     (3, 4)

@@ -27,12 +27,13 @@ class Column:
     """One column.
 
     name: dotted place in the answer; steps: the names and indices to that place; kind: bool, int, float or str
-    as_json: True for a list or an object, which the column holds as JSON
+    unit: of its values; as_json: True for a list or an object, which the column holds as JSON
     """
 
     name: str
     steps: tuple[str | int, ...]
     kind: type
+    unit: str = ""
     as_json: bool = False
 
     def value(self, answer: Any) -> Any:
@@ -54,26 +55,26 @@ def _dumped(value: Any) -> Any:
 def answer_columns(model: type[BaseModel | Readable], left_out: frozenset[str] = frozenset()) -> tuple[Column, ...]:
     """A column for every number, text and truth value of an answer: dotted names for inner objects and pairs, JSON for
     lists of any length. left_out: fields without columns"""
-    return tuple(_columns_of(model, (), left_out))
+    return tuple(_columns_of(model, (), left_out, ""))
 
 
-def _columns_of(kind: Any, steps: tuple[str | int, ...], left_out: frozenset[str]) -> Iterator[Column]:
+def _columns_of(kind: Any, steps: tuple[str | int, ...], left_out: frozenset[str], unit: str) -> Iterator[Column]:
     name = ".".join(map(str, steps))
     if name in left_out:
         return
     options = [one for one in get_args(kind) if one is not NoneType]
     if get_origin(kind) in (Union, UnionType) and len(options) == 1:
-        yield from _columns_of(options[0], steps, left_out)
+        yield from _columns_of(options[0], steps, left_out, unit)
     elif isinstance(kind, type) and issubclass(kind, BaseModel | Readable):
-        for inner, (annotation, _) in typed_fields(kind).items():
-            yield from _columns_of(annotation, (*steps, inner), left_out)
+        for inner, (annotation, own) in typed_fields(kind).items():
+            yield from _columns_of(annotation, (*steps, inner), left_out, own)
     elif get_origin(kind) is tuple and Ellipsis not in options:
         for k, option in enumerate(get_args(kind)):
-            yield from _columns_of(option, (*steps, k), left_out)
+            yield from _columns_of(option, (*steps, k), left_out, unit)
     elif get_origin(kind) is Literal or (isinstance(kind, type) and issubclass(kind, Enum)):
         yield Column(name, steps, str)
     elif kind in TYPES:
-        yield Column(name, steps, kind)
+        yield Column(name, steps, kind, unit)
     else:
         yield Column(name, steps, str, as_json=True)
 

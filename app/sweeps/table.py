@@ -20,8 +20,11 @@ import pyarrow.parquet as pq
 import core
 from app.files.tables import CSV_TYPE, PARQUET_TYPE
 from app.sweeps import shards
+from app.sweeps.columns import answer_columns
+from app.sweeps.questions import QUESTIONS
 from app.sweeps.run import SPEC_FILE, TABLE_FILE, missing_shards
 from app.sweeps.spec import Spec
+from app.wire.messages import known_units
 from app.wire.question import JSON
 from app.wire.texts import TO_CELL
 from core import InvalidValue
@@ -101,7 +104,10 @@ class Sweep:
 
     def to_dataframe(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
         """One row for each answered design. raises: ImportError without pandas, naming the extra; InvalidValue"""
-        return data_frame("Sweep.to_dataframe()", self._arrays(columns))
+        question = self.spec.asks if self.spec.question in QUESTIONS else None  # a caller's own is unknown here
+        answered = answer_columns(question.answer) if question else ()
+        units = known_units() | {column.name: column.unit for column in answered}
+        return data_frame("Sweep.to_dataframe()", self._arrays(columns), units)
 
     def to_polars(self, columns: Sequence[str] | None = None) -> polars.DataFrame:
         """One row for each answered design. raises: ImportError without Polars, naming the extra; InvalidValue"""

@@ -32,7 +32,7 @@ from pydantic_core import CoreSchema, PydanticCustomError
 
 from app.settings import Settings
 from core import Budget, Dance, Dragon, Spiral, Stray, TooLarge
-from core.display import meanings
+from core.display import NONE, meanings
 from core.dragon import BENCHES_MAX, wider_pin
 from core.errors import InvalidValue, format_number
 from core.language import Language, speaking, spoken
@@ -116,7 +116,7 @@ def typed_fields(kind: Any) -> dict[str, tuple[Any, str]]:
     if issubclass(kind, BaseModel):
         return {name: (field.annotation, unit_of(field)) for name, field in kind.model_fields.items()}
     types, known = get_type_hints(kind), meanings(kind)
-    return {one.name: (types[one.name], known[one.name].unit) for one in fields(kind)}
+    return {one.name: (types[one.name], known.get(one.name, NONE).unit) for one in fields(kind)}
 
 
 def _whole(value: Any) -> Any:

@@ -94,7 +94,8 @@ class ClearanceProfile(Table):
         """
         axis = ("time",) * self.time.ndim
         variables = {"clearance": (axis, self.clearance), "benches": ((*axis, "pair"), self.benches)}
-        return data_set("ClearanceProfile.to_xarray()", variables, {"time": (axis, self.time), "pair": ["a", "b"]})
+        coordinates = {"time": (axis, self.time), "pair": ["a", "b"]}
+        return data_set("ClearanceProfile.to_xarray()", variables, coordinates, self.units())
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Plot the clearance against time, with its local minima as dots.

@@ -95,12 +95,15 @@ class TurnLimit(StrEnum):
 class DeepestTurn(Readable):
     """The turn with the smallest entry radius such that all larger ones up to the circle can be danced.
 
-    Its exit is opposite to its entry; shortest_turn() has shorter turns with other exits.
-
-    turn: at the feasible end of entry_bracket (infeasible, feasible) [m]; limited_by: see TurnLimit
-    benches, time: the pair that comes within the margin just below, and its time [s at 1 m/s, 0 at the entry], or None
-    scan_step: distance between the tried entries [m]; a narrower range of infeasible ones above is not excluded
+    turn: the turn at the feasible end of entry_bracket
+    entry_bracket: infeasible entry radius; feasible one [m]
+    limited_by: reason against a shorter turn, see TurnLimit
+    benches: the pair that comes within the margin just below; None if none does
+    time: time of that, at a head speed of 1 m/s; 0 is the entry into the turn; None without a pair [s]
+    scan_step: distance between the tried entries; a narrower range of infeasible ones above is not excluded [m]
     evaluations: number of tried entries, each with a proof
+
+    Its exit is opposite to its entry; shortest_turn() has shorter turns with other exits.
     """
 
     turn: Turn

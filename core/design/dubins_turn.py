@@ -52,8 +52,13 @@ SECTORS = np.linspace(0.0, 2.0 * math.pi, 96, endpoint=False)
 class DubinsTurn(Readable):
     """A turn of arc, straight piece, arc that was danced without a contact.
 
-    path: both coils and the three pieces, s = 0 at the entry; length: of the three [m]; entry_radius, exit_radius [m];
-    radii: of both arcs [m]; straight: length of the straight piece [m]; evaluations: tried dances
+    path: both coils and the three pieces, s = 0 at the entry
+    length: length of the three [m]
+    entry_radius: distance of the entry from the centre [m]
+    exit_radius: distance of the exit from the centre [m]
+    radii: radii of both arcs [m]
+    straight: length of the straight piece [m]
+    evaluations: number of tried dances
     """
 
     _units = dict.fromkeys(("entry_radius", "exit_radius", "radii", "straight"), "m")

@@ -91,12 +91,16 @@ TOGETHER = 4096
 class ShortestTurn(Readable):
     """The shortest two-arc turn that the dragon can dance inside the circle, whatever its entry and exit.
 
-    turn: danced with proof; its length is the upper end of length_bracket (no turn is shorter, turn) [m]
-    entry_bracket, exit_bracket: radii between which those of every turn as short as that lie [m]
+    turn: the turn, danced with proof
+    length_bracket: proven: no turn of two arcs inside the circle is shorter; the length of this one [m]
+    entry_bracket: entry radii between which those of every turn as short as that lie [m]
+    exit_bracket: exit radii, as entry_bracket [m]
     limited_by: LEAST_RADIUS, CENTRE, CIRCLE or CONTACT, the first that applies to it: an arc, or the coil at an end, of
         the least radius; an end at the deepest radius that is tried; an end on the circle; else benches within the
         margin in turns beside it
-    boxes: number of excluded boxes; overlaps: those of them by an exhibited overlap; evaluations: tried dances
+    boxes: number of excluded boxes
+    overlaps: number of those that an exhibited overlap excludes
+    evaluations: number of turns danced
     """
 
     turn: Turn

@@ -92,10 +92,12 @@ class MaximumHeadSpeed(Readable):
 class FirstExcess(Readable):
     """First time at which a handle is faster than a limit.
 
-    time_bracket: (time until which the limit is proven to be kept, to within SPEED_PROVEN of it; time at which a handle
-        is faster) [s], no wider than EXCESS_WIDTH unless the proof was given up: near a fold, or after EXCESS_LINKS
-    time: the second of these, the latest possible first excess [s]; handle: the fastest one then. Both are None if the
-        proof was given up and no excess was found; the bracket then ends with the interval.
+    time: the second of the times below, the latest possible first excess; None if the proof was given up and none was
+        found [s]
+    time_bracket: time until which the limit is proven to be kept, to within SPEED_PROVEN of it; time at which a handle
+        is faster. It is no wider than EXCESS_WIDTH unless the proof was given up, near a fold or after EXCESS_LINKS;
+        without an excess it ends with the interval [s]
+    handle: the fastest handle then; None if none was found
     """
 
     time: float | None

@@ -33,9 +33,13 @@ AXES = ("x", "y")
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class Trajectory(Table):
-    """time (...) [s]; position (..., n + 1, 2) [m]; velocity (..., n + 1, 2) [m/s]; speed (..., n + 1) [m/s].
+    """Columns of n + 1 handles at T instants, or at one, where (T,) is empty.
 
-    ... is (T,) for a list of times and empty for one time. dance: the dance itself; without it plot() has no benches
+    time: instants, (T,) [s]
+    position: places of the handles, (T, n + 1, 2) [m]
+    velocity: their velocities, (T, n + 1, 2) [m/s]
+    speed: their speeds, (T, n + 1) [m/s]
+    dance: the dance itself; without it plot() has no benches
     """
 
     time: Floats
@@ -69,7 +73,8 @@ class Trajectory(Table):
         names = (*instant, "handle")
         variables = {"position": ((*names, "axis"), self.position), "velocity": ((*names, "axis"), self.velocity)}
         coordinates = {"time": (instant, self.time), "handle": np.arange(self.speed.shape[-1]), "axis": list(AXES)}
-        return data_set("Trajectory.to_xarray()", variables | {"speed": (names, self.speed)}, coordinates)
+        variables |= {"speed": (names, self.speed)}
+        return data_set("Trajectory.to_xarray()", variables, coordinates, self.units())
 
     def plot(self, ax: Axes | None = None, *, instant: int = -1) -> Axes:
         """Plot the dance at one instant, every handle coloured by its speed.

@@ -93,9 +93,11 @@ def _row(kind: str, start: float, length: Point, curvature: Point, *parameters: 
 
 @dataclass(frozen=True)
 class Line(Readable):
-    """A straight piece from start to end, (x, y) [m]."""
+    """A straight piece.
 
-    _units = {"start": "m", "end": "m"}  # noqa: RUF012
+    start: its start, x and y [m]
+    end: its end, x and y [m]
+    """
 
     start: Point
     end: Point
@@ -114,9 +116,12 @@ class Line(Readable):
 
 @dataclass(frozen=True)
 class Arc(Readable):
-    """Part of a circle: centre (x, y) [m], radius [m], start_angle [rad], sweep [rad].
+    """Part of a circle.
 
-    A positive sweep goes counter-clockwise.
+    centre: centre, x and y [m]
+    radius: radius [m]
+    start_angle: direction of its start from the centre [rad]
+    sweep: angle that it sweeps, counter-clockwise positive [rad]
     """
 
     centre: Point
@@ -143,8 +148,11 @@ class Arc(Readable):
 class Coil(Readable):
     """Part of an Archimedean spiral: inwards (clockwise) or outwards (counter-clockwise).
 
-    pitch: [m]; start_turns, end_turns: turns from its centre at its beginning and at its end
-    centre: (x, y) [m]; rotation: of the whole spiral [rad]
+    pitch: radial advance per full turn [m]
+    start_turns: turns from its centre at its beginning [turns]
+    end_turns: turns from its centre at its end [turns]
+    centre: centre, x and y [m]
+    rotation: rotation of the whole spiral [rad]
     """
 
     pitch: float
@@ -179,17 +187,20 @@ class Coil(Readable):
 
 @dataclass(frozen=True)
 class Clothoid(Readable):
-    """A curve whose curvature changes evenly along it, from a start (x, y) [m] in the direction of a heading [rad].
+    """A curve whose curvature changes evenly along it.
 
-    start_curvature, end_curvature: at its ends, counter-clockwise positive [1/m]; length: [m]
-    end, end_heading: where it ends [m], and in what direction [rad]
+    start: where it starts, x and y [m]
+    heading: direction at its start [rad]
+    start_curvature: curvature at its start, counter-clockwise positive [1/m]
+    end_curvature: curvature at its end, counter-clockwise positive [1/m]
+    length: length [m]
+    end: where it ends, x and y [m]
+    end_heading: direction at its end [rad]
 
     >>> ramp = Clothoid((0, 0), 0.0, 0.0, 0.5, 2.0)
     >>> [round(number, 9) for number in (*ramp.end, ramp.end_heading)]
     [1.950575376, 0.327428095, 0.5]
     """
-
-    _units = {"start": "m", "heading": "rad", "start_curvature": "1/m", "end_curvature": "1/m"}  # noqa: RUF012
 
     start: Point
     heading: float
@@ -261,9 +272,11 @@ class Clothoid(Readable):
 
 @dataclass(frozen=True, repr=False)
 class Waypoints(Readable):
-    """A smooth curve through points (x, y) [m]: the cubic spline over the length of its polygon, curvature-continuous.
+    """A smooth curve through points: the cubic spline over the length of its polygon, curvature-continuous.
 
-    start_heading, end_heading: direction at its ends [rad]; None: no curvature at that end
+    points: the points, x and y [m]
+    start_heading: direction at its start; None: no curvature there [rad]
+    end_heading: direction at its end; None: no curvature there [rad]
     """
 
     points: tuple[Point, ...]

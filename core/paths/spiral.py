@@ -37,11 +37,15 @@ FOLD_ROUNDING = 1e-13
 class Spiral(Readable):
     """Archimedean spiral r = growth * theta, danced inwards from start_turns turns.
 
-    pitch: radial advance per full turn [m]; start_turns: turns from the centre to the start, s = 0
-    centre: (x, y) [m]; rotation: of the whole spiral about it [rad], as in a Coil
+    pitch: radial advance per full turn [m]
+    start_turns: turns from the centre to the start, s = 0 [turns]
+    centre: centre, x and y [m]
+    rotation: rotation of the whole spiral about it, as in a Coil [rad]
     clockwise: the direction of the dance; False: its mirror image
-    growth: radial advance per radian [m/rad]; start_theta: polar angle of the start [rad]; length: arc length from the
-        start to the centre [m]
+    growth: radial advance per radian [m/rad]
+    start_theta: polar angle of the start [rad]
+    length: arc length from the start to the centre [m]
+
     Negative s is on the outward extension of the same spiral; the centre is at s = length.
     The place of the spiral changes only places, never times, distances or proofs, which are those of `standard`.
 

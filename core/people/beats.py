@@ -33,15 +33,16 @@ STEP_LEAST = 0.01
 class Bars(Readable):
     """Bars at one tempo.
 
-    bars: their number; tempo: beats and steps a minute; step: way of the head on each beat [m], 0: it marks time
-    beats: in a bar
+    bars: number of bars
+    tempo: beats and steps a minute [beats/min]
+    step: way of the head on each beat; 0: it marks time [m]
+    beats: number of beats in a bar
     """
 
     bars: int
     tempo: float
     step: float
     beats: int = 4
-    _units = {"tempo": "beats/min", "step": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     @property
     def speed(self) -> float:

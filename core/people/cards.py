@@ -38,10 +38,16 @@ class CueKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Cue(Readable):
-    """One cue: what happens, when [s], and where the bench is then, x, y [m].
+    """One cue: what happens, when, and where the bench is then.
 
-    since, until: of a pause, or the moments of the first and the last of several meetings [s]; else both are time
-    meetings: those of this cue in order of time, and nearest: the one with the least gap, None in another kind of cue
+    kind: begin, pause, fastest, meeting or done
+    time: moment of the cue: of several meetings, that of the nearest [s]
+    x: x of the bench: of the front handle, in a meeting of the middle, or of the fastest handle [m]
+    y: y of the same point [m]
+    since: beginning of a pause, or moment of the first of several meetings; else the same as time [s]
+    until: end of a pause, or moment of the last of several meetings; else the same as time [s]
+    nearest: the meeting, or of several the one with the least gap; None in another kind of cue
+    meetings: those of this cue in order of time; none in another kind of cue
     """
 
     kind: CueKind
@@ -52,12 +58,16 @@ class Cue(Readable):
     until: float
     nearest: Meeting | None = None
     meetings: tuple[Meeting, ...] = ()
-    _units = {"since": "s", "until": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Card(Readable):
-    """The cues of a bench that have a place on its card, and those left out, both in order of time."""
+    """The cues of a bench that have a place on its card, and those left out.
+
+    bench: all that its carriers have to know
+    cues: cues on the card, in order of time
+    left_out: cues that have no place on the card, in order of time
+    """
 
     bench: BenchCues
     cues: tuple[Cue, ...]

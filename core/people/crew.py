@@ -48,9 +48,14 @@ CELLS = 1_000_000
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Spell(Readable):
-    """A time in which one person carries one bench: person, bench, begin, end [s], and the way carried [m].
+    """A time in which one person carries one bench.
 
-    s, until_s: places of the bench's front handle along the path at begin and end [m]
+    person: number of the person
+    bench: number of the bench; 0 is the head
+    begin: its begin [s]
+    end: its end [s]
+    s: arc length of the bench's front handle along the path at the begin [m]
+    until_s: arc length of it at the end [m]
     relieved: the person who went out; None at the start
     """
 
@@ -61,7 +66,6 @@ class Spell(Readable):
     s: float
     until_s: float
     relieved: int | None
-    _units = {"begin": "s", "end": "s", "s": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     @property
     def way(self) -> float:
@@ -71,21 +75,29 @@ class Spell(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Carried(Readable):
-    """What one person carries in all: time [s], way [m], and the longest time without a break [s]."""
+    """What one person carries in all.
+
+    time: time carried in all [s]
+    way: way carried in all [m]
+    longest: longest time carried without a break [s]
+    """
 
     time: float
     way: float
     longest: float
-    _units = {"way": "m", "longest": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Crew(Readable):
     """The spells of all people, in order of their begin, then of benches.
 
-    people: number of people; spares: those among them who carry nothing at the start; start, stop: [s]
+    people: number of people, spares among them
+    spares: those among them who carry nothing at the start
+    start: begin of the first spells [s]
+    stop: end of the last spells [s]
     needed: people on each bench
-    enough: least number of spares with which everybody goes out at every change of their bench
+    spells: the spells
+    enough: least number of spares with which everybody goes out at every change of their bench; 0: no changes
     unrelieved: benches that have changes, and of which nobody ever goes out
     """
 
@@ -97,7 +109,6 @@ class Crew(Readable):
     spells: tuple[Spell, ...]
     enough: int = 0
     unrelieved: tuple[int, ...] = ()
-    _units = {"people": "", "enough": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     @property
     def is_kept(self) -> bool:
@@ -132,8 +143,8 @@ class Relief(Readable):
     """The rules by which people change.
 
     spares: number of people beside those who carry at the start
-    shift: time after which all benches change [s], again and again; None: never
-    places: along the path [m]; a bench changes when its front handle passes one of them
+    shift: time after which all benches change, again and again; None: never [s]
+    places: arc lengths along the path; a bench changes when its front handle passes one of them [m]
     rest: least time from going out to coming in again [s]
     """
 
@@ -141,7 +152,6 @@ class Relief(Readable):
     shift: float | None = None
     places: Sequence[float] = ()
     rest: float = 0.0
-    _units = {"shift": "s", "places": "m", "rest": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @question_about("dance", Dance, "the crew was not planned")

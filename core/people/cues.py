@@ -49,8 +49,11 @@ class Side(StrEnum):
 class Stand(Readable):
     """A bench at one moment.
 
-    time: [s]; x, y: of its front handle [m]; s: place of that handle along the path [m]
-    heading: of the bench, from its rear to its front handle [rad]
+    time: the moment [s]
+    x: x of its front handle [m]
+    y: y of its front handle [m]
+    s: arc length of that handle along the path [m]
+    heading: direction from its rear to its front handle [rad]
     """
 
     time: float
@@ -58,16 +61,21 @@ class Stand(Readable):
     y: float
     s: float
     heading: float
-    _units = {"s": "m", "heading": "rad"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Meeting(Readable):
     """Another bench comes abreast: its middle is straight to the left or to the right of the middle of this bench.
 
-    time: [s]; bench: the other one; side: on which it is; gap: between the two benches, edge to edge [m], below zero if
-    they overlap; oncoming: True if the other one points the other way; x, y: middle of this bench [m]
-    dragon: of the other bench, in a performance; None in a single dance
+    time: when the other middle is abreast, to within 1e-9 m along the own bench [s]
+    bench: the other bench; 0 is the head
+    side: side on which it is, seen in the direction of the front handle
+    gap: gap of the two benches then, edge to edge; at another moment it may be less; below zero: minus the depth of the
+        overlap [m]
+    oncoming: true if it points the other way than the own bench; false if the same way
+    x: x of the own middle then [m]
+    y: y of the own middle then [m]
+    dragon: dragon of the other bench, in a performance; None in a single dance
     """
 
     time: float
@@ -84,7 +92,12 @@ class Meeting(Readable):
 class FastestMoment(Readable):
     """The moment at which one of the two handles of a bench is fastest.
 
-    time: [s]; speed: of that handle [m/s]; head_speed: of the head at that moment [m/s]; x, y: of the handle [m]
+    time: the moment [s]
+    speed: higher speed of its two handles: reached then, and not exceeded every 0.25 m of head way [m/s]
+    head_speed: speed of the head at that moment [m/s]
+    handle: the handle: the number of the bench, or one more for its rear one
+    x: x of that handle then [m]
+    y: y of that handle then [m]
     """
 
     time: float
@@ -97,23 +110,35 @@ class FastestMoment(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Pause(Readable):
-    """A time in which nobody walks: from begin to end [s], with the front handle of this bench at x, y [m]."""
+    """A time in which nobody walks.
+
+    begin: its begin [s]
+    end: its end [s]
+    x: x of the bench's front handle [m]
+    y: y of the bench's front handle [m]
+    """
 
     begin: float
     end: float
     x: float
     y: float
-    _units = {"begin": "s", "end": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class BenchCues(Readable):
     """What the carriers of a bench have to know.
 
-    start: where it stands when the dance starts; begin: when and from where it begins to walk
-    direction: in which its front handle then walks [rad]; head_speed: at which the head then walks [m/s]
-    ahead, behind: its neighbours, None at an end of the dragon
-    meetings, pauses: in order of time; done: when and where it stops for good
+    bench: number of the bench; 0 is the head
+    start: where it stands when the dance starts
+    begin: when and from where it begins to walk
+    direction: direction in which its front handle begins to walk, from the x axis [rad]
+    head_speed: speed with which the head begins to walk [m/s]
+    ahead: the bench before it; None for the head
+    behind: the bench behind it; None for the tail
+    meetings: all meetings within the reach, in order of time
+    fastest: when it is fastest
+    pauses: its pauses, in order of time
+    done: when and where it stops for good
     """
 
     bench: int
@@ -127,7 +152,6 @@ class BenchCues(Readable):
     fastest: FastestMoment
     pauses: tuple[Pause, ...]
     done: Stand
-    _units = {"direction": "rad"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
         walks = (

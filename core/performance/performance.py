@@ -48,7 +48,10 @@ STANDING = 1e-3
 class Part(Readable):
     """One dance of a performance.
 
-    delay: time of the performance at time 0 of the dance [s]; name: of the dragon, None without
+    dance: the dance
+    delay: time of the performance at time 0 of the dance [s]
+    name: name of the dragon; None without
+
     raises: InvalidValue
     """
 
@@ -112,8 +115,11 @@ class PerformanceEnd(Readable):
 class Performance(Readable):
     """Dances on one clock, frozen and checked once.
 
-    parts: at least one, in the order of the dragons' numbers; venue: the square and its obstacles, None without
-    begin: time from which on the first of them dances [s]; end: see PerformanceEnd
+    parts: at least one, in the order of the dragons' numbers
+    venue: the square and its obstacles; None without
+    begin: time from which on the first of them dances [s]
+    end: end of the performance
+
     raises: InvalidValue for no part or too many, for two equal names, and for a part that has not begun when another
         one folds
 
@@ -128,7 +134,6 @@ class Performance(Readable):
     venue: Venue | None = None
     begin: float = field(init=False, repr=False, compare=False)
     end: PerformanceEnd = field(init=False, repr=False, compare=False)
-    _units = {"begin": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
     # Functions of core for one dance, and those for several, which the error of question_about() names.
     _instead: ClassVar[Mapping[str, str]] = {
         "bench_cues": "performance_cues",

@@ -48,11 +48,17 @@ DECIMALS_MOST = 12
 class Reason(Readable):
     """Why no dance is proposed: what there is and what it takes, in the unit of the kind.
 
-    have, need: AREA [m2]; WIDTH, WAY, STRAY [m]; BENCHES, FAILS: numbers of benches, for FAILS of the dance that comes
-        nearest, which is one if no dance of the whole dragon was worth a check, and of the dragon
-    figure: the one that comes nearest, None for AREA, WIDTH and WAY; who: bench that needs the width, or both gates
-    failure: the first one of the dance that comes nearest, for FAILS
-    AREA and WAY are proven, and so is the width that there is; the others are about the dances that were tried.
+    kind: kind of the reason
+    tried: number of dances that were laid out and measured
+    have: what there is; for fails the benches of the dance that comes nearest, which is one if no dance of the whole
+        dragon was worth a check
+    need: what it takes; for fails the benches of the dragon
+    figure: the figure that comes nearest; None for area, width and way
+    who: for width the bench that needs it, for way the numbers of both gates
+    failure: for fails the first failure of the dance that comes nearest; else None
+
+    The unit is m2 for AREA, m for WIDTH, WAY and STRAY, benches for BENCHES and FAILS. AREA and WAY are proven, and so
+    is the width that there is; the others are about the dances that were tried.
     """
 
     kind: ReasonKind
@@ -62,7 +68,6 @@ class Reason(Readable):
     figure: Figure | None = None
     who: tuple[int, ...] = ()
     failure: Failure | None = None
-    _units = {"have": "", "need": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     @property
     def message(self) -> str:
@@ -153,12 +158,16 @@ class Near(Readable):
 class Proposal(Readable):
     """A dance that fits, certified by its report.
 
-    dance: at time 0 the whole dragon is on its path; venue: with the streets in which it stands
-    report: of check(), which passes; margin, stray and speed limit are those that were asked for
-    tolerance: largest stray proven safe with no margin [m]; area: of the ground that benches sweep, GROUND too large at
-        most along its border [m2]; turns: that the head makes, all bends added up [1]
-    near: what the benches come nearest to; gates: numbers of the gates in and out, empty without
-    clearance_in_place: least distance of two benches with everybody in place [m]; None for fewer than three
+    figure: figure of the dance
+    dance: the dance; at time 0 the whole dragon is on its path
+    venue: the venue, with the streets in which it stands
+    report: verdict of check(), which passes; margin, stray and speed limit are those that were asked for
+    tolerance: largest stray of people that is proven safe, without the margin [m]
+    area: area of the ground that benches sweep, which reaches at most GROUND beyond them [m2]
+    turns: turns of the head, all bends added up
+    near: what the benches come nearest to
+    gates: numbers of the gates by which it enters and leaves; none without gates
+    clearance_in_place: least distance of two benches with everybody in place; None for fewer than three [m]
     """
 
     figure: Figure
@@ -171,7 +180,6 @@ class Proposal(Readable):
     near: Near
     gates: tuple[int, ...]
     clearance_in_place: float | None
-    _units = {"clearance_in_place": "m", "area": "m2", "tolerance": "m", "turns": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     @property
     def duration(self) -> float:
@@ -227,9 +235,12 @@ class Proposal(Readable):
 class Proposals(Readable):
     """Dances that fit, the best one first; not all that there are, and none is proven to be the best.
 
-    tried: number of dances that were laid out and measured; checked: of these, those that a check judged
-    reason: None if there is a proposal; most_benches: no dragon of more benches of this kind fits, by the area of the
-        square; None with gates, beyond which it may stand
+    proposals: the dances
+    tried: number of dances that were laid out and measured
+    checked: number of these that a check judged
+    reason: why there is none; None if there is a proposal
+    most_benches: no dragon of more benches of this kind fits, by the area of the square; None with gates, beyond which
+        it may stand
     """
 
     proposals: tuple[Proposal, ...]

@@ -31,11 +31,14 @@ GATES_MAX = 8
 
 @dataclass(frozen=True)
 class Gate(Readable):
-    """A place on the border of the square, (x, y) [m], and the heading of those who enter there [rad]."""
+    """A place on the border of the square.
+
+    point: the place, x and y [m]
+    heading: heading of those who enter there [rad]
+    """
 
     point: Point
     heading: float
-    _units = {"heading": "rad"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "point", checked_point("gate.point", self.point))

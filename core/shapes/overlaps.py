@@ -46,7 +46,11 @@ SIZE = ("length", "width")
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class Overlaps(WithArrays):
-    """pairs (P, 2), a < b, sorted; contact: exact separation, witnesses and normal of each pair (P, ...)."""
+    """Pairs of benches that overlap or come within a margin.
+
+    pairs: the pairs, (P, 2), a < b, sorted
+    contact: exact separation, witnesses and normal of each pair
+    """
 
     pairs: Pairs
     contact: Separation
@@ -57,8 +61,12 @@ class Overlaps(WithArrays):
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class CrossCheck(WithArrays):
-    """pairs: found by each engine; agree: True if all are equal; only: for each engine its pairs that not all engines
-    found; missing: for each engine the pairs that another engine found and this one did not
+    """The pairs that independent engines find.
+
+    agree: true if all engines that were asked found the same pairs
+    pairs: pairs found by each engine
+    only: for each engine its pairs that not all engines found
+    missing: for each engine the pairs that another engine found and this one did not
     left_out: engines that cannot judge this margin; they appear in no other field
     """
 

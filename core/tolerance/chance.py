@@ -52,16 +52,23 @@ CONFIDENCE = 0.95
 class ContactProbability(WithArrays, WithClaim):
     """Probability that two benches touch at one of some instants when people wobble.
 
-    probability: share of the samples with a contact; limits: Clopper and Pearson's, between which the probability of
-        the model lies with CONFIDENCE; contacts, samples: their numbers
-    time: (contacts,) first contact of each sample that has one [s]; sample: (contacts,) number of that sample; benches:
-        (contacts, 2) the pair
-    strays: (samples,) largest distance of any hole from its place up to that contact, or to the end [m]
-    tolerance: stray within which nothing touches at any time, proven (core.tolerance) [m]: a sample with smaller strays
-        has no contact. 0: no stray is known to be safe. None with a pitch error, which moves the places themselves
-    union_bound: upper bound of the probability of the model, whatever the samples say (core/tolerance/union_bound.py);
-        None with play or a pitch error
-    step: between two instants [s]; instants: their number, from start to stop [s]; seed: as given
+    probability: share of the samples in which two benches touch
+    limits: limits of the probability of the model, after Clopper and Pearson, between which it lies with CONFIDENCE
+    contacts: number of samples in which two benches touch
+    samples: number of samples
+    time: first contact of each sample that has one, (contacts,) [s]
+    sample: number of that sample, (contacts,)
+    benches: the pair of that contact, (contacts, 2)
+    strays: largest distance of any hole from its place up to that contact, or to the end, (samples,) [m]
+    tolerance: proven: while no hole is further from its place, nothing touches at any time; 0: none is known to be
+        safe; None with a pitch error, which moves the places themselves [m]
+    union_bound: proven without samples: the probability of the model is no larger at these instants; None with play or
+        a pitch error (core/tolerance/union_bound.py)
+    step: time between two instants; contacts between them are not seen [s]
+    instants: number of instants of each sample
+    start: first instant [s]
+    stop: last instant [s]
+    seed: seed of the random numbers
     """
 
     probability: float

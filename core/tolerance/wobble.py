@@ -23,19 +23,19 @@ SIZE_PART, PITCH_PART = 0.1, 0.1
 class Wobble(Readable):
     """Model of wobbling people. At two steps a second, a correlation time of 5 s is ten steps.
 
-    lateral, forward: displacement that a person wants, across the path and along it [m]: normal numbers with these
-        standard deviations, so that one step in twenty is further than twice the deviation. Chords are rigid, so of
-        the forward displacements only that of the first person counts; where the chain bends, lateral ones move people
-        along the path too
-    correlation_time: [s] after it 1 / e of a person's displacement is left, and the rest is new
-    step: [s] between two instants, at most 1 / INSTANTS_PER_TIME of the correlation time; None stands for this maximum.
-        The path of a person is as rough as a random walk, so closer instants show more contacts
-    correlation_benches: [1] number of benches over which two people share 1 / e of their displacement; people who carry
-        the same bench share exp(-1 / correlation_benches) of it
-    hole, pin: diameters in a joint [m]. The place of a pin in each of its two holes is drawn once for a dance,
-    uniformly over the hole
-    pitch_error: [m] standard deviation of the pitch of the painted spiral, drawn once for a dance. The head keeps the
-        distance from the centre, at every instant, that it has without an error
+    lateral: displacement that a person wants across the path: a normal number with this standard deviation, so that one
+        step in twenty is further than twice of it; where the chain bends, it moves people along the path too [m]
+    forward: the same along the path; chords are rigid, so only that of the first person counts [m]
+    correlation_time: time after which 1 / e of a person's displacement is left, and the rest is new [s]
+    correlation_benches: number of benches over which two people share 1 / e of their displacement; people who carry the
+        same bench share exp(-1 / correlation_benches) of it
+    hole: diameter of the holes in the benches; the place of a pin in each of its two holes is drawn once for a dance,
+        uniformly over the hole [m]
+    pin: diameter of the pins in these holes [m]
+    pitch_error: standard deviation of the pitch of the painted spiral, drawn once for a dance; the head keeps the
+        distance from the centre, at every instant, that it has without an error [m]
+    step: time between two instants, at most 1 / INSTANTS_PER_TIME of the correlation time; None stands for this
+        maximum. The path of a person is as rough as a random walk, so closer instants show more contacts [s]
     """
 
     lateral: float = 0.01

@@ -11,7 +11,7 @@ import pytest
 
 import core
 from core import Arc, Area, Coil, Dance, Dragon, Line, Route, Spiral, Turn, Venue, Waypoints
-from core.display import Readable, WithArrays, display, format_range, units_of
+from core.display import Readable, WithArrays, display, format_range, meanings
 from core.errors import BenchDragonError
 from tests.support.public_calls import CALLS
 from tests.support.shared_dances import lane, square, there_and_back
@@ -20,6 +20,11 @@ from tests.support.shared_dances import lane, square, there_and_back
 LINE_MOST = 220
 DANCE = Dance(Dragon(), Spiral())
 SQUARE = square(20)
+# Numbers without a unit: ratios, probabilities, directions, numbers of benches; have and need have that of the reason.
+PURE = {
+    *("confidence", "correlation_benches", "have", "limits", "need", "normal", "probability", "speed_ratio", "turns"),
+    "union_bound",
+}
 CURVE = Waypoints(tuple((float(k), 0.01 * k * k) for k in range(1000)))
 LEGS = core.Legs([(0, 0), (9, 0), (9, 9)], [0, 1], radius=1.0)
 
@@ -98,14 +103,15 @@ def test_every_public_result_is_shown_here(values):
 
 @pytest.mark.parametrize("kind", [*filter(is_dataclass, PUBLIC)], ids=lambda kind: kind.__name__)
 def test_the_fields_of_a_public_result_have_public_types_and_every_number_but_a_count_its_unit(kind):
-    types, units = {name: inside(hint) for name, hint in hints(kind).items()}, units_of(kind)
+    types, known = {name: inside(hint) for name, hint in hints(kind).items()}, meanings(kind)
     held = {one for some in types.values() for one in some if isinstance(one, type)}
     assert {one.__name__ for one in held if one.__module__.startswith("core.")} <= set(core.__all__)
     for name, some in types.items():
+        assert name in known, f"the docstring of {kind.__name__} must say what {name} is"
         if {float, np.float64} & some:
-            assert name in units, f"{kind.__name__} needs a unit for {name}, in its _units"
+            assert known[name].unit or name in PURE, f"the docstring of {kind.__name__} must end {name} with its unit"
         else:
-            assert int not in some or not units.get(name), f"{name} of {kind.__name__} is a count"
+            assert int not in some or not known[name].unit, f"{name} of {kind.__name__} is a count"
 
 
 def test_results_with_the_same_numbers_are_equal(values):
