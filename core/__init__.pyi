@@ -66,7 +66,7 @@ from .paths.spiral import Spiral
 from .paths.turn import Turn
 from .people.cards import Card, Cue, CueKind, card_of
 from .people.crew import Carried, Crew, Relief, Spell, crew
-from .people.cues import BenchCues, FastestMoment, Meeting, Pause, Side, Stand, bench_cues
+from .people.cues import BenchCues, FastestMoment, Meeting, Pause, Side, Stand, Turning, bench_cues
 from .performance.answer import EncounterEvidence, FirstEncounter, NearPass
 from .performance.clearance import (
     PerformanceClearance,
@@ -225,6 +225,7 @@ __all__ = [
     "Turn",
     "TurnLimit",
     "TurnTime",
+    "Turning",
     "Venue",
     "VenueClearance",
     "Verdict",

@@ -36,9 +36,14 @@ class Stand(Answer):
 
 
 class Meeting(Answer):
-    """Another bench comes abreast: its middle is straight to one side of the own middle, with no bench between."""
+    """Another bench comes abreast, or nearest without that, with no bench between.
 
-    time: float = measure("s", "When the other middle is abreast, to within 1e-9 m along the own bench")
+    Abreast: its middle is straight to one side of the own middle.
+    """
+
+    time: float = measure(
+        "s", "When the other middle is abreast, to within 1e-9 m along the own bench; or when the benches are nearest"
+    )
     clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
     bench: int = Field(description="The other bench; 0 is the head")
     name: str = Field(description="Its name; empty without one")
@@ -47,6 +52,9 @@ class Meeting(Answer):
         "m",
         "Gap of the two benches then, edge to edge; at another moment it may be less; below zero: minus the depth of "
         "the overlap",
+    )
+    ahead: float = measure(
+        "m", "How far the other middle is ahead then, along the own bench; below zero: behind; 0: abreast"
     )
     oncoming: bool = Field(description="True if it points the other way than the own bench; false if the same way")
     x: float = measure("m", "x of the own middle then")
@@ -69,18 +77,21 @@ class Fastest(Answer):
 class Cue(Answer):
     """One cue of a card."""
 
-    kind: rule.CueKind = Field(description="begin, pause, fastest, meeting or done")
+    kind: rule.CueKind = Field(description="begin, turn, pause, fastest, meeting or done")
     time: float = measure("s", "Moment of the cue: of several meetings, that of the nearest")
     clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
     count: str | None = Field(
         description="Nearest beat of the music then, such as 17.3 for the third of bar 17; null: none"
     )
     since: float = measure(
-        "s", "Beginning of a pause, or moment of the first of several meetings; else the same as time"
+        "s", "Beginning of a pause or a turn, or moment of the first of several meetings; else the same as time"
     )
-    until: float = measure("s", "End of a pause, or moment of the last of several meetings; else the same as time")
+    until: float = measure(
+        "s", "End of a pause or a turn, or moment of the last of several meetings; else the same as time"
+    )
     x: float = measure("m", "x of the bench: of the front handle, in a meeting of the middle, or of the fastest handle")
     y: float = measure("m", "y of the same point")
+    angle: float | None = measure("rad", "Angle of a turn, to the left above zero; null in another kind of cue")
     nearest: Meeting | None = Field(description="The meeting, or the nearest of several; null in another kind of cue")
     others: list[int] = Field(description="All benches met in this cue, in order of time; none in another kind of cue")
     words: str = Field(description="The cue in one sentence, in the language of the request")
@@ -190,7 +201,7 @@ def _values(card: Card, words: CardWords, kind: type[Cue]) -> dict[str, Any]:
     cues = [
         kind.from_result(
             cue, clock=_clock(cue.time, words), count=words.clock.count(cue.time) or None,
-            nearest=cue.nearest and _meeting(cue.nearest, words),
+            angle=cue.turn and cue.turn.angle, nearest=cue.nearest and _meeting(cue.nearest, words),
             others=[one.bench for one in cue.meetings], words=words.sentence(card, cue),
         )
         for cue in card.cues

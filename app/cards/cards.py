@@ -9,15 +9,16 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from app.cards.words import CardWords
+from app.files.codes import Code, address_of_bench
 from app.files.typeset import Face, measured, typeset
 from app.maps.marks import line_of, mark_name
-from app.plan.drawing import MapDrawing, Scale, look
-from app.plan.ground import CIRCLE, draw_arrows, draw_venue, thinned
+from app.plan.drawing import MapDrawing, Scale, look, turned_by
+from app.plan.ground import CIRCLE, IN_BENCH, draw_arrows, draw_venue, thinned
 from app.plan.paper import Paper, Places
 from core import Budget, Dance, Venue
 from core.language import joined, say
@@ -36,6 +37,10 @@ AROUND, NAME_TYPE, NUMBER_TYPE = 1.5, 6.5, 7.5
 MOMENT, DOT, BESIDE, AWAY = 1.9, 0.46, 0.9, (4.0, 6.5, 9.0, 12.0)
 # Directions from the dot that are tried for the circle (16, 2) [1].
 AROUND_DOT = np.stack([np.cos(turns := np.pi * (0.25 + np.arange(16) / 8.0)), np.sin(turns)], axis=1)
+# Width of a code that can be so narrow [mm].
+CODE = 22.0
+# Half the length of the arrow on the own bench, and of its head [mm].
+FORWARD, HEAD = 4.5, 2.2
 # Half the width of the way that text keeps free [mm].
 WAY = 0.4
 # Half the size of the cross at a chalk mark [mm].
@@ -45,9 +50,13 @@ NEAR_CROSS = (
     (0.0, -2.6), (5.0, 0.0), (-5.0, 0.0), (0.0, 2.6), (4.5, -2.6), (-4.5, -2.6), (4.5, 2.6), (-4.5, 2.6), (0.0, -4.0),
     (0.0, 4.0),
 )  # fmt: skip
-# Middle of the arrow from the sides of the picture, its foot above the lower side and its top below the upper one, and
-# the same in the box that the template draws [mm].
-ARROW_SIDE, ARROW_FOOT, ARROW_TOP, ARROW_IN_BOX = 4.0, 1.0, 14.0, (6.0, 16.0)
+# Middle of the arrow from the sides of the picture if it points up, and if it is turned, its foot above the lower side
+# and its top below the upper one, and the same in the box that the template draws [mm].
+ARROW_SIDE, ARROW_TURNED, ARROW_FOOT, ARROW_TOP, ARROW_IN_BOX = 4.0, 9.0, 1.0, 14.0, (6.0, 16.0)
+
+
+# What is up on a picture: north, or the y axis of a plan, or the way on which a bench begins.
+MapUp = Literal["north", "way"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +64,7 @@ class CardSheets:
     """The content of a file of cards.
 
     name: of the dragon, empty for the only one; title: of the dance; verdict: of its check
+    address: of the page with the dance, empty without one; map_up: what is up on the pictures
     """
 
     dance: Dance
@@ -66,6 +76,8 @@ class CardSheets:
     verdict: str
     face: Face
     budget: Budget
+    address: str
+    map_up: MapUp
 
 
 def cards_pdf(decks: Sequence[CardSheets], progress: Callable[[float], None] = lambda share: None) -> bytes:
@@ -106,7 +118,13 @@ def _words_on(sheets: CardSheets, card: Card) -> dict[str, Any]:
         "neighbours": words.neighbours(bench.ahead, bench.behind),
         "cues": [_cue(sheets, card, cue) for cue in card.cues],
         "notes": joined([marks, words.distances(card), words.left_out(card), sheets.verdict]),
+        "code": code_of_bench(sheets.address, bench.bench, words.dragon),
     }
+
+
+def code_of_bench(address: str, bench: int, dragon: int | None) -> dict[str, Any] | None:
+    """The code of the card of a bench on the page; None without an address."""
+    return Code.of(address_of_bench(address, bench, dragon)).to_json(CODE) if address else None
 
 
 def _cue(sheets: CardSheets, card: Card, cue: Cue) -> tuple[str, str]:
@@ -120,16 +138,19 @@ def _picture(sheets: CardSheets, card: Card, wide: float, high: float) -> dict[s
     """The way of the front handle from start to end, with the numbered moments. wide, high: of the picture [mm]"""
     bench = card.bench
     line = line_of(sheets.dance.path, bench.start.s, max(bench.done.s, bench.start.s + 0.1))
-    low, high_corner = line.min(axis=0) - AROUND, line.max(axis=0) + AROUND
+    turned = 0.5 * np.pi - bench.direction if sheets.map_up == "way" else 0.0
+    seen = turned_by(turned, line)
+    low, high_corner = seen.min(axis=0) - AROUND, seen.max(axis=0) + AROUND
     unit = float(((np.array([wide, high]) - 2.0 * INSIDE) / np.maximum(high_corner - low, 1.0)).min())
-    middle = (0.5 * (low + high_corner)).tolist()
-    scale = Scale(Paper(wide, high, 0.0, 0.0), 1000.0 / unit, (middle[0], middle[1]))
+    middle = turned_by(-turned, 0.5 * (low + high_corner)).tolist()
+    scale = Scale(Paper(wide, high, 0.0, 0.0), 1000.0 / unit, (middle[0], middle[1]), turned)
     drawing, track = MapDrawing(scale, sheets.face, sheets.budget), thinned(scale.on_paper(line))
     points = thinned(track, WAY)
     on_track = np.concatenate([points - WAY, points + WAY], axis=1)
     arrow = _arrow(drawing, track)
     drawing.line(track, 6, 1.2, BLUE)
     draw_arrows(drawing, track, apart=ARROWS)
+    _draw_bench(drawing, sheets.dance, card)
     _draw_moments(drawing, card.cues, on_track)
     drawing.places.take(on_track)
     _draw_marks(drawing, sheets, (bench.start.s, bench.done.s))
@@ -139,17 +160,38 @@ def _picture(sheets: CardSheets, card: Card, wide: float, high: float) -> dict[s
         "alt": say("Map of the way of your front handle, with the number of each cue"),
         "arrow": arrow,
         "geographic": sheets.words.geographic,
+        "turned": -float(np.degrees(turned)),
     }
+
+
+def _draw_bench(drawing: MapDrawing, dance: Dance, card: Card) -> None:
+    """Draw the bench where it starts, in its true size, with an arrow to its front."""
+    dragon, k, stand = dance.dragon, card.bench.bench, card.bench.start
+    along = np.array([np.cos(stand.heading), np.sin(stand.heading)])
+    across, front = 0.5 * dragon.widths[k] * np.array([-along[1], along[0]]), np.array([stand.x, stand.y])
+    nose = front + dragon.overhangs[k] * along
+    tail = nose - dragon.lengths[k] * along
+    drawing.shape(
+        [drawing.scale.on_paper(np.array([nose + across, nose - across, tail - across, tail + across]))], IN_BENCH, 7
+    )
+    middle, forward = drawing.scale.on_paper(0.5 * (nose + tail)), turned_by(drawing.scale.turned, along)
+    tip, side = middle + FORWARD * forward, 0.5 * HEAD * np.array([-forward[1], forward[0]])
+    neck = tip - HEAD * forward
+    drawing.line(np.array([middle - FORWARD * forward, neck]), 7.5, 1.6, "black")
+    shaft = np.linspace(middle - FORWARD * forward, tip, 12)
+    drawing.places.take(np.concatenate([shaft - 0.5 * HEAD, shaft + 0.5 * HEAD], axis=1))
+    drawing.shape([np.array([tip, neck + side, neck - side])], look("black"), 7.5)
 
 
 def _arrow(drawing: MapDrawing, track: Floats) -> tuple[float, float]:
     """Keep the corner that is furthest from the track for the arrow up; returns where its box stands [mm]."""
     _, _, right, top = drawing.room
-    sides, feet = (ARROW_SIDE, right - ARROW_SIDE), (top - ARROW_TOP, ARROW_FOOT)
+    side = ARROW_TURNED if drawing.scale.turned else ARROW_SIDE
+    sides, feet = (side, right - side), (top - ARROW_TOP, ARROW_FOOT)
     corners = np.array([(x, y) for x in sides for y in feet])
     away = np.hypot(*np.moveaxis(corners[:, None] + (0.0, 6.0) - track, -1, 0)).min(axis=1)
     x, y = corners[int(away.argmax())].tolist()
-    drawing.places.take(np.array([x - 3.0, y - 1.0, x + 3.0, y + ARROW_TOP]))
+    drawing.places.take(np.array([x + 1.0 - side, y - 1.0, x - 1.0 + side, y + ARROW_TOP]))
     return x - ARROW_IN_BOX[0], top - y - ARROW_IN_BOX[1]
 
 

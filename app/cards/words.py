@@ -6,13 +6,14 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from app.maps.marks import first_mark, mark_name
 from app.plan.timing import TimeFormat
 from core import Dance
 from core.language import Listed, counted, phrase, say, sense
 from core.people.cards import Card, Cue, CueKind
-from core.people.cues import Meeting, Side, Stand
+from core.people.cues import Meeting, Side, Stand, Turning
 from core.values import Point
 from core.venue import Venue
 
@@ -22,21 +23,21 @@ COMPASS = (
     phrase("south-west"), phrase("west"), phrase("north-west"),
 )  # fmt: skip
 
-# Directions on a plan, from the x axis counter-clockwise.
-ON_PLAN = (
-    phrase("to the right on the plan"), phrase("up and to the right on the plan"), phrase("up on the plan"),
-    phrase("up and to the left on the plan"), phrase("to the left on the plan"),
-    phrase("down and to the left on the plan"), phrase("down on the plan"), phrase("down and to the right on the plan"),
-)  # fmt: skip
+# How far the way of a turn goes around a landmark at least [rad], and how near the landmark is to it [m].
+AROUND, BESIDE = math.radians(80.0), 12.0
+# A bench walks straight ahead up to this angle to it [rad].
+STRAIGHT = math.radians(30.0)
+# Angles from which on a turn is called so [rad]: below the first one it is a bend, and above the last one a circle.
+TURN, BACK, CIRCLE = (math.radians(degrees) for degrees in (70.0, 130.0, 300.0))
 # Largest angle between a direction and a landmark in it [rad]; how near, how far and how wide the landmark may be [m].
 AHEAD, NEAR, FAR, WIDE = math.radians(20.0), 3.0, 80.0, 15.0
 # Names that nobody has given.
 NAMELESS = re.compile(r"(?:obstacle|障碍物) \d+")
 
 
-def landmarks_of(venue: Venue | None) -> list[tuple[str, Point]]:
-    """Name and middle of the obstacles with a name that are small enough to walk towards."""
-    marks = list[tuple[str, Point]]()
+def landmarks_of(venue: Venue | None, gates: Iterable[tuple[str, Point]]) -> list[tuple[str, Point]]:
+    """Name and place of the gates, and of the obstacles with a name that are small enough to walk towards."""
+    marks = [*gates]
     for area in venue.obstacles if venue else ():
         xs, ys = zip(*area.rings[0], strict=True)
         if max(max(xs) - min(xs), max(ys) - min(ys)) <= WIDE and not NAMELESS.fullmatch(area.name):
@@ -57,6 +58,15 @@ def runs(numbers: Iterable[int]) -> str:
         else:
             parts.append([one])
     return str(Listed(f"{part[0]}-{part[-1]}" if len(part) > 1 else part[0] for part in parts))
+
+
+def side_words(met: Meeting) -> str:
+    """Where another bench is that is met."""
+    words = {
+        Side.LEFT: (say("behind on your left"), say("straight on your left"), say("ahead on your left")),
+        Side.RIGHT: (say("behind on your right"), say("straight on your right"), say("ahead on your right")),
+    }[met.side]
+    return words[1 + (met.ahead > 0.0) - (met.ahead < 0.0)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,8 +133,8 @@ class CardWords:
         """Who is before and behind a bench; None: nobody.
 
         >>> words = CardWords(("", "Li"), TimeFormat(), Chalk(0.0, 5.0, 0.75), False)
-        >>> words.neighbours(0, 1), words.direction(0.0)
-        ('Before you: 0 (head).  Behind you: 1 Li.', ('to the right on the plan', '0°'))
+        >>> words.neighbours(0, 1)
+        'Before you: 0 (head).  Behind you: 1 Li.'
         """
         before, after = (
             say("nobody") if bench is None else self._bench(bench, self.names[bench] if self.names else "")
@@ -132,27 +142,66 @@ class CardWords:
         )
         return say("Before you: {before}.  Behind you: {after}.", before=before, after=after)
 
-    def direction(self, angle: float) -> tuple[str, str]:
-        """A direction [rad] and its degrees: a point of the compass, or how it is on the plan, from its x axis."""
-        degrees = math.degrees(angle)
-        if self.geographic:
-            bearing = (90.0 - degrees) % 360.0
-            number = sense("bearing", "{degrees:03d}°", degrees=round(bearing) % 360)
-            return say(COMPASS[round(bearing / 45.0) % len(COMPASS)]), number
-        return say(ON_PLAN[round(degrees / 45.0) % len(ON_PLAN)]), f"{round(degrees) % 360}°"
+    def compass(self, angle: float) -> str:
+        """A direction [rad] as a point of the compass; empty where north is not known."""
+        bearing = (90.0 - math.degrees(angle)) % 360.0
+        return say(COMPASS[round(bearing / 45.0) % len(COMPASS)]) if self.geographic else ""
 
     def walk(self, begin: Stand, angle: float) -> str:
         """How a bench begins to walk in a direction [rad]: towards a thing that has a name, if one is there."""
-        (to, number), mark = self.direction(angle), self._ahead(begin, angle)
-        if mark is None:
-            return say("Walk {to} ({number}).", to=to, number=number)
-        return say("Walk towards “{mark}”, {to} ({number}).", mark=mark, to=to, number=number)
+        to, mark = self.compass(angle), self._ahead((begin.x, begin.y), angle)
+        if mark is not None:
+            words = say("Walk towards “{mark}”", mark=mark)
+        else:
+            beside = math.remainder(angle - begin.heading, math.tau)
+            left, ahead = say("Walk ahead to the left"), say("Walk straight ahead")
+            words = ahead if abs(beside) < STRAIGHT else left if beside > 0.0 else say("Walk ahead to the right")
+        return say("{words}, {to}.", words=words, to=to) if to else say("{words}.", words=words)
 
-    def _ahead(self, begin: Stand, angle: float) -> str | None:
+    def turn(self, turn: Turning) -> str:
+        """A turn: around a thing that has a name, or towards one, or to a point of the compass; and where it begins.
+
+        >>> words = CardWords((), TimeFormat(), Chalk(0.0, 5.0, 0.75), False, landmarks=[("well", (0.0, 2.0))])
+        >>> words.turn(Turning(0.0, 3.0, 19.0, 3.1, 3.1, ((0.0, 0.0), (2.0, 2.0), (0.0, 4.0))))
+        'Near mark 20 m: turn back to the left around “well”.'
+        """
+        words, around = self._turned(turn.angle), self._around(turn)
+        if around is not None:
+            words = say("{turn} around “{mark}”", turn=words, mark=around)
+        elif (mark := self._ahead(turn.way[-1], turn.heading)) is not None:
+            words = say("{turn}, towards “{mark}”", turn=words, mark=mark)
+        elif to := self.compass(turn.heading):
+            words = say("{turn}, then {to}", turn=words, to=to)
+        return say("Near mark {place} m: {turn}.", place=mark_name(self.chalk.nearest(turn.s)[0]), turn=words)
+
+    def _turned(self, angle: float) -> str:
+        """A turn by an angle [rad], to the left > 0."""
+        left, size = angle > 0.0, abs(angle)
+        if size < TURN:
+            return say("bear left") if left else say("bear right")
+        if size < BACK:
+            return say("turn left") if left else say("turn right")
+        if size < CIRCLE:
+            return say("turn back to the left") if left else say("turn back to the right")
+        side = say("to the left") if left else say("to the right")
+        return counted(round(size / math.tau), "circle {side}, {count} time", "circle {side}, {count} times", side=side)
+
+    def _around(self, turn: Turning) -> str | None:
+        """Name of the nearest landmark that a turn goes around; None if it goes around none."""
+        best, least = None, BESIDE
+        for name, (x, y) in self.landmarks:
+            seen = [math.atan2(b - y, a - x) for a, b in turn.way]
+            swept = sum(math.remainder(after - before, math.tau) for before, after in pairwise(seen))
+            away = max(math.hypot(a - x, b - y) for a, b in turn.way)
+            if away < least and swept * math.copysign(1.0, turn.angle) >= min(AROUND, abs(turn.angle)):
+                best, least = name, away
+        return best
+
+    def _ahead(self, place: Point, angle: float) -> str | None:
         """Name of the landmark that is nearest to a direction from a place [rad]; None if none is near it."""
         best, least = None, AHEAD
         for name, (x, y) in self.landmarks:
-            dx, dy = x - begin.x, y - begin.y
+            dx, dy = x - place[0], y - place[1]
             beside = abs(math.remainder(math.atan2(dy, dx) - angle, math.tau))
             if NEAR < math.hypot(dx, dy) < FAR and beside < least:
                 best, least = name, beside
@@ -182,6 +231,9 @@ class CardWords:
             case CueKind.PAUSE:
                 long, end = f"{cue.until - cue.since:.0f}", self.clock.words(cue.until)
                 return say("Stand still until {end} ({long} s).", end=end, long=long)
+            case CueKind.TURN:
+                assert cue.turn is not None
+                return self.turn(cue.turn)
             case CueKind.FASTEST:
                 speed, head = bench.fastest.speed, bench.head_speed
                 return say(
@@ -198,13 +250,12 @@ class CardWords:
         gap = sense("apart", "{gap:.2f} m", gap=nearest.gap)
         if nearest.gap < 0.0:
             gap = say("overlapping by {depth:.2f} m", depth=-nearest.gap)
-        side = say("straight on your left") if nearest.side is Side.LEFT else say("straight on your right")
         how = say("It goes the other way") if nearest.oncoming else say("It goes your way")
-        values = {"who": self._met_bench(nearest), "side": side, "gap": gap, "how": how}
-        if len(cue.meetings) == 1:
-            return say("{who} {side}, {gap}. {how}.", **values)
+        values = {"who": self._met_bench(nearest), "side": side_words(nearest), "gap": gap, "how": how}
         met = {meeting.bench for meeting in cue.meetings}
         since, until = self.clock.words(cue.since), self.clock.words(cue.until)
+        if len(cue.meetings) == 1 or (len(met) == 1 and since == until):
+            return say("{who} {side}, {gap}. {how}.", **values)
         span = say("from {since} to {until}", since=since, until=until)
         if since == until:
             span = say("at {time}", time=since)
@@ -217,7 +268,7 @@ class CardWords:
             )
         passing = say("pass you the other way") if nearest.oncoming else say("walk your way")
         return say(
-            "{who} {side}, {gap}. Benches {met} {passing} {span}, none nearer when straight beside you.",
+            "{who} {side}, {gap}. Benches {met} {passing} {span}, none nearer then.",
             met=runs(met),
             passing=passing,
             span=span,
@@ -226,7 +277,7 @@ class CardWords:
 
     def left_out(self, card: Card) -> str:
         """What has no place on the card; empty if all has one."""
-        pauses = sum(cue.kind is CueKind.PAUSE for cue in card.left_out)
+        pauses, turns = (sum(cue.kind is kind for cue in card.left_out) for kind in (CueKind.PAUSE, CueKind.TURN))
         met = sum(len(cue.meetings) for cue in card.left_out)
         parts = []
         if met and card.least_left_out is not None:
@@ -240,6 +291,8 @@ class CardWords:
             )
         if pauses:
             parts.append(counted(pauses, "{count} shorter pause", "{count} shorter pauses"))
+        if turns:
+            parts.append(counted(turns, "{count} lesser turn", "{count} lesser turns"))
         return say("Not on this card: {parts}.", parts=say("; ").join(parts)) if parts else ""
 
     def distances(self, card: Card) -> str:
@@ -247,6 +300,6 @@ class CardWords:
         if not any(cue.nearest for cue in (*card.cues, *card.left_out)):
             return ""
         return say(
-            "Distances are from edge to edge when the other bench is straight to your side; before "
-            "and after it may be nearer.",
+            "Distances are from edge to edge at the time named; just before and after it a bench beside you may be "
+            "nearer."
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -52,6 +52,15 @@ def cues(
     step_length: Annotated[float | None, typer.Option(help="Length of a step [m]; default: 0.75")] = None,
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
     title: Annotated[str | None, typer.Option(help="Title of the dance on every card")] = None,
+    map_up: Annotated[
+        Literal["north", "way"] | None, typer.Option(help="What is up on the pictures: north, or the way of the bench.")
+    ] = None,
+    address: Annotated[
+        str | None, typer.Option(help="Address of the page with this dance, for a code on each card.")
+    ] = None,
+    labels: Annotated[
+        bool | None, typer.Option("--labels", help="Labels to cut with the code of each bench, in place of cards.")
+    ] = None,
 ) -> None:
     """A card for each bench: where to stand, when to walk, whom it meets and how near, where it is fastest."""
     ending = checked_output("output", output, tuple(FORMS))
@@ -59,7 +68,8 @@ def cues(
         require("paper", "output", "A card on paper")
     request = changed(
         file, CuesRequest, context, part=part, first_bench=first_bench, last_bench=last_bench, cards=bench or None,
-        reach=reach, step_length=step_length, spacing=spacing, title=title,
+        reach=reach, step_length=step_length, spacing=spacing, title=title, map_up=map_up, address=address,
+        labels=labels,
     )  # fmt: skip
     write_answer(CUES, request, say("cues"), output, FORMS[ending])
 

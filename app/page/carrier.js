@@ -1,7 +1,8 @@
-/** The view of one carrier: the bench of the address, of several dragons that of the chosen one, in large type, its next cue counted down. Once loaded it needs no network. */
+/** The view of one carrier: the bench of the address, of several dragons that of the chosen one, in large type, its next cue counted down. Once loaded it needs no network, and where the browser can keep it, it opens without one. */
 
 import { Problem, Superseded } from "./api.js";
 import { $, button, hide, make, numberIn, textButton } from "./elements.js";
+import { canKeep, forget, isKept, keep } from "./kept.js";
 import { secondsBetween, timeOfDay } from "./passages.js";
 import { benchTitle, language, learn, phrase, say, sentencesOf } from "./text.js";
 
@@ -15,6 +16,8 @@ const [FRAME, STEP] = [50, 500];
 const ACROSS = 14;
 /** A cue is the present one for this long [s]; correction of the clock by a button [s]. */
 const [PRESENT, CORRECTION] = [6, 5];
+/** Kinds of cues that hold until the next one of them. */
+const LASTING = ["begin", "turn", "done"];
 /** Largest dance whose picture is held: samples times handles. */
 const HELD_MOST = 2_000_000;
 /** Where the browser keeps when a dance began, so that a page that was loaded again goes on. */
@@ -52,6 +55,12 @@ export class Carrier {
   #drawnDance = null;
   #lock = null;
   #network = true;
+  /** What is kept on this device: the card and the dance, and whether a person wants that. */
+  #kept = false;
+  #keeping = null;
+  #isWanted = true;
+  /** Where the carrier stands before the dance. */
+  #standing = "";
 
   /**
    * show(pose): draws it; choose(k): chooses dragon k of several
@@ -74,6 +83,7 @@ export class Carrier {
     this.stand = make("p", { className: "stand" });
     this.beside = make("p", { className: "beside" });
     this.note = make("p", { className: "hint" });
+    this.remove = textButton("Remove from this device", () => this.#forget(), { id: "card-remove" });
     this.cue = make("p", { className: "cue", "aria-live": "polite" });
     this.start = textButton("Start", () => this.#begin(this.#span.begin), { className: "main", id: "card-start" });
     this.byClock = textButton("By the clock", () => this.#goByClock(), { id: "card-clock" });
@@ -85,7 +95,7 @@ export class Carrier {
     const row = (...parts) => make("p", { className: "row" }, ...parts);
     this.present = make("div", {}, this.when, this.cue);
     this.box = make("section", { id: "carrier", "aria-labelledby": "carrier-title" }, row(this.title, this.dragon, make("label", {}, make("span", { "data-text": "Bench" }), this.number), this.other, close), this.clock, this.present, row(this.start));
-    this.more = make("section", { id: "card-more", "aria-labelledby": "card-cues" }, this.stand, this.beside, heading, this.list, row(...this.corrections, this.again, this.byClock), this.note);
+    this.more = make("section", { id: "card-more", "aria-labelledby": "card-cues" }, this.stand, this.beside, heading, this.list, row(...this.corrections, this.again, this.byClock), this.note, row(this.remove));
     $("#front").prepend(this.box);
     $("#dance").after(this.more);
     dance.above.push((pen, colours) => this.#mark(pen, colours));
@@ -158,6 +168,27 @@ export class Carrier {
     else field.value = this.#bench;
   }
 
+  /** Keep the card and the dance on this device, once for each of them. */
+  async #keepHere() {
+    const of = this.#of;
+    if (!this.#isWanted || this.#keeping === of || !canKeep()) return;
+    this.#keeping = of;
+    this.#kept = false;
+    const kept = (await isKept(this.service.asked)) || (this.#network && (await keep(this.service.asked)));
+    if (of !== this.#of) return;
+    this.#kept = kept;
+    if (kept) navigator.storage?.persist?.();
+    else if (!this.#network) this.#keeping = null;
+    this.#showNote();
+  }
+
+  async #forget() {
+    [this.#isWanted, this.#kept] = [false, false];
+    this.#keep(null);
+    await forget();
+    this.#showNote();
+  }
+
   /** Ask for the card of this bench in both languages, because a network may be gone when another language is wanted. */
   async #ask() {
     const { dance } = this.questions;
@@ -171,7 +202,7 @@ export class Carrier {
     try {
       for (const one of [language(), ...LANGUAGES.filter((other) => other !== language())]) {
         await learn(this.service, one, "more");
-        const { cards } = await this.service.ask("cues", "cues", { body: { ...this.#body(one), ...own, language: one } });
+        const { cards } = await this.service.ask(`cues ${one}`, "cues", { body: { ...this.#body(one), ...own, language: one } });
         if (of !== this.#of) return;
         this.#cards[one] = cards[0];
         this.#showCard();
@@ -196,7 +227,7 @@ export class Carrier {
     const { begin, end, clock } = this.#span;
     this.#began = null;
     try {
-      const { of, began } = JSON.parse(sessionStorage.getItem(STORED));
+      const { of, began } = JSON.parse(localStorage.getItem(STORED));
       const now = (Date.now() - began) / 1000;
       if (of === this.#key() && begin <= now && now < end) this.#began = began;
     } catch {
@@ -225,8 +256,8 @@ export class Carrier {
 
   #keep(began) {
     try {
-      if (began === null) sessionStorage.removeItem(STORED);
-      else sessionStorage.setItem(STORED, JSON.stringify({ of: this.#key(), began }));
+      if (began === null) localStorage.removeItem(STORED);
+      else localStorage.setItem(STORED, JSON.stringify({ of: this.#key(), began }));
     } catch {
       // Without storage a page that is loaded again begins anew.
     }
@@ -273,7 +304,7 @@ export class Carrier {
     const key = ahead ? (behind ? phrase("Before you: {ahead}. Behind you: {behind}.") : phrase("Before you: {ahead}. Nobody is behind you.")) : behind ? phrase("You lead. Behind you: {behind}.") : phrase("You dance alone.");
     this.beside.textContent = card ? say(key, { ahead: ahead && name(ahead.bench), behind: behind && name(behind.bench) }) : "";
     const stands = start && (start.steps ? (start.steps > 0 ? PAST : BEFORE)[Math.min(Math.abs(start.steps), 2) - 1] : phrase("You stand at chalk mark {mark} m (x {x} m, y {y} m)."));
-    this.stand.textContent = card ? say(stands, { mark: start.mark, steps: Math.abs(start.steps), x: start.x.toFixed(1), y: start.y.toFixed(1) }) : "";
+    this.#standing = card ? say(stands, { mark: start.mark, steps: Math.abs(start.steps), x: start.x.toFixed(1), y: start.y.toFixed(1) }) : "";
     this.list.replaceChildren(...(card?.cues ?? []).map((cue) => make("li", {}, make("span", { textContent: this.#timeOf(cue.time) }), make("span", { textContent: cue.words }))));
     this.byClock.hidden = !dance?.clock;
     this.#showTime();
@@ -284,11 +315,15 @@ export class Carrier {
     const isWhole = this.#track?.isWhole;
     const cards = Object.keys(this.#cards).length === LANGUAGES.length;
     const isLarge = this.#track?.cells > HELD_MOST;
+    if (cards && isWhole) this.#keepHere();
+    hide(this.remove, !this.#kept);
+    this.box.dataset.kept = String(this.#kept);
+    const stays = this.#network ? phrase("All is here and stays on this device: it opens again without the network, also tomorrow.") : phrase("No network: the card goes on, and opens again from this device.");
     const held = cards && isWhole ? phrase("All is here: it goes on without the network while this page stays open. Do not reload it then.") : cards && isLarge ? phrase("The cues are here while this page stays open. The dance is too large to hold its picture, which needs the network.") : phrase("Loading: stay within reach of the network.");
-    const distances = this.#card?.cues.some(({ nearest }) => nearest) ? [phrase("Distances are from edge to edge when the other bench is straight to your side; before and after it may be nearer.")] : [];
+    const distances = this.#card?.cues.some(({ nearest }) => nearest) ? [phrase("Distances are from edge to edge at the time named; just before and after it a bench beside you may be nearer.")] : [];
     const { answer = null } = this.questions.dance ?? {};
     const until = answer && answer.time !== null ? [phrase("Benches touch in this dance: the cues end there.")] : [];
-    const words = [...until, ...distances, this.#network ? held : phrase("No network: the card goes on while this page stays open. Do not reload it."), this.#lock ? phrase("The screen stays on.") : phrase("Set your device so that its screen stays on.")];
+    const words = [...until, ...distances, this.#kept ? stays : this.#network ? held : phrase("No network: the card goes on while this page stays open. Do not reload it."), this.#lock ? phrase("The screen stays on.") : phrase("Set your device so that its screen stays on.")];
     this.note.textContent = sentencesOf(words.map((one) => say(one)));
     this.box.dataset.held = String(Boolean(cards && isWhole));
     this.box.dataset.awake = String(Boolean(this.#lock));
@@ -313,16 +348,20 @@ export class Carrier {
     const isGoing = this.#began !== null;
     put(this.clock, dance.clock ? clockNow() : isGoing ? cardTime(Math.floor(Math.max(time, begin))).slice(0, -2) : "");
     hide(this.start, isGoing);
-    hide(this.stand, isGoing && time > begin);
     for (const one of [...this.corrections, this.again]) hide(one, !isGoing);
     const cues = this.#card?.cues ?? [];
     // The card has them by the time at which benches are nearest; who waits for one hears of it when it begins.
     const begun = cues.toSorted((a, b) => a.since - b.since);
     const next = begun.find(({ since }) => since > time || !isGoing);
-    const present = isGoing && begun.findLast(({ since, until }) => since <= time && time < Math.max(until, since + PRESENT));
+    // A turn goes on while the next cue is counted down.
+    const lasts = ({ kind, since, until }) => (kind === "turn" ? since : until);
+    const present = isGoing && begun.findLast((one) => one.since <= time && time < Math.max(lasts(one), one.since + PRESENT));
     const isOver = isGoing && time >= end && !present;
-    const [cue, at] = present ? [present, present.until] : [next, next?.since];
+    const [cue, at] = present ? [present, lasts(present)] : [next, next?.since];
     this.present.classList.toggle("present", Boolean(present));
+    // What goes on takes the place of where one stands, once that is over; a cue that is large above is not said twice.
+    const doing = begun.findLast(({ kind, since }) => LASTING.includes(kind) && since <= time);
+    put(this.stand, !isGoing || time <= begin ? this.#standing : doing && doing !== present ? say("Now: {words}", { words: doing.words }) : "");
     const left = minutesAndSeconds(Math.max(at - time, 0));
     const lacks = this.#bench >= benches ? say("This dragon has no bench {bench}: its tail is bench {last}.", { bench: this.#bench, last: benches - 1 }) : refusal?.sentence ?? "";
     put(this.when, lacks || isOver || !cue || !isGoing ? "" : !present ? say("in {time}", { time: left }) : at > time ? say("still {time}", { time: left }) : say("Now"));

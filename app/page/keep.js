@@ -41,6 +41,7 @@ const ITEMS = [
   { key: "keepPlan", title: phrase("Plan on paper, true to scale"), forms: ["A4", "A3"], ask: "plan", file: "plan" },
   { key: "keepSafety", title: phrase("Safety sheet, for whoever permits it"), forms: ["PDF"], ask: "safety", file: "safety-sheet" },
   { key: "keepCues", title: phrase("A cue card for each bench"), forms: ["PDF", "CSV"], ask: "cues", file: "cues", among: "#cues" },
+  { key: "keepLabels", title: phrase("Labels with a QR code for each bench"), forms: ["PDF"], ask: "labels", file: "labels", among: "#cues" },
   { key: "keepMap", title: phrase("Map with chalk marks"), forms: ["GeoJSON", "KML", "DXF"], ask: "map", file: "map" },
   { key: "keepAnswer", title: phrase("First contact with its certificate"), forms: ["JSON"], ask: "answer", file: "first-contact" },
   { key: "keepVerdict", title: phrase("The verdict on the whole dance"), forms: ["JSON"], ask: "verdict", file: "check" },
@@ -50,15 +51,18 @@ const ITEMS = [
   { key: "keepPaper", title: phrase("The paper's numbers beside these"), forms: ["JSON"], ask: "paper", file: "paper" },
 ];
 const BESIDES = [...CONTACT, "entry_radius", "exit_radius"];
-/** Longest address that stands on paper as a code: a phone reads it from a hand's breadth. */
-const ADDRESS_MOST = 300;
+/** Longest address that stands as a code on a safety sheet, and on a card or a label: a phone reads it from a hand's breadth. */
+const [ADDRESS_MOST, CARD_ADDRESS_MOST] = [300, 600];
 /** Whether the address of the page leads there from another device too, and fits on paper. */
-const isPrintable = () => location.href.length < ADDRESS_MOST && !/^(localhost|127\.[\d.]+|\[::1\])$/.test(location.hostname);
+const isPrintable = (most = ADDRESS_MOST) => location.href.length < most && !/^(localhost|127\.[\d.]+|\[::1\])$/.test(location.hostname);
 /** Name of a file in this format. */
 const fileName = (file, form) => (["A4", "A3"].includes(form) ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
 /** Commands in addition to those of the items: for the shown answer, and for a proof. */
 const [ON_SCREEN, PROOF] = ["keepShown", "keepProof"];
 const MORE = [{ key: ON_SCREEN, title: phrase("What is shown") }, { key: PROOF, title: phrase("A proof in ball arithmetic") }];
+
+/** What a question about cards has beside the dance. */
+const cardsOf = ({ cued }) => ({ ...cued, language: language(), ...(isPrintable(CARD_ADDRESS_MOST) && { address: location.href }), ...($("#cards-turned").checked && { map_up: "way" }) });
 
 /** A figure with its words in the language of the page. */
 function figure(name, form, /** @type {any} */ { query, body }) {
@@ -101,7 +105,8 @@ const REQUESTS = {
   ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
   plan: (questions, paper) => ({ path: "plan", body: questions.danced({ paper, language: language() }) }),
   safety: (questions) => ({ path: "safety-sheet", body: questions.danced({ language: language(), ...(isPrintable() && { address: location.href }) }) }),
-  cues: (questions) => ({ path: "cues", body: questions.danced({ ...questions.cued, language: language() }) }),
+  cues: (questions) => ({ path: "cues", body: questions.danced(cardsOf(questions)) }),
+  labels: (questions) => ({ path: "cues", body: questions.danced({ ...cardsOf(questions), labels: true }) }),
   map(questions, form) {
     const drawing = questions.dance.kind === "route" ? questions.state.get("drawing") : null;
     return mapOf(form, questions.danced(), drawing);
@@ -126,7 +131,8 @@ const TOGETHER = {
     return { path: "films", body: { ...file, language: language() } };
   },
   plan: ({ dance }, paper) => ({ path: "plan", body: { ...dance.file, paper, language: language() } }),
-  cues: ({ dance, cued }) => ({ path: "cues", body: { ...dance.file, ...cued, language: language() } }),
+  cues: (questions) => ({ path: "cues", body: { ...questions.dance.file, ...cardsOf(questions) } }),
+  labels: (questions) => ({ path: "cues", body: { ...questions.dance.file, ...cardsOf(questions), labels: true } }),
   map: ({ dance }, form) => mapOf(form, dance.file, dance.drawing),
   verdict: ({ dance }) => ({ path: "check", body: dance.file }),
 };
@@ -152,6 +158,7 @@ export class Keep {
     ITEMS.forEach(({ among = "#kept" }, k) => $(among).append(this.#rows[k]));
     const { state } = questions;
     $("#keepCues-PDF").before(textButton("Follow a bench", () => state.push({ bench: state.get("handle") ?? 0 }), { id: "card-follow" }));
+    $("#keepCues-PDF").closest("li").append(make("label", {}, make("input", { type: "checkbox", id: "cards-turned" }), make("span", { "data-text": "Maps turned with the way" })));
     const commands = [MORE[0], ...ITEMS.filter(({ ask }) => ask), MORE[1]];
     $("#curl-of").append(...commands.map(({ key, title }) => make("option", { value: key, "data-text": title })));
     $("#curl-of").addEventListener("change", () => this.show());
@@ -230,6 +237,7 @@ export class Keep {
     // The form in which a person types it is that of a drawn path.
     if (form === "KML" && state.get("path") === "route" && !state.get("drawing").origin) return this.#askPlace();
     if (item.ask === "kit" && this.questions.dance.extras.csv) return announce(() => say("The kit is for equal benches: reset the table of benches."));
+    if (item.ask === "labels" && !isPrintable(CARD_ADDRESS_MOST)) return announce(() => say("Codes need an address of at most {most} characters that leads here from a phone too.", { most: CARD_ADDRESS_MOST }));
     try {
       if (item.job) await this.#begin(item, form);
       if (item.ask === "kit" && this.#besides().length) announce(() => say("The kit answers the contest's questions, without: {names}.", { names: this.#besides().map((name) => say(LABELS[name])).join(between()) }));

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from operator import itemgetter
@@ -29,19 +30,29 @@ BAR_MOST = 50.0
 PARTS = 100
 
 
+def turned_by(angle: float, points: Floats) -> Floats:
+    """Points (..., 2) turned about the origin, counter-clockwise. angle: [rad]"""
+    if not angle:
+        return points
+    cos, sin = math.cos(angle), math.sin(angle)
+    turned: Floats = points @ np.array([[cos, sin], [-sin, cos]])
+    return turned
+
+
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """1 : ratio, with the world's `middle` [m] in the middle of a sheet's room."""
+    """1 : ratio, with the world's `middle` [m] in the middle of a sheet's room, turned counter-clockwise [rad]."""
 
     paper: Paper
     ratio: float
     middle: tuple[float, float]
+    turned: float = 0.0
 
     def on_paper(self, points: Floats) -> Floats:
         """Points (..., 2) [mm] of points (..., 2) [m]."""
         left, bottom, right, top = self.paper.room
         centre = np.array([0.5 * (left + right), 0.5 * (bottom + top)])
-        placed: Floats = (points - np.array(self.middle)) * (1000.0 / self.ratio) + centre
+        placed: Floats = turned_by(self.turned, points - np.array(self.middle)) * (1000.0 / self.ratio) + centre
         return placed
 
     @property

@@ -332,7 +332,7 @@ def draw_safety(ground: GroundMap, layers: SafetyLayers, scale: Scale, face: Fac
     return drawing
 
 
-def legend_of_safety(ground: GroundMap, layers: SafetyLayers) -> list[tuple[str, str]]:
+def legend_of_safety(drawing: MapDrawing, ground: GroundMap, layers: SafetyLayers) -> list[tuple[str, str]]:
     """The meaning of colours and lines on the map of a safety sheet."""
     rows = [
         (AREA, IN_SWEPT, say("ground swept by benches")),
@@ -342,9 +342,16 @@ def legend_of_safety(ground: GroundMap, layers: SafetyLayers) -> list[tuple[str,
     ]
     if layers.lanes:
         rows.append((AREA, IN_LANE, say("lane to keep free")))
-    if ground.venue and ground.venue.obstacles:
-        rows.append((AREA, IN_STONE, say("obstacle")))
-    return _swatches(rows)
+    return _swatches([*rows, *_of_venue(drawing, ground)])
+
+
+def _of_venue(drawing: MapDrawing, ground: GroundMap) -> list[tuple[str, str, str]]:
+    """The rows of a legend about the venue."""
+    obstacle = AREA, IN_STONE, say("obstacle")
+    rows = [obstacle] if ground.venue and ground.venue.obstacles else []
+    if any(height == CUT for height, _ in drawing.shapes):
+        rows.append((LINE, look(width=1.2, dash=BROKEN), say("goes on beyond the sheet")))
+    return rows
 
 
 def legend_of(drawing: MapDrawing, ground: GroundMap, benches: bool, several: bool) -> list[tuple[str, str]]:
@@ -364,11 +371,7 @@ def legend_of(drawing: MapDrawing, ground: GroundMap, benches: bool, several: bo
         rows += [(AREA, IN_BENCH, say("bench")), (AREA, IN_HEAD, say("head"))]
     elif not several:
         rows.append((MARK, on_path, say("chalk mark every {spacing:g} m", spacing=ground.timing.marks.spacing)))
-    if ground.venue and ground.venue.obstacles:
-        rows.append((AREA, IN_STONE, say("obstacle")))
-    if any(height == CUT for height, _ in drawing.shapes):
-        rows.append((LINE, look(width=1.2, dash=BROKEN), say("goes on beyond the sheet")))
-    return _swatches(rows)
+    return _swatches([*rows, *_of_venue(drawing, ground)])
 
 
 def _swatches(rows: Sequence[tuple[str, str, str]]) -> list[tuple[str, str]]:

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
-import segno
-
 import core
+from app.files.codes import Code
 from app.files.typeset import Face, typeset
 from app.plan.drawing import scale_in
 from app.plan.ground import GroundMap, SafetyLayers, draw_safety, legend_of_safety
@@ -66,19 +65,13 @@ def safety_pdf(words: SafetyWords, ground: GroundMap, layers: SafetyLayers, face
             "geographic": ground.geographic,
         },
         "bar": {"scale": f"1:{ratio}", "marks": [f"{bar:g} m"], "wide": bar * 1000.0 / ratio},
-        "legend": legend_of_safety(ground, layers),
+        "legend": legend_of_safety(drawing, ground, layers),
         "approaches": words.approaches,
         "assumptions": words.assumptions,
         "ground": own,
         "parts": others,
-        "code": _code(words.address),
-        "address": words.address,
+        "code": Code.of(words.address, "m").to_json(22.0) if words.address else None,
         "signatures": [say("organiser: name, date, signature"), say("authority: name, date, signature")],
     }
     template = files("app.plan").joinpath("safety.typ").read_bytes()
     return typeset(template, face, data, budget)
-
-
-def _code(address: str) -> str | None:
-    """An address as a QR code in SVG; None without one."""
-    return segno.make(address, error="m", micro=False).svg_inline(border=2) if address else None

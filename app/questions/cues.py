@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, Literal
 
 from pydantic import Field
 
@@ -14,27 +14,25 @@ from app.cards.words import CardWords, Chalk, landmarks_of
 from app.files.tables import CSV_TYPE
 from app.plan.timing import TimeFormat
 from app.questions.check import verdict_of
-from app.questions.maps import Marked
-from app.questions.plan import PDF_TYPE, verdict_words
+from app.questions.plan import PDF_TYPE, GatedDance, verdict_words
 from app.wire.dances import BenchNumber, bench_of, clock_of, starting
 from app.wire.degrees import Place
 from app.wire.performances import NumberOrName, SeveralFields, dragons_of
-from app.wire.question import JSON, OneLine, Question, Terms, measure
+from app.wire.question import JSON, Address, Question, Terms, measure
 from core import Dance, FailureKind, InvalidValue, Performance
 from core.errors import Given, Parameter, TooLarge, question_about
-from core.language import Language, say
+from core.language import say
 from core.motion.places import handle_places
 from core.people.cards import Card, card_of
 from core.people.cues import FOLLOWED_MAX, REACH, REACH_MAX, bench_cues
 
-if TYPE_CHECKING:
-    from app.cards.cards import CardSheets
-
+# Longest address whose code fits on a card [characters].
+ADDRESS_MOST = 600
 # Estimated time of the cues of a bench and of its card on paper [s], measured 2026-11-29.
 SECONDS_PER_BENCH, SECONDS_PER_CARD = 0.02, 0.01
 
 
-class DanceCues(Marked, strict=True):
+class DanceCues(GatedDance, strict=True):
     """A dance, as for /check, and the benches that get cards."""
 
     first_bench: BenchNumber | None = Field(
@@ -53,8 +51,20 @@ class DanceCues(Marked, strict=True):
     step_length: float = measure(
         "m", "Length of a step, in which distances from chalk marks are counted", 0.75, ge=0.2, le=2
     )
-    title: OneLine = Field("", max_length=80, description="Title of the dance on every card")
-    language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
+
+    map_up: Literal["north", "way"] = Field(
+        "north",
+        description="What is up on the pictures: north, or the y axis of a plan; or the way on which the bench begins",
+    )
+    address: Address = Field(
+        "",
+        max_length=ADDRESS_MOST,
+        description="Address of the page with this dance: each card has a code that opens the card of its bench on a "
+        "phone",
+    )
+    labels: bool = Field(
+        False, description="True: the PDF has labels to cut with the code of each bench, in place of its card"
+    )
 
     def benches_of(self, dragon: core.Dragon) -> Sequence[int]:
         """The benches that get cards. raises: InvalidValue, TooLarge"""
@@ -95,6 +105,8 @@ def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | Perform
     dance = request.to_dance(request.most_benches(terms.settings))
     request, benches = starting(request, dance), request.benches_of(dance.dragon)
     _refuse_equal_names(dance.dragon)
+    if request.labels and form == PDF_TYPE:
+        return _labels(request, dance, [("", benches, dance.dragon, None)], terms)
     place = request.to_place(dance.dragon)
     own_cues = bench_cues(
         dance, benches, reach=request.reach, start=request.start, stop=request.stop, budget=terms.budget
@@ -105,7 +117,7 @@ def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | Perform
     if form == CSV_TYPE:
         return cards_csv(cards, words)
     verdict = _verdict(request, dance, place, words, terms)
-    return _drawn(dance, _sheets(request, place, [((dance, ""), (cards, words))], verdict, terms), terms)
+    return _cards(dance, request, place, [((dance, ""), (cards, words))], verdict, terms)
 
 
 def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCues | bytes:
@@ -115,6 +127,9 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     chosen = {k: request.benches_of(performance.parts[k].dance.dragon) for k in dragons_of(request.part, performance)}
     _refuse_many(sum(map(len, chosen.values())))
     names = [part.name or say("dragon {k}", k=k) for k, part in enumerate(performance.parts)]
+    if request.labels and form == PDF_TYPE:
+        decks_of = [(names[k], benches, performance.parts[k].dance.dragon, k) for k, benches in chosen.items()]
+        return _labels(request, performance, decks_of, terms)
     dragons = [(name, part.dance.dragon.names) for name, part in zip(names, performance.parts, strict=True)]
     request = starting(request, performance)
     start_clock = clock_of(request, performance)
@@ -127,7 +142,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
         own = core.performance_cues(performance, k, benches, reach=request.reach, **span)
         chalk = _chalk(request, dance, performance.parts[k].own_span(start, stop)[0], terms)
         clock = TimeFormat(start_clock, parts[k].music, music_begin=parts[k].delay)
-        words = CardWords(dance.dragon.names, clock, chalk, geographic, k, dragons, landmarks_of(place.venue))
+        words = CardWords(dance.dragon.names, clock, chalk, geographic, k, dragons, _landmarks(request, place))
         decks.append(([card_of(one) for one in own], words))
     if form == JSON:
         return PerformanceCues.together(decks)
@@ -140,8 +155,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     in_words = TimeFormat(start_clock).words
     verdict = _failed(request, report, in_words) if report.failures else _passed(request, place)
     dances = [(performance.parts[k].dance, names[k]) for k in chosen]
-    sheets = _sheets(request, place, list(zip(dances, decks, strict=True)), verdict, terms)
-    return _drawn_together(performance, sheets, terms)
+    return _cards(performance, request, place, list(zip(dances, decks, strict=True)), verdict, terms)
 
 
 def _refuse_many(count: int) -> None:
@@ -161,7 +175,12 @@ def _words(request: CuesRequest, dance: Dance, place: Place, terms: Terms) -> Ca
     chalk = _chalk(request, dance, dance.span(request.start, request.stop)[0], terms)
     clock = TimeFormat(clock_of(request, dance), request.music)
     geographic = request.origin_at(place) is not None
-    return CardWords(dance.dragon.names, clock, chalk, geographic, landmarks=landmarks_of(place.venue))
+    return CardWords(dance.dragon.names, clock, chalk, geographic, landmarks=_landmarks(request, place))
+
+
+def _landmarks(request: CuesRequest, place: Place) -> list[tuple[str, tuple[float, float]]]:
+    """Name and place of what a person can walk towards."""
+    return landmarks_of(place.venue, [(one.name, (one.x, one.y)) for one in request.gates])
 
 
 def _refuse_equal_names(dragon: core.Dragon, before: str = "") -> None:
@@ -208,46 +227,70 @@ def _passed(request: CuesRequest, place: Place) -> str:
     )
 
 
-def _sheets(
+def _cards(
+    dance: Dance | Performance,
     request: CuesRequest,
     place: Place,
     decks: Sequence[tuple[tuple[Dance, str], tuple[list[Card], CardWords]]],
     verdict: str,
     terms: Terms,
-) -> list[CardSheets]:
+) -> bytes:
     """The cards on paper.
 
     decks: for each dragon its dance, its name, which is empty for the only one, its cards, and their words
     """
-    from app.cards.cards import CardSheets
+    from app.cards.cards import CardSheets, cards_pdf
     from app.files.typeset import face_for
 
     title = request.title or say("Bench dragon")
     areas = place.venue.areas if place.venue else ()
-    names = [one for (dance, name), _ in decks for one in (name, *dance.dragon.names)]
+    names = [one for (own, name), _ in decks for one in (name, *own.dragon.names)]
     # The cards of one dragon name those of others.
     names += [one for _, (_, words) in decks[:1] for name, own in words.dragons for one in (name, *own)]
-    face = face_for([title, *names, *(area.name for area in areas)])
-    return [
-        CardSheets(dance, name, place.venue, cards, words, title, verdict, face, terms.budget)
-        for (dance, name), (cards, words) in decks
+    face = face_for([title, *names, *(area.name for area in areas), *(gate.name for gate in request.gates)])
+    sheets = [
+        CardSheets(
+            own, name, place.venue, cards, words, title, verdict, face, terms.budget, request.address, request.map_up
+        )
+        for (own, name), (cards, words) in decks
     ]
+    return _drawn(dance, lambda: cards_pdf(sheets, terms.progress))
+
+
+def _labels(
+    request: CuesRequest,
+    dance: Dance | Performance,
+    decks: Sequence[tuple[str, Sequence[int], core.Dragon, int | None]],
+    terms: Terms,
+) -> bytes:
+    """The labels as PDF. decks: name, benches, dragon and number of each dragon; raises: InvalidValue, TooMuchWork"""
+    from app.cards.labels import LabelDeck, labels_pdf
+    from app.files.typeset import face_for
+
+    if not request.address:
+        raise InvalidValue("address", "must be given for labels, whose codes lead to it")
+    title = request.title or say("Bench dragon")
+    face = face_for([title, *(one for name, _, dragon, _ in decks for one in (name, *dragon.names))])
+    labels = [
+        LabelDeck(say("{name}: {text}", name=title, text=name) if name else title, benches, dragon.names, number)
+        for name, benches, dragon, number in decks
+    ]
+    return _drawn(dance, lambda: labels_pdf(title, request.address, labels, face, terms.budget))
+
+
+def _drawn(dance: Dance | Performance, draw: Callable[[], bytes]) -> bytes:
+    """What is drawn of a dance, or of several, as PDF. raises: TooMuchWork"""
+    return _drawn_together(dance, draw) if isinstance(dance, Performance) else _drawn_alone(dance, draw)
 
 
 @question_about("dance", Dance, "the cards were not drawn")
-def _drawn(dance: Dance, sheets: list[CardSheets], terms: Terms) -> bytes:
-    """The cards of a dance as PDF. raises: TooMuchWork"""
-    from app.cards.cards import cards_pdf
-
-    return cards_pdf(sheets, terms.progress)
+def _drawn_alone(dance: Dance, draw: Callable[[], bytes]) -> bytes:
+    return draw()
 
 
 @question_about("performance", Performance, "the cards were not drawn")
-def _drawn_together(performance: Performance, sheets: list[CardSheets], terms: Terms) -> bytes:
-    """The cards of several dances as PDF. raises: TooMuchWork"""
-    from app.cards.cards import cards_pdf
-
-    return cards_pdf(sheets, terms.progress)
+def _drawn_together(performance: Performance, draw: Callable[[], bytes]) -> bytes:
+    return draw()
 
 
 def _cost(request: CuesRequest, form: str = JSON) -> float:

@@ -30,7 +30,7 @@ from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
 from app.wire.geojson import geometry_of
 from app.wire.paths import Point as PointField
-from app.wire.question import JSON, UNKNOWN_COST, OneLine, Question, Terms, Wire, measure
+from app.wire.question import JSON, UNKNOWN_COST, Address, OneLine, Question, Terms, Wire, measure
 from app.wire.readings import bench_words, failure_words, handles_words
 from core import Area, Dance, FailureKind, InvalidValue, Judgement
 from core.errors import format_bound, format_number, question_about
@@ -91,7 +91,7 @@ class SafetySheetRequest(GatedDance, strict=True):
     reaction: float = measure("s", "Time from the call to stop until everybody stands", 2.0, ge=0, le=60)
     stopper: OneLine = Field("", max_length=80, description="Who stops the dance")
     date: OneLine = Field("", max_length=40, description="Date of the sheet; empty: a line to fill in")
-    address: OneLine = Field(
+    address: Address = Field(
         "", max_length=500, description="Address of the dance, which stands on the sheet as a code"
     )
 

@@ -74,6 +74,14 @@ def _one_line(text: str) -> str:
     return text
 
 
+def _address(text: str) -> str:
+    if text and not re.fullmatch(r"https?://[!-~]+", text):
+        raise PydanticCustomError("rule", "must be a web address that begins with http:// or https://")
+    return text
+
+
+# The address of a page, which stands on paper as a code; empty for none.
+Address = Annotated[str, AfterValidator(_address)]
 # A title or a name, which stands in sentences and on paper.
 OneLine = Annotated[str, AfterValidator(_one_line)]
 

@@ -2,9 +2,11 @@
 
 1. The beginning and the end are always on the card.
 2. Then come the pauses, the longest first: every one that has a place.
-3. Then the fastest moment, if the bench is more than FASTER above the speed with which the head begins to walk.
-4. Then the meetings, the nearest first. Meetings on one side, with benches of one dragon that go one way, of which each
+3. Then the turns, those by the largest angle first: all of the head, which leads, and TURNS of another bench.
+4. Then the fastest moment, if the bench is more than FASTER above the speed with which the head begins to walk.
+5. Then the meetings, the nearest first. Meetings on one side, with benches of one dragon that go one way, of which each
    is at most TOGETHER after the one before, are one cue, whose moment and gap are those of the nearest of them.
+6. Then the other turns.
 What has no place any more is left out. Of equal ones the earlier comes first.
 """
 
@@ -16,12 +18,14 @@ from enum import StrEnum
 
 from core.display import Readable
 from core.errors import checked_type
-from core.people.cues import BenchCues, Meeting, Side
+from core.people.cues import BenchCues, Meeting, Side, Turning
 
 # Most cues of a card, the beginning and the end among them.
 CUES_MOST = 8
 # Share of the speed at the beginning by which a bench must be faster for a cue [1].
 FASTER = 0.01
+# Turns of a bench behind the head that stand before its meetings.
+TURNS = 3
 # Longest time from one meeting to the next of the same cue [s].
 TOGETHER = 10.0
 
@@ -32,6 +36,7 @@ class CueKind(StrEnum):
     BEGIN = "begin"
     DONE = "done"
     PAUSE = "pause"
+    TURN = "turn"
     FASTEST = "fastest"
     MEETING = "meeting"
 
@@ -40,14 +45,15 @@ class CueKind(StrEnum):
 class Cue(Readable):
     """One cue: what happens, when, and where the bench is then.
 
-    kind: begin, pause, fastest, meeting or done
+    kind: begin, turn, pause, fastest, meeting or done
     time: moment of the cue: of several meetings, that of the nearest [s]
     x: x of the bench: of the front handle, in a meeting of the middle, or of the fastest handle [m]
     y: y of the same point [m]
-    since: beginning of a pause, or moment of the first of several meetings; else the same as time [s]
-    until: end of a pause, or moment of the last of several meetings; else the same as time [s]
+    since: beginning of a pause or a turn, or moment of the first of several meetings; else the same as time [s]
+    until: end of a pause or a turn, or moment of the last of several meetings; else the same as time [s]
     nearest: the meeting, or of several the one with the least gap; None in another kind of cue
     meetings: those of this cue in order of time; none in another kind of cue
+    turn: the turn; None in another kind of cue
     """
 
     kind: CueKind
@@ -58,6 +64,7 @@ class Cue(Readable):
     until: float
     nearest: Meeting | None = None
     meetings: tuple[Meeting, ...] = ()
+    turn: Turning | None = None
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -91,8 +98,11 @@ def card_of(bench: BenchCues) -> Card:
     pauses.sort(key=lambda cue: cue.since - cue.until)
     peak = Cue(CueKind.FASTEST, fastest.time, fastest.x, fastest.y, fastest.time, fastest.time)
     peaks = [peak] if fastest.speed > (1.0 + FASTER) * bench.head_speed else []
+    turns = [Cue(CueKind.TURN, one.begin, *one.way[0], one.begin, one.end, turn=one) for one in bench.turns]
+    turns.sort(key=lambda cue: -abs(cue.turn.angle) if cue.turn else 0.0)
+    first = len(turns) if bench.ahead is None else TURNS
     met = sorted(_together(bench.meetings), key=lambda cue: cue.nearest.gap if cue.nearest else 0.0)
-    ranked = [*always, *pauses, *peaks, *met]
+    ranked = [*always, *pauses, *turns[:first], *peaks, *met, *turns[first:]]
     kept, rest = ranked[:CUES_MOST], ranked[CUES_MOST:]
     return Card(bench, *(tuple(sorted(cues, key=_order)) for cues in (kept, rest)))
 

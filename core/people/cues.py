@@ -4,7 +4,8 @@ The cues of a bench say where its front handle stands at the start, when and in 
 benches come abreast of it, where it is fastest, when the dragon pauses, and when and where it is done.
 
 How each number is known: places, directions and speeds are those of trajectory() at that moment, good to 1e-11 m and
-1e-11 m/s; begin, pauses and end are those of the dance's clock; for meetings see core/people/meetings.py. For the
+1e-11 m/s; begin, pauses and end are those of the dance's clock; for meetings see core/people/meetings.py, for turns
+core/people/turns.py: the front handle begins and ends one at times between rows of places, PLACED apart. For the
 fastest moment the dance is sampled at travels of the head (travels_between()); the moment is then narrowed to
 FASTEST_WIDTH between the two neighbours of the fastest sample. So no sample is faster, and the speed is really reached.
 """
@@ -18,7 +19,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.dance import Dance
+from core.dance import Clock, Dance
 from core.display import LINE_DIGITS, Readable, display, format_count
 from core.errors import InvalidValue, Quantity, bound, checked_count, checked_number, checked_type, question_about
 from core.kernels import Budget
@@ -26,13 +27,16 @@ from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
 from core.passages import TIME_MAX, Period
 from core.people.meetings import MeetingColumns, instants_at_once, meetings_between, steady_dance, travels_between
+from core.people.turns import bends_between
 from core.shapes.rectangles import bench_poses
-from core.values import Floats
+from core.values import Floats, Point
 
 # Largest gap at which a bench that comes abreast is met: by default, and at most [m].
 REACH, REACH_MAX = 8.0, 1_000.0
 # Largest number of benches in one question.
 FOLLOWED_MAX = 1_000
+# Rows of travels from one to the next in which places are found [1]: 1 m of head travel.
+PLACED = 4
 # Width to which a fastest moment is narrowed [m of head travel], and the golden section that narrows it [1].
 FASTEST_WIDTH = 1e-7
 SECTION = 0.5 * (np.sqrt(5.0) - 1.0)
@@ -65,9 +69,10 @@ class Stand(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Meeting(Readable):
-    """Another bench comes abreast: its middle is straight to the left or to the right of the middle of this bench.
+    """Another bench comes abreast, its middle straight to the left or to the right of the middle of this bench, or
+    comes nearest without that.
 
-    time: when the other middle is abreast, to within 1e-9 m along the own bench [s]
+    time: when the other middle is abreast, to within 1e-9 m along the own bench; or when the benches are nearest [s]
     bench: the other bench; 0 is the head
     side: side on which it is, seen in the direction of the front handle
     gap: gap of the two benches then, edge to edge; at another moment it may be less; below zero: minus the depth of the
@@ -76,6 +81,7 @@ class Meeting(Readable):
     x: x of the own middle then [m]
     y: y of the own middle then [m]
     dragon: dragon of the other bench, in a performance; None in a single dance
+    ahead: how far the other middle is ahead then, along the own bench; below zero: behind; 0: abreast [m]
     """
 
     time: float
@@ -86,6 +92,7 @@ class Meeting(Readable):
     x: float
     y: float
     dragon: int | None = None
+    ahead: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -125,6 +132,26 @@ class Pause(Readable):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
+class Turning(Readable):
+    """The front handle turns to one side.
+
+    begin: when it begins to turn [s]
+    end: when it ends [s]
+    s: place where it begins, along the path [m]
+    angle: angle by which it turns, to the left above zero [rad]
+    heading: direction behind the turn, from the x axis [rad]
+    way: places of the handle in the turn [m]
+    """
+
+    begin: float
+    end: float
+    s: float
+    angle: float
+    heading: float
+    way: tuple[Point, ...]
+
+
+@dataclass(frozen=True, slots=True, repr=False)
 class BenchCues(Readable):
     """What the carriers of a bench have to know.
 
@@ -139,6 +166,7 @@ class BenchCues(Readable):
     fastest: when it is fastest
     pauses: its pauses, in order of time
     done: when and where it stops for good
+    turns: its turns, in order of time
     """
 
     bench: int
@@ -152,6 +180,7 @@ class BenchCues(Readable):
     fastest: FastestMoment
     pauses: tuple[Pause, ...]
     done: Stand
+    turns: tuple[Turning, ...] = ()
 
     def _line(self) -> str:
         walks = (
@@ -206,9 +235,14 @@ def bench_cues(
     for k, bench in enumerate(met.own.tolist()):
         side = Side.LEFT if met.left[k] > 0.0 else Side.RIGHT
         when = dance.clock.time(float(met.travel[k]))
-        one = Meeting(when, int(met.other[k]), side, float(met.gap[k]), bool(met.cosine[k] < 0.0), *middles[k])
+        one = Meeting(
+            when, int(met.other[k]), side, float(met.gap[k]), bool(met.cosine[k] < 0.0), *middles[k], None,
+            float(met.ahead[k]),
+        )  # fmt: skip
         meetings.setdefault(bench, []).append(one)
     directions = _directions(steady, followed, float(travels[0]), budget)
+    ways = {bench: (at[1], at[2]) for bench, at in zip(followed, stands, strict=True)}
+    turns = _turns(steady, dance.clock, ways, travels, budget)
     cues = []
     for k, bench in enumerate(followed):
         at_start, at_begin, at_end, *at_rests = stands[k]
@@ -216,7 +250,7 @@ def bench_cues(
         neighbours = bench - 1 if bench else None, bench + 1 if bench + 1 < dance.dragon.benches else None
         first = (at_start, at_begin, directions[k], walks[0].speed)
         own = tuple(meetings.get(bench, ()))
-        cues.append(BenchCues(bench, *first, *neighbours, own, fastest[k], pauses, at_end))
+        cues.append(BenchCues(bench, *first, *neighbours, own, fastest[k], pauses, at_end, turns[bench]))
     return tuple(cues)
 
 
@@ -274,6 +308,33 @@ def _directions(steady: Dance, benches: list[int], travel: float, budget: Budget
     velocity = trajectory(steady, [travel], budget=budget).velocity[0, benches]
     directions: list[float] = np.arctan2(velocity[:, 1], velocity[:, 0]).tolist()
     return directions
+
+
+def _turns(
+    steady: Dance, clock: Clock, ways: dict[int, tuple[Stand, Stand]], travels: Floats, budget: Budget
+) -> dict[int, tuple[Turning, ...]]:
+    """The turns of each bench on the way of its front handle, which begins and ends somewhere."""
+    path, benches = steady.path, list(ways)
+    bends = bends_between(path, min(a.s for a, _ in ways.values()), max(b.s for _, b in ways.values()))
+    turns, at_once = dict[int, tuple[Turning, ...]](), instants_at_once(steady)
+    if not bends:
+        return dict.fromkeys(benches, ())
+    rows = np.append(travels[:-1:PLACED], travels[-1])
+    blocks = (rows[first : first + at_once] for first in range(0, len(rows), at_once))
+    places = np.concatenate([handle_places(steady, some, budget=budget)[:, benches] for some in blocks])
+    for k, (bench, (a, b)) in enumerate(ways.items()):
+        budget.look()
+        own = list[Turning]()
+        for bend in bends:
+            first, last = max(bend.first, a.s), min(bend.last, b.s)
+            if first >= last:
+                continue
+            whole = (first, last) == (bend.first, bend.last)
+            for one in [bend] if whole else bends_between(path, first, last):
+                ends = [clock.time(float(np.interp(s, places[:, k], rows))) for s in (one.first, one.last)]
+                own.append(Turning(ends[0], ends[1], one.first, one.angle, one.heading, one.way))
+        turns[bench] = tuple(own)
+    return turns
 
 
 def _middles(steady: Dance, met: MeetingColumns, budget: Budget) -> list[tuple[float, float]]:

@@ -1,4 +1,4 @@
-"""Meetings: the moments at which another bench comes abreast of a bench.
+"""Meetings: the moments at which another bench comes abreast of a bench, or comes nearest to it without that.
 
 Bench j is abreast of bench k when the middle of j is straight to the left or to the right of the middle of k, that is,
 when
@@ -15,13 +15,19 @@ Each zero is bracketed by two rows with other signs, and narrowed by false posit
 a block of rows together. What is known: at the travel that comes back, |a| is at most ABREAST; the gap is the exact
 separation of the two rectangles at that travel. What may be missed: a bench that comes abreast and falls back between
 two rows, STEP of head travel apart.
+
+A bench that turns away before it is abreast is met where it is nearest. The two middles are nearest in a row that is
+nearer than both rows beside it; within AROUND rows of it the gap of the two benches is narrowed by a golden section,
+and the least gap of all that are tried counts. It is no meeting if the gap is not RISE larger at both ends, if the pair
+is abreast within APART of it, or if the gap is not at least NEARER less than it is when the dragon is straight: so a
+bench does not meet those before and behind it, or those at its side.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +53,18 @@ HANDLES_AT_ONCE, ROWS_AT_ONCE = 1_000_000, 40
 # Spare of the boxes that hold a bench's middle between two rows [m]: a middle leaves the box of its rows by no more
 # than the bulge of its way over one STEP, a few millimetres, and by at most the way itself.
 SPARE = 0.5
+# Rows on each side of the least distance of two middles between which the gap is least [1]: 2 m of head travel.
+AROUND = 8
+# Travel between two meetings of one pair [m], or time of several dragons [s].
+APART = 10.0
+# By how much a bench must be nearer than in a straight dragon to be met without being abreast [m].
+NEARER = 2.0
+# By how much the gap must be larger AROUND rows before and after [m]: else two walk side by side.
+RISE = 0.1
+# Rounds of the golden section, after which the moment is known to a thousandth of its first width, and its share [1].
+SECTIONS, SECTION = 15, 0.5 * (np.sqrt(5.0) - 1.0)
+# Way along a chain between two dragons [m]: so far that nobody is in a row with a bench of another one.
+ELSEWHERE = 1e9
 
 Indices = NDArray[np.intp]
 
@@ -80,7 +98,8 @@ def chain_of(dance: Dance) -> Chain:
 
 class MeetingColumns(NamedTuple):
     """Meetings in columns (M,): own and other bench, travel of the head [m], signed distance of the middles to the left
-    [m], gap of the benches [m], and the cosine of the angle between their directions."""
+    [m], gap of the benches [m], the cosine of the angle between their directions, and how far the other middle is ahead
+    [m]: 0 where it is abreast."""
 
     own: Indices
     other: Indices
@@ -88,6 +107,7 @@ class MeetingColumns(NamedTuple):
     left: Floats
     gap: Floats
     cosine: Floats
+    ahead: Floats
 
 
 class _Crossings(NamedTuple):
@@ -135,18 +155,140 @@ def meetings_between(
 
 def meetings_in(chain: Chain, benches: Sequence[int], travels: Floats, reach: float, budget: Budget) -> MeetingColumns:
     """meetings_between() of the benches of a chain; travels: of the head, or for several dragons times"""
-    parts = [MeetingColumns(*_NONE)]
-    at_once = chain.at_once
+    parts = [MeetingColumns(*_NONE, _NO_NUMBERS)]
+    at_once, far = chain.at_once, _far(chain, reach)
     rows, before = max(2, min(ROWS_AT_ONCE, at_once)), dict[int, _Before]()
+    last, nearest, abreast = (
+        np.empty((0, len(chain.sizes), 3)),
+        list[_Nearest](),
+        list[tuple[Indices, Indices, Floats]](),
+    )
     for first in range(0, len(travels), rows):
         some = travels[first : first + rows]
-        poses = bench_poses(chain.place(some, budget))
-        crossings = _crossings(poses, some, benches, (_far(chain, reach), chain.gaps), before, budget)
+        poses = np.concatenate([last, bench_poses(chain.place(some, budget))])
+        crossings, rows_nearest = _crossings(poses, (some, first), benches, (far, chain.gaps), before, budget)
+        nearest += rows_nearest
+        last = poses[-2:].copy()
         for part in _parts(crossings, at_once):
-            parts.append(_met(chain, _zeros(chain, part, budget), reach, budget))
+            zeros = _zeros(chain, part, budget)
+            abreast.append(zeros)
+            parts.append(_met(chain, zeros, reach, budget))
+    parts.append(_approaches(chain, travels, nearest, abreast, reach, budget))
     columns = [np.concatenate(column) for column in zip(*parts, strict=True)]
     order = np.lexsort((columns[2], columns[0]))
     return MeetingColumns(*(column[order] for column in columns))
+
+
+class _Nearest(NamedTuple):
+    """Rows in which two middles are nearest, in columns: own and other bench, row, and distance of the middles [m]."""
+
+    own: Indices
+    other: Indices
+    row: Indices
+    away: Floats
+
+
+def _nearest(away: Floats, k: int, near: Indices, first: int, far: float) -> _Nearest:
+    """Those of bench k. away: from its middle to those of the benches near it, in rows from `first` on [m]"""
+    square = np.einsum("ijk,ijk->ij", away, away)
+    middle = square[1:-1]
+    row, column = np.nonzero((middle <= square[:-2]) & (middle < square[2:]) & (middle <= far * far))
+    return _Nearest(np.full(row.size, k, dtype=np.intp), near[column], row + first + 1, np.sqrt(middle[row, column]))
+
+
+def _in_row(chain: Chain, travel: float, budget: Budget) -> Callable[[Indices, Indices], Floats]:
+    """The gap of two benches of one dragon that is straight [m]."""
+    (handles,) = chain.place(np.array([travel]), budget)
+    chords = np.hypot(*np.diff(handles, axis=0).T)
+    chords[chain.gaps] = ELSEWHERE
+    middles, (lengths, _) = np.cumsum(chords) - 0.5 * chords, chain.sizes.T
+
+    def gap(own: Indices, other: Indices) -> Floats:
+        straight: Floats = np.abs(middles[own] - middles[other]) - 0.5 * (lengths[own] + lengths[other])
+        return straight
+
+    return gap
+
+
+# A pair that comes no nearer than it is in a row cannot count: benches are apart by at least the distance of their
+# middles less half their diagonals.
+def _approaches(
+    chain: Chain,
+    travels: Floats,
+    nearest: list[_Nearest],
+    abreast: list[tuple[Indices, Indices, Floats]],
+    reach: float,
+    budget: Budget,
+) -> MeetingColumns:
+    """The meetings of benches that are not abreast. abreast: own and other bench, and travels at which they are"""
+    none, in_row = MeetingColumns(*_NONE, _NO_NUMBERS), _in_row(chain, float(travels[0]), budget)
+    own, other, row, away = (np.concatenate(column) for column in zip(*nearest, strict=True))
+    half = 0.5 * np.hypot(*chain.sizes.T)
+    kept = np.flatnonzero(away - half[own] - half[other] < in_row(own, other) - NEARER)
+    times = dict[tuple[int, int], list[float]]()
+    for columns in abreast:
+        for a, b, at in zip(*(column.tolist() for column in columns), strict=True):
+            times.setdefault((a, b), []).append(at)
+
+    def is_new(a: int, b: int, travel: float) -> bool:
+        return all(abs(travel - one) > APART for one in times.get((a, b), ()))
+
+    ends = zip(own[kept].tolist(), other[kept].tolist(), travels[row[kept]].tolist(), strict=True)
+    kept, parts = kept[[is_new(*one) for one in ends]] if kept.size else kept, [none]
+    for first in range(0, kept.size, chain.at_once):
+        some = kept[first : first + chain.at_once]
+        low, high = np.maximum(row[some] - AROUND, 0), np.minimum(row[some] + AROUND, len(travels) - 1)
+        pair = own[some], other[some]
+        travel, rise = _least_gaps(chain, pair, travels[row[some]], (travels[low], travels[high]), budget)
+        rising = np.flatnonzero(rise >= RISE)
+        met = _met(chain, (pair[0][rising], pair[1][rising], travel[rising]), reach, budget)
+        counts = (met.gap < in_row(met.own, met.other) - NEARER) & (met.ahead != 0.0)
+        parts.append(_chosen(met, np.flatnonzero(counts)))
+    met = MeetingColumns(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+    chosen = list[int]()
+    for k in np.argsort(met.gap, kind="stable").tolist():  # The nearest of several moments of a pair counts.
+        a, b, travel_of = int(met.own[k]), int(met.other[k]), float(met.travel[k])
+        if is_new(a, b, travel_of):
+            times.setdefault((a, b), []).append(travel_of)
+            chosen.append(k)
+    return _chosen(met, np.array(chosen, dtype=np.intp))
+
+
+def _chosen(met: MeetingColumns, some: Indices) -> MeetingColumns:
+    """Some meetings, by their numbers."""
+    columns: list[Any] = [column[some] for column in met]
+    return MeetingColumns(*columns)
+
+
+def _least_gaps(
+    chain: Chain, pair: tuple[Indices, Indices], travel: Floats, ends: tuple[Floats, Floats], budget: Budget
+) -> tuple[Floats, Floats]:
+    """Travels between two ends at which the gap of each pair is the least of all that are tried, (E,) [m], and by how
+    much it is larger at both ends, (E,) [m]."""
+    rows, sizes = np.arange(travel.size), chain.sizes
+    best, travel = np.full(travel.size, np.inf), travel.copy()
+
+    def gaps(at: Floats) -> Floats:
+        poses = bench_poses(chain.place(at, budget))
+        sides = (frames(poses[rows, bench], sizes[bench]) for bench in pair)
+        gap: Floats = frames_separation(*sides).separation
+        better = gap < best
+        best[better], travel[better] = gap[better], at[better]
+        return gap
+
+    gaps(travel.copy())
+    low, high = ends
+    at_ends = np.minimum(gaps(low), gaps(high))
+    inner, outer = high - SECTION * (high - low), low + SECTION * (high - low)
+    at_inner, at_outer = gaps(inner), gaps(outer)
+    for _ in range(SECTIONS):
+        falls = at_inner >= at_outer
+        low, high = np.where(falls, inner, low), np.where(falls, high, outer)
+        tried = np.where(falls, low + SECTION * (high - low), high - SECTION * (high - low))
+        gap = gaps(tried)
+        inner, outer = np.where(falls, outer, tried), np.where(falls, tried, inner)
+        at_inner, at_outer = np.where(falls, at_outer, gap), np.where(falls, gap, at_inner)
+    return travel, at_ends - best
 
 
 def _far(chain: Chain, reach: float) -> float:
@@ -174,18 +316,20 @@ class _Before(NamedTuple):
 # `before` carries the last row that counted from one block of rows to the next.
 def _crossings(
     poses: Floats,
-    travels: Floats,
+    block: tuple[Floats, int],
     benches: Sequence[int],
     limits: tuple[float, Indices],
     before: dict[int, _Before],
     budget: Budget,
-) -> _Crossings:
-    """The changes of sign of a in a block of rows, or since the one before it.
+) -> tuple[_Crossings, list[_Nearest]]:
+    """The changes of sign of a in a block of rows, or since the one before it; and the rows with nearest middles.
 
-    poses: (R, n, 3); limits: distance beyond which no bench is met [m], and the gaps of a chain
+    poses: (R, n, 3), with up to two rows before the block; block: its travels [m], and the number of its first row
+    limits: distance beyond which no bench is met [m], and the gaps of a chain
     """
-    far, gaps = limits
-    middles, heading = poses[..., :2], poses[..., 2]
+    (far, gaps), (travels, first) = limits, block
+    earlier_rows, nearest = len(poses) - len(travels), list[_Nearest]()
+    middles, heading = poses[..., :2], poses[earlier_rows:, :, 2]
     low, high = middles.min(axis=0) - SPARE, middles.max(axis=0) + SPARE
     rows, columns = np.arange(len(travels) + 1)[:, None], [_NONE]
     for k in benches:
@@ -193,6 +337,8 @@ def _crossings(
         near = np.flatnonzero(((low <= high[k] + far) & (high >= low[k] - far)).all(axis=1))
         near = near[(np.abs(near - k) > 1) & ~np.isin(near, gaps)]
         away = middles[:, near] - middles[:, k, None]
+        nearest.append(_nearest(away, k, near, first - earlier_rows, far))
+        away = away[earlier_rows:]
         known, when = _recalled(before.get(k), near)
         along = away[..., 0] * np.cos(heading[:, k, None]) + away[..., 1] * np.sin(heading[:, k, None])
         along, moments = np.vstack([known, along]), np.broadcast_to(travels[:, None], along.shape)
@@ -208,7 +354,7 @@ def _crossings(
         columns.append(_Crossings(np.full(row.size, k, dtype=np.intp), near[column], *ends))
         # A view of the last row would keep the block.
         before[k] = _Before(near, earlier[-1].copy(), np.take_along_axis(moments, last[-1:], axis=0)[0])
-    return _Crossings(*(np.concatenate(column) for column in zip(*columns, strict=True)))
+    return _Crossings(*(np.concatenate(column) for column in zip(*columns, strict=True))), nearest
 
 
 def _recalled(before: _Before | None, near: Indices) -> tuple[Floats, Floats]:
@@ -256,7 +402,7 @@ def _zeros(chain: Chain, crossings: _Crossings, budget: Budget) -> tuple[Indices
 
 
 def _met(chain: Chain, zeros: tuple[Indices, Indices, Floats], reach: float, budget: Budget) -> MeetingColumns:
-    """The zeros that are meetings: within the reach, and with no third bench between the two middles."""
+    """The moments that are meetings: within the reach, and with no third bench between the two middles."""
     own, other, travel = zeros
     rows = np.arange(own.size)
     poses, sizes = bench_poses(chain.place(travel, budget)), chain.sizes
@@ -264,11 +410,13 @@ def _met(chain: Chain, zeros: tuple[Indices, Indices, Floats], reach: float, bud
     gap = frames_separation(frames(mine, sizes[own]), frames(theirs, sizes[other])).separation
     away = theirs[:, :2] - mine[:, :2]
     left = away[:, 1] * np.cos(mine[:, 2]) - away[:, 0] * np.sin(mine[:, 2])
+    ahead = away[:, 0] * np.cos(mine[:, 2]) + away[:, 1] * np.sin(mine[:, 2])
     kept = np.flatnonzero(gap <= reach)
     hidden = _hidden(poses[kept], chain, own[kept], other[kept])
     kept = kept[~hidden]
     cosine = np.cos(theirs[kept, 2] - mine[kept, 2])
-    return MeetingColumns(own[kept], other[kept], travel[kept], left[kept], gap[kept], cosine)
+    ahead = np.where(np.abs(ahead) > EVEN, ahead, 0.0)[kept]
+    return MeetingColumns(own[kept], other[kept], travel[kept], left[kept], gap[kept], cosine, ahead)
 
 
 # The segment p + t q, t in [0, 1], meets a rectangle if the intervals of t in which it is between the two long sides

@@ -130,6 +130,7 @@ def _meetings(chain: Chain, firsts: Indices, met: MeetingColumns, budget: Budget
             x,
             y,
             dragons,
+            met.ahead[some],
         )
         for k, time, bench, left, gap, cosine, *rest in zip(*(column.tolist() for column in columns), strict=True):
             side = Side.LEFT if left > 0.0 else Side.RIGHT
@@ -144,6 +145,8 @@ def _later(cues: BenchCues, delay: float, begin: float) -> BenchCues:
         return replace(at, time=at.time + delay)
 
     pauses = tuple(replace(one, begin=one.begin + delay, end=one.end + delay) for one in cues.pauses)
+    turns = tuple(replace(one, begin=one.begin + delay, end=one.end + delay) for one in cues.turns)
     fastest = replace(cues.fastest, time=cues.fastest.time + delay)
     start = replace(cues.start, time=begin)
-    return replace(cues, start=start, begin=later(cues.begin), done=later(cues.done), fastest=fastest, pauses=pauses)
+    begins, done = later(cues.begin), later(cues.done)
+    return replace(cues, start=start, begin=begins, done=done, fastest=fastest, pauses=pauses, turns=turns)

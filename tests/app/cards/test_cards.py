@@ -6,13 +6,16 @@ import json
 
 import numpy as np
 import pytest
+import shapely
+import zxingcpp
 
 from app.maps.dances import read_dance
+from app.questions.cues import CuesRequest
 from app.questions.plan import PDF_TYPE
 from app.questions.registry import QUESTIONS
 from app.wire.messages import checked
 from app.wire.question import Terms
-from core import Budget, TooMuchWork
+from core import Budget, TooMuchWork, bench_outlines, trajectory
 from tests.conftest import ROOT
 from tests.support.paper import assert_printable, pages_of, shapes_of, sheets_of, words_of
 from tests.support.refusal_rows import assert_refused
@@ -93,8 +96,63 @@ def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(ask):
 @pytest.mark.chinese_font
 def test_cards_are_written_in_chinese(ask):
     text = text_of(ask, VILLAGE | FESTIVE | {"language": "zh", "last_bench": 1, "title": "元宵"}).replace(" ", "")
-    cues = "前面：无后面：1号（Wang）", "起步，朝lindentree方向走（图上右方，0°）。", "停下，至19:45:50（16秒）。"
+    cues = (
+        "前面：无后面：1号（Wang）",
+        "起步，朝lindentree走。",
+        "约在65m标记处绕过well向左掉头。",
+        "停下，至19:45:50（16秒）。",
+    )
     assert [words for words in (*cues, "元宵", "整场舞龙已检查：板凳互不相碰") if words not in text] == []
+
+
+def test_who_comes_near_without_being_abreast_is_met_where_it_is_nearest(ask):
+    dance = CuesRequest.model_validate(VILLAGE).to_dance(24)
+    near = [(card["bench"], met) for card in cards_of(ask, VILLAGE) for met in card["meetings"] if met["ahead"]]
+    assert len(near) > 10
+    for bench, met in near:
+        times = met["time"] + np.arange(-20, 21) * 0.05
+        corners = bench_outlines(dance.dragon, trajectory(dance, times).position)
+        gaps = shapely.distance(*(shapely.polygons(corners[:, k]) for k in (bench, met["bench"])))
+        assert met["gap"] == pytest.approx(gaps[20], abs=1e-9)
+        assert met["gap"] <= gaps.min() + 1e-4
+    assert any(
+        "behind on your right, 5.49 m" in cue["words"] for cue in cards_of(ask, VILLAGE | {"cards": [17]})[0]["cues"]
+    )
+
+
+def test_turns_name_what_they_go_around_also_a_gate_and_where_north_is(ask):
+    (head,) = cards_of(ask, VILLAGE | {"cards": [0], "gates": [{"name": "north gate", "x": 12, "y": 45}]})
+    turns = [(cue["words"], cue["angle"]) for cue in head["cues"] if cue["kind"] == "turn"]
+    assert turns[0][0] == "Near mark 65 m: turn back to the left around “well”."
+    assert turns[-1][0] == "Near mark 110 m: turn left, towards “north gate”."
+    assert [angle > 0 for _, angle in turns] == [True, False, True]
+    geographic = VILLAGE | {"cards": [0], "origin": {"longitude": 10, "latitude": 50}}
+    assert cards_of(ask, geographic)[0]["cues"][0]["words"] == "Walk towards “linden tree”, east."
+
+
+ADDRESS = "https://dragon.example/dance/?door=village&path=route&benches=24&time=4&" + "a" * 200
+
+
+@pytest.mark.parametrize(("labels", "dpi"), [(False, 150), (False, 300), (True, 150), (True, 300)])
+def test_a_phone_reads_the_code_of_every_bench_from_cards_and_labels(ask, labels, dpi):
+    request = VILLAGE | {"first_bench": 8, "last_bench": 11, "address": ADDRESS, "labels": labels}
+    (page,) = pages_of(ask.file("cues", request, PDF_TYPE))
+    codes = zxingcpp.read_barcodes(page.render(scale=dpi / 72).to_pil())
+    read = {code.text for code in codes if code.text.startswith("https")}  # All else is chance.
+    assert read == {ADDRESS.replace("&time=4", "") + f"&bench={k}" for k in range(8, 12)}
+    assert all(f"{k}" in words_of(page) for k in range(8, 12))
+
+
+def test_a_map_that_is_turned_has_the_first_steps_of_the_bench_up(ask):
+    def dots(up):
+        (page,) = pages_of(ask.file("cues", VILLAGE | {"cards": [17], "map_up": up}, PDF_TYPE))
+        boxes = np.array(shapes_of(page))
+        sizes = boxes[:, 2:] - boxes[:, :2]
+        return (0.5 * (boxes[:, 2:] + boxes[:, :2]))[(np.abs(sizes - 2.65) < 0.15).all(axis=1)]
+
+    plain, turned = (moments[1] - moments[0] for moments in map(dots, ("north", "way")))
+    assert plain[0] > 10.0 * abs(plain[1])
+    assert turned[1] > 10.0 * abs(turned[0])
 
 
 def test_cards_are_chosen_by_name_and_by_number(ask):
@@ -116,6 +174,7 @@ def test_cards_are_chosen_by_name_and_by_number(ask):
         '{"cards": [3, 24]} -> /cards/1 23 24',
         '{"cards": [3], "last_bench": 5} -> /last_bench cards',
         '{"step_length": 0} -> /step_length',
+        '{"map_up": "left"} -> /map_up',
         '{"reach": -1} -> /reach',
         '{"beats": [{"bars": 4, "tempo": 0, "step": 0.5}]} -> /beats/0/tempo 10 0',
     ],

@@ -102,6 +102,10 @@ def numbers_in(runs):
     return {number for part in ends for number in range(part[0], part[-1] + 1)}
 
 
+def where(met):
+    return "straight" if not met["ahead"] else "ahead" if met["ahead"] > 0.0 else "behind"
+
+
 def test_the_words_of_a_meeting_name_all_benches_and_the_paper_has_them(pairs):
     paper = CUES.to_bytes(checked(CuesRequest, TWO), Terms(), PDF_TYPE)  # which no deadline ends
     text = "".join(sheets_of(paper)).replace(" ", "")
@@ -109,12 +113,13 @@ def test_the_words_of_a_meeting_name_all_benches_and_the_paper_has_them(pairs):
     for cue in [cue for card, *_ in pairs for cue in card["cues"]]:
         assert "".join(cue["words"].split()) in text
         if near := cue["nearest"]:
-            assert re.search(rf"straight on your {near['side']}, {near['gap']:.2f} m\b", cue["words"])
+            assert re.search(rf"{where(near)} on your {near['side']}, {near['gap']:.2f} m\b", cue["words"])
             # One bench that comes abreast again and again is not several.
             several, times = len(set(cue["others"])), len(cue["others"])
+            apart = " from " in cue["words"]
             listed = re.search(r"Benches ([\d, -]+) (?:pass you the other way|walk your way)", cue["words"])
             assert bool(listed) == (several > 1)
             assert listed is None or numbers_in(listed[1]) == set(cue["others"])
-            assert (f"at the nearest of {times} times" in cue["words"]) == (several == 1 < times)
+            assert (f"at the nearest of {times} times from" in cue["words"]) == (several == 1 < times and apart)
             again += several == 1 < times
     assert again > 0

@@ -114,14 +114,15 @@ def test_the_verdict_is_said_in_two_sentences(ask, more, verdict, words):
         ({"loose": 6}, "/loose 6 5"),
         ({"lanes": [{"name": "a", "points": [[0, 0], [0, 0]]}]}, "/lanes/0/points line"),
         ({"gates": [{"name": "far", "x": 0, "y": 90}]}, "/gates/0 far 5"),
+        ({"address": "dragon.example"}, "/address https"),
     ],
-    ids=["more loose benches than there are", "a lane without a length", "a gate off the path"],
+    ids=["more loose benches than there are", "a lane without a length", "a gate off the path", "no address"],
 )
 def test_what_the_dance_does_not_have_is_refused(ask, more, expected):
     ask.refuses(expected, "safety-sheet", BODY | more)
 
 
-ADDRESS = "https://dragon.example/?door=village&benches=5"
+ADDRESS = "https://dragon.example/?door=village&benches=5&route=" + "0,1.5_" * 40
 SAID = {
     "en": ["It can be danced", "Nearest approaches", "ambulances, 4 m wide", "Li Wei"],
     "zh": ["可以舞", "最近之处", "ambulances，宽 4 m", "Li Wei"],

@@ -4,16 +4,17 @@ import random
 
 import pytest
 
-from core.people.cards import CUES_MOST, TOGETHER, CueKind, card_of
-from core.people.cues import BenchCues, FastestMoment, Meeting, Pause, Side, Stand
+from core.people.cards import CUES_MOST, TOGETHER, TURNS, CueKind, card_of
+from core.people.cues import BenchCues, FastestMoment, Meeting, Pause, Side, Stand, Turning
 
 pytestmark = pytest.mark.uncompiled
 
 
-def card(meetings, pauses, speed=1.5):
+def card(meetings, pauses, speed=1.5, turns=(), ahead=2):
     stands = [Stand(time, time, 0.0, time, 0.0) for time in (0.0, 1.0, 1_000.0)]
     fastest = FastestMoment(500.0, speed, 1.0, 3, 0.0, 0.0)
-    return card_of(BenchCues(3, *stands[:2], 0.0, 1.0, 2, 4, tuple(meetings), fastest, tuple(pauses), stands[2]))
+    more = tuple(meetings), fastest, tuple(pauses), stands[2], tuple(turns)
+    return card_of(BenchCues(3, *stands[:2], 0.0, 1.0, ahead, 4, *more))
 
 
 def meeting(time, gap=1.0, side=Side.LEFT, *, oncoming=True):
@@ -39,6 +40,15 @@ def test_meetings_one_after_the_other_on_one_side_are_one_cue():
     assert [[one.time for one in cue.meetings] for cue in cues] == [[10.0, 12.0, 22.0], [13.0], [23.0], [43.0]]
     assert (cues[0].time, cues[0].since, cues[0].until, cues[0].nearest) == (12.0, 10.0, 22.0, met[1])
     assert result.least_left_out is None
+
+
+@pytest.mark.parametrize(("ahead", "before"), [(None, 6), (2, TURNS)], ids=["head", "another bench"])
+def test_the_head_has_its_turns_before_all_meetings_and_others_their_largest(ahead, before):
+    turns = [Turning(100.0 * k, 100.0 * k + 5.0, 0.0, (-1) ** k * k, 0.0, ((0.0, 0.0),)) for k in range(1, 7)]
+    met = [meeting(10.0 + 50.0 * k) for k in range(8)]
+    result = card(met, [], 1.0, turns, ahead)
+    assert times(result.cues, CueKind.TURN) == [100.0 * k for k in range(7 - before, 7)]
+    assert len(result.cues) == CUES_MOST
 
 
 def rank(cue):
