@@ -87,6 +87,8 @@ class Channel {
 
 export class Service {
   #channels = new Map();
+  /** channel -> {url, options} of its last question that was answered */
+  asked = new Map();
   #return = null;
   /** The check of the service that is in progress. @type {Promise<boolean> | null} */
   #health = null;
@@ -118,6 +120,7 @@ export class Service {
     try {
       const answer = await this.#channels.get(channel).ask((signal) => this.#patiently(url, options, signal));
       this.tell.busy(channel, false);
+      if (!file) this.asked.set(channel, { url, options });
       return answer;
     } catch (error) {
       if (!(error instanceof Superseded)) this.tell.busy(channel, false);
@@ -143,6 +146,7 @@ export class Service {
   /** End the questions on these channels. */
   drop(channels) {
     for (const channel of channels) {
+      this.asked.delete(channel);
       this.#channels.get(channel)?.drop();
       this.tell.busy(channel, false);
     }

@@ -47,6 +47,8 @@ const ZOOM = 1.5;
 /** In a run that ends in a fold: a handle this many times faster than the head shows that the fold is near [1]. */
 const FAST = 2;
 
+// A card that is kept on a device needs the names of all files of the page.
+performance.setResourceTimingBufferSize(10_000);
 const state = new State();
 const service = new Service({
   busy(channel, busy) {

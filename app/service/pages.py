@@ -371,6 +371,11 @@ def add_pages(app: FastAPI) -> None:
     def how(request: Request) -> Response:
         return page(request, "how.html")
 
+    @app.get("/carrier-worker.js", include_in_schema=False)
+    def worker(request: Request) -> Response:
+        """The worker of a carrier's card, whose place says which pages it may answer for."""
+        return reply_with(request.headers, *own.content("carrier_worker.js"))
+
     @app.get("/guide", include_in_schema=False)
     async def guide() -> Response:
         return RedirectResponse("guide/")

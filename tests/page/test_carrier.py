@@ -42,6 +42,7 @@ SIZES = """() => [...new Set([...document.querySelectorAll("body *")].filter((on
   const isSeen = one.checkVisibility({ visibilityProperty: true }) && !one.matches("option, .unseen");
   return (isField || hasText) && isSeen;
 }).map((one) => getComputedStyle(one).fontSize))]"""
+KEPT = "async () => [(await caches.keys()).length, (await navigator.serviceWorker.getRegistrations()).length]"
 AHEAD = "presses => { for (let k = 0; k < presses; k++) document.querySelector(\"[data-correct='5']\").click(); }"
 
 
@@ -104,7 +105,9 @@ def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page, serve
     person.presses("#card-start")
     late = next(cue for cue in own["cues"] if cue["since"] > 100)
     person.ask(AHEAD, int((late["since"] - SLACK) // 5))
-    person.reads({CUE: late["words"]}).sees({"#carrier .when": re.compile(r"^in 0:\d\d$"), "#card-more .stand": False})
+    person.reads({CUE: late["words"]}).sees(
+        {"#carrier .when": re.compile(r"^in 0:\d\d$"), "#card-more .stand": "Now: "}
+    )
     expect(person.at(f"{LIST} >> nth={own['cues'].index(late)}")).to_have_class("following")
     assert 0 < int(person.text("#carrier .when")[-2:]) <= SLACK + 5
     gone = seconds(person.text("#carrier .clock"))
@@ -114,20 +117,32 @@ def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page, serve
 
 
 @thorough
-def test_without_a_network_the_card_and_its_picture_go_on_in_both_languages(open_page, server, tmp_path):
+@pytest.mark.parametrize("path", ["", "/dance"])
+def test_without_a_network_the_card_goes_on_and_opens_again_in_both_languages_until_it_is_removed(
+    open_page, server, tmp_path, path
+):
     port = free_port()
-    base = f"http://127.0.0.1:{port}"
-    with serving(tmp_path / "gone.log", port=port, deadline_seconds=PATIENT):
+    base = f"http://127.0.0.1:{port}{path}"
+    with serving(tmp_path / "gone.log", port=port, deadline_seconds=PATIENT, root_path=path):
         person = held(open_page("?benches=20&bench=7&lang=en", base=base, failing=True, **PHONE))
-    person.sees({HINT: "No network: the card goes on while this page stays open"}).presses("#card-start")
+        person.at("#carrier[data-kept=true]").wait_for()
+        person.sees({HINT: "stays on this device"})
+    person.presses("#card-start")
     before = person.picture()
     person.ask(AHEAD, 5)
     cues = {lang: card(server, lang)["cues"] for lang in ("en", "zh")}
     expected = next(k for k, cue in enumerate(cues["en"]) if cue["since"] > 27)
-    person.sees({f"{LIST}.following": cues["en"][expected]["words"]}).presses("role=button[name=中文]")
-    person.reads({"#carrier h1": "第7节龙身"}).sees({HINT: "没有网络"})
-    assert cues_of(person) == words_of(cues["zh"])
+    person.sees({f"{LIST}.following": cues["en"][expected]["words"]})
     assert (person.picture() != before).any(axis=-1).mean() > 0.01
+    gone = seconds(person.text("#carrier .clock"))
+    person.page.reload()
+    held(person).at("#carrier[data-kept=true]").wait_for()
+    person.sees({HINT: "opens again from this device"})
+    assert seconds(person.text("#carrier .clock")) >= gone
+    person.presses("role=button[name=中文]").reads({"#carrier h1": "第7节龙身"}).sees({HINT: "没有网络"})
+    assert cues_of(person) == words_of(cues["zh"])
+    person.presses("#card-remove").sees({"#card-remove": False})
+    assert person.ask(KEPT) == [0, 0]
 
 
 @thorough
