@@ -133,7 +133,7 @@ def test_ten_dragons_baseline(benchmark: BenchmarkFixture) -> None:
     times = np.array([100.0, 300.0])
     benchmark.extra_info["scale"] = 300.0 / baselines.STEP / times.size
     assert not any(benchmark.pedantic(baselines.looks_at_several, (SHORTER, TEN, times), rounds=3))
-    for path, part in zip(TEN, core.performance_trajectory(performance(SHORTER, TEN), times), strict=True):
+    for path, part in zip(TEN, core.trajectory(performance(SHORTER, TEN), times), strict=True):
         plain = np.stack([baselines.handles(SHORTER, path, time) for time in times])
         assert abs(plain - part.position).max() < AGREEMENT
 

@@ -13,6 +13,11 @@ def __dir__() -> list[str]:
 
 
 def __getattr__(name: str) -> object:
+    if name.startswith(("performance_", "first_encounter", "encounter_check")):
+        from core.old_names import NEW, question_of
+
+        if name in NEW:
+            return question_of(name, _lazily)
     if name != "__version__":
         return _lazily(name)
     from importlib.metadata import version

@@ -12,10 +12,13 @@ from .claims.claim import (
     StrayClaim,
     TailClaim,
 )
-from .contact.answer import Evidence, Feature, FirstContact, Outcome
-from .contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
-from .contact.cross_check import ContactCheck, contact_check
+from .contact.answer import Evidence, Feature, FirstContact, Graze, Outcome
+from .contact.clearance import ClearanceProfile, LeastClearance, clearance_profile, least_clearance
+from .contact.cross_check import ContactCheck, EncounterCheck, contact_check, encounter_check
+from .contact.encounter import first_encounter
+from .contact.encounter_answer import EncounterEvidence, FirstEncounter, NearPass
 from .contact.first_contact import first_contact
+from .contact.stage_clearance import PerformanceClearance, PerformanceLeastClearance
 from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, venue_clearance
 from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd
@@ -49,11 +52,11 @@ from .extremes.speed import (
     highest_speed,
     maximum_head_speed,
 )
-from .failures import Failure, FailureKind
+from .failures import Failure, FailureKind, PerformanceFailure
 from .ground.envelope import Envelope, SweepProof, envelope
 from .ground.loose_tail import TailProof, TailReach, tail_reach
 from .ground.stays import Stay, Stays, stays
-from .judgement import Judgement, Report, check, quick_check
+from .judgement import Judgement, PerformanceReport, Report, check, quick_check
 from .kernels import Budget
 from .motion.trajectory import Trajectory, trajectory
 from .passages import Passage
@@ -67,37 +70,20 @@ from .paths.turn import Turn
 from .people.cards import Card, Cue, CueKind, card_of
 from .people.crew import Carried, Crew, Relief, Spell, crew
 from .people.cues import BenchCues, FastestMoment, Meeting, Pause, Side, Stand, Turning, bench_cues
-from .performance.answer import EncounterEvidence, FirstEncounter, NearPass
-from .performance.clearance import (
-    PerformanceClearance,
-    PerformanceLeastClearance,
-    performance_clearance,
-    performance_least_clearance,
-)
-from .performance.cross_check import EncounterCheck, encounter_check
-from .performance.cues import performance_cues
-from .performance.encounter import first_encounter
-from .performance.performance import Part, Performance, PerformanceEnd
-from .performance.safe_delay import SafeDelays, safe_delay
-from .performance.tolerance import PerformanceExhibit, PerformanceTolerance, performance_tolerance
-from .performance.verdict import (
-    PerformanceFailure,
-    PerformanceReport,
-    performance_check,
-    performance_envelope,
-    performance_trajectory,
-)
+from .performance import Part, Performance, PerformanceEnd
 from .proposal.answer import Near, Objective, Proposal, Proposals, Reason, ReasonKind
 from .proposal.figures import Figure
 from .proposal.gates import Gate
 from .proposal.propose import propose
+from .safe_delay import SafeDelays, safe_delay
 from .shapes.engines import Engine
 from .shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, separation, verdicts
 from .shapes.rectangles import Separation, bench_outlines, bench_poses
+from .tolerance.between_dragons import PerformanceExhibit
 from .tolerance.chance import ContactProbability, contact_probability
 from .tolerance.curve import ToleranceCurve, tolerance_curve
 from .tolerance.exhibit import Exhibit
-from .tolerance.tolerance import Limit, StrayProof, Tolerance, tolerance
+from .tolerance.tolerance import Limit, PerformanceTolerance, StrayProof, Tolerance, tolerance
 from .tolerance.uncertain import uncertain_tolerance
 from .tolerance.wobble import Wobble
 from .venue import Area, Venue
@@ -254,13 +240,6 @@ __all__ = [
     "maximum_head_speed",
     "minimum_pitch",
     "overlaps",
-    "performance_check",
-    "performance_clearance",
-    "performance_cues",
-    "performance_envelope",
-    "performance_least_clearance",
-    "performance_tolerance",
-    "performance_trajectory",
     "pitch_check",
     "pitch_scan",
     "propose",

@@ -20,7 +20,7 @@ from copyreg import __newobj__  # type: ignore[attr-defined]
 from functools import wraps
 from inspect import signature
 from numbers import Real
-from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, Self, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Concatenate, NamedTuple, ParamSpec, Protocol, Self, TypeVar, cast, overload
 
 from core.kernels import Budget, Halted
 from core.language import Listed, Phrases, phrase, say, say_clauses
@@ -30,6 +30,10 @@ if TYPE_CHECKING:  # NumPy takes as long to import as all of a process that runs
 
 P = ParamSpec("P")
 R = TypeVar("R")
+A_contra = TypeVar("A_contra", contravariant=True)
+B_contra = TypeVar("B_contra", contravariant=True)
+R_co = TypeVar("R_co", covariant=True)
+S_co = TypeVar("S_co", covariant=True)
 
 # Smallest and largest size [m]: sizes outside describe no dance, and lose digits in c^2 / b^2.
 SIZE_MIN = 1e-3
@@ -376,9 +380,42 @@ def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> No
         raise InvalidValue(name, "must be {kinds}", got=got, kinds=" or ".join(words))
 
 
-def question_about(name: str, kind: type, missing: str = "") -> Callable[[Callable[P, R]], Callable[P, R]]:
+class Question(Protocol[A_contra, B_contra, P, R_co, S_co]):
+    """A question that takes a subject of either kind, and has an answer for each."""
+
+    @overload
+    def __call__(self, subject: A_contra, /, *args: P.args, **kwargs: P.kwargs) -> R_co: ...
+    @overload
+    def __call__(self, subject: B_contra, /, *args: P.args, **kwargs: P.kwargs) -> S_co: ...
+
+
+def or_about(
+    kind: type[B_contra], answer: Callable[..., S_co]
+) -> Callable[[Callable[Concatenate[A_contra, P], R_co]], Question[A_contra, B_contra, P, R_co, S_co]]:
+    """Decorator of a question, whose first argument may also be of this kind; `answer` then answers it, with the same
+    further arguments."""
+
+    def either(question: Callable[Concatenate[A_contra, P], R_co]) -> Question[A_contra, B_contra, P, R_co, S_co]:
+        name = next(iter(signature(question).parameters))
+
+        @wraps(question)
+        def asked(*args: Any, **kwargs: Any) -> Any:
+            subject = args[0] if args else kwargs.get(name)
+            if not isinstance(subject, kind):
+                return question(*args, **kwargs)
+            return answer(subject, *args[1:], **{key: value for key, value in kwargs.items() if key != name})
+
+        return asked
+
+    return either
+
+
+def question_about(
+    name: str, kind: type | tuple[type, ...], missing: str = ""
+) -> Callable[[Callable[P, R]], Callable[P, R]]:
     """Decorator of a question: the first argument must be of this kind, and the end of the budget raises TooMuchWork.
 
+    kind: with those that or_about() takes
     missing: which answer is missing then, as a clause of the message: "the first contact was not decided"; if empty,
         the question itself raises TooMuchWork, and whatever else of it ends early has a general clause
     The type is checked before Python checks the number of arguments. Otherwise a call as in 0.1.0, with a dragon and a
@@ -390,11 +427,6 @@ def question_about(name: str, kind: type, missing: str = "") -> Callable[[Callab
         def answer(*args: P.args, **kwargs: P.kwargs) -> R:
             if args or name in kwargs:
                 subject = args[0] if args else kwargs[name]
-                if other := getattr(subject, "_instead", {}).get(question.__name__):
-                    rule = "must be {kinds}: for several dragons call {other}()"
-                    raise InvalidValue(
-                        name, rule, got=f"a {type(subject).__name__}", kinds=f"a {kind.__name__}", other=other
-                    )
                 checked_type(name, subject, kind)
             if (budget := cast("Budget | None", kwargs.get("budget"))) is not None:
                 checked_type("budget", budget, Budget)

@@ -7,6 +7,7 @@ from enum import StrEnum
 
 from core.contact.answer import FirstContact, Outcome
 from core.contact.clearance import LeastClearance
+from core.contact.encounter_answer import FirstEncounter
 from core.contact.walls import AreaClearance, VenueClearance
 from core.dance import RunEnd
 from core.display import Readable
@@ -15,6 +16,7 @@ from core.errors import format_bound, format_number
 from core.extremes.speed import SPEED_PROVEN, SPEED_ROUNDING, FirstExcess, HighestSpeed
 from core.language import phrase, say, sense
 from core.paths.path import HeadState
+from core.performance import Performance
 
 # Widest bracket of a first excess over a speed limit [s]; of a wider one the message says "at the latest".
 EXCESS_KNOWN = 1e-6
@@ -59,6 +61,33 @@ class Failure(Readable):
     head: HeadState | None = None
     peak_speed: float | None = None
     peak_time: float | None = None
+
+    def _line(self) -> str:
+        return self.message
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class PerformanceFailure(Readable):
+    """One failed or undecided condition of a dragon, or of two together; times are those of the performance.
+
+    kind: kind of failure
+    time: first time of the failure, as in a Failure [s]
+    dragons: the dragon at fault, or the two that come within the margin, in the order of the dances; empty if it is
+        undecided which
+    benches: benches at fault, of two dragons one of each; for a speed, the handles
+    message: the failure in one sentence, which names the dragon
+    time_bracket: two times: proven not to fail up to the first; failing at the second. None for a fold, or at the start
+        [s]
+    failure: that of a dragon by itself, on the clock of its own dance; None for two dragons
+    """
+
+    kind: FailureKind
+    time: float
+    dragons: tuple[int, ...]
+    benches: tuple[int, ...]
+    message: str
+    time_bracket: tuple[float, float] | None = None
+    failure: Failure | None = None
 
     def _line(self) -> str:
         return self.message
@@ -218,3 +247,45 @@ def fold_failure(dragon: Dragon, end: RunEnd, head: HeadState) -> Failure:
         bench=dragon.called(end.bench), time=end.time, x=head.x, y=head.y, theta=head.theta,
     )  # fmt: skip
     return Failure(FailureKind.FOLDS, end.time, (end.bench,), None, message)
+
+
+def failure_of_dragon(performance: Performance, k: int, failure: Failure) -> PerformanceFailure:
+    """The failure of a dragon by itself, on the clock of the performance."""
+    delay, bracket = performance.parts[k].delay, failure.time_bracket
+    shifted = None if bracket is None else (bracket[0] + delay, bracket[1] + delay)
+    own = say(" (at {time:.6f} s of the performance)", time=failure.time + delay) if delay else ""
+    name, message = performance.name_of(k), failure.message
+    if len(performance.parts) > 1:
+        if performance.parts[k].name is None:
+            name = f"{name[0].upper()}{name[1:]}"
+        message = say("{name}: {text}", name=f"{name}{own}", text=message)
+    return PerformanceFailure(failure.kind, failure.time + delay, (k,), failure.benches, message, shifted, failure)
+
+
+def encounter_failures(met: FirstEncounter) -> list[PerformanceFailure]:
+    """The first encounter of two dragons as a failure, or that it is undecided; none if there is none."""
+    meet = approach_words(met.margin, met.stray)
+    bracket = met.time_bracket
+    if met.outcome is Outcome.UNDECIDED and bracket is not None:
+        if met.overlapping is None:
+            message = say(
+                "Whether benches of two dragons {meet} is not decided from {time:.6f} s on.", meet=meet, time=bracket[0]
+            )
+            return [PerformanceFailure(FailureKind.UNDECIDED, bracket[0], (), (), message, None)]
+        dragons, benches = met.overlapping
+        pair = _dragons_pair(met, dragons, benches)
+        message = say("{pair} {meet} at {time:.6f} s at the latest.", pair=pair, meet=meet, time=bracket[1])
+        return [PerformanceFailure(FailureKind.CONTACT, bracket[1], dragons, benches, message, bracket)]
+    if met.time is None or met.dragons is None or met.benches is None:
+        return []
+    message = say(
+        "{pair} {meet} at {time:.6f} s.", pair=_dragons_pair(met, met.dragons, met.benches), meet=meet, time=met.time
+    )
+    return [PerformanceFailure(FailureKind.CONTACT, met.time, met.dragons, met.benches, message, bracket)]
+
+
+def _dragons_pair(met: FirstEncounter, dragons: tuple[int, int], benches: tuple[int, int]) -> str:
+    """Two benches at the beginning of a sentence, with their households and dragons."""
+    a, b = (met.performance.parts[k].dance.dragon.called(bench) for k, bench in zip(dragons, benches, strict=True))
+    one, two = map(met.performance.name_of, dragons)
+    return say("Bench {a} of {one} and bench {b} of {two}", a=a, one=one, b=b, two=two)

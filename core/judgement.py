@@ -3,23 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import partial
+from typing import Any
 
 from core.contact.answer import FirstContact
 from core.contact.clearance import LeastClearance, least_clearance
+from core.contact.encounter import first_encounter
+from core.contact.encounter_answer import FirstEncounter
 from core.contact.first_contact import first_contact
+from core.contact.stage_clearance import PerformanceLeastClearance, least_between
 from core.contact.walls import VenueClearance, venue_clearance
 from core.dance import Dance, EndReason
 from core.display import Readable, display
 from core.dragon import Stray, checked_stray
-from core.errors import checked_number, checked_type, question_about
+from core.errors import checked_number, checked_type, or_about, question_about
 from core.extremes.joints import SharpestBend, sharpest_bend
 from core.extremes.speed import HighestSpeed, checked_limit, first_excess, highest_speed
 from core.failures import (
     Failure,
     FailureKind,
+    PerformanceFailure,
     contact_failures,
+    encounter_failures,
+    failure_of_dragon,
     fold_failure,
     keeps_limit,
     speed_failure,
@@ -28,6 +36,7 @@ from core.failures import (
 )
 from core.kernels import Budget
 from core.passages import TIME_MAX
+from core.performance import Performance
 from core.venue import Venue
 
 # Length of the judged interval if benches already touch at the start [s].
@@ -83,7 +92,79 @@ class Report(Readable):
         return summary(self.verdict, self.start, self.stop, [failure.message for failure in self.failures])
 
 
-@question_about("dance", Dance)
+@dataclass(frozen=True, slots=True, repr=False)
+class PerformanceReport(Readable):
+    """Verdict on several dances on one clock.
+
+    start: start of the time checked [s]
+    stop: end of the time checked [s]
+    verdict: passes: nothing fails; fails: at least one condition certainly fails; undecided: neither is proven
+    passed: true if the verdict is passes
+    failures: failed and undecided conditions of each dragon by itself, and the first encounter of two, in order of
+        time. A dragon by itself is judged to the stop, or to a touch of two of its own benches, also after an encounter
+    encounter: first time that benches of two dragons come within the margin, or touch if it is 0
+    least_clearance: least clearance between two dragons; None for a single one, or without details
+    reports: verdict on each dragon by itself in the venue, on the clock of its own dance, which is 0 at its delay; None
+        for one that stands during the whole time checked
+    performance: the performance of the question
+    """
+
+    start: float
+    stop: float
+    verdict: Judgement
+    passed: bool
+    failures: tuple[PerformanceFailure, ...]
+    encounter: FirstEncounter
+    least_clearance: PerformanceLeastClearance | None
+    reports: tuple[Report | None, ...]
+    performance: Performance = field(repr=False, compare=False)
+
+    def _line(self) -> str:
+        return summary(self.verdict, self.start, self.stop, [failure.message for failure in self.failures])
+
+
+@question_about("performance", Performance)
+def _judged_together(
+    performance: Performance,
+    *,
+    details: bool,
+    venue: Venue | None = None,
+    speed_limit: float | None = None,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
+    **near: Any,
+) -> PerformanceReport:
+    """The report of a performance. near: margin and stray"""
+    budget = budget or Budget()
+    if venue is not None:
+        performance = replace(performance, venue=venue)
+    begin, until = performance.span(start, stop)
+    met = first_encounter(performance, start=begin, stop=stop, budget=budget, **near)
+    failures, reports = encounter_failures(met), list[Report | None]()
+    judge, least = check if details else quick_check, None
+    if details and len(performance.parts) > 1:
+        least = least_between(performance, met.stray, (begin, stop), budget, None if met.margin else met)
+    for k, part in enumerate(performance.parts):
+        first = None if start is None and begin <= part.begin else part.own_time(begin)
+        last = None if part.end <= until else part.own_time(until)
+        if max(begin, part.begin) >= min(until, part.end):
+            reports.append(None)
+            continue
+        report = judge(
+            part.dance, venue=performance.venue, speed_limit=speed_limit, start=first, stop=last, budget=budget, **near
+        )
+        reports.append(report)
+        failures += [failure_of_dragon(performance, k, failure) for failure in report.failures]
+    failures.sort(key=lambda failure: failure.time)
+    verdict = _verdict([failure.kind for failure in failures])
+    return PerformanceReport(
+        begin, until, verdict, not failures, tuple(failures), met, least, tuple(reports), performance
+    )
+
+
+@or_about(Performance, partial(_judged_together, details=True))
+@question_about("dance", (Dance, Performance))
 def check(
     dance: Dance,
     *,
@@ -95,19 +176,30 @@ def check(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> Report:
-    """Verdict on a dance from its first contact, least clearance, venue, highest speed and sharpest bend.
+    """Verdict on a dance from its first contact, least clearance, venue, highest speed and sharpest bend; on a
+    Performance from that of every dragon in the venue, the first encounter of two, and their least clearance.
 
-    margin: required between benches and to the venue [m]; stray: largest distance of every hole from its place [m], a
-        contact that it makes possible is a failure; speed_limit: of every handle [m/s]
+    venue: None for none, or for that of the performance
+    margin: required between benches, dragons and to the venue [m]; speed_limit: of every handle [m/s]
+    stray: largest distance of every hole from its place [m], a contact that it makes possible is a failure
     start, stop: [s]; defaults: dance.begin and the end of the run
     A dance fails if it folds before its stop, or before the end of its path without a stop. A dance that ends earlier,
     because benches touch, is not followed to its fold.
+    In a performance the report of a single dragon is that of its dance to the last bit. A dragon that stands, before
+    its dance or after it, is judged only together with the others.
     raises: InvalidValue; OutsideRun for times outside the run, but not for a stop after a fold; TooMuchWork
+
+    >>> from core import Dragon, Line, Part, Route
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> crossing = Performance([Part(Dance(Dragon(5), Route([street]))) for street in streets])
+    >>> check(crossing).failures[0].message
+    'Bench 0 of dragon 0 and bench 0 of dragon 1 touch at 39.575000 s.'
     """
     return _judged(dance, venue, margin, stray, speed_limit, (start, stop), budget, details=True)
 
 
-@question_about("dance", Dance)
+@or_about(Performance, partial(_judged_together, details=False))
+@question_about("dance", (Dance, Performance))
 def quick_check(
     dance: Dance,
     *,
@@ -184,10 +276,11 @@ def _judged(
         failures.append(fold_failure(dance.dragon, end, dance.path.head(dance.clock.travel(end.time))))
     failures.sort(key=lambda failure: failure.time)
     dated = tuple(replace(failure, head=dance.path.head(dance.clock.travel(failure.time))) for failure in failures)
-    if not dated:
-        verdict = Judgement.PASSES
-    elif all(failure.kind is FailureKind.UNDECIDED for failure in dated):
-        verdict = Judgement.UNDECIDED
-    else:
-        verdict = Judgement.FAILS
+    verdict = _verdict([failure.kind for failure in dated])
     return Report(begin, until, verdict, not dated, dated, contact, least, square, speed, bend)
+
+
+def _verdict(kinds: list[FailureKind]) -> Judgement:
+    """The verdict if conditions of these kinds failed or are undecided."""
+    undecided = all(kind is FailureKind.UNDECIDED for kind in kinds)
+    return Judgement.PASSES if not kinds else Judgement.UNDECIDED if undecided else Judgement.FAILS

@@ -1,4 +1,4 @@
-"""Searches in one variable that several modules use: bisect(), fall_to_zero() and dips().
+"""Searches in one variable that several modules use: bisect(), crossing(), fall_to_zero() and dips().
 
 A function is sampled first. bisect() or fall_to_zero() then narrows a border between two samples, and dips() names the
 samples around which a minimum may lie.
@@ -6,10 +6,10 @@ samples around which a minimum may lie.
 These searches stand beside their users instead, because they need more:
 - the loops of core/kernels, which never call back into Python;
 - Bands.border() in core/design/pitch_bands.py, which also looks for its upper end, from the dip of the last look;
-- refined_dip() in core/contact/clearance.py, whose nearest pair may change on the way;
+- refined() in core/contact/gaps.py, whose nearest pair may change on the way;
 - the sharpest bend (core/extremes), the stray of three benches and the exhibit (core/tolerance), which compare a whole
   grid in each round;
-- _grazes() and _dips_ahead() in core/contact, which look for dips of one pair, or for dips below a known gap;
+- grazes() and _dips_ahead() in core/contact, which look for dips of one pair, or for dips below a known gap;
 - _simple() and _grazing() in core/tolerance/safe.py, which step along a secant, since each value takes a whole march;
 - the chains of app/grade, which search for many places at once.
 """
@@ -23,6 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.values import Floats
+
+# Most rounds of a false position [1].
+ROUNDS = 100
 
 
 def bisect(
@@ -49,6 +52,33 @@ def bisect(
             break
         low, high = (low, between) if answer else (between, high)
     return low, high
+
+
+# Input:  a bracket [low, high], and a function that is positive at low and not at high.
+# State:  the bracket; `above` and `below`, the function at its ends, halved where an end stays; `last`, the end that
+#         moved last.
+# Output: the upper end of a bracket no wider than `width`.
+def crossing(value: Callable[[float], float], low: float, high: float, width: float) -> float:
+    """Place where a function falls to zero, too far by `width` at most; method: as in crossing() of core/kernels."""
+    above, below, last = value(low), value(high), 0
+    if above <= 0.0:
+        return low
+    for k in range(ROUNDS):
+        if high - low <= width:
+            break
+        middle = low + (high - low) * above / (above - below) if below < 0.0 else 0.5 * (low + high)
+        if not low < middle < high or k % 4 == 3:
+            middle = 0.5 * (low + high)
+            if not low < middle < high:
+                break
+        between = value(middle)
+        if between > 0.0:
+            low, above = middle, between
+            below, last = (0.5 * below if last == 1 else below), 1
+        else:
+            high, below = middle, between
+            above, last = (0.5 * above if last == -1 else above), -1
+    return high
 
 
 def fall_to_zero(

@@ -85,7 +85,7 @@ def _table(request: CheckRequest, answer: Report | PerformanceReport, ending: st
     if isinstance(answer, PerformanceReport):
         performance = request.to_performance(settings)
         seconds = TimeRange(start=answer.start, stop=answer.stop).times_of(performance, settings.cells_max)
-        results = core.performance_trajectory(performance, seconds)
+        results = core.trajectory(performance, seconds)
         return performance_file(ending, PerformanceTable(performance, results, clock=clock_of(request, performance)))
     dance = request.to_dance(settings.checked_benches_max)
     stop = dance.end.time if request.stop is None else min(request.stop, dance.end.time)

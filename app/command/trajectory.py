@@ -116,7 +116,7 @@ def _of_several(
     dragons = [part.dance.dragon for part in performance.parts]
     handles = _handles(context.params["handles"], min(dragons, key=lambda dragon: dragon.benches))
     with show.waiting(say("trajectory")):
-        results = core.performance_trajectory(performance, instants)
+        results = core.trajectory(performance, instants)
         clock = clock_of(request, performance)
         table = PerformanceTable(performance, results, request.decimals, clock)
         data = performance_file(ending, table) if ending else b""

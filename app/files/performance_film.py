@@ -13,7 +13,7 @@ from app.files.film_planes import COLOURS, Tone
 from app.files.film_spec import FilmSpec
 from app.files.looks import colour_of
 from app.files.performances import LEGEND_MOST
-from core import Budget, Dragon, Performance, bench_outlines, performance_trajectory
+from core import Budget, Dragon, Performance, bench_outlines, trajectory
 from core.errors import question_about
 from core.language import say
 from core.plots import draw_dance
@@ -48,7 +48,7 @@ def _frames(stage: PerformancePicture, spec: FilmSpec, budget: Budget) -> Iterat
     dragons = [part.dance.dragon for part in performance.parts]
     for first in range(0, times.size, BATCH):
         some = times[first : first + BATCH]
-        results = performance_trajectory(performance, some, budget=budget)
+        results = trajectory(performance, some, budget=budget)
         outlines = [bench_outlines(dragon, one.position) for dragon, one in zip(dragons, results, strict=True)]
         for k, time in enumerate(some.tolist()):
             budget.look()
@@ -76,7 +76,7 @@ class PerformancePicture(FilmPicture):
 
     def draw_paths(self, times: Floats) -> Floats:
         places = []
-        for part, result in zip(self.performance.parts, performance_trajectory(self.performance, times), strict=True):
+        for part, result in zip(self.performance.parts, trajectory(self.performance, times), strict=True):
             places.append(result.position.reshape(-1, 2))
             draw_dance(self.axes, part.dance.path, places[-1], np.empty((0, 4, 2)))
         look: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False, "va": "top"}

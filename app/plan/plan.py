@@ -101,7 +101,7 @@ def _together(plans: Sequence[Plan], together: Together) -> Iterator[Json]:
     drawn = grounds, together.names, scale_for(grounds, first.paper), first.face, first.budget
     yield _map(first, title, say("Plan of the ground"), draw_grounds(*drawn), False, True)
     parts, moments = together.performance.parts, together.moments
-    placed = core.performance_trajectory(together.performance, moments, budget=first.budget)
+    placed = core.trajectory(together.performance, moments, budget=first.budget)
     for t, time in enumerate(moments):
         drawing = draw_grounds(*drawn)
         for k, (part, result, plan) in enumerate(zip(parts, placed, plans, strict=True)):

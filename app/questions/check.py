@@ -250,7 +250,7 @@ def verdict_together(request: CheckRequest, performance: Performance, terms: Ter
     """The verdict on several dances as an object of core. raises: InvalidValue"""
     limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
     span: dict[str, Any] = {"start": request.start, "stop": request.stop, "details": request.details}
-    return core.performance_check(performance, budget=terms.budget, **limits, **span)
+    return core.check(performance, budget=terms.budget, **limits, **span)
 
 
 def verdict_of(

@@ -64,7 +64,7 @@ def between_dragons(request: ClearanceRequest, terms: Terms) -> core.Performance
     """The clearance between dragons as an object of core. raises: TooLarge, InvalidValue"""
     performance = request.to_performance(terms.settings)
     times = request.times_of(performance, terms.settings.cells_max)
-    return core.performance_clearance(performance, times, budget=terms.budget)
+    return core.clearance_profile(performance, times, budget=terms.budget)
 
 
 def profile_of(request: ClearanceQuery | DanceClearance, terms: Terms) -> core.ClearanceProfile:

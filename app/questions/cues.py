@@ -139,7 +139,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
         dance = performance.parts[k].dance
         _refuse_equal_names(dance.dragon, f"dances.{k}.")
         span: dict[str, Any] = {"start": request.start, "stop": request.stop, "budget": terms.budget}
-        own = core.performance_cues(performance, k, benches, reach=request.reach, **span)
+        own = core.bench_cues(performance, benches, dragon=k, reach=request.reach, **span)
         chalk = _chalk(request, dance, performance.parts[k].own_span(start, stop)[0], terms)
         clock = TimeFormat(start_clock, parts[k].music, music_begin=parts[k].delay)
         words = CardWords(dance.dragon.names, clock, chalk, geographic, k, dragons, _landmarks(request, place))
@@ -149,9 +149,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     if form == CSV_TYPE:
         return performance_cards_csv(decks)
     limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
-    report = core.performance_check(
-        performance, start=start, stop=request.stop, details=False, budget=terms.budget, **limits
-    )
+    report = core.quick_check(performance, start=start, stop=request.stop, budget=terms.budget, **limits)
     in_words = TimeFormat(start_clock).words
     verdict = _failed(request, report, in_words) if report.failures else _passed(request, place)
     dances = [(performance.parts[k].dance, names[k]) for k in chosen]

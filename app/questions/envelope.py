@@ -133,7 +133,7 @@ def envelopes_of(
 ) -> tuple[core.Performance, tuple[core.Envelope, ...], list[outlines.Ground]]:
     """Several dances, their envelopes, and these as they are written into files. raises: TooLarge, InvalidValue"""
     performance = request.to_performance(terms.settings)
-    results = core.performance_envelope(performance, start=request.start, stop=request.stop, budget=terms.budget)
+    results = core.envelope(performance, start=request.start, stop=request.stop, budget=terms.budget)
     grounds = [outlines.Ground(part.name, result) for part, result in zip(performance.parts, results, strict=True)]
     return performance, results, grounds
 

@@ -124,9 +124,9 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     dances, spans = zip(*((part.dance, part.own_span(start, stop)) for part in performance.parts), strict=True)
     passes = passes_of_gates(request, dances, spans, budget)
     timings = [timing_of_marks(request, *one, terms) for one in zip(dances, spans, passes, strict=True)]
-    grounds = core.performance_envelope(performance, start=start, stop=stop, excess=EXCESS, budget=budget)
+    grounds = core.envelope(performance, start=start, stop=stop, excess=EXCESS, budget=budget)
     limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
-    report = core.performance_check(performance, start=start, stop=stop, details=False, budget=budget, **limits)
+    report = core.quick_check(performance, start=start, stop=stop, budget=budget, **limits)
     verdict = verdict_words(report, clock.words), report.verdict is Judgement.PASSES
     names = [part.name or say("dragon {k}", k=k) for k, part in enumerate(performance.parts)]
     common = _Common(request, place, verdict, _face(request, place, [one.dragon for one in dances], names), budget)

@@ -14,7 +14,7 @@ from app.wire.performances import FILE_OF_DANCES, Moment, NumberOrName, Performa
 from app.wire.question import Answer, Command, Margin, Question, Strays, Terms, measure
 from core.errors import format_bound, format_number
 from core.language import phrase, say
-from core.performance.performance import DELAY_MAX
+from core.performance import DELAY_MAX
 
 Delay = Annotated[float, Field(ge=-DELAY_MAX, le=DELAY_MAX)]
 

@@ -143,7 +143,7 @@ def _together(request: ToleranceRequest, terms: Terms) -> PerformanceTolerance:
     for name in ("turning_diameter", *SizeErrors.model_fields):
         if value := getattr(request, name):
             raise InvalidValue(name, "must be left out beside dances", got=Quantity(value, "m"))
-    result = core.performance_tolerance(performance, start=request.start, stop=request.stop, budget=terms.budget)
+    result = core.tolerance(performance, start=request.start, stop=request.stop, budget=terms.budget)
     pose = None
     if result.exhibit is not None:
         handles = [own.tolist() for own in result.exhibit.handles]

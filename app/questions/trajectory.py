@@ -72,7 +72,7 @@ def trajectory(request: DanceTrajectory, terms: Terms, form: str = JSON) -> byte
     if isinstance(request, TrajectoryRequest) and request.dances is not None:
         performance = request.to_performance(terms.settings)
         times = request.times_of(performance, cells_max)
-        results = core.performance_trajectory(performance, times, budget=terms.budget)
+        results = core.trajectory(performance, times, budget=terms.budget)
         clock = clock_of(request, performance)
         return WRITERS[ENDINGS[form]](PerformanceTable(performance, results, request.decimals, clock))
     dance = request.to_dance(terms.settings.benches_max)

@@ -159,7 +159,7 @@ def trajectories_row(request: TrajectoryRequest, terms: Terms) -> TrajectoriesRo
     """The ends of each dragon at the last instant, and the speeds. raises: InvalidValue without an instant"""
     performance = request.to_performance(terms.settings)
     times = _instants(request, performance, terms)
-    results = core.performance_trajectory(performance, times, budget=terms.budget)
+    results = core.trajectory(performance, times, budget=terms.budget)
     heads, tails = ([result.position[-1, k].tolist() for result in results] for k in (0, -1))
     return TrajectoriesRow(
         time=times[-1],
@@ -218,7 +218,7 @@ def least_clearance(request: DanceQuery | DanceFields, terms: Terms) -> core.Lea
 def dragons_least_clearance(request: PerformanceFields, terms: Terms) -> DragonsClearance:
     """The least separation of two benches of different dragons, over the whole performance."""
     performance = request.to_performance(terms.settings)
-    least = core.performance_least_clearance(performance, budget=terms.budget)
+    least = core.least_clearance(performance, budget=terms.budget)
     if least is None:
         raise InvalidValue("parts", "must be at least two, between which there is a clearance", got=1)
     return DragonsClearance.from_result(least)

@@ -15,7 +15,7 @@ from app.wire.dances import PathFields, VenueFields
 from app.wire.question import Wire, check_limit, measure
 from app.wire.refusals import reworded
 from core import BenchDragonError, Part, Performance
-from core.performance.performance import DELAY_MAX, PARTS_MAX
+from core.performance import DELAY_MAX, PARTS_MAX
 
 if TYPE_CHECKING:
     from app.wire.degrees import Place

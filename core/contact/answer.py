@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from core import plots
 from core.claims.certificate import WithClaim
 from core.claims.claim import ContactClaim
-from core.contact.clearance import Graze
 from core.dance import Dance, EndReason, RunEnd
 from core.display import Readable, display
 from core.errors import InvalidValue, format_number
+from core.kernels import Ended
 from core.language import phrase, say
 from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
@@ -34,6 +34,21 @@ class Outcome(StrEnum):
     UNDECIDED = "undecided"
 
 
+OUTCOMES = {
+    Ended.REACHED: Outcome.CLEAR,
+    Ended.TOUCHED: Outcome.CONTACT,
+    Ended.TOUCHED_AT_START: Outcome.CONTACT_AT_START,
+}
+
+# Names in the order of the kernels' features, FRONT_LEFT to REAR_LEFT and FRONT to LEFT. The first row is for benches
+# with the centre on their right, the second for those with the centre on their left.
+CORNERS = (
+    ("front-outer", "front-inner", "rear-inner", "rear-outer"),
+    ("front-inner", "front-outer", "rear-outer", "rear-inner"),
+)
+EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"))
+
+
 @dataclass(frozen=True, slots=True)
 class Feature(Readable):
     """A corner or an edge of one bench. The front is towards the lower handle, the outer side away from the centre.
@@ -48,6 +63,20 @@ class Feature(Readable):
 
     def __str__(self) -> str:
         return f"{self.name} of bench {self.bench}"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Graze(Readable):
+    """A local minimum of the clearance over time.
+
+    time: time of the minimum [s]
+    clearance: clearance at that time [m]
+    benches: the pair
+    """
+
+    time: float
+    clearance: float
+    benches: tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -16,37 +16,26 @@ from functools import partial
 
 from core import kernels
 from core.claims.claim import BenchBetween, ClaimKind, ContactClaim, DanceSummary
-from core.contact.answer import Evidence, Feature, FirstContact, Outcome
+from core.contact.answer import CORNERS, EDGES, OUTCOMES, Evidence, Feature, FirstContact, Graze, Outcome
 from core.contact.between import holds_apart
-from core.contact.clearance import Graze, overlap_beyond
+from core.contact.encounter import first_encounter
 from core.contact.fold import approach_fold
 from core.contact.march import TOUCHES
 from core.contact.near_graze import narrow_bracket
 from core.contact.search import MARGIN_MAX, ContactSearch
+from core.contact.stretch import Stretch, overlap_beyond
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Stray, checked_stray
-from core.errors import checked_number, question_about
+from core.errors import checked_number, or_about, question_about
 from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.frame import WORLD
-
-OUTCOMES = {
-    Ended.REACHED: Outcome.CLEAR,
-    Ended.TOUCHED: Outcome.CONTACT,
-    Ended.TOUCHED_AT_START: Outcome.CONTACT_AT_START,
-}
-
-# Names in the order of the kernels' features, FRONT_LEFT to REAR_LEFT and FRONT to LEFT. The first row is for benches
-# with the centre on their right, the second for those with the centre on their left.
-CORNERS = (
-    ("front-outer", "front-inner", "rear-inner", "rear-outer"),
-    ("front-inner", "front-outer", "rear-outer", "rear-inner"),
-)
-EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"))
+from core.performance import Performance
 
 
-@question_about("dance", Dance, "the first contact was not decided")
+@or_about(Performance, first_encounter)
+@question_about("dance", (Dance, Performance), "the first contact was not decided")
 def first_contact(
     dance: Dance,
     *,
@@ -58,6 +47,7 @@ def first_contact(
 ) -> FirstContact:
     """First time at which two benches that share no handle come within the margin, proven to miss no earlier one.
 
+    Of a Performance it is first_encounter(): the first time at which benches of two dragons do.
     margin: required clearance [m]; contact means separation <= margin
     stray: largest distance of every hole from its place [m], see core/shapes/reach.py: the answer is then the first
         time at which two benches may come within the margin, because the grounds that they may cover do. Without a
@@ -127,7 +117,7 @@ def _searched(dance: Dance, search: ContactSearch, span: tuple[float, float], st
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
     if state is Ended.STUCK:
-        certain = overlap_beyond(search, march.proven, stops[-1][0], head_speed)
+        certain = overlap_beyond(Stretch(search, (march.proven, stops[-1][0]), head_speed))
         return _undecided(dance, search, march, certain, (begin, until))
     return _result(dance, search, state, march, end, (begin, until), half_bracket)
 
@@ -162,7 +152,7 @@ def _undecided(
 def _graze(march: Marched, clock: Clock, begin: float) -> Graze | None:
     """The narrowest graze of a march that begins at a time [s]."""
     graze = march.graze
-    return None if graze is None else Graze(max(clock.time(graze.travel), begin), graze.gap, graze.benches)
+    return None if graze is None else Graze(max(clock.time(graze.moment), begin), graze.gap, graze.pair)
 
 
 def _result(

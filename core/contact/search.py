@@ -32,9 +32,6 @@ MARGIN_MAX = 1e4  # [m]
 # about 5,000.
 WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
-# Largest number of samples of a dance [1], and largest share of the work for them [1].
-SAMPLES = 20_000
-SAMPLED_SHARE = 0.1
 
 
 class ContactSearch:
@@ -191,12 +188,6 @@ class ContactSearch:
         """Subtract work done from the work left [1]."""
         self.work -= work
         self.budget.spend(work)
-
-    def samples(self, span: float, step: float) -> int:
-        """Number of samples over a span [m] at a step [m], or fewer if the remaining work requires it."""
-        step_work = self.room * (1.0 + len(self.edges) / kernels.EDGES_PER_WORK)
-        affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / step_work)
-        return max(3, int(min(3.0 + span / step, affordable)))
 
     def travel_at(self, theta: float) -> float:
         """Head travel from the start of a spiral to theta [m]."""

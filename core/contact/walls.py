@@ -9,11 +9,12 @@ import numpy as np
 
 from core import kernels
 from core.contact.answer import Outcome
-from core.contact.clearance import Pair, least_over, overlap_beyond
 from core.contact.fold import clear_to_fold
+from core.contact.gaps import Pair
 from core.contact.march import TOUCHES
 from core.contact.near_graze import narrow_bracket
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, ContactSearch, before_fold
+from core.contact.stretch import Stretch, least_on, overlap_beyond
 from core.dance import Dance
 from core.display import Readable, display
 from core.dragon import Stray, checked_stray
@@ -177,7 +178,7 @@ def _area_clearance(
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     overlapping = None
     if state is Ended.STUCK:
-        certain = overlap_beyond(search, result.proven, last, clock.slowest)
+        certain = overlap_beyond(Stretch(search, (result.proven, last), clock.slowest))
         if certain is not None and certain.touching is not None:
             until, overlapping = clock.time(certain.touching), certain.benches[0]
         outcome, bracket = Outcome.UNDECIDED, (max(clock.time(result.proven), begin), until)
@@ -197,7 +198,7 @@ def _area_clearance(
 def _nearest(search: ContactSearch, dance: Dance, span: tuple[float, float, float], fold: float | None) -> Nearest:
     """Smallest distance of a search between two travels [m]. span: time [s] and travel of the first, the last one"""
     clock, (begin, first, last) = dance.clock, span
-    (distance, travel, pair), at_least = least_over(search, first, last, clock.slowest, fold)
+    (distance, travel, pair), at_least = least_on(Stretch(search, (first, last), clock.slowest, fold))
     witnesses = _witnesses(search, travel, pair, dance.path.frame)
     return Nearest(distance, at_least, max(clock.time(travel), begin), pair[0], *witnesses[:2])
 

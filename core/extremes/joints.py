@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.contact.clearance import PROFILE_STEP
-from core.contact.search import SAMPLES
+from core.contact.gaps import PROFILE_STEP, SAMPLES
 from core.dance import Dance
 from core.display import Readable
 from core.errors import question_about

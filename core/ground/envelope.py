@@ -40,6 +40,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,10 +52,11 @@ from core.dance import Dance
 from core.display import Readable, WithArrays, format_count
 from core.dragon import Dragon
 from core.error_free import paired
-from core.errors import InvalidValue, checked_list, checked_number, checked_point, question_about
+from core.errors import InvalidValue, checked_list, checked_number, checked_point, or_about, question_about
 from core.ground.tracks import Track, tracks
 from core.kernels import Budget
 from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, RADIUS
+from core.performance import Performance
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, area_of, distance_from, united
 from core.shapes.rectangles import bench_outlines
 from core.values import Floats
@@ -134,7 +136,20 @@ class Envelope(WithArrays):
         return distance_from(self.polygons, np.array(points))
 
 
-@question_about("dance", Dance, "the ground that benches sweep was not found")
+@question_about("performance", Performance, "the ground that benches sweep was not found")
+def _envelopes(
+    performance: Performance, *, start: float | None = None, stop: float | None = None, **how: Any
+) -> tuple[Envelope, ...]:
+    span = performance.span(start, stop)
+    return tuple(
+        envelope(part.dance, start=first, stop=last, **how)
+        for part in performance.parts
+        for first, last in [part.own_span(*span)]
+    )
+
+
+@or_about(Performance, _envelopes)
+@question_about("dance", (Dance, Performance), "the ground that benches sweep was not found")
 def envelope(
     dance: Dance,
     *,
@@ -143,9 +158,11 @@ def envelope(
     excess: float = 1e-3,
     budget: Budget | None = None,
 ) -> Envelope:
-    """The ground that benches sweep, as polygons that hold every pose of every bench.
+    """The ground that benches sweep, as polygons that hold every pose of every bench; of a Performance an Envelope for
+    each dragon, on the clock of its own dance.
 
-    start, stop: [s]; defaults: dance.begin and the end of the run
+    start, stop: [s]; defaults: dance.begin and the end of the run, or those of the performance. The ground of a dragon
+        that stands is that of the first or the last STANDING of its dance
     excess: largest distance of any point of the polygons from ground that a bench covers [m]; a larger excess costs
         less time. A run to its fold may exceed it; see Envelope.excess
     A contact does not end the dance: to end it there, give its time as the stop.

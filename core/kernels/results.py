@@ -6,11 +6,14 @@ from typing import NamedTuple
 
 
 class Dip(NamedTuple):
-    """A local minimum of the clearance [m], at a travel of the head [m], of a pair."""
+    """A local minimum of the clearance [m], at a moment, of a pair.
+
+    moment: travel of the head [m], or on a stage of several dragons the time [s]; pair: two benches, or two rows there
+    """
 
     gap: float
-    travel: float
-    benches: tuple[int, int]
+    moment: float
+    pair: tuple[int, int]
 
 
 class Marched(NamedTuple):

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from core import plots
-from core.dance import Clock, Dance
+from core.dance import Clock, Dance, checked_instants
 from core.display import display, format_range
 from core.error_free import paired, two_product, two_sum
-from core.errors import question_about
+from core.errors import or_about, question_about
 from core.kernels import Budget
 from core.language import say
 from core.paths.frame import WORLD
+from core.performance import Part, Performance
 from core.shapes.rectangles import bench_outlines
 from core.tables import Column, Table, data_set
 from core.values import Floats
@@ -119,12 +120,33 @@ def exact_travels(clock: Clock, times: Floats) -> Floats:
     return paired(travel, rest + (more + lost * speeds))
 
 
-@question_about("dance", Dance, "the trajectory was not computed")
+@question_about("performance", Performance, "the trajectories were not computed")
+def _trajectories(
+    performance: Performance, times: ArrayLike, *, budget: Budget | None = None
+) -> tuple[Trajectory, ...]:
+    return tuple(_trajectory_of(part, times, budget) for part in performance.parts)
+
+
+def _trajectory_of(part: Part, times: ArrayLike, budget: Budget | None) -> Trajectory:
+    time = checked_instants(times)
+    own = np.clip(time - part.delay, part.dance.begin, part.dance.end.time)
+    placed = trajectory(part.dance, own, budget=budget)
+    stands = (time < part.begin) | (time > part.end)
+    velocity, speed = placed.velocity.copy(), placed.speed.copy()
+    velocity[stands], speed[stands] = 0.0, 0.0
+    dances = part.dance if part.delay == 0.0 and not stands.any() else None
+    return replace(placed, time=time, velocity=velocity, speed=speed, dance=dances)
+
+
+@or_about(Performance, _trajectories)
+@question_about("dance", (Dance, Performance), "the trajectory was not computed")
 def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) -> Trajectory:
-    """Position and velocity of every handle at every time.
+    """Position and velocity of every handle at every time; of a Performance a Trajectory for each dragon.
 
     times: (T,) or one [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on
-        the part of a route before its s = 0
+        the part of a route before its s = 0. In a performance a dragon stands before and after its dance, with velocity
+        0; the Trajectory of a part without a delay is that of its dance, to the last bit, while it dances; others have
+        no `dance` to plot
     returns: see Trajectory; positions up to 20 m from the centre are good to 1e-11 m, further ones to 1e-12 of that
         distance, on spirals and coils of up to 100,000 turns (off the origin also to the rounding of the coordinates);
         speeds to 1e-11 m/s up to 0.01 s before a fold; these come from the rigid links, not from differences;

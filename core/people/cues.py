@@ -8,12 +8,16 @@ How each number is known: places, directions and speeds are those of trajectory(
 core/people/turns.py: the front handle begins and ends one at times between rows of places, PLACED apart. For the
 fastest moment the dance is sampled at travels of the head (travels_between()); the moment is then narrowed to
 FASTEST_WIDTH between the two neighbours of the fastest sample. So no sample is faster, and the speed is really reached.
+
+In a performance places, directions, speeds, pauses and ends are those of the dance of each dragon, on the clock of the
+performance. Meetings are searched in rows of times so close that no head walks further than STEP between two of them,
+for a chain of the handles of all dragons one after the other.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import pairwise
 
@@ -21,13 +25,35 @@ import numpy as np
 
 from core.dance import Clock, Dance
 from core.display import LINE_DIGITS, Readable, display, format_count
-from core.errors import InvalidValue, Quantity, bound, checked_count, checked_number, checked_type, question_about
+from core.errors import (
+    InvalidValue,
+    Quantity,
+    Value,
+    bound,
+    checked_count,
+    checked_number,
+    checked_type,
+    or_about,
+    question_about,
+)
 from core.kernels import Budget
 from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
 from core.passages import TIME_MAX, Period
-from core.people.meetings import MeetingColumns, instants_at_once, meetings_between, steady_dance, travels_between
+from core.people.meetings import (
+    ROWS_MAX,
+    STEP,
+    Chain,
+    Indices,
+    MeetingColumns,
+    instants_at_once,
+    meetings_between,
+    meetings_in,
+    steady_dance,
+    travels_between,
+)
 from core.people.turns import bends_between
+from core.performance import STANDING, Performance
 from core.shapes.rectangles import bench_poses
 from core.values import Floats, Point
 
@@ -190,11 +216,42 @@ class BenchCues(Readable):
         return f"bench {self.bench} {walks}, {met}, {paused}, at most {display(self.fastest.speed, 'm/s', LINE_DIGITS)}"
 
 
-@question_about("dance", Dance, "the cues were not found")
+@question_about("performance", Performance, "the cues were not found")
+def _cues_together(
+    performance: Performance,
+    benches: Sequence[int] | None = None,
+    *,
+    dragon: int = 0,
+    reach: float = REACH,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
+) -> tuple[BenchCues, ...]:
+    budget = budget or Budget()
+    number = checked_count("dragon", dragon, 0, len(performance.parts) - 1)
+    reach = checked_number("reach", reach, "m", 0.0, REACH_MAX)
+    begin, until = _performance_span(performance, start, stop)
+    part = performance.parts[number]
+    _refuse_one_that_stands(performance, number, begin, until)
+    first, last = part.own_span(begin, until)
+    own = bench_cues(part.dance, benches, reach=reach, start=first, stop=last, budget=budget)
+    chain, firsts = _chain_of(performance)
+    followed = [int(firsts[number]) + one.bench for one in own]
+    met = meetings_in(chain, followed, _times(performance, begin, until), reach, budget)
+    meetings = _meetings(chain, firsts, met, budget)
+    return tuple(
+        replace(_later(one, part.delay, begin), meetings=tuple(meetings.get(k, ())))
+        for k, one in zip(followed, own, strict=True)
+    )
+
+
+@or_about(Performance, _cues_together)
+@question_about("dance", (Dance, Performance), "the cues were not found")
 def bench_cues(
     dance: Dance,
     benches: Sequence[int] | None = None,
     *,
+    dragon: int = 0,
     reach: float = REACH,
     start: float | None = None,
     stop: float | None = None,
@@ -203,7 +260,9 @@ def bench_cues(
     """The cues of some benches, in the order of the list.
 
     benches: at most FOLLOWED_MAX numbers, 0 for the head; None: all benches; reach: largest gap of a meeting [m]
-    start, stop: of the dance [s], see Dance.span()
+    dragon: its number in a Performance, whose meetings have the number of the other dragon; benches that stand before
+        or after their dance are met too
+    start, stop: of the dance, see Dance.span(), or of the performance [s], on whose clock all times then are
     raises: InvalidValue, also for a dance up to a fold, where speeds grow without bound, and for one in which the head
         never walks; OutsideRun; TooMuchWork
 
@@ -216,6 +275,7 @@ def bench_cues(
     >>> met.bench, met.side.value, round(met.time, 2), round(met.gap, 3), met.oncoming
     (0, 'left', 19.09, 3.699, True)
     """
+    checked_count("dragon", dragon, 0, 0)
     followed = _checked_benches(dance, benches)
     reach = checked_number("reach", reach, "m", 0.0, REACH_MAX)
     begin, until = _span(dance, start, stop)
@@ -410,3 +470,91 @@ def _peaks(steady: Dance, benches: list[int], low: Floats, high: Floats, budget:
     best = np.argmax([rate for _, rate in tried], axis=0)
     travels: Floats = np.stack([travel for travel, _ in tried])[best, np.arange(len(benches))]
     return travels
+
+
+def _performance_span(performance: Performance, start: float | None, stop: float | None) -> tuple[float, float]:
+    """Start and stop [s]. raises: InvalidValue, OutsideRun"""
+    begin, until = performance.span(start, stop)
+    folds = performance.end.dragon
+    if folds is not None and performance.parts[folds].dance.ends_by(until - performance.parts[folds].delay):
+        values: dict[str, Value] = {"end": bound(performance.end.time, 9, "s"), "why": performance.ending}
+        if stop is None:
+            rule = "must be given: it must be before {end}, when {why} and speeds grow without bound"
+            raise InvalidValue("stop", rule, **values)
+        rule = "must be before {end}, when {why} and speeds grow without bound"
+        raise InvalidValue("stop", rule, got=Quantity(until, "s"), **values)
+    return begin, until
+
+
+def _refuse_one_that_stands(performance: Performance, dragon: int, begin: float, until: float) -> None:
+    """raises: InvalidValue for a dragon that never walks between two times of the performance [s]"""
+    part = performance.parts[dragon]
+    first, last = part.own_time(begin), part.own_time(until)
+    walks = (one.end - one.begin for one in part.dance.clock.periods(first, last) if one.speed > 0.0)
+    if last - first < STANDING or not any(walks):
+        rule = "must be after dragon {dragon} begins to walk: it stands still from {begin} on"
+        raise InvalidValue("stop", rule, got=Quantity(until, "s"), dragon=dragon, begin=Quantity(begin, "s", 9))
+
+
+def _times(performance: Performance, begin: float, until: float) -> Floats:
+    """Times so close that no head walks further than STEP between two of them [s]."""
+    speeds = [part.dance.head_speed for part in performance.parts]
+    speeds += [one.speed for part in performance.parts for one in part.dance.passages]
+    return np.linspace(begin, until, min(ROWS_MAX, int((until - begin) * max(speeds) / STEP) + 2))
+
+
+def _chain_of(performance: Performance) -> tuple[Chain, Indices]:
+    """The chain of all dragons, and the number of the first bench of each in it."""
+    dragons = [part.dance.dragon for part in performance.parts]
+    ends = np.cumsum([dragon.benches + 1 for dragon in dragons])
+    sizes = [
+        np.concatenate([np.stack([dragon.lengths, dragon.widths], axis=-1), np.zeros((1, 2))]) for dragon in dragons
+    ]
+
+    def place(times: Floats, budget: Budget) -> Floats:
+        results = trajectory(performance, times, budget=budget)
+        return np.concatenate([one.position for one in results], axis=1)
+
+    gaps: Indices = (ends[:-1] - 1).astype(np.intp)
+    return Chain(place, np.concatenate(sizes)[:-1], gaps), np.concatenate([[0], ends[:-1]]).astype(np.intp)
+
+
+def _meetings(chain: Chain, firsts: Indices, met: MeetingColumns, budget: Budget) -> dict[int, list[Meeting]]:
+    """The meetings of each bench, by its number in the chain."""
+    meetings = dict[int, list[Meeting]]()
+    for block in range(0, met.own.size, chain.at_once):
+        some = slice(block, block + chain.at_once)
+        position = chain.place(met.travel[some], budget)
+        rows, own, other = np.arange(len(position)), met.own[some], met.other[some]
+        x, y = (0.5 * (position[rows, own] + position[rows, own + 1])).T
+        dragons = np.searchsorted(firsts, other, side="right") - 1
+        columns = (
+            own,
+            met.travel[some],
+            other - firsts[dragons],
+            met.left[some],
+            met.gap[some],
+            met.cosine[some],
+            x,
+            y,
+            dragons,
+            met.ahead[some],
+        )
+        for k, time, bench, left, gap, cosine, *rest in zip(*(column.tolist() for column in columns), strict=True):
+            side = Side.LEFT if left > 0.0 else Side.RIGHT
+            meetings.setdefault(k, []).append(Meeting(time, bench, side, gap, cosine < 0.0, *rest))
+    return meetings
+
+
+def _later(cues: BenchCues, delay: float, begin: float) -> BenchCues:
+    """The cues on the clock of the performance, which begins at a time [s]: a dragon stands from then on."""
+
+    def later(at: Stand) -> Stand:
+        return replace(at, time=at.time + delay)
+
+    pauses = tuple(replace(one, begin=one.begin + delay, end=one.end + delay) for one in cues.pauses)
+    turns = tuple(replace(one, begin=one.begin + delay, end=one.end + delay) for one in cues.turns)
+    fastest = replace(cues.fastest, time=cues.fastest.time + delay)
+    start = replace(cues.start, time=begin)
+    begins, done = later(cues.begin), later(cues.done)
+    return replace(cues, start=start, begin=begins, done=done, fastest=fastest, pauses=pauses, turns=turns)

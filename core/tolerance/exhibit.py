@@ -19,7 +19,9 @@ The result reports the largest stray, measured in the pose.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol, TypeVar
 
 import numpy as np
 
@@ -65,6 +67,16 @@ class Exhibit(WithArrays):
         return (
             f"bench {a} and {other} overlap by {display(self.depth, 'm')} with strays up to {display(self.stray, 'm')}"
         )
+
+
+class Shown(Protocol):
+    """A pose, with the depth of the overlap that it shows [m]."""
+
+    @property
+    def depth(self) -> float: ...
+
+
+Pose = TypeVar("Pose", bound=Shown)
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,18 +158,22 @@ def body(dragon: Dragon, handles: Floats, k: int) -> Body:
     return Body(x, y, heading, float(dragon.chords[k]), half_length, half_width)
 
 
+def separation_of(a: Body, b: Body) -> tuple[float, float]:
+    """Separation of two bodies [m], and the direction of its normal [rad]."""
+    poses = np.array([[body.x, body.y, body.heading] for body in (a, b)])
+    sizes = np.array([[2.0 * body.half_length, 2.0 * body.half_width] for body in (a, b)])
+    one, two = frames(poses, sizes)
+    apart = frames_separation(one[None], two[None])
+    normal = apart.normal[0]
+    return float(apart.separation[0]), math.atan2(normal[1], normal[0])
+
+
 def exhibit(
-    dragon: Dragon,
-    handles: Floats,
-    pair: tuple[int, int | None],
-    edge: Body | None,
-    bearing: float,
-    safe: float,
-    time: float,
+    dragon: Dragon, handles: Floats, pair: tuple[int, int | None], edge: Body | None, safe: float, time: float
 ) -> Exhibit | None:
     """A pose of the whole dragon in which a pair overlaps, with strays little above the safe ones; None if not found.
 
-    handles: (n + 1, 2) nominal places [m]; edge: in place of a second bench; bearing: of the normal [rad]
+    handles: (n + 1, 2) nominal places [m]; edge: in place of a second bench
     With one bench between the pair, the pose may show three other consecutive benches, if that takes smaller strays.
     """
     first, second = pair
@@ -168,20 +184,41 @@ def exhibit(
         threes = {first, *range(min(dragon.uniform_from + 1, dragon.benches - 2, THREES_TRIED))}
         folds = [pose for k in sorted(threes) for pose in [_folded(dragon, handles, k, time)] if pose is not None]
         return min(folds, key=lambda pose: pose.stray, default=None)
-    high = min(TRIED_TO * safe + 2.0 * DEPTH, 0.5 * float(dragon.chords.min()))
-    # A stray larger by x lets the middle of each bench go x further in any direction, so the gap closes by as much.
-    moving = 1 if second is None else 2
-    stray = safe + max(0.0, nearest_rotated(a, other, bearing, safe)[0] + DEPTH) / moving
-    least, most = (step * safe + DEPTH for step in TRIED_STEPS)
-    while stray <= high:
-        _, rotation_a, rotation_b, way = nearest_rotated(a, other, bearing, stray)
-        wanted = {first: a.strays(way, rotation_a, stray)}
+
+    def posed(way: float, rotations: tuple[float, float], stray: float) -> Exhibit | None:
+        wanted = {first: a.strays(way, rotations[0], stray)}
         if second is not None:
-            wanted[second] = other.strays(way + math.pi, rotation_b, stray)
-        pose = _pose_with(dragon, handles, wanted, (*pair, edge), time)
+            wanted[second] = other.strays(way + math.pi, rotations[1], stray)
+        return _pose_with(dragon, handles, wanted, (*pair, edge), time)
+
+    bearing = separation_of(a, other)[1]
+    return first_overlap(a, other, bearing, safe, 0.5 * float(dragon.chords.min()), posed)
+
+
+def first_overlap(
+    a: Body,
+    b: Body,
+    bearing: float,
+    safe: float,
+    most: float,
+    posed: Callable[[float, tuple[float, float], float], Pose | None],
+) -> Pose | None:
+    """The pose with the least stray found, little above the safe one, in which two bodies overlap; None if none is.
+
+    posed: the pose in which both go as far as they can towards each other, in a direction [rad], with rotations [rad]
+        and a stray [m]; most: largest stray that is tried [m]
+    """
+    high = min(TRIED_TO * safe + 2.0 * DEPTH, most)
+    # A stray larger by x lets the middle of each bench go x further in any direction, so the gap closes by as much.
+    moving = 2 if b.chord else 1
+    stray = safe + max(0.0, nearest_rotated(a, b, bearing, safe)[0] + DEPTH) / moving
+    least, longest = (step * safe + DEPTH for step in TRIED_STEPS)
+    while stray <= high:
+        _, *rotations, way = nearest_rotated(a, b, bearing, stray)
+        pose = posed(way, (rotations[0], rotations[1]), stray)
         if pose is not None and pose.depth > 0.0:
             return pose
-        stray += most if pose is None else min(max(least, -pose.depth / moving), most)
+        stray += longest if pose is None else min(max(least, -pose.depth / moving), longest)
     return None
 
 
@@ -210,11 +247,7 @@ def _pose_with(
     first, second, edge = met
     other = edge if second is None else body(dragon, moved, second)
     assert other is not None
-    both = body(dragon, moved, first), other
-    poses = np.array([[one.x, one.y, one.heading] for one in both])
-    sizes = np.array([[2.0 * one.half_length, 2.0 * one.half_width] for one in both])
-    a, b = frames(poses, sizes)
-    depth = -float(frames_separation(a[None], b[None]).separation[0])
+    depth = -separation_of(body(dragon, moved, first), other)[0]
     return Exhibit(time, moved, met[:2], depth, float(np.hypot(*(moved - handles).T).max()))
 
 

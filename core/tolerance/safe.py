@@ -15,20 +15,21 @@ pairs are searched again.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
+from typing import Protocol, TypeVar
 
-from core.contact import clearance
 from core.contact.between import held_apart
-from core.contact.clearance import PROFILE_STEP, refined_dip
 from core.contact.fold import clear_to_fold
+from core.contact.gaps import Gaps, refined, sampled, sampled_again, sampled_least
 from core.contact.march import TOUCHES
 from core.contact.search import ContactSearch
+from core.contact.stretch import Stretch
 from core.dance import Dance
 from core.dragon import Dragon
 from core.kernels import NO_BRACKET, Budget, Ended
-from core.kernels.results import Dip
+from core.kernels.results import Dip, Marched
 from core.shapes.reach import Reach, gains, reach, simple_reach
 from core.values import Floats
 
@@ -43,6 +44,8 @@ GRAZE_WITHIN, GRAZE_STEPS = 2e-5, 20
 SAMPLED_BEYOND = 1.01
 # Strays below this count as none [m]: rounding hides their effect.
 STRAY_MIN = 1e-9
+
+G_co = TypeVar("G_co", bound=Gaps, covariant=True)
 
 
 @dataclass(frozen=True)
@@ -62,34 +65,40 @@ class Field:
     budget: Budget
     between: int = 1
 
-    def search(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> ContactSearch:
-        """A search for contacts of the ground that benches may cover."""
+    def gaps(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> Stretch:
+        """The gaps of the ground that benches may cover."""
         where = (self.dance.dragon, self.dance.path, 0.0, self.edges)
         search = ContactSearch(*where, work=self.work, budget=self.budget, stray=stray, covered=covered)
         search.leave_out(self.between)
-        return search
+        return Stretch(search, self.span, self.dance.clock.slowest, self.fold)
+
+    def march(self, stray: float, begin: float) -> tuple[Stretch, bool, Marched]:
+        gaps, until = self.gaps(stray), self.span[1]
+        ended, result = gaps.search.march(until, NO_BRACKET, start=begin)
+        self.budget.afford()
+        passed = ended is Ended.REACHED
+        if self.fold is not None and result.touching is None and ended in (Ended.REACHED, Ended.STUCK):
+            passed = clear_to_fold(gaps.search, min(result.proven, until), self.fold)
+        return gaps, passed, result
+
+    @property
+    def straying(self) -> float:
+        return 2.0 if self.edges is None else 1.0
 
     @cached_property
     def gain(self) -> float:
-        """Gap, relative to the stray, from which on no two grounds meet [1]."""
-        return (1 if self.edges is not None else 2) * float(gains(self.dance.dragon).max())
+        return self.straying * float(gains(self.dance.dragon).max())
 
     @cached_property
-    def in_place(self) -> clearance.ClearanceSamples:
-        """Clearances of the benches in their nominal places."""
-        return clearance.samples_between(self.search(0.0), *self.span)
-
-    def sampled(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> Dip:
-        """The least clearance of the samples at which some ground can reach another."""
-        search, near = self.search(stray, covered), SAMPLED_BEYOND * self.gain * stray
-        return clearance.sampled_least(search, clearance.samples_where(search, self.in_place, near))
+    def in_place(self) -> list[Dip]:
+        return sampled(self.gaps(0.0))
 
 
 @dataclass(frozen=True, slots=True)
 class SafeStray:
     """A stray that is safe in one field, and the dip that limits it.
 
-    touches: whether there is a contact without any stray; independent, simple: see Tolerance
+    touches: whether there is a contact without any stray; independent, simple: see Tolerance; proof: the last march
     """
 
     stray: float
@@ -98,6 +107,7 @@ class SafeStray:
     touches: bool = False
     independent: float = math.inf
     simple: float = math.inf
+    proof: Marched | None = None
 
 
 def held_stray(field: Field, most: float) -> SafeStray:
@@ -105,7 +115,7 @@ def held_stray(field: Field, most: float) -> SafeStray:
     safe = _safe_stray(field, most)
     simple, independent = _simple(field, safe), safe.stray
     alone = replace(safe, independent=independent, simple=simple)
-    if safe.touches or field.edges is not None or safe.dip is None or safe.dip.benches[1] != safe.dip.benches[0] + 2:
+    if safe.touches or field.edges is not None or safe.dip is None or safe.dip.pair[1] != safe.dip.pair[0] + 2:
         return alone
     held = held_apart(field.dance, field.span[1], most, field.budget)
     others = SafeStray(held, None, 0)
@@ -119,11 +129,12 @@ def held_stray(field: Field, most: float) -> SafeStray:
 
 def _simple(field: Field, safe: SafeStray) -> float:
     """The simple bound [m], or the safe stray if that is less."""
-    stray = field.sampled(0.0).gap / field.gain
+    simple = partial(field.gaps, covered=simple_reach)
+    stray = sampled_ground(field, 0.0).gap / field.gain
     for _ in range(GRAZE_STEPS):
         if stray < STRAY_MIN:
             return 0.0
-        grazing = _grazing(field, stray, field.sampled(stray, simple_reach), simple_reach)[0]
+        grazing = _grazing(simple, field.straying, stray, sampled_ground(field, stray, simple))[0]
         if abs(grazing - stray) <= GRAZE_WITHIN * stray:
             break
         stray = grazing
@@ -131,61 +142,86 @@ def _simple(field: Field, safe: SafeStray) -> float:
 
 
 def _safe_stray(field: Field, most: float) -> SafeStray:
-    """The largest stray up to `most` that is safe in a field, slightly less than its samples and marches show."""
-    begin, until = field.span
-    nominal = field.sampled(0.0)
-    if nominal.gap <= 0.0:
-        state, touch, _ = field.search(0.0).approach(begin, until, field.dance.clock.slowest)
-        at_first = (
-            Dip(0.0, touch.touching, touch.benches) if touch.touching is not None and state in TOUCHES else nominal
-        )
-        return SafeStray(0.0, at_first, touch.steps, touches=True)
+    """The largest stray up to `most` that is safe in a field."""
+    nominal = sampled_ground(field, 0.0)
+    if nominal.gap > 0.0:
+        return safe_stray(field, most, nominal)
+    state, touch, _ = field.gaps(0.0).search.approach(*field.span, field.dance.clock.slowest)
+    if touch.touching is not None and state in TOUCHES:
+        nominal = Dip(0.0, touch.touching, touch.benches)
+    return SafeStray(0.0, nominal, touch.steps, touches=True)
+
+
+class Ground(Protocol[G_co]):
+    """The ground that benches may cover if they stray, over a span of moments (core/contact/gaps.py).
+
+    straying: number of two that meet which stray [1]; gain: gap, relative to the stray, from which on no two grounds
+    meet [1]; in_place: samples of the benches in their nominal places
+    """
+
+    @property
+    def span(self) -> tuple[float, float]: ...
+    @property
+    def straying(self) -> float: ...
+    @property
+    def gain(self) -> float: ...
+    @property
+    def in_place(self) -> Sequence[Dip]: ...
+    def gaps(self, stray: float, /) -> G_co:
+        """The gaps of the grounds with a stray [m]."""
+
+    def march(self, stray: float, begin: float, /) -> tuple[G_co, bool, Marched]:
+        """The gaps with a stray, whether no grounds meet from a moment on, which is proven, and the march."""
+
+
+def sampled_ground(ground: Ground[Gaps], stray: float, gaps_of: Callable[[float], Gaps] | None = None) -> Dip:
+    """The least gap of the samples at which some ground can reach another. gaps_of: default: ground.gaps"""
+    gaps = (gaps_of or ground.gaps)(stray)
+    return sampled_least(gaps, sampled_again(gaps, ground.in_place, SAMPLED_BEYOND * ground.gain * stray))
+
+
+# Input:  the largest stray to be tried, and the least gap of the samples in place.
+# State:  `stray` and `limiting`, the least stray known at which grounds graze, and where; `proven_to`, up to which all
+#         is clear with a larger one.
+# Output: a stray slightly below, proven to the end.
+def safe_stray(ground: Ground[Gaps], most: float, nominal: Dip) -> SafeStray:
+    """The largest stray up to `most` that is safe on a ground, slightly less than its samples and marches show."""
     # Two parallel benches that both stray towards each other meet if the stray is half their clearance.
-    first = min(most, nominal.gap * (1.0 if field.edges is not None else 0.5))
-    dip = field.sampled(first)
-    stray, limiting = (first, None) if dip.gap > 0.0 else _grazing(field, first, dip)
-    steps, proven_to = 0, begin
+    first = min(most, nominal.gap / ground.straying)
+    dip = sampled_ground(ground, first)
+    stray, limiting = (first, nominal if first < most else None)
+    if dip.gap <= 0.0:
+        stray, limiting = _grazing(ground.gaps, ground.straying, first, dip)
+    steps, proven_to = 0, ground.span[0]
     for below in BELOW:
         for _ in range(ROUNDS):
             tried = stray * (1.0 - below) if limiting is not None else stray
             if tried < STRAY_MIN:
                 return SafeStray(0.0, limiting, steps)
-            search = field.search(tried)
-            state, result = search.march(until, NO_BRACKET, start=proven_to)
-            search.budget.afford()
-            steps += result.steps
-            if state is Ended.REACHED or (state is Ended.STUCK and result.touching is None):
-                if field.fold is not None and not clear_to_fold(search, min(result.proven, until), field.fold):
-                    break
-                if state is Ended.REACHED or field.fold is not None:
-                    return SafeStray(tried, limiting, steps)
+            gaps, passed, marched = ground.march(tried, proven_to)
+            steps += marched.steps
+            if passed:
+                return SafeStray(tried, limiting, steps, proof=marched)
+            if marched.touching is None:
                 break
-            if result.touching is None:
-                break
-            proven_to = max(proven_to, result.proven)
-            step = PROFILE_STEP * search.rings.all_shortest
-            around = (max(begin, result.touching - step), result.touching, min(until, result.touching + step))
-            grazing, limiting = _grazing(field, tried, refined_dip(search, *around))
+            proven_to = max(proven_to, marched.proven)
+            grazing, limiting = _grazing(ground.gaps, ground.straying, tried, refined(gaps, marched.touching))
             stray = min(grazing, tried)
     return SafeStray(0.0, limiting or nominal, steps)  # no stray was proven to be safe
 
 
-def _grazing(
-    field: Field, stray: float, dip: Dip, covered: Callable[[Dragon, float], Reach] = reach
-) -> tuple[float, Dip]:
+def _grazing(gaps_of: Callable[[float], Gaps], straying: float, stray: float, dip: Dip) -> tuple[float, Dip]:
     """The stray near this one at which the grounds in a dip only graze, to GRAZE_WITHIN of it [m], and the dip then.
 
     If the stray is larger by x, the ground of each bench reaches at least x further in every direction. So the gap
-    falls by at least x for each bench, with the slope of the last two strays.
+    falls by at least x for each bench that strays, with the slope of the last two strays.
     """
-    slope = 1.0 if field.edges is not None else 2.0
+    slope = straying
     for _ in range(GRAZE_STEPS):
         if abs(dip.gap) <= slope * GRAZE_WITHIN * stray:
             break
         last, stray = (stray, dip.gap), max(stray + dip.gap / slope, 0.0)
-        search = field.search(stray, covered)
-        around, travel = PROFILE_STEP * search.rings.all_shortest, dip.travel
-        dip = refined_dip(search, max(field.span[0], travel - around), travel, min(field.span[1], travel + around))
+        dip = refined(gaps_of(stray), dip.moment)
         if stray != last[0]:
             slope = max(slope, (dip.gap - last[1]) / (last[0] - stray))
     return stray, dip

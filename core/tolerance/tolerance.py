@@ -8,22 +8,24 @@ stray.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
 
 from core.claims.certificate import WithClaim
 from core.claims.claim import BenchBetween, ClaimKind, DanceSummary, StrayClaim
+from core.contact.encounter_answer import EncounterEvidence
 from core.contact.search import NEAR_WORK_BUDGET, before_fold
 from core.contact.walls import own_edges
 from core.dance import Dance
 from core.display import Readable, display
-from core.errors import checked_type, question_about
+from core.errors import checked_type, or_about, question_about
 from core.kernels import Budget
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
-from core.shapes.rectangles import bench_poses, frames, frames_separation
+from core.performance import Performance
+from core.tolerance.between_dragons import Between, PerformanceExhibit
 from core.tolerance.exhibit import Body, Exhibit, exhibit
 from core.tolerance.safe import Field, SafeStray, held_stray
 from core.venue import Venue
@@ -95,7 +97,95 @@ class Tolerance(Readable):
         return f"{safe}; with {display(touching, 'm')} {touch}"
 
 
-@question_about("dance", Dance, "how far people may stray was not found")
+@dataclass(frozen=True, slots=True, repr=False)
+class PerformanceTolerance(Readable):
+    """Tolerance of a performance to strays of people.
+
+    stray: proven safe: while no hole is further from its place, nothing touches, neither benches of one dragon nor of
+        two nor the venue; 0: no stray is known to be safe, for instance because two dragons touch without any [m]
+    stray_bracket: proven safe; shown to touch, None where no such poses were found [m]
+    limited_by: effect of a larger stray. benches: two benches touch; venue: a bench and an edge of the venue; chord: no
+        contact up to half of the shortest chord
+    dragons: the dragon whose benches limit the stray, or the two with one each, in the order of the dances; empty if
+        nothing limits it
+    time: time at which these are nearest to touching; None if nothing limits the stray [s]
+    benches: the pair, the second None for an edge of the venue; None if nothing limits the stray
+    area: name of the square or of the obstacle; None if none limits the stray
+    exhibit: poses in which they overlap, with strays up to the second end of the bracket; None where none were found
+    own: the tolerance of each dragon by itself in the venue, on the clock of its own dance; one that stands has that of
+        the first or the last STANDING of its dance
+    certificate: proof that no two dragons touch with the stray; None for one dragon, or without a safe stray
+    start: start of the time asked about [s]
+    stop: end of the time asked about [s]
+    performance: the performance of the question
+    """
+
+    stray: float
+    stray_bracket: tuple[float, float | None]
+    limited_by: Limit
+    dragons: tuple[int, ...]
+    time: float | None
+    benches: tuple[int, int | None] | None
+    area: str | None
+    exhibit: PerformanceExhibit | None
+    own: tuple[Tolerance, ...]
+    certificate: EncounterEvidence | None
+    start: float
+    stop: float
+    performance: Performance = field(repr=False, compare=False)
+
+    def _line(self) -> str:
+        safe = f"strays up to {display(self.stray, 'm')} are safe" if self.stray else "no stray is known to be safe"
+        touching = self.stray_bracket[1]
+        if touching is None or self.benches is None:
+            return safe
+        names = [self.performance.name_of(k) for k in self.dragons]
+        other = self.area if self.benches[1] is None else f"bench {self.benches[1]} of {names[-1]}"
+        touch = f"bench {self.benches[0]} of {names[0]} and {other} touch at {display(self.time, 's')}"
+        return f"{safe}; with {display(touching, 'm')} {touch}"
+
+
+@question_about("performance", Performance, "how far people may stray was not found")
+def _tolerance_together(
+    performance: Performance,
+    venue: Venue | None = None,
+    *,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
+) -> PerformanceTolerance:
+    budget = budget or Budget()
+    if venue is not None:
+        performance = replace(performance, venue=venue)
+    begin, until = span = performance.span(start, stop)
+    own = tuple(
+        tolerance(part.dance, performance.venue, start=first, stop=last, budget=budget)
+        for part in performance.parts
+        for first, last in [part.own_span(*span)]
+    )
+    k = min(range(len(own)), key=lambda k: own[k].stray)
+    between = Between(performance, span, budget)
+    safe = between.safe(own[k].stray)
+    rest = (own, between.evidence(safe), begin, until, performance)
+    if (dip := safe.dip) is not None:
+        both = between.exhibit(safe, dip)
+        bracket = (safe.stray, None if both is None else both.stray)
+        dragons, benches = between.stage.pair(*dip.pair)
+        limit = (Limit.BENCHES, dragons, dip.moment, benches, None)
+        return PerformanceTolerance(safe.stray, bracket, *limit, both, *rest)
+    alone, delay = own[k], performance.parts[k].delay
+    limits = () if alone.benches is None else (k,)
+    time = None if alone.time is None else alone.time + delay
+    shown, pose = None, alone.exhibit
+    if pose is not None:
+        shown = PerformanceExhibit(pose.time + delay, (k,), (pose.handles,), pose.benches, pose.depth, pose.stray)
+    return PerformanceTolerance(
+        alone.stray, alone.stray_bracket, alone.limited_by, limits, time, alone.benches, alone.area, shown, *rest
+    )
+
+
+@or_about(Performance, _tolerance_together)
+@question_about("dance", (Dance, Performance), "how far people may stray was not found")
 def tolerance(
     dance: Dance,
     venue: Venue | None = None,
@@ -108,9 +198,11 @@ def tolerance(
 
     A stray is the distance of a hole from its place at the same instant, by people and by the play of its pin. Every
     motion that keeps every chord is allowed; speeds do not matter. Neighbours, which share a hole, are never a pair.
-    venue: its edges count too; start, stop: [s]; defaults: dance.begin and the end of the run
-    returns: see Tolerance. The stray is 0 if benches touch, or are in the venue's edges, without any stray; it is also
-        0, without a second end, if the search gave up before it proved a stray
+    venue: its edges count too, or those of the performance; start, stop: [s]; defaults: dance.begin and the end of the
+        run, or those of the performance
+    returns: see Tolerance; of a Performance a PerformanceTolerance: the stray is the same for all dragons, and benches
+        of two dragons count too. The stray is 0 if benches touch, or are in the edges of the venue, without any; it is
+        also 0, without a second end, if the search gave up before it proved a stray
     raises: InvalidValue; OutsideRun; TooMuchWork
 
     >>> from core import Dragon, Spiral
@@ -125,11 +217,11 @@ def tolerance(
     most = 0.5 * float(dance.dragon.chords.min())
     least, limit = SafeStray(most, None, 0), None
     steps, independent, simple = 0, most, most
-    for field in _fields(dance, venue, (begin, until), budget):
-        safe = held_stray(field, least.stray)
+    for ground in _fields(dance, venue, (begin, until), budget):
+        safe = held_stray(ground, least.stray)
         steps, independent, simple = steps + safe.steps, min(independent, safe.independent), min(simple, safe.simple)
         if safe.dip is not None:
-            least, limit = safe, field
+            least, limit = safe, ground
     known = (least.stray, min(independent, least.stray), min(simple, least.stray))
     proof = StrayProof(_claim(dance, least, known[1], (begin, until), venue), steps)
     if least.dip is None or limit is None:
@@ -159,21 +251,15 @@ def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget
 def _exhibit(field: Field, safe: SafeStray, time: float, frame: Frame) -> Exhibit | None:
     """A pose of the whole dragon in which the pair of a dip overlaps; None if not found. frame: of the search"""
     assert safe.dip is not None
-    dragon, (a, b) = field.dance.dragon, safe.dip.benches
+    dragon, (a, b) = field.dance.dragon, safe.dip.pair
     at = field.dance.clock.steady(np.array(time))
     handles = trajectory(field.dance.steady, at, budget=field.budget).position
-    pose, size = bench_poses(handles), np.stack([dragon.lengths, dragon.widths], axis=-1)
-    edge = None
-    if field.edges is None:
-        other = frames(pose[b : b + 1], size[b : b + 1])
-    else:
+    pair, edge = (a, b if field.edges is None else None), None
+    if field.edges is not None:
         x1, y1, x2, y2 = field.edges[b - dragon.benches - 1].tolist()
         heading = math.atan2(y2 - y1, x2 - x1)
         edge = Body(0.5 * (x1 + x2), 0.5 * (y1 + y2), heading, 0.0, 0.5 * math.hypot(x2 - x1, y2 - y1), 0.0)
-        other = frames(np.array([[edge.x, edge.y, edge.heading]]), np.array([[2.0 * edge.half_length, 0.0]]))
-    normal = frames_separation(frames(pose[a : a + 1], size[a : a + 1]), other).normal[0]
-    pair = (a, b if field.edges is None else None)
-    overlapping = exhibit(dragon, handles, pair, edge, math.atan2(normal[1], normal[0]), safe.stray, time)
+    overlapping = exhibit(dragon, handles, pair, edge, safe.stray, time)
     return None if overlapping is None else replace(overlapping, handles=frame.points(overlapping.handles))
 
 
@@ -183,7 +269,7 @@ def _claim(
     between = None
     if independent < safe.stray:
         between = BenchBetween.HELD
-    elif safe.dip is not None and safe.dip.benches[1] == safe.dip.benches[0] + 2:
+    elif safe.dip is not None and safe.dip.pair[1] == safe.dip.pair[0] + 2:
         between = BenchBetween.UNUSED
     kind = ClaimKind.SAFE_STRAY if safe.stray > 0.0 else ClaimKind.NO_SAFE_STRAY
     touches, placed = safe.stray <= 0.0 and safe.touches, venue is not None

@@ -21,7 +21,7 @@ ROOMS = {
     "design": ("Design: pitches and turns", ("core.design",)),
     "tolerance": ("Tolerance", ("core.tolerance",)),
     "people": ("The people of a dance", ("core.people",)),
-    "performance": ("Several dragons", ("core.performance",)),
+    "performance": ("Several dragons", ("core.performance", "core.safe_delay")),
     "proposal": ("Proposals for a square", ("core.proposal",)),
     "ground": ("Ground that benches sweep", ("core.ground",)),
     "shapes": ("Rectangles and overlaps", ("core.shapes",)),

@@ -23,7 +23,7 @@ from core import (
 )
 from tests.support.depth import further
 from tests.support.every_digit import every_digit
-from tests.support.public_calls import CALLS
+from tests.support.public_calls import CALLS, OF_SEVERAL
 from tests.support.refused import refused
 from tests.support.shared_dances import square
 
@@ -53,7 +53,7 @@ QUESTIONS = {
     for call, arguments in (CALLS | LARGER).items()
     if inspect.isfunction(call) and "budget" in inspect.signature(call).parameters
 }
-TAKING = {*QUESTIONS, "Route"}
+TAKING = {*QUESTIONS, "Route"} - {call.__name__ for call in OF_SEVERAL}
 QUESTIONS["trajectory on a route"] = partial(trajectory, Dance(Dragon(30), Turn(1.7)), [0.0, 9.0])
 QUESTIONS["first_contact with a stray"] = partial(first_contact, SPIRAL, stray=0.02)
 QUESTIONS["Route"] = lambda budget: Route([Waypoints(((0, 0), (6, 1), (11, 6), (9, 13)))], budget=budget).table

@@ -8,7 +8,8 @@ import pytest
 
 import core
 from core import BenchDragonError, Dragon, InvalidValue
-from tests.support.public_calls import CALLS, DANCE, DRAGON, SPIRAL
+from core.old_names import NEW
+from tests.support.public_calls import CALLS, DANCE, DRAGON, OF_SEVERAL, PERFORMANCE, SPIRAL
 from tests.support.refused import refused
 
 # What a refusal writes before the name of a parameter, as part of the whole.
@@ -91,6 +92,7 @@ def test_a_number_out_of_range_is_refused_by_name(call):
 
 SUBJECTS = {"dance": "Dance", "dragon": "Dragon", "contact": "FirstContact", "minimum": "MinimumPitch"}
 QUESTIONS = [call for call, good in CALLS.items() if next(iter(good)) in SUBJECTS and not isinstance(call, type)]
+BOTH = [core.first_contact, *OF_SEVERAL, *(call.__wrapped__ for call in OF_SEVERAL)]
 # Further arguments, and wrong subjects.
 FURTHER = [(), (0.55,), (SPIRAL, 300.0), (None, None, None, None)]
 
@@ -99,28 +101,18 @@ FURTHER = [(), (0.55,), (SPIRAL, 300.0), (None, None, None, None)]
 def test_a_wrong_subject_is_refused_by_name_whatever_arguments_follow(call):
     name = next(iter(CALLS[call]))
     for further, wrong in product(FURTHER, [None, 0.55, SPIRAL, Dragon]):
-        with refused(name, kinds=f"a {SUBJECTS[name]}"):
+        several = " or a FirstEncounter" if call is core.contact_check else " or a Performance" if call in BOTH else ""
+        with refused(name, kinds=f"a {SUBJECTS[name]}{several}"):
             call(wrong, *further)
 
 
-@pytest.mark.parametrize(
-    ("one", "several"),
-    [
-        ("bench_cues", "performance_cues"),
-        ("check", "performance_check"),
-        ("clearance_profile", "performance_clearance"),
-        ("envelope", "performance_envelope"),
-        ("first_contact", "first_encounter"),
-        ("least_clearance", "performance_least_clearance"),
-        ("quick_check", "performance_check"),
-        ("tolerance", "performance_tolerance"),
-        ("trajectory", "performance_trajectory"),
-    ],
-)
-def test_a_performance_is_sent_to_the_question_about_several_dragons(one, several):
-    assert callable(getattr(core, several))
-    with refused("dance", kinds="a Dance", other=several):
-        getattr(core, one)(core.Performance([core.Part(DANCE)]), 0.55)
+def test_old_names_of_questions_about_several_dances_ask_the_question_about_one_and_warn():
+    for old, new in NEW.items():
+        with pytest.warns(DeprecationWarning, match=rf"{new}\(\), which takes a Performance too"):
+            question = getattr(core, old)
+        query = {name: value for name, value in CALLS[getattr(core, new)].items() if name not in ("dance", "dragon")}
+        first = (0,) if new == "bench_cues" else ()
+        assert repr(question(PERFORMANCE, *first, **query)) == repr(getattr(core, new)(PERFORMANCE, **query))
 
 
 def test_a_right_dance_keeps_the_words_of_python():

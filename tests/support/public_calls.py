@@ -1,19 +1,20 @@
 """A short call of each public function and class of core, which tests of wrong types, budgets and displays share."""
 
+from functools import wraps
 from inspect import isfunction, signature
 
 import numpy as np
 
 import core
 from core import Area, Dragon, Line, Spiral, Venue
+from core.old_names import NEW
 
 DRAGON, SPIRAL = Dragon(benches=5), Spiral()
 SQUARE = Venue(Area("square", (((-30, -30), (30, -30), (30, 30), (-30, 30), (-30, -30)),)))
 DANCE = core.Dance(DRAGON, SPIRAL)
 POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
-PERFORMANCE, NEAR = (
-    core.Performance([core.Part(DANCE), core.Part(core.Dance(DRAGON, core.Spiral(centre=(x, 0.0), rotation=3.0)))])
-    for x in (40.0, 18.3)
+PERFORMANCE = core.Performance(
+    [core.Part(DANCE), core.Part(core.Dance(DRAGON, core.Spiral(centre=(18.3, 0.0), rotation=3.0)))]
 )
 # The second one stands where the first one does.
 ENCOUNTER = core.first_encounter(core.Performance([core.Part(DANCE), core.Part(core.Dance(DRAGON, SPIRAL))]), stop=9.0)
@@ -48,6 +49,7 @@ COMMON = {
 OWN = {
     core.bench_outlines: {"handles": np.zeros((6, 2)) + np.arange(6)[:, None]},
     core.bench_poses: {"handles": np.zeros((3, 2)) + np.arange(3)[:, None]},
+    core.bench_cues: {"dragon": 0},
     core.card_of: {"bench": core.bench_cues(DANCE, [2], stop=9.0)[0]},
     core.contact_check: {"contact": core.first_contact(DANCE)},
     core.contact_probability: {"model": core.Wobble(), "samples": 1, "seed": 1},
@@ -56,9 +58,7 @@ OWN = {
     core.encounter_check: {"encounter": ENCOUNTER},
     core.minimum_pitch: {"dragons": 2},
     core.overlaps: {"engine": core.Engine.FCL},
-    core.performance_check: {"speed_limit": 0.9},
-    core.performance_cues: {"dragon": 0},
-    core.performance_tolerance: {"performance": NEAR},
+    core.check: {"speed_limit": 0.9},
     core.pitch_check: {"minimum": core.minimum_pitch(DRAGON)},
     core.pitch_scan: {"pitches": [0.5, 0.6], "start_turns": 8.0},
     core.propose: {
@@ -105,4 +105,18 @@ def arguments(call):
     return {name: values[name] for name in names if name in values}
 
 
+def of_several(call):
+    """The same question, under a name of its own, to be asked of several dances."""
+
+    @wraps(call)
+    def asked(dance, *further, **query):
+        return call(dance, *further, **query)
+
+    asked.__qualname__ = asked.__name__ = f"{call.__name__}_of_several"
+    return asked
+
+
 CALLS = {call: arguments(call) for call in [*FUNCTIONS, *OWN]}
+# Questions about a dance that take several too, but first_contact(), which is then first_encounter().
+OF_SEVERAL = [of_several(getattr(core, name)) for name in (*NEW.values(), "quick_check")]
+CALLS |= {call: CALLS[call.__wrapped__] | {"dance": PERFORMANCE} for call in OF_SEVERAL}

@@ -1,6 +1,6 @@
 """Cards of two dragons in one spiral: the cues of core for each bench, on the clock of both, and on paper.
 
-That these cues are all there are is tried in tests/core/performance/test_cues.py, the choice of a card in
+That these cues are all there are is tried in tests/core/people/test_performance_cues.py, the choice of a card in
 tests/core/people/test_cards.py.
 """
 
@@ -42,7 +42,7 @@ def pairs(client):
     """Each card of the answer, with the dragon and the card of core."""
     performance, _ = CuesRequest.model_validate(TWO).to_placed(Settings())
     answer = client.post("/cues", json=TWO).raise_for_status().json()["cards"]
-    several = [(k, card_of(cues)) for k in (0, 1) for cues in core.performance_cues(performance, k, stop=TWO["stop"])]
+    several = [(k, card_of(cues)) for k in (0, 1) for cues in core.bench_cues(performance, dragon=k, stop=TWO["stop"])]
     return [(card, k, of_core) for card, (k, of_core) in zip(answer, several, strict=True)]
 
 

@@ -12,7 +12,7 @@ from app.questions.films import QUESTION, FilmRequest, shared_music
 from app.settings import Settings
 from app.wire.messages import checked
 from app.wire.question import Terms
-from core import bench_outlines, first_contact, first_encounter, performance_trajectory
+from core import bench_outlines, first_contact, first_encounter, trajectory
 from core.language import Language, speaking
 from tests.app.files.test_film import assert_heard, decoded
 
@@ -43,7 +43,7 @@ def test_every_bench_is_drawn_in_the_colour_of_its_dragon():
 
 
 def outlines_at(time):
-    pairs = zip(PERFORMANCE.parts, performance_trajectory(PERFORMANCE, time), strict=True)
+    pairs = zip(PERFORMANCE.parts, trajectory(PERFORMANCE, time), strict=True)
     return [bench_outlines(part.dance.dragon, one.position) for part, one in pairs]
 
 

@@ -13,7 +13,7 @@ from app.files.performance_tables import PerformanceTable, performance_file
 from app.files.tables import ARROW_TYPE, CSV_TYPE, XLSX_TYPE
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
-from core import TooLarge, performance_trajectory
+from core import TooLarge, trajectory
 from core.language import speaking
 
 TWO = json.loads("""{"dances": [
@@ -27,7 +27,7 @@ TIMES = np.array(TWO["times"], dtype=np.float64)
 def results():
     """Positions (T, H, 2) and speeds (T, H) of each dragon."""
     performance = TrajectoryRequest.model_validate(TWO).to_performance(Settings())
-    return [(one.position, one.speed) for one in performance_trajectory(performance, TIMES)]
+    return [(one.position, one.speed) for one in trajectory(performance, TIMES)]
 
 
 def test_json_has_a_table_for_each_dragon(ask):
@@ -71,9 +71,9 @@ def test_a_workbook_has_two_sheets_for_each_dragon_and_refuses_too_many_columns(
     assert [row[0] for row in rows[1:5]] == ["Zhou x (m)", "Zhou y (m)", "Wu x (m)", "Wu y (m)"]
     assert rows[1][1:] == tuple(np.round(position[:, 0, 0], 6).tolist())
     performance = TrajectoryRequest.model_validate(TWO).to_performance(Settings())
-    table = PerformanceTable(performance, performance_trajectory(performance, TIMES))
+    table = PerformanceTable(performance, trajectory(performance, TIMES))
     with speaking("zh"):
         assert "位置 0" in openpyxl.load_workbook(io.BytesIO(performance_file(".xlsx", table))).sheetnames
-    many = performance_trajectory(performance, np.linspace(15.0, 20.0, 20_000))
+    many = trajectory(performance, np.linspace(15.0, 20.0, 20_000))
     with pytest.raises(TooLarge, match="xlsx holds at most"):
         performance_file(".xlsx", PerformanceTable(performance, many))

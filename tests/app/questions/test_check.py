@@ -4,7 +4,7 @@ import pytest
 
 from app.questions.check import CheckRequest
 from app.settings import Settings
-from core import performance_check
+from core import check
 from tests.app.files.test_figures import texts
 from tests.support.asking import box, dance, json_like, written
 from tests.support.command import run, said
@@ -25,7 +25,7 @@ def verdict(ask):
 
 def test_the_failures_are_those_of_core_in_order_of_time(verdict):
     performance, _ = CheckRequest.model_validate(TWO).to_placed(Settings())
-    report = performance_check(performance, margin=0.05, speed_limit=1.2)
+    report = check(performance, margin=0.05, speed_limit=1.2)
     assert (verdict["verdict"], verdict["passed"], verdict["names"]) == ("fails", False, ["east", "north"])
     keys = ("kind", "time", "dragons", "benches", "message")
     known = [[json_like(getattr(failure, key)) for key in keys] for failure in report.failures]

@@ -48,7 +48,7 @@ REQUESTS = {
     ),
     "clearance of several": (
         TWO | {"times": [24, 32, 40]},
-        lambda: core.performance_clearance(two(), [24.0, 32.0, 40.0]),
+        lambda: core.clearance_profile(two(), [24.0, 32.0, 40.0]),
         "time clearance dragons benches grazes",
     ),
     "collision-time": (
@@ -91,7 +91,7 @@ REQUESTS = {
     ),
     "check": (
         TWO | {"margin": 0.05, "speed_limit": 1.0},
-        lambda: core.performance_check(two(), margin=0.05, speed_limit=1.0),
+        lambda: core.check(two(), margin=0.05, speed_limit=1.0),
         "start stop least_clearance",
     ),
     "course": (
@@ -132,7 +132,7 @@ REQUESTS = {
     ),
     "tolerance of several": (
         TWO,
-        lambda: core.performance_tolerance(two()),
+        lambda: core.tolerance(two()),
         "stray stray_bracket time dragons benches limited_by",
     ),
     "contact-probability": (

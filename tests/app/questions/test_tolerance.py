@@ -5,7 +5,7 @@ import pytest
 import core
 from app.questions.tolerance import ToleranceRequest
 from app.settings import Settings
-from core import Dragon, performance_tolerance
+from core import Dragon, tolerance
 from tests.support.asking import box, dance, json_like
 
 SMALL = {"benches": 40, "start_turns": 9}
@@ -41,7 +41,7 @@ def test_an_answer_says_which_stray_it_allows_for_and_0_gives_the_same_bytes(ask
 def test_several_dances_have_the_tolerance_of_each_and_are_clear_with_that_of_all(ask):
     got = ask("tolerance", SEVERAL)
     performance, _ = ToleranceRequest.model_validate(SEVERAL).to_placed(Settings())
-    result = performance_tolerance(performance)
+    result = tolerance(performance)
     assert (got["stray"], got["names"]) == (result.stray, ["a", "b"])
     assert got["own"] == [one.stray for one in result.own]
     assert got["exhibit"]["handles"] == json_like(result.exhibit.handles)

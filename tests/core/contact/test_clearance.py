@@ -18,7 +18,7 @@ from core import (
     first_contact,
     least_clearance,
 )
-from core.contact.clearance import PROOF_WIDTHS
+from core.contact.gaps import PROOF_WIDTHS
 from tests.core.contact.test_first_contact import ROUNDING
 from tests.support.near import assert_near
 from tests.support.random_dances import random_dance

@@ -25,8 +25,8 @@ def search():
 def test_a_pair_turns_at_the_bottom_of_its_dip(search):
     _, marched = search.march(CONTACT - 0.1, 0.0, start=405.0, dips=True)
     graze = marched.graze
-    assert graze.benches == GRAZING
-    low, high = graze.travel - 0.05, graze.travel + 0.05
+    assert graze.pair == GRAZING
+    low, high = graze.moment - 0.05, graze.moment + 0.05
     travel, gap = SLOW.dip(low, high, GRAZING)
     assert_near(graze.gap, gap, GAP)
     assert_near(search.bottom(low, high, GRAZING, 1e-10), travel, FLAT)
@@ -37,7 +37,7 @@ def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_after
     assert not others_clear(search, GRAZING, 400.0, stop)
     assert others_clear(search, PAIR, 400.0, stop)
     state, result = search.march(stop, 1e-10, start=400.0)
-    assert (state, result.benches, result.graze.benches) == (Ended.TOUCHED, PAIR, GRAZING)
+    assert (state, result.benches, result.graze.pair) == (Ended.TOUCHED, PAIR, GRAZING)
     assert_near(result.touching, CONTACT, 1e-9)
     assert search.surely_within(CONTACT + 1e-9, PAIR)
     assert not search.surely_within(CONTACT - 1e-9, PAIR)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from core import Arc, Dance, Dragon, Part, Passage, Performance, Route, Spiral, bench_poses, trajectory
+from core.contact.stage import Stage, clear_of_each_other
 from core.design.ways import SearchBetween
 from core.kernels import Budget, spirals_least
 from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, FREE, OMEGA
-from core.performance.stage import Stage, clear_of_each_other
 from tests.support.slow_performance import SlowPerformance
 
 # Instants within a step at which gaps and motions are measured [1], and what a difference quotient may miss [1].

@@ -19,7 +19,7 @@ from core import (
     first_encounter,
     safe_delay,
 )
-from core.performance.safe_delay import END_WIDTH
+from core.safe_delay import END_WIDTH
 from tests.campaigns.hunt_encounters import random_performance
 from tests.support.depth import further, some
 from tests.support.refused import refused

@@ -8,6 +8,8 @@ from itertools import combinations, pairwise
 import numpy as np
 
 from core import kernels
+from core.contact.gaps import PROFILE_STEP, sample_count
+from core.contact.march import FOLD_SLIVER, TRAVEL_ROUNDING
 from core.contact.search import NEAR_WORK_BUDGET, ContactSearch
 from core.dance import NEAR_FOLD
 from core.dragon import Dragon
@@ -21,13 +23,16 @@ from core.kernels.constants import (
     SIZE_COLUMNS,
     ULP,
 )
+from core.kernels.results import Dip
 from core.paths.frame import Frame
-from core.performance.performance import Part, Performance
-from core.sampling import bisect
+from core.performance import Part, Performance
+from core.sampling import bisect, crossing
 from core.shapes.reach import directions, reach
 
 # The instants of an ensemble at which its benches are laid out: both ends of a step, and another one.
 BEFORE, AFTER, PROBED = range(3)
+# Width of the bottom of a graze [s].
+DIP_WIDTH = 1e-10
 # Part by which the length of a step, and the way of a head in it, are widened for the rounding of both [1].
 WIDTH_ROUNDING = 1e-12
 # Largest relative error of a place [1]: a product, a sum and a difference, and as much to spare.
@@ -61,6 +66,12 @@ class Player:
         travels = [self.clock.travel(part.own_time(time)) for time in span]
         furthest = max(search.place, *(max(abs(travel), search.place - travel) for travel in travels))
         self.slip = 2.0 * (search.path.slide + timing + PLACE_ROUNDING * furthest)
+
+    @property
+    def sliver(self) -> float:
+        """Time before its fold that only the bound on the remaining motion covers [s]."""
+        way = FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * abs(self.travel(self.end)) + 4.0 * self.slip
+        return way / self.clock.slowest + 4.0 * float(np.spacing(abs(self.end)))
 
     def travel(self, time: float) -> float:
         """Travel of the head at a time of the performance [m]."""
@@ -238,33 +249,69 @@ class Stage:
         i, j = int(self.owner[a]), int(self.owner[b])
         return (i, j), (a - self.players[i].first, b - self.players[j].first)
 
-    def probe(self, time: float, a: int, b: int) -> None:
+    def rows(self, dragons: tuple[int, int], benches: tuple[int, int]) -> tuple[int, int]:
+        """Rows of a bench of each of two dragons."""
+        (i, j), (a, b) = dragons, benches
+        return self.players[i].first + a, self.players[j].first + b
+
+    def probe(self, time: float, rows: tuple[int, int]) -> None:
         """Lay out two benches at a time [s]."""
-        for row in (a, b):
+        for row in rows:
             k = int(self.owner[row])
             player = self.players[k]
             self.stand(k, PROBED, time, player.speed(time, time), row - player.first + 1)
 
-    def gap(self, time: float, a: int, b: int) -> float:
+    def gap(self, time: float, rows: tuple[int, int]) -> float:
         """Separation of two rows at a time [m]."""
-        self.probe(time, a, b)
-        return float(self.ensemble.separation(PROBED, a, b))
+        self.probe(time, rows)
+        return float(self.ensemble.separation(PROBED, *rows))
 
-    def gap_most(self, time: float, a: int, b: int) -> float:
+    def gap_most(self, time: float, rows: tuple[int, int]) -> float:
         """Upper bound of that separation, in spite of rounding [m]."""
-        self.probe(time, a, b)
-        return float(self.ensemble.separation(PROBED, a, b) + self.ensemble.rounding(PROBED, a, b))
+        self.probe(time, rows)
+        return float(self.ensemble.separation(PROBED, *rows) + self.ensemble.rounding(PROBED, *rows))
 
-    def gap_rate(self, time: float, a: int, b: int) -> float:
+    def gap_rate(self, time: float, rows: tuple[int, int]) -> float:
         """Rate at which two rows part at a time [m/s]."""
-        self.probe(time, a, b)
-        return float(self.ensemble.rate(PROBED, a, b))
+        self.probe(time, rows)
+        return float(self.ensemble.rate(PROBED, *rows))
 
-    def nearest(self, a: int = 0, b: int = 0) -> tuple[float, int, int]:
-        """The least gap at the start of the step, and its two rows; a, b: a pair to begin with."""
-        self.ensemble.nearest(BEFORE, a, b)
+    def nearest(self, known: tuple[int, int] = (0, 0)) -> tuple[float, tuple[int, int]]:
+        """The least gap at the start of the step, and its two rows; known: a pair to begin with."""
+        self.ensemble.nearest(BEFORE, *known)
         self.budget.look()
-        return float(self.ensemble.gap), self.ensemble.first, self.ensemble.second
+        return float(self.ensemble.gap), (self.ensemble.first, self.ensemble.second)
+
+    def look(self, time: float, known: tuple[int, int] = (0, 0)) -> Dip:
+        """The least gap at a time [s]; known: rows to begin with, which stay if no others are nearer.
+
+        Where a bench folds at that time, its dragon stands as it does just before (Player.sliver).
+        """
+        self.budget.afford(len(self.owner))
+        for k, player in enumerate(self.players):
+            if not self.stand(k, BEFORE, time, 0.0):
+                self.stand(k, BEFORE, time - player.sliver, 0.0)
+        gap, rows = self.nearest(known)
+        return Dip(gap, time, rows)
+
+    sample = look
+
+    def bottom(self, low: float, high: float, rows: tuple[int, int]) -> float:
+        """Time between two at which a pair stops approaching [s]."""
+        return crossing(lambda time: -self.gap_rate(time, rows), low, high, DIP_WIDTH)
+
+    @property
+    def count(self) -> int:
+        """Number of samples over the span."""
+        begin, until = self.span
+        shortest = min(float(player.part.dance.dragon.chords.min()) for player in self.players)
+        step = PROFILE_STEP * shortest / max(max(player.clock.speeds) for player in self.players)
+        return sample_count((until - begin) / step, min(self.work, self.budget.left), len(self.owner))
+
+    @property
+    def spacing(self) -> float:
+        """Time between two samples [s]."""
+        return (self.span[1] - self.span[0]) / (self.count - 1)
 
     def spend(self, work: float) -> None:
         """Subtract work done from the work left [1]."""

@@ -7,9 +7,8 @@ the dance has no continuation then.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import ClassVar
 
 import numpy as np
 
@@ -134,18 +133,6 @@ class Performance(Readable):
     venue: Venue | None = None
     begin: float = field(init=False, repr=False, compare=False)
     end: PerformanceEnd = field(init=False, repr=False, compare=False)
-    # Functions of core for one dance, and those for several, which the error of question_about() names.
-    _instead: ClassVar[Mapping[str, str]] = {
-        "bench_cues": "performance_cues",
-        "check": "performance_check",
-        "clearance_profile": "performance_clearance",
-        "envelope": "performance_envelope",
-        "first_contact": "first_encounter",
-        "least_clearance": "performance_least_clearance",
-        "quick_check": "performance_check",
-        "tolerance": "performance_tolerance",
-        "trajectory": "performance_trajectory",
-    }
 
     def __post_init__(self) -> None:
         parts = tuple(checked_list("parts", self.parts, "must be a list of Part objects"))

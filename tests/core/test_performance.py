@@ -3,7 +3,7 @@
 import pytest
 
 from core import Dance, Dragon, EndReason, OutsideRun, Part, Performance, Spiral
-from core.performance.performance import STANDING
+from core.performance import STANDING
 from tests.support.refused import refused
 from tests.support.shared_dances import lane
 

@@ -18,8 +18,7 @@ from core import (
     Spiral,
     bench_cues,
     bench_outlines,
-    performance_cues,
-    performance_trajectory,
+    trajectory,
 )
 from core.errors import Quantity
 from core.people.meetings import EVEN
@@ -42,7 +41,7 @@ PERFORMANCE = Performance(
 def rows_of(performance):
     """Times, and the corners of each bench of each dragon at them."""
     times = np.arange(*performance.span(), STEP)
-    pairs = zip(performance.parts, performance_trajectory(performance, times), strict=True)
+    pairs = zip(performance.parts, trajectory(performance, times), strict=True)
     corners = [bench_outlines(part.dance.dragon, motion.position) for part, motion in pairs]
     return times, {(j, b): some[:, b] for j, some in enumerate(corners) for b in range(some.shape[1])}
 
@@ -76,7 +75,7 @@ ALONE = [Performance([Part(DANCES[name][0])]) for name in ("unequal benches", "t
 )
 def test_meetings_are_those_of_a_slow_search_in_small_steps(performance, dragon):
     count = 0
-    for one in performance_cues(performance, dragon, reach=4.0):
+    for one in bench_cues(performance, dragon=dragon, reach=4.0):
         slow = slow_meetings(*rows_of(performance), (dragon, one.bench), 4.0)
         abreast = [m for m in one.meetings if not m.ahead]
         met = sorted((m.time, m.dragon or 0, m.bench, m.side.value == "left", max(m.gap, 0.0)) for m in abreast)
@@ -92,7 +91,7 @@ def test_a_dragon_that_meets_no_other_has_the_cues_of_its_dance_on_the_clock_of_
     far = Part(Dance(Dragon(3), lane((200.0, 0.0), (300.0, 0.0))))
     performance = Performance([far, Part(coil, 7.0)])
     alone = bench_cues(coil, [0, 5, 19], start=0.0, stop=38.0)
-    several = performance_cues(performance, 1, [0, 5, 19], start=performance.begin, stop=45.0)
+    several = bench_cues(performance, [0, 5, 19], dragon=1, start=performance.begin, stop=45.0)
     for cues, other in zip(alone, several, strict=True):
         assert other.start == replace(cues.start, time=performance.begin)
         assert other.fastest == replace(cues.fastest, time=cues.fastest.time + 7.0)
@@ -109,7 +108,7 @@ def test_a_dragon_that_meets_no_other_has_the_cues_of_its_dance_on_the_clock_of_
 )
 def test_what_is_wrong_is_refused(arguments, field):
     with refused(field):
-        performance_cues(PERFORMANCE, **arguments)
+        bench_cues(PERFORMANCE, **arguments)
 
 
 @pytest.mark.parametrize(
@@ -119,7 +118,7 @@ def test_what_is_wrong_is_refused(arguments, field):
 )
 def test_a_dragon_that_never_walks_is_named(dragon, start, stop, still):
     with refused("stop", dragon=dragon) as refusal:
-        performance_cues(PERFORMANCE, dragon, start=start, stop=stop)
+        bench_cues(PERFORMANCE, dragon=dragon, start=start, stop=stop)
     assert str(refusal.value.values["begin"]) == str(Quantity(still, "s"))
 
 
@@ -127,6 +126,6 @@ def test_a_stop_before_the_fold_is_needed():
     folding = Performance([Part(Dance(Dragon(20), Spiral(0.7, 4.0))), PERFORMANCE.parts[0]])
     for stop in (None, folding.end.time):
         with refused("stop"):
-            performance_cues(folding, 1, stop=stop)
+            bench_cues(folding, dragon=1, stop=stop)
     with refused("stop", OutsideRun):
-        performance_cues(PERFORMANCE, 0, stop=900.0)
+        bench_cues(PERFORMANCE, stop=900.0)

@@ -26,6 +26,8 @@ import numpy as np
 
 from core.contact.march import TOUCHES
 from core.contact.search import MARGIN_MAX, WORK_BUDGET
+from core.contact.stage import Player, Stage
+from core.contact.stage_march import EncounterMarch, Met
 from core.dance import Dance
 from core.display import Readable, display
 from core.dragon import Stray
@@ -34,9 +36,7 @@ from core.extremes.speed import highest_speed
 from core.kernels import Budget, Ended
 from core.kernels.constants import HALF_LENGTH
 from core.passages import TIME_MAX
-from core.performance.march import EncounterMarch, Met
-from core.performance.performance import DELAY_MAX, Part, Performance
-from core.performance.stage import Player, Stage
+from core.performance import DELAY_MAX, Part, Performance
 from core.shapes.reach import gains
 
 # Shortest interval of delays that is halved, and largest uncertainty of an end of a safe interval [s].
@@ -325,7 +325,7 @@ class _Search:
         for _ in range(ZOOMS):
             inside = np.clip(times, look.span[0], until).tolist()
             self.budget.afford((SAMPLE_WORK + laid_out) * len(inside))
-            gaps = [look.gap_most(time, *rows) for time in inside]
+            gaps = [look.gap_most(time, rows) for time in inside]
             nearest = int(np.argmin(gaps))
             gap, time = min((gap, time), (gaps[nearest], inside[nearest]))
             times = np.linspace(inside[max(nearest - 1, 0)], inside[min(nearest + 1, len(inside) - 1)], ZOOMED)

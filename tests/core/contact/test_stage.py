@@ -5,7 +5,7 @@ import math
 import pytest
 
 from core import Dance, Dragon, Part, Performance, Spiral
-from core.performance.stage import Stage
+from core.contact.stage import Stage
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from core.dance import EndReason
 from core.display import Readable, display
 from core.language import say
 from core.paths.path import HeadState
-from core.performance.performance import Performance, PerformanceEnd
+from core.performance import Performance, PerformanceEnd
 from core.values import Point
 
 

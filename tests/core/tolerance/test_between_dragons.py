@@ -16,8 +16,7 @@ from core import (
     Spiral,
     Venue,
     first_encounter,
-    performance_least_clearance,
-    performance_tolerance,
+    least_clearance,
     tolerance,
 )
 from core.tolerance.exhibit import CHORD_WITHIN
@@ -50,7 +49,7 @@ def strayed(rng, handles, dragon, bench, stray):
 @pytest.mark.parametrize("name", further(ANSWERS, 2))
 def test_no_random_stray_touches_and_the_pose_beyond_does(name):
     performance, stop = ANSWERS[name]
-    answer = performance_tolerance(performance, stop=stop)
+    answer = tolerance(performance, stop=stop)
     pose = answer.exhibit
     assert (answer.limited_by, answer.dragons) == (Limit.BENCHES, (0, 1))
     slow, rng, least = SlowPerformance(performance.parts), np.random.default_rng(49), math.inf
@@ -67,7 +66,7 @@ def test_no_random_stray_touches_and_the_pose_beyond_does(name):
             holes = strayed(rng, one, dragons[0], a, answer.stray), strayed(rng, two, dragons[1], b, answer.stray)
             least = min(least, float(gaps(*holes, (a, b)).min()))
     # These strays do reach far.
-    assert 0.0 < least < 0.5 * performance_least_clearance(performance, stop=stop).distance
+    assert 0.0 < least < 0.5 * least_clearance(performance, stop=stop).distance
     assert answer.stray_bracket == (answer.stray, pose.stray)
     assert 0.0 < pose.stray - answer.stray < 0.02 * answer.stray
     for part, dragon, handles in zip(slow.parts, dragons, pose.handles, strict=True):
@@ -80,7 +79,7 @@ def test_no_random_stray_touches_and_the_pose_beyond_does(name):
 
 
 def test_the_stray_is_the_one_with_which_no_encounter_comes_about():
-    answer = performance_tolerance(OPPOSITE, stop=200.0)
+    answer = tolerance(OPPOSITE, stop=200.0)
     claim = answer.certificate.claim
     assert (claim.stray, claim.clear_until) == (answer.stray, 200.0)
     met = first_encounter(OPPOSITE, stray=answer.stray, stop=200.0)
@@ -90,7 +89,7 @@ def test_the_stray_is_the_one_with_which_no_encounter_comes_about():
 
 def test_a_single_dragon_has_its_own_tolerance_to_the_last_bit():
     alone = Dance(Dragon(30), Spiral(1.1, 8.0))
-    answer, own = performance_tolerance(Performance([Part(alone)])), tolerance(alone)
+    answer, own = tolerance(Performance([Part(alone)])), tolerance(alone)
     assert (answer.own, answer.certificate, answer.dragons) == ((own,), None, (0,))
     assert (answer.stray_bracket, answer.time, answer.benches) == (own.stray_bracket, own.time, own.benches)
 
@@ -99,7 +98,7 @@ def test_a_single_dragon_has_its_own_tolerance_to_the_last_bit():
 def test_the_venue_limits_and_a_delay_shifts_its_time(delay):
     venue = Venue(box("square", -50, -0.9, 100, 50.9))
     first, second = on_lanes(EAST, ((40.0, 9.0), (-40.0, 9.0)), benches=3).parts
-    answer = performance_tolerance(Performance([replace(first, delay=delay), second], venue))
+    answer = tolerance(Performance([replace(first, delay=delay), second], venue))
     own = tolerance(first.dance, venue)
     assert (answer.stray, answer.limited_by, answer.area) == (own.stray, Limit.VENUE, "square")
     assert (answer.dragons, answer.own[0]) == ((0,), own)
@@ -108,6 +107,6 @@ def test_the_venue_limits_and_a_delay_shifts_its_time(delay):
 
 
 def test_dragons_that_touch_have_no_safe_stray():
-    met, answer = first_encounter(OPPOSITE), performance_tolerance(OPPOSITE)
+    met, answer = first_encounter(OPPOSITE), tolerance(OPPOSITE)
     assert (answer.stray, answer.certificate) == (0.0, None)
     assert (answer.time, answer.dragons, answer.benches) == (met.time, met.dragons, met.benches)

@@ -4,9 +4,10 @@ import math
 
 import pytest
 
+from core.contact.stage import Stage
+from core.contact.stage_march import EncounterMarch, beyond, least_after, to_fold
 from core.kernels import Ended
-from core.performance.march import EncounterMarch, beyond, crossing, least_after, to_fold
-from core.performance.stage import Stage
+from core.sampling import crossing
 from tests.support.shared_dances import EAST, NORTH, on_lanes, side_by_side
 
 # Width of a crossing in these tests [s].
@@ -42,7 +43,7 @@ def test_the_rest_before_a_fold_is_clear_only_where_the_gap_exceeds_the_motion_l
     met = to_fold(stage, EncounterMarch(stage), 0.0, end, folding)
     assert (met.ended, met.proven) == (Ended.REACHED, end)
     stage.enter(end - 1e-4, end)
-    gap, *_ = stage.nearest()
+    gap, _ = stage.nearest()
     # Benches move by a millimetre and more in the last tenth of a millisecond.
     for spare, clear in ((1e-6, False), (0.2, True), (gap, True)):
         near = Stage(performance, (0.0, end), gap - spare)

@@ -8,11 +8,11 @@ import pytest
 from core import (
     OutsideRun,
     Performance,
+    clearance_profile,
     first_encounter,
-    performance_clearance,
-    performance_least_clearance,
+    least_clearance,
 )
-from core.contact.clearance import PROOF_WIDTHS
+from core.contact.gaps import PROOF_WIDTHS
 from tests.campaigns import hunt_encounters
 from tests.support.depth import further
 from tests.support.refused import refused
@@ -26,17 +26,17 @@ GAP, LEAST = 1e-9, 1e-7
 @pytest.mark.parametrize("performance", [CROSSING, OPPOSITE], ids=["crossing", "one spiral"])
 def test_every_clearance_is_that_of_all_pairs(performance):
     times = np.linspace(performance.begin, performance.end.time - 1.0, 60)
-    answer = performance_clearance(performance, times)
+    answer = clearance_profile(performance, times)
     gaps, pairs = SlowPerformance(performance.parts).clearance(times)
     assert answer.clearance == pytest.approx(gaps, abs=GAP)
     # Where two pairs are equally near, either is an answer.
     assert (np.column_stack([answer.dragons, answer.benches]) == pairs).all(axis=1).mean() > 0.4
-    alone = performance_clearance(performance, float(times[7]))
+    alone = clearance_profile(performance, float(times[7]))
     assert (alone.clearance.shape, alone.clearance) == ((), answer.clearance[7])
 
 
 def test_a_graze_is_the_bottom_of_a_dip():
-    (graze,) = performance_clearance(CROSSING, [40.0, 60.0]).grazes
+    (graze,) = clearance_profile(CROSSING, [40.0, 60.0]).grazes
     around = graze.time + np.linspace(-0.05, 0.05, 2001)
     gaps, pairs = SlowPerformance(CROSSING.parts).clearance(around)
     assert graze.clearance == pytest.approx(gaps.min(), abs=GAP)
@@ -49,7 +49,7 @@ def test_a_graze_is_the_bottom_of_a_dip():
 def test_the_least_clearance_of_random_performances_is_that_of_a_slow_look(case):
     performance, _, start, stop, look = hunt_encounters.random_case(49, case)
     low, _ = look.least()
-    least = performance_least_clearance(performance, start=start, stop=stop)
+    least = least_clearance(performance, start=start, stop=stop)
     if low > LEAST:
         assert least.at_least <= low + GAP
         assert 0.0 < least.distance - least.at_least <= 1.01 * PROOF_WIDTHS[1]
@@ -61,16 +61,16 @@ def test_the_least_clearance_of_random_performances_is_that_of_a_slow_look(case)
 
 
 def test_dragons_that_touch_have_no_clearance_at_their_encounter_and_below_zero_where_they_overlap():
-    met, least = first_encounter(OPPOSITE), performance_least_clearance(OPPOSITE)
+    met, least = first_encounter(OPPOSITE), least_clearance(OPPOSITE)
     assert (least.distance, least.at_least, least.time, least.benches) == (0.0, 0.0, met.time, met.benches)
     both = Performance([CROSSING.parts[0], replace(CROSSING.parts[0], name="other")])
-    least = performance_least_clearance(both)
+    least = least_clearance(both)
     assert (least.distance, least.at_least, least.time) == (pytest.approx(-0.3), None, both.begin)
 
 
 def test_a_stray_takes_ground_and_is_bounded_in_closed_form():
     performance = on_lanes(EAST, ((40.0, 2.0), (-40.0, 2.0)), benches=1)
-    without, strayed = (performance_least_clearance(performance, stray=stray) for stray in (0.0, 0.05))
+    without, strayed = (least_clearance(performance, stray=stray) for stray in (0.0, 0.05))
     assert without.distance == pytest.approx(2.0 - 0.3, abs=1e-12)
     # Both move 0.05 m towards each other, or turn: the corners beyond the holes swing further out.
     assert 0.09 < without.distance - strayed.distance < 0.13
@@ -79,22 +79,22 @@ def test_a_stray_takes_ground_and_is_bounded_in_closed_form():
 
 def test_the_bound_holds_up_to_a_fold():
     performance = side_by_side()
-    least = performance_least_clearance(performance)
+    least = least_clearance(performance)
     assert least.distance - least.at_least < 1e-3
-    assert performance_clearance(performance, performance.end.time).clearance >= least.at_least
+    assert clearance_profile(performance, performance.end.time).clearance >= least.at_least
     with refused("times.1", OutsideRun):
-        performance_clearance(performance, [0.0, performance.end.time + 1.0])
+        clearance_profile(performance, [0.0, performance.end.time + 1.0])
 
 
 def test_one_dragon_alone_has_no_clearance_to_others():
     alone = Performance(CROSSING.parts[:1])
-    assert performance_least_clearance(alone) is None
+    assert least_clearance(alone) is None
     with refused("parts"):
-        performance_clearance(alone, 20.0)
+        clearance_profile(alone, 20.0)
 
 
 def test_everyone_stands_before_and_after_and_no_times_give_no_rows():
     times = [-100.0, 1000.0], [CROSSING.begin, CROSSING.end.time]
-    outside, ends = (performance_clearance(CROSSING, both).clearance.tolist() for both in times)
+    outside, ends = (clearance_profile(CROSSING, both).clearance.tolist() for both in times)
     assert outside == ends
-    assert performance_clearance(CROSSING, []).clearance.shape == (0,)
+    assert clearance_profile(CROSSING, []).clearance.shape == (0,)

@@ -23,16 +23,17 @@ bounded (core/contact/fold.py), and the gaps there exceed the margin by more tha
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from core.contact.fold import THETA_ROUNDING, moved_until
-from core.contact.march import FOLD_SLIVER, FOLD_WAYS, TRAVEL_ROUNDING
+from core.contact.march import FOLD_WAYS
+from core.contact.stage import AFTER, BEFORE, PROBED, WIDTH_ROUNDING, Stage
 from core.kernels import Ended
 from core.kernels.constants import CORNER_SPEED, FREE, NO_BOUND
-from core.performance.stage import AFTER, BEFORE, PROBED, WIDTH_ROUNDING, Stage
+from core.kernels.results import Dip
+from core.sampling import crossing
 
 # Half widths of the bracket around an encounter [s]: the first one as a rule, the others where benches meet so slowly
 # that rounding hides the gap.
@@ -48,18 +49,10 @@ TRUSTED = 0.95
 LEAST_CLOSING = 1e-12
 # Distance in time ahead at which an encounter is looked for whose beginning rounding hides [s].
 PEEK = 1e-4
-# Width of a crossing, relative to half the bracket [1]; of the bottom of a graze [s]; most rounds of either search.
-CROSSING_WIDTH, DIP_WIDTH, ROUNDS = 1e-3, 1e-10, 100
+# Width of a crossing, relative to half the bracket [1].
+CROSSING_WIDTH = 1e-3
 # Times ahead at which a search that gave up looks for a certain encounter [s].
 BEYOND = (1e-3, 1e-1)
-
-
-class EncounterDip(NamedTuple):
-    """A local minimum of the clearance between dragons: gap [m], time [s], and its two rows."""
-
-    gap: float
-    time: float
-    rows: tuple[int, int]
 
 
 class Met(NamedTuple):
@@ -77,7 +70,7 @@ class Met(NamedTuple):
     rows: tuple[int, int] = (0, 0)
     steps: int = 0
     curvature: float = 0.0
-    graze: EncounterDip | None = None
+    graze: Dip | None = None
     half: float = 0.0
 
 
@@ -98,7 +91,7 @@ class EncounterMarch:
         self.touching: float | None = None
         self._seen: list[tuple[float, float, tuple[int, int], float]] = []
 
-    graze: EncounterDip | None
+    graze: Dip | None
 
     def run(self, begin: float, until: float) -> Met:
         """The first encounter between two times [s]; wider brackets are tried where narrow ones fail."""
@@ -123,10 +116,10 @@ class EncounterMarch:
         self.length = FIRST_STEP
         stage = self.stage
         stage.enter(begin, until)
-        gap, *rows = stage.nearest()
+        gap, rows = stage.nearest()
         if gap <= stage.margin:
-            self.rows = (rows[0], rows[1])
-            certain = stage.gap_most(begin, *rows) <= stage.margin
+            self.rows = rows
+            certain = stage.gap_most(begin, rows) <= stage.margin
             return self._met(Ended.TOUCHED_AT_START if certain else Ended.STUCK, begin if certain else None)
         breaks = stage.breaks(begin, until)
         for k in range(len(breaks) - 1):
@@ -180,7 +173,7 @@ class EncounterMarch:
 
     def _certain(self, time: float) -> bool:
         """True if the pair of the crossing is within the margin at a time, in spite of rounding; keeps it then."""
-        if self.stage.gap_most(time, *self.rows) > self.stage.margin:
+        if self.stage.gap_most(time, self.rows) > self.stage.margin:
             return False
         self.touching = time
         return True
@@ -203,9 +196,9 @@ class EncounterMarch:
             end = ahead
         self.rows = rows
         self.aim = self.touching = crossing(
-            lambda time: stage.gap(time, *rows) - stage.margin, self.time, end, CROSSING_WIDTH * self.half
+            lambda time: stage.gap(time, rows) - stage.margin, self.time, end, CROSSING_WIDTH * self.half
         )
-        closing = -stage.gap_rate(self.aim, *rows)
+        closing = -stage.gap_rate(self.aim, rows)
         enough = HALF_ROUNDINGS * float(ensemble.rounding(PROBED, *rows)) / max(closing, LEAST_CLOSING)
         self.half = next((half for half in self.halves if half >= enough), self.halves[-1])
         way = self.aim - self.half - self.time
@@ -224,7 +217,7 @@ class EncounterMarch:
             ahead = self.time + width
             if ahead > until:
                 return None
-            if self.stage.gap(ahead, *rows) <= self.stage.margin:
+            if self.stage.gap(ahead, rows) <= self.stage.margin:
                 return ahead
             width *= 4.0
         return None
@@ -235,45 +228,18 @@ class EncounterMarch:
             return
         known = self._seen[-1][2] if self._seen else (0, 0)
         least = self.stage.ensemble.least
-        gap, a, b = self.stage.nearest(*known)
-        self._seen = [*self._seen[-2:], (self.time, gap, (a, b), least)]
+        gap, rows = self.stage.nearest(known)
+        self._seen = [*self._seen[-2:], (self.time, gap, rows, least)]
         if len(self._seen) < 3:
             return
         (older, first, _, _), (_, gap, rows, floor), (newer, last, _, _) = self._seen
         lowest = FREE if self.graze is None else self.graze.gap
         if first > gap <= last and min(floor, least) < lowest and gap < FREE:
             stage = self.stage
-            time = crossing(lambda time: -stage.gap_rate(time, *rows), older, newer, DIP_WIDTH)
-            bottom = stage.gap(time, *rows)
+            time = stage.bottom(older, newer, rows)
+            bottom = stage.gap(time, rows)
             if bottom < lowest:
-                self.graze = EncounterDip(bottom, time, rows)
-
-
-# Input:  a bracket [low, high] of times, and a function that is positive at low and not at high.
-# State:  the bracket; `above` and `below`, the function at its ends, halved where an end stays; `last`, the end that
-#         moved last.
-# Output: the upper end of a bracket no wider than `width`.
-def crossing(value: Callable[[float], float], low: float, high: float, width: float) -> float:
-    """Time at which a function falls to zero [s], too late by `width` at most; method: as in clearance.crossing()."""
-    above, below, last = value(low), value(high), 0
-    if above <= 0.0:
-        return low
-    for k in range(ROUNDS):
-        if high - low <= width:
-            break
-        middle = low + (high - low) * above / (above - below) if below < 0.0 else 0.5 * (low + high)
-        if not low < middle < high or k % 4 == 3:
-            middle = 0.5 * (low + high)
-            if not low < middle < high:
-                break
-        between = value(middle)
-        if between > 0.0:
-            low, above = middle, between
-            below, last = (0.5 * below if last == 1 else below), 1
-        else:
-            high, below = middle, between
-            above, last = (0.5 * above if last == -1 else above), -1
-    return high
+                self.graze = Dip(bottom, time, rows)
 
 
 def to_fold(stage: Stage, march: EncounterMarch, begin: float, until: float, folding: list[int]) -> Met:
@@ -281,7 +247,7 @@ def to_fold(stage: Stage, march: EncounterMarch, begin: float, until: float, fol
 
     folding: the parts that fold then or just after, whose motion is bounded at the end instead of followed
     """
-    last = until - max(sliver(stage, k) for k in folding)
+    last = until - max(stage.players[k].sliver for k in folding)
     met = Met(Ended.REACHED, begin)
     begins = begin
     for part in (*FOLD_WAYS, 0.0):
@@ -302,13 +268,6 @@ def to_fold(stage: Stage, march: EncounterMarch, begin: float, until: float, fol
     if begins < last or least_after(stage, max(begin, last), until, folding) <= stage.margin:
         return met._replace(ended=Ended.STUCK, touching=None)
     return met._replace(proven=until)
-
-
-def sliver(stage: Stage, k: int) -> float:
-    """Time before a fold that only the bound on the remaining motion covers [s]."""
-    player = stage.players[k]
-    way = FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * abs(player.travel(player.end)) + 4.0 * player.slip
-    return way / player.clock.slowest + 4.0 * float(np.spacing(abs(player.end)))
 
 
 # From `time` to the fold a bench of a part that folds moves by no more than moved_until() bounds, from a head a little

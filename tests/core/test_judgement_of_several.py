@@ -18,10 +18,7 @@ from core import (
     check,
     envelope,
     first_encounter,
-    performance_check,
-    performance_envelope,
-    performance_least_clearance,
-    performance_trajectory,
+    least_clearance,
     quick_check,
     trajectory,
 )
@@ -45,7 +42,7 @@ def test_a_single_dragon_has_the_report_of_check_to_the_last_bit(venue):
     dance = Dance(Dragon(30), Spiral(0.5, 9.0))
     options = {"margin": 0.01, "speed_limit": 1.2}
     alone = check(dance, venue=venue, **options)
-    report = performance_check(Performance([Part(dance)], venue), **options)
+    report = check(Performance([Part(dance)], venue), **options)
     assert report.reports == (alone,)
     assert [(one.failure, one.message) for one in report.failures] == [(one, one.message) for one in alone.failures]
     assert (report.verdict, report.passed) == (alone.verdict, alone.passed)
@@ -53,9 +50,9 @@ def test_a_single_dragon_has_the_report_of_check_to_the_last_bit(venue):
 
 
 def test_failures_of_all_dragons_stand_in_order_of_time_and_name_their_dragon():
-    report, met = performance_check(IN_SQUARE), first_encounter(IN_SQUARE)
+    report, met = check(IN_SQUARE), first_encounter(IN_SQUARE)
     assert (report.encounter, report.verdict) == (met, Judgement.FAILS)
-    assert report.least_clearance == performance_least_clearance(IN_SQUARE)
+    assert report.least_clearance == least_clearance(IN_SQUARE)
     failures = report.failures
     assert [one.time for one in failures] == sorted(one.time for one in failures)
     (both,) = (one for one in failures if len(one.dragons) == 2)
@@ -67,7 +64,7 @@ def test_failures_of_all_dragons_stand_in_order_of_time_and_name_their_dragon():
 
 
 def test_a_delay_shifts_the_failures_of_a_dragon_and_its_brackets():
-    reports = performance_check(IN_SQUARE), performance_check(delayed(30.0, SQUARE))
+    reports = check(IN_SQUARE), check(delayed(30.0, SQUARE))
     assert not [failure for failure in reports[1].failures if len(failure.dragons) == 2]
     early, late = ([one for one in report.failures if one.dragons == (1,)] for report in reports)
     assert late
@@ -77,20 +74,20 @@ def test_a_delay_shifts_the_failures_of_a_dragon_and_its_brackets():
 
 
 def test_without_details_the_failures_are_the_same_and_the_rest_is_left_out():
-    full, quick = (performance_check(IN_SQUARE, margin=0.1, details=details) for details in (True, False))
+    full, quick = (question(IN_SQUARE, margin=0.1) for question in (check, quick_check))
     assert quick.failures == full.failures
     assert quick.reports == tuple(quick_check(part.dance, venue=SQUARE, margin=0.1) for part in CROSSING.parts)
     assert quick.least_clearance is None
 
 
 def test_a_dragon_that_stands_all_the_time_has_no_report_of_its_own():
-    report = performance_check(delayed(500.0), stop=40.0)
+    report = check(delayed(500.0), stop=40.0)
     assert (report.reports[0] is None, report.reports[1], report.passed) == (False, None, True)
 
 
 def test_everyone_is_where_its_own_dance_puts_it_and_stands_before_and_after():
     performance, times = delayed(20.0), [0.0, 30.5, 45.0, 99.0, 200.0]
-    first, second = performance_trajectory(performance, times)
+    first, second = trajectory(performance, times)
     alone = trajectory(CROSSING.parts[1].dance, [performance.parts[1].own_time(time) for time in times])
     assert (second.position == alone.position).all()
     assert second.time.tolist() == times
@@ -98,15 +95,15 @@ def test_everyone_is_where_its_own_dance_puts_it_and_stands_before_and_after():
     assert not second.speed[[0, 4]].any()
     alone = trajectory(CROSSING.parts[0].dance, times[1:3])
     assert (first.position[1:3] == alone.position).all()
-    assert performance_trajectory(CROSSING, 30.0)[0].position.shape == (6, 2)
+    assert trajectory(CROSSING, 30.0)[0].position.shape == (6, 2)
 
 
 def test_the_ground_of_each_dragon_is_that_of_its_dance_and_of_the_place_where_it_stands():
     late, query = delayed(20.0), {"stop": 30.0, "excess": 0.01}
-    first, second = performance_envelope(late, **query)
+    first, second = envelope(late, **query)
     assert first == envelope(late.parts[0].dance, **query)
     dance = late.parts[1].dance
     assert second == envelope(dance, stop=late.parts[1].own_time(30.0), excess=0.01)
-    _, still = performance_envelope(delayed(500.0), **query)
+    _, still = envelope(delayed(500.0), **query)
     width, height = np.ptp(bench_outlines(dance.dragon, trajectory(dance, dance.begin).position), axis=(0, 1))
     assert width * height <= still.area <= (width + 0.021) * (height + 0.021)  # its benches overlap in a row

@@ -9,20 +9,19 @@ from __future__ import annotations
 
 from core import kernels
 from core.claims.claim import PARTS_LISTED, ClaimKind, DanceSummary, EncounterClaim, PartSummary
-from core.contact.answer import Feature, Outcome
-from core.contact.first_contact import CORNERS, EDGES, OUTCOMES
+from core.contact.answer import CORNERS, EDGES, OUTCOMES, Feature, Outcome
+from core.contact.encounter_answer import EncounterEvidence, FirstEncounter, NearPass
 from core.contact.march import TOUCHES
 from core.contact.search import MARGIN_MAX, WORK_BUDGET
+from core.contact.stage import PROBED, Stage
+from core.contact.stage_march import EncounterMarch, Met, beyond, to_fold
 from core.dance import EndReason
 from core.dragon import Stray
 from core.errors import checked_number, question_about
 from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
 from core.paths.path import HeadState
-from core.performance.answer import EncounterEvidence, FirstEncounter, NearPass
-from core.performance.march import EncounterMarch, Met, beyond, to_fold
-from core.performance.performance import Performance, PerformanceEnd
-from core.performance.stage import PROBED, Stage
+from core.performance import Performance, PerformanceEnd
 from core.values import Point
 
 # A feature with its dragon.
@@ -110,7 +109,7 @@ def encounter_claim(stage: Stage, kind: ClaimKind, **values: object) -> Encounte
 def _evidence(stage: Stage, met: Met, claim: EncounterClaim) -> EncounterEvidence:
     near = None
     if met.graze is not None:
-        near = NearPass(met.graze.time, met.graze.gap, *stage.pair(*met.graze.rows))
+        near = NearPass(met.graze.moment, met.graze.gap, *stage.pair(*met.graze.pair))
     return EncounterEvidence(claim, met.steps, claim.clear_until, met.curvature, near)
 
 
@@ -175,7 +174,7 @@ def _head(stage: Stage, k: int, time: float) -> HeadState:
 
 def _features(stage: Stage, time: float, rows: tuple[int, int]) -> tuple[tuple[Owned, Owned], Point, float]:
     """The corner and the edge that meet, each with its dragon; the place of the corner [m]; and the separation [m]."""
-    stage.probe(time, *rows)
+    stage.probe(time, rows)
     placed = stage.chains[PROBED]
     met = kernels.bench_separation(*rows, stage.own_sizes, placed)
     dragons, benches = stage.pair(*rows)
