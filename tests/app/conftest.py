@@ -9,7 +9,7 @@ import httpx
 import pytest
 
 from tests.support.asking import Asking
-from tests.support.serving import serving
+from tests.support.serving import PATIENT, serving
 
 # httpx reads the certificates of all authorities for each client and each httpx.get(), also for http://, which takes
 # 18 ms; the tests that ask in a loop did little else.
@@ -56,4 +56,4 @@ def service_with(tmp_path_factory):
 @pytest.fixture(scope="session")
 def patient(service_with):
     """Base URL of a real server whose answers may take minutes."""
-    return service_with(deadline_seconds=600).url
+    return service_with(deadline_seconds=PATIENT).url

@@ -11,10 +11,9 @@ from playwright.sync_api import expect
 
 from tests.support import paper, polite
 from tests.support.person import PHONE
-from tests.support.serving import free_port, serving
+from tests.support.serving import PATIENT, free_port, serving
 
 thorough = pytest.mark.thorough
-PATIENT = 50.0  # longest computation of one answer [s], also on a busy machine
 DRAGON = {"benches": 20}
 SLACK = 45  # from the last press to the cue [s], so that a slow machine is not late
 TOUCHING = "path=route&benches=40&route=*-100,0_0,0_12,8_0,14_-4,0_0,-20&begin=88"

@@ -6,10 +6,9 @@ import pytest
 
 from tests.support import polite
 from tests.support.person import alike
-from tests.support.serving import free_port, serving
+from tests.support.serving import PATIENT, free_port, serving
 
 thorough = pytest.mark.thorough
-PATIENT = 50.0  # longest computation of one answer [s], also on a busy machine
 OWN_MAX, ALL_MAX, FILES_MAX = 125_000, 1_600_000, 60  # [bytes] over the wire, and requests until all is shown
 SHORT = "?benches=20&time=end"
 CONTACT = "#first-contact .value"

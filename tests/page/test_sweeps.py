@@ -6,6 +6,7 @@ import pytest
 
 from tests.support import polite
 from tests.support.job_service import PATIENCE, SHORT, JobService
+from tests.support.serving import PATIENT
 
 thorough = pytest.mark.thorough
 PHONE = {"width": 390, "height": 844}
@@ -27,7 +28,7 @@ SHEET = {"name": "result1.csv", "mimeType": "text/csv", "buffer": b"1,2"}
 
 @pytest.fixture(scope="module")
 def service(tmp_path_factory):
-    with JobService(tmp_path_factory.mktemp("page"), sweep_processes=1, deadline_seconds=50) as service:
+    with JobService(tmp_path_factory.mktemp("page"), sweep_processes=1, deadline_seconds=PATIENT) as service:
         yield service
 
 
@@ -110,7 +111,7 @@ def _a_map_of_one_parameter_is_read_by_keyboard_and_danced(person, service):
 
 @thorough
 def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page, tmp_path):
-    limits = {"token": TOKEN, "sweep_processes": 1, "sweep_designs_max": 100, "deadline_seconds": 50}
+    limits = {"token": TOKEN, "sweep_processes": 1, "sweep_designs_max": 100, "deadline_seconds": PATIENT}
     with JobService(tmp_path, **limits) as guarded:
         address = guarded.post(SHORT)
         person = open_page("?benches=12", base=base(guarded), failing=True, viewport=PHONE, is_mobile=True)

@@ -14,7 +14,7 @@ import pytest
 from app.files.lock import FolderLock
 from app.files.scratch import reclaim, temporary
 from tests.support.job_service import is_gone, wait_for
-from tests.support.serving import serving
+from tests.support.serving import PATIENT, serving
 
 HOLD = """
 import sys, time
@@ -88,7 +88,7 @@ def unwritable(environment, tmp_path):
 def test_what_a_killed_service_leaves_is_gone_after_the_next_start(folder, tmp_path, workers, monkeypatch):
     monkeypatch.delenv("MPLCONFIGDIR", raising=False)
     unwritable(monkeypatch.setenv, tmp_path)
-    with serving(tmp_path / "log", workers, limit=os.setsid) as service:
+    with serving(tmp_path / "log", workers, limit=os.setsid, deadline_seconds=PATIENT) as service:
         assert httpx.get(f"{service.url}/figures/trajectory.png", timeout=60.0).status_code == 200
         answer = httpx.post(f"{service.url}/jobs", json=FILM, timeout=60.0)
         assert answer.status_code == 202
