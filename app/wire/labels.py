@@ -16,32 +16,11 @@ from core.errors import format_number
 from core.language import Listed, Phrases, counted, say
 from core.plots import feature_words
 
-# Labels of the fields of answers, by their names.
+# Labels of fields, where they are not the words of their names, or no answer of a question has them.
 LABELS: Phrases = {
-    "after": "after", "agree": "agree", "angles": "angles", "area": "area", "before": "before", "bench": "bench",
-    "benches": "benches", "bound": "bound", "cells": "cells", "centres": "centres", "certificate": "certificate",
-    "clear_until": "clear until", "clearance": "clearance", "confidence": "confidence", "contacts": "contacts",
-    "corner": "corner", "cross_check": "cross check", "dances": "dances", "depth": "depth", "distance": "distance",
-    "dragon": "dragon", "dragons": "dragons", "edge": "edge", "end": "end", "entry": "entry",
-    "entry_bracket": "entry bracket", "entry_radius": "entry radius", "envelope": "envelope",
-    "evaluations": "evaluations", "excess": "excess", "exhibit": "exhibit", "exit": "exit",
-    "exit_bracket": "exit bracket", "exit_radius": "exit radius", "gap": "gap", "handles": "handles", "head": "head",
-    "head_radius": "head radius", "head_speed": "head speed", "head_speed_bracket": "head speed bracket",
-    "heads": "heads", "instants": "instants", "judged": "judged", "justified_by": "justified by",
-    "least_clearance": "least clearance", "left_out": "left out", "length": "length",
-    "length_bracket": "length bracket", "limited_by": "limited by", "limits": "limits", "margin": "margin",
-    "method": "method", "name": "name", "names": "names", "other_feasible_intervals": "other feasible intervals",
-    "outcome": "outcome", "overlapping": "overlapping", "own": "own", "passage": "passage", "pitch": "pitch",
-    "pitch_bracket": "pitch bracket", "point": "point", "probability": "probability", "proven_from": "proven from",
-    "proven_up_to": "proven up to", "radii": "radii", "radius": "radius", "ratio": "ratio", "reason": "reason",
-    "samples": "samples", "scan_step": "scan step", "seed": "seed", "separation": "separation", "simple": "simple",
-    "speed_ratio": "speed ratio", "start": "start", "step": "step", "steps": "steps", "stop": "stop",
-    "stray": "stray", "stray_bracket": "stray bracket", "stray_with_errors": "stray with errors",
-    "strayed": "strayed", "tangent_point": "tangent point", "theta": "theta", "time": "time",
-    "time_at_unit_head_speed": "time at unit head speed", "time_bracket": "time bracket",
-    "time_quantiles": "time quantiles", "together": "together", "tolerance": "tolerance", "touching": "shown to touch",
-    "turning_diameter": "turning diameter", "union_bound": "union bound", "witness_a": "witness a",
-    "witness_b": "witness b",
+    "cells": "cells", "dances": "dances", "distance": "distance", "dragon": "dragon", "envelope": "envelope",
+    "excess": "excess", "heads": "heads", "separation": "separation", "touching": "shown to touch",
+    "witness_a": "witness a", "witness_b": "witness b",
 }  # fmt: skip
 # Words of values, by their codes.
 VALUES: Phrases = {
@@ -95,7 +74,7 @@ Part = Table | Heading | str
 
 def label(name: str, unit: str = "") -> str:
     """Label of a field of an answer, such as "time bracket" for time_bracket; with a unit, as the head of a column."""
-    words = say(LABELS[name]) if name in LABELS else name  # such as x
+    words = say(LABELS.get(name, name.replace("_", " ")))
     return f"{words} [{unit}]" if unit else words
 
 
