@@ -22,16 +22,11 @@ LABELS: Phrases = {
     "excess": "excess", "heads": "heads", "separation": "separation", "touching": "shown to touch",
     "witness_a": "witness a", "witness_b": "witness b",
 }  # fmt: skip
-# Words of values, by their codes.
+# Words of codes, where they are not those of the code, or no answer that is shown as it is has the code.
 VALUES: Phrases = {
-    "angle_sum": "angle sum", "benches": "benches", "bend": "bend", "bound": "bound", "centre": "centre",
-    "chord": "chord", "circle": "circle", "clear": "clear", "contact": "contact",
-    "contact_at_start": "contact_at_start", "eight": "eight", "end": "end", "fcl": "FCL", "fold": "fold",
-    "graze": "graze",
+    "contact_at_start": "contact_at_start", "eight": "eight", "fcl": "FCL", "parade": "parade", "ring": "ring",
+    "serpentine": "serpentine",
     "least_radius": "the least radius of a bend: half of the longest chord and 0.1 % more, which the proof needs",
-    "parade": "parade", "ring": "ring", "scan": "scan", "separating_axis": "separating axis",
-    "serpentine": "serpentine", "shapely": "shapely", "spiral": "spiral", "start": "start", "stop": "stop",
-    "undecided": "undecided", "venue": "venue",
 }  # fmt: skip
 # The same where a margin is required, which makes a contact not always a touch.
 NEAR: Phrases = {
@@ -79,10 +74,10 @@ def label(name: str, unit: str = "") -> str:
 
 
 def value_word(code: str, margin: float = 0.0) -> str:
-    """Words of a value; without any, its code."""
+    """Words of a code."""
     if margin and code in NEAR:
         return say(NEAR[code], margin=format_number(margin))
-    return say(VALUES[code]) if code in VALUES else code
+    return say(VALUES.get(code, code.replace("_", " ")))
 
 
 def value_text(value: Any, decimals: int = 9) -> str:
