@@ -1,4 +1,4 @@
-"""The commands bench-dragon figures and film: pictures of a dance as files."""
+"""The command bench-dragon figures: pictures of a dance as files."""
 
 from __future__ import annotations
 
@@ -11,16 +11,12 @@ import typer
 
 from app.command import show
 from app.command.options import asks, of_file, unused
-from app.command.paths import PathOptions, dance_of
 from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, ending_of
-from app.files.film_spec import ENDINGS, GIF_TYPE
 from app.maps.dances import DANCE_ENDINGS
 from app.questions import figures as drawn
-from app.questions import films
 from app.questions.figures import Format
-from app.questions.films import FilmFields, FilmRequest
 from app.questions.pitch_scan import ScanFields
 from app.wire.question import Terms
 from app.wire.refusals import refusing
@@ -104,37 +100,3 @@ def figures(
             name=name,
         )
         print(left_out, file=sys.stderr)
-
-
-class FilmOptions(FilmFields, PathOptions):
-    """The fields of POST /films as options."""
-
-
-@asks(FilmOptions, FilmRequest)
-def film(
-    request: FilmOptions | FilmRequest,
-    context: typer.Context,
-    output: Annotated[Path, typer.Option(help="Write a .mp4 file (extra film), or a .gif.")] = Path("dance.mp4"),
-    marked: Annotated[
-        list[str] | None,
-        typer.Option("--bench", help="Name or number of a bench that stands out; may be given several times."),
-    ] = None,
-    part: Annotated[
-        str | None, typer.Option(help="Of several dragons, the one whose bench stands out: its name or its number.")
-    ] = None,
-) -> None:
-    """A film of the dance; with a FILE, of any dragon on any path and in any venue."""
-    gif = checked_output("output", output, (".mp4", ".gif")) == ENDINGS[GIF_TYPE]
-    require("figures" if gif else "film", "output", "A GIF" if gif else "An MP4 film, unlike a GIF,")
-    form = GIF_TYPE if gif else films.FORM
-    with show.waiting(say("film {name}", name=output)) as progress:
-        terms = Terms(progress=progress)
-        if isinstance(request, FilmRequest) and request.dances is not None:
-            data = films.films(request, terms, form)
-        else:
-            if not isinstance(request, FilmRequest):
-                unused(context, ["part"], "belongs to a FILE of several dragons: leave it out")
-            benches = request.marked if isinstance(request, FilmRequest) else marked
-            dance = dance_of(request, context, terms.settings.drawn_benches_max)
-            data = films.film_of(request, dance, terms, form, benches)
-    show.write(output, data)

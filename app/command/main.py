@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from importlib import import_module
 from typing import Annotated, Any
 
@@ -24,25 +24,25 @@ from app.command.streams import output_fault
 from app.command.usage import Commands, Misuse, explain_values, message_of, say_help
 from core.errors import BenchDragonError
 from core.kernels import COMPILED
-from core.language import Language, named_language, say, speaking
+from core.language import Language, named_language, say, speaking, spoken
 
 # Module of each command, in the order of the help; none for a command that follows from its question. This module, or
 # that of the question, is imported when its command is called, or the help lists it.
 MODULE_OF = {
     "trajectory": "trajectory",
     "figures": "figures",
-    "envelope": "envelope",
-    "film": "figures",
+    "envelope": "",
+    "film": "",
     "contest": "contest",
     "grade": "grade",
     "places": "places",
-    "maps": "places",
-    "plan": "places",
-    "safety-sheet": "places",
-    "cues": "people",
-    "crew": "people",
+    "maps": "",
+    "plan": "",
+    "safety-sheet": "",
+    "cues": "",
+    "crew": "",
     "collision-time": "",
-    "encounter": "encounter",
+    "encounter": "",
     "safe-delay": "",
     "clearance": "",
     "minimum-pitch": "",
@@ -54,9 +54,9 @@ MODULE_OF = {
     "tolerance-curve": "",
     "contact-probability": "",
     "maximum-head-speed": "",
-    "check": "check",
-    "propose": "propose",
-    "overlaps": "overlaps",
+    "check": "",
+    "propose": "",
+    "overlaps": "",
     "paper": "",
     "serve": "serve",
     "mcp": "mcp",
@@ -66,13 +66,17 @@ MODULE_OF = {
 }
 
 
+# Module of the question that a command asks, where it has another name.
+QUESTION_OF = {"film": "films", "propose": "proposals"}
+
+
 @contextmanager
 def _errors_in_one_line(language: Language | None) -> Iterator[None]:
     """Context that turns errors that a user can correct into one line on standard error and exit code 2.
 
-    language: of all words; None for that of the terminal
+    language: of all words; None for that which is spoken
     """
-    with speaking(language or language_of_terminal()):
+    with speaking(language or spoken()):
         try:
             yield
             return
@@ -107,8 +111,7 @@ def _entry(command: str) -> Any:
     name, module = command.replace("-", "_"), MODULE_OF[command]
     if module:
         return getattr(import_module(f"app.command.{module}"), name)
-    question = import_module(f"app.questions.{name}").QUESTION
-    return command_of(question, question.command)
+    return command_of(import_module(f"app.questions.{QUESTION_OF.get(name, name)}").QUESTION)
 
 
 HELP = {"help_option_names": ["-h", "--help"]}
@@ -126,9 +129,7 @@ def _with_known_language(arguments: list[str]) -> tuple[list[str], Language | No
             continue
         language = named_language(name)
         if language is None:
-            with speaking(language_of_terminal()):
-                words = say("Warning: there are no words in {name!r}, so they are in English.", name=name)
-            print(words, file=sys.stderr)
+            print(say("Warning: there are no words in {name!r}, so they are in English.", name=name), file=sys.stderr)
         language = language or Language.ENGLISH
         if not {*HELP["help_option_names"]} & {*arguments}:
             known += [option, language]
@@ -138,10 +139,15 @@ def _with_known_language(arguments: list[str]) -> tuple[list[str], Language | No
 class _Commands(Commands):
     """The commands, imported one by one; each mistake in their use is reported in one line."""
 
+    def main(self, *further: Any, **extra: Any) -> Any:
+        # Also what a shell shows while it completes a line.
+        with speaking(language_of_terminal()):
+            return super().main(*further, **extra)
+
     def make_context(self, info_name: Any, args: list[str], *further: Any, **extra: Any) -> Any:
         # Without any argument the parser prints the help and raises an error, although the user made no mistake.
         known, language = _with_known_language(args)
-        with _errors_in_one_line(language) if args else speaking(language_of_terminal()):
+        with _errors_in_one_line(language) if args else nullcontext():
             say_help(self)
             context = super().make_context(info_name, known, *further, **extra)
             if language:

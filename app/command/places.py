@@ -1,34 +1,24 @@
-"""The commands bench-dragon places, maps and plan: what a map holds, a dance as a map, and as a PDF to print."""
+"""The command bench-dragon places: what a map holds."""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated
 
 import orjson
 import typer
 
 from app.command import show
-from app.command.asked import write_answer
-from app.command.options import Json, changed, numbers
+from app.command.options import Json
 from app.command.usage import path_argument
-from app.extras import require
 from app.files.disk import checked_output
 from app.maps.choice import PARTLY, Choice
 from app.maps.dance_parts import DanceParts
 from app.maps.places import Places, drawn_layers, map_data, read_map
 from app.maps.tracks import CHORD
-from app.questions.maps import QUESTION as MAPS
-from app.questions.maps import MapFormat, MapsRequest, OriginFields
-from app.questions.plan import PDF_TYPE, PlanRequest
-from app.questions.plan import QUESTION as PLAN
-from app.questions.safety_sheet import QUESTION as SAFETY_SHEET
-from app.questions.safety_sheet import SafetySheetRequest
 from app.wire.labels import Table
-from app.wire.messages import checked
-from app.wire.question import JSON, Coordinates, Terms
-from app.wire.refusals import refusing
+from app.wire.question import Coordinates
 from core import InvalidValue
 from core.errors import Given
 from core.language import counted, phrase, say
@@ -130,125 +120,3 @@ def _print(parts: DanceParts) -> None:
         count = counted(len(points), "{count} point", "{count} points") if points else ""
         table.add(say("path"), say(", ").join(filter(None, (kind, count))), "", "")
     show.print_parts(table)
-
-
-def maps(
-    context: typer.Context,
-    file: Annotated[
-        Path,
-        path_argument("FILE", "Dragon, path and venue as for check, as a .toml or .json file."),
-    ],
-    output: Annotated[Path, typer.Option(help="Write .geojson, .kml or .dxf (extra dxf).")] = Path("dance.geojson"),
-    spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
-    longitude: Annotated[
-        float | None, typer.Option(help="Longitude of x = y = 0 [degrees], for a venue in metres")
-    ] = None,
-    latitude: Annotated[float | None, typer.Option(help="Latitude of x = y = 0 [degrees]")] = None,
-) -> None:
-    """The square, the path and the chalk marks as a map."""
-    ending = checked_output("output", output, tuple(f".{one}" for one in MapFormat))
-    if ending == ".dxf":
-        require("dxf", "output", "DXF")
-    if (longitude is None) != (latitude is None):
-        raise InvalidValue.in_words("longitude", "--longitude and --latitude must be given together")
-    place = {"longitude": longitude, "latitude": latitude}
-    origin = None if longitude is None else checked(OriginFields, place).model_dump()
-    request = changed(file, MapsRequest, context, spacing=spacing, origin=origin)
-    data = write_answer(MAPS, request, say("map"), output, MapFormat(ending[1:]).media_type)
-    if ending == ".geojson" and "origin" not in orjson.loads(data):
-        words = say(
-            "Its coordinates are metres, not longitude and latitude: --longitude and --latitude of x = y = 0 give "
-            "these."
-        )
-        print(words, file=sys.stderr)
-
-
-Gates: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(help="NAME,X,Y of a gate whose times the paper names; may be given several times."),
-]
-
-
-def _gate(text: str) -> dict[str, Any]:
-    """A gate of an option. raises: InvalidValue"""
-    name, *place = text.rsplit(",", 2)
-    if len(place) != 2 or not name:
-        raise InvalidValue.in_words("gate", "--gate must be NAME,X,Y [m]", got=Given(text))
-    return {"name": name, **dict(zip("xy", numbers("gate", ",".join(place), float), strict=True))}
-
-
-def plan(
-    context: typer.Context,
-    file: Annotated[
-        Path,
-        path_argument("FILE", "Dragon, path, venue and limits as for check: .toml or .json."),
-    ],
-    output: Annotated[Path, typer.Option(help="Write a .pdf file.")] = Path("plan.pdf"),
-    paper: Annotated[Literal["A4", "A3"] | None, typer.Option(help="Size of the paper; default: A4.")] = None,
-    title: Annotated[str | None, typer.Option(help="Title of the plan")] = None,
-    spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
-    gate: Gates = None,
-    clear: Annotated[
-        float | None, typer.Option(help="Width of the zone to keep clear [m]; default: the margin, or 0.5 m")
-    ] = None,
-) -> None:
-    """A PDF to print, true to scale: map, place of each person, points to paint, times (extra paper)."""
-    checked_output("output", output, (".pdf",))
-    require("paper", "output", "A plan")
-    gates = [_gate(text) for text in gate] if gate else None
-    request = changed(file, PlanRequest, context, paper=paper, title=title, spacing=spacing, clear=clear, gates=gates)
-    write_answer(PLAN, request, say("plan"), output)
-
-
-def _lane(text: str) -> dict[str, Any]:
-    """A lane of an option. raises: InvalidValue"""
-    name, *rest = text.split(",")
-    if len(rest) < 5 or len(rest) % 2 == 0 or not name:
-        raise InvalidValue.in_words("lane", "--lane must be NAME,WIDTH,X,Y,X,Y,... [m]", got=Given(text))
-    width, *places = numbers("lane", ",".join(rest), float)
-    return {
-        "name": name,
-        "width": width,
-        "points": [list(pair) for pair in zip(places[::2], places[1::2], strict=True)],
-    }
-
-
-def safety_sheet(
-    context: typer.Context,
-    file: Annotated[
-        Path,
-        path_argument("FILE", "Dragon, path, venue and limits as for check: .toml or .json."),
-    ],
-    output: Annotated[Path, typer.Option(help="Write a .pdf or .json file.")] = Path("safety-sheet.pdf"),
-    title: Annotated[str | None, typer.Option(help="Title of the dance")] = None,
-    lane: Annotated[
-        list[str] | None,
-        typer.Option(help="NAME,WIDTH,X,Y,X,Y,... of a lane to keep free and its middle; may be given several times."),
-    ] = None,
-    gate: Gates = None,
-    spectators: Annotated[
-        float | None, typer.Option(help="Distance of people from the ground that benches sweep [m]; default: 1")
-    ] = None,
-    loose: Annotated[int | None, typer.Option(help="Last benches that may be let go; default: 3, or all")] = None,
-    reaction: Annotated[
-        float | None, typer.Option(help="Time from the call to stop until all stand [s]; default: 2")
-    ] = None,
-    stopper: Annotated[str | None, typer.Option(help="Who stops the dance")] = None,
-    date: Annotated[str | None, typer.Option(help="Date of the sheet; default: a line to fill in")] = None,
-    address: Annotated[str | None, typer.Option(help="Address of the dance, which stands there as a QR code")] = None,
-    json: Json = False,
-) -> None:
-    """One page for whoever permits a festival: verdict, nearest approaches, ground and lanes to keep free, stopping."""
-    ending = ".json" if json else checked_output("output", output, (".pdf", ".json"))
-    if ending == ".pdf":
-        require("paper", "output", "A safety sheet")
-    gates, lanes = ([read(text) for text in texts] if texts else None for read, texts in ((_gate, gate), (_lane, lane)))
-    request = changed(
-        file, SafetySheetRequest, context, title=title, gates=gates, lanes=lanes, spectators=spectators, loose=loose,
-        reaction=reaction, stopper=stopper, date=date, address=address,
-    )  # fmt: skip
-    if json:
-        with refusing(request), show.waiting(say("safety sheet")) as progress:
-            show.print_json(SAFETY_SHEET.to_bytes(request, Terms(progress=progress), JSON))
-    else:
-        write_answer(SAFETY_SHEET, request, say("safety sheet"), output, PDF_TYPE if ending == ".pdf" else JSON)

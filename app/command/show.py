@@ -24,8 +24,6 @@ from app.wire.labels import Heading, Part, Table
 from app.wire.question import Answer
 from core.language import Language, named_language, say
 
-# Decimals of lengths and speeds on a terminal.
-DISPLAY_DECIMALS = 6
 # Width that a table takes beside its entries: for each column, and at both sides together [characters].
 COLUMN_SPACE, TABLE_SPACE = 3, 1
 # Width of a table where standard output is not a terminal [characters].
@@ -139,10 +137,10 @@ def print_result(result: Answer | Columns, json: bool, parts: Iterable[Part]) ->
         print_parts(*parts)
 
 
-def write(file: Path, data: bytes) -> None:
-    """Write a file as a whole, and name it on standard error. raises: OSError"""
+def write(file: Path, data: bytes, note: str = "") -> None:
+    """Write a file as a whole, and name it on standard error. note: what is said beside; raises: OSError"""
     write_whole(file, data)
-    print(file, file=sys.stderr)
+    print(say("{name}: {text}", name=file, text=note) if note else file, file=sys.stderr)
 
 
 def _rich(table: Table, width: int) -> RichTable:

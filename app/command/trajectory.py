@@ -1,34 +1,24 @@
-"""The command bench-dragon trajectory: tables on a terminal, and files."""
+"""The tables of the command bench-dragon trajectory, as many instants as fit a terminal."""
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Annotated
 
 import numpy as np
-import typer
 from pydantic import Field
 from rich.cells import cell_len
 
 import core
 from app.command import show
-from app.command.options import Json, asks, numbers, typed_options
-from app.command.paths import PathOptions, dance_of
+from app.command.asked import command_of
 from app.files import tables
-from app.files.disk import checked_output, write_whole
-from app.files.performance_tables import PerformanceTable, performance_file
-from app.files.tables import PAPER_HANDLES, TABLE_ENDINGS, trajectory_writer
-from app.questions.trajectory import TrajectoryRequest
-from app.settings import Settings
-from app.wire.dances import TimeRange, clock_of, handles_of
-from app.wire.labels import Part, Table
-from app.wire.messages import checked
-from app.wire.question import measure
+from app.files.tables import PAPER_HANDLES
+from app.questions.trajectory import QUESTION, TrajectoryRequest
+from app.wire.labels import DISPLAY_DECIMALS, Part, Table
+from app.wire.numbers import numbers_of
+from app.wire.question import Terms, Wire
 from core import Dragon, InvalidValue, RunEnd, Trajectory
-from core.errors import Parameter
 from core.language import counted, say
 
 # Largest number of instants that a terminal shows, if that many fit.
@@ -41,112 +31,40 @@ NEAR_FOLD = " *"
 EVEN_INSTANTS = 5
 
 
-class TrajectoryOptions(TimeRange, PathOptions):
-    """The fields of POST /trajectory as options."""
+class Rows(Wire):
+    """The rows of the tables."""
 
-    decimals: int | None = Field(
-        None,
-        ge=0,
-        le=15,
-        description="Decimals of x, y and speed; default: all (6 for xlsx and for the table on a terminal)",
-    )
-    times: str | None = measure("s", "Instants such as 0,60,120, instead of --start, --stop and --step", None)
     handles: str | None = Field(
         None, description="Handles in the table, such as 0,1,51; default: those that the contest asks for"
     )
 
 
-@asks(TrajectoryOptions, TrajectoryRequest)
-def trajectory(
-    request: TrajectoryOptions | TrajectoryRequest,
-    context: typer.Context,
-    output: Annotated[Path | None, typer.Option(help="Write a .csv, .xlsx, .arrow or .json file.")] = None,
-    json: Json = False,
-) -> None:
-    """Position and speed of every handle; of a FILE of several dragons, of each."""
-    ending = checked_output("output", output, TABLE_ENDINGS) if output else ".json" if json else None
-    if ending and typed_options(context, "handles"):
-        words = "--handles chooses rows of the table: leave it out with --output or --json"
-        raise InvalidValue.in_words("handles", words)
-    if output and json:
-        words = "--json prints the answer and --output writes it to a file: give one of the two"
-        raise InvalidValue.in_words("json", words)
-    settings = Settings()
-    if isinstance(request, TrajectoryRequest) and request.dances is not None:
-        _of_several(request, context, output, ending)
+def _printed(request: TrajectoryRequest, terms: Terms, handles: str | None) -> Iterator[Part]:
+    """Tables of a dragon, or of each of several. handles: those to show, as in Rows"""
+    cells_max, is_list = terms.settings.cells_max, isinstance(request.times, list)
+    if request.dances is None:
+        dance = request.to_dance(terms.settings.benches_max)
+        rows = _handles(handles, dance.dragon)
+        result = core.trajectory(dance, request.times_of(dance, cells_max))
+        look = _Look("", is_list, request.decimals, dance.end if dance.end.bench is not None else None)
+        yield from _parts(result, rows, tables.own_names(result), look)
         return
-    dance = dance_of(request, context, settings.benches_max)
-    clock = clock_of(request, dance) if isinstance(request, TrajectoryRequest) else None
-    write = trajectory_writer(ending, request.decimals, clock) if ending else None
-    handles, times = _handles(context.params["handles"], dance.dragon), request.times
-    if typed_options(context, "times") and (ranged := typed_options(context, "start", "stop", "step")):
-        raise InvalidValue.in_words(
-            "times", "--times replaces --{option}: give one of the two", option=Parameter(ranged[0])
-        )
-    if isinstance(times, str):
-        request = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": request.decimals})
-    instants = request.times_of(dance, settings.cells_max)
-    if dance.path.spiral is not None and instants.size and instants.min() < 0.0:
-        warning = say(
-            "Warning: the dance begins at 0 s, and before it the head is on the outward extension of the same spiral; "
-            "for the contest's turn give --path turn"
-        )
-        print(warning, file=sys.stderr)
-    with show.waiting(say("trajectory")):
-        result = core.trajectory(dance, instants)
-        data = write(result) if write else b""
-    if ending:
-        _write(data, output, handles_of(dance), instants.size)
-    else:
-        fold, all_instants = dance.end if dance.end.bench is not None else None, isinstance(times, (str, list))
-        look = _Look("", all_instants, request.decimals, fold)
-        show.print_parts(*_parts(result, handles, tables.own_names(result), look))
-
-
-def _of_several(
-    request: TrajectoryRequest,
-    context: typer.Context,
-    output: Path | None,
-    ending: str | None,
-) -> None:
-    """Print or write where the handles of several dragons are."""
-    settings = Settings()
-    performance = request.to_performance(settings)
-    instants = request.times_of(performance, settings.cells_max)
+    performance = request.to_performance(terms.settings)
     dragons = [part.dance.dragon for part in performance.parts]
-    handles = _handles(context.params["handles"], min(dragons, key=lambda dragon: dragon.benches))
-    with show.waiting(say("trajectory")):
-        results = core.trajectory(performance, instants)
-        clock = clock_of(request, performance)
-        table = PerformanceTable(performance, results, request.decimals, clock)
-        data = performance_file(ending, table) if ending else b""
-    if ending:
-        _write(data, output, handles_of(performance), instants.size)
-        return
-    all_instants = isinstance(request.times, list)
+    rows = _handles(handles, min(dragons, key=lambda dragon: dragon.benches))
+    results = core.trajectory(performance, request.times_of(performance, cells_max))
     for k, (part, result) in enumerate(zip(performance.parts, results, strict=True)):
-        end = part.dance.end
-        fold = replace(end, time=part.end) if part.folds else None
-        names = tables.own_names(result, own=part.dance.dragon.names)
-        look = _Look(f"{performance.name_of(k)}: ", all_instants, request.decimals, fold)
-        show.print_parts(*_parts(result, handles, names, look))
-
-
-def _write(data: bytes, output: Path | None, handles: int, instants: int) -> None:
-    """Write a file, or print it."""
-    if output is None:
-        show.print_json(data)
-        return
-    write_whole(output, data)
-    words = say("{file}: {handles} handles at {instants} instants", file=output, handles=handles, instants=instants)
-    print(words, file=sys.stderr)
+        fold = replace(part.dance.end, time=part.end) if part.folds else None
+        names = tables.own_names(result, own=dragons[k].names)
+        look = _Look(f"{performance.name_of(k)}: ", is_list, request.decimals, fold)
+        yield from _parts(result, rows, names, look)
 
 
 def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
     """The handles in an option; None without the option. raises: InvalidValue"""
     if text is None:
         return None
-    handles = numbers("handles", text, int)
+    handles = numbers_of("handles", text, int)
     for k, handle in enumerate(handles):
         if not 0 <= handle <= dragon.benches:
             rule = "must be from 0 to {last} for this dragon"
@@ -158,7 +76,7 @@ def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
 class _Look:
     """The look of tables.
 
-    title: what stands before the titles; decimals: of every number; None: show.DISPLAY_DECIMALS
+    title: what stands before the titles; decimals: of every number; None: DISPLAY_DECIMALS
     all_instants: all instants, in as many tables as needed; else up to PRINTED_INSTANTS, evenly spaced, in one table
     fold: end of the run, if it is a fold; instants just before it are marked, as speeds grow without bound there
     """
@@ -179,7 +97,7 @@ def _parts(result: Trajectory, handles: Sequence[int] | None, names: Sequence[st
     rows = list(handles) if handles else sorted({k for k in PAPER_HANDLES if k < number} | {number - 1})
     labels = [f"{k} {names[k]}" for k in rows]
     x, y = result.position[..., 0], result.position[..., 1]
-    places = show.DISPLAY_DECIMALS if look.decimals is None else look.decimals
+    places = DISPLAY_DECIMALS if look.decimals is None else look.decimals
     instant_names = [_instant(result, t, fold) for t in range(instants)]
     widest = max(map(cell_len, [*labels, say("handle")]))
     room = show.new_console().width - show.TABLE_SPACE - show.COLUMN_SPACE - widest
@@ -194,12 +112,15 @@ def _parts(result: Trajectory, handles: Sequence[int] | None, names: Sequence[st
     of_handles = counted(number, "{rows} of {count} handle", "{rows} of {count} handles", rows=len(rows))
     of_instants = counted(instants, "{shown} of {count} instant", "{shown} of {count} instants", shown=count)
     texts = {"handles": of_handles, "instants": of_instants}
-    if handles is None and not all_instants:
-        yield say("{handles}, {instants}: --output has all, --handles and --times choose.", **texts)
-    elif handles is None:
-        yield say("{handles}, {instants}: --output has all, --handles chooses.", **texts)
-    elif not all_instants:
-        yield say("{handles}, {instants}: --output has all, --times chooses.", **texts)
+    choosing = [name for name, chosen in (("--handles", handles is not None), ("--times", all_instants)) if not chosen]
+    if choosing:
+        choose = counted(
+            len(choosing),
+            "{options} chooses",
+            "{options} choose",
+            options=" ".join(choosing) if len(choosing) == 1 else say("--handles and --times"),
+        )
+        yield say("{handles}, {instants}: --output has all, {choose}.", **texts, choose=choose)
     else:
         yield say("{handles}, {instants}: --output has all.", **texts)
     if fold and any(instant_names[t].endswith(NEAR_FOLD) for block in blocks for t in block):
@@ -247,3 +168,6 @@ def _instant(result: Trajectory, t: int, fold: RunEnd | None) -> str:
 
 def _entry(value: float, decimals: int) -> str:
     return f"{round(value, decimals) + 0.0:.{decimals}f}"
+
+
+trajectory = command_of(QUESTION, Rows, _printed)

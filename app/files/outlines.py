@@ -91,8 +91,3 @@ def _drawing(drawn: Sequence[tuple[Sequence[tuple[str, int]], Envelope]]) -> byt
             for k, ring in enumerate(rings):
                 space.add_lwpolyline(ring[:-1].tolist(), close=True, dxfattribs={"layer": layers[k > 0][0]})
     return dxf_bytes(drawing)
-
-
-# Functions of an envelope, and of those of several dragons, by the ending of the file.
-_GEOJSON, _DXF = (envelope_geojson, grounds_geojson), (envelope_dxf, grounds_dxf)
-WRITERS = {".geojson": _GEOJSON, ".json": _GEOJSON, ".dxf": _DXF}

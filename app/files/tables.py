@@ -22,6 +22,8 @@ from core.values import Floats
 
 # Endings that trajectory_writer() supports.
 TABLE_ENDINGS = (".csv", ".xlsx", ".arrow", ".json")
+# Optional part of the program that it needs for some of them.
+TABLE_EXTRAS = {".xlsx": "xlsx", ".arrow": "arrow"}
 COLUMNS = ("time", "handle", "x", "y", "speed")
 # Handles in the tables that the contest requires, beside the rear one of the tail.
 PAPER_HANDLES = (0, 1, 51, 101, 151, 201)

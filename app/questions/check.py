@@ -2,25 +2,48 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 from pydantic import Field
 
 import core
+from app.files.tables import TABLE_ENDINGS, TABLE_EXTRAS, trajectory_writer
+from app.questions import figures
 from app.questions.collision_time import CollisionTime, Contact
 from app.questions.encounter import Encounter
-from app.wire.answers import SENTENCES, DragonPair, Point
+from app.wire.answers import SENTENCES, DragonPair, Pair, Point
 from app.wire.clocks import clock_at_zero, time_of_day
-from app.wire.dances import PlacedDance, SpanFields, clock_of
+from app.wire.dances import PlacedDance, SpanFields, TimeRange, clock_of
+from app.wire.geojson import SQUARE
+from app.wire.labels import DISPLAY_DECIMALS, Heading, Part, Table, judged_words, separation, value_text, value_word
 from app.wire.performances import SeveralFields
-from app.wire.question import UNKNOWN_COST, Answer, Question, SpeedLimit, Terms, measure
+from app.wire.question import (
+    UNKNOWN_COST,
+    Answer,
+    Command,
+    CrossCheck,
+    Output,
+    Question,
+    SpeedLimit,
+    Terms,
+    Wire,
+    Writer,
+    measure,
+)
 from app.wire.readings import Limits, encounter_words, failure_words, speed_words
-from core import Dance, Outcome, Performance, Venue
-from core.language import say
+from app.wire.refusals import refusing
+from core import Dance, FailureKind, Judgement, Outcome, Performance, Venue
+from core.errors import format_bound, format_number
+from core.language import phrase, say
 
 if TYPE_CHECKING:
     from app.wire.degrees import Place
+
+
+# What FILE holds for a question about a dance as for this one.
+FILE_OF_CHECK = "Dragon, path, venue and limits as for check: .toml or .json."
 
 
 class DanceCheck(Contact, SpanFields, PlacedDance, strict=True):
@@ -269,4 +292,199 @@ def _cost(request: CheckRequest) -> float:
     return 0.02 + 4e-4 * request.benches + 5e-4 * len(request.path.points)
 
 
-QUESTION = Question(check, Report, body=CheckRequest, cost=_cost, several=PerformanceReport)
+def _with_files(request: CheckRequest, terms: Terms) -> tuple[Report | PerformanceReport, dict[str, Writer]]:
+    """The answer, and what draws the dance and writes it as a table."""
+    answer = check(request, terms)
+    return answer, {
+        "figure": lambda form, time: _drawn(request, answer, terms, form, time),
+        "output": lambda ending: _table(request, answer, terms, ending),
+    }
+
+
+def _table(request: CheckRequest, answer: Report | PerformanceReport, terms: Terms, ending: str) -> bytes:
+    """Positions and speeds at every second of the judged interval, within the run, as a file with that ending."""
+    from app.files.performance_tables import PerformanceTable, performance_file
+
+    cells_max = terms.settings.cells_max
+    if isinstance(answer, PerformanceReport):
+        performance = request.to_performance(terms.settings)
+        seconds = TimeRange(start=answer.start, stop=answer.stop).times_of(performance, cells_max)
+        results = core.trajectory(performance, seconds, budget=terms.budget)
+        return performance_file(ending, PerformanceTable(performance, results, clock=clock_of(request, performance)))
+    dance = request.to_dance(terms.settings.checked_benches_max)
+    stop = dance.end.time if request.stop is None else min(request.stop, dance.end.time)
+    seconds = TimeRange(start=answer.start, stop=stop).times_of(dance, cells_max)
+    write = trajectory_writer(ending, None, clock_of(request, dance))
+    return write(core.trajectory(dance, seconds, budget=terms.budget))
+
+
+def _drawn(
+    request: CheckRequest, answer: Report | PerformanceReport, terms: Terms, form: str, time: float | None
+) -> bytes:
+    """The dance at a time, or at its first failure, else where two benches are nearest; dragons at their encounter."""
+    meet = time is None and isinstance(answer, PerformanceReport) and answer.encounter.dragons is not None
+    if time is None:
+        closest = answer.least_clearance.time if answer.least_clearance else answer.start
+        time = answer.failures[0].time if answer.failures else closest
+    if isinstance(answer, PerformanceReport):
+        from app.files.performances import encounter_figure  # matplotlib takes a second to import
+
+        performance, _ = request.to_placed(terms.settings)
+        limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "budget": terms.budget}
+        met = core.first_encounter(performance, start=request.start, stop=request.stop, **limits) if meet else None
+        return encounter_figure(performance, met, time=None if meet else time, format=figures.FORMATS[form])
+    fields = {name: getattr(request, name) for name in PlacedDance.model_fields}
+    # The time may come from an option, so a refusal of it must name the option.
+    picture = figures.TrajectoryFigureRequest.model_construct(**fields, time=time)
+    with refusing(picture):
+        return figures.trajectory_figure(picture, terms, form)
+
+
+# What is measured, its value, its time [s], and whose it is.
+Row: TypeAlias = tuple[str, str, float | None, str]
+VERDICTS = {
+    Judgement.PASSES: phrase("Passes. Nothing fails."),
+    Judgement.FAILS: phrase("Fails. Failures in order of time:"),
+    Judgement.UNDECIDED: phrase("Undecided. No failure is known, but these questions are open:"),
+}
+
+
+def _parts(report: Report | PerformanceReport, request: CheckRequest) -> Iterator[Part]:
+    """The verdict, the failures in order of time, and the measured values."""
+    yield Heading(say(VERDICTS[report.verdict]))
+    yield from (f"  {one.clock + '  ' if one.clock else ''}{one.message}" for one in report.failures)
+    if report.begins:
+        yield say("Starts {begin}, ends {end}.", begin=report.begins, end=report.ends)
+    yield ""
+    title = say("From {start:.3f} to {stop:.3f} s", start=report.start, stop=report.stop)
+    facts = Table(title, say("what"), say("value"), say("at"), say("who"))
+    rows = (
+        _measured(report, request.margin, request.benches)
+        if isinstance(report, Report)
+        else _measured_together(report, request)
+    )
+    for name, value, time, who in rows:
+        facts.add(name, value, "" if time is None else f"{time:.6f} s", who)
+    yield facts
+    if at := report.origin:
+        yield say(
+            "x = y = 0 is longitude {longitude:.6f}, latitude {latitude:.6f}: the middle of the square.",
+            longitude=at.longitude, latitude=at.latitude,
+        )  # fmt: skip
+
+
+def _measured_together(report: PerformanceReport, request: CheckRequest) -> Iterator[Row]:
+    """Rows of any two dragons, then those of each by itself."""
+    met, dances = report.encounter, request.dances or []
+    names = [name or say("dragon {k}", k=k) for k, name in enumerate(report.names)]
+
+    def pair(dragons: Pair | None, benches: Pair | None) -> str:
+        both = zip(dragons or (), benches or (), strict=True)
+        return say(" and ").join(say("bench {bench} of {name}", bench=bench, name=names[k]) for k, bench in both)
+
+    near = say("two dragons first within {margin} m", margin=format_number(met.margin))
+    what = near if met.margin else say("first encounter")
+    who = pair(met.dragons, met.benches)
+    yield _with_strays(what, met.stray), value_word(met.outcome.value, met.margin), met.time, who
+    if check := met.cross_check:
+        yield say("cross-check"), _agreement(check.agree), None, ""
+    if least := report.least_clearance:
+        yield say("least clearance of two dragons"), _least(least), least.time, pair(least.dragons, least.benches)
+    for name, dance, own in zip(names, dances, report.reports, strict=True):
+        if own is None:
+            yield say("{name}: stands", name=name), "", None, ""
+            continue
+        for what, value, time, who in _measured(own, request.margin, dance.benches):
+            yield say("{name}: {text}", name=name, text=what), value, None if time is None else time + dance.delay, who
+
+
+def _with_strays(what: str, stray: float | None) -> str:
+    return say("{what} with strays up to {stray} m", what=what, stray=format_number(stray)) if stray else what
+
+
+def _agreement(agree: bool) -> str:
+    return say("engines agree") if agree else say("engines DISAGREE")
+
+
+def _pair(benches: Pair) -> str:
+    return say("benches {pair}", pair=value_text(benches))
+
+
+def _least(least: core.LeastClearance | DragonsClearance) -> str:
+    overlap = separation(least.distance, " m", DISPLAY_DECIMALS) if least.distance < 0.0 else ""
+    return overlap or _distance(least)
+
+
+def _measured(report: Report, margin: float, benches: int) -> Iterator[Row]:
+    """Rows of quantity, value, time and benches."""
+    contact = report.first_contact
+    pair = _pair(contact.benches) if contact.benches else ""
+    what = say("first within {margin} m", margin=format_number(margin)) if margin else say("first contact")
+    yield _with_strays(what, contact.stray), value_word(contact.outcome.value, margin), contact.time, pair
+    if check := contact.cross_check:
+        yield say("cross-check"), _agreement(check.agree), None, judged_words(check.judged, benches)
+    if least := report.least_clearance:
+        yield say("least clearance"), _least(least), least.time, _pair(least.benches)
+    for area in report.venue.areas if report.venue else ():
+        if near := area.nearest:
+            name = say("square") if area.name == SQUARE else area.name
+            what, who = say("nearest to {name}", name=name), say("bench {k}", k=near.bench)
+            yield what, _distance(near), near.time, who
+    if speed := report.highest_speed:
+        several, who = len(speed.handles) > 1, value_text(speed.handles)
+        who = say("handles {which}", which=who) if several else say("handle {which}", which=who)
+        yield say("highest speed"), f"{speed.speed:.6f} m/s", speed.time, who
+    elif any(one.kind is FailureKind.FOLDS for one in report.failures):
+        yield say("highest speed"), say("grows without bound"), report.stop, say("towards the fold")
+    if bend := report.sharpest_bend:
+        yield say("sharpest bend"), f"{bend.angle:.6f} rad", bend.time, _pair(bend.benches)
+
+
+def _distance(nearest: core.LeastClearance | DragonsClearance | core.Nearest) -> str:
+    least = nearest.at_least
+    if least is None:
+        return say("{distance:.6f} m, not proven", distance=nearest.distance)
+    bound = format_bound(least, DISPLAY_DECIMALS)
+    return say("{distance:.6f} m, proven: at least {bound} m", distance=nearest.distance, bound=bound)
+
+
+class Checked(Wire):
+    """What of a request may be an option."""
+
+    cross_check: CrossCheck = "dragon"
+
+
+class DrawnTime(Wire):
+    """The instant of a picture."""
+
+    time: float | None = measure("s", "Time to draw; default: the first failure, else the least clearance", None)
+
+
+QUESTION = Question(
+    check,
+    Report,
+    body=CheckRequest,
+    cost=_cost,
+    several=PerformanceReport,
+    command=Command(
+        "Verdict on a dance, or several: contacts, limits and venue. The exit code is 0, also for a dance that fails.",
+        lambda request: say("check"),
+        _parts,
+        options=Checked,
+        file="Dragon and path, or dances; venue and limits, as for POST /check, as .toml or .json.",
+        outputs={
+            "figure": Output(
+                "Draw the dance into a .svg or .png file.",
+                figures.PICTURES,
+                extras=dict.fromkeys(figures.PICTURES, "figures"),
+                options=DrawnTime,
+            ),
+            "output": Output(
+                "Write positions and speeds at every second to a .csv, .xlsx, .arrow or .json file.",
+                {ending: ending for ending in TABLE_ENDINGS},
+                extras=TABLE_EXTRAS,
+            ),
+        },
+        solve=_with_files,
+    ),
+)

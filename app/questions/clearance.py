@@ -10,7 +10,7 @@ from app.wire.answers import Columns, Pair
 from app.wire.dances import TimedDance, TimeRange
 from app.wire.labels import Part, Table, label, separation, value_text
 from app.wire.performances import SeveralDances
-from app.wire.question import Answer, Command, DanceQuery, Question, Terms
+from app.wire.question import Answer, Command, DanceQuery, Question, Terms, Wire
 from core.errors import format_number
 from core.language import say
 
@@ -78,7 +78,7 @@ def _cost(request: ClearanceQuery | DanceClearance) -> float:
     return request.instants() * request.benches * SECONDS_PER_CELL
 
 
-def _parts(answer: Columns) -> Iterator[Part]:
+def _parts(answer: Columns, request: Wire) -> Iterator[Part]:
     """Clearance at every instant, and the local minima between them."""
     columns = answer.columns
     pairs = [name for name in ("dragons", "benches") if name in columns]

@@ -3,25 +3,43 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Self
 
 import numpy as np
 from pydantic import AfterValidator, Field
 
 import core
-from app.cards.crew import CrewWords, crew_csv
+from app.cards.crew import CrewWords, crew_csv, lack_words
 from app.cards.words import CardWords, Chalk
 from app.files.tables import CSV_TYPE
 from app.maps.marks import mark_name
 from app.plan.timing import TimeFormat
+from app.questions.check import FILE_OF_CHECK
 from app.questions.maps import Marked
-from app.questions.plan import PDF_TYPE
+from app.questions.plan import PDF_TYPE, SHEETS
 from app.wire.clocks import DAY, checked_clock
 from app.wire.dances import clock_of, starting
-from app.wire.question import AS_WHOLE, JSON, Answer, Coordinate, Instant, OneLine, Question, Terms, Wire, measure
+from app.wire.labels import Part, Table
+from app.wire.messages import checked
+from app.wire.numbers import numbers_of
+from app.wire.question import (
+    AS_WHOLE,
+    JSON,
+    Answer,
+    Command,
+    Coordinate,
+    Instant,
+    ListOption,
+    OneLine,
+    Question,
+    Terms,
+    Wire,
+    measure,
+)
 from core import Dance, InvalidValue
 from core.errors import Given, Parameter, Quantity, TooLarge, question_about
-from core.language import Language, say
+from core.language import Language, Listed, say
 from core.motion.places import handle_places
 from core.people import crew as facts
 from core.people.crew import ON_BENCH_MAX, PEOPLE_MAX, PLACES_MAX, SHIFT_MAX, Relief, places_near
@@ -47,6 +65,14 @@ class PointBody(Wire, strict=True):
     y: Coordinate = measure("m", "y of the point")
     within: float = measure("m", "Largest distance of the path from the point where it passes it", 2.0, ge=0, le=100)
 
+    @classmethod
+    def of_text(cls, text: str) -> Self:
+        """A point as X,Y. raises: InvalidValue"""
+        entries = numbers_of("point", text, float)
+        if len(entries) != 2:
+            raise InvalidValue.in_words("point", "--point must be X,Y [m]", got=Given(text))
+        return checked(cls, dict(zip("xy", entries, strict=True)))
+
 
 class CrewFields(Wire):
     """The people of a dance."""
@@ -57,10 +83,10 @@ class CrewFields(Wire):
         0, description="Further people, who carry nothing at the start and come in at changes"
     )
     shift: float | None = measure(
-        "s", "Time after which people change, again and again; null: not by time", None, gt=0, le=SHIFT_MAX
+        "s", "Time after which people change, again and again; default: not by time", None, gt=0, le=SHIFT_MAX
     )
     rest: float = measure("s", "Least time from going out to coming in again", 0.0, ge=0, le=SHIFT_MAX)
-    at: Instant | None = measure("s", "Time at which the answer says who is where; null: none", None)
+    at: Instant | None = measure("s", "Time at which the answer says who is where; default: none", None)
     at_clock: Annotated[str | None, AfterValidator(checked_clock)] = Field(
         None, description="The same as a time of day such as 19:45, for a dance with start_clock or begin_clock"
     )
@@ -355,4 +381,47 @@ def _cost(request: CrewRequest, form: str = JSON) -> float:
     return request.benches * (SECONDS_ON_PAPER if form == PDF_TYPE else SECONDS)
 
 
-QUESTION = Question(crew, Crew, None, CrewRequest, (JSON, CSV_TYPE, PDF_TYPE), _cost)
+def _parts(answer: Crew, request: CrewRequest) -> Iterator[Part]:
+    """What lacks, then each person, and who is where."""
+    if answer.spares < answer.enough:
+        lacks = lack_words(answer.enough, len(answer.unrelieved))
+        yield say("{words}.", words=say("; ").join(lacks).capitalize())
+    title = say("{answer.people} people, {answer.spares} of them spares; {answer.changes} changes", answer=answer)
+    heads = say("person"), say("benches"), say("time [s]"), say("way [m]"), say("longest [s]")
+    table = Table(title, *heads)
+    for one in answer.carriers:
+        benches = str(Listed(dict.fromkeys(spell.bench for spell in one.spells))) or say("none")
+        table.add(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
+    yield table
+    if roll := answer.at:
+        time = roll.clock or f"{roll.time:g} s"
+        heads = say("bench"), say("people"), "x [m]", "y [m]", say("mark [m]")
+        table = Table(say("Who is where at {time}", time=time), *heads)
+        for place in roll.benches:
+            name = f"{place.bench} {place.name}".rstrip()
+            table.add(name, " ".join(place.people), f"{place.x:.2f}", f"{place.y:.2f}", f"{place.mark:g}")
+        if roll.resting:
+            table.add(say("rest"), " ".join(roll.resting), "", "", "")
+        yield table
+
+
+QUESTION = Question(
+    crew,
+    Crew,
+    None,
+    CrewRequest,
+    (JSON, CSV_TYPE, PDF_TYPE),
+    _cost,
+    command=Command(
+        "Who carries which bench when: shifts, spare carriers, minutes and metres of each, and who is where at a time.",
+        lambda request: say("crew"),
+        _parts,
+        file=FILE_OF_CHECK,
+        lists={
+            "point": ListOption(
+                "points", "A place X,Y [m] at which people change; may be given several times.", PointBody.of_text
+            )
+        },
+        outputs={"output": SHEETS},
+    ),
+)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any, Literal
 
 from pydantic import Field
@@ -13,12 +14,12 @@ from app.cards.tables import cards_csv, performance_cards_csv
 from app.cards.words import CardWords, Chalk, landmarks_of
 from app.files.tables import CSV_TYPE
 from app.plan.timing import TimeFormat
-from app.questions.check import verdict_of
-from app.questions.plan import PDF_TYPE, GatedDance, verdict_words
+from app.questions.check import FILE_OF_CHECK, verdict_of
+from app.questions.plan import GATES, PDF_TYPE, SHEETS, GatedDance, verdict_words
 from app.wire.dances import BenchNumber, bench_of, clock_of, starting
 from app.wire.degrees import Place
 from app.wire.performances import NumberOrName, SeveralFields, dragons_of
-from app.wire.question import JSON, Address, Question, Terms, measure
+from app.wire.question import JSON, Address, Command, ListOption, Question, Terms, measure
 from core import Dance, FailureKind, InvalidValue, Performance
 from core.errors import Given, Parameter, TooLarge, question_about
 from core.language import say
@@ -36,9 +37,9 @@ class DanceCues(GatedDance, strict=True):
     """A dance, as for /check, and the benches that get cards."""
 
     first_bench: BenchNumber | None = Field(
-        None, description=f"First bench with a card, 0 for the head; at most {FOLLOWED_MAX} get one; null: the head"
+        None, description=f"First bench with a card, 0 for the head; at most {FOLLOWED_MAX} get one; default: the head"
     )
-    last_bench: BenchNumber | None = Field(None, description="Last bench with a card; null: the tail")
+    last_bench: BenchNumber | None = Field(None, description="Last bench with a card; default: the tail")
     cards: list[BenchNumber | str] | None = Field(
         None,
         min_length=1,
@@ -92,7 +93,7 @@ class CuesRequest(SeveralFields, DanceCues, strict=True):
     part: NumberOrName | None = Field(
         None,
         description="Of several dances, the dragon whose benches get cards: its number in the order of the dances, "
-        "from 0, or its name; null: each",
+        "from 0, or its name; default: each",
     )
 
 
@@ -298,4 +299,20 @@ def _cost(request: CuesRequest, form: str = JSON) -> float:
     return count * (SECONDS_PER_BENCH + (SECONDS_PER_CARD if form == PDF_TYPE else 0.0))
 
 
-QUESTION = Question(cues, Cues, None, CuesRequest, (JSON, CSV_TYPE, PDF_TYPE), _cost, several=PerformanceCues)
+QUESTION = Question(
+    cues,
+    Cues,
+    None,
+    CuesRequest,
+    (JSON, CSV_TYPE, PDF_TYPE),
+    _cost,
+    several=PerformanceCues,
+    command=Command(
+        "A card for each bench: where to stand, when to walk, whom it meets and how near, where it is fastest.",
+        lambda request: say("cues"),
+        file=FILE_OF_CHECK,
+        lists={"bench": ListOption("cards", "Name or number of a bench with a card; may be given several times.")}
+        | GATES,
+        outputs={"output": replace(SHEETS, default="cues.pdf")},
+    ),
+)

@@ -8,10 +8,14 @@ from pydantic import Field
 
 import core
 from app.questions.collision_time import Contact
+from app.questions.figures import FORMATS, PICTURES
 from app.wire.answers import TOTAL_STRAY, DragonPair, EncounterCheck, OwnedFeature, Pair, Point
-from app.wire.performances import PerformanceFields, PerformanceSpan
-from app.wire.question import Answer, Question, Terms
+from app.wire.labels import with_strays
+from app.wire.performances import FILE_OF_DANCES, PerformanceFields, PerformanceSpan
+from app.wire.question import Answer, Command, Output, Question, Terms, Writer
 from core import Outcome
+from core.errors import format_number
+from core.language import say
 
 
 class EncounterRequest(Contact, PerformanceSpan, PerformanceFields, strict=True):
@@ -81,18 +85,55 @@ class Encounter(Answer, of=core.FirstEncounter):
 
 def encounter(request: EncounterRequest, terms: Terms) -> Encounter:
     """First time that benches of two dragons touch or come within a margin, with the evidence."""
-    return Encounter.of(encounter_of(request, terms), request, terms)
+    return _with_figure(request, terms)[0]
 
 
-def encounter_of(request: EncounterRequest, terms: Terms) -> core.FirstEncounter:
-    """The first encounter as an object of core. raises: TooLarge, InvalidValue"""
+def _with_figure(request: EncounterRequest, terms: Terms) -> tuple[Encounter, dict[str, Writer]]:
+    """The answer, and what draws it. raises: TooLarge, InvalidValue"""
     performance = request.to_performance(terms.settings)
-    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray()}
-    return core.first_encounter(performance, start=request.start, stop=request.stop, budget=terms.budget, **limits)
+    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "budget": terms.budget}
+    result = core.first_encounter(performance, start=request.start, stop=request.stop, **limits)
+
+    def draw(form: str) -> bytes:
+        from app.files.performances import encounter_figure  # matplotlib takes a second to import
+
+        return encounter_figure(performance, result, format=FORMATS[form], budget=terms.budget)
+
+    return Encounter.of(result, request, terms), {"figure": draw}
 
 
 def _owned(feature: core.Feature | None, dragon: int | None) -> OwnedFeature | None:
     return None if feature is None else OwnedFeature.from_result(feature, dragon=dragon)
 
 
-QUESTION = Question(encounter, Encounter, body=EncounterRequest)
+class EncounterOptions(Contact, PerformanceSpan):
+    """The fields of an encounter that are options."""
+
+
+def _title(request: EncounterRequest) -> str:
+    title = say("First encounter")
+    if request.margin:
+        near = format_number(request.margin)
+        title = say("First time that benches of two dragons are within {margin} m of each other", margin=near)
+    return with_strays(title, request.to_stray())
+
+
+QUESTION = Question(
+    encounter,
+    Encounter,
+    body=EncounterRequest,
+    command=Command(
+        "First time that benches of two dragons touch, or come within a margin.",
+        _title,
+        options=EncounterOptions,
+        file=FILE_OF_DANCES,
+        outputs={
+            "figure": Output(
+                "Draw all dragons at their encounter into a .svg or .png file.",
+                PICTURES,
+                extras=dict.fromkeys(PICTURES, "figures"),
+            )
+        },
+        solve=_with_figure,
+    ),
+)

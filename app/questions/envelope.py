@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from importlib.util import find_spec
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 from pydantic import Field
 
@@ -14,9 +14,11 @@ from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.wire.answers import MultiPolygon, Polygon
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.geojson import geometry_of
+from app.wire.options import PathOptions
 from app.wire.paths import Point
 from app.wire.performances import SeveralDances
-from app.wire.question import JSON, Answer, DanceQuery, Instant, Question, Terms, measure
+from app.wire.question import JSON, Answer, Command, Instant, Output, Question, Terms, measure
+from core.language import say
 
 # Largest number of points of a line of spectators.
 LINE_MOST = 1_000
@@ -30,8 +32,8 @@ class WholeSpan(SpanFields):
     stop: Instant | None = measure("s", "End time; default: the end of the run, also if benches touch before", None)
 
 
-class EnvelopeQuery(WholeSpan, DanceQuery):
-    """The ground that a uniform dragon sweeps on a spiral."""
+class EnvelopeOptions(WholeSpan, PathOptions):
+    """The fields of an envelope as options."""
 
 
 class EnvelopeRequest(SeveralDances, WholeSpan, DanceFields, strict=True):
@@ -72,9 +74,8 @@ class Envelope(Answer, of=core.Envelope):
     certificate: SweepProof
 
     @classmethod
-    def of(cls, result: core.Envelope, request: EnvelopeQuery | EnvelopeRequest) -> Self:
-        line = request.spectators if isinstance(request, EnvelopeRequest) else None
-        distance = None if line is None else result.distance(line)
+    def of(cls, result: core.Envelope, request: EnvelopeRequest) -> Self:
+        distance = None if request.spectators is None else result.distance(request.spectators)
         return cls.from_result(result, envelope=geometry_of(result.polygons), distance=distance)
 
 
@@ -122,33 +123,51 @@ if find_spec("ezdxf"):
     FORMS[DXF_TYPE] = (outlines.envelope_dxf, outlines.grounds_dxf)
 
 
-def envelope_of(request: EnvelopeQuery | EnvelopeRequest, terms: Terms) -> core.Envelope:
-    """The envelope as an object of core. raises: TooLarge, InvalidValue"""
-    dance = request.to_dance(terms.settings.checked_benches_max)
-    return core.envelope(dance, start=request.start, stop=request.stop, budget=terms.budget)
-
-
-def envelopes_of(
-    request: EnvelopeRequest, terms: Terms
-) -> tuple[core.Performance, tuple[core.Envelope, ...], list[outlines.Ground]]:
-    """Several dances, their envelopes, and these as they are written into files. raises: TooLarge, InvalidValue"""
-    performance = request.to_performance(terms.settings)
-    results = core.envelope(performance, start=request.start, stop=request.stop, budget=terms.budget)
-    grounds = [outlines.Ground(part.name, result) for part, result in zip(performance.parts, results, strict=True)]
-    return performance, results, grounds
-
-
 def envelope(request: EnvelopeRequest, terms: Terms, form: str = JSON) -> Envelope | PerformanceEnvelope | bytes:
     """The ground that benches sweep, as polygons that hold every pose and reach at most 1 mm further."""
-    if request.dances is not None:
-        performance, results, grounds = envelopes_of(request, terms)
-        return FORMS[form][1](grounds) if form in FORMS else PerformanceEnvelope.together(results, request, performance)
-    result = envelope_of(request, terms)
-    return FORMS[form][0](result) if form in FORMS else Envelope.of(result, request)
+    answer, writers = _with_file(request, terms)
+    return answer if form == JSON else writers["output"](form)
+
+
+def _with_file(
+    request: EnvelopeRequest, terms: Terms
+) -> tuple[Envelope | PerformanceEnvelope, dict[str, Callable[[str], bytes]]]:
+    """The answer, and what writes it as a file. raises: TooLarge, InvalidValue"""
+    span: dict[str, Any] = {"start": request.start, "stop": request.stop, "budget": terms.budget}
+    if request.dances is None:
+        result = core.envelope(request.to_dance(terms.settings.checked_benches_max), **span)
+        return Envelope.of(result, request), {"output": lambda form: FORMS[form][0](result)}
+    performance = request.to_performance(terms.settings)
+    results = core.envelope(performance, **span)
+    grounds = [outlines.Ground(part.name, one) for part, one in zip(performance.parts, results, strict=True)]
+    answer = PerformanceEnvelope.together(results, request, performance)
+    return answer, {"output": lambda form: FORMS[form][1](grounds)}
 
 
 def _cost(request: EnvelopeRequest, form: str = JSON) -> float:
     return SECONDS * len(request.dances or [None])
 
 
-QUESTION = Question(envelope, Envelope, None, EnvelopeRequest, (JSON, *FORMS), _cost, several=PerformanceEnvelope)
+QUESTION = Question(
+    envelope,
+    Envelope,
+    None,
+    EnvelopeRequest,
+    (JSON, *FORMS),
+    _cost,
+    several=PerformanceEnvelope,
+    command=Command(
+        "The ground that benches sweep: polygons proven to hold every pose and to reach at most 1 mm further.\n\n"
+        "Of a FILE of several dragons, the ground of each.",
+        lambda request: say("Ground that benches sweep"),
+        options=EnvelopeOptions,
+        outputs={
+            "output": Output(
+                "Write the polygons to a .geojson, .json or .dxf file (extra dxf), in metres.",
+                {".geojson": GEOJSON_TYPE, ".json": GEOJSON_TYPE, ".dxf": DXF_TYPE},
+                extras={".dxf": "dxf"},
+            )
+        },
+        solve=_with_file,
+    ),
+)

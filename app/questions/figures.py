@@ -24,6 +24,8 @@ class Format(FileFormat):
 
 FORMATS = {one.media_type: one.value for one in Format}
 FORMS = tuple(FORMATS)
+# The same by the ending of a file.
+PICTURES = {f".{one}": one.media_type for one in Format}
 
 
 class WithLanguage(Wire):

@@ -10,8 +10,21 @@ from pydantic import Field
 import core
 from app.files.film_spec import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, FilmSpec
 from app.wire.dances import BenchNumber, PlacedDance, bench_of, clock_of
+from app.wire.options import PathOptions
 from app.wire.performances import NumberOrName, PartBody, SeveralFields, dragons_of
-from app.wire.question import AS_WHOLE, Instant, OneLine, Question, Terms, Wire, check_limit, measure
+from app.wire.question import (
+    AS_WHOLE,
+    Command,
+    Instant,
+    ListOption,
+    OneLine,
+    Output,
+    Question,
+    Terms,
+    Wire,
+    check_limit,
+    measure,
+)
 from core import Dance, Dragon, EndReason, InvalidValue, Outcome, Performance, first_contact
 from core.errors import Given, Quantity, bound
 from core.language import Language, say
@@ -45,7 +58,21 @@ class FilmFields(Wire):
     title: OneLine = Field("", max_length=80, description="Words at the upper right")
 
 
-class FilmRequest(SeveralFields, FilmFields, PlacedDance):
+class PartFields(Wire):
+    """The dragon that a film is about."""
+
+    part: NumberOrName | None = Field(
+        None,
+        description="Of several dances, the dragon whose benches are marked: its number in the order of the dances, "
+        "from 0, or its name; default: each",
+    )
+
+
+class FilmOptions(PartFields, FilmFields, PathOptions):
+    """The fields of a film as options."""
+
+
+class FilmRequest(SeveralFields, PartFields, FilmFields, PlacedDance):
     """A film of any dragon on any path, in any venue; or of several dragons on one clock."""
 
     language: Language = Field(Language.ENGLISH, description="Language of the words in the picture", strict=False)
@@ -55,41 +82,23 @@ class FilmRequest(SeveralFields, FilmFields, PlacedDance):
         max_length=MARKED_MAX,
         description="Benches that stand out, with their numbers and names: each by its name or its number",
     )
-    part: NumberOrName | None = Field(
-        None,
-        description="Of several dances, the dragon whose benches are marked: its number in the order of the dances, "
-        "from 0, or its name; null: each",
-    )
 
 
 def films(request: FilmRequest, terms: Terms, form: str = FORM) -> bytes:
     """A film of the dance: every bench at every instant, as MP4 or GIF."""
     if request.dances is not None:
         return _of_several(request, terms, form)
-    dance = request.to_dance(terms.settings.drawn_benches_max)
-    return film_of(request, dance, terms, form, request.marked)
-
-
-def film_of(
-    request: FilmFields, dance: Dance, terms: Terms, form: str, marked: Sequence[int | str] | None = None
-) -> bytes:
-    """The film of a dance, in the venue and with the time of day of its request, if these are given.
-
-    marked: name or number of each bench that stands out
-    """
+    if request.part is not None:
+        raise InvalidValue("part", "must be left out without dances", got=Given(request.part))
     from app.files import film
 
-    placed = request if isinstance(request, FilmRequest) else None
+    dance = request.to_dance(terms.settings.drawn_benches_max)
     rate, height = _checked_size(request, terms, form)
-    if placed and placed.part is not None:
-        raise InvalidValue("part", "must be left out without dances", got=Given(placed.part))
-    benches = _marked(marked, {0: dance.dragon})
+    benches = _marked(request.marked, {0: dance.dragon})
     start, stop, touching = span_of(request, dance, terms)
-    clock = clock_of(placed, dance) if placed else None
-    music = placed.music if placed else None
-    look: dict[str, Any] = {"touching": touching, "music": music, "marked": benches}
-    spec = FilmSpec(start, stop, request.seconds, rate, height, clock, **look)
-    venue = placed.to_place(dance.dragon).venue if placed else None
+    look: dict[str, Any] = {"touching": touching, "music": request.music, "marked": benches}
+    spec = FilmSpec(start, stop, request.seconds, rate, height, clock_of(request, dance), **look)
+    venue = request.to_place(dance.dragon).venue
     return film.film(dance, spec, form, venue=venue, title=request.title, budget=terms.budget, progress=terms.progress)
 
 
@@ -196,4 +205,26 @@ def _cost(request: FilmFields, form: str = FORM) -> float:
     return request.seconds * rate * height * height * 16 / 9 / 1e6 * SECONDS_PER_MEGAPIXEL[form]
 
 
-QUESTION = Question(films, None, body=FilmRequest, forms=tuple(ENDINGS), cost=_cost, at="/films")
+MARKED = ListOption("marked", "Name or number of a bench that stands out; may be given several times.")
+QUESTION = Question(
+    films,
+    None,
+    body=FilmRequest,
+    forms=tuple(ENDINGS),
+    cost=_cost,
+    at="/films",
+    command=Command(
+        "A film of the dance; with a FILE, of any dragon on any path and in any venue.",
+        lambda request: say("film"),
+        options=FilmOptions,
+        lists={"bench": MARKED},
+        outputs={
+            "output": Output(
+                "Write a .mp4 file (extra film), or a .gif.",
+                {ending: form for form, ending in ENDINGS.items()},
+                "dance.mp4",
+                {".mp4": "film", ".gif": "figures"},
+            )
+        },
+    ),
+)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import orjson
 from pydantic import Field
 
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.maps import dxf, geojson, kml
 from app.maps.marks import MARKS_MAX, MarkedDance, drawing_of, in_degrees, marks_of, on_grid
-from app.questions.check import DanceCheck
+from app.questions.check import FILE_OF_CHECK, DanceCheck
 from app.wire import degrees
 from app.wire.paths import AnyPath
 from app.wire.performances import SeveralFields
-from app.wire.question import FileFormat, Question, Terms, Wire, check_limit, measure
+from app.wire.question import Command, FileFormat, Output, Question, Terms, Wire, check_limit, measure
 from core import InvalidValue
+from core.language import say
 
 KML_TYPE = "application/vnd.google-earth.kml+xml"
 # Time of a map of 1,400 m of path, measured 2026-11-22 [s].
@@ -33,8 +35,8 @@ FORMS = tuple(one.media_type for one in MapFormat)
 class OriginFields(Wire, strict=True):
     """A place on earth."""
 
-    longitude: float = measure("degrees", "Longitude, east positive", ge=-180, le=180)
-    latitude: float = measure("degrees", "Latitude, north positive", ge=-90, le=90)
+    longitude: float = measure("degrees", "Longitude of x = y = 0, east positive", ge=-180, le=180)
+    latitude: float = measure("degrees", "Latitude of x = y = 0, north positive", ge=-90, le=90)
 
 
 class Marked(DanceCheck, strict=True):
@@ -102,4 +104,34 @@ def _cost(request: MapsRequest, form: str) -> float:
     return SECONDS * len(request.dances or [None])
 
 
-QUESTION = Question(maps, None, None, MapsRequest, FORMS, _cost, at="/maps.{format}", formats=MapFormat)
+def _note(request: MapsRequest, data: bytes) -> str:
+    """What is to be known of a map in metres."""
+    if not data.startswith(b"{") or "origin" in orjson.loads(data):
+        return ""
+    return say("metres, not degrees: --longitude and --latitude of x = y = 0 give longitude and latitude")
+
+
+QUESTION = Question(
+    maps,
+    None,
+    None,
+    MapsRequest,
+    FORMS,
+    _cost,
+    at="/maps.{format}",
+    formats=MapFormat,
+    command=Command(
+        "The square, the path and the chalk marks as a map.",
+        lambda request: say("map"),
+        file=FILE_OF_CHECK,
+        outputs={
+            "output": Output(
+                "Write .geojson, .kml or .dxf (extra dxf).",
+                {f".{one}": one.media_type for one in MapFormat},
+                "dance.geojson",
+                {".dxf": "dxf"},
+                _note,
+            )
+        },
+    ),
+)

@@ -2,14 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from pydantic import Field
 
 import core
 from app.questions.figures import InstantQuery
 from app.wire.answers import LEFT_OUT, Pair, Point
-from app.wire.question import Answer, Coordinate, Length, Margin, Question, Terms, Width, Wire, check_limit, measure
+from app.wire.labels import Part, Table, label, separation, value_text, value_word
+from app.wire.question import (
+    Answer,
+    Command,
+    Coordinate,
+    Length,
+    Margin,
+    Question,
+    Terms,
+    Width,
+    Wire,
+    check_limit,
+    measure,
+)
 from core import Engine
+from core.errors import format_number
+from core.language import Listed, phrase, say
 from core.values import Floats
 
 
@@ -68,24 +85,15 @@ class OverlapsAnswer(Answer):
     cross_check: OverlapsCheck = Field(description="Independent engines side by side")
 
 
-def overlaps(request: OverlapsRequest, terms: Terms) -> OverlapsAnswer:
+def overlaps(request: OverlapsRequest | InstantQuery, terms: Terms) -> OverlapsAnswer:
     """Benches that overlap or come within a margin, with depth and place, according to four engines."""
-    poses, lengths, widths = request.to_poses(terms.settings.poses_max)
-    return _overlaps_of(poses, lengths, widths, terms, margin=request.margin, chained=request.chained)
-
-
-def of_dance(request: InstantQuery, terms: Terms) -> OverlapsAnswer:
-    """The overlaps of the benches of a dance at one instant."""
-    dance = request.to_dance(terms.settings.poses_max)
-    handles = core.trajectory(dance, [request.time], budget=terms.budget).position[0]
-    dragon, poses = dance.dragon, core.bench_poses(handles)
-    return _overlaps_of(poses, dragon.lengths, dragon.widths, terms, margin=request.margin, chained=True)
-
-
-def _overlaps_of(
-    poses: Floats, lengths: Floats, widths: Floats, terms: Terms, *, margin: float, chained: bool
-) -> OverlapsAnswer:
-    """The overlaps of benches, and the verdict of each engine on them. raises: TooLarge, InvalidValue"""
+    margin, most = request.margin, terms.settings.poses_max
+    if isinstance(request, OverlapsRequest):
+        chained, (poses, lengths, widths) = request.chained, request.to_poses(most)
+    else:
+        dance, chained = request.to_dance(most), True
+        poses = core.bench_poses(core.trajectory(dance, [request.time], budget=terms.budget).position[0])
+        lengths, widths = dance.dragon.lengths, dance.dragon.widths
     result = core.overlaps(poses, lengths, widths, margin=margin, chained=chained, budget=terms.budget)
     check_limit(
         "benches",
@@ -109,4 +117,33 @@ def _cost(request: OverlapsRequest) -> float:
     return 4e-5 * benches + 5e-6 * min(benches * benches / 2, 20_000)
 
 
-QUESTION = Question(overlaps, OverlapsAnswer, body=OverlapsRequest, cost=_cost)
+def _parts(answer: OverlapsAnswer, request: OverlapsRequest | InstantQuery) -> Iterator[Part]:
+    """The pairs, and what the engines say of them."""
+    near = say("Pairs within {margin} m of each other", margin=format_number(request.margin))
+    heads = (label(name, "m") for name in ("separation", "witness_a", "witness_b"))
+    table = Table(near if request.margin else say("Overlapping pairs"), label("benches"), *heads)
+    for one in answer.overlaps:
+        witnesses = map(value_text, (one.witness_a, one.witness_b))
+        table.add(value_text(one.benches), separation(one.separation), *witnesses)
+    yield table
+    check = answer.cross_check
+    counts = Listed(f"{value_word(engine.value)} {len(pairs)}" for engine, pairs in check.engines.items())
+    engines = say("All four engines") if not check.left_out else say("The engines that can judge a margin")
+    agree = phrase("{engines} agree; pairs found: {counts}")
+    disagree = phrase("{engines} DISAGREE; pairs found: {counts}")
+    yield say(agree if check.agree else disagree, engines=engines, counts=counts)
+
+
+QUESTION = Question(
+    overlaps,
+    OverlapsAnswer,
+    body=OverlapsRequest,
+    cost=_cost,
+    command=Command(
+        "Benches that overlap, or come within a margin, at one instant, according to four engines.",
+        lambda request: say("overlaps"),
+        _parts,
+        options=InstantQuery,
+        file="Benches as for POST /overlaps, in place of a dance (- for standard input).",
+    ),
+)

@@ -213,7 +213,7 @@ def paper(request: PaperQuery, terms: Terms) -> PaperTable:
     return PaperTable(rows=list(comparison(spoken())), literature=list(literature(spoken())))
 
 
-def _parts(answer: PaperTable) -> Iterator[Part]:
+def _parts(answer: PaperTable, request: Wire) -> Iterator[Part]:
     """The numbers side by side, then each reason with its evidence; then the numbers of other publications."""
 
     def words(code: str) -> str:

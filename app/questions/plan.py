@@ -5,18 +5,33 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 from pydantic import Field
 
 import core
+from app.files.tables import CSV_TYPE
 from app.maps.marks import marks_of
-from app.questions.check import verdict_of
+from app.questions.check import FILE_OF_CHECK, verdict_of
 from app.questions.maps import Marked
 from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
+from app.wire.messages import checked
+from app.wire.numbers import numbers_of
 from app.wire.performances import SeveralFields
-from app.wire.question import Coordinate, OneLine, Question, Terms, Wire, check_limit, measure
+from app.wire.question import (
+    JSON,
+    Command,
+    Coordinate,
+    ListOption,
+    OneLine,
+    Output,
+    Question,
+    Terms,
+    Wire,
+    check_limit,
+    measure,
+)
 from core import Dance, FailureKind, InvalidValue, Judgement
 from core.errors import Given, Quantity, format_number, question_about
 from core.language import Language, counted, phrase, say
@@ -31,6 +46,12 @@ if TYPE_CHECKING:
     from app.plan.timing import TimeFormat, Timing
 
 PDF_TYPE = "application/pdf"
+# A file with sheets of paper, a table, or the answer.
+SHEETS = Output(
+    "Write a .pdf (extra paper), .csv or .json file.",
+    {".pdf": PDF_TYPE, ".csv": CSV_TYPE, ".json": JSON},
+    extras={".pdf": "paper"},
+)
 # Excess of the swept ground on paper [m]: 0.05 mm at 1:200.
 EXCESS = 0.01
 # Width of the zone to keep clear if there is no margin [m].
@@ -59,6 +80,21 @@ class PlanGate(Wire, strict=True):
     x: Coordinate = measure("m", "x of the place")
     y: Coordinate = measure("m", "y of the place")
     within: float = measure("m", "Largest distance of the path from the place where it passes it", 5.0, ge=0, le=100)
+
+    @classmethod
+    def of_text(cls, text: str) -> Self:
+        """A gate as NAME,X,Y. raises: InvalidValue"""
+        name, *place = text.rsplit(",", 2)
+        if len(place) != 2 or not name:
+            raise InvalidValue.in_words("gate", "--gate must be NAME,X,Y [m]", got=Given(text))
+        return checked(cls, {"name": name, **dict(zip("xy", numbers_of("gate", ",".join(place), float), strict=True))})
+
+
+GATES = {
+    "gate": ListOption(
+        "gates", "NAME,X,Y of a gate whose times the paper names; may be given several times.", PlanGate.of_text
+    )
+}
 
 
 class GatedDance(Marked):
@@ -288,4 +324,18 @@ def _cost(request: PlanRequest) -> float:
     return SECONDS * len(request.dances or [None])
 
 
-QUESTION = Question(plan, None, body=PlanRequest, forms=(PDF_TYPE,), cost=_cost, at="/plan")
+QUESTION = Question(
+    plan,
+    None,
+    body=PlanRequest,
+    forms=(PDF_TYPE,),
+    cost=_cost,
+    at="/plan",
+    command=Command(
+        "A PDF to print, true to scale: map, place of each person, points to paint, times (extra paper).",
+        lambda request: say("plan"),
+        file=FILE_OF_CHECK,
+        lists=GATES,
+        outputs={"output": Output("Write a .pdf file.", {".pdf": PDF_TYPE}, "plan.pdf", {".pdf": "paper"})},
+    ),
+)

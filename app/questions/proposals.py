@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Any, Self
 
+import orjson
 from pydantic import Field
 
 import core
@@ -11,9 +13,24 @@ from app.questions.check import Failure
 from app.wire.dances import DragonFields, VenueFields
 from app.wire.degrees import GeographicOrigin, Place
 from app.wire.geojson import venue_geometry
+from app.wire.labels import Heading, Part, Table, value_word
 from app.wire.paths import Point, path_of
-from app.wire.question import Angle, Answer, Margin, Question, SpeedLimit, Terms, Whole, Wire, measure
+from app.wire.question import (
+    Angle,
+    Answer,
+    Command,
+    Margin,
+    Output,
+    Question,
+    SpeedLimit,
+    Terms,
+    Whole,
+    Wire,
+    Writer,
+    measure,
+)
 from core.dragon import BENCHES_MAX
+from core.language import say
 from core.proposal.gates import GATES_MAX
 from core.proposal.propose import COUNT_MOST
 
@@ -126,10 +143,28 @@ class Proposals(Answer):
 
 def proposals(request: ProposalsRequest, terms: Terms) -> Proposals:
     """Dances that fit into a square, the best first, each certified by a check; or the reason why none does."""
-    return answer_of(request, *proposed(request, terms))
+    return _with_files(request, terms)[0]
 
 
-def answer_of(request: ProposalsRequest, result: core.Proposals, place: Place) -> Proposals:
+def _with_files(request: ProposalsRequest, terms: Terms) -> tuple[Proposals, dict[str, Writer]]:
+    """The answer, and what makes a file for check and a picture of each dance, and an overview of several."""
+    result, place = _proposed(request, terms)
+    answer = _answer_of(request, result, place)
+
+    def files(form: str) -> dict[str, bytes]:
+        from app.files.proposals import overview, proposal_picture  # matplotlib takes a second to import
+
+        made = dict[str, bytes]()
+        for k, (one, body) in enumerate(zip(result.proposals, answer.proposals, strict=True), start=1):
+            name = f"{k}-{one.figure.value}"
+            made[f"{name}.json"] = orjson.dumps(body.dance, option=orjson.OPT_INDENT_2)
+            made[f"{name}.png"] = proposal_picture(one)
+        return made | ({"overview.png": overview(result.proposals)} if result.proposals else {})
+
+    return answer, {"output": files}
+
+
+def _answer_of(request: ProposalsRequest, result: core.Proposals, place: Place) -> Proposals:
     """The answer with the proposals of core."""
     bodies = [Proposal.of(one, body_of(request, one, place.origin)) for one in result.proposals]
     reason, kind = (result.reason.message, result.reason.kind) if result.reason else (None, None)
@@ -138,7 +173,7 @@ def answer_of(request: ProposalsRequest, result: core.Proposals, place: Place) -
     return Proposals.from_result(result, proposals=bodies, summary=result.message, **own)
 
 
-def proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, Place]:
+def _proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, Place]:
     """The proposals as objects of core, and the place of the venue. raises: TooLarge, InvalidValue"""
     dragon = request.to_dragon(terms.settings.checked_benches_max)
     place = request.to_place(dragon)
@@ -187,4 +222,52 @@ def dragon_of(dragon: core.Dragon) -> dict[str, Any]:
     return {"benches": dragon.benches, "head_length": summary.head_length, "body_length": body, **sizes, **names}
 
 
-QUESTION = Question(proposals, Proposals, body=ProposalsRequest, cost=lambda request: SECONDS)
+def _parts(answer: Proposals, request: ProposalsRequest) -> Iterator[Part]:
+    yield Heading(answer.summary)
+    if not answer.proposals:
+        return
+    counts = request.objective is core.Objective.BENCHES
+    has_gates = bool(answer.proposals[0].gates)
+    table = Table(
+        say("Proposals"), say("figure"), *[say("gates")] * has_gates, *[say("benches")] * counts, say("safe stray"),
+        say("duration"), say("length"), say("turns"), say("nearest"), say("with stray"), say("highest speed"),
+    )  # fmt: skip
+    for one in answer.proposals:
+        near = f"{one.near.in_place:.3f} m, {one.near.name}"
+        speed = "" if one.highest_speed is None else f"{one.highest_speed:.2f} m/s"
+        way = [" → ".join(map(str, one.gates))] * has_gates
+        row: list[Any] = [value_word(one.figure.value), *way, *[str(_benches(one.dance["dragon"]))] * counts]
+        row += [f"{one.tolerance:.3f} m", f"{one.duration:.0f} s", f"{one.length:.0f} m"]
+        table.add(*row, f"{one.turns:.1f}", near, f">= {one.near.distance:.3f} m", speed)
+    yield table
+    if counts and answer.most_benches is not None:
+        yield say(
+            "By the area of the square, no dragon of this kind has more than {most} benches.", most=answer.most_benches
+        )
+
+
+def _benches(dragon: dict[str, Any]) -> int:
+    """Number of the benches of a dragon in a body."""
+    return len(dragon["lengths"]) if "lengths" in dragon else int(dragon["benches"])
+
+
+QUESTION = Question(
+    proposals,
+    Proposals,
+    body=ProposalsRequest,
+    cost=lambda request: SECONDS,
+    command=Command(
+        "Dances that fit into a square, each certified by a check; or the reason why none does. The exit code is 0.",
+        lambda request: say("propose"),
+        _parts,
+        file="Venue, dragon, gates and wishes as for POST /proposals, as a .toml or .json file.",
+        outputs={
+            "output": Output(
+                "Write a file for check and a picture of each dance, and an overview, into this folder.",
+                {},
+                extras={"": "figures"},
+            )
+        },
+        solve=_with_files,
+    ),
+)

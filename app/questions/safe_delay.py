@@ -11,7 +11,7 @@ import core
 from app.wire.answers import TOTAL_STRAY, Point
 from app.wire.labels import Part, Table
 from app.wire.performances import FILE_OF_DANCES, Moment, NumberOrName, PerformanceFields, dragon_of
-from app.wire.question import Answer, Command, Margin, Question, Strays, Terms, measure
+from app.wire.question import Answer, Command, Margin, Question, Strays, Terms, Wire, measure
 from core.errors import format_bound, format_number
 from core.language import phrase, say
 from core.performance import DELAY_MAX
@@ -81,7 +81,7 @@ class DelayOptions(DelayFields):
     )
 
 
-def _parts(answer: SafeDelays) -> Iterator[Part]:
+def _parts(answer: SafeDelays, request: Wire) -> Iterator[Part]:
     """The intervals of delays, the safe ones and the undecided ones."""
     name = answer.name or say("dragon {k}", k=answer.part)
     span = {"least": format_number(answer.least), "most": format_number(answer.most)}

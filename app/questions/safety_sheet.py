@@ -24,16 +24,30 @@ from app.plan.safety_answer import (
     Stopping,
 )
 from app.plan.timing import TimeFormat
-from app.questions.check import limits_of, verdict_of
-from app.questions.plan import PDF_TYPE, GatedDance, passes_of_gates, timing_of_marks
+from app.questions.check import FILE_OF_CHECK, limits_of, verdict_of
+from app.questions.plan import GATES, PDF_TYPE, GatedDance, passes_of_gates, timing_of_marks
 from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
 from app.wire.geojson import geometry_of
+from app.wire.messages import checked
+from app.wire.numbers import numbers_of
 from app.wire.paths import Point as PointField
-from app.wire.question import JSON, UNKNOWN_COST, Address, OneLine, Question, Terms, Wire, measure
+from app.wire.question import (
+    JSON,
+    UNKNOWN_COST,
+    Address,
+    Command,
+    ListOption,
+    OneLine,
+    Output,
+    Question,
+    Terms,
+    Wire,
+    measure,
+)
 from app.wire.readings import bench_words, failure_words, handles_words
 from core import Area, Dance, FailureKind, InvalidValue, Judgement
-from core.errors import format_bound, format_number, question_about
+from core.errors import Given, format_bound, format_number, question_about
 from core.language import Listed, counted, joined, say, sense
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
@@ -61,6 +75,16 @@ class LaneBody(Wire, strict=True):
     name: OneLine = Field(min_length=1, max_length=40, description="Its name")
     points: list[PointField] = measure("m", "Points of its middle line, x and y", min_length=2, max_length=50)
     width: float = measure("m", "Its width", 3.5, ge=0.5, le=50)
+
+    @classmethod
+    def of_text(cls, text: str) -> Self:
+        """A lane as NAME,WIDTH,X,Y,X,Y,... raises: InvalidValue"""
+        name, *rest = text.split(",")
+        if len(rest) < 5 or len(rest) % 2 == 0 or not name:
+            raise InvalidValue.in_words("lane", "--lane must be NAME,WIDTH,X,Y,X,Y,... [m]", got=Given(text))
+        width, *places = numbers_of("lane", ",".join(rest), float)
+        points = [list(pair) for pair in zip(places[::2], places[1::2], strict=True)]
+        return checked(cls, {"name": name, "width": width, "points": points})
 
     @property
     def middle(self) -> Floats:
@@ -424,4 +448,32 @@ def _cost(request: SafetySheetRequest, form: str = JSON) -> float:
     return UNKNOWN_COST
 
 
-QUESTION = Question(safety_sheet, SafetySheet, None, SafetySheetRequest, (JSON, PDF_TYPE), _cost, at="/safety-sheet")
+LANE = ListOption(
+    "lanes",
+    "NAME,WIDTH,X,Y,X,Y,... of a lane to keep free and its middle; may be given several times.",
+    LaneBody.of_text,
+)
+QUESTION = Question(
+    safety_sheet,
+    SafetySheet,
+    None,
+    SafetySheetRequest,
+    (JSON, PDF_TYPE),
+    _cost,
+    at="/safety-sheet",
+    command=Command(
+        "One page for whoever permits a festival: verdict, nearest approaches, ground and lanes to keep free, "
+        "stopping.",
+        lambda request: say("safety sheet"),
+        file=FILE_OF_CHECK,
+        lists={"lane": LANE} | GATES,
+        outputs={
+            "output": Output(
+                "Write a .pdf or .json file.",
+                {".pdf": PDF_TYPE, ".json": JSON},
+                "safety-sheet.pdf",
+                {".pdf": "paper"},
+            )
+        },
+    ),
+)

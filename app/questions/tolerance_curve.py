@@ -14,7 +14,7 @@ from app.wire.answers import Columns
 from app.wire.dances import DragonFields
 from app.wire.labels import Part, Table, label, value_text
 from app.wire.paths import WayToCircle
-from app.wire.question import Answer, Command, Pitch, Question, Terms, UniformDragon, Whole, measure
+from app.wire.question import Answer, Command, Pitch, Question, Terms, UniformDragon, Whole, Wire, measure
 from core import Dragon, InvalidValue, Limit, TooMuchWork
 from core.errors import format_number, quantities
 from core.language import say
@@ -86,7 +86,7 @@ def tolerance_curve(request: ToleranceCurveQuery | ToleranceCurveRequest, terms:
     return Columns({"pitch": curve.pitch, "stray": curve.stray} | ends | limits)
 
 
-def _parts(answer: Columns) -> Iterator[Part]:
+def _parts(answer: Columns, request: Wire) -> Iterator[Part]:
     """One row for each pitch."""
     heads = label("pitch", "m"), label("stray", "m"), label("touching", "m"), label("limited_by")
     table = Table(say("Tolerance to strays"), *heads)

@@ -11,9 +11,12 @@ from pydantic import Field
 import core
 from app.files import tables
 from app.files.performance_tables import WRITERS, PerformanceTable
-from app.wire.dances import TimedDance, clock_of
+from app.settings import Settings
+from app.wire.dances import TimedDance, TimeRange, clock_of, handles_of
+from app.wire.options import PathOptions
 from app.wire.performances import SeveralDances
-from app.wire.question import AS_WHOLE, JSON, Answer, Question, Terms, measure
+from app.wire.question import AS_WHOLE, JSON, Answer, Command, Output, Question, Terms, measure
+from core.language import say
 
 
 class DanceTrajectory(TimedDance):
@@ -53,6 +56,18 @@ class PerformanceTrajectoryTable(Answer):
     dances: list[DragonTrajectory] = Field(description="A table for each dragon, in the order of the dances")
 
 
+class TrajectoryOptions(TimeRange, PathOptions):
+    """The fields of a trajectory as options."""
+
+    decimals: int | None = Field(
+        None,
+        ge=0,
+        le=15,
+        description="Decimals of x, y and speed; default: all (6 for xlsx and for the table on a terminal)",
+    )
+    times: str | None = measure("s", "Instants such as 0,60,120, instead of --start, --stop and --step", None)
+
+
 # Forms of a trajectory: media type -> function of the trajectory and the decimals.
 FORMS: dict[str, Callable[[core.Trajectory, int | None], bytes | Iterator[bytes]]] = {
     JSON: tables.trajectory_json,
@@ -63,7 +78,7 @@ FORMS: dict[str, Callable[[core.Trajectory, int | None], bytes | Iterator[bytes]
 SECONDS_PER_CELL = {JSON: 1.5e-7, tables.CSV_TYPE: 1e-6, tables.XLSX_TYPE: 6e-6}
 if find_spec("pyarrow"):
     FORMS[tables.ARROW_TYPE] = tables.trajectory_arrow
-ENDINGS = {JSON: ".json", tables.CSV_TYPE: ".csv", tables.XLSX_TYPE: ".xlsx", tables.ARROW_TYPE: ".arrow"}
+ENDINGS = {tables.CSV_TYPE: ".csv", tables.XLSX_TYPE: ".xlsx", tables.ARROW_TYPE: ".arrow", JSON: ".json"}
 
 
 def trajectory(request: DanceTrajectory, terms: Terms, form: str = JSON) -> bytes | Iterator[bytes]:
@@ -86,6 +101,27 @@ def _cost(request: DanceTrajectory, form: str = JSON) -> float:
     return request.instants() * (request.benches + 1) * SECONDS_PER_CELL.get(form, 1e-7)
 
 
+def _note(request: TrajectoryRequest, data: bytes) -> str:
+    """How many handles and instants a file has."""
+    settings = Settings()
+    dances = request.to_dance(settings.benches_max) if request.dances is None else request.to_performance(settings)
+    instants = len(request.times_of(dances, settings.cells_max))
+    return say("{handles} handles at {instants} instants", handles=handles_of(dances), instants=instants)
+
+
+def _warning(request: TrajectoryRequest) -> str:
+    """That instants before the start of a spiral are asked for."""
+    settings = Settings()
+    if request.dances is not None or request.path.kind != "spiral":
+        return ""
+    if not (request.times_of(request.to_dance(settings.benches_max), settings.cells_max) < 0.0).any():
+        return ""
+    return say(
+        "Warning: the dance begins at 0 s, and before it the head is on the outward extension of the same spiral; "
+        "for the contest's turn give --path turn"
+    )
+
+
 QUESTION = Question(
     trajectory,
     TrajectoryTable,
@@ -93,4 +129,18 @@ QUESTION = Question(
     forms=tuple(FORMS),
     cost=_cost,
     several=PerformanceTrajectoryTable,
+    command=Command(
+        "Position and speed of every handle; of a FILE of several dragons, of each.",
+        lambda request: say("trajectory"),
+        options=TrajectoryOptions,
+        outputs={
+            "output": Output(
+                "Write a .csv, .xlsx, .arrow or .json file.",
+                {ending: form for form, ending in ENDINGS.items()},
+                extras=tables.TABLE_EXTRAS,
+                note=_note,
+            )
+        },
+        warning=_warning,
+    ),
 )

@@ -40,6 +40,8 @@ NULLS: Phrases = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
 PROVEN = frozenset({"clear_until", "proven_from", "proven_up_to"})
 # Fields whose values the sentences beside them have.
 UNSHOWN = frozenset({"claim", "sentences"})
+# Decimals of lengths and speeds on a terminal.
+DISPLAY_DECIMALS = 6
 # Most entries of a list in a table; of a longer list only their number is shown.
 LISTED_MOST = 50
 # Fields that are separations of two benches: below zero the benches overlap.

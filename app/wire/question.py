@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
 from functools import lru_cache
@@ -386,23 +386,69 @@ class Terms:
 
 
 @dataclass(frozen=True)
+class Output:
+    """A file that a command writes.
+
+    help: of the option that names it
+    forms: form of the file, by the ending of its name; none: a folder with several
+    default: its name without the option; empty: no file
+    extras: optional part of the program that it needs, by the ending
+    note: what is said beside its name, from the request and the bytes; empty: nothing
+    options: further options about this file, which makes it
+    """
+
+    help: str
+    forms: Mapping[str, str]
+    default: str = ""
+    extras: Mapping[str, str] = field(default_factory=dict)
+    note: Callable[[Any, bytes], str] = lambda request, data: ""
+    options: type[Wire] = Wire
+
+
+@dataclass(frozen=True)
+class ListOption:
+    """An option that may be given several times, each time with an entry of a list of the request.
+
+    name: of the list
+    read: the entry that a text states
+    """
+
+    name: str
+    help: str
+    read: Callable[[str], Any] = str
+
+
+# Makes a file in a form, or the files of a folder by their names; its further options are arguments.
+Writer = Callable[..., bytes | dict[str, bytes]]
+
+
+@dataclass(frozen=True)
 class Command:
     """How a question is asked in a terminal, where fields are options, and a FILE holds the body of a request.
 
     help: what the command answers
     title: title of the answer, from the request
-    parts: what is printed of the answer; its fields by default, each with its label
-    options: the request as options, if no query asks the question
-    file: what FILE holds, if the command cannot do without one
+    parts: what is printed of the answer to a request; its fields by default, each with its label
+    options: the request as options, if no query asks the question; by default, what its body has beside a dance
+    file: what FILE holds, if that is no dance as for check, or the options are none that describe one
     instead: which strays count in place of those in a FILE, for a question about strays
+    lists: options for lists of the request, by their names
+    outputs: the files that it writes, by the names of their options
+    solve: function of a request and the terms that gives the answer, and for each output what makes the file, if these
+        stand beside the printed answer; None: a file is the answer in another form, in place of the printed one
+    warning: what a request should not ask, in words; empty: nothing
     """
 
     help: str
     title: Callable[[Any], str]
-    parts: Callable[[Any], Iterable[Any]] | None = None
+    parts: Callable[[Any, Any], Iterable[Any]] | None = None
     options: type[Wire] | None = None
     file: str = ""
     instead: str = ""
+    lists: Mapping[str, ListOption] = field(default_factory=dict)
+    outputs: Mapping[str, Output] = field(default_factory=dict)
+    solve: Callable[[Any, Terms], tuple[Any, Mapping[str, Writer]]] | None = None
+    warning: Callable[[Any], str] = lambda request: ""
 
 
 @dataclass(frozen=True)

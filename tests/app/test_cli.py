@@ -451,6 +451,8 @@ def test_the_shell_completes_commands_and_options():
     assert said(**request, COMP_WORDS="bench-dragon coll").split() == ["collision-time"]
     request["COMP_CWORD"] = "2"
     assert said(**request, COMP_WORDS="bench-dragon collision-time --pit").split() == ["--pitch"]
+    request = {"_BENCH_DRAGON_COMPLETE": "complete_zsh", "_TYPER_COMPLETE_ARGS": "bench-dragon collision-time --pit"}
+    assert "螺线每转一圈" in said(**request, LC_ALL="zh_CN.UTF-8")
 
 
 FOLDING = ("trajectory", "--benches", "40", "--pitch", "1.2", "--start-turns", "8")

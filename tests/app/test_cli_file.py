@@ -160,7 +160,7 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(client, file, tmp
         "clearance FILE --stop 10 -> stop ... start (20 s), 10 s",
         "check FILE --figure FOLDER.svg --time 500 -> time ... 500",
         "check FILE --time 3 -> --time ... --figure",
-        "check FILE --cross-check '' -> cross_check ... dragon pair none",
+        "check FILE --cross-check '' -> --cross-check ... dragon pair none",
         "overlaps --pitch 1 FILE -> --pitch ... FILE",
         "overlaps --margin=0 FILE -> --margin ... FILE",
         "figures FILE FOLDER --time 500 -> time",

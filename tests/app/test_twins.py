@@ -43,9 +43,8 @@ BODIES = [
     if (at := f"POST {question.path}") in EXAMPLE_BODIES
 ]
 BODIES += [(question, TWO) for question in QUESTIONS.values() if question.several]
-# Their commands take options or write files alone.
-NO_JSON = {"turn", "cues"}
-COMMANDS = {name: {"proposals": "propose"}.get(name, name.replace("_", "-")) for name in QUESTIONS.keys() - NO_JSON}
+# That of turn takes options alone.
+COMMANDS = {name: {"proposals": "propose"}.get(name, name.replace("_", "-")) for name in QUESTIONS.keys() - {"turn"}}
 BENCHES = {"lengths": [3.41, 2.2, 2.0, 2.2, 1.9, 2.2], "widths": [0.3] * 6, "overhangs": [0.275] * 6}
 CROSSING = {"kind": "waypoints", "points": [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]}
 
