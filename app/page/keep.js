@@ -62,7 +62,7 @@ const [ON_SCREEN, PROOF] = ["keepShown", "keepProof"];
 const MORE = [{ key: ON_SCREEN, title: phrase("What is shown") }, { key: PROOF, title: phrase("A proof in ball arithmetic") }];
 
 /** What a question about cards has beside the dance. */
-const cardsOf = ({ cued }) => ({ ...cued, language: language(), ...(isPrintable(CARD_ADDRESS_MOST) && { address: location.href }), ...($("#cards-turned").checked && { map_up: "way" }) });
+const cardsOf = ({ cued }) => ({ ...cued, language: language(), ...(isPrintable(CARD_ADDRESS_MOST) && { address: location.href }), ...($("#cards-turned").ariaPressed === "true" && { map_up: "way" }) });
 
 /** A figure with its words in the language of the page. */
 function figure(name, form, /** @type {any} */ { query, body }) {
@@ -158,7 +158,8 @@ export class Keep {
     ITEMS.forEach(({ among = "#kept" }, k) => $(among).append(this.#rows[k]));
     const { state } = questions;
     $("#keepCues-PDF").before(textButton("Follow a bench", () => state.push({ bench: state.get("handle") ?? 0 }), { id: "card-follow" }));
-    $("#keepCues-PDF").closest("li").append(make("label", {}, make("input", { type: "checkbox", id: "cards-turned" }), make("span", { "data-text": "Maps turned with the way" })));
+    const turned = textButton("Maps turned with the way", () => turned.setAttribute("aria-pressed", turned.ariaPressed !== "true"), { id: "cards-turned", "aria-pressed": false });
+    $("#keepCues-PDF").closest("li").append(turned);
     const commands = [MORE[0], ...ITEMS.filter(({ ask }) => ask), MORE[1]];
     $("#curl-of").append(...commands.map(({ key, title }) => make("option", { value: key, "data-text": title })));
     $("#curl-of").addEventListener("change", () => this.show());
