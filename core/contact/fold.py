@@ -81,10 +81,9 @@ def _may_end_at(search: ContactSearch, early: float, last: float, result: Marche
 
 def _dips_ahead(search: ContactSearch, early: float, last: float, result: Marched) -> bool:
     """True if samples between two travels [m] show a graze that is narrower than the one of the march before."""
-    leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
     # Handles move as the square root of the way that is left, so for them these samples are evenly spaced.
     left = (last - early) * np.linspace(1.0, 0.0, WAY_SAMPLES) ** 2
-    gaps = [search.clearance(travel, leaders)[0] for travel in (last - left).tolist()]
+    gaps = [search.clearance(travel, search.leaders)[0] for travel in (last - left).tolist()]
     known = result.graze.gap if result.graze is not None else FREE
     return any(
         before > gap <= after and gap < known for before, gap, after in zip(gaps, gaps[1:], gaps[2:], strict=False)

@@ -40,6 +40,7 @@ class ContactSearch:
     copies: dragons in one spiral, each turned by a part of a turn; with several, every pair is a bench of the first and
         one of another: bench b of dragon k has the bench number k * (room + 1) + b
     dragon: in the search: with a stray each bench is as large as the ground that it may cover; nominal: as given
+    leaders: number of benches that lead the pairs of a march: those up to the first of equal ones
     stray: [m]; kinds: the hulls of that ground, none without a stray
     rings: lengths of the benches for the kernels, with bounds for the current path and margin
     sizes: (rows, SIZE_COLUMNS) of the leading benches; own_sizes: the same without the stray; edges: (E, 4) x, y, x, y
@@ -81,7 +82,7 @@ class ContactSearch:
         if ground is not None:
             self.kinds.lay(ground.hulls.reshape(-1, 2), ground.kinds, directions())
             dragon = ground.bounds
-        self.dragon = dragon
+        self.dragon, self.leaders = dragon, min(dragon.uniform_from + 1, dragon.benches)
         self.edges = np.empty((0, 4)) if edges is None else edges
         self.rings = rings = kernels.Rings()
         rings.measure(dragon.chords, dragon.overhangs, dragon.widths, dragon.lengths, dragon.uniform_from, outer)
@@ -217,11 +218,10 @@ class ContactSearch:
             start = max(start, clear_until - rounding)
         if not self.pairs or (start >= stop and not opening):
             return Ended.REACHED, Marched(span[1])
-        leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
         grazes = dips or half_bracket != kernels.NO_BRACKET
         while True:
             most_work = max(min(self.work, self.budget.left), 1.0)
-            ended = self._march.run(start, stop, leaders, opening, half_bracket, grazes, rounding, most_work)
+            ended = self._march.run(start, stop, self.leaders, opening, half_bracket, grazes, rounding, most_work)
             self.spend(float(self._march.work))
             self.budget.look()
             if ended is not Ended.CAPACITY:

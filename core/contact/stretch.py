@@ -43,16 +43,15 @@ class Stretch:
 
     def look(self, travel: float, _: Pair = (0, 0)) -> Dip:
         """The least gap of all pairs after a travel."""
-        return self._look(travel, None)
+        self.search.budget.afford(self.search.room)
+        gap, pair = self.search.clearance(travel)
+        return Dip(gap, travel, pair)
 
     def sample(self, travel: float, _: Pair = (0, 0)) -> Dip:
-        """The least gap of the pairs that a march follows: those led by the benches up to the first of equal ones."""
-        dragon = self.search.dragon
-        return self._look(travel, min(dragon.uniform_from + 1, dragon.benches))
-
-    def _look(self, travel: float, leaders: int | None) -> Dip:
-        self.search.budget.afford(self.search.room)
-        gap, pair = self.search.clearance(travel, leaders)
+        """The least gap of the pairs that a march follows."""
+        search = self.search
+        search.budget.afford(search.room)
+        gap, pair = search.clearance(travel, search.leaders)
         return Dip(gap, travel, pair)
 
     def gap_rate(self, travel: float, pair: Pair) -> float:

@@ -127,13 +127,12 @@ class Bands:
             return Ended.UNBOUNDED, Marched(outer)
         outer = min(outer, max(clear, self.radius))
         self.marches += 1
-        leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
         rounding = TRAVEL_ROUNDING * outer * max(outer / (low / math.tau), 1.0)
         least_step = max(STEP_MIN, STEP_PER_WIDTH * (high - low))
         while True:
             march = self.march_to(high / math.tau)
             budget = min(BAND_WORK - self.work, search.budget.left)
-            ended = march.run(outer, self.radius, leaders, rounding, least_step, budget)
+            ended = march.run(outer, self.radius, search.leaders, rounding, least_step, budget)
             self.work += float(march.work)
             search.spend(float(march.work))
             search.budget.look()
