@@ -17,11 +17,12 @@ from core import kernels
 from core.contact.between import holds_apart
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
-from core.display import WithArrays, display
+from core.display import WithArrays, format_range
 from core.dragon import Stray, checked_stray
 from core.errors import checked_number, question_about
 from core.extremes.speed import checked_limit
 from core.kernels import Budget
+from core.language import say
 from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
 from core.shapes.engines import inside
@@ -65,7 +66,8 @@ class Breach(WithArrays):
     points: Floats
 
     def _line(self) -> str:
-        return f"{self.kind.value} from s = {display(self.start)} to {display(self.end, 'm')}"
+        kind, span = say(self.kind.value), format_range((self.start, self.end), "m")
+        return say("{kind} from s = {span}", kind=kind, span=span)
 
 
 @question_about("dance", Dance)

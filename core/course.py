@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.display import WithArrays, display, format_count
+from core.display import WithArrays, display
 from core.dragon import Dragon
 from core.errors import checked_type
+from core.language import counted, say
 from core.paths.following import tightest_bend
 from core.paths.route import Route
 from core.paths.spiral import Spiral
@@ -40,7 +41,8 @@ class TightBend(WithArrays):
     bench: int
 
     def _line(self) -> str:
-        return f"radius {display(self.radius, 'm')} from s = {display(self.start)} to {display(self.end, 'm')}"
+        values = {"radius": display(self.radius, "m"), "start": display(self.start), "end": display(self.end, "m")}
+        return say("radius {radius} from s = {start} to {end}", **values)
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
@@ -61,7 +63,8 @@ class Course(WithArrays):
     bends: tuple[TightBend, ...]
 
     def _line(self) -> str:
-        return f"{display(self.length, 'm')}, {format_count(len(self.bends), 'bend')} too tight"
+        bends = counted(len(self.bends), "{count} bend too tight", "{count} bends too tight")
+        return f"{display(self.length, 'm')}, {bends}"
 
 
 def course(path: Spiral | Route, dragon: Dragon) -> Course:

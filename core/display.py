@@ -12,6 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from core.language import say
+
 # Significant digits of a number in one line, and in a table, where the two ends of a bracket must differ.
 LINE_DIGITS, TABLE_DIGITS = 9, 15
 # Longest text within a line, and longest repr of an input before it shows one line instead [characters].
@@ -111,26 +113,21 @@ def display(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
     """
     if isinstance(value, np.ndarray):
         if value.size <= 1:
-            return format_range(value, unit, digits) if value.size else "none"
-        return f"array of {' x '.join(map(str, value.shape))}, {format_range(value, unit, digits)}"
+            return format_range(value, unit, digits) if value.size else say("none")
+        shape = " x ".join(map(str, value.shape))
+        return say("array of {shape}, {span}", shape=shape, span=format_range(value, unit, digits))
     if isinstance(value, (tuple, list)):
-        return f"{_entries(value, digits) or 'none'} {unit if value else ''}".rstrip()
+        return f"{_entries(value, digits) or say('none')} {unit if value else ''}".rstrip()
     return f"{_entry(value, digits)} {unit}".rstrip()
 
 
 def format_range(values: Sequence[float] | np.ndarray, unit: str = "", digits: int = LINE_DIGITS) -> str:
     """The range of the values, or their common value. values: (...), not empty"""
     least, most = float(np.min(values)) + 0.0, float(np.max(values)) + 0.0  # no -0
-    return f"{least:.{digits}g}{'' if least == most else f' to {most:.{digits}g}'} {unit}".rstrip()
-
-
-def format_count(count: int, noun: str) -> str:
-    """A count with its noun.
-
-    >>> format_count(1, "pair"), format_count(0, "graze")
-    ('1 pair', '0 grazes')
-    """
-    return f"{count} {noun}{'' if count == 1 else 's'}"
+    text = f"{least:.{digits}g}"
+    if least != most:
+        text = say("{least} to {most}", least=text, most=f"{most:.{digits}g}")
+    return f"{text} {unit}".rstrip()
 
 
 def _equal(one: object, other: object) -> bool:
@@ -150,15 +147,16 @@ def _alike(name: str, value: object) -> bool:
 
 def _entries(values: Sequence[object], digits: int) -> str:
     between = "; " if values and isinstance(values[0], Readable) else ", "
-    more = f" and {len(values) - ENTRIES_MOST} more" if len(values) > ENTRIES_MOST else ""
-    return between.join(_entry(value, digits) for value in values[:ENTRIES_MOST]) + more
+    text = between.join(_entry(value, digits) for value in values[:ENTRIES_MOST])
+    more = len(values) - ENTRIES_MOST
+    return say("{entries} and {count} more", entries=text, count=more) if more > 0 else text
 
 
 def _entry(value: object, digits: int) -> str:
     if value is None:
-        return "unknown"
+        return say("unknown")
     if isinstance(value, bool):
-        return "yes" if value else "no"
+        return say("yes") if value else say("no")
     if isinstance(value, Enum):
         return str(value.value)
     if isinstance(value, float):

@@ -24,6 +24,7 @@ from core.errors import (
     from_to,
     quantities,
 )
+from core.language import say
 from core.names import checked_name
 from core.values import Floats
 
@@ -196,7 +197,8 @@ class Dragon(Readable):
         return text if len(text) <= REPR_MOST else super().__repr__()
 
     def _line(self) -> str:
-        return f"{self.benches} benches, {format_range(self.lengths, 'm')} long, {format_range(self.widths, 'm')} wide"
+        lengths, widths = format_range(self.lengths, "m"), format_range(self.widths, "m")
+        return say("{count} benches, {lengths} long, {widths} wide", count=self.benches, lengths=lengths, widths=widths)
 
     def _rows(self) -> list[tuple[str, str]]:
         rows = [(name, format_range(getattr(self, name), "m", TABLE_DIGITS)) for name in (*COLUMNS, "chords")]
@@ -241,7 +243,7 @@ class Stray(Readable):
         return round(self.people + 0.5 * (self.hole - self.pin), DECIMALS) if self.hole > self.pin else self.people
 
     def _line(self) -> str:
-        return f"{display(self.total, 'm')} in all"
+        return say("{length} in all", length=display(self.total, "m"))
 
 
 def wider_pin(field: str, hole: str, of: Any) -> InvalidValue:

@@ -35,6 +35,7 @@ from core.failures import (
     venue_failures,
 )
 from core.kernels import Budget
+from core.language import Phrases, say
 from core.passages import TIME_MAX
 from core.performance import Performance
 from core.venue import Venue
@@ -51,11 +52,16 @@ class Judgement(StrEnum):
     UNDECIDED = "undecided"
 
 
+VERDICTS: Phrases = {"passes": "passes", "fails": "fails", "undecided": "undecided"}
+
+
 def summary(verdict: Judgement, start: float, stop: float, failures: Sequence[str]) -> str:
     """A report in one line. start, stop: the judged interval [s]; failures: their messages"""
-    span = f"{verdict.value}, judged from {display(start)} to {display(stop, 's')}"
-    more = f" And {len(failures) - 1} more." if len(failures) > 1 else ""
-    return f"{span}: {failures[0]}{more}" if failures else span
+    ends = {"start": display(start), "stop": display(stop, "s")}
+    words = say("{verdict}, judged from {start} to {stop}", verdict=say(VERDICTS[verdict]), **ends)
+    if failures:
+        words = say("{span}: {first}", span=words, first=failures[0])
+    return say("{words} And {count} more.", words=words, count=len(failures) - 1) if len(failures) > 1 else words
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from core.dance import Dance, EndReason, whole_seconds
-from core.display import Readable, display, format_count
+from core.display import Readable, format_range
 from core.dragon import Stray, checked_stray
 from core.errors import (
     Given,
@@ -28,7 +28,7 @@ from core.errors import (
     checked_type,
     quantities,
 )
-from core.language import say
+from core.language import counted, say
 from core.names import checked_name
 from core.passages import TIME_MAX
 from core.values import Floats
@@ -180,8 +180,9 @@ class Performance(Readable):
     def _line(self) -> str:
         names = ", ".join(self.name_of(k) for k in range(min(len(self.parts), 6)))
         more = ", ..." if len(self.parts) > 6 else ""
-        span = f"from {display(self.begin)} to {display(self.end.time, 's')}"
-        return f"{format_count(len(self.parts), 'dragon')} ({names}{more}), {span}"
+        dragons = counted(len(self.parts), "{count} dragon", "{count} dragons")
+        span = format_range((self.begin, self.end.time), "s")
+        return say("{dragons} ({names}), from {span}", dragons=dragons, names=names + more, span=span)
 
     def name_of(self, k: int) -> str:
         """The name of a dragon, or its number."""

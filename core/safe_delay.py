@@ -29,12 +29,13 @@ from core.contact.search import MARGIN_MAX, WORK_BUDGET
 from core.contact.stage import Player, Stage
 from core.contact.stage_march import EncounterMarch, Met
 from core.dance import Dance
-from core.display import Readable, display
+from core.display import Readable, format_range
 from core.dragon import Stray
 from core.errors import InvalidValue, Parameter, Quantity, bound, checked_number, quantities, question_about
 from core.extremes.speed import highest_speed
 from core.kernels import Budget, Ended
 from core.kernels.constants import HALF_LENGTH
+from core.language import say
 from core.passages import TIME_MAX
 from core.performance import DELAY_MAX, Part, Performance
 from core.shapes.reach import gains
@@ -91,12 +92,14 @@ class SafeDelays(Readable):
 
     def _line(self) -> str:
         def listed(intervals: Intervals) -> str:
-            return ", ".join(f"{display(low)} to {display(high, 's')}" for low, high in intervals)
+            return ", ".join(format_range(interval, "s") for interval in intervals) or say("none")
 
-        name = self.performance.name_of(self.part)
-        span = f"delays of {name} from {display(self.least)} to {display(self.most, 's')}"
-        undecided = f"; undecided {listed(self.undecided)}" if self.undecided else ""
-        return f"{span}: safe {listed(self.safe) or 'none'}{undecided}"
+        values = {"name": self.performance.name_of(self.part), "safe": listed(self.safe)}
+        span = format_range((self.least, self.most), "s")
+        if not self.undecided:
+            return say("delays of {name} from {span}: safe {safe}", span=span, **values)
+        values["undecided"] = listed(self.undecided)
+        return say("delays of {name} from {span}: safe {safe}; undecided {undecided}", span=span, **values)
 
 
 @question_about("performance", Performance, "the safe delays were not found")

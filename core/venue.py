@@ -11,7 +11,7 @@ import numpy as np
 
 from core.display import Readable, format_range
 from core.errors import Given, InvalidValue, Value, checked_list, checked_point, checked_type
-from core.language import Phrases
+from core.language import Phrases, say
 from core.names import checked_name
 from core.shapes.engines import polygon_fault
 from core.values import Floats, Point
@@ -80,8 +80,8 @@ class Area(Readable):
     def _line(self) -> str:
         x, y = np.array(self.rings[0]).T
         points = sum(map(len, self.rings)) - len(self.rings)
-        where = f"x {format_range(x, 'm')}, y {format_range(y, 'm')}"
-        return f"{self.name!r}, {points} points, {where}"
+        values = {"x": format_range(x, "m"), "y": format_range(y, "m")}
+        return say("{name}, {count} points, x {x}, y {y}", name=repr(self.name), count=points, **values)
 
     @cached_property
     def edges(self) -> Floats:
@@ -116,8 +116,8 @@ class Venue(Readable):
                 raise InvalidValue("venue", "must give each polygon its own name, got {polygon} twice", polygon=polygon)
 
     def _line(self) -> str:
-        names = ", ".join(repr(area.name) for area in self.obstacles) or "none"
-        return f"{self.square._line()}; obstacles: {names}"
+        names = ", ".join(repr(area.name) for area in self.obstacles) or say("none")
+        return say("{square}; obstacles: {names}", square=self.square._line(), names=names)
 
     @property
     def areas(self) -> tuple[Area, ...]:

@@ -6,12 +6,13 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 
 from app.maps.marks import first_mark, mark_name
 from app.plan.timing import TimeFormat
 from core import Dance
-from core.language import Listed, counted, phrase, say, sense
+from core.language import Language, Listed, counted, phrase, say, sense, speaking
 from core.people.cards import Card, Cue, CueKind
 from core.people.cues import Meeting, Side, Stand, Turning
 from core.values import Point
@@ -31,8 +32,16 @@ STRAIGHT = math.radians(30.0)
 TURN, BACK, CIRCLE = (math.radians(degrees) for degrees in (70.0, 130.0, 300.0))
 # Largest angle between a direction and a landmark in it [rad]; how near, how far and how wide the landmark may be [m].
 AHEAD, NEAR, FAR, WIDE = math.radians(20.0), 3.0, 80.0, 15.0
-# Names that nobody has given.
-NAMELESS = re.compile(r"(?:obstacle|障碍物) \d+")
+
+
+@cache
+def _nameless() -> re.Pattern[str]:
+    """Names that nobody has given, in any language."""
+    names = list[str]()
+    for language in Language:
+        with speaking(language):
+            names.append(say("obstacle {k}", k=r"\d+"))
+    return re.compile("|".join(names))
 
 
 def landmarks_of(venue: Venue | None, gates: Iterable[tuple[str, Point]]) -> list[tuple[str, Point]]:
@@ -40,7 +49,7 @@ def landmarks_of(venue: Venue | None, gates: Iterable[tuple[str, Point]]) -> lis
     marks = [*gates]
     for area in venue.obstacles if venue else ():
         xs, ys = zip(*area.rings[0], strict=True)
-        if max(max(xs) - min(xs), max(ys) - min(ys)) <= WIDE and not NAMELESS.fullmatch(area.name):
+        if max(max(xs) - min(xs), max(ys) - min(ys)) <= WIDE and not _nameless().fullmatch(area.name):
             marks.append((area.name, (0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys)))))
     return marks
 

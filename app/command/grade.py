@@ -30,15 +30,13 @@ from app.grade.report import (
     typed,
     unreadable,
 )
-from app.grade.shortcuts import UNITS
 from app.grade.words import Note, note, word
 from app.processes.limits import READING_MAX, reading
 from app.wire.labels import Heading, Part, Table
 from app.wire.question import ESCAPED
 from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
-from core.errors import Parameter
-from core.language import Language, Listed, say, spoken
+from core.language import Listed, say
 
 # Endings of the files that are graded in a folder.
 ENDINGS = (".xlsx", ".xlsm", ".xls", ".csv")
@@ -70,7 +68,7 @@ def grade(
     paths = list(_paths_of(files or []))
     if not paths and not typed_numbers:
         raise InvalidValue.in_words("files", "give at least one FILE or one number, such as --pitch 0.45")
-    answers = [_typed_answer(name, text) for name, text in typed_numbers.items()]
+    answers = [typed(name, text) for name, text in typed_numbers.items()]
     grades, refused = [], []
     with show.steps() if len(paths) > 1 else nullcontext(lambda what, share: None) as progress:
         for k, file in enumerate(paths):
@@ -92,18 +90,6 @@ def grade(
         as_file = _workbook if ending_of(summary) == ".xlsx" else _csv
         write_whole(summary, as_file(answer))
     show.print_result(answer, json, _parts(answer))
-
-
-def _typed_answer(name: str, text: str) -> TypedAnswer:
-    """The grade of a typed number. raises: InvalidValue, in Chinese if that is the language"""
-    try:
-        return typed(name, text)
-    except InvalidValue as error:
-        if spoken() is not Language.CHINESE:
-            raise
-        words = "{field} 应为大于 0、小于 1e6 的数字（单位 {unit}），例如 0.4503：现为“{text}”"
-        shown = text.translate(ESCAPED)
-        raise InvalidValue.in_words(name, words, field=Parameter(name), unit=UNITS[name], text=shown) from error
 
 
 def _why(error: OSError) -> Note | str | None:

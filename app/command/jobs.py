@@ -17,9 +17,8 @@ from app.command import show
 from app.command.usage import Commands
 from app.files.disk import checked_output, write_whole
 from core import InvalidValue
-from core.display import format_count
 from core.errors import Given
-from core.language import Listed, say
+from core.language import Listed, Phrases, counted, say
 
 if TYPE_CHECKING:
     from app.jobs.places import InFolder, OfService
@@ -32,6 +31,17 @@ NAME_HELP = "The job's name, the last part of its address."
 # A duration: a number and its unit, each of so many seconds.
 SECONDS = {"s": 1.0, "min": 60.0, "h": 3_600.0, "d": 86_400.0}
 DURATION = re.compile(rf"(\d{{1,9}}(?:\.\d{{1,9}})?) ?({'|'.join(SECONDS)})")
+
+# Words of the states of a job, and labels of what is known of it.
+STATES: Phrases = {
+    "accepted": "accepted", "running": "running", "successful": "successful", "failed": "failed",
+    "dismissed": "dismissed", "removed": "removed",
+}  # fmt: skip
+LABELS: Phrases = {
+    "jobID": "job", "processID": "question", "status": "status", "message": "message", "created": "created",
+    "started": "started", "finished": "finished", "updated": "updated", "progress": "progress", "rate": "rate",
+    "time_left": "time left", "done": "done", "total": "total",
+}  # fmt: skip
 
 Name = Annotated[str, typer.Argument(metavar="JOB", help=NAME_HELP)]
 Data = Annotated[Path | None, typer.Option(help="Data folder of the service; default: BENCH_DRAGON_DATA.")]
@@ -58,7 +68,7 @@ def list_jobs(data: Data = None, url: Url = "", token: Token = "", json: Json = 
         table.add_column(column, no_wrap=True)
     for job in listed:
         created = datetime.fromisoformat(job["created"]).astimezone().strftime("%Y-%m-%d %H:%M:%S")
-        table.add_row(job["jobID"], job["processID"], job["status"], f"{job['progress']} %", created)
+        table.add_row(job["jobID"], job["processID"], say(STATES[job["status"]]), f"{job['progress']} %", created)
     show.print_parts(table if listed else say("No jobs."))
 
 
@@ -72,7 +82,7 @@ def show_job(job: Name, data: Data = None, url: Url = "", token: Token = "", jso
     table = Table(box=None, show_header=False, pad_edge=False)
     for name, value in status.items():
         if value is not None and name not in ("links", "type", "problem"):
-            table.add_row(name.replace("_", " "), str(value))
+            table.add_row(say(LABELS.get(name, name)), say(STATES[value]) if name == "status" else str(value))
     show.print_parts(table)
 
 
@@ -93,10 +103,12 @@ def cancel(
     before = time.time() - (_seconds(older_than) if older_than else 0.0)
     place = _at(data, url, token)
     if job is not None:
-        print(f"{job}: {place.cancel(job)}")
+        print(f"{job}: {say(STATES[place.cancel(job)])}")
         return
     counts = place.cancel_all(before)
-    print(Listed(f"{format_count(count, 'job')} {what}" for what, count in counts.items()))
+    dismissed, removed = counts.values()
+    words = counted(dismissed, "{count} job dismissed", "{count} jobs dismissed")
+    print(Listed([words, counted(removed, "{count} job removed", "{count} jobs removed")]))
 
 
 def _seconds(text: str) -> float:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from app.extras import MissingPackage
 from app.files.scratch import temporary
-from core.language import Language, speaking, spoken
+from core.language import Language, phrase, say, speaking, spoken
 
 # Font families with the characters of simplified Chinese; those made for it come first.
 CHINESE = (
@@ -25,8 +25,12 @@ LIST_FOLDER = "MPLCONFIGDIR"
 LATIN = "DejaVu Sans"
 # First character that only a Chinese font has.
 FIRST_CHINESE = "\u2e80"
-# Characters that a Chinese font must have: some of those that our pictures use.
-TRIED = "板凳龙螺距速度首次碰撞调头把手"
+# Sentences of pictures, whose characters a Chinese font must have.
+TRIED = (
+    phrase("First contact: {time:.6f} s, head at radius {radius:.6f} m"),
+    phrase("speed of the handle [m/s]"),
+    phrase("bench {bench}"),
+)
 
 
 def families() -> tuple[str, ...]:
@@ -119,4 +123,6 @@ def draws_our_words(entry: object) -> bool:
             font = FT2Font(file)
     except (OSError, RuntimeError):
         return False
-    return font.get_charmap().keys() >= set(map(ord, TRIED))
+    with speaking(Language.CHINESE):
+        tried = {character for sentence in TRIED for character in say(sentence) if character >= FIRST_CHINESE}
+    return font.get_charmap().keys() >= set(map(ord, tried))

@@ -3,7 +3,7 @@
 import { button, make } from "./elements.js";
 import { LABELS, strayOf } from "./fields.js";
 import { bound, fixed, formatNumber, isExact } from "./numbers.js";
-import { benchName, between, phrase, say, sayOf, sentencesOf, titleOf } from "./text.js";
+import { benchName, between, language, phrase, say, sayOf, sentencesOf, titleOf } from "./text.js";
 
 /** Why every larger pitch is right. @type {Phrases} */
 const JUSTIFIED = {
@@ -62,7 +62,7 @@ const bracket = (template, both, decimals) => [say("Bracket, rounded outwards"),
 
 /** The section of the page "How it works" that explains the answer in a box. */
 const IDEAS = { "minimum-pitch": "staircase", tolerance: "stray", "head-speed": "chord", "turn-time": "chord", "highest-speed": "chord", "run-end": "chord" };
-const idea = ({ id }) => make("a", { href: `how?lang=${document.documentElement.lang.slice(0, 2)}#${IDEAS[id] ?? "step"}`, textContent: say("How it works") });
+const idea = ({ id }) => make("a", { href: `how?lang=${language()}#${IDEAS[id] ?? "step"}`, textContent: say("How it works") });
 
 /**
  * Replace the content of a box, but keep its details open. title: text; known: elements; outcome: colours the box; digits: the value

@@ -1,10 +1,10 @@
 /** The view of one carrier: the bench of the address, of several dragons that of the chosen one, in large type, its next cue counted down. Once loaded it needs no network, and where the browser can keep it, it opens without one. */
 
 import { Problem, Superseded } from "./api.js";
-import { $, button, hide, make, numberIn, textButton } from "./elements.js";
+import { $, $$, button, hide, make, numberIn, textButton } from "./elements.js";
 import { canKeep, forget, isKept, keep } from "./kept.js";
 import { secondsBetween, timeOfDay } from "./passages.js";
-import { benchTitle, language, learn, phrase, say, sentencesOf } from "./text.js";
+import { benchTitle, language, languages, learn, phrase, say, sentencesOf } from "./text.js";
 
 /** Where a person stands by a mark: 1 step from it, and more. */
 const PAST = [phrase("You stand 1 step past chalk mark {mark} m (x {x} m, y {y} m)."), phrase("You stand {steps} steps past chalk mark {mark} m (x {x} m, y {y} m).")];
@@ -22,7 +22,6 @@ const LASTING = ["begin", "turn", "done"];
 const HELD_MOST = 2_000_000;
 /** Where the browser keeps when a dance began, so that a page that was loaded again goes on. */
 const STORED = "bench-dragon-began";
-const LANGUAGES = ["en", "zh"];
 
 const digits = (number) => String(number).padStart(2, "0");
 /** A duration such as 0:07 or 1:02:03, to the whole second above. seconds: at least 0 */
@@ -76,7 +75,7 @@ export class Carrier {
     this.title = make("h1", { id: "carrier-title" });
     this.number = make("input", { id: "card-bench", inputMode: "numeric", autocomplete: "off", "data-label": "Bench", onchange: ({ target }) => this.#choose(target) });
     this.dragon = make("select", { id: "card-dragon", "data-label": "Dragon", onchange: ({ target }) => choose(Number(target.value)) });
-    this.other = button({}, () => state.set({ lang: LANGUAGES.find((one) => one !== language()) }));
+    this.other = button({}, () => state.set({ lang: this.#next.dataset.lang }));
     const close = button({ "data-label": "Close", textContent: "✕" }, () => state.push({ bench: null, view: null }));
     this.clock = make("p", { className: "clock" });
     this.when = make("p", { className: "when" });
@@ -110,6 +109,12 @@ export class Carrier {
     return this.#cards[language()] ?? Object.values(this.#cards)[0] ?? null;
   }
 
+  /** The button of the language that comes after this one. */
+  get #next() {
+    const all = $$("[data-lang]");
+    return all[(languages().indexOf(language()) + 1) % all.length];
+  }
+
   get #span() {
     return this.questions.dance ?? { begin: 0, end: 0 };
   }
@@ -130,8 +135,8 @@ export class Carrier {
     if (!isOpen) return this.#keepAwake();
     if (!wasOpen) this.#look();
     this.number.value = this.#bench;
-    this.other.textContent = language() === "en" ? "中文" : "English";
-    this.other.lang = language() === "en" ? "zh-Hans" : "en";
+    const { textContent, lang } = this.#next;
+    Object.assign(this.other, { textContent, lang });
     this.#ask();
     this.hold();
     this.#showCard();
@@ -189,7 +194,7 @@ export class Carrier {
     this.#showNote();
   }
 
-  /** Ask for the card of this bench in both languages, because a network may be gone when another language is wanted. */
+  /** Ask for the card of this bench in all languages, because a network may be gone when another one is wanted. */
   async #ask() {
     const { dance } = this.questions;
     const of = { dance, bench: this.#bench, dragon: dance?.active };
@@ -200,7 +205,7 @@ export class Carrier {
     if (of.bench >= benches) return;
     const own = { ...this.questions.cued, cards: [of.bench] };
     try {
-      for (const one of [language(), ...LANGUAGES.filter((other) => other !== language())]) {
+      for (const one of new Set([language(), ...languages()])) {
         await learn(this.service, one, "more");
         const { cards } = await this.service.ask(`cues ${one}`, "cues", { body: { ...this.#body(one), ...own, language: one } });
         if (of !== this.#of) return;
@@ -313,7 +318,7 @@ export class Carrier {
 
   #showNote() {
     const isWhole = this.#track?.isWhole;
-    const cards = Object.keys(this.#cards).length === LANGUAGES.length;
+    const cards = Object.keys(this.#cards).length === languages().length;
     const isLarge = this.#track?.cells > HELD_MOST;
     if (cards && isWhole) this.#keepHere();
     hide(this.remove, !this.#kept);

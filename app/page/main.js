@@ -349,7 +349,7 @@ function translate() {
   route?.translate();
   carrier?.show();
   dragons?.show();
-  // The sentences of the service are in the other language; a carrier has them in both, and may have no network.
+  // The sentences of the service are in the other language; a carrier has them in all, and may have no network.
   if (spoken && spoken !== chosen && state.get("bench") === null) refresh();
   spoken = chosen;
   announceAgain();

@@ -5,6 +5,7 @@ import { EMPTY, PARTS, fromAddress, toAddress } from "./drawing.js";
 import { FIELDS } from "./fields.js";
 import { beatsIn, beatsOf, clockIn, paceTexts, passagesIn } from "./passages.js";
 import { Pause } from "./pending.js";
+import { languages } from "./text.js";
 
 export const RATES = [1, 2, 5, 10, 20, 50];
 /** Default pitch of a turn, from the contest: a turn needs a wider spiral. */
@@ -37,7 +38,7 @@ const READ = {
     const numbers = text.split(",").map(Number);
     return numbers.length === 3 && numbers.every(Number.isFinite) && numbers[2] > 0 ? numbers : null;
   },
-  lang: oneOf(["en", "zh"]),
+  lang: (text) => oneOf(languages())(text),
   beats: (text) => beatsIn(text) && text,
   start_clock: clockIn,
   begin_clock: clockIn,

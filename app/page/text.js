@@ -15,8 +15,11 @@ let spoken = "en";
 /** Names of the benches, such as households, head first; empty for benches without a name. */
 let households = [];
 
-/** The language of a choice, or else the one that the browser prefers: en or zh. */
-export const languageOf = (choice) => choice ?? (navigator.language.toLowerCase().startsWith("zh") ? "zh" : "en");
+/** Codes of the languages, each of which has a button. */
+export const languages = () => $$("[data-lang]").map(({ dataset }) => dataset.lang);
+
+/** The language of a choice, or else the one that the browser prefers, or else English. */
+export const languageOf = (choice) => [choice, navigator.language.toLowerCase().split("-")[0]].find((one) => languages().includes(one)) ?? "en";
 
 /** Take texts of a language by their English templates. */
 export const teach = (lang, texts) => (CATALOGUES[lang] = { ...CATALOGUES[lang], ...texts });
@@ -37,7 +40,7 @@ export function learn(service, lang, part) {
 /** Set the language, whose texts are here. */
 export function setLanguage(lang) {
   spoken = lang;
-  document.documentElement.lang = lang === "zh" ? "zh-Hans" : lang;
+  document.documentElement.lang = $$(`[data-lang=${lang}]`)[0]?.lang ?? lang;
   document.title = say("Bench Dragon");
   writeTexts();
 }
@@ -61,7 +64,7 @@ export function writeTexts() {
   }
 }
 
-/** The language of the page for the service: en or zh. */
+/** The language of the page for the service, such as en. */
 export const language = () => spoken;
 
 /** A sentence, or a part of one, from its English template, with {names} replaced. */

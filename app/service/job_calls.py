@@ -7,12 +7,12 @@ import asyncio
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.service.lanes import limit
 from app.service.middleware import Layer
 from app.service.negotiation import prefers_job
 from app.service.problems import Refused
 from app.settings import Settings
 from core.errors import Quantity
+from core.language import say
 
 # Calls about jobs that wait for the disk at once in one process, and those that wait for their turn: more are refused.
 JOB_CALLS, JOB_CALLS_WAITING = 4, 200
@@ -33,7 +33,9 @@ class JobCalls(Layer):
         if not scope["path"].startswith(("/jobs", "/sweeps")) and not prefers_job(Headers(scope=scope)):
             return await self.app(scope, receive, send)
         if self._waiting >= JOB_CALLS_WAITING:
-            values = {"most": limit(JOB_CALLS_WAITING, "waiting call"), "seconds": Quantity(self._retry_after, "s")}
+            calls = say("{count} waiting calls", count=JOB_CALLS_WAITING)
+            most = Quantity(JOB_CALLS_WAITING, "", text=calls)
+            values = {"most": most, "seconds": Quantity(self._retry_after, "s")}
             words, after = "The limit of {most} about jobs is reached", {"Retry-After": str(self._retry_after)}
             refused = Refused(503, words, None, after, reason="try again in {seconds}.", **values)
             return await self.refuse(refused, scope, receive, send)

@@ -54,7 +54,6 @@ from app.service.job_bodies import (
     pointer_in_sweep,
     status,
 )
-from app.service.lanes import limit
 from app.service.negotiation import RESPOND_ASYNC, accepted, form_of
 from app.service.problems import Refused, problem, response_of
 from app.service.token import TOKEN, WITHOUT, guard
@@ -65,7 +64,7 @@ from app.wire.problem import PROBLEM_TYPE, item_of
 from app.wire.question import JSON, FileFormat, check_limit, short_json
 from core import BenchDragonError
 from core.errors import Given, Quantity
-from core.language import Listed, phrase, say, spoken
+from core.language import Listed, counted, phrase, say, spoken
 
 # Time between two checks for news, and between two signs of life while there are none [s].
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
@@ -153,17 +152,24 @@ def full(error: Full, limits: Settings) -> Refused:
     values["reason"] = f"none gives way to yours yet; remove some{again}"
     match error:
         case FullForClient():
-            values |= {"most": limit(limits.jobs_client_max, "unfinished job")}
+            count = counted(limits.jobs_client_max, "{count} unfinished job", "{count} unfinished jobs")
+            values["most"] = Quantity(limits.jobs_client_max, "", text=count)
             values["reason"] = f"wait for one, or dismiss it{again}"
             return Refused(429, "Your limit of {most} is reached", None, after, **values)
         case KeptByClient():
-            values |= {"most": limit(limits.jobs_client_kept_max, "kept job")}
-            values |= {"bytes": Quantity(limits.jobs_client_bytes_max, "bytes")}
+            values |= {
+                "most": _kept(limits.jobs_client_kept_max),
+                "bytes": Quantity(limits.jobs_client_bytes_max, "bytes"),
+            }
             return Refused(429, "Your limit of {most} and {bytes} is reached", None, after, **values)
         case FullOfBytes():
             return Refused(507, "The kept jobs take all the room that they may have", None, after, **values)
-    values |= {"most": limit(limits.jobs_max, "kept job")}
+    values["most"] = _kept(limits.jobs_max)
     return Refused(503, "The limit of {most} is reached", None, after or COME_AGAIN, **values)
+
+
+def _kept(most: int) -> Quantity:
+    return Quantity(most, "", text=counted(most, "{count} kept job", "{count} kept jobs"))
 
 
 def later(request: Request, task: Task, cost: float) -> Response:

@@ -21,17 +21,16 @@ from app.service.problems import Refused
 from app.settings import Settings, part
 from app.wire.question import UNKNOWN_COST
 from core import Budget, TooMuchWork
-from core.display import format_count
 from core.errors import Quantity
-from core.language import phrase
+from core.language import Phrases, counted, phrase, say
 
 # Longest estimated time of a cheap answer [s].
 CHEAP = 0.1
-
-
-def limit(most: int, thing: str) -> Quantity:
-    """A limit of the service in a sentence, such as 2 unfinished jobs."""
-    return Quantity(most, "", text=format_count(most, thing))
+# The lanes in words, by their names.
+LANES: Phrases = {
+    "cheap": "cheap", "heavy": "heavy", "workbook": "workbook", "assistant": "assistant", "file": "file",
+    "large body": "large body",
+}  # fmt: skip
 
 
 class Lane:
@@ -75,7 +74,8 @@ class Lane:
         now = time.monotonic()
         left = (began + cost - now if now < began + cost else now - began for began, cost, _ in begun)
         seconds = max(self.retry_after, math.ceil(min(self.longest, *left)))
-        values = {"most": limit(most, f"{self.name} computation"), "seconds": Quantity(seconds, "s")}
+        text = counted(most, "{count} {lane} computation", "{count} {lane} computations", lane=say(LANES[self.name]))
+        values = {"most": Quantity(most, "", text=text), "seconds": Quantity(seconds, "s")}
         after = {"Retry-After": str(seconds)}
         return Refused(status, words, None, after, reason="try again in {seconds}.", **values)
 

@@ -117,6 +117,9 @@ SENTENCES = """<!doctype html>
 ROOTS = 8
 # Files kept in memory: those of the page, of uPlot and of Swagger UI are about 70.
 KEPT_FILES = 256
+# The button of English, after which those of the other languages stand, and that of any language.
+ENGLISH_BUTTON = '<button type="button" lang="en" data-lang="en">English</button>'
+BUTTON = '\n      <button type="button" lang="{tag}" data-lang="{code}">{name}</button>'
 # Tags of languages whose catalogues have another name in HTML.
 TAGS = {"zh": "zh-Hans"}
 
@@ -259,11 +262,15 @@ def _written(page: Page, name: str, language: str, edition: str) -> bytes:
         english = html.unescape(mark[3])
         return f'{mark[1]}="{html.escape(english)}"{mark[2]}{html.escape(say(english), quote=False)}'
 
-    text = page.text(name)
+    text, buttons = page.text(name), ENGLISH_BUTTON
     if language != Language.ENGLISH:
         with speaking(language):
             text = TEXT_MARK.sub(translated, text)
         text = text.replace('<html lang="en">', f'<html lang="{TAGS.get(language, language)}">')
+    for code in catalogues():
+        with speaking(code):
+            buttons += BUTTON.format(tag=TAGS.get(code, code), code=code, name=sense("language", "English"))
+    text = text.replace(ENGLISH_BUTTON, buttons)
     return text.replace('"page/', f'"page-{edition}/').encode()
 
 

@@ -28,9 +28,8 @@ from app.wire.messages import known_units
 from app.wire.question import JSON
 from app.wire.texts import TO_CELL
 from core import InvalidValue
-from core.display import format_count
 from core.errors import Given
-from core.language import Listed, say
+from core.language import Listed, counted, say
 from core.tables import data_frame, polars_frame
 from core.values import Floats
 
@@ -145,7 +144,7 @@ class Sweep:
     def _check_complete(self) -> None:
         if self.missing:
             words = "{folder} lacks {missing} of {shards}: run the sweep again"
-            whole = format_count(self.spec.shards, "shard")
+            whole = counted(self.spec.shards, "{count} shard", "{count} shards")
             raise InvalidValue.in_words("folder", words, folder=str(self.folder), missing=self.missing, shards=whole)
 
 

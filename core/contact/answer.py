@@ -62,7 +62,7 @@ class Feature(Readable):
     name: str
 
     def __str__(self) -> str:
-        return f"{self.name} of bench {self.bench}"
+        return plots.feature_words(self)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -150,22 +150,17 @@ class FirstContact(Readable):
     dance: Dance = field(repr=False, compare=False)
 
     def _line(self) -> str:
-        if self.time_bracket is not None and self.outcome is Outcome.UNDECIDED:
-            certain = ""
-            if self.overlapping is not None:
-                a, b = self.overlapping
-                near = f"within {display(self.margin, 'm')}" if self.margin else "in contact"
-                may = " may be" if self.stray else " are"
-                certain = f"; benches {a} and {b}{may} {near} at {display(self.time_bracket[1], 's')}"
-            return f"undecided from {display(self.time_bracket[0], 's')} on{certain}"
-        near = "touch" if not self.margin else f"come within {display(self.margin, 'm')}"
-        near = f"may {near} with strays up to {display(self.stray, 'm')}" if self.stray else near
-        if self.benches is None or self.time is None:
-            assert self.end is not None
-            where = "" if self.end.reason is EndReason.STOP else f", where {self.end.why}"
-            return f"no two benches {near} until {display(self.end.time, 's')}{where}"
-        a, b = self.benches
-        return f"benches {a} and {b} {near} at {display(self.time, 's')}"
+        pair, near = self.benches or self.overlapping, near_words(self.margin, self.stray)
+        words = pair and say("benches {a} and {b}", a=pair[0], b=pair[1])
+        if self.outcome is Outcome.UNDECIDED and self.time_bracket is not None:
+            return undecided_words(self.time_bracket, words, near)
+        if words and self.time is not None:
+            return say("{pair} {near} at {time}", pair=words, near=near, time=display(self.time, "s"))
+        assert self.end is not None
+        end = display(self.end.time, "s")
+        if self.end.reason is EndReason.STOP:
+            return say("no two benches {near} until {end}", near=near, end=end)
+        return say("no two benches {near} until {end}, where {why}", near=near, end=end, why=self.end.why)
 
     def plot(self, ax: Axes | None = None, *, enlarged: bool = False) -> Axes:
         """Plot the dance at first contact, the two benches filled; without a contact, just before the end of the run.
@@ -226,3 +221,17 @@ class FirstContact(Readable):
         if self.time_bracket is not None:
             return self.time_bracket[0]
         return (self.end or self.dance.end).time - BEFORE_END
+
+
+def near_words(margin: float, stray: float) -> str:
+    """What benches do that come within a margin [m], with strays [m]."""
+    near = say("come within {margin}", margin=display(margin, "m")) if margin else say("touch")
+    return say("may {near} with strays up to {stray}", near=near, stray=display(stray, "m")) if stray else near
+
+
+def undecided_words(bracket: tuple[float, float], pair: str | None, near: str) -> str:
+    """From when on a search is undecided, and which pair is near at the end of its bracket [s]."""
+    begin, end = (display(time, "s") for time in bracket)
+    if not pair:
+        return say("undecided from {begin} on", begin=begin)
+    return say("undecided from {begin} on; {pair} {near} at {end}", begin=begin, pair=pair, near=near, end=end)

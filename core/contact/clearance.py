@@ -15,10 +15,11 @@ from core.contact.search import NEAR_WORK_BUDGET, ContactSearch, before_fold
 from core.contact.stage_clearance import clearance_between, least_clearance_between
 from core.contact.stretch import GRAZE_WIDTH, Stretch, least_on
 from core.dance import Dance
-from core.display import Readable, display, format_count
+from core.display import Readable, display
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, or_about, question_about
 from core.kernels import Budget
+from core.language import counted, say
 from core.motion.trajectory import instants
 from core.performance import Performance
 from core.tables import Column, Table, data_set
@@ -46,12 +47,15 @@ class ClearanceProfile(Table):
 
     def _line(self) -> str:
         if not self.time.size:
-            return "no instants"
+            return say("no instants")
         least = int(self.clearance.argmin())
         a, b = self.benches.reshape(-1, 2)[least]
-        nearest = f"{display(self.clearance.item(least), 'm')} between benches {a} and {b}"
-        grazes = format_count(len(self.grazes), "graze")
-        return f"{instants(self.time)}; least {nearest} at {display(self.time.item(least), 's')}; {grazes}"
+        return say(
+            "{instants}; least {gap} between benches {a} and {b} at {time}; {grazes}",
+            instants=instants(self.time), gap=display(self.clearance.item(least), "m"), a=a, b=b,
+            time=display(self.time.item(least), "s"),
+            grazes=counted(len(self.grazes), "{count} graze", "{count} grazes"),
+        )  # fmt: skip
 
     def columns(self) -> dict[str, Column]:
         """One row for each time: time [s], clearance [m], bench_a, bench_b."""

@@ -17,6 +17,7 @@ from core.dance import Dance
 from core.display import Readable, display
 from core.errors import or_about, question_about
 from core.kernels import Budget
+from core.language import say
 from core.motion.trajectory import trajectory
 from core.performance import Part
 from core.shapes.engines import JUDGES, Engine, able, engine_pairs, unions_meet
@@ -69,12 +70,19 @@ class ContactCheck(Readable):
     left_out: tuple[Engine, ...]
 
     def _line(self) -> str:
-        return f"{len(self.engines)} engines {'agree' if self.agree else 'disagree'} on {len(self.judged)} benches"
+        return agreement_words(self.agree, len(self.engines), len(self.judged))
 
     def _rows(self) -> list[tuple[str, str]]:
         verdicts = [(engine.value, repr(verdict)) for engine, verdict in self.engines.items()]
         rest = [("together", display(self.together)), ("left out", display(self.left_out))]
         return [("agree", display(self.agree)), ("judged", display(self.judged)), *verdicts, *rest]
+
+
+def agreement_words(agree: bool, engines: int, benches: int) -> str:
+    """Whether so many engines agree on so many benches."""
+    if agree:
+        return say("{count} engines agree on {benches} benches", count=engines, benches=benches)
+    return say("{count} engines disagree on {benches} benches", count=engines, benches=benches)
 
 
 # Both dragons and their benches, as in a FirstEncounter.
@@ -104,7 +112,7 @@ class EncounterCheck(Readable):
 
     def _line(self) -> str:
         count = sum(map(len, self.judged))
-        return f"{len(self.engines)} engines {'agree' if self.agree else 'disagree'} on {count} benches"
+        return agreement_words(self.agree, len(self.engines), count)
 
     def _rows(self) -> list[tuple[str, str]]:
         engines = [(engine.value, repr(verdict)) for engine, verdict in self.engines.items()]

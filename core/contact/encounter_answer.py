@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass, field
 
 from core.claims.certificate import WithClaim
 from core.claims.claim import EncounterClaim
-from core.contact.answer import Feature, Outcome
+from core.contact.answer import Feature, Outcome, near_words, undecided_words
 from core.dance import EndReason
 from core.display import Readable, display
 from core.language import say
@@ -96,15 +96,10 @@ class FirstEncounter(Readable):
     performance: Performance = field(repr=False, compare=False)
 
     def _line(self) -> str:
-        near = say("come within {margin}", margin=display(self.margin, "m")) if self.margin else say("touch")
-        if self.stray:
-            near = say("may {near} with strays up to {stray}", near=near, stray=display(self.stray, "m"))
+        near = near_words(self.margin, self.stray)
         if self.outcome is Outcome.UNDECIDED and self.time_bracket is not None:
-            begin, end = (display(time, "s") for time in self.time_bracket)
-            if self.overlapping is None:
-                return say("undecided from {begin} on", begin=begin)
-            pair = self._pair(*self.overlapping)
-            return say("undecided from {begin} on; {pair} {near} at {end}", begin=begin, pair=pair, near=near, end=end)
+            pair = self._pair(*self.overlapping) if self.overlapping else None
+            return undecided_words(self.time_bracket, pair, near)
         if self.dragons is not None and self.benches is not None:
             pair = self._pair(self.dragons, self.benches)
             return say("{pair} {near} at {time}", pair=pair, near=near, time=display(self.time, "s"))

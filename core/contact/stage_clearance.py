@@ -15,11 +15,12 @@ from core.contact.search import WORK_BUDGET
 from core.contact.stage import Stage
 from core.contact.stage_march import least_after
 from core.dance import checked_instants
-from core.display import Readable, display, format_count
+from core.display import Readable, display
 from core.dragon import Stray
 from core.errors import InvalidValue, OutsideRun, Quantity, bound, question_about
 from core.kernels import Budget, Ended
 from core.kernels.results import Dip, Marched
+from core.language import counted, say
 from core.motion.trajectory import instants
 from core.performance import Performance
 from core.tables import Column, Table
@@ -45,14 +46,15 @@ class PerformanceClearance(Table):
 
     def _line(self) -> str:
         if not self.time.size:
-            return "no instants"
+            return say("no instants")
         least = int(self.clearance.argmin())
         (i, j), (a, b) = self.dragons.reshape(-1, 2)[least], self.benches.reshape(-1, 2)[least]
-        nearest = (
-            f"{display(self.clearance.item(least), 'm')} between bench {a} of dragon {i} and bench {b} of dragon {j}"
-        )
-        grazes = format_count(len(self.grazes), "graze")
-        return f"{instants(self.time)}; least {nearest} at {display(self.time.item(least), 's')}; {grazes}"
+        return say(
+            "{instants}; least {gap} between bench {a} of dragon {i} and bench {b} of dragon {j} at {time}; {grazes}",
+            instants=instants(self.time), gap=display(self.clearance.item(least), "m"), a=a, b=b, i=i, j=j,
+            time=display(self.time.item(least), "s"),
+            grazes=counted(len(self.grazes), "{count} graze", "{count} grazes"),
+        )  # fmt: skip
 
     def columns(self) -> dict[str, Column]:
         """One row for each time: time [s], clearance [m], dragon_a, bench_a, dragon_b, bench_b."""

@@ -20,6 +20,7 @@ from core.display import Readable, display
 from core.dragon import Stray, checked_stray
 from core.errors import checked_number, checked_type, question_about
 from core.kernels import Budget, Ended
+from core.language import say
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.shapes.engines import inside
@@ -76,8 +77,8 @@ class AreaClearance(Readable):
     overlapping: int | None = None
 
     def _line(self) -> str:
-        nearest = f", nearest {self.nearest._line()}" if self.nearest else ""
-        return f"{self.name!r} {self.outcome.value}{nearest}"
+        words = f"{self.name!r} {say(self.outcome.value)}"
+        return say("{area}, nearest {nearest}", area=words, nearest=self.nearest._line()) if self.nearest else words
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -111,11 +112,14 @@ class VenueClearance(Readable):
         if not known:
             return misplaced + "; ".join(area._line() for area in self.areas)
         near, name = min(known, key=lambda one: one[0].distance)
-        distance, time = display(near.distance, "m"), display(near.time, "s")
-        return f"{misplaced}nearest to {name!r}: bench {near.bench}, {distance} at {time}"
+        values = {"distance": display(near.distance, "m"), "time": display(near.time, "s")}
+        words = say(
+            "nearest to {name}: bench {bench}, {distance} at {time}", name=repr(name), bench=near.bench, **values
+        )
+        return misplaced + words
 
     def _rows(self) -> list[tuple[str, str]]:
-        misplaced = self.misplaced._line() if self.misplaced else "none"
+        misplaced = self.misplaced._line() if self.misplaced else say("none")
         return [("misplaced", misplaced), *((area.name, area._line()) for area in self.areas)]
 
 

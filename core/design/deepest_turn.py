@@ -37,7 +37,7 @@ from core.errors import (
     too_much,
 )
 from core.kernels import Budget, Halted
-from core.language import phrase
+from core.language import phrase, say
 from core.paths.following import follows
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
@@ -88,7 +88,7 @@ class TurnLimit(StrEnum):
         >>> TurnLimit.LEAST_RADIUS.words
         'the least radius of a bend'
         """
-        return "the least radius of a bend" if self is TurnLimit.LEAST_RADIUS else self.value
+        return say("the least radius of a bend") if self is TurnLimit.LEAST_RADIUS else say(self.value)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -115,9 +115,14 @@ class DeepestTurn(Readable):
     evaluations: int
 
     def _line(self) -> str:
-        pair = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
-        entry = f"entry at a radius of {display(self.turn.entry_radius, 'm')}, length {display(self.turn.length, 'm')}"
-        return f"{entry}, limited by {self.limited_by.words}{pair}"
+        limit = self.limited_by.words
+        if self.benches:
+            limit = say("{limit} of benches {a} and {b}", limit=limit, a=self.benches[0], b=self.benches[1])
+        radius, length = display(self.turn.entry_radius, "m"), display(self.turn.length, "m")
+        return say(
+            "entry at a radius of {radius}, length {length}, limited by {limit}",
+            radius=radius, length=length, limit=limit,
+        )  # fmt: skip
 
 
 @question_about("dragon", Dragon)

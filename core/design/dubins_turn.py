@@ -31,6 +31,7 @@ from core.display import Readable, display
 from core.dragon import Dragon, chord_values
 from core.errors import InvalidValue, Quantity, quantities, question_about, too_much
 from core.kernels import Budget, Halted
+from core.language import say
 from core.paths.following import follows
 from core.paths.pieces import LENGTH_MIN, Arc, Coil, Line, Piece
 from core.paths.route import Route
@@ -72,8 +73,11 @@ class DubinsTurn(Readable):
     evaluations: int
 
     def _line(self) -> str:
-        places = f"entry {display(self.entry_radius, 'm')}, exit {display(self.exit_radius, 'm')}"
-        return f"length {display(self.length, 'm')}, {display(self.straight, 'm')} of it straight, {places}"
+        return say(
+            "length {length}, {straight} of it straight, entry {entry}, exit {exit}",
+            length=display(self.length, "m"), straight=display(self.straight, "m"),
+            entry=display(self.entry_radius, "m"), exit=display(self.exit_radius, "m"),
+        )  # fmt: skip
 
 
 @question_about("dragon", Dragon)

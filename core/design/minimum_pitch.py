@@ -23,6 +23,7 @@ from core.errors import (
     question_about,
 )
 from core.kernels import Budget, Halted
+from core.language import say
 from core.paths.spiral import START_TURNS_MAX, Spiral, end_theta
 
 # Largest number of dragons in one spiral, and of the benches of all together [1].
@@ -70,15 +71,23 @@ class MinimumPitch(Readable):
     dragons: tuple[int, int] | None = None
 
     def _line(self) -> str:
-        whose = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
-        if self.benches and self.dragons:
-            whose = f" of bench {self.benches[0]} of dragon 0 and bench {self.benches[1]} of dragon {self.dragons[1]}"
+        limit = say(self.limited_by.value)
         if self.bench is not None:
-            whose = f" of bench {self.bench}"
-        limit = f"{display(self.pitch, 'm')}, limited by {self.limited_by.value}{whose}"
-        scan = f"scanned every {display(self.scan_step, 'm')} up to {display(self.proven_from, 'm')}, then "
-        most = "for every larger pitch" if self.proven_up_to is None else f"up to {display(self.proven_up_to, 'm')}"
-        return f"{limit}; {scan if self.scan_step else ''}proven {most}"
+            limit = say("{limit} of bench {bench}", limit=limit, bench=self.bench)
+        elif self.benches:
+            a, b = self.benches
+            limit = say("{limit} of benches {a} and {b}", limit=limit, a=a, b=b)
+            if self.dragons:
+                values = {"limit": say(self.limited_by.value), "other": self.dragons[1]}
+                limit = say("{limit} of bench {a} of dragon 0 and bench {b} of dragon {other}", a=a, b=b, **values)
+        proven = say("proven for every larger pitch")
+        if self.proven_up_to is not None:
+            proven = say("proven up to {most}", most=display(self.proven_up_to, "m"))
+        if self.scan_step:
+            step, least = display(self.scan_step, "m"), display(self.proven_from, "m")
+            proven = say("scanned every {step} up to {least}, then {proven}", step=step, least=least, proven=proven)
+        pitch = display(self.pitch, "m")
+        return say("{pitch}, limited by {limit}; {proven}", pitch=pitch, limit=limit, proven=proven)
 
 
 @question_about("dragon", Dragon)

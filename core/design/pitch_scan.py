@@ -14,7 +14,7 @@ from core.contact.fold import clear_to_fold
 from core.contact.search import MARGIN_MAX, WORK_BUDGET, ContactSearch, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
-from core.display import format_count, format_range
+from core.display import format_range
 from core.dragon import Dragon, chord_values
 from core.errors import (
     SIZE_MIN,
@@ -29,7 +29,7 @@ from core.errors import (
     too_much,
 )
 from core.kernels import Budget, Ended, Halted
-from core.language import say
+from core.language import counted, say
 from core.paths.spiral import Spiral
 from core.tables import Column, Table
 from core.values import Floats, Progress, unheard
@@ -71,11 +71,14 @@ class PitchScan(Table):
 
     def _line(self) -> str:
         if not self.pitch.size:
-            return "no contact at any pitch"
-        radius = f"contact with the head at {format_range(self.radius, 'm')}"
-        pieces = format_count(len(self.pieces), "piece")
-        samples = f"{format_count(self.pitch.size, 'sample')} at pitches of {format_range(self.pitch, 'm')}"
-        return f"{samples}, {radius}, in {pieces}"
+            return say("no contact at any pitch")
+        return say(
+            "{samples} at pitches of {pitches}, contact with the head at {radii}, in {pieces}",
+            samples=counted(self.pitch.size, "{count} sample", "{count} samples"),
+            pitches=format_range(self.pitch, "m"),
+            radii=format_range(self.radius, "m"),
+            pieces=counted(len(self.pieces), "{count} piece", "{count} pieces"),
+        )
 
     def columns(self) -> dict[str, Column]:
         """One row for each pitch: pitch, radius [m], and the number of its piece."""

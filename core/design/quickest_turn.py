@@ -30,6 +30,7 @@ from core.dragon import Dragon, chord_values
 from core.errors import InvalidValue, Quantity, quantities, question_about, too_much
 from core.extremes.speed import checked_limit, maximum_head_speed
 from core.kernels import Budget, Halted
+from core.language import say
 from core.motion.trajectory import trajectory
 from core.paths.clothoid_turn import ClothoidTurn
 from core.paths.following import follows
@@ -65,9 +66,11 @@ class TurnTime(Readable):
     handles: tuple[int, ...]
 
     def _line(self) -> str:
-        places = f"entry {display(self.turn.entry_radius, 'm')}, exit {display(self.turn.exit_radius, 'm')}"
-        speed = f"head at most at {display(self.head_speed, 'm/s')}"
-        return f"{display(self.time, 's')} for {display(self.length, 'm')}, {speed}, {places}"
+        return say(
+            "{time} for {length}, head at most at {speed}, entry {entry}, exit {exit}",
+            time=display(self.time, "s"), length=display(self.length, "m"), speed=display(self.head_speed, "m/s"),
+            entry=display(self.turn.entry_radius, "m"), exit=display(self.turn.exit_radius, "m"),
+        )  # fmt: skip
 
 
 @question_about("dragon", Dragon)

@@ -52,6 +52,7 @@ from core.errors import (
     too_much,
 )
 from core.kernels import Budget, Halted
+from core.language import say
 from core.paths.following import follows
 from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
 from core.values import Floats
@@ -114,9 +115,13 @@ class ShortestTurn(Readable):
 
     def _line(self) -> str:
         low, high = self.length_bracket
-        places = f"entry {display(self.turn.entry_radius, 'm')}, exit {display(self.turn.exit_radius, 'm')}"
-        length = f"length {display(self.turn.length, 'm')} ({display(high - low, 'm')} or less above the shortest)"
-        return f"{length}, {places}, ratio {display(self.turn.ratio)}, limited by {self.limited_by.words}"
+        return say(
+            "length {length} ({excess} or less above the shortest), entry {entry}, exit {exit}, ratio {ratio}, "
+            "limited by {limit}",
+            length=display(self.turn.length, "m"), excess=display(high - low, "m"), ratio=display(self.turn.ratio),
+            entry=display(self.turn.entry_radius, "m"), exit=display(self.turn.exit_radius, "m"),
+            limit=self.limited_by.words,
+        )  # fmt: skip
 
 
 @question_about("dragon", Dragon)

@@ -49,13 +49,14 @@ from core import kernels
 from core.claims.certificate import WithClaim
 from core.claims.claim import ClaimKind, GroundClaim
 from core.dance import Dance
-from core.display import Readable, WithArrays, format_count
+from core.display import Readable, WithArrays
 from core.dragon import Dragon
 from core.error_free import paired
 from core.errors import InvalidValue, checked_list, checked_number, checked_point, or_about, question_about
 from core.ground.tracks import Track, tracks
 from core.kernels import Budget
 from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, RADIUS
+from core.language import counted, say
 from core.performance import Performance
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, area_of, distance_from, united
 from core.shapes.rectangles import bench_outlines
@@ -113,12 +114,15 @@ class Envelope(WithArrays):
     certificate: SweepProof
 
     def _line(self) -> str:
-        beyond = f"at most {self.excess:.3g} m beyond the benches"
-        return f"{self.area:.6g} m2 from {self.start:.6g} to {self.stop:.6g} s, {beyond}"
+        return say(
+            "{area:.6g} m2 from {start:.6g} to {stop:.6g} s, at most {excess:.3g} m beyond the benches",
+            area=self.area, start=self.start, stop=self.stop, excess=self.excess,
+        )  # fmt: skip
 
     def _rows(self) -> list[tuple[str, str]]:
         points = sum(len(ring) for rings in self.polygons for ring in rings)
-        size = f"{format_count(len(self.polygons), 'polygon')}, {points} points"
+        polygons = counted(len(self.polygons), "{count} polygon", "{count} polygons")
+        size = say("{polygons}, {count} points", polygons=polygons, count=points)
         return [("polygons", size), *((name, text) for name, text in Readable._rows(self) if name != "polygons")]
 
     def distance(self, line: object) -> float:

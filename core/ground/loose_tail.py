@@ -28,6 +28,7 @@ from core.dragon import Dragon, Stray, checked_stray
 from core.errors import checked_count, checked_number, question_about
 from core.ground.tracks import stretches
 from core.kernels import Budget
+from core.language import say
 from core.shapes.engines import GROWTH_MOST, Polygons, area_of, thickened
 
 # Least and largest part of the excess that comes from the lines between points of the path [m].
@@ -72,7 +73,10 @@ class TailReach(WithArrays):
     certificate: TailProof
 
     def _line(self) -> str:
-        return f"{self.benches} loose benches within {self.reach:.3f} m, {self.area:.6g} m2"
+        return say(
+            "{count} loose benches within {reach:.3f} m, {area:.6g} m2",
+            count=self.benches, reach=self.reach, area=self.area,
+        )  # fmt: skip
 
 
 @question_about("dance", Dance, "the ground that loose benches can reach was not found")

@@ -18,11 +18,12 @@ import numpy as np
 from core import kernels
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
-from core.display import Readable, display, format_count
+from core.display import Readable, display
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, checked_number, checked_type, question_about
 from core.extremes.speed import highest_speed
 from core.kernels import Budget
+from core.language import counted, say
 from core.motion.trajectory import trajectory
 from core.shapes.engines import inside
 from core.shapes.reach import gains
@@ -77,8 +78,9 @@ class Stays(Readable):
         return sum(one.duration for one in self.stays)
 
     def _line(self) -> str:
-        count = format_count(len(self.stays), "stay")
-        return f"{self.name!r} {count}, {display(self.total, 's')} of {display(self.stop - self.start, 's')}"
+        count = counted(len(self.stays), "{count} stay", "{count} stays")
+        values = {"total": display(self.total, "s"), "whole": display(self.stop - self.start, "s")}
+        return say("{name} {count}, {total} of {whole}", name=repr(self.name), count=count, **values)
 
 
 @question_about("dance", Dance, "the times in the area were not found")

@@ -51,7 +51,8 @@ class Trajectory(Table):
 
     def _line(self) -> str:
         speeds = f", {format_range(self.speed, 'm/s')}" if self.speed.size else ""
-        return f"{instants(self.time)}; {self.speed.shape[-1]} handles{speeds}"
+        handles = say("{count} handles", count=self.speed.shape[-1])
+        return f"{instants(self.time)}; {handles}{speeds}"
 
     def columns(self) -> dict[str, Column]:
         """One row for each time and handle: time [s], handle, x, y [m], velocity_x, velocity_y, speed [m/s]."""
@@ -192,6 +193,8 @@ def instants(time: Floats) -> str:
     >>> instants(np.array([0.0, 1.0, 2.0]))
     '3 instants from 0 to 2 s'
     """
-    if time.size < 2:
-        return f"{time.size} instants" if not time.size else f"1 instant at {display(time.item(0), 's')}"
-    return f"{time.size} instants from {format_range(time, 's')}"
+    if time.size == 1:
+        return say("1 instant at {time}", time=display(time.item(0), "s"))
+    if not time.size:
+        return say("no instants")
+    return say("{count} instants from {span}", count=time.size, span=format_range(time, "s"))

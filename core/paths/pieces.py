@@ -45,6 +45,7 @@ from core.kernels.constants import (
     TX,
     TY,
 )
+from core.language import say
 from core.paths.cubics import cut
 from core.values import Floats, Point
 
@@ -294,7 +295,8 @@ class Waypoints(Readable):
         return text if len(text) <= REPR_MOST else super().__repr__()
 
     def _line(self) -> str:
-        return f"{len(self.points)} points from {self.points[0]!r} to {self.points[-1]!r} m"
+        first, last = repr(self.points[0]), repr(self.points[-1])
+        return say("{count} points from {first} to {last} m", count=len(self.points), first=first, last=last)
 
     def rows(self, name: str, s: float, budget: Budget) -> Floats:
         """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths need."""

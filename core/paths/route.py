@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
-from core.display import REPR_MOST, TABLE_DIGITS, Readable, display, format_count
+from core.display import REPR_MOST, TABLE_DIGITS, Readable, display
 from core.error_free import paired
 from core.errors import Given, InvalidValue, Parameter, Quantity, Value, checked_list, checked_number, too_much
 from core.kernels import Budget, Halted
@@ -26,6 +26,7 @@ from core.kernels.constants import (
     TX,
     TY,
 )
+from core.language import counted, say
 from core.paths.frame import WORLD
 from core.paths.path import Columns, HeadState, PathSummary
 from core.paths.pieces import Arc, Clothoid, Coil, Line, Piece
@@ -159,13 +160,14 @@ class Route(Readable):
     def _line(self) -> str:
         kinds = ", ".join(type(piece).__name__ for piece in self.pieces[:4])
         more = ", ..." if len(self.pieces) > 4 else ""
-        pieces = f"{format_count(len(self.pieces), 'piece')} ({kinds}{more})"
-        return f"{pieces}, s from {display(self.begin)} to {display(self.end, 'm')}"
+        pieces = counted(len(self.pieces), "{count} piece", "{count} pieces")
+        values = {"kinds": kinds + more, "begin": display(self.begin), "end": display(self.end, "m")}
+        return say("{pieces} ({kinds}), s from {begin} to {end}", pieces=pieces, **values)
 
     def _rows(self) -> list[tuple[str, str]]:
-        rows = [(f"piece {k}", str(piece)) for k, piece in enumerate(self.pieces[:PIECES_LISTED])]
+        rows = [(say("piece {k}", k=k), str(piece)) for k, piece in enumerate(self.pieces[:PIECES_LISTED])]
         more = len(self.pieces) - PIECES_LISTED
-        rows += [("other pieces", str(more))] if more > 0 else []
+        rows += [(say("other pieces"), str(more))] if more > 0 else []
         return [
             *rows,
             ("begin", display(self.begin, "m", TABLE_DIGITS)),

@@ -24,7 +24,7 @@ from itertools import pairwise
 import numpy as np
 
 from core.dance import Clock, Dance
-from core.display import LINE_DIGITS, Readable, display, format_count
+from core.display import Readable, display
 from core.errors import (
     InvalidValue,
     Quantity,
@@ -37,6 +37,7 @@ from core.errors import (
     question_about,
 )
 from core.kernels import Budget
+from core.language import counted, say
 from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
 from core.passages import TIME_MAX, Period
@@ -209,11 +210,13 @@ class BenchCues(Readable):
     turns: tuple[Turning, ...] = ()
 
     def _line(self) -> str:
-        walks = (
-            f"walks from {display(self.begin.time, 's', LINE_DIGITS)} to {display(self.done.time, 's', LINE_DIGITS)}"
-        )
-        met, paused = format_count(len(self.meetings), "meeting"), format_count(len(self.pauses), "pause")
-        return f"bench {self.bench} {walks}, {met}, {paused}, at most {display(self.fastest.speed, 'm/s', LINE_DIGITS)}"
+        return say(
+            "bench {bench} walks from {begin} to {done}, {met}, {paused}, at most {speed}",
+            bench=self.bench, begin=display(self.begin.time, "s"), done=display(self.done.time, "s"),
+            met=counted(len(self.meetings), "{count} meeting", "{count} meetings"),
+            paused=counted(len(self.pauses), "{count} pause", "{count} pauses"),
+            speed=display(self.fastest.speed, "m/s"),
+        )  # fmt: skip
 
 
 @question_about("performance", Performance, "the cues were not found")

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.display import Readable, WithArrays, display, format_count
+from core.display import Readable, WithArrays, display
 from core.errors import (
     SIZE_MAX,
     SIZE_MIN,
@@ -24,7 +24,7 @@ from core.errors import (
     question_about,
 )
 from core.kernels import Budget
-from core.language import Listed
+from core.language import Listed, counted, say
 from core.shapes.engines import JUDGES, Engine, able, engine_pairs
 from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
 from core.values import Floats
@@ -56,7 +56,8 @@ class Overlaps(WithArrays):
     contact: Separation
 
     def _line(self) -> str:
-        return f"{format_count(len(self.pairs), 'pair')}, separation {display(self.contact.separation, 'm')}"
+        pairs = counted(len(self.pairs), "{count} pair", "{count} pairs")
+        return say("{pairs}, separation {gap}", pairs=pairs, gap=display(self.contact.separation, "m"))
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
@@ -78,11 +79,13 @@ class CrossCheck(WithArrays):
 
     def _line(self) -> str:
         counts = ", ".join(f"{engine.value} {len(pairs)}" for engine, pairs in self.pairs.items())
-        return f"{'agree' if self.agree else 'disagree'}; pairs by engine: {counts}"
+        if self.agree:
+            return say("agree; pairs by engine: {counts}", counts=counts)
+        return say("disagree; pairs by engine: {counts}", counts=counts)
 
     def _rows(self) -> list[tuple[str, str]]:
         counts = [
-            (engine.value, f"{format_count(len(pairs), 'pair')}, {len(self.only[engine])} not found by all")
+            (engine.value, say("{count} pairs, {only} not found by all", count=len(pairs), only=len(self.only[engine])))
             for engine, pairs in self.pairs.items()
         ]
         return [("agree", display(self.agree)), *counts, ("left out", display(self.left_out))]

@@ -22,6 +22,7 @@ from core.dance import EndReason
 from core.display import WithArrays, display
 from core.kernels import Budget, Ended
 from core.kernels.results import Dip, Marched
+from core.language import say
 from core.motion.trajectory import trajectory
 from core.performance import Performance
 from core.shapes.reach import gains
@@ -51,7 +52,11 @@ class PerformanceExhibit(WithArrays):
 
     def _line(self) -> str:
         depth, stray = display(self.depth, "m"), display(self.stray, "m")
-        return f"an overlap of {depth} of benches {display(self.benches)} with strays up to {stray}"
+        benches = display(self.benches)
+        return say(
+            "an overlap of {depth} of benches {benches} with strays up to {stray}",
+            depth=depth, benches=benches, stray=stray,
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -22,10 +22,11 @@ from core import kernels
 from core.claims.certificate import WithClaim
 from core.claims.claim import ClaimKind, ProbabilityClaim
 from core.dance import Dance
-from core.display import WithArrays, display, format_count
+from core.display import WithArrays, display
 from core.error_free import paired
 from core.errors import Given, InvalidValue, Quantity, checked_type, question_about, too_much
 from core.kernels import Budget, Halted
+from core.language import counted, say
 from core.motion.trajectory import trajectory
 from core.shapes.reach import gains
 from core.tolerance.tolerance import tolerance
@@ -102,8 +103,12 @@ class ContactProbability(WithArrays, WithClaim):
 
     def _line(self) -> str:
         low, high = self.limits
-        count = f"{format_count(self.contacts, 'contact')} in {format_count(self.samples, 'sample')}"
-        return f"{display(self.probability)}, between {low:.6g} and {high:.6g}: {count}"
+        return say(
+            "{probability}, between {low:.6g} and {high:.6g}: {contacts} in {samples}",
+            probability=display(self.probability), low=low, high=high,
+            contacts=counted(self.contacts, "{count} contact", "{count} contacts"),
+            samples=counted(self.samples, "{count} sample", "{count} samples"),
+        )  # fmt: skip
 
 
 @question_about("dance", Dance)

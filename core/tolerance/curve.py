@@ -41,7 +41,8 @@ class ToleranceCurve(Table):
     tolerances: tuple[Tolerance, ...]
 
     def _line(self) -> str:
-        return f"strays of {format_range(self.stray, 'm')} at pitches of {format_range(self.pitch, 'm')}"
+        strays, pitches = format_range(self.stray, "m"), format_range(self.pitch, "m")
+        return say("strays of {strays} at pitches of {pitches}", strays=strays, pitches=pitches)
 
     def columns(self) -> dict[str, Column]:
         """One row for each pitch: pitch, stray [m], limited_by."""

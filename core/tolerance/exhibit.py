@@ -28,6 +28,7 @@ import numpy as np
 from core.contact.between import DEPTH, touching_pose
 from core.display import WithArrays, display
 from core.dragon import Dragon
+from core.language import say
 from core.shapes.rectangles import bench_poses, frames, frames_separation
 from core.values import Floats
 
@@ -63,10 +64,12 @@ class Exhibit(WithArrays):
 
     def _line(self) -> str:
         a, b = self.benches
-        other = "the venue" if b is None else f"bench {b}"
-        return (
-            f"bench {a} and {other} overlap by {display(self.depth, 'm')} with strays up to {display(self.stray, 'm')}"
-        )
+        one, other = (say("the venue") if k is None else say("bench {bench}", bench=k) for k in (a, b))
+        depth, stray = display(self.depth, "m"), display(self.stray, "m")
+        return say(
+            "{one} and {other} overlap by {depth} with strays up to {stray}",
+            one=one, other=other, depth=depth, stray=stray,
+        )  # fmt: skip
 
 
 class Shown(Protocol):

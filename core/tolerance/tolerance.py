@@ -22,6 +22,7 @@ from core.dance import Dance
 from core.display import Readable, display
 from core.errors import checked_type, or_about, question_about
 from core.kernels import Budget
+from core.language import say
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.performance import Performance
@@ -88,13 +89,26 @@ class Tolerance(Readable):
     certificate: StrayProof
 
     def _line(self) -> str:
-        safe = f"strays up to {display(self.stray, 'm')} are safe" if self.stray else "no stray is known to be safe"
-        touching = self.stray_bracket[1]
+        safe, touching = safe_words(self.stray), self.stray_bracket[1]
         if touching is None or self.benches is None:
             return safe
-        other = self.area if self.benches[1] is None else f"bench {self.benches[1]}"
-        touch = f"bench {self.benches[0]} and {other} touch at {display(self.time, 's')}"
-        return f"{safe}; with {display(touching, 'm')} {touch}"
+        one, other = (say("bench {bench}", bench=bench) for bench in self.benches)
+        return touch_words(safe, touching, one, self.area if self.benches[1] is None else other, self.time)
+
+
+def safe_words(stray: float) -> str:
+    """Which strays are safe [m]."""
+    return (
+        say("strays up to {stray} are safe", stray=display(stray, "m"))
+        if stray
+        else say("no stray is known to be safe")
+    )
+
+
+def touch_words(safe: str, stray: float, one: str, other: str | None, time: float | None) -> str:
+    """Who touches whom with a stray [m] at a time [s], after the words of safe_words()."""
+    values = {"safe": safe, "stray": display(stray, "m"), "time": display(time, "s")}
+    return say("{safe}; with {stray} {one} and {other} touch at {time}", one=one, other=other, **values)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -135,14 +149,15 @@ class PerformanceTolerance(Readable):
     performance: Performance = field(repr=False, compare=False)
 
     def _line(self) -> str:
-        safe = f"strays up to {display(self.stray, 'm')} are safe" if self.stray else "no stray is known to be safe"
-        touching = self.stray_bracket[1]
+        safe, touching = safe_words(self.stray), self.stray_bracket[1]
         if touching is None or self.benches is None:
             return safe
         names = [self.performance.name_of(k) for k in self.dragons]
-        other = self.area if self.benches[1] is None else f"bench {self.benches[1]} of {names[-1]}"
-        touch = f"bench {self.benches[0]} of {names[0]} and {other} touch at {display(self.time, 's')}"
-        return f"{safe}; with {display(touching, 'm')} {touch}"
+        one, other = (
+            say("bench {bench} of {dragon}", bench=bench, dragon=name)
+            for bench, name in zip(self.benches, (names[0], names[-1]), strict=True)
+        )
+        return touch_words(safe, touching, one, self.area if self.benches[1] is None else other, self.time)
 
 
 @question_about("performance", Performance, "how far people may stray was not found")

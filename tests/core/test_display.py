@@ -1,6 +1,7 @@
 """Displays of every public value in a console and in a notebook: short, with units, and escaped."""
 
 import pickle
+import re
 import typing
 from dataclasses import fields, is_dataclass
 from enum import Enum
@@ -13,6 +14,7 @@ import core
 from core import Arc, Area, Coil, Dance, Dragon, Line, Route, Spiral, Turn, Venue, Waypoints
 from core.display import Readable, WithArrays, display, format_range, meanings
 from core.errors import BenchDragonError
+from core.language import speaking
 from tests.support.public_calls import CALLS
 from tests.support.shared_dances import lane, square, there_and_back
 
@@ -135,6 +137,21 @@ def test_every_value_has_one_short_line_and_a_table(values):
         assert html.startswith(f"<table><caption>{name}</caption><tr>")
         assert html.count("<tr>") == html.count("</td></tr>") == html.count("<th") > 0
         assert "object at 0x" not in html
+
+
+# Names and codes in lines and tables: classes, kinds, units, and given ones; a call that makes a value is no sentence.
+CODES = [list(kind) for kind in map(vars(core).get, core.__all__) if isinstance(kind, type(Enum))]
+NAMES = f"{core.__all__} {CODES} deg rad square well Zhou spiral front rear inner outer"
+
+
+def test_a_line_and_a_table_are_in_the_language_that_is_spoken(values):
+    for value in values:
+        names = re.findall("[A-Za-z]{3,}", f"{NAMES} {[dir(part) for part in parts(value)]}")
+        if "message" not in names:  # It was composed before.
+            with speaking("zh"):
+                texts = [value._line(), *(text for _, text in value._rows())]
+            shown = " ".join(re.sub(r"\w+\(.*\)", "", text) for text in texts)
+            assert {*re.findall("[A-Za-z]{3,}", shown)} <= {*names}, shown
 
 
 @pytest.mark.parametrize(

@@ -18,9 +18,9 @@ CORE = ROOT / "core"
 
 def test_a_sentence_is_in_the_language_that_is_spoken_and_in_english_again_afterwards():
     with speaking("zh"):
-        assert (say("bench {bench}", bench=8), counted(2, "{count} pause", "{count} pauses")) == (
+        assert (say("bench {bench}", bench=8), counted(2, "{count} whim", "{count} whims")) == (
             "8 号板凳",
-            "2 pauses",  # a sentence that nobody says has no translation
+            "2 whims",  # a sentence that nobody says has no translation
         )
         with speaking(Language.ENGLISH):
             assert joined(["One.", "", "Two."]) == "One. Two."

@@ -6,7 +6,7 @@ import { addLook } from "../look.js";
 import { lost } from "../overlays.js";
 import { Pause } from "../pending.js";
 import { Sharing } from "../sharing.js";
-import { languageOf, learn, say, setLanguage } from "../text.js";
+import { languageOf, languages, learn, say, setLanguage } from "../text.js";
 import { Figure } from "./figure.js";
 import { PLANS } from "./plans.js";
 
@@ -92,7 +92,7 @@ new Sharing({ write, fits: true }, { load: () => import("../qr.js") });
 read();
 
 const language = address.searchParams.get("lang");
-await translate(["en", "zh"].includes(language) ? language : undefined);
+await translate(languages().includes(language) ? language : undefined);
 // The sections get their texts only now, so the browser could not scroll to the section in the address.
 const linked = figures.find(({ section }) => `#${section.id}` === location.hash);
 linked?.section.scrollIntoView();

@@ -14,7 +14,7 @@ const entries = [];
 beforeEach(() => {
   entries.length = 0;
   const go = (state, _, url) => Object.assign(location, { href: url, search: url.includes("?") ? url.slice(url.indexOf("?")) : "" }) && (history.state = state);
-  globalThis.document = { documentElement: { dataset: {} } };
+  globalThis.document = { documentElement: { dataset: {} }, querySelectorAll: () => ["en", "zh"].map((lang) => ({ dataset: { lang } })) };
   globalThis.location = { pathname: "/", search: "", href: "/" };
   globalThis.history = { state: null, replaceState: go, pushState: (...all) => (entries.push(all[2]), go(...all)) };
   globalThis.addEventListener = (name, act) => (listeners[name] = act);
