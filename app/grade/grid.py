@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from app.grade.words import Note
 
 Cell = float | str | None
+Cells = list[list[Cell]]
 # A speed's unit with a power, as in "m·s-1"; and a unit after a slash, as in "x/m" and "v/(m/s)".
 PER_SECOND = re.compile(r"(?<=[m米])\s*[·⋅•*.]\s*(s|秒)\s*\^?\s*(?:-1|\(-1\)|\{-1\})", re.IGNORECASE)
 A_UNIT = r"(?:[cm]?m|厘米|毫米|米|rad|deg|°|弧度|度|s|秒)(?:\s*/\s*(?:s|秒))?"
@@ -33,7 +34,7 @@ class Grid:
     """
 
     title: str
-    rows: list[list[Cell]]
+    rows: Cells
     notes: list[Note] = field(default_factory=list)
     words: list[list[str]] | None = None
 

@@ -9,11 +9,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from app.grade.grid import Cell, normalized
+from app.grade.grid import Cell, Cells, normalized
 from app.grade.labels import Label, X, Y, is_handle_heading, label_of
 from core.values import Floats
 
 Ints = NDArray[np.int64]
+# The labels of lines, None where there is none; and a line with its label.
+Labels = list[Label | None]
+Line = tuple[int, Label]
 
 # Handles of the contest's dragon: the head's is 0, the rear one of the tail is the last.
 BENCHES = 223
@@ -26,7 +29,7 @@ NAMED_LINES = 1_000
 LABELS_LEAST = 3
 
 
-def names_in(cells: list[list[Cell]]) -> frozenset[int]:
+def names_in(cells: Cells) -> frozenset[int]:
     """The handles that the first column with names of them names; none without one."""
     for column in zip(*cells[:NAMED_LINES], strict=True):
         labels = names_of(column)
@@ -35,7 +38,7 @@ def names_in(cells: list[list[Cell]]) -> frozenset[int]:
     return frozenset()
 
 
-def labels_in(column: list[Cell], names: frozenset[int]) -> list[Label | None]:
+def labels_in(column: list[Cell], names: frozenset[int]) -> Labels:
     """Labels in a column: numbers, and names if the sheet has names."""
     numbers = numbering(column, names)
     if not names:
@@ -43,17 +46,17 @@ def labels_in(column: list[Cell], names: frozenset[int]) -> list[Label | None]:
     return [name or number for name, number in zip(names_of(column), numbers, strict=True)]
 
 
-def names_of(column: Sequence[Cell]) -> list[Label | None]:
+def names_of(column: Sequence[Cell]) -> Labels:
     return [label_of(cell) for cell in column]
 
 
-def numbering(column: list[Cell], names: frozenset[int]) -> list[Label | None]:
+def numbering(column: list[Cell], names: frozenset[int]) -> Labels:
     """Labels of a column that numbers the handles, or their lines of x and y, from 0 or 1; elsewhere None.
 
     It may do so again and again in tables below each other. names: handles that names label in another table, which
     need no heading
     """
-    labels: list[Label | None] = [None] * len(column)
+    labels: Labels = [None] * len(column)
     numbers = [(k, cell) for k, cell in enumerate(column) if isinstance(cell, float)]
     # A table below another one begins with a smaller number, below a line of its own.
     begins = [n for n, ((k, a), (m, b)) in enumerate(pairwise(numbers), 1) if m > k + 1 and b <= a]
@@ -96,31 +99,31 @@ def _lead_to_the_tail(numbers: Floats) -> bool:
     return is_whole and is_uneven and ends in ((0.0, BENCHES), (1.0, BENCHES), (1.0, HANDLES))
 
 
-def count_of_handles(labels: list[Label | None]) -> int:
+def count_of_handles(labels: Labels) -> int:
     """Number of different labels of handles; tables on their side, below each other, repeat one in a column."""
     return len({(label.handle, label.component) for label in labels if label and label.handle is not None})
 
 
-def lines_with_labels(labels: list[Label | None]) -> list[tuple[int, Label]]:
+def lines_with_labels(labels: Labels) -> list[Line]:
     """Lines with their labels. Where most labels without an axis stand above a line without one, that line is their y
     (merged cells); one such line alone is a remark below the table, or a blank."""
     lines = lines_of(labels)
     open_below = {k for k, label in lines if label.component is None and labels[k + 1 : k + 2] == [None]}
     if 2 * len(open_below) <= len(lines):
         return lines
-    expanded: list[tuple[int, Label]] = []
+    expanded: list[Line] = []
     for k, label in lines:
         both = [(k, replace(label, component=X)), (k + 1, replace(label, component=Y))]
         expanded += both if k in open_below else [(k, label)]
     return expanded
 
 
-def lines_of(labels: list[Label | None]) -> list[tuple[int, Label]]:
+def lines_of(labels: Labels) -> list[Line]:
     """Lines with a label of a handle."""
     return [(k, label) for k, label in enumerate(labels) if label is not None and label.handle is not None]
 
 
-def numbered(lines: list[tuple[int, Label]]) -> tuple[Ints, Ints]:
+def numbered(lines: list[Line]) -> tuple[Ints, Ints]:
     """Handle of every line, by its label and by its order. The tail follows the last body bench with a label."""
     handles = [label.handle for _, label in lines if label.handle is not None]
     assert len(handles) == len(lines)

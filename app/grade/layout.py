@@ -13,13 +13,15 @@ from enum import StrEnum
 import numpy as np
 
 from app.grade.cells import OddCells
-from app.grade.grid import Cell, Grid, normalized
+from app.grade.grid import Cell, Cells, normalized
 from app.grade.handles import (
     BENCHES,
     EXTRA_MOST,
     HANDLES,
     LABELS_LEAST,
     Ints,
+    Labels,
+    Line,
     count_of_handles,
     labels_in,
     lines_with_labels,
@@ -93,21 +95,58 @@ class SheetTable:
     shown: int | None = None
 
 
-def wide_tables(
-    grid: Grid, cells: list[list[Cell]], *, turned: bool, numbered: bool, named: frozenset[int] = frozenset()
-) -> list[SheetTable]:
+@dataclass(frozen=True)
+class Numbers:
+    """Numbers of a table: where they stand in it, the rows and columns of their cells, and the factor of their unit."""
+
+    at: tuple[Ints | int | slice, ...]
+    row: Ints | list[int] | int
+    column: Ints | list[int] | int
+    unit: float
+
+
+@dataclass(frozen=True)
+class Side:
+    """A sheet as its tables are read: upright, or with its rows and columns swapped.
+
+    title: of the sheet; cells: a rectangle; turned: True if rows and columns were swapped
+    """
+
+    title: str
+    cells: Cells
+    turned: bool = False
+
+    def swapped(self) -> Side:
+        return Side(self.title, [list(line) for line in zip(*self.cells, strict=True)], not self.turned)
+
+    def table(
+        self, kind: TableKind, times: Floats, handles: Ints, numbers: Iterable[Numbers], by_order: Ints | None = None
+    ) -> SheetTable:
+        """A table of the sheet; handles without `by_order` stand in their order."""
+        shape = (times.size, handles.size, len(COMPONENTS[kind]))
+        values, row, column = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), np.zeros(shape, dtype=np.int64)
+        odd = OddCells(self.turned)
+        for part in numbers:
+            row[part.at], column[part.at] = part.row, part.column
+            places = zip(*(each.tolist() for each in np.broadcast_arrays(part.row, part.column)), strict=True)
+            values[part.at] = [odd.value(self.cells[n][k], n, k) * part.unit for n, k in places]
+        above, aside = (column, row) if self.turned else (row, column)
+        order = np.arange(handles.size) if by_order is None else by_order
+        return SheetTable(self.title, kind, times, handles, order, values, above, aside, odd.notes())
+
+
+def wide_tables(side: Side, *, numbered: bool, named: frozenset[int] = frozenset()) -> list[SheetTable]:
     """The tables of a sheet with a line for each handle, below or beside each other; none if no column labels handles.
 
-    turned: True if rows and columns of the sheet were swapped; numbered: True if numbers alone may label the handles;
-        else they may in one table where names do in another
+    numbered: True if numbers alone may label the handles; else they may in one table where names do in another
     named: handles that names label in other sheets of the file
     """
     tables: list[SheetTable] = []
-    heads: list[list[Cell]] = []
-    before, names = 0, named if numbered else names_in(cells)
+    heads: Cells = []
+    before, names = 0, named if numbered else names_in(side.cells)
     if not numbered and not names:
         return []
-    for first, part in _beside(cells, names):
+    for first, part in _beside(side.cells, names):
         columns = _first_columns(part, first)
         labels = [labels_in(column, names) for column in columns]
         # An index beside the names has as many numbers.
@@ -124,12 +163,12 @@ def wide_tables(
             above = part[max(end, lines[0][0] - MARGIN) : lines[0][0]]
             # A table without headings has those of the one above it, or beside it.
             heads = above if not heads or _columns(above, aside) or _instants(above, aside) else heads
-            tables += _tables_of(grid, part, lines, heads, aside, turned)
+            tables += _tables_of(replace(side, cells=part), lines, heads, aside)
             end = lines[-1][0] + 1
     return tables
 
 
-def _beside(cells: list[list[Cell]], names: frozenset[int]) -> list[tuple[int, list[list[Cell]]]]:
+def _beside(cells: Cells, names: frozenset[int]) -> list[tuple[int, Cells]]:
     """The tables that stand beside each other: the first column of each, and the cells without those of the others.
 
     A table begins with a column of labels that has numbers on both sides, and names other handles than the last one, or
@@ -158,7 +197,7 @@ def _beside(cells: list[list[Cell]], names: frozenset[int]) -> list[tuple[int, l
     return [(start, [[None] * start + row[start:end] for row in cells]) for start, end in parts]
 
 
-def _labels_beside(cells: list[list[Cell]], k: int, rows: int, names: frozenset[int]) -> list[Label | None]:
+def _labels_beside(cells: Cells, k: int, rows: int, names: frozenset[int]) -> Labels:
     """Labels in the first rows of a column."""
     some = names_of([row[k] for row in cells[:rows]])
     if names and count_of_handles(some) >= LABELS_LEAST:
@@ -168,7 +207,7 @@ def _labels_beside(cells: list[list[Cell]], k: int, rows: int, names: frozenset[
     return numbering(column, names)[:rows] if first in (0.0, 1.0) else []
 
 
-def _differ(labels: list[Label | None], others: list[Label | None]) -> bool:
+def _differ(labels: Labels, others: Labels) -> bool:
     """True if a line of two tables has labels of two handles, or of two components."""
     for label, other in zip(labels, others, strict=True):
         if other is None or other.handle is None:
@@ -180,7 +219,7 @@ def _differ(labels: list[Label | None], others: list[Label | None]) -> bool:
     return False
 
 
-def _repeat(heads: list[list[Cell]], start: int, end: int, k: int) -> bool:
+def _repeat(heads: Cells, start: int, end: int, k: int) -> bool:
     """True if two tables with equal labels, in the columns `end` and k, hold two axes, or the same instants again."""
     axes = [{_component_of(row[column]) for row in heads} - {None} for column in (end, k)]
     if all(axes) and axes[0].isdisjoint(axes[1]):
@@ -199,32 +238,25 @@ def _component_of(cell: Cell) -> int | None:
     return label.component if label and is_one else None
 
 
-def _tables_of(
-    grid: Grid,
-    cells: list[list[Cell]],
-    lines: list[tuple[int, Label]],
-    heads: list[list[Cell]],
-    aside: int,
-    turned: bool,
-) -> list[SheetTable]:
+def _tables_of(side: Side, lines: list[Line], heads: Cells, aside: int) -> list[SheetTable]:
     """The tables of some lines: those of their columns, if these are headed x and y; else those of their labels."""
     columns = _columns(heads, aside)
     if {X, Y} <= {component for _, component in columns}:
-        return _by_columns(grid, cells, lines, heads, columns, turned)
-    times, stated = _times(heads, cells, aside), _stated(grid, heads)
+        return _by_columns(side, lines, heads, columns)
+    times, stated = _times(heads, side.cells, aside), _stated(side.title, heads)
     if not columns and not _instants(heads, aside):
         handles = list(dict.fromkeys(numbered(lines)[0].tolist()))
         are_bare = all(label.component is None for _, label in lines) and len(handles) == len(lines)
-        are_places = are_bare and _holds_places(cells[k][aside + 1 :] for k, _ in lines)
+        are_places = are_bare and _holds_places(side.cells[k][aside + 1 :] for k, _ in lines)
         if are_places and 1 < len(times) <= len(COMPONENTS[TableKind.CONTACT]):
-            return _by_columns(grid, cells, lines, heads, _of_one_instant(list(times)), turned)
+            return _by_columns(side, lines, heads, _of_one_instant(list(times)))
         are_printed = handles == QUESTION_HANDLES and len(times) in QUESTION_TIMES
         if are_printed:
             times = dict(zip(times, map(float, QUESTION_TIMES[len(times)]), strict=True))
         is_unclear = not are_printed or (are_places and stated == SPEED)
-        if is_unclear and len(handles) < HANDLES - EXTRA_MOST and isinstance(cells[lines[0][0]][aside], float):
+        if is_unclear and len(handles) < HANDLES - EXTRA_MOST and isinstance(side.cells[lines[0][0]][aside], float):
             return []
-    return _over_time(grid, cells, lines, times, turned, stated)
+    return _over_time(side, lines, times, stated)
 
 
 def _holds_places(rows: Iterable[Sequence[Cell]]) -> bool:
@@ -237,16 +269,16 @@ def _of_one_instant(columns: list[int]) -> Columns:
     return {(None, component): (k, 1.0) for component, k in enumerate(columns)}
 
 
-def _stated(grid: Grid, heads: list[list[Cell]]) -> int:
+def _stated(title: str, heads: Cells) -> int:
     """The only component that headings name, or else the title of the sheet; the speed without one."""
     stated = {component for row in heads for cell in row if (component := _component_of(cell)) is not None}
-    stated = stated or {component for component in [_component_of(grid.title)] if component is not None}
+    stated = stated or {component for component in [_component_of(title)] if component is not None}
     return stated.pop() if len(stated) == 1 else SPEED
 
 
-def _blocks(cells: list[list[Cell]], lines: list[tuple[int, Label]]) -> list[list[tuple[int, Label]]]:
+def _blocks(cells: Cells, lines: list[Line]) -> list[list[Line]]:
     """Lines in tables that stand one below the other: each begins with the head again, below a line of its own."""
-    blocks: list[list[tuple[int, Label]]] = []
+    blocks: list[list[Line]] = []
     for k, label in lines:
         before = blocks[-1][-1] if blocks else None
         is_new = before is None or (
@@ -260,18 +292,18 @@ def _blocks(cells: list[list[Cell]], lines: list[tuple[int, Label]]) -> list[lis
     return blocks
 
 
-def _first_columns(cells: list[list[Cell]], first: int) -> list[list[Cell]]:
+def _first_columns(cells: Cells, first: int) -> Cells:
     """The columns from `first` on that may hold labels."""
     return [[row[k] for row in cells] for k in range(first, min(first + MARGIN, len(cells[0])))]
 
 
-def holds_angles(grid: Grid, cells: list[list[Cell]]) -> bool:
+def holds_angles(side: Side) -> bool:
     """True if a sheet says that it holds angles, and names neither a place nor a speed."""
-    components = {label.component for text in [grid.title, *_margin(cells)] if (label := label_of(text))}
+    components = {label.component for text in [side.title, *_margin(side.cells)] if (label := label_of(text))}
     return ANGLE in components and not components & {X, Y, SPEED}
 
 
-def holds_curve(cells: list[list[Cell]]) -> bool:
+def holds_curve(cells: Cells) -> bool:
     """True if a sheet has angles or radii beside x and y, but neither speeds nor handles, as a scan of a curve has."""
     texts = _margin(cells)
     labels = [label for text in texts if (label := label_of(text))]
@@ -283,13 +315,13 @@ def holds_curve(cells: list[list[Cell]]) -> bool:
     return is_beside and SPEED not in components and not names_handles and not has_times
 
 
-def _margin(cells: list[list[Cell]]) -> list[str]:
+def _margin(cells: Cells) -> list[str]:
     """Texts in the first columns and rows."""
     texts = [cell for row in cells for cell in row[:MARGIN] if isinstance(cell, str)]
     return texts + [cell for row in cells[:MARGIN] for cell in row if isinstance(cell, str)]
 
 
-def _columns(heads: list[list[Cell]], aside: int) -> Columns:
+def _columns(heads: Cells, aside: int) -> Columns:
     """Columns headed x, y or speed, but by no handle; the first of each. An instant may stand above several."""
     above = _instants(heads, aside)
     columns: Columns = {}
@@ -309,7 +341,7 @@ def _columns(heads: list[list[Cell]], aside: int) -> Columns:
     return columns
 
 
-def _instants(heads: list[list[Cell]], aside: int) -> dict[int, float]:
+def _instants(heads: Cells, aside: int) -> dict[int, float]:
     """Columns with an instant in their heading; of the line that has most of them."""
     return max(
         ({k: t for k, cell in enumerate(row) if k > aside and (t := heading_of(cell)[0]) is not None} for row in heads),
@@ -318,7 +350,7 @@ def _instants(heads: list[list[Cell]], aside: int) -> dict[int, float]:
     )
 
 
-def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict[int, float]:
+def _times(heads: Cells, cells: Cells, aside: int) -> dict[int, float]:
     """Columns and their instants; by their order if no heading gives them. Repeated ones are those of another table."""
     columns_at: dict[float, int] = {}
     for k, time in _instants(heads, aside).items():
@@ -333,14 +365,7 @@ def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict
     return {k: start + n for n, k in enumerate(columns)}
 
 
-def _over_time(
-    grid: Grid,
-    cells: list[list[Cell]],
-    lines: list[tuple[int, Label]],
-    times: dict[int, float],
-    turned: bool,
-    stated: int = SPEED,
-) -> list[SheetTable]:
+def _over_time(side: Side, lines: list[Line], times: dict[int, float], stated: int = SPEED) -> list[SheetTable]:
     """Positions and speeds of handles at instants, in lines with labels of both.
 
     stated: component of lines whose labels name none
@@ -353,105 +378,75 @@ def _over_time(
     else:
         lines = [(k, replace(label, component=stated) if label.component is None else label) for k, label in lines]
     kinds = (TableKind.POSITION, TableKind.SPEED)
-    tables = (_table_of(grid, cells, kind, lines, times, turned) for kind in kinds)
+    tables = (_table_of(side, kind, lines, times) for kind in kinds)
     return [table for table in tables if table]
 
 
-def _by_columns(
-    grid: Grid,
-    cells: list[list[Cell]],
-    lines: list[tuple[int, Label]],
-    heads: list[list[Cell]],
-    columns: Columns,
-    turned: bool,
-) -> list[SheetTable]:
+def _by_columns(side: Side, lines: list[Line], heads: Cells, columns: Columns) -> list[SheetTable]:
     """Tables of columns for x, y and speed: at their instants, or at one that is stated above them, or not given."""
     times = sorted({time for time, _ in columns if time is not None})
     if not times:
-        table = _columns_table(grid, cells, TableKind.CONTACT, lines, columns, [None], turned)
-        stated = stated_instant([[grid.title], *heads])
+        table = _columns_table(side, TableKind.CONTACT, lines, columns, [None])
+        stated = stated_instant([[side.title], *heads])
         return [table if stated is None else replace(table, times=np.array([stated]))]
     timed = {component for time, component in columns if time is not None}
     kinds = [kind for kind in (TableKind.POSITION, TableKind.SPEED) if timed & set(COMPONENTS[kind])]
-    return [_columns_table(grid, cells, kind, lines, columns, times, turned) for kind in kinds]
+    return [_columns_table(side, kind, lines, columns, times) for kind in kinds]
 
 
 def _columns_table(
-    grid: Grid,
-    cells: list[list[Cell]],
-    kind: TableKind,
-    lines: list[tuple[int, Label]],
-    columns: Columns,
-    times: Sequence[float | None],
-    turned: bool,
+    side: Side, kind: TableKind, lines: list[Line], columns: Columns, times: Sequence[float | None]
 ) -> SheetTable:
+    """The table of columns for x, y or speed. times: of its instants [s]"""
     rows = [k for k, _ in lines]
-    shape = (len(times), len(rows), len(COMPONENTS[kind]))
-    values, row, column = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), np.zeros(shape, dtype=np.int64)
-    odd = OddCells(turned)
-    for t, time in enumerate(times):
-        for c, component in enumerate(COMPONENTS[kind]):
-            if (time, component) in columns:
-                k, unit = columns[time, component]
-                values[t, :, c] = [odd.value(cells[n][k], n, k) * unit for n in rows]
-                row[t, :, c], column[t, :, c] = rows, k
-    above, aside = (column, row) if turned else (row, column)
-    instants = np.array([np.nan if time is None else time for time in times])
-    return SheetTable(grid.title, kind, instants, *numbered(lines), values, above, aside, odd.notes())
+    numbers = (
+        Numbers((t, slice(None), c), rows, *columns[time, component])
+        for t, time in enumerate(times)
+        for c, component in enumerate(COMPONENTS[kind])
+        if (time, component) in columns
+    )
+    handles, by_order = numbered(lines)
+    return side.table(kind, np.array(times, dtype=np.float64), handles, numbers, by_order)
 
 
-def _table_of(
-    grid: Grid,
-    cells: list[list[Cell]],
-    kind: TableKind,
-    lines: list[tuple[int, Label]],
-    times: dict[int, float],
-    turned: bool,
-) -> SheetTable | None:
+def _table_of(side: Side, kind: TableKind, lines: list[Line], times: dict[int, float]) -> SheetTable | None:
     """The table of the given lines and instants."""
     components = COMPONENTS[kind]
     lines = [(k, label) for k, label in lines if label.component in components]
     if not lines or not times:
         return None
     by_label, places = numbered(lines)
+    numbers = (
+        Numbers((slice(None), place, components.index(label.component or 0)), k, list(times), label.unit)
+        for (k, label), place in zip(lines, places.tolist(), strict=True)
+    )
     handles = np.array(list(dict.fromkeys(by_label.tolist())))
-    shape = (len(times), handles.size, len(components))
-    values, row, odd = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), OddCells(turned)
-    for (k, label), place in zip(lines, places, strict=True):
-        at = (slice(None), place, components.index(label.component or 0))
-        values[at] = [odd.value(cells[k][n], k, n) * label.unit for n in times]
-        row[at] = k
-    column = np.broadcast_to(np.array(list(times), dtype=np.int64)[:, None, None], shape)
-    above, aside = (column, row) if turned else (row, column)
-    instants = np.array(list(times.values()))
-    return SheetTable(grid.title, kind, instants, handles, np.arange(handles.size), values, above, aside, odd.notes())
+    return side.table(kind, np.array(list(times.values())), handles, numbers)
 
 
-def bare_tables(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> list[SheetTable]:
-    """The tables of numbers without labels of handles, recognised by their size; none for another size.
-
-    turned: True if rows and columns of the sheet were swapped
-    """
+def bare_tables(side: Side) -> list[SheetTable]:
+    """The tables of numbers without labels of handles, recognised by their size; none for another size."""
+    cells = side.cells
     numeric = [k for k, row in enumerate(cells) if sum(isinstance(cell, float) for cell in row) > len(row) // 2]
     # A line of numbers above those of the handles can only hold times.
     first = next((k for k in numeric[:2] if len(cells) - k in (HANDLES, 2 * HANDLES)), None)
     if first is None:
         return []
-    twice = len(cells) - first == 2 * HANDLES
+    heads, twice = cells[:first], len(cells) - first == 2 * HANDLES
     numbered = enumerate(range(first, len(cells)))
     lines = [(k, Label(n // 2 if twice else n, None, 1.0)) for n, k in numbered]
     columns = [k for k, cell in enumerate(cells[first]) if isinstance(cell, float)]
     aside = columns[0] - 1
     if not twice and len(columns) <= len(COMPONENTS[TableKind.CONTACT]) + 1:
-        names = {k for row in cells[:first] for k in columns if isinstance(row[k], str)}
-        headed = _columns(cells[:first], aside)
+        names = {k for row in heads for k in columns if isinstance(row[k], str)}
+        headed = _columns(heads, aside)
         components = {component for _, component in headed}
         if {X, Y} <= components:
             # A further number beside x and y, but no speed: points of a curve.
             is_curve = SPEED not in components and names - {k for k, _ in headed.values()}
-            return [] if is_curve else _by_columns(grid, cells, lines, cells[:first], headed, turned)
-        if names and not _instants(cells[:first], aside):
+            return [] if is_curve else _by_columns(side, lines, heads, headed)
+        if names and not _instants(heads, aside):
             return []
         if not names and _holds_places(cells[first:]) and 1 < len(columns) <= len(COMPONENTS[TableKind.CONTACT]):
-            return _by_columns(grid, cells, lines, cells[:first], _of_one_instant(columns), turned)
-    return _over_time(grid, cells, lines, _times(cells[:first], cells, aside), turned)
+            return _by_columns(side, lines, heads, _of_one_instant(columns))
+    return _over_time(side, lines, _times(heads, cells, aside))

@@ -1,6 +1,6 @@
 """Lists with a line for each handle and instant: time, handle, x, y, speed, in any order and under many names.
 
-Input: a grid of cells. Output: tables of positions and speeds, or none. State: none.
+Input: the cells of a sheet. Output: tables of positions and speeds, or none. State: none.
 """
 
 from __future__ import annotations
@@ -9,11 +9,10 @@ import re
 
 import numpy as np
 
-from app.grade.cells import OddCells
-from app.grade.grid import Cell, Grid, normalized
+from app.grade.grid import Cell, Cells, normalized
 from app.grade.handles import BENCHES, EXTRA_MOST, HANDLES, LABELS_LEAST, Ints
 from app.grade.labels import TIME_WORD, heading_of, instant_of, is_handle_heading, label_of, stated_instant
-from app.grade.layout import COMPONENTS, MARGIN, SheetTable, TableKind
+from app.grade.layout import COMPONENTS, MARGIN, Numbers, SheetTable, Side, TableKind
 from core.values import Floats
 
 # Lines whose labels are looked at.
@@ -21,19 +20,17 @@ LOOK = 20
 NUMBER = re.compile(r"\d+")
 
 
-def lists_of(grid: Grid, cells: list[list[Cell]]) -> list[SheetTable]:
-    """Tables of positions and of speeds in a list, or the one of an instant; none if the sheet is not a list.
-
-    cells: of the grid, as a rectangle
-    """
+def lists_of(side: Side) -> list[SheetTable]:
+    """Tables of positions and of speeds in a list, or the one of an instant; none if the sheet is not a list."""
+    cells = side.cells
     for head, row in enumerate(cells[:MARGIN]):
         columns = _columns(row)
         if "time" in columns and len(columns) > 1 and "handle" not in columns:
             columns |= _labelled(cells[head + 1 :], columns)
         if {"time", "handle"} <= columns.keys() and len(columns) > len(("time", "handle")):
-            return _over_time(grid, cells, head, columns)
+            return _over_time(side, head, columns)
         if {"handle", "x", "y"} <= columns.keys() and _is_numbered(cells[head + 1 :], columns["handle"]):
-            return _at_contact(grid, cells, head, columns)
+            return _at_contact(side, head, columns)
     return []
 
 
@@ -65,7 +62,7 @@ def _handle_of(cell: Cell) -> int | None:
     return int(number[0]) if number else None
 
 
-def _labelled(rows: list[list[Cell]], columns: dict[str, int]) -> dict[str, int]:
+def _labelled(rows: Cells, columns: dict[str, int]) -> dict[str, int]:
     """The column with labels of handles, where no heading names one."""
     for k in range(len(rows[0]) if rows else 0):
         labels = [label_of(row[k]) for row in rows[:LOOK]]
@@ -74,7 +71,7 @@ def _labelled(rows: list[list[Cell]], columns: dict[str, int]) -> dict[str, int]
     return {}
 
 
-def _is_numbered(rows: list[list[Cell]], k: int) -> bool:
+def _is_numbered(rows: Cells, k: int) -> bool:
     """True if a column numbers the handles instead of naming them, each once."""
     numbers = [row[k] for row in rows if isinstance(row[k], float)]
     return 2 * len(numbers) > len(rows) and len(set(numbers)) == len(numbers)
@@ -89,27 +86,30 @@ def _numbered(labels: list[int]) -> tuple[Ints, Ints]:
     return handles - int(counts_from_one), places
 
 
-def _over_time(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[SheetTable]:
+def _over_time(side: Side, head: int, columns: dict[str, int]) -> list[SheetTable]:
     """Tables of a list with a line for each handle and instant."""
-    placed = [(instant_of(row[columns["time"]]), _handle_of(row[columns["handle"]])) for row in cells]
+    placed = [(instant_of(row[columns["time"]]), _handle_of(row[columns["handle"]])) for row in side.cells]
     lines = [n for n, (time, handle) in enumerate(placed) if n > head and time is not None and handle is not None]
     if not lines:
         return []
     handles, h = _numbered([placed[n][1] or 0 for n in lines])
     times, t = np.unique(np.array([placed[n][0] for n in lines], dtype=np.float64), return_inverse=True)
     kinds = [kind for kind in (TableKind.POSITION, TableKind.SPEED) if _axes(kind) <= columns.keys()]
-    return [_table_of(grid, cells, head, columns, kind, (times, t, handles, h, lines)) for kind in kinds]
+    return [_table_of(side, head, columns, kind, (times, t, handles, h, lines)) for kind in kinds]
 
 
-def _at_contact(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[SheetTable]:
+def _at_contact(side: Side, head: int, columns: dict[str, int]) -> list[SheetTable]:
     """The table of a list with a line for each handle at one instant."""
-    lines = [n for n in range(head + 1, len(cells)) if _handle_of(cells[n][columns["handle"]]) is not None]
+    named = {
+        n: handle for n, row in enumerate(side.cells) if (handle := _handle_of(row[columns["handle"]])) is not None
+    }
+    lines = [n for n in named if n > head]
     if not LABELS_LEAST <= len(lines) <= HANDLES + EXTRA_MOST:
         return []
-    handles, h = _numbered([_handle_of(cells[n][columns["handle"]]) or 0 for n in lines])
-    stated = stated_instant([[grid.title], *cells[: head + 1]])
-    once = (np.array([np.nan if stated is None else stated]), np.zeros(len(lines), dtype=np.int64), handles, h, lines)
-    return [_table_of(grid, cells, head, columns, TableKind.CONTACT, once)]
+    handles, h = _numbered([named[n] for n in lines])
+    stated = stated_instant([[side.title], *side.cells[: head + 1]])
+    once = (np.array([stated], dtype=np.float64), np.zeros(len(lines), dtype=np.int64), handles, h, lines)
+    return [_table_of(side, head, columns, TableKind.CONTACT, once)]
 
 
 def _axes(kind: TableKind) -> set[str]:
@@ -117,8 +117,7 @@ def _axes(kind: TableKind) -> set[str]:
 
 
 def _table_of(
-    grid: Grid,
-    cells: list[list[Cell]],
+    side: Side,
     head: int,
     columns: dict[str, int],
     kind: TableKind,
@@ -126,14 +125,9 @@ def _table_of(
 ) -> SheetTable:
     """The table of one kind. places: the times and the handles, each with its place by line; and the lines"""
     times, t, handles, h, lines = places
-    components, odd = COMPONENTS[kind], OddCells()
-    shape = (times.size, handles.size, len(components))
-    values, rows, column = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), np.zeros(shape, dtype=np.int64)
-    for c, component in enumerate(components):
-        if (k := columns.get("xyv"[component])) is None:
-            continue
-        label = label_of(cells[head][k])
-        unit = label.unit if label else 1.0
-        values[t, h, c] = [odd.value(cells[n][k], n, k) * unit for n in lines]
-        rows[t, h, c], column[..., c] = lines, k
-    return SheetTable(grid.title, kind, times, handles, np.arange(handles.size), values, rows, column, odd.notes())
+    numbers = []
+    for c, component in enumerate(COMPONENTS[kind]):
+        if (k := columns.get("xyv"[component])) is not None:
+            label = label_of(side.cells[head][k])
+            numbers.append(Numbers((t, h, c), lines, k, label.unit if label else 1.0))
+    return side.table(kind, times, handles, numbers)

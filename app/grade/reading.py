@@ -6,7 +6,7 @@ import csv
 import io
 from contextlib import suppress
 
-from app.grade.grid import Cell, Grid, UnreadableTable
+from app.grade.grid import Cell, Cells, Grid, UnreadableTable
 from app.grade.words import Note, note
 from app.grade.workbook import sheets_of
 from app.wire.numbers import number_of
@@ -46,7 +46,7 @@ def _of_csv(data: bytes, budget: Budget) -> Grid:
     text = _decoded(data)
     separator = _separator_of(text)
     decimal = "." if separator == "," else ","
-    rows: list[list[Cell]] = []
+    rows: Cells = []
     words: list[list[str]] = []
     cells = 0
     try:

@@ -12,13 +12,14 @@ from dataclasses import replace
 import numpy as np
 
 from app.grade.expected import Workbook, times_of
-from app.grade.grid import Cell, Grid, normalized
+from app.grade.grid import Cells, Grid, normalized
 from app.grade.handles import names_in
 from app.grade.labels import SPEED_WORD, X, Y
 from app.grade.layout import (
     COMPONENTS,
     SHEETS,
     SheetTable,
+    Side,
     TableKind,
     bare_tables,
     holds_angles,
@@ -38,29 +39,24 @@ PLACE_WORD = re.compile(r"位置|坐标|position|coordinate", re.IGNORECASE)
 
 def tables_of(grids: Sequence[Grid]) -> list[SheetTable]:
     """The tables of the sheets of a file. The notes of each grid say what was left out."""
-    every = [_rectangle(grid) for grid in grids]
-    named = next(filter(None, (names_in(side) for cells in every for side in (cells, _on_side(cells)))), frozenset())
-    tables = [table for grid, cells in zip(grids, every, strict=True) for table in _tables_of(grid, cells, named)]
+    every = [Side(grid.title, _rectangle(grid)) for grid in grids]
+    sides = (side for upright in every for side in (upright, upright.swapped()))
+    named = next(filter(None, (names_in(side.cells) for side in sides)), frozenset())
+    tables = [table for grid, upright in zip(grids, every, strict=True) for table in _tables_of(grid, upright, named)]
     return at_contact(with_both_axes(tables))
 
 
-def _on_side(cells: list[list[Cell]]) -> list[list[Cell]]:
-    return [list(line) for line in zip(*cells, strict=True)]
-
-
-def _tables_of(grid: Grid, cells: list[list[Cell]], named: frozenset[int]) -> list[SheetTable]:
+def _tables_of(grid: Grid, upright: Side, named: frozenset[int]) -> list[SheetTable]:
     """The tables of a sheet; none if no numbers are recognised. named: handles that have names in the file"""
-    if not cells:
+    if not upright.cells:
         return []
-    if holds_angles(grid, cells):
+    if holds_angles(upright):
         grid.notes.append(note("angles", title=grid.title))
         return []
-    if holds_curve(cells):
+    if holds_curve(upright.cells):
         grid.notes.append(note("curve"))
         return []
-    tables = [
-        replace(one, shown=_shown(one, grid.words)) for one in next(filter(None, _readings(grid, cells, named)), [])
-    ]
+    tables = [replace(one, shown=_shown(one, grid.words)) for one in next(filter(None, _readings(upright, named)), [])]
     # The title of a sheet does not tell one table of it from another.
     return [_titled(table) for table in tables] if len(tables) == 1 else [replace(table, title="") for table in tables]
 
@@ -75,15 +71,13 @@ def _shown(table: SheetTable, words: list[list[str]] | None) -> int | None:
     return int(np.median(counts)) if 2 * len(counts) > known.sum() else None
 
 
-def _readings(grid: Grid, cells: list[list[Cell]], named: frozenset[int]) -> Iterator[list[SheetTable]]:
+def _readings(upright: Side, named: frozenset[int]) -> Iterator[list[SheetTable]]:
     """What a sheet may hold, the surest first: a list, lines of handles with names, with numbers, or without labels."""
-    yield lists_of(grid, cells)
-    sides = (cells, False), (_on_side(cells), True)
+    yield lists_of(upright)
+    sides = upright, upright.swapped()
     for numbered in (False, True):
-        for lines, turned in sides:
-            yield wide_tables(grid, lines, turned=turned, numbered=numbered, named=named)
-    for lines, turned in sides:
-        yield bare_tables(grid, lines, turned=turned)
+        yield from (wide_tables(side, numbered=numbered, named=named) for side in sides)
+    yield from map(bare_tables, sides)
 
 
 def _titled(table: SheetTable) -> SheetTable:
@@ -166,7 +160,7 @@ def _is_of_result2(table: SheetTable) -> bool:
     return table.times.size == 1 and bool(np.isfinite(table.times[0])) and table.times[0] not in others
 
 
-def _rectangle(grid: Grid) -> list[list[Cell]]:
+def _rectangle(grid: Grid) -> Cells:
     """The cells as a rectangle that begins at the first one; cut off where a stray cell makes it too large."""
     width = max((k + 1 for row in grid.rows for k, cell in enumerate(row) if cell is not None), default=0)
     height = max((k + 1 for k, row in enumerate(grid.rows) if any(cell is not None for cell in row)), default=0)
