@@ -16,7 +16,7 @@ for a chain of the handles of all dragons one after the other.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import pairwise
@@ -47,6 +47,7 @@ from core.people.meetings import (
     Chain,
     Indices,
     MeetingColumns,
+    chain_of,
     instants_at_once,
     meetings_between,
     meetings_in,
@@ -241,7 +242,7 @@ def _cues_together(
     chain, firsts = _chain_of(performance)
     followed = [int(firsts[number]) + one.bench for one in own]
     met = meetings_in(chain, followed, _times(performance, begin, until), reach, budget)
-    meetings = _meetings(chain, firsts, met, budget)
+    meetings = _meetings(chain, met, budget, firsts=firsts)
     return tuple(
         replace(_later(one, part.delay, begin), meetings=tuple(meetings.get(k, ())))
         for k, one in zip(followed, own, strict=True)
@@ -294,15 +295,7 @@ def bench_cues(
     # In the order in which the loop below takes them: start, begin, done, and each pause.
     moments = [begin, walks[0].begin, walks[-1].end, *(end for end, _ in rests)]
     stands = _stands(dance, followed, moments, budget)
-    middles, meetings = _middles(steady, met, budget), dict[int, list[Meeting]]()
-    for k, bench in enumerate(met.own.tolist()):
-        side = Side.LEFT if met.left[k] > 0.0 else Side.RIGHT
-        when = dance.clock.time(float(met.travel[k]))
-        one = Meeting(
-            when, int(met.other[k]), side, float(met.gap[k]), bool(met.cosine[k] < 0.0), *middles[k], None,
-            float(met.ahead[k]),
-        )  # fmt: skip
-        meetings.setdefault(bench, []).append(one)
+    meetings = _meetings(chain_of(steady), met, budget, dance.clock.time)
     directions = _directions(steady, followed, float(travels[0]), budget)
     ways = {bench: (at[1], at[2]) for bench, at in zip(followed, stands, strict=True)}
     turns = _turns(steady, dance.clock, ways, travels, budget)
@@ -398,18 +391,6 @@ def _turns(
                 own.append(Turning(ends[0], ends[1], one.first, one.angle, one.heading, one.way))
         turns[bench] = tuple(own)
     return turns
-
-
-def _middles(steady: Dance, met: MeetingColumns, budget: Budget) -> list[tuple[float, float]]:
-    """Middle x, y of the followed bench at each meeting [m]."""
-    middles = np.empty((met.travel.size, 2))
-    at_once = instants_at_once(steady)
-    for first in range(0, met.travel.size, at_once):
-        some = slice(first, first + at_once)
-        position = trajectory(steady, met.travel[some], budget=budget).position
-        rows, own = np.arange(len(position)), met.own[some]
-        middles[some] = 0.5 * (position[rows, own] + position[rows, own + 1])
-    return [(x, y) for x, y in middles.tolist()]
 
 
 def _rates(steady: Dance, benches: list[int], travels: Floats, budget: Budget) -> Floats:
@@ -522,30 +503,34 @@ def _chain_of(performance: Performance) -> tuple[Chain, Indices]:
     return Chain(place, np.concatenate(sizes)[:-1], gaps), np.concatenate([[0], ends[:-1]]).astype(np.intp)
 
 
-def _meetings(chain: Chain, firsts: Indices, met: MeetingColumns, budget: Budget) -> dict[int, list[Meeting]]:
-    """The meetings of each bench, by its number in the chain."""
+def _meetings(
+    chain: Chain,
+    met: MeetingColumns,
+    budget: Budget,
+    time_of: Callable[[float], float] = float,
+    firsts: Indices | None = None,
+) -> dict[int, list[Meeting]]:
+    """The meetings of each bench, by its number in the chain.
+
+    time_of: time of a travel; firsts: number of the first bench of each dragon in a chain of several
+    """
     meetings = dict[int, list[Meeting]]()
     for block in range(0, met.own.size, chain.at_once):
         some = slice(block, block + chain.at_once)
         position = chain.place(met.travel[some], budget)
         rows, own, other = np.arange(len(position)), met.own[some], met.other[some]
-        x, y = (0.5 * (position[rows, own] + position[rows, own + 1])).T
-        dragons = np.searchsorted(firsts, other, side="right") - 1
-        columns = (
-            own,
-            met.travel[some],
-            other - firsts[dragons],
-            met.left[some],
-            met.gap[some],
-            met.cosine[some],
-            x,
-            y,
-            dragons,
-            met.ahead[some],
-        )
-        for k, time, bench, left, gap, cosine, *rest in zip(*(column.tolist() for column in columns), strict=True):
+        middles = 0.5 * (position[rows, own] + position[rows, own + 1])
+        dragons: list[int] | list[None] = [None] * len(rows)
+        if firsts is not None:
+            numbers = np.searchsorted(firsts, other, side="right") - 1
+            dragons, other = numbers.tolist(), other - firsts[numbers]
+        columns = own, met.travel[some], other, met.left[some], met.gap[some], met.cosine[some], met.ahead[some]
+        for (k, moment, bench, left, gap, cosine, ahead), (x, y), dragon in zip(
+            zip(*(column.tolist() for column in columns), strict=True), middles.tolist(), dragons, strict=True
+        ):
             side = Side.LEFT if left > 0.0 else Side.RIGHT
-            meetings.setdefault(k, []).append(Meeting(time, bench, side, gap, cosine < 0.0, *rest))
+            meeting = Meeting(time_of(moment), bench, side, gap, cosine < 0.0, x, y, dragon, ahead)
+            meetings.setdefault(k, []).append(meeting)
     return meetings
 
 
