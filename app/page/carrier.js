@@ -356,7 +356,8 @@ export class Carrier {
     for (const one of [...this.corrections, this.again]) hide(one, !isGoing);
     const cues = this.#card?.cues ?? [];
     // The card has them by the time at which benches are nearest; who waits for one hears of it when it begins.
-    const begun = cues.toSorted((a, b) => a.since - b.since);
+    // Who begins in a turn hears first how to begin.
+    const begun = cues.toSorted((a, b) => a.since - b.since || Number(a.kind === "begin") - Number(b.kind === "begin"));
     const next = begun.find(({ since }) => since > time || !isGoing);
     // A turn goes on while the next cue is counted down.
     const lasts = ({ kind, since, until }) => (kind === "turn" ? since : until);
@@ -365,7 +366,7 @@ export class Carrier {
     const [cue, at] = present ? [present, lasts(present)] : [next, next?.since];
     this.present.classList.toggle("present", Boolean(present));
     // What goes on takes the place of where one stands, once that is over; a cue that is large above is not said twice.
-    const doing = begun.findLast(({ kind, since }) => LASTING.includes(kind) && since <= time);
+    const doing = cues.findLast(({ kind, since }) => LASTING.includes(kind) && since <= time);
     put(this.stand, !isGoing || time <= begin ? this.#standing : doing && doing !== present ? say("Now: {words}", { words: doing.words }) : "");
     const left = minutesAndSeconds(Math.max(at - time, 0));
     const lacks = this.#bench >= benches ? say("This dragon has no bench {bench}: its tail is bench {last}.", { bench: this.#bench, last: benches - 1 }) : refusal?.sentence ?? "";
