@@ -1,5 +1,6 @@
 """Displays of every public value in a console and in a notebook: short, with units, and escaped."""
 
+import html
 import pickle
 import re
 import typing
@@ -130,13 +131,13 @@ def test_results_with_the_same_numbers_are_equal(values):
 
 def test_every_value_has_one_short_line_and_a_table(values):
     for value in values:
-        line, html, name = repr(value), value._repr_html_(), type(value).__name__
+        line, table, name = repr(value), value._repr_html_(), type(value).__name__
         assert name in line
         assert "\n" not in line
         assert len(line) <= LINE_MOST, line
-        assert html.startswith(f"<table><caption>{name}</caption><tr>")
-        assert html.count("<tr>") == html.count("</td></tr>") == html.count("<th") > 0
-        assert "object at 0x" not in html
+        assert table.startswith(f"<table><caption>{name}</caption><tr>")
+        assert table.count("<tr>") == table.count("</td></tr>") == table.count("<th") > 0
+        assert "object at 0x" not in table
 
 
 # Names and codes in lines and tables: classes, kinds, units, and given ones; a call that makes a value is no sentence.
@@ -149,8 +150,8 @@ def test_a_line_and_a_table_are_in_the_language_that_is_spoken(values):
         names = re.findall("[A-Za-z]{3,}", f"{NAMES} {[dir(part) for part in parts(value)]}")
         if "message" not in names:  # It was composed before.
             with speaking("zh"):
-                texts = [value._line(), *(text for _, text in value._rows())]
-            shown = " ".join(re.sub(r"\w+\(.*\)", "", text) for text in texts)
+                texts = repr(value), *re.findall("<td>(.*?)</td>", value._repr_html_())
+            shown = " ".join(re.sub(r"\w+\(.*\)", "", html.unescape(text)) for text in texts)
             assert {*re.findall("[A-Za-z]{3,}", shown)} <= {*names}, shown
 
 

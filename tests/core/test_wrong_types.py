@@ -8,8 +8,7 @@ import pytest
 
 import core
 from core import BenchDragonError, Dragon, InvalidValue
-from core.old_names import NEW
-from tests.support.public_calls import CALLS, DANCE, DRAGON, OF_SEVERAL, PERFORMANCE, SPIRAL
+from tests.support.public_calls import CALLS, DANCE, DRAGON, OF_SEVERAL, SPIRAL
 from tests.support.refused import refused
 
 # What a refusal writes before the name of a parameter, as part of the whole.
@@ -104,15 +103,6 @@ def test_a_wrong_subject_is_refused_by_name_whatever_arguments_follow(call):
         several = " or a FirstEncounter" if call is core.contact_check else " or a Performance" if call in BOTH else ""
         with refused(name, kinds=f"a {SUBJECTS[name]}{several}"):
             call(wrong, *further)
-
-
-def test_old_names_of_questions_about_several_dances_ask_the_question_about_one_and_warn():
-    for old, new in NEW.items():
-        with pytest.warns(DeprecationWarning, match=rf"{new}\(\), which takes a Performance too"):
-            question = getattr(core, old)
-        query = {name: value for name, value in CALLS[getattr(core, new)].items() if name not in ("dance", "dragon")}
-        first = (0,) if new == "bench_cues" else ()
-        assert repr(question(PERFORMANCE, *first, **query)) == repr(getattr(core, new)(PERFORMANCE, **query))
 
 
 def test_a_right_dance_keeps_the_words_of_python():
