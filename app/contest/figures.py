@@ -25,6 +25,7 @@ from core import Dance, bench_outlines
 from core.design.pitch_scan import JUMP_WIDTH, scan_near_minimum
 from core.language import say
 from core.plots import BLUE, GREY, PALE, VERMILION, draw_dance
+from core.values import Progress
 
 FORMATS = ("pdf", "svg", "png")
 PNG_DPI = 160
@@ -42,6 +43,9 @@ BESIDE: dict[str, Any] = {
 # Number of pitches of the staircase.
 STAIRS = 60
 
+# A figure with its caption.
+Captioned = tuple[Figure, str]
+
 
 @dataclass(frozen=True)
 class Drawn:
@@ -52,7 +56,7 @@ class Drawn:
     files: dict[str, bytes]
 
 
-def figures(solved: Solved, progress: Callable[[float], None]) -> Iterator[Drawn]:
+def figures(solved: Solved, progress: Progress) -> Iterator[Drawn]:
     """Every figure, one after another. raises: MissingPackage without a font for the language"""
     family = families()
     of_turn = (geometry, amplification) if solved.turned else ()
@@ -63,7 +67,7 @@ def figures(solved: Solved, progress: Callable[[float], None]) -> Iterator[Drawn
         yield drawn
 
 
-def _drawn(draw: Callable[[Solved], tuple[Figure, str]], solved: Solved, family: Sequence[str]) -> Drawn:
+def _drawn(draw: Callable[[Solved], Captioned], solved: Solved, family: Sequence[str]) -> Drawn:
     with matplotlib.rc_context({"font.family": family}):
         figure, caption = draw(solved)
         # The layout is the same for all three files, and takes as long as writing one. With the engine "none", a
@@ -73,7 +77,7 @@ def _drawn(draw: Callable[[Solved], tuple[Figure, str]], solved: Solved, family:
         return Drawn(draw.__name__, caption, {kind: file_bytes(figure, kind, PNG_DPI) for kind in FORMATS})
 
 
-def positions(solved: Solved) -> tuple[Figure, str]:
+def positions(solved: Solved) -> Captioned:
     """Question 1: place of every handle at the last second, and the speeds of some handles over time."""
     figure, stop = canvas(11.5, 4.8), float(solved.inwards.time[-1])
     places, rates = figure.subplots(1, 2, width_ratios=(1.15, 1.0))
@@ -101,7 +105,7 @@ def positions(solved: Solved) -> tuple[Figure, str]:
     return figure, caption
 
 
-def snapshots(solved: Solved) -> tuple[Figure, str]:
+def snapshots(solved: Solved) -> Captioned:
     """Questions 1 and 2: the dance at its start, half way, at the last second and at first contact."""
     stop = float(solved.inwards.time[-1])
     times = [0.0, 0.5 * stop, stop, solved.met_at]
@@ -125,7 +129,7 @@ def snapshots(solved: Solved) -> tuple[Figure, str]:
     return figure, say("Every bench at four instants.")
 
 
-def clearance(solved: Solved) -> tuple[Figure, str]:
+def clearance(solved: Solved) -> Captioned:
     """Question 2: the smallest distance between two benches over time, with its local minima."""
     figure = canvas(8.0, 4.6)
     axes = figure.subplots()
@@ -139,8 +143,7 @@ def clearance(solved: Solved) -> tuple[Figure, str]:
         label = say("graze (local minimum)")
         axes.plot(*np.transpose(grazes), "o", color=VERMILION, markersize=4, label=label)
     axes.axhline(0.0, color="black", linewidth=0.8, linestyle="dashed", label=say("touch"))
-    axes.set_xlabel(say("time [s]"))
-    axes.set_ylabel(say("clearance of the nearest pair [mm]"))
+    axes.set(xlabel=say("time [s]"), ylabel=say("clearance of the nearest pair [mm]"))
     axes.legend(fontsize=8)
     until = say("first contact") if solved.contact.time is not None else say("the end of the run")
     caption = say(
@@ -155,9 +158,9 @@ def clearance(solved: Solved) -> tuple[Figure, str]:
     return figure, caption
 
 
-def staircase(solved: Solved) -> tuple[Figure, str]:
+def staircase(solved: Solved) -> Captioned:
     """Question 3: radius of the head at first contact, against the pitch."""
-    figure, radius, least = canvas(8.0, 4.8), solved.request.turning_diameter / 2, solved.pitch.pitch
+    figure, radius, least = canvas(8.0, 4.8), solved.request.turning_radius, solved.pitch.pitch
     scan, _ = scan_near_minimum(
         solved.dragon,
         samples=STAIRS,
@@ -168,8 +171,7 @@ def staircase(solved: Solved) -> tuple[Figure, str]:
     )
     axes = figure.subplots()
     _stairs(axes, scan, radius, least)
-    axes.set_xlabel(say("pitch [m]"))
-    axes.set_ylabel(say("radius of the head at first contact [m]"))
+    axes.set(xlabel=say("pitch [m]"), ylabel=say("radius of the head at first contact [m]"))
     axes.set_ylim(0.0, 1.25 * float(scan.radius.max(initial=radius)))
     axes.legend(loc="lower left", fontsize=8)
     near = axes.inset_axes((0.56, 0.60, 0.41, 0.36))
@@ -197,7 +199,7 @@ def _stairs(axes: Axes, scan: core.PitchScan, radius: float, least: float) -> No
     axes.axvline(least, color=VERMILION, linewidth=1.1, linestyle="dashdot", label=label)
 
 
-def geometry(solved: Solved) -> tuple[Figure, str]:
+def geometry(solved: Solved) -> Captioned:
     """Question 4: the two arcs between the coils, with their centres and radii."""
     assert solved.turned
     turn, figure = solved.turned.path, canvas(7.0, 6.6)
@@ -238,7 +240,7 @@ def _stretches(turn: core.Turn) -> list[tuple[float, float, str, str]]:
     ]
 
 
-def amplification(solved: Solved) -> tuple[Figure, str]:
+def amplification(solved: Solved) -> Captioned:
     """Question 5: speeds of handles on the way through the turn, divided by that of the head."""
     assert solved.turned
     figure, turn, fastest = canvas(8.0, 4.6), solved.turned.path, solved.turned.fastest
@@ -255,8 +257,7 @@ def amplification(solved: Solved) -> tuple[Figure, str]:
     axes.plot(travel, rates.max(axis=1), color="black", linewidth=1.8, linestyle="dashed", label=label)
     axes.plot(peak, fastest.speed_ratio, "o", color=VERMILION, markersize=7, label=f"{fastest.speed_ratio:.6f}")
     axes.axvspan(0.0, turn.length, color=PALE, alpha=0.5, label=say("head on the arcs"))
-    axes.set(xlabel=say("place of the head after the entry [m]"))
-    axes.set(ylabel=say("speed divided by the head's speed"))
+    axes.set(xlabel=say("place of the head after the entry [m]"), ylabel=say("speed divided by the head's speed"))
     axes.legend(fontsize=8, loc="upper right")
     caption = say(
         "Speed amplification in the turn: at most {fastest.speed_ratio:.6f}, so a limit of "
@@ -267,7 +268,7 @@ def amplification(solved: Solved) -> tuple[Figure, str]:
     return figure, caption
 
 
-def sensitivity(solved: Solved) -> tuple[Figure, str]:
+def sensitivity(solved: Solved) -> Captioned:
     """Change of the answers with the numbers of the problem."""
     drawn = panels(solved)
     columns = (len(drawn) + 1) // 2

@@ -19,6 +19,9 @@ from core.language import say
 FILMS = ("dance", "turn")
 # Time between two looks at films that another thread makes [s].
 LOOK_SECONDS = 0.05
+# A file of the kit, by its name; and what is called with the name of a step and its finished share.
+NamedFile = tuple[str, bytes]
+StepProgress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True)
@@ -31,9 +34,7 @@ class Wanted:
 
 
 @contextmanager
-def films_beside(
-    solved: Solved, wanted: Wanted, progress: Callable[[str, float], None]
-) -> Iterator[Callable[[], list[tuple[str, bytes]]]]:
+def films_beside(solved: Solved, wanted: Wanted, progress: StepProgress) -> Iterator[Callable[[], list[NamedFile]]]:
     """Context in which another thread makes the films; they end with it. Yields the function that waits for films().
 
     That function reports their progress, and raises Halted once the budget of the answers is stopped.
@@ -41,7 +42,7 @@ def films_beside(
     # A budget of its own: one that two threads use would stop but one of them.
     budget, shares = Budget(math.inf), dict[str, float]()
 
-    def wait_for_films() -> list[tuple[str, bytes]]:
+    def wait_for_films() -> list[NamedFile]:
         while True:
             is_done = bool(wait([filming], LOOK_SECONDS).done)
             for name, share in list(shares.items()):
@@ -59,9 +60,7 @@ def films_beside(
             budget.stop()
 
 
-def films(
-    solved: Solved, wanted: Wanted, budget: Budget, progress: Callable[[str, float], None]
-) -> Iterator[tuple[str, bytes]]:
+def films(solved: Solved, wanted: Wanted, budget: Budget, progress: StepProgress) -> Iterator[NamedFile]:
     """Name and bytes of every wanted film; without PyAV each is a GIF.
 
     raises: MissingPackage without matplotlib, or without a font for the language
@@ -71,10 +70,9 @@ def films(
     from app.files import film
 
     span = solved.request.span
-    inwards = say("Bench dragon, to first contact")
+    inwards, pair = say("Bench dragon, to first contact"), solved.contact.benches
     if solved.contact.time is None:
-        inwards = say("Bench dragon, to the end of the run")
-    pair = solved.contact.benches if solved.contact.time is not None else None
+        inwards, pair = say("Bench dragon, to the end of the run"), None
     kinds = [(FILMS[0], solved.spiral, 0.0, solved.met_at, inwards, pair)]
     if solved.turned:
         kinds.append((FILMS[1], solved.turned.dance, -span, span, say("Bench dragon, the turn"), None))
@@ -83,7 +81,4 @@ def films(
         for form in forms:
             spec = FilmSpec(start, stop, wanted.seconds, *LOOKS[form], touching=touching)
             file = name + ENDINGS[form]
-            yield (
-                file,
-                film.film(dance, spec, form, title=title, budget=budget, progress=partial(progress, file)),
-            )
+            yield file, film.film(dance, spec, form, title=title, budget=budget, progress=partial(progress, file))

@@ -10,9 +10,10 @@ from __future__ import annotations
 import io
 import os
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Self
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
 import orjson
@@ -53,21 +54,28 @@ OPTIONAL = (
 class Kit:
     """The written kit.
 
-    files: their names in order of writing; results: the answers
+    solved, results: the answers; files: their names in order of writing
     missing: reason why there are no pictures; no_turn: reason why questions 4 and 5 have no answer
     """
 
+    solved: Solved
+    results: list[Result]
+    no_turn: str
     files: list[str] = field(default_factory=list)
-    results: list[Result] = field(default_factory=list)
     missing: MissingPackage | None = None
-    no_turn: str = ""
+
+    @classmethod
+    def of(cls, request: ContestRequest, terms: Terms, progress: films.StepProgress) -> Self:
+        """A kit that has its answers. raises: as solve"""
+        solved = solve(request, terms, lambda share: progress(say("answers"), share))
+        return cls(solved, answers(solved), solved.why_no_turn)
 
 
 def write_kit(
     folder: Path,
     request: ContestRequest,
     shot: films.Wanted,
-    progress: Callable[[str, float], None],
+    progress: films.StepProgress,
 ) -> Kit:
     """Write the kit; without matplotlib, or without a font for the language, it lacks figures and films.
 
@@ -80,10 +88,9 @@ def write_kit(
         raise InvalidValue.in_words("folder", words, folder=str(folder))
     unfinished = folder / UNFINISHED
     try:
-        solved = solve(request, Terms(), lambda share: progress(say("answers"), share))
-        kit = Kit(results=answers(solved), no_turn=solved.why_no_turn)
+        kit = Kit.of(request, Terms(), progress)
         shutil.rmtree(unfinished, ignore_errors=True)
-        for name, data in files_of(solved, kit, shot, progress):
+        for name, data in files_of(kit, shot, progress):
             (unfinished / name).parent.mkdir(parents=True, exist_ok=True)
             write_whole(unfinished / name, data)
             kit.files.append(name)
@@ -106,10 +113,9 @@ def _take_over(folder: Path, names: list[str]) -> None:
         os.replace(folder / UNFINISHED / name, folder / name)
 
 
-def files_of(
-    solved: Solved, kit: Kit, shot: films.Wanted, progress: Callable[[str, float], None]
-) -> Iterator[tuple[str, bytes]]:
+def files_of(kit: Kit, shot: films.Wanted, progress: films.StepProgress) -> Iterator[films.NamedFile]:
     """Name and bytes of each file as it is made, the report last. kit: receives the reason why there are no pictures"""
+    solved = kit.solved
     tables = paper_tables(solved)
     yield from _workbooks(solved)
     yield "answers.json", orjson.dumps(kit.results, option=orjson.OPT_INDENT_2) + b"\n"
@@ -137,25 +143,19 @@ def files_of(
     yield REPORT, page.encode()
 
 
-def zip_of(
-    request: ContestRequest,
-    shot: films.Wanted,
-    terms: Terms,
-    progress: Callable[[str, float], None],
-) -> bytes:
+def zip_of(request: ContestRequest, shot: films.Wanted, terms: Terms, progress: films.StepProgress) -> bytes:
     """The kit as a ZIP archive with the same bytes for the same request. raises: as write_kit, but for the folder"""
     require("xlsx", "language", "contest")
     sink = io.BytesIO()
-    solved = solve(request, terms, lambda share: progress(say("answers"), share))
-    kit = Kit(results=answers(solved), no_turn=solved.why_no_turn)
+    kit = Kit.of(request, terms, progress)
     with ZipFile(sink, "w") as archive:
-        for name, data in files_of(solved, kit, shot, progress):
+        for name, data in files_of(kit, shot, progress):
             # Without a time of its own, which is then the first that an archive can have.
             archive.writestr(ZipInfo(name), data, ZIP_DEFLATED if name.endswith(TEXTS) else ZIP_STORED)
     return sink.getvalue()
 
 
-def _workbooks(solved: Solved) -> Iterator[tuple[str, bytes]]:
+def _workbooks(solved: Solved) -> Iterator[films.NamedFile]:
     yield "result1.xlsx", workbook(trajectory_sheets(solved.inwards), XLSX_DECIMALS)
     yield "result2.xlsx", workbook([instant_sheet(solved.meeting)], XLSX_DECIMALS)
     if solved.turned:

@@ -9,7 +9,7 @@ import numpy as np
 
 import core
 from app.contest.solved import ContestRequest, Solved
-from core import BenchDragonError, Budget, Dance, TooMuchWork, Turn
+from core import BenchDragonError, Budget, Dance, TooMuchWork
 from core.language import say
 
 # Number of values on each curve.
@@ -77,18 +77,13 @@ def _curve(solved: Solved, name: str, limits: tuple[float, float], answer: Answe
 
 
 def _pitch(request: ContestRequest, budget: Budget) -> float:
-    dragon = request.to_dragon(request.benches)
-    return core.minimum_pitch(
-        dragon, turning_radius=request.turning_diameter / 2, start_turns=request.start_turns, budget=budget
-    ).pitch
+    return request.least_pitch(request.to_dragon(request.benches), budget).pitch
 
 
 def _contact(request: ContestRequest, budget: Budget) -> float | None:
-    dance = Dance(request.to_dragon(request.benches), request.to_path(), request.head_speed)
-    return core.first_contact(dance, budget=budget).time
+    return core.first_contact(request.to_dance(request.benches), budget=budget).time
 
 
 def _speed(request: ContestRequest, budget: Budget) -> float:
-    turn = Turn(request.turn_pitch, request.turning_diameter / 2, request.ratio, start_turns=request.start_turns)
-    dance = Dance(request.to_dragon(request.benches), turn)
+    dance = Dance(request.to_dragon(request.benches), request.to_turn())
     return core.maximum_head_speed(dance, request.speed_limit, budget=budget).head_speed

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -13,7 +12,7 @@ import core
 from app.files.tables import PAPER_HANDLES
 from app.wire.question import DanceQuery, Instant, SpeedLimit, Terms, TurningDiameter, measure
 from core import Budget, Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
-from core.values import Floats
+from core.values import Floats, Progress
 
 # Number of intervals between the instants of the tables that the contest requires; for the turn, from -span to span.
 TABLE_STEPS, TURN_STEPS = 5, 4
@@ -30,6 +29,20 @@ class ContestRequest(DanceQuery):
     ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc divided by that of the second")
     span: Instant = measure("s", "Time before and after the turn that question 4 shows", 100.0, gt=0)
     speed_limit: SpeedLimit = measure("m/s", "Highest speed of any handle in question 5", 2.0)
+
+    @property
+    def turning_radius(self) -> float:
+        return self.turning_diameter / 2
+
+    def to_turn(self) -> Turn:
+        """The turn of question 4. raises: InvalidValue"""
+        return Turn(self.turn_pitch, self.turning_radius, self.ratio, start_turns=self.start_turns)
+
+    def least_pitch(self, dragon: Dragon, budget: Budget) -> core.MinimumPitch:
+        """The answer to question 3. raises: InvalidValue"""
+        return core.minimum_pitch(
+            dragon, turning_radius=self.turning_radius, start_turns=self.start_turns, budget=budget
+        )
 
 
 @dataclass(frozen=True)
@@ -91,7 +104,7 @@ class Solved:
         return np.linspace(-self.request.span, self.request.span, TURN_STEPS + 1)
 
 
-def solve(request: ContestRequest, terms: Terms, progress: Callable[[float], None]) -> Solved:
+def solve(request: ContestRequest, terms: Terms, progress: Progress) -> Solved:
     """All five answers. raises: InvalidValue, OutsideRun, TooMuchWork"""
     dragon = request.to_dragon(terms.settings.checked_benches_max)
     spiral = Dance(dragon, request.to_path(), request.head_speed)
@@ -100,9 +113,7 @@ def solve(request: ContestRequest, terms: Terms, progress: Callable[[float], Non
     contact = core.first_contact(spiral, budget=terms.budget)
     met_at = instant_of(contact)
     progress(0.2)
-    least = core.minimum_pitch(
-        dragon, turning_radius=request.turning_diameter / 2, start_turns=request.start_turns, budget=terms.budget
-    )
+    least = request.least_pitch(dragon, terms.budget)
     progress(0.4)
     turned, why = None, ""
     try:
@@ -127,28 +138,21 @@ def solve(request: ContestRequest, terms: Terms, progress: Callable[[float], Non
 
 def _turned(request: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
     """Questions 4 and 5. raises: InvalidValue if the turn cannot be danced"""
-    radius, about = request.turning_diameter / 2, {"start_turns": request.start_turns}
-    path = Turn(request.turn_pitch, radius, request.ratio, **about)
+    path = request.to_turn()
     dance = Dance(dragon, path, request.head_speed)
-    shortest = core.shortest_turn(dragon, request.turn_pitch, radius, request.ratio, **about, budget=terms.budget)
+    inside, turns = (dragon, request.turn_pitch, request.turning_radius), request.start_turns
+    shortest = core.shortest_turn(*inside, request.ratio, start_turns=turns, budget=terms.budget)
     even = None
     with suppress(InvalidValue):  # Equal arcs may be too tight even with the entry on the circle.
-        even = core.shortest_turn(dragon, request.turn_pitch, radius, EVEN, **about, budget=terms.budget)
+        even = core.shortest_turn(*inside, EVEN, start_turns=turns, budget=terms.budget)
     around = core.trajectory(dance, seconds(-request.span, request.span), budget=terms.budget)
     fastest = core.maximum_head_speed(dance, request.speed_limit, budget=terms.budget)
-    turns: list[core.Turn | core.ClothoidTurn] = [path, shortest.turn]
+    danced: list[core.Turn | core.ClothoidTurn] = [path, shortest.turn]
     with suppress(InvalidValue):  # no turn that was tried can be danced
-        quickest = core.quickest_turn(
-            dragon,
-            request.turn_pitch,
-            radius,
-            request.ratio,
-            **about,
-            speed_limit=request.speed_limit,
-            budget=terms.budget,
-        )
-        turns.append(quickest.turn)
-    times = [core.turn_time(dragon, turn, request.speed_limit, budget=terms.budget) for turn in turns]
+        limit = request.speed_limit
+        quickest = core.quickest_turn(*inside, request.ratio, start_turns=turns, speed_limit=limit, budget=terms.budget)
+        danced.append(quickest.turn)
+    times = [core.turn_time(dragon, turn, request.speed_limit, budget=terms.budget) for turn in danced]
     return Turned(path, dance, shortest=shortest, even=even, times=times, around=around, fastest=fastest)
 
 
