@@ -8,7 +8,7 @@ Handle by handle they take up to a second, and a class has the same instants: th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -24,7 +24,18 @@ NEWTON_STEPS, FALSE_STEPS = 8, 40
 # Step of the search for the nearest place one chord away, in chords: where a path turns back, that place is far [1].
 WIDER = 0.05
 # Number of motions that are kept, and their most instants, those of result1: 1.6 MB.
-KEPT, KEPT_TIMES = 16, 301
+KEPT, KEPT_TIMES = 32, 301
+
+
+def spiral_arc(radius: Floats | float, growth: float) -> Floats:
+    """Arc length of a spiral from its centre to a radius, or to several [m]."""
+    theta = np.asarray(radius) / growth
+    return np.asarray(0.5 * growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta)))
+
+
+def times_at(path: Spiral, radius: Floats) -> Floats:
+    """Times at which a head that goes 1 m/s is at radii of a spiral [s]."""
+    return np.asarray(path.length - spiral_arc(radius, path.growth))
 
 
 def link_speeds(position: Floats, tangent: Floats) -> Floats:
@@ -52,16 +63,26 @@ def equal_arcs(dance: Dance) -> Motion:
 
 def rounded_angles(dance: Dance, path: Spiral, decimals: int) -> Motion:
     """Motion with every polar angle rounded to some decimals before the next one is computed."""
+    return _motion_by(_rounded, dance, path, decimals)
+
+
+@lru_cache(KEPT)
+def _kept(compute: Callable[..., Floats], *values: Hashable) -> Floats:
+    return compute(*values)
+
+
+def _motion_by(compute: Callable[..., Floats], *about: Hashable) -> Motion:
+    """The motion that a function computes about some values; the latest ones are kept, but not long ones."""
 
     def moved(times: Floats) -> Floats:
-        compute = _rounded if times.size <= KEPT_TIMES else _rounded.__wrapped__
-        return compute(dance, path, decimals, tuple(times.tolist())).copy()
+        if times.size > KEPT_TIMES:
+            return compute(*about, times)
+        return _kept(compute, *about, tuple(times.tolist())).copy()
 
     return moved
 
 
-@lru_cache(KEPT)
-def _rounded(dance: Dance, path: Spiral, decimals: int, times: tuple[float, ...]) -> Floats:
+def _rounded(dance: Dance, path: Spiral, decimals: int, times: Sequence[float] | Floats) -> Floats:
     thetas = [np.round(path.theta(np.array(times) * dance.head_speed), decimals)]
     for chord in dance.dragon.chords:
         thetas.append(np.round(thetas[-1] + _turned(thetas[-1], (chord / path.growth) ** 2), decimals))
@@ -88,15 +109,19 @@ def _on_spiral(path: Spiral, theta: Floats) -> Floats:
     return motion(position, link_speeds(position, tangent))
 
 
+# Centre, radius, first angle, and angle turned.
+Arc = tuple[complex, float, float, float]
+
+
 @dataclass(frozen=True)
 class Bent:
     """A turn of two arcs that may meet the spiral and each other at an angle.
 
-    right: the turn whose coils lead in and out; arcs: of both the centre, radius, first angle and angle turned
+    right: the turn whose coils lead in and out
     """
 
     right: Turn
-    arcs: tuple[tuple[complex, float, float, float], ...]
+    arcs: tuple[Arc, ...]
 
     @property
     def length(self) -> float:
@@ -121,7 +146,7 @@ class Bent:
         """Places on the right turn: those of the coils; where an arc is here, any."""
         return np.where(s < 0.0, s, self.right.length + np.maximum(s - self.length, 0.0))
 
-    def _spokes(self, s: Floats) -> Iterator[tuple[tuple[complex, float, float, float], NDArray[np.bool_], Floats]]:
+    def _spokes(self, s: Floats) -> Iterator[tuple[Arc, NDArray[np.bool_], Floats]]:
         """Each arc, the places that are on it, and the unit vectors (..., 2) from its centre."""
         begun = 0.0
         for arc in self.arcs:
@@ -134,16 +159,10 @@ class Bent:
 
 def on_bent(dragon: Dragon, path: Bent) -> Motion:
     """Motion of a dragon along such a turn at 1 m/s: each handle is at the nearest place a chord behind its leader."""
-
-    def moved(times: Floats) -> Floats:
-        compute = _on_bent if times.size <= KEPT_TIMES else _on_bent.__wrapped__
-        return compute(dragon, path, tuple(times.tolist())).copy()
-
-    return moved
+    return _motion_by(_on_bent, dragon, path)
 
 
-@lru_cache(KEPT)
-def _on_bent(dragon: Dragon, path: Bent, times: tuple[float, ...]) -> Floats:
+def _on_bent(dragon: Dragon, path: Bent, times: Sequence[float] | Floats) -> Floats:
     places = [np.array(times)]
     for chord in dragon.chords.tolist():
         places.append(_behind(path, places[-1], path.points(places[-1]), chord))

@@ -13,10 +13,11 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from core import Dance, Dragon, Spiral, bench_outlines, bench_poses, clearance_profile, separation
+from app.grade.chains import times_at
+from core import Dance, Dragon, Spiral, bench_poses, clearance_profile, separation
 from core import trajectory as trajectory_of
 from core.sampling import bisect
-from core.shapes.rectangles import angle_sum_overlap, angle_sums
+from core.shapes.rectangles import angle_sum_overlap, angle_sums, corners
 from core.values import Floats
 
 TURNING_RADIUS = 4.5  # [m], of the contest's turning circle
@@ -40,11 +41,22 @@ SLACK = 1e-9
 Outline = Callable[[Floats, Floats], Floats]
 
 
+def _benches(path: Spiral, times: Floats) -> tuple[Floats, Floats]:
+    """Poses (T, N, 3) of the head and the benches near it at times (T,) [s], and their sizes (N, 2) [m]."""
+    dragon = Dragon(RING_BENCHES)
+    poses = bench_poses(trajectory_of(Dance(dragon, path), times).position)
+    return poses, np.stack([dragon.lengths, dragon.widths], axis=-1)
+
+
+def _gaps(path: Spiral, times: Floats) -> Floats:
+    """Separations (T, N) of the head from the body benches near it at times (T,) [m]."""
+    poses, sizes = _benches(path, times)
+    return separation(poses[:, :1], sizes[:1], poses[:, 2:], sizes[2:]).separation
+
+
 def _outlines(outline: Outline, times: Floats) -> tuple[Floats, Floats]:
     """Corners (T, 1, 4, 2) of the head and (T, N, 4, 2) of the body benches near it, at times (T,) [s]."""
-    dragon = Dragon(benches=RING_BENCHES)
-    poses = bench_poses(trajectory_of(Dance(dragon, Spiral()), times).position)
-    outlines = outline(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
+    outlines = outline(*_benches(Spiral(), times))
     return outlines[:, :1], outlines[:, 2:]
 
 
@@ -85,16 +97,11 @@ def sampled_pitch(sampled: StepKind, step: float, right: float) -> float:
 
     step: in s, m or rad, or number of parts; the radius is sampled from the circle outwards; right: the exact pitch
     """
-    sizes = np.stack([Dragon(RING_BENCHES).lengths, Dragon(RING_BENCHES).widths], axis=-1)
 
     def clear(pitch: float) -> bool:
         spiral = Spiral(pitch)
-        dance = Dance(Dragon(RING_BENCHES), spiral)
-        poses = bench_poses(trajectory_of(dance, _samples(spiral, sampled, step)).position)
-        if not len(poses):
-            return True
-        apart = separation(poses[:, :1], sizes[:1], poses[:, 2:], sizes[2:])
-        return bool(apart.separation.min() > 0.0)
+        times = _samples(spiral, sampled, step)
+        return not times.size or bool(_gaps(spiral, times).min() > 0.0)
 
     steps = range(1, math.ceil((right - PITCH_RANGE[0]) / PITCH_STEP))
     low = next(pitch for k in steps if not clear(pitch := right - k * PITCH_STEP))
@@ -106,13 +113,10 @@ def longest_overlap(pitch: float) -> tuple[float, float] | None:
 
     None without an overlap. The radii are searched in steps of OVERLAP_STEP, then by bisection.
     """
-    spiral, sizes = Spiral(pitch), np.stack([Dragon(RING_BENCHES).lengths, Dragon(RING_BENCHES).widths], axis=-1)
-    dance = Dance(Dragon(RING_BENCHES), spiral)
+    spiral = Spiral(pitch)
 
     def overlap(radii: Floats) -> NDArray[np.bool_]:
-        poses = bench_poses(trajectory_of(dance, _times(spiral, radii / spiral.growth)).position)
-        gaps = separation(poses[:, :1], sizes[:1], poses[:, 2:], sizes[2:]).separation
-        return np.asarray(gaps.min(axis=1) <= 0.0)
+        return np.asarray(_gaps(spiral, times_at(spiral, radii)).min(axis=1) <= 0.0)
 
     def border(clear: float, touching: float) -> float:
         def is_past(share: float) -> bool:
@@ -132,25 +136,21 @@ def longest_overlap(pitch: float) -> tuple[float, float] | None:
 
 def _samples(spiral: Spiral, sampled: StepKind, step: float) -> Floats:
     """Times of the samples between WAY_RADIUS and the circle [s], at 1 m/s from the start of the spiral."""
-    first, last = (radius / spiral.growth for radius in (WAY_RADIUS, TURNING_RADIUS))
     if sampled is StepKind.RADIUS:
-        radii = TURNING_RADIUS + step * np.arange(math.floor((WAY_RADIUS - TURNING_RADIUS) / step + SLACK) + 1)
-        return _times(spiral, np.asarray(radii[::-1] / spiral.growth, dtype=np.float64))
+        count = math.floor((WAY_RADIUS - TURNING_RADIUS) / step + SLACK) + 1
+        return times_at(spiral, (TURNING_RADIUS + step * np.arange(count, dtype=np.float64))[::-1])
     if sampled is StepKind.TIME:
-        early, late = _times(spiral, np.array([first, last])).tolist()
+        early, late = times_at(spiral, np.array([WAY_RADIUS, TURNING_RADIUS])).tolist()
         return step * np.arange(math.ceil(early / step), math.floor(late / step) + 1, dtype=np.float64)
+    first, last = (radius / spiral.growth for radius in (WAY_RADIUS, TURNING_RADIUS))
     if sampled is StepKind.PARTS:
         thetas = np.linspace(spiral.start_theta, last, int(step) + 1)
-        return _times(spiral, thetas[thetas <= first])
-    turned = [spiral.start_theta - theta for theta in (first, last)]
-    steps = np.arange(math.ceil(turned[0] / step), math.floor(turned[1] / step + SLACK) + 1)
-    return _times(spiral, np.asarray(spiral.start_theta - step * steps, dtype=np.float64))
-
-
-def _times(spiral: Spiral, thetas: Floats) -> Floats:
-    """Times at which the head has these polar angles [s]."""
-    arcs = 0.5 * spiral.growth * (thetas * np.sqrt(1.0 + thetas**2) + np.arcsinh(thetas))
-    return np.asarray(spiral.length - arcs)
+        thetas = thetas[thetas <= first]
+    else:
+        turned = [spiral.start_theta - theta for theta in (first, last)]
+        steps = np.arange(math.ceil(turned[0] / step), math.floor(turned[1] / step + SLACK) + 1, dtype=np.float64)
+        thetas = spiral.start_theta - step * steps
+    return times_at(spiral, spiral.growth * thetas)
 
 
 def any_touch_at_start(path: Spiral) -> bool:
@@ -158,21 +158,16 @@ def any_touch_at_start(path: Spiral) -> bool:
 
 
 def head_touches_at_start(path: Spiral) -> bool:
-    dragon = Dragon()
-    poses = bench_poses(trajectory_of(Dance(dragon, path), [0.0]).position[0])
-    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
-    return bool(separation(poses[0], sizes[0], poses[2:], sizes[2:]).separation.min() <= 0.0)
+    return bool(_gaps(path, np.zeros(1)).min() <= 0.0)
 
 
 def corner_at_start(path: Spiral) -> bool:
     """True if the outer front corner of the head is inside a body bench."""
-    dragon = Dragon(RING_BENCHES)
-    handles = trajectory_of(Dance(dragon, path), [0.0]).position[0]
-    corner, poses = bench_outlines(dragon, handles)[0, 0], bench_poses(handles)[2:]
-    away = corner - poses[:, :2]
-    along = np.abs(away[:, 0] * np.cos(poses[:, 2]) + away[:, 1] * np.sin(poses[:, 2]))
-    across = np.abs(away[:, 1] * np.cos(poses[:, 2]) - away[:, 0] * np.sin(poses[:, 2]))
-    return bool(((along <= 0.5 * dragon.lengths[2:]) & (across <= 0.5 * dragon.widths[2:])).any())
+    (poses,), sizes = _benches(path, np.zeros(1))
+    body, away = poses[2:], corners(poses[0], sizes[0])[0] - poses[2:, :2]
+    along = np.abs(away[:, 0] * np.cos(body[:, 2]) + away[:, 1] * np.sin(body[:, 2]))
+    across = np.abs(away[:, 1] * np.cos(body[:, 2]) - away[:, 0] * np.sin(body[:, 2]))
+    return bool((np.stack([along, across], axis=-1) <= 0.5 * sizes[2:]).all(axis=-1).any())
 
 
 def circle_pitch(touches: Callable[[Spiral], bool]) -> float:

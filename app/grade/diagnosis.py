@@ -10,7 +10,7 @@ motion, of the right one, of any other error of geometry, or by an error in comp
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 from itertools import chain
@@ -19,7 +19,7 @@ import numpy as np
 
 from app.files.tables import handle_titles
 from app.grade.decimals import digits_of, usual_of
-from app.grade.expected import Motion, Workbook, cells_of, contact_time, dance_of, of_dance
+from app.grade.expected import Motion, Workbook, cells_of, contact_time, of_dance
 from app.grade.fits import DECISIVE_LEAST, also, best_fit, findings_of, fit, matches
 from app.grade.geometry import (
     MIRRORS,
@@ -30,7 +30,6 @@ from app.grade.geometry import (
     shift_span,
     shifted_rows,
     shifted_time,
-    spiral_arc,
 )
 from app.grade.handles import BENCHES, HANDLES
 from app.grade.instants import agreed_span, decimals_of, simplest
@@ -50,6 +49,8 @@ from core.values import Floats
 DECIMALS_LEAST = 2
 # Steps of difference quotients to try [s].
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.001)
+# Ends of the difference quotients of speeds, in steps after the instant.
+QUOTIENTS = {"forward_difference": (0.0, 1.0), "backward_difference": (-1.0, 0.0), "central_difference": (-1.0, 1.0)}
 # Share of the links that must have the length of the others, and by how much it may differ, beside rounding [m].
 STEADY_SHARE, STEADY = 0.9, 1e-5
 # Uncertainty of an instant that the places of all handles show, in units of the last decimal of a place at 1 m/s: their
@@ -135,55 +136,55 @@ def _outside(
 
 
 def _over_time(position: JudgedSheet | None, speed: JudgedSheet | None, budget: Budget) -> list[Finding]:
-    either = position or speed
-    assert either is not None
-    dance = dance_of(either.workbook)
-    right = of_dance(dance)
-    model, findings, quotients = Model("", right), [], []
+    model, findings, quotients = None, [], []
     if position and position.is_off:
         seen = _seen(position)
-        two = pairs(dance, position.times, seen)
-        if best := best_fit(position, geometries(dance, position.times, seen), budget, two):
+        two = pairs(position.dance, position.times, seen)
+        if best := best_fit(position, geometries(position.dance, position.times, seen), budget, two):
             model = best.model
             findings += findings_of(best, position)
         elif ring := wrong_ring(position):
             findings.append(ring)
         else:
             quotients = list(_quotients_of(position))
-    return _with_speeds(findings, speed, model, right, quotients, budget) if speed else findings
+    return _with_speeds(findings, speed, budget, model, quotients) if speed else findings
 
 
 def _with_speeds(
-    findings: list[Finding], speed: JudgedSheet, model: Model, right: Motion, others: list[Model], budget: Budget
+    findings: list[Finding],
+    speed: JudgedSheet,
+    budget: Budget,
+    wrong: Model | None = None,
+    others: Iterable[Model] = (),
 ) -> list[Finding]:
     """Findings on the places, and those on the speeds beside them.
 
-    findings: the first is of the places, if `model` is an error; others: further models of the speeds
+    wrong: the error in the places, which the first finding tells; others: further models of the speeds
 
     Speeds of the same motion are no error of their own, but wrong all the same. Beside a wrong motion, others are named
     without a known error too.
     """
     if not speed.is_off:
         return findings
+    model = wrong or Model("", of_dance(speed.dance))
     if matches(speed, model):
         same = fit(speed, model)
-        return [also(findings[0], same, speed), *findings[1:]] if model.error and same.explains else findings
-    models = [*_speed_models(speed, model, right), *others]
+        return [also(findings[0], same, speed), *findings[1:]] if wrong and same.explains else findings
+    models = chain(_speed_models(speed, model.motion, wrong), others)
     if best := best_fit(speed, models, budget, _negated_beside(model.motion)):
         return [*findings, *findings_of(best, speed)]
-    return [*findings, _of_no_motion(speed, model.motion)] if model.error else findings
+    return [*findings, _of_no_motion(speed, wrong)] if wrong else findings
 
 
-def _speed_models(speed: JudgedSheet, model: Model, right: Motion) -> Iterator[Model]:
+def _speed_models(speed: JudgedSheet, motion: Motion, wrong: Model | None) -> Iterator[Model]:
     """Known errors of speeds: in computing those of a motion, or of the right one, and those of another geometry."""
-    yield from speed_errors(model.motion)
-    if model.error:
-        yield from speed_errors(right)
-    if model.error and model.error != "shifted_rows":
-        yield from shifted_rows(model.motion)
-    dance = dance_of(speed.workbook)
-    yield from geometries(dance, speed.times, SheetClues())
-    yield from _other_times(dance, speed)
+    yield from speed_errors(motion)
+    if wrong:
+        yield from speed_errors(of_dance(speed.dance))
+        if wrong.error != "shifted_rows":
+            yield from shifted_rows(motion)
+    yield from geometries(speed.dance, speed.times, SheetClues())
+    yield from _other_times(speed)
 
 
 def _negated_beside(motion: Motion) -> Iterator[Model]:
@@ -192,14 +193,14 @@ def _negated_beside(motion: Motion) -> Iterator[Model]:
         yield replace(speeds_negated(one.motion), beside=one)
 
 
-def _other_times(dance: Dance, speed: JudgedSheet) -> Iterator[Model]:
+def _other_times(speed: JudgedSheet) -> Iterator[Model]:
     """The right speeds of other times, which follow from all speeds of the sheet by least squares."""
-    right, known = of_dance(dance), speed.handles < HANDLES
+    right, known = of_dance(speed.dance), speed.known
     values, rounding = speed.values[:, known, 0], speed.rounding[:, known, 0]
     spread = np.nan_to_num(np.where(np.isfinite(values), np.abs(values - 1.0), np.nan)).sum(axis=1)
     row = int(spread.argmax())
     shifts = np.arange(-SHIFT_MOST, SHIFT_MOST, SHIFT_STEP)
-    shifts = shifts[speed.times[row] + shifts <= dance.end.time]
+    shifts = shifts[speed.times[row] + shifts <= speed.dance.end.time]
 
     def speeds_at(times: Floats) -> Floats:
         return right(times)[:, speed.handles[known], SPEED]
@@ -231,12 +232,11 @@ def _other_times(dance: Dance, speed: JudgedSheet) -> Iterator[Model]:
         yield shifted_time(right, shift, decimals)
 
 
-def _of_no_motion(speed: JudgedSheet, motion: Motion) -> Finding:
+def _of_no_motion(speed: JudgedSheet, wrong: Model) -> Finding:
     """The finding that speeds belong neither to the right motion nor to that of the places."""
-    moved = fit(speed, Model("", motion))
-    off = np.nan_to_num(np.abs(speed.values - moved.numbers))
+    off = np.nan_to_num(np.abs(speed.values - fit(speed, wrong).numbers))
     values = {
-        "sheet": speed.table.title or note(SHEETS[TableKind.SPEED]),
+        "sheet": speed.title,
         "count": f"{int((off > speed.tolerance).sum()):,}",
         "cells": f"{int(np.isfinite(speed.values).sum()):,}",
         "worst": f"{float(off.max()):.6g}",
@@ -280,27 +280,23 @@ def _quotients_of(one: JudgedSheet) -> Iterator[Model]:
     step = float(np.median(np.diff(one.times))) if one.times.size > 2 else 0.0
     if step <= 0.0:
         return
-    spans = {"forward_difference": (0, 1), "backward_difference": (1, 0), "central_difference": (1, 1)}
-    for error, (before, after) in spans.items():
-        values: dict[str, object] = {"step": f"{step:g}", "span": _span(-before * step, after * step)}
-        yield Model(error, partial(_own_quotient, one, step, before, after), values)
+    yield from _quotients(step, partial(_own_quotient, one))
 
 
-def _own_quotient(one: JudgedSheet, step: float, before: int, after: int, times: Floats) -> Floats:
+def _own_quotient(one: JudgedSheet, before: float, after: float, times: Floats) -> Floats:
     """Numbers (T, HANDLES, 3) with speeds from the places of the sheet, NaN elsewhere."""
     numbers = np.full((times.size, HANDLES, 3), np.nan)
     for n, time in enumerate(times):
-        ends = [np.flatnonzero(np.abs(one.times - time - at * step) < INSTANT_STEP) for at in (-before, after)]
-        if all(end.size for end in ends):
-            way = one.values[ends[1][0], :, :2] - one.values[ends[0][0], :, :2]
-            known = one.handles < HANDLES
-            numbers[n, one.handles[known], SPEED] = np.linalg.norm(way[known], axis=-1) / (step * (before + after))
+        first, last = (np.flatnonzero(np.abs(one.times - time - end) < INSTANT_STEP) for end in (before, after))
+        if first.size and last.size:
+            way = one.values[last[0], :, :2] - one.values[first[0], :, :2]
+            numbers[n, one.handles[one.known], SPEED] = np.linalg.norm(way[one.known], axis=-1) / (after - before)
     return numbers
 
 
 def _lead(one: JudgedSheet) -> tuple[int, Floats | None]:
     """The first handle with places in the student's sheet, and these (T, 2), NaN where they are missing."""
-    has_places = np.isfinite(one.values[..., :2]).all(axis=2).any(axis=0) & (one.handles < HANDLES)
+    has_places = np.isfinite(one.values[..., :2]).all(axis=2).any(axis=0) & one.known
     if not has_places.any():
         return 0, None
     line = min(np.flatnonzero(has_places).tolist(), key=lambda k: int(one.handles[k]))
@@ -321,13 +317,15 @@ def speed_errors(motion: Motion) -> Iterator[Model]:
     yield _equal_speeds()
     yield speeds_negated(motion)
     for step in STEPS:
-        for error, before, after in (
-            ("forward_difference", 0.0, step),
-            ("backward_difference", -step, 0.0),
-            ("central_difference", -step, step),
-        ):
-            values: dict[str, object] = {"step": f"{step:g}", "span": _span(before, after)}
-            yield Model(error, partial(_quotient, motion, before, after), values)
+        yield from _quotients(step, partial(_quotient, motion))
+
+
+def _quotients(step: float, quotient: Callable[[float, float, Floats], Floats]) -> Iterator[Model]:
+    """Models of speeds that are difference quotients with a step [s]. quotient: the numbers, from its ends and times"""
+    for error, ends in QUOTIENTS.items():
+        before, after = (end * step for end in ends)
+        values: dict[str, object] = {"step": f"{step:g}", "span": _span(before, after)}
+        yield Model(error, partial(quotient, before, after), values)
 
 
 def _span(before: float, after: float) -> str:
@@ -346,12 +344,7 @@ def _quotient(motion: Motion, before: float, after: float, times: Floats) -> Flo
 def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
     """Findings on result2, whose instant follows from the place of the head: on its places, then on its speeds."""
     position, speed = (_part(one, kind) for kind in (TableKind.POSITION, TableKind.SPEED))
-    dance = dance_of(Workbook.RESULT2)
-    right = of_dance(dance)
-    none = Model("", right)
-    if not position.is_off:
-        return _with_speeds([], speed, none, right, [], budget)
-    for instant, decimals, models in _at_instants(position, dance, _seen(position)):
+    for instant, decimals, models in _at_instants(position, _seen(position)) if position.is_off else ():
         is_other, at = instant != one.times[0], replace(position, times=np.array([instant]))
         if best := best_fit(at, models, budget):
             why = _why_then(instant, one.written) if is_other else []
@@ -360,37 +353,41 @@ def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
                 sentence = note("error_other_instant", **_what(instant, decimals))
                 why.insert(0, Finding("other_instant", sentence, evidence))
             moved = replace(best.model, motion=shifted_time(best.model.motion, instant - one.times[0]).motion)
-            return _with_speeds([*findings_of(best, at), *why], speed, moved, right, [], budget)
-    return _with_speeds([], speed, none, right, [], budget)
+            return _with_speeds([*findings_of(best, at), *why], speed, budget, moved)
+    return _with_speeds([], speed, budget)
 
 
-def _at_instants(position: JudgedSheet, dance: Dance, seen: SheetClues) -> Iterator[tuple[float, int, Iterable[Model]]]:
+def _at_instants(position: JudgedSheet, seen: SheetClues) -> Iterator[tuple[float, int, Iterable[Model]]]:
     """Instants [s] of result2, each with its decimals and with known errors, the likeliest first: a single one at the
     right instant, or at the one that places show; two at the right one; then turned places at another instant, and
     other lengths."""
-    right, at_right = of_dance(dance), float(position.times[0])
+    dance, at_right = position.dance, float(position.times[0])
     yield at_right, INSTANT_DECIMALS, geometries(dance, position.times, replace(seen, lead=None))
     others: list[tuple[float, int]] = []
     for image in IMAGES if seen.lead is not None else ():
-        if (span := _instants(replace(position, values=position.values @ image), dance, seen, image)) is None:
+        if (span := _instants(replace(position, values=position.values @ image), seen, image)) is None:
             continue
         instant, decimals = simplest(span), decimals_of(span, INSTANT_DECIMALS)
         others.append((instant, decimals))
         turned = math.pi if image is HALF_TURN else seen.turned
         models = geometries(dance, np.array([instant]), SheetClues(turned=turned, unit=seen.unit))
-        only = Model("other_instant", right, _what(instant, decimals), is_simplest=True)
-        yield instant, decimals, chain([only], models)
+        yield instant, decimals, chain([_only_then(dance, instant, decimals)], models)
     yield at_right, INSTANT_DECIMALS, pairs(dance, position.times, replace(seen, lead=None))
     head = seen.lead[0] if seen.lead is not None and seen.leader == 0 else None
-    if head is not None and (turned_then := _turned_instant(position, dance, head)) is not None:
+    if head is not None and (turned_then := _turned_instant(position, head)) is not None:
         instant, angle = turned_then
         decimals = min(position.written, INSTANT_DECIMALS)
         models = geometries(dance, np.array([instant]), SheetClues(turned=angle, unit=seen.unit))
         if abs(angle) * float(np.nanmax(np.abs(position.values))) < 10.0**-position.written:  # as good as not turned
-            models = iter([Model("other_instant", right, _what(instant, decimals), is_simplest=True)])
+            models = iter([_only_then(dance, instant, decimals)])
         yield instant, decimals, models
     for instant, decimals in others:
         yield instant, decimals, own_lengths(dance, seen)
+
+
+def _only_then(dance: Dance, instant: float, decimals: int) -> Model:
+    """The right places at another instant [s]."""
+    return Model("other_instant", of_dance(dance), _what(instant, decimals), is_simplest=True)
 
 
 def _what(instant: float, decimals: int) -> dict[str, object]:
@@ -407,16 +404,16 @@ def _part(one: JudgedSheet, kind: TableKind) -> JudgedSheet:
     return replace(one, table=table, values=values, wanted=one.wanted[..., components], written=written, digits=digits)
 
 
-def _instants(one: JudgedSheet, dance: Dance, seen: SheetClues, image: Floats) -> tuple[float, float] | None:
+def _instants(one: JudgedSheet, seen: SheetClues, image: Floats) -> tuple[float, float] | None:
     """The span of instants [s] at which most handles are at their places in a sheet; None if the first one never is.
 
     image: of the student's plane, of which the sheet holds the places
     """
     assert seen.lead is not None
-    first = shift_span(dance, np.zeros(1), replace(seen, lead=seen.lead @ image))
+    first = shift_span(one.dance, np.zeros(1), replace(seen, lead=seen.lead @ image))
     if first is None:
         return None
-    known, right = one.handles < HANDLES, of_dance(dance)
+    known, right = one.known, of_dance(one.dance)
 
     def places_at(time: float) -> Floats:
         return right(np.array([time]))[0, one.handles[known], :2]
@@ -425,15 +422,16 @@ def _instants(one: JudgedSheet, dance: Dance, seen: SheetClues, image: Floats) -
     return agreed_span(one.values[0, known], one.rounding[0, known], places_at, middle, far)
 
 
-def _turned_instant(one: JudgedSheet, dance: Dance, head: Floats) -> tuple[float, float] | None:
+def _turned_instant(one: JudgedSheet, head: Floats) -> tuple[float, float] | None:
     """The instant [s] and the angle [rad] of places that are turned about the centre, by least squares.
 
     head: place of the head [m], whose distance from the centre tells the instant nearly; None if it tells none
     """
-    right, path, known = of_dance(dance), dance.path.spiral, one.handles < HANDLES
+    dance, known = one.dance, one.known
+    right, path = of_dance(dance), dance.path.spiral
     if path is None or not np.isfinite(head).all():
         return None
-    time, angle = float(path.length - spiral_arc(np.hypot(*head), path.growth)) / dance.head_speed, 0.0
+    time, angle = path.travel_to(float(np.hypot(*head))) / dance.head_speed, 0.0
     values = one.values[0, known, :2] @ PLANE
     for k in range(TURNED_STEPS):
         if not 0.0 < time < dance.end.time:

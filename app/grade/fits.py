@@ -18,7 +18,6 @@ from app.grade.geometry import Model
 from app.grade.handles import Ints
 from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
-from app.grade.layout import COMPONENTS, SHEETS
 from app.grade.shortcuts import Finding
 from app.grade.words import Note, note
 from core import Budget
@@ -63,9 +62,8 @@ class Fit:
 def fit(one: JudgedSheet, model: Model, at: Ints | slice = slice(None)) -> Fit:
     """Fit of a model to a sheet, or to its instants in `at`."""
     motion = model.motion(one.times[at])
-    known = one.handles < motion.shape[1]
     numbers = np.full(one.values[at].shape, np.nan)
-    numbers[:, known] = motion[:, one.handles[known]][..., list(COMPONENTS[one.table.kind])]
+    numbers[:, one.known] = motion[:, one.handles[one.known]][..., list(one.components)]
     off = np.abs(one.values[at] - numbers)
     tolerance = one.tolerance[at]
     present, fits = np.isfinite(off), off <= tolerance
@@ -183,12 +181,12 @@ def findings_of(explaining: Fit, one: JudgedSheet) -> list[Finding]:
     worst = one.worst()
     assert worst is not None
     values = {
-        "sheet": one.table.title or note(SHEETS[one.table.kind]),
+        "sheet": one.title,
         "share": f"{100 * explaining.wrong:.1f}",
         "count": explaining.count,
         "tolerance": f"{one.usual_tolerance:.1e}",
         "worst": f"{one.off[worst]:.6g}",
-        "unit": "m/s" if COMPONENTS[one.table.kind][worst[2]] == SPEED else "m",
+        "unit": "m/s" if one.components[worst[2]] == SPEED else "m",
     }
     model, kinds = explaining.model, frozenset((one.table.kind,))
     first = Finding(model.error, _sentence(model), note("evidence", **values), kinds=kinds)

@@ -15,12 +15,12 @@ from functools import partial
 
 import numpy as np
 
-from app.grade.chains import Bent, equal_arcs, on_bent, rounded_angles
+from app.grade.chains import Arc, Bent, equal_arcs, on_bent, rounded_angles, spiral_arc, times_at
 from app.grade.expected import PITCH, Motion, Workbook, dance_of, of_dance, right_turn
 from app.grade.handles import Ints
 from app.grade.instants import agreed_span, simplest
 from app.grade.judged import ARITHMETIC, DECIMALS_OF_CONTEST, ROUNDED
-from core import BenchDragonError, Dance, Dragon, Spiral, Turn
+from core import BenchDragonError, Dance, Dragon, Route, Spiral, Turn
 from core.values import Floats
 
 # Decimals to try for a constant or an angle that was rounded early.
@@ -95,6 +95,11 @@ class SheetClues:
     unit: float = 0.0
 
     @property
+    def instants(self) -> Ints:
+        """The instants at which the leader has a place."""
+        return np.flatnonzero(np.isfinite(self.lead).all(axis=1)) if self.lead is not None else np.zeros(0, np.int64)
+
+    @property
     def decimals(self) -> int:
         """Decimals of a place, which all places together show of a time [s] and of an angle [degrees]."""
         return round(-math.log10(self.unit)) if self.unit else DECIMALS_OF_CONTEST
@@ -113,7 +118,7 @@ def geometries(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]
     yield from own_lengths(dance, seen)
     spiral = dance.path.spiral
     if spiral is None:
-        yield from other_turns(dance, right_turn())
+        yield from other_turns(dance)
     else:
         yield from _other_angles(dance, spiral, times.size > 1)
         yield from _rounded_spirals(dance, spiral)
@@ -174,14 +179,14 @@ OTHER_LENGTHS = {
 def other_dragons(dance: Dance) -> Iterator[Model]:
     """Wrong distances between the handles."""
     for error, lengths in OTHER_LENGTHS.items():
-        yield Model(error, _on_path(Dragon(dance.dragon.benches, **lengths), dance.path.spiral or right_turn()))
+        yield Model(error, _on_path(Dragon(dance.dragon.benches, **lengths), dance.path))
 
 
-def _on_path(dragon: Dragon, path: Spiral | Turn) -> Motion:
+def _on_path(dragon: Dragon, path: Spiral | Route) -> Motion:
     try:
         return of_dance(Dance(dragon, path))
     except BenchDragonError:  # The arcs are too tight for this chord: a handle would jump.
-        if isinstance(path, Spiral):
+        if not isinstance(path, Turn):
             raise
         return on_bent(dragon, Bent(path, tuple(arcs_of(path))))
 
@@ -197,11 +202,7 @@ def own_lengths(dance: Dance, seen: SheetClues) -> Iterator[Model]:
     margin = 2.0 * float(Dragon(1).overhangs[0])
     with suppress(BenchDragonError):
         dragon = Dragon(dance.dragon.benches, head_length=head + margin, body_length=body + margin)
-        yield Model(
-            "own_lengths",
-            _on_path(dragon, dance.path.spiral or right_turn()),
-            {"head": f"{head:.6g}", "body": f"{body:.6g}"},
-        )
+        yield Model("own_lengths", _on_path(dragon, dance.path), {"head": f"{head:.6g}", "body": f"{body:.6g}"})
 
 
 def _simple(length: float) -> float:
@@ -228,7 +229,7 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
     b, start = path.growth, path.start_theta
 
     def head_at(theta: Floats) -> Floats:
-        return np.asarray((path.length - spiral_arc(b * theta, b)) / dance.head_speed)
+        return times_at(path, b * theta) / dance.head_speed
 
     def circles(t: Floats) -> Floats:
         # ds = r dtheta; the arc length without its logarithm gives the same six decimals: theta sqrt(1 + theta^2) is
@@ -275,8 +276,9 @@ def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:
         yield Model("rounded_early", rounded_angles(dance, path, decimals), {"what": f"theta, {decimals} decimals"})
 
 
-def other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
+def other_turns(dance: Dance) -> Iterator[Model]:
     """Turns of another shape."""
+    path = right_turn()
     for error, ratio in (("ratio_inverted", 1.0 / path.ratio), ("equal_arcs_of_turn", 1.0)):
         yield Model(error, of_dance(Dance(dance.dragon, Turn(PITCH, ratio=ratio))))
     entry, leaving = complex(*path.entry), complex(*path.exit)
@@ -293,8 +295,8 @@ def other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
     yield Model("wrong_centre", on_bent(dance.dragon, Bent(path, mirrored)))
 
 
-def arcs_of(path: Turn) -> list[tuple[complex, float, float, float]]:
-    """Centre, radius, first angle and angle turned of the right arcs."""
+def arcs_of(path: Turn) -> list[Arc]:
+    """The right arcs."""
     pieces = zip(path.centres, path.radii, (path.entry, path.tangent_point), (-1.0, 1.0), path.angles, strict=True)
     return [
         (complex(*centre), radius, cmath.phase(complex(*first) - complex(*centre)), sign * angle)
@@ -304,9 +306,9 @@ def arcs_of(path: Turn) -> list[tuple[complex, float, float, float]]:
 
 def other_starts(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
     """Models with another starting turn, or with shifted times; both follow from the student's places of one handle."""
-    if seen.lead is None or not (known := np.flatnonzero(np.isfinite(seen.lead).all(axis=1))).size:
+    if seen.lead is None or not seen.instants.size:
         return
-    first, spiral = known[0], dance.path.spiral
+    first, spiral = seen.instants[0], dance.path.spiral
     shift, simple = _shift(dance, times, seen), False
     if spiral is not None and times[first] == 0.0 and seen.leader == 0:
         radius = float(np.hypot(*seen.lead[first])) / spiral.pitch
@@ -319,14 +321,15 @@ def other_starts(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Mode
     if shift is None or abs(shift) < SHIFT_LEAST:
         return
     if spiral is None and seen.leader == 0:
-        yield from _other_entries(dance, right_turn(), shift, seen)
+        yield from _other_entries(dance, shift, seen)
     # Another start and a shifted time are the same motion: the simpler number of both is the likelier one.
     if not simple or abs(round(shift, 2) - shift) < SHIFT_LEAST:
         yield shifted_time(of_dance(dance), shift, seen.decimals)
 
 
-def _other_entries(dance: Dance, path: Turn, shift: float, seen: SheetClues) -> Iterator[Model]:
+def _other_entries(dance: Dance, shift: float, seen: SheetClues) -> Iterator[Model]:
     """The turn that begins at another distance from the centre. shift: how much later the right head is there [s]"""
+    path = right_turn()
     coil = Spiral(path.pitch)
     arc = spiral_arc(path.entry_radius, coil.growth) - shift * dance.head_speed
     if arc <= 0.0:
@@ -339,12 +342,6 @@ def _other_entries(dance: Dance, path: Turn, shift: float, seen: SheetClues) -> 
         yield Model("other_entry_radius", entered, {"radius": f"{round(radius, seen.decimals + 2):.6g}"})
 
 
-def spiral_arc(radius: Floats | float, growth: float) -> Floats:
-    """Arc length of a spiral from its centre to a radius, or to several [m]."""
-    theta = np.asarray(radius) / growth
-    return np.asarray(0.5 * growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta)))
-
-
 def _shift(dance: Dance, times: Floats, seen: SheetClues) -> float | None:
     """Time from an instant of the sheet to that at which a dance has its handle there [s]; None if it is never near."""
     span = shift_span(dance, times, seen)
@@ -353,8 +350,8 @@ def _shift(dance: Dance, times: Floats, seen: SheetClues) -> float | None:
 
 def shift_span(dance: Dance, times: Floats, seen: SheetClues) -> tuple[float, float] | None:
     """The span of shifts [s] that the digits of the places of a handle allow."""
-    lead = seen.lead
-    if lead is None or not (known := np.flatnonzero(np.isfinite(lead).all(axis=1))).size:
+    lead, known = seen.lead, seen.instants
+    if lead is None or not known.size:
         return None
     first, step = known[0], PLACE_STEP if seen.leader == 0 else PLACE_STEP_BEHIND
     place_at = places_of(dance, seen.leader)

@@ -12,12 +12,14 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.grade.decimals import digits_of, usual_of
 from app.grade.expected import Workbook, cells_of, contact_time, dance_of, of_dance, times_of
 from app.grade.handles import EXTRA_MOST, HANDLES, Ints
 from app.grade.layout import COMPONENTS, SHEETS, SheetTable, TableKind
 from app.grade.words import Note, note
+from core import Dance
 from core.values import Floats
 
 # Name of a workbook in the name of a file.
@@ -88,6 +90,26 @@ class JudgedSheet:
     values: Floats
     wanted: Floats
     notes: list[Note] = field(default_factory=list)
+
+    @property
+    def title(self) -> str | Note:
+        """Title of the sheet, or what it holds."""
+        return self.table.title or note(SHEETS[self.table.kind])
+
+    @property
+    def dance(self) -> Dance:
+        """The dance of the workbook."""
+        return dance_of(self.workbook)
+
+    @property
+    def components(self) -> tuple[int, ...]:
+        """Of the last axis."""
+        return COMPONENTS[self.table.kind]
+
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """Lines (H,) of handles that the dragon has."""
+        return np.asarray(self.handles < HANDLES)
 
     @property
     def off(self) -> Floats:

@@ -100,13 +100,11 @@ def _over_time(side: Side, head: int, columns: dict[str, int]) -> list[SheetTabl
 
 def _at_contact(side: Side, head: int, columns: dict[str, int]) -> list[SheetTable]:
     """The table of a list with a line for each handle at one instant."""
-    named = {
-        n: handle for n, row in enumerate(side.cells) if (handle := _handle_of(row[columns["handle"]])) is not None
-    }
-    lines = [n for n in named if n > head]
+    named = [_handle_of(row[columns["handle"]]) for row in side.cells]
+    lines = [n for n, handle in enumerate(named) if n > head and handle is not None]
     if not LABELS_LEAST <= len(lines) <= HANDLES + EXTRA_MOST:
         return []
-    handles, h = _numbered([named[n] for n in lines])
+    handles, h = _numbered([named[n] or 0 for n in lines])
     stated = stated_instant([[side.title], *side.cells[: head + 1]])
     once = (np.array([stated], dtype=np.float64), np.zeros(len(lines), dtype=np.int64), handles, h, lines)
     return [_table_of(side, head, columns, TableKind.CONTACT, once)]

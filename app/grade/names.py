@@ -6,6 +6,8 @@ surrogates, which no JSON, CSV or workbook can hold. State: none.
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 from app.grade.words import Note, note
 
 # Encoding of Chinese Windows: GBK and its extensions.
@@ -28,22 +30,15 @@ def readable_name(name: str) -> tuple[str, Note | None]:
 
 def _readable(part: str) -> tuple[str, str]:
     """One part of a path, and the name of the remark on it; empty for a part that is as it was."""
-    try:
+    with suppress(UnicodeEncodeError):
         part.encode()
-    except UnicodeEncodeError:
-        pass
-    else:
         return part, ""
     try:
         data = part.encode(errors="surrogateescape")
     except UnicodeEncodeError:  # A surrogate that stands for no byte, as names on Windows may have.
         return part.encode(errors="backslashreplace").decode(), "name_escaped"
-    try:
+    with suppress(UnicodeDecodeError):
         chinese = data.decode(CHINESE)
-    except UnicodeDecodeError:
-        chinese = ""
-    return (
-        (chinese, "name_coded")
-        if chinese.isprintable() and chinese
-        else (data.decode(errors="backslashreplace"), "name_escaped")
-    )
+        if chinese.isprintable():
+            return chinese, "name_coded"
+    return data.decode(errors="backslashreplace"), "name_escaped"

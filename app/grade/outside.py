@@ -12,11 +12,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from app.grade.expected import Workbook, dance_of, of_dance
-from app.grade.handles import HANDLES
+from app.grade.expected import Workbook, of_dance
 from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
-from app.grade.layout import COMPONENTS, SHEETS, TableKind
+from app.grade.layout import TableKind
 from app.grade.shortcuts import Finding
 from app.grade.words import note
 
@@ -74,13 +73,11 @@ def same_cells(outside: Outside, one: JudgedSheet, other: JudgedSheet) -> Mask:
 
 def _beyond(one: JudgedSheet) -> Mask:
     """Handles (T, H) that are further out than the beginning of the spiral."""
-    dance = dance_of(one.workbook)
-    spiral = dance.path.spiral
+    spiral = one.dance.path.spiral
     assert spiral is not None
-    radius = np.linalg.norm(of_dance(dance)(np.nan_to_num(one.times))[..., :2], axis=-1)
-    known = one.handles < HANDLES
+    radius = np.linalg.norm(of_dance(one.dance)(np.nan_to_num(one.times))[..., :2], axis=-1)
     beyond = np.zeros(one.values.shape[:2], dtype=bool)
-    beyond[:, known] = radius[:, one.handles[known]] > spiral.pitch * spiral.start_turns + ON_LINE
+    beyond[:, one.known] = radius[:, one.handles[one.known]] > spiral.pitch * spiral.start_turns + ON_LINE
     return beyond
 
 
@@ -98,11 +95,11 @@ def _are_on_line(one: JudgedSheet, beyond: Mask) -> bool:
 
 def _finding(one: JudgedSheet, way: str, written: Mask, beyond: Mask) -> Finding:
     values: dict[str, object] = {
-        "sheet": one.table.title or note(SHEETS[one.table.kind]),
+        "sheet": one.title,
         "count": f"{int(written.sum()):,}",
         "outside": f"{int(beyond.sum()):,}",
     }
     t, h = np.argwhere(written)[0].tolist()
     values |= {"time": f"{one.times[t]:g}", "handle": int(one.handles[h])}
-    of_speed = COMPONENTS[one.table.kind] == (SPEED,)
+    of_speed = one.components == (SPEED,)
     return Finding(f"outside_{way}", note(f"error_outside_{way}"), note(f"evidence_outside{'_v' * of_speed}", **values))

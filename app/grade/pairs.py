@@ -15,7 +15,7 @@ from itertools import chain
 import numpy as np
 
 from app.grade.chains import equal_arcs
-from app.grade.expected import Motion, of_dance, right_turn
+from app.grade.expected import Motion, of_dance
 from app.grade.geometry import (
     MIRRORS,
     Mirror,
@@ -45,7 +45,7 @@ def pairs(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
     lengths = [_with_kept(one) for one in chain(other_dragons(dance), own_lengths(dance, seen))]
     others = [*rows, *lengths, _with_kept(Model("equal_arcs", equal_arcs(dance)))]
     if dance.path.spiral is None:
-        others += [_with_kept(one) for one in other_turns(dance, right_turn())]
+        others += [_with_kept(one) for one in other_turns(dance)]
     for error, mirror, values in _mirrors():
         # A mirror is its own inverse.
         lead = None if seen.lead is None else seen.lead @ mirror[:2, :2]

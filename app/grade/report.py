@@ -27,7 +27,7 @@ from app.grade.judged import (
     workbook_of,
     worst_of,
 )
-from app.grade.layout import COMPONENTS, SHEETS, TableKind
+from app.grade.layout import SHEETS, TableKind
 from app.grade.names import readable_name
 from app.grade.numbers import CERTAIN, graded_number
 from app.grade.reading import ZIP, grids_of
@@ -273,7 +273,7 @@ def _sheet(one: JudgedSheet) -> SheetAnswer:
     if is_rounded and not one.is_rounded:
         notes.append(note("not_rounded", written=int(one.digits.max()), decimals=one.decimals))
     return SheetAnswer(
-        sheet=_title(one),
+        sheet=str(one.title),
         holds=one.table.kind.value,
         verdict=one.verdict,
         decimals=one.decimals if is_rounded else None,
@@ -287,20 +287,16 @@ def _sheet(one: JudgedSheet) -> SheetAnswer:
     )
 
 
-def _title(one: JudgedSheet) -> str:
-    return one.table.title or word(SHEETS[one.table.kind])
-
-
 def _cell(one: JudgedSheet, at: tuple[int, ...]) -> CellAnswer:
     t, h, c = at
     row, column = int(one.table.row[at]), int(one.table.column[at])
     return CellAnswer(
-        sheet=_title(one),
+        sheet=str(one.title),
         cell=cell_name(row, column),
         row=row + 1,
         column=column + 1,
         handle=handle_titles(BENCHES)[one.handles[h]],
-        quantity=("x", "y", "speed")[COMPONENTS[one.table.kind][c]],
+        quantity=("x", "y", "speed")[one.components[c]],
         time=float(one.times[t]),
         found=float(one.values[at]),
         expected=float(one.wanted[at]),

@@ -12,8 +12,9 @@ import cmath
 
 import numpy as np
 
-from app.grade.expected import dance_of, right_turn
-from app.grade.geometry import arcs_of, spiral_arc
+from app.grade.chains import spiral_arc
+from app.grade.expected import right_turn
+from app.grade.geometry import arcs_of
 from app.grade.handles import HANDLES
 from app.grade.judged import RIGHT, JudgedSheet
 from app.grade.labels import X, Y
@@ -33,12 +34,11 @@ CHORDS_MOST = 2.0
 
 def wrong_ring(one: JudgedSheet) -> Finding | None:
     """The first handle on another ring, and the number of them."""
-    dance = dance_of(one.workbook)
-    order = np.argsort(one.handles)
+    path, order = one.dance.path, np.argsort(one.handles)
     if not np.array_equal(one.handles[order], np.arange(HANDLES)):
         return None
-    points, chords = one.values[:, order], dance.dragon.chords
-    behind = -np.diff(places(dance.path, points), axis=1)
+    points, chords = one.values[:, order], one.dance.dragon.chords
+    behind = -np.diff(places(path, points), axis=1)
     distances = np.linalg.norm(np.diff(points, axis=1), axis=-1)
     kept = (np.abs(distances - chords) < ON_PATH) & np.isfinite(behind)
     wrong = np.any(one.off[:, order] > RIGHT, axis=-1)[:, 1:]
@@ -46,7 +46,7 @@ def wrong_ring(one: JudgedSheet) -> Finding | None:
     if not wrong.any() or kept[wrong].mean() < RING_SHARE or not other.size:
         return None
     t, k = min((tuple(map(int, at)) for at in other), key=lambda at: (at[1], at[0]))
-    right = places(dance.path, one.wanted[t, order[k : k + 2]][:, [X, Y]])
+    right = places(path, one.wanted[t, order[k : k + 2]][:, [X, Y]])
     values = {
         "handle": k + 1,
         "time": f"{one.times[t]:g}",
@@ -59,15 +59,12 @@ def wrong_ring(one: JudgedSheet) -> Finding | None:
     return Finding("wrong_ring", note("error_wrong_ring"), note(words, **values))
 
 
-def places(path: Path, points: Floats, far: float = ON_PATH) -> Floats:
-    """Arc lengths of points on a spiral or a turn, (...) [m], NaN for others.
-
-    points: (..., 2) [m]; far: distance from the path within which they are on it [m]
-    """
+def places(path: Path, points: Floats) -> Floats:
+    """Arc lengths of points (..., 2) on a spiral or a turn, (...) [m], NaN for others."""
     arc_lengths = np.full(points.shape[:-1], np.nan)
     for s in _candidates(path, points):
         inside = np.clip(np.nan_to_num(s), *path.drawn_between(-np.inf, path.end))
-        on_path = np.linalg.norm(path.position(inside) - points, axis=-1) < far
+        on_path = np.linalg.norm(path.position(inside) - points, axis=-1) < ON_PATH
         arc_lengths = np.where(on_path, inside, arc_lengths)
     return arc_lengths
 

@@ -139,17 +139,20 @@ def at_contact(tables: list[SheetTable]) -> list[SheetTable]:
     if first is None or len(by_kind) != len(tables) or any(not _is_of_result2(table) for table in tables):
         return tables
     speed = by_kind.get(TableKind.SPEED)
-    if speed and not np.array_equal(speed.handles, first.handles):
+    if speed is None:
+        blank, nowhere = np.full_like(first.values[..., :1], np.nan), np.zeros_like(first.row[..., :1])
+        speed = replace(first, values=blank, row=nowhere, column=nowhere, notes=[])
+    elif not np.array_equal(speed.handles, first.handles):
         return tables
-    blank, nowhere = np.full(first.values[..., :1].shape, np.nan), np.zeros_like(first.row[..., :1])
+    parts = first, speed
     joined = replace(
         first,
         title=" / ".join(dict.fromkeys(table.title for table in tables)),
         kind=TableKind.CONTACT,
-        values=np.concatenate([first.values, speed.values if speed else blank], axis=-1),
-        row=np.concatenate([first.row, speed.row if speed else nowhere], axis=-1),
-        column=np.concatenate([first.column, speed.column if speed else nowhere], axis=-1),
-        notes=[*first.notes, *(speed.notes if speed else [])],
+        values=np.concatenate([one.values for one in parts], axis=-1),
+        row=np.concatenate([one.row for one in parts], axis=-1),
+        column=np.concatenate([one.column for one in parts], axis=-1),
+        notes=[*first.notes, *speed.notes],
     )
     return [joined]
 

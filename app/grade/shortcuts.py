@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
@@ -66,8 +66,13 @@ class Shortcut:
 
     error: str
     value: float
-    values: dict[str, object]
+    values: dict[str, object] = field(default_factory=dict)
     exact: bool = False
+
+
+def _in_steps(error: str, value: float, step: float, *, exact: bool = False) -> Shortcut:
+    """Result of a search in steps."""
+    return Shortcut(error, value, {"step": f"{step:g}"}, exact)
 
 
 UNITS = {"collision_time": "s", "pitch": "m", "speed": "m/s", "turn_length": "m"}
@@ -99,15 +104,15 @@ def _collision_times() -> Iterator[Shortcut]:
         after, before = math.ceil(right / step) * step, math.floor(right / step) * step
         clear, touching = core.clearance_profile(dance, np.array([before, after])).clearance
         assert clear > 0.0 > touching
-        yield Shortcut("time_steps", after, {"step": f"{step:g}"}, exact=True)
-        yield Shortcut("time_steps_before", before, {"step": f"{step:g}"}, exact=True)
+        yield _in_steps("time_steps", after, step, exact=True)
+        yield _in_steps("time_steps_before", before, step, exact=True)
     for error, dragon in _other_dragons():
         if (time := core.first_contact(Dance(dragon, Spiral())).time) is not None:
-            yield Shortcut(error, time, {})
+            yield Shortcut(error, time)
     yield Shortcut(
         "loose_angle", contacts.angle_sum_time(corners, LOOSE_ANGLE), {"angle": f"{360.0 - LOOSE_ANGLE:.1f}"}
     )
-    yield Shortcut("literal_corners", contacts.angle_sum_time(literal_corners, EXACT_ANGLE), {})
+    yield Shortcut("literal_corners", contacts.angle_sum_time(literal_corners, EXACT_ANGLE))
 
 
 def _other_dragons() -> Iterator[tuple[str, Dragon]]:
@@ -118,22 +123,26 @@ def _other_dragons() -> Iterator[tuple[str, Dragon]]:
 
 
 def _pitches() -> Iterator[Shortcut]:
-    yield Shortcut("pose_on_circle", contacts.circle_pitch(contacts.any_touch_at_start), {})
-    yield Shortcut("pose_on_circle_head", contacts.circle_pitch(contacts.head_touches_at_start), {})
-    yield Shortcut("one_corner", contacts.circle_pitch(contacts.corner_at_start), {})
+    rules = {
+        "pose_on_circle": contacts.any_touch_at_start,
+        "pose_on_circle_head": contacts.head_touches_at_start,
+        "one_corner": contacts.corner_at_start,
+    }
+    for error, touches in rules.items():
+        yield Shortcut(error, contacts.circle_pitch(touches))
     for sampled, steps in PITCH_SAMPLES.items():
         for step in steps:
             pitch = contacts.sampled_pitch(sampled, step, right_answer("pitch"))
-            yield Shortcut(f"pitch_{sampled.value}_steps", pitch, {"step": f"{step:g}"})
+            yield _in_steps(f"pitch_{sampled.value}_steps", pitch, step)
     for error, dragon in _other_dragons():
         with suppress(BenchDragonError):
-            yield Shortcut(error, core.minimum_pitch(dragon, turning_radius=TURNING_RADIUS).pitch, {})
+            yield Shortcut(error, core.minimum_pitch(dragon, turning_radius=TURNING_RADIUS).pitch)
 
 
 @cache
 def pitch_grids() -> tuple[Shortcut, ...]:
     """Pitches from a search in steps: the first step above the right pitch, or above that of a shortcut."""
-    starts = (Shortcut("pitch_steps", right_answer("pitch"), {}), *shortcuts("pitch")[:3])
+    starts = (Shortcut("pitch_steps", right_answer("pitch")), *shortcuts("pitch")[:3])
     results = []
     for one in starts:
         for step in PITCH_GRIDS:
@@ -146,11 +155,11 @@ def _speeds() -> Iterator[Shortcut]:
     dance = Dance(Dragon(PEAK_BENCHES), right_turn())
     right = of_dance(dance)
     for step in STEPS[:6]:
-        yield Shortcut("speed_time_steps", _fastest(right, step), {"step": f"{step:g}"})
+        yield _in_steps("speed_time_steps", _fastest(right, step), step)
     for step in STEPS:
         times = np.arange(0.0, PEAK_SPAN, step)
         moved = np.linalg.norm(right(times + step)[..., :2] - right(times)[..., :2], axis=-1) / step
-        yield Shortcut("forward_difference", SPEED_LIMIT / float(moved.max()), {"step": f"{step:g}"})
+        yield _in_steps("forward_difference", SPEED_LIMIT / float(moved.max()), step)
     for model in geometries(dance, np.zeros(1), SheetClues()):
         if model.error in SMOOTH:
             yield Shortcut(model.error, _fastest(model.motion, PEAK_STEP), model.values)
@@ -162,4 +171,4 @@ def _fastest(motion: Motion, step: float) -> float:
 
 
 def _lengths() -> Iterator[Shortcut]:
-    yield Shortcut("arcs_not_tangent", math.pi * TURNING_RADIUS, {})
+    yield Shortcut("arcs_not_tangent", math.pi * TURNING_RADIUS)
