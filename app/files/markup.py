@@ -10,7 +10,6 @@ from __future__ import annotations
 import codecs
 import re
 from collections.abc import Callable, Iterable, Mapping
-from typing import Protocol
 from xml.parsers import expat
 
 from core import InvalidValue
@@ -19,6 +18,8 @@ from core.errors import Given
 # Longest tag, comment or instruction [bytes].
 TAG_MAX = 200_000
 PIECE = 1 << 16
+# Deepest nesting of elements.
+DEPTH_MAX = 60
 NO_MEMORY = 1  # XML_ERROR_NO_MEMORY of expat
 DECLARED = re.compile(rb"""<\?xml[^>]{0,200}?\sencoding\s*=\s*["']([\w.:-]{1,40})["']""")
 MARKS = (
@@ -68,14 +69,41 @@ def parse(parser: expat.XMLParserType, pieces: Iterable[bytes]) -> None:
         raise
 
 
-class Reader(Protocol):
-    """What takes the elements and texts of a document while it is parsed."""
+# State:  `stack`, the names of the open elements; `text` of the innermost one, in pieces.
+class Reader:
+    """Takes the elements of a document while it is parsed, by their names without a namespace."""
 
-    def start(self, name: str, attributes: Mapping[str, str], /) -> None: ...
+    def __init__(self) -> None:
+        self.stack: list[str] = []
+        self.text: list[str] = []
 
-    def end(self, name: str, /) -> None: ...
+    @property
+    def around(self) -> str:
+        """The innermost open element; empty without one."""
+        return self.stack[-1] if self.stack else ""
 
-    def take(self, text: str, /) -> None: ...
+    def begin(self, name: str, attributes: Mapping[str, str]) -> None:
+        """Take the beginning of an element, which is open now."""
+        raise NotImplementedError
+
+    def finish(self, name: str, text: str) -> None:
+        """Take the end of an element, which is open no more. text: between the last tag and its end"""
+        raise NotImplementedError
+
+    def start(self, name: str, attributes: Mapping[str, str], /) -> None:
+        local = name.rpartition(" ")[2]
+        self.stack.append(local)
+        if len(self.stack) > DEPTH_MAX:
+            raise InvalidValue("file", "must not nest elements deeper than {most}", most=DEPTH_MAX)
+        self.text = []
+        self.begin(local, attributes)
+
+    def take(self, text: str, /) -> None:
+        self.text.append(text)
+
+    def end(self, name: str, /) -> None:
+        self.finish(self.stack.pop(), "".join(self.text).strip())
+        self.text = []
 
 
 def read_document(data: bytes, reader: Reader, fault: str, forbidden: str) -> None:

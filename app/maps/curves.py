@@ -38,7 +38,6 @@ def points_of(entity: Any, factor: float) -> Floats:
 
     raises: InvalidValue for more points than a map may have, and for too large a radius; Damaged
     """
-    sag = SAG / factor
     match entity.dxftype():
         case "LINE":
             places = np.array([_xy(entity.dxf.start), _xy(entity.dxf.end)])
@@ -46,13 +45,12 @@ def points_of(entity: Any, factor: float) -> Floats:
             start, end = math.radians(entity.dxf.start_angle), math.radians(entity.dxf.end_angle)
             sweep = (end - start) % (2.0 * math.pi) or 2.0 * math.pi
             centre, radius = entity.dxf.center, abs(float(entity.dxf.radius))
-            _refuse_radius(radius, factor)
-            flat = _xy(centre) + radius * _around(start, sweep, _count(sweep, radius, sag))
+            flat = _xy(centre) + radius * _arc(start, sweep, radius, factor)
             places = _in_world(entity, flat, float(centre[2]))
         case "ELLIPSE":
             places = _ellipse(entity, factor)
         case "SPLINE":
-            places = _spline(entity, sag)
+            places = _spline(entity, SAG / factor)
         case _:
             places = _polyline(entity, factor)
     if not np.isfinite(places).all():
@@ -73,18 +71,6 @@ def _in_world(entity: Any, flat: Floats, height: float) -> Floats:
     return np.array([_xy(ocs.to_wcs((x, y, height))) for x, y in flat.tolist()])
 
 
-def _refuse_radius(radius: float, factor: float) -> None:
-    if not radius * factor <= RADIUS_MAX:
-        got, most = Quantity(radius * factor, "m", 6), Quantity(RADIUS_MAX, "m")
-        raise InvalidValue("file", f"must have no arc of a radius over {{most}}: {LEAVE_OUT}", got=got, most=most)
-
-
-# The middle of a chord over the angle h is r (1 - cos(h / 2)) <= r h^2 / 8 from its arc.
-def _count(sweep: float, radius: float, sag: float) -> int:
-    """Number of straight lines in place of an arc. raises: InvalidValue"""
-    return _checked_count(abs(sweep) * math.sqrt(radius / (8.0 * sag)))
-
-
 def _checked_count(count: float) -> int:
     if not count <= POINTS_MAX:
         rule = f"must draw no curve that takes more than {{points}} points: {LEAVE_OUT}"
@@ -92,8 +78,16 @@ def _checked_count(count: float) -> int:
     return max(1, math.ceil(count))
 
 
-def _around(start: float, sweep: float, count: int) -> Floats:
-    """Points (count + 1, 2) of the circle of radius 1, from an angle over another [rad]."""
+# The middle of a chord over the angle h is r (1 - cos(h / 2)) <= r h^2 / 8 from its arc.
+def _arc(start: float, sweep: float, radius: float, factor: float) -> Floats:
+    """Points (N, 2) of the circle of radius 1, from an angle over another [rad], as dense as an arc of a radius needs.
+
+    raises: InvalidValue for too large a radius, and for too many points
+    """
+    if not radius * factor <= RADIUS_MAX:
+        got, most = Quantity(radius * factor, "m", 6), Quantity(RADIUS_MAX, "m")
+        raise InvalidValue("file", f"must have no arc of a radius over {{most}}: {LEAVE_OUT}", got=got, most=most)
+    count = _checked_count(abs(sweep) * math.sqrt(radius / (8.0 * (SAG / factor))))
     angles = start + sweep * np.linspace(0.0, 1.0, count + 1)
     return np.stack([np.cos(angles), np.sin(angles)], axis=-1)
 
@@ -101,8 +95,6 @@ def _around(start: float, sweep: float, count: int) -> Floats:
 def _ellipse(entity: Any, factor: float) -> Floats:
     """The middle, plus cos t times the long half axis, plus sin t times the short one: a circle that is squeezed."""
     long = entity.dxf.major_axis
-    radius = float(long.magnitude)
-    _refuse_radius(radius, factor)
     short = entity.minor_axis
     start, end = float(entity.dxf.start_param), float(entity.dxf.end_param)
     if not math.isfinite(start + end):
@@ -110,7 +102,7 @@ def _ellipse(entity: Any, factor: float) -> Floats:
     sweep = (end - start) % (2.0 * math.pi) or 2.0 * math.pi
     if abs(abs(end - start) - 2.0 * math.pi) < 1e-6:  # Files have six to sixteen digits.
         sweep = 2.0 * math.pi
-    along = _around(start, sweep, _count(sweep, radius, SAG / factor))
+    along = _arc(start, sweep, float(long.magnitude), factor)
     return _xy(entity.dxf.center) + along @ np.stack([_xy(long), _xy(short)])
 
 
@@ -148,11 +140,10 @@ def _side(a: Floats, b: Floats, bulge: float, factor: float) -> Floats:
     # As high as the arc is above its chord: a flat one is straight, however large its radius.
     if 0.5 * chord * abs(bulge) * factor < SAG:
         return b[None]
-    _refuse_radius(radius, factor)
     left = np.array([a[1] - b[1], b[0] - a[0]]) / chord
     centre = 0.5 * (a + b) + left * (0.5 * chord / math.tan(0.5 * sweep))
     start = math.atan2(a[1] - centre[1], a[0] - centre[0])
-    points = centre + radius * _around(start, sweep, _count(sweep, radius, SAG / factor))
+    points = centre + radius * _arc(start, sweep, radius, factor)
     points[-1] = b
     return points[1:]
 
@@ -170,8 +161,8 @@ def _spline(entity: Any, sag: float) -> Floats:
     if len(weights):
         control *= np.array(weights, dtype=float)[:, None]
     n = len(control)
-    good = 1 <= degree <= DEGREE_MAX and n > degree and len(knots) == n + degree + 1
-    if not good or not np.isfinite(knots).all() or not np.isfinite(control).all() or (np.diff(knots) < 0.0).any():
+    fits = 1 <= degree <= DEGREE_MAX and n > degree and len(knots) == n + degree + 1
+    if not (fits and np.isfinite(knots).all() and np.isfinite(control).all() and (np.diff(knots) >= 0.0).all()):
         raise Damaged
     if not (control[:, 2] > 0.0).all():
         raise Damaged
@@ -200,7 +191,8 @@ def _second(control: Floats, knots: Floats, degree: int) -> Floats:
         p = degree - k
         if p < 1:
             return lengths
-        apart = np.array([knots[i + p + 1 + k] - knots[i + 1 + k] for i in range(len(points) - 1)])
+        last = len(points) + k
+        apart = knots[k + p + 1 : last + p] - knots[k + 1 : last]
         steps = p * np.diff(points, axis=0) / np.where(apart > 0.0, apart, 1.0)[:, None]
         points = np.where(apart[:, None] > 0.0, steps, 0.0)
     lengths[: len(points)] = np.hypot(*points.T)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from app.maps import geojson
-from app.maps.features import MapFeature, edges_of, is_aside
+from app.maps.features import MapFeature, edges_of, is_aside, place_fields
 from app.wire.degrees import GeographicOrigin
 from app.wire.geojson import outlined, read_things, venue_of
 from core import InvalidValue, Venue
@@ -40,31 +40,34 @@ class DanceParts:
         """The venue as GeoJSON in metres, in the form of a request."""
         if self.venue is None:
             return None
-        origin = {} if self.origin is None else {"origin": asdict(self.origin)}
-        grid = {} if self.grid is None else {"grid": dict(zip("xy", self.grid, strict=True))}
-        return {"type": "FeatureCollection", **origin, **grid, "features": [_geojson_of(one) for one in self.things]}
+        places = place_fields(self.origin, self.grid)
+        return {"type": "FeatureCollection", **places, "features": [_geojson_of(one) for one in self.things]}
 
 
 def _geojson_of(one: MapFeature) -> dict[str, Any]:
     properties: dict[str, object] = {"name": one.name} | ({} if one.radius is None else {"radius": one.radius})
     if is_aside(one):
-        properties |= {"role": one.role} | {
-            name: one.properties[name] for name in ("heading",) if name in one.properties
-        }
+        properties["role"] = one.role
+        if "heading" in one.properties:
+            properties["heading"] = one.properties["heading"]
     return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
 
 
-def refuse_many_edges_of(things: Sequence[MapFeature], beside: Sequence[MapFeature] = ()) -> None:
-    """raises: InvalidValue at the field `file` for more edges than a venue may have, counted with those beside them"""
-    if sum(map(edges_of, things)) > EDGES_MAX:
-        got = sum(map(edges_of, [*things, *beside]))
+def refuse_many_edges(things: Sequence[MapFeature], *, of_areas: bool = False) -> None:
+    """raises: InvalidValue at the field `file`, with the edges of all things, for more than a venue may have
+
+    of_areas: only those of areas count, which are known at once
+    """
+    counted = [one for one in things if one.shape == "polygon"] if of_areas else things
+    if sum(map(edges_of, counted)) > EDGES_MAX:
+        got = sum(map(edges_of, things))
         raise InvalidValue("file", "must have at most {most} edges", got=got, most=EDGES_MAX)
 
 
 def checked_venue(things: list[MapFeature]) -> Venue:
     """The venue of features, checked like a request, so that a request can use them."""
     collection = {"type": "FeatureCollection", "features": [_geojson_of(one) for one in things]}
-    refuse_many_edges_of(things)
+    refuse_many_edges(things)
     try:
         return venue_of(outlined(read_things(collection)))
     except InvalidValue as error:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import io
 import logging
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
 from importlib import import_module
 from itertools import islice
-from typing import Any, TypeVar
+from typing import Any
 
 import orjson
 
@@ -16,13 +18,14 @@ from app.extras import require
 from app.files.outlines import dxf_bytes, new_dxf
 from app.maps.choice import EVERYTHING, Choice
 from app.maps.entities import HOLES, MARKS, Entities, faults
-from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, damaged_kind, grid_of, inner_point, origin_of
+from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, damaged_kind, inner_point, place_fields, points_in
 from app.wire.geojson import GATE, INNER_SQUARE
 from core import InvalidValue
 from core.errors import Quantity
 from core.venue import Ring
 
-Content = TypeVar("Content")
+# First line, end, and what stands there instead.
+Change = tuple[int, int, list[bytes]]
 # Metres in the units of $INSUNITS: inch, foot, mile, millimetre, centimetre, metre, kilometre, microinch, mil, yard,
 # micrometre (13), decimetre, decametre, hectometre, and foot, inch, yard and mile of surveyors in the US (21 to 24).
 UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0, 8: 2.54e-8, 9: 2.54e-5, 10: 0.9144,
@@ -72,21 +75,23 @@ WORDS, CROSS = 0.3, 0.2
 
 def read(data: bytes, choice: Choice = EVERYTHING) -> Drawing:
     """The map in a drawing, or a part of it. raises: InvalidValue; MissingPackage"""
-    return _of_document(data, lambda document, fixes: _drawing(document, fixes, choice))
+    with _document(data) as (document, fixes):
+        return _drawing(document, fixes, choice)
 
 
 def layers_of(data: bytes) -> dict[str, int]:
     """The layers on which something is drawn that is read, and the edges of each in a venue. raises: as read()"""
-    return _of_document(data, lambda document, _: _entities(document, Choice(counts=True)).edges())
+    with _document(data) as (document, _):
+        return Entities(document, UNITS.get(_unit_of(document), 1.0), _record_of(document), Choice(counts=True)).edges()
 
 
-def _entities(document: Any, choice: Choice) -> Entities:
-    code = int(document.header.get("$INSUNITS", 0))
-    return Entities(document, UNITS.get(code, 1.0), _record_of(document), choice)
+def _unit_of(document: Any) -> int:
+    return int(document.header.get("$INSUNITS", 0))
 
 
-def _of_document(data: bytes, read_from: Callable[[Any, list[str]], Content]) -> Content:
-    """What a function reads from a document of ezdxf and the faults that it has mended. raises: as read()"""
+@contextmanager
+def _document(data: bytes) -> Iterator[tuple[Any, list[str]]]:
+    """Context in which a document of ezdxf is used, and the faults that it has mended. raises: as read()"""
     require("dxf", "file", "DXF")
     if data.startswith(b"AutoCAD Binary DXF"):
         raise InvalidValue("file", "must be DXF as text: save it as ASCII DXF", got="binary DXF")
@@ -96,7 +101,7 @@ def _of_document(data: bytes, read_from: Callable[[Any, list[str]], Content]) ->
     # Its messages may hold parts of the file.
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:
-        return read_from(*_read(data))
+        yield _read(data)
     except InvalidValue:
         raise
     except faults() as error:
@@ -140,9 +145,7 @@ def _read(data: bytes) -> tuple[Any, list[str]]:
 def _marked(data: bytes, kind: str, marker: str, handle: str) -> tuple[bytes, int]:
     """The file with the marker in every entity of a kind that lacks it; or without these entities, and their number,
     for kinds that are not drawn, and without the object that has the handle."""
-    lines = data.split(b"\n")
-    result: list[bytes] = []
-    begin, left_out = 0, 0
+    lines, changes, left_out = data.split(b"\n"), list[Change](), 0
     for start, end in _records(lines):
         codes = range(start + 2, end - 1, 2)
         is_of_kind = _kind(lines, start) == kind
@@ -151,15 +154,24 @@ def _marked(data: bytes, kind: str, marker: str, handle: str) -> tuple[bytes, in
             continue
         if any(lines[k].strip() == b"100" and lines[k + 1].strip() == marker.encode() for k in codes):
             continue
-        result += lines[begin:start]
-        begin = end
         if kind not in MARKERS or not is_of_kind:
+            changes.append((start, end, []))
             left_out += is_of_kind
             continue
         own = next((k for k in codes if lines[k].strip() not in COMMON), end)
         shared = [line for k in range(start + 2, own, 2) if lines[k].strip() != b"100" for line in lines[k : k + 2]]
-        result += [*lines[start : start + 2], b"100", b"AcDbEntity", *shared, b"100", marker.encode(), *lines[own:end]]
-    return b"\n".join([*result, *lines[begin:]]), left_out
+        begin = [*lines[start : start + 2], b"100", b"AcDbEntity", *shared]
+        changes.append((start, end, [*begin, b"100", marker.encode(), *lines[own:end]]))
+    return _changed(lines, changes), left_out
+
+
+def _changed(lines: list[bytes], changes: Iterable[Change]) -> bytes:
+    """The file with these changes, in their order."""
+    result, begin = list[bytes](), 0
+    for start, end, instead in changes:
+        result += [*lines[begin:start], *instead]
+        begin = end
+    return b"\n".join([*result, *lines[begin:]])
 
 
 def _records(lines: list[bytes]) -> list[tuple[int, int]]:
@@ -181,14 +193,12 @@ def _without(data: bytes, is_damaged: Callable[[list[bytes]], bool]) -> tuple[by
             entities[-1] = (entities[-1][0], end)
         else:
             entities.append((start, end))
-    damaged = [
-        (start, end) for start, end in entities if _kind(lines, start) not in STRUCTURE and is_damaged(lines[start:end])
+    damaged: list[Change] = [
+        (start, end, [])
+        for start, end in entities
+        if _kind(lines, start) not in STRUCTURE and is_damaged(lines[start:end])
     ]
-    kept, begin = list[bytes](), 0
-    for start, end in damaged:
-        kept += lines[begin:start]
-        begin = end
-    return b"\n".join([*kept, *lines[begin:]]), [f"deleted {_kind(lines, start)}(#)" for start, _ in damaged]
+    return _changed(lines, damaged), [f"deleted {_kind(lines, start)}(#)" for start, *_ in damaged]
 
 
 def _is_misread(lines: list[bytes]) -> bool:
@@ -224,8 +234,8 @@ def _refuse_many(data: bytes) -> None:
 
 def _drawing(document: Any, fixes: Iterable[str], choice: Choice) -> Drawing:
     """fixes: what ezdxf says of faults that it has mended"""
-    code = int(document.header.get("$INSUNITS", 0))
-    record, entities = _record_of(document), _entities(document, choice)
+    code, record = _unit_of(document), _record_of(document)
+    entities = Entities(document, UNITS.get(code, 1.0), record, choice)
     choice.refuse_unknown(entities.seen_layers)
     for fix in fixes:
         if (deleted := DELETED.search(fix)) and not _is_undrawn(deleted[1]):
@@ -233,16 +243,8 @@ def _drawing(document: Any, fixes: Iterable[str], choice: Choice) -> Drawing:
     features, collector = tuple(entities.features()), entities.collector
     if code not in UNITS:
         _refuse_wide(collector.features)
-    path = record.get("path")
-    return Drawing(
-        features,
-        Unit.METRES if code in UNITS else Unit.ASSUMED_METRES,
-        origin_of(record.get("origin")),
-        path if isinstance(path, dict) else None,
-        collector.left_out,
-        collector.hidden,
-        grid_of(record.get("grid")),
-    )
+    unit = Unit.METRES if code in UNITS else Unit.ASSUMED_METRES
+    return replace(collector.drawing(unit, record), features=features)
 
 
 def _is_undrawn(kind: str) -> bool:
@@ -253,8 +255,7 @@ def _is_undrawn(kind: str) -> bool:
 
 def _refuse_wide(features: list[MapFeature]) -> None:
     """Refuse a drawing without a unit that is too wide for metres."""
-    points = [point for one in features for ring in one.rings for point in ring]
-    across = max((max(column) - min(column) for column in zip(*points, strict=True)), default=0.0)
+    across = max((max(column) - min(column) for column in zip(*points_in(features), strict=True)), default=0.0)
     if across > ACROSS_MAX:
         rule = "must state its unit: without one it is read in metres, and the drawing is {across} across"
         advice = "set $INSUNITS, 4 for millimetres, or scale it to metres"
@@ -296,10 +297,7 @@ def written(drawing: Drawing) -> bytes:
             space.add_text(feature.name, dxfattribs={"layer": layer, "height": WORDS, "insert": (x, y)})
         if feature.role == "path":
             content.setdefault("path", feature.properties["path"])  # the first one, which is read again
-    if drawing.origin is not None:
-        content["origin"] = drawing.origin
-    if drawing.grid is not None:
-        content["grid"] = dict(zip("xy", drawing.grid, strict=True))
+    content |= place_fields(drawing.origin, drawing.grid)
     text = orjson.dumps(content | {"names": names, "radii": radii, "headings": headings}).decode()
     # The format is text in lines of limited length, and a character outside ASCII takes several places.
     text = text.encode("ascii", "backslashreplace").decode().replace("\\x", "\\u00")

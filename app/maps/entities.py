@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from importlib import import_module
 from math import dist, radians
@@ -10,7 +11,7 @@ from typing import Any
 
 from app.maps.choice import EVERYTHING, Choice
 from app.maps.curves import Damaged, points_of
-from app.maps.dance_parts import refuse_many_edges_of
+from app.maps.dance_parts import refuse_many_edges
 from app.maps.features import (
     LEAVE_OUT,
     OBSTACLE,
@@ -21,6 +22,7 @@ from app.maps.features import (
     drawn_as,
     edges_of,
     holds,
+    points_in,
     role_of,
     round_area,
 )
@@ -97,14 +99,20 @@ class Entities:
         self.seen, self.seen_layers = 0, dict[str, None]()
         for entity, layer in self._visible(document.modelspace()):
             if choice.has_layer(layer):
-                try:
+                with self._left_out_if_damaged(entity.dxftype()):
                     self._take(entity, layer)
-                except InvalidValue:
-                    raise
-                except faults():
-                    self.collector.leave_out(damaged_kind(entity.dxftype()))
             else:
                 self.seen_layers[layer] = None
+
+    @contextmanager
+    def _left_out_if_damaged(self, kind: str) -> Iterator[None]:
+        """Context of what ezdxf may not be able to read, which then is left out."""
+        try:
+            yield
+        except InvalidValue:
+            raise
+        except faults():
+            self.collector.leave_out(damaged_kind(kind))
 
     def _visible(self, some: Any, depth: int = 0, around: str = OF_BLOCK) -> Iterator[tuple[Any, str]]:
         """Every entity that can be seen, with its layer; those of a block wherever the block is inserted."""
@@ -150,13 +158,9 @@ class Entities:
     def _readable(self, kind: str, some: Iterator[Any]) -> Iterator[Any]:
         """Entities, up to one that cannot be read, which is left out by the kind of what they are in."""
         while True:
-            try:
+            one = None
+            with self._left_out_if_damaged(kind):
                 one = next(some, None)
-            except InvalidValue:
-                raise
-            except faults():
-                self.collector.leave_out(damaged_kind(kind))
-                return
             if one is None:
                 return
             yield one
@@ -246,7 +250,7 @@ class Entities:
 
     def _add(self, feature: MapFeature) -> None:
         self.seen_layers[_layer_of(feature)] = None
-        if self.choice.counts or self.choice.reaches(point for ring in feature.rings for point in ring):
+        if self.choice.counts or self.choice.reaches(points_in([feature])):
             self.collector.add(feature)
 
     def edges(self) -> dict[str, int]:
@@ -262,8 +266,7 @@ class Entities:
     def features(self) -> Iterator[MapFeature]:
         """The features, with holes in their polygons; each thing is named by the text in it or beside it."""
         # Before any of them is compared with the others.
-        polygons = [one for one in self.collector.features if one.shape == "polygon"]
-        refuse_many_edges_of(polygons, [one for one in self.collector.features if one.shape != "polygon"])
+        refuse_many_edges(self.collector.features, of_areas=True)
         features = list(_with_holes(joined(self.collector.features)))
         if are_too_many(features, self.labels):
             self.collector.left_out[phrase("text")] = len(self.labels)

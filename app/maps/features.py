@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from enum import Enum, auto
 from itertools import pairwise
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -78,6 +79,11 @@ class MapFeature:
         return replace(self, rings=tuple(tuple(map(tuple, move(np.array(ring)).tolist())) for ring in self.rings))
 
 
+def points_in(features: Iterable[MapFeature]) -> list[Point]:
+    """All points of features."""
+    return [point for one in features for ring in one.rings for point in ring]
+
+
 class Unit(Enum):
     """Unit of the coordinates in a file."""
 
@@ -120,6 +126,12 @@ def grid_of(stated: object) -> Point | None:
     return _numbers(stated, ("x", "y"), (GRID_MAX, GRID_MAX))
 
 
+def place_fields(origin: GeographicOrigin | None = None, grid: Point | None = None) -> dict[str, Any]:
+    """The places that origin_of() and grid_of() read, by their names in a file, as far as they are known."""
+    places = {"origin": origin and asdict(origin), "grid": grid and dict(zip("xy", grid, strict=True))}
+    return {name: place for name, place in places.items() if place}
+
+
 def _numbers(stated: object, names: tuple[str, str], most: tuple[float, float]) -> tuple[float, float] | None:
     values = [stated.get(name) for name in names] if isinstance(stated, Mapping) else [None]
     if not all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values):
@@ -134,8 +146,7 @@ class FeatureCollector:
     def __init__(self, *, is_limited: bool = True) -> None:
         self.most = (FEATURES_MAX, POINTS_MAX) if is_limited else (COUNTED_MAX, COUNTED_MAX)
         self.features: list[MapFeature] = []
-        self.left_out: dict[str, int] = {}
-        self.hidden: dict[str, int] = {}
+        self.left_out, self.hidden = Counter[str](), Counter[str]()
         self._points = 0
 
     def add(self, feature: MapFeature) -> None:
@@ -148,10 +159,23 @@ class FeatureCollector:
             raise InvalidValue("file", rule, got="more", features=features, points=points)
 
     def leave_out(self, kind: str) -> None:
-        self.left_out[kind] = self.left_out.get(kind, 0) + 1
+        self.left_out[kind] += 1
 
     def hide(self, kind: str) -> None:
-        self.hidden[kind] = self.hidden.get(kind, 0) + 1
+        self.hidden[kind] += 1
+
+    def drawing(self, unit: Unit, stored: Mapping[str, object] | None = None) -> Drawing:
+        """The map of these features. stored: what this program wrote into the file: path, origin and grid"""
+        path, origin, grid = map((stored or {}).get, ("path", "origin", "grid"))
+        return Drawing(
+            tuple(self.features),
+            unit,
+            origin_of(origin),
+            path if isinstance(path, Mapping) else None,
+            self.left_out,
+            self.hidden,
+            grid_of(grid),
+        )
 
 
 def damaged_kind(kind: str) -> Clause:

@@ -22,8 +22,7 @@ from app.maps.features import (
     Unit,
     drawn_as,
     empty_kind,
-    grid_of,
-    origin_of,
+    place_fields,
     role_of,
 )
 from app.wire.degrees import GEOGRAPHIC, crs_name
@@ -60,16 +59,9 @@ def read(document: Mapping[str, Any], choice: Choice = EVERYTHING) -> Drawing:
     system = crs_name(document)
     geographic = system is not None and GEOGRAPHIC.search(system) is not None
     line: Mapping[str, object] = next((one.properties for one in collector.features if "path" in one.properties), {})
-    path = line.get("path")
-    return Drawing(
-        tuple(collector.features),
-        Unit.UNKNOWN if system is None else Unit.DEGREES if geographic else Unit.METRES,
-        # A map in metres has an origin only if this program wrote it.
-        origin_of(document.get("origin")),
-        path if isinstance(path, Mapping) else None,
-        collector.left_out,
-        grid=grid_of(line.get("grid")),
-    )
+    unit = Unit.UNKNOWN if system is None else Unit.DEGREES if geographic else Unit.METRES
+    # A map in metres has an origin only if this program wrote it.
+    return collector.drawing(unit, {**line, "origin": document.get("origin")})
 
 
 def layer_of(feature: MapFeature) -> str:
@@ -171,7 +163,7 @@ def _listed(field: str, value: object) -> list[Any]:
 
 def written(drawing: Drawing) -> bytes:
     """A feature collection; the properties of the path's line hold the path as a request describes it."""
-    grid = {} if drawing.grid is None else {"grid": dict(zip("xy", drawing.grid, strict=True))}
+    grid = place_fields(grid=drawing.grid)
     features = [
         {
             "type": "Feature",
@@ -180,8 +172,7 @@ def written(drawing: Drawing) -> bytes:
         }
         for one in drawing.features
     ]
-    origin = {} if drawing.origin is None else {"origin": drawing.origin}
-    return orjson.dumps({"type": "FeatureCollection", **origin, "features": features})
+    return orjson.dumps({"type": "FeatureCollection", **place_fields(drawing.origin), "features": features})
 
 
 def _properties(feature: MapFeature) -> dict[str, object]:

@@ -9,7 +9,7 @@ import re
 from collections.abc import Mapping
 from datetime import datetime
 
-from app.files.markup import read_document
+from app.files.markup import Reader, read_document
 from app.maps.features import Drawing, FeatureCollector, MapFeature, Unit, empty_kind, role_of
 from app.wire.numbers import number_of
 from core import InvalidValue
@@ -19,11 +19,10 @@ from core.values import Point
 
 # Bytes in which the first element of a document is looked for, and its tag; zeros are of UTF-16.
 HEAD, ROOT = 4_096, re.compile(rb"<(\w+:)?gpx[\s>]")
-# Deepest nesting of elements.
-DEPTH_MAX = 60
 FAULT = "must be GPX, got {fault} in line {line}"
 FORBIDDEN = phrase("file must not have a document type or entities") + ": " + phrase("save it again as plain GPX")
-POINTS = {"trkpt": "trk", "rtept": "rte", "wpt": "wpt"}
+# Elements of a point; and what they are points of, of which a waypoint has one.
+POINTS, LINES = ("trkpt", "rtept", "wpt"), ("trk", "rte", "wpt")
 
 
 def is_gpx(data: bytes) -> bool:
@@ -43,48 +42,35 @@ def read(data: bytes) -> Drawing:
     """The tracks, routes and waypoints of a document, in degrees. raises: InvalidValue with the line at fault"""
     reader = _TrackReader()
     read_document(data, reader, FAULT, FORBIDDEN)
-    return Drawing(tuple(reader.collector.features), Unit.DEGREES, left_out=reader.collector.left_out)
+    return reader.collector.drawing(Unit.DEGREES)
 
 
-# State:  `stack`, the names of the open elements; `points`, `times` and `name` of the open track, route or waypoint;
-#         `text` of the open element.
-class _TrackReader:
+# State:  `points`, `times` and `name` of the open track, route or waypoint.
+class _TrackReader(Reader):
     """Collects the tracks of a document while expat reads it. The segments of a track are one line."""
 
     def __init__(self) -> None:
-        self.collector = FeatureCollector()
-        self.stack: list[str] = []
+        super().__init__()
+        self.collector, self.name = FeatureCollector(), ""
         self.points: list[Point] = []
         self.times: list[float] = []
-        self.name, self.text = "", list[str]()
 
-    def start(self, name: str, attributes: Mapping[str, str]) -> None:
-        local = name.rpartition(" ")[2]
-        self.stack.append(local)
-        if len(self.stack) > DEPTH_MAX:
-            raise InvalidValue("file", "must not nest elements deeper than {most}", most=DEPTH_MAX)
-        self.text = []
-        if local in ("trk", "rte", "wpt"):
+    def begin(self, name: str, attributes: Mapping[str, str]) -> None:
+        if name in LINES:
             self.points, self.times, self.name = [], [], ""
-        if local in POINTS:
+        if name in POINTS:
             self.points.append((_degrees(attributes, "lon"), _degrees(attributes, "lat")))
             self.times.append(float("nan"))
 
-    def take(self, text: str) -> None:
-        self.text.append(text)
-
-    def end(self, name: str) -> None:
-        local, text = self.stack.pop(), "".join(self.text).strip()
-        around = self.stack[-1] if self.stack else ""
-        if local == "time" and around in POINTS:
+    def finish(self, name: str, text: str) -> None:
+        if name == "time" and self.around in POINTS:
             self.times[-1] = seconds_of(text)
-        elif local == "name" and around in ("trk", "rte", "wpt"):
+        elif name == "name" and self.around in LINES:
             self.name = text
-        elif local in ("trk", "rte", "wpt"):
-            self._finish(local)
-        self.text = []
+        elif name in LINES:
+            self._add(name)
 
-    def _finish(self, kind: str) -> None:
+    def _add(self, kind: str) -> None:
         if not self.points:
             return self.collector.leave_out(empty_kind(kind))
         name = self.name or None

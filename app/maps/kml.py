@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from html import escape
 
 import orjson
 
 from app.files.archives import BadArchive, opened, pieces_of
-from app.files.markup import read_document
+from app.files.markup import Reader, read_document
 from app.maps.features import (
     POINTS_MAX,
     Drawing,
@@ -25,8 +25,7 @@ from app.maps.features import (
     Unit,
     drawn_as,
     empty_kind,
-    grid_of,
-    origin_of,
+    place_fields,
     role_of,
 )
 from app.maps.gpx import seconds_of
@@ -35,10 +34,11 @@ from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
 from core.language import phrase
+from core.values import Point
 from core.venue import Ring
 
-# Deepest nesting of elements, the largest document in a KMZ file [bytes], and most parts of it, such as pictures.
-DEPTH_MAX, UNPACKED_MAX, PARTS_MAX = 60, 20_000_000, 1_000
+# The largest document in a KMZ file [bytes], and most parts of it, such as pictures.
+UNPACKED_MAX, PARTS_MAX = 20_000_000, 1_000
 # Rules for KMZ files, by the codes of BadArchive.
 REFUSED = {
     "broken": "must be a KMZ file that can be unpacked: {why}",
@@ -82,112 +82,88 @@ def read(data: bytes) -> Drawing:
     read_document(data, reader, FAULT, FORBIDDEN)
     if not reader.is_kml:
         raise InvalidValue("file", "must be KML", got="XML of another kind")
-    stored, collector = reader.stored, reader.collector
-    path = stored.get("path")
-    return Drawing(
-        tuple(collector.features),
-        Unit.DEGREES,
-        origin_of(stored.get("origin")),
-        path if isinstance(path, dict) else None,
-        collector.left_out,
-        collector.hidden,
-        grid_of(stored.get("grid")),
-    )
+    return reader.collector.drawing(Unit.DEGREES, reader.stored)
 
 
-# State:  `stack`, the names of the open elements; `folders`, the names of the open folders, and whether they are shown;
-#         `name`, `data`, `visible` and `shapes` of the open placemark; `rings` of the open polygon; `text` of the open
-#         element.
-class _FeatureReader:
+# State:  `folders`, the names of the open folders, and whether they are shown; `name`, `data`, `visible`, `shapes`,
+#         `track` and `times` of the open placemark; `rings` of the open polygon.
+class _FeatureReader(Reader):
     """Collects the features of a document while expat reads it."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.collector, self.stored = FeatureCollector(), dict[str, object]()
-        self.stack: list[str] = []
         self.folders: list[str] = []
         self.visible_folders: list[bool] = []
         self.name, self.visible = "", True
         self.data: dict[str, str] = {}
         self.shapes: list[tuple[Shape, tuple[Ring, ...]]] = []
         self.rings: list[Ring] = []
-        self.track: list[tuple[float, float]] = []
+        self.track: list[Point] = []
         self.times: list[float] = []
-        self.key, self.text, self.is_kml = "", list[str](), False
+        self.key, self.is_kml = "", False
 
-    def start(self, name: str, attributes: Mapping[str, str]) -> None:
-        local = name.rpartition(" ")[2]
-        self.is_kml = self.is_kml or local == "kml"
-        self.stack.append(local)
-        if len(self.stack) > DEPTH_MAX:
-            raise InvalidValue("file", "must not nest elements deeper than {most}", most=DEPTH_MAX)
-        self.text = []
-        if local in ("Folder", "Document"):
+    def begin(self, name: str, attributes: Mapping[str, str]) -> None:
+        self.is_kml = self.is_kml or name == "kml"
+        if name in ("Folder", "Document"):
             self.folders.append("")
             self.visible_folders.append(True)
-        elif local == "Placemark":
+        elif name == "Placemark":
             self.name, self.data, self.shapes, self.visible = "", {}, [], True
             self.track, self.times = [], []
-        elif local in ("Data", "SimpleData"):
+        elif name in ("Data", "SimpleData"):
             self.key = attributes.get("name", "")
-        elif local == "Polygon":
+        elif name == "Polygon":
             self.rings = []
-        if local in OTHERS:
-            self.collector.leave_out(local)
+        if name in OTHERS:
+            self.collector.leave_out(name)
 
-    def take(self, text: str) -> None:
-        self.text.append(text)
-
-    def end(self, name: str) -> None:
-        local, text = self.stack.pop(), "".join(self.text).strip()
-        around = self.stack[-1] if self.stack else ""
-        if local == "name" and around == "Placemark":
-            self.name = text
-        elif local == "name" and self.folders and around in ("Folder", "Document"):
-            self.folders[-1] = text
-        elif local == "visibility" and text == "0":
-            if around == "Placemark":
-                self.visible = False
-            elif self.visible_folders and around in ("Folder", "Document"):
-                self.visible_folders[-1] = False
-        elif (local == "value" and around == "Data") or local == "SimpleData":
-            self.data[self.key] = text
-        elif local == "coordinates":
-            self._place(_points(text))
-        elif local == "when" and around == "Track":
-            self.times.append(seconds_of(text))
-        elif local == "coord" and around == "Track":
-            self._walk(text)
-        elif local == "Polygon" and self.rings:
-            self.shapes.append(("polygon", tuple(self.rings)))
-            self.rings = []
-        elif local == "Placemark":
-            self._finish()
-        elif local in ("Folder", "Document"):
-            self.folders.pop()
-            self.visible_folders.pop()
-        self.text = []
+    def finish(self, name: str, text: str) -> None:
+        match name, self.around:
+            case "name", "Placemark":
+                self.name = text
+            case "name", "Folder" | "Document":
+                self.folders[-1] = text
+            case "visibility", "Placemark":
+                self.visible = self.visible and text != "0"
+            case "visibility", "Folder" | "Document":
+                self.visible_folders[-1] = self.visible_folders[-1] and text != "0"
+            case ("value", "Data") | ("SimpleData", _):
+                self.data[self.key] = text
+            case "coordinates", _:
+                self._place(_points(text))
+            case "when", "Track":
+                self.times.append(seconds_of(text))
+            case "coord", "Track":
+                self._walk(text)
+            case "Polygon", _ if self.rings:
+                self.shapes.append(("polygon", tuple(self.rings)))
+                self.rings = []
+            case "Placemark", _:
+                self._add()
+            case "Folder" | "Document", _:
+                self.folders.pop()
+                self.visible_folders.pop()
 
     def _place(self, points: Ring) -> None:
-        around = next((one for one in reversed(self.stack) if one in SHAPES and one != "LinearRing"), self.stack[-1])
         if not points:
-            self.collector.leave_out(empty_kind(around))
+            kinds = (one for one in reversed(self.stack) if one in SHAPES and one != "LinearRing")
+            self.collector.leave_out(empty_kind(next(kinds, self.around)))
         elif "Polygon" in self.stack:
             self.rings.append(points)
-        elif self.stack[-1] in SHAPES:
-            shape = SHAPES[self.stack[-1]]
+        elif shape := SHAPES.get(self.around):
             self.shapes.append((shape, (points[:1] if shape == "point" else points,)))
 
     def _walk(self, text: str) -> None:
         """A place of a track, such as 120.1 30.2 12; one without a place has no text. raises: InvalidValue"""
-        numbers = [_number(word) for word in text.split()[:2]]
-        if len(numbers) == 2 and None not in numbers:
-            self.track.append((numbers[0] or 0.0, numbers[1] or 0.0))
+        if place := _place_in(text.split()):
+            self.track.append(place)
         elif text:
             raise InvalidValue("file", "must have places of a track such as 120.1 30.2 12", got=Given(text))
         else:
             self.times[len(self.track) : len(self.track) + 1] = []
 
-    def _finish(self) -> None:
+    def _add(self) -> None:
         data = self.data
         for key in ("path", "origin", "grid"):
             if value := _json(data.get(key, "")):
@@ -197,23 +173,21 @@ class _FeatureReader:
         heading = _number(data.get("heading", ""))
         own = {} if heading is None else {"heading": heading}
         feature = MapFeature("point", (), name, role, _number(data.get("radius", "")), own)
-        for shape, rings in self.shapes:
-            if not (self.visible and all(self.visible_folders)):
-                self.collector.hide(shape)
-                continue
-            one = replace(feature, shape=shape, rings=rings)
-            self.collector.add(drawn_as(one) if shape == "line" else one)
-        if self.track and not (self.visible and all(self.visible_folders)):
-            self.collector.hide("line")
-        elif self.track:
+        things = [replace(feature, shape=shape, rings=rings) for shape, rings in self.shapes]
+        if self.track:
             # Times come in the order of the places; of a file with fewer, none counts.
             times = tuple(self.times) if len(self.times) == len(self.track) else (math.nan,) * len(self.track)
-            self.collector.add(replace(feature, shape="line", rings=(tuple(self.track),), times=times))
+            things.append(replace(feature, shape="line", rings=(tuple(self.track),), times=times))
+        for one in things:
+            if not (self.visible and all(self.visible_folders)):
+                self.collector.hide(one.shape)
+            else:
+                self.collector.add(drawn_as(one) if one.shape == "line" and one.times is None else one)
 
 
 def _points(text: str) -> Ring:
     """Points of a text such as "120.1,30.2,0 120.2,30.2,0". raises: InvalidValue"""
-    points: list[tuple[float, float]] = []
+    points: list[Point] = []
     if text.count(",") > 3 * POINTS_MAX:
         raise InvalidValue("file", "must draw no line of more than {most} points", most=POINTS_MAX)
     for word in text.split():
@@ -224,11 +198,20 @@ def _points(text: str) -> Ring:
                 "numbers"
             )
             raise InvalidValue("file", rule, got=Given(word))
-        numbers = [_number(part) for part in parts[:2]]
-        if len(numbers) < 2 or None in numbers:
+        place = _place_in(parts)
+        if place is None:
             raise InvalidValue("file", "must have coordinates such as 120.1,30.2 in degrees", got=Given(word))
-        points.append((numbers[0] or 0.0, numbers[1] or 0.0))
+        points.append(place)
     return tuple(points)
+
+
+def _place_in(words: Sequence[str]) -> Point | None:
+    """Longitude and latitude, in the first two words; None if they are no numbers."""
+    try:
+        longitude, latitude = map(number_of, words[:2])
+    except ValueError:
+        return None
+    return longitude, latitude
 
 
 def _number(text: str) -> float | None:
@@ -260,9 +243,7 @@ def written(drawing: Drawing) -> bytes:
             data_of["radius"] = feature.radius
         data_of |= {name: value for name, value in feature.properties.items() if name != "path"}
         if feature.role == "path":
-            grid = None if drawing.grid is None else dict(zip("xy", drawing.grid, strict=True))
-            places = {name: one for name, one in (("origin", drawing.origin), ("grid", grid)) if one is not None}
-            kept = {**places, "path": feature.properties["path"]}
+            kept = {**place_fields(drawing.origin, drawing.grid), "path": feature.properties["path"]}
             data_of |= {name: orjson.dumps(value).decode() for name, value in kept.items()}
         data = "".join(f'<Data name="{name}"><value>{_words(str(one))}</value></Data>' for name, one in data_of.items())
         parts.append(

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from app.maps.choice import EVERYTHING, Choice
-from app.maps.dance_parts import DanceParts, checked_venue, refuse_many_edges_of
+from app.maps.dance_parts import DanceParts, checked_venue, refuse_many_edges
 from app.maps.features import (
     LINE_RADIUS,
     MARK,
@@ -23,6 +23,7 @@ from app.maps.features import (
     holds_any,
     is_aside,
     kind_of,
+    points_in,
     round_area,
     word_of,
 )
@@ -91,14 +92,13 @@ class Reading:
 
     def parts(self) -> DanceParts:
         # Before anything is compared with every edge.
-        polygons = [one for one in self.features if one.shape == "polygon"]
-        refuse_many_edges_of(polygons, [one for one in self.features if one.shape != "polygon"])
+        refuse_many_edges(self.features, of_areas=True)
         lines = [one for one in self.features if one.shape == "line"]
         square = self._square()
-        tracks = [one for one in lines if one.times is not None]
         # A track that was walked is a path; the longest one is danced, unless a line is called path.
         path_lines = [one for one in lines if one.role == PATH]
-        paths = [*path_lines, *sorted((one for one in tracks if one.role != PATH), key=length_of, reverse=True)]
+        tracks = [one for one in lines if one.times is not None and one.role != PATH]
+        paths = [*path_lines, *sorted(tracks, key=length_of, reverse=True)]
         # If no line has the role of the path, it is the longest line without a width; one of some centimetres is none.
         free = [one for one in lines if one.role is None and one.radius is None and _is_long(one)]
         danced = paths[:1] or ([max(free, key=length_of)] if free and not self._walls(free) else [])
@@ -134,7 +134,7 @@ class Reading:
 
     def _lay_out(self, units: Coordinates | None) -> None:
         """Turn degrees into metres."""
-        points = np.array([point for one in self.features for ring in one.rings for point in ring])
+        points = np.array(points_in(self.features))
         if not np.isfinite(points).all():
             raise InvalidValue("file", "must have finite coordinates")
         unit = self.drawing.unit
@@ -149,7 +149,7 @@ class Reading:
             else:
                 self.remark("Coordinates are in metres.")
             self._choose()
-            self._leave_grid(np.array([point for one in self.features for ring in one.rings for point in ring]))
+            self._leave_grid(np.array(points_in(self.features)))
             return
         if (np.abs(points) > (TURN, 90.0)).any():
             rule = "must have longitudes within 360 and latitudes within 90 degrees"
@@ -188,9 +188,7 @@ class Reading:
 
     def _choose(self) -> None:
         """Leave out what does not reach into the chosen area."""
-        self.features = [
-            one for one in self.features if self.choice.reaches(point for ring in one.rings for point in ring)
-        ]
+        self.features = [one for one in self.features if self.choice.reaches(points_in([one]))]
         if not self.features:
             raise _nothing_reaches()
 
@@ -240,30 +238,25 @@ class Reading:
         others = [one for one in others if one.role not in (PATH, SQUARE) or one.role in large]
         left_out = {id(one) for one in (*circles, *others)}
         self.features = [one for one in self.features if id(one) not in left_out]
-        if circles:
-            small = counted(
-                len(circles),
-                "Left out: {count} circle with a radius of less than {least:g} m: {names}.",
-                "Left out: {count} circles with a radius of less than {least:g} m: {names}.",
-                least=SIZE_MIN,
-                names=self._listed(circles),
-            )
-            self.notes.append(small)
-        if others:
-            small = counted(
-                len(others),
-                "Left out: {count} shape of less than {least:g} m: {names}.",
-                "Left out: {count} shapes of less than {least:g} m: {names}.",
-                least=SIZE_MIN,
-                names=self._listed(others),
-            )
-            self.notes.append(small)
+        self.note_things(
+            circles,
+            "Left out: {count} circle with a radius of less than {least:g} m: {names}.",
+            "Left out: {count} circles with a radius of less than {least:g} m: {names}.",
+            least=SIZE_MIN,
+        )
+        self.note_things(
+            others,
+            "Left out: {count} shape of less than {least:g} m: {names}.",
+            "Left out: {count} shapes of less than {least:g} m: {names}.",
+            least=SIZE_MIN,
+        )
 
-    @staticmethod
-    def _listed(things: Iterable[MapFeature]) -> str:
-        """The names of the first things, and dots for more."""
-        every = [one.name or kind_of(one) for one in things]
-        return str(Listed([*every[:LISTED_MOST], *(["…"] if len(every) > LISTED_MOST else [])]))
+    def note_things(self, things: Sequence[MapFeature], single: str, several: str, /, **values: Any) -> None:
+        """Note things, if there are any: templates of counted(), with the names of the first ones and dots for more."""
+        if things:
+            every = [one.name or kind_of(one) for one in things]
+            names = Listed([*every[:LISTED_MOST], *(["…"] if len(every) > LISTED_MOST else [])])
+            self.notes.append(counted(len(things), single, several, names=str(names), **values))
 
     def _whole(self, one: MapFeature) -> MapFeature:
         """The same feature; a square that is a circle, or a line that is not closed, is a polygon."""
@@ -310,18 +303,16 @@ class Reading:
         """The square and the obstacles."""
         obstacles = [self._obstacle(one) for one in others]
         for radius, without in self.assumed.items():
-            assumed = counted(
-                len(without),
+            self.note_things(
+                without,
                 "{count} thing without a radius; {radius:g} m is assumed: {names}.",
                 "{count} things without a radius; {radius:g} m is assumed: {names}.",
                 radius=radius,
-                names=self._listed(without),
             )
-            self.notes.append(assumed)
         if square is None:
             if not obstacles:
                 return []
-            points = np.array([point for one in self.features for ring in one.rings for point in ring])
+            points = np.array(points_in(self.features))
             (left, low), (right, high) = (points.min(axis=0) - AROUND).tolist(), (points.max(axis=0) + AROUND).tolist()
             outline = ((left, low), (right, low), (right, high), (left, high), (left, low))
             square = MapFeature("polygon", (outline,), "square")

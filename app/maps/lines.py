@@ -52,11 +52,7 @@ def thinned(points: Floats) -> tuple[Floats, float]:
     Of too many, half are evenly spread, which keeps the curve through them near the line, and the others are those
     that are furthest from the line through the ones before (Douglas and Peucker).
     """
-    kept = [points[0]]
-    for point in points[1:]:
-        if np.hypot(*(point - kept[-1])) >= POINTS_APART:
-            kept.append(point)
-    every = np.array(kept)
+    every = points[far_apart(points, POINTS_APART)]
     if len(every) <= POINTS_MAX:
         return every, 0.0
     chosen = np.unique(np.linspace(0, len(every) - 1, POINTS_MAX // 2).round().astype(int)).tolist()
@@ -68,6 +64,15 @@ def thinned(points: Floats) -> tuple[Floats, float]:
         for ends in ((a, middle), (middle, b)):
             heappush(parts, (*furthest(every, *ends), *ends))
     return every[sorted(chosen)], -parts[0][0]
+
+
+def far_apart(points: Floats, distance: float) -> list[int]:
+    """Which points are at least at a distance [m] from the one before that counts, as the first one does."""
+    kept = [0]
+    for k, point in enumerate(points):
+        if np.hypot(*(point - points[kept[-1]])) >= distance:
+            kept.append(k)
+    return kept
 
 
 def furthest(points: Floats, a: int, b: int) -> tuple[float, int]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -118,10 +119,9 @@ def _edges_of_map(drawing: Drawing) -> dict[str, int]:
     features: Sequence[MapFeature] = drawing.features
     with suppress(InvalidValue):  # A map that is too wide has layers that are not.
         features = Reading(drawing, None).features
-    counts: dict[str, int] = {}
+    counts = Counter[str]()
     for one in features:
-        layer = geojson.layer_of(one)
-        counts[layer] = counts.get(layer, 0) + edges_of(one)
+        counts[geojson.layer_of(one)] += edges_of(one)
     return counts
 
 

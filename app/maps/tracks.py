@@ -13,13 +13,14 @@ second, third and so on counts.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from app.maps.lines import furthest
+from app.maps.lines import far_apart, furthest
 from app.wire.paths import POINTS_MAX
 from core import Dragon, InvalidValue, Legs, Quantity
 from core.paths.following import tightest_bend
@@ -117,7 +118,7 @@ def walk_of(points: Floats, times: Floats | None, chord: float = CHORD) -> Walk 
     passages = None
     if times is not None:  # a receiver is as far off along the way as across it
         passages = passages_of(np.asarray(times, dtype=np.float64), best.places, max(PLACE, ERRORS * best.error))
-    lost = length_along(track.way) - best.length
+    lost = float(np.hypot(*np.diff(track.way, axis=0).T).sum()) - best.length
     return Walk(best.knots, best.largest, best.length, lost, best.width, best.tight == 0.0, radius, passages)
 
 
@@ -152,7 +153,7 @@ class _Track:
     def of(cls, points: Floats, noise: float) -> _Track:
         distance = min(max(APART_LEAST, THINNED * noise), APART)
         kept = apart(points, distance)
-        s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points[kept], axis=0).T))])
+        s = lengths_along(points[kept])
         last = np.searchsorted(kept, np.arange(len(points)), "right") - 1
         return cls(points, evenly(points[kept]), s[last] / max(s[-1], APART_LEAST), distance + BESIDE * noise)
 
@@ -198,7 +199,7 @@ def _followed(track: _Track, smooth: Floats, width: float, radius: float) -> _Tr
         return None
     tight = sum(end - start for start, end, _ in course.tighter(radius))
     s = np.linspace(course.begin, course.end, min(STEPS_MAX, int((course.end - course.begin) / STEP) + 2))
-    lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(smooth, axis=0).T))])
+    lengths = lengths_along(smooth)
     part = np.interp(track.along, np.linspace(0.0, 1.0, len(smooth)), lengths / lengths[-1])
     places, off = _beside(track.points, part, track.reach, s - course.begin, course.position(s))
     error = float(np.sqrt(np.mean(off * off)))
@@ -227,30 +228,36 @@ def _corners_of(points: Floats) -> Floats:
     """The ends of straight lines (K, 2) [m] from which no point is further off than NOISE_LEAST."""
     moved = np.concatenate([[True], np.hypot(*np.diff(points, axis=0).T) > 0.0])
     points = points[moved]
-    kept, parts = {0, len(points) - 1}, [(0, len(points) - 1)]
+    return points[_corners(len(points), lambda a, b: furthest(points, a, b), NOISE_LEAST)]
+
+
+def _corners(count: int, furthest_between: Callable[[int, int], tuple[float, int]], most: float) -> list[int]:
+    """The fewest of so many places found between which none is further off than `most` (Douglas and Peucker).
+
+    furthest_between: as furthest(), of two places
+    """
+    kept, parts = {0, count - 1}, [(0, count - 1)]
     while parts:
         a, b = parts.pop()
-        off, k = furthest(points, a, b)
-        if -off > NOISE_LEAST:
+        off, k = furthest_between(a, b)
+        if -off > most:
             kept.add(k)
             parts += [(a, k), (k, b)]
-    return points[sorted(kept)]
+    return sorted(kept)
 
 
 # An arc of radius r in a corner with the turn t begins and ends r tan(t / 2) from it. Points on the lines are spread
 # evenly over the arc instead.
 def _rounded(corners: Floats, headings: Floats, radius: float, count: int) -> Floats | None:
     """Points (count, 2) [m] that belong to evenly spaced ones of straight lines; None where arcs have no room."""
-    ways = np.diff(corners, axis=0)
-    lengths, turns = np.hypot(*ways.T), np.diff(headings)
+    lengths, turns = np.hypot(*np.diff(corners, axis=0).T), np.diff(headings)
     if np.abs(turns).max() >= math.pi - SHARP:
         return None
     cut = np.concatenate([[0.0], radius * np.tan(0.5 * np.abs(turns)), [0.0]])
     if (cut[:-1] + cut[1:] > lengths).any():
         return None
-    s = np.concatenate([[0.0], np.cumsum(lengths)])
-    at = np.linspace(0.0, s[-1], count)
-    line = np.column_stack([np.interp(at, s, axis) for axis in corners.T])
+    s = lengths_along(corners)
+    at, line = spread(corners, s, count)
     for k, turn in enumerate(turns, start=1):
         inside = np.abs(at - s[k]) < cut[k]
         share = (at[inside] - s[k] + cut[k]) / (2.0 * cut[k])
@@ -262,9 +269,18 @@ def _rounded(corners: Floats, headings: Floats, radius: float, count: int) -> Fl
     return line
 
 
-def length_along(points: Floats) -> float:
-    """Length of the line through points (N, 2) [m]."""
-    return float(np.hypot(*np.diff(points, axis=0).T).sum())
+def lengths_along(points: Floats) -> Floats:
+    """Length of the line through points (N, 2) up to each of them (N,) [m]."""
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+
+
+def spread(points: Floats, s: Floats, count: int) -> tuple[Floats, Floats]:
+    """Evenly spaced places on the line through points, as lengths (count,) [m], and where they are (count, 2) [m].
+
+    s: lengths_along() of the points
+    """
+    at = np.linspace(0.0, s[-1], count)
+    return at, np.column_stack([np.interp(at, s, axis) for axis in points.T])
 
 
 def _curve(knots: Floats) -> Legs | None:
@@ -277,10 +293,7 @@ def _curve(knots: Floats) -> Legs | None:
 
 def apart(points: Floats, distance: float = APART) -> list[int]:
     """Which points are at least at a distance [m] from the one before that counts; and the last point."""
-    kept = [0]
-    for k, point in enumerate(points):
-        if np.hypot(*(point - points[kept[-1]])) >= distance:
-            kept.append(k)
+    kept = far_apart(points, distance)
     off = float(np.hypot(*(points[-1] - points[kept[-1]])))
     if len(kept) > 1 and off > 0.0:
         kept[-1 if off < 0.5 * distance else len(kept) :] = [len(points) - 1]
@@ -289,10 +302,8 @@ def apart(points: Floats, distance: float = APART) -> list[int]:
 
 def evenly(points: Floats) -> Floats:
     """Points along a line through others, STEP apart (N, 2) [m]."""
-    s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    count = min(STEPS_MAX, int(s[-1] / STEP) + 1)
-    places = np.linspace(0.0, s[-1], count)
-    return np.column_stack([np.interp(places, s, axis) for axis in points.T])
+    s = lengths_along(points)
+    return spread(points, s, min(STEPS_MAX, int(s[-1] / STEP) + 1))[1]
 
 
 def smoothed(way: Floats, width: float) -> Floats:
@@ -307,10 +318,8 @@ def smoothed(way: Floats, width: float) -> Floats:
 
 def _knots(way: Floats, distance: float) -> Floats:
     """Points of a curve along a smooth line: about so far apart [m], and at most as many as a path may have."""
-    s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))])
-    count = min(POINTS_MAX, max(2, round(s[-1] / distance) + 1))
-    places = np.linspace(0.0, s[-1], count)
-    return np.column_stack([np.interp(places, s, axis) for axis in way.T])
+    s = lengths_along(way)
+    return spread(way, s, min(POINTS_MAX, max(2, round(s[-1] / distance) + 1)))[1]
 
 
 def _beside(points: Floats, part: Floats, reach: float, s: Floats, line: Floats) -> tuple[Floats, Floats]:
@@ -348,27 +357,21 @@ def passages_of(times: Floats, places: Floats, error: float = PLACE) -> list[dic
     if len(times) < 2:
         return None
     places = isotonic_regression(places).x
-    while len(kept := _corners(times, places, error)) > PASSAGES + 1:
+
+    def furthest_between(a: int, b: int) -> tuple[float, int]:
+        """The place that is furthest from where even speed between two others would have it; as furthest()."""
+        if b - a < 2:
+            return 0.0, a
+        inner = slice(a + 1, b)
+        share = (times[inner] - times[a]) / (times[b] - times[a])
+        off = np.abs(places[a] + share * (places[b] - places[a]) - places[inner])
+        k = int(off.argmax())
+        return -float(off[k]), a + 1 + k
+
+    while len(kept := _corners(len(times), furthest_between, error)) > PASSAGES + 1:
         error *= PLACE_GROWTH
     passages: list[dict[str, Any]] = []
     for a, b in pairwise(kept):
         speed = round(float((places[b] - places[a]) / (times[b] - times[a])), DECIMALS)
         passages.append({"speed": 0.0 if speed < PAUSE else speed, "until_time": round(float(times[b]), 1)})
     return passages
-
-
-def _corners(times: Floats, places: Floats, error: float) -> list[int]:
-    """The fewest points found between which every place is within an error of a line in time (Douglas and Peucker)."""
-    kept, parts = {0, len(times) - 1}, [(0, len(times) - 1)]
-    while parts:
-        a, b = parts.pop()
-        if b - a < 2:
-            continue
-        inner = slice(a + 1, b)
-        share = (times[inner] - times[a]) / (times[b] - times[a])
-        off = np.abs(places[a] + share * (places[b] - places[a]) - places[inner])
-        k = int(off.argmax())
-        if off[k] > error:
-            kept.add(a + 1 + k)
-            parts += [(a, a + 1 + k), (a + 1 + k, b)]
-    return sorted(kept)
