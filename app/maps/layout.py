@@ -78,17 +78,14 @@ class Reading:
         self._leave_out_small()
         self.features = [self._whole(one) for one in self.features]
         for kind, count in drawing.left_out.items():
-            self.notes.append(
-                counted(count, "Left out: {count} {kind}.", "Left out: {count} {kind}s.", kind=word_of(kind))
-            )
+            self.remark_on(count, "Left out: {count} {kind}.", "Left out: {count} {kind}s.", kind=word_of(kind))
         for kind, count in drawing.hidden.items():
-            hidden = counted(
+            self.remark_on(
                 count,
                 "Left out, because hidden: {count} {kind}.",
                 "Left out, because hidden: {count} {kind}s.",
                 kind=word_of(kind),
             )
-            self.notes.append(hidden)
 
     def parts(self) -> DanceParts:
         # Before anything is compared with every edge.
@@ -238,25 +235,20 @@ class Reading:
         others = [one for one in others if one.role not in (PATH, SQUARE) or one.role in large]
         left_out = {id(one) for one in (*circles, *others)}
         self.features = [one for one in self.features if id(one) not in left_out]
-        self.note_things(
-            circles,
+        self.remark_on(
+            len(circles),
             "Left out: {count} circle with a radius of less than {least:g} m: {names}.",
             "Left out: {count} circles with a radius of less than {least:g} m: {names}.",
             least=SIZE_MIN,
+            names=_listed(circles),
         )
-        self.note_things(
-            others,
+        self.remark_on(
+            len(others),
             "Left out: {count} shape of less than {least:g} m: {names}.",
             "Left out: {count} shapes of less than {least:g} m: {names}.",
             least=SIZE_MIN,
+            names=_listed(others),
         )
-
-    def note_things(self, things: Sequence[MapFeature], single: str, several: str, /, **values: Any) -> None:
-        """Note things, if there are any: templates of counted(), with the names of the first ones and dots for more."""
-        if things:
-            every = [one.name or kind_of(one) for one in things]
-            names = Listed([*every[:LISTED_MOST], *(["…"] if len(every) > LISTED_MOST else [])])
-            self.notes.append(counted(len(things), single, several, names=str(names), **values))
 
     def _whole(self, one: MapFeature) -> MapFeature:
         """The same feature; a square that is a circle, or a line that is not closed, is a polygon."""
@@ -272,6 +264,11 @@ class Reading:
     def remark(self, template: str, /, **values: Any) -> None:
         """Note what was assumed or left out: a template in the language, with its values."""
         self.notes.append(say(template, **values))
+
+    def remark_on(self, count: int, template: str, templates: str, /, **values: Any) -> None:
+        """Note a number of things, if there are any; as counted()."""
+        if count:
+            self.notes.append(counted(count, template, templates, **values))
 
     def _square(self) -> MapFeature | None:
         """The square: the polygon with that role, else the one that holds a part of everything else."""
@@ -303,11 +300,12 @@ class Reading:
         """The square and the obstacles."""
         obstacles = [self._obstacle(one) for one in others]
         for radius, without in self.assumed.items():
-            self.note_things(
-                without,
+            self.remark_on(
+                len(without),
                 "{count} thing without a radius; {radius:g} m is assumed: {names}.",
                 "{count} things without a radius; {radius:g} m is assumed: {names}.",
                 radius=radius,
+                names=_listed(without),
             )
         if square is None:
             if not obstacles:
@@ -397,6 +395,12 @@ class Reading:
             self.remark("It was walked in {until:.0f} s.", until=until)
         checked_path(walk.path)
         return walk.path
+
+
+def _listed(things: Sequence[MapFeature]) -> str:
+    """The names of the first things, and dots for more."""
+    names = [one.name or kind_of(one) for one in things]
+    return str(Listed([*names[:LISTED_MOST], *(["…"] if len(names) > LISTED_MOST else [])]))
 
 
 def _is_thin(one: MapFeature) -> bool:
