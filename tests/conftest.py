@@ -225,6 +225,14 @@ def pytest_terminal_summary(terminalreporter, config):
 
 
 @pytest.fixture(scope="session")
+def pseudo_house(tmp_path_factory):
+    """The folder of the program with a third language."""
+    from tests.support.pseudo import house
+
+    return house(tmp_path_factory.mktemp("house"))
+
+
+@pytest.fixture(scope="session")
 def server(tmp_path_factory):
     """Base URL of the real service, in its own process: default settings, but the deadline of a slow machine."""
     from tests.support.serving import serving  # which needs this file

@@ -23,7 +23,7 @@ from rich.progress import Progress
 
 import core
 from app.command.options import asks
-from app.command.usage import path_argument
+from app.command.usage import Commands, path_argument
 from app.files.disk import checked_output, write_whole
 from app.maps.dances import read_dance
 from app.questions.check import DanceCheck
@@ -119,7 +119,7 @@ def _terms(
     return {"margin": request.margin, "every_pair": request.every_pair, "progress": progress}
 
 
-prove = typer.Typer(add_completion=False)
+prove = typer.Typer(cls=Commands, add_completion=False)
 
 
 @prove.callback(invoke_without_command=True)

@@ -55,10 +55,10 @@ with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as peer:
 """
 
 
-def run(*arguments, text=None, room=None, **environment):
+def run(*arguments, text=None, room=None, house=ROOT, **environment):
     """Result of the command: exit code, standard output, standard error.
 
-    room: longest file that it may write [bytes]
+    room: longest file that it may write [bytes]; house: the folder with the program
     """
     command = [COMMAND, *arguments]
     if arguments[:1] == ("serve",) or any(name.startswith("PYTHON") for name in environment):
@@ -68,10 +68,14 @@ def run(*arguments, text=None, room=None, **environment):
         files = [stack.enter_context(tempfile.TemporaryFile("w+", encoding="utf-8")) for _ in range(3)]
         files[0].write(text or "")
         files[0].seek(0)
-        code = _forked(arguments, ENVIRONMENT | environment, files, room)
+        streams = [file.fileno() for file in files]
+        with _forked_process(str(Path.cwd()), arguments, ENVIRONMENT | environment, streams, room, house) as peer:
+            code = peer.recv(9)
+        if not code:
+            raise subprocess.TimeoutExpired(command, PATIENCE)
         for file in files:
             file.seek(0)
-        return subprocess.CompletedProcess(command, code, files[1].read(), files[2].read())
+        return subprocess.CompletedProcess(command, int(code), files[1].read(), files[2].read())
 
 
 def said(*arguments, aside="", **how):
@@ -88,19 +92,10 @@ def refusal(*arguments, **how):
     return done.stderr
 
 
-def _forked(arguments, environment, files, room):
-    """Exit code of one run in this folder with these files as its standard input, output and error."""
-    with _forked_process(str(Path.cwd()), arguments, environment, [file.fileno() for file in files], room) as peer:
-        code = peer.recv(9)
-    if not code:
-        raise subprocess.TimeoutExpired([COMMAND, *arguments], PATIENCE)
-    return int(code)
-
-
-def _forked_process(folder, arguments, environment, files, room=None):
+def _forked_process(folder, arguments, environment, files, room=None, house=ROOT):
     """The connection to a new run, over which its exit code comes."""
     peer = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-    peer.connect(f"{bin_folder()}/door")
+    peer.connect(f"{bin_folder(house)}/door")
     socket.send_fds(peer, [json.dumps([folder, dict(environment), arguments, room]).encode()], files)
     return peer
 
@@ -143,7 +138,7 @@ class Serving:
 Process = Serving | subprocess.Popen[bytes]
 
 
-def serve(port, workers, environment, log, limit=None, host="127.0.0.1"):
+def serve(port, workers, environment, log, limit=None, host="127.0.0.1", house=ROOT):
     """`bench-dragon serve`, which writes into a log. limit: called in its process before it starts"""
     words = ["serve", "--host", host, "--port", str(port), "--workers", str(workers)]
     with log.open("wb") as output:
@@ -154,13 +149,17 @@ def serve(port, workers, environment, log, limit=None, host="127.0.0.1"):
             return subprocess.Popen([COMMAND, *words], stdout=output, stderr=output, **options)
         with open(os.devnull) as nothing:
             return Serving(
-                _forked_process(str(ROOT), words, environment, [nothing.fileno(), output.fileno(), output.fileno()])
+                _forked_process(str(house), words, environment, [nothing.fileno(), *[output.fileno()] * 2], house=house)
             )
 
 
-@cache
-def bin_folder():
+def bin_folder(house=ROOT):
     """A folder with the command for a shell, and the door of the process that forks; it ends with this one."""
+    return _folder_of(house)
+
+
+@cache
+def _folder_of(house):
     place = Path(tempfile.mkdtemp())
     program, script = place / "program.py", place / "bench-dragon"
     program.write_text(PROGRAM.format(door=f"{place}/door"))
@@ -170,7 +169,7 @@ def bin_folder():
         door.bind(f"{place}/door")
         door.listen()
         options = {
-            "cwd": ROOT,
+            "cwd": house,
             "env": ENVIRONMENT,
             "stdin": subprocess.PIPE,
             "pass_fds": [door.fileno()],

@@ -9,7 +9,7 @@ from pathlib import Path
 import httpx
 
 from tests.conftest import STOP_TIMEOUT, wait_until_live
-from tests.support.command import Process, serve
+from tests.support.command import ROOT, Process, serve
 
 # Longest computation of one answer [s]: on a busy machine the ten seconds of the default are soon over.
 PATIENT = 600.0
@@ -47,10 +47,10 @@ def environment_of(settings):
 
 
 @contextmanager
-def serving(log, workers=1, limit=None, port=0, host="127.0.0.1", **settings):
-    """limit: called in the service's process before it starts; port: 0 for a free one"""
+def serving(log, workers=1, limit=None, port=0, host="127.0.0.1", house=ROOT, **settings):
+    """limit: called in the service's process before it starts; port: 0 for a free one; house: see command.run()"""
     port = port or free_port()
-    process = serve(port, workers, environment_of(settings), log, limit, host)
+    process = serve(port, workers, environment_of(settings), log, limit, host, house)
     try:
         wait_until_live(process, port, log)
         yield Service(f"http://127.0.0.1:{port}", process, log)

