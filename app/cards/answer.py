@@ -37,9 +37,7 @@ class Stand(Answer):
 
 class Meeting(Answer):
     """Another bench comes abreast, or nearest without that, with no bench between.
-
-    Abreast: its middle is straight to one side of the own middle.
-    """
+    Abreast: its middle is straight to one side of the own middle."""
 
     time: float = measure(
         "s", "When the other middle is abreast, to within 1e-9 m along the own bench; or when the benches are nearest"

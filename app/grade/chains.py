@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.grade.expected import Motion, motion
+from app.grade.handles import Mask
 from core import Dance, Dragon, Spiral, Turn
 from core.values import Floats
 
@@ -146,7 +146,7 @@ class Bent:
         """Places on the right turn: those of the coils; where an arc is here, any."""
         return np.where(s < 0.0, s, self.right.length + np.maximum(s - self.length, 0.0))
 
-    def _spokes(self, s: Floats) -> Iterator[tuple[Arc, NDArray[np.bool_], Floats]]:
+    def _spokes(self, s: Floats) -> Iterator[tuple[Arc, Mask, Floats]]:
         """Each arc, the places that are on it, and the unit vectors (..., 2) from its centre."""
         begun = 0.0
         for arc in self.arcs:

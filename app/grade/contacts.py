@@ -11,9 +11,9 @@ from enum import StrEnum
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.grade.chains import times_at
+from app.grade.handles import Mask
 from core import Dance, Dragon, Spiral, bench_poses, clearance_profile, separation
 from core import trajectory as trajectory_of
 from core.sampling import bisect
@@ -115,7 +115,7 @@ def longest_overlap(pitch: float) -> tuple[float, float] | None:
     """
     spiral = Spiral(pitch)
 
-    def overlap(radii: Floats) -> NDArray[np.bool_]:
+    def overlap(radii: Floats) -> Mask:
         return np.asarray(_gaps(spiral, times_at(spiral, radii)).min(axis=1) <= 0.0)
 
     def border(clear: float, touching: float) -> float:

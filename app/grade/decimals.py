@@ -12,12 +12,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from app.grade.handles import Ints
+from app.grade.handles import Ints, Mask
 from core.values import Floats
-
-Mask = NDArray[np.bool_]
 
 # Most decimals of a number in metres that a double holds, and difference of a number from a whole one, in its last
 # decimal, that is rounding [1].

@@ -32,16 +32,16 @@ from app.grade.geometry import (
     shifted_time,
 )
 from app.grade.handles import BENCHES, HANDLES
-from app.grade.instants import agreed_span, decimals_of, simplest
+from app.grade.instants import Span, agreed_span, decimals_of, simplest
 from app.grade.judged import JudgedSheet, Rating
 from app.grade.labels import SPEED
-from app.grade.layout import COMPONENTS, SHEETS, TableKind
+from app.grade.layout import COMPONENTS, OVER_TIME, SHEETS, TableKind
 from app.grade.numbers import explained, rounded_right
 from app.grade.outside import Outside, outside_of, same_cells, without
 from app.grade.pairs import pairs
 from app.grade.rings import wrong_ring
 from app.grade.shortcuts import Finding
-from app.grade.words import Note, note, word
+from app.grade.words import Note, Values, note, word
 from core import Budget, Dance
 from core.values import Floats
 
@@ -324,8 +324,8 @@ def _quotients(step: float, quotient: Callable[[float, float, Floats], Floats]) 
     """Models of speeds that are difference quotients with a step [s]. quotient: the numbers, from its ends and times"""
     for error, ends in QUOTIENTS.items():
         before, after = (end * step for end in ends)
-        values: dict[str, object] = {"step": f"{step:g}", "span": _span(before, after)}
-        yield Model(error, partial(quotient, before, after), values)
+        words = {"step": f"{step:g}", "span": _span(before, after)}
+        yield Model(error, partial(quotient, before, after), words)
 
 
 def _span(before: float, after: float) -> str:
@@ -343,7 +343,7 @@ def _quotient(motion: Motion, before: float, after: float, times: Floats) -> Flo
 
 def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
     """Findings on result2, whose instant follows from the place of the head: on its places, then on its speeds."""
-    position, speed = (_part(one, kind) for kind in (TableKind.POSITION, TableKind.SPEED))
+    position, speed = (_part(one, kind) for kind in OVER_TIME)
     for instant, decimals, models in _at_instants(position, _seen(position)) if position.is_off else ():
         is_other, at = instant != one.times[0], replace(position, times=np.array([instant]))
         if best := best_fit(at, models, budget):
@@ -390,7 +390,7 @@ def _only_then(dance: Dance, instant: float, decimals: int) -> Model:
     return Model("other_instant", of_dance(dance), _what(instant, decimals), is_simplest=True)
 
 
-def _what(instant: float, decimals: int) -> dict[str, object]:
+def _what(instant: float, decimals: int) -> Values:
     """The words for places at an instant [s], with as many decimals as they tell."""
     return {"time": f"{instant:.{decimals}f}", "what": note(SHEETS[TableKind.POSITION])}
 
@@ -404,7 +404,7 @@ def _part(one: JudgedSheet, kind: TableKind) -> JudgedSheet:
     return replace(one, table=table, values=values, wanted=one.wanted[..., components], written=written, digits=digits)
 
 
-def _instants(one: JudgedSheet, seen: SheetClues, image: Floats) -> tuple[float, float] | None:
+def _instants(one: JudgedSheet, seen: SheetClues, image: Floats) -> Span | None:
     """The span of instants [s] at which most handles are at their places in a sheet; None if the first one never is.
 
     image: of the student's plane, of which the sheet holds the places

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 
 from app.grade.handles import BENCHES, HANDLES
-from app.grade.layout import COMPONENTS, TableKind
+from app.grade.layout import COMPONENTS, OVER_TIME, TableKind
 from core import Dance, Dragon, Spiral, Turn, first_contact
 from core import trajectory as trajectory_of
 from core.values import Floats
@@ -31,9 +31,9 @@ class Workbook(StrEnum):
 
 # Kinds of sheets of each workbook.
 KINDS = {
-    Workbook.RESULT1: (TableKind.POSITION, TableKind.SPEED),
+    Workbook.RESULT1: OVER_TIME,
     Workbook.RESULT2: (TableKind.CONTACT,),
-    Workbook.RESULT4: (TableKind.POSITION, TableKind.SPEED),
+    Workbook.RESULT4: OVER_TIME,
 }
 
 

@@ -109,8 +109,8 @@ def best_fit(one: JudgedSheet, models: Iterable[Model], budget: Budget, beside: 
     spans = [each.model.values.get("span") for each in alike]
     if None in spans:
         return None
-    every: dict[str, object] = {"span": "; ".join(dict.fromkeys(map(str, spans)))}
-    return replace(best, model=replace(best.model, error="difference_quotient", values=every))
+    every = "; ".join(dict.fromkeys(map(str, spans)))
+    return replace(best, model=replace(best.model, error="difference_quotient", values={"span": every}))
 
 
 def _explaining(one: JudgedSheet, models: Iterable[Model], budget: Budget) -> list[Fit]:

@@ -18,8 +18,9 @@ import numpy as np
 from app.grade.chains import Arc, Bent, equal_arcs, on_bent, rounded_angles, spiral_arc, times_at
 from app.grade.expected import PITCH, Motion, Workbook, dance_of, of_dance, right_turn
 from app.grade.handles import Ints
-from app.grade.instants import agreed_span, simplest
+from app.grade.instants import Span, agreed_span, simplest
 from app.grade.judged import ARITHMETIC, DECIMALS_OF_CONTEST, ROUNDED
+from app.grade.words import Values
 from core import BenchDragonError, Dance, Dragon, Route, Spiral, Turn
 from core.values import Floats
 
@@ -67,7 +68,7 @@ class Model:
 
     error: str
     motion: Motion
-    values: dict[str, object] = field(default_factory=dict)
+    values: Values = field(default_factory=dict)
     is_simplest: bool = False
     beside: Model | None = None
     shift: float | None = None
@@ -146,8 +147,8 @@ def _shifted(motion: Motion, by: int, times: Floats) -> Floats:
 
 def shifted_time(motion: Motion, shift: float, decimals: int = DECIMALS_OF_CONTEST) -> Model:
     """The numbers of a motion at times that are later by a shift [s], of which so many decimals are known."""
-    values: dict[str, object] = {"shift": f"{round(shift, decimals):+.6g}"}
-    return Model("shifted_time", lambda t: motion(t + shift), values, shift=shift)
+    words = {"shift": f"{round(shift, decimals):+.6g}"}
+    return Model("shifted_time", lambda t: motion(t + shift), words, shift=shift)
 
 
 def _turned(motion: Motion, angle: float, decimals: int) -> Model:
@@ -163,8 +164,8 @@ def _turned(motion: Motion, angle: float, decimals: int) -> Model:
     cosine, sine = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
     is_exact = decimals >= TURNED_DECIMALS or degrees == 180.0
-    values: dict[str, object] = {"angle": f"{degrees:+.6g}" if is_exact else f"{degrees:+.{decimals}f}"}
-    return Model("turned", lambda t: motion(t) @ turn, values)
+    shown = f"{degrees:+.6g}" if is_exact else f"{degrees:+.{decimals}f}"
+    return Model("turned", lambda t: motion(t) @ turn, {"angle": shown})
 
 
 # Lengths and overhangs of benches by the known errors in the distances of the handles [m].
@@ -217,8 +218,8 @@ def _other_questions(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[
     if (shift := _shift(other, times, seen)) is not None:
         right = of_dance(other)
         shown = f"{round(shift, seen.decimals):+.6g}"
-        values: dict[str, object] = {"question": 1 if is_turn else 4, "shift": shown}
-        yield Model("other_question", lambda t: right(t + shift), values)
+        words = {"question": 1 if is_turn else 4, "shift": shown}
+        yield Model("other_question", lambda t: right(t + shift), words)
 
 
 def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
@@ -348,7 +349,7 @@ def _shift(dance: Dance, times: Floats, seen: SheetClues) -> float | None:
     return span and simplest(span)
 
 
-def shift_span(dance: Dance, times: Floats, seen: SheetClues) -> tuple[float, float] | None:
+def shift_span(dance: Dance, times: Floats, seen: SheetClues) -> Span | None:
     """The span of shifts [s] that the digits of the places of a handle allow."""
     lead, known = seen.lead, seen.instants
     if lead is None or not known.size:
@@ -361,7 +362,7 @@ def shift_span(dance: Dance, times: Floats, seen: SheetClues) -> tuple[float, fl
         return None
     shift = float(span[off.argmin()] - times[first])
 
-    def agreed(some: Ints, shift: float, far: float) -> tuple[float, float]:
+    def agreed(some: Ints, shift: float, far: float) -> Span:
         tolerance = np.full((some.size, 2), ROUNDED * seen.unit + ARITHMETIC)
         return agreed_span(lead[some], tolerance, lambda by: place_at(times[some] + by), shift, far)
 

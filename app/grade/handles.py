@@ -14,6 +14,7 @@ from app.grade.labels import Label, X, Y, is_handle_heading, label_of
 from core.values import Floats
 
 Ints = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 # The labels of lines, None where there is none; and a line with its label.
 Labels = list[Label | None]
 Line = tuple[int, Label]

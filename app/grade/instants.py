@@ -21,10 +21,13 @@ SLOWEST = 1e-3
 # Most decimals of a time [s].
 DECIMALS_MOST = 9
 
+# The first and the last time [s].
+Span = tuple[float, float]
+
 
 def agreed_span(
     values: Floats, tolerance: Floats, numbers_at: Callable[[float], Floats], time: float, far: float
-) -> tuple[float, float]:
+) -> Span:
     """The span of times in which most numbers agree with a motion [s]; both ends at `time` if none does.
 
     values, tolerance: of the same shape, NaN where there is no number; numbers_at: those of the motion at a time;
@@ -49,7 +52,7 @@ def agreed_span(
     return low, high
 
 
-def simplest(span: tuple[float, float]) -> float:
+def simplest(span: Span) -> float:
     """The number in a span that has the fewest decimals; its middle if it is very narrow.
 
     >>> simplest((0.4996, 0.5003)), simplest((0.12341, 0.12347))
@@ -60,7 +63,7 @@ def simplest(span: tuple[float, float]) -> float:
     return next((number for number in rounded if span[0] <= number <= span[1]), middle)
 
 
-def decimals_of(span: tuple[float, float], most: int) -> int:
+def decimals_of(span: Span, most: int) -> int:
     """The decimals that all numbers of a span nearly share, from 0 to `most`."""
     width = max(span[1] - span[0], 10.0**-DECIMALS_MOST)
     return int(np.clip(np.floor(-np.log10(width)), 0, most))

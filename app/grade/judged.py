@@ -12,11 +12,10 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.grade.decimals import digits_of, usual_of
 from app.grade.expected import Workbook, cells_of, contact_time, dance_of, of_dance, times_of
-from app.grade.handles import EXTRA_MOST, HANDLES, Ints
+from app.grade.handles import EXTRA_MOST, HANDLES, Ints, Mask
 from app.grade.layout import COMPONENTS, SHEETS, SheetTable, TableKind
 from app.grade.words import Note, note
 from core import Dance
@@ -107,7 +106,7 @@ class JudgedSheet:
         return COMPONENTS[self.table.kind]
 
     @property
-    def known(self) -> NDArray[np.bool_]:
+    def known(self) -> Mask:
         """Lines (H,) of handles that the dragon has."""
         return np.asarray(self.handles < HANDLES)
 

@@ -69,6 +69,8 @@ class TableKind(StrEnum):
 
 # Title of a table by its kind, if its sheet has none.
 SHEETS = {TableKind.POSITION: "position", TableKind.SPEED: "speeds", TableKind.CONTACT: "contact"}
+# Kinds of tables over time.
+OVER_TIME = (TableKind.POSITION, TableKind.SPEED)
 COMPONENTS = {TableKind.POSITION: (X, Y), TableKind.SPEED: (SPEED,), TableKind.CONTACT: (X, Y, SPEED)}
 
 
@@ -377,8 +379,7 @@ def _over_time(side: Side, lines: list[Line], times: dict[int, float], stated: i
         lines = [(k, replace(label, component=n % 2 if twice else stated)) for n, (k, label) in enumerate(lines)]
     else:
         lines = [(k, replace(label, component=stated) if label.component is None else label) for k, label in lines]
-    kinds = (TableKind.POSITION, TableKind.SPEED)
-    tables = (_table_of(side, kind, lines, times) for kind in kinds)
+    tables = (_table_of(side, kind, lines, times) for kind in OVER_TIME)
     return [table for table in tables if table]
 
 
@@ -390,7 +391,7 @@ def _by_columns(side: Side, lines: list[Line], heads: Cells, columns: Columns) -
         stated = stated_instant([[side.title], *heads])
         return [table if stated is None else replace(table, times=np.array([stated]))]
     timed = {component for time, component in columns if time is not None}
-    kinds = [kind for kind in (TableKind.POSITION, TableKind.SPEED) if timed & set(COMPONENTS[kind])]
+    kinds = [kind for kind in OVER_TIME if timed & set(COMPONENTS[kind])]
     return [_columns_table(side, kind, lines, columns, times) for kind in kinds]
 
 

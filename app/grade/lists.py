@@ -12,12 +12,14 @@ import numpy as np
 from app.grade.grid import Cell, Cells, normalized
 from app.grade.handles import BENCHES, EXTRA_MOST, HANDLES, LABELS_LEAST, Ints
 from app.grade.labels import TIME_WORD, heading_of, instant_of, is_handle_heading, label_of, stated_instant
-from app.grade.layout import COMPONENTS, MARGIN, Numbers, SheetTable, Side, TableKind
+from app.grade.layout import COMPONENTS, MARGIN, OVER_TIME, Numbers, SheetTable, Side, TableKind
 from core.values import Floats
 
 # Lines whose labels are looked at.
 LOOK = 20
 NUMBER = re.compile(r"\d+")
+# Columns by what they hold: "time", "handle", "x", "y" and "v".
+Columns = dict[str, int]
 
 
 def lists_of(side: Side) -> list[SheetTable]:
@@ -34,9 +36,9 @@ def lists_of(side: Side) -> list[SheetTable]:
     return []
 
 
-def _columns(heads: list[Cell]) -> dict[str, int]:
+def _columns(heads: list[Cell]) -> Columns:
     """Columns of the time, the handle, x, y and v; the first of each."""
-    columns: dict[str, int] = {}
+    columns: Columns = {}
     for k, cell in enumerate(heads):
         name, (time, label) = normalized(cell) if isinstance(cell, str) else "", heading_of(cell)
         if time is not None:
@@ -62,7 +64,7 @@ def _handle_of(cell: Cell) -> int | None:
     return int(number[0]) if number else None
 
 
-def _labelled(rows: Cells, columns: dict[str, int]) -> dict[str, int]:
+def _labelled(rows: Cells, columns: Columns) -> Columns:
     """The column with labels of handles, where no heading names one."""
     for k in range(len(rows[0]) if rows else 0):
         labels = [label_of(row[k]) for row in rows[:LOOK]]
@@ -86,7 +88,7 @@ def _numbered(labels: list[int]) -> tuple[Ints, Ints]:
     return handles - int(counts_from_one), places
 
 
-def _over_time(side: Side, head: int, columns: dict[str, int]) -> list[SheetTable]:
+def _over_time(side: Side, head: int, columns: Columns) -> list[SheetTable]:
     """Tables of a list with a line for each handle and instant."""
     placed = [(instant_of(row[columns["time"]]), _handle_of(row[columns["handle"]])) for row in side.cells]
     lines = [n for n, (time, handle) in enumerate(placed) if n > head and time is not None and handle is not None]
@@ -94,11 +96,11 @@ def _over_time(side: Side, head: int, columns: dict[str, int]) -> list[SheetTabl
         return []
     handles, h = _numbered([placed[n][1] or 0 for n in lines])
     times, t = np.unique(np.array([placed[n][0] for n in lines], dtype=np.float64), return_inverse=True)
-    kinds = [kind for kind in (TableKind.POSITION, TableKind.SPEED) if _axes(kind) <= columns.keys()]
+    kinds = [kind for kind in OVER_TIME if _axes(kind) <= columns.keys()]
     return [_table_of(side, head, columns, kind, (times, t, handles, h, lines)) for kind in kinds]
 
 
-def _at_contact(side: Side, head: int, columns: dict[str, int]) -> list[SheetTable]:
+def _at_contact(side: Side, head: int, columns: Columns) -> list[SheetTable]:
     """The table of a list with a line for each handle at one instant."""
     named = [_handle_of(row[columns["handle"]]) for row in side.cells]
     lines = [n for n, handle in enumerate(named) if n > head and handle is not None]
@@ -117,7 +119,7 @@ def _axes(kind: TableKind) -> set[str]:
 def _table_of(
     side: Side,
     head: int,
-    columns: dict[str, int],
+    columns: Columns,
     kind: TableKind,
     places: tuple[Floats, Ints, Ints, Ints, list[int]],
 ) -> SheetTable:

@@ -176,4 +176,4 @@ def _together(fits: list[Shortcut]) -> Shortcut:
     """One of the shortcuts of the same error, with all steps that give the number."""
     steps = sorted({str(one.values["step"]) for one in fits if "step" in one.values}, key=float)
     first = next((one for one in fits if "grid" not in one.values), fits[0])
-    return replace(first, values=first.values | ({"step": " / ".join(steps)} if steps else {}))
+    return replace(first, values={**first.values, **({"step": " / ".join(steps)} if steps else {})})

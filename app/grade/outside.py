@@ -10,16 +10,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.grade.expected import Workbook, of_dance
+from app.grade.handles import Mask
 from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
 from app.grade.layout import TableKind
 from app.grade.shortcuts import Finding
 from app.grade.words import note
-
-Mask = NDArray[np.bool_]
 
 # Least share of the handles outside that are written so, and of the cells written so that are outside [1]. A student
 # may take a handle for one outside, or not, where it is near the beginning.
@@ -44,8 +42,8 @@ def outside_of(one: JudgedSheet) -> Outside | None:
     if one.workbook is not Workbook.RESULT1 or one.table.kind is TableKind.CONTACT:
         return None
     missing: Mask = np.asarray(np.isnan(one.values).all(axis=-1))
-    graded: Mask = np.asarray(~np.isnan(one.wanted).all(axis=-1))
-    beyond: Mask = _beyond(one) & graded
+    graded = ~np.isnan(one.wanted).all(axis=-1)
+    beyond = _beyond(one) & graded
     if beyond.sum() < OUTSIDE_LEAST:
         return None
     zero: Mask = (one.values == 0.0).all(axis=-1)
@@ -94,12 +92,13 @@ def _are_on_line(one: JudgedSheet, beyond: Mask) -> bool:
 
 
 def _finding(one: JudgedSheet, way: str, written: Mask, beyond: Mask) -> Finding:
-    values: dict[str, object] = {
+    t, h = np.argwhere(written)[0].tolist()
+    values = {
         "sheet": one.title,
         "count": f"{int(written.sum()):,}",
         "outside": f"{int(beyond.sum()):,}",
+        "time": f"{one.times[t]:g}",
+        "handle": int(one.handles[h]),
     }
-    t, h = np.argwhere(written)[0].tolist()
-    values |= {"time": f"{one.times[t]:g}", "handle": int(one.handles[h])}
     of_speed = one.components == (SPEED,)
     return Finding(f"outside_{way}", note(f"error_outside_{way}"), note(f"evidence_outside{'_v' * of_speed}", **values))

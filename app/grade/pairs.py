@@ -29,6 +29,7 @@ from app.grade.geometry import (
     shifted_rows,
     shifted_time,
 )
+from app.grade.words import Values
 from core import Dance
 from core.values import Floats
 
@@ -61,10 +62,10 @@ def pairs(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
                 yield replace(shifted_time(length.motion, one.shift), beside=length)
 
 
-def _mirrors() -> Iterator[tuple[str, Mirror, dict[str, object]]]:
+def _mirrors() -> Iterator[tuple[str, Mirror, Values]]:
     for error, mirror in MIRRORS.items():
         yield error, mirror, {}
-    yield "turned", HALF_TURN, dict(HALF_TURN_VALUES)
+    yield "turned", HALF_TURN, HALF_TURN_VALUES
 
 
 def _shifted_rows(motion: Motion) -> Iterator[Model]:

@@ -45,112 +45,158 @@ from core.language import joined
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
 # A number as it was typed, because its digits show its rounding.
 TYPED = re.compile(r"^[+-]?([0-9]{1,6}(\.[0-9]{0,20})?|\.[0-9]{1,20})([eE][+-]?[0-9]{1,2})?$")
-VALUE = "in m for x and y, in m/s for a speed"
 
 
 class CellAnswer(Answer):
-    """One wrong cell."""
+    """One wrong cell.
 
-    sheet: str = Field(description="Title of the sheet")
-    cell: str = Field(description="Name of the cell, such as B3")
-    row: int = Field(description="Row, from 1")
-    column: int = Field(description="Column, from 1")
-    handle: str = Field(description="Name of the handle")
-    quantity: str = Field(description="x, y or speed")
-    time: float = Field(description="Instant [s]", json_schema_extra={"x-unit": "s"})
-    found: float = Field(description=f"Value in the cell, {VALUE}")
-    expected: float = Field(description=f"Right value, {VALUE}")
+    sheet: title of the sheet
+    cell: name of the cell, such as B3
+    row: row, from 1
+    column: column, from 1
+    handle: name of the handle
+    quantity: which number: x, y or speed
+    time: instant [s]
+    found: value in the cell, in m for x and y, in m/s for a speed
+    expected: right value, in m for x and y, in m/s for a speed
+    """
+
+    sheet: str
+    cell: str
+    row: int
+    column: int
+    handle: str
+    quantity: str
+    time: float
+    found: float
+    expected: float
 
 
 class SheetAnswer(Answer):
-    """One sheet."""
+    """One sheet.
 
-    sheet: str = Field(description="Title of the sheet")
-    holds: str = Field(description="position, speed, or contact: x, y and speed at first contact")
-    verdict: Rating = Field(description="right, rounded, wrong, incomplete or unreadable")
-    decimals: int | None = Field(
-        description="Decimals to which all cells that have numbers are right, if they are rounded; else null"
-    )
-    cells: int = Field(description="Cells that the contest requires")
-    right: int = Field(description="Cells that are right within 5.1e-7")
-    missing: int = Field(description="Cells that are missing")
-    worst: CellAnswer | None = Field(description="The cell with the largest error; null if none is wrong")
-    first: CellAnswer | None = Field(description="The first wrong cell, row by row; null if none is wrong")
-    picture: list[str] = Field(
-        description="Places of the wrong cells: lines for some handles, the head first, with marks for some instants: "
-        ". right, o rounded, # wrong, ? missing"
-    )
-    notes: list[str] = Field(description="Remarks for the reader, in words")
+    sheet: title of the sheet
+    holds: what it holds: position, speed, or contact: x, y and speed at first contact
+    verdict: one of right, rounded, wrong, incomplete and unreadable
+    decimals: decimals to which all cells that have numbers are right, if they are rounded; else null
+    cells: cells that the contest requires
+    right: cells that are right within 5.1e-7
+    missing: cells that are missing
+    worst: the cell with the largest error; null if none is wrong
+    first: the first wrong cell, row by row; null if none is wrong
+    picture: places of the wrong cells: lines for some handles, the head first, with marks for some instants: `.`
+        right, `o` rounded, `#` wrong, `?` missing
+    notes: remarks for the reader, in words
+    """
+
+    sheet: str
+    holds: str
+    verdict: Rating
+    decimals: int | None
+    cells: int
+    right: int
+    missing: int
+    worst: CellAnswer | None
+    first: CellAnswer | None
+    picture: list[str]
+    notes: list[str]
 
 
 class DiagnosisAnswer(Answer):
-    """A known error that explains wrong numbers."""
+    """A known error that explains wrong numbers.
 
-    error: str = Field(description="Name of the error")
-    words: str = Field(description="The error in words")
-    evidence: str = Field(description="The numbers that support it")
+    error: name of the error
+    words: the error in words
+    evidence: the numbers that support it
+    """
+
+    error: str
+    words: str
+    evidence: str
 
 
 class GuessAnswer(DiagnosisAnswer):
-    """A known error that may explain a number, whose digits are too few to decide."""
+    """A known error that may explain a number, whose digits are too few to decide.
 
-    probability: float = Field(
-        description="Share of the numbers with as many digits, as near to the right one, that fit a known error"
-    )
+    probability: share of the numbers with as many digits, as near to the right one, that fit a known error
+    """
+
+    probability: float
 
 
 class CriterionAnswer(Answer):
-    """One point of the rubric."""
+    """One point of the rubric.
 
-    criterion: str = Field(description="Name of the point")
-    met: bool | None = Field(description="True if the point is met; null if the file does not show it")
-    words: str = Field(description="The point and the finding, in words")
+    criterion: name of the point
+    met: true if the point is met; null if the file does not show it
+    words: the point and the finding, in words
+    """
+
+    criterion: str
+    met: bool | None
+    words: str
 
 
 class FileAnswer(Answer):
-    """One file."""
+    """One file.
 
-    file: str = Field(description="Name of the file")
-    workbook: str | None = Field(description="result1, result2 or result4; null if unknown")
-    verdict: Rating = Field(description="The worst verdict of all sheets")
-    diagnosis: list[DiagnosisAnswer] = Field(description="Errors that explain the wrong cells; empty if nothing fits")
-    possible: list[GuessAnswer] = Field(
-        default=[], description="Shortcuts that give the instant of result2, but not with digits enough for a diagnosis"
-    )
-    sheets: list[SheetAnswer] = Field(description="Its sheets")
-    rubric: list[CriterionAnswer] = Field(description="The rubric of the contest's reviewers")
-    notes: list[str] = Field(description="Remarks for the reader, in words")
+    file: name of the file
+    workbook: its name: result1, result2 or result4; null if unknown
+    verdict: the worst verdict of all sheets
+    diagnosis: errors that explain the wrong cells; empty if nothing fits
+    possible: shortcuts that give the instant of result2, but not with digits enough for a diagnosis
+    sheets: its sheets
+    rubric: the rubric of the contest's reviewers
+    notes: remarks for the reader, in words
+    """
+
+    file: str
+    workbook: str | None
+    verdict: Rating
+    diagnosis: list[DiagnosisAnswer]
+    possible: list[GuessAnswer] = Field(default=[])
+    sheets: list[SheetAnswer]
+    rubric: list[CriterionAnswer]
+    notes: list[str]
 
 
 class TypedAnswer(Answer):
-    """One number that was typed in."""
+    """One number that was typed in.
 
-    answer: str = Field(description="collision_time, pitch, speed or turn_length")
-    verdict: Rating = Field(
-        description="right, as far as its digits go; rounded, if it is off by less than its last digit; incomplete, if "
-        "it has too few digits; infeasible, if it was rounded beyond a limit; or wrong"
-    )
-    breaks: str | None = Field(
-        default=None, description="The limit that the number breaks, and by how much, in words; null if none"
-    )
-    found: float = Field(description="The given number, in `unit`")
-    expected: float = Field(description="The right number, in `unit`")
-    unit: str = Field(description="Unit of both")
-    digits: int = Field(description="Significant digits of the given number, to which it is graded")
-    notes: list[str] = Field(description="Remarks for the reader, in words")
-    diagnosis: list[DiagnosisAnswer] = Field(
-        description="The shortcut that gives the number, if its digits tell it from chance; empty if nothing fits"
-    )
-    possible: list[GuessAnswer] = Field(
-        default=[], description="The shortcut that gives the number, if its digits are too few for a diagnosis"
-    )
+    answer: what it answers: collision_time, pitch, speed or turn_length
+    verdict: it is right, as far as its digits go; rounded, if it is off by less than its last digit; incomplete, if it
+        has too few digits; infeasible, if it was rounded beyond a limit; or wrong
+    breaks: the limit that the number breaks, and by how much, in words; null if none
+    found: the given number, in `unit`
+    expected: the right number, in `unit`
+    unit: unit of both
+    digits: significant digits of the given number, to which it is graded
+    notes: remarks for the reader, in words
+    diagnosis: the shortcut that gives the number, if its digits tell it from chance; empty if nothing fits
+    possible: the shortcut that gives the number, if its digits are too few for a diagnosis
+    """
+
+    answer: str
+    verdict: Rating
+    breaks: str | None = None
+    found: float
+    expected: float
+    unit: str
+    digits: int
+    notes: list[str]
+    diagnosis: list[DiagnosisAnswer]
+    possible: list[GuessAnswer] = Field(default=[])
 
 
 class GradeAnswer(Answer):
-    """The files in the order given, and the typed answers."""
+    """The files in the order given, and the typed answers.
 
-    files: list[FileAnswer] = Field(description="One entry for each file")
-    answers: list[TypedAnswer] = Field(description="One entry for each number that was typed in")
+    files: one entry for each file
+    answers: one entry for each number that was typed in
+    """
+
+    files: list[FileAnswer]
+    answers: list[TypedAnswer]
 
 
 def graded(name: str, data: bytes, budget: Budget) -> FileAnswer:

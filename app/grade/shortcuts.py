@@ -21,7 +21,7 @@ from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_danc
 from app.grade.geometry import SheetClues, geometries
 from app.grade.labels import SPEED
 from app.grade.layout import TableKind
-from app.grade.words import Note
+from app.grade.words import Note, Values
 from core import BenchDragonError, Dance, Dragon, Spiral
 from core.shapes.rectangles import corners, literal_corners
 
@@ -66,7 +66,7 @@ class Shortcut:
 
     error: str
     value: float
-    values: dict[str, object] = field(default_factory=dict)
+    values: Values = field(default_factory=dict)
     exact: bool = False
 
 

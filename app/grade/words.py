@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from app.grade.errors import ERRORS, NAMES
 from app.grade.paper import PAPER
 from core.language import Phrases, say
+
+# The values in a text, by their names.
+Values = Mapping[str, object]
 
 
 @dataclass(frozen=True)
@@ -14,7 +18,7 @@ class Note:
     """A remark: its name in WORDS, and its values. As text it is in the language that is spoken."""
 
     code: str
-    values: dict[str, object] = field(default_factory=dict)
+    values: Values = field(default_factory=dict)
 
     def __str__(self) -> str:
         return say(WORDS[self.code], **self.values)

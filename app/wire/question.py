@@ -244,15 +244,25 @@ def described(name: str, kind: type) -> FieldInfo | None:
     return field
 
 
+def _first_paragraph(schema: dict[str, Any]) -> None:
+    """Cut the description of an answer behind its first paragraph, where its fields are described."""
+    if "description" in schema:
+        schema["description"] = schema["description"].partition("\n\n")[0]
+
+
 class Answer(BaseModel):
     """An answer or a part of one: finite numbers only, so that a mistake of ours becomes an error and never a NaN.
 
     A part that says what a value of core says is that value itself. Where an answer says more, `of` is the value whose
-    docstring describes the fields of the same names.
+    docstring describes the fields of the same names; its own docstring may describe fields behind its first paragraph.
     """
 
     model_config = ConfigDict(
-        allow_inf_nan=False, from_attributes=True, defer_build=True, revalidate_instances="always"
+        allow_inf_nan=False,
+        from_attributes=True,
+        defer_build=True,
+        revalidate_instances="always",
+        json_schema_extra=_first_paragraph,
     )
 
     def __init_subclass__(cls, of: type | None = None, **options: Any) -> None:
@@ -261,7 +271,8 @@ class Answer(BaseModel):
     @classmethod
     def __pydantic_init_subclass__(cls, of: type | None = None, **options: Any) -> None:
         super().__pydantic_init_subclass__(**options)
-        for name, known in ((name, described(name, of)) for name in cls.model_fields if of):
+        kind = of or (cls if "\n\n" in (cls.__doc__ or "") else None)
+        for name, known in ((name, described(name, kind)) for name in cls.model_fields if kind):
             if known and cls.model_fields[name].description is None:
                 cls.model_fields[name].description = known.description
                 cls.model_fields[name].json_schema_extra = known.json_schema_extra
