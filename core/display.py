@@ -93,7 +93,8 @@ def meanings(kind: Any) -> dict[str, Meaning]:
     """
     result: dict[str, Meaning] = {}
     for base in reversed(kind.__mro__):
-        texts = {name: inspect.getdoc(one) or "" for name, one in vars(base).items() if isinstance(one, property)}
+        properties = {name: one.__doc__ for name, one in vars(base).items() if isinstance(one, property)}
+        texts = {name: inspect.cleandoc(text) for name, text in properties.items() if text}
         lines = [f"{name}: {text.partition(chr(10))[0].removesuffix('.')}" for name, text in texts.items()]
         own = inspect.cleandoc(base.__doc__ or "").partition("\n\n")[2]
         lines += re.sub(r"\n {4}", " ", own).split("\n")

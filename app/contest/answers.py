@@ -34,7 +34,7 @@ def answers(solved: Solved) -> list[Result]:
 
 
 def _inwards(solved: Solved) -> list[Result]:
-    motion, stop = solved.inwards, solved.inwards.time[-1]
+    motion, stop = solved.inwards, solved.stop
     how = say(
         "every handle from the chord equation, every speed from the rigid links: good to 1e-11 m and 1e-11 m/s",
     )

@@ -20,7 +20,6 @@ from app.contest.sensitivity import Panel, panels
 from app.contest.solved import Solved
 from app.files.drawing import canvas, file_bytes, in_turn
 from app.files.fonts import families
-from app.files.tables import handle_titles
 from core import Dance, bench_outlines
 from core.design.pitch_scan import JUMP_WIDTH, scan_near_minimum
 from core.language import say
@@ -79,7 +78,7 @@ def _drawn(draw: Callable[[Solved], Captioned], solved: Solved, family: Sequence
 
 def positions(solved: Solved) -> Captioned:
     """Question 1: place of every handle at the last second, and the speeds of some handles over time."""
-    figure, stop = canvas(11.5, 4.8), float(solved.inwards.time[-1])
+    figure, stop = canvas(11.5, 4.8), solved.stop
     places, rates = figure.subplots(1, 2, width_ratios=(1.15, 1.0))
     figure.set_layout_engine("constrained", wspace=0.06)
     handles = solved.inwards.position[-1]
@@ -91,7 +90,7 @@ def positions(solved: Solved) -> Captioned:
     places.plot(*handles[0], "o", label=say("head"), **ring)
     places.legend(loc="upper right", fontsize=8)
     places.set_title(say("Handles at {stop:g} s", stop=stop), fontsize=10)
-    names = handle_titles(solved.dragon.benches)
+    names = solved.names
     for k, colour in zip(solved.handles, COLOURS, strict=False):
         rates.plot(solved.inwards.time, solved.inwards.speed[:, k], color=colour, linewidth=1.3, label=names[k])
     rates.set(xlabel=say("time [s]"), ylabel=say("speed [m/s]"))
@@ -107,7 +106,7 @@ def positions(solved: Solved) -> Captioned:
 
 def snapshots(solved: Solved) -> Captioned:
     """Questions 1 and 2: the dance at its start, half way, at the last second and at first contact."""
-    stop = float(solved.inwards.time[-1])
+    stop = solved.stop
     times = [0.0, 0.5 * stop, stop, solved.met_at]
     figure = canvas(9.0, 9.0)
     motion = core.trajectory(solved.spiral, times)
@@ -248,7 +247,7 @@ def amplification(solved: Solved) -> Captioned:
     peak = fastest.time_at_unit_head_speed
     travel = np.unique(np.concatenate([np.linspace(-5.0, peak + 40.0, 2 * CURVE), [peak]]))
     rates = core.trajectory(Dance(solved.dragon, turn), travel).speed
-    names = handle_titles(solved.dragon.benches)
+    names = solved.names
     for k, colour in zip((1, 2, 3, 8, 20), COLOURS[1:], strict=False):
         if k <= solved.dragon.benches:
             # Handles near the head are drawn on top: the handles behind repeat their motion later.

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field
 
 import core
-from app.files.tables import PAPER_HANDLES
+from app.files.tables import PAPER_HANDLES, handle_titles
 from app.wire.question import DanceQuery, Instant, SpeedLimit, Terms, TurningDiameter, measure
 from core import Budget, Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
 from core.values import Floats, Progress
@@ -87,6 +87,16 @@ class Solved:
     @property
     def dragon(self) -> Dragon:
         return self.spiral.dragon
+
+    @property
+    def stop(self) -> float:
+        """The last second of question 1 [s]."""
+        return float(self.inwards.time[-1])
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all handles."""
+        return handle_titles(self.dragon.benches)
 
     @property
     def handles(self) -> list[int]:

@@ -11,7 +11,7 @@ import numpy as np
 
 import core
 from app.contest.solved import Solved
-from app.files.tables import XLSX_DECIMALS, handle_titles
+from app.files.tables import XLSX_DECIMALS
 from app.files.workbooks import rounded_away
 from core import Dance
 from core.language import say
@@ -82,7 +82,7 @@ def paper_tables(solved: Solved) -> list[KitTable]:
 
 def _names(solved: Solved) -> list[str]:
     """The names of the handles in the tables."""
-    names = handle_titles(solved.dragon.benches)
+    names = solved.names
     return [names[k] for k in solved.handles]
 
 

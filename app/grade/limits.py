@@ -9,9 +9,8 @@ from contextlib import suppress
 
 import core
 from app.grade.contacts import TURNING_RADIUS
-from app.grade.expected import Workbook, dance_of
 from app.grade.handles import BENCHES
-from app.grade.shortcuts import SPEED_LIMIT, right_answer
+from app.grade.shortcuts import SPEED_LIMIT, fastest, right_answer
 from app.grade.words import Note, note
 from core import BenchDragonError, Dance, Dragon, Spiral
 from core.language import Listed
@@ -51,7 +50,7 @@ def broken(name: str, value: float) -> Note:
 
 def _too_fast(speed: float) -> Note:
     """The highest speed of any handle, with the handles and the instant."""
-    most = core.maximum_head_speed(dance_of(Workbook.RESULT4), SPEED_LIMIT)
+    most = fastest()
     reached = speed * most.speed_ratio
     decimals = next((k for k in DECIMALS if round(reached, k) > SPEED_LIMIT), DECIMALS[-1])
     values = {"limit": f"{SPEED_LIMIT:g}", "speed": f"{reached:.{decimals}f}"}

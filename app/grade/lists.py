@@ -6,6 +6,7 @@ Input: the cells of a sheet. Output: tables of positions and speeds, or none. St
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -13,7 +14,6 @@ from app.grade.grid import Cell, Cells, normalized
 from app.grade.handles import BENCHES, EXTRA_MOST, HANDLES, LABELS_LEAST, Ints
 from app.grade.labels import TIME_WORD, heading_of, instant_of, is_handle_heading, label_of, stated_instant
 from app.grade.layout import COMPONENTS, MARGIN, OVER_TIME, Numbers, SheetTable, Side, TableKind
-from core.values import Floats
 
 # Lines whose labels are looked at.
 LOOK = 20
@@ -24,15 +24,20 @@ Columns = dict[str, int]
 
 def lists_of(side: Side) -> list[SheetTable]:
     """Tables of positions and of speeds in a list, or the one of an instant; none if the sheet is not a list."""
-    cells = side.cells
-    for head, row in enumerate(cells[:MARGIN]):
-        columns = _columns(row)
+    for head, row in enumerate(side.cells[:MARGIN]):
+        columns, below = _columns(row), side.cells[head + 1 :]
         if "time" in columns and len(columns) > 1 and "handle" not in columns:
-            columns |= _labelled(cells[head + 1 :], columns)
+            columns |= _labelled(below, columns)
         if {"time", "handle"} <= columns.keys() and len(columns) > len(("time", "handle")):
-            return _over_time(side, head, columns)
-        if {"handle", "x", "y"} <= columns.keys() and _is_numbered(cells[head + 1 :], columns["handle"]):
-            return _at_contact(side, head, columns)
+            kinds = [kind for kind in OVER_TIME if columns.keys() >= set(_axes(kind))]
+            return _tables_of(side, head, columns, kinds, [instant_of(line[columns["time"]]) for line in below])
+        if {"handle", "x", "y"} <= columns.keys() and _is_numbered(below, columns["handle"]):
+            count = sum(_handle_of(line[columns["handle"]]) is not None for line in below)
+            if not LABELS_LEAST <= count <= HANDLES + EXTRA_MOST:
+                return []
+            stated = stated_instant([[side.title], *side.cells[: head + 1]])
+            instant = np.nan if stated is None else stated
+            return _tables_of(side, head, columns, [TableKind.CONTACT], [instant] * len(below))
     return []
 
 
@@ -88,46 +93,30 @@ def _numbered(labels: list[int]) -> tuple[Ints, Ints]:
     return handles - int(counts_from_one), places
 
 
-def _over_time(side: Side, head: int, columns: Columns) -> list[SheetTable]:
-    """Tables of a list with a line for each handle and instant."""
-    placed = [(instant_of(row[columns["time"]]), _handle_of(row[columns["handle"]])) for row in side.cells]
-    lines = [n for n, (time, handle) in enumerate(placed) if n > head and time is not None and handle is not None]
+def _tables_of(
+    side: Side, head: int, columns: Columns, kinds: list[TableKind], instants: Sequence[float | None]
+) -> list[SheetTable]:
+    """Tables of a list, from its lines that have an instant and a handle. instants: of each line below the head [s]"""
+    named = [_handle_of(line[columns["handle"]]) for line in side.cells[head + 1 :]]
+    lines = [n for n, both in enumerate(zip(instants, named, strict=True)) if None not in both]
     if not lines:
         return []
-    handles, h = _numbered([placed[n][1] or 0 for n in lines])
-    times, t = np.unique(np.array([placed[n][0] for n in lines], dtype=np.float64), return_inverse=True)
-    kinds = [kind for kind in OVER_TIME if _axes(kind) <= columns.keys()]
-    return [_table_of(side, head, columns, kind, (times, t, handles, h, lines)) for kind in kinds]
-
-
-def _at_contact(side: Side, head: int, columns: Columns) -> list[SheetTable]:
-    """The table of a list with a line for each handle at one instant."""
-    named = [_handle_of(row[columns["handle"]]) for row in side.cells]
-    lines = [n for n, handle in enumerate(named) if n > head and handle is not None]
-    if not LABELS_LEAST <= len(lines) <= HANDLES + EXTRA_MOST:
-        return []
     handles, h = _numbered([named[n] or 0 for n in lines])
-    stated = stated_instant([[side.title], *side.cells[: head + 1]])
-    once = (np.array([stated], dtype=np.float64), np.zeros(len(lines), dtype=np.int64), handles, h, lines)
-    return [_table_of(side, head, columns, TableKind.CONTACT, once)]
+    times, t = np.unique(np.array([instants[n] for n in lines], dtype=np.float64), return_inverse=True)
+    rows = [head + 1 + n for n in lines]
+    tables = []
+    for kind in kinds:
+        axes = [(c, columns[axis]) for c, axis in enumerate(_axes(kind)) if axis in columns]
+        numbers = (Numbers((t, h, c), rows, k, _unit_of(side.cells[head][k])) for c, k in axes)
+        tables.append(side.table(kind, times, handles, numbers))
+    return tables
 
 
-def _axes(kind: TableKind) -> set[str]:
-    return {"xyv"[component] for component in COMPONENTS[kind]}
+def _axes(kind: TableKind) -> list[str]:
+    return ["xyv"[component] for component in COMPONENTS[kind]]
 
 
-def _table_of(
-    side: Side,
-    head: int,
-    columns: Columns,
-    kind: TableKind,
-    places: tuple[Floats, Ints, Ints, Ints, list[int]],
-) -> SheetTable:
-    """The table of one kind. places: the times and the handles, each with its place by line; and the lines"""
-    times, t, handles, h, lines = places
-    numbers = []
-    for c, component in enumerate(COMPONENTS[kind]):
-        if (k := columns.get("xyv"[component])) is not None:
-            label = label_of(side.cells[head][k])
-            numbers.append(Numbers((t, h, c), lines, k, label.unit if label else 1.0))
-    return side.table(kind, times, handles, numbers)
+def _unit_of(heading: Cell) -> float:
+    """The factor from the unit of a column to m or m/s."""
+    label = label_of(heading)
+    return label.unit if label else 1.0
