@@ -23,7 +23,6 @@ from core import (
 )
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN
 from tests.support.random_dances import DANCES, unlike_dance
-from tests.support.reference import reference
 from tests.support.refused import refused
 from tests.support.shared_dances import square
 from tests.support.slow_search import SlowDance
@@ -38,15 +37,6 @@ def test_a_wide_spiral_is_danced_to_its_centre():
     end = dance.end
     assert (end.reason, end.bench, end.theta, end.time) == (EndReason.CENTRE, None, 0.0, dance.path.length)
     assert trajectory(dance, end.time).position[0].tolist() == [0.0, 0.0]
-
-
-FOLDING_CASES = [case for case in reference("first_contact")["cases"] if case.get("fold_time")]
-
-
-@pytest.mark.parametrize("case", FOLDING_CASES, ids=lambda case: case["name"])
-def test_the_reference_agrees_on_every_fold(case):
-    end = Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), case["head_speed"]).end
-    assert end.time == pytest.approx(case["fold_time"], abs=1e-9)
 
 
 # The chord, in units of growth squared, from which on a bench folds: core/kernels/fold.py [1].

@@ -78,9 +78,9 @@ VERDICTS = {
 
 
 @pytest.mark.parametrize("name", VERDICTS)
-def test_all_failures_are_named_in_order_of_time(name):
+def test_all_failures_are_named_in_order_of_time_also_by_a_quick_check(name):
     dance, query, sentences = VERDICTS[name]
-    report = check(dance, **query)
+    report, quick = check(dance, **query), quick_check(dance, **query)
     for failure, words in zip(report.failures, sentences, strict=True):
         assert failure.message.startswith(words)
     times = [failure.time for failure in report.failures]
@@ -88,12 +88,6 @@ def test_all_failures_are_named_in_order_of_time(name):
     undecided = any(failure.kind is FailureKind.UNDECIDED for failure in report.failures)
     judgement = Judgement.UNDECIDED if undecided else Judgement.FAILS if sentences else Judgement.PASSES
     assert (report.verdict, report.passed) == (judgement, not sentences)
-
-
-@pytest.mark.parametrize("name", VERDICTS)
-def test_a_quick_check_has_the_failures_of_the_whole_one(name):
-    dance, query, _ = VERDICTS[name]
-    report, quick = check(dance, **query), quick_check(dance, **query)
     assert (quick.failures, quick.verdict) == (report.failures, report.verdict)
     assert (quick.start, quick.stop, quick.sharpest_bend) == (report.start, report.stop, None)
     assert not quick.venue or {area.nearest for area in quick.venue.areas} == {None}

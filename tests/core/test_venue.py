@@ -32,11 +32,6 @@ SQUARE, STAGE = box(-35, -5, 20, 20), box(15.0, 0.0, 18.0, 3.0)
 WELL = circle(24, 5.0, 4.0)
 
 
-def test_edges_without_length_are_passed_over_and_a_hole_has_its_edges():
-    assert len(Area("square", (((0, 0), (9, 0), (9, 0), (9, 9), (0, 0)),)).edges) == 3
-    assert Area("square", (SQUARE, WELL)).edges.shape == (4 + 24, 4)
-
-
 @pytest.mark.parametrize(
     ("field", "rings"),
     [

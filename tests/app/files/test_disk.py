@@ -66,12 +66,17 @@ def test_a_place_that_cannot_be_written_is_reported_in_one_line(tmp_path, argume
     [one if one in QUICK else pytest.param(one, marks=pytest.mark.thorough) for one in WRITERS],
     ids=" ".join,
 )
-def test_a_full_disk_leaves_what_was_there_and_nothing_else(tmp_path, arguments):
+def test_a_full_disk_leaves_what_was_there_and_with_room_it_is_replaced_and_keeps_its_mode(tmp_path, arguments):
     command, file = with_target(arguments, tmp_path)
     file.write_bytes(OLD)
+    file.chmod(0o640)
     assert refusal(*command, room=ROOM) == f"Error: {file}: File too large\n"
     assert [path.name for path in tmp_path.iterdir()] == [file.name]
     assert file.read_bytes() == OLD
+    said(*command, aside=None)
+    assert len(file.read_bytes()) > ROOM
+    assert file.stat().st_mode & 0o777 == 0o640
+    assert [path.name for path in tmp_path.iterdir()] == [file.name]
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
@@ -81,17 +86,6 @@ def test_a_device_is_written_to_and_never_replaced(tmp_path):
     done = run("trajectory", "--stop", "2", "--output", str(link))
     assert (done.returncode, done.stderr) == (2, f"Error: {link}: No space left on device\n")
     assert Path("/dev/full").is_char_device()
-
-
-@pytest.mark.parametrize("arguments", QUICK, ids=" ".join)
-def test_an_existing_file_is_replaced_and_keeps_its_mode(tmp_path, arguments):
-    command, file = with_target(arguments, tmp_path)
-    file.write_bytes(OLD)
-    file.chmod(0o640)
-    said(*command, aside=None)
-    assert len(file.read_bytes()) > ROOM
-    assert file.stat().st_mode & 0o777 == 0o640
-    assert [path.name for path in tmp_path.iterdir()] == [file.name]
 
 
 def test_a_new_file_has_the_mode_that_the_users_mask_leaves(tmp_path):

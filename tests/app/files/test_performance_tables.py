@@ -54,11 +54,15 @@ def test_csv_has_the_dragon_before_each_line(ask):
     ]
 
 
-def test_without_names_and_clock_csv_has_no_columns_for_them_and_arrow_has_the_same(ask):
-    simple = {"dances": [TWO["dances"][0] | {"name": None}] * 2, "start_clock": None}
-    lines = list(csv.reader(io.StringIO(ask.file("trajectory", TWO | simple, CSV_TYPE).decode())))
-    assert lines[0] == ["dragon", "time", "handle", "x", "y", "speed"]
-    table = pa.ipc.open_file(pa.BufferReader(ask.file("trajectory", TWO | simple, ARROW_TYPE))).read_all()
+NAMELESS = TWO | {"dances": [TWO["dances"][0] | {"name": None}] * 2, "start_clock": None}
+ALONE = {"dragon": {"benches": 5}, "times": [0, 0.5, 10]}
+
+
+@pytest.mark.parametrize(("body", "own"), [(NAMELESS, ["dragon"]), (ALONE, [])], ids=["several", "one"])
+def test_without_names_and_clock_csv_has_no_columns_for_them_and_arrow_has_the_same(ask, body, own):
+    lines = list(csv.reader(io.StringIO(ask.file("trajectory", body, CSV_TYPE).decode())))
+    assert lines[0] == [*own, "time", "handle", "x", "y", "speed"]
+    table = pa.ipc.open_file(pa.BufferReader(ask.file("trajectory", body, ARROW_TYPE))).read_all()
     assert table.column_names == lines[0]
     assert table.to_pydict() == {name: [float(line[k]) for line in lines[1:]] for k, name in enumerate(lines[0])}
 

@@ -1,12 +1,10 @@
 """A trajectory as a file, read back by programs that we did not write."""
 
-import csv
 import io
 from dataclasses import replace
 
 import numpy as np
 import openpyxl
-import pyarrow
 import pytest
 
 from app.files import tables
@@ -25,12 +23,6 @@ def test_rounding_never_writes_a_negative_zero(dance):
     position = dance.position.copy()
     position[0, 0, 1] = -1e-15  # as rounding may leave of 0
     assert b"-0.0," not in tables.trajectory_csv(replace(dance, position=position), decimals=6)
-
-
-def test_arrow_has_the_columns_of_the_csv(dance):
-    heads, *lines = csv.reader(io.StringIO(tables.trajectory_csv(dance).decode()))
-    table = pyarrow.ipc.open_file(tables.trajectory_arrow(dance)).read_all()
-    assert table.to_pydict() == {name: [float(line[k]) for line in lines] for k, name in enumerate(heads)}
 
 
 @pytest.mark.parametrize(

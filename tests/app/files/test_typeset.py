@@ -66,17 +66,6 @@ def test_a_machine_without_a_chinese_font_says_what_to_install():
         chinese_among({LATIN})
 
 
-def test_a_file_that_takes_too_long_ends_with_its_budget_and_the_next_one_is_set():
-    budget = Budget()
-    with ThreadPoolExecutor() as pool:
-        long = pool.submit(typeset, b"#for i in range(30000) { for j in range(30000) {} }", FACE, {}, budget)
-        wait_for(lambda: typesetting.pids)
-        budget.stop()
-        with pytest.raises(Halted):
-            long.result()
-    assert typeset(b"#set document(title: [short])", FACE, {}).startswith(b"%PDF")
-
-
 def killed():
     """Kill the processes that there are; one that had no task yet is replaced."""
     for pid in typesetting.pids:
@@ -85,11 +74,21 @@ def killed():
     return True
 
 
-def test_a_process_that_is_killed_is_no_lack_of_memory_and_the_next_file_is_set():
+def end_by_budget(budget, long):
+    budget.stop()
+
+
+def end_by_signal(budget, long):
+    wait_for(lambda: killed() and long.done())
+
+
+@pytest.mark.parametrize(("end", "error"), [(end_by_budget, Halted), (end_by_signal, RuntimeError)])
+def test_a_file_that_takes_too_long_or_is_killed_is_no_lack_of_memory_and_the_next_one_is_set(end, error):
+    budget = Budget()
     with ThreadPoolExecutor() as pool:
-        long = pool.submit(typeset, b"#for i in range(30000) { for j in range(30000) {} }", FACE, {})
+        long = pool.submit(typeset, b"#for i in range(30000) { for j in range(30000) {} }", FACE, {}, budget)
         wait_for(lambda: typesetting.pids)
-        wait_for(lambda: killed() and long.done())
-        with pytest.raises(RuntimeError, match="signal 9"):
+        end(budget, long)
+        with pytest.raises(error, match="signal 9" if error is RuntimeError else ""):
             long.result()
     assert typeset(TEMPLATE, FACE, {"title": "short", "names": []}).startswith(b"%PDF")

@@ -38,14 +38,13 @@ def test_an_answer_says_which_stray_it_allows_for_and_0_gives_the_same_bytes(ask
 # -- several dances ------------------------------------------------------------------------------------------
 
 
-def test_several_dances_have_the_tolerance_of_each_and_are_clear_with_that_of_all(ask):
+def test_several_dances_have_the_tolerance_of_each_and_of_all(ask):
     got = ask("tolerance", SEVERAL)
     performance, _ = ToleranceRequest.model_validate(SEVERAL).to_placed(Settings())
     result = tolerance(performance)
-    assert (got["stray"], got["names"]) == (result.stray, ["a", "b"])
+    assert got["names"] == ["a", "b"]
     assert got["own"] == [one.stray for one in result.own]
     assert got["exhibit"]["handles"] == json_like(result.exhibit.handles)
-    assert ask("encounter", SEVERAL | {"stray": got["stray"]})["outcome"] == "clear"
 
 
 def test_a_wall_may_limit_several_dances(ask):

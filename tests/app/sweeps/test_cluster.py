@@ -70,19 +70,14 @@ def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(tmp_path, monke
 
 
 @pytest.mark.parametrize("silent", [False, True], ids=["nobody", "who_never_answers"])
-def test_an_address_without_a_scheduler_is_named(silent, monkeypatch, dask):
+def test_an_address_without_a_scheduler_is_named_and_the_log_says_once_that_a_sweep_waits(
+    silent, caplog, monkeypatch, dask
+):
     monkeypatch.setattr("app.sweeps.cluster.CONNECT", 0.3)
     with socket.create_server(("127.0.0.1", 0)) as peer:
         address = f"tcp://127.0.0.1:{peer.getsockname()[1] if silent else free_port()}"
         with pytest.raises(dask.NoScheduler, match=address):
-            dask.Cluster(address)
-
-
-def test_the_log_says_once_that_a_sweep_waits_for_a_scheduler(caplog, monkeypatch, dask):
-    monkeypatch.setattr("app.sweeps.cluster.CONNECT", 0.3)
-    address = f"tcp://127.0.0.1:{free_port()}"
-    with pytest.raises(dask.NoScheduler, match=address):
-        dask.Cluster(address, first=2.0)
+            dask.Cluster(address, first=2.0)
     assert [record.getMessage() for record in caplog.records if record.name == "app.sweeps"] == [
         f"No Dask scheduler answers at {address}: the sweep waits for it, for 2 s at most"
     ]

@@ -28,20 +28,14 @@ def shared():
     Processes.close(engine)
 
 
-def test_a_run_writes_every_part_says_how_far_it_is_and_removes_what_a_killed_one_left(shared, tmp_path):
-    spec, folder, reports = grid_of(LAND), tmp_path / "a", []
+def test_a_run_writes_every_part_removes_what_a_killed_one_left_and_answers_only_what_is_missing(shared, tmp_path):
+    spec, folder, first, reports = grid_of(LAND), tmp_path / "a", [], []
     folder.mkdir()
     (folder / ".part-xyz").write_bytes(b"half")
-    run(spec, folder, question=LAND, progress=reports.append, engine=lambda: shared)
+    run(spec, folder, question=LAND, progress=first.append, engine=lambda: shared)
     assert sorted(file.name for file in folder.iterdir()) == [*map(shards.part_name, range(10)), "sweep.json"]
-    assert (reports[0].designs, reports[-1].designs, reports[-1].total) == (0, 60, 60)
-    assert reports[-1].words().endswith("0:00:00 left")
-    assert_undisturbed(folder, spec, LAND)
-
-
-def test_only_what_is_missing_is_answered_again_and_where_nothing_is_no_engine_starts(shared, tmp_path):
-    spec, folder, reports = grid_of(LAND), tmp_path / "a", []
-    run(spec, folder, question=LAND, engine=lambda: shared)
+    assert (first[0].designs, first[-1].designs, first[-1].total) == (0, 60, 60)
+    assert first[-1].words().endswith("0:00:00 left")
     for shard in (0, 7):
         (folder / shards.part_name(shard)).unlink()
     kept = {file: file.stat().st_mtime_ns for file in folder.glob("part-*")}
@@ -53,7 +47,7 @@ def test_only_what_is_missing_is_answered_again_and_where_nothing_is_no_engine_s
 
     run(spec, folder, question=LAND, progress=reports.append, engine=engine)
     assert kept == {file: file.stat().st_mtime_ns for file in kept}
-    run(spec, folder, question=LAND, engine=pytest.fail)
+    run(spec, folder, question=LAND, engine=pytest.fail)  # Where nothing is missing, none starts.
     assert_undisturbed(folder, spec, LAND)
     run(spec, folder, question=LAND, engine=pytest.fail)  # of the one file of all rows
 

@@ -22,7 +22,8 @@ from core.contact.gaps import PROOF_WIDTHS
 from tests.core.contact.test_first_contact import ROUNDING
 from tests.support.near import assert_near
 from tests.support.random_dances import random_dance
-from tests.support.shared_dances import UNLIKE
+from tests.support.shared_dances import CROSSING, UNLIKE
+from tests.support.slow_performance import SlowPerformance
 from tests.support.slow_search import SlowDance
 
 PROVEN = 1.1e-5  # [m]: a least clearance is proven to this
@@ -113,13 +114,20 @@ def test_the_profile_is_the_least_separation_of_all_pairs(seed):
         assert_near(slow.pair_gap(times[k], tuple(profile.benches[k])), least[k], 1e-10)
 
 
-def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips():
-    """At pitch 0.55 the benches overlap from 412.47 to 415.02 s, are clear to 415.375 s and overlap again."""
-    profile = clearance_profile(SHORT, np.linspace(405.0, 416.0, 50))
+@pytest.mark.parametrize(
+    ("danced", "slow", "times"),
+    [
+        # At pitch 0.55 the benches overlap from 412.47 to 415.02 s, are clear to 415.375 s and overlap again.
+        (SHORT, SlowDance.of(SHORT.dragon, SHORT.path), np.linspace(405.0, 416.0, 50)),
+        (CROSSING, SlowPerformance(CROSSING.parts), [40.0, 60.0]),
+    ],
+    ids=["one", "several"],
+)
+def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips(danced, slow, times):
+    profile = clearance_profile(danced, times)
     assert profile.grazes
-    slow = SlowDance.of(SHORT.dragon, SHORT.path)
     for graze in profile.grazes:
         values, pairs = slow.clearance(graze.time + np.linspace(-1e-3, 1e-3, 11))
         assert_near(graze.clearance, values[5], ROUNDING)
         assert values.min() >= graze.clearance - ROUNDING
-        assert tuple(pairs[5]) == graze.benches
+        assert [*(graze.dragons or ()), *graze.benches] == [*pairs[5]]

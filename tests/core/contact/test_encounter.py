@@ -10,13 +10,11 @@ from core import (
     Arc,
     Dance,
     Dragon,
-    EndReason,
     Outcome,
     Part,
     Passage,
     Performance,
     Route,
-    Spiral,
     Waypoints,
     encounter_check,
     first_encounter,
@@ -28,7 +26,6 @@ from tests.support.shared_dances import in_one_spiral, on_lanes
 NARROW = 1.01e-9
 # Difference of times after a motion of the clock [s].
 SAME_TIME = 1e-9
-OPPOSITE = "two dragons in one spiral, opposite"
 STREETS = on_lanes(((-80.0, 0.0), (80.0, 0.0)), ((0.0, -80.0), (0.0, 80.0)), benches=30).parts
 
 
@@ -102,20 +99,8 @@ def test_a_margin_is_met_earlier_and_a_stray_counts_as_ground():
     assert encounter_check(stray).agree
 
 
-def test_a_lone_dragon_meets_no_other():
-    dance = Dance(Dragon(20), Spiral(0.4, 5.0))  # it touches itself on the way
-    met = first_encounter(Performance([Part(dance)]))
-    assert (met.outcome, met.time, met.end.reason) == (Outcome.CLEAR, None, EndReason.FOLD)
-
-
 def test_two_dragons_that_meet_less_than_half_a_second_before_they_fold_are_judged_rightly():
     together = in_one_spiral(8, 5.0, 2.0)
     met = first_encounter(together)
     assert together.end.time - 0.5 < met.time < together.end.time
     assert encounter_check(met).agree
-
-
-def test_a_stop_ends_the_search():
-    met = first_of(CASES[OPPOSITE])
-    before = first_encounter(met.performance, stop=met.time - 1.0)
-    assert (before.outcome, before.end.reason) == (Outcome.CLEAR, EndReason.STOP)

@@ -35,15 +35,6 @@ def test_every_clearance_is_that_of_all_pairs(performance):
     assert (alone.clearance.shape, alone.clearance) == ((), answer.clearance[7])
 
 
-def test_a_graze_is_the_bottom_of_a_dip():
-    (graze,) = clearance_profile(CROSSING, [40.0, 60.0]).grazes
-    around = graze.time + np.linspace(-0.05, 0.05, 2001)
-    gaps, pairs = SlowPerformance(CROSSING.parts).clearance(around)
-    assert graze.clearance == pytest.approx(gaps.min(), abs=GAP)
-    assert graze.time == pytest.approx(around[gaps.argmin()], abs=1e-4)
-    assert [*graze.dragons, *graze.benches] == pairs[gaps.argmin()].tolist()
-
-
 # Case 6 stops at a fold, and 11 is refused.
 @pytest.mark.parametrize("case", further([*range(6), *range(7, 11), 12, 13], 3))
 def test_the_least_clearance_of_random_performances_is_that_of_a_slow_look(case):

@@ -42,10 +42,10 @@ def rows_of(stage):
 
 
 @pytest.mark.parametrize(("begin", "until"), STEPS)
-def test_the_motion_in_time_stays_within_its_bounds(begin, until):
-    stage = staged(begin, until)
+def test_the_motion_in_time_and_the_gaps_of_two_dragons_stay_within_their_bounds(begin, until):
+    stage, times = staged(begin, until), np.linspace(begin, until, INSTANTS)
     step = (until - begin) / (INSTANTS - 1)
-    x, y, heading = np.moveaxis(poses(*np.linspace(begin, until, INSTANTS).tolist()), -1, 0)
+    x, y, heading = np.moveaxis(poses(*times.tolist()), -1, 0)
     speed = np.abs(np.diff(x + 1j * y, axis=0)).max(axis=0) / step
     turn = np.abs(np.diff(np.unwrap(heading, axis=0), axis=0)).max(axis=0) / step
     pull = np.abs(np.diff(x + 1j * y, 2, axis=0)).max(axis=0) / step**2
@@ -54,14 +54,9 @@ def test_the_motion_in_time_stays_within_its_bounds(begin, until):
     assert (turn <= bounds[OMEGA] * (1.0 + QUOTIENT) + QUOTIENT).all()
     assert (pull <= bounds[CENTRE_PULL] * (1.0 + QUOTIENT) + QUOTIENT).all()
     assert (speed >= 0.5 * bounds[CENTRE_SPEED]).all()  # and the bounds are near
-
-
-@pytest.mark.parametrize(("begin", "until"), STEPS)
-def test_no_gap_of_two_dragons_falls_below_the_bound_of_a_step(begin, until):
-    stage = staged(begin, until)
     least = stage.ensemble.least
     assert least < FREE  # some were near enough to be tried
-    assert SlowPerformance(PARTS).clearance(np.linspace(begin, until, INSTANTS))[0].min() >= least
+    assert SlowPerformance(PARTS).clearance(times)[0].min() >= least
 
 
 @pytest.mark.parametrize(("count", "pitch"), [(2, 1.1), (3, 1.6), (2, 1.3)])

@@ -115,8 +115,3 @@ def test_the_places_near_a_point_are_those_of_a_fine_scan(path, point):
 def test_what_cannot_be_is_refused(field, relief, needed):
     with refused(field):
         planned(relief, needed)
-
-
-def test_a_shift_is_shorter_than_the_dance_whose_time_is_told_in_few_digits():
-    with refused("relief.shift"):
-        crew(DANCE, NEEDED, Relief(2, 200.0), start=1.0 / 3.0, stop=STOP)

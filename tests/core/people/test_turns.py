@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from core import Arc, Dance, Dragon, Line, Part, Passage, Performance, Route, Spiral, bench_cues
+from core import Arc, Dance, Dragon, Line, Passage, Route, Spiral, bench_cues
 from core.people.turns import bends_between
 from tests.support.shared_dances import there_and_back
 
@@ -30,7 +30,5 @@ def test_a_bench_begins_and_ends_a_turn_when_its_handle_is_there_and_a_spiral_tu
     assert (first.angle, last.s) == pytest.approx((math.pi, first.s), abs=0.1)
     assert dance.clock.travel(first.begin) == pytest.approx(first.s, abs=0.3)
     assert last.begin > first.begin + 8.0
-    (alone,) = bench_cues(Performance([Part(dance, 7.0)]), [0])
-    assert alone.turns[0].begin == first.begin + 7.0
     (spiral,) = bench_cues(Dance(Dragon(3), Spiral(1.0, 4.0)), [0], stop=40.0)
     assert spiral.turns[0].angle < -2.0 * math.pi

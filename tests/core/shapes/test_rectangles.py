@@ -55,13 +55,9 @@ def assert_separated(pose_a, size_a, pose_b, size_b):
 
 @settings(deadline=None, max_examples=60)
 @given(pairs)
-def test_witnesses_lie_on_both_boundaries_and_differ_by_separation_times_unit_normal(pair):
+def test_witnesses_are_apart_by_the_separation_along_the_normal_and_the_gap_alone_equals_it(pair):
     assert_separated(*(part[None] for part in pair))
 
-
-@settings(deadline=None, max_examples=60)
-@given(pairs)
-def test_gap_alone_equals_the_separation(pair):
     def gap_within(limit):
         kernels.pair_gaps(frames(*pair[:2])[None], frames(*pair[2:])[None], limit, out := np.empty(1))
         return out[0]
