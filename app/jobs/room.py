@@ -105,18 +105,19 @@ class Room:
         self._of: dict[str, list[Row]] = defaultdict(list)
         for job in sorted(jobs, key=lambda job: job.finished or math.inf):
             self._of[job.client].append(job)
+        self._own = self._of[client]
         # No longer than a result is kept anyway.
         self._fresh = min(FRESH, limits.job_days_max * DAY)
 
     def make(self, size: int) -> None:
         """Room for a new job of the client. size: of its call [bytes]; raises: Full"""
-        own, limits = self._of[self.client], self.limits
-        unfinished = [job for job in own if not job.is_finished]
+        limits = self.limits
+        unfinished = [job for job in self._own if not job.is_finished]
         if len(unfinished) >= limits.jobs_client_max:
             raise FullForClient(self._first_end(unfinished))
-        while self._exceeds(own, 1, size, limits.jobs_client_kept_max, limits.jobs_client_bytes_max):
-            if not self._give_way(own):
-                raise KeptByClient(self._wait(own))
+        while self._exceeds(1, size):
+            if not self._give_way(self._own):
+                raise KeptByClient(self._wait(self._own))
         while sum(map(len, self._of.values())) >= limits.jobs_max:
             if not self._give_way_of_most(len, 1):
                 raise Full(self._wait_of_most(len, 1))
@@ -126,19 +127,18 @@ class Room:
 
     def fit(self) -> None:
         """Room for a result that the client has just got, as far as others may give way."""
-        own, limits = self._of[self.client], self.limits
-        while self._exceeds(own, 0, 0, limits.jobs_client_kept_max, limits.jobs_client_bytes_max):
-            if not self._give_way(own):
-                break
-        while self._bytes() > limits.jobs_bytes_max and self._give_way_of_most(_bytes_of, 0):
+        while self._exceeds(0, 0) and self._give_way(self._own):
+            pass
+        while self._bytes() > self.limits.jobs_bytes_max and self._give_way_of_most(_bytes_of, 0):
             pass
 
     def _bytes(self) -> int:
         return sum(map(_bytes_of, self._of.values()))
 
-    @staticmethod
-    def _exceeds(jobs: Sequence[Row], more: int, size: int, most: int, bytes_most: int) -> bool:
-        return len(jobs) + more > most or _bytes_of(jobs) + size > bytes_most
+    def _exceeds(self, more: int, size: int) -> bool:
+        """True if the client would keep too much with so many more jobs. size: of these [bytes]"""
+        own, limits = self._own, self.limits
+        return len(own) + more > limits.jobs_client_kept_max or _bytes_of(own) + size > limits.jobs_client_bytes_max
 
     def _give_way(self, jobs: list[Row]) -> bool:
         """Let the oldest finished job that may give way do so: False if there is none."""
@@ -160,15 +160,14 @@ class Room:
 
         Of others with as much, the one whose oldest finished job is oldest comes first.
         """
-        own_then = measure(self._of[self.client]) + more
+        own_then = measure(self._own) + more
         others = [jobs for name, jobs in self._of.items() if name != self.client and measure(jobs) >= own_then]
-        own = self._of[self.client]
 
         def rank(jobs: list[Row]) -> tuple[int, bool, float]:
-            most = own_then if jobs is own else measure(jobs)
-            return -most, jobs is not own, jobs[0].finished or math.inf if jobs else math.inf
+            most = own_then if jobs is self._own else measure(jobs)
+            return -most, jobs is not self._own, jobs[0].finished or math.inf if jobs else math.inf
 
-        return sorted([own, *others], key=rank)
+        return sorted([self._own, *others], key=rank)
 
     def _give_way_of_most(self, measure: Callable[[list[Row]], int], more: int) -> bool:
         return any(self._give_way(jobs) for jobs in self._ranked(measure, more))

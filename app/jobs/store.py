@@ -213,7 +213,7 @@ class Store:
         with self._change() as run:
             now, gone = time.time(), list[str]()
             if not has_room(run, name, len(call), limits):
-                kept = self._kept(run, name, limits, now)
+                kept = self._kept(run, name, limits)
                 kept.make(len(call))
                 gone = kept.gone
                 self._give_way(run, gone, limits.jobs_max)
@@ -228,9 +228,9 @@ class Store:
         self.check(job)
         return self.known(job)
 
-    def _kept(self, run: sqlite3.Connection, client: str, limits: Settings, now: float) -> Room:
+    def _kept(self, run: sqlite3.Connection, client: str, limits: Settings) -> Room:
         rows = run.execute(f"SELECT {room.COLUMNS} FROM jobs WHERE NOT expired")
-        return Room((Row(*row) for row in rows), client, limits, now)
+        return Room((Row(*row) for row in rows), client, limits, time.time())
 
     def _give_way(self, run: sqlite3.Connection, jobs: list[str], most: int) -> None:
         """Remove calls and results of finished jobs. most: number of jobs without them that are remembered"""
@@ -409,7 +409,7 @@ class Store:
         """Let older results give way to that of a job."""
         with self._change() as run:
             row = run.execute("SELECT client FROM jobs WHERE id = ?", (job,)).fetchone()
-            kept = self._kept(run, row[0] if row else "", limits, time.time())
+            kept = self._kept(run, row[0] if row else "", limits)
             kept.fit()
             self._give_way(run, kept.gone, limits.jobs_max)
         self._unlink(kept.gone)

@@ -187,18 +187,18 @@ def places_of(
     if is_workbook(data):
         csv, notes = benches_of(data, budget or Budget())
         return DanceParts(dance={"dragon": {"csv": csv}}, notes=notes)
+    if is_drawing(start):
+        return _in_part(lambda: Reading(dxf.read(data, choice), units, choice=choice).parts(), choice)
     is_archive = start.startswith(b"PK")
     if is_archive:
         start = kml.unpacked(data)
-    if is_archive or start.startswith((b"<", b"\0<")):
-        start, notes = (start, []) if states_encoding(start) else _in_utf8(start)
+    is_xml = is_archive or start.startswith((b"<", b"\0<"))
+    start, notes = (start, []) if is_xml and states_encoding(start) else _in_utf8(start)
+    if is_xml:
         drawing = gpx.read(start) if gpx.is_gpx(start) else kml.read(start)
         parts = Reading(drawing, units, chord).parts()
-        return replace(parts, notes=[*notes, *parts.notes])
-    if is_drawing(start):
-        return _in_part(lambda: Reading(dxf.read(data, choice), units, choice=choice).parts(), choice)
-    start, notes = _in_utf8(start)
-    parts = _of_text(start, units, choice)
+    else:
+        parts = _of_text(start, units, choice)
     return replace(parts, notes=[*notes, *parts.notes])
 
 

@@ -10,8 +10,9 @@ import logging
 import os
 import sqlite3
 import sys
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, closing
+from functools import partial
 from typing import Any
 
 from fastapi import Depends, FastAPI, Request, Response
@@ -107,17 +108,8 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         getattr(core, name)
     app.state.fault = fault()
     build()
-    with kept(app.state.settings) as app.state.jobs, closing(readers(app)) as app.state.graders:
+    with kept(app.state.settings) as app.state.jobs, closing(app.state.readers()) as app.state.graders:
         yield
-
-
-def readers(app: FastAPI) -> Graders:
-    """The processes that read files, within the limit of their memory; what they need is in the metrics."""
-    memory: Histogram = app.state.reader_memory
-    ended: Counter = app.state.readers_ended
-    return Graders(
-        app.state.settings.reader_memory_max, lambda peak: ended.inc() if peak is None else memory.observe(peak)
-    )
 
 
 # Longest time for which a thread that runs Python code holds Python's lock while others wait for it [s]. With the
@@ -173,7 +165,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     sys.setswitchinterval(SWITCH_SECONDS)
     return_memory()
     app.state.registry = registry
-    _add_reader_metrics(app, settings, registry)
+    app.state.readers = partial(Graders, settings.reader_memory_max, _seen_by_readers(settings, registry))
     registry.register(JobMetrics(lambda: app.state.jobs))
     app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     problems.install(app)
@@ -189,12 +181,13 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     return app
 
 
-def _add_reader_metrics(app: FastAPI, settings: Settings, registry: CollectorRegistry) -> None:
+def _seen_by_readers(settings: Settings, registry: CollectorRegistry) -> Callable[[int | None], None]:
+    """What puts the memory of the process of each file into the metrics; None: the file ended it."""
     common: dict[str, Any] = {"registry": registry}
-    app.state.reader_memory = Histogram(
+    memory = Histogram(
         "bench_dragon_reader_memory_bytes", "Memory of the process of each file", buckets=READER_BYTES, **common
     )
-    app.state.readers_ended = Counter("bench_dragon_readers_ended", "Processes that a file ended", **common)
+    ended = Counter("bench_dragon_readers_ended", "Processes that a file ended", **common)
     limit = Gauge(
         "bench_dragon_readers_memory_limit_bytes",
         "Most memory of all processes that read files at once",
@@ -202,6 +195,7 @@ def _add_reader_metrics(app: FastAPI, settings: Settings, registry: CollectorReg
         **common,
     )
     limit.set(settings.readers_max * settings.reader_memory_max)
+    return lambda peak: ended.inc() if peak is None else memory.observe(peak)
 
 
 def _openapi(app: FastAPI) -> dict[str, Any]:

@@ -26,9 +26,6 @@ from app.wire.refusals import refusing
 from core import Budget, TooMuchWork
 from core.language import spoken
 
-# Context in which a computation has a place in a lane.
-Place = Callable[["Computation", Budget], AbstractContextManager[None]]
-
 
 class Computation:
     """The answer to a call in one form, not yet computed.
@@ -88,7 +85,7 @@ class Reply:
             part of it, is full
         """
         computation = self._computation(call, inputs, *form)
-        return self._response(computation, self.request.state.budget, self._place)
+        return self._response(computation, self.request.state.budget)
 
     async def to_query(self, call: Call, inputs: Wire, *form: FileFormat) -> Response:
         """The answer to a request without a body, as __call__: at once if it should be short, else from a thread.
@@ -97,18 +94,20 @@ class Reply:
         """
         computation = self._computation(call, inputs, *form)
         if self._as_job or computation.cost > SHORT:  # The event loop does not wait for the disk, where jobs are kept.
-            return await self._in_thread(computation, self._place)
+            return await self._in_thread(computation)
         if not self._tries.resting:
             with suppress(TooMuchWork), self._tries.budget() as budget:
-                return self._response(computation, budget, self._place)
+                return self._response(computation, budget)
             self._tries.rest()
             if not budget.stopped:  # It came upon long work itself.
-                return await self._in_thread(computation, self._heavy_place)
-        return await self._in_thread(computation, self._movable_place)
+                computation.cost = UNKNOWN_COST
+                return await self._in_thread(computation)
+        return await self._in_thread(computation, is_movable=True)
 
-    async def _in_thread(self, computation: Computation, place: Place) -> Response:
+    async def _in_thread(self, computation: Computation, *, is_movable: bool = False) -> Response:
         async with watched(self.request, self.settings.deadline_seconds):
-            return await run_in_threadpool(self._response, computation, self.request.state.budget, place)
+            budget = self.request.state.budget
+            return await run_in_threadpool(self._response, computation, budget, is_movable=is_movable)
 
     def _computation(self, call: Call, inputs: Wire, *form: FileFormat) -> Computation:
         forms = [form[0].media_type] if form else call.question.forms
@@ -117,17 +116,13 @@ class Reply:
         media_type = form_of(header_list(self.request.headers, "accept"), offers, {"name": "Accept"})
         return Computation(call, inputs, forms[0] if media_type == BYTES else media_type, self.request.scope["path"])
 
-    def _place(self, computation: Computation, budget: Budget) -> AbstractContextManager[None]:
+    def _place(self, computation: Computation, budget: Budget, *, is_movable: bool) -> AbstractContextManager[None]:
+        if is_movable:
+            return self._lanes.movable_place(computation.cost, self.client, budget)
         return self._lanes.place(computation.cost, computation.media_type, self.client)
 
-    def _heavy_place(self, computation: Computation, budget: Budget) -> AbstractContextManager[None]:
-        return self._lanes.place(UNKNOWN_COST, computation.media_type, self.client)
-
-    def _movable_place(self, computation: Computation, budget: Budget) -> AbstractContextManager[None]:
-        return self._lanes.movable_place(computation.cost, self.client, budget)
-
-    def _response(self, computation: Computation, budget: Budget, place: Place) -> Response:
-        """The answer with its headers. place: of its computation, if it is computed"""
+    def _response(self, computation: Computation, budget: Budget, *, is_movable: bool = False) -> Response:
+        """The answer with its headers. is_movable: whether its computation may move to another lane"""
         media_type, tag = computation.media_type, computation.tag
         headers = {
             "ETag": f'"{tag}"',
@@ -143,7 +138,7 @@ class Reply:
             return self._later(self.request, computation.task, cost)
         data: bytes | Iterator[bytes] | None = self._answers.get(tag)
         if data is None:
-            with place(computation, budget):
+            with self._place(computation, budget, is_movable=is_movable):
                 data = computation.answer(Terms(self.settings, budget))
             if isinstance(data, bytes):
                 self._answers.keep(tag, data)
