@@ -50,7 +50,7 @@ def _geojson_of(one: MapFeature) -> dict[str, Any]:
         properties["role"] = one.role
         if "heading" in one.properties:
             properties["heading"] = one.properties["heading"]
-    return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
+    return geojson.feature_of(one, properties)
 
 
 def refuse_many_edges(things: Sequence[MapFeature], *, of_areas: bool = False) -> None:

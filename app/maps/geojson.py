@@ -164,14 +164,7 @@ def _listed(field: str, value: object) -> list[Any]:
 def written(drawing: Drawing) -> bytes:
     """A feature collection; the properties of the path's line hold the path as a request describes it."""
     grid = place_fields(grid=drawing.grid)
-    features = [
-        {
-            "type": "Feature",
-            "properties": _properties(one) | (grid if one.role == PATH else {}),
-            "geometry": geometry_of(one),
-        }
-        for one in drawing.features
-    ]
+    features = [feature_of(one, _properties(one) | (grid if one.role == PATH else {})) for one in drawing.features]
     return orjson.dumps({"type": "FeatureCollection", **place_fields(drawing.origin), "features": features})
 
 
@@ -180,8 +173,12 @@ def _properties(feature: MapFeature) -> dict[str, object]:
     return {"name": feature.name, "role": feature.role, **radius, **feature.properties}
 
 
-def geometry_of(feature: MapFeature) -> dict[str, object]:
-    """Geometry of a feature, in the unit of its points."""
+def feature_of(feature: MapFeature, properties: Mapping[str, object]) -> dict[str, object]:
+    """A feature with these properties, in the unit of its points."""
+    return {"type": "Feature", "properties": properties, "geometry": _geometry_of(feature)}
+
+
+def _geometry_of(feature: MapFeature) -> dict[str, object]:
     rings = [[list(point) for point in ring] for ring in feature.rings]
     if feature.shape == "polygon":
         return {"type": "Polygon", "coordinates": rings}

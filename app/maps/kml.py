@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from html import escape
 
 import orjson
@@ -85,17 +85,23 @@ def read(data: bytes) -> Drawing:
     return reader.collector.drawing(Unit.DEGREES, reader.stored)
 
 
-# State:  `folders`, the names of the open folders, and whether they are shown; `name`, `data`, `visible`, `shapes`,
-#         `track` and `times` of the open placemark; `rings` of the open polygon.
+@dataclass
+class _Level:
+    """An open folder, document or placemark."""
+
+    name: str = ""
+    is_visible: bool = True
+
+
+# State:  `levels`, from the document down to the open placemark; `data`, `shapes`, `track` and `times` of that one;
+#         `rings` of the open polygon.
 class _FeatureReader(Reader):
     """Collects the features of a document while expat reads it."""
 
     def __init__(self) -> None:
         super().__init__()
         self.collector, self.stored = FeatureCollector(), dict[str, object]()
-        self.folders: list[str] = []
-        self.visible_folders: list[bool] = []
-        self.name, self.visible = "", True
+        self.levels: list[_Level] = []
         self.data: dict[str, str] = {}
         self.shapes: list[tuple[Shape, tuple[Ring, ...]]] = []
         self.rings: list[Ring] = []
@@ -105,12 +111,10 @@ class _FeatureReader(Reader):
 
     def begin(self, name: str, attributes: Mapping[str, str]) -> None:
         self.is_kml = self.is_kml or name == "kml"
-        if name in ("Folder", "Document"):
-            self.folders.append("")
-            self.visible_folders.append(True)
-        elif name == "Placemark":
-            self.name, self.data, self.shapes, self.visible = "", {}, [], True
-            self.track, self.times = [], []
+        if name in ("Folder", "Document", "Placemark"):
+            self.levels.append(_Level())
+        if name == "Placemark":
+            self.data, self.shapes, self.track, self.times = {}, [], [], []
         elif name in ("Data", "SimpleData"):
             self.key = attributes.get("name", "")
         elif name == "Polygon":
@@ -120,14 +124,10 @@ class _FeatureReader(Reader):
 
     def finish(self, name: str, text: str) -> None:
         match name, self.around:
-            case "name", "Placemark":
-                self.name = text
-            case "name", "Folder" | "Document":
-                self.folders[-1] = text
-            case "visibility", "Placemark":
-                self.visible = self.visible and text != "0"
-            case "visibility", "Folder" | "Document":
-                self.visible_folders[-1] = self.visible_folders[-1] and text != "0"
+            case "name", "Folder" | "Document" | "Placemark":
+                self.levels[-1].name = text
+            case "visibility", "Folder" | "Document" | "Placemark" if text == "0":
+                self.levels[-1].is_visible = False
             case ("value", "Data") | ("SimpleData", _):
                 self.data[self.key] = text
             case "coordinates", _:
@@ -141,9 +141,9 @@ class _FeatureReader(Reader):
                 self.rings = []
             case "Placemark", _:
                 self._add()
+                self.levels.pop()
             case "Folder" | "Document", _:
-                self.folders.pop()
-                self.visible_folders.pop()
+                self.levels.pop()
 
     def _place(self, points: Ring) -> None:
         if not points:
@@ -168,8 +168,9 @@ class _FeatureReader(Reader):
         for key in ("path", "origin", "grid"):
             if value := _json(data.get(key, "")):
                 self.stored.setdefault(key, value)  # the path that is read is the first one
-        name = self.name or data.get("name") or None
-        role = role_of(data.get("role"), name, *reversed(self.folders))
+        *around, level = self.levels
+        name = level.name or data.get("name") or None
+        role = role_of(data.get("role"), name, *(one.name for one in reversed(around)))
         heading = _number(data.get("heading", ""))
         own = {} if heading is None else {"heading": heading}
         feature = MapFeature("point", (), name, role, _number(data.get("radius", "")), own)
@@ -179,10 +180,10 @@ class _FeatureReader(Reader):
             times = tuple(self.times) if len(self.times) == len(self.track) else (math.nan,) * len(self.track)
             things.append(replace(feature, shape="line", rings=(tuple(self.track),), times=times))
         for one in things:
-            if not (self.visible and all(self.visible_folders)):
-                self.collector.hide(one.shape)
-            else:
+            if all(level.is_visible for level in self.levels):
                 self.collector.add(drawn_as(one) if one.shape == "line" and one.times is None else one)
+            else:
+                self.collector.hide(one.shape)
 
 
 def _points(text: str) -> Ring:
