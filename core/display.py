@@ -56,7 +56,7 @@ class Readable:
         every = [field.name for field in fields(self) if field.repr]  # type: ignore[arg-type]
         kind: Any = type(self)
         known = meanings(kind)
-        values = [(name, getattr(self, name), known.get(name, NONE).unit) for name in every]
+        values = [(name, getattr(self, name), known.get(name, NO_MEANING).unit) for name in every]
         return [(name.replace("_", " "), value, unit) for name, value, unit in values if value is not None]
 
 
@@ -81,7 +81,7 @@ class Meaning(NamedTuple):
 
 
 # Of a class without docstrings, which Python leaves out when it is asked to (-OO).
-NONE = Meaning("", "")
+NO_MEANING = Meaning("", "")
 
 
 @cache

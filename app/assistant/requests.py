@@ -15,8 +15,9 @@ from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope
 
 from app.assistant.tools import ToolCall, path_of
+from app.wire.fields import short_json
 from app.wire.problem import PROBLEM_TYPE, Problem, problem_of
-from app.wire.question import BYTES, JSON, short_json
+from app.wire.question import BYTES, JSON
 
 # Longer answers are refused with advice: an assistant reads every character of an answer [characters].
 ANSWER_MAX = 100_000

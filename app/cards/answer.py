@@ -9,7 +9,7 @@ from pydantic import Field
 
 from app.cards.words import CardWords
 from app.wire.clocks import time_of_day
-from app.wire.question import Answer, measure
+from app.wire.fields import Answer, measure
 from core.people import cards as rule
 from core.people import cues as facts
 from core.people.cards import CUES_MOST, Card

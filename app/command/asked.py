@@ -28,8 +28,9 @@ from app.command.options import (
 from app.extras import require
 from app.files.disk import checked_output
 from app.settings import Settings
+from app.wire.fields import Wire
 from app.wire.labels import Part, fields_of
-from app.wire.question import JSON, Command, Question, Terms, Wire, language_for
+from app.wire.question import JSON, Command, Question, Terms, language_for
 from app.wire.refusals import refusing
 from core import InvalidValue
 from core.errors import Parameter

@@ -32,8 +32,8 @@ from app.grade.report import (
 )
 from app.grade.words import Note, note, word
 from app.processes.limits import READING_MAX, reading
+from app.wire.fields import ESCAPED
 from app.wire.labels import Heading, Part, Table
-from app.wire.question import ESCAPED
 from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
 from core.language import Listed, say

@@ -23,12 +23,13 @@ from app.maps.dances import read_dance
 from app.settings import Settings
 from app.wire.clocks import clock_at_zero
 from app.wire.dances import DanceFields, PathFields, SpanFields, TimeRange
+from app.wire.fields import HeadSpeed, SpiralFields, Strays, UniformDragon, Wire
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
 from app.wire.options import PathOptions
 from app.wire.paths import TurnFields
 from app.wire.performances import BESIDE_SEVERAL, PerformanceFields
-from app.wire.question import Command, HeadSpeed, Question, SpiralFields, Strays, UniformDragon, Wire
+from app.wire.question import Command, Question
 from app.wire.refusals import refusing
 from core import BenchDragonError, Dance, InvalidValue, Performance
 from core.dance import DEFAULT_SPAN

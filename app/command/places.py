@@ -17,8 +17,8 @@ from app.maps.choice import PARTLY, Choice
 from app.maps.dance_parts import DanceParts
 from app.maps.places import Places, drawn_layers, map_data, read_map
 from app.maps.tracks import CHORD
+from app.wire.fields import Coordinates
 from app.wire.labels import Table
-from app.wire.question import Coordinates
 from core import InvalidValue
 from core.errors import Given
 from core.language import counted, phrase, say

@@ -29,9 +29,9 @@ from app.maps.dances import read_dance
 from app.questions.check import DanceCheck
 from app.questions.tolerance import CircleQuery
 from app.settings import Settings
+from app.wire.fields import DanceQuery, HeadSpeed, Instant, Margin, UniformDragon, Wire, measure
 from app.wire.messages import checked
 from app.wire.paths import Circle, TurnFields
-from app.wire.question import DanceQuery, HeadSpeed, Instant, Margin, UniformDragon, Wire, measure
 from app.wire.texts import Unreadable, json_of
 from core import Outcome
 from core.errors import ProofRefused, Quantity, format_number

@@ -20,8 +20,8 @@ from rich.text import Text
 
 from app.files.disk import write_whole
 from app.wire.answers import Columns
+from app.wire.fields import Answer
 from app.wire.labels import Heading, Part, Table
-from app.wire.question import Answer
 from core.language import Language, named_language, say
 
 # Width that a table takes beside its entries: for each column, and at both sides together [characters].

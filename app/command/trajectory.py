@@ -15,9 +15,10 @@ from app.command.asked import command_of
 from app.files import tables
 from app.files.tables import PAPER_HANDLES
 from app.questions.trajectory import QUESTION, TrajectoryRequest
+from app.wire.fields import Wire
 from app.wire.labels import DISPLAY_DECIMALS, Part, Table
 from app.wire.numbers import numbers_of
-from app.wire.question import Terms, Wire
+from app.wire.question import Terms
 from core import Dragon, InvalidValue, RunEnd, Trajectory
 from core.language import counted, say
 

@@ -10,7 +10,8 @@ from pydantic import Field
 
 import core
 from app.files.tables import PAPER_HANDLES, handle_titles
-from app.wire.question import DanceQuery, Instant, SpeedLimit, Terms, TurningDiameter, measure
+from app.wire.fields import DanceQuery, Instant, SpeedLimit, TurningDiameter, measure
+from app.wire.question import Terms
 from core import Budget, Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
 from core.values import Floats, Progress
 

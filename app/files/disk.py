@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from app.files.flush import new_file
+from app.wire.fields import short_json
 from app.wire.messages import OBJECT
-from app.wire.question import short_json
 from app.wire.texts import Unreadable, json_of
 from core import InvalidValue
 from core.errors import Given, Parameter

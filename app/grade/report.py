@@ -35,7 +35,7 @@ from app.grade.rubric import rubric_of
 from app.grade.sheets import tables_of
 from app.grade.shortcuts import UNITS, Finding, right_answer
 from app.grade.words import Note, note, word
-from app.wire.question import Answer
+from app.wire.fields import Answer
 from core import Budget, InvalidValue, TooMuchWork
 from core.errors import Given, Quantity, too_much
 from core.kernels import Halted

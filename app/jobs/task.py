@@ -11,8 +11,9 @@ from typing import Any, Self
 from app.questions.registry import CALLS
 from app.settings import Settings
 from app.wire.faults import in_body, in_query, refusal_problem
+from app.wire.fields import Answer, Wire
 from app.wire.problem import Problem
-from app.wire.question import UNKNOWN_COST, Answer, Call, Terms, Wire
+from app.wire.question import UNKNOWN_COST, Call, Terms
 from app.wire.refusals import reworded
 from core import BenchDragonError, Budget
 from core.language import Language, speaking

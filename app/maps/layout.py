@@ -30,9 +30,9 @@ from app.maps.features import (
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
 from app.maps.tracks import APART, CHORD, walk_of
 from app.wire.degrees import ACROSS_MAX, GRID_MAX, TURN, GeographicOrigin, Plane, middle_of, refuse_wide, unwrapped
+from app.wire.fields import Coordinates
 from app.wire.geojson import ASIDES, SQUARE
 from app.wire.parts import is_cut, merged, whole_areas
-from app.wire.question import Coordinates
 from core import Dragon, InvalidValue
 from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
 from core.language import Listed, counted, phrase, say

@@ -10,7 +10,7 @@ import numpy as np
 
 from app.maps.features import Drawing, MapFeature, Unit, aside_features, features_of
 from app.wire.degrees import GeographicOrigin, Place, Plane
-from app.wire.question import check_limit
+from app.wire.fields import check_limit
 from core import Dance
 from core.motion.places import handle_places
 from core.paths.path import Path

@@ -35,7 +35,7 @@ from app.maps.lines import checked_path
 from app.maps.tracks import CHORD
 from app.processes.limits import reading
 from app.wire.degrees import Place, place_of
-from app.wire.question import Answer, Coordinates
+from app.wire.fields import Answer, Coordinates
 from app.wire.texts import CHINESE, OLD_WORKBOOK, Unreadable, is_workbook, refuse_deep, toml_of, values_in
 from core import BenchDragonError, Budget, Dragon, InvalidValue
 from core.errors import Given, Parameter

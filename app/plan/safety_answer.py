@@ -8,7 +8,7 @@ from pydantic import Field
 
 import core
 from app.wire.answers import MultiPolygon, Point, Polygon
-from app.wire.question import Answer, measure
+from app.wire.fields import Answer, measure
 from core import Judgement
 
 

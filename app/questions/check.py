@@ -16,22 +16,11 @@ from app.questions.encounter import Encounter
 from app.wire.answers import SENTENCES, DragonPair, Pair, Point
 from app.wire.clocks import clock_at_zero, time_of_day
 from app.wire.dances import PlacedDance, SpanFields, TimeRange, clock_of
+from app.wire.fields import Answer, CrossCheck, SpeedLimit, Wire, measure
 from app.wire.geojson import SQUARE
 from app.wire.labels import DISPLAY_DECIMALS, Heading, Part, Table, judged_words, separation, value_text, value_word
 from app.wire.performances import SeveralFields
-from app.wire.question import (
-    UNKNOWN_COST,
-    Answer,
-    Command,
-    CrossCheck,
-    Output,
-    Question,
-    SpeedLimit,
-    Terms,
-    Wire,
-    Writer,
-    measure,
-)
+from app.wire.question import UNKNOWN_COST, Command, Output, Question, Terms, Writer
 from app.wire.readings import Limits, encounter_words, failure_words, speed_words
 from app.wire.refusals import refusing
 from core import Dance, FailureKind, Judgement, Outcome, Performance, Venue

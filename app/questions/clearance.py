@@ -8,9 +8,10 @@ import core
 from app.questions.encounter import NearPass
 from app.wire.answers import Columns, Pair
 from app.wire.dances import TimedDance, TimeRange
+from app.wire.fields import Answer, DanceQuery, Wire
 from app.wire.labels import Part, Table, label, separation, value_text
 from app.wire.performances import SeveralDances
-from app.wire.question import Answer, Command, DanceQuery, Question, Terms, Wire
+from app.wire.question import Command, Question, Terms
 from core.errors import format_number
 from core.language import say
 

@@ -9,19 +9,9 @@ from pydantic import Field
 import core
 from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
 from app.wire.dances import DanceFields, SpanFields
+from app.wire.fields import Answer, CrossCheck, DanceQuery, Margin, Strays, UniformDragon
 from app.wire.labels import with_strays
-from app.wire.question import (
-    UNKNOWN_COST,
-    Answer,
-    Command,
-    CrossCheck,
-    DanceQuery,
-    Margin,
-    Question,
-    Strays,
-    Terms,
-    UniformDragon,
-)
+from app.wire.question import UNKNOWN_COST, Command, Question, Terms
 from app.wire.readings import contact_words
 from core import Outcome
 from core.errors import format_number

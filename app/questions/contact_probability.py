@@ -11,7 +11,8 @@ import core
 from app.questions.tolerance import CircleQuery, SpanOrCircle, span_of
 from app.wire.answers import Pair
 from app.wire.dances import DanceFields
-from app.wire.question import UNKNOWN_COST, Answer, Command, Question, Terms, Whole, Wire, check_limit, measure
+from app.wire.fields import Answer, Whole, Wire, check_limit, measure
+from app.wire.question import UNKNOWN_COST, Command, Question, Terms
 from core.language import phrase, say
 from core.tolerance.chance import CONFIDENCE, SEED_MAX
 

@@ -11,7 +11,8 @@ from app.contest.kit import zip_of
 from app.contest.solved import ContestRequest
 from app.files.film_spec import ENDINGS, LOOKS
 from app.questions.films import SECONDS_PER_MEGAPIXEL
-from app.wire.question import Question, Terms, check_limit, measure
+from app.wire.fields import check_limit, measure
+from app.wire.question import Question, Terms
 from core.errors import unanswered
 from core.kernels import Halted
 from core.language import Language

@@ -9,7 +9,8 @@ from pydantic import Field
 import core
 from app.wire.answers import Point
 from app.wire.dances import PlacedDance, SpanFields
-from app.wire.question import Answer, Margin, Question, SpeedLimit, Strays, Terms, measure
+from app.wire.fields import Answer, Margin, SpeedLimit, Strays, measure
+from app.wire.question import Question, Terms
 from app.wire.readings import bench_words
 from core.breaches import BreachKind, breaches
 from core.language import say

@@ -20,23 +20,11 @@ from app.questions.maps import Marked
 from app.questions.plan import PDF_TYPE, SHEETS
 from app.wire.clocks import DAY, checked_clock
 from app.wire.dances import clock_of, starting
+from app.wire.fields import AS_WHOLE, Answer, Coordinate, Instant, OneLine, Wire, measure
 from app.wire.labels import Part, Table
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
-from app.wire.question import (
-    AS_WHOLE,
-    JSON,
-    Answer,
-    Command,
-    Coordinate,
-    Instant,
-    ListOption,
-    OneLine,
-    Question,
-    Terms,
-    Wire,
-    measure,
-)
+from app.wire.question import JSON, Command, ListOption, Question, Terms
 from core import Dance, InvalidValue
 from core.errors import Given, Parameter, Quantity, TooLarge, question_about
 from core.language import Language, Listed, say

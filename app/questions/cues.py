@@ -18,8 +18,9 @@ from app.questions.check import FILE_OF_CHECK, verdict_of
 from app.questions.plan import GATES, PDF_TYPE, SHEETS, GatedDance, verdict_words
 from app.wire.dances import BenchNumber, bench_of, clock_of, starting
 from app.wire.degrees import Place
+from app.wire.fields import Address, measure
 from app.wire.performances import NumberOrName, SeveralFields, dragons_of
-from app.wire.question import JSON, Address, Command, ListOption, Question, Terms, measure
+from app.wire.question import JSON, Command, ListOption, Question, Terms
 from core import Dance, FailureKind, InvalidValue, Performance
 from core.errors import Given, Parameter, TooLarge, question_about
 from core.language import say

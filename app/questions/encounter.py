@@ -10,9 +10,10 @@ import core
 from app.questions.collision_time import Contact
 from app.questions.figures import FORMATS, PICTURES
 from app.wire.answers import TOTAL_STRAY, DragonPair, EncounterCheck, OwnedFeature, Pair, Point
+from app.wire.fields import Answer
 from app.wire.labels import with_strays
 from app.wire.performances import FILE_OF_DANCES, PerformanceFields, PerformanceSpan
-from app.wire.question import Answer, Command, Output, Question, Terms, Writer
+from app.wire.question import Command, Output, Question, Terms, Writer
 from core import Outcome
 from core.errors import format_number
 from core.language import say

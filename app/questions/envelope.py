@@ -13,11 +13,12 @@ from app.files import outlines
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.wire.answers import MultiPolygon, Polygon
 from app.wire.dances import DanceFields, SpanFields
+from app.wire.fields import Answer, Instant, measure
 from app.wire.geojson import geometry_of
 from app.wire.options import PathOptions
 from app.wire.paths import Point
 from app.wire.performances import SeveralDances
-from app.wire.question import JSON, Answer, Command, Instant, Output, Question, Terms, measure
+from app.wire.question import JSON, Command, Output, Question, Terms
 from core.language import say
 
 # Largest number of points of a line of spectators.

@@ -9,8 +9,9 @@ from pydantic import Field
 import core
 from app.questions.pitch_scan import ScanFields
 from app.wire.dances import DragonFields, PlacedDance
+from app.wire.fields import DanceQuery, Instant, Margin, UniformDragon, Wire, measure
 from app.wire.performances import Moment, PerformanceSpan, PlacedPerformance, SeveralFields
-from app.wire.question import DanceQuery, FileFormat, Instant, Margin, Question, Terms, UniformDragon, Wire, measure
+from app.wire.question import FileFormat, Question, Terms
 from core.design.pitch_scan import scan_near_minimum
 from core.language import Language
 

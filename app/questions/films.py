@@ -10,21 +10,10 @@ from pydantic import Field
 import core
 from app.files.film_spec import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, FilmSpec
 from app.wire.dances import BenchNumber, PlacedDance, bench_of, clock_of
+from app.wire.fields import AS_WHOLE, Instant, OneLine, Wire, check_limit, measure
 from app.wire.options import PathOptions
 from app.wire.performances import NumberOrName, PartBody, SeveralFields, dragons_of
-from app.wire.question import (
-    AS_WHOLE,
-    Command,
-    Instant,
-    ListOption,
-    OneLine,
-    Output,
-    Question,
-    Terms,
-    Wire,
-    check_limit,
-    measure,
-)
+from app.wire.question import Command, ListOption, Output, Question, Terms
 from core import Dance, Dragon, EndReason, InvalidValue, Outcome, Performance, first_contact
 from core.errors import Given, Quantity, bound
 from core.language import Language, say

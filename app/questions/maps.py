@@ -10,9 +10,10 @@ from app.maps import dxf, geojson, kml
 from app.maps.marks import MARKS_MAX, MarkedDance, drawing_of, in_degrees, marks_of, on_grid
 from app.questions.check import FILE_OF_CHECK, DanceCheck
 from app.wire import degrees
+from app.wire.fields import Wire, check_limit, measure
 from app.wire.paths import AnyPath
 from app.wire.performances import SeveralFields
-from app.wire.question import Command, FileFormat, Output, Question, Terms, Wire, check_limit, measure
+from app.wire.question import Command, FileFormat, Output, Question, Terms
 from core import InvalidValue
 from core.language import say
 

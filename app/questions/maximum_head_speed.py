@@ -7,8 +7,9 @@ from pydantic import Field
 import core
 from app.wire.answers import SENTENCES
 from app.wire.dances import DanceFields
+from app.wire.fields import Answer, Instant, SpeedLimit, UniformDragon, Wire, measure
 from app.wire.paths import AnyPath, TurnFields, TurnPath
-from app.wire.question import Answer, Command, Instant, Question, SpeedLimit, Terms, UniformDragon, Wire, measure
+from app.wire.question import Command, Question, Terms
 from app.wire.readings import head_words
 from core.errors import format_number
 from core.language import say

@@ -7,19 +7,9 @@ from pydantic import Field
 import core
 from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
 from app.wire.dances import BenchByBench, DragonFields
+from app.wire.fields import PITCH_MAX, Answer, CrossCheck, Strays, UniformDragon, Whole
 from app.wire.paths import Circle, WayToCircle
-from app.wire.question import (
-    PITCH_MAX,
-    UNKNOWN_COST,
-    Answer,
-    Command,
-    CrossCheck,
-    Question,
-    Strays,
-    Terms,
-    UniformDragon,
-    Whole,
-)
+from app.wire.question import UNKNOWN_COST, Command, Question, Terms
 from app.wire.readings import pitch_words
 from core import Dragon, InvalidValue, LimitedBy
 from core.design.minimum_pitch import DRAGONS_MAX

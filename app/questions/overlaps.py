@@ -10,20 +10,9 @@ from pydantic import Field
 import core
 from app.questions.figures import InstantQuery
 from app.wire.answers import LEFT_OUT, Pair, Point
+from app.wire.fields import Answer, Coordinate, Length, Margin, Width, Wire, check_limit, measure
 from app.wire.labels import Part, Table, label, separation, value_text, value_word
-from app.wire.question import (
-    Answer,
-    Command,
-    Coordinate,
-    Length,
-    Margin,
-    Question,
-    Terms,
-    Width,
-    Wire,
-    check_limit,
-    measure,
-)
+from app.wire.question import Command, Question, Terms
 from core import Engine
 from core.errors import format_number
 from core.language import Listed, phrase, say

@@ -27,8 +27,9 @@ from app.grade.contacts import (
 )
 from app.grade.report import DiagnosisAnswer, typed
 from app.grade.words import word
+from app.wire.fields import Answer, Wire
 from app.wire.labels import Heading, Part, Table, value_text
-from app.wire.question import Answer, Command, Question, Terms, Wire
+from app.wire.question import Command, Question, Terms
 from core import Dance, Dragon, FirstContact, Spiral, clearance_profile, first_contact, minimum_pitch
 from core import trajectory as trajectory_of
 from core.design.pitch_scan import Stops

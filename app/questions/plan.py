@@ -16,22 +16,11 @@ from app.questions.check import FILE_OF_CHECK, verdict_of
 from app.questions.maps import Marked
 from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
+from app.wire.fields import Coordinate, OneLine, Wire, check_limit, measure
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
 from app.wire.performances import SeveralFields
-from app.wire.question import (
-    JSON,
-    Command,
-    Coordinate,
-    ListOption,
-    OneLine,
-    Output,
-    Question,
-    Terms,
-    Wire,
-    check_limit,
-    measure,
-)
+from app.wire.question import JSON, Command, ListOption, Output, Question, Terms
 from core import Dance, FailureKind, InvalidValue, Judgement
 from core.errors import Given, Quantity, format_number, question_about
 from core.language import Language, counted, phrase, say

@@ -12,23 +12,11 @@ import core
 from app.questions.check import Failure
 from app.wire.dances import DragonFields, VenueFields
 from app.wire.degrees import GeographicOrigin, Place
+from app.wire.fields import Angle, Answer, Margin, SpeedLimit, Whole, Wire, measure
 from app.wire.geojson import venue_geometry
 from app.wire.labels import Heading, Part, Table, value_word
 from app.wire.paths import Point, path_of
-from app.wire.question import (
-    Angle,
-    Answer,
-    Command,
-    Margin,
-    Output,
-    Question,
-    SpeedLimit,
-    Terms,
-    Whole,
-    Wire,
-    Writer,
-    measure,
-)
+from app.wire.question import Command, Output, Question, Terms, Writer
 from core.dragon import BENCHES_MAX
 from core.language import say
 from core.proposal.gates import GATES_MAX

@@ -6,8 +6,9 @@ import core
 from app.questions.maximum_head_speed import SpeedLimitField
 from app.questions.turn_time import TurnTime
 from app.wire.dances import DragonFields
+from app.wire.fields import Margin, UniformDragon, measure
 from app.wire.paths import TurnCircle
-from app.wire.question import Command, Margin, Question, Terms, UniformDragon, measure
+from app.wire.question import Command, Question, Terms
 from app.wire.readings import time_words, turn_words
 from core.design.quickest_turn import GRID
 from core.errors import format_number

@@ -9,9 +9,10 @@ from pydantic import Field
 
 import core
 from app.wire.answers import TOTAL_STRAY, Point
+from app.wire.fields import Answer, Margin, Strays, Wire, measure
 from app.wire.labels import Part, Table
 from app.wire.performances import FILE_OF_DANCES, Moment, NumberOrName, PerformanceFields, dragon_of
-from app.wire.question import Answer, Command, Margin, Question, Strays, Terms, Wire, measure
+from app.wire.question import Command, Question, Terms
 from core.errors import format_bound, format_number
 from core.language import phrase, say
 from core.performance import DELAY_MAX

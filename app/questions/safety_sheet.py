@@ -28,23 +28,12 @@ from app.questions.check import FILE_OF_CHECK, limits_of, verdict_of
 from app.questions.plan import GATES, PDF_TYPE, GatedDance, passes_of_gates, timing_of_marks
 from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
+from app.wire.fields import Address, OneLine, Wire, measure
 from app.wire.geojson import geometry_of
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
 from app.wire.paths import Point as PointField
-from app.wire.question import (
-    JSON,
-    UNKNOWN_COST,
-    Address,
-    Command,
-    ListOption,
-    OneLine,
-    Output,
-    Question,
-    Terms,
-    Wire,
-    measure,
-)
+from app.wire.question import JSON, UNKNOWN_COST, Command, ListOption, Output, Question, Terms
 from app.wire.readings import bench_words, failure_words, handles_words
 from core import Area, Dance, FailureKind, InvalidValue, Judgement
 from core.errors import Given, format_bound, format_number, question_about

@@ -8,8 +8,9 @@ import core
 from app.questions.turn import Turn
 from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
 from app.wire.dances import DragonFields
+from app.wire.fields import Margin, Strays, UniformDragon, measure
 from app.wire.paths import TurnCircle
-from app.wire.question import Command, Margin, Question, Strays, Terms, UniformDragon, measure
+from app.wire.question import Command, Question, Terms
 from app.wire.readings import limit_words, turn_words
 from core.errors import format_number
 from core.language import say

@@ -10,8 +10,9 @@ import core
 from app.questions.encounter import EncounterCertificate
 from app.wire.answers import SENTENCES, Point
 from app.wire.dances import PlacedDance, SpanFields
+from app.wire.fields import Answer, DanceQuery, TurningDiameter, Wire, measure
 from app.wire.performances import SeveralFields
-from app.wire.question import Answer, Command, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
+from app.wire.question import Command, Question, Terms
 from app.wire.readings import stray_words
 from core import InvalidValue, Limit
 from core.errors import Quantity

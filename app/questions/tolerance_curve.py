@@ -12,9 +12,10 @@ from app.questions.minimum_pitch import checked_pitch
 from app.questions.tolerance import STRAYS_IGNORED
 from app.wire.answers import Columns
 from app.wire.dances import DragonFields
+from app.wire.fields import Answer, Pitch, UniformDragon, Whole, Wire, measure
 from app.wire.labels import Part, Table, label, value_text
 from app.wire.paths import WayToCircle
-from app.wire.question import Answer, Command, Pitch, Question, Terms, UniformDragon, Whole, Wire, measure
+from app.wire.question import Command, Question, Terms
 from core import Dragon, InvalidValue, Limit, TooMuchWork
 from core.errors import format_number, quantities
 from core.language import say

@@ -13,9 +13,10 @@ from app.files import tables
 from app.files.performance_tables import WRITERS, PerformanceTable
 from app.settings import Settings
 from app.wire.dances import TimedDance, TimeRange, clock_of, handles_of
+from app.wire.fields import AS_WHOLE, Answer, measure
 from app.wire.options import PathOptions
 from app.wire.performances import SeveralDances
-from app.wire.question import AS_WHOLE, JSON, Answer, Command, Output, Question, Terms, measure
+from app.wire.question import JSON, Command, Output, Question, Terms
 from core.language import say
 
 

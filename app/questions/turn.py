@@ -8,8 +8,9 @@ from pydantic import Field
 
 import core
 from app.wire.answers import Point
+from app.wire.fields import Answer, Wire, measure
 from app.wire.paths import TurnFields, TurnPath
-from app.wire.question import Answer, Command, Question, Terms, Wire, measure
+from app.wire.question import Command, Question, Terms
 from core.language import say
 
 

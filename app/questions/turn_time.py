@@ -11,8 +11,9 @@ from app.questions.maximum_head_speed import SpeedLimitField
 from app.questions.turn import Turn
 from app.wire.answers import SENTENCES
 from app.wire.dances import DragonFields
+from app.wire.fields import UniformDragon
 from app.wire.paths import TurnFields, TurnPath
-from app.wire.question import Command, Question, Terms, UniformDragon
+from app.wire.question import Command, Question, Terms
 from app.wire.readings import time_words
 from core.errors import format_number
 from core.language import say

@@ -21,8 +21,9 @@ from app.service.problems import Refused, unreadable, validation_problem
 from app.service.reply import Reply
 from app.service.request_limits import LARGE
 from app.settings import Settings
+from app.wire.fields import short_json
 from app.wire.problem import ERRORS_MAX
-from app.wire.question import JSON, short_json
+from app.wire.question import JSON
 from app.wire.texts import Unreadable, json_of
 
 # Estimated time to answer a large body, for the Retry-After of a full lane [s].

@@ -11,7 +11,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from app.service.middleware import Layer
 from app.service.problems import CLOSE, Refused
 from app.settings import Settings
-from app.wire.question import short_json
+from app.wire.fields import short_json
 
 # A target in absolute form, its host and its path.
 ABSOLUTE = re.compile(rb"https?://([^/]+)(/.*)?", re.IGNORECASE)

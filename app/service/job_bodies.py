@@ -11,8 +11,9 @@ from app.files.tables import ARROW_TYPE, CSV_TYPE, PARQUET_TYPE
 from app.jobs.job import Job, JobState
 from app.sweeps.spec import Spec
 from app.wire.faults import pointer
+from app.wire.fields import measure
 from app.wire.problem import Problem
-from app.wire.question import JSON, measure
+from app.wire.question import JSON
 
 EVENTS_TYPE = "text/event-stream"
 # Formats of the table of a sweep, the first one by default.

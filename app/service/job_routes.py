@@ -60,8 +60,9 @@ from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
 from app.sweeps.spec import Spec
 from app.wire.faults import in_body, misfit_problem
+from app.wire.fields import check_limit, short_json
 from app.wire.problem import PROBLEM_TYPE, item_of
-from app.wire.question import JSON, FileFormat, check_limit, short_json
+from app.wire.question import JSON, FileFormat
 from core import BenchDragonError
 from core.errors import Given, Quantity
 from core.language import Listed, counted, phrase, say, spoken

@@ -29,7 +29,7 @@ from app.service import middleware as layers
 from app.service import problems, routes, uploads
 from app.service.assistants import add_assistants
 from app.service.bodies import refuse_query
-from app.service.described import with_values
+from app.service.description import with_values
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
 from app.service.hosts import Hosts, OriginForm
@@ -43,7 +43,8 @@ from app.service.request_limits import RequestLimits
 from app.service.short_tries import ShortTries
 from app.service.version import VERSION, build
 from app.settings import SHARED_COUNTS, Settings
-from app.wire.question import JSON, Answer
+from app.wire.fields import Answer
+from app.wire.question import JSON
 from core import Dragon, Spiral, contact_check, first_contact, trajectory
 from core.dance import Dance
 

@@ -12,9 +12,9 @@ from starlette.exceptions import HTTPException
 from starlette.routing import Match, Mount
 
 from app.wire.faults import Placing, in_body, in_query, misfit_problem, refusal_problem
+from app.wire.fields import short_json
 from app.wire.messages import fault_of
 from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, item_of, problem_of, title
-from app.wire.question import short_json
 from app.wire.texts import Unfit, Unreadable
 from core import BenchDragonError, TooMuchWork
 from core.errors import Parameter, Value

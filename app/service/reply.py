@@ -21,7 +21,8 @@ from app.service.short_tries import SHORT, ShortTries
 from app.service.version import build
 from app.settings import Settings
 from app.wire.dances import TimeRange
-from app.wire.question import BYTES, UNKNOWN_COST, Call, FileFormat, Terms, Wire
+from app.wire.fields import Wire
+from app.wire.question import BYTES, UNKNOWN_COST, Call, FileFormat, Terms
 from app.wire.refusals import refusing
 from core import Budget, TooMuchWork
 from core.language import spoken

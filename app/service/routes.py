@@ -19,8 +19,9 @@ from app.service.bodies import BodyReply, BodyRoute
 from app.service.examples import EXAMPLES
 from app.service.queries import QueryReply, QueryRoute
 from app.service.reply import Reply
+from app.wire.fields import Wire
 from app.wire.problem import PROBLEM_TYPE
-from app.wire.question import BYTES, JSON, Call, FileFormat, Wire
+from app.wire.question import BYTES, JSON, Call, FileFormat
 
 # The status of a job holds a problem, which brings the schema of problems into the description of the service.
 PROBLEM = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}

@@ -31,7 +31,8 @@ from app.service.problems import CLOSE, Refused
 from app.service.routes import FILE, refusals
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
-from app.wire.question import BYTES, JSON, Answer, Coordinates, OneLine, Wire, language_for, measure
+from app.wire.fields import Answer, Coordinates, OneLine, Wire, measure
+from app.wire.question import BYTES, JSON, language_for
 from core import BenchDragonError
 from core.errors import Quantity, too_much
 from core.kernels import Halted

@@ -16,7 +16,7 @@ import orjson
 import pyarrow as pa
 from pydantic import BaseModel
 
-from app.wire.question import typed_fields
+from app.wire.fields import typed_fields
 from core.display import Readable
 
 TYPES = {bool: pa.bool_(), int: pa.int64(), float: pa.float64(), str: pa.string()}

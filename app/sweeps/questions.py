@@ -24,9 +24,10 @@ from app.questions.trajectory import DanceTrajectory, TrajectoryRequest
 from app.settings import Settings
 from app.wire.answers import Pair, Point
 from app.wire.dances import DanceFields
+from app.wire.fields import Answer, DanceQuery, measure
 from app.wire.messages import checked
 from app.wire.performances import PerformanceFields
-from app.wire.question import Answer, DanceQuery, Terms, measure
+from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 from core.errors import Given

@@ -17,8 +17,8 @@ from pydantic_core import PydanticCustomError
 import core
 from app.sweeps.questions import SweepQuestion, question_of
 from app.wire.dances import AXIS
+from app.wire.fields import AS_WHOLE, Whole, measure, shallow
 from app.wire.messages import checked
-from app.wire.question import AS_WHOLE, Whole, measure, shallow
 from app.wire.texts import Unreadable, json_of, toml_of
 from core import InvalidValue, TooLarge
 from core.errors import Given

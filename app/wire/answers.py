@@ -14,7 +14,7 @@ import orjson
 from pydantic import Field
 
 import core
-from app.wire.question import Answer, measure
+from app.wire.fields import Answer, measure
 from core import Engine
 
 Pair = tuple[int, int]

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from app.wire.question import AS_WHOLE, Wire, measure
+from app.wire.fields import AS_WHOLE, Wire, measure
 from core.people.beats import BARS, IN_BAR, STEP, TEMPO, Bars, Music
 
 

@@ -12,8 +12,8 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
+from app.wire.fields import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
 from app.wire.numbers import number_of
-from app.wire.question import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
 from app.wire.texts import text_of_cell
 from core import Dragon, InvalidValue
 from core.errors import Given, Parameter, Quantity, from_to, quantities

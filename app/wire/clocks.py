@@ -10,7 +10,7 @@ from typing import Annotated
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
-from app.wire.question import Instant, Wire, measure
+from app.wire.fields import Instant, Wire, measure
 from core import InvalidValue, Passage
 from core.errors import Parameter, Quantity
 from core.passages import checked_passages, nodes

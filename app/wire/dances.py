@@ -18,8 +18,7 @@ from app.settings import Settings
 from app.wire.beats import BarsBody, music_of
 from app.wire.benches import BenchCsv
 from app.wire.clocks import BeginClock, PassageBody, StartClock, clock_at_zero, passages_of
-from app.wire.paths import KINDS, AnyPath, SpiralPath
-from app.wire.question import (
+from app.wire.fields import (
     AS_WHOLE,
     Coordinates,
     HeadSpeed,
@@ -33,6 +32,7 @@ from app.wire.question import (
     measure,
     shallow,
 )
+from app.wire.paths import KINDS, AnyPath, SpiralPath
 from core import Dance, Dragon, InvalidValue, Performance
 from core.errors import Given, Parameter, quantities
 from core.language import phrase

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.wire.fields import Coordinates
 from app.wire.geojson import (
     METRES,
     SQUARE,
@@ -27,7 +28,6 @@ from app.wire.geojson import (
     venue_of,
 )
 from app.wire.parts import is_cut, whole_areas
-from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.errors import Given, Parameter, checked_number, quantities
 from core.language import phrase

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from app.wire.question import short_json
+from app.wire.fields import short_json
 from core import Area, InvalidValue, Venue
 from core.errors import COORDINATE_MAX, Given, checked_number
 from core.language import say

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 
 import core
 from app.wire import answers
-from app.wire.question import typed_fields
+from app.wire.fields import typed_fields
 from core.display import Readable
 from core.errors import format_number
 from core.language import Listed, Phrases, counted, say

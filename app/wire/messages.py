@@ -13,9 +13,9 @@ from typing import Annotated, Any, TypeVar, get_args, get_origin
 from pydantic import BaseModel, Tag, ValidationError
 
 from app.wire.dances import AXIS, SHAPES
+from app.wire.fields import VALUE_LENGTH_MAX, Wire, short_json, unit_of
 from app.wire.numbers import number_of
 from app.wire.paths import KINDS
-from app.wire.question import VALUE_LENGTH_MAX, Wire, short_json, unit_of
 from core import InvalidValue
 from core.errors import Clause, Given, Parameter, Quantity, Value, format_field
 from core.language import Phrases, phrase, say

@@ -6,8 +6,8 @@ from typing import Literal
 
 from pydantic import Field
 
+from app.wire.fields import DanceQuery, TurningDiameter, measure
 from app.wire.paths import Ends, EntryRadius, ExitRadius, Middle
-from app.wire.question import DanceQuery, TurningDiameter, measure
 
 
 class PathOptions(DanceQuery):

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import ConfigDict, Discriminator, Field, Tag
 
 import core
-from app.wire.question import (
+from app.wire.fields import (
     AS_WHOLE,
     Angle,
     Coordinate,

@@ -12,7 +12,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from app.settings import Settings
 from app.wire.dances import PathFields, VenueFields
-from app.wire.question import Wire, check_limit, measure
+from app.wire.fields import Wire, check_limit, measure
 from app.wire.refusals import reworded
 from core import BenchDragonError, Part, Performance
 from core.performance import DELAY_MAX, PARTS_MAX

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Any, Self
 
-from app.wire.question import is_deeper, short_json
+from app.wire.fields import is_deeper, short_json
 from core import InvalidValue
 from core.errors import Given, Value
 

@@ -12,7 +12,8 @@ from app.service.main import create_app
 from app.service.problems import Refused
 from app.service.short_tries import SHORT
 from app.settings import Settings
-from app.wire.question import JSON, UNKNOWN_COST, Answer, Question, Wire, calls_of
+from app.wire.fields import Answer, Wire
+from app.wire.question import JSON, UNKNOWN_COST, Question, calls_of
 from core import TooMuchWork
 from core.kernels import Halted
 from tests.app.service.test_problems import ask

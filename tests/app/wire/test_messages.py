@@ -6,9 +6,10 @@ from pkgutil import walk_packages
 import pytest
 
 import app
+from app.wire.fields import unit_of
 from app.wire.messages import owners
 from app.wire.problem import BYTES_MAX
-from app.wire.question import JSON, unit_of
+from app.wire.question import JSON
 
 # What a call is asked -> the place and the sentence of its refusal.
 SENTENCES = {

@@ -7,7 +7,7 @@ from inspect import cleandoc
 from typing import Any
 
 import core
-from app.wire.question import described
+from app.wire.fields import described_field
 
 # What values of core are called here, where their names differ from those in Python.
 NAMES = {
@@ -47,6 +47,6 @@ def _describe(model: dict[str, Any], kind: type) -> None:
     model["required"] = list(model["properties"])
     for name, field in model["properties"].items():
         field.pop("default", None)
-        if known := described(name, kind):
+        if known := described_field(name, kind):
             extra = known.json_schema_extra if isinstance(known.json_schema_extra, dict) else {}
             field |= {"description": known.description} | extra
