@@ -69,7 +69,8 @@ from .paths.spiral import Spiral
 from .paths.turn import Turn
 from .people.cards import Card, Cue, CueKind, card_of
 from .people.crew import Carried, Crew, Relief, Spell, crew
-from .people.cues import BenchCues, FastestMoment, Meeting, Pause, Side, Stand, Turning, bench_cues
+from .people.cues import BenchCues, Meeting, Pause, Side, Stand, Turning, bench_cues
+from .people.fastest import FastestMoment
 from .performance import Part, Performance, PerformanceEnd
 from .proposal.answer import Near, Objective, Proposal, Proposals, Reason, ReasonKind
 from .proposal.figures import Figure

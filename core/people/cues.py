@@ -5,9 +5,8 @@ benches come abreast of it, where it is fastest, when the dragon pauses, and whe
 
 How each number is known: places, directions and speeds are those of trajectory() at that moment, good to 1e-11 m and
 1e-11 m/s; begin, pauses and end are those of the dance's clock; for meetings see core/people/meetings.py, for turns
-core/people/turns.py: the front handle begins and ends one at times between rows of places, PLACED apart. For the
-fastest moment the dance is sampled at travels of the head (travels_between()); the moment is then narrowed to
-FASTEST_WIDTH between the two neighbours of the fastest sample. So no sample is faster, and the speed is really reached.
+core/people/turns.py: the front handle begins and ends one at times between rows of places, PLACED apart; for fastest
+moments core/people/fastest.py.
 
 In a performance places, directions, speeds, pauses and ends are those of the dance of each dragon, on the clock of the
 performance. Meetings are searched in rows of times so close that no head walks further than STEP between two of them,
@@ -40,7 +39,8 @@ from core.kernels import Budget
 from core.language import counted, say
 from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
-from core.passages import TIME_MAX, Period
+from core.passages import TIME_MAX
+from core.people.fastest import FastestMoment, fastest_moments
 from core.people.meetings import (
     ROWS_MAX,
     STEP,
@@ -52,7 +52,7 @@ from core.people.meetings import (
     meetings_between,
     meetings_in,
     steady_dance,
-    travels_between,
+    travels_within,
 )
 from core.people.turns import bends_between
 from core.performance import STANDING, Performance
@@ -65,9 +65,6 @@ REACH, REACH_MAX = 8.0, 1_000.0
 FOLLOWED_MAX = 1_000
 # Rows of travels from one to the next in which places are found [1]: 1 m of head travel.
 PLACED = 4
-# Width to which a fastest moment is narrowed [m of head travel], and the golden section that narrows it [1].
-FASTEST_WIDTH = 1e-7
-SECTION = 0.5 * (np.sqrt(5.0) - 1.0)
 
 
 class Side(StrEnum):
@@ -121,26 +118,6 @@ class Meeting(Readable):
     y: float
     dragon: int | None = None
     ahead: float = 0.0
-
-
-@dataclass(frozen=True, slots=True, repr=False)
-class FastestMoment(Readable):
-    """The moment at which one of the two handles of a bench is fastest.
-
-    time: the moment [s]
-    speed: higher speed of its two handles: reached then, and not exceeded every 0.25 m of head way [m/s]
-    head_speed: speed of the head at that moment [m/s]
-    handle: the handle: the number of the bench, or one more for its rear one
-    x: x of that handle then [m]
-    y: y of that handle then [m]
-    """
-
-    time: float
-    speed: float
-    head_speed: float
-    handle: int
-    x: float
-    y: float
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -288,9 +265,9 @@ def bench_cues(
         values = {"got": Quantity(until, "s"), "begin": Quantity(begin, "s", 9)}
         raise InvalidValue("stop", "must be after the head begins to walk: it stands still from {begin} on", **values)
     budget, steady = budget or Budget(), steady_dance(dance)
-    travels = _travels(steady, walks[0].first, walks[-1].last)
+    travels = travels_within(steady, walks[0].first, walks[-1].last)
     met = meetings_between(steady, followed, travels, reach, budget)
-    fastest = _fastest(steady, followed, walks, budget)
+    fastest = fastest_moments(steady, followed, walks, budget)
     rests = [(a.end, b.begin) for a, b in pairwise(walks) if b.begin > a.end]
     # In the order in which the loop below takes them: start, begin, done, and each pause.
     moments = [begin, walks[0].begin, walks[-1].end, *(end for end, _ in rests)]
@@ -333,11 +310,6 @@ def _span(dance: Dance, start: float | None, stop: float | None) -> tuple[float,
         rule = "must be before {end}, when bench {bench} folds and speeds grow without bound"
         raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **values)
     return dance.span(start, stop)
-
-
-def _travels(steady: Dance, first: float, last: float) -> Floats:
-    """travels_between() of two travels that the clock of a dance rounds, and so may put just outside its run [m]."""
-    return travels_between(max(first, steady.earliest), min(last, steady.end.time))
 
 
 def _stands(dance: Dance, benches: list[int], times: list[float], budget: Budget) -> list[list[Stand]]:
@@ -391,69 +363,6 @@ def _turns(
                 own.append(Turning(ends[0], ends[1], one.first, one.angle, one.heading, one.way))
         turns[bench] = tuple(own)
     return turns
-
-
-def _rates(steady: Dance, benches: list[int], travels: Floats, budget: Budget) -> Floats:
-    """Speed of the faster handle of each bench at each travel, per m/s of the head (R, B) [1]."""
-    speed = trajectory(steady, travels, budget=budget).speed
-    front = np.array(benches)
-    rates: Floats = np.maximum(speed[:, front], speed[:, front + 1])
-    return rates
-
-
-def _fastest(steady: Dance, benches: list[int], walks: list[Period], budget: Budget) -> list[FastestMoment]:
-    """The fastest moment of each bench. walks: periods in which the head walks, each with one speed"""
-    best, count = np.full(len(benches), -np.inf), len(benches)
-    low, high, walk = np.empty(count), np.empty(count), np.zeros(count, dtype=np.intp)
-    at_once = max(3, instants_at_once(steady))
-    for number, period in enumerate(walks):
-        travels = _travels(steady, period.first, period.last)
-        for first in range(0, len(travels), at_once):
-            some = travels[first : first + at_once]
-            speed = period.speed * _rates(steady, benches, some, budget)
-            row, most = speed.argmax(axis=0), speed.max(axis=0)
-            better = most > best
-            best[better], walk[better] = most[better], number
-            low[better] = travels[np.maximum(first + row[better] - 1, 0)]
-            high[better] = travels[np.minimum(first + row[better] + 1, len(travels) - 1)]
-    travel = _peaks(steady, benches, low, high, budget)
-    speeds, moments = np.diagonal(_rates(steady, benches, travel, budget)), []
-    for k, bench in enumerate(benches):
-        period, at = walks[walk[k]], trajectory(steady, [travel[k]])
-        handle = bench + int(at.speed[0, bench + 1] > at.speed[0, bench])
-        place = at.position[0, handle].tolist()
-        moments.append(
-            FastestMoment(period.time(float(travel[k])), float(speeds[k] * period.speed), period.speed, handle, *place)
-        )
-    return moments
-
-
-# A golden section finds a peak surely only if it is the only one and smooth. So the answer is the best of all travels
-# tried, both ends among them.
-def _peaks(steady: Dance, benches: list[int], low: Floats, high: Floats, budget: Budget) -> Floats:
-    """Travel at which each bench is fastest between two travels (B,) [m]."""
-
-    def rates(travels: Floats) -> Floats:
-        parts = [
-            np.diagonal(_rates(steady, benches[k : k + at_once], travels[k : k + at_once], budget))
-            for k in range(0, len(benches), at_once)
-        ]
-        return np.concatenate(parts)
-
-    at_once = instants_at_once(steady)
-    middle = 0.5 * (low + high)
-    tried = [(middle, rates(middle))]
-    low, high = low.copy(), high.copy()
-    tried += [(one.copy(), rates(one)) for one in (low, high)]
-    while float((high - low).max()) > FASTEST_WIDTH:
-        inner, outer = high - SECTION * (high - low), low + SECTION * (high - low)
-        at_inner, at_outer = rates(inner), rates(outer)
-        tried += [(inner, at_inner), (outer, at_outer)]
-        falls = at_inner >= at_outer
-        high, low = np.where(falls, outer, high), np.where(falls, low, inner)
-    best = np.argmax([rate for _, rate in tried], axis=0)
-    travels: Floats = np.stack([travel for travel, _ in tried])[best, np.arange(len(benches))]
-    return travels
 
 
 def _performance_span(performance: Performance, start: float | None, stop: float | None) -> tuple[float, float]:

@@ -130,6 +130,11 @@ def travels_between(first: float, last: float) -> Floats:
     return np.linspace(first, last, min(ROWS_MAX, int((last - first) / STEP) + 2))
 
 
+def travels_within(steady: Dance, first: float, last: float) -> Floats:
+    """travels_between() of two travels that the clock of a dance rounds, and so may put just outside its run [m]."""
+    return travels_between(max(first, steady.earliest), min(last, steady.end.time))
+
+
 def steady_dance(dance: Dance) -> Dance:
     """The same dance at 1 m/s without passages: its times are travels of the head."""
     return Dance(dance.dragon, dance.path, 1.0)

@@ -5,7 +5,8 @@ import random
 import pytest
 
 from core.people.cards import CUES_MOST, TOGETHER, TURNS, CueKind, card_of
-from core.people.cues import BenchCues, FastestMoment, Meeting, Pause, Side, Stand, Turning
+from core.people.cues import BenchCues, Meeting, Pause, Side, Stand, Turning
+from core.people.fastest import FastestMoment
 
 pytestmark = pytest.mark.uncompiled
 

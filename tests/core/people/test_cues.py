@@ -2,12 +2,11 @@
 
 import math
 
-import numpy as np
 import pytest
 
 from core import Dance, Dragon, Passage, Spiral, trajectory
 from core.motion.places import handle_places
-from core.people.cues import FASTEST_WIDTH, FOLLOWED_MAX, Side, bench_cues
+from core.people.cues import FOLLOWED_MAX, Side, bench_cues
 from tests.support.refused import refused
 from tests.support.shared_dances import lane, there_and_back
 
@@ -38,17 +37,6 @@ def test_begin_pauses_and_end_are_those_of_the_clock():
         before, after = trajectory(PAUSED, [5.0, 5.001]).position[:, one.bench]
         assert one.direction == pytest.approx(math.atan2(*(after - before)[::-1]), abs=1e-6)
     assert [(one.ahead, one.behind) for one in cues] == [(None, 1), (4, 6), (10, None)]
-
-
-def test_the_fastest_moment_is_the_fastest_of_small_steps():
-    speed = trajectory(PAUSED, np.arange(2.0, DONE, STEP)).speed
-    for one in bench_cues(PAUSED, start=2.0, stop=50.0):
-        fastest, most = one.fastest, speed[:, one.bench : one.bench + 2].max()
-        assert most - ROUNDING <= fastest.speed <= most + STEP
-        assert (fastest.handle in (one.bench, one.bench + 1), fastest.head_speed) == (True, 1.5)
-        before = trajectory(PAUSED, [fastest.time - FASTEST_WIDTH, fastest.time])
-        assert before.speed[:, fastest.handle].max() == pytest.approx(fastest.speed, abs=1e-5)
-        assert before.position[1, fastest.handle] == pytest.approx((fastest.x, fastest.y), abs=ROUNDING)
 
 
 def test_a_bench_meets_those_that_come_back_and_sees_them_on_its_left():

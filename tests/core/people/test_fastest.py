@@ -1,0 +1,21 @@
+"""The fastest moment of each bench, held against the trajectory."""
+
+import numpy as np
+import pytest
+
+from core import bench_cues, trajectory
+from core.people.fastest import FASTEST_WIDTH
+from tests.core.people.test_cues import DONE, PAUSED, ROUNDING, STEP
+
+pytestmark = pytest.mark.uncompiled
+
+
+def test_the_fastest_moment_is_the_fastest_of_small_steps():
+    speed = trajectory(PAUSED, np.arange(2.0, DONE, STEP)).speed
+    for one in bench_cues(PAUSED, start=2.0, stop=50.0):
+        fastest, most = one.fastest, speed[:, one.bench : one.bench + 2].max()
+        assert most - ROUNDING <= fastest.speed <= most + STEP
+        assert (fastest.handle in (one.bench, one.bench + 1), fastest.head_speed) == (True, 1.5)
+        before = trajectory(PAUSED, [fastest.time - FASTEST_WIDTH, fastest.time])
+        assert before.speed[:, fastest.handle].max() == pytest.approx(fastest.speed, abs=1e-5)
+        assert before.position[1, fastest.handle] == pytest.approx((fastest.x, fastest.y), abs=ROUNDING)
