@@ -38,9 +38,9 @@ def lower_priority() -> None:
 def lower_thread_priority(thread: int) -> None:
     """Let the other threads of this process come before one of them, for good. thread: its native id
 
-    Only Linux has a priority of each thread.
+    Only Linux has a priority of each thread. That of the first thread, whose id is that of the process, stays.
     """
-    if sys.platform == "linux":
+    if sys.platform == "linux" and thread != os.getpid():
         with contextlib.suppress(OSError):  # a sandbox
             lower = os.getpriority(os.PRIO_PROCESS, os.getpid()) + THREAD_NICENESS
             if os.getpriority(os.PRIO_PROCESS, thread) < lower:
