@@ -415,7 +415,7 @@ UNEVEN = {
 }
 
 
-@pytest.mark.parametrize("way", UNEVEN)
+@pytest.mark.parametrize("way", often(UNEVEN, ("a longer place", "significant digits")))
 def test_numbers_of_unequal_decimals_are_neither_accused_nor_excused(way):
     """Each counts with the decimals of its like."""
     times = SPIRAL_TIMES[::60]

@@ -223,6 +223,7 @@ def test_figures_are_danced_in_a_room_behind_two_narrow_channels():
     assert [refuted(case, one) for one in result.proposals] == [""] * 3
 
 
+@pytest.mark.thorough
 def test_where_not_even_one_bench_fits_the_reason_is_what_fails_in_its_nearest_dance():
     blocks = (8, 0, 2, 6.03), (8, 6.63, 2, 13.37), (12.5, 0, 3, 15), (12.5, 15.6, 3, 4)
     reason = walk(YARD, LOW_WEST, LOW_EAST, 0.0, *blocks, benches=4).proposals(figures=["parade"]).reason
