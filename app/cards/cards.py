@@ -14,7 +14,8 @@ from typing import Any, Literal
 import numpy as np
 
 from app.cards.words import CardWords
-from app.files.codes import Code, address_of_bench
+from app.files.addresses import address_of_bench
+from app.files.codes import Code
 from app.files.typeset import Face, measured, typeset
 from app.maps.marks import line_of, mark_name
 from app.plan.drawing import MapDrawing, Scale, look, turned_by

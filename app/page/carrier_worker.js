@@ -51,7 +51,7 @@ worker.addEventListener("activate", (event) => event.waitUntil(worker.clients.cl
 worker.addEventListener("fetch", (event) => {
   const { request } = event;
   const url = new URL(request.url);
-  const isCard = request.mode !== "navigate" || (url.href.startsWith(worker.registration.scope) && url.pathname === new URL(worker.registration.scope).pathname && url.searchParams.has("bench"));
+  const isCard = request.mode !== "navigate" || (url.href.startsWith(worker.registration.scope) && url.pathname === new URL(worker.registration.scope).pathname && ["bench", "z"].some((name) => url.searchParams.has(name)));
   const type = request.headers.get("Content-Type") ?? "application/json";
   const isAnswered = ["GET", "POST"].includes(request.method) && type === "application/json" && !request.headers.get("Accept")?.includes("event-stream");
   // Whether the service is alive is asked of the service alone.

@@ -5,6 +5,7 @@ import { EMPTY, PARTS, fromAddress, toAddress } from "./drawing.js";
 import { FIELDS } from "./fields.js";
 import { beatsIn, beatsOf, clockIn, paceTexts, passagesIn } from "./passages.js";
 import { Pause } from "./pending.js";
+import { writtenOut } from "./short.js";
 import { languages } from "./text.js";
 
 export const RATES = [1, 2, 5, 10, 20, 50];
@@ -56,6 +57,8 @@ export class State {
   fits = true;
 
   constructor() {
+    const query = writtenOut(location.search);
+    if (query !== location.search) history.replaceState(history.state, "", location.pathname + query);
     this.#read();
     // The browser's back and forward buttons.
     addEventListener("popstate", () => {

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import zxingcpp
 
+from app.files.addresses import WORDS, short_form
 from app.service.main import create_app
 from app.sweeps.columns import answer_columns
 from app.sweeps.questions import question_of
@@ -44,6 +45,23 @@ def test_qr_codes_of_every_length_can_be_read_and_a_too_long_text_has_none():
         written = np.append(dark[8, [0, 1, 2, 3, 4, 5, 7, 8]], dark[[7, 5, 4, 3, 2, 1, 0, -8], 8])
         assert "".join(map(str, written.astype(int))) == "1110111110001001"
     assert none is None
+
+
+def test_the_page_reads_every_address_of_a_dance_in_its_short_form():
+    """All words of the short form, all characters that an address may have, and addresses of others, which stay."""
+    words = "".join(word if word.startswith("&") else f"&route={word}" for word in WORDS)
+    others = "".join(chr(code) for code in range(33, 127) if chr(code) not in "#&+=?")
+    queries = [
+        "?route=*0,0_12,5&z",
+        f"?{words[1:]}",
+        f"?lang=zh&route=00{others}",
+        "?benches=20&bench=3",
+        "?z=x&walk=1",
+    ]
+    short = [short_form(f"https://dragon.example/a/{query}") for query in queries]
+    read = evaluate("async (queries) => queries.map((await page('short.js')).writtenOut)", [one[25:] for one in short])
+    assert [one[25:] == query for one, query in zip(short, queries, strict=True)] == [True, False, False, True, True]
+    assert read == [*queries[:4], "?&walk=1"]
 
 
 def test_every_value_of_a_map_has_its_own_name_in_chinese():

@@ -9,6 +9,7 @@ import pytest
 import shapely
 import zxingcpp
 
+from app.files.addresses import short_form
 from app.maps.dances import read_dance
 from app.questions.cues import CuesRequest
 from app.questions.plan import PDF_TYPE
@@ -126,7 +127,9 @@ def test_turns_name_what_they_go_around_also_a_gate_and_where_north_is(ask):
     assert cards_of(ask, geographic)[0]["cues"][0]["words"] == "Walk towards “linden tree”, east."
 
 
-ADDRESS = "https://dragon.example/dance/?door=village&path=route&benches=24&time=4&" + "a" * 200
+# The longest one.
+DRAWN = "_".join(f"{0.37 * k * k:.2f},{-3.1 * k:.1f}" for k in range(50))
+ADDRESS = f"https://dragon.example/dance/?lang=zh&door=village&path=route&benches=24&time=4&route={DRAWN}"[:600]
 
 
 @pytest.mark.parametrize(("labels", "dpi"), [(False, 150), (False, 300), (True, 150), (True, 300)])
@@ -135,7 +138,8 @@ def test_a_phone_reads_the_code_of_every_bench_from_cards_and_labels(ask, labels
     (page,) = pages_of(ask.file("cues", request, PDF_TYPE))
     codes = zxingcpp.read_barcodes(page.render(scale=dpi / 72).to_pil())
     read = {code.text for code in codes if code.text.startswith("https")}  # All else is chance.
-    assert read == {ADDRESS.replace("&time=4", "") + f"&bench={k}" for k in range(8, 12)}
+    assert read == {short_form(ADDRESS.replace("&time=4", "") + f"&bench={k}") for k in range(8, 12)}
+    assert all(one.startswith("https://dragon.example/dance/?lang=zh&z=") for one in read)
 
 
 def test_a_map_that_is_turned_has_the_first_steps_of_the_bench_up(ask):
