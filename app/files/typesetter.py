@@ -21,7 +21,7 @@ from typing import Any
 import orjson
 import typst
 
-from app.processes.limits import end_first, limit_memory, lower_priority
+from app.processes.limits import AWAITED_NICENESS, end_first, limit_memory, lower_priority
 from app.processes.parent import Report, answer_tasks
 
 
@@ -65,7 +65,7 @@ def _answer(task: bytearray, report: Report) -> bytes:
 
 def main() -> None:
     """Typeset files until the parent ends."""
-    lower_priority()
+    lower_priority(AWAITED_NICENESS)
     end_first()
     limit_memory(int(sys.argv[1]))
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # Without memory Rust writes its stack there; all else is an answer.

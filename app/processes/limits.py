@@ -22,17 +22,18 @@ OOM_SCORE, OOM_SCORE_MAX = Path("/proc/self/oom_score_adj"), 1_000
 STATUS, PEAK = Path("/proc/self/status"), re.compile(rb"VmHWM:\s*(\d+) kB")
 # Largest peak of the resident memory of a process that takes another task [bytes]; a new one needs 60 to 110 MB.
 SMALL = 256_000_000
-# Lower priority of jobs and of files that are read, so that other answers come first (man 2 nice).
+# Lower priority of jobs, so that other answers come first (man 2 nice).
 NICENESS = 10
-# The same for threads of long computations: beside five of them the loop that takes requests waited for a core for up
-# to 0.4 s, with this value for up to 0.2 s, with a load of 13 on two cores (2026-11-29).
-THREAD_NICENESS = 5
+# The same for what a person waits for: files that are read, pages that are set, and threads of long computations.
+# Beside five of these the loop that takes requests waited for a core for up to 0.4 s, with this value for up to 0.2 s,
+# with a load of 13 on two cores (2026-11-29). With 10, a plan of 0.2 MB was not read in 20 s beside four busy programs.
+AWAITED_NICENESS = 5
 
 
-def lower_priority() -> None:
+def lower_priority(niceness: int = NICENESS) -> None:
     """Let other answers come before those of this process."""
     if hasattr(os, "nice"):
-        os.nice(max(NICENESS - os.nice(0), 0))  # A thread of a long computation may have started it.
+        os.nice(max(niceness - os.nice(0), 0))  # A thread of a long computation may have started it.
 
 
 def lower_thread_priority(thread: int) -> None:
@@ -42,7 +43,7 @@ def lower_thread_priority(thread: int) -> None:
     """
     if sys.platform == "linux" and thread != os.getpid():
         with contextlib.suppress(OSError):  # a sandbox
-            lower = os.getpriority(os.PRIO_PROCESS, os.getpid()) + THREAD_NICENESS
+            lower = os.getpriority(os.PRIO_PROCESS, os.getpid()) + AWAITED_NICENESS
             if os.getpriority(os.PRIO_PROCESS, thread) < lower:
                 os.setpriority(os.PRIO_PROCESS, thread, lower)
 

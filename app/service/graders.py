@@ -23,7 +23,15 @@ from typing import TypeVar, cast
 
 from app.logs import log_to_stderr
 from app.processes.child import ProcessEnded
-from app.processes.limits import READING_MAX, end_first, limit_memory, lower_priority, peak_memory, too_much_memory
+from app.processes.limits import (
+    AWAITED_NICENESS,
+    READING_MAX,
+    end_first,
+    limit_memory,
+    lower_priority,
+    peak_memory,
+    too_much_memory,
+)
 from app.processes.parent import Report, answer_tasks
 from app.processes.pool import Pool
 from app.settings import Settings
@@ -120,7 +128,7 @@ def _unexpected(fault: Exception) -> InvalidValue:
 
 def main() -> None:
     """Read files until the parent ends."""
-    lower_priority()
+    lower_priority(AWAITED_NICENESS)
     memory_max = int(sys.argv[1])
     end_first()
     limit_memory(memory_max)

@@ -20,7 +20,7 @@ import psutil
 import pytest
 
 from app.files.tables import CSV_TYPE
-from app.processes.limits import THREAD_NICENESS
+from app.processes.limits import AWAITED_NICENESS
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.support.asking import box
 from tests.support.depth import further, thorough
@@ -247,7 +247,7 @@ def test_who_finds_no_place_for_heavy_work_hears_when_to_come_again_and_others_p
 def test_the_loop_that_takes_requests_comes_before_long_computations(held):
     pid = held.process.pid
     # 19 is the largest niceness (man 2 setpriority): tests may themselves run with a low priority.
-    expected = min(os.getpriority(os.PRIO_PROCESS, pid) + THREAD_NICENESS, 19)
+    expected = min(os.getpriority(os.PRIO_PROCESS, pid) + AWAITED_NICENESS, 19)
 
     def lowered():
         return expected in {os.getpriority(os.PRIO_PROCESS, int(task)) for task in os.listdir(f"/proc/{pid}/task")}
