@@ -1,4 +1,4 @@
-"""Cue cards on paper: four on a sheet of A4, with marks where to cut.
+"""Cue cards on paper: four on a sheet of A4, eight on A3, with marks where to cut.
 
 The same dance gives the same bytes on the same fonts and versions of the libraries, because the file holds no date.
 """
@@ -20,7 +20,7 @@ from app.files.typeset import Face, measured, typeset
 from app.maps.marks import line_of, mark_name
 from app.plan.drawing import MapDrawing, Scale, look, turned_by
 from app.plan.ground import CIRCLE, IN_BENCH, draw_arrows, draw_venue, thinned
-from app.plan.paper import Paper, Places
+from app.plan.paper import Paper, PaperName, Places
 from core import Budget, Dance, Venue
 from core.language import joined, say
 from core.people.cards import Card, Cue
@@ -81,11 +81,17 @@ class CardSheets:
     map_up: MapUp
 
 
-def cards_pdf(decks: Sequence[CardSheets], progress: Callable[[float], None] = lambda share: None) -> bytes:
+def cards_pdf(
+    decks: Sequence[CardSheets], paper: PaperName, progress: Callable[[float], None] = lambda share: None
+) -> bytes:
     """The bytes of the PDF. decks: of one dragon, or of each of several; raises: Halted once the budget is stopped"""
     first, template = decks[0], files("app.cards").joinpath("cards.typ").read_bytes()
     cards = [(sheets, card, _words_on(sheets, card)) for sheets in decks for card in sheets.cards]
-    data = {"title": first.title, "decks": [[words for own, _, words in cards if own is sheets] for sheets in decks]}
+    data = {
+        "title": first.title,
+        "paper": paper,
+        "decks": [[words for own, _, words in cards if own is sheets] for sheets in decks],
+    }
     rooms = measured(template, first.face, {**data, "measures": True}, first.budget)
     for k, ((sheets, card, words), room) in enumerate(zip(cards, rooms, strict=True), start=1):
         words |= room | (_picture(sheets, card, room["width"], room["height"]) if room["height"] > 0.0 else {})

@@ -1,4 +1,4 @@
-"""Labels to cut, fifteen on a sheet of A4: the code of every bench, which opens its card on a phone.
+"""Labels to cut, fifteen on a sheet of A4, thirty on A3: the code of every bench, which opens its card on a phone.
 
 The same labels give the same bytes on the same fonts and versions of the libraries, because the file holds no date.
 """
@@ -11,6 +11,7 @@ from importlib.resources import files
 
 from app.cards.cards import code_of_bench
 from app.files.typeset import Face, typeset
+from app.plan.paper import PaperName
 from core import Budget
 from core.language import say
 
@@ -29,7 +30,9 @@ class LabelDeck:
     dragon: int | None = None
 
 
-def labels_pdf(title: str, address: str, decks: Sequence[LabelDeck], face: Face, budget: Budget) -> bytes:
+def labels_pdf(
+    title: str, address: str, decks: Sequence[LabelDeck], paper: PaperName, face: Face, budget: Budget
+) -> bytes:
     """The bytes of the PDF. address: of the page with the dance; raises: Halted once the budget is stopped"""
     labels = [
         [
@@ -43,5 +46,6 @@ def labels_pdf(title: str, address: str, decks: Sequence[LabelDeck], face: Face,
         ]
         for deck in decks
     ]
-    data = {"title": title, "scan": say("The code opens the card of this bench on a phone."), "decks": labels}
+    scan = say("The code opens the card of this bench on a phone.")
+    data = {"title": title, "paper": paper, "scan": scan, "decks": labels}
     return typeset(files("app.cards").joinpath("labels.typ").read_bytes(), face, data, budget)

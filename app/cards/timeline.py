@@ -1,4 +1,4 @@
-"""A crew on paper: a timeline with a row for each person, and the changes in order of time, on sheets of A4.
+"""A crew on paper: a timeline with a row for each person, and the changes in order of time, on sheets of paper.
 
 The same crew gives the same bytes on the same fonts and versions of the libraries, because the file holds no date.
 """
@@ -12,7 +12,7 @@ from importlib.resources import files
 from app.cards.crew import CrewWords
 from app.files.typeset import Face, typeset
 from app.maps.marks import mark_name
-from app.plan.paper import MARGIN, PAPERS, Paper, Title
+from app.plan.paper import MARGIN, PAPERS, Paper, PaperName, Title
 from app.plan.tables import PAD, Json, PlanTable, tables_sheet
 from core import Budget
 from core.language import say
@@ -34,12 +34,13 @@ class CrewSheets:
     facts: list[str]
     face: Face
     budget: Budget
+    size: PaperName = "A4"
     roll: PlanTable | None = None
 
 
 def crew_pdf(sheets: CrewSheets, progress: Callable[[float], None] = lambda share: None) -> bytes:
     """The bytes of the file. raises: Halted once the budget is stopped"""
-    short, long = PAPERS["A4"]
+    short, long = PAPERS[sheets.size]
     paper, title = Paper(long, short), Title(sheets.title, sheets.facts, "", True, False)
     people = say("carriers")
     notes = [
@@ -53,7 +54,7 @@ def crew_pdf(sheets: CrewSheets, progress: Callable[[float], None] = lambda shar
     if tables:
         content.append(tables_sheet(sheets.face, title.sheet(say("Who comes in where"), paper), tables, notes))
     progress(0.5)
-    data = {"title": sheets.title, "paper": "A4", "sheet": say("sheet"), "sheets": content}
+    data = {"title": sheets.title, "paper": sheets.size, "sheet": say("sheet"), "sheets": content}
     template = files("app.cards").joinpath("crew.typ").read_bytes()
     content_of_file = typeset(template, sheets.face, data, sheets.budget)
     progress(1.0)

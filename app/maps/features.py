@@ -197,6 +197,8 @@ def kind_of(one: MapFeature) -> str:
         GATE: say("gate"),
         INNER_SQUARE: say("square without streets"),
     }
+    if not one.role and one.shape == "point" and one.radius is not None:
+        return sense("shape", "circle")
     return words[one.role] if one.role else word_of(one.shape)
 
 

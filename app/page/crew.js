@@ -9,7 +9,7 @@ import { benchTitle, between, language, phrase, say, sentencesOf } from "./text.
 /** Numbers of the form: the field of the service, its key, its first value; an empty one is left to the service. */
 const NUMBERS = { head_people: [phrase("on the head"), "8"], bench_people: [phrase("on every other bench"), "2"], spares: [phrase("spares"), "0"], shift: [phrase("shift [s]"), ""], rest: [phrase("least rest [s]"), "0"] };
 const POINT = { x: [phrase("change near x [m]"), ""], y: [phrase("and y [m]"), ""] };
-const FORMS = { PDF: "application/pdf", CSV: "text/csv" };
+const FORMS = { A4: "application/pdf", A3: "application/pdf", CSV: "text/csv" };
 const MINUTE = 60;
 
 const minutes = (seconds) => `${Math.floor(seconds / MINUTE)}:${String(Math.floor(seconds % MINUTE)).padStart(2, "0")}`;
@@ -86,8 +86,9 @@ export class Crew {
 
   async #save(form) {
     try {
-      const name = `crew.${form.toLowerCase()}`;
-      download(await this.service.ask(`crew ${form}`, "crew", { body: this.#question(), accept: FORMS[form] }), name);
+      const isPaper = form !== "CSV";
+      const name = isPaper ? `crew-${form.toLowerCase()}.pdf` : "crew.csv";
+      download(await this.service.ask(`crew ${form}`, "crew", { body: { ...this.#question(), ...(isPaper && { paper: form }) }, accept: FORMS[form] }), name);
       announce(() => say("Saved {name}.", { name }));
     } catch (error) {
       if (error instanceof Superseded) return;

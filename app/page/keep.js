@@ -11,6 +11,8 @@ import { announceSaved } from "./saved.js";
 import { between, language, phrase, say, sentencesOf } from "./text.js";
 
 const CSV_STEP = 1;
+/** Sizes of paper. */
+const PAPERS = { A4: "application/pdf", A3: "application/pdf" };
 const TYPES = {
   CSV: "text/csv",
   XLSX: "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
@@ -23,9 +25,7 @@ const TYPES = {
   GeoJSON: "application/geo+json",
   DXF: "image/vnd.dxf",
   KML: "application/vnd.google-earth.kml+xml",
-  A4: "application/pdf",
-  A3: "application/pdf",
-  PDF: "application/pdf",
+  ...PAPERS,
   ZIP: "application/zip",
 };
 /** Items to save, in the order of the page: formats, and the name of the request; slow ones become a job; hint: a button of its own; among: the list in which it stands, if not that of the files. */
@@ -39,9 +39,9 @@ const ITEMS = [
   { key: "keepFilm", title: phrase("Film of the dance"), forms: ["MP4", "GIF"], ask: "film", file: "dance", job: true },
   { key: "keepGround", title: phrase("Ground that benches sweep"), forms: ["GeoJSON", "DXF", "JSON"], ask: "ground", file: "envelope" },
   { key: "keepPlan", title: phrase("Plan on paper, true to scale"), forms: ["A4", "A3"], ask: "plan", file: "plan" },
-  { key: "keepSafety", title: phrase("Safety sheet, for whoever permits it"), forms: ["PDF"], ask: "safety", file: "safety-sheet" },
-  { key: "keepCues", title: phrase("A cue card for each bench"), forms: ["PDF", "CSV"], ask: "cues", file: "cues", among: "#cues" },
-  { key: "keepLabels", title: phrase("Labels with a QR code for each bench"), forms: ["PDF"], ask: "labels", file: "labels", among: "#cues" },
+  { key: "keepSafety", title: phrase("Safety sheet, for whoever permits it"), forms: ["A4", "A3"], ask: "safety", file: "safety-sheet" },
+  { key: "keepCues", title: phrase("A cue card for each bench"), forms: ["A4", "A3", "CSV"], ask: "cues", file: "cues", among: "#cues" },
+  { key: "keepLabels", title: phrase("Labels with a QR code for each bench"), forms: ["A4", "A3"], ask: "labels", file: "labels", among: "#cues" },
   { key: "keepMap", title: phrase("Map with chalk marks"), forms: ["GeoJSON", "KML", "DXF"], ask: "map", file: "map" },
   { key: "keepAnswer", title: phrase("First contact with its certificate"), forms: ["JSON"], ask: "answer", file: "first-contact" },
   { key: "keepVerdict", title: phrase("The verdict on the whole dance"), forms: ["JSON"], ask: "verdict", file: "check" },
@@ -56,13 +56,13 @@ const [ADDRESS_MOST, CARD_ADDRESS_MOST] = [300, 600];
 /** Whether the address of the page leads there from another device too, and fits on paper. */
 const isPrintable = (most = ADDRESS_MOST) => location.href.length < most && !/^(localhost|127\.[\d.]+|\[::1\])$/.test(location.hostname);
 /** Name of a file in this format. */
-const fileName = (file, form) => (["A4", "A3"].includes(form) ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
+const fileName = (file, form) => (form in PAPERS ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
 /** Commands in addition to those of the items: for the shown answer, and for a proof. */
 const [ON_SCREEN, PROOF] = ["keepShown", "keepProof"];
 const MORE = [{ key: ON_SCREEN, title: phrase("What is shown") }, { key: PROOF, title: phrase("A proof in ball arithmetic") }];
 
 /** What a question about cards has beside the dance. */
-const cardsOf = ({ cued }) => ({ ...cued, language: language(), ...(isPrintable(CARD_ADDRESS_MOST) && { address: location.href }), ...($("#cards-turned").ariaPressed === "true" && { map_up: "way" }) });
+const cardsOf = ({ cued }, form) => ({ ...cued, ...(form in PAPERS && { paper: form }), language: language(), ...(isPrintable(CARD_ADDRESS_MOST) && { address: location.href }), ...($("#cards-turned").ariaPressed === "true" && { map_up: "way" }) });
 
 /** A figure with its words in the language of the page. */
 function figure(name, form, /** @type {any} */ { query, body }) {
@@ -104,9 +104,9 @@ const REQUESTS = {
   },
   ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
   plan: (questions, paper) => ({ path: "plan", body: questions.danced({ paper, language: language() }) }),
-  safety: (questions) => ({ path: "safety-sheet", body: questions.danced({ language: language(), ...(isPrintable() && { address: location.href }) }) }),
-  cues: (questions) => ({ path: "cues", body: questions.danced(cardsOf(questions)) }),
-  labels: (questions) => ({ path: "cues", body: questions.danced({ ...cardsOf(questions), labels: true }) }),
+  safety: (questions, paper) => ({ path: "safety-sheet", body: questions.danced({ paper, language: language(), ...(isPrintable() && { address: location.href }) }) }),
+  cues: (questions, form) => ({ path: "cues", body: questions.danced(cardsOf(questions, form)) }),
+  labels: (questions, form) => ({ path: "cues", body: questions.danced({ ...cardsOf(questions, form), labels: true }) }),
   map(questions, form) {
     const drawing = questions.dance.kind === "route" ? questions.state.get("drawing") : null;
     return mapOf(form, questions.danced(), drawing);
@@ -157,9 +157,9 @@ export class Keep {
     this.#rows = ITEMS.map((item) => this.#row(item));
     ITEMS.forEach(({ among = "#kept" }, k) => $(among).append(this.#rows[k]));
     const { state } = questions;
-    $("#keepCues-PDF").before(textButton("Follow a bench", () => state.push({ bench: state.get("handle") ?? 0 }), { id: "card-follow" }));
+    $("#keepCues-A4").before(textButton("Follow a bench", () => state.push({ bench: state.get("handle") ?? 0 }), { id: "card-follow" }));
     const turned = textButton("Maps turned with the way", () => turned.setAttribute("aria-pressed", turned.ariaPressed !== "true"), { id: "cards-turned", "aria-pressed": false });
-    $("#keepCues-PDF").closest("li").append(turned);
+    $("#keepCues-A4").closest("li").append(turned);
     const commands = [MORE[0], ...ITEMS.filter(({ ask }) => ask), MORE[1]];
     $("#curl-of").append(...commands.map(({ key, title }) => make("option", { value: key, "data-text": title })));
     $("#curl-of").addEventListener("change", () => this.show());

@@ -49,7 +49,7 @@ export function onBorder(ring, [x, y]) {
 export function measures(points, isClosed) {
   const way = (k) => [0, 1].map((axis) => points[(k + 1) % points.length][axis] - points[k][axis]);
   const count = points.length;
-  const lengths = points.map((_, k) => (isClosed || k < count - 1 ? Math.hypot(...way(k)) : null));
+  const lengths = points.map((_, k) => ((isClosed && count > 2) || k < count - 1 ? Math.hypot(...way(k)) : null));
   const angles = points.map((_, k) => {
     if (count < 3 || (!isClosed && (k === 0 || k === count - 1))) return null;
     const [before, after] = [way((k + count - 1) % count), way(k)];

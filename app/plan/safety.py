@@ -1,4 +1,4 @@
-"""The safety sheet on paper: one page of A4, with a map true to scale.
+"""The safety sheet on paper: one page with a map true to scale.
 
 The same sheet gives the same bytes on the same fonts and versions of the libraries: its date is the one that is given.
 """
@@ -15,15 +15,13 @@ from app.files.codes import Code
 from app.files.typeset import Face, typeset
 from app.plan.drawing import scale_in
 from app.plan.ground import GroundMap, SafetyLayers, draw_safety, legend_of_safety
-from app.plan.paper import Paper
+from app.plan.paper import MARGIN, PAPERS, Paper, PaperName
 from app.plan.tables import Json
 from core import Budget
 from core.language import say
 
-# Size of the map [mm].
-MAP = Paper(190.0, 100.0, 0.0, 0.0)
-# Where the arrow up stands on it [mm].
-ARROW = (177.0, 0.0)
+# Height of a sheet without its map, and distance of the arrow up from the right side of the map [mm].
+BESIDE_MAP, ARROW = 197.0, 13.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,14 +41,18 @@ class SafetyWords:
     approaches: Json
     assumptions: Json
     lines: Sequence[tuple[str, Sequence[str]]]
+    paper: PaperName
 
 
 def safety_pdf(words: SafetyWords, ground: GroundMap, layers: SafetyLayers, face: Face, budget: Budget) -> bytes:
     """The bytes of the sheet. raises: InvalidValue if the dance is too large for it; Halted at the end of the budget"""
-    drawing = draw_safety(ground, layers, scale_in([MAP], *layers.box), face, budget)
+    short, long = PAPERS[words.paper]
+    room = Paper(short - 2.0 * MARGIN, long - BESIDE_MAP, 0.0, 0.0)
+    drawing = draw_safety(ground, layers, scale_in([room], *layers.box, words.paper), face, budget)
     ratio, bar = drawing.scale.ratio, drawing.scale.bar
     own, *others = ({"heading": heading, "lines": list(lines)} for heading, lines in words.lines)
     data: dict[str, Any] = {
+        "paper": {"width": short, "height": long},
         "title": words.title,
         "subtitle": words.subtitle,
         "dated": say("date: {date}", date=words.date or "_" * 16),
@@ -59,9 +61,9 @@ def safety_pdf(words: SafetyWords, ground: GroundMap, layers: SafetyLayers, face
         "sentences": words.sentences,
         "map": {
             **drawing.to_json(),
-            "height": MAP.height,
+            "height": room.height,
             "alt": say("Map, 1:{ratio}", ratio=ratio),
-            "arrow": ARROW,
+            "arrow": (room.width - ARROW, 0.0),
             "geographic": ground.geographic,
         },
         "bar": {"scale": f"1:{ratio}", "marks": [f"{bar:g} m"], "wide": bar * 1000.0 / ratio},

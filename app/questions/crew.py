@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, Self
+from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 import numpy as np
 from pydantic import AfterValidator, Field
@@ -79,6 +79,7 @@ class CrewFields(Wire):
         None, description="The same as a time of day such as 19:45, for a dance with start_clock or begin_clock"
     )
     title: OneLine = Field("", max_length=80, description="Title of the dance on paper")
+    paper: Literal["A4", "A3"] = Field("A4", description="Size of the paper")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
 
@@ -339,7 +340,7 @@ def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | Non
         facts += crew.lack
     face = face_for([title])
     table = None if roll is None else _roll_table(roll, crew)
-    return _drawn(dance, CrewSheets(crew, title, facts, face, terms.budget, table), terms)
+    return _drawn(dance, CrewSheets(crew, title, facts, face, terms.budget, request.paper, table), terms)
 
 
 @question_about("dance", Dance, "the timeline was not drawn")

@@ -254,7 +254,7 @@ def _cards(
         )
         for (own, name), (cards, words) in decks
     ]
-    return _drawn(dance, lambda: cards_pdf(sheets, terms.progress))
+    return _drawn(dance, lambda: cards_pdf(sheets, request.paper, terms.progress))
 
 
 def _labels(
@@ -275,7 +275,7 @@ def _labels(
         LabelDeck(say("{name}: {text}", name=title, text=name) if name else title, benches, dragon.names, number)
         for name, benches, dragon, number in decks
     ]
-    return _drawn(dance, lambda: labels_pdf(title, request.address, labels, face, terms.budget))
+    return _drawn(dance, lambda: labels_pdf(title, request.address, labels, request.paper, face, terms.budget))
 
 
 def _drawn(dance: Dance | Performance, draw: Callable[[], bytes]) -> bytes:

@@ -96,13 +96,13 @@ class GatedDance(Marked):
         description="Gates and other places by name: the paper shows when head and tail pass each",
     )
     title: OneLine = Field("", max_length=80, description="Title of the dance")
+    paper: Literal["A4", "A3"] = Field("A4", description="Size of the paper")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
 
 class DancePlan(GatedDance):
     """A dance, as for /check, and the look of its plan."""
 
-    paper: Literal["A4", "A3"] = Field("A4", description="Size of the paper")
     clear: float | None = measure(
         "m", "Width of the zone to keep clear around the swept ground; default: the margin, or 0.5 m without one", None,
         ge=0, le=100,

@@ -236,6 +236,7 @@ class _Judged:
                 say("What this rests on"), [say("what"), say("value"), say("from")], rests, [2.0, 1.4, 0.9], [0, 1]
             ),
             lines=parts_of(answer, request, clock),
+            paper=request.paper,
         )  # fmt: skip
         return _drawn(dance, words, (ground, layers), face, terms)
 

@@ -182,7 +182,7 @@ def paper_and_phone_tell_of_the_dance_from_its_beginning(person):
     length = verdict["stop"] - verdict["start"]
     longest = f"nobody carries longer than {int(length // 60)}:{int(length % 60):02d}"
     person.presses("#crew summary", "#crew-ask").sees({"#crew-result p": longest})
-    for item in ("#keepPlan-A4", "#keepSafety-PDF"):
+    for item in ("#keepPlan-A4", "#keepSafety-A4"):
         assert "from -0:13.9 to" in " ".join(paper.sheets_of(person.saves(item)))
     held(person.opens(f"?door=all&lang=en&{BEFORE_ZERO}&bench=7"))
     assert cues_of(person) == [one["words"] for one in own[1:]]
@@ -193,7 +193,7 @@ def paper_and_phone_tell_of_the_dance_from_its_beginning(person):
     own = printed_cues(person)
     verdict = json.loads(person.saves("#keepVerdict-JSON"))
     assert float(own[-1]["time"]) == pytest.approx(verdict["failures"][0]["time"], abs=1e-3)
-    first, *_ = paper.pages_of(person.saves("#keepCues-PDF"))
+    first, *_ = paper.pages_of(person.saves("#keepCues-A4"))
     assert "the cues end where benches touch." in paper.words_of(first)
     held(person.opens(f"?door=all&lang=en&{TOUCHING}&bench=7"))
     assert cues_of(person) == [one["words"] for one in own[1:]]

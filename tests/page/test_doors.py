@@ -188,7 +188,7 @@ def shares_without_a_clipboard(person):
 def test_a_film_is_cancelled_then_shows_its_progress_and_opens_below_and_cue_cards_are_made(open_page):
     person = open_page(f"?door=village{ROUTE}").reaches_below()
     person.sees({"#kept li:visible": 5, "#people #cues": True})
-    assert person.saves("#keepCues-PDF", "cues.pdf").startswith(b"%PDF")
+    assert person.saves("#keepCues-A4", "cues-a4.pdf").startswith(b"%PDF")
     person.presses("#keepMap-KML").sees({"#status": "KML is in degrees", "#latitude": True})
     person.presses("#more").settles()
     person.page.route("**/films", without(seconds=60.0))  # it is not whole before it is cancelled

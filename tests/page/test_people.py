@@ -56,7 +56,7 @@ def test_who_carries_when_and_where_is_as_the_service_says(open_page, server):
     carried = [[one["label"], f"{one['way']:.0f}"] for one in answer["carriers"]]
     assert [[row[0], row[2]] for row in carriers] == carried
     assert [row.locator("i").count() for row in cells[1]] == [len(one["spells"]) for one in answer["carriers"]]
-    assert person.saves("#crew-PDF").startswith(b"%PDF")
+    assert person.saves("#crew-A4").startswith(b"%PDF")
     assert person.saves("#crew-CSV").startswith(b"person,label")
     person.types({"#crew-at": "19:30:30", "#crew-shift": "600"}, "Tab").presses("#crew-ask")
     person.sees({f"{RESULT} .error": "got 600 s"}).types({"#crew-shift": "20"}, "Tab").presses("#crew-ask")

@@ -142,6 +142,17 @@ def test_a_phone_reads_the_code_of_every_bench_from_cards_and_labels(ask, labels
     assert all(one.startswith("https://dragon.example/dance/?lang=zh&z=") for one in read)
 
 
+@pytest.mark.parametrize(("labels", "pages"), [(False, 3), (True, 1)])
+def test_a_sheet_of_a3_holds_twice_as_many(ask, labels, pages):
+    request = VILLAGE | {"address": ADDRESS, "labels": labels, "paper": "A3"}
+    sheets = pages_of(ask.file("cues", request, PDF_TYPE))
+    assert [sheet.get_size() for sheet in sheets] == [pytest.approx((1190.55, 841.89), abs=0.01)] * pages
+    codes = [zxingcpp.read_barcodes(sheet.render(scale=300 / 72).to_pil()) for sheet in sheets]
+    assert {code.text for part in codes for code in part} >= {
+        short_form(ADDRESS.replace("&time=4", "") + f"&bench={k}") for k in range(24)
+    }
+
+
 def test_a_map_that_is_turned_has_the_first_steps_of_the_bench_up(ask):
     (page,) = pages_of(ask.file("cues", VILLAGE | {"cards": [17], "map_up": "way"}, PDF_TYPE))
     dots = [box for box in shapes_of(page) if 2.5 < box[2] - box[0] < 2.8 and 2.5 < box[3] - box[1] < 2.8]

@@ -227,7 +227,7 @@ def test_a_note_calls_a_thing_without_a_name_by_a_word_of_its_language(space):
     space.add_point((30, 5))
     with speaking("zh"):
         notes = read(space).notes
-    assert "未读取：1 个半径小于 0.001 m 的圆：点。" in notes
+    assert "未读取：1 个半径小于 0.001 m 的圆：圆。" in notes
     assert "未读取：1 个小于 0.001 m 的图形：线。" in notes
     assert "Left out: 1 shape of less than 0.001 m: line." in read(space).notes
 

@@ -1,6 +1,7 @@
 """The safety sheet: approaches are those of the check, other numbers again from the trajectory by plain code."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from app.files.addresses import short_form
 from app.questions.plan import PDF_TYPE
 from core import bench_outlines, trajectory
 from tests.support.asking import box, line
-from tests.support.paper import pages_of, sheets_of, words_of
+from tests.support.paper import pages_of, shapes_of, sheets_of, words_of
 from tests.support.shared_dances import STREET
 
 IN_STREET = {"dragon": {"benches": 5}, "path": line((0, 0), (60, 0))}
@@ -143,6 +144,19 @@ def test_the_page_has_its_words_in_order_a_map_to_scale_and_a_code_that_a_phone_
         code = zxingcpp.read_barcode(page.render(scale=dpi / 72).to_pil())
         assert code.text == short_form(ADDRESS)
     assert data == ask.file("safety-sheet", body, PDF_TYPE)
+
+
+@pytest.mark.parametrize(("paper", "size"), [("A4", (210, 297)), ("A3", (297, 420))])
+def test_the_scale_on_the_sheet_is_true_to_two_tenths_of_a_millimetre(ask, paper, size):
+    (page,) = pages_of(ask.file("safety-sheet", BODY | {"paper": paper}, PDF_TYPE))
+    assert page.get_size() == pytest.approx([side * 72 / 25.4 for side in size], abs=0.01)
+    scale = int(re.search(r"1:(\d+) ", words_of(page))[1])
+    # The obstacle of 2 m by 2 m and the square of 70 m by 16 m; bounds hold the line around a shape twice.
+    boxes = np.array(shapes_of(page)) * 25.4 / 72.0
+    sizes = boxes[:, 2:] - boxes[:, :2]
+    for wide, high, edge in ((2.0, 2.0, 0.7), (70.0, 16.0, 1.2)):
+        expected = np.array([wide, high]) * 1000.0 / scale + 2.0 * edge * 25.4 / 72.0
+        assert np.abs(sizes - expected).max(axis=1).min() < 0.2
 
 
 def test_many_lanes_and_gates_take_a_second_page_and_nothing_is_lost(ask):

@@ -128,6 +128,7 @@ test("a square is drawn by its size, and measured", () => {
   const round = square.measures(square.circle(26.5, [0, 0]), true).lengths;
   assert.ok(Math.abs(round.reduce((sum, one) => sum + one, 0) - Math.PI * 26.5) < 0.1 && Math.max(...round) - Math.min(...round) < 1e-3);
   for (const [x, y] of square.circle(26.5, [0, 0])) assert.ok(Math.abs(Math.hypot(x, y) - 13.25) < 1e-4);
+  assert.deepEqual(square.measures([[0, 0], [3, 4]], true).lengths, [5, null]); // Its one side is measured once.
   const { lengths, angles } = square.measures(box, true);
   assert.deepEqual(lengths, [24, 18, 24, 18]);
   for (const ring of [box, box.toReversed()]) square.measures(ring, true).angles.forEach((one) => near(one, 90, "corner"));
