@@ -26,7 +26,7 @@ SMALL = 256_000_000
 NICENESS = 10
 # The same for what a person waits for: files that are read, pages that are set, and threads of long computations.
 # Beside five of these the loop that takes requests waited for a core for up to 0.4 s, with this value for up to 0.2 s,
-# with a load of 13 on two cores (2026-11-29). With 10, a plan of 0.2 MB was not read in 20 s beside four busy programs.
+# with a load of 13 on two cores (2026-11-29). With 10, a plan of 0.2 MB was not read in 20 s at such a load.
 AWAITED_NICENESS = 5
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Self
 
 import numpy as np
 from pydantic import AfterValidator, Field
@@ -20,7 +20,7 @@ from app.questions.maps import Marked
 from app.questions.plan import PDF_TYPE, SHEETS
 from app.wire.clocks import DAY, checked_clock
 from app.wire.dances import clock_of, starting
-from app.wire.fields import AS_WHOLE, Answer, Coordinate, Instant, OneLine, Wire, measure
+from app.wire.fields import AS_WHOLE, Answer, Coordinate, Instant, OneLine, PaperSize, Wire, measure
 from app.wire.labels import Part, Table
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
@@ -79,7 +79,7 @@ class CrewFields(Wire):
         None, description="The same as a time of day such as 19:45, for a dance with start_clock or begin_clock"
     )
     title: OneLine = Field("", max_length=80, description="Title of the dance on paper")
-    paper: Literal["A4", "A3"] = Field("A4", description="Size of the paper")
+    paper: PaperSize = "A4"
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
 

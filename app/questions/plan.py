@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import Field
 
@@ -16,7 +16,7 @@ from app.questions.check import FILE_OF_CHECK, verdict_of
 from app.questions.maps import Marked
 from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
-from app.wire.fields import Coordinate, OneLine, Wire, check_limit, measure
+from app.wire.fields import Coordinate, OneLine, PaperSize, Wire, check_limit, measure
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
 from app.wire.performances import SeveralFields
@@ -96,7 +96,7 @@ class GatedDance(Marked):
         description="Gates and other places by name: the paper shows when head and tail pass each",
     )
     title: OneLine = Field("", max_length=80, description="Title of the dance")
-    paper: Literal["A4", "A3"] = Field("A4", description="Size of the paper")
+    paper: PaperSize = "A4"
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
 

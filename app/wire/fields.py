@@ -143,6 +143,7 @@ Margin = Annotated[
 ]
 # Unit of the coordinates of a venue.
 Coordinates = Literal["metres", "degrees"]
+PaperSize = Annotated[Literal["A4", "A3"], Field(description="Size of the paper")]
 Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]
 Instant = Annotated[float, Field(ge=-1e6, le=1e6)]
 SpeedLimit = Annotated[float, Field(ge=1e-3, le=100)]

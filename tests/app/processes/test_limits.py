@@ -1,8 +1,10 @@
 """Memory of a command that reads a file: a limit while it reads, and none afterwards."""
 
+import os
 import subprocess
 import sys
 
+from app.processes.limits import lower_thread_priority
 from tests.conftest import ROOT
 
 READ = """
@@ -64,3 +66,10 @@ def test_a_student_whose_file_needs_too_much_memory_does_not_stop_the_others(tmp
     text = " ".join(done.stdout.split())  # The lines are as wide as a terminal.
     assert text.count("The file was not read: that takes more than 8 MB of memory.") == 1
     assert "b.csv: unreadable" in text
+
+
+def test_the_first_thread_of_a_process_keeps_its_priority():
+    """Threads that a computation starts later would inherit a lower one."""
+    before = os.nice(0)
+    lower_thread_priority(os.getpid())
+    assert os.nice(0) == before
