@@ -1,5 +1,7 @@
 """The page "How it works": its figures show the service's own numbers while they are dragged, in both languages."""
 
+import re
+
 import pytest
 from playwright.sync_api import expect
 
@@ -85,6 +87,15 @@ def test_dragged_numbers_get_the_answers_of_the_service_also_after_it_was_lost(o
     person.reads({"#chord .note": ""})
     held.let_go()
     person.settles()
+
+
+def test_a_refused_refinement_leaves_the_curve_as_it_was(open_page):
+    person = open_page("how?lang=en", failing=True)
+    whole = re.compile("pitch-scan(?!.*locate)")
+    person.page.route(whole, lambda route: route.fulfill(status=503, headers={"Retry-After": "60"}))
+    with person.page.expect_response(whole):
+        person.page.reload()
+    person.settles().sees({"#staircase .lead": "4.57", "#staircase .jump": 0})
 
 
 @thorough

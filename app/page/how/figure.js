@@ -100,9 +100,13 @@ export class Figure {
     this.#tell();
   }
 
-  /** Ask for the slower part that refines the drawing, if there is one. */
+  /** Ask for the slower part that refines the drawing, if there is one; where the service refuses it, the drawing stays. */
   async refine() {
-    await this.plan.refine?.((call, how) => this.service.ask(`${this.section.id} ${call} in full`, call, how));
+    try {
+      await this.plan.refine?.((call, how) => this.service.ask(`${this.section.id} ${call} in full`, call, how));
+    } catch (error) {
+      if (!(error instanceof Problem)) throw error;
+    }
     this.draw();
   }
 
