@@ -1,7 +1,7 @@
 /** Changes of a drawing: its points and things moved, inserted and removed. Drawings are never changed, only replaced. */
 
-import { isArea, place, yardOf } from "./drawing.js";
-import { onBorder } from "./square.js";
+import { freeName, isArea, place, yardOf } from "./drawing.js";
+import { extent, onBorder } from "./square.js";
 
 /** The edited item of a drawing: null for the path, else the number of a thing. */
 export const pointsOf = (drawing, item) => (item === null ? drawing.points : (drawing.things[item]?.points ?? []));
@@ -58,4 +58,29 @@ export function moved(drawing, item, k, point) {
 export function bent(drawing, leg) {
   const { straight } = drawing;
   return { ...drawing, path: null, straight: straight.includes(leg) ? straight.filter((one) => one !== leg) : [...straight, leg].sort((a, b) => a - b) };
+}
+
+/** A thing of a drawing moved by [m]; with a square go its gates and its border without streets. */
+export function shifted(drawing, item, by) {
+  const shift = (points) => points.map((point) => place(point.map((one, axis) => one + by[axis])));
+  const thing = drawing.things[item];
+  if (thing.kind === "gate") return moved(drawing, item, 0, shift(thing.points)[0]);
+  const whole = withThing(drawing, item, { points: shift(thing.points), ...(thing.holes && { holes: thing.holes.map(shift) }) });
+  if (!isArea(thing)) return whole;
+  const things = whole.things.map((one) => (one.kind === "gate" ? { ...one, points: shift(one.points) } : one));
+  return { ...whole, things, yard: drawing.yard && shift(drawing.yard) };
+}
+
+/** The drawing with a thing after all others, under a name of its own. */
+export function copied(drawing, thing) {
+  return { ...drawing, things: [...drawing.things, { ...thing, name: freeName(drawing.things, thing.name.replace(/ \d+$/, "")) }] };
+}
+
+/** A thing turned about the middle of its points [rad], and scaled from there [1]. */
+export function turned(drawing, item, angle, scale = 1) {
+  const thing = drawing.things[item];
+  const [x, y] = extent(thing.points).middle;
+  const [c, s] = [scale * Math.cos(angle), scale * Math.sin(angle)];
+  const turn = (points) => points.map(([px, py]) => place([x + c * (px - x) - s * (py - y), y + s * (px - x) + c * (py - y)]));
+  return withPoints({ ...drawing, things: drawing.things.map((one) => (one === thing && one.holes ? { ...one, holes: one.holes.map(turn) } : one)) }, item, turn(thing.points));
 }

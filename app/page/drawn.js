@@ -1,5 +1,6 @@
 /** A drawn dance on the page: joins the picture, the form, the files and the verdict. */
 
+import { Beside } from "./beside.js";
 import { EMPTY, isSamePath, walkOf, yardOf } from "./drawing.js";
 import { Editor } from "./edit.js";
 import { $, $$, hide, make, textButton } from "./elements.js";
@@ -46,13 +47,14 @@ export class Drawn {
     this.editor = new Editor(dance, state, this.steps, course, () => this.show());
     const files = new Files(state, this.steps, service, questions, several);
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
+    this.beside = new Beside($("#beside"), dance, this.editor, this.form);
     this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show() });
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point, ACROSS));
     this.#invite();
     const { below, names, above } = layers(dance, () => this.#visible());
     dance.below.push(below);
     dance.names.push(names);
-    dance.above.push(above, () => this.editor.place());
+    dance.above.push(above, () => this.editor.place(), () => this.beside.place());
   }
 
   get #isRoute() {
@@ -114,6 +116,7 @@ export class Drawn {
     $("#judgement").hidden = !drawn && !this.state.get("dances");
     $("#save").disabled = this.#isEmpty && !points.length && !drawing.things.length;
     this.editor.show();
+    this.beside.show();
     const empty = drawn && this.#isEmpty;
     $("main").classList.toggle("empty", empty);
     hide($("#invite"), !empty || points.length > 0 || this.editor.active || yardOf(drawing).length > 0);

@@ -1,15 +1,16 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
-import { inserted, moved, pointsOf, removed, withPoints } from "./changes.js";
+import { copied, inserted, moved, pointsOf, removed, shifted, turned, withPoints, withThing } from "./changes.js";
 import { THINGS, freeName, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
-import { onBorder, streetLength } from "./square.js";
+import { extent, onBorder, streetLength } from "./square.js";
 import { say } from "./text.js";
+import { decimetres, nearestLeg, squared, thingUnder } from "./touch.js";
 
 /** What each tool does. @type {Phrases} */
 const HELPS = {
-  path: "Tap the picture to extend the path, tap the path to insert a point, drag a point to move it.",
+  path: "Tap the picture to extend the path, tap the path to insert a point, drag points and things to move them.",
   area: "Tap the corners of the square one after another; drag them to move them.",
   block: "Tap the corners of an obstacle one after another. Choose Obstacle again for the next one.",
   circle: "Tap where a tree, a well or a person is; its radius is in the list “Square and obstacles”.",
@@ -21,11 +22,18 @@ const HELPS = {
 const [TRAVEL, ON_PATH] = [3, 16];
 /** Distance between two points below which the second one is a dot [px]. */
 const NEAR = 24;
+/** What the buttons around a thing do. @type {Phrases} */
+const GRIPS = { size: "Larger or smaller", turn: "Turn this thing" };
+/** Steps of their keys, alone and with Shift: radius [m], share of the size [1], angle [degrees]; distance from the thing [px]. */
+const [RADIUS_STEPS, SIZE_STEPS, TURN_STEPS, GRIP_FAR] = [[0.1, 0.01], [0.05, 0.01], [5, 1], 28];
+/** Distance of a copy from what was copied [px]. */
+const ASIDE = 40;
 /** Step of an arrow key that moves a point, alone and with Shift [m]. */
-const [STEP, LONG_STEP] = [0.1, 1];
+const [STEP, FINE_STEP] = [0.1, 0.01];
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 /** Tools of which every tap begins a new thing. */
 const ONE_POINT = ["circle", "gate"];
+const THINGS_INSIDE = ["gate", "circle", "wall", "block"];
 /** Distance of a point put by a key from the one before, as a share of the width of the picture. */
 const STRIDE = 0.15;
 const TREE_RADIUS = 0.5;
@@ -37,7 +45,13 @@ export class Editor {
   tool = "path";
   /** The edited item: null for the path, else the number of a thing. */
   item = null;
+  /** True while taps add points to the edited thing; false after it was chosen by a touch. */
+  #isDrawing = false;
   #knots = [];
+  /** What a thing is made larger by and turned by: kind -> button. */
+  #grips = Object.fromEntries(Object.keys(GRIPS).map((kind) => [kind, this.#grip(kind)]));
+  /** A copied thing. */
+  #copy = null;
   /** A mouse stands beside a keyboard. */
   #hasKeys = matchMedia("(pointer: fine)");
   #drag = null;
@@ -54,12 +68,18 @@ export class Editor {
     this.course = course;
     this.chosen = chosen;
     this.box = $("#knots");
+    this.box.after(make("div", { id: "grips" }, ...Object.values(this.#grips)));
     dance.tapped = (x, y) => this.#tap(x, y);
     for (const button of $$("[data-tool]")) button.addEventListener("click", () => this.take(button.dataset.tool));
     onClick("#edit", () => this.turn(!this.active));
     onClick("#delete", () => this.#delete());
-    $("#canvas").addEventListener("keydown", (event) => this.#next(event));
-    $("#canvas").addEventListener("pointerdown", (event) => this.#seize(event), { capture: true });
+    const canvas = $("#canvas");
+    canvas.addEventListener("keydown", (event) => this.#next(event));
+    canvas.addEventListener("pointerdown", (event) => this.#seize(event), { capture: true });
+    canvas.addEventListener("pointermove", (event) => this.#pull(event));
+    for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => this.#drop());
+    addEventListener("keydown", (event) => this.#command(event));
+    $("#stage").addEventListener("contextmenu", (event) => this.active && this.#isRoute && event.preventDefault());
   }
 
   get #drawing() {
@@ -79,7 +99,7 @@ export class Editor {
   /** The place of the dragged point, or of the one that has the focus, in the edited item; null without one. */
   get held() {
     const k = this.#drag?.k ?? this.#knots.indexOf(/** @type {any} */ (document.activeElement));
-    return k < 0 ? null : k;
+    return k >= 0 ? k : null;
   }
 
   get dragging() {
@@ -89,12 +109,13 @@ export class Editor {
   /** What a tap draws with the tool. */
   get help() {
     const words = say(HELPS[this.tool], { length: this.tool === "gate" ? streetLength(this.state) : "" });
-    return this.#hasKeys.matches ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 m, Enter inserts one, Delete removes it.")}` : words;
+    return this.#hasKeys.matches ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 cm, Enter inserts one, Delete removes it.")}` : words;
   }
 
   /** Draw with this tool from now on; a new obstacle begins with the next tap. */
   take(tool) {
     this.tool = tool;
+    this.#isDrawing = true;
     const area = this.#drawing.things.findIndex(({ kind }) => kind === "area");
     this.edit(tool === "area" && area >= 0 ? area : null);
   }
@@ -102,8 +123,31 @@ export class Editor {
   /** Edit this item. */
   edit(item) {
     this.item = item;
+    this.#isDrawing = true;
     if (item !== null) this.tool = this.#drawing.things[item].kind;
     this.chosen();
+  }
+
+  /** Choose a thing by a touch, whatever the tool, which goes on to draw on free ground. */
+  choose(item) {
+    this.active = true;
+    this.item = item;
+    this.#isDrawing = false;
+    this.chosen();
+  }
+
+  /** The chosen thing; null without one. */
+  get thing() {
+    return this.active && this.#isRoute && this.item !== null ? this.#drawing.things[this.item] : null;
+  }
+
+  /** The chosen thing, unless taps on the picture still add points to it. */
+  get whole() {
+    return this.#isDrawing && this.thing && !ONE_POINT.includes(this.thing.kind) ? null : this.thing;
+  }
+
+  get #isLine() {
+    return this.item === null || this.#drawing.things[this.item].kind === "wall";
   }
 
   /** After a change of anything. */
@@ -130,11 +174,52 @@ export class Editor {
     return pointsOf(this.#drawing, this.item);
   }
 
+  /** A thing like the chosen one beside it, which is chosen now. thing: another one */
+  duplicate(thing = this.thing) {
+    if (!thing || thing.kind === "area") return;
+    const drawing = copied(this.#drawing, thing);
+    const item = drawing.things.length - 1;
+    const far = ASIDE / this.dance.view.scale;
+    this.steps.take(shifted(drawing, item, decimetres([far, -far])));
+    this.choose(item);
+  }
+
+  /** Take the chosen thing away. */
+  remove() {
+    if (this.item === null) return;
+    const item = this.item;
+    this.item = null;
+    this.steps.take({ ...this.#drawing, things: this.#drawing.things.toSpliced(item, 1) });
+  }
+
+  /** Ctrl+C, Ctrl+V and Ctrl+D copy a thing, put a copy beside it, or both at once; Escape leaves it. */
+  #command(event) {
+    if (!this.active || !this.#isRoute || event.defaultPrevented || (event.target instanceof Element && event.target.matches("input, textarea, select"))) return;
+    const key = event.key.toLowerCase();
+    if (key === "escape" && this.thing && !$$(":popover-open, dialog[open]").length) this.leave();
+    else if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
+    else if (key === "c" && this.thing && getSelection().isCollapsed) this.#copy = this.thing;
+    else if (key === "v" && this.#copy) this.duplicate(this.#copy);
+    else if (key === "d" && this.thing) this.duplicate();
+    else return;
+    event.preventDefault();
+  }
+
+  /** Choose nothing. */
+  leave() {
+    this.item = null;
+    this.chosen();
+  }
+
   /** As many buttons as points, each with its name. */
   #fit() {
     const points = this.#points;
     while (this.#knots.length > points.length) this.#knots.pop().remove();
     while (this.#knots.length < points.length) this.box.append(this.#knot(this.#knots.length));
+    for (const [kind, grip] of Object.entries(this.#grips)) {
+      grip.hidden = !this.whole || (kind === "turn" ? points.length < 2 : points.length < 2 && this.thing.radius === undefined);
+      grip.setAttribute("aria-label", say(GRIPS[kind]));
+    }
     points.forEach(([x, y], k) => {
       const label = say("Point {k} of {count}, x {x} m, y {y} m", { k: k + 1, count: points.length, x, y });
       if (this.#knots[k].getAttribute("aria-label") !== label) this.#knots[k].setAttribute("aria-label", label);
@@ -153,37 +238,92 @@ export class Editor {
       knot.classList.toggle("near", isNear);
       if (!isNear) shown.push([px, py]);
     });
+    this.#placeGrips();
+  }
+
+  /** Move the buttons around the thing to their places: beside it, and above it. */
+  #placeGrips() {
+    if (!this.whole) return;
+    const { view } = this.dance;
+    const shown = this.#points.map((point) => view.toScreen(...point));
+    const reach = shown.length > 1 ? GRIP_FAR : Math.max((this.thing.radius ?? 0) * view.scale, GRIP_FAR);
+    const { width, height, middle } = extent(shown);
+    const places = { size: [middle[0] + width / 2 + reach, middle[1] + (shown.length > 1 ? height / 2 + reach : 0)], turn: [middle[0], middle[1] - height / 2 - 1.5 * reach] };
+    for (const [kind, [x, y]] of Object.entries(places)) this.#grips[kind].style.transform = `translate(${x}px, ${y}px)`;
+  }
+
+  #grip(kind) {
+    const onpointerdown = (event) => {
+      event.preventDefault();
+      this.#grips[kind].focus({ preventScroll: true });
+      this.#grips[kind].setPointerCapture(event.pointerId);
+      this.#hold({ k: kind, from: [event.clientX, event.clientY] });
+    };
+    const onkeydown = (event) => {
+      const way = KEYS[event.key];
+      if (!way || event.ctrlKey || event.metaKey || event.altKey) return;
+      event.preventDefault();
+      event.stopPropagation();
+      const step = (way[0] + way[1]) * (kind === "turn" ? TURN_STEPS : this.#points.length > 1 ? SIZE_STEPS : RADIUS_STEPS)[Number(event.shiftKey)];
+      this.steps.take(this.#formed(this.#drawing, kind, step), `${this.item} ${kind}`);
+    };
+    return make("button", { type: "button", className: `grip ${kind}`, hidden: true, textContent: { size: "↔", turn: "↻" }[kind], onpointerdown, onkeydown, ...this.#dragging });
+  }
+
+  /** The drawing with the chosen thing larger by a step of its radius [m] or size [1], or turned by a step [degrees]. */
+  #formed(drawing, kind, step) {
+    const { points, radius } = drawing.things[this.item];
+    if (kind === "turn") return turned(drawing, this.item, (step * Math.PI) / 180);
+    if (points.length > 1) return turned(drawing, this.item, 0, Math.max(1 + step, SIZE_STEPS[1]));
+    return withThing(drawing, this.item, { radius: Math.max(Number((radius + step).toFixed(2)), RADIUS_STEPS[1]) });
+  }
+
+  /** The drawing with the thing as large, or turned as far, as the pointer went about its middle. */
+  #around(event, { base, k, from }) {
+    const { left, top } = this.box.getBoundingClientRect();
+    const { points, radius } = base.things[this.item];
+    const [x, y] = this.dance.view.toScreen(...extent(points).middle);
+    const [was, is] = [from, [event.clientX, event.clientY]].map(([px, py]) => [px - left - x, y + top - py]);
+    const [first, now] = [was, is].map((way) => Math.hypot(...way) || 1);
+    const rest = (number, steps) => steps[Number(event.altKey)] * Math.round(number / steps[Number(event.altKey)]);
+    if (k === "turn") return this.#formed(base, k, rest(((Math.atan2(is[1], is[0]) - Math.atan2(was[1], was[0])) * 180) / Math.PI, TURN_STEPS));
+    return this.#formed(base, k, points.length > 1 ? now / first - 1 : rest(radius + (now - first) / this.dance.view.scale, RADIUS_STEPS) - radius);
+  }
+
+  /** What a pressed button does while its pointer moves and when it is let go. */
+  get #dragging() {
+    const drop = () => this.#drop();
+    return { onpointermove: (event) => this.#pull(event), onpointerup: drop, onpointercancel: drop };
   }
 
   #knot(k) {
-    const drop = () => this.#drop();
-    const drag = { onpointerdown: (event) => this.#grab(event), onpointermove: (event) => this.#pull(event), onpointerup: drop, onpointercancel: drop };
+    const drag = { onpointerdown: (event) => this.#grab(event), ...this.#dragging };
     const keys = { onkeydown: (event) => this.#key(event, k), onfocus: () => this.#reveal(k) };
     this.#knots.push(make("button", { type: "button", className: "knot", textContent: k + 1, ...drag, ...keys }));
     return this.#knots.at(-1);
   }
 
-  /** A press on a tree or a gate, while things are drawn, takes this thing: it is edited, and moves with the pointer. */
+  /** A press on a thing, whatever the tool, takes this thing: it is edited, and moves with the pointer. */
   #seize(event) {
-    if (!this.active || !this.#isRoute || this.tool === "path" || !event.isPrimary || event.button) return;
+    if (!this.active || !this.#isRoute || !event.isPrimary || (event.button && event.button !== 2)) return;
     const item = this.#under(event.offsetX, event.offsetY);
-    if (item === null) return;
+    if (item === null || (item === this.item && this.#isDrawing && this.#points.length > 1)) return;
     event.stopPropagation();
-    this.edit(item);
-    this.#grab(event);
+    const { points } = this.#drawing.things[item];
+    this.choose(item);
+    if (event.button) return;
+    if (points.length === 1) return this.#grab(event);
+    event.preventDefault();
+    const canvas = $("#canvas");
+    canvas.focus({ preventScroll: true });
+    canvas.setPointerCapture(event.pointerId);
+    this.#hold({ k: null, from: [event.clientX, event.clientY] });
   }
 
-  /** The tree or gate at a place of the picture [px], the nearest of several; null without one. */
+  /** The thing at a place of the picture [px]. Gates are drawn on the border of the square, and paths across it. */
   #under(px, py) {
-    const { view } = this.dance;
-    let [best, least] = [null, Infinity];
-    this.#drawing.things.forEach(({ kind, points, radius = 0 }, k) => {
-      if (!ONE_POINT.includes(kind) || !points.length) return;
-      const [x, y] = view.toScreen(...points[0]);
-      const far = Math.hypot(x - px, y - py);
-      if (far <= Math.max(radius * view.scale, ON_PATH) && far < least) [best, least] = [k, far];
-    });
-    return best;
+    const kinds = ["path", "gate"].includes(this.tool) ? THINGS_INSIDE : undefined;
+    return thingUnder(this.#drawing.things, this.dance.view, [px, py], kinds);
   }
 
   /** Take the point nearest to the pointer, because buttons of near points overlap. */
@@ -196,8 +336,12 @@ export class Editor {
     const k = far.indexOf(Math.min(...far));
     this.#knots[k].focus({ preventScroll: true });
     this.#knots[k].setPointerCapture(event.pointerId);
+    this.#hold({ k, from, shift: shifts[k] });
+  }
+
+  #hold(drag) {
     this.dance.view.fitted = false;
-    this.#drag = { k, from, shift: shifts[k], base: this.#drawing, far: false };
+    this.#drag = { ...drag, base: this.#drawing, far: false };
   }
 
   #pull(event) {
@@ -205,23 +349,38 @@ export class Editor {
     if (!drag) return;
     drag.far ||= Math.hypot(event.clientX - drag.from[0], event.clientY - drag.from[1]) > TRAVEL;
     if (!drag.far) return;
-    const point = this.dance.view.toWorld(event.clientX + drag.shift[0], event.clientY + drag.shift[1]);
-    const centimetres = point.map((one) => Math.round(100 * one) / 100);
-    this.state.set({ drawing: moved(drag.base, this.item, drag.k, centimetres) }, false);
+    const change = drag.k === null ? this.#carried : drag.k in GRIPS ? this.#around : this.#bent;
+    this.state.set({ drawing: change.call(this, event, drag) }, false);
+  }
+
+  /** The drawing with the dragged point where the pointer is: in line with its neighbours and in whole decimetres, with Alt as it is. */
+  #bent(event, { base, k, shift }) {
+    const { view } = this.dance;
+    const point = view.toWorld(event.clientX + shift[0], event.clientY + shift[1]);
+    const points = pointsOf(base, this.item);
+    const rest = event.altKey ? point.map((one) => Math.round(100 * one) / 100) : this.item === null ? decimetres(point) : squared(points, k, point, !this.#isLine, view.scale);
+    return moved(base, this.item, k, rest);
+  }
+
+  /** The drawing with the whole thing as far as the pointer went. */
+  #carried(event, { base, from }) {
+    const { scale } = this.dance.view;
+    const by = [(event.clientX - from[0]) / scale, (from[1] - event.clientY) / scale];
+    return shifted(base, this.item, event.altKey ? by : decimetres(by));
   }
 
   #drop() {
     const drag = this.#drag;
     this.#drag = null;
     if (drag?.far) this.steps.take(this.#drawing, null, drag.base);
-    else if (drag) announce(() => say("Point {k}: drag it, or delete it with ⌫. To add a point beside it, or to drag one that is a dot, enlarge the picture with + first.", { k: drag.k + 1 }));
+    else if (drag && typeof drag.k === "number" && this.#points.length > 1) announce(() => say("Point {k}: drag it, or delete it with ⌫. To add a point beside it, or to drag one that is a dot, enlarge the picture with + first.", { k: drag.k + 1 }));
   }
 
   #key(event, k) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const way = KEYS[event.key];
     if (way) {
-      const by = event.shiftKey ? LONG_STEP : STEP;
+      const by = event.shiftKey ? FINE_STEP : STEP;
       const [x, y] = this.#points[k];
       this.steps.take(moved(this.#drawing, this.item, k, [x + by * way[0], y + by * way[1]]), `${this.item} ${k}`);
       this.#reveal(k);
@@ -237,7 +396,7 @@ export class Editor {
   #divide(k) {
     const points = this.#points;
     if (points.length < 2) return;
-    const next = this.item !== null && this.tool !== "wall" ? (k + 1) % points.length : Math.min(k + 1, points.length - 1);
+    const next = !this.#isLine ? (k + 1) % points.length : Math.min(k + 1, points.length - 1);
     const from = next === k ? k - 1 : k;
     const { knots, s, x, y } = this.item === null ? (this.course() ?? {}) : {};
     const half = () => points[from].map((one, axis) => (one + points[next][axis]) / 2);
@@ -287,15 +446,22 @@ export class Editor {
     return this.tool === "path" || this.tool === "wall" || points.length < 2 ? [bx + dx, by + dy] : [bx - dy, by + dx];
   }
 
-  /** Handle a tap on the picture; returns true if it drew something. */
+  /** Handle a tap on the picture; returns true if it drew or chose something. */
   #tap(px, py) {
-    if (!this.active || !this.#isRoute) return false;
+    if (!this.#isRoute) return false;
+    if (!this.active) {
+      const item = thingUnder(this.#drawing.things, this.dance.view, [px, py], THINGS_INSIDE);
+      if (item === null) return false;
+      this.choose(item);
+      return true;
+    }
     const drawing = this.#drawing;
-    const point = this.dance.view.toWorld(px, py).map((one) => Math.round(10 * one) / 10);
+    const point = decimetres(this.dance.view.toWorld(px, py));
     this.#last = null;
     this.dance.view.fitted = false;
-    const spot = this.tool !== "path" ? this.#onEdge(px, py) : drawing.points.length > 1 ? this.#onPath(px, py) : null;
-    this.#put(point, spot);
+    const onPath = drawing.points.length > 1 && this.tool !== "gate" && !(this.#isDrawing && this.item !== null) ? this.#onPath(px, py) : null;
+    if (onPath && this.tool !== "path") this.take("path");
+    else this.#put(point, this.tool === "path" ? onPath : this.#onEdge(px, py));
     return true;
   }
 
@@ -303,23 +469,17 @@ export class Editor {
   #put(point, spot = null) {
     const drawing = this.#drawing;
     if (this.tool === "path") this.steps.take(inserted(drawing, null, spot?.k ?? drawing.points.length, spot?.point ?? point));
-    else if (this.item === null || ONE_POINT.includes(this.tool)) this.#begin(drawing, point);
+    else if (this.item === null || !this.#isDrawing || ONE_POINT.includes(this.tool)) this.#begin(drawing, point);
     else this.steps.take(inserted(drawing, this.item, spot?.k ?? pointsOf(drawing, this.item).length, point));
     this.chosen();
   }
 
   /** The edge of the edited thing that a tap divides: number of the next point; null without one. */
   #onEdge(px, py) {
-    const points = this.item === null ? [] : pointsOf(this.#drawing, this.item).map((point) => this.dance.view.toScreen(...point));
-    const ends = this.tool === "wall" || points.length < 3 ? points.slice(1) : [...points.slice(1), points[0]];
-    const far = ends.map(([bx, by], k) => {
-      const [ax, ay] = points[k];
-      const share = ((px - ax) * (bx - ax) + (py - ay) * (by - ay)) / (Math.hypot(bx - ax, by - ay) ** 2 || 1);
-      const on = Math.min(Math.max(share, 0), 1);
-      return Math.hypot(ax + on * (bx - ax) - px, ay + on * (by - ay) - py);
-    });
-    const least = Math.min(...far);
-    return least <= ON_PATH ? { k: far.indexOf(least) + 1 } : null;
+    if (this.item === null || !this.#isDrawing) return null;
+    const points = pointsOf(this.#drawing, this.item).map((point) => this.dance.view.toScreen(...point));
+    const { k, far } = nearestLeg(points, [px, py], !this.#isLine);
+    return far <= ON_PATH ? { k } : null;
   }
 
   /** The division of the path by a tap: number of the next point, and place of the new one. */
@@ -341,6 +501,7 @@ export class Editor {
     const radius = { circle: TREE_RADIUS, wall: WALL_RADIUS }[kind];
     const thing = { kind, name: freeName(drawing.things, say(THINGS[kind])), points: [], ...(radius && { radius }) };
     this.item = drawing.things.length;
+    this.#isDrawing = true;
     this.steps.take(withPoints({ ...drawing, things: [...drawing.things, thing] }, this.item, [point]));
   }
 }

@@ -172,25 +172,30 @@ export class RouteForm {
     this.thingsTitle.textContent = say("Square and obstacles: {count}", { count: things.length });
     this.note.textContent = this.state.fits ? "" : say("This drawing is too long for an address: save it as a file to share it.");
     this.#fit(this.#points, this.rows, points.length, (k) => this.#pointRow(k));
-    this.#fit(this.#things, this.list, things.length, (k) => this.#thingRow(k));
+    this.#fit(this.#things, this.list, things.length, (k) => this.thingRow(() => k));
     this.#points.forEach((row, k) => {
       points[k].forEach((one, axis) => put(row.fields[axis], one));
       row.leg.checked = straight.includes(k);
       row.leg.disabled = k === points.length - 1;
     });
-    this.#things.forEach((row, k) => {
-      const { name, kind, radius: own, heading } = things[k];
-      put(row.name, name);
-      put(row.radius, own ?? "");
-      put(row.heading, heading === null || heading === undefined ? "" : Number((heading / DEGREE).toFixed(1)));
-      if (row.heading.placeholder !== say("straight")) row.heading.placeholder = say("straight");
-      for (const part of [row.radius, row.unit]) hide(part, own === undefined);
-      hide(row.heading, kind !== "gate");
-      row.edit.textContent = say(THINGS[kind]);
-      row.edit.setAttribute("aria-pressed", this.editor.item === k);
-      row.edit.setAttribute("aria-label", say("Edit {name}", { name }));
-      row.remove.setAttribute("aria-label", say("Remove {name}", { name }));
-    });
+    this.#things.forEach((row, k) => this.fill(row, k));
+  }
+
+  /** Show the numbers of thing k in a row of fields. */
+  fill(row, k) {
+    const { name, kind, radius, heading, points } = this.#drawing.things[k];
+    put(row.name, name);
+    put(row.radius, radius ?? "");
+    put(row.heading, heading === null || heading === undefined ? "" : Number((heading / DEGREE).toFixed(1)));
+    if (row.heading.placeholder !== say("straight")) row.heading.placeholder = say("straight");
+    for (const part of [row.radius, row.unit]) hide(part, radius === undefined);
+    hide(row.heading, kind !== "gate");
+    row.at.forEach((field, axis) => put(field, points[0]?.[axis] ?? ""));
+    hide(row.places, points.length !== 1);
+    row.edit.textContent = say(THINGS[kind]);
+    row.edit.setAttribute("aria-pressed", this.editor.item === k);
+    row.edit.setAttribute("aria-label", say("Edit {name}", { name }));
+    row.remove.setAttribute("aria-label", say("Remove {name}", { name }));
   }
 
   #fit(rows, box, count, make) {
@@ -211,25 +216,29 @@ export class RouteForm {
     return { fields, leg, box: make("tr", {}, make("th", { scope: "row", textContent: k + 1 }), ...cells) };
   }
 
-  #thingRow(k) {
+  /** Fields of a thing: name, radius, place, direction. at(): its number */
+  thingRow(at) {
     const edit = () => {
       this.editor.turn(true);
-      this.editor.edit(this.editor.item === k ? null : k);
+      this.editor.edit(this.editor.item === at() ? null : at());
     };
     const rename = ({ target }) => {
       const { things } = this.#drawing;
-      const name = target.value.trim() || say(THINGS[things[k].kind]);
-      this.steps.take(withThing(this.#drawing, k, { name: freeName(things, name, things[k]) }));
+      const thing = things[at()];
+      const name = target.value.trim() || say(THINGS[thing.kind]);
+      this.steps.take(withThing(this.#drawing, at(), { name: freeName(things, name, thing) }));
     };
+    const change = (changes) => this.steps.take(withThing(this.#drawing, at(), changes));
     const row = {
       edit: button({}, edit),
       name: labelled("input", "Name", { maxLength: 200, autocomplete: "off", spellcheck: false, onchange: rename }),
-      radius: this.#number("thingRadius", (radius) => this.steps.take(withThing(this.#drawing, k, { radius }))),
+      radius: this.#number("thingRadius", (radius) => change({ radius })),
       unit: unitOf("m"),
-      heading: this.#number("gateHeading", (degrees) => this.steps.take(withThing(this.#drawing, k, { heading: degrees === null ? null : Number((degrees * DEGREE).toFixed(4)) }))),
-      remove: button(removing, () => this.#take({ things: this.#drawing.things.toSpliced(k, 1) })),
+      at: ["pointX", "pointY"].map((key, axis) => this.#number(key, (value) => this.steps.take(moved(this.#drawing, at(), 0, this.#drawing.things[at()].points[0].with(axis, value))))),
+      heading: this.#number("gateHeading", (degrees) => change({ heading: degrees === null ? null : Number((degrees * DEGREE).toFixed(4)) })),
+      remove: button(removing, () => this.#take({ things: this.#drawing.things.toSpliced(at(), 1) })),
     };
-    row.box = make("li", {}, row.edit, row.name, row.radius, row.unit, row.heading, row.remove);
-    return row;
+    const places = make("span", { className: "places" }, "x ", row.at[0], " y ", row.at[1], unitOf("m"));
+    return { ...row, places, box: make("li", {}, row.edit, row.name, row.radius, row.unit, row.heading, row.remove) };
   }
 }

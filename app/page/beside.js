@@ -1,0 +1,74 @@
+/** The numbers of the chosen thing, beside it on the picture. */
+
+import { $, button, hide, make, textButton } from "./elements.js";
+import { measures } from "./square.js";
+import { phrase, say } from "./text.js";
+
+/** Distance from the thing, and from the edge of the picture; width of a picture beside whose things there is room [px]. */
+const [ASIDE, EDGE, WIDE] = [14, 6, 560];
+
+export class Beside {
+  /**
+   * form: has the fields of a thing
+   * @param {Editor} editor
+   */
+  constructor(box, dance, editor, form) {
+    this.box = box;
+    this.dance = dance;
+    this.editor = editor;
+    this.form = form;
+    this.row = form.thingRow(() => editor.item);
+    this.size = make("p", { className: "hint" });
+    addEventListener("resize", () => {
+      this.#makeRoom(null);
+      this.show();
+    });
+    const { edit, name, radius, unit, heading, places } = this.row;
+    this.copy = textButton(phrase("Copy"), () => editor.duplicate());
+    const remove = textButton(phrase("Remove"), () => editor.remove());
+    const close = button({ textContent: "✓", "data-label": "Leave this thing (Escape)", "aria-label": say("Leave this thing (Escape)") }, () => editor.leave());
+    // Its kind is known; the list has the button that goes on drawing it.
+    edit.remove();
+    box.append(make("div", {}, name, close), make("div", {}, make("label", { className: "radius" }, "r ", radius, unit), places, heading), this.size, make("div", {}, this.copy, remove));
+  }
+
+  /** After a change of anything. */
+  show() {
+    const { whole: thing, item } = this.editor;
+    this.#makeRoom(thing);
+    hide(this.box, !thing);
+    if (!thing) return;
+    this.form.fill(this.row, item);
+    hide(this.box.querySelector(".radius"), thing.radius === undefined);
+    hide(this.copy, thing.kind === "area");
+    const { lengths } = measures(thing.points, thing.kind !== "wall");
+    this.size.textContent = thing.points.length > 1 ? lengths.filter((one) => one !== null).map((one) => `${Number(one.toFixed(2))} m`).join(" · ") : "";
+  }
+
+  /** In a narrow window the numbers stand below the picture, which keeps its size, so that nothing moves under a finger. */
+  #makeRoom(thing) {
+    const stage = $("#stage");
+    const isBelow = Boolean(thing) && stage.offsetWidth < WIDE;
+    if (isBelow === this.box.classList.contains("below")) return;
+    stage.style.flex = isBelow ? `0 0 ${stage.offsetHeight}px` : "";
+    this.box.classList.toggle("below", isBelow);
+    this.box.style.transform = "";
+  }
+
+  /** At each drawing of the picture: where there is room beside the thing. */
+  place() {
+    const { whole: thing } = this.editor;
+    if (!thing?.points.length || this.box.classList.contains("below")) return;
+    const { view } = this.dance;
+    const reach = (thing.radius ?? 0) * view.scale + ASIDE;
+    const places = thing.points.map((point) => view.toScreen(...point));
+    const [left, top, right, low] = [0, 1, 0, 1].map((axis, side) => Math[side < 2 ? "min" : "max"](...places.map((one) => one[axis])) + (side < 2 ? -reach : reach));
+    const { offsetWidth: wide, offsetHeight: high } = this.box;
+    const [middleX, middleY] = [(left + right - wide) / 2, (top + low - high) / 2];
+    const tries = [[right, middleY], [left - wide, middleY], [middleX, top - high], [middleX, low]];
+    const isIn = ([x, y]) => x >= EDGE && y >= EDGE && x + wide <= view.width - EDGE && y + high <= view.height - EDGE;
+    const [x, y] = tries.find(isIn) ?? [middleX, view.height - high - EDGE];
+    const at = [Math.min(Math.max(x, EDGE), view.width - wide - EDGE), Math.max(y, EDGE)].map(Math.round);
+    this.box.style.transform = `translate(${at[0]}px, ${at[1] + $("#stage").offsetTop}px)`;
+  }
+}

@@ -1,0 +1,42 @@
+/** What is under a finger, and what a drag or a key makes of it. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import * as changes from "../../../app/page/changes.js";
+import { EMPTY } from "../../../app/page/drawing.js";
+import { nearestLeg, squared, thingUnder } from "../../../app/page/touch.js";
+
+const THINGS = [
+  { kind: "area", name: "square", points: [[0, 0], [40, 0], [40, 20], [0, 20]] },
+  { kind: "block", name: "stage", points: [[10, 5], [20, 5], [20, 10], [10, 10]], holes: [[[12, 6], [13, 6], [13, 7]]] },
+  { kind: "circle", name: "tree", points: [[19, 9]], radius: 0.5 },
+  { kind: "gate", name: "gate", points: [[0, 8]], heading: null },
+];
+const DRAWING = { ...EMPTY, things: THINGS, yard: [[0, 0], [40, 0], [40, 20], [0, 20]] };
+/** Ten pixels a metre. */
+const view = { scale: 10, toScreen: (x, y) => [10 * x, -10 * y] };
+const under = (x, y, kinds) => thingUnder(THINGS, view, [10 * x, -10 * y], kinds);
+
+test("of several things under a finger the smallest is meant, and a square by its border alone", () => {
+  assert.deepEqual([under(15, 7), under(18.5, 8.5), under(30, 15), under(30, 0.5), under(0.5, 8)], [1, 2, null, 0, 3]);
+  assert.deepEqual([under(21.5, 7), under(22, 7), under(30, 1), under(30, 0.5, ["circle"])], [1, null, null, null]);
+});
+
+test("the nearest leg closes a ring and not a line", () => {
+  const places = [[0, 0], [10, 0], [10, 10]];
+  assert.deepEqual([nearestLeg(places, [4, 6], true).k, nearestLeg(places, [4, 1], false)], [3, { k: 1, far: 1 }]);
+});
+
+test("a dragged corner rests in line with its neighbours, or else in whole decimetres", () => {
+  assert.deepEqual(squared(THINGS[0].points, 2, [39.55, 20.67], true, 10), [40, 20.7]);
+  assert.deepEqual(squared(THINGS[0].points, 0, [0.12, 0.34], false, 100), [0.1, 0.3]);
+});
+
+test("a square takes its gates and its streets along, a copy has a name of its own, a stage turns with its holes", () => {
+  const { things, yard } = changes.shifted(DRAWING, 0, [1, -2]);
+  assert.deepEqual([things[3].points, yard[2], things[1]], [[[1, 6]], [41, 18], THINGS[1]]);
+  assert.deepEqual(changes.shifted(DRAWING, 1, [1, -2]).things[1].holes, [[[13, 4], [14, 4], [14, 5]]]);
+  assert.deepEqual(changes.copied(DRAWING, THINGS[2]).things.map(({ name }) => name).slice(-2), ["gate", "tree 2"]);
+  const stage = changes.turned(DRAWING, 1, Math.PI / 2, 2).things[1];
+  assert.deepEqual([stage.points[0], stage.holes[0][0]], [[20, -2.5], [18, 1.5]]);
+});
