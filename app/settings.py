@@ -33,11 +33,6 @@ def _scheduler(address: str) -> str:
     return address
 
 
-def usable_cores() -> int:
-    """Number of cores that this process may use; all cores of the machine if the system has no such limit."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 # Path under which a proxy shows the service.
 ROOT_PATH = re.compile(r"(/[A-Za-z0-9._~-]+)*")
 

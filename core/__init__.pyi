@@ -18,6 +18,7 @@ from .contact.cross_check import ContactCheck, EncounterCheck, contact_check, en
 from .contact.encounter import first_encounter
 from .contact.encounter_answer import EncounterEvidence, FirstEncounter, NearPass
 from .contact.first_contact import first_contact
+from .contact.first_contacts import first_contacts
 from .contact.stage_clearance import PerformanceClearance, PerformanceLeastClearance
 from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, venue_clearance
 from .course import Course, TightBend, course
@@ -234,6 +235,7 @@ __all__ = [
     "encounter_check",
     "envelope",
     "first_contact",
+    "first_contacts",
     "first_encounter",
     "first_excess",
     "highest_speed",

@@ -16,7 +16,8 @@ from packaging.utils import canonicalize_name
 
 import core
 from app.service.workers import process_count
-from app.settings import WORKERS_MAX, usable_cores
+from app.settings import WORKERS_MAX
+from core.threads import usable_cores
 from tests.conftest import ROOT
 from tests.support.lock import PYTHONS
 from tests.support.refused import refused

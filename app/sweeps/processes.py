@@ -16,10 +16,10 @@ from contextlib import suppress
 from app.processes.child import ProcessEnded
 from app.processes.parent import Report, answer_tasks
 from app.processes.pool import STARTS, Pool
-from app.settings import usable_cores
 from app.sweeps.engines import Done, attempt, done_of
 from app.sweeps.shards import ShardPiece
 from core import BenchDragonError
+from core.threads import usable_cores
 
 
 class CannotStart(BenchDragonError):

@@ -42,6 +42,7 @@ LARGER = {
     core.check: {"dance": SPIRAL, "venue": square(30)},
     core.clearance_profile: {"dance": SPIRAL, "times": [0.0, 9.0, 100.0]},
     core.first_contact: {"dance": SPIRAL},
+    core.first_contacts: {"dances": [SPIRAL]},
     core.minimum_pitch: {"dragon": Dragon(30)},
     core.overlaps: SIZED,
     core.pitch_check: {"minimum": minimum_pitch(Dragon()), "dragon": Dragon()},

@@ -21,6 +21,7 @@ ENCOUNTER = core.first_encounter(core.Performance([core.Part(DANCE), core.Part(c
 # What parameters of these names get.
 COMMON = {
     "dance": DANCE,
+    "dances": [DANCE],
     "performance": PERFORMANCE,
     "dragon": DRAGON,
     "path": SPIRAL,
