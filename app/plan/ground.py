@@ -18,7 +18,7 @@ from app.plan.timing import Timing
 from core import Budget, Dance, Venue
 from core.language import say
 from core.plots import BLUE, VERMILION
-from core.shapes.engines import Polygons, widest_place
+from core.shapes.engines import Polygons, merged, widest_place
 from core.values import Floats
 
 EDGE, GREY = "#B8860B", "#888888"
@@ -101,16 +101,21 @@ def draw_grounds(
 ) -> MapDrawing:
     """One map of several dragons. names: of the dragons, beside their paths"""
     drawing = _draw_areas(grounds, scale, face, budget)
-    lines = [scale.on_paper(ground.line) for ground in grounds]
+    _draw_paths(drawing, grounds, names)
+    return drawing
+
+
+def _draw_paths(drawing: MapDrawing, grounds: Sequence[GroundMap], names: Sequence[str]) -> None:
+    """Draw the path of each dragon, in its colour, and gates. names: of the dragons; none for a single one"""
+    lines = [drawing.scale.on_paper(ground.line) for ground in grounds]
     for k, line in enumerate(lines):
-        drawing.line(line, 4, 0.9, colour_of(k))
+        drawing.line(line, 4.5, 0.9, colour_of(k))
         draw_arrows(drawing, line, colour_of(k))
     _draw_gates(drawing, grounds[0])
-    for k, (line, name) in enumerate(zip(lines, names, strict=True)):
+    for k, (line, name) in enumerate(zip(lines, names, strict=False)):
         places = _beside(line, 0.5 * drawing.width(name, NAME_TYPE, bold=True))
         if not drawing.label(name, NAME_TYPE, places, bold=True, colour=colour_of(k), on_paper=True):
             drawing.write(name, *places[0], NAME_TYPE, bold=True, colour=colour_of(k), on_paper=True)
-    return drawing
 
 
 def _beside(line: Floats, half: float) -> list[tuple[float, float]]:
@@ -131,7 +136,7 @@ def _draw_areas(grounds: Sequence[GroundMap], scale: Scale, face: Face, budget: 
     right, top = drawing.room[2:]
     drawing.places.take(np.array([right - 10.0, top - 17.0, right - 4.0, top]))  # An arrow stands there.
     for height, (name, attributes) in enumerate((("clear", IN_CLEAR), ("swept", IN_SWEPT)), start=1):
-        for rings in [rings for ground in grounds for rings in getattr(ground, name)]:
+        for rings in merged(getattr(ground, name) for ground in grounds):
             drawing.shape([thinned(scale.on_paper(ring)) for ring in rings], attributes, height)
     draw_venue(drawing, grounds[0].venue)
     return drawing
@@ -308,16 +313,20 @@ class SafetyLayers:
     """What a safety sheet shows besides a map's ground: the line behind which people stand is that around `clear`.
 
     loose: ground that the last benches can reach when they are let go; lanes: name and rings of each lane to keep free
+    box: corners of what the map shows (2,) [m]; dragons: their names where there are several
     """
 
     loose: Polygons
     lanes: Sequence[tuple[str, Sequence[Floats]]]
     box: tuple[Floats, Floats]
+    dragons: Sequence[str] = ()
 
 
-def draw_safety(ground: GroundMap, layers: SafetyLayers, scale: Scale, face: Face, budget: Budget) -> MapDrawing:
-    """The map of a safety sheet: ground swept and to keep clear, loose tail, lanes, path and gates."""
-    drawing = _draw_areas([ground], scale, face, budget)
+def draw_safety(
+    grounds: Sequence[GroundMap], layers: SafetyLayers, scale: Scale, face: Face, budget: Budget
+) -> MapDrawing:
+    """The map of a safety sheet: ground swept and to keep clear, loose tails, lanes, paths and gates."""
+    drawing = _draw_areas(grounds, scale, face, budget)
     for name, rings in layers.lanes:
         placed = [scale.on_paper(ring) for ring in rings]
         drawing.shape(placed, IN_LANE, 2.5)
@@ -325,20 +334,18 @@ def draw_safety(ground: GroundMap, layers: SafetyLayers, scale: Scale, face: Fac
         drawing.label(name, NAME_TYPE, [(x, y), (x, y + 4.0), (x, y - 4.0)], on_paper=True)
     for rings in layers.loose:
         drawing.shape([thinned(scale.on_paper(ring)) for ring in rings], IN_LOOSE, 4)
-    line = scale.on_paper(ground.line)
-    drawing.line(line, 4.5, 0.7, BLUE)
-    draw_arrows(drawing, line)
-    _draw_gates(drawing, ground)
+    _draw_paths(drawing, grounds, layers.dragons)
     return drawing
 
 
 def legend_of_safety(drawing: MapDrawing, ground: GroundMap, layers: SafetyLayers) -> list[tuple[str, str]]:
     """The meaning of colours and lines on the map of a safety sheet."""
+    path = say("path of each dragon, in its own colour") if layers.dragons else say("path of the handles")
     rows = [
         (AREA, IN_SWEPT, say("ground swept by benches")),
         (AREA, IN_CLEAR, say("people stay out of it")),
         (AREA, IN_LOOSE, say("reach of the last benches, let go")),
-        (LINE, look(edge=BLUE, width=0.9), say("path of the handles")),
+        (LINE, look(edge=BLUE, width=0.9), path),
     ]
     if layers.lanes:
         rows.append((AREA, IN_LANE, say("lane to keep free")))

@@ -26,6 +26,7 @@ class Approach(Answer):
     distance: float = measure("m", "Smallest distance found")
     at_least: float | None = measure("m", "Proven lower bound; null: none was proven")
     time: float = measure("s", "Time of the smallest distance")
+    dragons: list[int] = Field(description="The dragon of each of these benches, in the order of the dances")
     benches: list[int] = Field(description="The two benches, or the one that comes near the edge")
     area: str | None = Field(description="Name of the area; null for two benches")
     point: Point = measure("m", "Place: of the bench's point, or between both benches, x and y")
@@ -40,11 +41,21 @@ class Ground(Answer):
     excess: float = measure("m", "Proven: no point of it is further than this beyond what it has to hold")
 
 
-class LooseTail(Ground, of=core.TailReach):
+class LooseTail(Ground):
     """The ground that the last benches can reach when they are let go."""
 
-    benches: int
-    reach: float
+    benches: int = Field(description="Number of loose benches, the last ones of each dragon")
+    reach: float = measure("m", "Furthest that they come from the handle that still follows the path")
+
+
+class LaneStay(Answer, of=core.Stay):
+    """A time during which benches of one dragon are in a lane."""
+
+    dragon: int = Field(description="The dragon, in the order of the dances")
+    begin: float
+    end: float
+    first: int
+    last: int
 
 
 class Lane(Answer):
@@ -57,26 +68,31 @@ class Lane(Answer):
         "Proven: a strip of this width is never swept, all along it, around its middle line or along one of its sides; "
         "0: none is known",
     )
-    stays: list[core.Stay] = Field(description="Times at which benches are in it, those of people who stray included")
-    total: float = measure("s", "All these times together")
+    stays: list[LaneStay] = Field(
+        description="Times at which benches are in it, those of people who stray included, dragon by dragon"
+    )
+    total: float = measure("s", "Time during which any bench is in it")
 
 
 class GatePass(Answer):
-    """One pass of the dragon through a gate."""
+    """One pass of a dragon through a gate."""
 
+    dragon: int = Field(description="The dragon, in the order of the dances")
     name: str = Field(description="Name of the gate")
     head: float | None = measure("s", "Time at which the head passes it; null: not in this time")
     tail: float | None = measure("s", "Time at which the tail passes it; null: not in this time")
     lasts: float | None = measure("s", "From head to tail; null where one of these is missing")
 
     @classmethod
-    def between(cls, name: str, head: float | None, tail: float | None) -> Self:
-        return cls(name=name, head=head, tail=tail, lasts=None if head is None or tail is None else tail - head)
+    def between(cls, dragon: int, name: str, head: float | None, tail: float | None) -> Self:
+        lasts = None if head is None or tail is None else tail - head
+        return cls(dragon=dragon, name=name, head=head, tail=tail, lasts=lasts)
 
 
 class FastestCarriers(Answer, of=core.HighestSpeed):
     """The fastest carriers."""
 
+    dragon: int = Field(description="Their dragon, in the order of the dances")
     speed: float
     at_most: float | None = measure("m/s", "Proven upper bound; null: none was proven")
     time: float
@@ -106,7 +122,7 @@ class SafetySheet(Answer):
     )
     loose_tail: LooseTail = Field(description="The ground that the last benches can reach when they are let go")
     lanes: list[Lane] = Field(description="The lanes to keep free, in the order of the request")
-    gates: list[GatePass] = Field(description="Passes of the gates, in the order of the path")
+    gates: list[GatePass] = Field(description="Passes of the gates, dragon by dragon in the order of its path")
     fastest: FastestCarriers | None = Field(
         description="The fastest carriers; null in a run to a fold, without a bound"
     )

@@ -21,7 +21,7 @@ from app.wire.geojson import SQUARE
 from app.wire.labels import DISPLAY_DECIMALS, Heading, Part, Table, judged_words, separation, value_text, value_word
 from app.wire.performances import SeveralFields
 from app.wire.question import UNKNOWN_COST, Command, Output, Question, Terms, Writer
-from app.wire.readings import Limits, encounter_words, failure_words, speed_words
+from app.wire.readings import Limits, dragons_failure_words, failure_words, speed_words
 from app.wire.refusals import refusing
 from core import Dance, FailureKind, Judgement, Outcome, Performance, Venue
 from core.errors import format_bound, format_number
@@ -169,8 +169,7 @@ class DragonFailure(Failure, of=core.PerformanceFailure):
             dragon, delay = parts[0].dance.dragon, parts[0].delay
             peak_time = None if one.peak_time is None else one.peak_time + delay
             own = Failure.of(replace(one, time=result.time, peak_time=peak_time), dragon, clock).model_dump()
-            name = performance.name_of(result.dragons[0])
-            sentence = say("{name}: {text}", name=name, text=failure_words(one, dragon, limits))
+            sentence = dragons_failure_words(result, performance, limits)
             own |= {"message": result.message, "sentence": sentence, "time_bracket": result.time_bracket}
             return cls(**own, dragons=result.dragons, dragon_names=names)
         households = [
@@ -186,7 +185,7 @@ class DragonFailure(Failure, of=core.PerformanceFailure):
             peak_speed=None,
             peak_time=None,
             dragon_names=names,
-            sentence=encounter_words(result, performance, limits),
+            sentence=dragons_failure_words(result, performance, limits),
         )
 
 
@@ -258,7 +257,7 @@ def check(request: DanceCheck, terms: Terms) -> Report | PerformanceReport:
     return Report.of(result, request, terms, place, clock_of(request, dance))
 
 
-def verdict_together(request: CheckRequest, performance: Performance, terms: Terms) -> core.PerformanceReport:
+def verdict_together(request: DanceCheck, performance: Performance, terms: Terms) -> core.PerformanceReport:
     """The verdict on several dances as an object of core. raises: InvalidValue"""
     limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
     span: dict[str, Any] = {"start": request.start, "stop": request.stop, "details": request.details}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
@@ -19,28 +19,31 @@ from app.plan.safety_answer import (
     GatePass,
     Ground,
     Lane,
+    LaneStay,
     LooseTail,
     SafetySheet,
     Stopping,
 )
+from app.plan.safety_words import benches_words, known_words, part_on_stopping, parts_on_ground, passed_words, together
 from app.plan.timing import TimeFormat
-from app.questions.check import FILE_OF_CHECK, limits_of, verdict_of
+from app.questions.check import FILE_OF_CHECK, limits_of, verdict_of, verdict_together
 from app.questions.plan import GATES, PDF_TYPE, GatedDance, passes_of_gates, timing_of_marks
-from app.wire.dances import clock_of, starting
+from app.wire.dances import PathFields, clock_of, starting
 from app.wire.degrees import Place
 from app.wire.fields import Address, OneLine, Wire, measure
 from app.wire.geojson import geometry_of
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
 from app.wire.paths import Point as PointField
+from app.wire.performances import SeveralFields
 from app.wire.question import JSON, UNKNOWN_COST, Command, ListOption, Output, Question, Terms
-from app.wire.readings import bench_words, failure_words, handles_words
-from core import Area, Dance, FailureKind, InvalidValue, Judgement
+from app.wire.readings import dragons_failure_words, failure_words
+from core import Area, FailureKind, InvalidValue, Judgement, Part, Performance
 from core.errors import Given, format_bound, format_number, question_about
-from core.language import Listed, counted, joined, say, sense
+from core.language import say
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
-from core.shapes.engines import Polygons, free_width, lane_rings, widened
+from core.shapes.engines import Polygons, area_of, free_width, lane_rings, merged, widened
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses
 from core.values import Floats
@@ -52,6 +55,8 @@ if TYPE_CHECKING:
 
 # Most lanes of a sheet, and approaches that it lists.
 LANES_MAX, APPROACHES = 10, 5
+# Most dragons whose numbers of benches stand on a sheet.
+DRAGONS_NAMED = 6
 # Benches that may be let go if the request does not say how many.
 LOOSE = 3
 # Excess of the swept ground, and distance from which on two approaches of benches are at different places [m].
@@ -89,8 +94,8 @@ class LaneBody(Wire, strict=True):
             raise InvalidValue(f"{field}.points", "must be a line with a length") from error
 
 
-class SafetySheetRequest(GatedDance, strict=True):
-    """A dance, as for /check, and what its sheet assumes and names."""
+class SafetySheetRequest(SeveralFields, GatedDance, strict=True):
+    """A dance, or several on one clock, as for /check, and what its sheet assumes and names."""
 
     lanes: list[LaneBody] = Field(
         [], max_length=LANES_MAX, fail_fast=True, description="Lanes to keep free, such as those for ambulances"
@@ -111,42 +116,66 @@ class SafetySheetRequest(GatedDance, strict=True):
 
 def safety_sheet(request: SafetySheetRequest, terms: Terms, form: str = JSON) -> SafetySheet | bytes:
     """One page for whoever permits a festival: verdict, nearest approaches, ground to keep free, lanes, stopping."""
-    dance = request.to_dance(terms.settings.checked_benches_max)
-    judged = _Judged.of(starting(request, dance), dance, terms)
+    judged = _Judged.of(request, terms)
     answer = judged.answer(terms)
     return answer if form == JSON else judged.drawn(answer, terms)
 
 
 @dataclass(frozen=True)
 class _Judged:
-    """A dance with the verdict on it, and the stretch of it that the sheet is about."""
+    """Dances on one clock with the verdict on them, and the stretch of each that the sheet is about.
+
+    start, stop: of the performance [s]; spans: start, stop and budget of each dance by itself
+    """
 
     request: SafetySheetRequest
-    dance: Dance
+    performance: Performance
     place: Place
-    report: core.Report
-    span: dict[str, Any]
+    report: core.Report | core.PerformanceReport
+    start: float
+    stop: float
+    spans: list[dict[str, Any]]
 
     @classmethod
-    def of(cls, request: SafetySheetRequest, dance: Dance, terms: Terms) -> Self:
-        if request.loose is not None and request.loose > dance.dragon.benches:
-            rule = "must be at most {most}, all benches of the dragon"
-            raise InvalidValue("loose", rule, got=request.loose, most=dance.dragon.benches)
-        place = request.to_place(dance.dragon)
-        start = dance.span(request.start, request.stop)[0]
-        report = verdict_of(request, dance, place.venue, start, terms)
-        return cls(request, dance, place, report, {"start": start, "stop": report.stop, "budget": terms.budget})
+    def of(cls, request: SafetySheetRequest, terms: Terms) -> Self:
+        """raises: TooLarge, InvalidValue"""
+        budget = terms.budget
+        if request.dances is None:
+            dance = request.to_dance(terms.settings.checked_benches_max)
+            request, place = starting(request, dance), request.to_place(dance.dragon)
+            _refuse_more_than(request.loose, [dance.dragon])
+            start = dance.span(request.start, request.stop)[0]
+            report = verdict_of(request, dance, place.venue, start, terms)
+            span = {"start": start, "stop": report.stop, "budget": budget}
+            return cls(request, Performance([Part(dance)]), place, report, start, report.stop, [span])
+        performance, place = request.to_placed(terms.settings)
+        request = starting(request, performance)
+        _refuse_more_than(request.loose, [part.dance.dragon for part in performance.parts])
+        report_of_all = verdict_together(request, performance, terms)
+        spans = []
+        for part, own in zip(performance.parts, report_of_all.reports, strict=True):
+            first, last = part.own_span(report_of_all.start, report_of_all.stop)
+            spans.append({"start": first, "stop": own.stop if own else last, "budget": budget})
+        return cls(request, performance, place, report_of_all, report_of_all.start, report_of_all.stop, spans)
+
+    @property
+    def dances(self) -> list[tuple[int, Part, dict[str, Any]]]:
+        """Number, dance and span of each dragon."""
+        return [(k, part, self.spans[k]) for k, part in enumerate(self.performance.parts)]
 
     @cached_property
-    def swept(self) -> core.Envelope:
-        """The ground that benches sweep with everybody in place."""
-        return core.envelope(self.dance, excess=EXCESS, **self.span)
+    def swept(self) -> list[core.Envelope]:
+        """The ground that benches of each dragon sweep with everybody in place."""
+        return [core.envelope(part.dance, excess=EXCESS, **span) for _, part, span in self.dances]
 
     @cached_property
     def covered(self) -> Polygons:
-        """The same as people stray."""
-        dragon, stray = self.dance.dragon, self.request.to_stray()
-        return widened(self.swept.polygons, float(gains(dragon).max()) * stray) if stray else self.swept.polygons
+        """The ground of all of them as people stray."""
+        stray = self.request.to_stray()
+        return merged(
+            widened(swept.polygons, float(gains(part.dance.dragon).max()) * stray) if stray else swept.polygons
+            for swept, (_, part, _) in zip(self.swept, self.dances, strict=True)
+        )
 
     @cached_property
     def closed(self) -> Polygons:
@@ -155,10 +184,14 @@ class _Judged:
         return widened(self.covered, away) if away else self.covered
 
     @cached_property
-    def loose(self) -> core.TailReach:
-        """The ground that the last benches can reach when they are let go."""
-        benches = loose_of(self.request, self.dance.dragon)
-        return core.tail_reach(self.dance, benches, stray=self.request.to_stray(), **self.span)
+    def loose(self) -> list[core.TailReach]:
+        """The ground that the last benches of each dragon can reach when they are let go."""
+        return [
+            core.tail_reach(
+                part.dance, loose_of(self.request, part.dance.dragon), stray=self.request.to_stray(), **span
+            )
+            for _, part, span in self.dances
+        ]
 
     @cached_property
     def lanes(self) -> list[Area]:
@@ -166,21 +199,28 @@ class _Judged:
         return [one.to_area(f"lanes.{k}") for k, one in enumerate(self.request.lanes)]
 
     def answer(self, terms: Terms) -> SafetySheet:
-        request, report, swept, loose = self.request, self.report, self.swept, self.loose
+        request, swept, loose = self.request, self.swept, self.loose
+        ground, reached = merged(one.polygons for one in swept), merged(one.polygons for one in loose)
         terms.progress(0.4)
         lanes = [self._lane(body, area) for body, area in zip(request.lanes, self.lanes, strict=True)]
         terms.progress(0.7)
         fastest = self._fastest()
         return SafetySheet(
-            verdict=report.verdict,
+            verdict=self.report.verdict,
             sentences=self.sentences(),
-            start=self.span["start"],
-            stop=self.span["stop"],
-            assumptions=assumptions_of(request, self.dance.dragon),
-            approaches=sorted(self._approaches(), key=lambda one: one.distance)[:APPROACHES],
-            swept=Ground(ground=geometry_of(swept.polygons), area=swept.area, excess=swept.excess),
+            start=self.start,
+            stop=self.stop,
+            assumptions=assumptions_of(request, [part.dance.dragon for part in self.performance.parts]),
+            approaches=self._approaches(),
+            swept=Ground(ground=geometry_of(ground), area=area_of(ground), excess=max(one.excess for one in swept)),
             spectators=geometry_of(self.closed),
-            loose_tail=LooseTail.from_result(loose, ground=geometry_of(loose.polygons)),
+            loose_tail=LooseTail(
+                ground=geometry_of(reached),
+                area=area_of(reached),
+                excess=max(one.excess for one in loose),
+                benches=max(one.benches for one in loose),
+                reach=max(one.reach for one in loose),
+            ),
             lanes=lanes,
             gates=self._gates(terms),
             fastest=fastest,
@@ -196,20 +236,26 @@ class _Judged:
         from app.plan.safety import SafetyWords
         from app.plan.tables import Json
 
-        request, dance, venue = self.request, self.dance, self.place.venue
-        clock = TimeFormat(clock_of(request, dance), request.music)
+        request, performance, venue = self.request, self.performance, self.place.venue
+        clock, several = self.clock, len(performance.parts) > 1
+        dragons = [performance.name_of(k) for k in range(len(performance.parts))] if several else []
         gates = [(one.name, one.x, one.y) for one in request.gates]
-        timing = timing_of_marks(request, dance, (answer.start, answer.stop), [], terms)
-        geographic, loose = request.origin_at(self.place) is not None, self.loose.polygons
-        ground = GroundMap(
-            dance, venue, self.swept.polygons, self.closed, request.spectators, timing, geographic, gates
-        )
+        geographic = request.origin_at(self.place) is not None
+        grounds = []
+        for (_, part, span), swept in zip(self.dances, self.swept, strict=True):
+            timing = timing_of_marks(request, part.dance, (span["start"], span["stop"]), [], terms)
+            grounds.append(
+                GroundMap(part.dance, venue, swept.polygons, self.closed, request.spectators, timing, geographic, gates)
+            )
+        loose = merged(one.polygons for one in self.loose)
         lanes = [(one.name, [np.array(ring) for ring in one.rings]) for one in self.lanes]
         corners = np.concatenate([rings[0] for rings in (*self.closed, *loose)])
-        layers = SafetyLayers(loose, lanes, with_square(venue, corners.min(axis=0), corners.max(axis=0)))
+        box = with_square(venue, corners.min(axis=0), corners.max(axis=0))
+        layers = SafetyLayers(loose, lanes, box, dragons)
         title = request.title or say("Bench dragon")
         areas = [area.name for area in venue.areas] if venue else []
-        names = [*areas, *(name for name, *_ in gates), *(name for name, _ in lanes), *dance.dragon.names]
+        benches = [name for part in performance.parts for name in part.dance.dragon.names]
+        names = [*areas, *(name for name, *_ in gates), *(name for name, _ in lanes), *benches, *dragons]
         face = face_for([title, request.stopper, *names])
 
         def table(heading: str, columns: list[str], rows: list[list[str]], wide: list[float], left: list[int]) -> Json:
@@ -220,10 +266,17 @@ class _Judged:
             for one in answer.approaches
         ]
         rests = [[one.label, one.text, say("yours") if one.yours else say("assumed")] for one in answer.assumptions]
+        span_words = {"start": clock.words(answer.start), "stop": clock.words(answer.stop)}
+        count = sum(part.dance.dragon.benches for part in performance.parts)
+        subtitle = say("Safety sheet: {benches} benches, from {start} to {stop}", benches=count, **span_words)
+        if several:
+            subtitle = say(
+                "Safety sheet: {dance_count} dragons, {benches} benches, from {start} to {stop}",
+                dance_count=len(performance.parts), benches=count, **span_words,
+            )  # fmt: skip
         words = SafetyWords(
             title=title,
-            subtitle=say("Safety sheet: {benches} benches, from {start} to {stop}", benches=dance.dragon.benches,
-                         start=clock.words(answer.start), stop=clock.words(answer.stop)),
+            subtitle=subtitle,
             verdict=answer.verdict.value,
             sentences=answer.sentences,
             date=request.date,
@@ -235,168 +288,158 @@ class _Judged:
             assumptions=table(
                 say("What this rests on"), [say("what"), say("value"), say("from")], rests, [2.0, 1.4, 0.9], [0, 1]
             ),
-            lines=parts_of(answer, request, clock),
+            left=parts_on_ground(answer, performance, clock, request.spectators),
+            right=[part_on_stopping(answer, performance, clock, request.stopper)],
             paper=request.paper,
         )  # fmt: skip
-        return _drawn(dance, words, (ground, layers), face, terms)
+        return _drawn(performance, words, (grounds, layers), face, terms)
+
+    @property
+    def clock(self) -> TimeFormat:
+        """The format of times."""
+        one = self.request.dances is None
+        subject = self.performance.parts[0].dance if one else self.performance
+        return TimeFormat(clock_of(self.request, subject), self.request.music)
 
     def sentences(self) -> list[str]:
         """The verdict, and how it is known, for a layman."""
-        request, report, dragon = self.request, self.report, self.dance.dragon
+        request, report, venue = self.request, self.report, self.place.venue
         if report.verdict is Judgement.PASSES:
-            return [passed_words(request, self.place.venue is not None), known_words()]
+            stray = request.total_stray or 0.0
+            return [passed_words(request.margin, request.speed_limit, stray, venue is not None), known_words()]
         certain = report.verdict is Judgement.FAILS
         first = next(one for one in report.failures if not certain or one.kind is not FailureKind.UNDECIDED)
-        failure = failure_words(first, dragon, limits_of(request, self.place.venue))
+        words, dragon = limits_of(request, venue), self.performance.parts[0].dance.dragon
+        failure = (
+            failure_words(first, dragon, words)
+            if isinstance(first, core.Failure)
+            else dragons_failure_words(first, self.performance, words)
+        )
         if certain:
             fails = say("It cannot be danced like this: {failure}", failure=failure)
-            return [fails, say("That is certain, at {time:.1f} s.", time=first.time)]
+            return [fails, say("That is certain, at {time}.", time=self.clock.words(first.time))]
         undecided = say("It is not known whether it can be danced: {failure}", failure=failure)
         return [undecided, say("Up to {time} s nothing fails, which is proven.", time=format_bound(first.time, 1))]
 
-    def _approaches(self) -> Iterator[Approach]:
-        """How near benches come to each area, and at places apart to one another, with everybody in place."""
-        if self.place.venue is not None:
-            for area in core.venue_clearance(self.dance, self.place.venue, **self.span).areas:
-                if (near := area.nearest) is not None:
-                    bench = bench_words(near.bench, self.dance.dragon)
-                    words = say("{bench} and {area}", bench=bench, area=area.name)
-                    yield Approach.from_result(near, benches=[near.bench], area=area.name, sentence=words)
-        if (least := core.least_clearance(self.dance, **self.span)) is None:
-            return
-        yield (nearest := self._of_benches(least.distance, least.at_least, least.time, least.benches))
-        ends, places = [self.span["start"], self.span["stop"]], [nearest.point]
-        grazes = core.clearance_profile(self.dance, ends, budget=self.span["budget"]).grazes
-        for graze in sorted(grazes, key=lambda one: one.clearance):
-            approach = self._of_benches(graze.clearance, None, graze.time, graze.benches)
-            if all(math.dist(approach.point, place) > APART for place in places):
-                places.append(approach.point)
-                yield approach
-            if len(places) == APPROACHES:
-                return
+    def _approaches(self) -> list[Approach]:
+        """The nearest approach to each area, of two benches of a dragon, and of two dragons, with everybody in place;
+        further ones of two benches, at places apart, where these are fewer than APPROACHES. Nearest first."""
 
-    def _of_benches(self, gap: float, at_least: float | None, time: float, benches: tuple[int, int]) -> Approach:
-        a, b = (bench_words(bench, self.dance.dragon) for bench in benches)
-        centres = bench_poses(trajectory(self.dance, [time]).position[0])[list(benches), :2]
-        x, y = centres.mean(axis=0).tolist()
-        words = say("{a} and {b}", a=a, b=b)
+        def gap(one: Approach) -> float:
+            return one.distance
+
+        areas, further = dict[str, Approach](), list[Approach]()
+        of_benches, of_dragons = list[Approach](), list[Approach]()
+        for k, part, span in self.dances:
+            for name, one in self._of_areas(k, part, span):
+                areas[name] = min(areas.get(name, one), one, key=gap)
+            if (least := core.least_clearance(part.dance, **span)) is not None:
+                of_benches.append(self._of_benches((k, k), least, least.distance, part.delay, least.at_least))
+                ends = [span["start"], span["stop"]]
+                for graze in core.clearance_profile(part.dance, ends, budget=span["budget"]).grazes:
+                    further.append(self._of_benches((k, k), graze, graze.clearance, part.delay))
+        if len(self.performance.parts) > 1:
+            ends, budget = [self.start, self.stop], self.spans[0]["budget"]
+            if met := core.least_clearance(self.performance, start=self.start, stop=self.stop, budget=budget):
+                of_dragons.append(self._of_benches(met.dragons, met, met.distance, 0.0, met.at_least))
+                for near in core.clearance_profile(self.performance, ends, budget=budget).grazes:
+                    further.append(self._of_benches(near.dragons, near, near.clearance))
+
+        nearest = [*areas.values(), *(min(some, key=gap) for some in (of_benches, of_dragons) if some)]
+        nearest = sorted(nearest, key=gap)[:APPROACHES]
+        for one in sorted([*of_benches, *of_dragons, *further], key=gap):
+            known = [other.point for other in nearest if other.area is None]
+            if len(nearest) < APPROACHES and all(math.dist(one.point, point) > APART for point in known):
+                nearest.append(one)
+        return sorted(nearest, key=gap)
+
+    def _of_areas(self, k: int, part: Part, span: dict[str, Any]) -> Iterator[tuple[str, Approach]]:
+        """How near benches of a dragon come to each area, with its name."""
+        if self.place.venue is None:
+            return
+        for area in core.venue_clearance(part.dance, self.place.venue, **span).areas:
+            if (near := area.nearest) is not None:
+                (bench,) = benches_words([near.bench], [k], self.performance)
+                words = say("{bench} and {area}", bench=bench, area=area.name)
+                yield area.name, Approach(
+                    distance=near.distance, at_least=near.at_least, time=near.time + part.delay, dragons=[k],
+                    benches=[near.bench], area=area.name, point=near.point, sentence=words,
+                )  # fmt: skip
+
+    def _of_benches(
+        self, dragons: tuple[int, int], near: Any, gap: float, delay: float = 0.0, at_least: float | None = None
+    ) -> Approach:
+        """An approach of two benches. near: has their numbers and the time of the dance [s]; delay: of that [s]"""
+        parts, time, benches = self.performance.parts, near.time + delay, list(near.benches)
+        centres = [
+            bench_poses(trajectory(parts[k].dance, [parts[k].own_time(time)]).position[0])[bench, :2]
+            for k, bench in zip(dragons, benches, strict=True)
+        ]
+        x, y = np.mean(centres, axis=0).tolist()
+        a, b = benches_words(benches, dragons, self.performance)
         return Approach(
-            distance=gap, at_least=at_least, time=time, benches=list(benches), area=None, point=[x, y], sentence=words
-        )
+            distance=gap, at_least=at_least, time=time, dragons=list(dragons), benches=benches, area=None,
+            point=[x, y], sentence=say("{a} and {b}", a=a, b=b),
+        )  # fmt: skip
 
     def _lane(self, body: LaneBody, area: Area) -> Lane:
-        free, stays = free_width(self.covered, body.middle, body.width), list[core.Stay]()
+        free, stays = free_width(self.covered, body.middle, body.width), list[LaneStay]()
         if free < body.width:
-            found = core.stays(self.dance, area, stray=self.request.to_stray(), **self.span)
-            stays = list(found.stays)
-        total = sum(one.end - one.begin for one in stays)
+            stray, budget = self.request.to_stray(), self.spans[0]["budget"]
+            each = core.stays(self.performance, area, stray=stray, start=self.start, stop=self.stop, budget=budget)
+            stays = [LaneStay.from_result(one, dragon=k) for k, found in enumerate(each) for one in found.stays]
+        total = sum(end - begin for begin, end in together([(one.begin, one.end) for one in stays]))
         return Lane(name=body.name, width=body.width, free_width=free, stays=stays, total=total)
 
     def _gates(self, terms: Terms) -> list[GatePass]:
-        start, stop = self.span["start"], self.span["stop"]
-        (passes,) = passes_of_gates(self.request, [self.dance], [(start, stop)], terms.budget)
-        passing, last = Passing(self.dance, start, stop, budget=terms.budget), self.dance.dragon.benches
-        return [GatePass.between(name, passing.when(0, s), passing.when(last, s)) for name, s in passes]
+        dances = [part.dance for part in self.performance.parts]
+        ends = [(span["start"], span["stop"]) for span in self.spans]
+        every = passes_of_gates(self.request, dances, ends, terms.budget)
+        gates = list[GatePass]()
+        for (k, part, _), span, passes in zip(self.dances, ends, every, strict=True):
+            passing = Passing(part.dance, *span, budget=terms.budget)
+            for name, s in passes:
+                times = (passing.when(handle, s) for handle in (0, part.dance.dragon.benches))
+                head, tail = (None if time is None else time + part.delay for time in times)
+                gates.append(GatePass.between(k, name, head, tail))
+        return gates
 
     def _fastest(self) -> FastestCarriers | None:
-        if (highest := self.report.highest_speed) is None:
+        """The fastest carriers of all dragons that move; None where one of these has no highest speed."""
+        reports = [self.report] if isinstance(self.report, core.Report) else self.report.reports
+        moving = [(k, one.highest_speed) for k, one in enumerate(reports) if one is not None]
+        if not moving or any(highest is None for _, highest in moving):
             return None
-        point = trajectory(self.dance, [highest.time]).position[0, highest.handles[0]].tolist()
-        return FastestCarriers.from_result(highest, at_most=highest.speed_bracket[1], point=point)
+        k, highest = max(((k, one) for k, one in moving if one), key=lambda pair: pair[1].speed)
+        part = self.performance.parts[k]
+        point = trajectory(part.dance, [highest.time]).position[0, highest.handles[0]].tolist()
+        most = [one.speed_bracket[1] for _, one in moving if one]
+        at_most = None if None in most else max(one for one in most if one is not None)
+        return FastestCarriers(
+            dragon=k, speed=highest.speed, at_most=at_most, time=highest.time + part.delay,
+            handles=list(highest.handles), point=point,
+        )  # fmt: skip
 
 
-@question_about("dance", Dance, "the safety sheet was not drawn")
-def _drawn(dance: Dance, words: SafetyWords, map: tuple[GroundMap, SafetyLayers], face: Face, terms: Terms) -> bytes:
+@question_about("performance", Performance, "the safety sheet was not drawn")
+def _drawn(
+    performance: Performance,
+    words: SafetyWords,
+    map: tuple[list[GroundMap], SafetyLayers],
+    face: Face,
+    terms: Terms,
+) -> bytes:
     """The bytes of the sheet. raises: TooMuchWork"""
     from app.plan.safety import safety_pdf
 
     return safety_pdf(words, *map, face, terms.budget)
 
 
-def parts_of(answer: SafetySheet, request: SafetySheetRequest, clock: TimeFormat) -> list[tuple[str, list[str]]]:
-    """The further parts of a sheet: heading and sentences of each."""
-    tail, swept = answer.loose_tail, answer.swept
-    ground = [
-        say("Benches sweep {area:.0f} m2; people stand {away} m and more from it.", area=swept.area,
-            away=format_number(request.spectators)),
-        counted(tail.benches, "The last bench, let go, comes at most {reach} m from its front handle.",
-                "The last {count} benches, let go, come at most {reach} m from the front handle of the first of them.",
-                reach=format_bound(tail.reach, 1, up=True)),
-    ]  # fmt: skip
-    parts = [(say("Ground"), ground)]
-    if answer.lanes:
-        parts.append((say("Lanes to keep free"), [lane_words(one, clock) for one in answer.lanes]))
-    if answer.gates:
-        lines = [
-            say(
-                "{name}: head {head}, tail {tail}",
-                name=one.name,
-                head=clock.words(one.head),
-                tail=clock.words(one.tail),
-            )
-            + ("" if one.lasts is None else say(", {seconds:.0f} s to pass", seconds=one.lasts))
-            for one in answer.gates
-        ]
-        parts.append((say("Gates"), lines))
-    if answer.fastest is not None and answer.stopping is not None:
-        fastest, (x, y) = answer.fastest, answer.fastest.point
-        lines = [
-            say("Fastest: {handles} with {speed:.2f} m/s at {time}, at x {x:.1f} m, y {y:.1f} m.",
-                handles=handles_words(fastest.handles), speed=fastest.speed, time=clock.words(fastest.time), x=x, y=y),
-            say("After the call to stop, nobody goes further than {way} m.",
-                way=format_bound(answer.stopping.distance, 1, up=True)),
-        ]  # fmt: skip
-        if request.stopper:
-            lines.append(say("Who stops the dance: {name}", name=request.stopper))
-        parts.append((say("Speed and stop"), lines))
-    return parts
-
-
-def lane_words(lane: Lane, clock: TimeFormat) -> str:
-    """What is known of a lane, in a sentence."""
-    name, width = lane.name, format_number(lane.width)
-    if not lane.stays:
-        return say("{name}, {width} m wide: no bench is ever in it.", name=name, width=width)
-    stays = Listed(
-        say("from {start} to {stop}", start=clock.words(one.begin), stop=clock.words(one.end)) for one in lane.stays[:4]
-    )
-    more = say(" and later") if len(lane.stays) > 4 else ""
-    words = say(
-        "{name}, {width} m wide: benches are in it {stays}{more}, {seconds:.0f} s in all.",
-        name=name, width=width, stays=stays, more=more, seconds=lane.total,
-    )  # fmt: skip
-    free = format_bound(lane.free_width, 1)
-    return joined([words, say("At least {free} m of its width stay free.", free=free) if float(free) else ""])
-
-
-def passed_words(request: SafetySheetRequest, venue: bool) -> str:
-    """That the dance passes, for a layman."""
-    margin, parts = format_number(request.margin), list[str]()
-    match bool(request.margin), venue:
-        case False, False:
-            parts = [say("no bench touches another")]
-        case False, True:
-            parts = [say("no bench touches another, an edge or an obstacle of the square")]
-        case True, False:
-            parts = [say("no bench comes within {margin} m of another", margin=margin)]
-        case True, True:
-            words = say(
-                "no bench comes within {margin} m of another, an edge or an obstacle of the square", margin=margin
-            )
-            parts = [words]
-    if request.speed_limit is not None:
-        parts.append(say("nobody is faster than {limit} m/s", limit=format_number(request.speed_limit)))
-    if stray := request.total_stray:
-        parts.append(say("as long as everybody is within {stray} m of their place", stray=format_number(stray)))
-    return say("It can be danced: {facts}.", facts=sense("clauses", ", ").join(parts))
-
-
-def known_words() -> str:
-    """How a verdict that passes is known, for a layman."""
-    return say(
-        "This is proven by computation for every instant, for benches, path and speeds as they stand below; "
-        "whoever dances otherwise is not covered by it."
-    )
+def _refuse_more_than(loose: int | None, dragons: Sequence[core.Dragon]) -> None:
+    """raises: InvalidValue for more loose benches than the shortest dragon has"""
+    least = min(dragon.benches for dragon in dragons)
+    if loose is not None and loose > least:
+        raise InvalidValue("loose", "must be at most {most}, all benches of the dragon", got=loose, most=least)
 
 
 def loose_of(request: SafetySheetRequest, dragon: core.Dragon) -> int:
@@ -404,20 +447,32 @@ def loose_of(request: SafetySheetRequest, dragon: core.Dragon) -> int:
     return request.loose or min(LOOSE, dragon.benches)
 
 
-def assumptions_of(request: SafetySheetRequest, dragon: core.Dragon) -> list[Assumption]:
+def assumptions_of(request: SafetySheetRequest, dragons: Sequence[core.Dragon]) -> list[Assumption]:
     """What a sheet rests on, and which of it the request gives."""
-    given, own = request.model_fields_set, request.dragon.model_fields_set
-    longest, shortest = float(dragon.lengths.max()), float(dragon.lengths.min())
-    sizes = say("{low} to {high} m long", low=format_number(shortest), high=format_number(longest))
+    given = request.model_fields_set
+    bodies: Sequence[PathFields] = request.dances or [request]
+    own = {name for one in bodies for name in one.dragon.model_fields_set}
+    moves = {name for one in bodies for name in one.model_fields_set}
+
+    def each(values: Sequence[float]) -> str:
+        """The value, or the least and the largest of several."""
+        low, high = format_number(min(values)), format_number(max(values))
+        return low if low == high else say("{low} to {high}", low=low, high=high)
+
+    lengths = [float(one) for dragon in dragons for one in dragon.lengths]
+    sizes = say("{low} to {high} m long", low=format_number(min(lengths)), high=format_number(max(lengths)))
     speed = say("no limit") if request.speed_limit is None else f"{format_number(request.speed_limit)} m/s"
     streets = say("none given") if request.venue is None else say("as drawn")
+    benches = " + ".join(str(dragon.benches) for dragon in dragons[:DRAGONS_NAMED])
+    if len(dragons) > DRAGONS_NAMED:
+        benches += " + …"
     rows = [
-        (say("benches"), str(dragon.benches), bool(own & {"benches", "lengths"})),
+        (say("benches"), benches, bool(own & {"benches", "lengths"})),
         (say("sizes of benches"), sizes, bool(own - {"benches", "names"})),
         (
             say("speed of the head"),
-            f"{format_number(request.head_speed)} m/s",
-            bool(given & {"head_speed", "passages", "beats"}),
+            f"{each([one.head_speed for one in bodies])} m/s",
+            bool(moves & {"head_speed", "passages", "beats"}),
         ),
         (
             say("people stray at most"),
@@ -428,7 +483,11 @@ def assumptions_of(request: SafetySheetRequest, dragon: core.Dragon) -> list[Ass
         (say("speed limit"), speed, "speed_limit" in given),
         (say("square, streets and obstacles"), streets, request.venue is not None),
         (say("people stand back"), f"{format_number(request.spectators)} m", "spectators" in given),
-        (say("last benches that may be let go"), str(loose_of(request, dragon)), "loose" in given),
+        (
+            say("last benches that may be let go"),
+            str(max(loose_of(request, dragon) for dragon in dragons)),
+            "loose" in given,
+        ),
         (say("time to stop"), f"{format_number(request.reaction)} s", "reaction" in given),
     ]
     return [Assumption(label=label, text=text, yours=yours) for label, text, yours in rows]
@@ -453,7 +512,7 @@ QUESTION = Question(
     at="/safety-sheet",
     command=Command(
         "One page for whoever permits a festival: verdict, nearest approaches, ground and lanes to keep free, "
-        "stopping.",
+        "stopping.\n\nOf a FILE of several dragons, one page for all of them.",
         lambda request: say("safety sheet"),
         file=FILE_OF_CHECK,
         lists={"lane": LANE} | GATES,

@@ -12,7 +12,7 @@ from core.design.deepest_turn import TurnLimit
 from core.design.pitch_search import JustifiedBy, LimitedBy
 from core.errors import format_bound, format_number
 from core.failures import FailureKind, approach_words, area_approach_words, contact_failures
-from core.language import Listed, Phrases, counted, phrase, say
+from core.language import Language, Listed, Phrases, counted, phrase, say, spoken
 from core.tolerance.tolerance import Limit
 
 # What a smaller pitch leads to.
@@ -51,7 +51,7 @@ def bench_words(bench: int, dragon: core.Dragon) -> str:
 
 def _sentence(template: str, **values: object) -> str:
     words = say(template, **values)
-    return words[:1].upper() + words[1:]
+    return words if spoken() is Language.CHINESE else words[:1].upper() + words[1:]
 
 
 def contact_words(result: core.FirstContact) -> list[str]:
@@ -112,6 +112,15 @@ def encounter_words(failure: core.PerformanceFailure, performance: core.Performa
     return _sentence(phrase("{a} and {b} {meet}."), a=a, b=b, meet=meet)
 
 
+def dragons_failure_words(failure: core.PerformanceFailure, performance: core.Performance, limits: Limits) -> str:
+    """What fails, without its time, with the names of the dragons."""
+    if failure.failure is None:
+        return encounter_words(failure, performance, limits)
+    k = failure.dragons[0]
+    text = failure_words(failure.failure, performance.parts[k].dance.dragon, limits)
+    return say("{name}: {text}", name=performance.name_of(k), text=text)
+
+
 def failure_words(failure: core.Failure, dragon: core.Dragon, limits: Limits) -> str:
     """What fails, without its time."""
     near, area = (limits.margin, limits.stray), failure.area or ""
@@ -119,7 +128,7 @@ def failure_words(failure: core.Failure, dragon: core.Dragon, limits: Limits) ->
     peak = failure.peak_speed
     values = {"area": area, "peak": peak, "limit": limits.speed, "meet": ""}
     match failure.kind:
-        case FailureKind.CONTACT if not limits.margin:
+        case FailureKind.CONTACT if not limits.margin or failure.time_bracket:
             template, values["meet"] = phrase("{a} and {b} {meet}."), approach_words(*near)
         case FailureKind.VENUE:
             template, values["meet"] = phrase("{a} {meet}."), area_approach_words(*near, area)

@@ -11,7 +11,8 @@ be missed, which makes a stay too long, never too short.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -20,11 +21,12 @@ from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.display import Readable, display
 from core.dragon import Stray, checked_stray
-from core.errors import InvalidValue, checked_number, checked_type, question_about
+from core.errors import InvalidValue, checked_number, checked_type, or_about, question_about
 from core.extremes.speed import highest_speed
 from core.kernels import Budget
 from core.language import counted, say
 from core.motion.trajectory import trajectory
+from core.performance import Performance
 from core.shapes.engines import inside
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses, edge_frames, frames
@@ -83,7 +85,30 @@ class Stays(Readable):
         return say("{name} {count}, {total} of {whole}", name=repr(self.name), count=count, **values)
 
 
-@question_about("dance", Dance, "the times in the area were not found")
+@question_about("performance", Performance, "the times in the area were not found")
+def _of_each(
+    performance: Performance, area: Area, *, start: float | None = None, stop: float | None = None, **how: Any
+) -> tuple[Stays, ...]:
+    begin, until = performance.span(start, stop)
+    found = list[Stays]()
+    for part in performance.parts:
+        first, last = part.own_span(begin, until)
+        own = stays(part.dance, area, start=first, stop=last, **how)
+        # A dragon that is in the area when its dance begins or ends stands there before or afterwards.
+        moved = (
+            replace(
+                one,
+                begin=begin if one.begin <= first else one.begin + part.delay,
+                end=until if one.end >= last else one.end + part.delay,
+            )
+            for one in own.stays
+        )
+        found.append(replace(own, stays=tuple(moved), start=begin, stop=until))
+    return tuple(found)
+
+
+@or_about(Performance, _of_each)
+@question_about("dance", (Dance, Performance), "the times in the area were not found")
 def stays(
     dance: Dance,
     area: Area,
@@ -94,7 +119,8 @@ def stays(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> Stays:
-    """The times at which a bench is in an area, or within the margin of it.
+    """The times at which a bench is in an area, or within the margin of it; of a Performance the Stays of each dragon,
+    on the clock of the performance, also those in which it stands before its dance or after it.
 
     margin: [m]; stray: largest distance of every hole from its place [m]: then the ground that benches may cover counts
     start, stop: [s]; defaults: dance.begin and the end of the run

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from enum import StrEnum
 from itertools import chain
@@ -329,6 +329,16 @@ def _union(parts: NDArray[np.object_], budget: Budget) -> object:
             merged.append(shapely.union_all(parts[first : first + UNITED]))
         parts = np.array(merged)
     return parts[0]
+
+
+def merged(grounds: Iterable[Polygons]) -> Polygons:
+    """Polygons that hold the ground of several together; those of a single one as they are."""
+    import shapely
+
+    first, *others = grounds
+    if not others:
+        return first
+    return _rings(shapely.union_all([shapely.Polygon(one[0], one[1:]) for some in (first, *others) for one in some]))
 
 
 def widened(polygons: Polygons, by: float) -> Polygons:

@@ -13,7 +13,7 @@ from app.questions.plan import PDF_TYPE
 from core import bench_outlines, trajectory
 from tests.support.asking import box, line
 from tests.support.paper import pages_of, shapes_of, sheets_of, words_of
-from tests.support.shared_dances import STREET
+from tests.support.shared_dances import CROSSING, STREET
 
 IN_STREET = {"dragon": {"benches": 5}, "path": line((0, 0), (60, 0))}
 YARD = {"type": "GeometryCollection", "geometries": [box(-5, -8, 65, 8), box(20, 1.0, 22, 3.0)]}
@@ -82,6 +82,81 @@ def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
     assert (gate["head"], gate["lasts"]) == pytest.approx((passed[0], 2.86 + 4 * 1.65), abs=0.02)
     assert answer["fastest"]["speed"] == pytest.approx(motion.speed.max())
     assert answer["stopping"]["distance"] == pytest.approx(1.5 * motion.speed.max(), abs=1e-6)
+
+
+# Two dragons cross, the second one later and faster; it stands in the lane at the end.
+TWO = {
+    "dances": [
+        {"name": "blue", "dragon": {"benches": 5}, "path": line((-40, 0), (40, 0))},
+        {"name": "red", "dragon": {"benches": 5}, "path": line((0, -40), (0, 40)), "head_speed": 1.1, "delay": 15},
+    ],
+    "venue": {"type": "GeometryCollection", "geometries": [box(-50, -50, 50, 50), box(3, 2.0, 5, 4.0)]},
+    "spectators": 2.0,
+    "loose": 2,
+    "reaction": 1.5,
+    "gates": [{"name": "north gate", "x": 0, "y": 30}],
+    "lanes": [{"name": "ambulances", "points": [[-20, 37], [20, 37]], "width": 4}],
+}
+
+
+def test_several_dragons_have_one_sheet_whose_numbers_are_those_of_small_steps_on_one_clock(ask):
+    answer = ask("safety-sheet", TWO)
+    assert (answer["start"], answer["stop"]) == pytest.approx((CROSSING.begin, CROSSING.end.time))
+    times = np.linspace(
+        answer["start"], answer["stop"], 1 + 10 * round(0.1 * (answer["stop"] - answer["start"]) / STEP)
+    )
+    motions = trajectory(CROSSING, times)
+    corners = [bench_outlines(STREET.dragon, motion.position) for motion in motions]
+    blue, red = (shapely.polygons(one.reshape(-1, 4, 2)).reshape(one.shape[:2]) for one in corners)
+    swept, loose = (shapely.from_geojson(json.dumps(answer[name]["ground"])) for name in ("swept", "loose_tail"))
+    passed = shapely.union_all(np.concatenate([one[::10].ravel() for one in (blue, red)]))
+    assert shapely.contains(swept, passed)
+    assert shapely.contains(shapely.buffer(passed, 0.02), swept)
+    reach = 1.65 + np.hypot(1.65 + 0.275, 0.15)
+    joints = np.concatenate([motion.position[::50, 3] for motion in motions])
+    assert shapely.contains(loose, shapely.buffer(shapely.points(joints), 0.999 * reach)).all()
+    kept = shapely.from_geojson(json.dumps(answer["spectators"]))
+    assert shapely.contains(kept, shapely.buffer(swept, 2.0))
+    # The least gap of the two, and to the obstacle.
+    gaps = np.array([shapely.distance(blue[:, [a]], red) for a in range(5)])
+    between, own, other, tree, _ = answer["approaches"]
+    assert (between["distance"], between["time"]) == pytest.approx(
+        (gaps.min(), times[gaps.min(axis=(0, 2)).argmin()]), abs=0.01
+    )
+    assert [(one["distance"], one["dragons"]) for one in (own, other)] == [
+        (pytest.approx(1.1), [0, 0]), (pytest.approx(1.1), [1, 1])
+    ]  # fmt: skip
+    assert (between["dragons"], between["sentence"]) == ([0, 1], "the tail of blue and the head of red")
+    assert tree["distance"] == pytest.approx(
+        min(shapely.distance(shapely.box(3, 2, 5, 4), one).min() for one in (blue, red))
+    )
+    assert (tree["area"], tree["dragons"]) == ("obstacle 1", [0])
+    (lane,) = answer["lanes"]
+    inside = (shapely.distance(red, shapely.box(-20, 35, 20, 39)) <= 0.0).any(axis=1)
+    (stay,) = lane["stays"]
+    assert (stay["dragon"], stay["end"]) == (1, answer["stop"])
+    assert lane["total"] == pytest.approx(inside.sum() * STEP, abs=0.02)
+    (gate,) = answer["gates"]
+    passed = times[np.argmax(motions[1].position[:, 0, 1] >= 30.0)]
+    assert (gate["dragon"], gate["head"], gate["lasts"]) == (
+        1,
+        pytest.approx(passed, abs=0.02),
+        pytest.approx(9.46 / 1.1),
+    )
+    assert (answer["fastest"]["dragon"], answer["fastest"]["speed"]) == (1, pytest.approx(1.1))
+    assert answer["stopping"]["distance"] == pytest.approx(1.5 * 1.1, abs=1e-5)
+
+
+def test_the_sheet_of_several_dragons_names_them_and_says_when_two_meet(ask):
+    (page,) = pages_of(ask.file("safety-sheet", TWO, PDF_TYPE))
+    words = words_of(page)
+    assert [
+        one for one in ("2 dragons, 10 benches", "of blue and the head of red", "red: north gate") if one not in words
+    ] == []
+    blue, red = TWO["dances"]
+    met = ask("safety-sheet", TWO | {"dances": [blue, red | {"delay": 8}]})
+    assert met["verdict"] == "fails"
+    assert " of red touch." in met["sentences"][0]
 
 
 def test_what_is_assumed_is_told_from_what_is_given(ask):

@@ -4,7 +4,20 @@ import numpy as np
 import pytest
 import shapely
 
-from core import Area, Dance, Dragon, Route, Spiral, Turn, bench_outlines, stays, trajectory
+from core import (
+    Area,
+    Dance,
+    Dragon,
+    Line,
+    Part,
+    Performance,
+    Route,
+    Spiral,
+    Turn,
+    bench_outlines,
+    stays,
+    trajectory,
+)  # fmt: skip
 from tests.core.ground.test_envelope import WOUND
 from tests.support.random_squares import box, polygon
 from tests.support.refused import refused
@@ -45,6 +58,23 @@ def test_benches_are_in_an_area_at_no_other_time_and_at_nearly_all_of_these(name
     assert result.total == pytest.approx(inside.sum() * STEP, abs=0.03 * max(1, len(result.stays)))
     if name == "one that nobody comes to":
         assert result.stays == ()
+
+
+def test_each_of_several_dragons_is_in_an_area_also_while_it_stands_there():
+    area = box("lane", 37, -9, 3, 18)
+    ways = (((0, 0), (60, 0)), ((38, -30), (38, 2)), ((80, 5), (39, 5)))
+    three = Performance([Part(Dance(Dragon(5), Route([Line(*way)])), 4.0 * k) for k, way in enumerate(ways)])
+    results = stays(three, area)
+    times = np.arange(*three.span(), STEP)
+    motions = trajectory(three, times)
+    for part, motion, result in zip(three.parts, motions, results, strict=True):
+        corners = bench_outlines(part.dance.dragon, motion.position)
+        benches = shapely.polygons(corners.reshape(-1, 4, 2)).reshape(corners.shape[:2])
+        inside = (shapely.distance(polygon(area), benches) <= 0.0).any(axis=1)
+        said = np.any([(one.begin <= times) & (times <= one.end) for one in result.stays], axis=0)
+        assert (inside & ~said).any() == np.False_
+        assert (said & ~inside).sum() * STEP <= 0.02
+    assert [one.stays[-1].end == three.end.time for one in results] == [False, True, True]
 
 
 def test_stays_end_where_the_dance_does_and_a_fold_needs_an_end():
