@@ -1,6 +1,6 @@
 /** Changes of a drawing: its points and things moved, inserted and removed. Drawings are never changed, only replaced. */
 
-import { freeName, isArea, place, yardOf } from "./drawing.js";
+import { EMPTY, freeName, isArea, place, yardOf } from "./drawing.js";
 import { extent, onBorder } from "./square.js";
 
 /** The edited item of a drawing: null for the path, else the number of a thing. */
@@ -83,4 +83,47 @@ export function turned(drawing, item, angle, scale = 1) {
   const [c, s] = [scale * Math.cos(angle), scale * Math.sin(angle)];
   const turn = (points) => points.map(([px, py]) => place([x + c * (px - x) - s * (py - y), y + s * (px - x) + c * (py - y)]));
   return withPoints({ ...drawing, things: drawing.things.map((one) => (one === thing && one.holes ? { ...one, holes: one.holes.map(turn) } : one)) }, item, turn(thing.points));
+}
+
+/** Half the longer axis of the earth [m], and its flattening [1]. */
+const [AXIS, FLATTENING] = [6_378_137, 1 / 298.257_223_563];
+
+/** How far east and north one place on earth, {longitude, latitude} [degrees], is of another not far away [m]. */
+function eastNorth(from, to) {
+  const [degree, squared] = [Math.PI / 180, FLATTENING * (2 - FLATTENING)];
+  const latitude = (degree * (from.latitude + to.latitude)) / 2;
+  const share = 1 - squared * Math.sin(latitude) ** 2;
+  const across = AXIS / Math.sqrt(share);
+  return [degree * (to.longitude - from.longitude) * across * Math.cos(latitude), (degree * (to.latitude - from.latitude) * across * (1 - squared)) / share];
+}
+
+/** Where x = y = 0 of another drawing is in this one [m]: known if both are on earth, or on a survey grid. */
+export function offsetOf(drawing, other) {
+  if (drawing.grid && other.grid) return [other.grid.x - drawing.grid.x, other.grid.y - drawing.grid.y];
+  return drawing.origin && other.origin ? eastNorth(drawing.origin, other.origin) : [0, 0];
+}
+
+/** A path in the service's format, moved by [m]. */
+export function shiftedPath(path, by) {
+  if (!path || !by.some(Boolean)) return path;
+  const shift = (point) => point.map((one, axis) => one + by[axis]);
+  const isPlace = (name, value) => ["centre", "end"].includes(name) || (name === "start" && Array.isArray(value));
+  const shiftOf = (name, value) => (isPlace(name, value) ? shift(value) : name === "points" ? value.map(shift) : name === "pieces" ? value.map((piece) => shiftedPath(piece, by)) : value);
+  return Object.fromEntries(Object.entries(path).map(([name, value]) => [name, shiftOf(name, value)]));
+}
+
+/** A drawing with another one beside it: {drawing, left: things of the other one for which there is no room, such as a second square}. */
+export function joined(drawing, other) {
+  const by = offsetOf(drawing, other);
+  const shift = (points) => points.map((point) => place(point.map((one, axis) => one + by[axis])));
+  const hasSquare = drawing.things.some(isArea);
+  const hasPath = drawing.points.length > 0 || Boolean(drawing.path);
+  // Gates stand on the border of their own square.
+  const isLeft = ({ kind }) => hasSquare && (kind === "area" || (kind === "gate" && other.things.some(isArea)));
+  const taken = other.things.filter((thing) => !isLeft(thing));
+  const things = taken.reduce((all, thing) => [...all, { ...thing, name: freeName(all, thing.name), points: shift(thing.points), ...(thing.holes && { holes: thing.holes.map(shift) }) }], drawing.things);
+  const { points, straight, radius, begin, path, start } = hasPath ? drawing : { ...other, points: shift(other.points), path: shiftedPath(other.path, by) };
+  const yard = hasSquare ? drawing.yard : other.yard && shift(other.yard);
+  const [origin, grid, limit] = ["origin", "grid", "limit"].map((name) => drawing[name] ?? other[name]);
+  return { drawing: { ...EMPTY, points, straight, radius, begin, path, start, things, yard, origin, grid, limit }, left: other.things.filter(isLeft) };
 }

@@ -1,7 +1,8 @@
 /** Several dragons on one clock: their list, the question about all of them, and their common picture. */
 
 import { Problem, Superseded } from "./api.js";
-import { SPAN, announceOpened } from "./files.js";
+import { joined, offsetOf, shiftedPath } from "./changes.js";
+import { SPAN, announceOpened, leftWords } from "./files.js";
 import { benchesOf, numbersOfListed } from "./benches.js";
 import { EMPTY, THINGS, drawingOf, fromAddress, isArea, isWhole, keptVenueOf, venueOf } from "./drawing.js";
 import { $, button, download, hide, make, numberIn, textButton } from "./elements.js";
@@ -169,15 +170,27 @@ export class Dragons {
     else announceReplaced(drawing, values.drawing);
   }
 
-  /** Open a FILE of several. name: of the file */
-  open({ dances, venue = null, speed_limit: limit = null, start_clock: clock = "", begin_clock: begins = "", ...limits }, name) {
+  /** Open a FILE of several: in place of what is there, or beside it. name: of the file */
+  open({ venue = null, speed_limit: limit = null, start_clock: clock = "", begin_clock: begins = "", ...content }, name, isBeside = false) {
+    const square = drawingOf({ path: null, venue, speed_limit: limit }, (kind) => say(THINGS[kind]));
+    const before = this.state.get("drawing");
+    const by = isBeside ? offsetOf(before, square) : [0, 0];
+    const dances = content.dances.map((one) => ({ ...one, path: shiftedPath(one.path, by) }));
     const foreign = dances.findIndex(({ path }) => isForeign(path));
     if (foreign >= 0) return announce(() => say("{name}: the page shows spirals around x = y = 0 that are danced clockwise; use the command for this file.", { name: dances[foreign].name ?? say("dragon {number}", { number: foreign + 1 }) }));
     const records = dances.map(recordOf);
-    const square = drawingOf({ path: null, venue, speed_limit: limit }, (kind) => say(THINGS[kind]));
-    const numbers = Object.fromEntries(CONTACT.map((one) => [one, typeof limits[one] === "number" ? String(limits[one]) : this.state.initial(one)]));
-    this.#take(records, 0, { ...this.#valuesOf(records[0], square), ...numbers, start_clock: clock, begin_clock: begins, time: null, view: null, handle: null });
-    announceOpened(name, SPAN.filter((one) => typeof limits[one] === "number"));
+    const unread = SPAN.filter((one) => typeof content[one] === "number");
+    const others = { time: null, view: null, handle: null };
+    if (isBeside) {
+      const { drawing, left } = joined(before, square);
+      const isEmpty = !this.state.get("dances") && before.points.length < 2 && !before.path;
+      const [all, active] = isEmpty ? [records, 0] : [[...this.#whole(), ...records], Math.max(this.#active, 0)];
+      this.#take(all, active, { ...this.#valuesOf(all[active], drawing), ...others });
+      return announceOpened(name, unread, leftWords(left));
+    }
+    const numbers = Object.fromEntries(CONTACT.map((one) => [one, typeof content[one] === "number" ? String(content[one]) : this.state.initial(one)]));
+    this.#take(records, 0, { ...this.#valuesOf(records[0], square), ...numbers, start_clock: clock, begin_clock: begins, ...others });
+    announceOpened(name, unread);
   }
 
   choose(k) {

@@ -3,13 +3,15 @@
 import { tableOfFile } from "./bench_table.js";
 import { tableOf } from "./benches.js";
 import { Problem } from "./api.js";
+import { joined } from "./changes.js";
 import { chooseParts } from "./layers.js";
 import { THINGS, drawingOf, keptVenueOf } from "./drawing.js";
 import { $, bearer, download, make, textButton } from "./elements.js";
 import { FIELDS } from "./fields.js";
+import { chooseHow } from "./opening.js";
 import { MEANWHILE, announce, announceRefusal, endMeanwhile, endMessage } from "./overlays.js";
 import { paceTexts, passagesText } from "./passages.js";
-import { isPresetPath } from "./presets.js";
+import { isPresetPath, isPresetVenue } from "./presets.js";
 import { announceSaved } from "./saved.js";
 import { isInside } from "./square.js";
 import { between, language, say, sentencesOf } from "./text.js";
@@ -30,6 +32,9 @@ export const SPAN = ["start", "stop"];
 export function announceOpened(name, unread, notes = []) {
   announce(() => sentencesOf([say("Opened {name}.", { name }), unread.length && say("Left out: {names}. The page shows a dance from beginning to end.", { names: unread.join(between()) }), ...notes]), true, true);
 }
+
+/** Say which things of a file have no room beside those that are there. */
+export const leftWords = (left) => (left.length ? [say("Your square stays; these of the file are left out: {names}.", { names: left.map(({ name }) => say("“{name}”", { name })).join(between()) })] : []);
 
 export class Files {
   /**
@@ -85,8 +90,7 @@ export class Files {
       }
       announce(reading, MEANWHILE, true);
       const content = (await ownDance(file)) ?? (await this.#places(file));
-      if (content?.dances) await this.several(content, file.name);
-      else if (content) this.#take(content, file.name);
+      if (content) await this.#take(content, file.name);
     } catch (error) {
       const hasParts = error instanceof Problem && (/\.dxf$/i.test(file.name) || error.problem.reason?.startsWith(PARTLY));
       if (!hasParts || !(await this.#offerParts(file, error.problem, reading))) announceRefusal(error, true);
@@ -122,7 +126,34 @@ export class Files {
     this.times.hidden = true;
   }
 
-  #take(content, name) {
+  /** Open what a file has: beside what a person has made, or in its place, which is asked where something would be lost. */
+  async #take(content, name) {
+    const opened = drawingOf({ ...content, path: content.dances ? null : content.path, venue: typeof content.venue === "object" ? content.venue : null }, (kind) => say(THINGS[kind]));
+    const before = this.state.get("drawing");
+    const isAlone = !this.state.get("dances") && this.state.get("path") !== "route";
+    const hasPath = Boolean(this.state.get("dances") || before.points.length > 1 || before.path);
+    const isDance = content.dances || (content.isDance ?? true);
+    const loses = (hasPath && !isPresetPath(before) && (isDance || content.path)) || (before.things.length && !isPresetVenue(before) && (isDance || opened.things.length));
+    if (loses && !isAlone) endMessage();
+    const how = loses && !isAlone ? await chooseHow(name) : "instead";
+    if (!how) return;
+    const isBeside = how === "beside";
+    if (content.dances) await this.several(content, name, isBeside);
+    else if (isBeside && isDance && hasPath && content.path) await this.several({ ...content, dances: [content] }, name, true);
+    else if (isBeside) this.#join(content, opened, name);
+    else this.#replace(content, opened, name);
+  }
+
+  /** Bring what a file has into the drawing; what is there already stays. */
+  #join(content, opened, name) {
+    const before = this.state.get("drawing");
+    const { drawing, left } = joined(before, opened);
+    const keeps = content.path && (before.points.length > 0 || before.path);
+    this.steps.change({ ...this.state.changesOf("route"), time: null, view: null, drawing });
+    announceOpened(name, [], [...(content.notes ?? []), ...leftWords(left), keeps && say("Your path stays; that of the file is left out.")].filter(Boolean));
+  }
+
+  #replace(content, opened, name) {
     const { isDance = true } = content;
     this.walked = isDance ? null : content.passages;
     this.times.hidden = !this.walked;
@@ -131,7 +162,6 @@ export class Files {
     // What a dance does not state has its default, and so have the benches of which a table takes the place; a map states none of it.
     const stated = csv ? content : { ...dragon, ...content };
     const numbers = isDance ? Object.fromEntries([...UNIFORM, ...NUMBERS].map((one) => [one, typeof stated[one] === "number" ? String(stated[one]) : this.#default(one, csv)])) : {};
-    const opened = drawingOf({ ...content, venue: typeof venue === "object" ? venue : null }, (kind) => say(THINGS[kind]));
     // A map without a path keeps the drawn path, but not that of an example which leaves its square, and one without a venue keeps the venue; a
     // dance has its own or none.
     const before = this.state.get("drawing");

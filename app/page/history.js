@@ -5,6 +5,8 @@ import { endStepMessage } from "./overlays.js";
 
 /** Changes of the same kind within this time [ms] are one step, such as arrow keys or digits of a number. */
 const TOGETHER = 1_000;
+/** Where the steps are kept while the page loads again. */
+const KEPT = "bench-dragon-steps";
 
 /** Steps of a state: each is kept as the former values of all that it changed. */
 export class Steps {
@@ -52,6 +54,27 @@ export class Steps {
     this.changed();
   }
 
+  /** Keep the steps for a reload of the page; the oldest ones go where there is no room. */
+  keep() {
+    for (let past = this.#past; ; past = past.slice(Math.ceil(past.length / 2))) {
+      try {
+        return sessionStorage.setItem(KEPT, JSON.stringify({ address: location.search, past, future: this.#future }));
+      } catch {
+        if (!past.length) return;
+      }
+    }
+  }
+
+  /** Take over the steps that were kept at this address. */
+  restore() {
+    try {
+      const { address, past, future } = JSON.parse(sessionStorage.getItem(KEPT) ?? "{}");
+      if (address === location.search) [this.#past, this.#future] = [past, future];
+    } catch {
+      // Without storage undo begins anew.
+    }
+  }
+
   undo() {
     if (this.canUndo) this.#swap(this.#past, this.#future);
   }
@@ -97,6 +120,9 @@ function addSteps(state) {
     $("#undo").disabled = !steps.canUndo;
     $("#redo").disabled = !steps.canRedo;
   });
+  steps.restore();
+  steps.changed();
+  addEventListener("pagehide", () => steps.keep());
   onClick("#undo", () => steps.undo());
   onClick("#redo", () => steps.redo());
   addEventListener("popstate", endStepMessage);

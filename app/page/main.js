@@ -359,7 +359,7 @@ function translate() {
 async function openRoute() {
   const { Drawn } = await parts.load("drawn");
   if (route) return route;
-  const several = async (content, name) => (await openDragons()).open(content, name);
+  const several = async (...all) => (await openDragons()).open(...all);
   route = new Drawn({ state, service, questions, dance, draw, several });
   writeTexts();
   route.translate();

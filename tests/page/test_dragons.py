@@ -224,7 +224,7 @@ def a_delay_that_is_not_found_says_why(person):
     path = {"type": "LineString", "coordinates": [[-40, 0], [60, 0]]}
     line = {"type": "Feature", "properties": {"name": "path"}, "geometry": path}
     file = {"name": "path.geojson", "mimeType": "application/geo+json", "buffer": json.dumps(line).encode()}
-    person.takes(file).sees({"#dragons-apart": False, "#status": "path.geojson"})
+    person.takes(file).presses("#instead").sees({"#dragons-apart": False, "#status": "path.geojson"})
     person.types({"#dragon-delay-1": "40"}).sees({"#dragons-apart": False})
 
 

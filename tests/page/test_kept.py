@@ -63,8 +63,14 @@ def reopened(person, name, file, folder):
     """The address after a file was opened, without how it is looked at."""
     path = folder / name
     path.write_bytes(file)
-    person.takes(str(path)).sees({"#status": name})
-    return {one: text for one, text in person.settles().address().items() if one not in VIEW}
+    before = person.address()
+    person.takes(str(path)).presses("#instead").sees({"#status": name})
+    opened = person.settles().address()
+    # One step back leads to what was there, also after a reload.
+    person.page.reload()
+    assert person.settles().presses("#undo").settles().address() == before
+    assert person.presses("#redo").settles().address() == opened
+    return {one: text for one, text in opened.items() if one not in VIEW}
 
 
 @pytest.mark.node
@@ -74,12 +80,13 @@ def test_every_part_of_the_state_is_tried_here():
     assert all(f"!{name}:" in DANCES for name in OF_SEVERAL)
 
 
-def test_reloads_saved_files_and_maps_keep_every_part_of_the_state(open_page, tmp_path):
+def test_reloads_languages_saved_files_maps_and_undo_keep_every_part_of_the_state(open_page, tmp_path):
     for case, (held, more, save) in PROJECTS.items():
         person = open_page(query(held | more | VIEW))
         assert person.address() == held | more | VIEW
         person.page.reload()
         assert person.settles().address() == held | more | VIEW
+        assert person.speaks("en").speaks("zh").address() == held | more | VIEW
         file = person.saves(save)
         form = {"drawn": "DXF", "walked": "KML"}.get(case, "GeoJSON")
         map_file = person.reaches().saves(f"#keepMap-{form}")

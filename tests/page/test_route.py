@@ -293,14 +293,36 @@ def _a_part_of_a_drawing_that_is_too_large_is_chosen(person):
     person.presses("#drawing-parts [value=A-HATCH]", "#parts-open").sees({"#drawing-parts": 0, "#things li": 1})
     # The name of a layer may hold a comma.
     person.takes(plan).presses("#drawing-parts [value=SITE]", f'#drawing-parts [value="{WALLS}"]', "#parts-open")
-    person.sees({"#drawing-parts": 0, "#things li": 121})
+    person.presses("#instead").sees({"#drawing-parts": 0, "#things li": 121})
     town_map = {"name": "town.geojson", "mimeType": "application/geo+json", "buffer": town()}
     person.takes(town_map).sees({"#drawing-parts li": 4}).presses("#drawing-parts [value=SITE]", "#parts-open")
-    person.sees({"#drawing-parts": 0, "#things li": 1})
+    person.presses("#instead").sees({"#drawing-parts": 0, "#things li": 1})
+
+
+def test_a_file_comes_beside_what_is_drawn_a_dance_as_a_further_dragon_or_not_at_all(open_page, tmp_path):
+    dance = tmp_path / "dance.json"
+    dance.write_bytes(open_page("?path=route&route=*-30,12_30,12&benches=5&things=c.elm.1.0,20").saves("#save"))
+    person = open_page(f"{S_CURVE}&things=a.court..-99,-99_99,-99_99,99_-99,99~c.well.1.40,40").sees(YES)
+    before = person.address()
+    square = ROOT / "examples/village_square.geojson"
+    person.takes(square).sees({"#opening": "Open village_square.geojson"}).strikes("Escape").sees({"#opening": 0})
+    assert person.findings() == []
+    person.takes(square).presses("#beside-it")
+    person.sees({"#status": "these of the file are left out: “square”", "#things li": 6}).settles()
+    names = [one.input_value() for one in person.all("#things li input:first-of-type").all()]
+    assert names[:3] == ["court", "well", "well 2"]
+    assert person.address()["route"] == before["route"]
+    assert person.presses("#undo").settles().address() == before
+    person.takes(dance).presses("#beside-it").sees({"#dragons li": 2, "#things li": 3, VERDICT: True}).settles()
+    assert "*-30,12_30,12" in person.address()["dances"]
+    assert person.presses("#undo").settles().address() == before
 
 
 def _drops(person, name):
     person.ask(DROP, [name, (ROOT / "examples" / name).read_text()])
+    # Nobody has made an example, so it is replaced without a question.
+    if person.counts("#things li") == 1:
+        person.presses("#instead")
     person.sees({"#status": f"Opened {name}"})
 
 

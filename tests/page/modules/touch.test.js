@@ -40,3 +40,14 @@ test("a square takes its gates and its streets along, a copy has a name of its o
   const stage = changes.turned(DRAWING, 1, Math.PI / 2, 2).things[1];
   assert.deepEqual([stage.points[0], stage.holes[0][0]], [[20, -2.5], [18, 1.5]]);
 });
+
+test("a drawing comes beside another one at its place on a survey grid, and a path with pieces too", () => {
+  const [one, other] = [{ ...DRAWING, grid: { x: 500, y: 100 } }, { ...DRAWING, grid: { x: 510, y: 90 } }];
+  const { drawing, left } = changes.joined(one, { ...other, path: { kind: "route", start: 3, pieces: [{ kind: "line", start: [0, 0], end: [9, 0] }] } });
+  assert.deepEqual(drawing.things.map(({ name }) => name), ["square", "stage", "tree", "gate", "stage 2", "tree 2"]);
+  assert.deepEqual([drawing.things[5].points, drawing.things[4].holes[0][0], left.map(({ name }) => name)], [[[29, -1]], [22, -4], ["square", "gate"]]);
+  assert.deepEqual(drawing.path, { kind: "route", start: 3, pieces: [{ kind: "line", start: [10, -10], end: [19, -10] }] });
+  // A hundredth of a degree at 30 degrees north, by the formulas of the ellipsoid WGS 84.
+  const [east, north] = changes.offsetOf({ origin: { longitude: 120, latitude: 30 } }, { origin: { longitude: 120.01, latitude: 30 } });
+  assert.deepEqual([east.toFixed(1), north], ["964.9", 0]);
+});
