@@ -15,6 +15,8 @@ const FIGURES = {
 
 /** Angle between two benches that is worth a word [degrees]; stray that is little room for people, and a near distance [m]. */
 const [BEND, LITTLE, NEAR] = [40, 0.1, 0.3];
+/** From this time on minutes are counted [s]. */
+const LONG = 120;
 /** Room around the picture and width of its lines, as parts of its larger side [1]; most points of a path. */
 const [AROUND, LINE, POINTS] = [0.04, 0.006, 400];
 /** A safe stray as people say it, rounded down [cm]. */
@@ -59,6 +61,9 @@ export function cardTitles({ proposals, courses, yard }, gates) {
   });
 }
 
+/** Whole seconds as people say them. */
+const timeWords = (seconds) => (seconds < LONG ? say("{seconds} s", { seconds }) : say("{minutes} min {seconds} s", { minutes: Math.floor(seconds / 60), seconds: seconds % 60 }));
+
 /** {size, good, tight, isTight}: the words of a proposal among all of them; isTight: whether to look out there. square: name of the area */
 export function cardWords(proposal, all, square) {
   const { dance, duration, length, tolerance, turns, near, clearance, clearance_in_place: apart, sharpest_bend: bend } = proposal;
@@ -78,7 +83,7 @@ export function cardWords(proposal, all, square) {
   if (degrees(bend ?? 0) > BEND) tight.push(say("bends of up to {angle}°", { angle: degrees(bend).toFixed(0) }));
   if (tolerance < LITTLE) tight.push(say("people may be only {stray} cm from their places", { stray }));
   const benches = dance.dragon.benches ?? dance.dragon.lengths.length;
-  const size = say("{benches} benches, {time} s; the head walks {length} m", { benches, time: duration.toFixed(0), length: length.toFixed(0) });
+  const size = say("{benches} benches, {time}; the head walks {length} m", { benches, time: timeWords(Math.round(duration)), length: length.toFixed(0) });
   return { size, good: good.join(say(", ")), tight: tight.join(say(", ")), isTight };
 }
 

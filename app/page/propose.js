@@ -8,6 +8,7 @@ import { EMPTY, THINGS, drawingOf, freeName, venueOf, yardOf } from "./drawing.j
 import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.js";
 import { HELPS, LABELS, strayOf } from "./fields.js";
 import { knotsOf } from "./knots.js";
+import { clockIn, secondsBetween } from "./passages.js";
 import { pending } from "./pending.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
 import { circle, extent, rectangle } from "./square.js";
@@ -25,6 +26,8 @@ const TOOLS = {
 const [WIDTH, HEIGHT, MOST] = [30, 40, 10_000];
 /** Difference of width and height of a round square, from rounding [m]. */
 const SAME = 1e-3;
+/** Numbers of the dragon that are asked for beside the square, and what says how long it may dance. */
+const [DRAGON, WHEN] = [["benches", "body_length", "head_length"], ["ends", "laps", "begin_clock"]];
 /** Number of dances that are proposed, and time between two looks at the search [ms]. */
 const [COUNT, SECOND] = [3, 1_000];
 /** What a good dance has much of. @type {Phrases} */
@@ -46,6 +49,10 @@ function stretched(drawing, ring, points) {
   const at = ([x, y]) => [after.middle[0] + ((x - before.middle[0]) * after.width) / before.width, after.middle[1] + ((y - before.middle[1]) * after.height) / before.height];
   return { ...drawing, things: drawing.things.map((thing) => (thing.kind === "gate" ? { ...thing, points: thing.points.map(at) } : thing)) };
 }
+/** A number of minutes as people write it, perhaps with its unit. */
+const MINUTES = /^(\d+(?:[.,]\d+)?)\s*(\p{L}*)$/u;
+/** Longest and shortest time of a dance [s], and most times around [1], as in the service. */
+const [SHORTEST, LONGEST, LAPS_MOST] = [1, 86_400, 100];
 /** Words for the stray behind the door of the village, and those of the other doors. */
 const STRAY = { true: [phrase("People may stray up to"), phrase("from their place")], false: [LABELS.stray, HELPS.stray] };
 /** A drawing without a path. */
@@ -90,7 +97,9 @@ export class Propose {
     this.sizes = [field(phrase("Width of the square")), field(phrase("Length of the square")), field(phrase("Diameter of the square"))];
     const [width, height, diameter] = this.sizes;
     const take = (id, label, shape, fields) => textButton("Draw it", () => this.#draw(shape, fields), { id, "data-label": label });
-    this.dragon = ["benches", "body_length"].map((name) => field(LABELS[name], { onchange: ({ target }) => this.#setNumber(name, target) }));
+    this.dragon = DRAGON.map((name) => field(LABELS[name], { onchange: ({ target }) => this.#setNumber(name, target) }));
+    this.ends = field(phrase("It must end by"), { id: "ends", inputMode: "text", onchange: ({ target }) => this.state.set({ ends: target.value.trim() }), "aria-describedby": "ends-wrong" });
+    this.laps = field(phrase("Times around a ring or an eight"), { id: "laps", onchange: ({ target }) => this.state.set({ laps: target.value.trim() }), "aria-describedby": "ends-wrong" });
     this.objective = make("select", { "data-label": "Best is", id: "objective" }, ...Object.entries(OBJECTIVES).map(([value, words]) => make("option", { value, "data-text": words })));
     this.ask = textButton("Propose a dance", () => this.#ask(), { id: "propose", className: "main" });
     this.words = make("p", { role: "status", id: "proposed" });
@@ -108,8 +117,11 @@ export class Propose {
       (this.tools = make("p", { className: "buttons" }, ...tools)),
       (this.done = textButton("Done", () => this.editor.turn(false), { id: "place-done" })),
       this.corners.box,
-      (this.dragonLine = line(words(phrase("We have")), this.dragon[0], words(phrase("benches of")), this.dragon[1], unit())),
+      (this.dragonLine = line(words(phrase("We have")), this.dragon[0], words(phrase("benches of")), this.dragon[1], unit(), words(phrase("and a head of")), this.dragon[2], unit())),
       (this.start = make("div")),
+      line(make("label", { htmlFor: "ends", "data-text": "It must end by" }), this.ends),
+      line(make("label", { htmlFor: "laps", "data-text": "or go around" }), this.laps, words(phrase("times"))),
+      (this.endsWrong = make("p", { className: "error", id: "ends-wrong", role: "alert" })),
       line(make("label", { htmlFor: "objective", "data-text": "Best is" }), this.objective),
       make("p", { className: "buttons" }, this.ask, this.stop),
       this.words,
@@ -122,7 +134,7 @@ export class Propose {
       one.addEventListener("input", () => (one.typed = true));
       one.addEventListener("keydown", ({ key }) => key === "Enter" && (one === diameter ? this.#draw(circle, [diameter]) : this.#draw(rectangle, [width, height])));
     }
-    state.listen((names) => ["benches", "body_length", "csv", "margin", "stray", "hole", "pin", "drawing", "path", "door"].some((name) => names.has(name)) && this.show());
+    state.listen((names) => [...DRAGON, ...WHEN, "csv", "margin", "stray", "hole", "pin", "drawing", "path", "door"].some((name) => names.has(name)) && this.show());
   }
 
   get #drawing() {
@@ -135,8 +147,22 @@ export class Propose {
     const drawing = { ...this.#drawing, things: this.#drawing.things.map((thing) => (thing.kind === "area" ? { ...thing, points: yardOf(this.#drawing) } : thing)) };
     const gates = drawing.things.filter(({ kind }) => kind === "gate").map((gate) => ({ point: gate.points[0], heading: headingOf(this.#drawing, gate) }));
     const { dragon } = this.questions.body({}, { numbers, extras, ...request });
-    const limits = { margin: numbers.margin, stray: strayOf(numbers), ...(drawing.limit && { speed_limit: drawing.limit }) };
+    const { seconds, laps } = this.#howLong;
+    const limits = { margin: numbers.margin, stray: strayOf(numbers), ...(drawing.limit && { speed_limit: drawing.limit }), ...(seconds && { duration_limit: seconds }), ...(laps && { laps }) };
     return { venue: venueOf(drawing), dragon, gates, ...limits, objective: this.objective.value, count: COUNT };
+  }
+
+  /** How long the dance may last: {seconds, laps, each null without one; wrong: why it cannot be read, or an empty text; by: the field}. */
+  get #howLong() {
+    const [ends, laps, begins] = WHEN.map((name) => this.state.get(name));
+    const around = laps === "" ? null : numberIn(laps);
+    if (around !== null && !(Number.isInteger(around) && around >= 1 && around <= LAPS_MOST)) return { seconds: null, laps: null, by: this.laps, wrong: say("A dance goes around 1 to {most} times; you typed “{text}”.", { most: LAPS_MOST, text: laps }) };
+    const clock = /[:：]|[ap]m$/i.test(ends) || (begins && /\./.test(ends)) ? clockIn(ends) : null;
+    const [, minutes, unit = ""] = MINUTES.exec(ends) ?? [];
+    const seconds = clock ? begins && secondsBetween(begins, clock) : minutes && say("minutes").startsWith(unit.toLowerCase()) ? 60 * numberIn(minutes) : ends && NaN;
+    if (ends === "" || (seconds >= SHORTEST && seconds <= LONGEST)) return { seconds: seconds || null, laps: around, wrong: "", by: null };
+    const wrong = clock && !begins ? say("Say at “Starts at” when the dance starts, or here for how many minutes it may last, such as 20.") : clock ? say("The dance starts at {begins}: {text} is not after that.", { begins, text: ends }) : say("Write a time of day after the start, such as 19:50, or minutes, such as 20; you typed “{text}”.", { text: ends });
+    return { seconds: null, laps: null, by: this.ends, wrong };
   }
 
   #setNumber(name, target) {
@@ -186,6 +212,8 @@ export class Propose {
 
   async #ask() {
     if (!yardOf(this.#drawing).length) return this.#tell(() => say("First say how large your square is."));
+    const { by } = this.#howLong;
+    if (by) return by.focus();
     const request = this.#request();
     const search = { began: performance.now(), share: 0, job: null, end: new AbortController() };
     this.note = null;
@@ -356,7 +384,15 @@ export class Propose {
     hide(this.done, !this.editor.active);
     this.corners.show();
     hide(this.dragonLine, Boolean(this.state.get("csv")));
-    for (const [k, name] of ["benches", "body_length"].entries()) if (document.activeElement !== this.dragon[k]) this.dragon[k].value = this.state.get(name);
+    const { wrong, by } = this.#howLong;
+    hide(this.endsWrong, !by);
+    this.endsWrong.textContent = wrong;
+    this.ends.placeholder = say(this.state.get("begin_clock") ? "hh:mm" : "minutes");
+    for (const one of [this.ends, this.laps]) {
+      one.setAttribute("aria-invalid", one === by);
+      if (document.activeElement !== one) one.value = this.state.get(one.id);
+    }
+    for (const [k, name] of DRAGON.entries()) if (document.activeElement !== this.dragon[k]) this.dragon[k].value = this.state.get(name);
     hide(this.stop, !this.#search);
     this.ask.disabled = Boolean(this.#search);
     const isOld = this.#isOld;

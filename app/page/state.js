@@ -21,8 +21,8 @@ export const EXTRAS = ["csv", "passages", "beats", "start_clock", "begin_clock"]
 const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, value]), ...EXTRAS.map((name) => [name, ""])]);
 /** True if the address has nothing except the language: then the page opens with the dance in motion. */
 const isBare = (address) => [...address.keys()].every((name) => name === "lang");
-/** time: null is the end of the dance; dances: those of several dragons, as in an address; dragon: the chosen one; bench: the one that a carrier follows, or null; view: [x, y, pixels per metre], null shows the whole path. */
-export const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, bench: null, dances: "", dragon: 0, view: null, lang: null };
+/** time: null is the end of the dance; ends, laps: when a proposed dance must end, and how often it goes around, as typed; dances: those of several dragons, as in an address; dragon: the chosen one; bench: the one that a carrier follows, or null; view: [x, y, pixels per metre], null shows the whole path. */
+export const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, bench: null, ends: "", laps: "", dances: "", dragon: 0, view: null, lang: null };
 
 const whole = (text) => (/^\d+$/.test(text) ? Number(text) : null);
 const oneOf = (values) => (text) => values.find((value) => String(value) === text);

@@ -20,7 +20,8 @@ from app.wire.question import Command, Output, Question, Terms, Writer
 from core.dragon import BENCHES_MAX
 from core.language import say
 from core.proposal.gates import GATES_MAX
-from core.proposal.propose import COUNT_MOST
+from core.proposal.propose import COUNT_MOST, DURATIONS
+from core.proposal.search import LAPS_MOST
 
 # Time for a village square with gates [s], measured 2026-11-27.
 SECONDS = 6.0
@@ -60,6 +61,21 @@ class ProposalsRequest(VenueFields, DragonFields, strict=True):
         description="What is best. tolerance: the largest proven stray; benches: the most benches; turns: the most "
         "turns of the head; duration: the longest dance",
     )
+    laps: Whole | None = Field(
+        None,
+        ge=1,
+        le=LAPS_MOST,
+        description="Times around a ring or an eight, once the whole dragon stands on it or has entered by its gate; "
+        "no other figures are tried then. Default: twice around a ring and once around an eight, with gates once",
+    )
+    duration_limit: float | None = measure(
+        "s",
+        "Longest time of a dance, from its start to its end; rings and eights go around as often as it lasts. "
+        "Default: no limit",
+        None,
+        ge=DURATIONS[0],
+        le=DURATIONS[1],
+    )
     count: Whole = Field(3, ge=1, le=COUNT_MOST, description="Number of proposals")
 
 
@@ -92,7 +108,7 @@ class Proposal(Answer):
 
 
 class Lack(Answer):
-    """The numbers of a reason: m2 for area, m for width, way and stray, benches for benches and fails."""
+    """The numbers of a reason: m2 for area, m for width, way, stray, s for duration, benches for benches and fails."""
 
     have: float | None = Field(
         description="What there is; for fails the benches of the dance that comes nearest, which is one if no dance of "
@@ -120,6 +136,7 @@ class Proposals(Answer):
     reason_kind: core.ReasonKind | None = Field(
         description="area: the benches cover more than the square has; width: nowhere is room for a turn as tight as "
         "those that are tried; way: no way between the gates is wide enough; stray: only a smaller stray is possible; "
+        "duration: the dances that were found last longer than the limit; "
         "benches: only a shorter dragon fits; fails: none of the dances that were tried passes"
     )
     reason_values: Lack | None = Field(description="The numbers of the reason; null if there is a proposal")
@@ -169,7 +186,7 @@ def _proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, 
         raise core.InvalidValue("venue", "must be given: a dance is proposed for a square")
     gates = [gate.to_gate() for gate in request.gates]
     limits: dict[str, Any] = {"stray": request.stray, "margin": request.margin, "speed_limit": request.speed_limit}
-    wish: dict[str, Any] = {"objective": request.objective, "count": request.count}
+    wish: dict[str, Any] = {name: getattr(request, name) for name in ("objective", "count", "laps", "duration_limit")}
     result = core.propose(
         place.venue,
         dragon,

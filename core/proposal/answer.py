@@ -28,13 +28,14 @@ class Objective(StrEnum):
 class ReasonKind(StrEnum):
     """Why no dance is proposed. AREA: the benches cover more than the square has; WIDTH: nowhere is room for a turn as
     tight as those that are tried; WAY: no way between two gates is wide enough; STRAY: the best dance allows a smaller
-    stray than wanted; BENCHES: a dragon of fewer benches fits; FAILS: none of the dances that were tried passes its
-    check."""
+    stray than wanted; DURATION: the dances that were found last longer than wanted; BENCHES: a dragon of fewer benches
+    fits; FAILS: none of the dances that were tried passes its check."""
 
     AREA = "area"
     WIDTH = "width"
     WAY = "way"
     STRAY = "stray"
+    DURATION = "duration"
     BENCHES = "benches"
     FAILS = "fails"
 
@@ -57,8 +58,8 @@ class Reason(Readable):
     who: for width the bench that needs it, for way the numbers of both gates
     failure: for fails the first failure of the dance that comes nearest; else None
 
-    The unit is m2 for AREA, m for WIDTH, WAY and STRAY, benches for BENCHES and FAILS. AREA and WAY are proven, and so
-    is the width that there is; the others are about the dances that were tried.
+    The unit is m2 for AREA, m for WIDTH, WAY and STRAY, s for DURATION, benches for BENCHES and FAILS. AREA and WAY are
+    proven, and so is the width that there is; the others are about the dances that were tried.
     """
 
     kind: ReasonKind
@@ -94,6 +95,11 @@ class Reason(Readable):
             return say(
                 "People shall be free to stray {need} m; the best of {tried} tried, {figure}, allows {less} m.",
                 need=format_number(need), tried=self.tried, figure=figure, less=less,
+            )  # fmt: skip
+        if self.kind is ReasonKind.DURATION:
+            return say(
+                "No dance of at most {less} s was found; the shortest one that was found, {figure}, takes {more} s.",
+                less=format_number(have), figure=figure, more=told_apart(have, need, 0)[1],
             )  # fmt: skip
         if self.kind is ReasonKind.BENCHES:
             return say(

@@ -32,7 +32,7 @@ class Design:
     """A dance before it is laid out.
 
     shape: None for a parade; pose: of its origin; gates: in and out, None without; doors: places on a closed figure at
-    which it is entered and left, as parts of it
+    which it is entered and left, as parts of it; further: times around a closed figure beyond the usual ones
     """
 
     figure: Figure
@@ -40,6 +40,13 @@ class Design:
     pose: Pose
     gates: tuple[Gate, Gate] | None = None
     doors: tuple[float, float] = (0.0, 0.0)
+    further: int = 0
+
+    @property
+    def laps(self) -> float:
+        """Times around a closed figure: once the whole dragon stands on it, or from gate to gate the whole ones; 1 for
+        other figures."""
+        return self.further + (1.0 if self.gates else ROUNDS.get(self.figure, 1.0))
 
 
 def gate_poses(gate: Gate, lead: float) -> tuple[Pose, Pose]:
@@ -88,9 +95,9 @@ def _pieces(design: Design, needs: Needs, ways: LegFinder) -> list[Piece] | None
         if around < needs.length + needs.gap:
             return None
         standing = min(needs.length_along(around / math.tau), around - needs.gap)
-        return pieces_of(
-            in_world(pose, shape.first), stretch(shape.steps or (), 0.0, standing + ROUNDS[design.figure] * around)
-        )[0]
+        return pieces_of(in_world(pose, shape.first), stretch(shape.steps or (), 0.0, standing + design.laps * around))[
+            0
+        ]
     into, out = design.gates
     lead, street = needs.chord, stand_length(needs)
     if shape is None:
@@ -110,19 +117,19 @@ def _pieces(design: Design, needs: Needs, ways: LegFinder) -> list[Piece] | None
     if way_in is None or way_out is None:
         return None
     if shape.steps is not None:
-        inner = _danced(shape, design.doors)
+        inner = _danced(shape, design)
         return pieces_of(first, [stand, *way_in, *inner, *way_out, stand])[0]
     before, _ = pieces_of(first, [stand, *way_in])
     after, _ = pieces_of(leave, [*way_out, stand])
     return [*before, *placed(shape.pieces or (), pose), *after]
 
 
-def _danced(shape: Shape, doors: tuple[float, float]) -> list[Step]:
+def _danced(shape: Shape, design: Design) -> list[Step]:
     """The steps between the doors of a closed figure, once around at least; all steps of another one."""
     if not shape.closed:
         return list(shape.steps or ())
-    around = shape.around
-    return stretch(shape.steps or (), doors[0] * around, (1.0 + (doors[1] - doors[0]) % 1.0) * around)
+    around, (enter, leave) = shape.around, design.doors
+    return stretch(shape.steps or (), enter * around, (design.laps + (leave - enter) % 1.0) * around)
 
 
 def _doors(design: Design) -> tuple[Pose, Pose]:

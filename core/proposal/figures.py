@@ -47,6 +47,10 @@ class Figure(StrEnum):
     PARADE = "parade"
 
 
+# Figures whose end is their beginning, so that they may be danced again and again.
+CLOSED = frozenset({Figure.RING, Figure.EIGHT})
+
+
 @dataclass(frozen=True)
 class Shape:
     """A figure with its sizes, around the origin; see the functions below for what they mean."""
@@ -72,7 +76,7 @@ class Shape:
     @property
     def closed(self) -> bool:
         """True if the end is the beginning."""
-        return self.figure in (Figure.RING, Figure.EIGHT)
+        return self.figure in CLOSED
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...] | None:
@@ -106,6 +110,11 @@ class Shape:
     def around(self) -> float:
         """Length once around a closed figure [m]."""
         return length_of(self.steps or [])
+
+    @property
+    def turns(self) -> float:
+        """Turns of the head once around a closed figure, all bends added up [1]."""
+        return sum(length * abs(curvature) for length, curvature in self.steps or []) / math.tau
 
 
 def ring(half_length: float, half_width: float, corner: float) -> list[Step] | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import combinations
 from typing import Any, TypedDict, TypeVar, Unpack
 
@@ -26,10 +27,10 @@ from core.judgement import quick_check
 from core.kernels import Budget, Halted
 from core.language import Listed
 from core.proposal.answer import Objective, Proposal, Proposals, Reason, ReasonKind
-from core.proposal.figures import Figure
+from core.proposal.figures import CLOSED, Figure
 from core.proposal.free_ground import FreeGround
 from core.proposal.gates import Gate, checked_gates
-from core.proposal.search import Rated, Search, Wish
+from core.proposal.search import LAPS_MOST, Rated, Search, Wish
 from core.sampling import bisect
 from core.values import Floats, Progress, unheard
 from core.venue import Venue
@@ -38,6 +39,8 @@ from core.venue import Venue
 ORDER = (Figure.RING, Figure.SPIRAL, Figure.EIGHT, Figure.SERPENTINE, Figure.PARADE)
 # Largest numbers of benches of a dragon, and of proposals [1].
 BENCHES_MOST, COUNT_MOST = 2_000, 12
+# Shortest and longest time that a dance may be limited to [s].
+DURATIONS = (1.0, 86_400.0)
 # Number of halvings of a stray that find the largest one with which a dance passes its check [1].
 STRAY_HALVINGS = 10
 # Default work of a question, about a minute [1].
@@ -51,13 +54,16 @@ Kind = TypeVar("Kind", Figure, Objective)
 
 
 class Wishes(TypedDict, total=False):
-    """The figures to try; what a dance must keep, as for check(): stray, margin [m], speed_limit [m/s]; the best."""
+    """The figures to try; what a dance must keep, as for check(): stray, margin [m], speed_limit [m/s]; the best; how
+    often around and how long [s]: laps, duration_limit."""
 
     figures: Sequence[str] | None
     stray: float | Stray
     margin: float
     speed_limit: float | None
     objective: str
+    laps: int | None
+    duration_limit: float | None
 
 
 @question_about("venue", Venue, "no dance was found")
@@ -79,6 +85,9 @@ def propose(
     figures: those to try, all that are possible by default, see Figure; a parade needs two gates
     stray: free for people, 0.05 m by default; margin: 0 [m]; speed_limit: of every handle, none by default [m/s]
     objective: see Objective, "tolerance" by default; for `benches` the dragon's last bench is left out or repeated
+    laps: times around a ring or an eight, once the whole dragon stands on it or has entered by its gate; no other
+        figures are tried then. By default twice around a ring and once around an eight, with gates once
+    duration_limit: longest time of a dance [s], none by default; rings and eights go around as often as it lasts
     count: of proposals
     on_proposal: called with every proposal as soon as it is certified, in the order of the search
     progress: called with the share of the figures that were tried, 0 to 1; a search for further dances of them, or for
@@ -95,7 +104,7 @@ def propose(
     checked_type("dragon", dragon, Dragon)
     wish = _wish(dragon, wishes)
     doors = checked_gates(gates, venue)
-    kinds = _figures(wishes.get("figures"), len(doors))
+    kinds = _figures(wishes.get("figures"), len(doors), closed=wish.laps is not None)
     count = checked_count("count", count, 1, COUNT_MOST)
     if dragon.benches > BENCHES_MOST:
         raise InvalidValue("dragon.benches", "must be at most {most}", got=dragon.benches, most=BENCHES_MOST)
@@ -123,7 +132,12 @@ def _wish(dragon: Dragon, wishes: Wishes) -> Wish:
     margin = checked_number("margin", wishes.get("margin", 0.0), "m", 0.0, MARGIN_MAX)
     speed = wishes.get("speed_limit")
     objective = _one("objective", wishes.get("objective", Objective.TOLERANCE), Objective)
-    return Wish(stray, margin, None if speed is None else checked_limit(speed), objective)
+    laps, limit = wishes.get("laps"), wishes.get("duration_limit")
+    if laps is not None:
+        laps = checked_count("laps", laps, 1, LAPS_MOST)
+    if limit is not None:
+        limit = checked_number("duration_limit", limit, "s", *DURATIONS)
+    return Wish(stray, margin, None if speed is None else checked_limit(speed), objective, laps, limit)
 
 
 def _one(name: str, value: str, kind: type[Kind]) -> Kind:
@@ -134,10 +148,11 @@ def _one(name: str, value: str, kind: type[Kind]) -> Kind:
         raise InvalidValue(name, "must be one of {names}", got=Given(value), names=Listed(kind)) from error
 
 
-def _figures(figures: Sequence[str] | None, gates: int) -> list[Figure]:
-    """The figures to try, in ORDER. raises: InvalidValue"""
+def _figures(figures: Sequence[str] | None, gates: int, *, closed: bool) -> list[Figure]:
+    """The figures to try, in ORDER. closed: only those that lead around. raises: InvalidValue"""
     if figures is None:
-        return [figure for figure in ORDER if figure is not Figure.PARADE or gates > 1]
+        possible = set(ORDER) - ({Figure.PARADE} if gates < 2 else set())
+        return [figure for figure in ORDER if figure in (CLOSED if closed else possible)]
     chosen = [
         _one(f"figures.{k}", figure, Figure)
         for k, figure in enumerate(checked_list("figures", figures, "must be a list of figures"))
@@ -146,6 +161,8 @@ def _figures(figures: Sequence[str] | None, gates: int) -> list[Figure]:
         raise InvalidValue("figures", "must name at least one figure")
     if Figure.PARADE in chosen and gates < 2:
         raise InvalidValue("figures", "must have two gates for a parade, which leads from one to the other", got=gates)
+    if closed and not CLOSED.issuperset(chosen):
+        raise InvalidValue("laps", "must be left out, or the figures only be {names}", names=Listed(sorted(CLOSED)))
     return [figure for figure in ORDER if figure in chosen]
 
 
@@ -189,6 +206,8 @@ def _otherwise(
     narrow = _too_narrow(search, venue, figures)
     if narrow is not None:
         return (), narrow
+    if search.too_long and (shortest := search.shortest()) is not None:
+        return (), Reason(ReasonKind.DURATION, search.tried, search.wish.duration_limit, *shortest)
     if search.look_closely():
         best = _collected(search, figures, count, on_proposal, unheard)
         if best:
@@ -265,7 +284,7 @@ def _without_stray(
     These dances do not depend on the stray, so a search with a smaller one than the largest finds that dance again.
     """
     wish, most = search.wish, (0.0, figures[0])
-    steady = Wish(0.0, wish.margin, wish.speed_limit, Objective.TOLERANCE)
+    steady = replace(wish, stray=0.0, objective=Objective.TOLERANCE)
     second = search.of(venue, search.dragon, steady)
     best = []
     for figure in figures:

@@ -57,6 +57,8 @@ MOVES, MOVES_GATED, FIRST_STEPS, HALVINGS = 60, 20, (0.8, 0.12, 0.06), 3
 EDGES = 250
 # Work of one rating, and of an edge in it [1]; and largest excess of the ground that a proposal states [m].
 RATING_WORK, EDGE_WORK, GROUND = 1_000.0, 50.0, 0.1
+# Largest number of times around a closed figure [1], and way that rounding may add to that of a dance [m].
+LAPS_MOST, ROUNDED = 100, 1e-6
 
 
 @dataclass(frozen=True)
@@ -70,12 +72,19 @@ class Rated:
 
 @dataclass(frozen=True)
 class Wish:
-    """What a proposal must keep. stray, margin: [m]; speed_limit: of every handle [m/s], None for none."""
+    """What a proposal must keep.
+
+    stray, margin: [m]; speed_limit: of every handle [m/s], None for none
+    laps: times around a closed figure, None for the usual ones
+    duration_limit: of a dance, in which closed figures are danced as often as they can [s], None for none
+    """
 
     stray: float
     margin: float
     speed_limit: float | None
     objective: Objective
+    laps: int | None = None
+    duration_limit: float | None = None
 
     @property
     def limits(self) -> dict[str, Any]:
@@ -89,6 +98,7 @@ class Search:
     closely: designs lead through channels and are measured bench by bench, see look_closely()
     tried, checked: numbers of dances that were rated, and judged by a check
     nearest: the best-rated dance that failed its check, with its report
+    too_long: rated dances that were left out because even the fewest times around take too long
     """
 
     def __init__(self, venue: Venue, dragon: Dragon, gates: Sequence[Gate], wish: Wish, budget: Budget) -> None:
@@ -103,6 +113,7 @@ class Search:
         self.ways, self.closely = LegFinder(self.ground, self.needs, budget), False
         self.tried = self.checked = 0
         self.nearest: tuple[Rated, Report] | None = None
+        self.too_long: list[Rated] = []
 
     def look_closely(self) -> bool:
         """Lay out designs through channels from now on, measured bench by bench; False if there is no channel."""
@@ -137,7 +148,9 @@ class Search:
 
     def ranked(self, figure: Figure) -> list[Rated]:
         """Dances of a figure that are worth a closer look, the best-rated first."""
-        every = [one for design in self.designs(figure) if (one := self.rate(design)) is not None]
+        rated = [one for design in self.designs(figure) if (one := self.rate(design)) is not None]
+        every = [one for one in rated if self.further(one, HEAD_SPEED) is not None]
+        self.too_long += [one for one in rated if one not in every]
         return sorted(every, key=lambda one: -round(self.value(one.rating), 6))
 
     def designs(self, figure: Figure) -> Iterator[Design]:
@@ -229,7 +242,9 @@ class Search:
                         return best
                     left -= 1
                     one = self.rate(move(best.design))
-                    if one is not None and self.value(one.rating) > self.value(best.rating) + SAME:
+                    if one is None or self.further(one, HEAD_SPEED) is None:
+                        continue
+                    if self.value(one.rating) > self.value(best.rating) + SAME:
                         best, better = one, True
         return best
 
@@ -243,6 +258,46 @@ class Search:
         # Down to the next cm/s, or by a thousandth where that would stop a very slow dance.
         speed = HEAD_SPEED if most is None else min(HEAD_SPEED, math.floor(most * 100.0) / 100.0 or 0.999 * most)
         return dance if speed == HEAD_SPEED else Dance(self.dragon, route, speed)
+
+    def further(self, one: Rated, speed: float) -> int | None:
+        """Times around its figure by which a dance is to be longer; None if the fewest already take too long.
+
+        speed: of the head [m/s]
+        """
+        shape, wish, laps = one.design.shape, self.wish, round(one.design.laps)
+        most = math.inf if wish.duration_limit is None else wish.duration_limit * speed - ROUNDED
+        further = 0
+        if shape is not None and shape.closed:
+            if wish.laps is not None:
+                further = wish.laps - laps
+            elif most < math.inf:
+                further = min(max(math.floor((most - one.route.end) / shape.around), 1 - laps), LAPS_MOST - laps)
+        return further if way_of(one, further) <= most else None
+
+    def shortest(self) -> tuple[float, Figure] | None:
+        """The time of the shortest dance that was found to pass among those that take too long [s], and its figure."""
+        times = []
+        for figure in {one.design.figure for one in self.too_long}:
+            ways = [(fewest(one), one) for one in self.too_long if one.design.figure is figure]
+            for way, one in sorted(ways, key=lambda each: each[0])[:CHECKED]:
+                dance = self.passing(one) if one.rating.stray >= self.wish.stray - RATED_LOW else None
+                if dance is not None:
+                    times.append((way / dance.head_speed, figure))
+                    break
+        return min(times, default=None)
+
+    def timed(self, one: Rated, dance: Dance) -> tuple[Rated, Dance] | None:
+        """A dance as often around its figure as is wished; None if it takes too long."""
+        further, shape = self.further(one, dance.head_speed), one.design.shape
+        if further is None or not further or shape is None:
+            return None if further is None else (one, dance)
+        design = replace(one.design, further=further)
+        route = laid_out(design, self.needs, self.ways)
+        if route is None:
+            return None
+        turns = one.rating.turns + further * shape.turns
+        rating = replace(one.rating, length=route.end - route.begin, turns=turns)
+        return Rated(design, route, rating), Dance(self.dragon, route, dance.head_speed)
 
     def passing(self, one: Rated) -> Dance | None:
         """The dance of a design if it passes the quick check; None if not."""
@@ -332,7 +387,11 @@ class Search:
             yield proposal
 
     def certified(self, one: Rated, dance: Dance) -> Proposal | None:
-        """The proposal of a dance; None if the whole check does not pass."""
+        """The proposal of a dance, as often around as is wished; None if the whole check does not pass."""
+        timed = self.timed(one, dance)
+        if timed is None:
+            return None
+        one, dance = timed
         report = check(dance, venue=self.venue, start=0.0, budget=self.budget, **self.wish.limits)
         if not report.passed or report.venue is None:
             return None
@@ -359,6 +418,18 @@ class Search:
         nearest = next(area.nearest for area in areas if area.name == name)
         assert nearest is not None
         return least_clearance(dance, **span), nearest.distance
+
+
+def way_of(one: Rated, further: int = 0) -> float:
+    """Way of the head in a dance, this often further around its figure [m]."""
+    shape = one.design.shape
+    return one.route.end + (further * shape.around if further and shape is not None else 0.0)
+
+
+def fewest(one: Rated) -> float:
+    """The same with the fewest times around [m]."""
+    shape = one.design.shape
+    return way_of(one, 1 - round(one.design.laps) if shape is not None and shape.closed else 0)
 
 
 def _apart(design: Design, other: Design, way: float) -> bool:

@@ -50,10 +50,13 @@ def corners(person):
 def test_from_nothing_to_a_certified_dance_on_a_phone(open_page):
     person = open_page("", reduced_motion="reduce", **PHONE).presses("#arrival [data-door=village]")
     person.types({"#place-width": "30", "#place-height": "40"}, "Tab").presses("#take-rectangle")
+    # How long it may last is said in minutes, or by the clock once it says when the dance starts.
+    person.types({"#ends": "19:50"}, "Tab").sees({"#ends-wrong": "Say at “Starts at” when the dance starts"})
+    person.types({"#begin_clock": "19:46"}, "Tab").sees({"#ends-wrong": False})
     # A second dragon needs the path of the first.
     person.sees({"#propose": True, "#several": False})
     proposed(person).presses(CARDS).reads({f"{CLEAR} .value": "✓Can be danced"}).has(CARDS, aria_pressed="true")
-    person.sees({"#several": True})
+    person.sees({"#several": True, CARDS: re.compile(r"Ring.*, 3 min \d+ s;", re.DOTALL)})
     person.settles()
     assert person.ask(NARROW) == []
     for language in ("zh", "en"):

@@ -77,6 +77,23 @@ def test_more_turns_and_longer_dances_are_wished_for():
     assert tolerant.tolerance >= max(turning.tolerance, long.tolerance)
 
 
+def test_rings_and_eights_go_around_as_often_as_is_asked_or_as_long_as_it_may_last():
+    case, dragon = Case(SMALL, Dragon(8), (), LIMITS), Dragon(8)
+    once, often = (propose(SMALL, dragon, figures=["ring"], count=1, laps=laps).proposals[0] for laps in (1, 5))
+    assert often.turns - once.turns == pytest.approx(4.0)
+    around = (often.length - once.length) / 4
+    ring, eight = sorted(
+        case.proposals(figures=["ring", "eight"], count=2, duration_limit=200.0).proposals, key=lambda one: one.turns
+    )[::-1]
+    assert [refuted(case, one) for one in (ring, eight)] == ["", ""]
+    assert 200.0 - around < ring.duration <= 200.0
+    assert 100.0 < eight.duration <= 200.0
+    reason = propose(SMALL, dragon, duration_limit=9.0).reason
+    assert (reason.kind, reason.have) == (ReasonKind.DURATION, 9.0)
+    (shortest,) = propose(SMALL, dragon, figures=[reason.figure], count=1, duration_limit=reason.need + 0.01).proposals
+    assert 9.0 < shortest.duration <= reason.need + 0.01
+
+
 def test_the_most_benches_are_below_the_bound_of_the_areas_and_no_dance_has_one_more():
     result = propose(SMALL, Dragon(10), figures=["ring"], objective="benches", count=1)
     best = result.proposals[0]
@@ -135,6 +152,7 @@ def test_one_bench_dances_too():
     [
         ("figures", {"figures": []}),
         ("count", {"count": 1.5}),
+        ("laps", {"laps": 2, "figures": ["ring", "spiral"]}),
         ("dragon.benches", {"dragon": Dragon(100_000)}),
     ],
 )
