@@ -19,7 +19,7 @@ from app.files.outlines import dxf_bytes, new_dxf
 from app.maps.choice import EVERYTHING, Choice
 from app.maps.entities import HOLES, MARKS, Entities, faults
 from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, damaged_kind, inner_point, place_fields, points_in
-from app.wire.geojson import GATE, INNER_SQUARE
+from app.wire.geojson import GATE, INNER_SQUARE, LANE
 from core import InvalidValue
 from core.errors import Quantity
 from core.venue import Ring
@@ -37,7 +37,7 @@ ACROSS_MAX = 2_000.0
 # Most lines and most records of a file, counted before ezdxf reads it: it takes 50 us for a record (2026-11-26).
 LINES_MAX, RECORDS_MAX = 2_000_000, 100_000
 RECORD_BEGIN = re.compile(rb"\n[^\S\n]*[+-]?0[0_]*[^\S\n]*\n[^\S\n]*[A-Za-z_]")
-# Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red, green.
+# Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red, green, cyan.
 LAYERS = {
     "square": ("SQUARE", 7),
     "obstacle": ("OBSTACLES", 8),
@@ -45,6 +45,7 @@ LAYERS = {
     "mark": (MARKS, 1),
     GATE: ("GATES", 3),
     INNER_SQUARE: (INNER_SQUARE.upper(), 7),
+    LANE: ("EMERGENCY LANES", 4),
 }
 # Words of ezdxf for an entity that it has left out, with its kind in group 1.
 DELETED = re.compile(r"(?:[Dd]elet|[Rr]emov)\w*[^#]*?\b([A-Z0-9]*[A-Z][A-Z0-9_]+)\(#")

@@ -28,7 +28,7 @@ from app.maps.features import (
 )
 from app.maps.joined import joined
 from app.maps.labels import MapText, are_too_many, label_of, names_of
-from app.wire.geojson import SQUARE
+from app.wire.geojson import LANE, SQUARE
 from app.wire.parts import APART
 from core import InvalidValue
 from core.errors import Clause
@@ -243,6 +243,8 @@ class Entities:
             self._add(drawn)
         elif drawn.shape == "polygon":
             self._add(drawn)
+            if drawn.role == LANE:
+                return
             edge = f"edge of {drawn.name}" if drawn.name else None
             self._add(replace(line, shape="line", name=edge, role=OBSTACLE, radius=half))
         else:

@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from app.wire.degrees import GRID_MAX, GeographicOrigin
-from app.wire.geojson import GATE, INNER_SQUARE, SQUARE, Aside, Thing, outlined
+from app.wire.geojson import GATE, INNER_SQUARE, LANE, SQUARE, Aside, Thing, outlined
 from core import InvalidValue
 from core.errors import Clause, say_value
 from core.language import phrase, say, sense
@@ -31,6 +31,7 @@ WORDS = {
     MARK: ("mark", "marks", "chalk", "粉笔标记"),
     GATE: (GATE, "gates", "出入口"),
     INNER_SQUARE: (INNER_SQUARE,),
+    LANE: (LANE, "emergency lanes", "fire lane", "fire lanes", "消防通道", "应急通道", "救护通道"),
 }
 ROLES = {word: role for role, words in WORDS.items() for word in words}
 # Most points and most features of one map; a plan of a square has fewer.
@@ -196,6 +197,7 @@ def kind_of(one: MapFeature) -> str:
         PATH: say("path"),
         GATE: say("gate"),
         INNER_SQUARE: say("square without streets"),
+        LANE: say("emergency lane"),
     }
     if not one.role and one.shape == "point" and one.radius is not None:
         return sense("shape", "circle")
@@ -241,22 +243,23 @@ def features_of(things: Sequence[Thing]) -> list[MapFeature]:
 
 
 def aside_features(asides: Sequence[Aside]) -> list[MapFeature]:
-    """The gates, and the square without streets, as features."""
+    """The gates, the lanes, and the square without streets, as features."""
     return [
         MapFeature(
-            "point" if role == GATE else "line",
-            (ring,),
-            name,
-            role,
-            properties={} if heading is None else {"heading": heading},
+            "point" if one.role == GATE else "line",
+            (one.points,),
+            one.name,
+            one.role,
+            one.radius,
+            {} if one.heading is None else {"heading": one.heading},
         )
-        for role, name, ring, heading in asides
+        for one in asides
     ]
 
 
 def edges_of(one: MapFeature) -> int:
     """Edges that a thing has in a venue: the sides of an area, or of the outline of a tree or a wall; a path, a mark, a
-    gate and a square without streets have none."""
+    gate, a lane and a square without streets have none."""
     if one.role in (PATH, MARK) or is_aside(one):
         return 0
     if one.shape == "polygon":
@@ -270,7 +273,9 @@ def edges_of(one: MapFeature) -> int:
 
 
 def is_aside(one: MapFeature) -> bool:
-    """True for a gate, and for the square without streets, in the shapes that aside_features() gives them."""
+    """True for a gate, a lane, and the square without streets, in the shapes that aside_features() gives them."""
+    if one.role == LANE:
+        return one.shape == "line"
     return (one.role, one.shape) in ((GATE, "point"), (INNER_SQUARE, "line")) and one.radius is None
 
 

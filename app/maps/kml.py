@@ -29,7 +29,7 @@ from app.maps.features import (
     role_of,
 )
 from app.maps.gpx import seconds_of
-from app.wire.geojson import GATE, INNER_SQUARE
+from app.wire.geojson import GATE, INNER_SQUARE, LANE
 from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
@@ -58,6 +58,7 @@ COLOURS = {
     "mark": "ff005ed5",
     GATE: "ff3f8f1f",
     INNER_SQUARE: "ff000000",
+    LANE: "ffb27200",
 }
 FAULT = "must be KML, got {fault} in line {line}"
 FORBIDDEN = phrase("file must not have a document type or entities") + ": " + phrase("save it again as plain KML")

@@ -31,18 +31,21 @@ from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thin
 from app.maps.tracks import APART, CHORD, walk_of
 from app.wire.degrees import ACROSS_MAX, GRID_MAX, TURN, GeographicOrigin, Plane, middle_of, refuse_wide, unwrapped
 from app.wire.fields import Coordinates
-from app.wire.geojson import ASIDES, SQUARE
+from app.wire.geojson import ASIDES, LANE, LANE_MAX, LANE_MIN, LANE_RADIUS, SQUARE
 from app.wire.parts import is_cut, merged, whole_areas
 from core import Dragon, InvalidValue
 from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
 from core.language import Listed, counted, phrase, say
 from core.names import NAME_MAX, is_printable
+from core.shapes.engines import strip_of
 from core.values import Floats
 
 # Length that a path has less than its track from which on a note says so [m].
 LOST = 0.5
 # Largest number of things that a note names; a list of more ends in dots.
 LISTED_MOST = 5
+# Least share of the narrowest rectangle around it that an area has whose middle line is that of the rectangle.
+STRIP_SHARE = 0.95
 # Reason of a refusal of numbers that were taken for degrees.
 GUESSED = phrase("its numbers look like degrees") + "; " + phrase("if they are metres, give the units metres")
 # Free ground around everything drawn, if no polygon is the square [m].
@@ -73,6 +76,7 @@ class Reading:
         self.origin, self.grid = drawing.origin, drawing.grid
         self.passages: Sequence[Mapping[str, Any]] | None = None
         self._lay_out(units)
+        self.features = self._lanes()
         self.asides = [one for one in self.features if is_aside(one)]
         self.features = [one for one in self.features if not is_aside(one)]
         self._leave_out_small()
@@ -86,6 +90,30 @@ class Reading:
                 "Left out, because hidden: {count} {kind}s.",
                 kind=word_of(kind),
             )
+
+    def _lanes(self) -> list[MapFeature]:
+        """The features, each lane as its middle line with a width; one that is an area of another shape is left out."""
+        features, others = list[MapFeature](), list[MapFeature]()
+        for one in self.features:
+            if one.role != LANE:
+                features.append(one)
+            elif one.shape == "line" and len(set(one.rings[0])) > 1:
+                known = one.radius is not None and LANE_MIN <= one.radius <= LANE_MAX
+                features.append(one if known else replace(one, radius=LANE_RADIUS))
+            elif one.shape == "polygon" and (strip := strip_of(np.array(one.rings[0]), STRIP_SHARE)) is not None:
+                (a, b), width = strip
+                middle = (float(a[0]), float(a[1])), (float(b[0]), float(b[1]))
+                radius = min(max(0.5 * width, LANE_MIN), LANE_MAX)
+                features.append(replace(one, shape="line", rings=(middle,), radius=radius))
+            else:
+                others.append(one)
+        self.remark_on(
+            len(others),
+            "Left out: {count} emergency lane that is neither a line nor a rectangle: {names}.",
+            "Left out: {count} emergency lanes that are neither lines nor rectangles: {names}.",
+            names=_listed(others),
+        )
+        return features
 
     def parts(self) -> DanceParts:
         # Before anything is compared with every edge.
@@ -476,8 +504,10 @@ class _Names:
 
 
 def _with_role(feature: MapFeature) -> MapFeature:
-    """The same feature; one that is called a gate and is none in its shape has no role."""
-    return feature if is_aside(feature) or feature.role not in ASIDES else replace(feature, role=None)
+    """The same feature; one that is called a gate and is none in its shape has no role. Lanes have any shape here."""
+    if feature.role == LANE or is_aside(feature) or feature.role not in ASIDES:
+        return feature
+    return replace(feature, role=None)
 
 
 def _closed(feature: MapFeature) -> MapFeature:

@@ -47,8 +47,8 @@ EXCESS = 0.01
 CLEAR = 0.5
 # Time of the default dance's plan, measured 2026-11-29 [s].
 SECONDS = 0.5
-# Most gates of a plan.
-GATES_MAX = 20
+# Most gates of a plan, and longest name of one.
+GATES_MAX, GATE_NAME_MAX = 20, 40
 # Most dragons of a plan: all its sheets are laid out before the first one is written.
 DRAGONS_MAX = 20
 # Words for each kind of failure.
@@ -65,7 +65,7 @@ FAILURES = {
 class PlanGate(Wire, strict=True):
     """A gate, or another place by name, whose passes the plan lists by the clock."""
 
-    name: OneLine = Field(min_length=1, max_length=40, description="Its name")
+    name: OneLine = Field(min_length=1, max_length=GATE_NAME_MAX, description="Its name")
     x: Coordinate = measure("m", "x of the place")
     y: Coordinate = measure("m", "y of the place")
     within: float = measure("m", "Largest distance of the path from the place where it passes it", 5.0, ge=0, le=100)
@@ -233,24 +233,29 @@ class _Common:
 
 
 def passes_of_gates(
-    request: GatedDance, dances: Sequence[Dance], spans: Sequence[tuple[float, float]], budget: core.Budget
+    request: GatedDance,
+    dances: Sequence[Dance],
+    spans: Sequence[tuple[float, float]],
+    budget: core.Budget,
+    others: Sequence[PlanGate] = (),
 ) -> list[list[tuple[str, float]]]:
     """For each dance, name and s [m] of each pass of a gate, in order along its path.
 
-    raises: InvalidValue for a gate off all paths
+    others: gates besides those of the request, which may be off all paths
+    raises: InvalidValue for a gate of the request off all paths
     """
     passes: list[list[tuple[str, float]]] = [[] for _ in dances]
-    if not request.gates:
+    if not request.gates and not others:
         return passes
     walked = [handle_places(dance, span, budget=budget) for dance, span in zip(dances, spans, strict=True)]
-    for k, gate in enumerate(request.gates):
+    for k, gate in enumerate((*request.gates, *others)):
         near = [
             places_near(dance.path, (gate.x, gate.y), float(ends[0, -1]), float(ends[1, 0]), gate.within)
             for dance, ends in zip(dances, walked, strict=True)
         ]
         for own, places in zip(passes, near, strict=True):
             own += [(gate.name, s) for s in places]
-        if not any(near):
+        if not any(near) and k < len(request.gates):
             rule = "must be within {within} of the path that the dragon walks"
             raise InvalidValue(f"gates.{k}", rule, got=Given(gate.name), within=Quantity(gate.within, "m"))
     return [sorted(own, key=lambda one: one[1]) for own in passes]

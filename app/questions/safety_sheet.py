@@ -27,11 +27,21 @@ from app.plan.safety_answer import (
 from app.plan.safety_words import benches_words, known_words, part_on_stopping, parts_on_ground, passed_words, together
 from app.plan.timing import TimeFormat
 from app.questions.check import FILE_OF_CHECK, limits_of, verdict_of, verdict_together
-from app.questions.plan import GATES, PDF_TYPE, GatedDance, passes_of_gates, timing_of_marks
+from app.questions.plan import (
+    GATE_NAME_MAX,
+    GATES,
+    GATES_MAX,
+    PDF_TYPE,
+    GatedDance,
+    PlanGate,
+    passes_of_gates,
+    timing_of_marks,
+)
 from app.wire.dances import PathFields, clock_of, starting
 from app.wire.degrees import Place
 from app.wire.fields import Address, OneLine, Wire, measure
-from app.wire.geojson import geometry_of
+from app.wire.geojson import GATE, geometry_of
+from app.wire.geojson import LANE as LANE_ROLE
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
 from app.wire.paths import Point as PointField
@@ -39,7 +49,7 @@ from app.wire.performances import SeveralFields
 from app.wire.question import JSON, UNKNOWN_COST, Command, ListOption, Output, Question, Terms
 from app.wire.readings import dragons_failure_words, failure_words
 from core import Area, FailureKind, InvalidValue, Judgement, Part, Performance
-from core.errors import Given, format_bound, format_number, question_about
+from core.errors import Given, Parameter, format_bound, format_number, question_about
 from core.language import say
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
@@ -98,7 +108,10 @@ class SafetySheetRequest(SeveralFields, GatedDance, strict=True):
     """A dance, or several on one clock, as for /check, and what its sheet assumes and names."""
 
     lanes: list[LaneBody] = Field(
-        [], max_length=LANES_MAX, fail_fast=True, description="Lanes to keep free, such as those for ambulances"
+        [],
+        max_length=LANES_MAX,
+        fail_fast=True,
+        description="Lanes to keep free, such as those for ambulances; those of the venue follow them",
     )
     spectators: float = measure(
         "m", "Distance at which people stand from all ground that benches may sweep", 1.0, ge=0, le=100
@@ -194,15 +207,33 @@ class _Judged:
         ]
 
     @cached_property
-    def lanes(self) -> list[Area]:
-        """The lanes to keep free. raises: InvalidValue"""
-        return [one.to_area(f"lanes.{k}") for k, one in enumerate(self.request.lanes)]
+    def lanes(self) -> list[tuple[LaneBody, Area]]:
+        """The lanes to keep free, those of the venue last, and the ground of each. raises: InvalidValue"""
+        own = [(one, one.to_area(f"lanes.{k}")) for k, one in enumerate(self.request.lanes)]
+        drawn = [one for one in self.place.asides if one.role == LANE_ROLE]
+        if len(own) + len(drawn) > LANES_MAX:
+            rule = "must have at most {most} lanes in all, with those of {lanes}"
+            raise InvalidValue("venue", rule, got=len(own) + len(drawn), most=LANES_MAX, lanes=Parameter("lanes"))
+        for k, one in enumerate(drawn, start=1):
+            name, points = one.name or say("lane {k}", k=k), [list(point) for point in one.points]
+            lane = LaneBody.model_construct(name=name, points=points, width=2.0 * (one.radius or 0.0))
+            own.append((lane, lane.to_area("venue")))
+        return own
+
+    @cached_property
+    def venue_gates(self) -> list[PlanGate]:
+        """The gates that are drawn in the venue."""
+        drawn = [one for one in self.place.asides if one.role == GATE]
+        return [
+            PlanGate(name=(one.name or say("gate {k}", k=k))[:GATE_NAME_MAX], x=one.points[0][0], y=one.points[0][1])
+            for k, one in enumerate(drawn[:GATES_MAX], start=1)
+        ]
 
     def answer(self, terms: Terms) -> SafetySheet:
         request, swept, loose = self.request, self.swept, self.loose
         ground, reached = merged(one.polygons for one in swept), merged(one.polygons for one in loose)
         terms.progress(0.4)
-        lanes = [self._lane(body, area) for body, area in zip(request.lanes, self.lanes, strict=True)]
+        lanes = [self._lane(body, area) for body, area in self.lanes]
         terms.progress(0.7)
         fastest = self._fastest()
         return SafetySheet(
@@ -239,7 +270,7 @@ class _Judged:
         request, performance, venue = self.request, self.performance, self.place.venue
         clock, several = self.clock, len(performance.parts) > 1
         dragons = [performance.name_of(k) for k in range(len(performance.parts))] if several else []
-        gates = [(one.name, one.x, one.y) for one in request.gates]
+        gates = [(one.name, one.x, one.y) for one in (*request.gates, *self.venue_gates)]
         geographic = request.origin_at(self.place) is not None
         grounds = []
         for (_, part, span), swept in zip(self.dances, self.swept, strict=True):
@@ -248,7 +279,7 @@ class _Judged:
                 GroundMap(part.dance, venue, swept.polygons, self.closed, request.spectators, timing, geographic, gates)
             )
         loose = merged(one.polygons for one in self.loose)
-        lanes = [(one.name, [np.array(ring) for ring in one.rings]) for one in self.lanes]
+        lanes = [(one.name, [np.array(ring) for ring in one.rings]) for _, one in self.lanes]
         corners = np.concatenate([rings[0] for rings in (*self.closed, *loose)])
         box = with_square(venue, corners.min(axis=0), corners.max(axis=0))
         layers = SafetyLayers(loose, lanes, box, dragons)
@@ -394,7 +425,7 @@ class _Judged:
     def _gates(self, terms: Terms) -> list[GatePass]:
         dances = [part.dance for part in self.performance.parts]
         ends = [(span["start"], span["stop"]) for span in self.spans]
-        every = passes_of_gates(self.request, dances, ends, terms.budget)
+        every = passes_of_gates(self.request, dances, ends, terms.budget, self.venue_gates)
         gates = list[GatePass]()
         for (k, part, _), span, passes in zip(self.dances, ends, every, strict=True):
             passing = Passing(part.dance, *span, budget=terms.budget)

@@ -261,7 +261,7 @@ def _projected(parts: list[Part], asides: list[Aside]) -> Place:
     metres = [one._replace(rings=tuple(map(placed, one.rings))) for one in parts]
     things = named(_joined(metres, kinds))
     where = GeographicOrigin((origin.longitude + 180.0) % 360.0 - 180.0, origin.latitude)
-    beside = [(role, name, placed(unwrapped(ring, near)), heading) for role, name, ring, heading in asides]
+    beside = [one._replace(points=placed(unwrapped(one.points, near))) for one in asides]
     return Place(venue_of(outlined(things)), where, things, asides=beside)
 
 

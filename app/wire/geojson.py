@@ -31,22 +31,37 @@ Thing = tuple[str, tuple[Ring, ...], float | None]
 # Name if it has one, the field of its coordinates, the coordinates as given, half of its width, if it has one [m], and
 # True for one of several polygons of a MultiPolygon.
 RawPolygon = tuple[str | None, str, object, float | None, bool]
-# Role, name, points and heading, if it has one [rad], of what stands in a venue for people: no bench can touch it.
-Aside = tuple[str, str | None, Ring, float | None]
 # Unit of coordinates, and the largest |x| and |y| in it.
 Scale = tuple[str, float, float]
 METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
 
 # Name of the square.
 SQUARE = "square"
-# Roles of such features, and the shape of each: a gate is a point of the border with the heading of those who enter;
-# the square as it was before streets were added beyond its gates is a closed line.
-GATE, INNER_SQUARE = "gate", "square without streets"
-ASIDES = {GATE: "Point", INNER_SQUARE: "LineString"}
+# Roles of what stands in a venue for people, and the shape of each: a gate is a point of the border with the heading of
+# those who enter; the square as it was before streets were added beyond its gates is a closed line; a lane to keep free
+# is its middle line, with half of its width as its radius.
+GATE, INNER_SQUARE, LANE = "gate", "square without streets", "emergency lane"
+ASIDES = {GATE: "Point", INNER_SQUARE: "LineString", LANE: "LineString"}
 # Largest nesting depth [1]: a collection of features of collections of polygons.
 DEPTH_MAX = 8
 # Radius of a round obstacle, and half of the width of a wall [m].
 RADIUS_MIN, RADIUS_MAX = 1e-3, 1e3
+# Half of the width of a lane: least, that of one without a width, and largest [m]; and most points of its middle line.
+LANE_MIN, LANE_RADIUS, LANE_MAX = 0.25, 1.75, 25.0
+LANE_POINTS_MAX = 1000
+
+
+class Aside(NamedTuple):
+    """What stands in a venue for people: no bench can touch it.
+
+    heading: of those who enter by a gate, if it is known [rad]; radius: half of the width of a lane [m]
+    """
+
+    role: str
+    name: str | None
+    points: Ring
+    heading: float | None = None
+    radius: float | None = None
 
 
 class Part(NamedTuple):
@@ -106,7 +121,10 @@ def named(parts: Sequence[Part]) -> list[Thing]:
 
 
 def asides_in(geometry: object, scale: Scale = METRES, field: str = "venue") -> list[Aside]:
-    """The gates, and the square without streets, of GeoJSON that read_things() accepts. raises: InvalidValue"""
+    """The gates, the lanes, and the square without streets, of GeoJSON that read_things() accepts.
+
+    raises: InvalidValue
+    """
     if not isinstance(geometry, Mapping):
         return []
     if is_aside(geometry):
@@ -115,8 +133,18 @@ def asides_in(geometry: object, scale: Scale = METRES, field: str = "venue") -> 
         if heading is not None:
             heading = checked_number(f"{field}.properties.heading", heading, "rad", -2.0 * math.pi, 2.0 * math.pi)
         points = [shape.get("coordinates")] if shape["type"] == "Point" else shape.get("coordinates")
-        (ring,) = _rings(f"{field}.geometry.coordinates", [points], scale, None)
-        return [(str(properties["role"]), name, ring, heading)]
+        (ring,), role = _rings(f"{field}.geometry.coordinates", [points], scale, None), str(properties["role"])
+        if role != LANE:
+            return [Aside(role, name, ring, heading)]
+        if len(set(ring)) < 2:
+            raise InvalidValue(f"{field}.geometry.coordinates", "must be a line with a length")
+        if len(ring) > LANE_POINTS_MAX:
+            rule = "must be at most {most} points"
+            raise InvalidValue(f"{field}.geometry.coordinates", rule, got=len(ring), most=LANE_POINTS_MAX)
+        half = properties.get("radius")
+        half = LANE_RADIUS if half is None else half
+        radius = checked_number(f"{field}.properties.radius", half, "m", LANE_MIN, LANE_MAX)
+        return [Aside(role, name, ring, radius=radius)]
     members = ((name, geometry.get(name)) for name in ("features", "geometries"))
     every = (
         (f"{field}.{name}.{k}", one) for name, some in members if isinstance(some, list) for k, one in enumerate(some)
@@ -125,12 +153,13 @@ def asides_in(geometry: object, scale: Scale = METRES, field: str = "venue") -> 
 
 
 def is_aside(feature: Mapping[str, Any]) -> bool:
-    """True for a Feature with one of the roles of ASIDES, in its shape and without a radius."""
+    """True for a Feature with one of the roles of ASIDES, in its shape and, but for a lane, without a radius."""
     properties, shape = feature.get("properties"), feature.get("geometry")
     if feature.get("type") != "Feature" or not isinstance(properties, Mapping) or not isinstance(shape, Mapping):
         return False
     role = properties.get("role")
-    return isinstance(role, str) and shape.get("type") == ASIDES.get(role, "") and properties.get("radius") is None
+    bare = role == LANE or properties.get("radius") is None
+    return isinstance(role, str) and shape.get("type") == ASIDES.get(role, "") and bare
 
 
 def outlined(things: Sequence[Thing]) -> list[Polygon]:

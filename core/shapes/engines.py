@@ -365,6 +365,22 @@ def lane_rings(middle: Floats, width: float) -> tuple[Floats, ...]:
     return _rings(lane)[0]
 
 
+def strip_of(ring: Floats, share: float) -> tuple[Floats, float] | None:
+    """Ends (2, 2) of the middle line, and width, of the narrowest rectangle around a ring (N, 2) [m]; None if the ring
+    encloses less than a share of it."""
+    import shapely
+
+    area = shapely.Polygon(ring) if len(ring) > 3 else None
+    around = None if area is None else shapely.oriented_envelope(area)
+    if area is None or around is None or not around.area > 0.0 or area.area < share * around.area:
+        return None
+    corners = shapely.get_coordinates(around)[:4]
+    sides = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T)
+    corners = corners if sides[0] <= sides[1] else np.roll(corners, -1, axis=0)
+    ends: Floats = np.stack([0.5 * (corners[0] + corners[1]), 0.5 * (corners[2] + corners[3])])
+    return ends, float(sides[:2].min())
+
+
 def free_width(polygons: Polygons, middle: Floats, width: float) -> float:
     """Width of a lane around a line through points (P, 2) that polygons leave free all along [m]: of the widest strip
     around the line or along one of the lane's sides; 0 where they reach from side to side."""

@@ -88,6 +88,8 @@ ASIDES = json.loads("""[
         {"type": "Point", "coordinates": [-20, 2]}},
     {"type": "Feature", "properties": {"name": "东门", "role": "gate", "heading": 3.5}, "geometry":
         {"type": "Point", "coordinates": [20, 3.25]}},
+    {"type": "Feature", "properties": {"name": "ambulances", "role": "emergency lane", "radius": 1.5}, "geometry":
+        {"type": "LineString", "coordinates": [[-20, -5], [0, -5], [20, 1]]}},
     {"type": "Feature", "properties": {"role": "square without streets"}, "geometry":
         {"type": "LineString", "coordinates": [[-20, -15], [20, -15], [20, 15], [-20, -15]]}}
 ]""")
@@ -111,6 +113,32 @@ def test_what_goes_out_comes_in_as_it_was(client, format, path):
 
 def thing(name, kind, coordinates):
     return {"type": "Feature", "properties": {"name": name}, "geometry": {"type": kind, "coordinates": coordinates}}
+
+
+@pytest.mark.parametrize("width", [0.0, 4.0], ids=["an outline", "a line with a width"])
+def test_a_lane_is_read_from_its_layer_as_a_line_with_a_width(width):
+    document = ezdxf.new()
+    space = document.modelspace()
+    space.add_lwpolyline([(-30, -30), (30, -30), (30, 30), (-30, 30)], close=True, dxfattribs={"layer": "SQUARE"})
+    fire = {"layer": "Fire Lane", "const_width": width}
+    if width:
+        space.add_lwpolyline([(-28, 0), (0, 0), (28, 7)], dxfattribs=fire)
+    else:
+        space.add_lwpolyline([(-28, -2), (28, -2), (28, 2), (-28, 2)], close=True, dxfattribs=fire)
+    space.add_lwpolyline(
+        [(0, 5), (9, 5), (9, 14), (6, 14), (6, 8), (0, 8)], close=True, dxfattribs=fire | {"const_width": 0}
+    )
+    stream = io.StringIO()
+    document.write(stream)
+    parts = places_of(stream.getvalue().encode(), "metres")
+    assert [one["properties"].get("role") for one in parts.geometry["features"]] == [None, "emergency lane"]
+    lane = parts.geometry["features"][1]
+    assert lane["properties"]["radius"] == pytest.approx(2.0)
+    ends = sorted(lane["geometry"]["coordinates"][k] for k in (0, -1))
+    assert np.allclose(ends, [(-28, 0), (28, 7 if width else 0)])
+    assert [note for note in parts.notes if "neither" in note] == [
+        "Left out: 1 emergency lane that is neither a line nor a rectangle: emergency lane."
+    ]
 
 
 def test_walls_of_a_drawing_are_drawn_as_wide_as_they_are(client):

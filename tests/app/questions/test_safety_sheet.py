@@ -84,6 +84,33 @@ def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
     assert answer["stopping"]["distance"] == pytest.approx(1.5 * motion.speed.max(), abs=1e-6)
 
 
+def test_lanes_and_gates_of_the_venue_are_those_of_the_request(ask):
+    drawn = [
+        {"type": "Feature", "properties": {"name": one["name"], "role": "emergency lane", "radius": 0.5 * one["width"]},
+         "geometry": {"type": "LineString", "coordinates": one["points"]}}
+        for one in BODY["lanes"]
+    ]  # fmt: skip
+    gates = [
+        {
+            "type": "Feature",
+            "properties": {"name": name, "role": "gate"},
+            "geometry": {"type": "Point", "coordinates": at},
+        }
+        for name, at in (("east gate", [50, 0.2]), ("a gate that nobody passes", [20, 8]))
+    ]
+    venue = {
+        "type": "FeatureCollection",
+        "features": [{"type": "Feature", "geometry": YARD, "properties": {}}, *drawn, *gates],
+    }
+    answer = ask("safety-sheet", BODY | {"venue": venue, "lanes": [], "gates": []})
+    expected = ask("safety-sheet", BODY)
+    assert (answer["lanes"], answer["gates"]) == (expected["lanes"], expected["gates"])
+    assert "a gate that nobody passes" in words_of(
+        pages_of(ask.file("safety-sheet", BODY | {"venue": venue}, PDF_TYPE))[0]
+    )
+    ask.refuses("/venue 10 11", "safety-sheet", BODY | {"venue": venue, "lanes": BODY["lanes"][:1] * 8})
+
+
 # Two dragons cross, the second one later and faster; it stands in the lane at the end.
 TWO = {
     "dances": [

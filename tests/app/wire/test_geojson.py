@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from app.wire.degrees import place_of
-from app.wire.geojson import outlined, read_things, venue_of
+from app.wire.geojson import Aside, outlined, read_things, venue_of
 from core import Dragon
 from tests.support.asking import box, polygon
 from tests.support.refused import refused
@@ -64,11 +64,30 @@ def test_gates_are_kept_and_no_bench_can_touch_them():
     place = place_of(features(gate(GATE), box(*SQUARE, name="square"), line), None, Dragon())
     assert [area.name for area in place.venue.areas] == ["square"]
     ring = tuple(map(tuple, RING))
-    assert place.asides == [("gate", "East", ((20, 5),), 1.5), ("square without streets", None, ring, None)]
+    assert place.asides == [Aside("gate", "East", ((20, 5),), 1.5), Aside("square without streets", None, ring)]
     # In another shape, or with a radius, it stands in the way.
     blocks = [gate(GATE | {"radius": 0.3}), gate(GATE, "Polygon", [RING])]
     for one in blocks:
         assert [area.name for area in read(features(box(*SQUARE, name="square"), one)).areas] == ["square", "East"]
+
+
+def test_a_lane_is_kept_with_its_width_and_is_a_line():
+    lane = {"role": "emergency lane", "name": "ambulances"}
+    places = [[0, 0], [20, 5]]
+
+    def read_lane(own, at):
+        return place_of(features(box(*SQUARE, name="square"), gate(lane | own, "LineString", at)), None, Dragon())
+
+    place = read_lane({"radius": 2}, places)
+    assert [area.name for area in place.venue.areas] == ["square"]
+    assert place.asides == [Aside("emergency lane", "ambulances", ((0, 0), (20, 5)), radius=2.0)]
+    assert read_lane({}, places).asides[0].radius == 1.75
+    for own, at, field in (
+        ({"radius": 0.1}, places, "properties.radius"),
+        ({}, [[1, 1], [1, 1]], "geometry.coordinates"),
+    ):
+        with refused(f"venue.features.1.{field}"):
+            read_lane(own, at)
 
 
 def test_heights_and_edges_without_length_are_passed_over():
