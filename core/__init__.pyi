@@ -75,7 +75,7 @@ from .people.fastest import FastestMoment
 from .performance import Part, Performance, PerformanceEnd
 from .proposal.answer import Near, Objective, Proposal, Proposals, Reason, ReasonKind
 from .proposal.figures import Figure
-from .proposal.gates import Gate
+from .proposal.gates import Gate, GateUse
 from .proposal.propose import propose
 from .safe_delay import SafeDelays, safe_delay
 from .shapes.engines import Engine
@@ -136,6 +136,7 @@ __all__ = [
     "FirstEncounter",
     "FirstExcess",
     "Gate",
+    "GateUse",
     "Given",
     "Graze",
     "GroundClaim",

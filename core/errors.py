@@ -17,6 +17,7 @@ import re
 from collections.abc import Callable, Mapping
 from copy import copy
 from copyreg import __newobj__  # type: ignore[attr-defined]
+from enum import StrEnum
 from functools import wraps
 from inspect import signature
 from numbers import Real
@@ -34,6 +35,7 @@ A_contra = TypeVar("A_contra", contravariant=True)
 B_contra = TypeVar("B_contra", contravariant=True)
 R_co = TypeVar("R_co", covariant=True)
 S_co = TypeVar("S_co", covariant=True)
+Member = TypeVar("Member", bound=StrEnum)
 
 # Smallest and largest size [m]: sizes outside describe no dance, and lose digits in c^2 / b^2.
 SIZE_MIN = 1e-3
@@ -469,6 +471,14 @@ def checked_point(name: str, value: Any) -> Point:
 def checked_angle(name: str, value: Any) -> float:
     """The value as an angle within ANGLE_MAX. raises: InvalidValue"""
     return checked_number(name, value, "rad", -ANGLE_MAX, ANGLE_MAX)
+
+
+def checked_member(name: str, value: str, kind: type[Member]) -> Member:
+    """The value as a member of an enumeration of texts. raises: InvalidValue"""
+    try:
+        return kind(value)
+    except ValueError as error:
+        raise InvalidValue(name, "must be one of {names}", got=Given(value), names=Listed(kind)) from error
 
 
 def checked_list(name: str, value: Any, rule: str) -> list[Any]:

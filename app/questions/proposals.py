@@ -19,7 +19,7 @@ from app.wire.paths import Point, path_of
 from app.wire.question import Command, Output, Question, Terms, Writer
 from core.dragon import BENCHES_MAX
 from core.language import say
-from core.proposal.gates import GATES_MAX
+from core.proposal.gates import GATES_MAX, STREETS
 from core.proposal.propose import COUNT_MOST, DURATIONS
 from core.proposal.search import LAPS_MOST
 
@@ -33,8 +33,21 @@ class GateBody(Wire, strict=True):
     point: Point = measure("m", "Place on the border of the square, x and y")
     heading: Angle = measure("rad", "Direction of those who enter there, counter-clockwise from the x axis")
 
+    use: core.GateUse = Field(
+        core.GateUse.BOTH, strict=False, description="Whether a dance may begin there, end there, or both"
+    )
+    street_width: float | None = measure(
+        "m", "Width of the street; default: 1 m more on both sides than benches need, or less where there is no room",
+        None, ge=STREETS[0], le=STREETS[1],
+    )  # fmt: skip
+    street_length: float | None = measure(
+        "m", "Length of the street, in which the whole dragon stands; default: as long as it needs", None,
+        ge=STREETS[0], le=STREETS[1],
+    )  # fmt: skip
+
     def to_gate(self) -> core.Gate:
-        return core.Gate((self.point[0], self.point[1]), self.heading)
+        x, y = self.point
+        return core.Gate((x, y), self.heading, self.use, self.street_width, self.street_length)
 
 
 class ProposalsRequest(VenueFields, DragonFields, strict=True):

@@ -51,6 +51,8 @@ PLACES: Phrases = {
     "gates": "the list of gates",
     "gates.#.point": "gate {number}",
     "gates.#.heading": "the direction of gate {number}",
+    "gates.#.street_width": "the width of the street at gate {number}",
+    "gates.#.street_length": "the length of the street at gate {number}",
     "dances.#": "dragon {number}",
     "dances.#.dragon": "the benches of dragon {number}",
     "dances.#.path": "the path of dragon {number}",

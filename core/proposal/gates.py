@@ -4,13 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from itertools import pairwise, permutations
 
 import numpy as np
 
 from core.display import Readable
-from core.errors import InvalidValue, Quantity, checked_angle, checked_list, checked_point, checked_type, quantities
+from core.errors import (
+    InvalidValue,
+    Quantity,
+    checked_angle,
+    checked_list,
+    checked_member,
+    checked_number,
+    checked_point,
+    checked_type,
+    quantities,
+)
 from core.values import Floats, Point
 from core.venue import Area, Venue
 
@@ -25,24 +36,43 @@ STEEPEST, STEEPEST_BEYOND = math.tan(math.radians(60.0)), math.tan(math.radians(
 AT_CORNER = 1e-9
 # Way between a street and a border that it passes [m].
 PASSED = 1e-3
-# Largest number of gates [1].
+# Largest number of gates [1]; least and largest size of a street [m].
 GATES_MAX = 8
+STREETS = (0.1, 1e4)
+
+
+class GateUse(StrEnum):
+    """What a gate is for: IN and OUT are one-way, BOTH is for either."""
+
+    IN = "in"
+    OUT = "out"
+    BOTH = "both"
 
 
 @dataclass(frozen=True)
 class Gate(Readable):
-    """A place on the border of the square.
+    """A place on the border of the square, with a straight street beyond it.
 
     point: the place, x and y [m]
     heading: heading of those who enter there [rad]
+    use: whether a dance may begin there, end there, or both
+    street_width, street_length: of the street [m]; None for as wide and as long as the dragon needs it
     """
 
     point: Point
     heading: float
+    use: GateUse = GateUse.BOTH
+    street_width: float | None = None
+    street_length: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "point", checked_point("gate.point", self.point))
         object.__setattr__(self, "heading", checked_angle("gate.heading", self.heading))
+        object.__setattr__(self, "use", checked_member("gate.use", self.use, GateUse))
+        for name in ("street_width", "street_length"):
+            size = getattr(self, name)
+            if size is not None:
+                object.__setattr__(self, name, checked_number(f"gate.{name}", size, "m", *STREETS))
 
     @property
     def ahead(self) -> Point:
@@ -57,7 +87,19 @@ def checked_gates(gates: Sequence[Gate] | None, venue: Venue) -> tuple[Gate, ...
         raise InvalidValue("gates", "must be at most {most} gates", got=len(every), most=GATES_MAX)
     for k, gate in enumerate(every):
         checked_type(f"gates.{k}", gate, Gate)
+    if every and not ways_through(every):
+        raise InvalidValue("gates", "must have a way in and a way out")
     return tuple(_on_border(f"gates.{k}", gate, venue.square) for k, gate in enumerate(every))
+
+
+def ways_through(gates: Sequence[Gate]) -> list[tuple[Gate, Gate]]:
+    """The gates by which a dance may enter and leave: two different ones, or where there are none, the same."""
+
+    def suits(into: Gate, out: Gate) -> bool:
+        return into.use is not GateUse.OUT and out.use is not GateUse.IN
+
+    pairs = [pair for pair in permutations(gates, 2) if suits(*pair)]
+    return pairs or [(gate, gate) for gate in gates if suits(gate, gate)]
 
 
 def _on_border(name: str, gate: Gate, square: Area) -> Gate:
@@ -71,7 +113,7 @@ def _on_border(name: str, gate: Gate, square: Area) -> Gate:
     if float((into @ gate.ahead).max()) < math.cos(math.radians(CROSSED_MOST)):
         rule = "must lead into the square, within 80 degrees of straight across its border"
         raise InvalidValue(f"{name}.heading", rule, got=Quantity(gate.heading, "rad", 6))
-    return Gate(nearest, gate.heading)
+    return replace(gate, point=nearest)
 
 
 def _counter_clockwise(ring: tuple[Point, ...]) -> Floats:
@@ -106,14 +148,21 @@ def with_streets(venue: Venue, gates: Sequence[Gate], widths: tuple[float, float
     The mouth of a street is the border beside its gate; where that bends steeply into the square, it is a wall, which
     a wide street ends behind.
 
-    widths: of a street, and where there is no room for it [m]; length: [m]
-    raises: InvalidValue naming the gate whose street has no room on the border, or runs back into the square
+    widths: of a street, and where there is no room for it [m]; length: [m]; a gate may have its own street
+    raises: InvalidValue naming the gate whose street is too small for the dragon, has no room on the border, or runs
+        back into the square
     """
-    square = venue.square
+    square, (wide, least), needed = venue.square, widths, length
     for k, gate in enumerate(gates):
         place = f"gates.{k}.point"
-        for width in widths:
-            ring = _with_street(square.rings[0], gate, width, min(widths), length)
+        for name, own, need in (("width", gate.street_width, least), ("length", gate.street_length, needed)):
+            if own is not None and own < need:
+                rule = "must be at least {least}, because the whole dragon stands in the street"
+                got = Quantity(own, "m")
+                raise InvalidValue(f"gates.{k}.street_{name}", rule, got=got, **quantities("m", 4, least=need))
+        length = gate.street_length or needed
+        for width in (wide, least) if gate.street_width is None else (gate.street_width,):
+            ring = _with_street(square.rings[0], gate, width, least, length)
             area = None if ring is None else _area(square.name, (ring, *square.rings[1:]))
             if area is not None:
                 break

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import combinations
-from typing import Any, TypedDict, TypeVar, Unpack
+from typing import Any, TypedDict, Unpack
 
 import numpy as np
 
@@ -13,11 +12,11 @@ from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import (
-    Given,
     InvalidValue,
     TooMuchWork,
     checked_count,
     checked_list,
+    checked_member,
     checked_number,
     checked_type,
     question_about,
@@ -29,7 +28,7 @@ from core.language import Listed
 from core.proposal.answer import Objective, Proposal, Proposals, Reason, ReasonKind
 from core.proposal.figures import CLOSED, Figure
 from core.proposal.free_ground import FreeGround
-from core.proposal.gates import Gate, checked_gates
+from core.proposal.gates import Gate, checked_gates, ways_through
 from core.proposal.search import LAPS_MOST, Rated, Search, Wish
 from core.sampling import bisect
 from core.values import Floats, Progress, unheard
@@ -49,8 +48,6 @@ PROPOSE_WORK = 3e8
 WAY_WIDTH, WAY_WORK = 0.002, 1e5
 # Part of the area of a square by which it is enlarged for the rounding of sums [1].
 AREA_SPARE = 1e-9
-
-Kind = TypeVar("Kind", Figure, Objective)
 
 
 class Wishes(TypedDict, total=False):
@@ -80,8 +77,8 @@ def propose(
 ) -> Proposals:
     """Dances of a dragon that fit into a square, the best one first, each certified by check().
 
-    gates: on the border of the square; beyond each is a straight street, in which the dance begins or ends. Without
-        gates the whole dragon stands in the square
+    gates: on the border of the square, ways in, ways out or both; beyond each is a straight street, in which the dance
+        begins or ends. Without gates the whole dragon stands in the square
     figures: those to try, all that are possible by default, see Figure; a parade needs two gates
     stray: free for people, 0.05 m by default; margin: 0 [m]; speed_limit: of every handle, none by default [m/s]
     objective: see Objective, "tolerance" by default; for `benches` the dragon's last bench is left out or repeated
@@ -104,7 +101,7 @@ def propose(
     checked_type("dragon", dragon, Dragon)
     wish = _wish(dragon, wishes)
     doors = checked_gates(gates, venue)
-    kinds = _figures(wishes.get("figures"), len(doors), closed=wish.laps is not None)
+    kinds = _figures(wishes.get("figures"), doors, closed=wish.laps is not None)
     count = checked_count("count", count, 1, COUNT_MOST)
     if dragon.benches > BENCHES_MOST:
         raise InvalidValue("dragon.benches", "must be at most {most}", got=dragon.benches, most=BENCHES_MOST)
@@ -131,7 +128,7 @@ def _wish(dragon: Dragon, wishes: Wishes) -> Wish:
     stray = checked_stray(wishes.get("stray", 0.05), dragon)
     margin = checked_number("margin", wishes.get("margin", 0.0), "m", 0.0, MARGIN_MAX)
     speed = wishes.get("speed_limit")
-    objective = _one("objective", wishes.get("objective", Objective.TOLERANCE), Objective)
+    objective = checked_member("objective", wishes.get("objective", Objective.TOLERANCE), Objective)
     laps, limit = wishes.get("laps"), wishes.get("duration_limit")
     if laps is not None:
         laps = checked_count("laps", laps, 1, LAPS_MOST)
@@ -140,27 +137,21 @@ def _wish(dragon: Dragon, wishes: Wishes) -> Wish:
     return Wish(stray, margin, None if speed is None else checked_limit(speed), objective, laps, limit)
 
 
-def _one(name: str, value: str, kind: type[Kind]) -> Kind:
-    """The value as a member of an enumeration. raises: InvalidValue"""
-    try:
-        return kind(value)
-    except ValueError as error:
-        raise InvalidValue(name, "must be one of {names}", got=Given(value), names=Listed(kind)) from error
-
-
-def _figures(figures: Sequence[str] | None, gates: int, *, closed: bool) -> list[Figure]:
+def _figures(figures: Sequence[str] | None, gates: Sequence[Gate], *, closed: bool) -> list[Figure]:
     """The figures to try, in ORDER. closed: only those that lead around. raises: InvalidValue"""
+    leads = any(into is not out for into, out in ways_through(gates))
     if figures is None:
-        possible = set(ORDER) - ({Figure.PARADE} if gates < 2 else set())
+        possible = set(ORDER) - (set() if leads else {Figure.PARADE})
         return [figure for figure in ORDER if figure in (CLOSED if closed else possible)]
     chosen = [
-        _one(f"figures.{k}", figure, Figure)
+        checked_member(f"figures.{k}", figure, Figure)
         for k, figure in enumerate(checked_list("figures", figures, "must be a list of figures"))
     ]
     if not chosen:
         raise InvalidValue("figures", "must name at least one figure")
-    if Figure.PARADE in chosen and gates < 2:
-        raise InvalidValue("figures", "must have two gates for a parade, which leads from one to the other", got=gates)
+    if Figure.PARADE in chosen and not leads:
+        rule = "must have two gates for a parade, which leads from one to the other"
+        raise InvalidValue("figures", rule, got=len(gates))
     if closed and not CLOSED.issuperset(chosen):
         raise InvalidValue("laps", "must be left out, or the figures only be {names}", names=Listed(sorted(CLOSED)))
     return [figure for figure in ORDER if figure in chosen]
@@ -234,14 +225,19 @@ def _too_narrow(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reas
     """The reason that every way between two gates, or the whole square, is too narrow."""
     needs, tried = search.needs, search.tried
     if Figure.PARADE in figures:
-        pairs = list(combinations(range(len(search.gates)), 2))
-        widths = [(_widest_way(search, search.gates[a], search.gates[b]), (a, b)) for a, b in pairs]
+        ways = {(min(k, j), max(k, j)) for k, j in _numbers(search.gates)}
+        widths = [(_widest_way(search, search.gates[a], search.gates[b]), (a, b)) for a, b in sorted(ways)]
         widest, pair = max(widths)
         if widest < needs.least_width:
             return Reason(ReasonKind.WAY, tried, widest, needs.least_width, who=pair)
     if 2.0 * search.ground.widest_circle[3] < needs.turning_width:
         return _no_turn(search, _circle(search, venue))
     return None
+
+
+def _numbers(gates: Sequence[Gate]) -> list[tuple[int, int]]:
+    """Numbers of the gates by which a dance may enter and leave."""
+    return [(gates.index(into), gates.index(out)) for into, out in ways_through(gates)]
 
 
 def _circle(search: Search, venue: Venue) -> float:
@@ -345,10 +341,15 @@ def _longest(
     low, high, best = 0, limit + 1, None
     while high - low > 1:
         count = min(max(count, low + 1), high - 1)
-        search = like.of(venue, with_benches(like.dragon, count), like.wish)
-        every = (search.first(search.ranked(figure), briefly=True) for figure in figures)
-        passing = next((one for one in every if one is not None), None)
-        like.include(search)
+        passing = None
+        try:
+            search = like.of(venue, with_benches(like.dragon, count), like.wish)
+        except InvalidValue:  # a street of its own is too short for as many
+            pass
+        else:
+            every = (search.first(search.ranked(figure), briefly=True) for figure in figures)
+            passing = next((one for one in every if one is not None), None)
+            like.include(search)
         if passing is None:
             high = count
         else:

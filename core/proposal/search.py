@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, islice, permutations, product
+from itertools import chain, islice, product
 from typing import Any
 
 import numpy as np
@@ -27,7 +27,7 @@ from core.proposal.channels import ChannelLegFinder
 from core.proposal.designs import Design, laid_out, stand_length, street_length, with_gates
 from core.proposal.figures import Figure, Shape, shapes, tight_rings
 from core.proposal.free_ground import FreeGround
-from core.proposal.gates import Gate, with_streets
+from core.proposal.gates import Gate, ways_through, with_streets
 from core.proposal.legs import LegFinder
 from core.proposal.needs import Needs
 from core.proposal.places import placements, sampled
@@ -155,7 +155,7 @@ class Search:
 
     def designs(self, figure: Figure) -> Iterator[Design]:
         """Designs of a figure: the shapes at their roomiest places, each with its best ways from and to the gates."""
-        pairs = list(permutations(self.gates, 2))[:GATE_PAIRS] or [(gate, gate) for gate in self.gates]
+        pairs = ways_through(self.gates)[:GATE_PAIRS]
         if figure is Figure.PARADE:
             yield from (Design(figure, None, (0.0, 0.0, 0.0), pair) for pair in pairs if pair[0] is not pair[1])
             return
@@ -335,7 +335,7 @@ class Search:
         for shape in islice(every, 1):
             design = Design(figure, shape, (x, y, 0.0))
             if self.gates:
-                yield from with_gates(design, (self.gates[0], self.gates[-1]), self.needs, self.ways)
+                yield from with_gates(design, ways_through(self.gates)[0], self.needs, self.ways)
             else:
                 yield design
 

@@ -43,9 +43,21 @@ def test_streets_may_begin_on_several_sides_of_a_round_square_and_stay_within_th
     assert -2.0 - 1e-9 <= added.bounds[1] < added.bounds[3] <= 2.0 + 1e-9
 
 
-def test_too_many_gates_are_refused():
+def test_a_street_has_the_size_that_its_gate_says_unless_the_dragon_needs_more():
+    def streets(**sizes):
+        return with_streets(HALL, checked_gates([Gate((0.0, 6.0), 0.0, **sizes)], HALL), (3.0, 2.0), 30.0).square
+
+    own = polygon(streets(street_width=2.5, street_length=40.0))
+    assert own.area - polygon(HALL.square).area == pytest.approx(100.0)
+    for name, size in (("street_width", 1.9), ("street_length", 29.9)):
+        with refused(f"gates.0.{name}"):
+            streets(**{name: size})
+
+
+@pytest.mark.parametrize("uses", [["both"] * 9, ["in"], ["out", "out"]])
+def test_gates_are_some_with_a_way_in_and_a_way_out(uses):
     with refused("gates"):
-        checked_gates([Gate((0, 6), 0.0)] * 9, HALL)
+        checked_gates([Gate((0, 6), 0.0, use) for use in uses], HALL)
 
 
 @WAYS_ROUND

@@ -94,6 +94,13 @@ def test_rings_and_eights_go_around_as_often_as_is_asked_or_as_long_as_it_may_la
     assert 9.0 < shortest.duration <= reason.need + 0.01
 
 
+@pytest.mark.parametrize(("uses", "way"), [(("in", "out"), (0, 1)), (("out", "both"), (1, 0))])
+def test_a_dance_enters_by_a_way_in_and_leaves_by_a_way_out(uses, way):
+    gates = [Gate(gate.point, gate.heading, use) for gate, use in zip((WEST, EAST), uses, strict=True)]
+    result = propose(PLACE, Dragon(12), gates=gates, figures=["ring", "parade"], count=2)
+    assert [one.gates for one in result.proposals] == [way, way]
+
+
 def test_the_most_benches_are_below_the_bound_of_the_areas_and_no_dance_has_one_more():
     result = propose(SMALL, Dragon(10), figures=["ring"], objective="benches", count=1)
     best = result.proposals[0]
