@@ -1,5 +1,6 @@
 /** The numbers of the chosen thing, beside it on the picture. */
 
+import { isLine } from "./drawing.js";
 import { $, button, hide, make, textButton } from "./elements.js";
 import { measures } from "./square.js";
 import { phrase, say } from "./text.js";
@@ -41,7 +42,7 @@ export class Beside {
     this.form.fill(this.row, item);
     hide(this.box.querySelector(".radius"), thing.radius === undefined);
     hide(this.copy, thing.kind === "area");
-    const { lengths } = measures(thing.points, thing.kind !== "wall");
+    const { lengths } = measures(thing.points, !isLine(thing));
     this.size.textContent = thing.points.length > 1 ? lengths.filter((one) => one !== null).map((one) => `${Number(one.toFixed(2))} m`).join(" · ") : "";
   }
 

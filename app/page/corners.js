@@ -1,6 +1,7 @@
 /** The corners of the thing that is drawn, with typed coordinates, and the length of each side, as measured with a tape. */
 
 import { moved, pointsOf, removed } from "./changes.js";
+import { isLine } from "./drawing.js";
 import { button, hide, make, numberIn } from "./elements.js";
 import { NAMES } from "./route.js";
 import { measures } from "./square.js";
@@ -85,7 +86,7 @@ export class Corners {
     if (this.#item !== item) this.box.open = points.length <= FEW;
     this.#item = item;
     this.title.textContent = say(points.length === 1 ? "Place of “{name}”" : "Corners of “{name}”: {count}", { name, count: points.length });
-    const { lengths, angles } = measures(points, kind !== "wall");
+    const { lengths, angles } = measures(points, !isLine({ kind }));
     this.#rows.forEach(({ fields, angle }, k) => {
       const next = points.length > 1 ? lengths[k] : null;
       const values = [...points[k], next].map((one) => (one === null ? "" : String(Number(one.toFixed(3)))));

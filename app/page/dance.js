@@ -5,7 +5,7 @@ import { strayOf } from "./fields.js";
 import { Pen, SHADES, addGround, edge, outline, palette, scaleBar, sizeOf, smooth, trace } from "./pen.js";
 import { View } from "./view.js";
 
-const COLOURS = ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo", "thing", "ground", "drawn", "gate", "speed"];
+const COLOURS = ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo", "thing", "ground", "drawn", "gate", "lane", "speed"];
 /** Speeds closer together than this [m/s] get one colour, so that colours do not show rounding. */
 const SPEED_SPREAD_MIN = 1e-9;
 /** A click within this distance of a handle [px] selects it. */

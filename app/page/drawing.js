@@ -4,8 +4,8 @@
  * points: [[x, y]] [m]; straight: numbers of the legs that are straight; radius: of rounded corners [m]; begin: place of
  * the head at time 0 [m]; limit: of every speed [m/s] or null; path: a proposed one, or one from a file that is no list of
  * points, or null: it is danced until a point is edited; start: of the dance on it [s], or null: with the whole dragon on it
- * things: [{kind, name, points, radius, holes, heading}]: one area to stay in, blocks, circles, walls, gates, whose heading
- * [rad] is null if it is straight into the square; origin: of a map, or null
+ * things: [{kind, name, points, radius, holes, heading}]: one area to stay in, blocks, circles, walls, lanes to keep free, and
+ * gates, whose heading [rad] is null if it is straight into the square; origin: of a map, or null
  * grid: {x, y}, the place of x = y = 0 on the survey grid of a map [m], or null
  * yard: corners of the area without the streets that a proposal has added beyond its gates, or null
  */
@@ -19,6 +19,7 @@ export const THINGS = {
   circle: "tree",
   wall: "wall",
   gate: "gate",
+  lane: "emergency lane",
 };
 
 export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: null, path: null, start: null, things: [], origin: null, grid: null, yard: null };
@@ -29,8 +30,11 @@ const FAR = 90_000;
 const DECIMALS = 4;
 const NUMBER = /^-?\d+(\.\d+)?(e-?\d+)?$/;
 /** Roles of features that no bench can touch, in the service's words. */
-const [GATE, YARD] = ["gate", "square without streets"];
-const KINDS = { a: "area", b: "block", c: "circle", w: "wall", g: "gate" };
+const [GATE, YARD, LANE] = ["gate", "square without streets", "emergency lane"];
+/** Half of the width of a lane without one [m]. */
+export const LANE_RADIUS = 1.75;
+const LANE_NAME_MOST = 40;
+const KINDS = { a: "area", b: "block", c: "circle", w: "wall", g: "gate", l: "lane" };
 
 const rounded = (number) => Number(number.toFixed(DECIMALS));
 export const place = ([x, y]) => [rounded(x), rounded(y)];
@@ -48,7 +52,7 @@ export function pathOf({ points, straight, radius, begin, path }) {
 export const isSamePath = (a, b) => a === b || JSON.stringify(pathOf(a)) === JSON.stringify(pathOf(b));
 
 const closed = (points) => [...points, points[0]];
-const needs = { area: 3, block: 3, circle: 1, wall: 2, gate: 1 };
+const needs = { area: 3, block: 3, circle: 1, wall: 2, gate: 1, lane: 2 };
 /** True if a thing has as many points as its kind needs. */
 export const isWhole = ({ kind, points }) => points.length >= needs[kind];
 
@@ -66,6 +70,10 @@ function featureOf(thing) {
 }
 
 export const isArea = ({ kind }) => kind === "area";
+/** True for a thing of points in a row, with a width. */
+export const isLine = ({ kind }) => kind === "wall" || kind === "lane";
+/** True for what no bench can touch. */
+const isAside = ({ kind }) => kind === "gate" || kind === "lane";
 /** The corners of the square without added streets; none if it has no area. */
 export const yardOf = ({ things, yard }) => yard ?? things.find((thing) => isArea(thing) && isWhole(thing))?.points ?? [];
 
@@ -74,7 +82,7 @@ export const venueOf = (drawing) => venueWith(drawing, []);
 
 /** The venue with features that no bench can touch; null without anything. What has no area stands on an endless plain. */
 function venueWith({ things, origin, grid }, asides) {
-  const whole = things.filter((thing) => isWhole(thing) && thing.kind !== "gate");
+  const whole = things.filter((thing) => isWhole(thing) && !isAside(thing));
   if (!whole.length && !asides.length) return null;
   const corners = [[-FAR, -FAR], [FAR, -FAR], [FAR, FAR], [-FAR, FAR]];
   const ground = whole.find(isArea) ?? { kind: "area", name: freeName(things, "plain"), points: corners };
@@ -82,15 +90,19 @@ function venueWith({ things, origin, grid }, asides) {
   return { type: "FeatureCollection", ...(origin && { origin }), ...(grid && { grid }), features };
 }
 
-/** The venue as a file keeps it: with the gates, and with the square without the streets that were added to it. */
+/** The venue as a file keeps it: with the gates, the lanes, and the square without the streets that were added to it. */
 export function keptVenueOf(drawing) {
-  const gates = drawing.things.filter((thing) => thing.kind === "gate" && isWhole(thing));
+  const [gates, lanes] = ["gate", "lane"].map((kind) => drawing.things.filter((thing) => thing.kind === kind && isWhole(thing)));
   const asides = [
     ...gates.map(({ name, points, heading }) => aside("Point", points[0], { name, role: GATE, ...(typeof heading === "number" && { heading }) })),
+    ...lanes.map(({ name, points, radius }) => aside("LineString", points, { name, role: LANE, radius })),
     ...(drawing.yard ? [aside("LineString", closed(drawing.yard), { role: YARD })] : []),
   ];
   return venueWith(drawing, asides);
 }
+
+/** The lanes to keep free as the safety sheet takes them beside a dance, for a drawing in which nothing else stands. */
+export const lanesOf = ({ things }) => things.filter((thing) => thing.kind === "lane" && isWhole(thing)).map(({ name, points, radius }) => ({ name: name.slice(0, LANE_NAME_MOST), points, width: 2 * radius }));
 
 const aside = (type, coordinates, properties) => ({ type: "Feature", properties, geometry: { type, coordinates } });
 
@@ -120,6 +132,7 @@ function thingsOf(venue, nameOf) {
     const addThing = (kind, points, more) => things.push({ kind, name: properties?.name ? freeName(things, properties.name) : "", points, ...more });
     if (properties?.role === GATE && type === "Point") addThing("gate", [place(coordinates)], typeof properties.heading === "number" ? { heading: properties.heading } : {});
     else if (isYard({ properties, geometry })) continue;
+    else if (properties?.role === LANE && type === "LineString") addThing("lane", coordinates.map(place), { radius: properties.radius ?? LANE_RADIUS });
     else if (type === "Point") addThing("circle", [place(coordinates)], { radius: properties.radius });
     else if (type === "LineString") addThing("wall", coordinates.map(place), { radius: properties.radius });
     else if (type === "Polygon") {

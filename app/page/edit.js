@@ -1,7 +1,7 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
 import { copied, inserted, moved, pointsOf, removed, shifted, turned, withPoints, withThing } from "./changes.js";
-import { THINGS, freeName, yardOf } from "./drawing.js";
+import { LANE_RADIUS, THINGS, freeName, isLine, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
 import { extent, onBorder, streetLength } from "./square.js";
@@ -15,6 +15,7 @@ const HELPS = {
   block: "Tap the corners of an obstacle one after another. Choose Obstacle again for the next one.",
   circle: "Tap where a tree, a well or a person is; its radius is in the list “Square and obstacles”.",
   wall: "Tap along the wall. Choose Wall again for the next one.",
+  lane: "Tap along the middle of a lane that stays free, such as one for ambulances; its radius is half of its width. The safety sheet says when benches are in it.",
   gate: "Tap the border: the dragon comes in or goes out there. Beyond it a straight street of about {length} m is added, as long as your dragon, which stands in it before or after the dance.",
 };
 
@@ -33,7 +34,7 @@ const [STEP, FINE_STEP] = [0.1, 0.01];
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 /** Tools of which every tap begins a new thing. */
 const ONE_POINT = ["circle", "gate"];
-const THINGS_INSIDE = ["gate", "circle", "wall", "block"];
+const THINGS_INSIDE = ["gate", "circle", "wall", "block", "lane"];
 /** Distance of a point put by a key from the one before, as a share of the width of the picture. */
 const STRIDE = 0.15;
 const TREE_RADIUS = 0.5;
@@ -147,7 +148,7 @@ export class Editor {
   }
 
   get #isLine() {
-    return this.item === null || this.#drawing.things[this.item].kind === "wall";
+    return this.item === null || isLine(this.#drawing.things[this.item]);
   }
 
   /** After a change of anything. */
@@ -320,9 +321,9 @@ export class Editor {
     this.#hold({ k: null, from: [event.clientX, event.clientY] });
   }
 
-  /** The thing at a place of the picture [px]. Gates are drawn on the border of the square, and paths across it. */
+  /** The thing at a place of the picture [px]. Gates are drawn on the border of the square, and paths and lanes across it. */
   #under(px, py) {
-    const kinds = ["path", "gate"].includes(this.tool) ? THINGS_INSIDE : undefined;
+    const kinds = ["path", "gate", "lane"].includes(this.tool) ? THINGS_INSIDE : undefined;
     return thingUnder(this.#drawing.things, this.dance.view, [px, py], kinds);
   }
 
@@ -443,7 +444,7 @@ export class Editor {
     const [[ax, ay], [bx, by]] = [points.at(-2) ?? points[0].with(0, points[0][0] - 1), points.at(-1)];
     const far = (STRIDE * view.width) / view.scale / (Math.hypot(bx - ax, by - ay) || 1);
     const [dx, dy] = [far * (bx - ax), far * (by - ay)];
-    return this.tool === "path" || this.tool === "wall" || points.length < 2 ? [bx + dx, by + dy] : [bx - dy, by + dx];
+    return this.tool === "path" || isLine({ kind: this.tool }) || points.length < 2 ? [bx + dx, by + dy] : [bx - dy, by + dx];
   }
 
   /** Handle a tap on the picture; returns true if it drew or chose something. */
@@ -498,7 +499,7 @@ export class Editor {
     const kind = this.tool;
     if (kind === "gate" && !yardOf(drawing).length) return;
     const point = kind === "gate" ? onBorder(yardOf(drawing), wanted).point : wanted;
-    const radius = { circle: TREE_RADIUS, wall: WALL_RADIUS }[kind];
+    const radius = { circle: TREE_RADIUS, wall: WALL_RADIUS, lane: LANE_RADIUS }[kind];
     const thing = { kind, name: freeName(drawing.things, say(THINGS[kind])), points: [], ...(radius && { radius }) };
     this.item = drawing.things.length;
     this.#isDrawing = true;

@@ -1,7 +1,7 @@
 /** Everything to save: the cue cards, which stand with the people, files of every kind, a film, and the commands that give the same. */
 
 import { Problem, TOO_LONG, commandFor } from "./api.js";
-import { keptVenueOf } from "./drawing.js";
+import { keptVenueOf, lanesOf, venueOf } from "./drawing.js";
 import { $, $$, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, LABELS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED } from "./jobs.js";
@@ -104,7 +104,12 @@ const REQUESTS = {
   },
   ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
   plan: (questions, paper) => ({ path: "plan", body: questions.danced({ paper, language: language() }) }),
-  safety: (questions, paper) => ({ path: "safety-sheet", body: questions.danced({ paper, language: language(), ...(isPrintable() && { address: location.href }) }) }),
+  /** With the gates and the lanes of the square. */
+  safety(questions, paper) {
+    const drawing = questions.dance.kind === "route" || questions.dance.parts ? questions.state.get("drawing") : null;
+    const drawn = drawing && (venueOf(drawing) ? { venue: keptVenueOf(drawing) } : { lanes: lanesOf(drawing) });
+    return { path: "safety-sheet", body: questions.danced({ paper, language: language(), ...drawn, ...(isPrintable() && { address: location.href }) }) };
+  },
   cues: (questions, form) => ({ path: "cues", body: questions.danced(cardsOf(questions, form)) }),
   labels: (questions, form) => ({ path: "cues", body: questions.danced({ ...cardsOf(questions, form), labels: true }) }),
   map(questions, form) {

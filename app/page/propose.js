@@ -191,7 +191,7 @@ export class Propose {
     const drawn = k < 0 ? { ...drawing, things: [area, ...drawing.things] } : withPoints({ ...stretched(drawing, yard, points), yard: null }, k, points);
     this.steps.change({ drawing: drawn, view: null, time: null });
     this.editor.edit(null);
-    const beyond = drawing.things.filter((thing) => !["area", "gate"].includes(thing.kind) && isBeyond(thing, points)).map(({ name }) => name);
+    const beyond = drawing.things.filter((thing) => !["area", "gate", "lane"].includes(thing.kind) && isBeyond(thing, points)).map(({ name }) => name);
     this.#tell(beyond.length ? () => say("Outside the square now: {names}. They stay in the drawing; remove them in its list under “More numbers and answers”.", { names: beyond.join(between()) }) : null);
     requestAnimationFrame(() => this.ask.scrollIntoView({ block: "nearest" }));
   }

@@ -5,7 +5,7 @@ import { isInside } from "./square.js";
 /** Largest distance of a touch from a thing, or from the border of a square, that means it [px]. */
 const [REACH, BORDER] = [16, 8];
 /** Kinds of things; of several under a finger the one that stands first here is meant. */
-const KINDS = ["gate", "circle", "wall", "block", "area"];
+const KINDS = ["gate", "circle", "wall", "block", "lane", "area"];
 /** Distance at which a corner comes to rest in line with a neighbour [px]. */
 const IN_LINE = 6;
 
@@ -22,7 +22,7 @@ export function nearestLeg(places, [px, py], isClosed) {
   return { k: far.indexOf(least) + 1, far: least };
 }
 
-/** The number of the thing at a place; null without one. A square is met on its border alone. kinds: of those that count */
+/** The number of the thing at a place; null without one. A square is met on its border alone, a lane on its middle. kinds: of those that count */
 export function thingUnder(things, view, place, kinds = KINDS) {
   let [best, least] = [null, [Infinity, Infinity]];
   things.forEach(({ kind, points, radius = 0 }, k) => {
@@ -32,7 +32,7 @@ export function thingUnder(things, view, place, kinds = KINDS) {
     const beside = places.length > 1 ? nearestLeg(places, place, isRing).far : Math.hypot(places[0][0] - place[0], places[0][1] - place[1]);
     const far = kind === "block" && isInside(places, place) ? 0 : beside;
     const rank = [KINDS.indexOf(kind), far];
-    if (far <= Math.max(radius * view.scale, kind === "area" ? BORDER : REACH) && (rank[0] < least[0] || (rank[0] === least[0] && far < least[1]))) [best, least] = [k, rank];
+    if (far <= Math.max(kind === "lane" ? 0 : radius * view.scale, kind === "area" ? BORDER : REACH) && (rank[0] < least[0] || (rank[0] === least[0] && far < least[1]))) [best, least] = [k, rank];
   });
   return best;
 }

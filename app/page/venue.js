@@ -1,7 +1,7 @@
 /** Layers of a drawing on the picture: the square and its obstacles, stretches on which a limit fails, benches at fault. */
 
 import { headingOf } from "./changes.js";
-import { isWhole, yardOf } from "./drawing.js";
+import { isLine, isWhole, yardOf } from "./drawing.js";
 import { $, SMALL_TYPE, inType } from "./elements.js";
 import { radiiOf } from "./judgement.js";
 import { trace } from "./pen.js";
@@ -30,6 +30,7 @@ const SAME_TIME = 1e-6;
 function drawThing(pen, colours, thing) {
   const { kind, points, radius, holes = [] } = thing;
   const { context } = pen;
+  if (kind === "lane") return pen.stroke(trace(points, new Path2D(), false), colours.lane, Math.max(2 * radius * pen.scale, 2));
   if (kind === "wall") {
     Object.assign(context, { lineCap: "round", lineJoin: "round" });
     pen.stroke(trace(points, new Path2D(), false), colours.thing, Math.max(2 * radius * pen.scale, 2));
@@ -55,7 +56,7 @@ function drawGate(pen, colours, drawing, gate) {
 
 /** Lengths and angles of a thing while it is drawn, of all corners or of those beside the held one. */
 function drawMeasures(pen, view, colours, { kind, points }, held, taken) {
-  const isClosed = kind !== "wall";
+  const isClosed = !isLine({ kind });
   const { lengths, angles } = measures(points, isClosed);
   const count = points.length;
   const isLabelled = (k) => count <= 12 || held === null || Math.min((k - held + count) % count, (held - k + count) % count) < 2;
@@ -204,7 +205,7 @@ export function layers(dance, get) {
     if (measured?.points.length > 1) drawMeasures(pen, dance.view, colours, measured, drawn.held, names);
     if (drawn.editing) name(pen, colours, drawn, names);
     for (const thing of drawing.things) {
-      if (failure?.area === thing.name && isWhole(thing)) pen.stroke(trace(thing.points, new Path2D(), thing.kind !== "wall"), colours.pick, FAULT_WIDTH);
+      if (failure?.area === thing.name && isWhole(thing)) pen.stroke(trace(thing.points, new Path2D(), !isLine(thing)), colours.pick, FAULT_WIDTH);
     }
     for (const { points, ...bend } of drawn.course?.bends ?? []) {
       const middle = points[Math.floor(points.length / 2)];

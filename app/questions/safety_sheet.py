@@ -71,6 +71,8 @@ DRAGONS_NAMED = 6
 LOOSE = 3
 # Excess of the swept ground, and distance from which on two approaches of benches are at different places [m].
 EXCESS, APART = 0.01, 4.0
+# Distance from which on an approach is none, such as that to the border of an endless plain [m].
+FAR = 1000.0
 
 
 class LaneBody(Wire, strict=True):
@@ -389,7 +391,7 @@ class _Judged:
         if self.place.venue is None:
             return
         for area in core.venue_clearance(part.dance, self.place.venue, **span).areas:
-            if (near := area.nearest) is not None:
+            if (near := area.nearest) is not None and near.distance < FAR:
                 (bench,) = benches_words([near.bench], [k], self.performance)
                 words = say("{bench} and {area}", bench=bench, area=area.name)
                 yield area.name, Approach(

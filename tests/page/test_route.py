@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.conftest import ROOT
-from tests.support import polite
+from tests.support import paper, polite
 from tests.support.floor_plan import EDGES, WALLS, floor_plan, town
 from tests.support.person import COVERED, PHONE, alike
 
@@ -85,16 +85,22 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_judged_and_changed_by_th
         ("area", [(left, low), (right, low), (right, top), (left, top)]),
         ("circle", [(left + 20, top + 20)]),
         ("wall", [(right - 20, low - 20), (right - 60, low - 20)]),
+        ("lane", [(left, top + 60), (right, top + 60)]),
     ):
         person.presses(f"[data-tool={tool}]")
         for x, y in places:
             person.page.mouse.click(x, y)
     names = [name.input_value() for name in person.all("#things li input:first-of-type").all()]
-    assert names == ["square", "tree", "wall"]
+    assert names == ["square", "tree", "wall", "emergency lane"]
     person.types({"#things li >> nth=1 >> input": "old oak"}).sees({**YES, "#tolerance[aria-busy=false] .value": True})
     kept = file_of(person)["venue"]["features"]
     shapes = [(one["properties"]["name"], one["geometry"]["type"]) for one in kept]
-    assert shapes == [("square", "Polygon"), ("old oak", "Point"), ("wall", "LineString")]
+    lane = ("emergency lane", "LineString")
+    assert shapes == [("square", "Polygon"), ("old oak", "Point"), ("wall", "LineString"), lane]
+    (sheet,) = paper.sheets_of(person.reaches_below().saves("#keepSafety-A4"))
+    assert "emergency lane, 3.5 m wide: " in sheet
+    # A file and an address keep it, and no bench can touch it.
+    assert person.opens(f"?{person.page.url.partition('?')[2]}").sees(YES).counts("#things li") == 4
     _a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(person.opens(S_CURVE).sees(YES))
 
 

@@ -16,6 +16,7 @@ const THINGS = [
   { kind: "block", name: "舞台", points: [[0, 0], [3, 0], [3, 2]], holes: [[[1, 0.5], [2, 0.5], [2, 1]]] },
   { kind: "wall", name: "fence-1", points: [[-5, 3.5], [-4, 3.5]], radius: 0.05 },
   { kind: "gate", name: "gate", points: [[-12, 3]], heading: null },
+  { kind: "lane", name: "ambulances", points: [[-12, 8], [12, 8]], radius: 1.5 },
 ];
 const DRAWN = { ...EMPTY, points: [[-11, -8], [0, 0.5], [11, -8]], straight: [0], radius: 3, begin: 4.5, limit: 1.1, things: THINGS, origin: { longitude: 119.64, latitude: 29.11 }, grid: { x: 500_000, y: 3_220_000 }, yard: YARD };
 const again = (one) => drawing.fromAddress(new URLSearchParams(new URLSearchParams(drawing.toAddress(one)).toString()));
@@ -59,21 +60,23 @@ test("the service gets a drawing as waypoints in a venue", () => {
   // Obstacles alone stand on an endless plain; gates alone, or half a square, are no venue.
   assert.equal(drawing.venueOf({ ...EMPTY, things: [THINGS[1]] }).features[0].properties.name, "plain");
   assert.equal(drawing.venueOf({ ...EMPTY, things: [THINGS[4], { kind: "area", name: "", points: YARD.slice(2) }] }), null);
-  // A file keeps gates, whatever else there is.
-  const kept = drawing.keptVenueOf({ ...EMPTY, things: [THINGS[4]] });
-  assert.deepEqual(kept.features.map(({ properties }) => properties.name), ["plain", "gate"]);
-  assert.deepEqual(drawing.drawingOf({ path: null, venue: kept }).things.map(({ kind }) => kind), ["gate"]);
+  // A file keeps gates and lanes, whatever else there is.
+  const kept = drawing.keptVenueOf({ ...EMPTY, things: THINGS.slice(4) });
+  assert.deepEqual(kept.features.map(({ properties }) => properties.name), ["plain", "gate", "ambulances"]);
+  assert.deepEqual(kept.features[2].properties, { name: "ambulances", role: "emergency lane", radius: 1.5 });
+  assert.deepEqual(drawing.drawingOf({ path: null, venue: kept }).things.map(({ kind, radius }) => [kind, radius]), [["gate", undefined], ["lane", 1.5]]);
+  assert.deepEqual(drawing.lanesOf(DRAWN), [{ name: "ambulances", points: [[-12, 8], [12, 8]], width: 3 }]);
   assert.equal(drawing.keptVenueOf(EMPTY), null);
   assert.deepEqual(drawing.placeOf(EMPTY), {});
   assert.deepEqual(drawing.placeOf({ ...EMPTY, path: { kind: "turn" }, start: 0 }), { start: 0 });
   assert.deepEqual(drawing.placeOf({ ...EMPTY, start: 3 }), {});
-  const least = { area: 3, block: 3, circle: 1, wall: 2, gate: 1 };
+  const least = { area: 3, block: 3, circle: 1, wall: 2, gate: 1, lane: 2 };
   for (const [kind, count] of Object.entries(least)) for (const more of [-1, 0]) assert.equal(drawing.isWhole({ kind, points: YARD.slice(0, count + more) }), more === 0, kind);
 });
 
 test("a dance of a file becomes the drawing that it came from", () => {
   const back = drawing.drawingOf({ path: drawing.pathOf(DRAWN), ...drawing.placeOf(DRAWN) });
-  assert.deepEqual(back, { ...DRAWN, radius: EMPTY.radius, yard: null, things: THINGS.filter(({ kind }) => kind !== "gate") });
+  assert.deepEqual(back, { ...DRAWN, radius: EMPTY.radius, yard: null, things: THINGS.slice(0, 4) });
   // Lines and the curves that follow them are legs.
   const pieces = [{ kind: "line", start: [0, 0], end: [9, 0] }, { kind: "waypoints", points: [[9, 0], [12, 3], [9, 6]] }, { kind: "line", start: [9, 6], end: [0, 6] }];
   const { points, straight, path } = drawing.drawingOf({ path: { kind: "route", pieces } });
@@ -107,7 +110,7 @@ test("points are put in, taken away, moved and bent", () => {
   assert.deepEqual(changes.moved(street, null, 2, [20, 7]).points[2], [20, 7]);
   assert.deepEqual(changes.bent(street, 0).straight, [1]);
   assert.deepEqual(changes.bent(changes.bent(street, 0), 0).straight, [0, 1]);
-  assert.deepEqual(changes.removed({ ...EMPTY, things: THINGS }, 1, 0).things.map(({ name }) => name), ["square", "舞台", "fence-1", "gate"]);
+  assert.deepEqual(changes.removed({ ...EMPTY, things: THINGS }, 1, 0).things.map(({ name }) => name), ["square", "舞台", "fence-1", "gate", "ambulances"]);
 });
 
 test("gates stay on the border, straight into the square", () => {
