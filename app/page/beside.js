@@ -1,4 +1,4 @@
-/** The numbers of the chosen thing, beside it on the picture. */
+/** The numbers of the chosen thing, or what can be done with several, beside them on the picture. */
 
 import { isLine } from "./drawing.js";
 import { $, button, hide, make, textButton } from "./elements.js";
@@ -7,6 +7,9 @@ import { phrase, say } from "./text.js";
 
 /** Distance from the thing, and from the edge of the picture; width of a picture beside whose things there is room [px]. */
 const [ASIDE, EDGE, WIDE] = [14, 6, 560];
+
+/** What brings several things into line. @type {Phrases} */
+export const ALIGNS = { row: "In a row", column: "In a column", gaps: "Equal gaps" };
 
 export class Beside {
   /**
@@ -27,21 +30,37 @@ export class Beside {
     const { edit, name, radius, unit, heading, places } = this.row;
     this.copy = textButton(phrase("Copy"), () => editor.duplicate());
     const remove = textButton(phrase("Remove"), () => editor.remove());
+    this.aligns = make("div", {}, ...Object.entries(ALIGNS).map(([how, words]) => textButton(words, () => editor.align(how), { "data-align": how })));
     const close = button({ textContent: "✓", "data-label": "Leave this thing (Escape)", "aria-label": say("Leave this thing (Escape)") }, () => editor.leave());
     // Its kind is known; the list has the button that goes on drawing it.
     edit.remove();
-    box.append(make("div", {}, name, close), make("div", {}, make("label", { className: "radius" }, "r ", radius, unit), places, heading), this.size, make("div", {}, this.copy, remove));
+    this.own = make("div", {}, make("label", { className: "radius" }, "r ", radius, unit), places, heading);
+    this.title = make("b");
+    box.append(make("div", {}, name, this.title, close), this.own, this.size, this.aligns, make("div", {}, this.copy, remove));
+  }
+
+  /** The chosen things. */
+  get #things() {
+    const { whole, others, items, state } = this.editor;
+    return others.length ? items.map((item) => state.get("drawing").things[item]) : whole ? [whole] : [];
   }
 
   /** After a change of anything. */
   show() {
-    const { whole: thing, item } = this.editor;
+    const things = this.#things;
+    const [thing] = things;
     this.#makeRoom(thing);
     hide(this.box, !thing);
     if (!thing) return;
-    this.form.fill(this.row, item);
+    const isOne = things.length === 1;
+    this.box.classList.toggle("several", !isOne);
+    for (const part of [this.row.name, this.own, this.size]) hide(part, !isOne);
+    for (const part of [this.title, this.aligns]) hide(part, isOne);
+    hide(this.copy, things.every(({ kind }) => kind === "area"));
+    this.title.textContent = say("{count} things", { count: things.length });
+    if (!isOne) return;
+    this.form.fill(this.row, this.editor.item);
     hide(this.box.querySelector(".radius"), thing.radius === undefined);
-    hide(this.copy, thing.kind === "area");
     const { lengths } = measures(thing.points, !isLine(thing));
     this.size.textContent = thing.points.length > 1 ? lengths.filter((one) => one !== null).map((one) => `${Number(one.toFixed(2))} m`).join(" · ") : "";
   }
@@ -58,17 +77,18 @@ export class Beside {
 
   /** At each drawing of the picture: where there is room beside the thing. */
   place() {
-    const { whole: thing } = this.editor;
-    if (!thing?.points.length || this.box.classList.contains("below")) return;
+    const things = this.#things;
+    if (!things[0]?.points.length || this.box.classList.contains("below")) return;
     const { view } = this.dance;
-    const reach = (thing.radius ?? 0) * view.scale + ASIDE;
-    const places = thing.points.map((point) => view.toScreen(...point));
+    const reach = Math.max(...things.map(({ radius = 0 }) => radius)) * view.scale + ASIDE;
+    const places = things.flatMap(({ points }) => points).map((point) => view.toScreen(...point));
     const [left, top, right, low] = [0, 1, 0, 1].map((axis, side) => Math[side < 2 ? "min" : "max"](...places.map((one) => one[axis])) + (side < 2 ? -reach : reach));
     const { offsetWidth: wide, offsetHeight: high } = this.box;
     const [middleX, middleY] = [(left + right - wide) / 2, (top + low - high) / 2];
     const tries = [[right, middleY], [left - wide, middleY], [middleX, top - high], [middleX, low]];
     const isIn = ([x, y]) => x >= EDGE && y >= EDGE && x + wide <= view.width - EDGE && y + high <= view.height - EDGE;
-    const [x, y] = tries.find(isIn) ?? [middleX, view.height - high - EDGE];
+    // Beside several things are those that may be chosen too.
+    const [x, y] = (things.length === 1 && tries.find(isIn)) || [middleX, view.height - high - EDGE];
     const at = [Math.min(Math.max(x, EDGE), view.width - wide - EDGE), Math.max(y, EDGE)].map(Math.round);
     this.box.style.transform = `translate(${at[0]}px, ${at[1] + $("#stage").offsetTop}px)`;
   }

@@ -71,6 +71,27 @@ export function shifted(drawing, item, by) {
   return { ...whole, things, yard: drawing.yard && shift(drawing.yard) };
 }
 
+/** Several things of a drawing moved by [m]; with a square go its gates, once. */
+export function shiftedAll(drawing, items, by) {
+  const isCarried = (item) => drawing.things[item].kind === "gate" && items.some((one) => isArea(drawing.things[one]));
+  return items.filter((item) => !isCarried(item)).reduce((all, item) => shifted(all, item, by), drawing);
+}
+
+/** Several things in a row or in a column with the first of them, or at equal distances between the outermost two. how: row, column or gaps */
+export function aligned(drawing, items, how) {
+  const middleOf = (item) => extent(drawing.things[item].points).middle;
+  const middles = items.map(middleOf);
+  const { width, height } = extent(middles);
+  const axis = how === "gaps" ? Number(height > width) : Number(how === "row");
+  const places = items.toSorted((a, b) => middleOf(a)[axis] - middleOf(b)[axis]);
+  const [low, high] = [places[0], places.at(-1)].map((item) => middleOf(item)[axis]);
+  const wanted = (item) => (how === "gaps" ? low + ((high - low) * places.indexOf(item)) / (places.length - 1) : middles[0][axis]);
+  return items.reduce((all, item) => shifted(all, item, [0, 0].with(axis, wanted(item) - middleOf(item)[axis])), drawing);
+}
+
+/** The drawing without several things. */
+export const withoutThings = (drawing, items) => ({ ...drawing, things: drawing.things.filter((_, k) => !items.includes(k)) });
+
 /** The drawing with a thing after all others, under a name of its own. */
 export function copied(drawing, thing) {
   return { ...drawing, things: [...drawing.things, { ...thing, name: freeName(drawing.things, thing.name.replace(/ \d+$/, "")) }] };

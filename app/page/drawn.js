@@ -8,6 +8,7 @@ import { Files } from "./files.js";
 import { stepsOf } from "./history.js";
 import { Judgement } from "./judgement.js";
 import { knotsOf } from "./knots.js";
+import { Menu } from "./menu.js";
 import { PRESETS, PRESET_NAMES, shownAt } from "./presets.js";
 import { Propose } from "./propose.js";
 import { RouteForm } from "./route.js";
@@ -48,6 +49,7 @@ export class Drawn {
     const files = new Files(state, this.steps, service, questions, several);
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
     this.beside = new Beside($("#beside"), dance, this.editor, this.form);
+    new Menu($("#stage"), this.editor);
     this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show() });
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point, ACROSS));
     this.#invite();
@@ -72,7 +74,7 @@ export class Drawn {
     const { course } = this.questions;
     const editing = this.editor.active;
     const selected = editing ? this.editor.item : null;
-    return { drawing: this.state.get("drawing"), editing, selected, held: this.editor.held, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
+    return { drawing: this.state.get("drawing"), editing, selected, chosen: this.editor.items, held: this.editor.held, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
   }
 
   /** The offers without a drawing: draw a path, or begin with a preset. */

@@ -1,12 +1,12 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
-import { copied, inserted, moved, pointsOf, removed, shifted, turned, withPoints, withThing } from "./changes.js";
+import { aligned, copied, inserted, moved, pointsOf, removed, shiftedAll, turned, withPoints, withThing, withoutThings } from "./changes.js";
 import { LANE_RADIUS, THINGS, freeName, isLine, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
 import { extent, onBorder, streetLength } from "./square.js";
-import { say } from "./text.js";
-import { decimetres, nearestLeg, squared, thingUnder } from "./touch.js";
+import { between, say } from "./text.js";
+import { decimetres, nearestLeg, squared, thingUnder, thingsWithin } from "./touch.js";
 
 /** What each tool does. @type {Phrases} */
 const HELPS = {
@@ -16,6 +16,7 @@ const HELPS = {
   circle: "Tap where a tree, a well or a person is; its radius is in the list “Square and obstacles”.",
   wall: "Tap along the wall. Choose Wall again for the next one.",
   lane: "Tap along the middle of a lane that stays free, such as one for ambulances; its radius is half of its width. The safety sheet says when benches are in it.",
+  several: "Tap things one after another, or drag a frame around them; then drag, copy, align or remove them together. With Shift, any tool does so.",
   gate: "Tap the border: the dragon comes in or goes out there. Beyond it a straight street of about {length} m is added, as long as your dragon, which stands in it before or after the dance.",
 };
 
@@ -46,13 +47,17 @@ export class Editor {
   tool = "path";
   /** The edited item: null for the path, else the number of a thing. */
   item = null;
+  /** Further things that are chosen together with this one. @type {number[]} */
+  others = [];
   /** True while taps add points to the edited thing; false after it was chosen by a touch. */
   #isDrawing = false;
   #knots = [];
   /** What a thing is made larger by and turned by: kind -> button. */
   #grips = Object.fromEntries(Object.keys(GRIPS).map((kind) => [kind, this.#grip(kind)]));
-  /** A copied thing. */
-  #copy = null;
+  /** The frame that chooses things. */
+  #frame = make("div", { className: "frame", hidden: true });
+  /** Copied things. */
+  #copy = [];
   /** A mouse stands beside a keyboard. */
   #hasKeys = matchMedia("(pointer: fine)");
   #drag = null;
@@ -69,18 +74,18 @@ export class Editor {
     this.course = course;
     this.chosen = chosen;
     this.box = $("#knots");
-    this.box.after(make("div", { id: "grips" }, ...Object.values(this.#grips)));
+    this.box.after(make("div", { id: "grips" }, this.#frame, ...Object.values(this.#grips)));
     dance.tapped = (x, y) => this.#tap(x, y);
     for (const button of $$("[data-tool]")) button.addEventListener("click", () => this.take(button.dataset.tool));
     onClick("#edit", () => this.turn(!this.active));
     onClick("#delete", () => this.#delete());
     const canvas = $("#canvas");
+    canvas.addEventListener("keydown", (event) => this.#nudge(event), { capture: true });
     canvas.addEventListener("keydown", (event) => this.#next(event));
     canvas.addEventListener("pointerdown", (event) => this.#seize(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.#pull(event));
     for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => this.#drop());
     addEventListener("keydown", (event) => this.#command(event));
-    $("#stage").addEventListener("contextmenu", (event) => this.active && this.#isRoute && event.preventDefault());
   }
 
   get #drawing() {
@@ -116,25 +121,62 @@ export class Editor {
   /** Draw with this tool from now on; a new obstacle begins with the next tap. */
   take(tool) {
     this.tool = tool;
-    this.#isDrawing = true;
     const area = this.#drawing.things.findIndex(({ kind }) => kind === "area");
     this.edit(tool === "area" && area >= 0 ? area : null);
   }
 
   /** Edit this item. */
   edit(item) {
-    this.item = item;
+    [this.item, this.others] = [item, []];
     this.#isDrawing = true;
     if (item !== null) this.tool = this.#drawing.things[item].kind;
     this.chosen();
   }
 
-  /** Choose a thing by a touch, whatever the tool, which goes on to draw on free ground. */
-  choose(item) {
+  /** Choose a thing by a touch, whatever the tool, which goes on to draw on free ground; or several together. */
+  choose(item, others = []) {
     this.active = true;
-    this.item = item;
+    [this.item, this.others] = [item, others];
     this.#isDrawing = false;
     this.chosen();
+  }
+
+  /** Choose a thing beside those that are chosen already, or no longer. */
+  toggle(item) {
+    const items = this.items.includes(item) ? this.items.filter((one) => one !== item) : [...this.items, item];
+    this.choose(items[0] ?? null, items.slice(1));
+  }
+
+  /** True while touches change the drawing. */
+  get canEdit() {
+    return this.active && this.#isRoute;
+  }
+
+  /** The names of the chosen things. */
+  get names() {
+    return this.items.map((item) => this.#drawing.things[item].name).join(between());
+  }
+
+  /** Choose the point or the thing at a place of the window [px], unless it is chosen already; what is held there is let go. */
+  reach(x, y) {
+    this.#drag = null;
+    this.dance.view.release();
+    const knot = document.elementFromPoint(x, y)?.closest(".knot");
+    if (knot instanceof HTMLElement) knot.focus({ preventScroll: true });
+    if (knot && !this.whole) return;
+    const item = this.#under(...this.#inBox(x, y));
+    if (item === null || !this.items.includes(item)) this.choose(item);
+  }
+
+  /** A place of the window on the picture [px]. */
+  #inBox(x, y) {
+    const { left, top } = this.box.getBoundingClientRect();
+    return [x - left, y - top];
+  }
+
+  /** The numbers of the chosen things. @type {number[]} */
+  get items() {
+    return this.thing ? [this.item, ...this.others] : [];
   }
 
   /** The chosen thing; null without one. */
@@ -144,7 +186,7 @@ export class Editor {
 
   /** The chosen thing, unless taps on the picture still add points to it. */
   get whole() {
-    return this.#isDrawing && this.thing && !ONE_POINT.includes(this.thing.kind) ? null : this.thing;
+    return this.others.length || (this.#isDrawing && this.thing && !ONE_POINT.includes(this.thing.kind)) ? null : this.thing;
   }
 
   get #isLine() {
@@ -153,7 +195,7 @@ export class Editor {
 
   /** After a change of anything. */
   show() {
-    if (this.item !== null && this.item >= this.#drawing.things.length) this.item = null;
+    if (Math.max(this.item ?? 0, ...this.others) >= this.#drawing.things.length) [this.item, this.others] = [null, []];
     const on = this.active && this.#isRoute;
     $("#edit").setAttribute("aria-pressed", on);
     for (const button of $$("[data-tool]")) {
@@ -171,36 +213,74 @@ export class Editor {
 
   /** The points of the edited item; those of the path only while the path itself is drawn. */
   get #points() {
-    if (!this.active || !this.#isRoute || (this.item === null && this.tool !== "path")) return [];
+    if (!this.active || !this.#isRoute || this.others.length || (this.item === null && this.tool !== "path")) return [];
     return pointsOf(this.#drawing, this.item);
   }
 
-  /** A thing like the chosen one beside it, which is chosen now. thing: another one */
-  duplicate(thing = this.thing) {
-    if (!thing || thing.kind === "area") return;
-    const drawing = copied(this.#drawing, thing);
-    const item = drawing.things.length - 1;
+  get canPaste() {
+    return this.#copy.length > 0;
+  }
+
+  copy() {
+    this.#copy = this.items.map((item) => this.#drawing.things[item]);
+  }
+
+  /** Things like the copied ones beside them, which are chosen now. */
+  paste() {
+    this.duplicate(this.#copy);
+  }
+
+  /** The same with the first of them at a place of the window [px]. */
+  pasteAt(x, y) {
+    this.duplicate(this.#copy, this.dance.view.toWorld(...this.#inBox(x, y)));
+  }
+
+  /** Things like the chosen ones beside them, which are chosen now. things: others; point: where the first of them goes */
+  duplicate(things = this.items.map((item) => this.#drawing.things[item]), point = null) {
+    const copies = things.filter(({ kind }) => kind !== "area");
+    if (!copies.length) return;
+    const drawing = copies.reduce(copied, this.#drawing);
+    const items = copies.map((_, k) => this.#drawing.things.length + k);
     const far = ASIDE / this.dance.view.scale;
-    this.steps.take(shifted(drawing, item, decimetres([far, -far])));
-    this.choose(item);
+    const { middle } = extent(copies[0].points);
+    this.steps.take(shiftedAll(drawing, items, decimetres(point ? point.map((one, axis) => one - middle[axis]) : [far, -far])));
+    this.choose(items[0], items.slice(1));
   }
 
-  /** Take the chosen thing away. */
+  /** Take the chosen things away. */
   remove() {
-    if (this.item === null) return;
-    const item = this.item;
-    this.item = null;
-    this.steps.take({ ...this.#drawing, things: this.#drawing.things.toSpliced(item, 1) });
+    const { items } = this;
+    if (!items.length) return;
+    [this.item, this.others] = [null, []];
+    this.steps.take(withoutThings(this.#drawing, items));
+    this.chosen();
   }
 
-  /** Ctrl+C, Ctrl+V and Ctrl+D copy a thing, put a copy beside it, or both at once; Escape leaves it. */
+  /** Bring the chosen things into a row, a column, or equal gaps. */
+  align(how) {
+    this.steps.take(aligned(this.#drawing, this.items, how));
+  }
+
+  /** Arrow keys move what is chosen, and Delete removes it. */
+  #nudge(event) {
+    if (!this.items.length || (this.#isDrawing && !this.others.length) || event.ctrlKey || event.metaKey || event.altKey) return;
+    const way = KEYS[event.key];
+    const by = event.shiftKey ? FINE_STEP : STEP;
+    if (way) this.steps.take(shiftedAll(this.#drawing, this.items, way.map((one) => one * by)), `nudge ${this.items}`);
+    else if (event.key === "Delete" || event.key === "Backspace") this.remove();
+    else return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+  }
+
+  /** Ctrl+C, Ctrl+V and Ctrl+D copy things, put copies beside them, or both at once; Escape leaves them. */
   #command(event) {
     if (!this.active || !this.#isRoute || event.defaultPrevented || (event.target instanceof Element && event.target.matches("input, textarea, select"))) return;
     const key = event.key.toLowerCase();
     if (key === "escape" && this.thing && !$$(":popover-open, dialog[open]").length) this.leave();
     else if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
-    else if (key === "c" && this.thing && getSelection().isCollapsed) this.#copy = this.thing;
-    else if (key === "v" && this.#copy) this.duplicate(this.#copy);
+    else if (key === "c" && this.thing && getSelection().isCollapsed) this.copy();
+    else if (key === "v" && this.canPaste) this.paste();
     else if (key === "d" && this.thing) this.duplicate();
     else return;
     event.preventDefault();
@@ -208,7 +288,7 @@ export class Editor {
 
   /** Choose nothing. */
   leave() {
-    this.item = null;
+    [this.item, this.others] = [null, []];
     this.chosen();
   }
 
@@ -308,17 +388,34 @@ export class Editor {
   #seize(event) {
     if (!this.active || !this.#isRoute || !event.isPrimary || (event.button && event.button !== 2)) return;
     const item = this.#under(event.offsetX, event.offsetY);
-    if (item === null || (item === this.item && this.#isDrawing && this.#points.length > 1)) return;
+    const isSeveral = (event.shiftKey || this.tool === "several") && !event.button;
+    if (item === null ? !isSeveral : item === this.item && this.#isDrawing && this.#points.length > 1) return;
     event.stopPropagation();
-    const { points } = this.#drawing.things[item];
-    this.choose(item);
-    if (event.button) return;
-    if (points.length === 1) return this.#grab(event);
+    if (item === null) return this.#carry(event, "frame");
+    const isChosen = this.items.includes(item);
+    // With the tool for several, a drag moves them and a tap chooses one more.
+    if (isSeveral && (event.shiftKey || !isChosen)) this.toggle(item);
+    else if (!isChosen || !this.others.length) this.choose(item);
+    if (event.button || (isSeveral && event.shiftKey)) return;
+    if (!this.others.length && this.#drawing.things[item].points.length === 1) return this.#grab(event);
+    this.#carry(event, null);
+  }
+
+  /** Follow the pointer on the picture with what is chosen, or with a frame. */
+  #carry(event, k) {
     event.preventDefault();
     const canvas = $("#canvas");
     canvas.focus({ preventScroll: true });
     canvas.setPointerCapture(event.pointerId);
-    this.#hold({ k: null, from: [event.clientX, event.clientY] });
+    this.#hold({ k, from: [event.clientX, event.clientY] });
+  }
+
+  /** Show the frame from where the pointer was pressed to where it is. */
+  #framed(event, drag) {
+    drag.corners = [drag.from, [event.clientX, event.clientY]].map((place) => this.#inBox(...place));
+    const [[ax, ay], [bx, by]] = drag.corners;
+    this.#frame.hidden = false;
+    Object.assign(this.#frame.style, { transform: `translate(${Math.min(ax, bx)}px, ${Math.min(ay, by)}px)`, width: `${Math.abs(bx - ax)}px`, height: `${Math.abs(by - ay)}px` });
   }
 
   /** The thing at a place of the picture [px]. Gates are drawn on the border of the square, and paths and lanes across it. */
@@ -350,6 +447,7 @@ export class Editor {
     if (!drag) return;
     drag.far ||= Math.hypot(event.clientX - drag.from[0], event.clientY - drag.from[1]) > TRAVEL;
     if (!drag.far) return;
+    if (drag.k === "frame") return this.#framed(event, drag);
     const change = drag.k === null ? this.#carried : drag.k in GRIPS ? this.#around : this.#bent;
     this.state.set({ drawing: change.call(this, event, drag) }, false);
   }
@@ -363,17 +461,22 @@ export class Editor {
     return moved(base, this.item, k, rest);
   }
 
-  /** The drawing with the whole thing as far as the pointer went. */
+  /** The drawing with what is chosen as far as the pointer went. */
   #carried(event, { base, from }) {
     const { scale } = this.dance.view;
     const by = [(event.clientX - from[0]) / scale, (from[1] - event.clientY) / scale];
-    return shifted(base, this.item, event.altKey ? by : decimetres(by));
+    return shiftedAll(base, this.items, event.altKey ? by : decimetres(by));
   }
 
   #drop() {
     const drag = this.#drag;
     this.#drag = null;
-    if (drag?.far) this.steps.take(this.#drawing, null, drag.base);
+    this.#frame.hidden = true;
+    if (drag?.corners) {
+      const items = [...new Set([...this.items, ...thingsWithin(this.#drawing.things, this.dance.view, ...drag.corners)])];
+      this.choose(items[0] ?? null, items.slice(1));
+    } else if (drag?.k === "frame") this.leave();
+    else if (drag?.far) this.steps.take(this.#drawing, null, drag.base);
     else if (drag && typeof drag.k === "number" && this.#points.length > 1) announce(() => say("Point {k}: drag it, or delete it with ⌫. To add a point beside it, or to drag one that is a dot, enlarge the picture with + first.", { k: drag.k + 1 }));
   }
 
@@ -386,15 +489,15 @@ export class Editor {
       this.steps.take(moved(this.#drawing, this.item, k, [x + by * way[0], y + by * way[1]]), `${this.item} ${k}`);
       this.#reveal(k);
     } else if (event.key.toLowerCase() === "n") return this.#next(event);
-    else if (event.key === "Enter") this.#divide(k);
-    else if (event.key === "Delete" || event.key === "Backspace") this.#remove(k);
+    else if (event.key === "Enter") this.divide(k);
+    else if (event.key === "Delete" || event.key === "Backspace") this.removePoint(k);
     else return;
     event.preventDefault();
     event.stopPropagation();
   }
 
   /** Insert a point after point k (after the last one: before it), on the path or half way along an edge. */
-  #divide(k) {
+  divide(k) {
     const points = this.#points;
     if (points.length < 2) return;
     const next = !this.#isLine ? (k + 1) % points.length : Math.min(k + 1, points.length - 1);
@@ -406,7 +509,7 @@ export class Editor {
     this.#knots[from + 1]?.focus({ preventScroll: true });
   }
 
-  #remove(k) {
+  removePoint(k) {
     this.steps.take(removed(this.#drawing, this.item, k));
     this.#knots[Math.min(k, this.#knots.length - 1)]?.focus({ preventScroll: true });
   }
@@ -414,7 +517,7 @@ export class Editor {
   /** Delete the point that has the focus, or else the last one. */
   #delete() {
     const k = this.#last ?? this.#points.length - 1;
-    if (this.#points.length) this.#remove(Math.min(k, this.#points.length - 1));
+    if (this.#points.length) this.removePoint(Math.min(k, this.#points.length - 1));
   }
 
   #last = null;
@@ -427,7 +530,7 @@ export class Editor {
 
   /** Handle the key that puts the next point without a pointer: it gets the focus, to be moved by arrow keys. */
   #next(event) {
-    if (!this.active || !this.#isRoute || event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (this.tool === "several" || !this.active || !this.#isRoute || event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     event.stopPropagation();
     const { view } = this.dance;
@@ -501,7 +604,7 @@ export class Editor {
     const point = kind === "gate" ? onBorder(yardOf(drawing), wanted).point : wanted;
     const radius = { circle: TREE_RADIUS, wall: WALL_RADIUS, lane: LANE_RADIUS }[kind];
     const thing = { kind, name: freeName(drawing.things, say(THINGS[kind])), points: [], ...(radius && { radius }) };
-    this.item = drawing.things.length;
+    [this.item, this.others] = [drawing.things.length, []];
     this.#isDrawing = true;
     this.steps.take(withPoints({ ...drawing, things: [...drawing.things, thing] }, this.item, [point]));
   }

@@ -82,7 +82,7 @@ export class RouteForm {
       (this.later = make("p", { className: "hint", hidden: true }, make("span"), " ", make("button", { type: "button" }))),
       make("p", { className: "line" }, textElement("span", "Latitude, longitude of 0, 0"), ...this.origin, unitOf("°")),
       make("details", { id: "points" }, this.pointsTitle, table),
-      make("details", { id: "things", open: true }, this.thingsTitle, this.list, textElement("p", "Choose one of them to move its points. Walls and trees have a radius.", { className: "hint" })),
+      make("details", { id: "things", open: true }, this.thingsTitle, this.list, textElement("p", "Choose one of them to move its points, with Shift several. Walls and trees have a radius.", { className: "hint" })),
     );
   }
 
@@ -193,7 +193,7 @@ export class RouteForm {
     row.at.forEach((field, axis) => put(field, points[0]?.[axis] ?? ""));
     hide(row.places, points.length !== 1);
     row.edit.textContent = say(THINGS[kind]);
-    row.edit.setAttribute("aria-pressed", this.editor.item === k);
+    row.edit.setAttribute("aria-pressed", this.editor.item === k || this.editor.others.includes(k));
     row.edit.setAttribute("aria-label", say("Edit {name}", { name }));
     row.remove.setAttribute("aria-label", say("Remove {name}", { name }));
   }
@@ -218,7 +218,8 @@ export class RouteForm {
 
   /** Fields of a thing: name, radius, place, direction. at(): its number */
   thingRow(at) {
-    const edit = () => {
+    const edit = ({ shiftKey }) => {
+      if (shiftKey) return this.editor.toggle(at());
       this.editor.turn(true);
       this.editor.edit(this.editor.item === at() ? null : at());
     };

@@ -37,6 +37,12 @@ export function thingUnder(things, view, place, kinds = KINDS) {
   return best;
 }
 
+/** The numbers of the things that lie in a rectangle between two places. */
+export function thingsWithin(things, view, [ax, ay], [bx, by]) {
+  const isIn = ([x, y]) => (x - ax) * (x - bx) <= 0 && (y - ay) * (y - by) <= 0;
+  return [...things.keys()].filter((k) => things[k].points.length > 0 && things[k].points.every((point) => isIn(view.toScreen(...point))));
+}
+
 /** A point in whole decimetres. */
 export const decimetres = (point) => point.map((one) => Math.round(10 * one) / 10);
 

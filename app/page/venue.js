@@ -27,8 +27,15 @@ const [GATE, GATE_LENGTH, SIDE] = [4, 26, 44];
 /** A failure is drawn at times that differ from its own by at most this [s]. */
 const SAME_TIME = 1e-6;
 
+function outlineOf({ kind, points, radius, holes = [] }) {
+  const path = new Path2D();
+  if (kind === "circle") path.arc(points[0][0], points[0][1], radius, 0, 2 * Math.PI);
+  else [points, ...holes].forEach((ring) => trace(ring, path, !isLine({ kind })));
+  return path;
+}
+
 function drawThing(pen, colours, thing) {
-  const { kind, points, radius, holes = [] } = thing;
+  const { kind, points, radius } = thing;
   const { context } = pen;
   if (kind === "lane") return pen.stroke(trace(points, new Path2D(), false), colours.lane, Math.max(2 * radius * pen.scale, 2));
   if (kind === "wall") {
@@ -37,9 +44,7 @@ function drawThing(pen, colours, thing) {
     Object.assign(context, { lineCap: "butt", lineJoin: "miter" });
     return;
   }
-  const path = new Path2D();
-  if (kind === "circle") path.arc(points[0][0], points[0][1], radius, 0, 2 * Math.PI);
-  else [points, ...holes].forEach((ring) => trace(ring, path));
+  const path = outlineOf(thing);
   context.fillStyle = kind === "area" ? colours.ground : colours.thing;
   context.fill(path, "evenodd");
   pen.stroke(path, colours.circle, kind === "area" ? 2 : 1);
@@ -167,7 +172,7 @@ function labelPlace({ kind, points }) {
   return [x / points.length, y / points.length, kind === "block" ? Math.max(...xs) - Math.min(...xs) : 0];
 }
 
-/** The layers of a drawn dance. get(): {drawing, editing, selected, held, failure, course, benches}, or null in another kind of dance */
+/** The layers of a drawn dance. get(): {drawing, editing, selected, chosen, held, failure, course, benches}, or null in another kind of dance */
 export function layers(dance, get) {
   const below = (pen, colours) => {
     const drawn = get();
@@ -178,8 +183,8 @@ export function layers(dance, get) {
     for (const { kind, points } of drawn.course?.breaches ?? []) pen.stroke(trace(points, new Path2D(), false), colours[BREACHES[kind]], BEND_WIDTH);
     for (const bend of drawn.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
   };
-  const name = (pen, colours, { drawing, editing, selected, failure }, names) => {
-    const isMeantOne = (k) => selected === k || failure?.area === drawing.things[k].name;
+  const name = (pen, colours, { drawing, editing, chosen, failure }, names) => {
+    const isMeantOne = (k) => chosen.includes(k) || failure?.area === drawing.things[k].name;
     const order = [...drawing.things.keys()].sort((a, b) => Number(isMeantOne(b)) - Number(isMeantOne(a)) || sizeOf(drawing.things[b]) - sizeOf(drawing.things[a]));
     for (const k of order) {
       const [thing, isMeant] = [drawing.things[k], isMeantOne(k)];
@@ -198,15 +203,16 @@ export function layers(dance, get) {
   const above = (pen, colours) => {
     const drawn = get();
     if (!drawn) return;
-    const { drawing, selected, failure } = drawn;
+    const { drawing, selected, chosen, failure } = drawn;
     const names = [...pen.names];
     if (yardOf(drawing).length) for (const thing of drawing.things) if (thing.kind === "gate") drawGate(pen, colours, drawing, thing);
     const measured = drawing.things[selected];
-    if (measured?.points.length > 1) drawMeasures(pen, dance.view, colours, measured, drawn.held, names);
+    if (measured?.points.length > 1 && chosen.length < 2) drawMeasures(pen, dance.view, colours, measured, drawn.held, names);
     if (drawn.editing) name(pen, colours, drawn, names);
-    for (const thing of drawing.things) {
-      if (failure?.area === thing.name && isWhole(thing)) pen.stroke(trace(thing.points, new Path2D(), !isLine(thing)), colours.pick, FAULT_WIDTH);
-    }
+    drawing.things.forEach((thing, k) => {
+      const isMeant = failure?.area === thing.name || (chosen.length > 1 && chosen.includes(k));
+      if (isMeant && isWhole(thing) && thing.kind !== "gate") pen.stroke(outlineOf(thing), colours.pick, FAULT_WIDTH);
+    });
     for (const { points, ...bend } of drawn.course?.bends ?? []) {
       const middle = points[Math.floor(points.length / 2)];
       pen.stroke(pen.circle(...middle, RING), colours.head, 3);

@@ -137,7 +137,13 @@ export class View {
     this.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), event.offsetX, event.offsetY);
   }
 
+  /** Let go of the pointers: what they pressed is taken over by something else. */
+  release() {
+    this.#pointers.clear();
+  }
+
   #down(event) {
+    if (event.button === 2) return;
     this.canvas.setPointerCapture(event.pointerId);
     if (!this.#pointers.size) this.#travel = 0;
     this.#pointers.set(event.pointerId, [event.offsetX, event.offsetY]);

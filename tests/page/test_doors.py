@@ -179,7 +179,7 @@ def shares_without_a_clipboard(person):
     points = [[k / 7, 1 / 7] for k in range(950)]
     text = json.dumps({"path": {"kind": "waypoints", "points": points}, "dragon": {"benches": 2}})
     person.takes({"name": "long.json", "mimeType": "application/json", "buffer": text.encode()})
-    person.sees({"#status": "Opened long.json"}).settles().presses("#share")
+    person.presses("#instead").sees({"#status": "Opened long.json"}).settles().presses("#share")
     person.sees({"#sharing-help": "save it as a file", "#address, #qr, #copy-address": False}).strikes("Escape")
     person.presses("#undo").settles()
 

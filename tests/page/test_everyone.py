@@ -157,13 +157,14 @@ def test_on_a_phone_a_finger_hits_every_control_and_one_tap_leads_everywhere(ope
     line = {"type": "LineString", "coordinates": [[0, 0], [120, 0]]}
     wood = json.dumps({"type": "GeometryCollection", "geometries": [line, *trees]}).encode()
     person.takes({"name": "wood.geojson", "mimeType": "application/geo+json", "buffer": wood})
-    person.sees({"#status": ["Opened wood.geojson", "No polygon is the square"]}).settles()
+    assert person.sees({"#opening": True}).findings() == []
+    person.presses("#instead").sees({"#status": ["Opened wood.geojson", "No polygon is the square"]}).settles()
     assert person.ask(COVERED) == []
     assert person.at("#status").evaluate("one => one.scrollHeight <= one.clientHeight")
     # The path of another map is too short, which is all that is said of it.
     short = b'{"type": "LineString", "coordinates": [[0, 0], [4, 0]]}'
     person.takes({"name": "short.geojson", "mimeType": "application/geo+json", "buffer": short})
-    person.sees({"#judgement": "The path is too short", "main.stale": True}).settles()
+    person.presses("#instead").sees({"#judgement": "The path is too short", "main.stale": True}).settles()
     for old in ("#old", "#tolerance > .old"):
         expect(person.at(old)).to_be_hidden()
     # Nor does a short one, in any window; it says which things no file holds.

@@ -153,6 +153,48 @@ def test_a_touch_takes_a_thing_whatever_the_tool_and_its_numbers_stand_beside_it
     assert points(person) == before
 
 
+def test_several_things_are_chosen_moved_brought_into_line_copied_and_removed_together(open_page):
+    trees = "c.well.1.20,22~c.elm.1.30,25~c.oak.1.33,28"
+    person = open_page(f"{S_CURVE}&things=b.stage..-5,20_5,20_5,26_-5,26~{trees}&view=0,10,10").sees(YES)
+    before = person.presses("#edit").settles().address()["things"]
+    canvas, page = person.box("#canvas"), person.page
+
+    def at(x, y):
+        return canvas["x"] + 0.5 * canvas["width"] + 10 * x, canvas["y"] + 0.5 * canvas["height"] - 10 * (y - 10)
+
+    page.mouse.click(*at(20, 22))
+    page.keyboard.down("Shift")
+    for place in ((30, 25), (0, 23)):
+        page.mouse.click(*at(*place))
+    page.keyboard.up("Shift")
+    person.sees({"#beside": "3 things"}).page.mouse.click(*at(0, 23), button="right")
+    assert person.sees({"#menu": ["Copy", "Delete"]}).findings() == []
+    person.presses("#menu button:has-text('In a row')").drags_from(*at(0, 22), 30, 50)
+    person.strikes("ArrowLeft", "Shift+ArrowUp").settles()
+    stage = "b.stage..-2!1,14!01_7!9,14!01_7!9,20!01_-2!1,20!01"
+    moved = f"{stage}~c.well.1.22!9,17!01~c.elm.1.32!9,17!01~c.oak.1.33,28"
+    assert person.address()["things"] == moved
+    person.strikes("ControlOrMeta+d").sees({"#things li": 7}).strikes("Delete").sees({"#things li": 4})
+    for _ in range(5):
+        person.presses("#undo")
+    assert person.settles().address()["things"] == before
+    # A frame chooses what is in it, a press on free ground nothing.
+    person.presses("[data-tool=several]").drags_from(*at(15, 15), 200, -150).sees({"#beside": "3 things"})
+    page.mouse.click(*at(-20, -5))
+    person.sees({"#beside": False}).presses("[data-tool=path]").page.mouse.click(*at(-20, -5), button="right")
+    person.sees({"#menu": "Choose several"}).strikes("Escape").sees({"#menu": False, ".knot": 7})
+
+
+def test_a_long_press_opens_the_menu_of_a_point_on_a_phone(open_page):
+    person = open_page(f"{S_CURVE}&view=0,10,10", **PHONE).sees({"#verdict": True}).presses("#edit").settles()
+    box, finger = person.box(knot(5)), person.page.context.new_cdp_session(person.page)
+    place = {"x": box["x"] + 0.5 * box["width"], "y": box["y"] + 0.5 * box["height"]}
+    finger.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [place]})
+    person.sees({"#menu": ["Insert a point", "Delete point 6"]})
+    finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    person.presses("#menu button:has-text('Delete point 6')").sees({"#menu": False, ".knot": 6})
+
+
 def test_a_finger_drags_points_and_trees_on_a_phone_and_nothing_is_cut_off(open_page):
     person = open_page(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit")
     before, box = points(person), person.box(knot(2))

@@ -51,3 +51,14 @@ test("a drawing comes beside another one at its place on a survey grid, and a pa
   const [east, north] = changes.offsetOf({ origin: { longitude: 120, latitude: 30 } }, { origin: { longitude: 120.01, latitude: 30 } });
   assert.deepEqual([east.toFixed(1), north], ["964.9", 0]);
 });
+
+test("things come into a row with the first of them, and have equal gaps; a square takes its gates along once", () => {
+  const tree = (x, y) => ({ kind: "circle", name: `${x}`, points: [[x, y]], radius: 0.5 });
+  const trees = { ...EMPTY, things: [tree(5, 1), tree(0, 2), tree(12, 4)] };
+  const placesOf = ({ things }) => things.map(({ points }) => points[0]);
+  assert.deepEqual(placesOf(changes.aligned(trees, [2, 0, 1], "row")), [[5, 4], [0, 4], [12, 4]]);
+  assert.deepEqual(placesOf(changes.aligned(trees, [0, 1], "column")), [[5, 1], [5, 2], [12, 4]]);
+  assert.deepEqual(placesOf(changes.aligned(trees, [0, 1, 2], "gaps")), [[6, 1], [0, 2], [12, 4]]);
+  const { things } = changes.shiftedAll(DRAWING, [3, 0, 2], [2, 1]);
+  assert.deepEqual([things[0].points[0], things[2].points, things[3].points], [[2, 1], [[21, 10]], [[2, 9]]]);
+});
