@@ -55,11 +55,12 @@ class Drawn:
     files: dict[str, bytes]
 
 
-def figures(solved: Solved, progress: Progress) -> Iterator[Drawn]:
-    """Every figure, one after another. raises: MissingPackage without a font for the language"""
+def figures(solved: Solved, progress: Progress, names: Sequence[str] | None = None) -> Iterator[Drawn]:
+    """Every figure, or those of these names, in turn. raises: MissingPackage without a font for the language"""
     family = families()
     of_turn = (geometry, amplification) if solved.turned else ()
-    kinds = (positions, snapshots, clearance, staircase, *of_turn, sensitivity)
+    every = (positions, snapshots, clearance, staircase, *of_turn, sensitivity)
+    kinds = [draw for draw in every if names is None or draw.__name__ in names]
     for k, draw in enumerate(kinds, start=1):
         drawn = in_turn(partial(_drawn, draw, solved, family), solved.budget)
         progress(k / len(kinds))

@@ -33,6 +33,15 @@ from core import InvalidValue
 from core.language import say
 
 FIGURES, TABLES = "figures", "tables"
+# The questions about the turn, and what is handed in for each question: workbooks, tables, and figures.
+OF_TURN = (4, 5)
+PARTS = {
+    1: ("result1.xlsx", "positions", "speeds", "snapshots"),
+    2: ("result2.xlsx", "contact", "clearance"),
+    3: ("staircase",),
+    4: ("result4.xlsx", "turn-positions", "turn-speeds", "geometry"),
+    5: ("amplification",),
+}
 # Folder for files until all are ready, the file that comes last, and the name of the lock.
 UNFINISHED, REPORT, ROLE = ".unfinished", "report.md", ".contest"
 # Endings of files that an archive makes smaller.
@@ -55,20 +64,26 @@ class Kit:
     """The written kit.
 
     solved, results: the answers; files: their names in order of writing
+    question: the only one that the kit is about; None: all
     missing: reason why there are no pictures; no_turn: reason why questions 4 and 5 have no answer
     """
 
     solved: Solved
     results: list[Result]
     no_turn: str
+    question: int | None = None
     files: list[str] = field(default_factory=list)
     missing: MissingPackage | None = None
 
     @classmethod
-    def of(cls, request: ContestRequest, terms: Terms, progress: films.StepProgress) -> Self:
-        """A kit that has its answers. raises: as solve"""
-        solved = solve(request, terms, lambda share: progress(say("answers"), share))
-        return cls(solved, answers(solved), solved.why_no_turn)
+    def of(
+        cls, request: ContestRequest, terms: Terms, progress: films.StepProgress, question: int | None = None
+    ) -> Self:
+        """A kit that has its answers. question: the only one that it is about, None for all; raises: as solve"""
+        turns = question is None or question >= min(OF_TURN)
+        solved = solve(request, terms, lambda share: progress(say("answers"), share), turns=turns)
+        results = [one for one in answers(solved) if question in (None, one.question)]
+        return cls(solved, results, solved.why_no_turn, question)
 
 
 def write_kit(
@@ -115,9 +130,9 @@ def _take_over(folder: Path, names: list[str]) -> None:
 
 def files_of(kit: Kit, shot: films.Wanted, progress: films.StepProgress) -> Iterator[films.NamedFile]:
     """Name and bytes of each file as it is made, the report last. kit: receives the reason why there are no pictures"""
-    solved = kit.solved
-    tables = paper_tables(solved)
-    yield from _workbooks(solved)
+    solved, parts = kit.solved, PARTS.get(kit.question or 0)
+    tables = [table for table in paper_tables(solved) if parts is None or table.name in parts]
+    yield from ((name, data) for name, data in _workbooks(solved) if parts is None or name in parts)
     yield "answers.json", orjson.dumps(kit.results, option=orjson.OPT_INDENT_2) + b"\n"
     for table in tables:
         for ending, text in (("csv", table.to_csv()), ("md", table.to_markdown()), ("tex", table.to_latex())):
@@ -128,7 +143,7 @@ def files_of(kit: Kit, shot: films.Wanted, progress: films.StepProgress) -> Iter
         from app.contest.figures import figures
 
         with films.films_beside(solved, shot, progress) as wait_for_films:
-            for figure in figures(solved, lambda share: progress(say("figures"), share)):
+            for figure in figures(solved, lambda share: progress(say("figures"), share), parts):
                 drawn.append(figure)
                 for ending, data in figure.files.items():
                     yield f"{FIGURES}/{figure.name}.{ending}", data
@@ -137,17 +152,28 @@ def files_of(kit: Kit, shot: films.Wanted, progress: films.StepProgress) -> Iter
                 yield name, data
     except MissingPackage as missing:
         kit.missing = missing
+    if parts is not None:
+        return
     page = report(solved, kit.results, tables, drawn, filmed)
     if kit.missing:
         page += "\n" + say("Not in this kit: figures and films, because ") + kit.missing.message + "\n"
     yield REPORT, page.encode()
 
 
-def zip_of(request: ContestRequest, shot: films.Wanted, terms: Terms, progress: films.StepProgress) -> bytes:
-    """The kit as a ZIP archive with the same bytes for the same request. raises: as write_kit, but for the folder"""
+def zip_of(
+    request: ContestRequest,
+    shot: films.Wanted,
+    terms: Terms,
+    progress: films.StepProgress,
+    question: int | None = None,
+) -> bytes:
+    """The kit as a ZIP archive with the same bytes for the same request.
+
+    question: the only one that it is about, None for all; raises: as write_kit, but for the folder
+    """
     require("xlsx", "language", "contest")
     sink = io.BytesIO()
-    kit = Kit.of(request, terms, progress)
+    kit = Kit.of(request, terms, progress, question)
     with ZipFile(sink, "w") as archive:
         for name, data in files_of(kit, shot, progress):
             # Without a time of its own, which is then the first that an archive can have.

@@ -115,8 +115,8 @@ class Solved:
         return np.linspace(-self.request.span, self.request.span, TURN_STEPS + 1)
 
 
-def solve(request: ContestRequest, terms: Terms, progress: Progress) -> Solved:
-    """All five answers. raises: InvalidValue, OutsideRun, TooMuchWork"""
+def solve(request: ContestRequest, terms: Terms, progress: Progress, *, turns: bool = True) -> Solved:
+    """All five answers. turns: False leaves out questions 4 and 5; raises: InvalidValue, OutsideRun, TooMuchWork"""
     dragon = request.to_dragon(terms.settings.checked_benches_max)
     spiral = Dance(dragon, request.to_path(), request.head_speed)
     inwards = core.trajectory(spiral, seconds(0.0, spiral.span(0.0, request.stop)[1]), budget=terms.budget)
@@ -128,7 +128,7 @@ def solve(request: ContestRequest, terms: Terms, progress: Progress) -> Solved:
     progress(0.4)
     turned, why = None, ""
     try:
-        turned = _turned(request, dragon, terms)
+        turned = _turned(request, dragon, terms) if turns else None
     except InvalidValue as error:
         why = error.message
     progress(1.0)

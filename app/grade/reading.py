@@ -19,6 +19,9 @@ LINES_MAX, CELLS_MAX = 200_000, 1_000_000
 # First bytes of a ZIP archive, and of the older container that also holds encrypted workbooks.
 ZIP, OLE = b"PK", bytes.fromhex("d0cf11e0a1b11ae1")
 ENCRYPTED = "EncryptedPackage".encode("utf-16-le")
+# First bytes of pictures (PNG, JPEG, GIF, BMP; WebP and HEIC have a length before) and of a PDF.
+PICTURES, PDF = (b"\x89PNG", b"\xff\xd8\xff", b"GIF8", b"BM"), b"%PDF"
+BOXED_PICTURES = (b"WEBP", b"ftypheic", b"ftypheix", b"ftypavif", b"ftypmif1")
 # Separators of cells, the usual one first, and the part of a file in which they are looked for [characters].
 SEPARATORS, LOOKED_AT = ",;\t", 20_000
 # Encodings to try: UTF-8, then that of Chinese versions of Excel.
@@ -37,9 +40,18 @@ def grids_of(data: bytes, budget: Budget) -> tuple[list[Grid], list[Note]]:
         raise UnreadableTable(note("empty"))
     if data.startswith(OLE):
         raise UnreadableTable(note("encrypted" if ENCRYPTED in data else "old_format"))
+    if _is_picture(data):
+        raise UnreadableTable(note("picture"))
+    if data.startswith(PDF):
+        raise UnreadableTable(note("document"))
     if data.startswith(ZIP):
         return sheets_of(data, budget)
     return [_of_csv(data, budget)], []
+
+
+def _is_picture(data: bytes) -> bool:
+    """Whether a file is a picture, which is no text: a table may begin with the letters BM."""
+    return (data.startswith(PICTURES) and b"\0" in data) or any(one in data[4:12] for one in BOXED_PICTURES)
 
 
 def _of_csv(data: bytes, budget: Budget) -> Grid:

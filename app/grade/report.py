@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from decimal import Decimal
 from pathlib import PurePath
@@ -34,17 +33,16 @@ from app.grade.reading import ZIP, grids_of
 from app.grade.rubric import rubric_of
 from app.grade.sheets import tables_of
 from app.grade.shortcuts import UNITS, Finding, right_answer
+from app.grade.typed_number import plain_number
 from app.grade.words import Note, note, word
 from app.wire.fields import Answer
 from core import Budget, InvalidValue, TooMuchWork
-from core.errors import Given, Quantity, too_much
+from core.errors import Quantity, too_much
 from core.kernels import Halted
 from core.language import joined
 
 # Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
-# A number as it was typed, because its digits show its rounding.
-TYPED = re.compile(r"^[+-]?([0-9]{1,6}(\.[0-9]{0,20})?|\.[0-9]{1,20})([eE][+-]?[0-9]{1,2})?$")
 
 
 class CellAnswer(Answer):
@@ -265,14 +263,12 @@ def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
 
 
 def typed(name: str, text: str) -> TypedAnswer:
-    """The grade of a typed number. name: one of UNITS; text: as typed, because its digits show its rounding
+    """The grade of a typed number. name: one of UNITS; text: as typed, see plain_number(): its digits show its rounding
 
     raises: InvalidValue
     """
-    if not TYPED.fullmatch(text):
-        words = "must be a number [{unit}] in digits, such as 0.4503"
-        raise InvalidValue(name, words, got=Given(text), unit=UNITS[name])
-    value, (_, digits, exponent) = float(text), Decimal(text).as_tuple()
+    number, reading = plain_number(name, text, UNITS[name])
+    value, (_, digits, exponent) = float(number), Decimal(number).as_tuple()
     if not 0.0 < value < 1e6:
         raise InvalidValue(name, "must be more than 0 and less than 1e6", got=Quantity(value, UNITS[name]))
     decimals = -int(exponent)
@@ -286,7 +282,7 @@ def typed(name: str, text: str) -> TypedAnswer:
         expected=right_answer(name),
         unit=UNITS[name],
         digits=len(digits) - ungraded,
-        notes=[str(one) for one in grade.notes],
+        notes=[str(one) for one in [*reading, *grade.notes]],
         diagnosis=_diagnoses([one for one in grade.findings if one.chance <= CERTAIN]),
         possible=_guessed(grade.findings),
     )

@@ -35,6 +35,11 @@ def word(code: str, **values: object) -> str:
 
 # fmt: off
 WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.items()} | {
+    # -- numbers as people type them --
+    "read_as": "Read as {number}.",
+    "full_width": "Its digits are full-width ones, as a Chinese keyboard writes them: a workbook takes them for text.",
+    "with_unit": "The unit {unit} is meant anyway and need not be written.",
+    "with_comma": "The comma counts as the decimal point.",
     # -- files that cannot be graded --
     "too_long": "The file has more than {most} MB, so it was not read: a workbook of the contest is about 2 MB.",
     "empty": "The file is empty.",
@@ -52,6 +57,8 @@ WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.
     "long_row": "The workbook was not read: {part} has a row of more than {most} cells, which no spreadsheet program writes.",
     "too_many_cells": "The table has more than {most} cells.",
     "no_csv": "The file is neither a workbook nor a table of text (CSV).",
+    "picture": "The file is a picture, such as a screenshot, in which no number can be read: hand in the table itself, saved as .xlsx or .csv.",
+    "document": "The file is a PDF, not a workbook: hand in the table itself, saved as .xlsx or .csv.",
     "no_workbook": "The file has the name of a workbook, but its content is text: save the sheets as .xlsx.",
     "failed": "The grader failed on this file ({why}). This is an error in the grader: please report it.",
     "not_opened": "The file cannot be opened: {why}.",

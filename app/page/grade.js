@@ -34,10 +34,6 @@ const MARKS = { right: "✓", rounded: "✓", incomplete: "!", infeasible: "✕"
 const CELL = 6;
 /** Meaning of each mark of a picture. @type {Phrases} */
 const MEANINGS = { ".": "right", o: "rounded", "#": "wrong", "?": "missing" };
-/** Numbers that may be typed, with an example of each. */
-const NUMBER = /^[+-]?([0-9]{1,6}(\.[0-9]{0,20})?|\.[0-9]{1,20})(e[+-]?[0-9]{1,2})?$/i;
-const EXAMPLES = { collision_time: "412.473838", pitch: "0.450338", turn_length: "13.621245", speed: "1.246266" };
-
 export class Grader {
   #files = [];
   #answers = [];
@@ -75,7 +71,7 @@ export class Grader {
   }
 
   show() {
-    $("#grades").replaceChildren(...this.#answers.flatMap(({ answer, refused }) => (refused ? [refused] : boxes(answer))));
+    $("#grades").replaceChildren(...this.#answers);
     if (this.#working) $("#grades").append(make("p", { className: "hint", role: "status", textContent: this.#working }));
   }
 
@@ -91,40 +87,44 @@ export class Grader {
   }
 
   async #grade() {
-    const typed = Object.keys(ANSWERS).map((name) => [name, $(`#typed-${name}`).value.trim().replace(",", ".")]).filter(([, text]) => text);
-    const numbers = typed.filter(([, text]) => NUMBER.test(text));
-    const requests = this.#files.map((file) => [{ name: file.name.slice(-200), language: this.#language }, file]);
-    if (numbers.length) requests.unshift([{ language: this.#language, ...Object.fromEntries(numbers) }, undefined]);
-    const wrong = typed.filter(([, text]) => !NUMBER.test(text));
-    /** @type {{refused?: Element, answer?: any}[]} */
-    const results = wrong.map(([name, text]) => {
-      const what = say(ANSWERS[name]);
-      return refusedBox(what, say("{what} must be a number such as {example}: you typed “{text}”.", { what, text, example: EXAMPLES[name] }));
-    });
+    const typed = Object.keys(ANSWERS).map((name) => ({ name, text: $(`#typed-${name}`).value.trim() })).filter(({ text }) => text);
+    const asked = [...typed, ...this.#files.map((file) => ({ file }))];
+    /** @type {Element[]} */
+    const results = [];
     this.#answers = results;
-    for (const [k, [query, file]] of requests.entries()) {
-      if (file?.size === 0) {
-        results.push(refusedBox(file.name, say("The file is empty.")));
-        continue;
-      }
-      this.#tell(say("Grading {name} ({k} of {count}) …", { name: file?.name ?? say("Typed answers"), k: k + 1, count: requests.length }));
-      try {
-        results.push({ answer: await this.service.ask("grade", "grade", { query, file: file ?? new Blob(), headers: bearer() }) });
-      } catch (error) {
-        if (error instanceof Superseded) return;
-        if (!(error instanceof Problem)) throw error;
-        results.push(refusedBox(file?.name ?? say("Typed answers"), error.problem.sentence));
-      }
-      if (this.#answers !== results) return;
+    for (const [k, one] of asked.entries()) {
+      this.#tell(say("Grading {name} ({k} of {count}) …", { name: one.file?.name ?? say(ANSWERS[one.name]), k: k + 1, count: asked.length }));
+      const found = await judge(this.service, "grade", { ...one, language: this.#language });
+      if (!found || this.#answers !== results) return;
+      results.push(...found);
       this.show();
     }
     this.#tell("");
   }
 }
 
+/**
+ * The boxes of what the service says of a file, or of an answer that was typed; null if another question took its place.
+ * name: of the answer, with its text; file: a workbook
+ * @param {Service} service
+ * @param {{ name?: string, text?: string, file?: File, language: string }} asked
+ */
+export async function judge(service, channel, { name = "", text = "", file, language }) {
+  const title = file?.name ?? say(ANSWERS[name]);
+  if (file?.size === 0) return [refusedBox(title, say("The file is empty."))];
+  const query = file ? { name: file.name.slice(-200), language } : { [name]: text, language };
+  try {
+    return boxes(await service.ask(channel, "grade", { query, file: file ?? new Blob(), headers: bearer() }));
+  } catch (error) {
+    if (error instanceof Superseded) return null;
+    if (!(error instanceof Problem)) throw error;
+    return [refusedBox(title, error.problem.sentence)];
+  }
+}
+
 function refusedBox(title, textContent) {
   const heading = make("h3", { textContent: title });
-  return { refused: make("div", { className: "answer" }, heading, make("p", { className: "error", textContent })) };
+  return make("div", { className: "answer" }, heading, make("p", { className: "error", textContent }));
 }
 
 const paragraph = (textContent, className = "") => make("p", { textContent, className });

@@ -84,8 +84,8 @@ const table = new Table($("#rows"), { choose, chosen: (handle) => state.set({ ha
 const graphs = new Graphs(state, questions, (time) => player.seek(time));
 const doors = new Doors(state, parts);
 addLook();
-/** What belongs to a drawn dance, what stands below the dance, a carrier's view, several dragons, and sharing; null until they have loaded. @type {any} */
-let [route, below, carrier, dragons, sharing] = [null, null, null, null, null];
+/** What belongs to a drawn dance, what stands below the dance, the five questions, a carrier's view, several dragons, and sharing; null until they have loaded. @type {any} */
+let [route, below, strip, carrier, dragons, sharing] = [null, null, null, null, null, null];
 /** Language of the first view. */
 let begun = "";
 /** The language of the sentences that the service has sent. */
@@ -343,6 +343,7 @@ function translate() {
   pace.show();
   player.translate();
   below?.translate(chosen);
+  strip?.translate();
   for (const [kind, show] of Object.entries(SHOW)) if (kind === "dance" ? questions.dance : questions.answers[kind]) show();
   if (dance.scene.pose) showPose(dance.scene.pose);
   TELL.refused();
@@ -407,6 +408,13 @@ async function openBelow() {
   below.translate(language());
 }
 
+/** The five questions of the contest. */
+async function openStrip() {
+  const { Strip } = await parts.load("strip");
+  strip ??= new Strip(service, state, () => scrollTo(0, 0));
+  strip.translate();
+}
+
 /** Scroll to a section, and once more where what loads only now has moved it. */
 async function showSection(name) {
   if (name === "dance") return scrollTo(0, 0); // the picture stays in sight everywhere, so this leads to the top
@@ -437,6 +445,7 @@ function listen() {
     $("#answers").scrollIntoView();
   });
   whenReached(["#people", "#keep", "#sweeps", "#grade"], openBelow);
+  whenReached(["#five"], openStrip);
   whenReached(["#stage"], openRoute, OF_FILES);
   onClick("#several", () => openDragons().then((one) => one.add()));
   addEventListener("keydown", ({ key }) => key === "Escape" && endMessage());

@@ -8,7 +8,7 @@ import { language, learn, say } from "./text.js";
 /** Distance from the view at which a part loads: small until a person scrolls, because answers that come push it down. */
 const [IN_VIEW, A_SCREEN] = ["0px", "100%"];
 /** Parts with a sheet of style: the name of its file. */
-const STYLES = { below: "below.css", carrier: "carrier.css", dragons: "dragons.css", drawn: "place.css" };
+const STYLES = { below: "below.css", carrier: "carrier.css", dragons: "dragons.css", drawn: "place.css", strip: "strip.css" };
 
 /** Add a sheet of style to the page, and wait for it; without it the part works too. */
 const addStyle = (file) =>

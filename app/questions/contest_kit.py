@@ -11,7 +11,7 @@ from app.contest.kit import zip_of
 from app.contest.solved import ContestRequest
 from app.files.film_spec import ENDINGS, LOOKS
 from app.questions.films import SECONDS_PER_MEGAPIXEL
-from app.wire.fields import check_limit, measure
+from app.wire.fields import Whole, check_limit, measure
 from app.wire.question import Question, Terms
 from core.errors import unanswered
 from core.kernels import Halted
@@ -31,10 +31,21 @@ class ContestKitRequest(ContestRequest, strict=True):
     films: bool = Field(True, description="Whether the kit holds a film of the dance and one of the turn")
     gif: bool = Field(False, description="Whether each film is there as a GIF too")
     seconds: float = measure("s", "Length of each film", 20.0, ge=0.1, le=120)
+    question: Whole | None = Field(
+        None,
+        ge=1,
+        le=5,
+        description="The only question that the archive is about: its workbook, tables and figures, without films and "
+        "report; default: all five",
+    )
+
+    @property
+    def has_films(self) -> bool:
+        return self.films and self.question is None
 
     @property
     def shot(self) -> Wanted:
-        return Wanted(self.films, self.gif, self.seconds)
+        return Wanted(self.has_films, self.gif, self.seconds)
 
 
 def contest_kit(request: ContestKitRequest, terms: Terms) -> bytes:
@@ -53,7 +64,7 @@ def contest_kit(request: ContestKitRequest, terms: Terms) -> bytes:
         check_limit(
             field, "cells of a sheet must be at most {most} here", cells, most, "shorten the time or the dragon"
         )
-    if request.films:
+    if request.has_films:
         pixels = round(sum(_megapixels(request).values()))
         check_limit(
             "seconds",
@@ -63,7 +74,7 @@ def contest_kit(request: ContestKitRequest, terms: Terms) -> bytes:
             "take shorter films",
         )
     try:
-        return zip_of(request, request.shot, terms, _overall(request, terms))
+        return zip_of(request, request.shot, terms, _overall(request, terms), request.question)
     except Halted as halted:
         raise unanswered(halted.budget, "benches", "the kit was not made", request.benches) from halted
 
@@ -71,7 +82,7 @@ def contest_kit(request: ContestKitRequest, terms: Terms) -> bytes:
 def _overall(request: ContestKitRequest, terms: Terms) -> Callable[[str, float], None]:
     """Function that reports the share of the whole kit from a step and its own share, and ends a stopped question."""
     steps: dict[str, float] = {}
-    films = len(_megapixels(request)) if request.films else 0
+    films = len(_megapixels(request)) if request.has_films else 0
     weights = [ANSWERS, FIGURES, *[1.0] * films]
 
     def report(step: str, share: float) -> None:
@@ -92,7 +103,7 @@ def _megapixels(request: ContestKitRequest) -> dict[tuple[str, str], float]:
 
 
 def _cost(request: ContestKitRequest) -> float:
-    films = _megapixels(request).items() if request.films else ()
+    films = _megapixels(request).items() if request.has_films else ()
     return SECONDS + sum(pixels * SECONDS_PER_MEGAPIXEL[form] for (_, form), pixels in films)
 
 

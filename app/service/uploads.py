@@ -16,7 +16,7 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import BaseModel, Field
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE
-from app.grade.report import TYPED, GradeAnswer, graded, too_long, typed
+from app.grade.report import GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
 from app.maps.choice import Choice
 from app.maps.places import Places, read_places
@@ -44,6 +44,8 @@ MAPS = (
     *(BYTES, *FORMS, JSON, "application/vnd.google-earth.kmz", "application/toml", "application/dxf"),
     *("text/plain", "text/xml", "application/xml", XLSX_TYPE),
 )
+# Longest number that is typed [characters].
+TYPED_MOST = 60
 # Estimated time of a file, for the Retry-After of a full lane [s].
 COST = 1.0
 STATUSES = (401, 413, 414, 415, 422, 429, 500, 503)
@@ -54,10 +56,10 @@ class GradeQuery(Wire):
 
     name: OneLine = Field("upload", min_length=1, max_length=200, description="Name of the file, as result1.xlsx")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh")
-    collision_time: str | None = measure("s", "Time of first contact", None, pattern=TYPED.pattern)
-    pitch: str | None = measure("m", "Minimum pitch", None, pattern=TYPED.pattern)
-    turn_length: str | None = measure("m", "Length of the turn", None, pattern=TYPED.pattern)
-    speed: str | None = measure("m/s", "Maximum speed of the head", None, pattern=TYPED.pattern)
+    collision_time: str | None = measure("s", "Time of first contact", None, max_length=TYPED_MOST)
+    pitch: str | None = measure("m", "Minimum pitch", None, max_length=TYPED_MOST)
+    turn_length: str | None = measure("m", "Length of the turn", None, max_length=TYPED_MOST)
+    speed: str | None = measure("m/s", "Maximum speed of the head", None, max_length=TYPED_MOST)
 
 
 class PlacesQuery(Wire):

@@ -119,8 +119,6 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
             return "must be a whole number", values
         case "string_type":
             return "must be a string", values
-        case "string_pattern_mismatch" if unit:
-            return "must be a number [{unit}] in digits, such as 0.4503", values
         case "string_pattern_mismatch":
             return "must match the pattern {pattern}", values | {"pattern": limits["pattern"]}
         case "string_too_short":

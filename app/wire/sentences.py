@@ -22,6 +22,9 @@ LABELS: Phrases = {
 }  # fmt: skip
 # What a place is, with # for an index: {number} is one more than the first of them.
 PLACES: Phrases = {
+    "collision_time": "“First contact”",
+    "turn_length": "“Length of the turn”",
+    "speed": "“Maximum head speed”",
     "file": "the file",
     "file.features": "the list of things in the file",
     "path": "the path",

@@ -157,7 +157,10 @@ UNREADABLE = {
     "strict": (strict, "Strict Open XML: save it as an ordinary .xlsx"),
     "another archive": (lambda: zipped({"essay.txt": b"words"}, zipfile.ZIP_STORED), "not an .xlsx workbook"),
     "no sheets": (lambda: repacked(small(), lambda part, content: b"<nonsense/>"), "damaged and cannot be opened"),
-    "a picture": (lambda: b"\x89PNG\r\n\x1a\n" + bytes(200), "neither a workbook nor a table"),
+    "a picture": (lambda: b"\x89PNG\r\n\x1a\n" + bytes(200), "is a picture, such as a screenshot"),
+    "a photo of a phone": (lambda: b"\0\0\0\x18ftypheic" + bytes(200), "is a picture, such as a screenshot"),
+    "a paper": (lambda: b"%PDF-1.7\n" + bytes(200), "is a PDF, not a workbook"),
+    "nonsense": (lambda: b"\x01\x02" + bytes(200), "neither a workbook nor a table"),
     "prose": (lambda: "我们没有算出来，对不起。".encode(), "has the name of a workbook, but its content is text"),
 }
 

@@ -72,3 +72,36 @@ def test_wrong_requests_get_a_clear_word(client, query, kind, content, status, w
 def test_a_name_in_another_encoding_is_no_obstacle(client, name):
     answer = client.post(f"/grade?name={name}", content=b"a,b", headers=FILE).raise_for_status()
     assert answer.json()["files"][0]["verdict"] == "unreadable"
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "notes"),
+    [
+        ("pitch", "0,450338", ["Read as 0.450338.", "The comma counts as the decimal point."]),
+        ("pitch", "0.450338 m", ["Read as 0.450338.", "The unit m is meant anyway and need not be written."]),
+        ("speed", "1.246266M/S", ["Read as 1.246266.", "The unit m/s is meant anyway and need not be written."]),
+        ("collision_time", " 412.473838 ", []),
+        ("turn_length", "１３．６２１２４５", ["Read as 13.621245.", "Its digits are full-width ones"]),
+        ("collision_time", "４１２，４７ 秒", ["Read as 412.47.", "Its digits", "The unit s", "The comma"]),
+    ],
+)
+def test_a_number_is_read_as_people_type_it_and_notes_say_how(client, name, text, notes):
+    [answer] = (
+        client.post("/grade", params={name: text}, content=b"", headers=FILE).raise_for_status().json()["answers"]
+    )
+    assert answer["verdict"] == "right"
+    assert [said[: len(words)] for said, words in zip(answer["notes"], notes, strict=False)] == notes
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("45.03 cm", "“Length of the turn” must be in m, without another unit, got '45.03 cm'."),
+        ("1,234,5", "“Length of the turn” must be a number [m] in digits, such as 0.4503, got '1,234,5'."),
+        ("十三", "“Length of the turn” must be a number [m] in digits, such as 0.4503, got '十三'."),
+    ],
+)
+def test_what_is_no_number_of_its_unit_is_refused_in_a_sentence(client, text, sentence):
+    problem = client.post("/grade", params={"turn_length": text}, content=b"", headers=FILE)
+    assert_problem(problem, 422)
+    assert problem.json()["sentence"] == sentence

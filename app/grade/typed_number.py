@@ -1,0 +1,44 @@
+"""Numbers as people type them: with a comma, with their unit, with full-width digits."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+from app.grade.words import Note, note
+from core import InvalidValue
+from core.errors import Given
+
+# A number as it was typed, because its digits show its rounding.
+TYPED = re.compile(r"[+-]?([0-9]{1,6}(\.[0-9]{0,20})?|\.[0-9]{1,20})([eE][+-]?[0-9]{1,2})?")
+# A number with what stands behind it.
+WITH_UNIT = re.compile(r"(?P<number>[-+0-9.,eE]*[0-9.,])\s*(?P<unit>[^\W\d_eE][^\d_,]*)")
+# How people write each unit.
+WRITTEN = {
+    "s": ("s", "sec", "seconds", "秒"),
+    "m": ("m", "metres", "meters", "米"),
+    "m/s": ("m/s", "mps", "米/秒", "米每秒"),
+}
+
+
+def plain_number(name: str, text: str, unit: str) -> tuple[str, list[Note]]:
+    """The number in a text as a program writes it, with a note on all that it was read through.
+
+    name: of the number; unit: that it must have, whether it is written or not
+    raises: InvalidValue for what is no number, or has another unit
+    """
+    typed = text.strip()
+    bare, notes = unicodedata.normalize("NFKC", typed), []
+    if bare != typed:
+        notes.append(note("full_width"))
+    if not TYPED.fullmatch(bare) and (parts := WITH_UNIT.fullmatch(bare)):
+        if parts["unit"].lower() not in WRITTEN[unit]:
+            raise InvalidValue(name, "must be in {unit}, without another unit", got=Given(text), unit=unit)
+        bare = parts["number"]
+        notes.append(note("with_unit", unit=unit))
+    if bare.count(",") == 1 and "." not in bare:
+        bare = bare.replace(",", ".")
+        notes.append(note("with_comma"))
+    if not TYPED.fullmatch(bare):
+        raise InvalidValue(name, "must be a number [{unit}] in digits, such as 0.4503", got=Given(text), unit=unit)
+    return bare, [note("read_as", number=bare), *notes] if notes else []

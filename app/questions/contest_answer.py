@@ -1,0 +1,281 @@
+"""The question contest_answer: one of the contest's five questions, answered as a student hands it in, with reasons."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+import core
+from app.contest import pictures
+from app.contest.pictures import Picture
+from app.contest.solved import EVEN, ContestRequest
+from app.wire.answers import SENTENCES
+from app.wire.fields import Answer, Whole, Wire
+from app.wire.question import Question, Terms
+from app.wire.readings import contact_words, handles_words, limit_words, pitch_words, turn_words
+from core import Dance, Dragon
+from core.errors import format_bound, format_number
+from core.language import phrase, say
+
+# The problem as the contest gives it.
+PROBLEM = ContestRequest()
+# Estimated time of each answer, and of one with the shortest turns [s], measured 2026-11-30.
+COSTS, FURTHER = {1: 0.01, 2: 0.01, 3: 0.1, 4: 0.01, 5: 0.02}, 4.0
+# The question about the turn.
+TURN = 4
+# What makes one turn differ from another.
+SHAPE = ("ratio", "entry_radius", "exit_radius")
+# Distance from an arc within which a handle is on it [m].
+ON_ARC = 1e-6
+
+
+class ContestAnswerQuery(Wire):
+    """One of the five questions."""
+
+    question: Whole = Field(1, ge=1, le=5, description="Number of the question")
+    further: bool = Field(
+        False, description="Whether the answer has what takes seconds too: for question 4 the shortest turns"
+    )
+
+
+class Offer(Answer):
+    """A dance that an answer tells of, to be looked at."""
+
+    words: str = Field(description="What the offer does, on a button")
+    path: Literal["spiral", "turn"] = Field(description="Its path")
+    numbers: dict[str, float] = Field(
+        description="What differs from the contest's numbers: fields of a dance; time, the instant to look at [s]; "
+        "and handle, the one to look at"
+    )
+
+
+class ContestAnswer(Answer):
+    """The answer to one of the contest's questions."""
+
+    question: int = Field(description="Number of the question")
+    asks: str = Field(description="The question in a sentence")
+    text: str = Field(description="The answer with the digits that the contest asks for, and its unit")
+    sentences: list[str] = SENTENCES
+    more: str | None = Field(None, description="What the answer has with `further`, as a question; null if no more")
+    picture: Picture = Field(description="A picture of the answer, as lines")
+    offers: list[Offer] = Field(description="Dances that the answer tells of")
+    workbook: str | None = Field(description="Name of the workbook that the contest asks for; null if it asks for none")
+    number: str | None = Field(
+        description="Name of the number that POST /grade judges for this question; null if it is all in the workbook"
+    )
+    example: str | None = Field(description="That number as a student may write it; null without one")
+
+
+def contest_answer(request: ContestAnswerQuery, terms: Terms) -> ContestAnswer:
+    """One of the contest's five questions (CUMCM 2024 A), with its reasons, a picture and what is handed in."""
+    turn = _shorter if request.further else _turn
+    answers: list[Callable[[Dragon, Terms], ContestAnswer]] = [_motion, _contact, _pitch, turn, _speed]
+    return answers[request.question - 1](PROBLEM.to_dragon(terms.settings.checked_benches_max), terms)
+
+
+def _spiral(dragon: Dragon) -> Dance:
+    return Dance(dragon, PROBLEM.to_path(), PROBLEM.head_speed)
+
+
+def _motion(dragon: Dragon, terms: Terms) -> ContestAnswer:
+    time = PROBLEM.stop
+    motion = core.trajectory(_spiral(dragon), [time], budget=terms.budget)
+    (x, y), (tail_x, tail_y), rear = motion.position[-1, 0], motion.position[-1, -1], float(motion.speed[-1, -1])
+    words = [
+        say(
+            "There is the head at {time:g} s. The rear of the tail is then at ({x:.6f}, {y:.6f}) m and moves at "
+            "{speed:.6f} m/s.",
+            time=time,
+            x=tail_x,
+            y=tail_y,
+            speed=rear,
+        ),
+        say(
+            "Each handle is the first place on the spiral behind the one before it at the distance of the two holes, "
+            "and a rigid bench passes the speed on: the speeds of its two ends along the bench are equal."
+        ),
+    ]
+    return ContestAnswer(
+        question=1,
+        asks=say("Where is every handle, and how fast, in every second up to {time:g} s?", time=time),
+        text=f"({x:.6f}, {y:.6f}) m",
+        sentences=words,
+        picture=pictures.of_motion(motion, time),
+        offers=[Offer(words=say("Show the dance at {time:g} s", time=time), path="spiral", numbers={"time": time})],
+        workbook="result1.xlsx",
+        number=None,
+        example=None,
+    )
+
+
+def _contact(dragon: Dragon, terms: Terms) -> ContestAnswer:
+    dance = _spiral(dragon)
+    contact = core.first_contact(dance, budget=terms.budget)
+    graze = contact.certificate.least_clearance
+    assert contact.time is not None
+    assert graze is not None
+    at_contact = core.trajectory(dance, [contact.time], budget=terms.budget).position[-1]
+    words = [
+        *contact_words(contact),
+        say(
+            "Nothing touched earlier, which {steps} steps prove, each as long as it is sure to be clear. Steps of "
+            "equal length may miss it: at {time:.2f} s two benches pass with {gap:.3f} mm between them.",
+            steps=contact.certificate.steps,
+            time=graze.time,
+            gap=1000.0 * graze.clearance,
+        ),
+    ]
+    return ContestAnswer(
+        question=2,
+        asks=say("When do two benches first touch, so that the dance must end?"),
+        text=f"{contact.time:.6f} s",
+        sentences=words,
+        picture=pictures.of_contact(contact, at_contact, dragon),
+        offers=[Offer(words=say("Show the contact"), path="spiral", numbers={"time": contact.time})],
+        workbook="result2.xlsx",
+        number="collision_time",
+        example="412.473838",
+    )
+
+
+def _pitch(dragon: Dragon, terms: Terms) -> ContestAnswer:
+    minimum = PROBLEM.least_pitch(dragon, terms.budget)
+    words = [
+        *pitch_words(minimum, dragon, PROBLEM.turning_diameter, 0.0, 0.0),
+        say(
+            "So it is not enough to look at the dance with the head on the circle, and halving cannot search for the "
+            "radius at which the head stops: as the pitch grows that radius falls in jumps, over the circle."
+        ),
+    ]
+    pitch = format_bound(minimum.pitch, 6, up=True)
+    return ContestAnswer(
+        question=3,
+        asks=say(
+            "What is the smallest pitch at which the head reaches the circle of {diameter} m?",
+            diameter=format_number(PROBLEM.turning_diameter),
+        ),
+        text=f"{pitch} m",
+        sentences=words,
+        picture=pictures.of_pitch(minimum, PROBLEM.turning_radius, dragon, terms.budget),
+        offers=[Offer(words=say("Use this pitch"), path="spiral", numbers={"pitch": minimum.pitch_bracket[1]})],
+        workbook=None,
+        number="pitch",
+        example="0.450338",
+    )
+
+
+def _turn(dragon: Dragon, terms: Terms) -> ContestAnswer:
+    turn = PROBLEM.to_turn()
+    words = [
+        say(
+            "With its ends on the circle no ratio changes this length: both arcs turn by {angle:.6f} rad, and their "
+            "radii add up to {sum:.6f} m at every ratio, so the length is the product.",
+            angle=turn.angles[0],
+            sum=sum(turn.radii),
+        ),
+        say(
+            "A turn is shorter if it may begin or end inside the circle, until a bend is too tight for the longest "
+            "bench: its radius must be at least half of the distance of its two handles, {least:.3f} m.",
+            least=0.5 * float(dragon.chords.max()),
+        ),
+    ]
+    return ContestAnswer(
+        question=4,
+        asks=say("How long is the turn of two arcs in the circle, and can it be shorter?"),
+        text=f"{turn.length:.6f} m",
+        sentences=words,
+        more=say("How much shorter?"),
+        picture=pictures.of_turn(turn),
+        offers=[_turn_offer(say("Dance this turn"), turn)],
+        workbook="result4.xlsx",
+        number="turn_length",
+        example="13.621245",
+    )
+
+
+def _turn_offer(words: str, turn: core.Turn) -> Offer:
+    return Offer(words=words, path="turn", numbers={name: getattr(turn, name) for name in SHAPE} | {"time": 0.0})
+
+
+def _shorter(dragon: Dragon, terms: Terms) -> ContestAnswer:
+    """Question 4 with the shortest turns of its ratio and of equal arcs."""
+    answer, circle = _turn(dragon, terms), (PROBLEM.turn_pitch, PROBLEM.turning_radius)
+    for ratio, template in (
+        (PROBLEM.ratio, phrase("The shortest one with the same ratio, {ratio:g}, is {length:.6f} m long.")),
+        (EVEN, phrase("With two equal arcs it is {length:.6f} m long.")),
+    ):
+        shortest = core.shortest_turn(dragon, *circle, ratio, budget=terms.budget)
+        turn = shortest.turn
+        answer.sentences += [
+            say(template, ratio=ratio, length=turn.length),
+            turn_words(turn),
+            limit_words(shortest.limited_by, 0.0, 0.0),
+        ]
+        answer.offers.append(_turn_offer(say("Dance the turn of {length:.2f} m", length=turn.length), turn))
+    answer.more = None
+    return answer
+
+
+def _speed(dragon: Dragon, terms: Terms) -> ContestAnswer:
+    turn, limit = PROBLEM.to_turn(), PROBLEM.speed_limit
+    fastest = core.maximum_head_speed(Dance(dragon, turn), limit, budget=terms.budget)
+    peak, first = fastest.time_at_unit_head_speed, fastest.handles[0]
+    place = core.trajectory(Dance(dragon, turn), [peak], budget=terms.budget).position[-1, first]
+    where = phrase("There handle {first} is at ({x:.2f}, {y:.2f}) m.")
+    on_first, on_second = (
+        abs(float(np.hypot(*(place - centre))) - radius) < ON_ARC
+        for centre, radius in zip(turn.centres, turn.radii, strict=True)
+    )
+    if on_first:
+        where = phrase(
+            "There handle {first} is at ({x:.2f}, {y:.2f}) m, still on the first arc, and handle {ahead} before it "
+            "on the second one, which bends the other way: the bench between them stands askew to the path, and a "
+            "rigid bench passes a speed on along itself."
+        )
+    elif on_second:
+        where = phrase("There handle {first} is at ({x:.2f}, {y:.2f}) m, on the second arc.")
+    words = [
+        say(
+            "The fastest are {handles}, one after another, with {ratio:.4f} times the speed of the head, which is "
+            "then {way:.2f} m past the beginning of the turn.",
+            handles=handles_words(fastest.handles),
+            ratio=fastest.speed_ratio,
+            way=peak,
+        ),
+        say(where, first=first, ahead=first - 1, x=place[0], y=place[1]),
+        say(
+            "So {limit:g} m/s of theirs allow the head {limit:g} / {ratio:.6f} = {speed:.6f} m/s.",
+            limit=limit,
+            ratio=fastest.speed_ratio,
+            speed=fastest.head_speed,
+        ),
+    ]
+    low, _ = fastest.head_speed_bracket
+    speed = fastest.head_speed if low is None else low
+    return ContestAnswer(
+        question=5,
+        asks=say("How fast may the head be, so that no handle exceeds {limit:g} m/s?", limit=limit),
+        text=f"{format_bound(speed, 6)} m/s",
+        sentences=words,
+        picture=pictures.of_speed(fastest, dragon, turn, terms.budget),
+        offers=[
+            Offer(
+                words=say("Dance at this speed"),
+                path="turn",
+                numbers={"head_speed": speed, "time": fastest.time, "handle": float(first)},
+            )
+        ],
+        workbook=None,
+        number="speed",
+        example="1.246266",
+    )
+
+
+def _cost(request: ContestAnswerQuery) -> float:
+    return FURTHER if request.further and request.question == TURN else COSTS[request.question]
+
+
+QUESTION = Question(contest_answer, ContestAnswer, flat=ContestAnswerQuery, cost=_cost)
