@@ -10,7 +10,7 @@ from core.display import WithArrays, display
 from core.dragon import Dragon
 from core.errors import checked_type
 from core.language import counted, say
-from core.paths.following import tightest_bend
+from core.paths.following import following, tightest_bend
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.values import Floats
@@ -23,13 +23,13 @@ BEND_POINTS = 24
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class TightBend(WithArrays):
-    """A part of a path that curves too tightly for the longest bench; for angles of benches see SharpestBend.
+    """A part of a path that curves too tightly for a bench; for angles of benches see SharpestBend.
 
     start: start of the stretch, along the path [m]
     end: end of the stretch, along the path [m]
     points: points along it, x and y [m]
     radius: least radius there; of a curve through waypoints, at least this [m]
-    least_radius: least radius that the bench can follow [m]
+    least_radius: least radius that every bench can follow on bends of any length [m]
     bench: the bench with the longest chord
     """
 
@@ -70,20 +70,23 @@ class Course(WithArrays):
 def course(path: Spiral | Route, dragon: Dragon) -> Course:
     """The path from its beginning to its end, and its bends that are too tight for the dragon.
 
-    A bend is too tight for a chord c where |curvature| c / 2 exceeds a limit, past which the next handle is not unique
-    (core/dance.py). On a spiral there is none: its dance ends in a fold.
+    A bend is too tight where a bench that reaches over it would jump, stand across the path or go backwards
+    (core/paths/following.py). On a spiral there is none: its dance ends in a fold.
 
     >>> from core import Legs
-    >>> course(Legs([(0, 0), (20, 0), (20, 20)], [0, 1], radius=1.0), Dragon()).bends
-    (<TightBend: radius 1 m from s = 19 to 20.5707963 m>,)
+    >>> course(Legs([(0, 0), (20, 0), (12, 20)], [0, 1], radius=1.0), Dragon()).bends
+    (<TightBend: radius 1 m from s = 18.5133474 to 20.4636482 m>,)
     """
     checked_type("path", path, (Spiral, Route))
     checked_type("dragon", dragon, Dragon)
     length = path.end - path.begin
     s = np.linspace(path.begin, path.end, min(int(length / STEP) + 2, POINTS_MAX))
     least, bench = tightest_bend(dragon)
+    tight = path.tighter(least)
+    obstacles = following(dragon, path.as_route(path.end)).obstacles if tight else ()
     bends = tuple(
         TightBend(start, end, path.position(np.linspace(start, end, BEND_POINTS)), 1.0 / sharpest, least, bench)
-        for start, end, sharpest in path.tighter(least)
+        for start, end, sharpest in tight
+        if any(obstacle.rear <= end and obstacle.s >= start for obstacle in obstacles)
     )
     return Course(s, path.position(s), length, path.knots, bends)

@@ -164,7 +164,7 @@ class Dance(Readable):
     end: end of the run: the fold or the centre of a spiral, the end of a route
 
     raises: InvalidValue for values of other types, for a dragon that cannot stand at the start of a spiral
-        (path.start_turns), and for a bend of a route too tight for a chord (path); `earliest` refuses a short route
+        (path.start_turns), and for a route that a bench cannot follow (path); `earliest` refuses a short route
 
     >>> dance = Dance(Dragon(), Spiral())
     >>> dance.end.reason.value, round(dance.end.time, 3)
@@ -319,7 +319,7 @@ def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
     """End of the run."""
     spiral = path.spiral
     if spiral is None:  # a route has bends to check and an end, a spiral a fold or a centre
-        refuse_tight_bends(dragon, path.as_route(path.end))
+        refuse_tight_bends(dragon, path.as_route(path.end), clock.time)
         return RunEnd(EndReason.END, clock.time(path.end), None, None)
     theta, bench = end_theta(dragon, spiral)
     if theta >= spiral.start_theta:

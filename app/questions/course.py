@@ -84,7 +84,7 @@ def course(request: CourseRequest, terms: Terms) -> Course:
 def _bend_words(bend: core.TightBend, dragon: core.Dragon) -> str:
     radius, least = told_apart(bend.radius, bend.least_radius, 2)
     return say(
-        "The bend is too tight: its radius is {radius} m, and {bench} needs {least} m.",
+        "The bend is too tight: its radius is {radius} m. With {least} m {bench} can always follow.",
         radius=radius, least=least, bench=bench_words(bend.bench, dragon),
     )  # fmt: skip
 

@@ -89,7 +89,7 @@ def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
     name = next((name for name in MEND_A_TURN if _mends(name, fields, dragon)), "turning_diameter")
     rule, unit = OTHER_RULES.get(name, ("must be larger than {given}", "m"))
     (tightest, bench), bend = tightest_bend(dragon), 1.0 / path.sharpest[0]
-    why = "the turn bends to a radius of {bend}, and bench {bench} follows none below {least}"
+    why = "the turn bends to a radius of {bend}, where a bench cannot follow; {least} suffices for bench {bench}"
     values = quantities(unit, given=getattr(fields, name)) | quantities("m", 4, bend=bend, least=tightest)
     return type(error)(f"path.{name}" if body else name, f"{rule}: {why}", bench=bench, **values)
 

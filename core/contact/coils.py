@@ -28,6 +28,7 @@ from core.kernels.constants import (
     SIGN,
     SPIRAL,
 )
+from core.paths.following import ARC_MOST, longest_arc
 from core.paths.route import Route
 from core.values import Floats
 
@@ -36,8 +37,6 @@ RADIUS_FACTOR = 1.1
 RADIUS_MAX = 1e4
 # Columns of the centre of an arc or a coil.
 CENTRE = slice(CENTRE_X, CENTRE_Y + 1)
-# Upper bound of an arc over its chord [1].
-STRETCH = 0.5 * math.pi
 # Largest distance, in units of the growth, between the middle of a chord and the foot of the perpendicular from the
 # centre, wherever ring_least() has a bound (core/kernels/rings.py) [1].
 FOOT = 1.67
@@ -110,8 +109,8 @@ def _extent(path: Route, row: Floats, centre: Floats) -> float:
 # directions that differ by x, |x| <= pi, the polar angles on their own coils differ by offset + 2 pi m + x, in one
 # order or the other. So growth offset takes the place of the pitch, and no bench lies beside another of its turn.
 #
-# A bench with a handle within `rings` has its other handle on a coil at most pi c / 2 of arc further out, because no
-# arc under a chord is longer. So no point of the bench is further out than that radius + o + w / 2. If the path between
+# A bench with a handle within `rings` has its other handle on a coil at most longest_arc() of arc further out. So no
+# point of the bench is further out than that radius + o + w / 2. If the path between
 # the coils is longer than that arc, no bench is on both coils. From beyond() of that radius and the margin outwards
 # nothing comes near a bench on a coil. So once all handles of the leading benches, up to the first of the equal ones,
 # are there on the coil outwards, these benches meet nothing any more. Every bench behind them repeats a meeting of one
@@ -140,14 +139,17 @@ def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
     return None
 
 
-def free_arc(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
-    """Arc of the coil outwards to the head's place from which nothing can touch any more [m]; None if not known."""
+def free_arc(dragon: Dragon, coils: TwoCoils, margin: float, arc: float) -> float | None:
+    """Arc of the coil outwards to the head's place from which nothing can touch any more [m]; None if not known.
+
+    arc: upper bound of the way along the path under a bench [m]
+    """
     growth, leaders = coils.growth, dragon.chords[: dragon.uniform_from + 1]
-    longest, rings = float(leaders.max()), rings_clear(dragon, coils, margin)
-    if rings is None or STRETCH * longest >= coils.length:
+    rings = rings_clear(dragon, coils, margin)
+    if rings is None or arc >= coils.length:
         return None
-    reach = growth * float(kernels.spiral_theta(kernels.spiral_arc(rings / growth) + STRETCH * longest / growth))
-    return max(0.0, coils.arc(beyond(dragon, growth, reach, margin))) + STRETCH * float(leaders.sum())
+    reach = growth * float(kernels.spiral_theta(kernels.spiral_arc(rings / growth) + arc / growth))
+    return max(0.0, coils.arc(beyond(dragon, growth, reach, margin))) + ARC_MOST * float(leaders.sum())
 
 
 def beyond(dragon: Dragon, growth: float, handles: float, margin: float) -> float:
@@ -197,7 +199,7 @@ def clear_places(
     clear = min(first[S_END] - kernels.BLEND, first[S_START] + first[COIL_ARC] - arc) - kernels.PLACE_SPARE
     clear -= rounding(clear)
     coils = two_coils(path)
-    out = None if coils is None else free_arc(dragon, coils, margin)
+    out = None if coils is None else free_arc(dragon, coils, margin, longest_arc(dragon, path))
     if out is None:
         return -clear, -FREE
     end = float(path.table[-1, S_START]) + out + kernels.PLACE_SPARE

@@ -22,7 +22,7 @@ import numpy as np
 
 from core import kernels
 from core.contact.answer import FirstContact, Outcome
-from core.contact.coils import STRETCH, TwoCoils, beyond, free_arc
+from core.contact.coils import TwoCoils, beyond, free_arc
 from core.contact.first_contact import contact_within
 from core.dance import Dance
 from core.design.turn_circle import checked_circle
@@ -38,7 +38,7 @@ from core.errors import (
 )
 from core.kernels import Budget, Halted
 from core.language import phrase, say
-from core.paths.following import follows
+from core.paths.following import ARC_MOST, bends_widely, longest_arc
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.sampling import bisect
@@ -279,14 +279,14 @@ def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: flo
     """
     refuse_bend(dragon, turn_at(radius))
     low, high = min(max(ENTRY_STEP * radius, ENTRY_MIN), radius), radius
-    if follows(dragon, turn_at(low)):
+    if bends_widely(dragon, turn_at(low)):
         return None, low
-    return bisect(lambda entry: follows(dragon, turn_at(entry)), low, high, width=ENTRY_WIDTH)
+    return bisect(lambda entry: bends_widely(dragon, turn_at(entry)), low, high, width=ENTRY_WIDTH)
 
 
 def refuse_bend(dragon: Dragon, danced: Turn) -> None:
     """Refuse the circle if a chord cannot follow a turn that begins on it. raises: InvalidValue (turning_radius)"""
-    if not follows(dragon, danced):
+    if not bends_widely(dragon, danced):
         why = "a turn that begins on the circle bends to a radius of {bend}, too tight for the longest chord ({chord})"
         sharpest, chord = 1.0 / danced.sharpest[0], float(dragon.chords.max())
         values = quantities("m", got=danced.turning_radius) | quantities("m", 4, bend=sharpest)
@@ -302,8 +302,8 @@ def way_followed(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dr
     """Travel of the head from the entry that needs a search [m], and the benches that matter until then, see
     core/contact/coils.py."""
     coils, chords = coils_of(danced), dragon.chords
-    whole = danced.length + STRETCH * float(chords.sum())
-    out = free_arc(dragon, coils, margin)
+    whole = danced.length + ARC_MOST * float(chords.sum())
+    out = free_arc(dragon, coils, margin, longest_arc(dragon, danced))
     if out is None or danced.length + out >= whole:
         return whole, dragon
     head = coils.growth * float(kernels.spiral_theta((out - coils.arc(0.0)) / coils.growth))

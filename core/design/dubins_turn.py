@@ -32,7 +32,7 @@ from core.dragon import Dragon, chord_values
 from core.errors import InvalidValue, Quantity, quantities, question_about, too_much
 from core.kernels import Budget, Halted
 from core.language import say
-from core.paths.following import follows
+from core.paths.following import bends_widely
 from core.paths.pieces import LENGTH_MIN, Arc, Coil, Line, Piece
 from core.paths.route import Route
 from core.paths.turn import OUTSIDE
@@ -168,7 +168,7 @@ class _Scan:
         """The turn at a place if it is inside the circle and proven free of contacts."""
         self.budget.afford()
         turn = self._turn(place, sigma)
-        if turn is None or not follows(self.dragon, turn.path):
+        if turn is None or not bends_widely(self.dragon, turn.path):
             return None
         dance = Dance(self.dragon, turn.path)
         self.evaluations += 1

@@ -33,7 +33,7 @@ from core.kernels import Budget, Halted
 from core.language import say
 from core.motion.trajectory import trajectory
 from core.paths.clothoid_turn import ClothoidTurn
-from core.paths.following import follows
+from core.paths.following import bends_widely
 from core.paths.turn import Turn
 
 # Step of the grid of entry and exit radii, as a part of the circle's radius [1].
@@ -200,7 +200,7 @@ class _Times:
             turn = self.circle.turn(entry, leaving)
         except InvalidValue:
             return None
-        return turn if follows(self.dragon, turn) else None
+        return turn if bends_widely(self.dragon, turn) else None
 
     def _lowered(self, time: float, place: tuple[float, float]) -> tuple[float, tuple[float, float]]:
         """The time lowered by steps along both radii and both diagonals, which halve down to WIDTH."""

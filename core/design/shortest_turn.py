@@ -53,7 +53,7 @@ from core.errors import (
 )
 from core.kernels import Budget, Halted
 from core.language import say
-from core.paths.following import follows
+from core.paths.following import bends_widely
 from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
 from core.values import Floats
 
@@ -327,7 +327,7 @@ class TurnSearch:
 
     def _allows(self, danced: Turn) -> bool:
         """Whether a turn can be danced, with a proof."""
-        if not follows(self.dragon, danced):
+        if not bends_widely(self.dragon, danced):
             return False
         self.evaluations += 1
         touch = contact_in(self.budget, self.dragon, danced, self.margin, self.stray)

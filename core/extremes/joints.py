@@ -13,6 +13,7 @@ from core.display import Readable
 from core.errors import question_about
 from core.kernels import Budget
 from core.motion.trajectory import trajectory
+from core.paths.following import longest_arc
 from core.sampling import dips
 from core.values import Floats
 
@@ -72,7 +73,7 @@ def sharpest_bend(
 
 def _opened(dance: Dance, grid: Floats, budget: Budget | None) -> int:
     """Number of instants until every handle has passed the start of the one before it."""
-    ahead = 0.5 * math.pi * dance.dragon.chords.max()  # no arc under a chord is longer
+    ahead = longest_arc(dance.dragon, dance.path.as_route(dance.path.end))
     moved, step = np.zeros(dance.dragon.benches + 1), grid[1] - grid[0]
     for k, time in enumerate(grid):
         if moved.min() > ahead:

@@ -36,6 +36,7 @@ ensemble     several dragons in time                      rates          bounds 
 speed        the highest speed
 excess       first time beyond a speed limit              wobble         contacts when people wobble
 fills        rectangles in the bytes of a picture
+follower     a bench on bends of any radius: no jump, no step back
 """
 
 from core.kernels.band_march import BandMarch
@@ -60,6 +61,7 @@ from core.kernels.ensemble import BENCHES_PER_BLOCK, Ensemble, Member
 from core.kernels.excess import Excess
 from core.kernels.fills import fill_rectangles
 from core.kernels.fold import first_crest, first_root, fold_theta, previous_theta
+from core.kernels.follower import Follower
 from core.kernels.gap_curvature import axis_curvature, pair_curvatures, shift_curvature
 from core.kernels.hulls import Kinds, hulls_near, largest_supports
 from core.kernels.marching import March

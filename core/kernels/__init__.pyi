@@ -91,6 +91,16 @@ def route_trajectory(
     speed: Floats,
 ) -> None: ...
 
+class Follower:
+    reached: float
+    rear: float
+    rear_cosine: float
+    front_cosine: float
+    longest: float
+    work: float
+    def __init__(self, pieces: Floats, chord: float, least: float) -> None: ...
+    def follow(self, start: float, stop: float, beyond: float, most_work: float) -> Follows: ...
+
 # -- on either --
 
 class Curve:

@@ -18,7 +18,7 @@ cdef double summed_widening(double growth, Py_ssize_t benches, Rows sizes, Rows 
 cdef LinkBounds curved_link(double chord, double k_low, double k_high, double rate_a, double rate_low) noexcept nogil
 
 cdef LinkBounds followed_link(
-    Py_ssize_t k, double h, double k_high, double rate_a, Rows sizes, Rows before, Rows after
+    Py_ssize_t k, double h, double k_high, double rate_a, double chord, double blur, Rows before, Rows after
 ) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t)

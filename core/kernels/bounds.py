@@ -126,10 +126,11 @@ def curved_link(chord, k_low, k_high, rate_a, rate_low):
     return LinkBounds(front, rear, sine, rate_a, rate_low, k_high * rate_a, k_low * rate_low, swing, swing, False, True)
 
 
-def followed_link(k, h, k_high, rate_a, sizes, before, after):
-    """Bounds on a link whose angles are followed from the ends of the interval, as far as they are known."""
-    chord = sizes[k, CHORD]
-    blur = blur_of(k, SPIRAL_SWAY / chord, before, after)
+def followed_link(k, h, k_high, rate_a, chord, blur, before, after):
+    """Bounds on a link whose angles are followed from the ends of the interval, as far as they are known.
+
+    blur: error of the cosines of these angles at either end [1]
+    """
     front, rear = link_cosines(k, before)
     front_end, rear_end = link_cosines(k, after)
     front = (fabs(front) if fabs(front) > fabs(front_end) else fabs(front_end)) + blur
@@ -190,7 +191,8 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
                 inwards = (1.0 + widened) / growth
                 k_high = spiral_curvature(inner) * inwards
             followed = True
-            link = followed_link(k, h, k_high, rate_a, sizes, before, after)
+            blur = blur_of(k, SPIRAL_SWAY / chord, before, after)
+            link = followed_link(k, h, k_high, rate_a, chord, blur, before, after)
             if not link.bounded:
                 return False
         swung = rate_a * link.swing_front + link.rate * link.swing_rear
@@ -255,7 +257,8 @@ def bound_climb(k, h, stretch, cosines, before, after, motion):
     climb_error = motion[k, CLIMB_ERROR]
     widened = stretch.widened * (rate_a * rate_a + rate_b * rate_b)
     climb_error += 2.0 * stretch.blur * (motion[k, RATE_RATE] + turned) + widened
-    climb_error += 8.0 * (rate_a + rate_b) * (error_a + error_b + stretch.blur * (rate_a + rate_b)) / stretch.chord
+    lost = 8.0 * (rate_a + rate_b) * (error_a + error_b + stretch.blur * (rate_a + rate_b)) / stretch.chord
+    climb_error += lost * max(1.0, stretch.sine)
     climb_error /= cosines.rear_low
     if motion[k + 1, CROSSED] == 0.0:
         motion[k + 1, RATE_RATE] = second_b = min(second_b, turned + climb_error + 0.5 * h * motion[k + 1, RATE_JERK])
@@ -269,7 +272,8 @@ def bound_climb(k, h, stretch, cosines, before, after, motion):
 # State:  rate_low and third_a, bounds on the rate of handle k and on its |s'''|; the rest stands in its motion row.
 # Output: a motion row for every bench and the handle in front of it, see constants.py.
 def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
-    """motion_bounds() on a route. The chord lemma serves throughout, because no handle reverses where k chord < 2.
+    """motion_bounds() on a route. No handle reverses there. The chord lemma serves where k chord < 2; a link on sharper
+    bends is followed from the ends of the interval, with 1 for its sines.
 
     Where the curvature changes sign between two handles, the angles lie in [-k l / 2, k l / 2] for the larger |k|. The
     cosines of the angles are also followed from both ends of the interval, as near the centre of a spiral: |cos alpha|'
@@ -288,17 +292,26 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
         stretch = link_stretch(pieces, k, benches, sizes, before, after)
         high = stretch.high
         sine = stretch.sine
-        if not (sine <= ROUTE_SINE_ROUNDED):
-            return False
         rate_a = motion[k, RATE_HIGH]
         second_a = motion[k, RATE_RATE]
-        cosines = route_cosines(k, h, stretch, rate_a, rate_low, before, after)
-        front = cosines.front_high
-        rear = cosines.rear_low
-        ratio_low = cosines.front_low / cosines.rear_high
-        rate_b = LOOSEN * rate_a * front / rear
-        omega = high * max(rate_a, rate_b)
-        swing = swing_bound(stretch.low, high, rate_a, rate_low, front / rear, ratio_low)
+        if sine <= ROUTE_SINE_ROUNDED:
+            cosines = route_cosines(k, h, stretch, rate_a, rate_low, before, after)
+            front = cosines.front_high
+            rear = cosines.rear_low
+            ratio_low = cosines.front_low / cosines.rear_high
+            rate_b = LOOSEN * rate_a * front / rear
+            omega = high * max(rate_a, rate_b)
+            swing = swing_bound(stretch.low, high, rate_a, rate_low, front / rear, ratio_low)
+        else:
+            link = followed_link(k, h, high, rate_a, stretch.chord, stretch.blur, before, after)
+            if not link.bounded:
+                return False
+            cosines = Cosines(0.0, link.cos_front, link.cos_rear, 1.0)
+            rear = link.cos_rear
+            rate_b = LOOSEN * rate_a * link.cos_front / rear
+            omega = link.omega
+            swing = max(link.swing_front, link.swing_rear)
+            front = sine = 1.0
         second_b = LOOSEN * (front * second_a + sine * swing * (rate_a + rate_b)) / rear
         spin = omega * omega + (front * swing * (rate_a + rate_b) + sine * (second_a + second_b)) / stretch.chord
         pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b))

@@ -101,8 +101,11 @@ BOX_COLUMNS = 4
 # Largest curvature chord / 2 at which the chord lemma serves on a spiral; beyond it the angles are followed [1].
 SINE_LIMIT = 0.97
 # The same on a route, where the cosines of the angles are followed too [1]. At 1 a chord is the diameter of its bend,
-# and its rear handle can be infinitely faster than its front one; here it can be 22 times faster.
+# and its rear handle can be infinitely faster than its front one; here it can be 22 times faster. A sharper bend can be
+# followed if its dragon is proven to do so (follower.py).
 ROUTE_SINE_LIMIT = 0.999
+# Least u . T at the rear handle there: what ROUTE_SINE_LIMIT leaves, sqrt(1 - 0.999^2) [1].
+REAR_COSINE_LEAST = 0.04471017781221601
 
 # Larger than any step or distance, with a square that does not overflow [m]. As a radius or a place: nothing lies
 # beyond it. As a lower bound of a gap it means that there is no pair.
@@ -143,7 +146,8 @@ LOOSE = 16  # largest distance of the piece from the path, whose tangent is cont
 CURVATURE_SLACK = 17  # largest difference between its curvature and that of the path [1/m]
 # What S_START, S_END and COIL_ARC [m], and COIL_GROWTH [m/rad], have lost in rounding.
 S_START_LOW, S_END_LOW, COIL_ARC_LOW, COIL_GROWTH_LOW = range(18, 22)
-PIECE_COLUMNS = 22
+SHARPEST = 22  # the largest |curvature| of all rows, the same in each [1/m]
+PIECE_COLUMNS = 23
 # Up to CLOTHOID a place follows from the arc length itself, on a cubic from a quadrature.
 LINE, ARC, SPIRAL, CLOTHOID, CUBIC, CREST = range(6)
 PIECE_KINDS = ("line", "arc", "spiral", "clothoid", "cubic", "crest")
@@ -167,6 +171,17 @@ class Ended(IntEnum):
     CAPACITY = 4
     UNBOUNDED = 5  # no bound on the motion is known: a handle may move backwards
     BENCH_FOLDED = 6
+
+
+class Follows(IntEnum):
+    """Reason why a bench is not shown to follow a route beyond a place: see follower.py."""
+
+    PROVEN = 0
+    SIDEWAYS = 1  # u . T at its rear handle falls to the least that counts as followable
+    BACKWARDS = 2  # u . T at its front handle falls to zero, so that the rear one would walk backwards
+    JUMPS = 3  # a nearer place of the route comes to the chord
+    NOWHERE = 4  # no place behind is a chord away
+    UNKNOWN = 5  # the work does not suffice
 
 
 class Step(IntEnum):

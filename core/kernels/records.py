@@ -54,7 +54,7 @@ class Stretch(NamedTuple):
     high: float
     slope: float  # bound on |d curvature / d s| [1/m^2]
     widened: float  # error of the curvature, which the range includes [1/m]
-    sine: float  # of the largest angle between path and bench, by the chord lemma [1]
+    sine: float  # high chord / 2; up to 1, by the chord lemma, that of the largest angle between path and bench [1]
     blur: float  # error of the cosines of these angles at either end [1]
 
 

@@ -127,6 +127,8 @@ def spiral_error(growth, last, longest, chain):
 # From link to link the distance of the computed points misses the chord by a difference that is measured, however the
 # search for it ended, and by the points' own errors:
 #     local = (|distance - chord| + (E - SLIP)[a] + (E - SLIP)[b] + 8 u chord) / cos alpha_b.
+# A handle's tangent turns by the curvature k per metre, 2 / chord at most on all but sharper routes: there k / 2 stands
+# for 1 / chord.
 # A place that rounding puts beyond a joint is taken on the piece before the joint, extended that far: the error of its
 # point is the square of that.
 # The head's place is not exactly that of its s: slide_error() below, an error of the travel, not of the shape.
@@ -237,9 +239,10 @@ def route_rounding(pieces, last, sizes, chain):
     """Fill in SLIP, ERROR and SWAY of a chain up to handle `last`."""
     first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])
     spot = chain_spot(pieces, first, chain)
+    sharpest = pieces[0, SHARPEST] + pieces[0, CURVATURE_SLACK]
     for k in range(first, last):
         chord = sizes[k, CHORD]
-        inverse = 1.0 / chord
+        inverse = max(1.0 / chord, 0.5 * sharpest)
         spots = spot
         spot = chain_spot(pieces, k + 1, chain)
         spots += spot

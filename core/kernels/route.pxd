@@ -4,6 +4,9 @@ from core.kernels.clothoid cimport clothoid_point
 from core.kernels.constants cimport *
 from core.kernels.double_double cimport coil_theta, quotient
 cdef (double, double) two_sum(double a, double b) noexcept nogil
+
+cdef int FIRST_STEPS
+cdef double PASSED_END
 from core.kernels.spiral cimport next_arc
 
 cdef double cubic_speed(Pieces pieces, Py_ssize_t p, double t) noexcept nogil
@@ -30,7 +33,7 @@ cdef double first_place(Pieces pieces) noexcept nogil
 cdef bint stands_first(Pieces pieces, Py_ssize_t k, Rows chain) noexcept nogil
 cdef void start_route(Pieces pieces, double s, double low, Rows chain) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t, alike=cython.Py_ssize_t, same=cython.bint)
+@cython.locals(k=cython.Py_ssize_t, alike=cython.Py_ssize_t, same=cython.bint, tight=cython.bint)
 cdef Py_ssize_t extend_route(
     Pieces pieces, Py_ssize_t first, Py_ssize_t last, double until, Rows sizes, Rows chain
 ) noexcept nogil
@@ -39,4 +42,9 @@ cdef void put_place(Py_ssize_t k, double step, Rows chain) noexcept nogil
 cdef void put_handle(Py_ssize_t k, (double, double, double, double, double) point, Rows chain) noexcept nogil
 @cython.locals(i=cython.int)
 cdef void seek_rear(Pieces pieces, Py_ssize_t k, Py_ssize_t p, double step, double chord, Rows chain) noexcept nogil
+@cython.locals(i=cython.int)
+cdef (double, Py_ssize_t) first_behind(
+    Pieces pieces, Py_ssize_t p, double s, double low, double x, double y, double chord
+) noexcept nogil
+cdef void seek_first(Pieces pieces, Py_ssize_t k, Py_ssize_t p, double chord, Rows chain) noexcept nogil
 cdef void finish_link(Py_ssize_t k, double chord, Rows chain) noexcept nogil

@@ -198,10 +198,10 @@ def start_route(pieces, s, low, chain):
     set_piece_theta(pieces, p, 0, chain)
 
 
-# Next handle. Let |curvature| <= k with k chord < 2 (other routes are refused). As long as k l <= pi the distance to
-# the point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, bounds.py). It reaches
-# the chord before l = pi chord / 2 <= pi / k. So there is one root in [chord, pi chord / 2], and it is the first along
-# the path, so a point further back that comes near is never taken for it.
+# Next handle. Let |curvature| <= k with k chord < 2. As long as k l <= pi the distance to the point l behind grows with
+# l: its rate is the cosine of an angle <= k l / 2 (chord lemma, bounds.py). It reaches the chord before
+# l = pi chord / 2 <= pi / k. So there is one root in [chord, pi chord / 2], and it is the first along the path, so a
+# point further back that comes near is never taken for it. On sharper routes first_behind() seeks it from the front.
 #
 # Input:  a chain on a route up to handle `first` (start_route() lays out the head), the pieces, and the chords.
 # State:  the links before this one on the same spiral: `alike`, their number (those of the same chord, plus one); d1 to
@@ -214,6 +214,7 @@ def extend_route(pieces, first, last, until, sizes, chain):
     """
     alike = 0
     d1 = d2 = d3 = d4 = d5 = 0.0
+    sharpest = 0.5 * pieces[0, SHARPEST]
     for k in range(first, last):
         if chain[k, PLACE] >= until:
             return k
@@ -221,10 +222,11 @@ def extend_route(pieces, first, last, until, sizes, chain):
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
         chord = sizes[k, CHORD]
         same = k > 0 and sizes[k - 1, CHORD] == chord
+        tight = sharpest * chord > ROUTE_SINE_LIMIT
         step = chain[k, PLACE] - chain[k - 1, PLACE] if same else chord
         if pieces[p, PIECE_KIND] == LINE:
             step = chord
-        elif pieces[p, PIECE_KIND] == ARC:
+        elif pieces[p, PIECE_KIND] == ARC and not tight:
             step = 2.0 * pieces[p, ARC_RADIUS] * asin(0.5 * chord / pieces[p, ARC_RADIUS])
         elif pieces[p, PIECE_KIND] == SPIRAL:
             # on an outward spiral the follower is further in: the same equation with theta negative
@@ -258,7 +260,10 @@ def extend_route(pieces, first, last, until, sizes, chain):
                     d1 = delta
                     continue
         alike = 0
-        seek_rear(pieces, k, p, step, chord, chain)
+        if tight:
+            seek_first(pieces, k, p, chord, chain)
+        else:
+            seek_rear(pieces, k, p, step, chord, chain)
         finish_link(k, chord, chain)
     return last
 
@@ -301,6 +306,57 @@ def seek_rear(pieces, k, p, step, chord, chain):
         if fabs(distance - chord) <= close or high - low <= 1e-15 * chord:
             break
         step += (chord - distance) / slope if slope > 0.1 else 2.0 * high
+    put_place(k, step, chain)
+    chain[k + 1, PIECE] = p
+    set_piece_theta(pieces, p, k + 1, chain)
+
+
+# The first place behind, for any curvature. With D the distance of the place x further back than one where it is
+# D_0 < chord, D' = cos alpha <= 1 and |D''| <= |sin alpha| (k + |sin alpha| / D) <= k + 2 / D_0 while x <= D_0 / 2. So
+# D < chord for all x below both chord - D_0 and the root of D_0 + D'_0 x + (k + 2 / D_0) x^2 / 2 = chord, as long as
+# |curvature| <= k, which is known to the end of the piece. Such steps pass no root, and come to the first one as
+# quickly as Newton's method.
+FIRST_STEPS = 2000
+# Part of the chord by which a step may pass the end of a piece [1]: the next curvature moves D by its square.
+PASSED_END = 1e-9
+
+
+# Input:  a point x, y of a route at s + low, and the piece p of some place behind it.
+# State:  `step`, up to which no place is a chord away.
+# Output: the step to the first place that is, NO_ROOT if none was found, and its piece.
+def first_behind(pieces, p, s, low, x, y, chord):
+    """Way back to the first place at the chord's distance from a point of a route [m], and the piece of that place."""
+    step = chord
+    for i in range(FIRST_STEPS):
+        p = piece_of(pieces, s - step, p)
+        bx, by, tx, ty, _ = route_point(pieces, p, s, low - step)
+        dx = x - bx
+        dy = y - by
+        distance = sqrt(dx * dx + dy * dy)
+        gap = chord - distance
+        if gap <= 4e-16 * (chord + fabs(x) + fabs(y)):
+            return step, p
+        further = gap
+        if distance > 0.0:
+            slope = (dx * tx + dy * ty) / distance
+            most = max(fabs(pieces[p, K_START]), fabs(pieces[p, K_END])) + pieces[p, CURVATURE_SLACK] + 2.0 / distance
+            quick = min(2.0 * gap / (slope + sqrt(slope * slope + 2.0 * most * gap)), 0.5 * distance)
+            if p > 0:
+                quick = min(quick, s - step - pieces[p, S_START] + PASSED_END * chord)
+            further = max(further, quick)
+        if step + further == step:
+            return step, p
+        step += further
+    return NO_ROOT, p
+
+
+def seek_first(pieces, k, p, chord, chain):
+    """Place handle k + 1 at the first place behind handle k; where there is none, somewhere behind it."""
+    step, p = first_behind(pieces, p, -chain[k, PLACE], -chain[k, PLACE_REST], chain[k, PX], chain[k, PY], chord)
+    if step == NO_ROOT:
+        step = 0.5 * PI * chord
+        p = piece_of(pieces, -chain[k, PLACE] - step, p)
+    put_handle(k + 1, route_point(pieces, p, -chain[k, PLACE], -chain[k, PLACE_REST] - step), chain)
     put_place(k, step, chain)
     chain[k + 1, PIECE] = p
     set_piece_theta(pieces, p, k + 1, chain)

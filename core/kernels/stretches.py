@@ -8,7 +8,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.records import Stretch
 
 # Largest angle by which a handle displaced along a route turns its bench, times SLIP / chord [1]: see the rounding of
-# bounds.py.
+# bounds.py. Half the curvature stands for 1 / chord where it is larger.
 ROUTE_TURN = 2.2
 
 
@@ -101,5 +101,6 @@ def link_stretch(pieces, k, benches, sizes, before, after):
     elif low < 0.0:
         high = high if high > -low else -low
         low = -high
-    blur = blur_of(k, ROUTE_TURN / chord, before, after)
-    return Stretch(chord, low, high, slope, widened, 0.5 * high * chord, blur)
+    sine = 0.5 * high * chord
+    blur = blur_of(k, ROUTE_TURN / chord * max(1.0, sine), before, after)
+    return Stretch(chord, low, high, slope, widened, sine, blur)

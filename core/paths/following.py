@@ -3,54 +3,219 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, quantities
-from core.paths.path import Path
+from core.errors import InvalidValue, Value, bound, quantities
+from core.kernels.constants import K_END, K_START, LAG, PIECE_KIND, REAR_COSINE_LEAST, S_END, S_START, Follows
+from core.language import phrase
 from core.paths.route import Route
 from core.sampling import bisect
+from core.values import Floats
 
 # Width of the bracket around the earliest travel of the head: absolute [m], and relative to it [1].
 ROOM_WIDTH = 1e-9
+# Longest arc under a chord on bends of no less than half the chord, over the chord [1].
+ARC_MOST = 0.5 * math.pi
+# Largest distance by which a proof begins before the first place of a front handle [m].
+BEGIN_WIDTH = 1e-9
+# Work of the proof for the benches of one chord [1]; 1e6 take 0.15 s (measured 2026-11-30).
+WORK_MOST = 3e7
+# Reasons why a bench cannot follow, after the place of its front handle.
+REASONS = {
+    Follows.SIDEWAYS: phrase("its rear handle would go at {angle} to the bench, more than {limit}"),
+    Follows.BACKWARDS: phrase("its rear handle would have to go backwards"),
+    Follows.JUMPS: phrase("its rear handle would have to jump to a nearer place of the path"),
+    Follows.NOWHERE: phrase("no place of the path behind is as far away as its rear handle"),
+    Follows.UNKNOWN: phrase("it was not decided within the work that one question may take"),
+}
 
 
-def follows(dragon: Dragon, path: Route) -> bool:
-    """True if every bend of the route is wide enough for every chord."""
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """Where a bench cannot follow a route.
+
+    bench: the first one that would come there; chord: its chord [m]
+    s, rear: places of its handles up to which it follows [m]; reason: what fails beyond
+    angle: between the bench and the path at its rear handle then [rad]
+    """
+
+    bench: int
+    chord: float
+    s: float
+    rear: float
+    reason: Follows
+    angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class Following:
+    """How a dragon follows a route.
+
+    obstacles: where it cannot, at most one for each bend and chord; the first bench's first. None if all benches follow
+        to the end
+    arc: longest way along the path under a bench [m]
+    rear_cosine, front_cosine: proven lower bounds of u . T at the handles on bends tighter than half a chord [1]
+    """
+
+    obstacles: tuple[Obstacle, ...]
+    arc: float
+    rear_cosine: float
+    front_cosine: float
+
+
+def bends_widely(dragon: Dragon, path: Route) -> bool:
+    """True if every radius is at least half of every chord over ROUTE_SINE_LIMIT, which suffices to follow it."""
     longest = float(dragon.chords[: dragon.uniform_from + 1].max())
     return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_SINE_LIMIT)
 
 
+def follows(dragon: Dragon, path: Route) -> bool:
+    """True if every bench is proven to follow every bend of the route, see core/kernels/follower.py."""
+    return bends_widely(dragon, path) or not following(dragon, path).obstacles
+
+
+def longest_arc(dragon: Dragon, path: Route) -> float:
+    """Upper bound of the way along a route between both handles of a bench [m]; infinity if one cannot follow."""
+    if bends_widely(dragon, path):
+        return ARC_MOST * float(dragon.chords[: dragon.uniform_from + 1].max())
+    found = following(dragon, path)
+    return math.inf if found.obstacles else found.arc
+
+
 def tightest_bend(dragon: Dragon) -> tuple[float, int]:
-    """The least radius of a bend that every bench can follow [m], and the bench that needs that radius."""
+    """The least radius of a bend that every bench can follow, however long it is [m], and the bench that needs it."""
     bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
     return 0.5 * float(dragon.chords[bench]) / kernels.ROUTE_SINE_LIMIT, bench
 
 
-def refuse_tight_bends(dragon: Dragon, path: Route) -> None:
-    """Refuse a bend that a bench cannot follow.
+# Benches of one chord are alike: a handle of any of them may stand wherever the path is, from its beginning for the
+# last one to where the first of them is when the head is at the end. Only bends tighter than half the chord, and the
+# places from which a bench reaches over them, need a proof: elsewhere the chord lemma serves (core/kernels/bounds.py).
+def following(dragon: Dragon, path: Route) -> Following:
+    """How a dragon follows a route, remembered with the route."""
+    alike = dragon.uniform_from + 1
+    key = dragon.chords[:alike].tobytes()
+    if key not in path.followed:
+        path.followed[key] = _followed(dragon.chords[:alike], path)
+    found: Following = path.followed[key]
+    return found
 
-    With |curvature| chord / 2 below the limit, the next handle is unique and never moves backwards.
+
+def _followed(chords: Floats, path: Route) -> Following:
+    arc, rear, front = ARC_MOST * float(chords.max()), 1.0, 1.0
+    obstacles: list[Obstacle] = []
+    kinds, firsts = np.unique(chords, return_index=True)
+    for bench, chord in sorted(zip(firsts.tolist(), kinds.tolist(), strict=True)):
+        proof = kernels.Follower(path.table, chord, REAR_COSINE_LEAST)
+        end = _front_most(chords, bench, path)
+        earliest = _first_front(path, chord)
+        for start, stop in _tight_parts(path, 0.5 * chord / kernels.ROUTE_SINE_LIMIT):
+            begin = max(start, earliest)
+            if begin < end and stop > proof.rear:
+                ended = proof.follow(begin, end, stop, WORK_MOST)
+                if ended is not Follows.PROVEN:
+                    obstacles.append(_obstacle(bench, chord, path, proof, ended))
+        arc, rear, front = max(arc, proof.longest), min(rear, proof.rear_cosine), min(front, proof.front_cosine)
+        if obstacles:  # where this bench stops, those behind it do too
+            break
+    return Following(tuple(obstacles), arc, rear, front)
+
+
+def _front_most(chords: Floats, bench: int, path: Route) -> float:
+    """Place of a bench's front handle when the head is at the end of the path [m], if those before it follow."""
+    sizes, chain = np.zeros((bench, kernels.SIZE_COLUMNS)), np.empty((bench + 1, kernels.CHAIN_COLUMNS))
+    sizes[:, kernels.CHORD] = chords[:bench]
+    path.follow(-path.end, bench, sizes, chain)
+    return -float(chain[bench, LAG])
+
+
+def _tight_parts(path: Route, radius: float) -> list[tuple[float, float]]:
+    """Ends of the parts of a route that bend more tightly than a radius [m], BEGIN_WIDTH too long where a row of the
+    table does so only in part: its |curvature| rises or falls there."""
+    table, most = path.table, 1.0 / radius
+    rows = np.searchsorted(table[:, S_START], [part[0] for part in path.tighter(radius)])
+    ends = np.searchsorted(table[:, S_END], [part[1] for part in path.tighter(radius)])
+
+    def edge(row: Floats, gentle: int, tight: int, column: int) -> float:
+        low, high = float(row[gentle]), float(row[tight])
+        if row[PIECE_KIND] == kernels.CREST or abs(row[column]) > most:
+            return low
+        while abs(high - low) > BEGIN_WIDTH:
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if abs(path.curvature(middle)) > most else (middle, high)
+        return low
+
+    return [
+        (edge(table[row], S_START, S_END, K_START), edge(table[end], S_END, S_START, K_END))
+        for row, end in zip(rows, ends, strict=True)
+    ]
+
+
+def _first_front(path: Route, chord: float) -> float:
+    """The first place a chord away from the beginning of the path [m]; its end if there is none."""
+    if path.tail_begin is None:
+        return path.begin
+    begin, s = path.position(path.tail_begin), path.tail_begin
+    while s < path.end and (gap := chord - math.dist(path.position(s), begin)) > BEGIN_WIDTH:
+        s += gap
+    return min(s, path.end)
+
+
+def _obstacle(bench: int, chord: float, path: Route, proof: kernels.Follower, reason: Follows) -> Obstacle:
+    rear = proof.reached if reason is Follows.NOWHERE else proof.rear
+    bench_way, along = path.position(proof.reached) - path.position(rear), path.tangent(rear)
+    angle = math.acos(max(-1.0, min(1.0, float(bench_way @ along) / chord)))
+    return Obstacle(bench, chord, proof.reached, rear, reason, angle)
+
+
+def refuse_tight_bends(dragon: Dragon, path: Route, time_of: Callable[[float], float]) -> None:
+    """Refuse a route on which a bench is not shown to follow.
+
+    time_of: the time at which the head is at a place [m] -> [s]
+    raises: InvalidValue (path)
     """
-    if follows(dragon, path):
+    if bends_widely(dragon, path) or not (obstacles := following(dragon, path).obstacles):
         return
-    curvature, s = path.sharpest
-    tightest, bench = tightest_bend(dragon)
-    chord = float(dragon.chords[bench])
-    x, y = path.position(s)
-    rule = "must not bend tighter than a radius of {least} for the chord of bench {bench} ({chord})"
-    values = quantities("m", 4, least=tightest, bend=1.0 / curvature, s=s) | quantities("m", 6, chord=chord)
-    place = f"({x:.4g}, {y:.4g}) m"
-    raise InvalidValue("path", f"{rule}, got {{bend}} near {{at}}, s = {{s}}", bench=bench, at=place, **values)
+    obstacle = obstacles[0]
+    x, y = path.position(obstacle.s)
+    rule = (
+        "must bend so that every bench can follow: bench {bench} ({chord}) cannot beyond s = {s}, at {at}, which its "
+        f"front handle reaches at {{time}}; {REASONS[obstacle.reason]}; a radius of {{least}} always suffices"
+    )
+    values: dict[str, Value] = {"bench": obstacle.bench, "at": f"({x:.4g}, {y:.4g}) m"}
+    values |= quantities("m", 6, chord=obstacle.chord, s=obstacle.s)
+    values |= quantities("s", 6, time=time_of(_head_at(dragon.chords, path, obstacle)))
+    values["least"] = bound(0.5 * obstacle.chord / kernels.ROUTE_SINE_LIMIT, 3, "m", up=True)
+    degrees = {"angle": obstacle.angle, "limit": math.acos(REAR_COSINE_LEAST)}
+    values |= quantities("degrees", 4, **{word: math.degrees(angle) for word, angle in degrees.items()})
+    raise InvalidValue("path", rule, **values)
 
 
-def earliest_travel(dragon: Dragon, path: Path, tail_begin: float) -> float:
+def _head_at(chords: Floats, path: Route, obstacle: Obstacle) -> float:
+    """Place of the head when an obstacle's front handle is at its place [m]; the end of the path if that is nearer."""
+    sizes = np.zeros((obstacle.bench, kernels.SIZE_COLUMNS))
+    sizes[:, kernels.CHORD] = chords[: obstacle.bench]
+    chain = np.empty((obstacle.bench + 1, kernels.CHAIN_COLUMNS))
+
+    def arrived(s: float) -> bool:
+        path.follow(-s, obstacle.bench, sizes, chain)
+        return -float(chain[obstacle.bench, LAG]) >= obstacle.s
+
+    if obstacle.bench == 0:
+        return obstacle.s
+    return bisect(arrived, obstacle.s, path.end, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1]
+
+
+def earliest_travel(dragon: Dragon, path: Route, tail_begin: float) -> float:
     """Travel of the head when the last handle is at the beginning of the path [m].
 
-    A chord spans between 1 and pi / 2 times its own length of the path. These bounds, and the end of the path, give the
-    interval for a bisection of the travel of the head.
+    A chord spans at least its own length of the path, and at most longest_arc(). These bounds, and the end of the path,
+    give the interval for a bisection of the travel of the head.
     """
     sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
     sizes[:, kernels.CHORD] = dragon.chords
@@ -61,7 +226,8 @@ def earliest_travel(dragon: Dragon, path: Path, tail_begin: float) -> float:
         return float(path.along(chain[dragon.benches, kernels.LAG])) >= tail_begin
 
     low, straight = tail_begin, float(dragon.chords.sum())
-    high = low + 0.5 * math.pi * straight
+    wide = bends_widely(dragon, path)
+    high = low + (ARC_MOST * straight if wide else longest_arc(dragon, path) * dragon.benches)
     if not has_room(high):
         rule = (
             "is too short for the whole dragon, which takes {least} of it from handle 0 to handle {last} "

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -52,6 +53,7 @@ class Route(Readable):
     tail_begin: least s of a handle [m]; None if the first piece coils inwards: it continues outwards for the tail
     calm_beginning: True if the curvature does not fall along the first piece, so no handle is faster than its leader
     slide: largest distance along the path between the head's point and its s, by rounding and at joints [m]
+    followed: how dragons follow it, by the bytes of their chords: see following() in core/paths/following.py
     raises: InvalidValue naming the piece or the joint and its gap; TooMuchWork
     """
 
@@ -97,6 +99,7 @@ class Route(Readable):
         self.calm_beginning = inwards or grows or isinstance(first, Line | Arc)
         self.slide = self._smooth()
         self.table.flags.writeable = False
+        self.followed: dict[bytes, Any] = {}
         for k, (s, row) in enumerate(joints[1:], start=1):
             self._refuse_joint(k, s, row)
 
@@ -116,6 +119,7 @@ class Route(Readable):
         over = np.minimum(kernels.BLEND, np.maximum(lengths[1:], lengths[:-1]))
         step = np.where(table[1:, kernels.PART] == table[:-1, kernels.PART], step, 0.0)
         sharpest = np.abs(table[:, BENDS]).max()
+        table[:, kernels.SHARPEST] = sharpest
         loose = 2.0 * np.max(across + (kink + step * over) * over, initial=0.0)
         bent = 2.0 * np.max((10.0 * across / over + 6.0 * kink) / over + 3.0 * step, initial=0.0)
         slope = 2.0 * np.max(((60.0 * across / over + 36.0 * kink) / over + 9.0 * step) / over, initial=0.0)
@@ -227,7 +231,8 @@ class Route(Readable):
 
     def calm(self, curvature: float) -> float:
         """Minus the s up to which handles stand on the first piece itself, if its curvature does not fall [m]."""
-        return kernels.BLEND - float(self.table[0, S_END]) if self.calm_beginning else kernels.FREE
+        gentle = np.abs(self.table[0, BENDS]).max() * kernels.SINE_LIMIT <= curvature * kernels.ROUTE_SINE_LIMIT
+        return kernels.BLEND - float(self.table[0, S_END]) if self.calm_beginning and gentle else kernels.FREE
 
     def summary(self) -> PathSummary:
         """The route by its ends and the kinds of its pieces."""

@@ -48,7 +48,7 @@ def test_points_are_dragged_moved_by_keys_put_in_and_taken_away_and_every_step_i
     person = open_page(failing=True).presses("[data-path=route]").sees({**YES, ".knot": 7})
     before = points(person)
     bend, corner = person.box(knot(2)), person.box(knot(3))
-    person.drags(knot(2), corner["x"] - bend["x"] - 8, corner["y"] - bend["y"] + 12)
+    person.drags(knot(2), corner["x"] - bend["x"] - 16, corner["y"] - bend["y"] - 10)
     person.sees({**NO, ".failures li:has-text('The bend is too tight')": True})
     after = points(person)
     assert after[:2] + after[3:] == before[:2] + before[3:]

@@ -46,7 +46,7 @@ OPTIONS = {
     "turn?ends=1": "ends middle",
     "turn?middle=40": "middle 40",
     "turn-time?entry_radius=2": "entry_radius",
-    "turn-time?ratio=1&middle=6&head_length=4.6": "middle shorter 1.928",
+    "turn-time?ratio=1&middle=0.5&ends=3&head_length=5": "ends shorter",
     "maximum-head-speed?turning_diameter=4": "turning_diameter 0.6727",
     "maximum-head-speed?entry_radius=2": "entry_radius larger",
     "maximum-head-speed?ratio=20": "ratio nearer 20",
@@ -477,7 +477,7 @@ PATHS = {
         "/pieces/0/radius 0.001"
     ),
     '{"kind": "route", "pieces": [{"kind": "arc", "centre": [0, 0], "radius": 1, "start_angle": 0, "sweep": 1}]}': (
-        " bench 0 1 near"
+        " short 223 1"
     ),
     '{"kind": "route", "pieces": []}': "/pieces 1",
     f'{{"kind": "route", "pieces": [{"LANE, " * 1000}LANE]}}': "/pieces 1000",
@@ -503,7 +503,7 @@ PATHS = {
         "/pieces/1 close 1.95057538, 0.3274"
     ),
     '{"kind": "route", "pieces": [RAMP, "length": 2, "end_curvature": 10000}]}': "/pieces/0/end_curvature 1000",
-    '{"kind": "route", "pieces": [RAMP, "length": 2, "end_curvature": 3}]}': " bench 0",
+    '{"kind": "route", "pieces": [RAMP, "length": 40, "end_curvature": 3}]}': " bench 0",
     '{"kind": "route", "pieces": [RAMP, HALF: 2001}]}': "/pieces/0/length 2000 1000",
     '{"kind": "route", "pieces": [RAMP, HALF: 1999}, RAMP, HALF: 1999}, RAMP, HALF: 1999}]}': ("/pieces 2500 2999"),
     '{"kind": "route", "pieces": [{"kind": "clothoid", "start": [0, 0], "start_curvature": 0, "end_curvature": 1, '

@@ -5,15 +5,20 @@ import pytest
 from core import (
     Arc,
     Dance,
+    Dragon,
+    InvalidValue,
+    Legs,
     Line,
     OutsideRun,
     Route,
+    Turn,
     Waypoints,
     check,
     first_contact,
     trajectory,
 )
-from core.paths.following import ROOM_WIDTH, earliest_travel
+from core.paths.following import ROOM_WIDTH, earliest_travel, following, follows
+from tests.campaigns import hunt_bends
 from tests.core.paths.test_route import PLACE_ERROR
 from tests.support.near import assert_near
 from tests.support.random_routes import DRAGON, first_behind
@@ -50,3 +55,47 @@ def test_at_its_earliest_travel_the_head_is_a_dragon_ahead_of_the_beginning(begi
     for chord in DRAGON.chords.tolist():
         s = first_behind(route, s, chord)
     assert begin - PLACE_ERROR <= s <= begin + ROOM_WIDTH * (1.0 + head)
+
+
+def test_benches_follow_the_random_bends_on_which_small_steps_see_them_follow():
+    result = hunt_bends.hunt(seed=1, cases=40)
+    assert result.faults == 0
+    assert {"followed", "backwards", "jumps"} <= result.kinds.keys()
+
+
+@pytest.mark.parametrize(
+    ("ratio", "entry", "leaving", "length", "followed"),
+    [(0.7, 3.65, 4.25, 7.7319, True), (1.25, 4.0, 3.45, 7.8905, True), (1.417, 3.617, 3.097, 7.6918, False)],
+)
+def test_turns_with_an_arc_tighter_than_half_a_chord_are_danced_unless_a_bench_jumps(
+    ratio, entry, leaving, length, followed
+):
+    turn = Turn(1.7, ratio=ratio, entry_radius=entry, exit_radius=leaving)
+    assert turn.length == pytest.approx(length, abs=1e-4)
+    assert follows(Dragon(), turn) is followed
+    if not followed:
+        words = r"bench 0 .* beyond s = 9.60113 m, .* at 9.60113 s; .* jump to a nearer place"
+        with pytest.raises(InvalidValue, match=words):
+            Dance(Dragon(), turn)
+        return
+    dance, s = Dance(Dragon(60), turn), 5.0
+    handles = trajectory(dance, s).position
+    for k, chord in enumerate(dance.dragon.chords.tolist()[:3]):
+        s = first_behind(turn, s, chord)
+        assert_near(turn.position(s), handles[k + 1], SAME)
+
+
+def test_a_corner_of_a_right_angle_is_walked_around_and_one_that_turns_back_is_refused_with_its_place_and_bench():
+    street = [(0.0, 0.0), (60.0, 0.0)]
+    assert check(Dance(Dragon(20), Legs([*street, (60.0, 30.0)], [0, 1], radius=0.5))).stop > 89.0
+    words = r"bench 0 \(2.86 m\) cannot beyond s = 59.685 m, at \(59.28, 0.6059\) m, .* at 59.685 s; .* backwards"
+    with pytest.raises(InvalidValue, match=words):
+        Dance(Dragon(20), Legs([*street, (40.0, 20.0)], [0, 1], radius=0.5))
+
+
+def test_the_last_bench_meets_the_bend_that_the_others_can_follow():
+    """A head bench of 1 m passes where those behind it, of 2 m, cannot."""
+    route = Legs([(0.0, 0.0), (20.0, 0.0), (5.0, 12.0)], [0, 1], radius=0.6)
+    assert follows(Dragon(1, 1.2, overhang=0.1), route)
+    [obstacle] = following(Dragon(3, 1.2, 2.2, overhang=0.1), route).obstacles
+    assert obstacle.bench == 1

@@ -145,7 +145,7 @@ FORGERIES = {
         ("claim.margin = 0.7", "not apart by face"),
         ("delete claim.margin", r"must be \[highest place, lowest place, faces\], got a list of 4"),
         ("claim.path.pitch = 1.3", "not proven"),
-        ("claim.path.entry_radius = 3.5", "must not bend tighter"),
+        ("claim.path.entry_radius = 3.5", "must bend so that every bench can follow"),
         ('claim.path = {"kind": "spiral", "pitch": 1.7, "start_turns": 16.0}', "digits from 0 to 8"),
         ('claim.until = "end"', "not shown to end"),
         ("dragon.1.2 = 0.6", "not apart by face"),
