@@ -9,7 +9,7 @@ from typing import Any
 from app.maps import geojson
 from app.maps.features import MapFeature, edges_of, is_aside, place_fields
 from app.wire.degrees import GeographicOrigin
-from app.wire.geojson import outlined, read_things, venue_of
+from app.wire.geojson import gate_properties, outlined, read_things, venue_of
 from core import InvalidValue, Venue
 from core.values import Point
 from core.venue import EDGES_MAX
@@ -48,8 +48,7 @@ def _geojson_of(one: MapFeature) -> dict[str, Any]:
     properties: dict[str, object] = {"name": one.name} | ({} if one.radius is None else {"radius": one.radius})
     if is_aside(one):
         properties["role"] = one.role
-        if "heading" in one.properties:
-            properties["heading"] = one.properties["heading"]
+        properties |= gate_properties(one.properties)
     return geojson.feature_of(one, properties)
 
 

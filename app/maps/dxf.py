@@ -19,7 +19,7 @@ from app.files.outlines import dxf_bytes, new_dxf
 from app.maps.choice import EVERYTHING, Choice
 from app.maps.entities import HOLES, MARKS, Entities, faults
 from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, damaged_kind, inner_point, place_fields, points_in
-from app.wire.geojson import GATE, INNER_SQUARE, LANE
+from app.wire.geojson import GATE, INNER_SQUARE, LANE, gate_properties
 from core import InvalidValue
 from core.errors import Quantity
 from core.venue import Ring
@@ -68,7 +68,7 @@ MISREAD = re.compile(
 # Version of a drawing whose entities have markers.
 MODERN = re.compile(rb"\$ACADVER\s+1\s+AC10(?!09|06|04|03|02)")
 # Record for values that no entity can hold: the path as a request describes it, the origin, and by handle names, radii
-# of walls and headings of gates. A string of a record has at most 2,049 characters.
+# of walls and properties of gates. A string of a record has at most 2,049 characters.
 RECORD, CHUNK = "BENCH_DRAGON", 2_000
 # Height of the text in a drawing, and side of the crosses at marks [m].
 WORDS, CROSS = 0.3, 0.2
@@ -280,7 +280,7 @@ def written(drawing: Drawing) -> bytes:
     raises: MissingPackage
     """
     document = new_dxf((f"{name}{holes}", colour) for name, colour in LAYERS.values() for holes in ("", HOLES))
-    space, names, radii, headings = document.modelspace(), {}, {}, {}
+    space, names, radii, gates = document.modelspace(), {}, {}, {}
     content: dict[str, object] = {}
     for feature in drawing.features:
         layer = LAYERS[feature.role or "obstacle"][0]
@@ -290,8 +290,8 @@ def written(drawing: Drawing) -> bytes:
                 names[entity.dxf.handle] = feature.name
             if feature.shape == "line" and feature.radius is not None:
                 radii[entity.dxf.handle] = float(feature.radius)
-            if isinstance(heading := feature.properties.get("heading"), (int, float)):
-                headings[entity.dxf.handle] = float(heading)
+            if own := gate_properties(feature.properties):
+                gates[entity.dxf.handle] = own
         if feature.role in ("obstacle", "mark", GATE) and feature.name:
             point = inner_point(feature.rings) if feature.shape == "polygon" else feature.rings[0][0]
             x, y = point if feature.role != "mark" else (point[0] + CROSS, point[1] + CROSS)
@@ -299,7 +299,7 @@ def written(drawing: Drawing) -> bytes:
         if feature.role == "path":
             content.setdefault("path", feature.properties["path"])  # the first one, which is read again
     content |= place_fields(drawing.origin, drawing.grid)
-    text = orjson.dumps(content | {"names": names, "radii": radii, "headings": headings}).decode()
+    text = orjson.dumps(content | {"names": names, "radii": radii, "gates": gates}).decode()
     # The format is text in lines of limited length, and a character outside ASCII takes several places.
     text = text.encode("ascii", "backslashreplace").decode().replace("\\x", "\\u00")
     record = document.rootdict.add_xrecord(RECORD)

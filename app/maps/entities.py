@@ -28,7 +28,7 @@ from app.maps.features import (
 )
 from app.maps.joined import joined
 from app.maps.labels import MapText, are_too_many, label_of, names_of
-from app.wire.geojson import LANE, SQUARE
+from app.wire.geojson import LANE, SQUARE, gate_properties
 from app.wire.parts import APART
 from core import InvalidValue
 from core.errors import Clause
@@ -86,13 +86,14 @@ class Entities:
     """Collects the features of a drawing, in metres."""
 
     def __init__(self, document: Any, factor: float, record: Mapping[str, Any], choice: Choice = EVERYTHING) -> None:
-        """factor: metres in a unit; record: of this program; by handle names, radii of walls [m], and headings of gates
-            [rad]
+        """factor: metres in a unit; record: of this program; by handle names, radii of walls [m], and what is known of
+            gates, of which older files have the headings alone [rad]
 
         choice: what is read; seen_layers: names of those on which something stands that can be seen
         """
         self.factor, self.names = factor, _mapping(record.get("names"))
-        self.radii, self.headings = _numbers(record.get("radii")), _numbers(record.get("headings"))
+        self.radii, older = _numbers(record.get("radii")), _numbers(record.get("headings"))
+        self.gates = {handle: {"heading": one} for handle, one in older.items()} | dict(_mapping(record.get("gates")))
         self.collector, self.labels = FeatureCollector(is_limited=not choice.counts), list[MapText]()
         self.layers, self.choice = document.layers, choice
         self.most = ENTITIES_MAX if choice.is_all else SEEN_MAX
@@ -181,9 +182,7 @@ class Entities:
     def _take(self, entity: Any, layer: str) -> None:
         kind, handle = entity.dxftype(), str(entity.dxf.get("handle"))
         name, radius = self.names.get(handle), self.radii.get(handle)
-        own: dict[str, object] = {"layer": layer}
-        if handle in self.headings:
-            own["heading"] = self.headings[handle]
+        own: dict[str, object] = {"layer": layer, **gate_properties(_mapping(self.gates.get(handle)))}
         feature = MapFeature("point", (), name, role_of(layer, name), radius, own)
         if not all(map(entity.dxf.hasattr, STATED.get(kind, ()))):
             self.collector.leave_out(damaged_kind(kind))

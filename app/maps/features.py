@@ -251,7 +251,7 @@ def aside_features(asides: Sequence[Aside]) -> list[MapFeature]:
             one.name,
             one.role,
             one.radius,
-            {} if one.heading is None else {"heading": one.heading},
+            dict(one.own),
         )
         for one in asides
     ]

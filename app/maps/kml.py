@@ -29,7 +29,7 @@ from app.maps.features import (
     role_of,
 )
 from app.maps.gpx import seconds_of
-from app.wire.geojson import GATE, INNER_SQUARE, LANE
+from app.wire.geojson import GATE, INNER_SQUARE, LANE, gate_properties
 from app.wire.numbers import number_of
 from core import InvalidValue
 from core.errors import Given
@@ -172,8 +172,8 @@ class _FeatureReader(Reader):
         *around, level = self.levels
         name = level.name or data.get("name") or None
         role = role_of(data.get("role"), name, *(one.name for one in reversed(around)))
-        heading = _number(data.get("heading", ""))
-        own = {} if heading is None else {"heading": heading}
+        read = {key: text if key == "use" else _number(text) for key, text in gate_properties(data).items()}
+        own = {key: value for key, value in read.items() if value is not None}
         feature = MapFeature("point", (), name, role, _number(data.get("radius", "")), own)
         things = [replace(feature, shape=shape, rings=rings) for shape, rings in self.shapes]
         if self.track:

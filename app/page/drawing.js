@@ -4,8 +4,9 @@
  * points: [[x, y]] [m]; straight: numbers of the legs that are straight; radius: of rounded corners [m]; begin: place of
  * the head at time 0 [m]; limit: of every speed [m/s] or null; path: a proposed one, or one from a file that is no list of
  * points, or null: it is danced until a point is edited; start: of the dance on it [s], or null: with the whole dragon on it
- * things: [{kind, name, points, radius, holes, heading}]: one area to stay in, blocks, circles, walls, lanes to keep free, and
- * gates, whose heading [rad] is null if it is straight into the square; origin: of a map, or null
+ * things: [{kind, name, points, radius, holes, heading, use, street_width, street_length}]: one area to stay in, blocks,
+ * circles, walls, lanes to keep free, and gates, which are both way in and way out unless their use is in or out, and
+ * whose heading [rad] is null if it is straight into the square; origin: of a map, or null
  * grid: {x, y}, the place of x = y = 0 on the survey grid of a map [m], or null
  * yard: corners of the area without the streets that a proposal has added beyond its gates, or null
  */
@@ -69,6 +70,11 @@ function featureOf(thing) {
   return { type: "Feature", properties, geometry: geometry() };
 }
 
+/** What only gates have, of a gate or of the properties of a feature. */
+const OWN = ["heading", "use", "street_width", "street_length"];
+const isOwn = { use: (value) => ["in", "out"].includes(value) };
+export const ownOf = (gate) => Object.fromEntries(OWN.map((name) => [name, gate[name]]).filter(([name, value]) => (isOwn[name] ?? Number.isFinite)(value)));
+
 export const isArea = ({ kind }) => kind === "area";
 /** True for a thing of points in a row, with a width. */
 export const isLine = ({ kind }) => kind === "wall" || kind === "lane";
@@ -94,7 +100,7 @@ function venueWith({ things, origin, grid }, asides) {
 export function keptVenueOf(drawing) {
   const [gates, lanes] = ["gate", "lane"].map((kind) => drawing.things.filter((thing) => thing.kind === kind && isWhole(thing)));
   const asides = [
-    ...gates.map(({ name, points, heading }) => aside("Point", points[0], { name, role: GATE, ...(typeof heading === "number" && { heading }) })),
+    ...gates.map((gate) => aside("Point", gate.points[0], { name: gate.name, role: GATE, ...ownOf(gate) })),
     ...lanes.map(({ name, points, radius }) => aside("LineString", points, { name, role: LANE, radius })),
     ...(drawing.yard ? [aside("LineString", closed(drawing.yard), { role: YARD })] : []),
   ];
@@ -130,7 +136,7 @@ function thingsOf(venue, nameOf) {
   for (const { properties, geometry } of featuresOf(venue)) {
     const { type, coordinates } = geometry;
     const addThing = (kind, points, more) => things.push({ kind, name: properties?.name ? freeName(things, properties.name) : "", points, ...more });
-    if (properties?.role === GATE && type === "Point") addThing("gate", [place(coordinates)], typeof properties.heading === "number" ? { heading: properties.heading } : {});
+    if (properties?.role === GATE && type === "Point") addThing("gate", [place(coordinates)], ownOf(properties));
     else if (isYard({ properties, geometry })) continue;
     else if (properties?.role === LANE && type === "LineString") addThing("lane", coordinates.map(place), { radius: properties.radius ?? LANE_RADIUS });
     else if (type === "Point") addThing("circle", [place(coordinates)], { radius: properties.radius });
@@ -189,12 +195,16 @@ export function walkOf(path) {
   return text && JSON.stringify(piecesOf(text)) === JSON.stringify(path.pieces) ? text : "";
 }
 
+/** The same of a gate as the text of an address, and back: a text without commas is its heading alone, as in old addresses. */
+const gateText = (gate) => OWN.map((name) => gate[name] ?? "").join(",").replace(/,+$/, "");
+const gateIn = (text) => ownOf(Object.fromEntries(text.split(",").map((one, k) => [OWN[k], OWN[k] === "use" ? one : one && Number(one)])));
+
 /** Parts of an address: name -> text. The points of a path that is written as a walk follow from it. */
 export function toAddress(drawing) {
   const { points, straight, radius, begin, limit, things, path, start, origin, grid, yard } = drawing;
   const legs = points.map(([x, y], k) => `${straight.includes(k) ? "*" : ""}${x},${y}`).join("_");
-  const texts = things.map(({ kind, name, points: own, radius: wide = "", heading, holes = [] }) =>
-    [kind[0], escaped(name), ...[String(heading ?? wide), ...[own, ...holes].map(pointsText)].map((part) => part.replaceAll(".", "!"))].join("."),
+  const texts = things.map(({ kind, name, points: own, radius: wide = "", holes = [], ...gate }) =>
+    [kind[0], escaped(name), ...[kind === "gate" ? gateText(gate) : String(wide), ...[own, ...holes].map(pointsText)].map((part) => part.replaceAll(".", "!"))].join("."),
   );
   const walk = walkOf(path);
   const parts = {
@@ -225,7 +235,7 @@ export function fromAddress(address) {
     for (const text of address.get("things")?.split("~") ?? []) {
       const [kind, name, wide, own, ...holes] = text.split(".").map((one) => one.replaceAll("!", "."));
       const thing = { kind: KINDS[kind], name: unescaped(name), points: own ? pointsIn(own) : [] };
-      if (wide) thing[thing.kind === "gate" ? "heading" : "radius"] = Number(wide);
+      if (wide) Object.assign(thing, thing.kind === "gate" ? gateIn(wide) : { radius: Number(wide) });
       if (holes.length) thing.holes = holes.map(pointsIn);
       if (thing.kind && finite(thing.points)) drawing.things = [...drawing.things, thing];
     }

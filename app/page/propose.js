@@ -4,7 +4,7 @@ import { Problem, Superseded, TOO_LONG } from "./api.js";
 import { cardPicture, cardTitles, cardWords } from "./cards.js";
 import { headingOf, withPoints } from "./changes.js";
 import { Corners } from "./corners.js";
-import { EMPTY, THINGS, drawingOf, freeName, venueOf, yardOf } from "./drawing.js";
+import { EMPTY, THINGS, drawingOf, freeName, ownOf, venueOf, yardOf } from "./drawing.js";
 import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.js";
 import { HELPS, LABELS, strayOf } from "./fields.js";
 import { knotsOf } from "./knots.js";
@@ -145,7 +145,7 @@ export class Propose {
   #request() {
     const { numbers, extras, ...request } = /** @type {any} */ (this.questions.drawn());
     const drawing = { ...this.#drawing, things: this.#drawing.things.map((thing) => (thing.kind === "area" ? { ...thing, points: yardOf(this.#drawing) } : thing)) };
-    const gates = drawing.things.filter(({ kind }) => kind === "gate").map((gate) => ({ point: gate.points[0], heading: headingOf(this.#drawing, gate) }));
+    const gates = drawing.things.filter(({ kind }) => kind === "gate").map((gate) => ({ point: gate.points[0], ...ownOf(gate), heading: headingOf(this.#drawing, gate) }));
     const { dragon } = this.questions.body({}, { numbers, extras, ...request });
     const { seconds, laps } = this.#howLong;
     const limits = { margin: numbers.margin, stray: strayOf(numbers), ...(drawing.limit && { speed_limit: drawing.limit }), ...(seconds && { duration_limit: seconds }), ...(laps && { laps }) };

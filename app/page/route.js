@@ -16,7 +16,10 @@ function read(field) {
 const textElement = (tag, words, properties = {}) => make(tag, { ...properties, "data-text": words, textContent: say(words) });
 const labelled = (tag, words, properties = {}) => make(tag, { ...properties, "data-label": words, "aria-label": say(words) });
 /** Least and largest numbers of the fields, as the service takes them. */
-export const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4], gateHeading: [-360, 360] };
+export const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4], gateHeading: [-360, 360], street_width: [0.1, 1e4], street_length: [0.1, 1e4] };
+/** Sizes of the street of a gate, and what a gate is for. @type {Phrases} */
+const USES = { "": "in and out", in: "way in", out: "way out" };
+const STREET = ["street_width", "street_length"];
 const unitOf = (textContent) => make("span", { className: "unit", textContent });
 const removing = { className: "reset", textContent: "✕" };
 /** Labels of the numbers. @type {Phrases} */
@@ -30,10 +33,12 @@ export const NAMES = {
   cornerRadius: "Radius of corners",
   thingRadius: "Radius [m]",
   gateHeading: "Direction of those who enter [°]",
+  street_width: "Width of the street [m]",
+  street_length: "Length of the street [m]",
   cornerNext: "to the next [m]",
 };
 /** Fields that may be empty. */
-const OPTIONAL = ["speedLimit", "latitude", "longitude", "gateHeading"];
+const OPTIONAL = ["speedLimit", "latitude", "longitude", "gateHeading", ...STREET];
 const DEGREE = Math.PI / 180;
 const isRefused = (field) => field.getAttribute("aria-invalid") === "true";
 /** Show a value unless a person is typing there, or typed what was refused. */
@@ -183,13 +188,19 @@ export class RouteForm {
 
   /** Show the numbers of thing k in a row of fields. */
   fill(row, k) {
-    const { name, kind, radius, heading, points } = this.#drawing.things[k];
+    const thing = this.#drawing.things[k];
+    const { name, kind, radius, heading, points } = thing;
     put(row.name, name);
     put(row.radius, radius ?? "");
     put(row.heading, heading === null || heading === undefined ? "" : Number((heading / DEGREE).toFixed(1)));
     if (row.heading.placeholder !== say("straight")) row.heading.placeholder = say("straight");
     for (const part of [row.radius, row.unit]) hide(part, radius === undefined);
-    hide(row.heading, kind !== "gate");
+    for (const part of [row.heading, row.use, row.street]) hide(part, kind !== "gate");
+    row.use.value = thing.use ?? "";
+    row.sizes.forEach((field, axis) => {
+      put(field, thing[STREET[axis]] ?? "");
+      if (field.placeholder !== say("as needed")) field.placeholder = say("as needed");
+    });
     row.at.forEach((field, axis) => put(field, points[0]?.[axis] ?? ""));
     hide(row.places, points.length !== 1);
     row.edit.textContent = say(THINGS[kind]);
@@ -237,9 +248,13 @@ export class RouteForm {
       unit: unitOf("m"),
       at: ["pointX", "pointY"].map((key, axis) => this.#number(key, (value) => this.steps.take(moved(this.#drawing, at(), 0, this.#drawing.things[at()].points[0].with(axis, value))))),
       heading: this.#number("gateHeading", (degrees) => change({ heading: degrees === null ? null : Number((degrees * DEGREE).toFixed(4)) })),
+      use: labelled("select", "Use of the gate", { onchange: ({ target }) => change({ use: target.value || undefined }) }),
+      sizes: STREET.map((key) => this.#number(key, (size) => change({ [key]: size ?? undefined }))),
       remove: button(removing, () => this.#take({ things: this.#drawing.things.toSpliced(at(), 1) })),
     };
+    row.use.append(...Object.entries(USES).map(([value, words]) => make("option", { value, "data-text": words, textContent: say(words) })));
+    const street = make("span", { className: "street" }, make("span", { "data-text": "street", textContent: say("street") }), " ", row.sizes[0], " × ", row.sizes[1], unitOf("m"));
     const places = make("span", { className: "places" }, "x ", row.at[0], " y ", row.at[1], unitOf("m"));
-    return { ...row, places, box: make("li", {}, row.edit, row.name, row.radius, row.unit, row.heading, row.remove) };
+    return { ...row, places, street, box: make("li", {}, row.edit, row.name, row.radius, row.unit, row.heading, row.remove, row.use, street) };
   }
 }

@@ -50,13 +50,14 @@ function drawThing(pen, colours, thing) {
   pen.stroke(path, colours.circle, kind === "area" ? 2 : 1);
 }
 
-/** A gate: an arrow both ways through the border, because a dance may enter or leave there. */
+/** A gate: an arrow through the border, both ways where a dance may enter and leave there. */
 function drawGate(pen, colours, drawing, gate) {
   const [[x, y]] = gate.points;
   const heading = headingOf(drawing, gate);
   const [dx, dy] = [Math.cos(heading), Math.sin(heading)].map((one) => (one * GATE_LENGTH) / pen.scale);
   pen.stroke(trace([[x - dx / 2, y - dy / 2], [x + dx / 2, y + dy / 2]], new Path2D(), false), colours.gate, GATE);
-  for (const way of [1, -1]) pen.stroke(pen.tip(x + (way * dx) / 2, y + (way * dy) / 2, way * dx, way * dy, 9), colours.gate, GATE);
+  const ways = [...(gate.use === "out" ? [] : [1]), ...(gate.use === "in" ? [] : [-1])];
+  for (const way of ways) pen.stroke(pen.tip(x + (way * dx) / 2, y + (way * dy) / 2, way * dx, way * dy, 9), colours.gate, GATE);
 }
 
 /** Lengths and angles of a thing while it is drawn, of all corners or of those beside the held one. */

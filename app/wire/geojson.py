@@ -10,16 +10,17 @@ within 0.1 s.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from app.wire.fields import short_json
 from core import Area, InvalidValue, Venue
-from core.errors import COORDINATE_MAX, Given, checked_number
+from core.errors import COORDINATE_MAX, Given, checked_member, checked_number
 from core.language import say
 from core.names import checked_name
+from core.proposal.gates import STREETS, GateUse
 from core.shapes.engines import Polygons, thickened
 from core.values import Point
 from core.venue import Ring, refuse_many_edges
@@ -41,6 +42,7 @@ SQUARE = "square"
 # those who enter; the square as it was before streets were added beyond its gates is a closed line; a lane to keep free
 # is its middle line, with half of its width as its radius.
 GATE, INNER_SQUARE, LANE = "gate", "square without streets", "emergency lane"
+GATE_PROPERTIES = ("heading", "use", "street_width", "street_length")
 ASIDES = {GATE: "Point", INNER_SQUARE: "LineString", LANE: "LineString"}
 # Largest nesting depth [1]: a collection of features of collections of polygons.
 DEPTH_MAX = 8
@@ -54,13 +56,14 @@ LANE_POINTS_MAX = 1000
 class Aside(NamedTuple):
     """What stands in a venue for people: no bench can touch it.
 
-    heading: of those who enter by a gate, if it is known [rad]; radius: half of the width of a lane [m]
+    own: what is known of a gate: `heading` of those who enter [rad], its `use`, `street_width` and `street_length` [m]
+    radius: half of the width of a lane [m]
     """
 
     role: str
     name: str | None
     points: Ring
-    heading: float | None = None
+    own: Mapping[str, float | str] = {}
     radius: float | None = None
 
 
@@ -129,13 +132,11 @@ def asides_in(geometry: object, scale: Scale = METRES, field: str = "venue") -> 
         return []
     if is_aside(geometry):
         properties, shape = geometry["properties"], geometry["geometry"]
-        name, heading = properties.get("name"), properties.get("heading")
-        if heading is not None:
-            heading = checked_number(f"{field}.properties.heading", heading, "rad", -2.0 * math.pi, 2.0 * math.pi)
+        name, own = properties.get("name"), dict(_of_gate(properties, f"{field}.properties"))
         points = [shape.get("coordinates")] if shape["type"] == "Point" else shape.get("coordinates")
         (ring,), role = _rings(f"{field}.geometry.coordinates", [points], scale, None), str(properties["role"])
         if role != LANE:
-            return [Aside(role, name, ring, heading)]
+            return [Aside(role, name, ring, own)]
         if len(set(ring)) < 2:
             raise InvalidValue(f"{field}.geometry.coordinates", "must be a line with a length")
         if len(ring) > LANE_POINTS_MAX:
@@ -150,6 +151,22 @@ def asides_in(geometry: object, scale: Scale = METRES, field: str = "venue") -> 
         (f"{field}.{name}.{k}", one) for name, some in members if isinstance(some, list) for k, one in enumerate(some)
     )
     return [aside for where, one in every for aside in asides_in(one, scale, where)]
+
+
+def gate_properties(properties: Mapping[str, Any]) -> dict[str, Any]:
+    """Of these properties those that only gates have."""
+    return {name: value for name in GATE_PROPERTIES if (value := properties.get(name)) is not None}
+
+
+def _of_gate(properties: Mapping[str, Any], field: str) -> Iterator[tuple[str, float | str]]:
+    """The properties that only gates have. field: of the properties. raises: InvalidValue"""
+    for name, value in gate_properties(properties).items():
+        if name == "use":
+            yield name, checked_member(f"{field}.{name}", value, GateUse).value
+        elif name == "heading":
+            yield name, checked_number(f"{field}.{name}", value, "rad", -2.0 * math.pi, 2.0 * math.pi)
+        else:
+            yield name, checked_number(f"{field}.{name}", value, "m", *STREETS)
 
 
 def is_aside(feature: Mapping[str, Any]) -> bool:

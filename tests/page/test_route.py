@@ -90,7 +90,7 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_judged_and_changed_by_th
         person.presses(f"[data-tool={tool}]")
         for x, y in places:
             person.page.mouse.click(x, y)
-    names = [name.input_value() for name in person.all("#things li input:first-of-type").all()]
+    names = [name.input_value() for name in person.all("#things li > input:first-of-type").all()]
     assert names == ["square", "tree", "wall", "emergency lane"]
     person.types({"#things li >> nth=1 >> input": "old oak"}).sees({**YES, "#tolerance[aria-busy=false] .value": True})
     kept = file_of(person)["venue"]["features"]
@@ -357,7 +357,7 @@ def test_a_file_comes_beside_what_is_drawn_a_dance_as_a_further_dragon_or_not_at
     assert person.findings() == []
     person.takes(square).presses("#beside-it")
     person.sees({"#status": "these of the file are left out: “square”", "#things li": 6}).settles()
-    names = [one.input_value() for one in person.all("#things li input:first-of-type").all()]
+    names = [one.input_value() for one in person.all("#things li > input:first-of-type").all()]
     assert names[:3] == ["court", "well", "well 2"]
     assert person.address()["route"] == before["route"]
     assert person.presses("#undo").settles().address() == before

@@ -20,7 +20,7 @@ from tests.support.refusal_rows import assert_refused
 
 # Rounding of degrees in doubles, on places 10,000 km from the centre of the earth [m].
 ROUNDING = 1e-7
-OWN = ("name", "radius", "role", "heading")
+OWN = ("name", "radius", "role", "heading", "use", "street_length")
 ORIGIN = {"longitude": 120.123, "latitude": 30.25}
 VILLAGE = json.loads((ROOT / "examples" / "village_square.geojson").read_text())
 PATHS = json.loads("""[
@@ -64,7 +64,7 @@ def posted(client, data, kind="application/octet-stream"):
 
 
 def assert_alike(features, others):
-    """The same shapes with the same names, radii, roles and headings, at the same places."""
+    """The same shapes with the same names, radii, roles and properties of gates, at the same places."""
     for feature, other in zip(features, others, strict=True):
         own, expected = ([one["properties"].get(name) for name in OWN] for one in (feature, other))
         assert own == expected
@@ -86,7 +86,8 @@ COLLECTION = {"type": "FeatureCollection", "features": THINGS}
 ASIDES = json.loads("""[
     {"type": "Feature", "properties": {"name": "West", "role": "gate"}, "geometry":
         {"type": "Point", "coordinates": [-20, 2]}},
-    {"type": "Feature", "properties": {"name": "东门", "role": "gate", "heading": 3.5}, "geometry":
+    {"type": "Feature", "properties":
+        {"name": "东门", "role": "gate", "heading": 3.5, "use": "out", "street_length": 60.0}, "geometry":
         {"type": "Point", "coordinates": [20, 3.25]}},
     {"type": "Feature", "properties": {"name": "ambulances", "role": "emergency lane", "radius": 1.5}, "geometry":
         {"type": "LineString", "coordinates": [[-20, -5], [0, -5], [20, 1]]}},

@@ -64,7 +64,10 @@ def test_gates_are_kept_and_no_bench_can_touch_them():
     place = place_of(features(gate(GATE), box(*SQUARE, name="square"), line), None, Dragon())
     assert [area.name for area in place.venue.areas] == ["square"]
     ring = tuple(map(tuple, RING))
-    assert place.asides == [Aside("gate", "East", ((20, 5),), 1.5), Aside("square without streets", None, ring)]
+    assert place.asides == [
+        Aside("gate", "East", ((20, 5),), {"heading": 1.5}),
+        Aside("square without streets", None, ring),
+    ]
     # In another shape, or with a radius, it stands in the way.
     blocks = [gate(GATE | {"radius": 0.3}), gate(GATE, "Polygon", [RING])]
     for one in blocks:

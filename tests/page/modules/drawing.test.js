@@ -26,8 +26,11 @@ test("a drawing is the same after an address", () => {
   const back = again(DRAWN);
   // A gate straight into the square has no heading of its own.
   assert.deepEqual(back, { ...DRAWN, things: DRAWN.things.map(({ heading, ...thing }) => thing) });
-  const turned = { ...DRAWN, things: [THINGS[0], { ...THINGS[4], heading: -1.5 }] };
+  const gate = { ...THINGS[4], heading: -1.5 };
+  const turned = { ...DRAWN, things: [THINGS[0], gate, { ...gate, name: "way in", use: "in", street_width: 4.5, street_length: 60 }] };
   assert.deepEqual(again(turned), turned);
+  const kept = drawing.drawingOf({ venue: drawing.keptVenueOf(turned) });
+  assert.deepEqual(kept.things, turned.things);
   assert.deepEqual(drawing.toAddress(EMPTY), []);
 });
 
