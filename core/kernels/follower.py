@@ -132,8 +132,10 @@ class Follower:
         r = self.rear_of(b)
         if r == -FREE:
             return Follows.NOWHERE
-        if r < self.rear or (r - self.rear) * self.least > h + self.spare:  # f' <= 1 / least
+        if fabs(r - self.rear) * self.least > h + self.spare:  # |f'| <= 1 / least
             return Follows.JUMPS
+        if r < self.rear:
+            return Follows.BACKWARDS
         rear, front = self.cosines(b, r)
         if rear <= self.least:
             return Follows.SIDEWAYS
