@@ -23,8 +23,8 @@ RATIOS = (
     10, 20, 25, 50, 75, 100, 125, 200, 250, 300, 400, 500, 750, 1000, 1250, 2000, 2500, 3000, 4000, 5000, 7500, 10_000,
     12_500, 20_000, 25_000, 50_000,
 )  # fmt: skip
-# Lengths of a scale bar [m], and the longest on paper [mm].
-BARS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000)
+# Lengths of a scale bar, of which one is whole millimetres long [m], and the longest on paper [mm].
+BARS = (0.5, 1, 2, 3, 5, 10, 15, 20, 30, 50, 100, 150, 200, 300, 500, 1000, 2000)
 BAR_MOST = 50.0
 # Parts of a millimetre in which shapes are written.
 PARTS = 100
@@ -57,8 +57,9 @@ class Scale:
 
     @property
     def bar(self) -> float:
-        """Length of the scale bar [m]."""
-        return float(max((one for one in BARS if one * 1000.0 / self.ratio <= BAR_MOST), default=BARS[0]))
+        """Length of the scale bar [m]: on paper in whole millimetres."""
+        on_paper = ((one, one * 1000.0 / self.ratio) for one in BARS)
+        return float(max((one for one, wide in on_paper if wide <= BAR_MOST and wide.is_integer()), default=BARS[0]))
 
 
 def scale_of(name: PaperName, low: Floats, high: Floats) -> Scale:

@@ -46,6 +46,7 @@ class LooseTail(Ground):
 
     benches: int = Field(description="Number of loose benches, the last ones of each dragon")
     reach: float = measure("m", "Furthest that they come from the handle that still follows the path")
+    beyond_spectators: bool = Field(description="True: they can reach people who stand where these may")
 
 
 class LaneStay(Answer, of=core.Stay):

@@ -74,6 +74,7 @@ def _ground_words(answer: SafetySheet, spectators: float) -> list[str]:
         counted(tail.benches, "The last bench, let go, comes at most {reach} m from its front handle.",
                 "The last {count} benches, let go, come at most {reach} m from the front handle of the first of them.",
                 reach=format_bound(tail.reach, 1, up=True)),
+        *([say("That is beyond the line behind which people stand: see the map.")] if tail.beyond_spectators else []),
     ]  # fmt: skip
 
 

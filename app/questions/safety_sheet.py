@@ -53,7 +53,7 @@ from core.errors import Given, Parameter, format_bound, format_number, question_
 from core.language import say
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
-from core.shapes.engines import Polygons, area_of, free_width, lane_rings, merged, widened
+from core.shapes.engines import Polygons, area_of, free_width, holds_all, lane_rings, merged, widened
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses
 from core.values import Floats
@@ -253,6 +253,7 @@ class _Judged:
                 excess=max(one.excess for one in loose),
                 benches=max(one.benches for one in loose),
                 reach=max(one.reach for one in loose),
+                beyond_spectators=not holds_all(self.closed, reached),
             ),
             lanes=lanes,
             gates=self._gates(terms),
@@ -394,6 +395,8 @@ class _Judged:
             if (near := area.nearest) is not None and near.distance < FAR:
                 (bench,) = benches_words([near.bench], [k], self.performance)
                 words = say("{bench} and {area}", bench=bench, area=area.name)
+                if area.name == self.place.venue.square.name:
+                    words = say("{bench} and the edge of {area}", bench=bench, area=area.name)
                 yield area.name, Approach(
                     distance=near.distance, at_least=near.at_least, time=near.time + part.delay, dragons=[k],
                     benches=[near.bench], area=area.name, point=near.point, sentence=words,

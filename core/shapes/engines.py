@@ -349,6 +349,16 @@ def widened(polygons: Polygons, by: float) -> Polygons:
     return _rings(shapely.buffer(ground, ARC_GROWTH * by, quad_segs=ARC_CHORDS))
 
 
+def holds_all(polygons: Polygons, others: Polygons) -> bool:
+    """True if polygons hold all of others."""
+    import shapely
+
+    ground, rest = (
+        shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in some]) for some in (polygons, others)
+    )
+    return bool(shapely.covers(ground, rest))
+
+
 def thickened(line: Floats, radius: float) -> Polygons:
     """Polygons that hold every point within `radius` of a line through points (P, 2), and none further than GROWTH_MOST
     times that [m]."""

@@ -65,6 +65,8 @@ def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
     joint = motion.position[::20, 3]
     assert answer["loose_tail"]["reach"] == pytest.approx(1.65 + np.hypot(1.65 + 0.275, 0.15))
     assert shapely.contains(loose, shapely.buffer(shapely.points(joint), 0.999 * answer["loose_tail"]["reach"])).all()
+    assert answer["loose_tail"]["beyond_spectators"]
+    assert not ask("safety-sheet", BODY | {"spectators": 4.0})["loose_tail"]["beyond_spectators"]
     crossed, beside, over = answer["lanes"]
     inside = (shapely.distance(outlines, shapely.box(28, -8, 32, 8)) <= 0.0).any(axis=1)
     assert crossed["free_width"] == 0.0
