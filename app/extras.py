@@ -35,6 +35,10 @@ class MissingPackage(BenchDragonError):
     code = "missing-package"
 
 
+class NotTypeset(RuntimeError):
+    """The typesetter of the extra paper failed."""
+
+
 def require(extra: str, field: str, what: str) -> None:
     """raises: MissingPackage, at the field and with what to install, when a module of the extra is missing"""
     for module in MODULES[extra]:

@@ -22,6 +22,7 @@ from app.command.options import LANGUAGE
 from app.command.show import language_of_terminal
 from app.command.streams import output_fault
 from app.command.usage import Commands, Misuse, explain_values, message_of, say_help
+from app.extras import NotTypeset
 from core.errors import BenchDragonError
 from core.kernels import COMPILED
 from core.language import Language, named_language, say, speaking, spoken
@@ -72,7 +73,8 @@ QUESTION_OF = {"film": "films", "propose": "proposals"}
 
 @contextmanager
 def _errors_in_one_line(language: Language | None) -> Iterator[None]:
-    """Context that turns errors that a user can correct into one line on standard error and exit code 2.
+    """Context that turns errors that a user can correct into one line on standard error and exit code 2, and a failure
+    of the typesetter into one line and exit code 1.
 
     language: of all words; None for that which is spoken
     """
@@ -86,6 +88,9 @@ def _errors_in_one_line(language: Language | None) -> Iterator[None]:
             message = output_fault(error) if isinstance(error, OSError) else message_of(error)
             if message:  # Without any argument the parser prints the help.
                 print(say("Error: {message}", message=message), file=sys.stderr)
+        except NotTypeset as error:
+            print(say("Error: {message}", message=error), file=sys.stderr)
+            raise typer.Exit(1) from None
         raise typer.Exit(2)
 
 

@@ -18,12 +18,13 @@ from typing import Any
 
 import orjson
 
+from app.extras import NotTypeset
 from app.files.fonts import LATIN, chinese_among, language_of
 from app.processes.child import ProcessEnded
 from app.processes.pool import Pool
 from core import Budget, TooMuchWork
 from core.errors import Quantity
-from core.language import Language, spoken
+from core.language import Language, say, spoken
 
 # Millimetres in a point of type.
 POINT = 25.4 / 72.0
@@ -57,7 +58,7 @@ def _asked(budget: Budget | None, name: str, *arguments: object) -> Any:
             raise TooMuchWork.in_words("dance", words, most=Quantity(MEMORY_MAX / 1e6, "MB", 6)) from None
         value, error = None, str(end)
     if error:
-        raise RuntimeError(f"the file was not typeset: {error}")
+        raise NotTypeset(say("the paper was not set, because the typesetter failed: {why}", why=error))
     return value
 
 

@@ -13,16 +13,26 @@ from __future__ import annotations
 import os
 import pickle
 import sys
+from contextlib import suppress
 from functools import cache
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import orjson
-import typst
 
 from app.processes.limits import AWAITED_NICENESS, end_first, limit_memory, lower_priority
 from app.processes.parent import Report, answer_tasks
+
+if TYPE_CHECKING:
+    import typst
+
+
+@cache
+def _typst() -> Any:
+    """The typesetter. Where it cannot be imported, the first task has the reason as its answer."""
+    return import_module("typst")
 
 
 @cache
@@ -31,7 +41,8 @@ def _fonts() -> typst.Fonts:
     package = find_spec("matplotlib")
     places = (package.submodule_search_locations if package else None) or ()
     folders = [Path(place) / "mpl-data/fonts/ttf" for place in places]
-    return typst.Fonts(include_embedded_fonts=False, font_paths=folders)
+    fonts: typst.Fonts = _typst().Fonts(include_embedded_fonts=False, font_paths=folders)
+    return fonts
 
 
 def families() -> list[str]:
@@ -42,12 +53,15 @@ def families() -> list[str]:
 def measured(files: Any) -> Any:
     """What the template main.typ says under the label measured. files: content by name"""
     options: dict[str, Any] = {"field": "value", "one": True}  # Typst's types know of no files by their names.
-    return orjson.loads(typst.query(files, "<measured>", font_paths=_fonts(), ignore_system_fonts=True, **options))
+    return orjson.loads(_typst().query(files, "<measured>", font_paths=_fonts(), ignore_system_fonts=True, **options))
 
 
 def pdf(files: Any) -> bytes:
     """The bytes of a PDF that can be read aloud, of the template main.typ. files: content by name"""
-    return typst.compile(files, font_paths=_fonts(), ignore_system_fonts=True, timestamp=0, pdf_standards=["ua-1"])
+    data: bytes = _typst().compile(
+        files, font_paths=_fonts(), ignore_system_fonts=True, timestamp=0, pdf_standards=["ua-1"]
+    )
+    return data
 
 
 FUNCTIONS = {function.__name__: function for function in (families, measured, pdf)}
@@ -69,4 +83,6 @@ def main() -> None:
     end_first()
     limit_memory(int(sys.argv[1]))
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # Without memory Rust writes its stack there; all else is an answer.
+    with suppress(Exception):
+        _typst()
     answer_tasks(_answer)

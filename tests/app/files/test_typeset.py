@@ -7,11 +7,12 @@ from contextlib import suppress
 
 import pytest
 
-from app.extras import MissingPackage
+from app.extras import MissingPackage, NotTypeset
 from app.files.fonts import LATIN, chinese_among
 from app.files.typeset import Face, typeset, typesetting
 from core import Budget, TooMuchWork
 from core.kernels import Halted
+from tests.support.command import run
 from tests.support.job_service import wait_for
 from tests.support.paper import pages_of, words_of
 
@@ -44,8 +45,22 @@ def test_what_is_typed_is_text_and_never_markup():
 
 
 def test_a_template_that_fails_says_why():
-    with pytest.raises(RuntimeError, match="the file was not typeset: panicked with: no paper"):
+    with pytest.raises(NotTypeset, match="the typesetter failed: panicked with: no paper"):
         typeset(b'#panic("no paper")', FACE, {})
+
+
+def test_a_typesetter_that_fails_is_one_sentence_and_the_file_stays_as_it_was(tmp_path):
+    (tmp_path / "typst.py").write_text("raise ImportError('no such library')")
+    file = tmp_path / "sheet.pdf"
+    file.write_text("as it was")
+    for name in ("plan", "cues", "crew", "safety-sheet"):
+        words = [name, "examples/village_square.toml", "--output", str(file)]
+        ended = run(*words, PYTHONPATH=str(tmp_path))
+        assert (ended.returncode, file.read_text()) == (1, "as it was")
+        assert ended.stderr.splitlines()[-1:] == [
+            "Error: the paper was not set, because the typesetter failed: no such library"
+        ]
+        assert "Traceback" not in ended.stderr
 
 
 def test_a_file_that_needs_too_much_memory_is_refused_in_a_sentence_and_the_next_one_is_set(capfd):
