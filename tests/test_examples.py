@@ -28,9 +28,9 @@ DANCES = "paper_dance contest_turn clothoid_turn village_square two_dragons cros
 
 def test_every_example_has_its_test():
     assert {path.stem for path in EXAMPLES.glob("*.toml")} == set(DANCES.split())
-    # test_tour.py, test_verify.py; the village reads the last one
+    # test_tour.py, test_verify.py; the village reads the last one. The lessons have test_lessons.py.
     others = {path.name for path in EXAMPLES.glob("*.*") if path.suffix != ".toml"}
-    assert others == {"tour.py", "verify.py", "village_square.geojson"}
+    assert others == {"README.md", "tour.py", "verify.py", "village_square.geojson"}
 
 
 def test_the_turn_with_clothoids_is_that_of_the_library_and_passes():

@@ -1,0 +1,68 @@
+"""The lesson sheets of examples/lessons: one code in two languages, every cell runs, and their sentences are true."""
+
+import ast
+import re
+
+import pytest
+
+from tests.conftest import ROOT
+
+LESSONS = sorted((ROOT / "examples" / "lessons").glob("*.en.py"))
+NAMES = [path.name.removesuffix(".en.py") for path in LESSONS]
+
+
+def cells(path, kind):
+    import jupytext
+
+    notebook = jupytext.reads(path.read_text(encoding="utf-8"), fmt="py:percent")
+    return [cell.source for cell in notebook.cells if cell.cell_type == kind]
+
+
+def ran(name):
+    """Names after all cells ran in order; `answers` are the values of their last lines."""
+    names, answers = {"__name__": "__main__"}, []
+    for source in cells(ROOT / "examples" / "lessons" / f"{name}.en.py", "code"):
+        tree = ast.parse(source)
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, name, "exec"), names)
+        answers += [eval(compile(ast.Expression(last.value), name, "eval"), names)] if last else []
+    return names | {"answers": answers}
+
+
+@pytest.mark.parametrize("path", LESSONS, ids=NAMES)
+def test_both_languages_have_the_same_code_between_words_of_their_own(path):
+    chinese = path.with_name(path.name.replace(".en.", ".zh."))
+    assert cells(path, "code") == cells(chinese, "code")
+    english_words, chinese_words = cells(path, "markdown"), cells(chinese, "markdown")
+    assert len(english_words) == len(chinese_words) > 6
+    assert sum(words.startswith(("## Exercise", "# Lesson")) for words in english_words) == 3
+    assert not any(re.search("[一-鿿]", words) for words in english_words)
+    assert all(re.search("[一-鿿]", words) for words in chinese_words)
+
+
+def test_positions_and_speeds_of_ten_lines_are_those_of_the_library_and_a_length_for_a_chord_is_found():
+    lesson = ran("1_positions_and_speeds")
+    assert lesson["apart"] < 1e-11  # "to eleven digits"
+    assert lesson["slowest"] < 1e-11
+    assert lesson["grade"].verdict == "wrong"
+    assert [finding.error for finding in lesson["grade"].diagnosis] == ["length_for_chord"]
+
+
+def test_a_look_once_a_second_misses_a_contact_that_a_step_which_is_a_proof_finds():
+    lesson = ran("2_first_contact")
+    assert 0.0 < lesson["closer"].clearance.min() < 1e-3  # "less than a millimetre"
+    assert lesson["first_seen"] - lesson["true"].time > 2.5  # "three seconds later"
+    assert lesson["contact"].time - 1e-3 < lesson["time"] <= lesson["contact"].time
+    assert (lesson["mine"].verdict, lesson["paper"].verdict) == ("right", "wrong")
+    begin, end = lesson["clear_again"][[0, -1]]
+    assert 415.0 < begin < end < 415.4
+
+
+def test_halving_for_a_radius_ends_beside_a_jump_and_the_grader_judges_the_pitches():
+    lesson = ran("3_smallest_pitch")
+    below, above = lesson["radius"](lesson["low"]), lesson["radius"](lesson["high"])
+    assert lesson["high"] - lesson["low"] < 1e-9
+    assert below - above == pytest.approx(0.17, abs=0.005)  # "17 cm apart"
+    assert above < 4.5 < below
+    assert lesson["smallest"].head_radius == pytest.approx(4.57, abs=0.005)
+    assert list(lesson["verdicts"].values()) == ["right", "right", "infeasible", "wrong", "wrong"]
