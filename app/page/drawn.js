@@ -7,6 +7,7 @@ import { $, $$, hide, make, textButton } from "./elements.js";
 import { Files } from "./files.js";
 import { stepsOf } from "./history.js";
 import { Judgement } from "./judgement.js";
+import { addKits } from "./kits.js";
 import { knotsOf } from "./knots.js";
 import { Menu } from "./menu.js";
 import { PRESETS, PRESET_NAMES, shownAt } from "./presets.js";
@@ -49,6 +50,7 @@ export class Drawn {
     const files = new Files(state, this.steps, service, questions, several);
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
     this.beside = new Beside($("#beside"), dance, this.editor, this.form);
+    addKits(this.editor);
     new Menu($("#stage"), this.editor);
     this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show() });
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point, ACROSS));

@@ -1,10 +1,10 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
 import { aligned, copied, inserted, moved, pointsOf, removed, shiftedAll, turned, withPoints, withThing, withoutThings } from "./changes.js";
-import { LANE_RADIUS, THINGS, freeName, isLine, yardOf } from "./drawing.js";
+import { LANE_RADIUS, THINGS, freeName, isLine, place, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
-import { extent, onBorder, streetLength } from "./square.js";
+import { extent, onBorder, rectangle, streetLength } from "./square.js";
 import { between, say } from "./text.js";
 import { decimetres, nearestLeg, squared, thingUnder, thingsWithin } from "./touch.js";
 
@@ -17,6 +17,7 @@ const HELPS = {
   wall: "Tap along the wall. Choose Wall again for the next one.",
   lane: "Tap along the middle of a lane that stays free, such as one for ambulances; its radius is half of its width. The safety sheet says when benches are in it.",
   several: "Tap things one after another, or drag a frame around them; then drag, copy, align or remove them together. With Shift, any tool does so.",
+  kit: "Tap where each of them stands; then drag its handles, or type its numbers beside it.",
   gate: "Tap the border: the dragon comes in or goes out there. Beyond it a straight street of about {length} m is added, as long as your dragon, which stands in it before or after the dance.",
 };
 
@@ -45,6 +46,8 @@ export class Editor {
   /** True if taps draw. */
   active = false;
   tool = "path";
+  /** What a tap with the tool puts ready-made: {kind, name, radius or size}; null without. @type {any} */
+  kit = null;
   /** The edited item: null for the path, else the number of a thing. */
   item = null;
   /** Further things that are chosen together with this one. @type {number[]} */
@@ -114,13 +117,13 @@ export class Editor {
 
   /** What a tap draws with the tool. */
   get help() {
-    const words = say(HELPS[this.tool], { length: this.tool === "gate" ? streetLength(this.state) : "" });
+    const words = say(HELPS[this.kit ? "kit" : this.tool], { length: this.tool === "gate" ? streetLength(this.state) : "" });
     return this.#hasKeys.matches ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 cm, Enter inserts one, Delete removes it.")}` : words;
   }
 
-  /** Draw with this tool from now on; a new obstacle begins with the next tap. */
-  take(tool) {
-    this.tool = tool;
+  /** Draw with this tool from now on; a new obstacle begins with the next tap. kit: what a tap puts ready-made, or null */
+  take(tool, kit = null) {
+    [this.tool, this.kit] = [tool, kit];
     const area = this.#drawing.things.findIndex(({ kind }) => kind === "area");
     this.edit(tool === "area" && area >= 0 ? area : null);
   }
@@ -129,7 +132,7 @@ export class Editor {
   edit(item) {
     [this.item, this.others] = [item, []];
     this.#isDrawing = true;
-    if (item !== null) this.tool = this.#drawing.things[item].kind;
+    if (item !== null) [this.tool, this.kit] = [this.#drawing.things[item].kind, null];
     this.chosen();
   }
 
@@ -200,7 +203,7 @@ export class Editor {
     $("#edit").setAttribute("aria-pressed", on);
     for (const button of $$("[data-tool]")) {
       button.hidden = !on;
-      button.setAttribute("aria-pressed", this.tool === button.dataset.tool);
+      button.setAttribute("aria-pressed", button.dataset.tool === (this.kit ? "kits" : this.tool));
     }
     $("[data-tool=gate]").disabled = !yardOf(this.#drawing).length;
     $("#delete").hidden = !on;
@@ -542,7 +545,7 @@ export class Editor {
   /** Place of the next point: the middle of the picture, or beyond the last point, for a thing with a turn to the left. */
   #after() {
     const { view } = this.dance;
-    const points = ONE_POINT.includes(this.tool) ? [] : pointsOf(this.#drawing, this.item);
+    const points = this.#isPut ? [] : pointsOf(this.#drawing, this.item);
     if (!points.length || (this.item === null && this.tool !== "path")) return view.toWorld(view.width / 2, view.height / 2);
     const [[ax, ay], [bx, by]] = [points.at(-2) ?? points[0].with(0, points[0][0] - 1), points.at(-1)];
     const far = (STRIDE * view.width) / view.scale / (Math.hypot(bx - ax, by - ay) || 1);
@@ -573,7 +576,7 @@ export class Editor {
   #put(point, spot = null) {
     const drawing = this.#drawing;
     if (this.tool === "path") this.steps.take(inserted(drawing, null, spot?.k ?? drawing.points.length, spot?.point ?? point));
-    else if (this.item === null || !this.#isDrawing || ONE_POINT.includes(this.tool)) this.#begin(drawing, point);
+    else if (this.item === null || !this.#isDrawing || this.#isPut) this.#begin(drawing, point);
     else this.steps.take(inserted(drawing, this.item, spot?.k ?? pointsOf(drawing, this.item).length, point));
     this.chosen();
   }
@@ -597,8 +600,14 @@ export class Editor {
     return { k: k < 0 ? knots.length - 1 : k, point: [x[best], y[best]] };
   }
 
+  /** True if every tap puts a whole thing. */
+  get #isPut() {
+    return Boolean(this.kit) || ONE_POINT.includes(this.tool);
+  }
+
   /** Add a new thing at this point. */
   #begin(drawing, wanted) {
+    if (this.kit) return this.#putKit(drawing, wanted);
     const kind = this.tool;
     if (kind === "gate" && !yardOf(drawing).length) return;
     const point = kind === "gate" ? onBorder(yardOf(drawing), wanted).point : wanted;
@@ -607,5 +616,13 @@ export class Editor {
     [this.item, this.others] = [drawing.things.length, []];
     this.#isDrawing = true;
     this.steps.take(withPoints({ ...drawing, things: [...drawing.things, thing] }, this.item, [point]));
+  }
+
+  /** Add the ready-made thing with its middle at this point, and choose it. */
+  #putKit(drawing, point) {
+    const { kind, name, radius, size } = this.kit;
+    const thing = { kind, name: freeName(drawing.things, say(name)), points: size ? rectangle(...size, point) : [place(point)], ...(radius && { radius }) };
+    this.steps.take({ ...drawing, things: [...drawing.things, thing] });
+    this.choose(drawing.things.length);
   }
 }

@@ -11,7 +11,7 @@ import { knotsOf } from "./knots.js";
 import { clockIn, secondsBetween } from "./passages.js";
 import { pending } from "./pending.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
-import { circle, extent, rectangle } from "./square.js";
+import { circle, extent, lShape, rectangle, tShape, uShape } from "./square.js";
 import { roundedRoute } from "./walk.js";
 import { between, language, phrase, say, sentencesOf, writeTexts } from "./text.js";
 
@@ -22,6 +22,15 @@ const TOOLS = {
   block: "Obstacle",
   area: "Square",
 };
+/** Squares by their size, and what a typed corner is cut from. @type {Record<string, { name: string, draw: any }>} */
+const SHAPES = {
+  rectangle: { name: phrase("a rectangle"), draw: rectangle },
+  l: { name: phrase("an L"), draw: lShape },
+  t: { name: phrase("a T"), draw: tShape },
+  u: { name: phrase("a U"), draw: uShape },
+};
+/** What is cut from a square that is no rectangle, at first [m]. */
+const NOTCH = ["14", "10"];
 /** Size of a square before any is drawn [m], and the largest one. */
 const [WIDTH, HEIGHT, MOST] = [30, 40, 10_000];
 /** Difference of width and height of a round square, from rounding [m]. */
@@ -96,7 +105,9 @@ export class Propose {
     const unit = () => make("span", { textContent: "m" });
     this.sizes = [field(phrase("Width of the square")), field(phrase("Length of the square")), field(phrase("Diameter of the square"))];
     const [width, height, diameter] = this.sizes;
-    const take = (id, label, shape, fields) => textButton("Draw it", () => this.#draw(shape, fields), { id, "data-label": label });
+    this.notch = [field(phrase("Width of what is cut out"), { id: "notch-width", value: NOTCH[0] }), field(phrase("Length of what is cut out"), { id: "notch-height", value: NOTCH[1] })];
+    this.shape = make("select", { id: "place-shape", "data-label": "Shape of the square", onchange: () => this.show() }, ...Object.entries(SHAPES).map(([value, { name }]) => make("option", { value, "data-text": name })));
+    const take = (id, label, draw) => textButton("Draw it", draw, { id, "data-label": label });
     this.dragon = DRAGON.map((name) => field(LABELS[name], { onchange: ({ target }) => this.#setNumber(name, target) }));
     this.ends = field(phrase("It must end by"), { id: "ends", inputMode: "text", onchange: ({ target }) => this.state.set({ ends: target.value.trim() }), "aria-describedby": "ends-wrong" });
     this.laps = field(phrase("Times around a ring or an eight"), { id: "laps", onchange: ({ target }) => this.state.set({ laps: target.value.trim() }), "aria-describedby": "ends-wrong" });
@@ -109,9 +120,11 @@ export class Propose {
     this.cards = make("ol", { id: "cards" });
     this.corners = new Corners({ state, steps, editor }, (refused) => this.#tell(refused));
     const tools = Object.entries(TOOLS).map(([tool, words]) => textButton(words, () => this.#tool(tool), { "data-add": tool }));
+    tools.push(textButton("More things …", () => {}, { "data-add": "kits", popoverTargetElement: $("#kits") }));
     box.append(
-      line(words(phrase("Our square is")), width, make("span", { textContent: "×" }), height, unit(), take("take-rectangle", phrase("Draw it: the rectangle"), rectangle, [width, height])),
-      line(words(phrase("or a circle, across")), diameter, unit(), take("take-circle", phrase("Draw it: the circle"), circle, [diameter])),
+      line(words(phrase("Our square is")), this.shape, make("span", { className: "size" }, width, " × ", height, " m"), take("take-rectangle", phrase("Draw it: the square by its size"), () => this.#drawShape())),
+      (this.notchLine = line(words(phrase("of which this is cut out:")), make("span", { className: "size" }, this.notch[0], " × ", this.notch[1], " m"))),
+      line(words(phrase("or a circle, across")), diameter, unit(), take("take-circle", phrase("Draw it: the circle"), () => this.#draw(circle, [diameter]))),
       (this.wrong = make("p", { className: "error", id: "place-wrong", role: "alert" })),
       (this.help = make("p", { className: "hint", id: "add-help", role: "status" })),
       (this.tools = make("p", { className: "buttons" }, ...tools)),
@@ -132,7 +145,7 @@ export class Propose {
     for (const [one, id] of [[width, "place-width"], [height, "place-height"], [diameter, "place-diameter"]]) {
       one.id = id;
       one.addEventListener("input", () => (one.typed = true));
-      one.addEventListener("keydown", ({ key }) => key === "Enter" && (one === diameter ? this.#draw(circle, [diameter]) : this.#draw(rectangle, [width, height])));
+      one.addEventListener("keydown", ({ key }) => key === "Enter" && (one === diameter ? this.#draw(circle, [diameter]) : this.#drawShape()));
     }
     state.listen((names) => [...DRAGON, ...WHEN, "csv", "margin", "stray", "hole", "pin", "drawing", "path", "door"].some((name) => names.has(name)) && this.show());
   }
@@ -170,15 +183,24 @@ export class Propose {
     this.state.set({ [name]: String(number) });
   }
 
+  /** Draw the square of the chosen shape. */
+  #drawShape() {
+    const [fields, { draw }] = [this.sizes.slice(0, 2), SHAPES[this.shape.value]];
+    this.#draw(draw, draw === rectangle ? fields : [...fields, ...this.notch]);
+  }
+
   /** Draw the square by its size; what stands in it stays, and so does a path of one's own. */
   #draw(shape, fields) {
     const numbers = fields.map(({ value }) => numberIn(value));
-    fields.forEach((one, k) => one.setAttribute("aria-invalid", !(numbers[k] > 0 && numbers[k] <= MOST)));
+    // What is cut out leaves a part on each side of it; a T loses it twice.
+    const most = fields.map((_, k) => (k < 2 ? MOST : numbers[k - 2] / (k === 2 && shape === tShape ? 2 : 1)));
+    fields.forEach((one, k) => one.setAttribute("aria-invalid", !(numbers[k] > 0 && (k < 2 ? numbers[k] <= MOST : numbers[k] < most[k]))));
     const wrong = fields.find((one) => one.getAttribute("aria-invalid") === "true");
-    this.refusal = wrong ? () => say("“{what}” must be more than 0 m and at most {high} m; you typed “{text}”. The square stays as it was.", { what: say(wrong.dataset.label), high: MOST.toLocaleString("en"), text: wrong.value }) : null;
+    const high = wrong && most[fields.indexOf(wrong)];
+    this.refusal = wrong ? () => say(high === MOST ? "“{what}” must be more than 0 m and at most {high} m; you typed “{text}”. The square stays as it was." : "“{what}” must be more than 0 m and less than {high} m; you typed “{text}”. The square stays as it was.", { what: say(wrong.dataset.label), high: high.toLocaleString("en"), text: wrong.value }) : null;
     if (wrong) return this.show();
     // A number typed for the other shape stays, unless it is wrong.
-    for (const one of this.sizes) {
+    for (const one of [...this.sizes, ...this.notch]) {
       if (fields.includes(one) || one.getAttribute("aria-invalid") === "true") one.typed = false;
       one.removeAttribute("aria-invalid");
     }
@@ -376,6 +398,7 @@ export class Propose {
     writeTexts();
     if (!isRoute) return;
     this.#showSizes(yardOf(drawing));
+    hide(this.notchLine, this.shape.value === "rectangle");
     hide(this.wrong, !this.refusal);
     this.wrong.textContent = this.refusal?.() ?? "";
     this.help.textContent = this.editor.active ? this.editor.help : say("What is in it? Choose, then tap the picture.");

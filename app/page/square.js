@@ -11,6 +11,12 @@ const decimals = (number) => Number(number.toFixed(4));
 export const rectangle = (width, height, [x, y]) =>
   [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => [decimals(x + (a * width) / 2), decimals(y + (b * height) / 2)]);
 
+/** Corners of a rectangle without parts of it: an L without its upper right one, a T without both lower ones, a U without the middle of its upper side. */
+const shape = (cornersOf) => (width, height, across, deep, [x, y]) => cornersOf(width, height, across, deep).map(([px, py]) => [decimals(x + px - width / 2), decimals(y + py - height / 2)]);
+export const lShape = shape((w, h, a, d) => [[0, 0], [w, 0], [w, h - d], [w - a, h - d], [w - a, h], [0, h]]);
+export const tShape = shape((w, h, a, d) => [[a, 0], [w - a, 0], [w - a, d], [w, d], [w, h], [0, h], [0, d], [a, d]]);
+export const uShape = shape((w, h, a, d) => [[0, 0], [w, 0], [w, h], [(w + a) / 2, h], [(w + a) / 2, h - d], [(w - a) / 2, h - d], [(w - a) / 2, h], [0, h]]);
+
 /** Corners of a round square of a diameter around a middle. */
 export const circle = (diameter, [x, y]) =>
   Array.from({ length: ROUND }, (_, k) => (2 * Math.PI * k) / ROUND).map((turn) => [decimals(x + (diameter / 2) * Math.cos(turn)), decimals(y + (diameter / 2) * Math.sin(turn))]);

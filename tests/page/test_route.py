@@ -153,6 +153,21 @@ def test_a_touch_takes_a_thing_whatever_the_tool_and_its_numbers_stand_beside_it
     assert points(person) == before
 
 
+def test_an_l_is_drawn_by_its_size_and_a_tap_puts_a_fountain_of_a_usual_size_there(open_page):
+    person = open_page("?door=village&path=route&benches=9", **PHONE).chooses({"#place-shape": "l"})
+    size = {"#place-width": "42", "#place-height": "28", "#notch-width": "42", "#notch-height": "10"}
+    person.types(size, "Tab").presses("#take-rectangle").sees({"#place-wrong": "less than 42 m; you typed “42”"})
+    person.types({"#notch-width": "14"}, "Tab").presses("#take-rectangle").sees({"#place-wrong": False}).settles()
+    assert person.address()["things"] == "a.square..-21,-14_21,-14_21,4_7,4_7,14_-21,14"
+    assert person.presses("[data-add=kits]").sees({"#kits": ["fountain 3 m across", "stage 8 × 5 m"]}).findings() == []
+    person.presses("#kits button:has-text('fountain')").settles().at("#canvas").tap()
+    person.sees({"#beside": True}).holds({"#beside input >> nth=0": "fountain", "#beside input >> nth=1": "1.5"})
+    assert person.ask(COVERED) == []
+    person.presses("#tools [data-tool=kits]", "#kits button:has-text('wall')").has(
+        "[data-tool=wall]", aria_pressed="true"
+    )
+
+
 def test_several_things_are_chosen_moved_brought_into_line_copied_and_removed_together(open_page):
     trees = "c.well.1.20,22~c.elm.1.30,25~c.oak.1.33,28"
     person = open_page(f"{S_CURVE}&things=b.stage..-5,20_5,20_5,26_-5,26~{trees}&view=0,10,10").sees(YES)

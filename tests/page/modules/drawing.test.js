@@ -128,6 +128,15 @@ test("gates stay on the border, straight into the square", () => {
   assert.deepEqual(changes.moved(withStreet, 0, 2, [14, 10]).yard[2], [14, 10]);
 });
 
+test("an L, a T and a U lose what is cut out, and stay around their middle", () => {
+  const area = (ring) => ring.reduce((sum, [x, y], k) => sum + (ring.at(k - 1)[0] * y - x * ring.at(k - 1)[1]) / 2, 0);
+  for (const [shape, times] of [[square.lShape, 1], [square.tShape, 2], [square.uShape, 1]]) {
+    const ring = shape(42, 28, 14, 10, [3, 4]);
+    assert.equal(area(ring), 42 * 28 - times * 140);
+    assert.deepEqual(square.extent(ring), { width: 42, height: 28, middle: [3, 4] });
+  }
+});
+
 test("a square is drawn by its size, and measured", () => {
   const box = square.rectangle(24, 18, [1, 2]);
   assert.deepEqual(square.extent(box), { width: 24, height: 18, middle: [1, 2] });
