@@ -67,7 +67,10 @@ const service = new Service({
   },
 });
 const parts = new Parts(service);
-const questions = new Questions(service, state, (kind, detail) => (SHOW[kind] ?? TELL[kind])(detail));
+const questions = new Questions(service, state, (kind, detail) => {
+  (SHOW[kind] ?? TELL[kind])(detail);
+  if (kind === "minimum") challenge?.show();
+});
 const dance = new Dance($("#canvas"), $("#inset canvas"), {
   moved(panned) {
     const { x, y, scale } = dance.view;
@@ -84,8 +87,8 @@ const table = new Table($("#rows"), { choose, chosen: (handle) => state.set({ ha
 const graphs = new Graphs(state, questions, (time) => player.seek(time));
 const doors = new Doors(state, parts);
 addLook();
-/** What belongs to a drawn dance, what stands below the dance, the five questions, a carrier's view, several dragons, and sharing; null until they have loaded. @type {any} */
-let [route, below, strip, carrier, dragons, sharing] = [null, null, null, null, null, null];
+/** What belongs to a drawn dance, what stands below the dance, the five questions, a carrier's view, several dragons, sharing, and a challenge; null until they have loaded. @type {any} */
+let [route, below, strip, carrier, dragons, sharing, challenge] = [null, null, null, null, null, null, null];
 /** Language of the first view. */
 let begun = "";
 /** The language of the sentences that the service has sent. */
@@ -202,6 +205,7 @@ const SHOW = {
     route?.judged();
     player.update();
     carrier?.show();
+    openChallenge();
     if (state.opensInMotion && !opened) player.open();
     opened = true;
   },
@@ -271,6 +275,7 @@ const SHOW_STATE = {
     doors.show();
     translate();
     restyle();
+    openChallenge();
   },
   lang: translate,
   follow: (follow) => $("#follow").setAttribute("aria-pressed", follow),
@@ -343,6 +348,7 @@ function translate() {
   pace.show();
   player.translate();
   below?.translate(chosen);
+  challenge?.show();
   strip?.translate();
   for (const [kind, show] of Object.entries(SHOW)) if (kind === "dance" ? questions.dance : questions.answers[kind]) show();
   if (dance.scene.pose) showPose(dance.scene.pose);
@@ -376,6 +382,14 @@ async function openCarrier() {
   carrier ??= new Carrier({ state, service, questions, dance, show: showPose, choose });
   writeTexts();
   carrier.show();
+}
+
+/** The challenge of those who just look. */
+async function openChallenge() {
+  if (!challenge && state.get("door") !== "look") return;
+  const { Challenge } = await parts.load("challenge");
+  challenge ??= new Challenge({ state, questions });
+  challenge.show();
 }
 
 async function openSharing() {

@@ -14,6 +14,8 @@ const STEP_EVERY = 500;
 /** Longest frame time that counts [ms], so that the dance does not jump after a slow frame. */
 const FRAME_MAX = 100;
 const MOTION = Symbol("motion");
+/** Doors behind which the dance slows down before a contact; time in which it would be there at the speed of each instant [s], and least speed [1]. */
+const [SLOW, BRAKE, SLOWEST] = [["arrival", "look"], 1.5, 1];
 
 export class Player {
   #playing = false;
@@ -112,6 +114,14 @@ export class Player {
     field.select();
   }
 
+  /** Seconds of the dance in a second: for those who look, fewer before benches touch, so that they see it come. */
+  get #rate() {
+    const rate = this.state.get("rate");
+    const { answer, end } = this.questions.dance;
+    if (!SLOW.includes(this.state.get("door")) || !answer.time) return rate;
+    return Math.min(rate, Math.max((end - this.time) / BRAKE, SLOWEST));
+  }
+
   #step(seconds) {
     this.stop();
     this.seek(this.time + seconds);
@@ -176,7 +186,7 @@ export class Player {
     if (!dance.track?.at(this.time)) return;
     this.#passed += Math.min(now - before, FRAME_MAX);
     if (this.still.matches && this.#passed < STEP_EVERY) return;
-    this.seek(this.time + (this.#passed / 1000) * this.state.get("rate"));
+    this.seek(this.time + (this.#passed / 1000) * this.#rate);
     this.#passed = 0;
     if (this.state.get("time") === null) this.stop();
   }

@@ -10,6 +10,7 @@ import zxingcpp
 from PIL import Image
 from playwright.sync_api import expect
 
+from tests.support import polite
 from tests.support.job_service import wait_for
 
 thorough = pytest.mark.thorough
@@ -91,6 +92,22 @@ def moves(person, x):
     """The dance, once the mouse is there."""
     person.sees({"#play": "Play"}).page.mouse.move(x, 300)
     return person.sees({"#play": "Pause"})
+
+
+def test_who_just_looks_is_asked_for_the_tightest_spiral_and_gets_a_card_of_it(open_page, server):
+    person = open_page("?door=look&lang=en&time=end").sees({"#challenge-words": "At 0.5500 m it gets there. Tighter?"})
+    person.types({"#pitch": "0.4502"}, "Tab")
+    gone = polite.answer(server, "collision-time", pitch=0.4502)["head"]["radius"] - 4.5
+    person.sees(
+        {"#challenge-words": f"they touch {gone:.2f} m before. Your tightest: 0.5500 m", "#challenge-card": False}
+    )
+    person.types({"#pitch": "0.4504"}, "Tab").sees(
+        {"#challenge-words": "from 0.4504 m on, every wider spiral gets there"}
+    )
+    card = person.settles().saves("#challenge-card", "bench-dragon-0.4504.png")
+    assert Image.open(BytesIO(card)).size == (1080, 1080)
+    assert person.findings() == []
+    person.presses("[data-path=turn]").sees({"#challenge": False})
 
 
 @thorough
