@@ -7,7 +7,7 @@ import re
 from datetime import datetime, timedelta
 
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import Error, expect
 
 from tests.support import paper, polite
 from tests.support.person import PHONE
@@ -142,6 +142,20 @@ def test_without_a_network_the_card_goes_on_and_opens_again_in_both_languages_un
     assert cues_of(person) == words_of(cues["zh"])
     person.presses("#card-remove").sees({"#card-remove": False})
     assert person.ask(KEPT) == [0, 0]
+
+
+def test_the_next_day_in_flight_mode_the_card_opens_in_a_new_tab_and_nothing_else_does(open_page):
+    person = held(open_page("?benches=20&bench=7&lang=en", failing=True, **PHONE))
+    person.at("#carrier[data-kept=true]").wait_for()
+    context, address = person.page.context, person.page.url
+    context.set_offline(True)
+    tab = context.new_page()
+    tab.clock.install(time=datetime.now() + timedelta(days=1))
+    tab.goto(address)
+    tab.locator("#carrier[data-kept=true]").wait_for()
+    assert tab.locator(f"{LIST} span:last-child").all_inner_texts() == cues_of(person)
+    with pytest.raises(Error, match="ERR_INTERNET_DISCONNECTED"):
+        tab.goto(address.partition("?")[0])
 
 
 @thorough
