@@ -177,8 +177,8 @@ def draw_venue(drawing: MapDrawing, venue: Venue | None, *, small: bool = False)
     square, scale = venue.square, drawing.scale
     for area in venue.areas:
         rings = [scale.on_paper(np.array(ring)) for ring in area.rings]
-        if not small and len(cut := np.concatenate([_leaving(ring, drawing.room) for ring in rings])):
-            drawing.shape(cut, IN_CUT, CUT, "")
+        if not small:
+            _draw_cut(drawing, rings)
         if area is square:
             drawing.shape(rings, look(edge=GREY, width=0.5) if small else look(width=1.2), 5)
             continue
@@ -195,6 +195,12 @@ def draw_venue(drawing: MapDrawing, venue: Venue | None, *, small: bool = False)
     middle = scale.on_paper(np.array(widest_place(square.rings)[:2]))
     beside = 0.5 * drawing.width(square.name, NAME_TYPE) + 1.5
     drawing.label(square.name, NAME_TYPE, _inside(scale.on_paper(np.array(square.rings[0])), middle, beside))
+
+
+def _draw_cut(drawing: MapDrawing, rings: Sequence[Floats]) -> None:
+    """Break outlines on paper where they go on beyond the sheet."""
+    if len(cut := np.concatenate([_leaving(ring, drawing.room) for ring in rings])):
+        drawing.shape(cut, IN_CUT, CUT, "")
 
 
 def _leaving(ring: Floats, room: Box) -> Floats:
@@ -330,6 +336,7 @@ def draw_safety(
     for name, rings in layers.lanes:
         placed = [scale.on_paper(ring) for ring in rings]
         drawing.shape(placed, IN_LANE, 2.5)
+        _draw_cut(drawing, placed)
         x, y = placed[0].mean(axis=0).tolist()
         drawing.label(name, NAME_TYPE, [(x, y), (x, y + 4.0), (x, y - 4.0)], on_paper=True)
     for rings in layers.loose:

@@ -114,7 +114,9 @@ def lane_words(lane: Lane, clock: TimeFormat) -> str:
         name=name, width=width, stays=stays, more=more, seconds=lane.total,
     )  # fmt: skip
     free = format_bound(lane.free_width, 1)
-    return joined([words, say("At least {free} m of its width stay free.", free=free) if float(free) else ""])
+    if float(free):
+        return joined([words, say("At least {free} m of its width stay free.", free=free)])
+    return joined([words, say("Then no part of its width is sure to be free.")])
 
 
 def together(times: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
