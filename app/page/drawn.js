@@ -10,6 +10,7 @@ import { Judgement } from "./judgement.js";
 import { addKits } from "./kits.js";
 import { knotsOf } from "./knots.js";
 import { Menu } from "./menu.js";
+import { Photo } from "./photo.js";
 import { PRESETS, PRESET_NAMES, shownAt } from "./presets.js";
 import { Propose } from "./propose.js";
 import { RouteForm } from "./route.js";
@@ -48,7 +49,8 @@ export class Drawn {
     const course = () => (questions.course?.drawing === state.get("drawing") ? questions.course : null);
     this.editor = new Editor(dance, state, this.steps, course, () => this.show());
     const files = new Files(state, this.steps, service, questions, several);
-    this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
+    this.photo = new Photo(state, this.editor, () => this.#photographed());
+    this.form = new RouteForm($("#route"), state, this.steps, this.editor, files, this.photo);
     this.beside = new Beside($("#beside"), dance, this.editor, this.form);
     addKits(this.editor);
     new Menu($("#stage"), this.editor);
@@ -56,7 +58,7 @@ export class Drawn {
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point, ACROSS));
     this.#invite();
     const { below, names, above } = layers(dance, () => this.#visible());
-    dance.below.push(below);
+    dance.below.push((pen) => this.#isRoute && this.photo.draw(pen), below);
     dance.names.push(names);
     dance.above.push(above, () => this.editor.place(), () => this.beside.place());
   }
@@ -76,7 +78,13 @@ export class Drawn {
     const { course } = this.questions;
     const editing = this.editor.active;
     const selected = editing ? this.editor.item : null;
-    return { drawing: this.state.get("drawing"), editing, selected, chosen: this.editor.items, held: this.editor.held, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
+    return { drawing: this.state.get("drawing"), editing, selected, chosen: this.editor.items, measured: editing ? this.editor.measured : [], held: this.editor.held, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
+  }
+
+  /** After a change of the photo: all of it is in view, unless a person has moved the picture. */
+  #photographed() {
+    if (this.#isRoute) this.picture.setPath(this.#isEmpty ? null : this.questions.course, this.around(), this.yard());
+    this.show();
   }
 
   /** The offers without a drawing: draw a path, or begin with a preset. */
@@ -101,7 +109,7 @@ export class Drawn {
 
   /** Points of the venue, which must be visible together with the path. */
   around() {
-    return this.#isRoute ? this.state.get("drawing").things.flatMap(({ points }) => points) : [];
+    return this.#isRoute ? [...this.state.get("drawing").things.flatMap(({ points }) => points), ...this.photo.corners] : [];
   }
 
   /** Corners of a square with streets without them, or null. */
@@ -121,9 +129,10 @@ export class Drawn {
     $("#save").disabled = this.#isEmpty && !points.length && !drawing.things.length;
     this.editor.show();
     this.beside.show();
+    this.photo.show();
     const empty = drawn && this.#isEmpty;
     $("main").classList.toggle("empty", empty);
-    hide($("#invite"), !empty || points.length > 0 || this.editor.active || yardOf(drawing).length > 0);
+    hide($("#invite"), !empty || points.length > 0 || this.editor.active || yardOf(drawing).length > 0 || this.photo.corners.length > 0);
     this.propose.show();
     if (!drawn) return;
     this.form.show();

@@ -17,6 +17,7 @@ const HELPS = {
   wall: "Tap along the wall. Choose Wall again for the next one.",
   lane: "Tap along the middle of a lane that stays free, such as one for ambulances; its radius is half of its width. The safety sheet says when benches are in it.",
   several: "Tap things one after another, or drag a frame around them; then drag, copy, align or remove them together. With Shift, any tool does so.",
+  measure: "Tap two points: their distance stands between them.",
   kit: "Tap where each of them stands; then drag its handles, or type its numbers beside it.",
   gate: "Tap the border: the dragon comes in or goes out there. Beyond it a straight street of about {length} m is added, as long as your dragon, which stands in it before or after the dance.",
 };
@@ -50,6 +51,8 @@ export class Editor {
   kit = null;
   /** The edited item: null for the path, else the number of a thing. */
   item = null;
+  /** Points between which a distance is measured, at most two [m]. @type {number[][]} */
+  measured = [];
   /** Further things that are chosen together with this one. @type {number[]} */
   others = [];
   /** True while taps add points to the edited thing; false after it was chosen by a touch. */
@@ -118,12 +121,12 @@ export class Editor {
   /** What a tap draws with the tool. */
   get help() {
     const words = say(HELPS[this.kit ? "kit" : this.tool], { length: this.tool === "gate" ? streetLength(this.state) : "" });
-    return this.#hasKeys.matches ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 cm, Enter inserts one, Delete removes it.")}` : words;
+    return this.#hasKeys.matches && this.tool !== "measure" ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 cm, Enter inserts one, Delete removes it.")}` : words;
   }
 
   /** Draw with this tool from now on; a new obstacle begins with the next tap. kit: what a tap puts ready-made, or null */
   take(tool, kit = null) {
-    [this.tool, this.kit] = [tool, kit];
+    [this.tool, this.kit, this.measured] = [tool, kit, []];
     const area = this.#drawing.things.findIndex(({ kind }) => kind === "area");
     this.edit(tool === "area" && area >= 0 ? area : null);
   }
@@ -142,6 +145,12 @@ export class Editor {
     [this.item, this.others] = [item, others];
     this.#isDrawing = false;
     this.chosen();
+  }
+
+  /** The measured distance [m]. */
+  get distance() {
+    const [[ax, ay], [bx, by]] = this.measured;
+    return Math.hypot(bx - ax, by - ay);
   }
 
   /** Choose a thing beside those that are chosen already, or no longer. */
@@ -390,6 +399,7 @@ export class Editor {
   /** A press on a thing, whatever the tool, takes this thing: it is edited, and moves with the pointer. */
   #seize(event) {
     if (!this.active || !this.#isRoute || !event.isPrimary || (event.button && event.button !== 2)) return;
+    if (this.tool === "measure") return;
     const item = this.#under(event.offsetX, event.offsetY);
     const isSeveral = (event.shiftKey || this.tool === "several") && !event.button;
     if (item === null ? !isSeveral : item === this.item && this.#isDrawing && this.#points.length > 1) return;
@@ -533,7 +543,7 @@ export class Editor {
 
   /** Handle the key that puts the next point without a pointer: it gets the focus, to be moved by arrow keys. */
   #next(event) {
-    if (this.tool === "several" || !this.active || !this.#isRoute || event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (["several", "measure"].includes(this.tool) || !this.active || !this.#isRoute || event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     event.stopPropagation();
     const { view } = this.dance;
@@ -560,6 +570,11 @@ export class Editor {
       const item = thingUnder(this.#drawing.things, this.dance.view, [px, py], THINGS_INSIDE);
       if (item === null) return false;
       this.choose(item);
+      return true;
+    }
+    if (this.tool === "measure") {
+      this.measured = [...(this.measured.length < 2 ? this.measured : []), this.dance.view.toWorld(px, py)];
+      this.chosen();
       return true;
     }
     const drawing = this.#drawing;

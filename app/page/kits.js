@@ -15,6 +15,7 @@ const KITS = {
   spectators: { kind: "block", name: phrase("spectators"), size: [10, 2] },
   wall: { kind: "wall", name: THINGS.wall },
   lane: { kind: "lane", name: THINGS.lane },
+  measure: { kind: "measure", name: phrase("measure a distance") },
 };
 
 /** Size of a kit in words. */

@@ -52,12 +52,12 @@ export class RouteForm {
   #things = [];
 
   /**
-   * editor: chooses the edited item; steps: receives changes; files: {open, save, map}
+   * editor: chooses the edited item; steps: receives changes; files, photo: have buttons
    * @param {State} state
    * @param {Steps} steps
    * @param {Editor} editor
    */
-  constructor(box, state, steps, editor, files) {
+  constructor(box, state, steps, editor, files, photo) {
     this.box = box;
     this.state = state;
     this.steps = steps;
@@ -78,8 +78,11 @@ export class RouteForm {
     const heads = [phrase("Point"), "x [m]", "y [m]", phrase("Straight on"), phrase("Remove")].map((words) => textElement("th", words, { scope: "col" }));
     const table = make("table", {}, make("thead", {}, make("tr", {}, ...heads)), this.rows);
     const field = (key, input, unit) => make("label", { className: "line" }, textElement("span", NAMES[key]), input, unitOf(unit));
+    const photoButtons = photo.parts();
+    const photoLine = photoButtons.pop();
     box.append(
-      make("p", { className: "buttons" }, this.preset, this.presets, ...files.buttons()),
+      make("p", { className: "buttons" }, this.preset, this.presets, ...files.buttons(), ...photoButtons),
+      photoLine,
       this.note,
       field("speedLimit", this.limit, "m/s"),
       (this.cornerLine = field("cornerRadius", this.corner, "m")),

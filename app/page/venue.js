@@ -173,7 +173,7 @@ function labelPlace({ kind, points }) {
   return [x / points.length, y / points.length, kind === "block" ? Math.max(...xs) - Math.min(...xs) : 0];
 }
 
-/** The layers of a drawn dance. get(): {drawing, editing, selected, chosen, held, failure, course, benches}, or null in another kind of dance */
+/** The layers of a drawn dance. get(): {drawing, editing, selected, chosen, measured, held, failure, course, benches}, or null in another kind of dance */
 export function layers(dance, get) {
   const below = (pen, colours) => {
     const drawn = get();
@@ -209,6 +209,12 @@ export function layers(dance, get) {
     if (yardOf(drawing).length) for (const thing of drawing.things) if (thing.kind === "gate") drawGate(pen, colours, drawing, thing);
     const measured = drawing.things[selected];
     if (measured?.points.length > 1 && chosen.length < 2) drawMeasures(pen, dance.view, colours, measured, drawn.held, names);
+    for (const point of drawn.measured) pen.stroke(pen.circle(...point, 4), colours.pick, 2);
+    if (drawn.measured.length === 2) {
+      const [[ax, ay], [bx, by]] = drawn.measured;
+      pen.stroke(trace(drawn.measured, new Path2D(), false), colours.pick, 2);
+      label(pen, dance.view, `${Math.hypot(bx - ax, by - ay).toFixed(2)} m`, [(ax + bx) / 2, (ay + by) / 2], colours.pick, colours, names);
+    }
     if (drawn.editing) name(pen, colours, drawn, names);
     drawing.things.forEach((thing, k) => {
       const isMeant = failure?.area === thing.name || (chosen.length > 1 && chosen.includes(k));

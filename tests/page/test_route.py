@@ -1,9 +1,11 @@
 """A dance drawn on the picture by mouse, touch and keys: its verdict, its address and its files."""
 
 import json
+from io import BytesIO
 
 import openpyxl
 import pytest
+from PIL import Image
 from playwright.sync_api import expect
 
 from tests.conftest import ROOT
@@ -166,6 +168,39 @@ def test_an_l_is_drawn_by_its_size_and_a_tap_puts_a_fountain_of_a_usual_size_the
     person.presses("#tools [data-tool=kits]", "#kits button:has-text('wall')").has(
         "[data-tool=wall]", aria_pressed="true"
     )
+
+
+def test_a_photo_stays_behind_the_square_on_the_device_with_the_scale_of_a_measured_distance(open_page, tmp_path):
+    person = open_page("?door=village&path=route&benches=9", **PHONE)
+
+    def file(name, content, mime="image/png"):
+        return {"name": name, "mimeType": mime, "buffer": content}
+
+    large = tmp_path / "c.png"
+    with large.open("wb") as sparse:
+        sparse.truncate(50_000_001)
+    for wrong, words in (
+        (file("a.heic", b"x", "image/heic"), "Browsers cannot show HEIC photos such as “a.heic”"),
+        (file("b.png", b"x"), "“b.png” is no picture that this browser can show"),
+        (large, "“c.png” has 51 MB; a photo may have at most 50 MB"),
+    ):
+        person.takes(wrong, "#photo-file").sees({"#status": words, "#photo": False})
+    yard = BytesIO()
+    Image.new("RGB", (80, 60), "#804020").save(yard, "PNG")
+    person.takes(file("yard.png", yard.getvalue()), "#photo-file").sees({"#status": "stays on this device"}).settles()
+    wide = person.coloured("#804020")
+    assert wide > 1000
+    box = person.box("#canvas")
+    for right in (-40, 40):
+        person.page.touchscreen.tap(box["x"] + 0.5 * box["width"] + right, box["y"] + 0.5 * box["height"])
+    person.sees({"#photo-size": True}).types({"#photo-metres": "200"}).sees({"#photo-size": False}).settles()
+    assert person.presses("#show-all").settles().coloured("#804020") == pytest.approx(wide, rel=0.1)
+    assert person.findings() == []
+    person.page.reload()
+    person.settles().sees({"#photo": True}).presses("#photo-hide").settles()
+    assert person.coloured("#804020") == 0
+    person.presses("#photo-hide", "#photo-remove").sees({"#photo": False}).page.reload()
+    person.settles().sees({"#photo": False})
 
 
 def test_several_things_are_chosen_moved_brought_into_line_copied_and_removed_together(open_page):

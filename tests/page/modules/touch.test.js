@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import * as changes from "../../../app/page/changes.js";
 import { EMPTY } from "../../../app/page/drawing.js";
+import { scaled } from "../../../app/page/photo.js";
 import { nearestLeg, squared, thingUnder } from "../../../app/page/touch.js";
 
 const THINGS = [
@@ -61,4 +62,8 @@ test("things come into a row with the first of them, and have equal gaps; a squa
   assert.deepEqual(placesOf(changes.aligned(trees, [0, 1, 2], "gaps")), [[6, 1], [0, 2], [12, 4]]);
   const { things } = changes.shiftedAll(DRAWING, [3, 0, 2], [2, 1]);
   assert.deepEqual([things[0].points[0], things[2].points, things[3].points], [[2, 1], [[21, 10]], [[2, 9]]]);
+});
+
+test("a photo has the scale of a measured distance, and its first point stays", () => {
+  assert.deepEqual(scaled({ x: -10, y: 20, scale: 0.1 }, [[0, 10], [3, 14]], 10), { x: -20, y: 30, scale: 0.2 });
 });
