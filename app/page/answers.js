@@ -61,7 +61,7 @@ const ends = ([low, high], decimals) => ({ low: bound(low, decimals, -1), high: 
 const bracket = (template, both, decimals) => [say("Bracket, rounded outwards"), say(template, ends(both, decimals))];
 
 /** The section of the page "How it works" that explains the answer in a box. */
-const IDEAS = { "minimum-pitch": "staircase", tolerance: "stray", "head-speed": "chord", "turn-time": "chord", "highest-speed": "chord", "run-end": "chord" };
+const IDEAS = { "minimum-pitch": "staircase", tolerance: "stray", "head-speed": "speed", "turn-time": "speed", "highest-speed": "speed", "shortest-turn": "turn", "quickest-turn": "turn", "run-end": "chord" };
 const idea = ({ id }) => make("a", { href: `how?lang=${language()}#${IDEAS[id] ?? "step"}`, textContent: say("How it works") });
 
 /**

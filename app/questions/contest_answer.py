@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Literal
 
-import numpy as np
 from pydantic import Field
 
 import core
@@ -28,8 +27,6 @@ COSTS, FURTHER = {1: 0.01, 2: 0.01, 3: 0.1, 4: 0.01, 5: 0.02}, 4.0
 TURN = 4
 # What makes one turn differ from another.
 SHAPE = ("ratio", "entry_radius", "exit_radius")
-# Distance from an arc within which a handle is on it [m].
-ON_ARC = 1e-6
 
 
 class ContestAnswerQuery(Wire):
@@ -223,20 +220,8 @@ def _speed(dragon: Dragon, terms: Terms) -> ContestAnswer:
     turn, limit = PROBLEM.to_turn(), PROBLEM.speed_limit
     fastest = core.maximum_head_speed(Dance(dragon, turn), limit, budget=terms.budget)
     peak, first = fastest.time_at_unit_head_speed, fastest.handles[0]
-    place = core.trajectory(Dance(dragon, turn), [peak], budget=terms.budget).position[-1, first]
-    where = phrase("There handle {first} is at ({x:.2f}, {y:.2f}) m.")
-    on_first, on_second = (
-        abs(float(np.hypot(*(place - centre))) - radius) < ON_ARC
-        for centre, radius in zip(turn.centres, turn.radii, strict=True)
-    )
-    if on_first:
-        where = phrase(
-            "There handle {first} is at ({x:.2f}, {y:.2f}) m, still on the first arc, and handle {ahead} before it "
-            "on the second one, which bends the other way: the bench between them stands askew to the path, and a "
-            "rigid bench passes a speed on along itself."
-        )
-    elif on_second:
-        where = phrase("There handle {first} is at ({x:.2f}, {y:.2f}) m, on the second arc.")
+    motion = core.trajectory(Dance(dragon, turn), [peak], budget=terms.budget)
+    x, y = motion.position[-1, first]
     words = [
         say(
             "The fastest are {handles}, one after another, with {ratio:.4f} times the speed of the head, which is "
@@ -245,7 +230,22 @@ def _speed(dragon: Dragon, terms: Terms) -> ContestAnswer:
             ratio=fastest.speed_ratio,
             way=peak,
         ),
-        say(where, first=first, ahead=first - 1, x=place[0], y=place[1]),
+        say(
+            "The head has then left the second arc for the wide coil. Its bench, {chord:.2f} m from hole to hole, "
+            "stands almost across that arc of radius {radius:.2f} m, where handle 1 still is: little of a speed there "
+            "points along the bench, so handle 1 must be {second:.4f} times as fast.",
+            chord=dragon.chords[0],
+            radius=turn.radii[1],
+            second=motion.speed[-1, 1],
+        ),
+        say(
+            "The joint of the two arcs, between handles {ahead} and {first}, adds the rest: handle {first} is at "
+            "({x:.2f}, {y:.2f}) m, still on the first arc.",
+            first=first,
+            ahead=first - 1,
+            x=x,
+            y=y,
+        ),
         say(
             "So {limit:g} m/s of theirs allow the head {limit:g} / {ratio:.6f} = {speed:.6f} m/s.",
             limit=limit,

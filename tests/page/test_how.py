@@ -1,15 +1,18 @@
 """The page "How it works": its figures show the service's own numbers while they are dragged, in both languages."""
 
+import contextlib
+import io
 import re
 
 import pytest
 from playwright.sync_api import expect
 
+from core import Turn
 from tests.support import polite
 from tests.support.person import PHONE
 
 thorough = pytest.mark.thorough
-SECTIONS = {"chord", "staircase", "step", "graze", "stray"}
+SECTIONS = {"chord", "staircase", "step", "graze", "proof", "stray", "turn", "speed"}
 # A drag by this many pixels moves a number by a quarter of its range.
 QUARTER = 70
 
@@ -89,6 +92,50 @@ def test_dragged_numbers_get_the_answers_of_the_service_also_after_it_was_lost(o
     person.settles()
 
 
+def test_the_turn_keeps_its_length_at_every_ratio_and_jams_when_the_entry_is_too_deep(open_page):
+    person = drawn(open_page("how?lang=en", failing=True)).sees({"#turn .lead": "13.621245 m"})
+    ratio, entry = dial(person, "turn", "Radius of the first arc"), dial(person, "turn", "Distance of the entry")
+    ratio.press("PageDown")
+    person.sees({"#turn .lead .dial": "1.90", "#turn .verdict": "go through: the tighter bend has a radius of 1.555 m"})
+    person.sees({"#turn .lead": "13.621245 m"})
+    for _ in range(3):
+        entry.press("PageDown")
+    length = Turn(1.7, ratio=1.9, entry_radius=4.2, exit_radius=4.2).length
+    person.sees({"#turn .lead": f"{length:.6f} m", "#turn .verdict": "go through"})
+    person.presses("#turn .try").sees({"#turn .verdict": "go through", "#turn .bench": True})
+    entry.press("Home")
+    person.sees({"#turn .verdict": "The benches jam", "#turn .bench": 0, "#turn .arc": 2})
+    # Looks once a second see nothing of a contact.
+    person.sees({"#proof .verdict": "Of 24 stretches", "#proof .more": ["0.865 mm", "409.83 s"]})
+    person.presses("#proof .try >> nth=0").sees({"#proof .verdict": "Of 6 stretches between two looks, 0 are proven"})
+    person.presses("#proof .try >> nth=1").sees({"#proof .verdict": ["touch at 409.77", "no look sees it"]})
+    # Over the joint the bench of the head makes the next handle half as fast again.
+    person.sees({"#speed .lead": "1.5542 m/s", "#speed .verdict": "55.4 % faster"}).presses("#speed .try")
+    person.sees({"#speed .lead": ["1.6048 m/s", "1.5542 m/s"], "#speed .more": "1.246266 m/s"})
+
+
+def test_the_lines_of_python_beside_each_figure_compute_what_it_shows(open_page):
+    person = drawn(open_page("how?lang=en"))
+    shown = {
+        "chord": "0.99635490",
+        "staircase": "0.450337393",
+        "step": "clear 1 1.257",
+        "graze": "0 of 10 looks",
+        "proof": "0.000865",
+        "stray": "0.04664",
+        "turn": "13.621244",
+        "speed": "1.55419",
+    }
+    assert set(shown) == SECTIONS
+    for section, words in shown.items():
+        code = person.page.locator(f"#{section} .python code").text_content()
+        assert 3 <= code.count("\n") <= 10
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output):
+            exec(code, {})
+        assert words in output.getvalue(), (section, output.getvalue())
+
+
 def test_a_refused_refinement_leaves_the_curve_as_it_was(open_page):
     person = open_page("how?lang=en", failing=True)
     whole = re.compile("pitch-scan(?!.*locate)")
@@ -115,7 +162,7 @@ def test_an_address_keeps_the_numbers_the_look_is_kept_on_both_pages_and_answers
     # Every answer of the dance leads to the idea behind it, and back.
     expect(person.at("#run-end details a")).to_be_attached()
     hashes = "links => links.map((link) => new URL(link.href).hash.slice(1))"
-    assert set(person.all("#answers details a").evaluate_all(hashes)) == SECTIONS - {"graze"}
+    assert set(person.all("#answers details a").evaluate_all(hashes)) == SECTIONS - {"graze", "proof", "turn"}
     person.presses("#tolerance summary", "#tolerance details a").sees({"#stray .ground": True})
     person.presses("#name a").sees({"#first-contact .value": True})
     assert person.address().items() >= {"benches": "12", "pitch": "0.6", "lang": "zh"}.items()

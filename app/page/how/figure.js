@@ -1,8 +1,9 @@
 /** A figure with its sentences: a person drags their numbers, the service answers, and the figure is drawn. */
 
 import { Problem, Superseded } from "../api.js";
-import { button, make } from "../elements.js";
+import { button, make, textButton } from "../elements.js";
 import { say } from "../text.js";
+import { CODE } from "./code.js";
 import { Dial } from "./dial.js";
 
 /** A name in a text: a number to drag, a number of the answer, or with a value a button that sets a number. */
@@ -40,7 +41,10 @@ export class Figure {
     this.note = make("p", { className: "note", role: "status" });
     this.figure = make("figure", { "aria-busy": "true" }, this.svg, this.note);
     const text = (part) => this.#text(part);
-    section.append(this.#text("title", "h2"), text("lead"), this.figure, text("verdict"), text("more"));
+    this.code = make("code");
+    const copy = textButton("Copy", () => navigator.clipboard?.writeText(this.code.textContent));
+    const python = make("details", { className: "python" }, make("summary", { "data-text": "The same in Python" }), make("pre", { tabIndex: 0 }, this.code), copy);
+    section.append(this.#text("title", "h2"), text("lead"), this.figure, text("verdict"), text("more"), python);
     section.querySelector("h2").id = `${section.id}-title`;
     section.setAttribute("aria-labelledby", `${section.id}-title`);
     this.#pulled();
@@ -84,6 +88,7 @@ export class Figure {
   async change() {
     const values = Object.fromEntries(Object.entries(this.dials).map(([name, { value }]) => [name, value]));
     const { id } = this.section;
+    this.code.textContent = CODE[id](values);
     this.figure.setAttribute("aria-busy", "true");
     try {
       const answer = await this.plan.ask((call, how) => this.service.ask(`${id} ${call}`, call, how), values);

@@ -1,4 +1,4 @@
-/** The page "How it works": five figures, asked one after another, in the language of the address or of the browser. */
+/** The page "How it works": its figures, asked one after another, in the language of the address or of the browser. */
 
 import { Service } from "../api.js";
 import { $, $$, onClick } from "../elements.js";

@@ -1,8 +1,9 @@
-/** The five figures: the question of each to the service, the drawing of the answer, and the numbers in its sentences. */
+/** The figures: the question of each to the service, the drawing of the answer, and the numbers in its sentences. */
 
 import { staircase } from "../charts.js";
 import { benchName, phrase, say } from "../text.js";
 import { Chart, Picture, onSpiral } from "./draw.js";
+import { proof, speed, turn } from "./turns.js";
 
 /** Number of the contest's benches, of drawn ones, and of judged ones if only the first ones meet [1]. */
 const DRAGON = { overhang: 0.275, width: 0.3 };
@@ -293,4 +294,4 @@ const stray = {
 };
 
 /** The plan of each figure, by the id of its section. */
-export const PLANS = { chord, staircase: stairs, step, graze, stray };
+export const PLANS = { chord, staircase: stairs, step, graze, proof, stray, turn, speed };
