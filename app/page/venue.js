@@ -223,7 +223,7 @@ export function layers(dance, get) {
     for (const { points, ...bend } of drawn.course?.bends ?? []) {
       const middle = points[Math.floor(points.length / 2)];
       pen.stroke(pen.circle(...middle, RING), colours.head, 3);
-      label(pen, dance.view, say("{radius} m, needs {least} m", radiiOf(bend)), middle, colours.head, colours, names, RING + 6);
+      label(pen, dance.view, say("{radius} m, {least} m suffices", radiiOf(bend)), middle, colours.head, colours, names, RING + 6);
     }
     for (const kind of Object.keys(BREACHES)) {
       const first = drawn.course?.breaches?.find((one) => one.kind === kind);

@@ -26,7 +26,7 @@ LABELS: Phrases = {
 VALUES: Phrases = {
     "contact_at_start": "contact_at_start", "eight": "eight", "fcl": "FCL", "parade": "parade", "ring": "ring",
     "serpentine": "serpentine",
-    "least_radius": "the least radius of a bend: half of the longest chord and 0.1 % more, which the proof needs",
+    "least_radius": "the least radius of a bend: half of the longest chord and 0.1 % more, where every bench follows",
 }  # fmt: skip
 # The same where a margin is required, which makes a contact not always a touch.
 NEAR: Phrases = {

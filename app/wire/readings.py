@@ -26,7 +26,7 @@ PITCH_LIMITS: Phrases = {
 TURN_LIMITS: Phrases = {
     TurnLimit.LEAST_RADIUS: (
         "Limited by the least radius of a bend that is taken here: half of the longest distance of two handles and 0.1 "
-        "% more, which the proof needs."
+        "% more, at which every bench can follow."
     ),
     TurnLimit.CIRCLE: "Limited by the circle, where it begins or ends.",
     TurnLimit.CONTACT: "Limited by contact: in turns beside it benches {meet}.",

@@ -18,7 +18,7 @@ from app.wire.paths import TurnFields
 from core import BenchDragonError, Dragon
 from core.dragon import BENCHES_MAX
 from core.errors import Quantity, quantities
-from core.paths.following import follows, tightest_bend
+from core.paths.following import follows
 
 # A request without an object of this name holds the object's fields itself.
 OUTER = re.compile(r"^(dragon|model|path|times)\.(?=[a-z])")
@@ -88,10 +88,9 @@ def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
         return error
     name = next((name for name in MEND_A_TURN if _mends(name, fields, dragon)), "turning_diameter")
     rule, unit = OTHER_RULES.get(name, ("must be larger than {given}", "m"))
-    (tightest, bench), bend = tightest_bend(dragon), 1.0 / path.sharpest[0]
-    why = "the turn bends to a radius of {bend}, where a bench cannot follow; {least} suffices for bench {bench}"
-    values = quantities(unit, given=getattr(fields, name)) | quantities("m", 4, bend=bend, least=tightest)
-    return type(error)(f"path.{name}" if body else name, f"{rule}: {why}", bench=bench, **values)
+    values = error.values | quantities(unit, given=getattr(fields, name))
+    del values["field"]
+    return type(error)(f"path.{name}" if body else name, f"{rule}: {error.reason}", **values)
 
 
 def _mends(name: str, fields: TurnFields, dragon: Dragon) -> bool:

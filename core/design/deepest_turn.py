@@ -70,9 +70,10 @@ class Touch(NamedTuple):
 
 class TurnLimit(StrEnum):
     """Reason against a deeper entry: the least radius of a bend, two benches come within the margin, or none down to
-    the deepest entry that is tried. LEAST_RADIUS: half of the longest chord over ROUTE_SINE_LIMIT, 0.1 % more than a
-    bench needs, because a proof does. UNDECIDED: rounding hides whether two benches come within the margin. CIRCLE: the
-    turn begins or ends on its circle (shortest_turn() alone). BEND: what LEAST_RADIUS was called; no answer has it."""
+    the deepest entry that is tried. LEAST_RADIUS: half of the longest chord over ROUTE_SINE_LIMIT, at which every bench
+    can follow; tighter arcs that can be followed too (core/paths/following.py) are not tried. UNDECIDED: rounding hides
+    whether two benches come within the margin. CIRCLE: the turn begins or ends on its circle (shortest_turn() alone).
+    BEND: what LEAST_RADIUS was called; no answer has it."""
 
     BEND = "bend"
     LEAST_RADIUS = "least_radius"

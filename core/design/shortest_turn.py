@@ -1,9 +1,10 @@
 """The shortest turn: two tangent arcs with any entry and exit inside the circle, as a proven bracket of the length.
 
 The turns are those of core/paths/turn.py: the entry at a radius a, the exit at a radius b, both at most that of the
-circle, and a ratio of the arcs' radii, known or free. A turn counts if every bench can follow its bends, so if both
-radii are at least half the longest chord over ROUTE_SINE_LIMIT (core/kernels/constants.py), and if no two benches come
-within the margin on all of its coils and arcs.
+circle, and a ratio of the arcs' radii, known or free. A turn counts if both radii are at least half the longest chord
+over ROUTE_SINE_LIMIT (core/kernels/constants.py), so that every bench can follow, and if no two benches come within the
+margin on all of its coils and arcs. Turns with a tighter arc that every bench is proven to follow
+(core/paths/following.py) do not count, though some are shorter.
 
 Above: a turn that was danced, and proven free of contact by first_contact() (core/design/deepest_turn.py: contact_in).
 Below: branch and bound. Boxes of (a, v, log ratio) cover all turns (v: core/design/turn_boxes.py). A box is excluded

@@ -184,8 +184,8 @@ def refuse_tight_bends(dragon: Dragon, path: Route, time_of: Callable[[float], f
     obstacle = obstacles[0]
     x, y = path.position(obstacle.s)
     rule = (
-        "must bend so that every bench can follow: bench {bench} ({chord}) cannot beyond s = {s}, at {at}, which its "
-        f"front handle reaches at {{time}}; {REASONS[obstacle.reason]}; a radius of {{least}} always suffices"
+        "must bend so that every bench can follow: bench {bench} ({chord}) cannot follow beyond s = {s}, at {at}, which "
+        f"its front handle reaches at {{time}}; {REASONS[obstacle.reason]}; a radius of {{least}} always suffices"
     )
     values: dict[str, Value] = {"bench": obstacle.bench, "at": f"({x:.4g}, {y:.4g}) m"}
     values |= quantities("m", 6, chord=obstacle.chord, s=obstacle.s)

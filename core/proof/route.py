@@ -74,7 +74,7 @@ class Piece:
         if self.curvature == 0:
             return t + chord
         if not half < 1:
-            raise Unproven("a bend is too tight for a bench")
+            raise Unproven("a bend is tighter than half a chord, for which there is no certificate yet")
         return t + 2 * half.asin() / abs(self.curvature)
 
 

@@ -162,7 +162,7 @@ def half_angle(low: arb, high: arb, chord: arb) -> arb:
     gentlest = abs(low).min(abs(high)) if low > 0 or high < 0 else arb(0)
     sharpest = abs(low).max(abs(high))
     if not sharpest * chord < 2:
-        raise Unproven("a bend is too tight for a bench")
+        raise Unproven("a bend is tighter than half a chord, for which there is no certificate yet")
     length = _arc(gentlest, chord).union(_arc(sharpest, chord))
     return low.union(high) * length / 2
 

@@ -10,7 +10,7 @@ import openpyxl
 import pytest
 
 import core
-from app.grade.limits import TURN_LENGTH_LEAST
+from app.grade.limits import TIGHTER_LENGTH, TIGHTER_TURN, TURN_LENGTH_LEAST
 from app.grade.numbers import TURN_OF_TWO_LEAST, gives
 from app.grade.report import typed
 from app.grade.shortcuts import pitch_grids, shortcuts
@@ -319,6 +319,13 @@ def test_the_shortest_right_turn_is_the_proven_one(ratio):
     """Equal arcs give the least of all ratios."""
     low = core.turn_length_bounds(core.Dragon(), 1.7, ratio=ratio, budget=core.Budget(1e10))[0]
     assert TURN_LENGTH_LEAST <= low < TURN_LENGTH_LEAST + 1e-7
+
+
+def test_the_shortest_turn_known_with_a_tighter_arc_is_danced_without_contact():
+    ratio, entry, leaving = TIGHTER_TURN
+    dance = core.Dance(core.Dragon(), core.Turn(1.7, ratio=ratio, entry_radius=entry, exit_radius=leaving))
+    assert TIGHTER_LENGTH - 1e-5 < dance.path.length <= TIGHTER_LENGTH < TURN_LENGTH_LEAST
+    assert core.first_contact(dance).outcome is core.Outcome.CLEAR
 
 
 @pytest.mark.parametrize(

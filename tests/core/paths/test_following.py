@@ -88,7 +88,9 @@ def test_turns_with_an_arc_tighter_than_half_a_chord_are_danced_unless_a_bench_j
 def test_a_corner_of_a_right_angle_is_walked_around_and_one_that_turns_back_is_refused_with_its_place_and_bench():
     street = [(0.0, 0.0), (60.0, 0.0)]
     assert check(Dance(Dragon(20), Legs([*street, (60.0, 30.0)], [0, 1], radius=0.5))).stop > 89.0
-    words = r"bench 0 \(2.86 m\) cannot beyond s = 59.685 m, at \(59.28, 0.6059\) m, .* at 59.685 s; .* backwards"
+    words = (
+        r"bench 0 \(2.86 m\) cannot follow beyond s = 59.685 m, at \(59.28, 0.6059\) m, .* at 59.685 s; .* backwards"
+    )
     with pytest.raises(InvalidValue, match=words):
         Dance(Dragon(20), Legs([*street, (40.0, 20.0)], [0, 1], radius=0.5))
 
