@@ -17,7 +17,7 @@ from core import kernels
 from core.contact.between import holds_apart
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
-from core.display import WithArrays, format_range
+from core.display import Readable, WithArrays, format_range
 from core.dragon import Stray, checked_stray
 from core.errors import checked_number, question_about
 from core.extremes.speed import checked_limit
@@ -34,6 +34,8 @@ from core.venue import Venue
 # Travel of the head between two samples [m], and most samples; fewer where benches and edges make more than PAIRS.
 STEP, SAMPLES_MAX, PAIRS = 0.3, 600, 4e6
 SAMPLES_MIN = 30
+# Rectangles that are measured first [1]: the nearest of their circles.
+FIRST = 64
 # A speed breaks a limit if it is above it by more than this share, which rounding can add [1].
 SPEED_ROUNDING = 1e-6
 # Distance between points of a stretch [m], and their largest number.
@@ -68,6 +70,76 @@ class Breach(WithArrays):
     def _line(self) -> str:
         kind, span = say(self.kind.value), format_range((self.start, self.end), "m")
         return say("{kind} from s = {span}", kind=kind, span=span)
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class AreaGap(Readable):
+    """How near benches come to the border of an area, everybody in place.
+
+    name: of the area
+    distance: least distance at the samples [m]; 0 where a bench overlaps the border, or has its centre in an obstacle
+    enough: distance with which the margin is kept however people stray [m]
+    """
+
+    name: str
+    distance: float
+    enough: float
+
+
+@question_about("dance", Dance)
+def area_gaps(
+    dance: Dance,
+    venue: Venue,
+    *,
+    margin: float = 0.0,
+    stray: float | Stray = 0.0,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
+) -> tuple[AreaGap, ...]:
+    """The least distance of the benches from each area of a venue, at the samples of breaches().
+
+    margin [m], stray, start, stop [s]: as for check()
+    raises: InvalidValue; TooMuchWork
+
+    >>> from core import Area, Dragon, Line, Route
+    >>> lane = Route([Line((0, 0), (30, 0))])
+    >>> tree = Area("tree", (((14, 1), (16, 1), (16, 2), (14, 1)),))
+    >>> plain = Area("plain", (((-9, -9), (39, -9), (39, 9), (-9, 9), (-9, -9)),))
+    >>> area_gaps(Dance(Dragon(3), lane), Venue(plain, (tree,)), margin=0.5)[1]
+    <AreaGap: name tree, distance 0.85, enough 0.5 m>
+    """
+    budget, strayed = budget or Budget(), checked_stray(stray, dance.dragon)
+    enough = checked_number("margin", margin, "m", 0.0, MARGIN_MAX) + float(gains(dance.dragon).max()) * strayed
+    edges = [edge_frames(area.edges) for area in venue.areas]
+    times = _times(dance, dance.span(start, stop), sum(map(len, edges)))
+    budget.afford(float(len(times) * dance.dragon.benches))
+    poses = bench_poses(trajectory(dance, times, budget=budget).position)
+    boxes = frames(poses, np.stack([dance.dragon.lengths, dance.dragon.widths], axis=-1))
+    flat, centres = boxes.reshape(-1, boxes.shape[-1]), poses[..., :2].reshape(-1, 2)
+    gaps = []
+    for area, frame in zip(venue.areas, edges, strict=True):
+        covers = area is not venue.square and inside(area.rings, centres).any()
+        gaps.append(AreaGap(area.name, 0.0 if covers else max(_least_gap(flat, frame), 0.0), enough))
+    return tuple(gaps)
+
+
+def _least_gap(boxes: Floats, edges: Floats) -> float:
+    """The least gap between any rectangle and any edge [m]: those whose circles come nearest are measured first."""
+    reach = np.hypot(boxes[:, kernels.FRAME_HALF_LENGTH], boxes[:, kernels.FRAME_HALF_WIDTH])
+    best = np.inf
+    for edge in edges:
+        low = _beside(boxes, edge) - reach
+        close = np.flatnonzero(low < best)
+        close = close[np.argsort(low[close])]
+        for some in (close[:FIRST], close[FIRST:]):
+            rows = some[low[some] < best]
+            if len(rows):
+                gap = np.empty(len(rows))
+                both = np.ascontiguousarray(boxes[rows]), np.tile(edge, (len(rows), 1))
+                kernels.pair_gaps(*both, np.inf, gap)
+                best = min(best, float(gap.min()))
+    return best
 
 
 @question_about("dance", Dance)
@@ -203,13 +275,17 @@ def _pairs(
     flat = boxes.reshape(-1, boxes.shape[-1])
     need, far = (np.tile(column, len(boxes)) for column in (margin + strayed, reach))
     for edge in (edge for area in edges for edge in area):
-        way = flat[:, :2] - edge[:2]
-        along = np.abs(way @ edge[2:4])
-        beside = np.abs(way @ np.array([-edge[3], edge[2]]))
-        apart = np.hypot(np.maximum(along - edge[kernels.FRAME_HALF_LENGTH], 0.0), beside)
-        close = np.flatnonzero(apart <= far + need)
+        close = np.flatnonzero(_beside(flat, edge) <= far + need)
         if len(close):
             yield flat[close], np.tile(edge, (len(close), 1)), [close], need[close]
+
+
+def _beside(boxes: Floats, edge: Floats) -> Floats:
+    """Distances (N,) of the centres of rectangles from an edge [m]."""
+    way = boxes[:, :2] - edge[:2]
+    along, beside = np.abs(way @ edge[2:4]), np.abs(way @ np.array([-edge[3], edge[2]]))
+    distance: Floats = np.hypot(np.maximum(along - edge[kernels.FRAME_HALF_LENGTH], 0.0), beside)
+    return distance
 
 
 def _united(spans: Floats) -> Iterator[tuple[float, float]]:

@@ -13,10 +13,12 @@ export const ALIGNS = { row: "In a row", column: "In a column", gaps: "Equal gap
 
 export class Beside {
   /**
-   * form: has the fields of a thing
+   * form: has the fields of a thing; gaps(): how near benches come to each area, as far as it is known
    * @param {Editor} editor
    */
-  constructor(box, dance, editor, form) {
+  constructor(box, dance, editor, form, gaps) {
+    this.gaps = gaps;
+    this.gap = make("p", { className: "gap" });
     this.box = box;
     this.dance = dance;
     this.editor = editor;
@@ -36,7 +38,7 @@ export class Beside {
     edit.remove();
     this.own = make("div", {}, make("label", { className: "radius" }, "r ", radius, unit), places, heading, use, street);
     this.title = make("b");
-    box.append(make("div", {}, name, this.title, close), this.own, this.size, this.aligns, make("div", {}, this.copy, remove));
+    box.append(make("div", {}, name, this.title, close), this.own, this.gap, this.size, this.aligns, make("div", {}, this.copy, remove));
   }
 
   /** The chosen things. */
@@ -58,9 +60,15 @@ export class Beside {
     for (const part of [this.title, this.aligns]) hide(part, isOne);
     hide(this.copy, things.every(({ kind }) => kind === "area"));
     this.title.textContent = say("{count} things", { count: things.length });
+    hide(this.gap, true);
     if (!isOne) return;
     this.form.fill(this.row, this.editor.item);
     hide(this.box.querySelector(".radius"), thing.radius === undefined);
+    // While it is drawn and dragged, the samples of the dance say how near benches come.
+    const gap = this.gaps()?.find(({ name }) => name === thing.name);
+    hide(this.gap, !gap);
+    if (gap) this.gap.textContent = say(gap.enough ? "{distance} m from the benches; {enough} m are enough" : "{distance} m from the benches", { distance: gap.distance.toFixed(2), enough: gap.enough.toFixed(2) });
+    this.gap.classList.toggle("error", Boolean(gap) && gap.distance < gap.enough);
     const { lengths } = measures(thing.points, !isLine(thing));
     this.size.textContent = thing.points.length > 1 ? lengths.filter((one) => one !== null).map((one) => `${Number(one.toFixed(2))} m`).join(" · ") : "";
   }

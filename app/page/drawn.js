@@ -51,7 +51,7 @@ export class Drawn {
     const files = new Files(state, this.steps, service, questions, several);
     this.photo = new Photo(state, this.editor, () => this.#photographed());
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files, this.photo);
-    this.beside = new Beside($("#beside"), dance, this.editor, this.form);
+    this.beside = new Beside($("#beside"), dance, this.editor, this.form, () => questions.course?.gaps);
     addKits(this.editor);
     new Menu($("#stage"), this.editor);
     this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show() });
@@ -149,8 +149,9 @@ export class Drawn {
     this.draw();
   }
 
-  /** Give the path of an address the points through which it can be edited. */
+  /** After an answer about the path: how near benches come; the path of an address gets the points through which it can be edited. */
   knotted() {
+    this.beside.show();
     const drawing = this.state.get("drawing");
     const { course } = this.questions;
     if (course && !drawing.points.length && walkOf(drawing.path)) this.state.set({ drawing: { ...drawing, ...knotsOf(course) } }, false);

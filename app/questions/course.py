@@ -12,7 +12,8 @@ from app.wire.dances import PlacedDance, SpanFields
 from app.wire.fields import Answer, Margin, SpeedLimit, Strays, measure
 from app.wire.question import Question, Terms
 from app.wire.readings import bench_words
-from core.breaches import BreachKind, breaches
+from core.breaches import AreaGap as Gap
+from core.breaches import BreachKind, area_gaps, breaches
 from core.language import say
 from core.proposal.answer import told_apart
 
@@ -52,6 +53,14 @@ class Breach(Answer):
     points: list[Point] = measure("m", "Points along it, x and y")
 
 
+class AreaGap(Answer, of=Gap):
+    """How near the benches come to an area at samples of the dance."""
+
+    name: str
+    distance: float
+    enough: float
+
+
 class Course(Answer, of=core.Course):
     """A path as it is drawn, whether or not it can be danced."""
 
@@ -65,6 +74,10 @@ class Course(Answer, of=core.Course):
         description="Stretches on which a limit is broken, at samples of the dance 0.3 m apart: a view, not a verdict, "
         "which POST /check gives; null unless asked for, and where the dragon cannot follow the path"
     )
+    gaps: list[AreaGap] | None = Field(
+        description="Least distance of the benches, everybody in place, from the square's border and each obstacle, "
+        "at the same samples; null as for breaches, and without a venue"
+    )
 
 
 def course(request: CourseRequest, terms: Terms) -> Course:
@@ -76,9 +89,9 @@ def course(request: CourseRequest, terms: Terms) -> Course:
         TightBend.from_result(bend, points=bend.points.tolist(), sentence=_bend_words(bend, dragon))
         for bend in result.bends
     ]
-    broken = _breaches(request, terms) if request.breaches and not bends else None
+    broken, gaps = _at_samples(request, terms) if request.breaches and not bends else (None, None)
     lists = {"s": result.s.tolist(), "x": x, "y": y, "knots": result.knots.tolist()}
-    return Course(**lists, length=result.length, bends=bends, breaches=broken)
+    return Course(**lists, length=result.length, bends=bends, breaches=broken, gaps=gaps)
 
 
 def _bend_words(bend: core.TightBend, dragon: core.Dragon) -> str:
@@ -89,17 +102,21 @@ def _bend_words(bend: core.TightBend, dragon: core.Dragon) -> str:
     )  # fmt: skip
 
 
-def _breaches(request: CourseRequest, terms: Terms) -> list[Breach] | None:
-    """The stretches on which the dance breaks a limit; None if the dragon cannot follow the path."""
+def _at_samples(request: CourseRequest, terms: Terms) -> tuple[list[Breach] | None, list[AreaGap] | None]:
+    """The stretches on which the dance breaks a limit, and how near it comes to each area; None if the dragon cannot
+    follow the path."""
     try:
         dance = request.to_dance(terms.settings.checked_benches_max)
         dance.span(request.start, request.stop)
     except core.InvalidValue:
-        return None
-    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
+        return None, None
+    room: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray()}
+    limits = room | {"speed_limit": request.speed_limit}
     span: dict[str, Any] = {"start": request.start, "stop": request.stop, "budget": terms.budget}
-    result = breaches(dance, request.to_place(dance.dragon).venue, **span, **limits)
-    return [Breach.from_result(one, points=one.points.tolist()) for one in result]
+    venue = request.to_place(dance.dragon).venue
+    result = breaches(dance, venue, **span, **limits)
+    gaps = None if venue is None else [AreaGap.from_result(one) for one in area_gaps(dance, venue, **span, **room)]
+    return [Breach.from_result(one, points=one.points.tolist()) for one in result], gaps
 
 
 def _cost(request: CourseRequest) -> float:

@@ -29,6 +29,14 @@ def test_stretches_are_those_of_core_and_come_only_if_asked_for(ask):
     assert late[0]["start"] > next(one["start"] for one in got if one["kind"] == "margin")
 
 
+def test_how_near_benches_come_to_each_area_is_said_at_the_same_samples(ask):
+    gaps = ask("course", BODY | {"breaches": True, "margin": 0.06})["gaps"]
+    assert {one["name"]: one["distance"] for one in gaps} == pytest.approx({"square": 8.725, "obstacle 1": 0.05})
+    assert {one["enough"] for one in gaps} == {0.06}
+    inside = {"venue": {"type": "GeometryCollection", "geometries": [box(-9, -9, 39, 9), box(10, -3, 20, 3)]}}
+    assert [one["distance"] for one in ask("course", BODY | inside | {"breaches": True})["gaps"]][1] == 0.0
+
+
 @pytest.mark.parametrize(
     "more",
     [{"path": line((0, 0), (2, 0), (2, 2), straight=[0, 1], radius=0.5)}, {"dragon": {"benches": 60}}],
@@ -36,5 +44,5 @@ def test_stretches_are_those_of_core_and_come_only_if_asked_for(ask):
 )
 def test_a_path_that_the_dragon_cannot_follow_has_a_course_without_stretches(ask, more):
     answer = ask("course", BODY | {"breaches": True} | more)
-    assert answer["breaches"] is None
+    assert (answer["breaches"], answer["gaps"]) == (None, None)
     assert len(answer["x"]) > 5
