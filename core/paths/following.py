@@ -27,7 +27,7 @@ BEGIN_WIDTH = 1e-9
 WORK_MOST = 3e7
 # Reasons why a bench cannot follow, after the place of its front handle.
 REASONS = {
-    Follows.SIDEWAYS: phrase("its rear handle would go at {angle} to the bench, more than {limit}"),
+    Follows.SIDEWAYS: phrase("its rear handle would go at more than {limit} to the bench"),
     Follows.BACKWARDS: phrase("its rear handle would have to go backwards"),
     Follows.JUMPS: phrase("its rear handle would have to jump to a nearer place of the path"),
     Follows.NOWHERE: phrase("no place of the path behind is as far away as its rear handle"),
@@ -184,15 +184,14 @@ def refuse_tight_bends(dragon: Dragon, path: Route, time_of: Callable[[float], f
     obstacle = obstacles[0]
     x, y = path.position(obstacle.s)
     rule = (
-        "must bend so that every bench can follow: bench {bench} ({chord}) cannot follow beyond s = {s}, at {at}, which "
-        f"its front handle reaches at {{time}}; {REASONS[obstacle.reason]}; a radius of {{least}} always suffices"
+        "must bend so that every bench can follow: bench {bench} ({chord}) cannot follow beyond s = {s}, at {at}, "
+        f"which its front handle reaches at {{time}}; {REASONS[obstacle.reason]}; a radius of {{least}} always suffices"
     )
     values: dict[str, Value] = {"bench": obstacle.bench, "at": f"({x:.4g}, {y:.4g}) m"}
     values |= quantities("m", 6, chord=obstacle.chord, s=obstacle.s)
     values |= quantities("s", 6, time=time_of(_head_at(dragon.chords, path, obstacle)))
     values["least"] = bound(0.5 * obstacle.chord / kernels.ROUTE_SINE_LIMIT, 3, "m", up=True)
-    degrees = {"angle": obstacle.angle, "limit": math.acos(REAR_COSINE_LEAST)}
-    values |= quantities("degrees", 4, **{word: math.degrees(angle) for word, angle in degrees.items()})
+    values |= quantities("degrees", 4, limit=math.degrees(math.acos(REAR_COSINE_LEAST)))
     raise InvalidValue("path", rule, **values)
 
 

@@ -51,6 +51,19 @@ def rear_behind(distance, s, chord):
     return s - (n - 1 + part) * SCAN * chord, tops.max(initial=0.0)
 
 
+def cosines_at(route, chord, s):
+    """u . T at the rear and at the front handle with the front one at s, its rear one from a finer scan."""
+    points, _ = points_along(route, s - SCAN * chord * np.arange(round(BACK / SCAN)))
+    rear, _ = rear_behind(np.abs(points - points[0]), s, chord)
+    for width in (2.0 * SCAN * chord, 2.0 * SCAN**2 * chord):
+        places = np.linspace(rear + width, rear - width, round(4.0 / SCAN))
+        points, _ = points_along(route, np.array([s, *places]))
+        rear = places[np.argmax(np.abs(points[1:] - points[0]) >= chord)]
+    (front, place), (onwards, tangent) = points_along(route, np.array([s, rear]))
+    along = np.conj(front - place) / chord
+    return (along * tangent).real, (along * onwards).real
+
+
 def jumps_between(route, chord, low, high):
     """Whether the rear handle jumps between two places of the front handle, each with that of the rear one [m]."""
     while abs(high[1] - low[1]) > SUSPECT:
