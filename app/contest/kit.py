@@ -20,7 +20,7 @@ import orjson
 
 from app.contest import films
 from app.contest.answers import Result, answers
-from app.contest.report import report
+from app.contest.report import report, report_pdf
 from app.contest.solved import ContestRequest, Solved, solve
 from app.contest.tables import paper_tables
 from app.extras import MissingPackage, require
@@ -44,11 +44,13 @@ PARTS = {
 }
 # Folder for files until all are ready, the file that comes last, and the name of the lock.
 UNFINISHED, REPORT, ROLE = ".unfinished", "report.md", ".contest"
+ON_PAPER = "report.pdf"
 # Endings of files that an archive makes smaller.
 TEXTS = (".csv", ".json", ".md", ".svg", ".tex")
 # Files that a kit may hold or lack.
 OPTIONAL = (
     "result4.xlsx",
+    ON_PAPER,
     *(f"{name}{ending}" for name in films.FILMS for ending in (".mp4", ".gif")),
     *(f"{TABLES}/turn-{name}.{ending}" for name in ("positions", "speeds") for ending in ("csv", "md", "tex")),
     *(
@@ -155,6 +157,11 @@ def files_of(kit: Kit, shot: films.Wanted, progress: films.StepProgress) -> Iter
     if parts is not None:
         return
     page = report(solved, kit.results, tables, drawn, filmed)
+    try:
+        require("paper", "folder", ON_PAPER)
+        yield ON_PAPER, report_pdf(solved, kit.results, tables, drawn, solved.budget)
+    except MissingPackage as missing:
+        page += "\n" + say("Not in this kit: report.pdf, because ") + missing.message + "\n"
     if kit.missing:
         page += "\n" + say("Not in this kit: figures and films, because ") + kit.missing.message + "\n"
     yield REPORT, page.encode()

@@ -1,13 +1,15 @@
-"""report.md: one page that presents the files of the kit, with all numbers from the same run."""
+"""The report of a kit, all of one run: report.md, which leads to its files, and report.pdf, for paper."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
 
 from app.contest.answers import Result
 from app.contest.solved import Solved
 from app.contest.tables import KitTable, in_markdown
+from core import Budget
 from core.errors import format_number
 from core.language import Listed, say
 
@@ -17,12 +19,17 @@ if TYPE_CHECKING:
 DIGITS = 9
 
 
-def answer_table(results: Sequence[Result]) -> str:
-    """The five answers as a table in Markdown."""
-    heads = say("question|what|value|bracket|how it is known").split("|")
+def answer_lines(results: Sequence[Result]) -> list[list[str]]:
+    """The heads of the table of the five answers, then its rows."""
     rows = [
         [f"{one.question}", one.name, f"{one.value:.{DIGITS}f} {one.unit}", _bracket(one), one.how] for one in results
     ]
+    return [say("question|what|value|bracket|how it is known").split("|"), *rows]
+
+
+def answer_table(results: Sequence[Result]) -> str:
+    """The five answers as a table in Markdown."""
+    heads, *rows = answer_lines(results)
     return in_markdown([heads, ["---", "---", "---:", "---", "---"], *rows])
 
 
@@ -63,6 +70,36 @@ def report(
     if films:
         parts += [say("## Films"), str(Listed(f"[{name}]({name})" for name in films))]
     return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
+
+
+def report_pdf(
+    solved: Solved, results: Sequence[Result], tables: Sequence[KitTable], drawn: Sequence[Drawn], budget: Budget
+) -> bytes:
+    """The answers, tables and figures on paper, tagged. raises: MissingPackage without a font for the language"""
+    from app.files.typeset import face_for, typeset
+
+    def table(heading: str, lines: list[list[str]], widths: list[float], left: list[int]) -> dict[str, Any]:
+        columns, *rows = lines
+        return {"heading": heading, "columns": columns, "rows": rows, "widths": widths, "left": left}
+
+    numbers = [table(one.caption, one.lines(), [2.0, *[1.0] * len(one.columns)], [0]) for one in tables]
+    data = {
+        "title": _bare(say("# The bench dragon: every answer")),
+        "dragon": _dragon(solved),
+        "answers": table(_bare(say("## Answers")), answer_lines(results), [1.0, 2.2, 1.7, 2.2, 3.4], [0, 1, 3, 4]),
+        "turn": _ratio(solved),
+        "tables-heading": _bare(say("## Tables")),
+        "tables": numbers,
+        "figures-heading": _bare(say("## Figures")),
+        "figures": [(one.caption, one.files["svg"].decode()) for one in drawn],
+    }
+    template = files("app.contest").joinpath("report.typ").read_bytes()
+    return typeset(template, face_for([solved.why_no_turn]), data, budget)
+
+
+def _bare(heading: str) -> str:
+    """A heading of Markdown without its marks."""
+    return heading.lstrip("# ")
 
 
 def _dragon(solved: Solved) -> str:

@@ -33,6 +33,7 @@ from core import Budget, TooMuchWork
 from core.language import Language
 from tests.support.command import COMMAND, PATIENCE, refusal, run, said
 from tests.support.depth import further
+from tests.support.paper import sheets_of
 from tests.support.reference import reference
 from tests.support.refusal_rows import assert_refused, assert_refused_in_one_line
 from tests.test_docs import KITS, assert_alike
@@ -176,9 +177,23 @@ def test_the_report_ties_everything_together(chinese):
     assert re.search(row, page, re.MULTILINE)
 
 
+def assert_on_paper(folder):
+    """The report on paper has the rows of the other one, in order."""
+    markdown = (folder / "report.md").read_text(encoding="utf-8")
+    words = "".join("".join(sheets_of((folder / "report.pdf").read_bytes())).split())
+    cells = re.findall(r"^\| (.+) \|$", markdown, re.MULTILINE)
+    place = 0
+    for cell in cells:
+        row = "".join(cell.replace(" | ", "").split())
+        place = place if "---" in cell else words.find(row, place)
+        assert place >= 0, row
+
+
 @pytest.mark.thorough
 @pytest.mark.chinese_font
 def test_the_report_leads_to_every_figure(drawn):
+    assert_on_paper(drawn[0])
+    assert len(sheets_of((drawn[0] / "report.pdf").read_bytes())) > 4
     assert links_of((drawn[0] / "report.md").read_text(encoding="utf-8"), drawn[0]) > 40
 
 
@@ -260,10 +275,11 @@ def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp
     assert "问题 4 和 5 没有答案" in done.stderr
     entries = {str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*") if file.is_file()}
     tables = {f"tables/{name}.{kind}" for name in [*TABLES][:3] for kind in ("csv", "md", "tex")}
-    written = {"result1.xlsx", "result2.xlsx", "answers.json", "report.md", ".contest.lock", *tables}
+    written = {"result1.xlsx", "result2.xlsx", "answers.json", "report.md", "report.pdf", ".contest.lock", *tables}
     assert entries == written | mine
     assert {one["question"] for one in json.loads((tmp_path / "answers.json").read_bytes())} == {1, 2, 3}
     assert "result4" not in (tmp_path / "report.md").read_text(encoding="utf-8")
+    assert_on_paper(tmp_path)
     assert sheets(tmp_path, "result1")[0].dimensions == "A1:BJ63"
 
 
