@@ -9,6 +9,7 @@ from collections.abc import Callable
 from types import FrameType
 
 from app.command import streams
+from app.command.interrupts import interrupts
 from app.start import importing
 
 INTERRUPTED = 128 + signal.SIGINT  # as shells report a command that Ctrl-C stopped
@@ -29,7 +30,7 @@ def main() -> None:
         from app.command.main import app
 
     if heeded:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.signal(signal.SIGINT, interrupts.take)
     code = run(app)
     if code == INTERRUPTED:
         # Python would wait for threads that still work, for nobody, and for ever for one whose pool does not know it:

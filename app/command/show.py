@@ -18,6 +18,7 @@ from rich.progress import Progress
 from rich.table import Table as RichTable
 from rich.text import Text
 
+from app.command.interrupts import interrupts
 from app.files.disk import write_whole
 from app.wire.answers import Columns
 from app.wire.fields import Answer
@@ -51,14 +52,19 @@ def waiting(what: str) -> Iterator[Callable[[float], None]]:
     what: what is waited for
     """
     if not sys.stderr.isatty():
-        yield lambda share: None
+        yield lambda share: interrupts.heed()
         return
     bar = Progress(console=Console(stderr=True), transient=True)
     task = bar.add_task(what, total=None)
     timer = threading.Timer(BAR_DELAY, bar.start)
     timer.start()
+
+    def advance(share: float) -> None:
+        interrupts.heed()
+        bar.update(task, total=1.0, completed=share)
+
     try:
-        yield lambda share: bar.update(task, total=1.0, completed=share)
+        yield advance
     finally:
         timer.cancel()
         timer.join()
@@ -74,6 +80,7 @@ def steps() -> Iterator[Callable[[str, float], None]]:
             tasks: dict[str, Any] = {}
 
             def advance(what: str, share: float) -> None:
+                interrupts.heed()
                 if what not in tasks:
                     tasks[what] = bar.add_task(what, total=1.0)
                 bar.update(tasks[what], completed=share)
@@ -83,6 +90,7 @@ def steps() -> Iterator[Callable[[str, float], None]]:
     quarters: dict[str, int] = {}
 
     def print_quarter(what: str, share: float) -> None:
+        interrupts.heed()
         quarter = int(4.0 * share + 1e-9)
         if quarter > quarters.get(what, 0):
             quarters[what] = quarter

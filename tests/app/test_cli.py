@@ -338,10 +338,23 @@ threading.Thread.start = lambda self: (start(self), time.sleep(2.0 * (self.name 
 """
 
 
+# A library may be where a Ctrl-C comes, and catch it.
+CAUGHT = """import contextlib, signal
+settle = signal.signal
+def caught(number, handler):
+    def swallow(*of):
+        with contextlib.suppress(KeyboardInterrupt):
+            handler(*of)
+    return settle(number, swallow if number == signal.SIGINT and callable(handler) else handler)
+signal.signal = caught
+"""
+
+
 @pytest.mark.thorough
-def test_ctrl_c_while_a_thread_starts_ends_the_command(tmp_path, monkeypatch):
+@pytest.mark.parametrize("disturbed", [SLOW_START, CAUGHT])
+def test_ctrl_c_while_a_thread_starts_or_that_is_caught_ends_the_command(disturbed, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "sitecustomize.py").write_text(SLOW_START)
+    (tmp_path / "sitecustomize.py").write_text(disturbed)
     monkeypatch.setitem(ENVIRONMENT, "PYTHONPATH", str(tmp_path))
     on_terminal(80, "film", "--output", "dance.mp4", stream="stderr", until=b"film")
     assert not (tmp_path / "dance.mp4").exists()
