@@ -86,8 +86,8 @@ def workbook(sheets: Sequence[Worksheet], decimals: int) -> bytes:
     return sink.getvalue()
 
 
-def table_workbook(title: str, columns: Sequence[str], rows: Sequence[Sequence[str | int]]) -> bytes:
-    """The bytes of an xlsx file with one sheet of texts and whole numbers; a text is never a formula.
+def table_workbook(title: str, columns: Sequence[str], rows: Sequence[Sequence[str | float]]) -> bytes:
+    """The bytes of an xlsx file with one sheet of texts and numbers; a text is never a formula.
 
     columns: C names; rows: each of C cells
     raises: MissingPackage without xlsxwriter

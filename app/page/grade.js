@@ -1,6 +1,7 @@
 /** The grader: dropped or chosen workbooks, and typed answers, each with the service's verdict. */
 
 import { Problem, Superseded } from "./api.js";
+import { ClassTable, dropped, handedIn, rowOf } from "./class.js";
 import { $, bearer, make, onClick } from "./elements.js";
 import { phrase, say } from "./text.js";
 
@@ -39,6 +40,8 @@ export class Grader {
   #answers = [];
   #language = null;
   #working = "";
+  /** The file of a class whose boxes are shown; -1: none. */
+  #chosen = -1;
 
   /**
    * @param {Service} service
@@ -46,17 +49,19 @@ export class Grader {
   constructor(service) {
     this.service = service;
     const drop = $("#drop");
-    $("#files").addEventListener("change", (event) => this.#take([...event.target.files]));
+    for (const id of ["#files", "#folder"]) $(id).addEventListener("change", (event) => this.#take([...event.target.files]));
+    this.table = new ClassTable(service, (k) => this.#open(k));
     for (const name of ["dragover", "drop"]) drop.addEventListener(name, (event) => event.preventDefault());
     for (const name of ["dragenter", "dragover"]) drop.addEventListener(name, () => drop.classList.add("over"));
     for (const name of ["dragleave", "drop"]) drop.addEventListener(name, () => drop.classList.remove("over"));
-    drop.addEventListener("drop", (event) => this.#take([...event.dataTransfer.files]));
+    drop.addEventListener("drop", async (event) => this.#take(await dropped(event.dataTransfer)));
     $("#typed").addEventListener("submit", (event) => {
       event.preventDefault();
       this.#grade();
     });
     onClick("#grade-clear", () => {
-      $("#files").value = "";
+      for (const id of ["#files", "#folder"]) $(id).value = "";
+      this.#chosen = -1;
       $("#typed").reset();
       [this.#files, this.#answers] = [[], []];
       this.#tell("");
@@ -71,7 +76,8 @@ export class Grader {
   }
 
   show() {
-    $("#grades").replaceChildren(...this.#answers);
+    const shown = this.isClass ? [this.table.box, ...(this.#answers[this.#chosen] ?? [])] : this.#answers.flat();
+    $("#grades").replaceChildren(...shown);
     if (this.#working) $("#grades").append(make("p", { className: "hint", role: "status", textContent: this.#working }));
   }
 
@@ -81,44 +87,62 @@ export class Grader {
     this.show();
   }
 
-  #take(files) {
-    this.#files = files;
+  async #take(files) {
+    this.#files = await handedIn(files);
+    this.#chosen = -1;
     this.#grade();
+  }
+
+  /** True for files of teams, which stand on one table. */
+  get isClass() {
+    return this.#files.some(({ team }) => team);
+  }
+
+  /** Show what is said of one file of a class. */
+  #open(k) {
+    this.#chosen = k;
+    this.show();
+    $("#grades .class + .answer").scrollIntoView({ block: "nearest" });
   }
 
   async #grade() {
     const typed = Object.keys(ANSWERS).map((name) => ({ name, text: $(`#typed-${name}`).value.trim() })).filter(({ text }) => text);
-    const asked = [...typed, ...this.#files.map((file) => ({ file }))];
-    /** @type {Element[]} */
+    const asked = this.isClass ? this.#files : [...typed, ...this.#files];
+    /** @type {Element[][]} */
     const results = [];
+    const rows = [];
     this.#answers = results;
     for (const [k, one] of asked.entries()) {
       this.#tell(say("Grading {name} ({k} of {count}) …", { name: one.file?.name ?? say(ANSWERS[one.name]), k: k + 1, count: asked.length }));
       const found = await judge(this.service, "grade", { ...one, language: this.#language });
       if (!found || this.#answers !== results) return;
-      results.push(...found);
+      results.push(found.boxes);
+      if (this.isClass) rows.push(await rowOf(one, found.answer?.files[0]));
       this.show();
     }
+    if (rows.length) await this.table.fill(rows);
+    if (this.#answers !== results) return;
     this.#tell("");
   }
 }
 
 /**
- * The boxes of what the service says of a file, or of an answer that was typed; null if another question took its place.
+ * What the service says of a file, or of an answer that was typed, with its boxes; null if another question took its place.
  * name: of the answer, with its text; file: a workbook
  * @param {Service} service
  * @param {{ name?: string, text?: string, file?: File, language: string }} asked
  */
 export async function judge(service, channel, { name = "", text = "", file, language }) {
   const title = file?.name ?? say(ANSWERS[name]);
-  if (file?.size === 0) return [refusedBox(title, say("The file is empty."))];
+  if (file?.size === 0) return { boxes: [refusedBox(title, say("The file is empty."))] };
   const query = file ? { name: file.name.slice(-200), language } : { [name]: text, language };
   try {
-    return boxes(await service.ask(channel, "grade", { query, file: file ?? new Blob(), headers: bearer() }));
+    const answer = await service.ask(channel, "grade", { query, file: file ?? new Blob(), headers: bearer() });
+    return { answer, boxes: boxes(answer) };
   } catch (error) {
     if (error instanceof Superseded) return null;
     if (!(error instanceof Problem)) throw error;
-    return [refusedBox(title, error.problem.sentence)];
+    return { boxes: [refusedBox(title, error.problem.sentence)] };
   }
 }
 

@@ -116,11 +116,10 @@ export class Strip {
   /** A number to type, a workbook to drop, and what the service says of it, in place. */
   #check(question, { workbook, number, example }) {
     const verdict = make("div", { className: "verdicts", "aria-live": "polite" });
-    const tell = (found) => verdict.replaceChildren(...found);
     const ask = async (asked) => {
       verdict.replaceChildren(paragraph(say("Checking …")));
       const found = await judge(this.service, `check-${question}`, { ...asked, language: language() });
-      if (found) tell(found);
+      if (found) verdict.replaceChildren(...found.boxes);
     };
     const parts = [];
     if (number) {

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from app.questions import (
     check,
+    class_table,
     clearance,
     collision_time,
     contact_probability,
@@ -63,6 +64,7 @@ _ALL = (
     overlaps.QUESTION,
     paper.QUESTION,
     contest_answer.QUESTION,
+    class_table.QUESTION,
     figures.TRAJECTORY,
     figures.CONTACT,
     figures.ENCOUNTER,

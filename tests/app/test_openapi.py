@@ -120,7 +120,7 @@ def holds_floats(field):
 # Directions, ratios, probabilities and numbers of benches have no unit, and the paper's numbers theirs beside them;
 # what there is and what it takes have the unit of the reason.
 WITHOUT_UNIT = (
-    "probability limits confidence union_bound correlation_benches normal ratio speed_ratio paper published ours "
+    "rows probability limits confidence union_bound correlation_benches normal ratio speed_ratio paper published ours "
     "difference value found expected have need"
 )
 

@@ -1,5 +1,7 @@
 """The page grades dropped workbooks and typed answers, in both languages, on a phone, and forgets them on request."""
 
+from zipfile import ZIP_DEFLATED, ZipFile
+
 import pytest
 
 from core import Dragon
@@ -66,3 +68,30 @@ def types_and_drops(person, files):
     person.reads({"#grades .value": "✓right"}).presses("#grade-clear")
     person.page.route("**/grade?*", lambda route: None)  # no answer comes
     person.takes(files[:2], "#files").sees({"#grades [role=status]": "result1.xlsx (1 of 2)"})
+
+
+def test_a_class_is_graded_from_an_archive_sorted_saved_and_two_equal_files_are_pointed_out(open_page, files, tmp_path):
+    archive = tmp_path / "class.zip"
+    with ZipFile(archive, "w", ZIP_DEFLATED) as written:
+        for team, file in (("红队", files[1]), ("Gold", files[1]), ("Blue", files[3])):
+            written.write(file, f"{team}/{file.name}")
+        written.writestr("__MACOSX/Gold/._result2.xlsx", b"of a system")
+        written.writestr("Blue/screenshot.png", b"\x89PNG\r\n\x1a\n" + bytes(99))
+    person = open_page(EASY).reaches_below()
+    person.takes(archive, "#files").sees({"#grades .class h3": "Class: 4 files", "#grades .class tbody tr": 4})
+    person.sees({"#grades .class .hint": "红队/result2.xlsx, Gold/result2.xlsx"})
+    teams = "#grades .class tbody td:first-child"
+    assert person.texts(teams) == ["红队", "Gold", "Blue", "Blue"]
+    person.presses("#grades .class th:first-child button").has("#grades .class th:first-child", aria_sort="ascending")
+    assert person.texts(teams)[:3] == ["Blue", "Blue", "Gold"]
+    person.presses("#grades tr:has-text('screenshot.png') td button").sees(
+        {f"{BOX}": "is a picture, such as a screenshot"}
+    )
+    assert person.findings("#grades") == []
+    rubric = person.saves("#grades .class .buttons button >> nth=2", "rubric.csv").decode("utf-8-sig")
+    (tmp_path / "mine.csv").write_text(rubric.replace("result2,20", "result2,55"), encoding="utf-8")
+    person.takes(tmp_path / "mine.csv", "#grades .class input[type=file]").sees(
+        {"#grades tr:has-text('Gold') .number >> nth=2": "55"}
+    )
+    assert b"Gold" in person.saves("#grades .class .buttons button >> nth=1", "class.csv")
+    person.speaks("zh").sees({"#grades .class h3": "班级：4 个文件", "#grades .class th >> nth=0": "队伍"})

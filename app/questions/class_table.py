@@ -1,0 +1,99 @@
+"""The question class_table: the graded files of a class on one table, with points by a teacher's rubric."""
+
+from __future__ import annotations
+
+import csv
+import io
+
+from pydantic import Field
+
+from app.files.tables import CSV_TYPE, XLSX_TYPE
+from app.files.workbooks import table_workbook
+from app.grade.class_table import Row, alike, points_of, rubric_of, rubric_text, team_points
+from app.grade.judged import Rating
+from app.grade.words import word
+from app.wire.fields import Answer, OneLine, Whole, Wire, measure
+from app.wire.question import JSON, Question, Terms
+from app.wire.texts import text_to_cell
+
+# Most files of a class, cells of one, and characters of a rubric.
+FILES_MAX, CELLS_MAX, RUBRIC_MAX = 2_000, 1_000_000, 10_000
+
+
+class GradedFile(Wire, strict=True):
+    """A file that POST /grade has graded."""
+
+    team: OneLine = Field(max_length=200, description="Who handed it in")
+    file: OneLine = Field(max_length=200, description="Its name")
+    workbook: OneLine | None = Field(None, max_length=20, description="result1, result2 or result4; null if unknown")
+    verdict: Rating = Field(description="Its verdict", strict=False)
+    cells: Whole = Field(0, ge=0, le=CELLS_MAX, description="Number of cells that the contest requires")
+    right: Whole = Field(0, ge=0, le=CELLS_MAX, description="Number of those that are right")
+    missing: Whole = Field(0, ge=0, le=CELLS_MAX, description="Number of those that are missing")
+    finding: str = Field("", max_length=1_000, description="The error behind wrong cells, in words")
+    digest: OneLine = Field("", max_length=128, description="Digest of its bytes, such as SHA-256; empty: not compared")
+
+    def to_row(self) -> Row:
+        counts = {"cells": self.cells, "right": self.right, "missing": self.missing}
+        return Row(self.team, self.file, self.workbook, self.verdict, **counts, digest=self.digest)
+
+
+class ClassTableRequest(Wire, strict=True):
+    """The graded files of a class."""
+
+    files: list[GradedFile] = Field(max_length=FILES_MAX, description="The files, in the order of the table")
+    rubric: str = Field(
+        "",
+        max_length=RUBRIC_MAX,
+        description="Points as CSV: lines such as `result1,40`, and `rounded,0.9`, the share of the points for right "
+        "numbers with fewer decimals; empty: the usual ones",
+    )
+
+
+class ClassTable(Answer):
+    """A class on one table."""
+
+    heads: list[str] = Field(
+        description="Heads of the columns: team, file, workbook, verdict, cells, right, points, finding"
+    )
+    rows: list[list[str | int | float]] = Field(description="A row for each file, in its order")
+    teams: list[list[str | float]] = measure("points", "Each team and its points, the most first")
+    notes: list[str] = Field(description="Remarks, such as that two teams handed in the same file")
+    rubric: str = Field(description="The rubric as a file that a teacher may edit, as CSV")
+
+
+COLUMNS = ("team", "file", "workbook", "verdict", "cells", "right", "points", "finding")
+
+
+def class_table(request: ClassTableRequest, terms: Terms, form: str) -> ClassTable | bytes:
+    """The graded files of a class on one table, with points of every file and team, as JSON, CSV or a workbook."""
+    rubric, rows = rubric_of(request.rubric), [one.to_row() for one in request.files]
+    heads = [word(f"class_{name}") for name in COLUMNS]
+    table: list[list[str | int | float]] = [
+        [
+            row.team,
+            row.file,
+            row.workbook or "",
+            word(row.verdict.value),
+            row.cells,
+            row.right,
+            points_of(row, rubric),
+            file.finding,
+        ]
+        for row, file in zip(rows, request.files, strict=True)
+    ]
+    if form == JSON:
+        points = sorted(team_points(rows, rubric).items(), key=lambda one: (-one[1], one[0]))
+        teams: list[list[str | float]] = [[team, value] for team, value in points]
+        return ClassTable(heads=heads, rows=table, teams=teams, notes=alike(rows), rubric=rubric_text(rubric))
+    if form == XLSX_TYPE:
+        return table_workbook(word("class_sheet"), heads, table)
+    cells = [[text_to_cell(cell) if isinstance(cell, str) else cell for cell in row] for row in table]
+    sink = io.StringIO()
+    csv.writer(sink, lineterminator="\n").writerows([heads, *cells])
+    return sink.getvalue().encode("utf-8-sig")
+
+
+QUESTION = Question(
+    class_table, ClassTable, body=ClassTableRequest, forms=(JSON, CSV_TYPE, XLSX_TYPE), cost=lambda request, form: 0.01
+)

@@ -1,0 +1,83 @@
+"""The table of a class: points by a rubric that a teacher edits, for a spreadsheet, and no false remark."""
+
+import csv
+import io
+
+import openpyxl
+import pytest
+
+from app.grade.class_table import Row, alike, points_of, rubric_of, rubric_text, team_points
+from app.grade.judged import Rating
+from tests.support.asking import assert_problem
+
+RIGHT = {"team": "Red", "file": "result1.xlsx", "workbook": "result1", "verdict": "right", "cells": 200, "right": 200}
+ROUNDED = {"team": "Red", "file": "result2.xlsx", "workbook": "result2", "verdict": "rounded", "cells": 100, "right": 3}
+HALF = {**RIGHT, "team": "Gold", "verdict": "wrong", "right": 100, "finding": "=SUM(A1)"}
+PICTURE = {"team": "Gold", "file": "photo.png", "verdict": "unreadable"}
+CLASS = [RIGHT, ROUNDED, HALF, PICTURE]
+
+
+def row(team, digest, *, missing=0, cells=10):
+    return Row(team, "result1.xlsx", "result1", Rating.RIGHT, cells, cells - missing, missing, digest)
+
+
+def test_points_follow_the_rubric_and_teams_are_ordered_by_them(client):
+    usual = client.post("/class-table", json={"files": CLASS}).raise_for_status().json()
+    assert [line[6] for line in usual["rows"]] == [40.0, 18.0, 20.0, 0.0]
+    assert usual["teams"] == [["Red", 58.0], ["Gold", 20.0]]
+    rubric = usual["rubric"].replace("result1,40", "result1,50").replace("rounded,0.9", "rounded,0.5")
+    edited = client.post("/class-table", json={"files": CLASS, "rubric": rubric}).raise_for_status().json()
+    assert edited["teams"] == [["Red", 60.0], ["Gold", 25.0]]
+    assert edited["rubric"] == rubric
+    chinese = client.post("/class-table", json={"files": CLASS}, headers={"Accept-Language": "zh"}).json()
+    assert chinese["heads"][0] == "队伍"
+    assert chinese["rows"][0][3] == "正确"
+
+
+def test_the_table_opens_in_a_spreadsheet_and_no_cell_is_a_formula(client):
+    sheet, text = (
+        client.post("/class-table", json={"files": CLASS}, headers={"Accept": kind}).raise_for_status().content
+        for kind in ("application/vnd.openxmlformats-officedocument.spreadsheetml.sheet", "text/csv")
+    )
+    lines = list(openpyxl.load_workbook(io.BytesIO(sheet)).active.iter_rows(values_only=True))
+    assert [line[6] for line in lines] == ["points", 40, 18, 20, 0]
+    assert lines[3][7] == "=SUM(A1)"
+    cells = list(csv.reader(io.StringIO(text.decode("utf-8-sig"))))
+    assert cells[3][7] == "'=SUM(A1)"
+
+
+@pytest.mark.parametrize(
+    ("rubric", "words"),
+    [
+        ("what,points\nresult3,10\n", "line 2 of the rubric must begin with one of result1, result2, result4, rounded"),
+        ("result1,lots\n", "line 1 of the rubric must have a number from 0 to 1000 behind result1"),
+        ("result1,40\nrounded,2\n", "line 2 of the rubric must have a number from 0 to 1 behind rounded"),
+        ("result1,nan\n", "line 1 of the rubric must have a number"),
+    ],
+)
+def test_a_rubric_that_cannot_be_read_is_refused_by_its_line(client, rubric, words):
+    problem = client.post("/class-table", json={"files": CLASS, "rubric": rubric})
+    assert_problem(problem, 422)
+    assert words in problem.json()["detail"]
+
+
+def test_a_rubric_reads_as_it_is_written():
+    rubric = {"result1": 12.5, "result2": 0.0, "result4": 30.0, "rounded": 1.0}
+    assert rubric_of("\ufeff" + rubric_text(rubric)) == rubric
+    assert points_of(row("Red", ""), rubric) == 12.5
+
+
+def test_of_two_files_for_one_workbook_the_better_counts():
+    worse = Row("Red", "old.xlsx", "result1", Rating.WRONG, 10, 1, 0)
+    assert team_points([worse, row("Red", ""), worse], rubric_of("")) == {"Red": 40.0}
+
+
+def test_only_equal_bytes_of_two_teams_are_pointed_out_and_no_blank_form():
+    same = [row("Red", "a"), row("Gold", "b"), row("Blue", "a")]
+    [remark] = alike(same)
+    assert "Red/result1.xlsx, Blue/result1.xlsx" in remark
+    assert "ask before you judge" in remark
+    # One team twice, no digest, and a form that nobody filled in.
+    assert alike([row("Red", "a"), row("Red", "a")]) == []
+    assert alike([row("Red", ""), row("Gold", "")]) == []
+    assert alike([row("Red", "a", missing=10), row("Gold", "a", missing=10)]) == []
