@@ -2,6 +2,7 @@
 
 import { EMPTY, freeName, isArea, place, yardOf } from "./drawing.js";
 import { extent, onBorder } from "./square.js";
+import { roundedRoute } from "./walk.js";
 
 /** The edited item of a drawing: null for the path, else the number of a thing. */
 export const pointsOf = (drawing, item) => (item === null ? drawing.points : (drawing.things[item]?.points ?? []));
@@ -104,6 +105,34 @@ export function turned(drawing, item, angle, scale = 1) {
   const [c, s] = [scale * Math.cos(angle), scale * Math.sin(angle)];
   const turn = (points) => points.map(([px, py]) => place([x + c * (px - x) - s * (py - y), y + s * (px - x) + c * (py - y)]));
   return withPoints({ ...drawing, things: drawing.things.map((one) => (one === thing && one.holes ? { ...one, holes: one.holes.map(turn) } : one)) }, item, turn(thing.points));
+}
+
+/** Kinds of pieces of which a figure consists. */
+const PIECES = ["line", "arc", "coil"];
+
+/** True for the path of a figure: one of lines, arcs and coils, such as a proposed ring. */
+export const isFigure = ({ path }) => path?.kind === "route" && path.pieces.every(({ kind }) => PIECES.includes(kind));
+
+/** True for a figure that has a mirror image: a coil turns one way alone. */
+export const canMirror = ({ path }) => path.pieces.every(({ kind }) => kind !== "coil");
+
+/** A figure moved by [m], turned [rad], scaled [1] and mirrored left to right about its middle; it stays a figure. */
+export function figured(drawing, { by = [0, 0], angle = 0, scale = 1, isMirrored = false }) {
+  const { middle: [x, y] } = extent(drawing.points);
+  const [c, s, side] = [scale * Math.cos(angle), scale * Math.sin(angle), isMirrored ? -1 : 1];
+  const carry = ([px, py]) => {
+    const [dx, dy] = [side * (px - x), py - y];
+    return [x + c * dx - s * dy + by[0], y + s * dx + c * dy + by[1]];
+  };
+  const turns = {
+    line: ({ start, end }) => ({ start: carry(start), end: carry(end) }),
+    arc: ({ centre, radius, start_angle: first, sweep }) => ({ centre: carry(centre), radius: scale * radius, start_angle: angle + (isMirrored ? Math.PI - first : first), sweep: side * sweep }),
+    coil: ({ centre, pitch, rotation = 0 }) => ({ centre: carry(centre), pitch: scale * pitch, rotation: rotation + angle }),
+  };
+  const pieces = drawing.path.pieces.map((piece) => ({ ...piece, ...turns[piece.kind](piece) }));
+  const begin = scale * drawing.begin;
+  // A larger or smaller one begins when the whole dragon is on it.
+  return { ...drawing, path: roundedRoute({ ...drawing.path, pieces, start: begin }), begin, start: scale === 1 ? drawing.start : null, points: drawing.points.map((point) => place(carry(point))) };
 }
 
 /** Half the longer axis of the earth [m], and its flattening [1]. */

@@ -4,6 +4,7 @@ import { Beside } from "./beside.js";
 import { EMPTY, isSamePath, walkOf, yardOf } from "./drawing.js";
 import { Editor } from "./edit.js";
 import { $, $$, hide, make, textButton } from "./elements.js";
+import { Figure } from "./figure.js";
 import { Files } from "./files.js";
 import { stepsOf } from "./history.js";
 import { Judgement } from "./judgement.js";
@@ -11,6 +12,7 @@ import { addKits } from "./kits.js";
 import { knotsOf } from "./knots.js";
 import { Menu } from "./menu.js";
 import { Photo } from "./photo.js";
+import { announceStep } from "./overlays.js";
 import { PRESETS, PRESET_NAMES, shownAt } from "./presets.js";
 import { Propose } from "./propose.js";
 import { RouteForm } from "./route.js";
@@ -23,6 +25,8 @@ export function village() {
   return { drawing: { ...PRESETS.village, things }, time: shownAt(PRESETS.village) };
 }
 
+/** Turns between the points of a freed figure that are tried, the largest first [rad], each with a largest distance [m]; the last is that of other paths. */
+const TURNS = [[Math.PI / 2, Infinity], [Math.PI / 3, Infinity], [Math.PI / 4, 40], []];
 /** Part of the ground across a picture that shows a bend [m]. */
 const ACROSS = 12;
 /** Boxes about spirals, which are empty here. */
@@ -42,6 +46,7 @@ export class Drawn {
    */
   constructor({ state, service, questions, dance, draw, several }) {
     this.state = state;
+    this.service = service;
     this.questions = questions;
     this.picture = dance;
     this.draw = draw;
@@ -53,6 +58,7 @@ export class Drawn {
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files, this.photo);
     this.beside = new Beside($("#beside"), dance, this.editor, this.form, () => questions.course?.gaps);
     addKits(this.editor);
+    this.figure = new Figure($("#stage"), this.editor, () => this.#free());
     new Menu($("#stage"), this.editor);
     this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show() });
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point, ACROSS));
@@ -79,6 +85,23 @@ export class Drawn {
     const editing = this.editor.active;
     const selected = editing ? this.editor.item : null;
     return { drawing: this.state.get("drawing"), editing, selected, chosen: this.editor.items, measured: editing ? this.editor.measured : [], held: this.editor.held, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
+  }
+
+  /** Make points of a figure: as few as can be danced, by the service's verdict. */
+  async #free() {
+    const { course } = this.questions;
+    const drawing = this.state.get("drawing");
+    if (!course || course.drawing !== drawing) return;
+    let freed = drawing;
+    for (const turn of TURNS) {
+      freed = { ...drawing, ...knotsOf(course, ...turn), path: null, start: null };
+      const body = this.questions.checkBody({ ...this.questions.drawn(), drawing: freed });
+      const report = await this.service.ask("free", "check", { body: { ...body, cross_check: "none", details: false } }).catch(() => null);
+      if (this.state.get("drawing") !== drawing) return;
+      if (report?.verdict === "passes") break;
+    }
+    this.steps.take(freed);
+    announceStep(() => say("The figure is now a path of {count} points.", { count: freed.points.length }));
   }
 
   /** After a change of the photo: all of it is in view, unless a person has moved the picture. */
@@ -130,6 +153,7 @@ export class Drawn {
     this.editor.show();
     this.beside.show();
     this.photo.show();
+    this.figure.show();
     const empty = drawn && this.#isEmpty;
     $("main").classList.toggle("empty", empty);
     hide($("#invite"), !empty || points.length > 0 || this.editor.active || yardOf(drawing).length > 0 || this.photo.corners.length > 0);

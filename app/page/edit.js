@@ -1,6 +1,6 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
-import { aligned, copied, inserted, moved, pointsOf, removed, shiftedAll, turned, withPoints, withThing, withoutThings } from "./changes.js";
+import { aligned, copied, figured, inserted, isFigure, moved, pointsOf, removed, shiftedAll, turned, withPoints, withThing, withoutThings } from "./changes.js";
 import { LANE_RADIUS, THINGS, freeName, isLine, place, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
@@ -18,6 +18,7 @@ const HELPS = {
   lane: "Tap along the middle of a lane that stays free, such as one for ambulances; its radius is half of its width. The safety sheet says when benches are in it.",
   several: "Tap things one after another, or drag a frame around them; then drag, copy, align or remove them together. With Shift, any tool does so.",
   measure: "Tap two points: their distance stands between them.",
+  figure: "This path is a figure: drag it, or its handles, which turn it and make it larger or smaller. “Free it” makes points of it.",
   kit: "Tap where each of them stands; then drag its handles, or type its numbers beside it.",
   gate: "Tap the border: the dragon comes in or goes out there. Beyond it a straight street of about {length} m is added, as long as your dragon, which stands in it before or after the dance.",
 };
@@ -27,7 +28,7 @@ const [TRAVEL, ON_PATH] = [3, 16];
 /** Distance between two points below which the second one is a dot [px]. */
 const NEAR = 24;
 /** What the buttons around a thing do. @type {Phrases} */
-const GRIPS = { size: "Larger or smaller", turn: "Turn this thing" };
+const GRIPS = { size: "Larger or smaller", turn: "Turn this thing", move: "Move the figure" };
 /** Steps of their keys, alone and with Shift: radius [m], share of the size [1], angle [degrees]; distance from the thing [px]. */
 const [RADIUS_STEPS, SIZE_STEPS, TURN_STEPS, GRIP_FAR] = [[0.1, 0.01], [0.05, 0.01], [5, 1], 28];
 /** Distance of a copy from what was copied [px]. */
@@ -120,8 +121,8 @@ export class Editor {
 
   /** What a tap draws with the tool. */
   get help() {
-    const words = say(HELPS[this.kit ? "kit" : this.tool], { length: this.tool === "gate" ? streetLength(this.state) : "" });
-    return this.#hasKeys.matches && this.tool !== "measure" ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 cm, Enter inserts one, Delete removes it.")}` : words;
+    const words = say(HELPS[this.kit ? "kit" : this.hasFigure ? "figure" : this.tool], { length: this.tool === "gate" ? streetLength(this.state) : "" });
+    return this.#hasKeys.matches && this.tool !== "measure" && !this.hasFigure ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 cm, Enter inserts one, Delete removes it.")}` : words;
   }
 
   /** Draw with this tool from now on; a new obstacle begins with the next tap. kit: what a tap puts ready-made, or null */
@@ -201,6 +202,16 @@ export class Editor {
     return this.others.length || (this.#isDrawing && this.thing && !ONE_POINT.includes(this.thing.kind)) ? null : this.thing;
   }
 
+  /** True while the path is a figure, which is edited as a whole. */
+  get hasFigure() {
+    return this.canEdit && this.item === null && this.tool === "path" && isFigure(this.#drawing) && this.#drawing.points.length > 0;
+  }
+
+  /** The figure as its mirror image. */
+  mirror() {
+    this.steps.take(figured(this.#drawing, { isMirrored: true }));
+  }
+
   get #isLine() {
     return this.item === null || isLine(this.#drawing.things[this.item]);
   }
@@ -225,7 +236,7 @@ export class Editor {
 
   /** The points of the edited item; those of the path only while the path itself is drawn. */
   get #points() {
-    if (!this.active || !this.#isRoute || this.others.length || (this.item === null && this.tool !== "path")) return [];
+    if (!this.active || !this.#isRoute || this.others.length || this.hasFigure || (this.item === null && this.tool !== "path")) return [];
     return pointsOf(this.#drawing, this.item);
   }
 
@@ -310,7 +321,7 @@ export class Editor {
     while (this.#knots.length > points.length) this.#knots.pop().remove();
     while (this.#knots.length < points.length) this.box.append(this.#knot(this.#knots.length));
     for (const [kind, grip] of Object.entries(this.#grips)) {
-      grip.hidden = !this.whole || (kind === "turn" ? points.length < 2 : points.length < 2 && this.thing.radius === undefined);
+      grip.hidden = this.hasFigure ? false : kind === "move" || !this.whole || (kind === "turn" ? points.length < 2 : points.length < 2 && this.thing.radius === undefined);
       grip.setAttribute("aria-label", say(GRIPS[kind]));
     }
     points.forEach(([x, y], k) => {
@@ -336,12 +347,12 @@ export class Editor {
 
   /** Move the buttons around the thing to their places: beside it, and above it. */
   #placeGrips() {
-    if (!this.whole) return;
+    if (!this.whole && !this.hasFigure) return;
     const { view } = this.dance;
-    const shown = this.#points.map((point) => view.toScreen(...point));
+    const shown = (this.hasFigure ? this.#drawing : this.whole).points.map((point) => view.toScreen(...point));
     const reach = shown.length > 1 ? GRIP_FAR : Math.max((this.thing.radius ?? 0) * view.scale, GRIP_FAR);
     const { width, height, middle } = extent(shown);
-    const places = { size: [middle[0] + width / 2 + reach, middle[1] + (shown.length > 1 ? height / 2 + reach : 0)], turn: [middle[0], middle[1] - height / 2 - 1.5 * reach] };
+    const places = { size: [middle[0] + width / 2 + reach, middle[1] + (shown.length > 1 ? height / 2 + reach : 0)], turn: [middle[0], middle[1] - height / 2 - 1.5 * reach], move: middle };
     for (const [kind, [x, y]] of Object.entries(places)) this.#grips[kind].style.transform = `translate(${x}px, ${y}px)`;
   }
 
@@ -357,14 +368,16 @@ export class Editor {
       if (!way || event.ctrlKey || event.metaKey || event.altKey) return;
       event.preventDefault();
       event.stopPropagation();
-      const step = (way[0] + way[1]) * (kind === "turn" ? TURN_STEPS : this.#points.length > 1 ? SIZE_STEPS : RADIUS_STEPS)[Number(event.shiftKey)];
+      if (kind === "move") return this.steps.take(figured(this.#drawing, { by: way.map((one) => one * (event.shiftKey ? FINE_STEP : STEP)) }), "figure move");
+      const step = (way[0] + way[1]) * (kind === "turn" ? TURN_STEPS : this.hasFigure || this.#points.length > 1 ? SIZE_STEPS : RADIUS_STEPS)[Number(event.shiftKey)];
       this.steps.take(this.#formed(this.#drawing, kind, step), `${this.item} ${kind}`);
     };
-    return make("button", { type: "button", className: `grip ${kind}`, hidden: true, textContent: { size: "↔", turn: "↻" }[kind], onpointerdown, onkeydown, ...this.#dragging });
+    return make("button", { type: "button", className: `grip ${kind}`, hidden: true, textContent: { size: "↔", turn: "↻", move: "✥" }[kind], onpointerdown, onkeydown, ...this.#dragging });
   }
 
   /** The drawing with the chosen thing larger by a step of its radius [m] or size [1], or turned by a step [degrees]. */
   #formed(drawing, kind, step) {
+    if (this.hasFigure) return figured(drawing, kind === "turn" ? { angle: (step * Math.PI) / 180 } : { scale: Math.max(1 + step, SIZE_STEPS[1]) });
     const { points, radius } = drawing.things[this.item];
     if (kind === "turn") return turned(drawing, this.item, (step * Math.PI) / 180);
     if (points.length > 1) return turned(drawing, this.item, 0, Math.max(1 + step, SIZE_STEPS[1]));
@@ -374,7 +387,7 @@ export class Editor {
   /** The drawing with the thing as large, or turned as far, as the pointer went about its middle. */
   #around(event, { base, k, from }) {
     const { left, top } = this.box.getBoundingClientRect();
-    const { points, radius } = base.things[this.item];
+    const { points, radius } = this.hasFigure ? base : base.things[this.item];
     const [x, y] = this.dance.view.toScreen(...extent(points).middle);
     const [was, is] = [from, [event.clientX, event.clientY]].map(([px, py]) => [px - left - x, y + top - py]);
     const [first, now] = [was, is].map((way) => Math.hypot(...way) || 1);
@@ -402,6 +415,10 @@ export class Editor {
     if (this.tool === "measure") return;
     const item = this.#under(event.offsetX, event.offsetY);
     const isSeveral = (event.shiftKey || this.tool === "several") && !event.button;
+    if (item === null && !isSeveral && this.hasFigure && !event.button && this.#onPath(event.offsetX, event.offsetY, false)) {
+      event.stopPropagation();
+      return this.#carry(event, null);
+    }
     if (item === null ? !isSeveral : item === this.item && this.#isDrawing && this.#points.length > 1) return;
     event.stopPropagation();
     if (item === null) return this.#carry(event, "frame");
@@ -461,7 +478,7 @@ export class Editor {
     drag.far ||= Math.hypot(event.clientX - drag.from[0], event.clientY - drag.from[1]) > TRAVEL;
     if (!drag.far) return;
     if (drag.k === "frame") return this.#framed(event, drag);
-    const change = drag.k === null ? this.#carried : drag.k in GRIPS ? this.#around : this.#bent;
+    const change = drag.k === null || drag.k === "move" ? this.#carried : drag.k in GRIPS ? this.#around : this.#bent;
     this.state.set({ drawing: change.call(this, event, drag) }, false);
   }
 
@@ -478,7 +495,8 @@ export class Editor {
   #carried(event, { base, from }) {
     const { scale } = this.dance.view;
     const by = [(event.clientX - from[0]) / scale, (from[1] - event.clientY) / scale];
-    return shiftedAll(base, this.items, event.altKey ? by : decimetres(by));
+    const rest = event.altKey ? by : decimetres(by);
+    return this.hasFigure ? figured(base, { by: rest }) : shiftedAll(base, this.items, rest);
   }
 
   #drop() {
@@ -590,6 +608,7 @@ export class Editor {
   /** Add a point to what is drawn. spot: where it divides the path or an edge; null: after the last one */
   #put(point, spot = null) {
     const drawing = this.#drawing;
+    if (this.hasFigure) return announce(() => this.help);
     if (this.tool === "path") this.steps.take(inserted(drawing, null, spot?.k ?? drawing.points.length, spot?.point ?? point));
     else if (this.item === null || !this.#isDrawing || this.#isPut) this.#begin(drawing, point);
     else this.steps.take(inserted(drawing, this.item, spot?.k ?? pointsOf(drawing, this.item).length, point));
@@ -604,9 +623,10 @@ export class Editor {
     return far <= ON_PATH ? { k } : null;
   }
 
-  /** The division of the path by a tap: number of the next point, and place of the new one. */
-  #onPath(px, py) {
+  /** The division of the path by a tap: number of the next point, and place of the new one. isDivided: at a point of its own */
+  #onPath(px, py, isDivided = true) {
     const course = this.course();
+    if (!isDivided) return course && this.dance.view.nearest(course, px, py, ON_PATH) !== null;
     if (course?.knots.length !== this.#drawing.points.length) return null;
     const { s, x, y, knots } = course;
     const best = this.dance.view.nearest(course, px, py, ON_PATH);

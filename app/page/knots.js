@@ -8,8 +8,8 @@ const DECIMALS = 2;
 
 const wrapped = (angle) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
-/** {points, straight} of a path sampled at equal distances, as by /course: {x, y} [m]. */
-export function knotsOf({ x, y }) {
+/** {points, straight} of a path sampled at equal distances, as by /course: {x, y} [m]. turn, length: of the curve between two points at most [rad], [m] */
+export function knotsOf({ x, y }, turn = TURN, length = LENGTH) {
   const last = x.length - 1;
   const ways = Array.from({ length: last }, (_, k) => [x[k + 1] - x[k], y[k + 1] - y[k]]);
   const headings = ways.map(([dx, dy]) => Math.atan2(dy, dx));
@@ -36,7 +36,7 @@ export function knotsOf({ x, y }) {
       return (far - at) * step;
     };
     while (k < last && lengthOfLine(k) < LEG) k += 1;
-    const weights = Array.from({ length: k - begin }, (_, at) => (begin + at > 0 ? turns[begin + at] : 0) / TURN + step / LENGTH);
+    const weights = Array.from({ length: k - begin }, (_, at) => (begin + at > 0 ? turns[begin + at] : 0) / turn + step / length);
     const total = weights.reduce((a, b) => a + b, 0);
     const parts = Math.max(Math.ceil(total), 1);
     if (samples.at(-1) !== begin) samples.push(begin);

@@ -44,8 +44,9 @@ PROJECTS = {
         "#dragons-save",
     ),
 }
-# How the page is looked at, which no file holds.
-VIEW = {"time": "2", "rate": "5", "follow": "true", "handle": "3", "view": "1,2,9", "lang": "zh", "door": "all"}
+# How the page is looked at, and how long a dance may be that is proposed, which no file holds.
+LOOK = {"time": "2", "rate": "5", "follow": "true", "handle": "3", "view": "1,2,9", "lang": "zh", "door": "all"}
+VIEW = LOOK | {"ends": "20", "laps": "2"}
 # Who is followed or chosen, and the drawing as a whole; then numbers that a dance on a drawn path has not.
 ELSEWHERE = {"bench", "dragon", "drawing", "speed_limit"}
 OF_SEVERAL = {"pitch", "start_turns", "turning_diameter", "ratio", "entry_radius", "exit_radius"}

@@ -92,14 +92,15 @@ def test_a_card_says_what_is_good_and_tight_becomes_a_route_and_begins_in_the_st
         assert walk
         assert float(walk[1]) == pytest.approx(float(way[1]), abs=0.6)
         lengths.append(walk[0])
-    # A tap now belongs to the path, whose points follow from it.
+    # It is a figure, until it is freed; then its points follow from it.
     chosen = person.presses("#edit").has("[data-tool=path]", aria_pressed="true").settles().address()
     assert ("walk" in chosen, "route" in chosen) == (True, False)
+    person.sees({".knot": 0}).presses("#free").sees({"#status": "The figure is now a path of"}).settles()
     assert person.counts(".knot") >= 8
     person.focuses(".knot >> nth=2")
     edited = person.strikes("ArrowUp").settles().sees({CLEAR: True}).address()
     assert ("walk" in edited, "route" in edited) == (False, True)
-    assert person.strikes("ControlOrMeta+z").settles().address() == chosen
+    assert person.strikes("ControlOrMeta+z", "ControlOrMeta+z").settles().address() == chosen
     person.presses("#undo").settles().sees({"#judgement": lengths[0]})
 
 

@@ -203,6 +203,35 @@ def test_a_photo_stays_behind_the_square_on_the_device_with_the_scale_of_a_measu
     person.settles().sees({"#photo": False})
 
 
+RING = (
+    "?path=route&begin=40.9&start=0&things=a.square..-15,-20_15,-20_15,20_-15,20&walk=9.5,-4.8,1.570796327_0.7_9.6,"
+    "3.141592654_1.4_9.6,3.141592654_1.4_9.6,3.141592654_1.4_9.6,3.141592654_1.4_9.6,3.141592654_1.4_9.6,0.88"
+)
+
+
+def test_a_figure_is_moved_sized_turned_and_mirrored_as_a_whole_until_it_is_freed_with_few_points(open_page):
+    person = open_page(RING).sees(YES).presses("#edit").settles().sees({".knot": 0, "#figure": True})
+    before = person.address()["walk"]
+    person.drags(".grip.move", 20, 0).settles()
+    start, *steps = person.address()["walk"].split("_")
+    assert float(start.split(",")[0]) > 9.6
+    assert steps == before.split("_")[1:]
+    person.sees(YES).drags(".grip.size", -20, -20).settles()
+    radius = float(person.sees(YES).address()["walk"].split("_")[2].split(",")[0])
+    assert 8 < radius < 9.5
+    canvas = person.box("#canvas")
+    person.drags(".grip.turn", 40, 0).presses("#mirror").sees(YES).settles()
+    assert ",-3.14159265" in person.address()["walk"]
+    # A tap on free ground breaks nothing.
+    person.page.mouse.click(canvas["x"] + 60, canvas["y"] + canvas["height"] - 60)
+    person.sees({"#status": "This path is a figure"}).strikes("Escape")
+    for _ in range(4):
+        person.presses("#undo")
+    assert person.settles().address()["walk"] == before
+    person.presses("#free").sees({"#status": "The figure is now a path of 12 points", ".knot": 12, **YES}).settles()
+    person.presses("#undo").sees({"#figure": True, ".knot": 0})
+
+
 def test_several_things_are_chosen_moved_brought_into_line_copied_and_removed_together(open_page):
     trees = "c.well.1.20,22~c.elm.1.30,25~c.oak.1.33,28"
     person = open_page(f"{S_CURVE}&things=b.stage..-5,20_5,20_5,26_-5,26~{trees}&view=0,10,10").sees(YES)

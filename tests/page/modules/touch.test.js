@@ -67,3 +67,17 @@ test("things come into a row with the first of them, and have equal gaps; a squa
 test("a photo has the scale of a measured distance, and its first point stays", () => {
   assert.deepEqual(scaled({ x: -10, y: 20, scale: 0.1 }, [[0, 10], [3, 14]], 10), { x: -20, y: 30, scale: 0.2 });
 });
+
+test("a figure stays one: moved, turned, scaled and mirrored about its middle", () => {
+  const pieces = [{ kind: "line", start: [0, 0], end: [10, 0] }, { kind: "arc", centre: [10, 5], radius: 5, start_angle: -Math.PI / 2, sweep: Math.PI }, { kind: "line", start: [10, 10], end: [0, 10] }];
+  const ring = { ...EMPTY, path: { kind: "route", pieces, start: 4 }, points: [[0, 0], [15, 5], [0, 10]], begin: 4, start: 0 };
+  const near = (a, b) => a.flat().forEach((one, k) => assert.ok(Math.abs(one - b.flat()[k]) < 1e-5, `${a} ${b}`));
+  assert.ok(changes.isFigure(ring) && !changes.isFigure(EMPTY));
+  const twice = changes.figured(ring, { by: [1, 2], scale: 2 });
+  near([twice.path.pieces[0].start, twice.path.pieces[1].centre, [twice.path.pieces[1].radius, twice.begin, twice.path.start]], [[-6.5, -3], [13.5, 7], [10, 8, 8]]);
+  assert.equal(twice.start, null);
+  const mirrored = changes.figured(ring, { isMirrored: true });
+  near([mirrored.path.pieces[0].start, mirrored.path.pieces[0].end, mirrored.path.pieces[1].centre, mirrored.path.pieces[2].end, mirrored.points[1]], [[15, 0], [5, 0], [5, 5], [15, 10], [0, 5]]);
+  assert.equal(mirrored.path.pieces[1].sweep, -Math.PI.toFixed(9));
+  near([changes.figured(ring, { angle: Math.PI }).path.pieces[0].start], [[15, 10]]);
+});
