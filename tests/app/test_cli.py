@@ -34,8 +34,8 @@ from tests.support.refusal_rows import assert_refused_in_one_line
 from tests.support.serving import sample, serving
 
 # Questions besides figures that commands of another name answer, and two that none does: the page draws with course,
-# and a sweep of collision-time over the pitch is the scan.
-OTHERWISE = {"films", "proposals", "contest_kit", "course", "pitch_scan"}
+# and a sweep of collision-time over the pitch is the scan. contest has all answers, and grade the table of a class.
+OTHERWISE = {"films", "proposals", "contest_kit", "contest_answer", "class_table", "course", "pitch_scan"}
 
 
 def helps():

@@ -70,5 +70,7 @@ LARGEST = {
     "safety_sheet": IN_TURN,
     "cues": {"dragon": {"benches": 2000}, "path": COIL, "last_bench": 999, "reach": 1000, "stop": 1000},
     "crew": ON_COIL,
+    "contest_answer": {"question": 4, "further": True},
+    "class_table": {"files": [{"team": f"{k}", "file": "result1.xlsx", "verdict": "right"} for k in range(2_000)]},
     "contest_kit": {},
 }
