@@ -10,7 +10,7 @@ from core.display import WithArrays, display
 from core.dragon import Dragon
 from core.errors import checked_type
 from core.language import counted, say
-from core.paths.following import following, tightest_bend
+from core.paths.following import Hindrance, following, least_radius, tightest_bend
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.values import Floats
@@ -29,8 +29,9 @@ class TightBend(WithArrays):
     end: end of the stretch, along the path [m]
     points: points along it, x and y [m]
     radius: least radius there; of a curve through waypoints, at least this [m]
-    least_radius: least radius that every bench can follow on bends of any length [m]
-    bench: the bench with the longest chord
+    least_radius: least radius that this bench can follow on bends of any length [m]
+    bench: the first bench that cannot follow
+    reason: what would happen to its rear handle
     """
 
     start: float
@@ -39,6 +40,7 @@ class TightBend(WithArrays):
     radius: float
     least_radius: float
     bench: int
+    reason: Hindrance
 
     def _line(self) -> str:
         values = {"radius": display(self.radius, "m"), "start": display(self.start), "end": display(self.end, "m")}
@@ -81,12 +83,13 @@ def course(path: Spiral | Route, dragon: Dragon) -> Course:
     checked_type("dragon", dragon, Dragon)
     length = path.end - path.begin
     s = np.linspace(path.begin, path.end, min(int(length / STEP) + 2, POINTS_MAX))
-    least, bench = tightest_bend(dragon)
-    tight = path.tighter(least)
+    tight = path.tighter(tightest_bend(dragon)[0])
     obstacles = following(dragon, path.as_route(path.end)).obstacles if tight else ()
-    bends = tuple(
-        TightBend(start, end, path.position(np.linspace(start, end, BEND_POINTS)), 1.0 / sharpest, least, bench)
-        for start, end, sharpest in tight
-        if any(obstacle.rear <= end and obstacle.s >= start for obstacle in obstacles)
-    )
-    return Course(s, path.position(s), length, path.knots, bends)
+    bends = []
+    for start, end, sharpest in tight:
+        met = next((one for one in obstacles if one.rear <= end and one.s >= start), None)
+        if met is not None:
+            points = path.position(np.linspace(start, end, BEND_POINTS))
+            radius, least = 1.0 / sharpest, least_radius(met.chord)
+            bends.append(TightBend(start, end, points, radius, least, met.bench, met.reason))
+    return Course(s, path.position(s), length, path.knots, tuple(bends))

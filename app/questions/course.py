@@ -15,6 +15,7 @@ from app.wire.readings import bench_words
 from core.breaches import AreaGap as Gap
 from core.breaches import BreachKind, area_gaps, breaches
 from core.language import say
+from core.paths.following import Hindrance
 from core.proposal.answer import told_apart
 
 # A route of 1,000 points, measured 2026-11-22, and where its dance breaks limits, measured 2026-11-27 [s].
@@ -30,7 +31,7 @@ class CourseRequest(Strays, SpanFields, PlacedDance, strict=True):
 
 
 class TightBend(Answer, of=core.TightBend):
-    """A stretch of the path that the longest bench cannot follow."""
+    """A stretch of the path that a bench cannot follow."""
 
     start: float
     end: float
@@ -38,6 +39,7 @@ class TightBend(Answer, of=core.TightBend):
     radius: float
     least_radius: float
     bench: int
+    reason: Hindrance
     sentence: str = Field(description="The bend in one sentence")
 
 
@@ -97,8 +99,8 @@ def course(request: CourseRequest, terms: Terms) -> Course:
 def _bend_words(bend: core.TightBend, dragon: core.Dragon) -> str:
     radius, least = told_apart(bend.radius, bend.least_radius, 2)
     return say(
-        "The bend is too tight: its radius is {radius} m. With {least} m {bench} can always follow.",
-        radius=radius, least=least, bench=bench_words(bend.bench, dragon),
+        "The bend is too tight, with a radius of {radius} m: {why}. With {least} m {bench} can always follow.",
+        radius=radius, why=bend.reason.words, least=least, bench=bench_words(bend.bench, dragon),
     )  # fmt: skip
 
 

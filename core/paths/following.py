@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, Value, bound, quantities
+from core.errors import InvalidValue, Quantity, Value, bound, quantities, say_value
 from core.kernels.constants import K_END, K_START, LAG, PIECE_KIND, REAR_COSINE_LEAST, S_END, S_START, Follows
-from core.language import phrase
+from core.language import phrase, say
 from core.paths.route import Route
 from core.sampling import bisect
 from core.values import Floats
@@ -25,14 +26,41 @@ ARC_MOST = 0.5 * math.pi
 BEGIN_WIDTH = 1e-9
 # Work of the proof for the benches of one chord [1]; 1e6 take 0.15 s (measured 2026-11-30).
 WORK_MOST = 3e7
-# Reasons why a bench cannot follow, after the place of its front handle.
-REASONS = {
-    Follows.SIDEWAYS: phrase("its rear handle would go at more than {limit} to the bench"),
-    Follows.BACKWARDS: phrase("its rear handle would have to go backwards"),
-    Follows.JUMPS: phrase("its rear handle would have to jump to a nearer place of the path"),
-    Follows.NOWHERE: phrase("no place of the path behind is as far away as its rear handle"),
-    Follows.UNKNOWN: phrase("it was not decided within the work that one question may take"),
+
+
+class Hindrance(StrEnum):
+    """Reason why a bench cannot follow a bend: its rear handle would go across the bench, go backwards, or jump to a
+    nearer place; no place behind is a chord away; or the work did not suffice to tell."""
+
+    SIDEWAYS = "sideways"
+    BACKWARDS = "backwards"
+    JUMPS = "jumps"
+    NOWHERE = "nowhere"
+    UNKNOWN = "unknown"
+
+    @property
+    def template(self) -> str:
+        """The reason as the template of a clause."""
+        return CLAUSES[self]
+
+    @property
+    def words(self) -> str:
+        """The reason as a clause in words."""
+        return say(self.template, limit=say_value(degrees_most()))
+
+
+CLAUSES = {
+    Hindrance.SIDEWAYS: phrase("the rear handle would go at more than {limit} to the bench"),
+    Hindrance.BACKWARDS: phrase("the rear handle would have to go backwards"),
+    Hindrance.JUMPS: phrase("the rear handle would have to jump to a nearer place of the path"),
+    Hindrance.NOWHERE: phrase("no place of the path behind is as far away as the rear handle"),
+    Hindrance.UNKNOWN: phrase("it was not decided within the work that one question may take"),
 }
+
+
+def degrees_most() -> Quantity:
+    """Largest angle between a bench and the path at its rear handle that counts as followable [degrees]."""
+    return Quantity(math.degrees(math.acos(REAR_COSINE_LEAST)), "degrees", 4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +76,7 @@ class Obstacle:
     chord: float
     s: float
     rear: float
-    reason: Follows
+    reason: Hindrance
     angle: float
 
 
@@ -90,7 +118,12 @@ def longest_arc(dragon: Dragon, path: Route) -> float:
 def tightest_bend(dragon: Dragon) -> tuple[float, int]:
     """The least radius of a bend that every bench can follow, however long it is [m], and the bench that needs it."""
     bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
-    return 0.5 * float(dragon.chords[bench]) / kernels.ROUTE_SINE_LIMIT, bench
+    return least_radius(float(dragon.chords[bench])), bench
+
+
+def least_radius(chord: float) -> float:
+    """The least radius of a bend that a bench of this chord can follow, however long it is [m]. chord: [m]"""
+    return 0.5 * chord / kernels.ROUTE_SINE_LIMIT
 
 
 # Benches of one chord are alike: a handle of any of them may stand wherever the path is, from its beginning for the
@@ -114,12 +147,12 @@ def _followed(chords: Floats, path: Route) -> Following:
         proof = kernels.Follower(path.table, chord, REAR_COSINE_LEAST)
         end = _front_most(chords, bench, path)
         earliest = _first_front(path, chord)
-        for start, stop in _tight_parts(path, 0.5 * chord / kernels.ROUTE_SINE_LIMIT):
+        for start, stop in _tight_parts(path, least_radius(chord)):
             begin = max(start, earliest)
             if begin < end and stop > proof.rear:
                 ended = proof.follow(begin, end, stop, WORK_MOST)
                 if ended is not Follows.PROVEN:
-                    obstacles.append(_obstacle(bench, chord, path, proof, ended))
+                    obstacles.append(_obstacle(bench, chord, path, proof, Hindrance[ended.name]))
         arc, rear, front = max(arc, proof.longest), min(rear, proof.rear_cosine), min(front, proof.front_cosine)
         if obstacles:  # where this bench stops, those behind it do too
             break
@@ -166,8 +199,8 @@ def _first_front(path: Route, chord: float) -> float:
     return min(s, path.end)
 
 
-def _obstacle(bench: int, chord: float, path: Route, proof: kernels.Follower, reason: Follows) -> Obstacle:
-    rear = proof.reached if reason is Follows.NOWHERE else proof.rear
+def _obstacle(bench: int, chord: float, path: Route, proof: kernels.Follower, reason: Hindrance) -> Obstacle:
+    rear = proof.reached if reason is Hindrance.NOWHERE else proof.rear
     bench_way, along = path.position(proof.reached) - path.position(rear), path.tangent(rear)
     angle = math.acos(max(-1.0, min(1.0, float(bench_way @ along) / chord)))
     return Obstacle(bench, chord, proof.reached, rear, reason, angle)
@@ -185,13 +218,13 @@ def refuse_tight_bends(dragon: Dragon, path: Route, time_of: Callable[[float], f
     x, y = path.position(obstacle.s)
     rule = (
         "must bend so that every bench can follow: bench {bench} ({chord}) cannot follow beyond s = {s}, at {at}, "
-        f"which its front handle reaches at {{time}}; {REASONS[obstacle.reason]}; a radius of {{least}} always suffices"
+        f"which its front handle reaches at {{time}}; {obstacle.reason.template}; a radius of {{least}} always suffices"
     )
     values: dict[str, Value] = {"bench": obstacle.bench, "at": f"({x:.4g}, {y:.4g}) m"}
     values |= quantities("m", 6, chord=obstacle.chord, s=obstacle.s)
     values |= quantities("s", 6, time=time_of(_head_at(dragon.chords, path, obstacle)))
-    values["least"] = bound(0.5 * obstacle.chord / kernels.ROUTE_SINE_LIMIT, 3, "m", up=True)
-    values |= quantities("degrees", 4, limit=math.degrees(math.acos(REAR_COSINE_LEAST)))
+    values["least"] = bound(least_radius(obstacle.chord), 3, "m", up=True)
+    values["limit"] = degrees_most()
     raise InvalidValue("path", rule, **values)
 
 
