@@ -76,6 +76,11 @@ function mapOf(form, body, drawing) {
   const [venue, origin] = [drawing && keptVenueOf(drawing), drawing?.origin];
   return { path: `maps.${form.toLowerCase()}`, body: { ...body, ...(venue && { venue }), ...(origin && { origin }) } };
 }
+/** The request of a safety sheet, with the gates and the lanes of the square. drawing: of a dance in a square, else null */
+function safetyOf(body, drawing, paper) {
+  const drawn = drawing && (venueOf(drawing) ? { venue: keptVenueOf(drawing) } : { lanes: lanesOf(drawing) });
+  return { path: "safety-sheet", body: { ...body, paper, language: language(), ...drawn, ...(isPrintable() && { address: location.href }) } };
+}
 /** The request of each item in a format: {path, query or body}. */
 const REQUESTS = {
   /** The contest's problem with the numbers of the page, of which the pitch is that of the spiral or of the turn. */
@@ -104,12 +109,7 @@ const REQUESTS = {
   },
   ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
   plan: (questions, paper) => ({ path: "plan", body: questions.danced({ paper, language: language() }) }),
-  /** With the gates and the lanes of the square. */
-  safety(questions, paper) {
-    const drawing = questions.dance.kind === "route" || questions.dance.parts ? questions.state.get("drawing") : null;
-    const drawn = drawing && (venueOf(drawing) ? { venue: keptVenueOf(drawing) } : { lanes: lanesOf(drawing) });
-    return { path: "safety-sheet", body: questions.danced({ paper, language: language(), ...drawn, ...(isPrintable() && { address: location.href }) }) };
-  },
+  safety: (questions, paper) => safetyOf(questions.danced(), questions.dance.kind === "route" ? questions.state.get("drawing") : null, paper),
   cues: (questions, form) => ({ path: "cues", body: questions.danced(cardsOf(questions, form)) }),
   labels: (questions, form) => ({ path: "cues", body: questions.danced({ ...cardsOf(questions, form), labels: true }) }),
   map(questions, form) {
@@ -136,8 +136,9 @@ const TOGETHER = {
     return { path: "films", body: { ...file, language: language() } };
   },
   plan: ({ dance }, paper) => ({ path: "plan", body: { ...dance.file, paper, language: language() } }),
-  cues: (questions) => ({ path: "cues", body: { ...questions.dance.file, ...cardsOf(questions) } }),
-  labels: (questions) => ({ path: "cues", body: { ...questions.dance.file, ...cardsOf(questions), labels: true } }),
+  safety: ({ dance, state }, paper) => safetyOf(dance.file, state.get("drawing"), paper),
+  cues: (questions, form) => ({ path: "cues", body: { ...questions.dance.file, ...cardsOf(questions, form) } }),
+  labels: (questions, form) => ({ path: "cues", body: { ...questions.dance.file, ...cardsOf(questions, form), labels: true } }),
   map: ({ dance }, form) => mapOf(form, dance.file, dance.drawing),
   verdict: ({ dance }) => ({ path: "check", body: dance.file }),
 };

@@ -6,7 +6,7 @@ from urllib.parse import urlencode
 
 import pytest
 
-from tests.support import polite
+from tests.support import paper, polite
 from tests.support.person import PHONE
 
 thorough = pytest.mark.thorough
@@ -144,6 +144,8 @@ def test_a_parade_is_judged_played_filmed_printed_and_listed_on_a_phone_with_all
     assert all(person.presses("#play").coloured(colour) > 20 for colour in COLOURS)
     person.sees({"#cues": "A cue card for each bench", ":is(#crew, #paper):visible": 0})
     assert person.saves("#keepPlan-A3").startswith(b"%PDF")
+    (sheet,) = paper.sheets_of(person.saves("#keepSafety-A4"))
+    assert [words for words in ("Safety sheet: 3 dragons", "It can be danced", " of red") if words not in sheet] == []
     for content in (person.saves("#keepCues-CSV"), person.saves("#keepMap-GeoJSON")):
         assert [name for name in (b"red", b"blue", b"green") if name not in content] == []
     person.page.route("**/films", lambda route: None)

@@ -11,7 +11,7 @@ import zxingcpp
 from app.files.addresses import short_form
 from app.questions.plan import PDF_TYPE
 from core import bench_outlines, trajectory
-from tests.support.asking import box, line
+from tests.support.asking import box, line, polygon
 from tests.support.paper import pages_of, shapes_of, sheets_of, words_of
 from tests.support.shared_dances import CROSSING, STREET
 
@@ -271,3 +271,17 @@ def test_many_lanes_and_gates_take_a_second_page_and_nothing_is_lost(ask):
     assert len(sheets) == 2
     assert [one["name"] for one in (*lanes, *gates) if one["name"] not in words] == []
     assert "signature" in sheets[-1]
+
+
+def test_two_thousand_benches_have_one_page_and_any_name_is_text(ask):
+    benches = 2000
+    street = line((0, 0), (60 + 1.7 * benches, 0)) | {"start": 1.7 * benches}
+    (long,) = sheets_of(ask.file("safety-sheet", {"dragon": {"benches": benches}, "path": street}, PDF_TYPE))
+    assert "2000 benches" in long
+    names = ["n" * 200, "\U0001f409" * 50, "\u05e9\u05dc\u05d5\u05dd", "#let *x* <b>$"]
+    dragon = {"benches": 5, "names": [*names, ""]}
+    venue = {"type": "FeatureCollection", "features": [polygon(*YARD["geometries"][0]["coordinates"], name=names[2])]}
+    body = BODY | {"dragon": dragon, "venue": venue, "stopper": names[3], "title": names[1][:80]}
+    sheet = "".join(" ".join(sheets_of(ask.file("safety-sheet", body, PDF_TYPE))).split())
+    shown = [names[2], names[2][::-1]], ["".join(names[3].split())]
+    assert [one for one in shown if not any(words in sheet for words in one)] == []
