@@ -62,6 +62,7 @@ from .kernels import Budget
 from .motion.trajectory import Trajectory, trajectory
 from .passages import Passage
 from .paths.clothoid_turn import ClothoidTurn
+from .paths.following import Hindrance
 from .paths.legs import Legs
 from .paths.path import HeadState, PathSummary
 from .paths.pieces import Arc, Clothoid, Coil, Line, Piece, Waypoints
@@ -142,6 +143,7 @@ __all__ = [
     "GroundClaim",
     "HeadState",
     "HighestSpeed",
+    "Hindrance",
     "InvalidValue",
     "Judgement",
     "JustifiedBy",

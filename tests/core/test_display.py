@@ -29,7 +29,7 @@ PURE = {
     "union_bound",
 }
 CURVE = Waypoints(tuple((float(k), 0.01 * k * k) for k in range(1000)))
-LEGS = core.Legs([(0, 0), (9, 0), (9, 9)], [0, 1], radius=1.0)
+LEGS = core.Legs([(0, 0), (9, 0), (1, 3)], [0, 1], radius=0.5)
 
 
 def parts(value):
