@@ -1,6 +1,7 @@
 /** A drawn dance on the page: joins the picture, the form, the files and the verdict. */
 
 import { Beside } from "./beside.js";
+import { Change } from "./change.js";
 import { EMPTY, isSamePath, walkOf, yardOf } from "./drawing.js";
 import { Editor } from "./edit.js";
 import { $, $$, hide, make, textButton } from "./elements.js";
@@ -58,6 +59,7 @@ export class Drawn {
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files, this.photo);
     this.beside = new Beside($("#beside"), dance, this.editor, this.form, () => questions.course?.gaps);
     addKits(this.editor);
+    this.change = new Change($("#stage"));
     this.figure = new Figure($("#stage"), this.editor, () => this.#free());
     new Menu($("#stage"), this.editor);
     this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show() });
@@ -154,6 +156,7 @@ export class Drawn {
     this.beside.show();
     this.photo.show();
     this.figure.show();
+    if (!drawn || this.#isEmpty || !this.editor.active) this.change.clear();
     const empty = drawn && this.#isEmpty;
     $("main").classList.toggle("empty", empty);
     hide($("#invite"), !empty || points.length > 0 || this.editor.active || yardOf(drawing).length > 0 || this.photo.corners.length > 0);
@@ -185,12 +188,18 @@ export class Drawn {
   judged() {
     const { dance, course, refusals } = this.questions;
     if (dance?.kind !== "route" || !this.#isRoute || refusals.has("contact")) return;
+    if (this.editor.base) this.change.quick(dance, this.editor.base);
     if (!dance.failures.includes(this.#failure)) this.#failure = null;
     this.#remark = this.propose.remark;
     // The path of an earlier drawing is not the one on which this dance was judged.
     const own = course && isSamePath(course.drawing, dance.drawing) ? course : null;
     this.judgement.show({ ...dance, lines: [this.#remark] }, own);
     this.form.offer(dance);
+  }
+
+  /** Say what the last change has done. answer: certified; of: the dance */
+  certified(answer, of) {
+    if (of?.kind === "route" && of === this.questions.dance) this.change.certified(answer, this.editor.base);
   }
 
   /** Show that the service refused the dance, with a better reason if one is known. */
@@ -214,6 +223,7 @@ export class Drawn {
   }
 
   translate() {
+    this.change.clear();
     this.show();
     this.judged();
     this.refused();

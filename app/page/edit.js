@@ -115,8 +115,9 @@ export class Editor {
     return k >= 0 ? k : null;
   }
 
-  get dragging() {
-    return Boolean(this.#drag?.far);
+  /** The drawing before the drag that goes on; null without one. */
+  get base() {
+    return this.#drag?.far ? this.#drag.base : null;
   }
 
   /** What a tap draws with the tool. */

@@ -221,6 +221,7 @@ const SHOW = {
   },
   fastest() {
     const { answer, dance: of } = questions.answers.fastest;
+    route?.certified(answer, of);
     if (questions.answers.speeds) SHOW.speeds();
     answers.showHighestSpeed($("#highest-speed"), answer.highest_speed);
     // A refusal of the numbers that are entered now stays.

@@ -1,6 +1,7 @@
 """A dance drawn on the picture by mouse, touch and keys: its verdict, its address and its files."""
 
 import json
+import re
 from io import BytesIO
 
 import openpyxl
@@ -201,6 +202,21 @@ def test_a_photo_stays_behind_the_square_on_the_device_with_the_scale_of_a_measu
     assert person.coloured("#804020") == 0
     person.presses("#photo-hide", "#photo-remove").sees({"#photo": False}).page.reload()
     person.settles().sees({"#photo": False})
+
+
+def test_the_verdict_follows_the_hand_and_a_line_says_what_its_change_has_done(open_page):
+    person = open_page(f"{S_CURVE}&things=c.elm.1.0,24&view=0,10,10").sees(YES).presses("#edit").settles()
+    canvas, mouse = person.box("#canvas"), person.page.mouse
+    x, y = canvas["x"] + 0.5 * canvas["width"], canvas["y"] + 0.5 * canvas["height"] - 140
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x, y + 80, steps=4)
+    person.sees({"#change": "✕ The head touches elm", VERDICT: "Cannot be danced"})
+    mouse.move(x, y + 40, steps=4)
+    person.sees({"#change": "✓ Can be danced"})
+    mouse.up()
+    person.sees({"#change": re.compile(r"✓ “elm”: 2\.\d\d m free \(was 6\.\d\d\)")}).strikes("Escape").presses("#edit")
+    person.sees({"#change": False})
 
 
 RING = (

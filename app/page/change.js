@@ -1,0 +1,72 @@
+/** One line on the picture that says what a change of the drawing has done: at once by the quick verdict, then by the certified answer. */
+
+import { make } from "./elements.js";
+import { say } from "./text.js";
+
+/** Least difference that is worth a word [m], [m/s]; most differences in the line; distance beyond which the edge of a plain is, which nobody has drawn [m]. */
+const [LEAST, MOST, FAR] = [0.005, 2, 10_000];
+
+/** What a certified answer says in numbers: name of a thing, or a key -> its distance [m] or speed [m/s]. */
+function factsOf({ venue, least_clearance: least, highest_speed: speed }) {
+  const gaps = (venue?.areas ?? []).filter(({ nearest }) => nearest && nearest.distance < FAR).map(({ name, nearest }) => [say("“{name}”", { name }), nearest.distance]);
+  return new Map([...gaps, ...(least ? [["benches", least.distance]] : []), ...(speed ? [["speed", speed.speed]] : [])]);
+}
+
+/** A fact and what it was, in words. */
+function wordsOf(key, now, was) {
+  const numbers = { now: now.toFixed(2), was: was.toFixed(2) };
+  if (key === "speed") return say("highest speed {now} m/s (was {was})", numbers);
+  if (key === "benches") return say("benches {now} m apart (was {was})", numbers);
+  return say("{name}: {now} m free (was {was})", { name: key, ...numbers });
+}
+
+/** The largest differences between two certified answers, in words; none without any. */
+export function differences(before, now) {
+  const [old, own] = [before, now].map(factsOf);
+  const changed = [...own].filter(([key, value]) => old.has(key) && Math.abs(value - old.get(key)) >= LEAST);
+  changed.sort(([a, x], [b, y]) => Math.abs(y - old.get(b)) - Math.abs(x - old.get(a)));
+  return changed.slice(0, MOST).map(([key, value]) => wordsOf(key, value, old.get(key)));
+}
+
+export class Change {
+  /** The newest certified answer, and the one before the change that is being made. @type {any} */
+  #newest = null;
+  #before = null;
+  /** The drawing before the last drag. */
+  #base = null;
+
+  /** @param {any} stage */
+  constructor(stage) {
+    this.line = make("p", { id: "change", hidden: true });
+    stage.append(this.line);
+  }
+
+  #say(verdict, words) {
+    this.line.hidden = !words.length;
+    this.line.textContent = `${verdict === "passes" ? "✓" : "✕"} ${words.join(say(", "))}`;
+  }
+
+  /** While a hand drags: the quick verdict. dance: as judged; base: the drawing before the drag */
+  quick({ verdict, failures }, base) {
+    this.#begin(base);
+    this.#say(verdict, [verdict === "passes" ? say("Can be danced") : (failures[0]?.sentence ?? say("Undecided"))]);
+  }
+
+  #begin(base) {
+    if (base !== this.#base) [this.#base, this.#before] = [base, this.#newest];
+  }
+
+  /** Once the hand rests: what differs from before. report: the certified answer; base: the drawing before the drag, or null without one */
+  certified(report, base) {
+    if (base) this.#begin(base);
+    else this.#before = this.#newest;
+    this.#newest = report;
+    const before = this.#before;
+    if (before) this.#say(report.verdict, report.verdict === "passes" ? differences(before, report) : report.failures.slice(0, 1).map(({ sentence }) => sentence));
+  }
+
+  /** Another dance than a drawn one, or another language. */
+  clear() {
+    this.line.hidden = true;
+  }
+}
