@@ -64,7 +64,7 @@ MapUp = Literal["north", "way"]
 class CardSheets:
     """The content of a file of cards.
 
-    name: of the dragon, empty for the only one; title: of the dance; verdict: of its check
+    name: of the dragon, empty for the only one; title: of the dance; verdict: of its check, and whether nothing fails
     address: of the page with the dance, empty without one; map_up: what is up on the pictures
     """
 
@@ -74,7 +74,7 @@ class CardSheets:
     cards: Sequence[Card]
     words: CardWords
     title: str
-    verdict: str
+    verdict: tuple[str, bool]
     face: Face
     budget: Budget
     address: str
@@ -116,6 +116,7 @@ def _words_on(sheets: CardSheets, card: Card) -> dict[str, Any]:
     )
     name = words.names[bench.bench] if words.names else ""
     title = say("{name}: {text}", name=sheets.title, text=sheets.name) if sheets.name else sheets.title
+    verdict, passes = sheets.verdict
     return {
         "number": str(bench.bench),
         "name": name or (say("head") if bench.bench == 0 else ""),
@@ -124,7 +125,8 @@ def _words_on(sheets: CardSheets, card: Card) -> dict[str, Any]:
         "front": front,
         "neighbours": words.neighbours(bench.ahead, bench.behind),
         "cues": [_cue(sheets, card, cue) for cue in card.cues],
-        "notes": joined([marks, words.distances(card), words.left_out(card), sheets.verdict]),
+        "notes": joined([marks, words.distances(card), words.left_out(card), verdict if passes else ""]),
+        "warning": "" if passes else verdict,
         "code": code_of_bench(sheets.address, bench.bench, words.dragon),
     }
 

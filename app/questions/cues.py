@@ -153,7 +153,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
     report = core.quick_check(performance, start=start, stop=request.stop, budget=terms.budget, **limits)
     in_words = TimeFormat(start_clock).words
-    verdict = _failed(request, report, in_words) if report.failures else _passed(request, place)
+    verdict = _failed(request, report, in_words) if report.failures else _passed(request, place), not report.failures
     dances = [(performance.parts[k].dance, names[k]) for k in chosen]
     return _cards(performance, request, place, list(zip(dances, decks, strict=True)), verdict, terms)
 
@@ -195,15 +195,15 @@ def _refuse_equal_names(dragon: core.Dragon, before: str = "") -> None:
             raise InvalidValue(f"{before}dragon.names.{k}", "must differ from {other}", got=Given(name), other=other)
 
 
-def _verdict(request: CuesRequest, dance: Dance, place: Place, words: CardWords, terms: Terms) -> str:
-    """The verdict on a single dance in a few words."""
+def _verdict(request: CuesRequest, dance: Dance, place: Place, words: CardWords, terms: Terms) -> tuple[str, bool]:
+    """The verdict on a single dance in a few words, and whether nothing in it fails."""
     if dance.dragon.benches > terms.settings.checked_benches_max:
-        return say("Not checked: the dragon is too long")
+        return say("Not checked: the dragon is too long"), True
     start = dance.span(request.start, request.stop)[0]
     report = verdict_of(request, dance, place.venue, start, terms)
     if report.failures:
-        return _failed(request, report, words.clock.words)
-    return _passed(request, place)
+        return _failed(request, report, words.clock.words), False
+    return _passed(request, place), True
 
 
 def _failed(request: CuesRequest, report: core.Report | core.PerformanceReport, words: Callable[[float], str]) -> str:
@@ -232,12 +232,13 @@ def _cards(
     request: CuesRequest,
     place: Place,
     decks: Sequence[tuple[tuple[Dance, str], tuple[list[Card], CardWords]]],
-    verdict: str,
+    verdict: tuple[str, bool],
     terms: Terms,
 ) -> bytes:
     """The cards on paper.
 
     decks: for each dragon its dance, its name, which is empty for the only one, its cards, and their words
+    verdict: in words, and whether nothing fails
     """
     from app.cards.cards import CardSheets, cards_pdf
     from app.files.typeset import face_for
