@@ -39,6 +39,25 @@ function drawn({ words, equal, strokes }) {
   return make("figure", {}, picture, make("figcaption", { textContent: words }));
 }
 
+/** The map of turns: a touch on a cell takes its turn. take(ratio, entry): of that cell */
+function mapOf({ words, ratios, entry_radii: entries, lengths }, take) {
+  const every = lengths.flat().filter((length) => length !== null);
+  const [least, most] = [Math.min(...every), Math.max(...every)];
+  const [wide, high] = [WIDTH / ratios.length, HEIGHT / entries.length];
+  const map = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": words, class: "turns" });
+  for (const [row, entry] of entries.entries())
+    for (const [column, ratio] of ratios.entries()) {
+      const length = lengths[row][column];
+      const cell = shape("rect", { x: column * wide, y: HEIGHT - (row + 1) * high, width: wide - 1, height: high - 1, class: length === null ? "tight" : "turn", "fill-opacity": length === null ? 1 : 0.25 + (0.75 * (length - least)) / (most - least) });
+      const title = shape("title", {});
+      title.textContent = `${ratio} : 1, ${entry} m${length === null ? "" : `: ${length.toFixed(3)} m`}`;
+      cell.append(title);
+      if (length !== null) cell.addEventListener("click", () => take(ratio, entry));
+      map.append(cell);
+    }
+  return make("figure", {}, map, make("figcaption", { textContent: words }));
+}
+
 const paragraph = (textContent) => make("p", { textContent });
 
 export class Strip {
@@ -80,11 +99,12 @@ export class Strip {
     card.setAttribute("aria-busy", false);
   }
 
-  #parts({ question, asks, text, sentences: [first, ...others], more, picture, offers, workbook, number, example }, open, askMore) {
+  #parts({ question, asks, text, sentences: [first, ...others], more, turns, picture, offers, workbook, number, example }, open, askMore) {
     const why = make("details", { open }, make("summary", { textContent: say("Why") }), ...others.map(paragraph));
     const buttons = offers.map((offer) => button({ textContent: offer.words }, () => this.#take(offer)));
     if (more) buttons.push(button({ textContent: more }, askMore));
     const hand = button({ textContent: say("Hand in: {files}", { files: workbook ?? say("figure") }) }, () => this.#handIn(question, hand));
+    if (turns) why.append(mapOf(turns, (ratio, entry) => this.#take({ path: "turn", numbers: { ratio, entry_radius: entry, exit_radius: entry, time: 0 } })));
     const value = make("p", { className: "value", textContent: text });
     return [make("p", { className: "asks", textContent: asks }), drawn(picture), value, paragraph(first), why, make("p", { className: "buttons" }, ...buttons, hand), this.#check(question, { workbook, number, example })];
   }

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Literal
 
+import numpy as np
 from pydantic import Field
 
 import core
@@ -12,19 +14,21 @@ from app.contest import pictures
 from app.contest.pictures import Picture
 from app.contest.solved import EVEN, ContestRequest
 from app.wire.answers import SENTENCES
-from app.wire.fields import Answer, Whole, Wire
+from app.wire.fields import Answer, Whole, Wire, measure
 from app.wire.question import Question, Terms
 from app.wire.readings import contact_words, handles_words, limit_words, pitch_words, turn_words
-from core import Dance, Dragon
+from core import Dance, Dragon, InvalidValue, Outcome
 from core.errors import format_bound, format_number
 from core.language import phrase, say
 
 # The problem as the contest gives it.
 PROBLEM = ContestRequest()
 # Estimated time of each answer, and of one with the shortest turns [s], measured 2026-11-30.
-COSTS, FURTHER = {1: 0.01, 2: 0.01, 3: 0.1, 4: 0.01, 5: 0.02}, 4.0
+COSTS, FURTHER = {1: 0.01, 2: 0.01, 3: 0.1, 4: 0.01, 5: 0.02}, 1.0
 # The question about the turn.
 TURN = 4
+# Rows and columns of the map of turns, and the ratios at its ends [1].
+ENTRIES, COLUMNS, RATIOS = 9, 9, (0.5, 2.5)
 # What makes one turn differ from another.
 SHAPE = ("ratio", "entry_radius", "exit_radius")
 
@@ -49,6 +53,15 @@ class Offer(Answer):
     )
 
 
+class TurnLengths(Answer):
+    """Lengths of turns that leave opposite to where they enter, by ratio and entry."""
+
+    words: str = Field(description="What the map shows")
+    ratios: list[float] = Field(description="Radius of the first arc over that of the second: the columns")
+    entry_radii: list[float] = measure("m", "Distances of the entry from the centre: the rows")
+    lengths: list[list[float | None]] = measure("m", "A row for each entry; null where the benches cannot dance it")
+
+
 class ContestAnswer(Answer):
     """The answer to one of the contest's questions."""
 
@@ -58,6 +71,7 @@ class ContestAnswer(Answer):
     sentences: list[str] = SENTENCES
     more: str | None = Field(None, description="What the answer has with `further`, as a question; null if no more")
     picture: Picture = Field(description="A picture of the answer, as lines")
+    turns: TurnLengths | None = Field(None, description="Of question 4 with `further`, lengths of other turns")
     offers: list[Offer] = Field(description="Dances that the answer tells of")
     workbook: str | None = Field(description="Name of the workbook that the contest asks for; null if it asks for none")
     number: str | None = Field(
@@ -200,20 +214,44 @@ def _turn_offer(words: str, turn: core.Turn) -> Offer:
 def _shorter(dragon: Dragon, terms: Terms) -> ContestAnswer:
     """Question 4 with the shortest turns of its ratio and of equal arcs."""
     answer, circle = _turn(dragon, terms), (PROBLEM.turn_pitch, PROBLEM.turning_radius)
-    for ratio, template in (
-        (PROBLEM.ratio, phrase("The shortest one with the same ratio, {ratio:g}, is {length:.6f} m long.")),
-        (EVEN, phrase("With two equal arcs it is {length:.6f} m long.")),
+    for template, shortest in (
+        (
+            phrase("The shortest one with the same ratio, {ratio:g}, is {length:.6f} m long."),
+            core.shortest_turn(dragon, *circle, PROBLEM.ratio, budget=terms.budget),
+        ),
+        (
+            phrase("With two equal arcs, leaving opposite to where it enters, it is {length:.6f} m long."),
+            core.deepest_turn(dragon, *circle, EVEN, budget=terms.budget),
+        ),
     ):
-        shortest = core.shortest_turn(dragon, *circle, ratio, budget=terms.budget)
         turn = shortest.turn
         answer.sentences += [
-            say(template, ratio=ratio, length=turn.length),
+            say(template, ratio=turn.ratio, length=turn.length),
             turn_words(turn),
             limit_words(shortest.limited_by, 0.0, 0.0),
         ]
         answer.offers.append(_turn_offer(say("Dance the turn of {length:.2f} m", length=turn.length), turn))
-    answer.more = None
+    answer.more, answer.turns = None, _lengths(dragon, terms)
     return answer
+
+
+def _lengths(dragon: Dragon, terms: Terms) -> TurnLengths:
+    """The map of the lengths, each of a turn that is proven to be danced without a contact."""
+    radius = PROBLEM.turning_radius
+    entries, ratios = np.linspace(0.65 * radius, radius, ENTRIES).round(3), np.linspace(*RATIOS, COLUMNS).round(3)
+    danced: dict[tuple[int, int], Dance] = {}
+    for cell in np.ndindex(ENTRIES, COLUMNS):
+        entry, ratio = float(entries[cell[0]]), float(ratios[cell[1]])
+        with suppress(InvalidValue):  # an arc is too tight
+            turn = core.Turn(PROBLEM.turn_pitch, radius, ratio, entry_radius=entry, exit_radius=entry)
+            danced[cell] = Dance(dragon, turn)
+    lengths: list[list[float | None]] = [[None] * COLUMNS for _ in entries]
+    contacts = core.first_contacts(list(danced.values()), budget=terms.budget)
+    for ((row, column), dance), contact in zip(danced.items(), contacts, strict=True):
+        if contact.outcome is Outcome.CLEAR and isinstance(dance.path, core.Turn):
+            lengths[row][column] = dance.path.length
+    words = say("Length of the turn by the ratio, to the right, and the entry, upwards; grey: too tight. Touch one.")
+    return TurnLengths(words=words, ratios=ratios.tolist(), entry_radii=entries.tolist(), lengths=lengths)
 
 
 def _speed(dragon: Dragon, terms: Terms) -> ContestAnswer:

@@ -21,7 +21,7 @@ DOCS = SITE.parent
 ROOT = DOCS.parent
 # The sections of the site, with the pages of docs/ on each; a page of docs/ on none of them is an error.
 SECTIONS = {
-    "everyone": ("Everyone", ["conventions", "command"]),
+    "everyone": ("Everyone", ["tasks", "conventions", "command"]),
     "students": ("Students", ["contest", "grade", "method", "paper"]),
     "organisers": (
         "Organisers",

@@ -75,7 +75,7 @@ def test_the_shortest_turns_come_when_they_are_asked_for_and_can_be_danced(clien
     brief, whole = answered(client, 4), answered(client, 4, further=True)
     assert (brief["more"], whole["more"]) == ("How much shorter?", None)
     words = " ".join(whole["sentences"][len(brief["sentences"]) :])
-    assert [one for one in ("11.799152 m", "4.290395 m", "least radius", "8.223984 m") if one not in words] == []
+    assert [one for one in ("11.799152 m", "4.290395 m", "least radius", "8.452013 m") if one not in words] == []
     lengths = []
     for offer in whole["offers"]:
         numbers = offer["numbers"]
@@ -84,7 +84,14 @@ def test_the_shortest_turns_come_when_they_are_asked_for_and_can_be_danced(clien
         )
         assert trajectory(Dance(Dragon(), turn), [numbers["time"]]).position.shape == (1, 224, 2)
         lengths.append(round(turn.length, 6))
-    assert lengths == [13.621245, 11.799152, 8.223984]
+    assert lengths == [13.621245, 11.799152, 8.452013]
+    # No ratio changes a length, and a deeper entry shortens it, until an arc is too tight.
+    table = whole["turns"]["lengths"]
+    rows = [{round(length, 9) for length in row if length is not None} for row in table]
+    assert [len(row) for row in rows] == [1] * len(rows)
+    assert sorted(rows, key=max) == rows
+    assert rows[-1] == {round(Turn(1.7).length, 9)}
+    assert sum(length is None for length in table[0]) > sum(length is None for length in table[-1]) > 0
 
 
 def test_the_fastest_handle_is_where_the_answer_says(client):
