@@ -90,7 +90,7 @@ export class RouteForm {
       (this.later = make("p", { className: "hint", hidden: true }, make("span"), " ", make("button", { type: "button" }))),
       make("p", { className: "line" }, textElement("span", "Latitude, longitude of 0, 0"), ...this.origin, unitOf("°")),
       make("details", { id: "points" }, this.pointsTitle, table),
-      make("details", { id: "things", open: true }, this.thingsTitle, this.list, textElement("p", "Choose one of them to move its points, with Shift several. Walls and trees have a radius.", { className: "hint" })),
+      make("details", { id: "things", open: true }, this.thingsTitle, this.list, textElement("p", "Choose one of them to move its points. Walls and trees have a radius.", { className: "hint" })),
     );
   }
 

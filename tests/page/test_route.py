@@ -338,7 +338,7 @@ def _a_dance_that_starts_in_the_wrong_place_or_is_refused_is_said_to_be_so(perso
         ("a.court..-30,-9_30,-9_30,9_-30,9~c.elm.2.-18,0", "starts inside elm"),
     ):
         person.opens(f"?path=route&benches=3&route=*-20,0_20,0&things={things}").sees({**NO, ".failures li": words})
-    person.opens("?path=route&benches=9&route=*-60,0_*0,0_0,40&corner=0.3").sees(NO)
+    person.opens("?path=route&benches=9&route=*-60,0_*0,0_-40,8&corner=0.3").sees(NO)
     person.presses("#judgement button:has-text('Show')").arrives("**view=**")
     assert max(map(abs, map(float, person.address()["view"].split(",")[:2]))) < 3
     person.opens("?path=route&benches=40&route=0,0_9,0")
