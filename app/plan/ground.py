@@ -28,7 +28,9 @@ IN_CLEAR = look("#FFF6E5", EDGE, 0.5, (4, 2))
 IN_HEAD, IN_BENCH = look(VERMILION, width=0.3), look("#9CC7E5", width=0.3)
 IN_STONE = look(HATCHED, width=0.7)
 # Looks of a lane to keep free, and of the ground that a loose tail can reach.
-IN_LANE, IN_LOOSE = look("#CFE3F1", BLUE, 0.4), look(edge=VERMILION, width=0.6, dash=(3, 2))
+IN_LANE, IN_LOOSE = look("#CFE3F1", BLUE, 0.4), look(edge=VERMILION, width=0.8, dash=(1, 2))
+# Radius of the dot at a place of a nearest approach, and distance of its number [mm].
+DOT, BESIDE = 0.6, 2.6
 # White gaps in outlines that go on beyond the sheet, near its edge, and above what they are.
 BROKEN, CUT = (2, 2), 8
 IN_CUT = look(edge="white", width=1.3, dash=BROKEN) + ' clip-path="url(#edge)"'
@@ -320,12 +322,14 @@ class SafetyLayers:
 
     loose: ground that the last benches can reach when they are let go; lanes: name and rings of each lane to keep free
     box: corners of what the map shows (2,) [m]; dragons: their names where there are several
+    near: places of the nearest approaches in their order [m]
     """
 
     loose: Polygons
     lanes: Sequence[tuple[str, Sequence[Floats]]]
     box: tuple[Floats, Floats]
     dragons: Sequence[str] = ()
+    near: Sequence[Sequence[float]] = ()
 
 
 def draw_safety(
@@ -342,6 +346,12 @@ def draw_safety(
     for rings in layers.loose:
         drawing.shape([thinned(scale.on_paper(ring)) for ring in rings], IN_LOOSE, 4)
     _draw_paths(drawing, grounds, layers.dragons)
+    for number, point in enumerate(layers.near, start=1):
+        x, y = scale.on_paper(np.array([point]))[0].tolist()
+        drawing.shape([np.array([x, y]) + DOT * CIRCLE], look("black"), 6)
+        beside = [(x + u, y + v) for v in (-BESIDE, BESIDE, 0.0) for u in (BESIDE, -BESIDE, 0.0) if u or v]
+        if not drawing.label(str(number), NAME_TYPE, beside, on_paper=True, bold=True):
+            drawing.write(str(number), *beside[0], NAME_TYPE, on_paper=True, bold=True)
     return drawing
 
 

@@ -44,8 +44,8 @@ def parts_on_ground(
 ) -> list[Part]:
     """Heading and sentences of the parts about ground, lanes and gates. spectators: distance of people [m]"""
     parts = [(say("Ground"), _ground_words(answer, spectators))]
-    if answer.lanes:
-        parts.append((say("Lanes to keep free"), [lane_words(one, clock) for one in answer.lanes]))
+    lanes = [lane_words(one, clock) for one in answer.lanes] or [say("The organiser has named no lane.")]
+    parts.append((say("Lanes to keep free"), lanes))
     return [*parts, (say("Gates and leaving"), _gate_words(answer, performance, clock))]
 
 
@@ -58,13 +58,14 @@ def part_on_stopping(answer: SafetySheet, performance: core.Performance, clock: 
         if len(performance.parts) > 1:
             where = say("{bench} of {name}", bench=where, name=performance.name_of(fastest.dragon))
         lines = [
-            say("Fastest: {where}, with {speed:.2f} m/s at {time}, at x {x:.1f} m, y {y:.1f} m.",
-                where=where, speed=fastest.speed, time=clock.words(fastest.time), x=x, y=y),
+            say("Fastest: {where}, with {speed:.2f} m/s ({hourly:.1f} km/h) at {time}, at x {x:.1f} m, y {y:.1f} m.",
+                where=where, speed=fastest.speed, hourly=3.6 * fastest.speed, time=clock.words(fastest.time), x=x, y=y),
             say("After the call to stop everybody stands within {reaction} s, and nobody goes further than {way} m.",
                 reaction=format_number(answer.stopping.reaction),
                 way=format_bound(answer.stopping.distance, 1, up=True)),
         ]  # fmt: skip
-    return say("Speed and stop"), [*lines, say("Who stops the dance: {name}", name=stopper or "_" * 24)]
+    signal = say("Everybody knows this signal to stop: {line}", line="_" * 24)
+    return say("Speed and stop"), [*lines, say("Who stops the dance: {name}", name=stopper or "_" * 24), signal]
 
 
 def _ground_words(answer: SafetySheet, spectators: float) -> list[str]:
@@ -74,7 +75,8 @@ def _ground_words(answer: SafetySheet, spectators: float) -> list[str]:
         counted(tail.benches, "The last bench, let go, comes at most {reach} m from its front handle.",
                 "The last {count} benches, let go, come at most {reach} m from the front handle of the first of them.",
                 reach=format_bound(tail.reach, 1, up=True)),
-        *([say("That is beyond the line behind which people stand: see the map.")] if tail.beyond_spectators else []),
+        *([say("That is beyond the line behind which people stand: whoever stands within the dotted line of the map "
+               "can be hit if they let go.")] if tail.beyond_spectators else []),
     ]  # fmt: skip
 
 

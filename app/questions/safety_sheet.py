@@ -285,7 +285,7 @@ class _Judged:
         lanes = [(one.name, [np.array(ring) for ring in one.rings]) for _, one in self.lanes]
         corners = np.concatenate([rings[0] for rings in (*self.closed, *loose)])
         box = with_square(venue, corners.min(axis=0), corners.max(axis=0))
-        layers = SafetyLayers(loose, lanes, box, dragons)
+        layers = SafetyLayers(loose, lanes, box, dragons, [one.point for one in answer.approaches])
         title = request.title or say("Bench dragon")
         areas = [area.name for area in venue.areas] if venue else []
         benches = [name for part in performance.parts for name in part.dance.dragon.names]
@@ -296,10 +296,13 @@ class _Judged:
             return {"heading": heading, "columns": columns, "rows": rows, "widths": wide, "left": left}
 
         near = [
-            [one.sentence, f"{one.distance:.2f}", clock.words(one.time), f"{one.point[0]:.1f}, {one.point[1]:.1f}"]
-            for one in answer.approaches
-        ]
-        rests = [[one.label, one.text, say("yours") if one.yours else say("assumed")] for one in answer.assumptions]
+            [
+                str(number), one.sentence, f"{one.distance:.2f}", clock.words(one.time),
+                f"{one.point[0]:.1f}, {one.point[1]:.1f}",
+            ]
+            for number, one in enumerate(answer.approaches, start=1)
+        ]  # fmt: skip
+        rests = [[one.label, one.text, say("organiser") if one.yours else say("assumed")] for one in answer.assumptions]
         span_words = {"start": clock.words(answer.start), "stop": clock.words(answer.stop)}
         count = sum(part.dance.dragon.benches for part in performance.parts)
         subtitle = say("Safety sheet: {benches} benches, from {start} to {stop}", benches=count, **span_words)
@@ -316,8 +319,8 @@ class _Judged:
             date=request.date,
             address=request.address,
             approaches=table(
-                say("Nearest approaches"), [say("what comes near"), say("gap [m]"), say("at"), "x, y [m]"], near,
-                [2.4, 0.8, 1.0, 1.2], [0],
+                say("Nearest approaches"), ["", say("what comes near"), say("gap [m]"), say("at"), "x, y [m]"], near,
+                [0.25, 2.3, 0.8, 0.9, 1.1], [0, 1],
             ),
             assumptions=table(
                 say("What this rests on"), [say("what"), say("value"), say("from")], rests, [2.0, 1.4, 0.9], [0, 1]
