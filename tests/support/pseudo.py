@@ -18,7 +18,7 @@ PARTS = re.compile(r"(\{[^}]*\}|--[\w-]+|[A-Za-z](?:[\w./-]*\w)?)")
 ENGLISH = re.compile(r"(?<![\w./-])[A-Za-z]*[a-z]{3,}(?![\w/\[-]|\.\w| múśŧ )|\{\w+\}")
 # What no catalogue has: units, functions, names of formats, programs, people, and of what stands in a square.
 NAMES = """
-    rad deg xlsx min max cos sin theta json Arrow GeoJSON Parquet shapely English Clopper Pearson
+    rad deg xlsx min max cos sin theta json Python Arrow GeoJSON Parquet shapely English Clopper Pearson
     square well stage fence east north Bench Dragon
 """
 
