@@ -313,14 +313,16 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
             swing = max(link.swing_front, link.swing_rear)
             front = sine = 1.0
         second_b = LOOSEN * (front * second_a + sine * swing * (rate_a + rate_b)) / rear
-        spin = omega * omega + (front * swing * (rate_a + rate_b) + sine * (second_a + second_b)) / stretch.chord
+        # b' cos alpha_b = a' cos alpha_a <= rate_a front, which is more than rate_b front where b is the slower handle.
+        both = rate_a + max(rate_a, rate_b)
+        spin = omega * omega + (front * swing * both + sine * (second_a + second_b)) / stretch.chord
         pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b))
         bench_bounds(k, rate_a, rate_b, omega, spin, pull, sizes, motion)
         motion[k, OMEGA_LOW] = motion[k, RATE_LOW] = 0.0
         third_b = stretch.slope * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)
         third_b += high * (rate_a * second_a + rate_b * second_b) + (spin - omega * omega) * (rate_a + rate_b)
         third_b = sine * (third_b + 2.0 * swing * (second_a + second_b))
-        third_b = LOOSEN * (front * (third_a + swing * swing * (rate_a + rate_b)) + third_b) / rear
+        third_b = LOOSEN * (front * (third_a + swing * swing * both) + third_b) / rear
         motion[k + 1, RATE_HIGH] = rate_b
         motion[k + 1, RATE_RATE] = second_b
         motion[k + 1, RATE_JERK] = third_a = third_b

@@ -48,6 +48,10 @@ class GateUse(StrEnum):
     OUT = "out"
     BOTH = "both"
 
+    def __repr__(self) -> str:
+        """As a gate takes it."""
+        return repr(self.value)
+
 
 @dataclass(frozen=True)
 class Gate(Readable):
@@ -56,7 +60,8 @@ class Gate(Readable):
     point: the place, x and y [m]
     heading: heading of those who enter there [rad]
     use: whether a dance may begin there, end there, or both
-    street_width, street_length: of the street [m]; None for as wide and as long as the dragon needs it
+    street_width: width of the street; None for as wide as the dragon needs it [m]
+    street_length: length of the street; None for as long as the dragon needs it [m]
     """
 
     point: Point
