@@ -15,7 +15,8 @@ export class Challenge {
 
   /** @param {{ state: State, questions: Questions }} parts */
   constructor({ state, questions }) {
-    Object.assign(this, { state, questions });
+    this.state = state;
+    this.questions = questions;
     this.hint = make("p", { className: "hint" });
     this.words = make("p", { id: "challenge-words", ariaLive: "polite" });
     this.card = textButton("A card to share", () => this.#share(), { id: "challenge-card" });

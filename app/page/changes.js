@@ -132,7 +132,7 @@ export function figured(drawing, { by = [0, 0], angle = 0, scale = 1, isMirrored
   const pieces = drawing.path.pieces.map((piece) => ({ ...piece, ...turns[piece.kind](piece) }));
   const begin = scale * drawing.begin;
   // A larger or smaller one begins when the whole dragon is on it.
-  return { ...drawing, path: roundedRoute({ ...drawing.path, pieces, start: begin }), begin, start: scale === 1 ? drawing.start : null, points: drawing.points.map((point) => place(carry(point))) };
+  return { ...drawing, path: roundedRoute({ ...drawing.path, pieces, start: begin }), begin, start: scale === 1 ? drawing.start : null, points: drawing.points.map((point) => place(/** @type {[number, number]} */ (carry(point)))) };
 }
 
 /** Half the longer axis of the earth [m], and its flattening [1]. */

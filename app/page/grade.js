@@ -130,9 +130,11 @@ export class Grader {
  * What the service says of a file, or of an answer that was typed, with its boxes; null if another question took its place.
  * name: of the answer, with its text; file: a workbook
  * @param {Service} service
+ * @param {string} channel
  * @param {{ name?: string, text?: string, file?: File, language: string }} asked
  */
-export async function judge(service, channel, { name = "", text = "", file, language }) {
+export async function judge(service, channel, asked) {
+  const { name = "", text = "", file, language } = asked;
   const title = file?.name ?? say(ANSWERS[name]);
   if (file?.size === 0) return { boxes: [refusedBox(title, say("The file is empty."))] };
   const query = file ? { name: file.name.slice(-200), language } : { [name]: text, language };

@@ -19,7 +19,7 @@ const KITS = {
 };
 
 /** Size of a kit in words. */
-const sizeWords = ({ radius, size }) => (size ? `${size.join(" × ")} m` : radius ? say("{diameter} m across", { diameter: 2 * radius }) : "");
+const sizeWords = (/** @type {any} */ { radius, size }) => (size ? `${size.join(" × ")} m` : radius ? say("{diameter} m across", { diameter: 2 * radius }) : "");
 
 /** Add the box of the kits, which a button opens by its id. editor: takes the chosen one */
 export function addKits(editor) {

@@ -175,7 +175,7 @@ export class Photo {
     const isRight = metres > 0 && metres <= FAR;
     field.setAttribute("aria-invalid", !isRight);
     if (!isRight) return;
-    this.#shown.place = scaled(this.#shown.place, this.editor.measured, metres);
+    this.#shown.place = scaled(this.#shown.place, /** @type {[[number, number], [number, number]]} */ (this.editor.measured), metres);
     this.editor.take("measure");
     this.#show(false);
     this.#keep();
