@@ -76,8 +76,8 @@ def course(path: Spiral | Route, dragon: Dragon) -> Course:
     (core/paths/following.py). On a spiral there is none: its dance ends in a fold.
 
     >>> from core import Legs
-    >>> course(Legs([(0, 0), (20, 0), (12, 20)], [0, 1], radius=1.0), Dragon()).bends
-    (<TightBend: radius 1 m from s = 18.5133474 to 20.4636482 m>,)
+    >>> course(Legs([(0, 0), (20, 0), (12, 20)], [0, 1], radius=0.5), Dragon()).bends
+    (<TightBend: radius 0.5 m from s = 19.2614835 to 20.2371349 m>,)
     """
     checked_type("path", path, (Spiral, Route))
     checked_type("dragon", dragon, Dragon)

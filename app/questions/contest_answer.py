@@ -57,7 +57,7 @@ class TurnLengths(Answer):
     """Lengths of turns that leave opposite to where they enter, by ratio and entry."""
 
     words: str = Field(description="What the map shows")
-    ratios: list[float] = Field(description="Radius of the first arc over that of the second: the columns")
+    ratios: list[float] = measure("1", "Radius of the first arc over that of the second: the columns")
     entry_radii: list[float] = measure("m", "Distances of the entry from the centre: the rows")
     lengths: list[list[float | None]] = measure("m", "A row for each entry; null where the benches cannot dance it")
 

@@ -269,6 +269,8 @@ NO_ROWS = {
     "cues": "its answer is a card for each bench: sweep check",
     "safety_sheet": "its answer is many numbers on one page: sweep check",
     "paper": "it takes no parameters",
+    "contest_answer": "its answer is that of the contest alone: sweep the question that it names",
+    "class_table": "its answer is about handed-in files",
     **{name: PICTURE for name, question in KNOWN.items() if question.model is None},
 }
 

@@ -91,7 +91,7 @@ def test_a_number_out_of_range_is_refused_by_name(call):
 
 SUBJECTS = {"dance": "Dance", "dragon": "Dragon", "contact": "FirstContact", "minimum": "MinimumPitch"}
 QUESTIONS = [call for call, good in CALLS.items() if next(iter(good)) in SUBJECTS and not isinstance(call, type)]
-BOTH = [core.first_contact, *OF_SEVERAL, *(call.__wrapped__ for call in OF_SEVERAL)]
+BOTH = [core.first_contact, core.stays, *OF_SEVERAL, *(call.__wrapped__ for call in OF_SEVERAL)]
 # Further arguments, and wrong subjects.
 FURTHER = [(), (0.55,), (SPIRAL, 300.0), (None, None, None, None)]
 

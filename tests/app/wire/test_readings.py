@@ -54,7 +54,8 @@ def test_an_answer_says_what_it_means_to_people(client, call, about, words):
 def test_a_bend_that_is_too_tight_says_what_its_bench_needs(client):
     body = {"path": line((0, 0), (5, 0), (5, 1), (0, 1), (0, 20))}
     for bend in client.post("course", json=body).json()["bends"]:
-        assert bend["sentence"].endswith(f"{bend['radius']:.2f} m, and the head needs {bend['least_radius']:.2f} m.")
+        assert f"a radius of {bend['radius']:.2f} m: " in bend["sentence"]
+        assert f" With {bend['least_radius']:.2f} m the head can always follow." in bend["sentence"]
 
 
 @pytest.mark.parametrize(
