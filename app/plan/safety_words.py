@@ -68,6 +68,20 @@ def part_on_stopping(answer: SafetySheet, performance: core.Performance, clock: 
     return say("Speed and stop"), [*lines, say("Who stops the dance: {name}", name=stopper or "_" * 24), signal]
 
 
+def cautions(answer: SafetySheet, *, nobody_strays: bool) -> list[str]:
+    """What a reader of the verdict must not overlook, in a sentence; nothing where there is nothing.
+
+    nobody_strays: True if it rests on people who never leave their places, which is only assumed
+    """
+    used = [one for one in answer.lanes if one.stays]
+    notes = [
+        *([say("nobody leaves their place, which is only assumed")] if nobody_strays else []),
+        *(say("benches are in “{name}” for {seconds:.0f} s", name=one.name, seconds=one.total) for one in used),
+        *([say("people can be hit if the last benches are let go")] if answer.loose_tail.beyond_spectators else []),
+    ]
+    return [say("Not to be overlooked: {list}.", list=say("; ").join(notes))] if notes else []
+
+
 def _ground_words(answer: SafetySheet, spectators: float) -> list[str]:
     tail, away = answer.loose_tail, format_number(spectators)
     return [

@@ -24,7 +24,15 @@ from app.plan.safety_answer import (
     SafetySheet,
     Stopping,
 )
-from app.plan.safety_words import benches_words, known_words, part_on_stopping, parts_on_ground, passed_words, together
+from app.plan.safety_words import (
+    benches_words,
+    cautions,
+    known_words,
+    part_on_stopping,
+    parts_on_ground,
+    passed_words,
+    together,
+)
 from app.plan.timing import TimeFormat
 from app.questions.check import FILE_OF_CHECK, limits_of, verdict_of, verdict_together
 from app.questions.plan import (
@@ -50,7 +58,7 @@ from app.wire.question import JSON, UNKNOWN_COST, Command, ListOption, Output, Q
 from app.wire.readings import dragons_failure_words, failure_words
 from core import Area, FailureKind, InvalidValue, Judgement, Part, Performance
 from core.errors import Given, Parameter, format_bound, format_number, question_about
-from core.language import say
+from core.language import joined, say
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
 from core.shapes.engines import Polygons, area_of, free_width, holds_all, lane_rings, merged, widened
@@ -311,11 +319,13 @@ class _Judged:
                 "Safety sheet: {dance_count} dragons, {benches} benches, from {start} to {stop}",
                 dance_count=len(performance.parts), benches=count, **span_words,
             )  # fmt: skip
+        given = {"stray", "hole", "pin"} & request.model_fields_set
+        verdict, known = answer.sentences
         words = SafetyWords(
             title=title,
             subtitle=subtitle,
             verdict=answer.verdict.value,
-            sentences=answer.sentences,
+            sentences=[verdict, joined([known, *cautions(answer, nobody_strays=not (given or request.total_stray))])],
             date=request.date,
             address=request.address,
             approaches=table(

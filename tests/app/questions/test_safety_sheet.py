@@ -273,6 +273,18 @@ def test_many_lanes_and_gates_take_a_second_page_and_nothing_is_lost(ask):
     assert "signature" in sheets[-1]
 
 
+def test_the_verdict_names_what_its_reader_must_not_overlook(ask):
+    used = next(one for one in ask("safety-sheet", BODY)["lanes"] if one["stays"])
+    bare = {name: value for name, value in BODY.items() if name != "stray"}
+    for body, assumed in ((BODY, False), (bare, True)):
+        words = " ".join(sheets_of(ask.file("safety-sheet", body, PDF_TYPE))[0].split())
+        assert (
+            f"Not to be overlooked: {'nobody leaves their place, which is only assumed; ' if assumed else ''}" in words
+        )
+        assert ("only assumed" in words) == assumed
+        assert f"benches are in “{used['name']}” for {used['total']:.0f} s" in words
+
+
 def test_two_thousand_benches_have_one_page_and_any_name_is_text(ask):
     benches = 2000
     street = line((0, 0), (60 + 1.7 * benches, 0)) | {"start": 1.7 * benches}
