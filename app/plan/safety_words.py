@@ -85,7 +85,8 @@ def cautions(answer: SafetySheet, *, nobody_strays: bool) -> list[str]:
 def _ground_words(answer: SafetySheet, spectators: float) -> list[str]:
     tail, away = answer.loose_tail, format_number(spectators)
     return [
-        say("Benches sweep {area:.0f} m2; people stand {away} m and more from it.", area=answer.swept.area, away=away),
+        say("Benches sweep {area:.0f} m2; people, and barriers, stand outside the dashed line of the map, {away} m and "
+            "more from that ground.", area=answer.swept.area, away=away),
         counted(tail.benches, "The last bench, let go, comes at most {reach} m from its front handle.",
                 "The last {count} benches, let go, come at most {reach} m from the front handle of the first of them.",
                 reach=format_bound(tail.reach, 1, up=True)),
