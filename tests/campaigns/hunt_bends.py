@@ -12,6 +12,8 @@ from tests.support.slow_follower import cosines_at, followed_slowly, twisted
 # Part by which u . T at the rear handle may differ from the limit, and u . T at the front handle from 0 [1]; how far
 # below the chord a nearer place must stay, which small steps see to 1e-5 m [m].
 PART, FRONT, NEARER = 0.01, 0.005, 1e-4
+# How far beyond the place of a refusal the small steps look again [m].
+JUST = 1e-6
 
 
 def judged(route, dragon):
@@ -26,8 +28,9 @@ def judged(route, dragon):
     kind = proof.obstacles[0].reason.name.lower()
     if jumps or steps.spare < NEARER or fails(steps.rear_cosine, steps.front_cosine):
         return kind, ""
-    # small steps may miss a narrow dip: there is one at the place of the refusal
-    true = fails(*cosines_at(route, float(dragon.chords[0]), proof.obstacles[0].s))
+    # small steps may miss a narrow dip, and a short jump: there is one at the place of the refusal, or just beyond
+    places = [proof.obstacles[0].s + beyond for beyond in (0.0, JUST)]
+    true = any(fails(*cosines_at(route, float(dragon.chords[0]), s)) for s in places)
     return kind, "" if true else f"{proof}, but {steps}"
 
 
