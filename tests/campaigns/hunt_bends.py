@@ -13,7 +13,7 @@ from tests.support.slow_follower import cosines_at, followed_slowly, twisted
 # below the chord a nearer place must stay, which small steps see to 1e-5 m [m].
 PART, FRONT, NEARER = 0.01, 0.005, 1e-4
 # How far beyond the place of a refusal the small steps look again [m].
-JUST = 1e-6
+JUST = 1e-5
 
 
 def judged(route, dragon):
