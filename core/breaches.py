@@ -77,7 +77,7 @@ class AreaGap(Readable):
     """How near benches come to the border of an area, everybody in place.
 
     name: of the area
-    distance: least distance at the samples [m]; 0 where a bench overlaps the border, or has its centre in an obstacle
+    distance: least distance at the samples [m]; 0 where a bench overlaps the border, or stands on its wrong side
     enough: distance with which the margin is kept however people stray [m]
     """
 
@@ -119,8 +119,9 @@ def area_gaps(
     flat, centres = boxes.reshape(-1, boxes.shape[-1]), poses[..., :2].reshape(-1, 2)
     gaps = []
     for area, frame in zip(venue.areas, edges, strict=True):
-        covers = area is not venue.square and inside(area.rings, centres).any()
-        gaps.append(AreaGap(area.name, 0.0 if covers else max(_least_gap(flat, frame), 0.0), enough))
+        within = inside(area.rings, centres)
+        wrong = not within.all() if area is venue.square else within.any()
+        gaps.append(AreaGap(area.name, 0.0 if wrong else max(_least_gap(flat, frame), 0.0), enough))
     return tuple(gaps)
 
 

@@ -148,9 +148,10 @@ class Search:
 
     def ranked(self, figure: Figure) -> list[Rated]:
         """Dances of a figure that are worth a closer look, the best-rated first."""
-        rated = [one for design in self.designs(figure) if (one := self.rate(design)) is not None]
-        every = [one for one in rated if self.further(one, HEAD_SPEED) is not None]
-        self.too_long += [one for one in rated if one not in every]
+        laid = [one for design in self.designs(figure) if (one := self.rate(design)) is not None]
+        every = list[Rated]()
+        for one in laid:
+            (self.too_long if self.further(one, HEAD_SPEED) is None else every).append(one)
         return sorted(every, key=lambda one: -round(self.value(one.rating), 6))
 
     def designs(self, figure: Figure) -> Iterator[Design]:

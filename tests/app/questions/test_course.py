@@ -35,6 +35,8 @@ def test_how_near_benches_come_to_each_area_is_said_at_the_same_samples(ask):
     assert {one["enough"] for one in gaps} == {0.06}
     inside = {"venue": {"type": "GeometryCollection", "geometries": [box(-9, -9, 39, 9), box(10, -3, 20, 3)]}}
     assert [one["distance"] for one in ask("course", BODY | inside | {"breaches": True})["gaps"]][1] == 0.0
+    outside = {"venue": {"type": "GeometryCollection", "geometries": [box(-9, 3, 39, 9)]}}
+    assert [one["distance"] for one in ask("course", BODY | outside | {"breaches": True})["gaps"]] == [0.0]
 
 
 @pytest.mark.parametrize(
