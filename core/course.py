@@ -32,6 +32,10 @@ class TightBend(WithArrays):
     least_radius: least radius that this bench can follow on bends of any length [m]
     bench: the first bench that cannot follow
     reason: what would happen to its rear handle
+
+    >>> from core import Legs
+    >>> course(Legs([(0, 0), (20, 0), (12, 20)], [0, 1], radius=0.5), Dragon()).bends[0].radius
+    0.5
     """
 
     start: float
@@ -56,6 +60,11 @@ class Course(WithArrays):
     length: length of the path [m]
     knots: arc length of each waypoint (for a rounded corner, of its middle); empty for other paths [m]
     bends: bends that are too tight, along the path
+
+    >>> from core import Line
+    >>> drawn = course(Route([Line((0.0, 0.0), (30.0, 0.0))]), Dragon(5))
+    >>> drawn.length, drawn.bends
+    (30.0, ())
     """
 
     s: Floats

@@ -51,7 +51,11 @@ TIME_ROUNDING = 2e-15
 
 class EndReason(StrEnum):
     """Reason for the end of a run: a chord has no continuous solution any more, the head is at the centre of the spiral
-    or at the end of the route, or the requested time is over."""
+    or at the end of the route, or the requested time is over.
+
+    >>> Dance(Dragon(), Spiral()).end.reason
+    <EndReason.FOLD: 'fold'>
+    """
 
     FOLD = "fold"
     CENTRE = "centre"
@@ -68,6 +72,10 @@ class RunEnd(Readable):
     time: time of the end [s]
     theta: polar angle of the head at that time, on a spiral that folds or ends [rad]
     bench: the bench that folds; None if none does
+
+    >>> end = Dance(Dragon(), Spiral()).end
+    >>> end.reason.value, round(end.time, 6), end.bench
+    ('fold', 432.917924, 0)
     """
 
     reason: EndReason

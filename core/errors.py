@@ -84,7 +84,12 @@ class Quantity(NamedTuple):
 
 
 class Parameter(NamedTuple):
-    """A parameter in a message, by its dotted name."""
+    """A parameter in a message, by its dotted name.
+
+    >>> start = Parameter("times.start")
+    >>> str(InvalidValue("times.stop", "must be after {start}", got=3.0, start=start))
+    'times.stop must be after times.start, got 3'
+    """
 
     name: str
 
@@ -93,7 +98,11 @@ class Parameter(NamedTuple):
 
 
 class Given(NamedTuple):
-    """What a caller gave, in a message. text: its form there; by default the first 60 characters of its repr()"""
+    """What a caller gave, in a message. text: its form there; by default the first 60 characters of its repr()
+
+    >>> str(InvalidValue("lengths", "must be a number", got=Given("3,41 m")))
+    "lengths must be a number, got '3,41 m'"
+    """
 
     value: object
     text: str = ""
@@ -274,13 +283,29 @@ class BenchDragonError(Exception):
 
 
 class InvalidValue(BenchDragonError, ValueError):
-    """A parameter is outside what its type allows."""
+    """A parameter is outside what its type allows.
+
+    >>> from core import Dragon
+    >>> try:
+    ...     Dragon(width=-0.3)
+    ... except InvalidValue as error:
+    ...     print(error)
+    dragon.width must be positive, got -0.3 m
+    """
 
     code = "invalid-value"
 
 
 class TooLarge(BenchDragonError):
-    """The requested work is beyond a stated limit."""
+    """The requested work is beyond a stated limit.
+
+    >>> from core import Dance, Dragon, Relief, Spiral, crew
+    >>> try:
+    ...     crew(Dance(Dragon(3), Spiral()), [8, 2, 2], Relief(spares=20_000))
+    ... except TooLarge as error:
+    ...     print(error)
+    people must be at most 20000, spares among them, got 20012
+    """
 
     code = "too-large"
 
@@ -289,6 +314,13 @@ class TooMuchWork(BenchDragonError):
     """An answer was not found within the work that one question may take, or before it was stopped.
 
     stopped: True if another thread stopped it
+
+    >>> from core import Dragon, minimum_pitch
+    >>> try:
+    ...     minimum_pitch(Dragon(), budget=Budget(1e4))
+    ... except TooMuchWork as error:
+    ...     print(error.stopped)
+    False
     """
 
     code = "too-much-work"
@@ -328,13 +360,25 @@ def unanswered(
 
 
 class OutsideRun(BenchDragonError):
-    """A time is after the end of the run, or before the whole dragon is on the path."""
+    """A time is after the end of the run, or before the whole dragon is on the path.
+
+    >>> from core import Dance, Dragon, Spiral, trajectory
+    >>> try:
+    ...     trajectory(Dance(Dragon(), Spiral()), 500.0)
+    ... except OutsideRun as error:
+    ...     print(error)
+    times must be at most 432.917924228 s, when bench 0 folds, got 500 s
+    """
 
     code = "outside-run"
 
 
 class ProofRefused(BenchDragonError):
-    """A claim could not be proven, or a certificate does not prove its claim."""
+    """A claim could not be proven, or a certificate does not prove its claim.
+
+    >>> str(ProofRefused("certificate", "does not prove its claim"))
+    'certificate does not prove its claim'
+    """
 
     code = "proof-refused"
 

@@ -25,7 +25,12 @@ EXCESS_KNOWN = 1e-6
 class FailureKind(StrEnum):
     """Kind of a failure: two benches, or a bench and an edge of the venue, come within the margin; a bench starts
     outside the square or in an obstacle; a handle is faster than the limit; a bench cannot follow the path any further.
-    UNDECIDED: a search gave up before it could prove any of these, and nothing fails for certain after that."""
+    UNDECIDED: a search gave up before it could prove any of these, and nothing fails for certain after that.
+
+    >>> from core import Dance, Spiral, check
+    >>> check(Dance(Dragon(20), Spiral())).failures[0].kind
+    <FailureKind.CONTACT: 'contact'>
+    """
 
     CONTACT = "contact"
     VENUE = "venue"
@@ -50,6 +55,10 @@ class Failure(Readable):
     head: the head at that time
     peak_speed: for a speed: the highest over the dance; None if it grows without bound towards a fold [m/s]
     peak_time: for a speed: the time of the highest, or of the fold [s]
+
+    >>> from core import Dance, Spiral, check
+    >>> check(Dance(Dragon(20), Spiral())).failures[0].message
+    'Benches 0 and 8 touch at 412.473838 s.'
     """
 
     kind: FailureKind
@@ -79,6 +88,12 @@ class PerformanceFailure(Readable):
     time_bracket: two times: proven not to fail up to the first; failing at the second. None for a fold, or at the start
         [s]
     failure: that of a dragon by itself, on the clock of its own dance; None for two dragons
+
+    >>> from core import Dance, Line, Part, Route, check
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> failure = check(Performance([Part(Dance(Dragon(5), Route([street]))) for street in streets])).failures[0]
+    >>> failure.kind.value, failure.dragons, failure.benches
+    ('contact', (0, 1), (0, 0))
     """
 
     kind: FailureKind

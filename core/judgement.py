@@ -45,7 +45,12 @@ MOMENT = 1e-3
 
 
 class Judgement(StrEnum):
-    """The verdict of a report: nothing fails, something fails for certain, or neither is known."""
+    """The verdict of a report: nothing fails, something fails for certain, or neither is known.
+
+    >>> from core import Dragon, Line, Route
+    >>> check(Dance(Dragon(5), Route([Line((0.0, 0.0), (30.0, 0.0))]))).verdict
+    <Judgement.PASSES: 'passes'>
+    """
 
     PASSES = "passes"
     FAILS = "fails"
@@ -81,6 +86,11 @@ class Report(Readable):
     sharpest_bend: sharpest bend between two consecutive benches; None for a single bench, or without details
 
     Without details, venue, sharpest_bend and highest_speed are None if the verdict does not need them.
+
+    >>> from core import Dragon, Spiral
+    >>> report = check(Dance(Dragon(20), Spiral()))
+    >>> report.verdict.value, report.failures[0].benches
+    ('fails', (0, 8))
     """
 
     start: float
@@ -113,6 +123,12 @@ class PerformanceReport(Readable):
     reports: verdict on each dragon by itself in the venue, on the clock of its own dance, which is 0 at its delay; None
         for one that stands during the whole time checked
     performance: the performance of the question
+
+    >>> from core import Dragon, Line, Part, Route
+    >>> lanes = [Line((0.0, 0.0), (40.0, 0.0)), Line((0.0, 1.0), (40.0, 1.0))]
+    >>> report = check(Performance([Part(Dance(Dragon(3), Route([lane]))) for lane in lanes]))
+    >>> report.passed, round(report.least_clearance.distance, 3)
+    (True, 0.7)
     """
 
     start: float
@@ -221,6 +237,10 @@ def quick_check(
 
     Answers that no failure needs are None: least clearance, clearance to the venue, highest speed, sharpest bend.
     Arguments and errors are those of check().
+
+    >>> from core import Dragon, Spiral
+    >>> quick_check(Dance(Dragon(20), Spiral())).failures[0].message
+    'Benches 0 and 8 touch at 412.473838 s.'
     """
     return _judged(dance, venue, margin, stray, speed_limit, (start, stop), budget, details=False)
 

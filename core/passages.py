@@ -26,6 +26,11 @@ class Passage(Readable):
     speed: speed of the head, 0 for a pause [m/s]
     until_s: arc length of the head at its end; None if a time ends it [m]
     until_time: time of its end; None if a place ends it [s]
+
+    >>> from core import Dance, Dragon, Spiral, first_contact
+    >>> slow = Dance(Dragon(), Spiral(), 1.0, [Passage(0.5, until_time=100.0)])
+    >>> round(first_contact(slow).time, 6)
+    462.473838
     """
 
     speed: float

@@ -52,6 +52,10 @@ class Part(Readable):
     name: name of the dragon; None without
 
     raises: InvalidValue
+
+    >>> from core import Dragon, Spiral
+    >>> Part(Dance(Dragon(20), Spiral()), delay=4.0, name="gold").delay
+    4.0
     """
 
     dance: Dance
@@ -102,6 +106,11 @@ class PerformanceEnd(Readable):
     time: time of the end [s]
     dragon: the dragon that folds; None if none does
     bench: the bench that folds; None if none does
+
+    >>> from core import Dragon, Line, Route
+    >>> street = Dance(Dragon(5), Route([Line((0.0, 0.0), (40.0, 0.0))]))
+    >>> Performance([Part(street), Part(street, delay=9.0)]).end
+    <PerformanceEnd: reason end, time 49 s>
     """
 
     reason: EndReason

@@ -77,6 +77,12 @@ class SafeDelays(Readable):
     stop: end of the judged time; None: the end of the performance at every delay [s]
     marches: number of searches
     performance: the performance of the question
+
+    >>> from core import Dragon, Line, Route
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> crossing = Performance([Part(Dance(Dragon(5), Route([street]))) for street in streets])
+    >>> len(safe_delay(crossing, 1, -60.0, 60.0).safe)
+    2
     """
 
     safe: Intervals

@@ -49,6 +49,9 @@ class Area(Readable):
 
     raises: InvalidValue with the reason and the place of a fault. Too many edges are refused first, because the time of
         the check grows faster than their number.
+
+    >>> Area("square", (((0, 0), (40, 0), (40, 30), (0, 30), (0, 0)),))
+    <Area: 'square', 4 points, x 0 to 40 m, y 0 to 30 m>
     """
 
     name: str

@@ -14,6 +14,7 @@ from urllib.parse import urlsplit
 import pytest
 
 import core
+import core.proof
 from app.command.main import MODULE_OF
 from app.questions.registry import QUESTIONS
 from app.settings import Settings
@@ -85,6 +86,14 @@ def test_every_call_command_and_function_stands_on_its_page():
     commands = {f"| `{command}" for command in MODULE_OF}
     for page, names in (("http", calls), ("command", commands), ("library", functions)):
         assert {name for name in names if name not in PAGES[f"docs/{page}.md"]} == set()
+
+
+def test_the_reference_has_an_example_for_every_public_name_of_the_library():
+    public = [getattr(module, name) for module in (core, core.proof) for name in module.__all__]
+    # Certificate and Piece are made of other types; pytest runs the examples.
+    described = [value for value in public if inspect.isclass(value) or inspect.isfunction(value)]
+    assert [value for value in described if ">>> " not in (value.__doc__ or "")] == []
+    assert len(described) == len(public) - 2
 
 
 def test_each_claim_names_a_test_and_all_these_exist():

@@ -28,6 +28,10 @@ class ClaimKind(StrEnum):
     SAFE_STRAY, NO_SAFE_STRAY: nothing touches while no hole strays further; no such stray is known
     CONTACT_PROBABILITY: of dances drawn at random; SWEPT_GROUND: of the polygons around all that benches sweep
     LOOSE_TAIL: of the polygons around all that loose benches can reach
+
+    >>> from core import Spiral, first_contact
+    >>> first_contact(Dance(Dragon(), Spiral())).certificate.claim.kind
+    <ClaimKind.CONTACT: 'contact'>
     """
 
     CLEAR = "clear"
@@ -52,6 +56,11 @@ class DragonSummary(Readable):
     body_length: length of every other bench; None without one, or for benches given one by one [m]
     width: width of every bench; None for benches given one by one [m]
     overhang: overhang of every bench; None for benches given one by one [m]
+
+    >>> from core import Spiral, first_contact
+    >>> summary = first_contact(Dance(Dragon(), Spiral())).certificate.claim.dance.dragon
+    >>> summary.head_length, summary.body_length
+    (3.41, 2.2)
     """
 
     benches: int
@@ -81,6 +90,10 @@ class DanceSummary(Readable):
     head_speed: speed of the head outside the passages [m/s]
     passages: passages with other speeds; none if there are more than six
     passage_count: number of all passages
+
+    >>> from core import Spiral, first_contact
+    >>> first_contact(Dance(Dragon(), Spiral())).certificate.claim.dance.dragon.benches
+    223
     """
 
     dragon: DragonSummary
@@ -98,7 +111,11 @@ class DanceSummary(Readable):
 
 class BenchBetween(StrEnum):
     """Part that the bench between two others plays in a safe stray. HELD: it holds them apart, which is used;
-    UNUSED: the two that limit the stray have one between them, and are assumed to stray independently."""
+    UNUSED: the two that limit the stray have one between them, and are assumed to stray independently.
+
+    >>> [between.value for between in BenchBetween]
+    ['held', 'unused']
+    """
 
     HELD = "held"
     UNUSED = "unused"
@@ -119,6 +136,11 @@ class ContactClaim(Readable):
     time: time at which these are certainly within the margin; None without [s]
     between: held: two benches with one between them were left out, because it is proven to hold them apart as people
         stray; None: all pairs count
+
+    >>> from core import Spiral, first_contact
+    >>> claim = first_contact(Dance(Dragon(), Spiral())).certificate.claim
+    >>> claim.kind.value, claim.benches, round(claim.clear_until, 6)
+    ('contact', (0, 8), 412.473838)
     """
 
     kind: ClaimKind
@@ -143,6 +165,12 @@ class PartSummary(Readable):
     centre: centre of a spiral, x and y; 0, 0 for a route [m]
     rotation: rotation of a spiral; 0 for a route [rad]
     clockwise: direction of the dance on a spiral; true for a route
+
+    >>> from core import Line, Part, Performance, Route, first_contact
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> crossing = Performance([Part(Dance(Dragon(5), Route([street])), delay=9.0) for street in streets])
+    >>> first_contact(crossing).certificate.claim.parts[0].delay
+    9.0
     """
 
     name: str | None
@@ -169,6 +197,13 @@ class EncounterClaim(Readable):
     dragons: two dragons whose benches are within the margin at that time; None without
     benches: these benches, one of each dragon; None without
     time: time at which these are certainly within the margin; None without [s]
+
+    >>> from core import Line, Part, Performance, Route, first_contact
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> crossing = Performance([Part(Dance(Dragon(5), Route([street]))) for street in streets])
+    >>> claim = first_contact(crossing).certificate.claim
+    >>> claim.part_count, claim.bench_count, claim.dragons
+    (2, 10, (0, 1))
     """
 
     kind: ClaimKind
@@ -198,6 +233,11 @@ class StrayClaim(Readable):
     touches: whether there is a contact with everybody in place
     between: part of the bench between two others. held: it holds them apart, which is used; unused: the two that limit
         the stray have one between them, and are assumed to stray independently; None: neither
+
+    >>> from core import Spiral, tolerance
+    >>> claim = tolerance(Dance(Dragon(40), Spiral()), stop=300.0).certificate.claim
+    >>> claim.kind.value, round(claim.stray, 4)
+    ('safe_stray', 0.0529)
     """
 
     kind: ClaimKind
@@ -223,6 +263,11 @@ class ProbabilityClaim(Readable):
     union_bound: upper bound of the probability of the model; None without
     tolerance: stray that is proven safe; None or 0: none is known [m]
     within: number of samples without a larger stray
+
+    >>> from core import Spiral, Wobble, contact_probability
+    >>> claim = contact_probability(Dance(Dragon(5), Spiral()), Wobble(), 100, 1, start=380.0, stop=400.0).claim
+    >>> claim.contacts, claim.samples, claim.confidence
+    (0, 100, 0.95)
     """
 
     kind: ClaimKind
@@ -247,6 +292,11 @@ class GroundClaim(Readable):
     sizes: number of different sizes of benches
     length: length of the path that these pass [m]
     cells: number of stretches of the path, each with a bound on the motion
+
+    >>> from core import Spiral, envelope
+    >>> claim = envelope(Dance(Dragon(3), Spiral()), stop=10.0).certificate.claim
+    >>> claim.start, claim.stop, claim.excess < 0.001
+    (0.0, 10.0, True)
     """
 
     kind: ClaimKind
@@ -269,6 +319,10 @@ class TailClaim(Readable):
     reach: furthest that they come from the handle that still follows the path [m]
     stray: largest distance of that handle from its place [m]
     excess: furthest that the polygons go beyond the reach from places of the handle [m]
+
+    >>> from core import Line, Route, tail_reach
+    >>> tail_reach(Dance(Dragon(5), Route([Line((0.0, 0.0), (40.0, 0.0))])), 2).certificate.claim.benches
+    2
     """
 
     kind: ClaimKind

@@ -26,7 +26,12 @@ BEFORE_END = 1e-6
 
 
 class Outcome(StrEnum):
-    """Outcome of a search for first contact."""
+    """Outcome of a search for first contact.
+
+    >>> from core import Dragon, Spiral, first_contact
+    >>> first_contact(Dance(Dragon(), Spiral(1.7)), stop=100.0).outcome
+    <Outcome.CLEAR: 'clear'>
+    """
 
     CONTACT = "contact"
     CONTACT_AT_START = "contact_at_start"
@@ -56,6 +61,11 @@ class Feature(Readable):
     bench: number of the bench; 0 is the head
     name: front or rear (towards the lower or higher handle), outer or inner (seen from the centre), or both for a
         corner
+
+    >>> from core import Dragon, Spiral, first_contact
+    >>> contact = first_contact(Dance(Dragon(), Spiral()))
+    >>> contact.corner, contact.edge
+    (Feature(bench=0, name='front-outer'), Feature(bench=8, name='inner'))
     """
 
     bench: int
@@ -72,6 +82,12 @@ class Graze(Readable):
     time: time of the minimum [s]
     clearance: clearance at that time [m]
     benches: the pair
+
+    >>> import numpy as np
+    >>> from core import Dragon, Spiral, clearance_profile
+    >>> graze = clearance_profile(Dance(Dragon(), Spiral()), np.arange(405.0, 412.0)).grazes[0]
+    >>> round(graze.time, 2), round(graze.clearance, 6), graze.benches
+    (406.85, 0.002957, (0, 9))
     """
 
     time: float
@@ -89,6 +105,11 @@ class Evidence(WithClaim):
         clear: benches touch or are nearer at the start, or nothing is decided from the start [s]
     bound: largest bound on the second derivative of a gap along the head's way that a step used [1/m]
     least_clearance: narrowest graze before the contact, or over the whole run if there is none; None without a graze
+
+    >>> from core import Dragon, Spiral, first_contact
+    >>> evidence = first_contact(Dance(Dragon(), Spiral())).certificate
+    >>> round(evidence.clear_until, 6), evidence.bound > 0.0
+    (412.473838, True)
     """
 
     claim: ContactClaim
@@ -130,6 +151,13 @@ class FirstContact(Readable):
     margin: required clearance; 0: only a touch counts as a contact [m]
     stray: largest distance of a hole from its place, by people and by play [m]
     dance: the dance of the question
+
+    >>> from core import Dragon, Spiral, first_contact
+    >>> contact = first_contact(Dance(Dragon(), Spiral()))
+    >>> contact
+    <FirstContact: benches 0 and 8 touch at 412.473838 s>
+    >>> round(contact.head.radius, 6), contact.time_bracket[0] <= contact.time <= contact.time_bracket[1]
+    (2.288743, True)
     """
 
     outcome: Outcome

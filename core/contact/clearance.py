@@ -38,6 +38,11 @@ class ClearanceProfile(Table):
     clearance: smallest separation of two benches that are not neighbours [m]
     benches: the pair with that separation, (T, 2)
     grazes: local minima between the first and the last instant, refined
+
+    >>> from core import Dragon, Spiral
+    >>> profile = clearance_profile(Dance(Dragon(), Spiral()), [300.0, 400.0])
+    >>> profile.clearance.round(4).tolist(), profile.benches.tolist()
+    ([0.1207, 0.0255], [[0, 21], [0, 10]])
     """
 
     time: Floats
@@ -96,6 +101,11 @@ class LeastClearance(Readable):
 
     After a first touch nothing is said. The lower bound is PROOF_WIDTHS[0] below the distance or, if that needs too
     many steps, PROOF_WIDTHS[1]; there is none if the first touch is not decided.
+
+    >>> from core import Dragon, Spiral
+    >>> least = least_clearance(Dance(Dragon(), Spiral()), stop=400.0)
+    >>> round(least.distance, 4), least.benches
+    (0.0209, (0, 10))
     """
 
     distance: float
@@ -115,6 +125,10 @@ def clearance_profile(dance: Dance, times: ArrayLike, *, budget: Budget | None =
         thousands of benches on a long way), then refined to rounding. The dip of a pair that is nearest for less than a
         step may be missed here, but never by first_contact()
     raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches; TooMuchWork
+
+    >>> from core import Dragon, Spiral
+    >>> clearance_profile(Dance(Dragon(), Spiral()), [300.0, 400.0]).clearance.round(4).tolist()
+    [0.1207, 0.0255]
     """
     dragon, clock = dance.dragon, dance.clock
     if dragon.benches < 3:
@@ -150,6 +164,11 @@ def least_clearance(
     stray: largest distance of every hole from its place [m]: the result is then the least possible clearance, proven
         for the hulls of the ground that benches may cover (core/shapes/reach.py)
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
+
+    >>> from core import Dragon, Spiral
+    >>> least = least_clearance(Dance(Dragon(), Spiral()), stop=400.0)
+    >>> round(least.distance, 4), round(least.time, 3)
+    (0.0209, 399.118)
     """
     begin, until = dance.span(start, stop)
     clock, end = dance.clock, dance.end

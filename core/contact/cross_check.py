@@ -61,6 +61,11 @@ class ContactCheck(Readable):
 
     The exact separation alone decides what is together, by a depth of at most TOGETHER_DEPTH: engines may find these
     pairs or not.
+
+    >>> from core import Dragon, Spiral, first_contact
+    >>> verdict = contact_check(first_contact(Dance(Dragon(), Spiral())))
+    >>> verdict.agree, verdict.engines[Engine.SHAPELY]
+    (True, Verdict(before=False, after=True))
     """
 
     agree: bool
@@ -102,6 +107,12 @@ class EncounterCheck(Readable):
         bench, so it cannot judge a margin or, at the start, benches that cross without a corner inside the other
 
     With a stray only the reported pair is judged, with its gap at that time as the margin.
+
+    >>> from core import Dragon, Line, Performance, Route, first_contact
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> crossing = Performance([Part(Dance(Dragon(5), Route([street]))) for street in streets])
+    >>> contact_check(first_contact(crossing)).agree
+    True
     """
 
     agree: bool
@@ -130,6 +141,11 @@ def encounter_check(
     An encounter at the start is judged at the start and that much after it, and counts if it is found at one of them.
     returns: None if no dragons meet or nothing is decided
     raises: TooMuchWork
+
+    >>> from core import Dragon, Line, Performance, Route, first_contact
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> encounter_check(first_contact(Performance([Part(Dance(Dragon(5), Route([street]))) for street in streets])))
+    <EncounterCheck: 4 engines agree on 10 benches>
     """
     dragons, benches, performance = encounter.dragons, encounter.benches, encounter.performance
     if encounter.time is None or dragons is None or benches is None:

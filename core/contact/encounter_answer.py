@@ -23,6 +23,13 @@ class NearPass(Readable):
     clearance: clearance at that time [m]
     dragons: the two dragons
     benches: the bench of each
+
+    >>> from core import Dance, Dragon, Line, Part, Route, least_clearance
+    >>> lanes = [Line((0.0, 0.0), (40.0, 0.0)), Line((40.0, 1.0), (0.0, 1.0))]
+    >>> passing = Performance([Part(Dance(Dragon(5), Route([lane]))) for lane in lanes])
+    >>> least = least_clearance(passing)
+    >>> least.dragons, round(least.distance, 3)
+    ((0, 1), 0.7)
     """
 
     time: float
@@ -41,6 +48,12 @@ class EncounterEvidence(WithClaim):
         is proven clear [s]
     bound: largest bound on the second derivative of a gap in time that a step used [m/s^2]
     least_clearance: narrowest pass of two dragons seen before the encounter; None if none was
+
+    >>> from core import Dance, Dragon, Line, Part, Route, first_contact
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> crossing = Performance([Part(Dance(Dragon(5), Route([street]))) for street in streets])
+    >>> round(first_contact(crossing).certificate.clear_until, 6)
+    39.575
     """
 
     claim: EncounterClaim
@@ -74,6 +87,11 @@ class FirstEncounter(Readable):
     margin: required clearance; 0: only a touch counts [m]
     stray: largest distance of a hole from its place, by people and by play [m]
     performance: the performance of the question
+
+    >>> from core import Dance, Dragon, Line, Part, Route, first_contact
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> first_contact(Performance([Part(Dance(Dragon(5), Route([street]))) for street in streets]))
+    <FirstEncounter: bench 0 of dragon 0 and bench 0 of dragon 1 touch at 39.575 s>
     """
 
     outcome: Outcome

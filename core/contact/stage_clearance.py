@@ -36,6 +36,12 @@ class PerformanceClearance(Table):
     dragons: the two dragons with that separation, in the order of the dances, from 0
     benches: their benches, one of each
     grazes: local minima between the first and the last instant, refined
+
+    >>> from core import Dance, Dragon, Line, Part, Route, clearance_profile
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> crossing = Performance([Part(Dance(Dragon(5), Route([street]))) for street in streets])
+    >>> clearance_profile(crossing, [20.0, 30.0]).clearance.round(3).tolist()
+    [27.683, 13.541]
     """
 
     time: Floats
@@ -76,6 +82,12 @@ class PerformanceLeastClearance(Readable):
 
     After a first touch nothing is said. The lower bound is PROOF_WIDTHS[0] below the distance or, if that needs too
     many steps, PROOF_WIDTHS[1], or more where a bench folds; there is none if the first touch is not decided.
+
+    >>> from core import Dance, Dragon, Line, Part, Route, least_clearance
+    >>> lanes = [Line((0.0, 0.0), (40.0, 0.0)), Line((0.0, 1.0), (40.0, 1.0))]
+    >>> least = least_clearance(Performance([Part(Dance(Dragon(3), Route([lane]))) for lane in lanes]))
+    >>> round(least.distance, 3), least.dragons
+    (0.7, (0, 1))
     """
 
     distance: float

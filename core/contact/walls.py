@@ -39,6 +39,12 @@ class Nearest(Readable):
     bench: the bench at that distance
     point: nearest point of the bench, x and y [m]
     wall: nearest point of the area, x and y [m]
+
+    >>> from core import Dragon, Spiral
+    >>> hall = Venue(Area("hall", (((-12, -12), (12, -12), (12, 12), (-12, 12), (-12, -12)),)))
+    >>> nearest = venue_clearance(Dance(Dragon(20), Spiral()), hall).areas[0].nearest
+    >>> round(nearest.distance, 3), nearest.bench
+    (2.747, 16)
     """
 
     distance: float
@@ -64,6 +70,12 @@ class AreaClearance(Readable):
     gap: distance to the area at that time: the margin to rounding, or less if it is nearer from the start [m]
     point: point of that bench nearest to the area, x and y [m]
     nearest: smallest distance over the dance; None without details
+
+    >>> from core import Dragon, Spiral
+    >>> hall = Venue(Area("hall", (((-12, -12), (12, -12), (12, 12), (-12, 12), (-12, -12)),)))
+    >>> area = venue_clearance(Dance(Dragon(20), Spiral()), hall).areas[0]
+    >>> area.name, area.outcome, area.time
+    ('hall', <Outcome.CLEAR: 'clear'>, None)
     """
 
     name: str
@@ -88,6 +100,11 @@ class Misplaced(Readable):
     name: name of the square or of the obstacle
     bench: the bench
     point: centre of the bench, x and y [m]
+
+    >>> from core import Dragon, Spiral
+    >>> booth = Venue(Area("booth", (((-3, -3), (3, -3), (3, 3), (-3, 3), (-3, -3)),)))
+    >>> venue_clearance(Dance(Dragon(5), Spiral()), booth).misplaced.name
+    'booth'
     """
 
     name: str
@@ -101,6 +118,11 @@ class VenueClearance(Readable):
 
     misplaced: the first bench that starts outside the square or in an obstacle
     areas: the square, then the obstacles
+
+    >>> from core import Dragon, Spiral
+    >>> hall = Venue(Area("hall", (((-12, -12), (12, -12), (12, 12), (-12, 12), (-12, -12)),)))
+    >>> [area.name for area in venue_clearance(Dance(Dragon(20), Spiral()), hall).areas]
+    ['hall']
     """
 
     misplaced: Misplaced | None
@@ -145,6 +167,11 @@ def venue_clearance(
     start, stop: [s], None for dance.default_start and for the end of the run
     nearest: True also finds the least distance, which takes most of the time
     raises: InvalidValue; OutsideRun; TooMuchWork
+
+    >>> from core import Dragon, Spiral
+    >>> hall = Venue(Area("hall", (((-12, -12), (12, -12), (12, 12), (-12, 12), (-12, -12)),)))
+    >>> venue_clearance(Dance(Dragon(20), Spiral()), hall).areas[0].outcome
+    <Outcome.CLEAR: 'clear'>
     """
     checked_type("venue", venue, Venue)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)

@@ -73,7 +73,12 @@ class TurnLimit(StrEnum):
     the deepest entry that is tried. LEAST_RADIUS: half of the longest chord over ROUTE_SINE_LIMIT, at which every bench
     can follow; tighter arcs that can be followed too (core/paths/following.py) are not tried. UNDECIDED: rounding hides
     whether two benches come within the margin. CIRCLE: the turn begins or ends on its circle (shortest_turn() alone).
-    BEND: what LEAST_RADIUS was called; no answer has it."""
+    BEND: what LEAST_RADIUS was called; no answer has it.
+
+    >>> from core import shortest_turn
+    >>> shortest_turn(Dragon(), 1.7).limited_by
+    <TurnLimit.LEAST_RADIUS: 'least_radius'>
+    """
 
     BEND = "bend"
     LEAST_RADIUS = "least_radius"
@@ -105,6 +110,10 @@ class DeepestTurn(Readable):
     evaluations: number of tried entries, each with a proof
 
     Its exit is opposite to its entry; shortest_turn() has shorter turns with other exits.
+
+    >>> deepest = deepest_turn(Dragon(), 1.7)
+    >>> round(deepest.turn.length, 4), deepest.limited_by.value
+    (12.9494, 'least_radius')
     """
 
     turn: Turn

@@ -60,6 +60,10 @@ class DubinsTurn(Readable):
     radii: radii of both arcs [m]
     straight: length of the straight piece [m]
     evaluations: number of tried dances
+
+    >>> answer = dubins_turn(Dragon(5), 1.7)
+    >>> round(answer.entry_radius, 3), [type(piece).__name__ for piece in answer.path.pieces]
+    (4.257, ['Coil', 'Arc', 'Line', 'Arc', 'Coil'])
     """
 
     _units = dict.fromkeys(("entry_radius", "exit_radius", "radii", "straight"), "m")

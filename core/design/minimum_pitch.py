@@ -54,6 +54,10 @@ class MinimumPitch(Readable):
     scan_step: largest distance between two pitches of the scan; None: no scan [m]
     evaluations: number of runs to the circle computed, for single pitches or for whole bands of pitches
     dragons: the dragons of the two benches, the first bench that of dragon 0; None if both are of one dragon
+
+    >>> answer = minimum_pitch(Dragon(), turning_radius=4.5)
+    >>> round(answer.pitch, 9), answer.benches, answer.proven_up_to
+    (0.450337393, (0, 19), None)
     """
 
     pitch: float

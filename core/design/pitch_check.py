@@ -41,6 +41,11 @@ def pitch_check(
     dragon, margin, stray, dragons: those of the search
     returns: None if no pair limits the pitch
     raises: InvalidValue; TooMuchWork
+
+    >>> from core import minimum_pitch
+    >>> dragon = Dragon()
+    >>> pitch_check(minimum_pitch(dragon), dragon).agree
+    True
     """
     checked_type("dragon", dragon, Dragon)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)

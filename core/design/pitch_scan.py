@@ -57,6 +57,10 @@ class PitchScan(Table):
     radius: distance of the head from the centre at first contact [m]
     pieces: stretches without a jump, as indices [from, to) into pitch and radius; between two of them the radius jumps,
         or there is no contact
+
+    >>> scan = pitch_scan(Dragon(), [0.45, 0.5, 0.55], locate=False)
+    >>> scan.radius.round(4).tolist()
+    [4.5823, 3.232, 2.2887]
     """
 
     pitch: Floats
@@ -161,6 +165,9 @@ def pitch_scan(
         separates two pieces
     budget: default: SCAN_WORK
     raises: TooMuchWork if the budget ends before the scan does; InvalidValue
+
+    >>> pitch_scan(Dragon(), [0.45, 0.5, 0.55], locate=False).radius.round(4).tolist()
+    [4.5823, 3.232, 2.2887]
     """
     pitches = _checked_pitches(pitches)
     stops = Stops(dragon, margin, (budget or Budget()).within(SCAN_WORK))

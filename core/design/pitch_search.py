@@ -43,7 +43,12 @@ BOTTOM_WITHIN = 0.01
 
 
 class LimitedBy(StrEnum):
-    """Reason against a smaller pitch."""
+    """Reason against a smaller pitch.
+
+    >>> from core import Dragon, minimum_pitch
+    >>> minimum_pitch(Dragon()).limited_by
+    <LimitedBy.GRAZE: 'graze'>
+    """
 
     GRAZE = "graze"
     CIRCLE = "circle"
@@ -52,7 +57,12 @@ class LimitedBy(StrEnum):
 
 
 class JustifiedBy(StrEnum):
-    """Evidence for every larger pitch. BOUND: all are proven; SCAN: below a pitch only single ones are proven."""
+    """Evidence for every larger pitch. BOUND: all are proven; SCAN: below a pitch only single ones are proven.
+
+    >>> from core import Dragon, minimum_pitch
+    >>> minimum_pitch(Dragon()).justified_by
+    <JustifiedBy.BOUND: 'bound'>
+    """
 
     BOUND = "bound"
     SCAN = "scan"

@@ -57,6 +57,9 @@ class TurnTime(Readable):
     head_speed: largest constant speed of the head at which no handle exceeds the limit [m/s]
     time: time of the head from the entry to the exit at that speed: the length over the speed [s]
     handles: handles that reach the limit, all at once
+
+    >>> turn_time(Dragon(), Turn(1.7)).handles
+    (3, 4, 5, 6, 7)
     """
 
     turn: Turn | ClothoidTurn
@@ -111,6 +114,9 @@ def quickest_turn(
     the second; start_turns: of the coils
     It is proven that nothing touches in it, and that no handle exceeds the limit; not that no turn is quicker.
     raises: TooMuchWork; InvalidValue (turning_radius) if none of the tried turns can be danced
+
+    >>> round(quickest_turn(Dragon(5), 1.7).time, 1)
+    10.8
     """
     circle, limit = checked_circle(pitch, turning_radius, ratio, start_turns, margin), checked_limit(speed_limit)
     search = _Times(dragon, circle, budget or Budget())

@@ -103,6 +103,10 @@ class ShortestTurn(Readable):
     boxes: number of excluded boxes
     overlaps: number of those that an exhibited overlap excludes
     evaluations: number of turns danced
+
+    >>> shortest = shortest_turn(Dragon(), 1.7)
+    >>> round(shortest.turn.length, 6), shortest.limited_by.value
+    (11.799152, 'least_radius')
     """
 
     turn: Turn

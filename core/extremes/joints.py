@@ -35,6 +35,10 @@ class SharpestBend(Readable):
     angle: angle between their headings [rad]
     time: time at which it is reached [s]
     benches: the two benches
+
+    >>> from core import Dragon, Turn
+    >>> sharpest_bend(Dance(Dragon(20), Turn(1.7)))
+    <SharpestBend: angle 1.74784005 rad, time 14.1832035 s, benches 0, 1>
     """
 
     angle: float
@@ -54,6 +58,10 @@ def sharpest_bend(
     Sampled in steps of PROFILE_STEP of the shortest chord (SAMPLES of them at most), then refined; a peak
     narrower than a step may be missed.
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
+
+    >>> from core import Dragon, Turn
+    >>> round(sharpest_bend(Dance(Dragon(20), Turn(1.7))).angle, 4)
+    1.7478
     """
     span = dance.span(start, stop)
     begin, until = dance.steady_times(np.array(span)).tolist()

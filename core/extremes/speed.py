@@ -56,6 +56,11 @@ class HighestSpeed(Readable):
     time: time at which it is reached [s]
     handles: handles that reach it at that time
     passage: index of the passage in which it is reached; None: in none
+
+    >>> from core import Dragon, Turn
+    >>> fastest = highest_speed(Dance(Dragon(20), Turn(1.7)))
+    >>> round(fastest.speed, 6), fastest.handles
+    (1.604793, (3, 4, 5, 6, 7))
     """
 
     speed: float
@@ -77,6 +82,11 @@ class MaximumHeadSpeed(Readable):
     time: time at which they reach it, at that head speed; 0 is the entry into a turn [s]
     time_at_unit_head_speed: the same time at a head speed of 1 m/s [s]
     passage: index of the passage in which they reach it; None: in none
+
+    >>> from core import Dragon, Turn
+    >>> answer = maximum_head_speed(Dance(Dragon(), Turn(1.7)), 2.0)
+    >>> round(answer.head_speed, 6), answer.handles, round(answer.speed_ratio, 4)
+    (1.246266, (3, 4, 5, 6, 7), 1.6048)
     """
 
     head_speed: float
@@ -98,6 +108,10 @@ class FirstExcess(Readable):
         is faster. It is no wider than EXCESS_WIDTH unless the proof was given up, near a fold or after EXCESS_LINKS;
         without an excess it ends with the interval [s]
     handle: the fastest handle then; None if none was found
+
+    >>> from core import Dragon, Turn
+    >>> first_excess(Dance(Dragon(), Turn(1.7)), 1.5)
+    <FirstExcess: time 14.1296394 s, handle 1>
     """
 
     time: float | None
@@ -116,6 +130,10 @@ def highest_speed(
     peak on the way is refined on the exact derivative. At a joint the speed is continuous and its derivative jumps, so
     a peak may be a kink. See core/kernels/speed.py.
     raises: InvalidValue (stop) for a spiral up to its fold, where speeds grow without bound; TooMuchWork
+
+    >>> from core import Dragon, Turn
+    >>> round(highest_speed(Dance(Dragon(), Turn(1.7))).speed, 6)
+    1.604793
     """
     dragon, clock, end = dance.dragon, dance.clock, dance.end
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
@@ -188,6 +206,10 @@ def maximum_head_speed(
     passages becomes faster or slower as a whole: the speeds of its passages grow in proportion to the head speed, and
     the times that end them fall in inverse proportion.
     raises: InvalidValue; TooMuchWork
+
+    >>> from core import Dragon, Turn
+    >>> round(maximum_head_speed(Dance(Dragon(), Turn(1.7)), 2.0).head_speed, 6)
+    1.246266
     """
     limit = checked_limit(speed_limit)
     highest = highest_speed(dance.played(1.0), start=start, stop=stop, budget=budget)
@@ -212,6 +234,11 @@ def first_excess(
     start, stop: as in highest_speed(), but stop may be a fold, towards which speeds grow without bound
     The proof that no handle was faster before is that of core/kernels/excess.py.
     raises: InvalidValue; OutsideRun; TooMuchWork
+
+    >>> from core import Dragon, Turn
+    >>> excess = first_excess(Dance(Dragon(), Turn(1.7)), 1.5)
+    >>> round(excess.time, 3), excess.handle
+    (14.13, 1)
     """
     limit = checked_limit(speed_limit)
     dragon = dance.dragon

@@ -88,6 +88,10 @@ class SweepProof(WithClaim):
 
     claim: the claim as a kind and values
     cells: number of stretches of the path, each with a bound on the motion
+
+    >>> from core import Spiral
+    >>> envelope(Dance(Dragon(3), Spiral()), stop=10.0).certificate.cells > 0
+    True
     """
 
     claim: GroundClaim
@@ -104,6 +108,11 @@ class Envelope(WithArrays):
     start: start of the time asked about [s]
     stop: end of the time asked about [s]
     certificate: proven bounds of the envelope
+
+    >>> from core import Spiral
+    >>> ground = envelope(Dance(Dragon(3), Spiral()), stop=10.0)
+    >>> round(ground.area, 2), round(ground.distance([[0.0, 0.0], [1.0, 0.0]]), 2)
+    (7.24, 7.53)
     """
 
     polygons: Polygons

@@ -44,6 +44,11 @@ class TailProof(WithClaim):
     """Evidence of the ground of a loose tail.
 
     claim: the claim as a kind and values
+
+    >>> from core import Line, Route
+    >>> proof = tail_reach(Dance(Dragon(5), Route([Line((0.0, 0.0), (40.0, 0.0))])), 2).certificate
+    >>> proof.claim.kind
+    <ClaimKind.LOOSE_TAIL: 'loose_tail'>
     """
 
     claim: TailClaim
@@ -61,6 +66,11 @@ class TailReach(WithArrays):
     start: start of the time asked about [s]
     stop: end of the time asked about [s]
     certificate: evidence for the ground
+
+    >>> from core import Line, Route
+    >>> reached = tail_reach(Dance(Dragon(5), Route([Line((0.0, 0.0), (40.0, 0.0))])), 2)
+    >>> round(reached.reach, 3), reached.benches
+    (3.581, 2)
     """
 
     polygons: Polygons

@@ -46,6 +46,12 @@ class Stay(Readable):
     end: the area is proven to be clear after it [s]
     first: the bench that comes first
     last: the bench that leaves last
+
+    >>> from core import Dragon, Line, Route
+    >>> lane = Area("lane", (((20, -9), (23, -9), (23, 9), (20, 9), (20, -9)),))
+    >>> stay = stays(Dance(Dragon(3), Route([Line((0, 0), (60, 0))])), lane).stays[0]
+    >>> stay.first, stay.last
+    (0, 2)
     """
 
     begin: float
@@ -67,6 +73,11 @@ class Stays(Readable):
     stays: these times in order, apart; proven: at all other times from start to stop it is clear
     start: start of the time asked about [s]
     stop: end of the time asked about [s]
+
+    >>> from core import Dragon, Line, Route
+    >>> lane = Area("lane", (((20, -9), (23, -9), (23, 9), (20, 9), (20, -9)),))
+    >>> len(stays(Dance(Dragon(3), Route([Line((0, 0), (60, 0))])), lane).stays)
+    1
     """
 
     name: str

@@ -41,6 +41,10 @@ class Trajectory(Table):
     velocity: their velocities, (T, n + 1, 2) [m/s]
     speed: their speeds, (T, n + 1) [m/s]
     dance: the dance itself; without it plot() has no benches
+
+    >>> from core import Dragon, Spiral
+    >>> trajectory(Dance(Dragon(), Spiral()), [0.0, 300.0])
+    <Trajectory: 2 instants from 0 to 300 s; 224 handles, 0.99647754 to 1 m/s>
     """
 
     time: Floats

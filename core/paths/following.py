@@ -30,7 +30,13 @@ WORK_MOST = 3e7
 
 class Hindrance(StrEnum):
     """Reason why a bench cannot follow a bend: its rear handle would go across the bench, go backwards, or jump to a
-    nearer place; no place behind is a chord away; or the work did not suffice to tell."""
+    nearer place; no place behind is a chord away; or the work did not suffice to tell.
+
+    >>> from core import Legs, course
+    >>> drawn = course(Legs([(0, 0), (20, 0), (12, 20)], [0, 1], radius=0.5), Dragon())
+    >>> drawn.bends[0].reason
+    <Hindrance.BACKWARDS: 'backwards'>
+    """
 
     SIDEWAYS = "sideways"
     BACKWARDS = "backwards"

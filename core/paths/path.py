@@ -21,6 +21,11 @@ class HeadState(Readable):
     radius: distance from the centre of a spiral, or from the origin [m]
     x: x of the handle [m]
     y: y of the handle [m]
+
+    >>> from core import Dance, Dragon, Spiral, first_contact
+    >>> head = first_contact(Dance(Dragon(), Spiral())).head
+    >>> round(head.radius, 6), round(head.x, 6), round(head.y, 6)
+    (2.288743, 1.209931, 1.942784)
     """
 
     theta: float | None
@@ -39,6 +44,10 @@ class PathSummary(Readable):
     pitch: pitch of a spiral; None on a route [m]
     start_turns: turns from the centre to the start of a spiral; None on a route [turns]
     pieces: kinds of the pieces of a route, in order; of more than six pieces only the different kinds
+
+    >>> from core import Dance, Dragon, Spiral, first_contact
+    >>> first_contact(Dance(Dragon(), Spiral())).certificate.claim.dance.path.pitch
+    0.55
     """
 
     kind: Literal["spiral", "route"]

@@ -98,6 +98,10 @@ class Line(Readable):
 
     start: its start, x and y [m]
     end: its end, x and y [m]
+
+    >>> from core import Route
+    >>> Route([Line((0.0, 0.0), (3.0, 4.0))]).end
+    5.0
     """
 
     start: Point
@@ -123,6 +127,11 @@ class Arc(Readable):
     radius: radius [m]
     start_angle: direction of its start from the centre [rad]
     sweep: angle that it sweeps, counter-clockwise positive [rad]
+
+    >>> from core import Route
+    >>> quarter = Arc(centre=(0.0, 0.0), radius=2.0, start_angle=0.0, sweep=math.pi / 2)
+    >>> round(Route([quarter]).end, 6)
+    3.141593
     """
 
     centre: Point
@@ -154,6 +163,11 @@ class Coil(Readable):
     end_turns: turns from its centre at its end [turns]
     centre: centre, x and y [m]
     rotation: rotation of the whole spiral [rad]
+
+    >>> from core import Route
+    >>> inwards = Coil(pitch=0.55, start_turns=4.0, end_turns=3.0)
+    >>> round(Route([inwards]).end, 4)
+    12.1077
     """
 
     pitch: float
@@ -278,6 +292,10 @@ class Waypoints(Readable):
     points: the points, x and y [m]
     start_heading: direction at its start; None: no curvature there [rad]
     end_heading: direction at its end; None: no curvature there [rad]
+
+    >>> from core import Route
+    >>> round(Route([Waypoints(((0.0, 0.0), (10.0, 3.0), (20.0, 0.0)))]).end, 3)
+    21.042
     """
 
     points: tuple[Point, ...]

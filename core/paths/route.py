@@ -55,6 +55,10 @@ class Route(Readable):
     slide: largest distance along the path between the head's point and its s, by rounding and at joints [m]
     followed: how dragons follow it, by the bytes of their chords: see following() in core/paths/following.py
     raises: InvalidValue naming the piece or the joint and its gap; TooMuchWork
+
+    >>> corner = Route([Line((0, 0), (9, 0)), Arc((9, 2), 2.0, -math.pi / 2, math.pi / 2), Line((11, 2), (11, 9))])
+    >>> round(corner.end, 4), round(corner.head(14.0).y, 3)
+    (19.1416, 3.858)
     """
 
     # For the kernels: places are minus s, and a search may pass the end a little.

@@ -31,7 +31,11 @@ TOGETHER = 10.0
 
 
 class CueKind(StrEnum):
-    """Kinds of cues, in the order in which they have a place on a card."""
+    """Kinds of cues, in the order in which they have a place on a card.
+
+    >>> [kind.value for kind in CueKind]
+    ['begin', 'done', 'pause', 'turn', 'fastest', 'meeting']
+    """
 
     BEGIN = "begin"
     DONE = "done"
@@ -54,6 +58,11 @@ class Cue(Readable):
     nearest: the meeting, or of several the one with the least gap; None in another kind of cue
     meetings: those of this cue in order of time; none in another kind of cue
     turn: the turn; None in another kind of cue
+
+    >>> from core import Dance, Dragon, Spiral, bench_cues
+    >>> cue = card_of(bench_cues(Dance(Dragon(60), Spiral()), [5], stop=60.0)[0]).cues[0]
+    >>> cue.kind.value, cue.time
+    ('begin', 0.0)
     """
 
     kind: CueKind
@@ -74,6 +83,11 @@ class Card(Readable):
     bench: all that its carriers have to know
     cues: cues on the card, in order of time
     left_out: cues that have no place on the card, in order of time
+
+    >>> from core import Dance, Dragon, Spiral, bench_cues
+    >>> card = card_of(bench_cues(Dance(Dragon(60), Spiral()), [5], stop=60.0)[0])
+    >>> [cue.kind.value for cue in card.cues]
+    ['begin', 'turn', 'meeting', 'meeting', 'done']
     """
 
     bench: BenchCues
@@ -87,7 +101,12 @@ class Card(Readable):
 
 
 def card_of(bench: BenchCues) -> Card:
-    """The card of a bench, by the rule above. raises: InvalidValue for anything but the cues of a bench"""
+    """The card of a bench, by the rule above. raises: InvalidValue for anything but the cues of a bench
+
+    >>> from core import Dance, Dragon, Spiral, bench_cues
+    >>> card_of(bench_cues(Dance(Dragon(60), Spiral()), [5], stop=60.0)[0]).cues[0].kind
+    <CueKind.BEGIN: 'begin'>
+    """
     checked_type("bench", bench, BenchCues)
     begin, done, fastest = bench.begin, bench.done, bench.fastest
     always = [

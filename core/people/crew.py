@@ -57,6 +57,11 @@ class Spell(Readable):
     s: arc length of the bench's front handle along the path at the begin [m]
     until_s: arc length of it at the end [m]
     relieved: the person who went out; None at the start
+
+    >>> from core import Dragon, Spiral
+    >>> spell = crew(Dance(Dragon(3), Spiral()), [8, 2, 2], Relief(spares=4, shift=60.0), stop=120.0).spells[0]
+    >>> spell.person, spell.bench, spell.begin, spell.end
+    (0, 0, 0.0, 60.0)
     """
 
     person: int
@@ -80,6 +85,10 @@ class Carried(Readable):
     time: time carried in all [s]
     way: way carried in all [m]
     longest: longest time carried without a break [s]
+
+    >>> from core import Dragon, Spiral
+    >>> crew(Dance(Dragon(3), Spiral()), [8, 2, 2], Relief(spares=4, shift=60.0), stop=120.0).carried[8]
+    <Carried: time 120 s, way 119.995215 m, longest 120 s>
     """
 
     time: float
@@ -99,6 +108,10 @@ class Crew(Readable):
     spells: the spells
     enough: least number of spares with which everybody goes out at every change of their bench; 0: no changes
     unrelieved: benches that have changes, and of which nobody ever goes out
+
+    >>> from core import Dragon, Spiral
+    >>> crew(Dance(Dragon(3), Spiral()), [8, 2, 2], Relief(spares=4, shift=60.0), stop=120.0).enough
+    12
     """
 
     people: int
@@ -146,6 +159,11 @@ class Relief(Readable):
     shift: time after which all benches change, again and again; None: never [s]
     places: arc lengths along the path; a bench changes when its front handle passes one of them [m]
     rest: least time from going out to coming in again [s]
+
+    >>> from core import Dragon, Spiral
+    >>> relief = Relief(spares=4, shift=60.0)
+    >>> crew(Dance(Dragon(3), Spiral()), [8, 2, 2], relief, stop=120.0).people
+    16
     """
 
     spares: int = 0

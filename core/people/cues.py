@@ -68,7 +68,11 @@ PLACED = 4
 
 
 class Side(StrEnum):
-    """Side of a bench, seen by its carriers, who look along it to its front handle."""
+    """Side of a bench, seen by its carriers, who look along it to its front handle.
+
+    >>> [side.value for side in Side]
+    ['left', 'right']
+    """
 
     LEFT = "left"
     RIGHT = "right"
@@ -83,6 +87,11 @@ class Stand(Readable):
     y: y of its front handle [m]
     s: arc length of that handle along the path [m]
     heading: direction from its rear to its front handle [rad]
+
+    >>> from core import Dragon, Spiral
+    >>> begin = bench_cues(Dance(Dragon(12), Spiral()), [5], stop=60.0)[0].begin
+    >>> begin.time, round(begin.x, 3)
+    (0.0, 4.256)
     """
 
     time: float
@@ -107,6 +116,11 @@ class Meeting(Readable):
     y: y of the own middle then [m]
     dragon: dragon of the other bench, in a performance; None in a single dance
     ahead: how far the other middle is ahead then, along the own bench; below zero: behind; 0: abreast [m]
+
+    >>> from core import Dragon, Spiral
+    >>> met = bench_cues(Dance(Dragon(60), Spiral()), [5], stop=60.0)[0].meetings[0]
+    >>> met.bench, met.side.value, round(met.gap, 2)
+    (39, 'left', 0.25)
     """
 
     time: float
@@ -128,6 +142,12 @@ class Pause(Readable):
     end: its end [s]
     x: x of the bench's front handle [m]
     y: y of the bench's front handle [m]
+
+    >>> from core import Dragon, Passage, Spiral
+    >>> resting = Dance(Dragon(12), Spiral(), 1.0, [Passage(1.0, until_s=20.0), Passage(0.0, until_time=30.0)])
+    >>> pause = bench_cues(resting, [5], stop=60.0)[0].pauses[0]
+    >>> pause.begin, pause.end
+    (20.0, 30.0)
     """
 
     begin: float
@@ -146,6 +166,12 @@ class Turning(Readable):
     angle: angle by which it turns, to the left above zero [rad]
     heading: direction behind the turn, from the x axis [rad]
     way: places of the handle in the turn [m]
+
+    >>> from core import Dragon, Legs
+    >>> way = Legs([(0, 0), (40, 0), (40, 40)], [0, 1], radius=3.0)
+    >>> turn = bench_cues(Dance(Dragon(5), way), [2])[0].turns[0]
+    >>> round(turn.angle, 4)
+    1.5708
     """
 
     begin: float
@@ -172,6 +198,10 @@ class BenchCues(Readable):
     pauses: its pauses, in order of time
     done: when and where it stops for good
     turns: its turns, in order of time
+
+    >>> from core import Dragon, Spiral
+    >>> bench_cues(Dance(Dragon(12), Spiral()), [5], stop=60.0)[0].ahead
+    4
     """
 
     bench: int

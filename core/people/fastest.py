@@ -33,6 +33,11 @@ class FastestMoment(Readable):
     handle: the handle: the number of the bench, or one more for its rear one
     x: x of that handle then [m]
     y: y of that handle then [m]
+
+    >>> from core import Dragon, Spiral, bench_cues
+    >>> fastest = bench_cues(Dance(Dragon(12), Spiral()), [5], stop=60.0)[0].fastest
+    >>> fastest.handle, round(fastest.speed, 5)
+    (5, 0.99995)
     """
 
     time: float

@@ -33,7 +33,13 @@ AnyClaim = CollisionTimeClaim | MinimumPitchClaim | DanceClearClaim | DanceConta
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """A proven statement, and the size of its proof: stretches, pair_proofs (a pair apart over a stretch)."""
+    """A proven statement, and the size of its proof: stretches, pair_proofs (a pair apart over a stretch).
+
+    >>> from core import Spiral
+    >>> proof = verify(prove_clear(Dance(Dragon(3), Spiral(0.8)), stop=60.0))
+    >>> proof.stretches > 0, proof.pair_proofs > 0
+    (True, True)
+    """
 
     statement: str
     stretches: int
@@ -51,6 +57,12 @@ def prove_collision_time(
     progress: called with the fraction done, 0 to 1
     returns: a dictionary that json can write and verify() can check
     raises: ProofRefused if the claim is wrong, or too close to wrong for the balls to decide
+
+    >>> from core import Spiral, first_contact
+    >>> dance = Dance(Dragon(12), Spiral(start_turns=5.0))
+    >>> certificate = prove_collision_time(dance, first_contact(dance).time)
+    >>> verify(certificate).pair_proofs > 0
+    True
     """
     path = _steady(dance).path.spiral
     if path is None:
@@ -74,6 +86,13 @@ def prove_minimum_pitch(
     Every bench follows on that way. At the smaller pitch a bench may also fold before the circle, or the start may lie
     within the circle; then the certificate proves that instead. It proves nothing about larger pitches.
     pitch, turning_radius: [m]; margin, every_pair, progress, returns, raises: as prove_collision_time()
+
+    >>> from core import minimum_pitch
+    >>> dragon = Dragon(12)
+    >>> pitch = minimum_pitch(dragon, start_turns=5.0, turning_radius=1.5).pitch
+    >>> certificate = prove_minimum_pitch(dragon, pitch, turning_radius=1.5, start_turns=5.0)
+    >>> certificate["claim"]["pitch"] == pitch
+    True
     """
     checked_type("dragon", dragon, Dragon)
     return _proven(MinimumPitchClaim(dragon, pitch, start_turns, turning_radius, margin), every_pair, progress)
@@ -95,6 +114,11 @@ def prove_clear(
     stop: None for the end of the run: then the certificate also proves the end within 1e-9 s after its stop: a fold,
         the centre of the spiral, or the end of the route
     every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times outside the dance
+
+    >>> from core import Spiral
+    >>> certificate = prove_clear(Dance(Dragon(3), Spiral(0.8)), stop=60.0)
+    >>> certificate["claim"]["stop"]
+    60.0
     """
     record, until = recorded_path(_steady(dance).path), "stop"
     if stop is None:
@@ -113,7 +137,14 @@ def prove_contact(
     every_pair: bool = False,
     progress: Progress | None = None,
 ) -> Certificate:
-    """As prove_collision_time(), in [start, time - 1e-10], on any path that prove_clear() takes."""
+    """As prove_collision_time(), in [start, time - 1e-10], on any path that prove_clear() takes.
+
+    >>> from core import Turn, first_contact
+    >>> dance = Dance(Dragon(20), Turn(1.7))
+    >>> contact = first_contact(dance, margin=0.33, start=0.0)
+    >>> prove_contact(dance, contact.time, start=0.0, margin=0.33)["claim"]["time"] == contact.time
+    True
+    """
     record, begin = recorded_path(_steady(dance).path), dance.default_start if start is None else start
     return _proven(DanceContactClaim(dance.dragon, record, dance.head_speed, begin, time, margin), every_pair, progress)
 
@@ -133,6 +164,11 @@ def prove_tolerance(
     dance: on a spiral; exhibit: a pose in which two benches overlap, proven too, with strays up to 1e-9 m above its own
     stop: None for the end of the run, or 0.5e-9 s before a fold or the centre
     every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times outside the dance
+
+    >>> from core import Spiral
+    >>> certificate = prove_tolerance(Dance(Dragon(12), Spiral(0.7, 5.0)), 0.04, stop=44.0)
+    >>> certificate["claim"]["stray"]
+    0.04
     """
     path = _steady(dance).path.spiral
     if path is None:
@@ -197,6 +233,10 @@ def verify(certificate: Certificate, *, progress: Progress | None = None) -> Pro
     certificate: as made here, or read from JSON; the balls have the precision that it states, or PRECISION if that is
         more, because a proof holds whatever the precision with which it was made
     raises: ProofRefused if any member is changed, missing or unknown, or any step is not proven
+
+    >>> from core import Spiral
+    >>> verify(prove_clear(Dance(Dragon(3), Spiral(0.8)), stop=60.0)).statement.rpartition(": ")[2]
+    'no two benches except neighbours touch from 0 s to 60 s.'
     """
     stated = certificate.get("format") if isinstance(certificate, dict) else None
     if isinstance(stated, str) and stated != FORMAT:
@@ -233,7 +273,13 @@ def _verified(content: Certificate, progress: Progress) -> Proof:
 
 
 def digest(content: Any) -> str:
-    """A fingerprint of a certificate without its digest: it detects accidents and careless edits, not forgery."""
+    """A fingerprint of a certificate without its digest: it detects accidents and careless edits, not forgery.
+
+    >>> from core import Spiral
+    >>> certificate = prove_clear(Dance(Dragon(3), Spiral(0.8)), stop=60.0)
+    >>> certificate.pop("digest") == digest(certificate)
+    True
+    """
     return hashlib.sha256(_text(content).encode()).hexdigest()
 
 

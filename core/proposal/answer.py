@@ -17,7 +17,11 @@ from core.venue import Venue
 
 class Objective(StrEnum):
     """What makes one proposal better than another. TOLERANCE: the stray of people that is proven safe; BENCHES: how
-    many benches can dance; TURNS: how often the head turns around; DURATION: how long the dance takes."""
+    many benches can dance; TURNS: how often the head turns around; DURATION: how long the dance takes.
+
+    >>> [objective.value for objective in Objective]
+    ['tolerance', 'benches', 'turns', 'duration']
+    """
 
     TOLERANCE = "tolerance"
     BENCHES = "benches"
@@ -29,7 +33,11 @@ class ReasonKind(StrEnum):
     """Why no dance is proposed. AREA: the benches cover more than the square has; WIDTH: nowhere is room for a turn as
     tight as those that are tried; WAY: no way between two gates is wide enough; STRAY: the best dance allows a smaller
     stray than wanted; DURATION: the dances that were found last longer than wanted; BENCHES: a dragon of fewer benches
-    fits; FAILS: none of the dances that were tried passes its check."""
+    fits; FAILS: none of the dances that were tried passes its check.
+
+    >>> [kind.value for kind in ReasonKind]
+    ['area', 'width', 'way', 'stray', 'duration', 'benches', 'fails']
+    """
 
     AREA = "area"
     WIDTH = "width"
@@ -60,6 +68,11 @@ class Reason(Readable):
 
     The unit is m2 for AREA, m for WIDTH, WAY and STRAY, s for DURATION, benches for BENCHES and FAILS. AREA and WAY are
     proven, and so is the width that there is; the others are about the dances that were tried.
+
+    >>> from core import Area, Dragon, propose
+    >>> closet = Venue(Area("closet", (((0, 0), (4, 0), (4, 4), (0, 4), (0, 0)),)))
+    >>> propose(closet, Dragon(60)).reason.kind
+    <ReasonKind.AREA: 'area'>
     """
 
     kind: ReasonKind
@@ -152,6 +165,11 @@ class Near(Readable):
     distance: smallest distance found of all ground that benches may cover with the stray of the request [m]
     time: time at which it is reached [s]
     in_place: the same with everybody in place [m]
+
+    >>> from core import Area, Dragon, propose
+    >>> hall = Venue(Area("hall", (((0, 0), (24, 0), (24, 20), (0, 20), (0, 0)),)))
+    >>> propose(hall, Dragon(12), figures=["ring"], count=1).proposals[0].near.name
+    'hall'
     """
 
     name: str
@@ -174,6 +192,12 @@ class Proposal(Readable):
     near: what the benches come nearest to
     gates: numbers of the gates by which it enters and leaves; none without gates
     clearance_in_place: least distance of two benches with everybody in place; None for fewer than three [m]
+
+    >>> from core import Area, Dragon, propose
+    >>> hall = Venue(Area("hall", (((0, 0), (24, 0), (24, 20), (0, 20), (0, 0)),)))
+    >>> best = propose(hall, Dragon(12), figures=["ring"], count=1).proposals[0]
+    >>> best.figure.value, best.report.passed
+    ('ring', True)
     """
 
     figure: Figure
@@ -247,6 +271,11 @@ class Proposals(Readable):
     reason: why there is none; None if there is a proposal
     most_benches: no dragon of more benches of this kind fits, by the area of the square; None with gates, beyond which
         it may stand
+
+    >>> from core import Area, Dragon, propose
+    >>> hall = Venue(Area("hall", (((0, 0), (24, 0), (24, 20), (0, 20), (0, 0)),)))
+    >>> len(propose(hall, Dragon(12), figures=["ring"], count=1).proposals)
+    1
     """
 
     proposals: tuple[Proposal, ...]

@@ -38,7 +38,11 @@ DANCED = 0.4
 
 
 class Figure(StrEnum):
-    """Figure of a dance. SPIRAL: in and out, with the turn between; PARADE: from gate to gate."""
+    """Figure of a dance. SPIRAL: in and out, with the turn between; PARADE: from gate to gate.
+
+    >>> [figure.value for figure in Figure]
+    ['spiral', 'eight', 'serpentine', 'ring', 'parade']
+    """
 
     SPIRAL = "spiral"
     EIGHT = "eight"

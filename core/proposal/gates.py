@@ -42,7 +42,11 @@ STREETS = (0.1, 1e4)
 
 
 class GateUse(StrEnum):
-    """What a gate is for: IN and OUT are one-way, BOTH is for either."""
+    """What a gate is for: IN and OUT are one-way, BOTH is for either.
+
+    >>> [use.value for use in GateUse]
+    ['in', 'out', 'both']
+    """
 
     IN = "in"
     OUT = "out"
@@ -62,6 +66,9 @@ class Gate(Readable):
     use: whether a dance may begin there, end there, or both
     street_width: width of the street; None for as wide as the dragon needs it [m]
     street_length: length of the street; None for as long as the dragon needs it [m]
+
+    >>> Gate((20.0, 0.0), heading=math.pi / 2, street_width=4.0).use
+    'both'
     """
 
     point: Point

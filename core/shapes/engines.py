@@ -41,7 +41,11 @@ Polygons = tuple[tuple[Floats, ...], ...]
 
 
 class Engine(StrEnum):
-    """Four independent ways to find overlapping rectangles."""
+    """Four independent ways to find overlapping rectangles.
+
+    >>> [engine.value for engine in Engine]
+    ['separating_axis', 'fcl', 'shapely', 'angle_sum']
+    """
 
     SEPARATING_AXIS = "separating_axis"
     FCL = "fcl"

@@ -50,6 +50,10 @@ class Overlaps(WithArrays):
 
     pairs: the pairs, (P, 2), a < b, sorted
     contact: exact separation, witnesses and normal of each pair
+
+    >>> found = overlaps([[0, 0, 0], [0, 0.2, 0]], [2.2] * 2, [0.3] * 2, chained=False)
+    >>> found.pairs.tolist(), found.contact.separation.round(3).tolist()
+    ([[0, 1]], [-0.1])
     """
 
     pairs: Pairs
@@ -69,6 +73,9 @@ class CrossCheck(WithArrays):
     only: for each engine its pairs that not all engines found
     missing: for each engine the pairs that another engine found and this one did not
     left_out: engines that cannot judge this margin; they appear in no other field
+
+    >>> cross_check([[0, 0, 0], [3, 0, 0], [1, 0, 1.57]], [2.2] * 3, [0.3] * 3).pairs[Engine.FCL].tolist()
+    [[0, 2]]
     """
 
     agree: bool
@@ -98,6 +105,10 @@ class Verdict(Readable):
     before: whether it finds any two overlapping, or within the margin, just before; None for a contact at the start
     after: whether it finds the reported pair overlapping, or within the margin, just after, and no other pairs except
         those in together. For a contact at the start other pairs are allowed
+
+    >>> from core import Dance, Dragon, Spiral, contact_check, first_contact
+    >>> contact_check(first_contact(Dance(Dragon(), Spiral()))).engines[Engine.ANGLE_SUM]
+    Verdict(before=False, after=True)
     """
 
     before: bool | None
@@ -148,6 +159,10 @@ def cross_check(
     """The verdicts of the four engines at one instant (three if the margin is not 0).
 
     poses, lengths, widths, raises: as overlaps(), with CROSS_CANDIDATES_MAX
+
+    >>> answer = cross_check([[0, 0, 0], [3, 0, 0], [1, 0, 1.57]], [2.2] * 3, [0.3] * 3)
+    >>> answer.agree, answer.pairs[Engine.SHAPELY].tolist()
+    (True, [[0, 2]])
     """
     pose, size, margin = checked_benches(poses, lengths, widths, margin)
     pairs_of = {

@@ -65,6 +65,11 @@ class Separation(WithArrays):
     normal: unit vector from a to b
 
     Invariant: witness_b - witness_a == separation * normal, also in penetration.
+
+    >>> from core import separation
+    >>> apart = separation([0.0, 0.0, 0.0], [2.0, 1.0], [3.0, 0.0, 0.0], [2.0, 1.0])
+    >>> float(apart.separation), apart.normal.tolist()
+    (1.0, [1.0, 0.0])
     """
 
     separation: Floats

@@ -41,6 +41,13 @@ class PerformanceExhibit(WithArrays):
     benches: the pair, the second None for an edge of the venue
     depth: depth of the overlap [m]
     stray: largest distance of a handle from its place [m]
+
+    >>> from core import Dance, Dragon, Line, Part, Route, tolerance
+    >>> lanes = [Line((0.0, 0.0), (40.0, 0.0)), Line((0.0, 1.0), (40.0, 1.0))]
+    >>> abreast = Performance([Part(Dance(Dragon(3), Route([lane]))) for lane in lanes])
+    >>> shown = tolerance(abreast).exhibit
+    >>> shown.dragons, shown.depth > 0.0
+    ((0, 1), True)
     """
 
     time: float

@@ -70,6 +70,11 @@ class ContactProbability(WithArrays, WithClaim):
     start: first instant [s]
     stop: last instant [s]
     seed: seed of the random numbers
+
+    >>> from core import Dragon, Spiral
+    >>> answer = contact_probability(Dance(Dragon(20), Spiral()), Wobble(), 100, 1, start=390.0, stop=400.0)
+    >>> answer.probability, tuple(round(limit, 3) for limit in answer.limits)
+    (0.08, (0.035, 0.152))
     """
 
     probability: float

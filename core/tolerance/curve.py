@@ -34,6 +34,9 @@ class ToleranceCurve(Table):
     pitch: pitches, (N,), as given [m]
     stray: proven safe: while no hole is further from its place, nothing touches, (N,) [m]
     tolerances: the whole answers
+
+    >>> tolerance_curve(Dragon(), [0.5, 0.55]).stray.round(4).tolist()
+    [0.0232, 0.0466]
     """
 
     pitch: Floats
@@ -79,6 +82,9 @@ def tolerance_curve(
     progress: called with the share of the pitches that is done
     The inverse, the smallest pitch for a stray, is minimum_pitch(dragon, stray=...).
     raises: InvalidValue, also for a pitch at which the dance begins inside the circle or folds before it; TooMuchWork
+
+    >>> tolerance_curve(Dragon(), [0.5, 0.55]).tolerances[1].benches
+    (0, 19)
     """
     radius = checked_size("turning_radius", turning_radius)
     rule = "must be a list of 1 to {most} numbers in metres"

@@ -54,6 +54,11 @@ class Exhibit(WithArrays):
     benches: the pair, the second None for an edge of the venue
     depth: depth of the overlap [m]
     stray: largest distance of a handle from its place [m]
+
+    >>> from core import Dance, Spiral, tolerance
+    >>> shown = tolerance(Dance(Dragon(40), Spiral()), stop=300.0).exhibit
+    >>> shown.benches, shown.depth > 0.0, shown.handles.shape
+    ((0, 21), True, (41, 2))
     """
 
     time: float

@@ -34,7 +34,12 @@ from core.venue import Venue
 
 class Limit(StrEnum):
     """Contact that a larger stray would allow: two benches, or a bench and the venue; or none up to half the shortest
-    chord, the largest stray that is tried."""
+    chord, the largest stray that is tried.
+
+    >>> from core import Dragon, Spiral
+    >>> tolerance(Dance(Dragon(40), Spiral()), stop=300.0).limited_by
+    <Limit.BENCHES: 'benches'>
+    """
 
     BENCHES = "benches"
     VENUE = "venue"
@@ -47,6 +52,10 @@ class StrayProof(WithClaim):
 
     claim: the claim as a kind and values
     steps: number of steps taken
+
+    >>> from core import Dragon, Spiral
+    >>> tolerance(Dance(Dragon(40), Spiral()), stop=300.0).certificate.steps > 0
+    True
     """
 
     claim: StrayClaim
@@ -73,6 +82,11 @@ class Tolerance(Readable):
     start: start of the time asked about [s]
     stop: end of the time asked about [s]
     certificate: proof of the safe stray
+
+    >>> from core import Dragon, Spiral
+    >>> answer = tolerance(Dance(Dragon(40), Spiral()), stop=300.0)
+    >>> round(answer.stray, 4), answer.limited_by.value, answer.benches
+    (0.0529, 'benches', (0, 21))
     """
 
     stray: float
@@ -132,6 +146,12 @@ class PerformanceTolerance(Readable):
     start: start of the time asked about [s]
     stop: end of the time asked about [s]
     performance: the performance of the question
+
+    >>> from core import Dragon, Line, Part, Route
+    >>> lanes = [Line((0.0, 0.0), (40.0, 0.0)), Line((0.0, 1.0), (40.0, 1.0))]
+    >>> answer = tolerance(Performance([Part(Dance(Dragon(3), Route([lane]))) for lane in lanes]))
+    >>> round(answer.stray, 3), answer.dragons
+    (0.27, (0, 1))
     """
 
     stray: float

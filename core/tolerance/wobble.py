@@ -36,6 +36,9 @@ class Wobble(Readable):
         distance from the centre, at every instant, that it has without an error [m]
     step: time between two instants, at most 1 / INSTANTS_PER_TIME of the correlation time; None stands for this
         maximum. The path of a person is as rough as a random walk, so closer instants show more contacts [s]
+
+    >>> Wobble(lateral=0.02, correlation_time=5.0).lateral
+    0.02
     """
 
     lateral: float = 0.01
