@@ -6,12 +6,15 @@ import numpy as np
 
 from core import Venue
 from core.plots import BLUE, VERMILION
+from core.shapes.engines import without_streets
 from core.values import Floats
 
 # Colours of the dragons in turn (Okabe and Ito).
 COLOURS = (BLUE, VERMILION, "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 # The whole square is drawn if it is at most this many times as large as the dance; else only the part around the dance.
 SQUARE_MOST = 2.0
+# Length of a street that belongs to the square on a map [m].
+STREET = 5.0
 
 
 def colour_of(dragon: int) -> str:
@@ -19,10 +22,19 @@ def colour_of(dragon: int) -> str:
     return COLOURS[dragon % len(COLOURS)]
 
 
+def square_alone(venue: Venue) -> tuple[Floats, Floats]:
+    """Corners (2,) [m] of a venue's square with the first metres of its streets."""
+    ring, (low, high) = np.array(venue.square.rings[0]), without_streets(venue.square.rings)
+    return np.maximum(ring.min(axis=0), low - STREET), np.minimum(ring.max(axis=0), high + STREET)
+
+
 def with_square(venue: Venue | None, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """Corners (2,) [m] of the drawn part: dance and square, or only the dance if the square is much larger."""
+    """Corners (2,) [m] of the drawn part: dance and square, or only the dance if the square is much larger.
+
+    Streets are drawn as far as the dance is in them, and their first metres.
+    """
     if venue is None:
         return low, high
-    square = np.array(venue.square.rings[0])
-    least, most = np.minimum(low, square.min(axis=0)), np.maximum(high, square.max(axis=0))
-    return (least, most) if (most - least <= SQUARE_MOST * (high - low)).all() else (low, high)
+    least, most = square_alone(venue)
+    least, most = np.minimum(low, least), np.maximum(high, most)
+    return (least, most) if (most - least).max() <= SQUARE_MOST * (high - low).max() else (low, high)

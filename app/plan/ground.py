@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from app.files.looks import colour_of, with_square
+from app.files.looks import colour_of, square_alone, with_square
 from app.files.typeset import POINT, Face
 from app.maps.features import inner_point
 from app.maps.marks import line_of
@@ -79,11 +79,26 @@ class GroundMap:
         return line_of(path, *path.drawn_between(float(marks.s[0]), float(marks.s[-1]) + marks.spacing))
 
 
-def scale_for(grounds: Sequence[GroundMap], name: PaperName) -> Scale:
-    """The scale at which the whole ground of one dragon or of several fits on the paper. raises: InvalidValue"""
+def scale_for(grounds: Sequence[GroundMap], name: PaperName, benches: Floats | None = None) -> Scale:
+    """The scale at which the ground of one dragon or of several fits on the paper, with the streets of the square cut
+    unless a bench is in one.
+
+    benches: their corners (..., 2) [m]
+    raises: InvalidValue
+    """
     rings = np.concatenate([rings[0] for ground in grounds for rings in ground.clear])
-    low, high = rings.min(axis=0), rings.max(axis=0)
-    return scale_of(name, *with_square(grounds[0].venue, low, high))
+    venue, low, high = grounds[0].venue, rings.min(axis=0), rings.max(axis=0)
+    least, most = with_square(venue, low, high)
+    if venue is not None:
+        # The sides of the map at which the dance leaves the square by a street.
+        inner, ring = square_alone(venue), np.array(venue.square.rings[0])
+        cut = (
+            np.where(ring.min(axis=0) < inner[0], np.maximum(least, inner[0]), least),
+            np.where(ring.max(axis=0) > inner[1], np.minimum(most, inner[1]), most),
+        )
+        if benches is None or all(((cut[0] <= one) & (one <= cut[1])).all() for one in benches.reshape(-1, 2)):
+            least, most = cut
+    return scale_of(name, least, most)
 
 
 def draw_ground(ground: GroundMap, scale: Scale, face: Face, budget: Budget, *, numbers: bool) -> MapDrawing:

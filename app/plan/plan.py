@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 
+import numpy as np
+
 import core
 from app.files.looks import colour_of
 from app.files.typeset import Face, typeset
@@ -18,6 +20,7 @@ from app.plan.paper import Paper, PaperName, Title
 from app.plan.tables import Json, PlanTable, tables_sheet
 from app.plan.timing import TimeFormat, points_of
 from core.language import say
+from core.values import Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,14 +101,23 @@ def _tables(plan: Plan, paper: Paper) -> Json:
 def _together(plans: Sequence[Plan], together: Together) -> Iterator[Json]:
     """The map of all dragons, and the place of each bench at three moments."""
     grounds, first, title = [plan.ground for plan in plans], plans[0], together.title
-    drawn = grounds, together.names, scale_for(grounds, first.paper), first.face, first.budget
-    yield _map(first, title, say("Plan of the ground"), draw_grounds(*drawn), False, True)
+
+    def drawn(benches: list[Floats]) -> MapDrawing:
+        shown = np.concatenate(benches) if benches else None
+        scale = scale_for(grounds, first.paper, shown)
+        return draw_grounds(grounds, together.names, scale, first.face, first.budget)
+
+    yield _map(first, title, say("Plan of the ground"), drawn([]), False, True)
     parts, moments = together.performance.parts, together.moments
     placed = core.trajectory(together.performance, moments, budget=first.budget)
     for t, time in enumerate(moments):
-        drawing = draw_grounds(*drawn)
-        for k, (part, result, plan) in enumerate(zip(parts, placed, plans, strict=True)):
-            draw_benches(drawing, core.bench_outlines(part.dance.dragon, result.position[t]), plan.names, colour_of(k))
+        benches = [
+            core.bench_outlines(part.dance.dragon, result.position[t])
+            for part, result in zip(parts, placed, strict=True)
+        ]
+        drawing = drawn(benches)
+        for k, (outlines, plan) in enumerate(zip(benches, plans, strict=True)):
+            draw_benches(drawing, outlines, plan.names, colour_of(k))
         yield _map(first, title, _places(together.clock.words(time)), drawing, True, True)
 
 
@@ -116,11 +128,13 @@ def _places(when: str) -> str:
 def _maps(plan: Plan, scale: Scale) -> Iterator[Json]:
     """The map of one dragon, and the place of each of its benches at three moments."""
     ground, moments = plan.ground, plan.ground.timing.moments
-    drawn = ground, scale, plan.face, plan.budget
-    yield _map(plan, plan.title, say("Plan of the ground"), draw_ground(*drawn, numbers=True), False, False)
+    drawing = draw_ground(ground, scale, plan.face, plan.budget, numbers=True)
+    yield _map(plan, plan.title, say("Plan of the ground"), drawing, False, False)
     for time, handles in zip(moments, core.trajectory(ground.dance, moments).position, strict=True):
-        drawing = draw_ground(*drawn, numbers=False)
-        draw_benches(drawing, core.bench_outlines(ground.dance.dragon, handles), plan.names)
+        benches = core.bench_outlines(ground.dance.dragon, handles)
+        shown = scale_for([ground], plan.paper, benches)
+        drawing = draw_ground(ground, shown, plan.face, plan.budget, numbers=False)
+        draw_benches(drawing, benches, plan.names)
         yield _map(plan, plan.title, _places(plan.clock.words(time)), drawing, True, False)
 
 

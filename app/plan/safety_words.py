@@ -64,6 +64,8 @@ def part_on_stopping(answer: SafetySheet, performance: core.Performance, clock: 
                 reaction=format_number(answer.stopping.reaction),
                 way=format_bound(answer.stopping.distance, 1, up=True)),
         ]  # fmt: skip
+    else:
+        lines = [say("Near the fold speeds grow without bound: nothing says how far people go on after “stop”.")]
     signal = say("Everybody knows this signal to stop: {line}", line="_" * 24)
     return say("Speed and stop"), [*lines, say("Who stops the dance: {name}", name=stopper or "_" * 24), signal]
 
@@ -92,6 +94,7 @@ def _ground_words(answer: SafetySheet, spectators: float) -> list[str]:
                 reach=format_bound(tail.reach, 1, up=True)),
         *([say("That is beyond the line behind which people stand: whoever stands within the dotted line of the map "
                "can be hit if they let go.")] if tail.beyond_spectators else []),
+        say("Nothing is counted on to stop them, neither walls nor other benches."),
     ]  # fmt: skip
 
 

@@ -35,6 +35,8 @@ GROWTH_MOST = 1.01 * ARC_GROWTH
 GRID, UNITED, PIECE = 1e-5, 256, 64
 # How near the radius of a circle is to that of the largest one in a polygon, as a share of the polygon's extent [1].
 WIDEST = 0.01
+# Half the width of a street, at most, in radii of the largest circle in the square [1].
+STREET_MOST = 0.4
 
 # Rings of each polygon, (points, 2) [m], closed: the outer one counter-clockwise, then the holes, clockwise.
 Polygons = tuple[tuple[Floats, ...], ...]
@@ -280,6 +282,17 @@ def widest_place(
         return float(centroid.x), float(centroid.y), around
     (x, y), _ = shapely.get_coordinates(radius).tolist()
     return x, y, float(radius.length)
+
+
+def without_streets(rings: Sequence[ArrayLike]) -> tuple[Floats, Floats]:
+    """Corners (2,) [m] of the box around a valid polygon without its streets: what is narrower than STREET_MOST times
+    its widest circle. rings: as in polygon_fault()"""
+    import shapely
+
+    narrow = STREET_MOST * widest_place(rings)[2]
+    inner = shapely.buffer(shapely.Polygon(rings[0], rings[1:]), -narrow, join_style="mitre")
+    left, low, right, high = shapely.buffer(inner, narrow, join_style="mitre").bounds
+    return np.array([left, low]), np.array([right, high])
 
 
 def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_out: float, budget: Budget) -> Polygons:

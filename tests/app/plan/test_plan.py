@@ -32,6 +32,10 @@ BODY = json.loads("""{
     ]}
 }""")
 
+WITH_STREET = json.loads(
+    json.dumps(BODY["venue"]).replace("[45, 12]", "[45, 12], [23, 12], [23, 250], [17, 250], [17, 12]")
+)
+
 
 def plan_of(body, **more):
     """The plan, which no deadline ends."""
@@ -124,10 +128,7 @@ def test_a_path_that_goes_on_beyond_the_map_ends_at_its_frame():
 
 
 def test_a_street_that_the_sheet_cuts_is_broken_at_its_edge():
-    venue = json.loads(
-        json.dumps(BODY["venue"]).replace("[45, 12]", "[45, 12], [23, 12], [23, 250], [17, 250], [17, 12]")
-    )
-    page = plan_of(BODY, venue=venue)[0]
+    page = plan_of(BODY, venue=WITH_STREET)[0]
     assert "goes on beyond the sheet" in words_of(page)
     dots = 20  # in a millimetre
     # The street is 6 m wide, and its middle that of the sheet.
@@ -137,18 +138,24 @@ def test_a_street_that_the_sheet_cuts_is_broken_at_its_edge():
     assert column[top + 7 * dots : top + 12 * dots].all()
 
 
+def test_the_square_fills_a_sheet_unless_a_bench_is_in_its_street():
+    way = {"kind": "route", "pieces": [{"kind": "line", "start": [18.5, 100], "end": [18.5, -10]}]}
+    sheets = [words_of(one) for one in plan_of(BODY, venue=WITH_STREET, path=way, stop=109.0)[:4]]
+    assert [re.search(r"1:\d+(?= 0 )", one)[0] for one in sheets] == ["1:200", "1:500", "1:500", "1:200"]
+
+
 @pytest.mark.chinese_font
 def test_a_plan_in_chinese_on_a3():
     dragon = {"benches": 6, "names": ["龙头组", "王家", "", "", "", "李家"]}
     pages = plan_of(BODY, dragon=dragon, start_clock="19:30", language="zh", paper="A3", title="板凳龙 2027")
     expected = {
-        0: ("板凳龙 2027", "保持清空", "检查：通过", "1:125"),
+        0: ("板凳龙 2027", "保持清空", "检查：通过", "1:200"),
         1: ("5 李家",),
         4: ("1 王家 19:30:13", "40.0 m 19:30:40"),
     }
     assert [word for k, words in expected.items() for word in words if word not in words_of(pages[k])] == []
     assert size(pages[0]) == pytest.approx([420.0, 297.0], abs=0.01)
-    assert holds_box(pages[0], 48.0, 32.0)
+    assert holds_box(pages[0], 30.0, 20.0)
 
 
 SPIRAL = {"kind": "spiral", "pitch": 0.4, "start_turns": 6, "centre": [9, 9]}
