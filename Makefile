@@ -185,6 +185,7 @@ $(VENV)/docs: $(VENV)/tests requirements-docs.lock
 
 figures: test-setup
 	@$(BIN)/bench-dragon figures docs
+	@$(BIN)/python docs/site/gallery.py
 
 # The wheel is built from the sdist, and holds the guide; both pass the checks of a package index. A wheel is for one platform if, and only
 # if, it holds compiled loops; on Linux it then needs no library beside those of manylinux.

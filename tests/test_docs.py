@@ -96,6 +96,13 @@ def test_the_reference_has_an_example_for_every_public_name_of_the_library():
     assert len(described) == len(public) - 2
 
 
+def test_the_gallery_has_twenty_small_pictures_each_above_its_code():
+    pictures = re.findall(r"\]\((gallery/\w+\.png)\)\n\n```python\n", PAGES["docs/gallery.md"])
+    assert {path.relative_to(DOCS).as_posix() for path in DOCS.glob("gallery/*")} == set(pictures)
+    assert len(pictures) == 20
+    assert all((DOCS / picture).stat().st_size < 60_000 for picture in pictures)
+
+
 def test_each_claim_names_a_test_and_all_these_exist():
     rows = [line for line in PAGES["docs/claims.md"].splitlines() if line.startswith("| ")][1:]
     assert len(rows) > 10
@@ -116,6 +123,7 @@ def test_every_limit_of_the_service_stands_with_its_default():
 
 
 # The pages whose commands every run tries; those of the others take a minute.
+SLOW = re.compile(r"sweeps|gallery")
 QUICK = ("README", "docs/command.md", "docs/http.md", "docs/performances.md", "docs/jobs.md")
 
 
@@ -124,7 +132,7 @@ def of_each(blocks):
     cases = []
     for place, text in blocks:
         marks = [pytest.mark.curl] if re.search(r"(\$|\|) curl ", text) else []
-        is_quick = place.startswith(QUICK) or (text.startswith(">>> ") and "sweeps" not in place)
+        is_quick = place.startswith(QUICK) or (text.startswith(">>> ") and not SLOW.search(place))
         marks += [] if is_quick else [pytest.mark.thorough]
         cases.append(pytest.param(text, marks=marks, id=place))
     return pytest.mark.parametrize("text", cases)

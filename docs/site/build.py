@@ -21,7 +21,7 @@ DOCS = SITE.parent
 ROOT = DOCS.parent
 # The sections of the site, with the pages of docs/ on each; a page of docs/ on none of them is an error.
 SECTIONS = {
-    "everyone": ("Everyone", ["tasks", "conventions", "command"]),
+    "everyone": ("Everyone", ["tasks", "gallery", "conventions", "command"]),
     "students": ("Students", ["contest", "grade", "method", "paper"]),
     "organisers": (
         "Organisers",
@@ -84,6 +84,7 @@ def assemble(source: Path) -> None:
         (source / f"{page}.md").write_text(_linked(text, path.parent, pages), "utf-8")
     for picture in DOCS.glob("*.png"):
         shutil.copyfile(picture, source / picture.name)
+    shutil.copytree(DOCS / "gallery", source / "gallery")
     shutil.copytree(SITE / "_static", source / "_static")
     shutil.copyfile(SITE / "conf.py", source / "conf.py")
     (source / "reference").mkdir()
