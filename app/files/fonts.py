@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import re
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
@@ -23,8 +24,8 @@ CHINESE = (
 LIST_FOLDER = "MPLCONFIGDIR"
 # The font that comes with matplotlib: Latin letters, digits and mathematical signs.
 LATIN = "DejaVu Sans"
-# First character that only a Chinese font has.
-FIRST_CHINESE = "\u2e80"
+# Characters that only a Chinese font has: not emoji, whose planes lie between those of Chinese.
+CHINESE_CHARACTER = re.compile("[\u2e80-\ud7ff\uf900-\ufaff\ufe30-\ufe4f\uff00-\uffef\U00020000-\U0003ffff]")
 # Sentences of pictures, whose characters a Chinese font must have.
 TRIED = (
     phrase("First contact: {time:.6f} s, head at radius {radius:.6f} m"),
@@ -77,7 +78,7 @@ def families_for(texts: Iterable[str]) -> tuple[str, ...]:
 
 def language_of(texts: Iterable[str]) -> Language:
     """The language that decides on the font of these texts: Chinese names may stand among English words."""
-    return Language.CHINESE if any(text and max(text) >= FIRST_CHINESE for text in texts) else spoken()
+    return Language.CHINESE if any(map(CHINESE_CHARACTER.search, texts)) else spoken()
 
 
 @contextmanager
@@ -124,5 +125,5 @@ def draws_our_words(entry: object) -> bool:
     except (OSError, RuntimeError):
         return False
     with speaking(Language.CHINESE):
-        tried = {character for sentence in TRIED for character in say(sentence) if character >= FIRST_CHINESE}
+        tried = {character for sentence in TRIED for character in CHINESE_CHARACTER.findall(say(sentence))}
     return font.get_charmap().keys() >= set(map(ord, tried))

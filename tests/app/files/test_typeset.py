@@ -9,7 +9,7 @@ import pytest
 
 from app.extras import MissingPackage, NotTypeset
 from app.files.fonts import LATIN, chinese_among
-from app.files.typeset import Face, typeset, typesetting
+from app.files.typeset import Face, face_for, typeset, typesetting
 from core import Budget, TooMuchWork
 from core.kernels import Halted
 from tests.support.command import run
@@ -79,6 +79,7 @@ def test_a_machine_without_a_chinese_font_says_what_to_install():
     assert chinese_among({LATIN, "SimHei", "Noto Sans CJK SC"}) == "Noto Sans CJK SC"
     with pytest.raises(MissingPackage, match="install fonts-wqy-microhei or fonts-noto-cjk"):
         chinese_among({LATIN})
+    assert face_for(["Lanterns 🐉", "مهرجان"]) == Face((LATIN,))
 
 
 def killed():
