@@ -86,7 +86,7 @@ def serving(workers: int, cores: set[int], log: Path) -> Iterator[str]:
 SERVICES = [(1, 1), (1, 2), (2, 2)]
 
 
-@pytest.mark.parametrize(("workers", "cores"), SERVICES, ids=[f"{w}on{c}" for w, c in SERVICES])
+@pytest.mark.parametrize("workers, cores", SERVICES, ids=[f"{w}on{c}" for w, c in SERVICES])
 def test_throughput(benchmark: BenchmarkFixture, workers: int, cores: int, tmp_path: Path) -> None:
     """Requests per second of /collision-time with a check of the pair, from eight connections of one light client."""
     usable = sorted(os.sched_getaffinity(0))

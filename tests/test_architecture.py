@@ -159,7 +159,7 @@ def names_in(node):
 
 
 @pytest.mark.parametrize(
-    ("code", "output"),
+    "code, output",
     [
         (f"import sys; from core import *; print(*(name for name in {HEAVY} if name in sys.modules))", ""),
         # Importing core.shapes.reach would put the room in place of the function; lazy-loader before 0.6 let it.

@@ -77,7 +77,7 @@ def test_every_other_engine_answers_and_keeps_what_it_promises(engine, tmp_path)
 
 
 @pytest.mark.parametrize("path", KINDS)
-@pytest.mark.parametrize(("kind", "sign"), [(CONTACT, 0), (GRAZE, -1), (GRAZE, 1), (FAR, 1)])
+@pytest.mark.parametrize("kind, sign", [(CONTACT, 0), (GRAZE, -1), (GRAZE, 1), (FAR, 1)])
 def test_the_truth_of_the_sample_is_shown_again_in_balls(kind, sign, path):
     columns = SHARD.columns
     rows = np.flatnonzero((columns["kind"] == kind) & ((sign == 0) | (np.sign(columns["depth"]) == sign)))
@@ -151,9 +151,7 @@ def test_scores_count_what_differs_from_the_truth():
     assert result.microseconds[0] == 2.5
 
 
-@pytest.mark.parametrize(
-    ("start", "end", "bend", "h"), [(1.0, 1.0, 8.0, 1.0), (1.0, 3.0, 1.0, 0.5), (2.0, 1.5, 8.0, 2.0)]
-)
+@pytest.mark.parametrize("start, end, bend, h", [(1.0, 1.0, 8.0, 1.0), (1.0, 3.0, 1.0, 0.5), (2.0, 1.5, 8.0, 2.0)])
 def test_the_least_between_two_ends_is_that_of_the_parabola(start, end, bend, h):
     x = np.linspace(0.0, h, 100_001)
     parabola = start + (end - start) * x / h - 0.5 * bend * x * (h - x)

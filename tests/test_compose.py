@@ -66,7 +66,7 @@ def test_its_settings_are_settings():
 
 
 @pytest.mark.parametrize(
-    ("published", "token", "runs"),
+    "published, token, runs",
     [
         ("0.0.0.0", "", False),
         *thorough(("", "", True), ("0.0.0.0", "x", True)),

@@ -179,7 +179,7 @@ def test_dances_that_are_shown_are_those_of_an_example(text):
     assert [path.name for path in (ROOT / "examples").glob("*.toml") if text in path.read_text("utf-8")] != []
 
 
-@pytest.mark.parametrize(("values", "command"), RESULTS, ids=[command for _, command in RESULTS])
+@pytest.mark.parametrize("values, command", RESULTS, ids=[command for _, command in RESULTS])
 def test_a_result_is_printed_by_the_command_beside_it(values, command, folder):
     printed = run(command, folder).stdout
     for value in NUMBER.findall(values):

@@ -126,7 +126,7 @@ def test_no_flag_changes_a_digit_and_every_compiler_gets_flags_of_its_own_kind(b
 
 
 @pytest.mark.parametrize(
-    ("kind", "says", "compiler"),
+    "kind, says, compiler",
     [
         ("unix", GCC, "gcc"),
         ("mingw32", GCC, "gcc"),

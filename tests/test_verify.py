@@ -100,7 +100,7 @@ def test_certificates_of_all_kinds_are_verified(tmp_path, name):
 OWN_WORDS = dict.fromkeys(("delete sweeps.1", "repeat sweeps.-1", "reverse sweeps"), "the sweeps are not those of")
 
 
-@pytest.mark.parametrize(("change", "reason"), [*DROPPED, *thorough(*FORGERIES[len(DROPPED) :])])
+@pytest.mark.parametrize("change, reason", [*DROPPED, *thorough(*FORGERIES[len(DROPPED) :])])
 def test_a_forged_certificate_is_refused(change, reason):
     assert_verdict(forged(small(), change), OWN_WORDS.get(str(change), reason))
 
@@ -152,7 +152,7 @@ FURTHER = [
 ]
 
 
-@pytest.mark.parametrize(("change", "reason"), FURTHER)
+@pytest.mark.parametrize("change, reason", FURTHER)
 def test_a_forgery_of_its_own_kind_is_refused(change, reason):
     assert_verdict(forged(small(), change), reason)
 
@@ -176,7 +176,7 @@ def test_an_accident_is_refused_by_the_digest():
 
 
 @pytest.mark.parametrize(
-    ("edit", "reason"),
+    "edit, reason",
     [
         *OF_GRAZE,
         ('overlap = {"benches": [0, 12]}', "head_theta is missing"),
@@ -189,7 +189,7 @@ def test_a_pitch_a_circle_or_an_overlap_that_is_not_shown_is_refused(edit, reaso
 
 
 @pytest.mark.parametrize(
-    ("data", "reason"),
+    "data, reason",
     [
         (b"", "Expecting value"),
         (b"\xff\xfe\x00", "malformed"),

@@ -20,7 +20,7 @@ def test_trajectory_without_a_body_is_the_default_one(ask):
 
 
 @pytest.mark.parametrize(
-    ("times", "instants"),
+    "times, instants",
     [
         ({"start": 0, "stop": 0.3, "step": 0.1}, [0.0, 0.1, 0.2, 0.3]),
         ({"start": -1, "stop": 0.9, "step": 1}, [-1.0, 0.0]),
@@ -52,7 +52,7 @@ ON_LANE = {"dragon": {"benches": 4}, "path": line((0, 0), (60, 0))}
 
 
 @pytest.mark.parametrize(
-    ("call", "body"),
+    "call, body",
     [
         ("minimum-pitch", None),
         ("figures/contact.png?benches=40", None),

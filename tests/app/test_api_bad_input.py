@@ -11,7 +11,7 @@ HEADS = "GET, HEAD, OPTIONS, POST"
 
 
 @pytest.mark.parametrize(
-    ("body", "status", "words"),
+    "body, status, words",
     [
         *((body, 422, " JSON object") for body in (b"[]", b"3", b"null")),
         (b'{"times": [1, 2', 400, " JSON 15"),
@@ -24,7 +24,7 @@ def test_a_body_that_is_no_json_or_no_object_is_a_problem(client, body, status, 
     assert_problem(client.post("/trajectory", content=body, headers={"Content-Type": JSON}), status, words)
 
 
-@pytest.mark.parametrize(("path", "kind"), [("/trajectory", JSON), ("/grade", "application/zip")])
+@pytest.mark.parametrize("path, kind", [("/trajectory", JSON), ("/grade", "application/zip")])
 def test_a_compressed_body_is_a_problem(client, path, kind):
     headers = {"Content-Type": kind, "Content-Encoding": "gzip"}
     answer = client.post(path, content=gzip.compress(b"{}"), headers=headers)
@@ -48,7 +48,7 @@ def test_a_query_on_a_call_with_a_body_is_a_problem(ask):
 
 
 @pytest.mark.parametrize(
-    ("request_", "status", "allowed"),
+    "request_, status, allowed",
     [
         ("POST /nowhere", 404, ""),
         ("GET /trajectory/", 404, ""),
@@ -68,7 +68,7 @@ def test_an_unknown_format_is_not_found_and_the_known_ones_are_named(ask):
 
 
 @pytest.mark.parametrize(
-    ("call", "accept"),
+    "call, accept",
     [
         ("collision-time", "application/json;q=0"),
         ("figures/contact.svg", "image/png"),

@@ -27,7 +27,7 @@ def small(service_with):
         yield Asking(client)
 
 
-@pytest.mark.parametrize(("size", "status"), [(BODY_BYTES_MAX, 200), (BODY_BYTES_MAX + 1, 413)])
+@pytest.mark.parametrize("size, status", [(BODY_BYTES_MAX, 200), (BODY_BYTES_MAX + 1, 413)])
 @pytest.mark.parametrize("chunked", [False, True], ids=["stated_length", "chunked"])
 def test_a_body_may_have_as_many_bytes_as_the_limit(small, size, status, chunked):
     body = b"{}".ljust(size)

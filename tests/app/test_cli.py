@@ -318,7 +318,7 @@ def test_a_reader_that_stops_early_is_no_error(flags):
 
 @pytest.mark.thorough
 @pytest.mark.parametrize(
-    ("line", "words"),
+    "line, words",
     [
         # Ten times as long as the wait before the bar, and most of a minute: all pairs of 223 benches.
         ("film --output dance.mp4", b"film"),
@@ -504,7 +504,7 @@ LOCALES = [
 ]
 
 
-@pytest.mark.parametrize(("locale", "chosen", "words"), LOCALES)
+@pytest.mark.parametrize("locale, chosen, words", LOCALES)
 def test_progress_is_in_the_language_chosen_or_that_of_the_terminal(tmp_path, locale, chosen, words):
     for name in ("a.csv", "b.csv"):
         (tmp_path / name).write_text("1,2\n")

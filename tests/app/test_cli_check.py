@@ -52,7 +52,7 @@ def checked(body, *options):
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    "text, words",
     [
         (DANCE, "Failures in order | 'square' | exceeds 0.5 m/s | nearest to square | proven: at least"),
         (DANCE, "comes within 0.9 m of 'square' | never within 0.9 m | first within 0.9 m"),

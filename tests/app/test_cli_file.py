@@ -117,7 +117,7 @@ PAPERS = [
 
 
 @pytest.mark.parametrize(
-    ("body", "row"),
+    "body, row",
     [*FILES, *thorough(*PAPERS)],
     ids=[row.split(" -")[0] for _, row in (*FILES, *PAPERS)],
 )
@@ -132,7 +132,7 @@ def test_a_command_writes_the_file_of_the_service(client, tmp_path, monkeypatch,
 
 
 @pytest.mark.parametrize(
-    ("places", "where"),
+    "places, where",
     [("FILE", ""), ("FILE drawn", "drawn"), ("drawn FILE", "drawn"), ("-", ""), ("- .", "")],
 )
 def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(client, file, tmp_path, monkeypatch, places, where):
@@ -212,7 +212,7 @@ def test_a_value_that_check_would_refuse_is_no_silent_mistake(tmp_path, row):
 
 
 @pytest.mark.parametrize(
-    ("ends", "options", "times"),
+    "ends, options, times",
     [
         ("start = 430", "", [430, 431, 432]),
         ("stop = 2", "", [0, 1, 2]),
@@ -243,7 +243,7 @@ def test_rectangles_are_asked_for_where_a_dance_is_given(tmp_path, name):
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "named"),
+    "name, text, named",
     [
         ("list.json", "[1]", "list.json ... [1]"),
         ("dance.toml", "dragon = 5", "dragon must be a table"),
@@ -277,7 +277,7 @@ def test_a_trajectory_of_several_is_a_table_for_each():
 
 
 @pytest.mark.parametrize(
-    ("command", "ignored", "more"),
+    "command, ignored, more",
     [("tolerance", ["stray", "hole", "pin"], {}), ("contact-probability", ["stray"], {"samples": 10})],
 )
 def test_a_stray_in_the_file_that_does_not_count_is_named(tmp_path, command, ignored, more):

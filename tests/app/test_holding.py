@@ -127,7 +127,7 @@ Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r
 
 
 @pytest.mark.parametrize(
-    ("sent", "status"),
+    "sent, status",
     [
         (b"nonsense\r\n\r\n", 400),
         (b"GET / HTTP/1.1\r\n\r\n", 400),
@@ -162,7 +162,7 @@ def get(service, path, host="x"):
 
 
 @pytest.mark.parametrize(
-    ("target", "path", "status"),
+    "target, path, status",
     [
         ("HTTPS://service/turn?pitch=1.7", "/turn?pitch=1.7", 200),
         ("http://service", "/", 200),
@@ -230,7 +230,7 @@ def client_at(address, seconds=SOON):
 
 
 @pytest.mark.parametrize(
-    ("others", "status"), [(("127.0.0.1", "127.0.0.2"), 503), (("127.0.0.3",), 429)], ids=["lane", "client"]
+    "others, status", [(("127.0.0.1", "127.0.0.2"), 503), (("127.0.0.3",), 429)], ids=["lane", "client"]
 )
 def test_who_finds_no_place_for_heavy_work_hears_when_to_come_again_and_others_pass(held, others, status):
     with client_at("127.0.0.3") as client, client_at("127.0.0.4") as other, working(held, *others):
@@ -325,7 +325,7 @@ def leaves(service, stop):
 MORE = [(1, signal.SIGTERM), (2, signal.SIGKILL), (2, signal.SIGTERM), (1, signal.SIGKILL)]
 
 
-@pytest.mark.parametrize(("workers", "stop"), [(1, signal.SIGINT), *thorough(*MORE)])
+@pytest.mark.parametrize("workers, stop", [(1, signal.SIGINT), *thorough(*MORE)])
 def test_the_service_leaves_with_heavy_work_running(tmp_path, workers, stop):
     # A shell that starts the service in its background has Ctrl-C ignored.
     ignored = partial(signal.signal, signal.SIGINT, signal.SIG_IGN) if stop == signal.SIGTERM else None

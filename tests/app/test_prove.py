@@ -46,7 +46,7 @@ def assert_wrong(line, named, **how):
 
 
 @pytest.mark.parametrize(
-    ("text", "named"),
+    "text, named",
     [("{}", "format"), ("[]", "it ... list 0"), ('{"x": 1}', "format"), ('{"format": 3}', "versions")],
 )
 def test_a_malformed_certificate_is_one_line_that_names_the_member(text, named):
@@ -70,7 +70,7 @@ SMALL_CIRCLE = "--turning-diameter 4 --benches 11 --start-turns 5"
 
 
 @pytest.mark.parametrize(
-    ("line", "words"),
+    "line, words",
     [
         (f"collision-time {FIVE} --margin 0.1", "are nearer than 0.1 m at"),
         ("collision-time --margin 0.2", START.format("0")),

@@ -64,7 +64,7 @@ A paragraph.
 
 
 @pytest.mark.parametrize(
-    ("page", "dead"),
+    "page, dead",
     [
         ('<a href="other.html#here">', ""),
         ('<a href="https://example.org/gone">', ""),

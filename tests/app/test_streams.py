@@ -21,7 +21,7 @@ def shell(command, **environment):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-@pytest.mark.parametrize(("output", "fault"), [("/dev/full", "No space left on device"), ("&-", "it is closed")])
+@pytest.mark.parametrize("output, fault", [("/dev/full", "No space left on device"), ("&-", "it is closed")])
 def test_a_full_disk_or_a_closed_standard_output_is_one_line(command, output, fault):
     done = shell(f"{command} >{output}")
     assert (done.returncode, done.stderr.decode()) == (2, f"Error: standard output: {fault}\n")

@@ -154,7 +154,7 @@ def test_what_people_hold_begins_when_a_dance_does_that_begins_before_time_0(ask
 
 
 @pytest.mark.parametrize(
-    ("file", "options", "begin"),
+    "file, options, begin",
     [({"start": 20}, "", 20.0), ({"start": 20}, "--start 22", 20.0), ({}, "--start 22", 7.81)],
 )
 def test_a_dance_starts_at_its_time_of_day_wherever_a_table_begins(tmp_path, file, options, begin):

@@ -41,7 +41,7 @@ def test_a_bench_beside_a_tree_marks_the_stretch_between_its_handles():
     assert kinds(LANE, TREE, margin=0.06, stray=0.3) == {BreachKind.MARGIN, BreachKind.STRAY}
 
 
-@pytest.mark.parametrize(("dance", "venue"), [(LANE, TREE), (BEND, ROOM)], ids=["a tree", "a bend in a room"])
+@pytest.mark.parametrize("dance, venue", [(LANE, TREE), (BEND, ROOM)], ids=["a tree", "a bend in a room"])
 def test_nothing_is_marked_where_the_check_passes_with_people_who_stray(dance, venue):
     verdicts = set()
     for stray in (0.03, 0.3, 0.5, 0.54, 0.56, 0.7, 0.8):

@@ -35,7 +35,7 @@ def test_a_tight_bend_is_reported_with_its_place_and_what_a_bench_needs():
 
 
 @pytest.mark.parametrize(
-    ("path", "dragon"),
+    "path, dragon",
     [
         (TIGHT, LONG),
         (TIGHT, SHORT),

@@ -76,7 +76,7 @@ def test_a_start_inside_the_fold_is_refused():
         Dance(Dragon(), Spiral(0.55, turns))
 
 
-@pytest.mark.parametrize(("limit", "beyond"), [(HEAD_SPEED_MIN, 0.5), (HEAD_SPEED_MAX, 2.0)])
+@pytest.mark.parametrize("limit, beyond", [(HEAD_SPEED_MIN, 0.5), (HEAD_SPEED_MAX, 2.0)])
 def test_a_head_speed_at_its_limits_is_accepted_and_none_beyond(limit, beyond):
     assert Dance(Dragon(), Spiral(), limit).end.time == pytest.approx(432.917924228 / limit)
     with refused("head_speed"):
@@ -87,7 +87,7 @@ CORNER = partial(Legs, [(0, 0), (60, 0), (60, 60)], [0, 1], radius=5.0)
 
 
 @pytest.mark.parametrize(
-    ("path", "start"),
+    "path, start",
     [(CORNER(), 17.711), (CORNER(start=40.0), 0.0), (Spiral(0.9, 6), 0.0)],
     ids=["off the path at 0", "on the path at 0", "spiral"],
 )
@@ -101,7 +101,7 @@ def test_without_a_start_a_question_asks_from_the_default_start(path, start):
 
 
 @pytest.mark.parametrize(
-    ("path", "other"),
+    "path, other",
     [
         ("Spiral(0.55)", "Spiral(0.56)"),
         ("Turn(1.7, entry_radius=4.4)", "Turn(1.7, entry_radius=4.4, exit_radius=4.3)"),

@@ -17,7 +17,7 @@ SIZES = st.floats(0.5, 10.0)
 
 
 @pytest.mark.parametrize(
-    ("name", "value"),
+    "name, value",
     [
         ("benches", 1),
         *thorough(("benches", BENCHES_MAX)),
@@ -36,14 +36,14 @@ def test_the_shortest_chord_is_accepted():
 
 
 # Half of a length of the body is 1.1 m.
-@pytest.mark.parametrize(("name", "value"), [("benches", BENCHES_MAX + 1), ("width", SIZE_MIN / 2), ("overhang", 1.1)])
+@pytest.mark.parametrize("name, value", [("benches", BENCHES_MAX + 1), ("width", SIZE_MIN / 2), ("overhang", 1.1)])
 def test_a_size_beyond_its_limit_is_refused_by_its_field(name, value):
     with refused(f"dragon.{name}"):
         Dragon(**{name: value})
 
 
 @pytest.mark.parametrize(
-    ("field", "lengths", "widths", "overhangs"),
+    "field, lengths, widths, overhangs",
     [
         ("lengths.1", [2.0, SIZE_MIN / 2], [0.3, 0.3], [0.0, 0.0]),
         ("widths.0", [2.0, 2.0], [np.nan, 0.3], [0.2, 0.2]),

@@ -12,7 +12,7 @@ A, B = (NUMBERS.uniform(-1.0, 1.0, 200) * 10.0 ** NUMBERS.integers(-12, 12, 200)
 
 
 @pytest.mark.parametrize(
-    ("operation", "exact"), [(two_sum, Fraction.__add__), (two_product, Fraction.__mul__)], ids=["sum", "product"]
+    "operation, exact", [(two_sum, Fraction.__add__), (two_product, Fraction.__mul__)], ids=["sum", "product"]
 )
 def test_nothing_is_lost_of_numbers_and_arrays(operation, exact):
     highs, lows = operation(A, B)

@@ -93,7 +93,7 @@ def number(name="time", value=3.5, unit="s", low=1.0, **options):
 
 
 @pytest.mark.parametrize(
-    ("message", "call"),
+    "message, call",
     [
         ("time must be at most 3 s, got 3.5 s", number()),
         ("time must be at least 1 s, got 0.5 s", number(value=0.5)),

@@ -12,7 +12,7 @@ TRAJECTORY, PROFILE, CONTACT = trajectory(DANCE, 0.0), clearance_profile(DANCE, 
 
 
 @pytest.mark.parametrize(
-    ("package", "extra", "ask"),
+    "package, extra, ask",
     [
         ("pandas", "data", TRAJECTORY.to_dataframe),
         ("polars", "polars", TRAJECTORY.to_polars),

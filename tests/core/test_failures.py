@@ -17,7 +17,7 @@ def first_failure(dance, limit, **span):
 
 
 @pytest.mark.parametrize(
-    ("dance", "limit", "start", "stop"),
+    "dance, limit, start, stop",
     [
         (Dance(Dragon(), TURN), 1.6047, -100.0, 100.0),
         (Dance(Dragon(), TURN, 1.9), 2.0, -50.0, 50.0),

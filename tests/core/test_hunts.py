@@ -34,7 +34,7 @@ def test_a_contact_that_is_left_out_or_invented_is_a_fault():
         assert hunt_contacts.contact_fault(dance, fault, margin, look)
 
 
-@pytest.mark.parametrize(("case", "outcome"), [(1, Outcome.CLEAR), (2, Outcome.CONTACT)])
+@pytest.mark.parametrize("case, outcome", [(1, Outcome.CLEAR), (2, Outcome.CONTACT)])
 def test_a_bound_that_is_too_high_and_a_tree_that_is_overlooked_are_faults(case, outcome):
     dance, venue, margin, start, stop, look = hunt_venues.random_case(44, case)
     result = venue_clearance(dance, venue, margin=margin, start=start, stop=stop).areas[1]

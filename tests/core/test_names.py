@@ -10,7 +10,7 @@ LONG = "n" * (NAME_MAX + 1)
 
 
 @pytest.mark.parametrize(
-    ("name", "message"),
+    "name, message",
     [
         (7, "must be a string, got 7"),
         (LONG, f"must have at most {NAME_MAX} characters, got {NAME_MAX + 1}"),
@@ -21,7 +21,7 @@ LONG = "n" * (NAME_MAX + 1)
         ("\U0001ffff", "must be one line of plain text, got '\\U0001ffff'"),
     ],
 )
-@pytest.mark.parametrize(("what", "before"), [("", "venue"), ("the name of a polygon", "the name of a polygon")])
+@pytest.mark.parametrize("what, before", [("", "venue"), ("the name of a polygon", "the name of a polygon")])
 def test_a_name_is_one_line_of_plain_text(name, message, what, before):
     with pytest.raises(InvalidValue) as caught:
         checked_name("venue", name, what)

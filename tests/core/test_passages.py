@@ -107,7 +107,7 @@ def test_a_dance_is_played_faster_as_a_whole_until_a_passage_reaches_the_limit()
 
 
 @pytest.mark.parametrize(
-    ("field", "passages"),
+    "field, passages",
     [
         ("passages.0.speed", [Passage(1e-9, 5.0)]),
         ("passages.0", [Passage(1.0, 5.0, 5.0)]),

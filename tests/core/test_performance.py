@@ -15,7 +15,7 @@ TWO = Performance([Part(STREET, 5.0, "east"), Part(STREET, -2.0, "west")])
 
 
 @pytest.mark.parametrize(
-    ("field", "call"),
+    "field, call",
     [
         ("parts", lambda: Performance([])),
         ("parts", lambda: Performance([Part(STREET)] * 201)),

@@ -105,7 +105,7 @@ def test_however_long_the_way_both_ends_of_a_bracket_are_true(turns, margin):
     assert within - clear <= 1e-9 + 8.0 * ContactSearch(dragon, spiral, margin).travel_rounding(contact.time)
 
 
-@pytest.mark.parametrize(("x", "y"), [(-9e-10, 0.0), (0.0, 9e-10)], ids=["overlapping", "aside"])
+@pytest.mark.parametrize("x, y", [(-9e-10, 0.0), (0.0, 9e-10)], ids=["overlapping", "aside"])
 def test_pieces_that_miss_each_other_count_as_rounding(x, y):
     """A line whose second half begins up to 1e-9 m off its first."""
     route = Route([Line((0.0, 0.0), (30.0, 0.0)), Line((30.0 + x, y), (60.0, y))])
@@ -117,7 +117,7 @@ def test_pieces_that_miss_each_other_count_as_rounding(x, y):
     assert search.placed[0, ERROR] >= y
 
 
-@pytest.mark.parametrize(("path", "until"), [(Spiral(), 400.0), (Turn(1.7), 90.0)], ids=["spiral", "turn"])
+@pytest.mark.parametrize("path, until", [(Spiral(), 400.0), (Turn(1.7), 90.0)], ids=["spiral", "turn"])
 def test_what_a_chain_does_not_write_is_never_read(path, until):
     """The same march from rows that hold no numbers, and from rows of zeros."""
     entries = []

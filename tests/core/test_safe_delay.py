@@ -51,7 +51,7 @@ def at_delay(performance, part, delay):
     return Performance(parts)
 
 
-@pytest.mark.parametrize(("benches", "speed"), [((12, 3), 1.0), ((1, 4), 0.5)])
+@pytest.mark.parametrize("benches, speed", [((12, 3), 1.0), ((1, 4), 0.5)])
 def test_processions_that_cross_wait_until_the_other_one_is_past(benches, speed):
     first, second = (wait(count) / speed for count in benches)
     crossing = streets(*benches, head_speed=speed)

@@ -33,7 +33,7 @@ WELL = circle(24, 5.0, 4.0)
 
 
 @pytest.mark.parametrize(
-    ("field", "rings"),
+    "field, rings",
     [
         ("venue", ()),
         ("venue.0.1.1", (((0, 0), (1, math.nan), (1, 1), (0, 0)),)),

@@ -94,7 +94,7 @@ def test_a_route_takes_the_numbers_that_the_service_takes():
         assert known[key] == [own["minimum"], own["maximum"]], key
 
 
-@pytest.mark.parametrize(("benches", "stray", "margin"), [(1, 0.0, 0.0), (8, 0.0, 0.0), (24, 0.0, 0.0), (8, 0.05, 1.5)])
+@pytest.mark.parametrize("benches, stray, margin", [(1, 0.0, 0.0), (8, 0.0, 0.0), (24, 0.0, 0.0), (8, 0.05, 1.5)])
 def test_the_street_beyond_a_gate_is_as_long_as_the_service_makes_it(benches, stray, margin):
     numbers = {"benches": benches, "stray": stray, "margin": margin, "hole": 0.0, "pin": 0.0}
     numbers |= {"head_length": 3.41, "body_length": 2.2, "overhang": 0.275}

@@ -159,7 +159,7 @@ MESSAGES = [
 ]
 
 
-@pytest.mark.parametrize(("message", "status", "code"), MESSAGES)
+@pytest.mark.parametrize("message, status, code", MESSAGES)
 def test_a_message_that_asks_for_nothing_has_an_error_of_the_protocol(client, message, status, code):
     response = client.post("/mcp", json={"jsonrpc": "2.0", "id": 1, **message}, headers={"Accept": JSON})
     assert (response.status_code, response.json()["error"]["code"]) == (status, code)

@@ -132,7 +132,7 @@ DRAWN = "_".join(f"{0.37 * k * k:.2f},{-3.1 * k:.1f}" for k in range(50))
 ADDRESS = f"https://dragon.example/dance/?lang=zh&door=village&path=route&benches=24&time=4&route={DRAWN}"[:600]
 
 
-@pytest.mark.parametrize(("labels", "dpi"), [(False, 150), (False, 300), (True, 150), (True, 300)])
+@pytest.mark.parametrize("labels, dpi", [(False, 150), (False, 300), (True, 150), (True, 300)])
 def test_a_phone_reads_the_code_of_every_bench_from_cards_and_labels(ask, labels, dpi):
     request = VILLAGE | {"first_bench": 8, "last_bench": 11, "address": ADDRESS, "labels": labels}
     (page,) = pages_of(ask.file("cues", request, PDF_TYPE))
@@ -142,7 +142,7 @@ def test_a_phone_reads_the_code_of_every_bench_from_cards_and_labels(ask, labels
     assert all(one.startswith("https://dragon.example/dance/?lang=zh&z=") for one in read)
 
 
-@pytest.mark.parametrize(("labels", "pages"), [(False, 3), (True, 1)])
+@pytest.mark.parametrize("labels, pages", [(False, 3), (True, 1)])
 def test_a_sheet_of_a3_holds_twice_as_many(ask, labels, pages):
     request = VILLAGE | {"address": ADDRESS, "labels": labels, "paper": "A3"}
     sheets = pages_of(ask.file("cues", request, PDF_TYPE))
@@ -258,7 +258,7 @@ def test_crosses_stand_at_the_chalk_marks_of_start_and_end(ask):
 
 
 @pytest.mark.parametrize(
-    ("name", "body", "paper"),
+    "name, body, paper",
     [("plan", VILLAGE, "plan was"), ("cues", VILLAGE, "cards were"), ("cues", TWO, "cards were"),
      ("crew", VILLAGE, "timeline was")],
 )  # fmt: skip

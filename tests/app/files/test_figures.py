@@ -59,7 +59,7 @@ def test_contact_figure_with_a_margin_states_it():
 
 
 @pytest.mark.parametrize(
-    ("dance", "near", "named", "other"),
+    "dance, near, named, other",
     [
         (Dance(Dragon(10), Spiral()), {"margin": 0.3}, "front-outer corner of bench 0", "edge"),
         (

@@ -201,7 +201,7 @@ def test_the_head_and_every_tenth_bench_have_their_numbers():
 
 
 @pytest.mark.parametrize(
-    ("benches", "spacing", "step"),
+    "benches, spacing, step",
     [(223, 110.0, 10), (300, 110.0, 10), (24, 110.0, 1), (223, 2.0, 50), (2000, 9.0, 100)],
 )
 def test_a_small_picture_and_a_long_dragon_have_fewer_numbers(benches, spacing, step):

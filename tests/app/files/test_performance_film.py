@@ -48,7 +48,7 @@ def outlines_at(time):
 
 
 @pytest.mark.parametrize(
-    ("language", "words"),
+    "language, words",
     [
         (Language.ENGLISH, "bench 2 of east and bench 0 of dragon 1 touch\n"),
         pytest.param(Language.CHINESE, "east的 2 号板凳与 1 号龙的 0 号板凳相碰", marks=pytest.mark.chinese_font),

@@ -58,7 +58,7 @@ NAMELESS = TWO | {"dances": [TWO["dances"][0] | {"name": None}] * 2, "start_cloc
 ALONE = {"dragon": {"benches": 5}, "times": [0, 0.5, 10]}
 
 
-@pytest.mark.parametrize(("body", "own"), [(NAMELESS, ["dragon"]), (ALONE, [])], ids=["several", "one"])
+@pytest.mark.parametrize("body, own", [(NAMELESS, ["dragon"]), (ALONE, [])], ids=["several", "one"])
 def test_without_names_and_clock_csv_has_no_columns_for_them_and_arrow_has_the_same(ask, body, own):
     lines = list(csv.reader(io.StringIO(ask.file("trajectory", body, CSV_TYPE).decode())))
     assert lines[0] == [*own, "time", "handle", "x", "y", "speed"]

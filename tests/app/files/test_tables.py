@@ -26,7 +26,7 @@ def test_rounding_never_writes_a_negative_zero(dance):
 
 
 @pytest.mark.parametrize(
-    ("benches", "names"),
+    "benches, names",
     [(1, "龙头 龙尾（后）"), (2, "龙头 龙尾 龙尾（后）"), (4, "龙头 第1节龙身 第2节龙身 龙尾 龙尾（后）")],
 )
 def test_handles_are_named_after_the_bench_that_they_lead(benches, names):

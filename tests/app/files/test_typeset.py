@@ -98,7 +98,7 @@ def end_by_signal(budget, long):
     wait_for(lambda: killed() and long.done())
 
 
-@pytest.mark.parametrize(("end", "error"), [(end_by_budget, Halted), (end_by_signal, RuntimeError)])
+@pytest.mark.parametrize("end, error", [(end_by_budget, Halted), (end_by_signal, RuntimeError)])
 def test_a_file_that_takes_too_long_or_is_killed_is_no_lack_of_memory_and_the_next_one_is_set(end, error):
     budget = Budget()
     with ThreadPoolExecutor() as pool:

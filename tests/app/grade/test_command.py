@@ -329,7 +329,7 @@ def test_the_shortest_turn_known_with_a_tighter_arc_is_danced_without_contact():
 
 
 @pytest.mark.parametrize(
-    ("text", "digits"),
+    "text, digits",
     [
         ("1", 1),
         ("1.25e0", 3),

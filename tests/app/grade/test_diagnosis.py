@@ -187,7 +187,7 @@ def test_equal_speeds_of_two_decimals_are_right_ones_rounded(decimals):
     assert result.sheets[1].notes[0].startswith("Every number is 1, ") is (decimals > 2)
 
 
-@pytest.mark.parametrize(("speed", "verdict"), [("1.00", "incomplete"), ("1.000000", "wrong"), ("-1.00", "wrong")])
+@pytest.mark.parametrize("speed, verdict", [("1.00", "incomplete"), ("1.000000", "wrong"), ("-1.00", "wrong")])
 def test_text_shows_the_decimals_of_equal_speeds(speed, verdict):
     """All right speeds are 1.00 to two decimals, whatever the decimals of the places."""
     text = students.lines(spiral(SPIRAL_TIMES[TENTH]), SPIRAL_TIMES[TENTH]).decode()
@@ -237,7 +237,7 @@ OFTEN_BESIDE |= {("negated", "right")}
 
 
 @pytest.mark.parametrize(
-    ("places", "speeds"),
+    "places, speeds",
     often(itertools.product(PARTS, PARTS), OFTEN_BESIDE),
 )
 def test_the_errors_of_places_and_of_speeds_are_named_each(places, speeds):
@@ -253,7 +253,7 @@ def test_the_errors_of_places_and_of_speeds_are_named_each(places, speeds):
     assert result.verdict == ("wrong" if wanted else "rounded" if is_rounded else "right")
 
 
-@pytest.mark.parametrize(("by", "decimals"), [(0.582, 6), (-0.09, 4), (-0.437, 5)])
+@pytest.mark.parametrize("by, decimals", [(0.582, 6), (-0.09, 4), (-0.437, 5)])
 def test_speeds_of_other_times_tell_no_digit_of_the_shift_that_they_do_not_know(by, decimals):
     places, speeds = turn()[0], np.round(turn(TURN_TIMES + by)[1], decimals)
     (error,) = grade(students.lines((places, speeds), TURN_TIMES)).diagnosis
@@ -282,7 +282,7 @@ def test_one_sheet_of_a_result2_does_not_miss_another(change):
 
 
 @pytest.mark.parametrize(
-    ("angle", "decimals", "words"),
+    "angle, decimals, words",
     [(30.0, 6, "+30°"), (-40.1, 6, "-40.1°"), (30.0, 3, "+30.000°"), (40.107, 2, "+40.11°")],
 )
 def test_another_instant_is_seen_in_turned_places(angle, decimals, words):

@@ -90,7 +90,7 @@ def test_a_result4_without_instants_begins_at_minus_100_s():
     assert (sheet.verdict, sheet.right) == ("right", 201 * 448)
 
 
-@pytest.mark.parametrize(("title", "factor"), [("位置", 100.0), ("速度", 100.0), ("速度", 1000.0)])
+@pytest.mark.parametrize("title, factor", [("位置", 100.0), ("速度", 100.0), ("速度", 1000.0)])
 def test_numbers_in_smaller_units_are_read_as_such(title, factor):
     heads, *rows = few()[title]
     small = [[row[0].replace(" (m/s)", ""), *(factor * value for value in row[1:])] for row in rows]
@@ -340,7 +340,7 @@ def test_empty_columns_and_rows_count_as_missing_instants_and_handles():
 
 
 @pytest.mark.parametrize(
-    ("name", "count"), [("result1.xlsx", 1), ("Result_1.xlsx", 1), ("result4.xlsx", 0), ("li.xlsx", 0)]
+    "name, count", [("result1.xlsx", 1), ("Result_1.xlsx", 1), ("result4.xlsx", 0), ("li.xlsx", 0)]
 )
 def test_a_file_with_the_name_of_another_question_is_reported(name, count):
     times = students.TURN_TIMES[:4]

@@ -53,7 +53,7 @@ def test_a_file_beyond_the_limit_or_the_deadline_is_refused_and_nothing_of_it_is
 
 
 @pytest.mark.parametrize(
-    ("query", "kind", "content", "status", "words"),
+    "query, kind, content, status, words",
     [
         ("", "application/json", b"a,b", 415, "the file itself"),
         ("?pitch=wide", FILE["Content-Type"], b"a,b", 422, "pitch"),
@@ -75,7 +75,7 @@ def test_a_name_in_another_encoding_is_no_obstacle(client, name):
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "notes"),
+    "name, text, notes",
     [
         ("pitch", "0,450338", ["Read as 0.450338.", "The comma counts as the decimal point."]),
         ("pitch", "0.450338 m", ["Read as 0.450338.", "The unit m is meant anyway and need not be written."]),
@@ -94,7 +94,7 @@ def test_a_number_is_read_as_people_type_it_and_notes_say_how(client, name, text
 
 
 @pytest.mark.parametrize(
-    ("text", "sentence"),
+    "text, sentence",
     [
         ("45.03 cm", "“Length of the turn” must be in m, without another unit, got '45.03 cm'."),
         ("1,234,5", "“Length of the turn” must be a number [m] in digits, such as 0.4503, got '1,234,5'."),

@@ -92,7 +92,7 @@ def test_what_is_wrong_is_one_line(row):
 
 
 @pytest.mark.parametrize(
-    ("answer", "words"),
+    "answer, words",
     [
         (b'HTTP/1.1 200 OK\r\nContent-Length: 13\r\n\r\n{"jobs": [{}]}', "as Bench Dragon does"),
         (b"HTTP/1.1 200 OK\r\nContent-Length: 99\r\n\r\n{", "IncompleteRead"),

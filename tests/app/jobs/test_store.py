@@ -128,7 +128,7 @@ def test_only_the_latest_events_are_kept_under_their_numbers(store):
 
 
 @pytest.mark.parametrize(
-    ("limit", "most", "error"),
+    "limit, most, error",
     [
         ("jobs_max", 1, Full),
         ("jobs_client_max", 1, FullForClient),

@@ -63,7 +63,7 @@ def test_a_dance_may_name_a_workbook(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("data", "words"),
+    "data, words",
     [
         (saved([[]]), "must have a sheet with benches, one in a line, got empty sheets"),
         (saved(ROWS)[:-300], "its archive ends early"),

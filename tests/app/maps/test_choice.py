@@ -71,7 +71,7 @@ def test_the_chosen_part_is_read(client, plan, query):
 
 
 @pytest.mark.parametrize(
-    ("query", "name"),
+    "query, name",
     [({"layers": "SITE,LAWN"}, "layers"), ({"area": "0,0,9"}, "area"), ({"area": "9,0,0,9"}, "area")],
     ids=str,
 )

@@ -28,7 +28,7 @@ def circle_of(points, x, y):
 
 
 @pytest.mark.parametrize("radius", [0.01, 1.0, 100.0, 5_000.0])
-@pytest.mark.parametrize(("start", "end"), [(0.0, 90.0), (350.0, 20.0), (10.0, 370.0), (0.0, 0.0)])
+@pytest.mark.parametrize("start, end", [(0.0, 90.0), (350.0, 20.0), (10.0, 370.0), (0.0, 0.0)])
 def test_an_arc_is_as_round_as_it_is(radius, start, end):
     points = points_of(SPACE.add_arc((3, 4), radius, start, end), 1.0)
     away = circle_of(points, 3.0, 4.0)
@@ -125,7 +125,7 @@ def test_a_spline_whose_numbers_do_not_fit_is_damaged():
 
 
 @pytest.mark.parametrize(
-    ("entity", "words"),
+    "entity, words",
     [
         (SPACE.add_arc((0, 0), 1e300, 0, 90), r"1000000000 m, got 1e\+300 m"),
         (SPACE.add_arc((0, 0), float("nan"), 0, 90), "radius"),

@@ -91,9 +91,7 @@ def test_a_map_that_is_too_wide_for_a_dance_is_refused(empty):
         read(empty)
 
 
-@pytest.mark.parametrize(
-    ("unit", "metres"), [(2, 0.3048), (21, 1200 / 3937), (23, 3600 / 3937), (15, 10.0), (8, 2.54e-8)]
-)
+@pytest.mark.parametrize("unit, metres", [(2, 0.3048), (21, 1200 / 3937), (23, 3600 / 3937), (15, 10.0), (8, 2.54e-8)])
 def test_every_unit_of_a_drawing_is_known(unit, metres):
     space = new(unit=unit, square=False)
     space.add_circle((30 / metres, 0), 2 / metres)
@@ -294,7 +292,7 @@ def test_a_closed_spline_is_the_area_in_it(space):
     assert (np.min(rings), np.max(rings)) == pytest.approx((0.417, 9.583), abs=0.005)
 
 
-@pytest.mark.parametrize(("unit", "metres"), [(6, 1.0), (4, 0.001)])
+@pytest.mark.parametrize("unit, metres", [(6, 1.0), (4, 0.001)])
 def test_a_wide_line_is_a_wall_of_its_width(unit, metres):
     space = new(unit, square=False)
     points = [(-10 / metres, 0), (10 / metres, 0)]
@@ -378,7 +376,7 @@ def on_grid(x, y):
     return drawing(space)
 
 
-@pytest.mark.parametrize(("x", "y"), [(500_000.0, 3_220_000.0), (39_500_000.0, 3_220_000.0), (-200_000.0, 1_000.0)])
+@pytest.mark.parametrize("x, y", [(500_000.0, 3_220_000.0), (39_500_000.0, 3_220_000.0), (-200_000.0, 1_000.0)])
 def test_a_survey_grid_is_moved_to_its_middle_and_kept(client, x, y):
     got = posted(client, on_grid(x, y))
     assert got["venue"]["grid"] == {"x": x, "y": y}

@@ -17,7 +17,7 @@ def shapes(features):
 FOUR = [[(0, 0), (9, 0)], [(9, 9), (9, 0)], [(0, 9), (0, 0)], [(9, 9), (0, 9)]]
 
 
-@pytest.mark.parametrize(("apart", "kinds"), [(0.0048, ["polygon"]), (0.0052, ["line"] * 3)])
+@pytest.mark.parametrize("apart, kinds", [(0.0048, ["polygon"]), (0.0052, ["line"] * 3)])
 def test_ends_within_five_millimetres_meet(apart, kinds):
     near = [[(0, 0), (9, 0)], [(9 + apart, 0), (9, 9)], [(9, 9.003), (0, 0.003)]]
     assert [shape for shape, _ in shapes(joined(lines(*near)))] == kinds

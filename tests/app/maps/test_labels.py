@@ -13,7 +13,7 @@ ALL = [SQUARE, WALL, TREE, COURT]
 
 
 @pytest.mark.parametrize(
-    ("at", "height", "owner"),
+    "at, height, owner",
     [
         ((22, 21), 2.5, 1),  # beside the wall
         ((22, 25), 2.5, 0),  # two heights above it

@@ -249,7 +249,7 @@ KML_SQUARE = placemark(f"<name>广场</name><author><name>Li</name></author>{out
 
 
 @pytest.mark.parametrize(
-    ("data", "guessed"),
+    "data, guessed",
     [
         (KML_SQUARE.encode("gbk"), True),
         (archived(KML_SQUARE.encode("gbk")), True),
@@ -348,7 +348,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("data", "words"), REFUSED)
+@pytest.mark.parametrize("data, words", REFUSED)
 def test_a_file_that_cannot_be_used_is_refused_in_words(data, words):
     with pytest.raises(InvalidValue, match=words) as refused:
         read(data.encode() if isinstance(data, str) else data)
@@ -356,7 +356,7 @@ def test_a_file_that_cannot_be_used_is_refused_in_words(data, words):
 
 
 @pytest.mark.parametrize(
-    ("query", "kind", "status"), [("", "image/png", 415), ("?units=feet", KML_TYPE, 422), ("", KML_TYPE, 422)]
+    "query, kind, status", [("", "image/png", 415), ("?units=feet", KML_TYPE, 422), ("", KML_TYPE, 422)]
 )
 def test_the_service_refuses_what_it_cannot_read(client, query, kind, status):
     assert_problem(client.post(f"/places{query}", content=BOMB, headers={"Content-Type": kind}), status)

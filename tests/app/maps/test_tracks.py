@@ -116,7 +116,7 @@ def test_a_walk_there_and_back_on_one_line_turns_on_the_spot():
 
 
 @pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize(("pitch", "noise", "turns"), [(1.0, 0.1, 6), (1.2, 0.2, 8), (1.5, 0.3, 6)])
+@pytest.mark.parametrize("pitch, noise, turns", [(1.0, 0.1, 6), (1.2, 0.2, 8), (1.5, 0.3, 6)])
 def test_a_close_coil_keeps_its_windings_and_the_times_of_its_walk(pitch, noise, turns, seed):
     coil = Route([Coil(pitch, 1.0 / pitch, turns + 1.0 / pitch)])
     times = np.arange(coil.end)
@@ -243,7 +243,7 @@ def test_of_several_tracks_the_longest_is_danced_and_a_line_called_path_before_a
 
 
 @pytest.mark.parametrize(
-    ("data", "words"),
+    "data, words",
     [
         (b"<gpx><trk></gpx>", "mismatched tag in line 1"),
         (b"<gpx><wpt lat='north' lon='9'/></gpx>", "got 'north'"),

@@ -47,7 +47,7 @@ def test_the_table_opens_in_a_spreadsheet_and_no_cell_is_a_formula(client):
 
 
 @pytest.mark.parametrize(
-    ("rubric", "words"),
+    "rubric, words",
     [
         ("what,points\nresult3,10\n", "line 2 of the rubric must begin with one of result1, result2, result4, rounded"),
         ("result1,lots\n", "line 1 of the rubric must have a number from 0 to 1000 behind result1"),

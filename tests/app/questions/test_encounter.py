@@ -68,7 +68,7 @@ def test_the_benches_and_the_path_of_each_dance_may_be_files(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("command", "held", "words"),
+    "command, held, words",
     [
         ("encounter", LANE, "{file} must hold dances"),
         ("check", TWO | {"head_speed": 2}, "head_speed must stand in each of the dances"),
@@ -95,7 +95,7 @@ def test_the_figure_shows_all_dragons_and_the_benches_that_meet(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("kind", "more", "words"),
+    "kind, more, words",
     [
         ("trajectory", {"time": 20}, "At 20 s"),
         ("contact", {"margin": 0.2}, "come within 0.2 m at"),
@@ -110,6 +110,6 @@ def test_the_figures_of_one_dance_take_several_in_both_languages(ask, kind, more
 
 
 @pytest.mark.chinese_font
-@pytest.mark.parametrize(("kind", "word"), [("contact", "首次碰撞"), ("trajectory", "把手"), ("pitch-scan", "螺距")])
+@pytest.mark.parametrize("kind, word", [("contact", "首次碰撞"), ("trajectory", "把手"), ("pitch-scan", "螺距")])
 def test_a_figure_of_one_dragon_has_the_language_of_its_request(ask, kind, word):
     assert word in texts(ask.file(f"figures/{kind}.svg?benches=5&language=zh"))

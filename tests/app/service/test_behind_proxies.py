@@ -159,7 +159,7 @@ PREFIXES = [
 ]
 
 
-@pytest.mark.parametrize(("setting", "path", "header", "location"), PREFIXES)
+@pytest.mark.parametrize("setting, path, header, location", PREFIXES)
 def test_a_path_comes_from_the_setting_or_from_a_trusted_proxy(tmp_path, setting, path, header, location):
     with serving(tmp_path / "log", root_path=setting) as service:
         job = httpx.post(f"{service.url}{path}", json=SHORT, headers={"X-Forwarded-Prefix": header})

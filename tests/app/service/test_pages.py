@@ -28,7 +28,7 @@ def test_a_file_is_the_same_as_gzip_and_plain_with_a_tag_of_each_form(client, pa
 
 
 @pytest.mark.parametrize(
-    ("query", "language", "lang", "word"),
+    "query, language, lang, word",
     [
         ("", "de, en;q=0.5", "en", "Contest"),
         ("", "zh-CN, en;q=0.5", "zh-Hans", "竞赛题"),
@@ -87,7 +87,7 @@ LONG = "x" * 20_000
 
 
 @pytest.mark.parametrize(
-    ("path", "language", "lang", "words"),
+    "path, language, lang, words",
     [
         (
             "/",
@@ -109,7 +109,7 @@ def test_a_too_long_address_is_answered_to_a_person_in_a_page(server, path, lang
     assert "xxx" not in answer.text
 
 
-@pytest.mark.parametrize(("path", "accept"), [("/", "*/*"), ("/turn", BROWSER)])
+@pytest.mark.parametrize("path, accept", [("/", "*/*"), ("/turn", BROWSER)])
 def test_a_too_long_address_is_a_problem_to_a_program(server, path, accept):
     answer = httpx.get(f"{server}{path}?{LONG}", headers={"Accept": accept})
     assert (answer.status_code, answer.headers["Content-Type"]) == (414, "application/problem+json")

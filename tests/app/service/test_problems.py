@@ -20,7 +20,7 @@ def test_an_index_into_what_is_no_list_in_the_body_is_left_out_of_a_pointer():
 
 
 @pytest.mark.parametrize(
-    ("header", "expected"),
+    "header, expected",
     [
         (None, "application/json"),
         ("*/*", "application/json"),

@@ -98,7 +98,7 @@ def heavy_lane_full(app):
 
 
 @pytest.mark.parametrize(
-    ("method", "cost", "work", "computed"),
+    "method, cost, work, computed",
     [
         ("GET", SHORT, quick, 1),
         ("GET", SHORT, long, 2),

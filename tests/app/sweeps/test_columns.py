@@ -31,7 +31,7 @@ def test_what_is_shown_and_what_is_left_out_are_columns(name):
 
 
 @pytest.mark.parametrize(
-    ("values", "kind"),
+    "values, kind",
     [([1, 2], int), ([1, 2.5], float), ([True], bool), (["a"], str), ([{"kind": "spiral"}], str), ([1, "a"], str)],
 )
 def test_a_list_of_values_has_one_type(values, kind):

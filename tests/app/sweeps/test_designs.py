@@ -37,7 +37,7 @@ def test_each_design_is_the_same_alone_and_among_others(kind):
     assert len(set(zip(*every.values(), strict=True))) == spec.designs
 
 
-@pytest.mark.parametrize(("dimensions", "first", "count"), [(1, 0, 256), (40, 0, 1024), (3, 2**22 + 12_345, 1)])
+@pytest.mark.parametrize("dimensions, first, count", [(1, 0, 256), (40, 0, 1024), (3, 2**22 + 12_345, 1)])
 def test_sobol_points_are_those_of_scipy(dimensions, first, count):
     from scipy.stats import qmc
 

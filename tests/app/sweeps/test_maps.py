@@ -56,7 +56,7 @@ def test_a_map_of_one_parameter_is_a_line_in_its_order(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("over", "value", "field"),
+    "over, value, field",
     [
         ({"x": [1], "y": [1], "word": ["a"]}, "height", "output"),
         ({"x": [1.0]}, "side", "value"),

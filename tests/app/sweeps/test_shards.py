@@ -63,7 +63,7 @@ def test_every_question_is_answered_and_refuses_a_bad_design(name):
 
 
 @pytest.mark.parametrize(
-    ("name", "column", "values"),
+    "name, column, values",
     [
         ("check", "encounter.outcome", None),
         ("tolerance", "own", None),

@@ -98,7 +98,7 @@ def test_a_sweep_has_so_many_designs_and_shards_at_most():
         changed(over={"pitch": values}, shard_size=1)
 
 
-@pytest.mark.parametrize(("name", "text"), [("a.toml", "over = ["), ("a.json", "{")])
+@pytest.mark.parametrize("name, text", [("a.toml", "over = ["), ("a.json", "{")])
 def test_text_that_is_not_toml_or_json_is_refused(name, text, tmp_path):
     (tmp_path / name).write_text(text)
     with refused("spec"):

@@ -70,7 +70,7 @@ def east_north(origin, longitude, latitude):
     return east, north + squared * n0 * math.sin(p0) * math.cos(p0)
 
 
-@pytest.mark.parametrize(("east", "west", "name"), [(0.5, 0.5, "square"), (180, -180, None)])
+@pytest.mark.parametrize("east, west, name", [(0.5, 0.5, "square"), (180, -180, None)])
 def test_a_square_in_parts_is_one_square_also_if_it_is_cut_at_the_date_line(east, west, name):
     """As in a map that is opened."""
     parts = [box(east - 0.001, 0, east, 0.001), box(west, 0, west + 0.001, 0.001)]

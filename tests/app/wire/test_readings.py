@@ -36,7 +36,7 @@ SAID = [
 ]
 
 
-@pytest.mark.parametrize(("call", "about", "words"), SAID)
+@pytest.mark.parametrize("call, about, words", SAID)
 def test_an_answer_says_what_it_means_to_people(client, call, about, words):
     def answered(language):
         how = {"json": about} if "path" in about else {"params": about}
@@ -59,7 +59,7 @@ def test_a_bend_that_is_too_tight_says_what_its_bench_needs(client):
 
 
 @pytest.mark.parametrize(
-    ("limits", "sentences"),
+    "limits, sentences",
     [
         ({}, ["The tail touches square."]),
         ({"margin": 0.1}, ["The tail comes within 0.1 m of square."]),

@@ -647,7 +647,7 @@ def test_a_refusal_is_a_sentence_for_people(client, refused):
     assert [one for one in chinese if not CHINESE.search(one) or one[-1] not in "。？"] == []
 
 
-@pytest.mark.parametrize(("request_", "language", "sentence"), READ)
+@pytest.mark.parametrize("request_, language, sentence", READ)
 def test_people_read_labels_and_the_units_of_the_page(client, request_, language, sentence):
     assert [problem["sentence"] for problem in problems(client, [request_], language)] == [sentence]
 

@@ -48,7 +48,7 @@ TOML_FAULTS = {
 
 
 @pytest.mark.parametrize(
-    ("read", "faults"),
+    "read, faults",
     [(json_of, JSON_FAULTS), (json_of, UNFIT), (toml_of, TOML_FAULTS)],
     ids=["JSON", "unfit", "TOML"],
 )
@@ -72,7 +72,7 @@ def test_short_names_and_shallow_lists_are_read():
 
 
 @pytest.mark.parametrize(
-    ("text", "cell"),
+    "text, cell",
     [
         (" =1+1", "' =1+1"),
         ("x;=HYPERLINK(1)", "x;'=HYPERLINK(1)"),

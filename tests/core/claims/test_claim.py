@@ -31,7 +31,7 @@ def test_a_dragon_is_summarised_by_its_sizes_or_by_its_extents():
     assert DragonSummary.of(wide_head) == DragonSummary(3, (2.0, 3.0), (0.3, 0.4))
 
 
-@pytest.mark.parametrize(("more", "listed"), [(0, PASSAGES_LISTED), (1, 0)])
+@pytest.mark.parametrize("more, listed", [(0, PASSAGES_LISTED), (1, 0)])
 def test_a_few_passages_are_listed_and_more_are_counted(more, listed):
     passages = [Passage(1.5, until_time=k + 1.0) for k in range(PASSAGES_LISTED + more)]
     summary = DanceSummary.of(Dance(Dragon(5), Spiral(), 1.0, passages))
@@ -47,7 +47,7 @@ SEARCHES = {
 }
 
 
-@pytest.mark.parametrize(("dance", "query", "kind", "end"), SEARCHES.values(), ids=SEARCHES)
+@pytest.mark.parametrize("dance, query, kind, end", SEARCHES.values(), ids=SEARCHES)
 def test_a_search_claims_what_it_answers(dance, query, kind, end):
     contact = first_contact(dance, **query)
     claim = contact.certificate.claim

@@ -48,7 +48,7 @@ def strayed_threes(rng, chords, places, stray):
 
 
 @pytest.mark.parametrize(
-    ("radius", "dragon", "least"),
+    "radius, dragon, least",
     [
         (2.2, Dragon(9), 0.5),
         pytest.param(1.5, Dragon(9, 2.2), 0.5, marks=pytest.mark.deep),

@@ -33,7 +33,7 @@ TURN = Turn(1.7)
 
 
 @pytest.mark.parametrize(
-    ("dance", "start", "stop"),
+    "dance, start, stop",
     [
         (DANCE, 0.0, 412.0),
         (Dance(Dragon(60), Spiral(0.7)), 100.0, 250.0),
@@ -115,7 +115,7 @@ def test_the_profile_is_the_least_separation_of_all_pairs(seed):
 
 
 @pytest.mark.parametrize(
-    ("danced", "slow", "times"),
+    "danced, slow, times",
     [
         # At pitch 0.55 the benches overlap from 412.47 to 415.02 s, are clear to 415.375 s and overlap again.
         (SHORT, SlowDance.of(SHORT.dragon, SHORT.path), np.linspace(405.0, 416.0, 50)),

@@ -21,7 +21,7 @@ def benches_on(dragon, pitch, radius, turned=0.0):
 # and an overhang on that side reaches centimetres further in than the chord does.
 @pytest.mark.parametrize("radius", [3.0, 8.0, 20.0])
 @pytest.mark.parametrize(
-    ("pitch", "chord", "overhang"),
+    "pitch, chord, overhang",
     [(0.6, 1.65, 0.275), (3.0, 0.5, 0.2), (6.0, 0.5, 0.2), (9.0, 0.5, 0.24), (12.0, 0.5, 0.2), (9.9, 0.3, 0.14)],
 )
 def test_benches_claimed_wholly_outside_a_radius_are_outside(pitch, chord, overhang, radius):

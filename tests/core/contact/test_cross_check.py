@@ -100,7 +100,7 @@ def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact):
 
 @as_dragon_and_pair
 @pytest.mark.parametrize(
-    ("shift", "benches", "verdict"),
+    "shift, benches, verdict",
     [(0.0, (0, 9), NEVER), (-WRONG, (0, 8), NEVER), (WRONG, (0, 8), ALWAYS)],
     ids=["wrong pair", "too early", "too late"],
 )
@@ -109,7 +109,7 @@ def test_a_wrong_pair_or_time_is_noticed_by_every_engine(contact, whole, shift, 
 
 
 @pytest.mark.parametrize(
-    ("instants", "verdict"),
+    "instants, verdict",
     [([0], ALWAYS), ([1], NEVER), ([0, 1], Verdict(before=True, after=False))],
     ids=["before", "after", "both"],
 )
@@ -127,7 +127,7 @@ def test_a_third_bench_is_noticed_by_every_engine_but_not_by_the_pair_alone(inst
     assert (of_pair.agree, of_pair.judged) == (True, contact.benches)
 
 
-@pytest.mark.parametrize(("deep", "together"), [(0.5, True), (2.0, False)], ids=["hardly", "deep"])
+@pytest.mark.parametrize("deep, together", [(0.5, True), (2.0, False)], ids=["hardly", "deep"])
 def test_a_pair_that_meets_at_the_same_instant_is_hardly_within_the_margin(deep, together):
     # four benches across two others: both pairs side by side, one of them deeper after than it can be by then
     apart = np.array([[0, 0, 0], [50, 9, 0], [0, 0.6, 0], [50, -9, 0], [20, 0, 0], [60, 9, 0], [20, 0.6, 0]], float)
@@ -178,7 +178,7 @@ def test_benches_left_out_make_no_neighbours_of_those_beside_them():
 
 @as_dragon_and_pair
 @pytest.mark.parametrize(
-    ("dance", "left_out"),
+    "dance, left_out",
     [
         (Dance(Dragon(59, 3.48, 2.2, 0.08, 0.26), Spiral(0.21, 9.4)), (Engine.ANGLE_SUM,)),
         (Dance(Dragon(60), Spiral(0.25, 8.0)), ()),
@@ -190,7 +190,7 @@ def test_the_angle_sum_is_left_out_where_benches_cross_at_the_start_with_no_corn
     assert check.left_out == left_out
 
 
-@pytest.mark.parametrize(("stray", "margin", "wrong"), [(0.02, 0.0, WRONG), (0.05, 0.03, 0.2)])
+@pytest.mark.parametrize("stray, margin, wrong", [(0.02, 0.0, WRONG), (0.05, 0.03, 0.2)])
 def test_with_a_stray_the_grounds_of_all_benches_are_judged(stray, margin, wrong):
     contact = first_contact(DANCE, margin=margin, stray=stray)
     check = contact_check(contact)

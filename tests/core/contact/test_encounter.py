@@ -54,9 +54,7 @@ def test_the_reference_is_met(name):
     assert sum(map(len, check.judged)) == sum(one["dragon"]["benches"] for one in case["dances"])
 
 
-@pytest.mark.parametrize(
-    ("speed", "away", "width"), [(0.001, 0.0, 4.1e-9), (0.0025, 0.0, NARROW), (0.0065, 300.0, NARROW)]
-)
+@pytest.mark.parametrize("speed, away, width", [(0.001, 0.0, 4.1e-9), (0.0025, 0.0, NARROW), (0.0065, 300.0, NARROW)])
 def test_benches_that_meet_slowly_have_a_bracket_as_narrow_as_rounding_lets_it_be(speed, away, width):
     angle, middle = 0.0457, np.array([22.6 + away, 0.0])
     way = 20.0 * np.array([math.cos(angle), math.sin(angle)])

@@ -15,7 +15,7 @@ def lanes(apart):
 
 
 @pytest.mark.parametrize(
-    ("apart", "query", "words"),
+    "apart, query, words",
     [
         (0.36, {}, "no benches of two dragons touch until 60 s, where the last path ends>"),
         (0.2, {}, "bench 0 of there and bench 0 of dragon 1 touch at 29.725 s>"),

@@ -91,7 +91,7 @@ SEEDS = [
 ]
 
 
-@pytest.mark.parametrize(("seed", "bench_by_bench", "margin"), SEEDS)
+@pytest.mark.parametrize("seed, bench_by_bench, margin", SEEDS)
 def test_random_dragons_touch_when_and_where_the_slow_search_says(seed, bench_by_bench, margin):
     dance, slow = random_dance(seed, bench_by_bench)
     assert_as_slow_search(dance, margin * float(slow.clearance([0.0])[0][0]))
@@ -115,7 +115,7 @@ def test_a_start_near_the_centre_is_searched_with_all_pairs(dance):
 
 
 @pytest.mark.parametrize(
-    ("dragon", "path", "margin"),
+    "dragon, path, margin",
     [(Dragon(), Spiral(0.4504), 0.0), *thorough((Dragon(40), Spiral(0.51, 10.0), 0.05))],
 )
 def test_a_graze_is_met_with_a_larger_margin_and_passed_with_a_smaller_one(dragon, path, margin):

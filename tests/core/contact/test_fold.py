@@ -26,7 +26,7 @@ TO_THE_FOLD = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("dragon", "spiral"), TO_THE_FOLD.values(), ids=TO_THE_FOLD)
+@pytest.mark.parametrize("dragon, spiral", TO_THE_FOLD.values(), ids=TO_THE_FOLD)
 def test_the_last_instants_before_a_fold_are_decided(dragon, spiral):
     contact, end = first_contact(Dance(dragon, spiral)), Dance(dragon, spiral).end
     assert (contact.outcome, contact.end) == (Outcome.CLEAR, end)

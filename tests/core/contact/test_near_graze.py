@@ -57,7 +57,7 @@ def pair_of(path, pair):
 
 
 @pytest.mark.parametrize(
-    ("path", "travel"),
+    "path, travel",
     [
         *((Spiral(), 412.4), (Spiral(0.45, 20.0), 300.0), (TURN, -30.0), (TURN, 14.0), (TURN, 60.0)),
         *((BEND, 2.0), (BEND, 25.0)),
@@ -104,7 +104,7 @@ def assert_narrow(contact):
 
 @pytest.mark.parametrize("margin", [0.0, 0.05])
 @pytest.mark.parametrize(
-    ("head_speed", "below"),
+    "head_speed, below",
     [(1.0, 1e-9), (0.01, 1e-7), *thorough((0.01, 1e-11), (2.0, 1e-11))],
 )
 def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin, below, head_speed):
@@ -112,7 +112,7 @@ def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin, below, head
     assert_narrow(first_contact(Dance(DRAGON, spiral, head_speed), margin=margin))
 
 
-@pytest.mark.parametrize(("margin", "below"), [(0.0, 1e-9), (0.05, 1e-7), *thorough((0.0, 1e-7))])
+@pytest.mark.parametrize("margin, below", [(0.0, 1e-9), (0.05, 1e-7), *thorough((0.0, 1e-7))])
 def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin, below):
     spiral = grazing_spiral(margin, below)
     steady = first_contact(Dance(DRAGON, spiral), margin=margin)
@@ -133,7 +133,7 @@ def grazing():
 
 
 @pytest.mark.parametrize(
-    ("changed", "half", "narrow"),
+    "changed, half, narrow",
     [
         ({}, 0.4 * BRACKET, True),
         ({"benches": (0, 18)}, 0.4 * BRACKET, False),
@@ -147,7 +147,7 @@ def test_a_bracket_is_narrowed_where_one_pair_is_near_and_not_apart_again(grazin
     assert (narrow_bracket(search, result._replace(**changed), half) is not None) is narrow
 
 
-@pytest.mark.parametrize(("margin", "alone"), [(1e-3, False), *thorough((0.0, True))])
+@pytest.mark.parametrize("margin, alone", [(1e-3, False), *thorough((0.0, True))])
 def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(margin, alone):
     """Benches 0 and 11 pass each other 0.9 mm apart, 2.6 m of travel before benches 0 and 8 touch."""
     search = ContactSearch(DRAGON, Spiral(), margin)
@@ -165,7 +165,7 @@ def test_benches_that_graze_between_two_instants_are_not_proven_apart_by_the_gap
     assert pair.stays_apart(before, result.proven - 0.005)
 
 
-@pytest.mark.parametrize(("limit", "earlier"), [("LINK_STEPS", 0.0), *thorough(("INTERVALS_MAX", 1.0))])
+@pytest.mark.parametrize("limit, earlier", [("LINK_STEPS", 0.0), *thorough(("INTERVALS_MAX", 1.0))])
 def test_where_the_way_takes_too_many_intervals_or_a_link_too_many_steps_the_bracket_stays(
     monkeypatch, grazing, limit, earlier
 ):

@@ -91,7 +91,7 @@ def test_a_wall_just_before_the_fold_is_met_when_a_bench_gets_there(before):
 
 @pytest.mark.parametrize("slope", [1e-2, 1e-4, 1e-7])
 @pytest.mark.parametrize(
-    ("passages", "pause"), [([], 0.0), ([Passage(1.0, until_s=10.0), Passage(0.0, until_time=13.0)], 3.0)]
+    "passages, pause", [([], 0.0), ([Passage(1.0, until_s=10.0), Passage(0.0, until_time=13.0)], 3.0)]
 )
 def test_a_wall_is_met_within_a_nanosecond_however_slowly_a_bench_comes_near(slope, passages, pause):
     left, right = ((x, 0.15 + slope * (30.0 - x)) for x in (-50.0, 55.0))
@@ -125,7 +125,7 @@ LAKE = box(-32, -1, 3, 1)
 
 
 @pytest.mark.parametrize(
-    ("venue", "misplaced"),
+    "venue, misplaced",
     [
         (VENUE, None),
         (Venue(boxed("square", 100, 100, 120, 120)), "square"),

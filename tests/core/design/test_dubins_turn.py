@@ -13,7 +13,7 @@ SCANNED = 2e-6
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize(
-    ("pitch", "radius", "ratio", "length", "turned"),
+    "pitch, radius, ratio, length, turned",
     [(PITCH, 4.5, 0.7, 8.354, 1), (PITCH, 4.5, 1.3, 7.491, -1), (0.6, 4.5, 1.3, 6.812, 1), (3.0, 7.0, 1.0, 6.506, -1)],
 )
 def test_the_pieces_have_the_length_and_are_as_tight_as_benches_can_follow(pitch, radius, ratio, length, turned):

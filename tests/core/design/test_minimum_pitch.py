@@ -64,7 +64,7 @@ def listed(overhang):
 
 
 @pytest.mark.parametrize(
-    ("dragon", "margin", "field"),
+    "dragon, margin, field",
     [
         (Dragon(5, 2.0, 2.0, 0.3, 0.5), 0.0, "dragon.overhang"),
         (listed(0.9), 0.0, "dragon.overhangs.0"),
@@ -104,7 +104,7 @@ NEARLY_APART = Dragon(8, 2.0, 2.0, 0.3, 0.49925)
 
 
 @pytest.mark.parametrize(
-    ("dragon", "radius", "turns", "margin", "limited_by"),
+    "dragon, radius, turns, margin, limited_by",
     [
         # with benches nearly as wide as the circle no ring bound holds at lower pitches
         (SHORT, 1.32, 10.0, 0.29, LimitedBy.START),

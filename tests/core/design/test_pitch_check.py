@@ -19,7 +19,7 @@ WRONG = 1e-4
 
 @pytest.mark.parametrize("whole", [True, False], ids=["whole", "pair"])
 @pytest.mark.parametrize(
-    ("dragons", "options"),
+    "dragons, options",
     [
         (1, {}),
         (1, {"margin": 0.05}),
@@ -52,7 +52,7 @@ def test_a_minimum_pitch_that_no_pair_limits_is_not_judged():
 
 
 @pytest.mark.parametrize(
-    ("dragons", "dragon", "field", "values"),
+    "dragons, dragon, field, values",
     [
         (1, Dragon(5), "dragon", {"bench": 19, "got": "one of 5 benches"}),
         (2, Dragon(40), "dragons", {"k": 1, "got": 1}),

@@ -76,7 +76,7 @@ def test_radii_are_those_of_first_contact_also_beside_jumps():
 
 
 @pytest.mark.parametrize(
-    ("dragon", "pitch", "margin"),
+    "dragon, pitch, margin",
     [
         (Dragon(), 0.8, 0.0),
         (Dragon(2), 0.5, 0.0),
@@ -97,7 +97,7 @@ def test_work_that_ends_before_the_scan_does_is_an_error(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("pitches", "field"),
+    "pitches, field",
     [([0.5, 0.4], "pitches.1"), ([0.5, math.nan], "pitches.1"), ([[0.5]], "pitches")],
 )
 def test_pitches_that_do_not_ascend_are_refused(pitches, field):

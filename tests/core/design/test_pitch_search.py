@@ -54,7 +54,7 @@ def test_no_dragons_meet_above_the_minimum_pitch_and_two_do_below_it(seed):
 
 
 @pytest.mark.parametrize(
-    ("count", "pitch", "limited_by"),
+    "count, pitch, limited_by",
     [(2, 0.896168293, LimitedBy.GRAZE), (5, 2.23041593, LimitedBy.CIRCLE)],
 )
 def test_dragons_of_223_benches(count, pitch, limited_by):
@@ -71,7 +71,7 @@ def test_strays_need_a_larger_pitch_by_at_least_what_two_benches_gain():
 
 
 @pytest.mark.parametrize(
-    ("dragon", "dragons"),
+    "dragon, dragons",
     [(Dragon(3), 60), (Dragon(10_000), 6), (Dragon(3), 101)],
     ids=["on the circle", "benches in all", "at all"],
 )

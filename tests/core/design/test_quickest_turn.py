@@ -31,7 +31,7 @@ def slow_time(turn):
 
 # docs/contest.md
 @pytest.mark.parametrize(
-    ("turn", "length", "speed", "time"),
+    "turn, length, speed, time",
     [
         (Turn(1.7), 13.6212, 1.2463, 10.93),
         (Turn(1.7, entry_radius=4.29039529, exit_radius=4.5), 11.7992, 0.9754, 12.10),

@@ -95,7 +95,7 @@ def test_the_contests_turn_is_limited_by_the_least_radius_and_the_circle():
     assert alone.length_bracket == result.length_bracket
 
 
-@pytest.mark.parametrize(("ratio", "work"), [(2.0, 1e6), *thorough((1.2, 1.2e7))])
+@pytest.mark.parametrize("ratio, work", [(2.0, 1e6), *thorough((1.2, 1.2e7))])
 def test_spent_work_leaves_a_wider_bracket_that_holds_the_narrow_one(ratio, work):
     whole, brief = answer(ratio), shortest_turn(Dragon(), PITCH, RADIUS, ratio, budget=Budget(work))
     assert brief.length_bracket[0] < whole.length_bracket[0] - 1e-3
@@ -159,7 +159,7 @@ def test_small_benches_are_limited_by_the_deepest_end_that_is_tried():
     assert min(result.turn.radii) > 0.1
 
 
-@pytest.mark.parametrize(("radius", "ratio"), [(1.0, 1.0), (0.5, 2.0), (0.2, None)])
+@pytest.mark.parametrize("radius, ratio", [(1.0, 1.0), (0.5, 2.0), (0.2, None)])
 def test_small_benches_in_a_small_circle_are_limited_by_the_least_radius_that_a_turn_may_begin_at(radius, ratio):
     small = Dragon(1, head_length=0.2, width=0.02, overhang=0.05)
     result = shortest_turn(small, PITCH, radius, ratio, budget=Budget(1e7))

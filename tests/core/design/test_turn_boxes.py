@@ -23,7 +23,7 @@ def boxes(rng, largest):
     return centres[:, inside], halves[:, inside]
 
 
-@pytest.mark.parametrize(("ratio", "entry", "leaving"), [(2.0, 4.3, 4.5), (0.8, 4.3, 3.83), (1.3, 2.3, 4.4)])
+@pytest.mark.parametrize("ratio, entry, leaving", [(2.0, 4.3, 4.5), (0.8, 4.3, 3.83), (1.3, 2.3, 4.4)])
 def test_the_sizes_are_those_of_the_turn(ratio, entry, leaving):
     turn = Turn(1.7, 9.0, ratio, entry_radius=entry, exit_radius=leaving)
     result = sizes_of(GROWTH, *np.array([[entry], [(leaving - entry) / GROWTH], [math.log(ratio)]]))[:, 0]
@@ -50,7 +50,7 @@ def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest):
     assert turns.whole.mean() > 0.05
 
 
-@pytest.mark.parametrize(("largest", "missed"), [(1e-9, 0.0), (0.01, 0.03), (0.1, 0.3)])
+@pytest.mark.parametrize("largest, missed", [(1e-9, 0.0), (0.01, 0.03), (0.1, 0.3)])
 def test_boxes_that_are_too_tight_have_no_turn_that_benches_can_follow(largest, missed):
     """A box is called so where all its turns are, apart from some that are nearly wide enough; also at ratios so far
     from 1 that the radii alone say nothing."""

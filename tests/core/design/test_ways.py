@@ -30,7 +30,7 @@ def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not():
     assert not later.still_touches(pitch, radius - 1e-6, *result.benches)  # its way begins further in
 
 
-@pytest.mark.parametrize(("more", "ended"), [(-1e-6, Ended.BENCH_FOLDED), (1e-6, Ended.REACHED)])
+@pytest.mark.parametrize("more, ended", [(-1e-6, Ended.BENCH_FOLDED), (1e-6, Ended.REACHED)])
 def test_a_way_folds_below_the_pitch_at_which_the_head_folds_on_the_circle(more, ended):
     ways = Ways(FOLDING, 0.85, 5.0, 0.0, 0.0, None)
     assert ways.march(FOLDS_AT + more)[0] is ended
@@ -38,7 +38,7 @@ def test_a_way_folds_below_the_pitch_at_which_the_head_folds_on_the_circle(more,
 
 
 @pytest.mark.parametrize(
-    ("dragon", "field"),
+    "dragon, field",
     [
         (Dragon(head_length=1.0), "dragon.head_length"),
         (Dragon.of([2.2, 2.1, 2.0] * 20, [0.3] * 60, [0.2] * 60), "dragon.lengths.2"),

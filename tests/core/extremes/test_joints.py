@@ -18,7 +18,7 @@ def dense_bends(dance, times):
 
 
 @pytest.mark.parametrize(
-    ("dance", "start", "stop"),
+    "dance, start, stop",
     [
         (Dance(Dragon(), TURN), -100.0, 100.0),
         (Dance(Dragon(50), TURN), 30.0, 34.0),

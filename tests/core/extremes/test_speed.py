@@ -88,7 +88,7 @@ def test_benches_that_follow_calmly_change_nothing():
 
 
 @pytest.mark.parametrize(
-    ("path", "start", "stop"),
+    "path, start, stop",
     [
         (Route([Line((-60, 0), (0, 0)), Arc((0, 4), 4.0, -np.pi / 2, 2.0)], start=60.0), 0.0, 8.0),
         (Route([Arc((0, -5), 5.0, 4.0, np.pi / 2 - 4.0), Line((0, 0), (30, 0))], start=10.0), 5.0, 25.0),
@@ -122,7 +122,7 @@ def intervals_of(dance, stop):
 
 # The rear handle turns back before its bench could fold, and is 3.7 times as fast as the head on its way outwards: the
 # peak is so sharp, and so near the centre, that a slope alone bounded it by nothing in a hundred thousand intervals.
-@pytest.mark.parametrize(("benches", "pitch"), [(1, 3.82), (4, 3.9), (2, 4.2)])
+@pytest.mark.parametrize("benches, pitch", [(1, 3.82), (4, 3.9), (2, 4.2)])
 def test_a_peak_beside_the_centre_is_proven_in_few_intervals(benches, pitch):
     dance = Dance(Dragon(benches, 2.2, 2.2, 0.3, 0.0), Spiral(pitch, 5.0))
     end = dance.end.time
@@ -143,7 +143,7 @@ def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed):
     assert sampled(dance, times) <= assert_highest(dance, times, stop=stop).speed * (1.0 + UNSEEN)
 
 
-@pytest.mark.parametrize(("then", "excess"), [(5.0, 12.0), (0.0, None)], ids=["too fast after it", "a pause"])
+@pytest.mark.parametrize("then, excess", [(5.0, 12.0), (0.0, None)], ids=["too fast after it", "a pause"])
 def test_a_proof_given_up_before_another_passage_is_unknown_for_the_whole_dance(monkeypatch, then, excess):
     """The bracket of an excess begins where the proof was given up, and ends with an excess or the interval."""
     for name in ("LINKS_BUDGET", "EXCESS_LINKS"):

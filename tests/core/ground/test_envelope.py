@@ -66,7 +66,7 @@ def test_ten_thousand_poses_are_inside_of_valid_polygons(name):
 
 
 @pytest.mark.parametrize(
-    ("dance", "start", "stop"),
+    "dance, start, stop",
     [
         (Dance(Dragon(3), Spiral()), 432.4, None),
         (Dance(Dragon(4), Turn(1.7)), 3.0, 3.6),

@@ -13,7 +13,7 @@ CIRCLE, WORK = 4.5, 1e7
 
 
 @pytest.mark.parametrize(
-    ("pitch", "leaders", "work", "ended"),
+    "pitch, leaders, work, ended",
     [
         *((0.5, 2, WORK, Ended.REACHED), (0.5, 2, 0.0, Ended.STUCK), (0.5, 61, WORK, Ended.CAPACITY)),
         (0.42, 2, WORK, Ended.TOUCHED),

@@ -41,7 +41,7 @@ def rows_of(stage):
     return np.concatenate([np.arange(one.first, one.first + one.benches) for one in stage.players])
 
 
-@pytest.mark.parametrize(("begin", "until"), STEPS)
+@pytest.mark.parametrize("begin, until", STEPS)
 def test_the_motion_in_time_and_the_gaps_of_two_dragons_stay_within_their_bounds(begin, until):
     stage, times = staged(begin, until), np.linspace(begin, until, INSTANTS)
     step = (until - begin) / (INSTANTS - 1)
@@ -59,7 +59,7 @@ def test_the_motion_in_time_and_the_gaps_of_two_dragons_stay_within_their_bounds
     assert SlowPerformance(PARTS).clearance(times)[0].min() >= least
 
 
-@pytest.mark.parametrize(("count", "pitch"), [(2, 1.1), (3, 1.6), (2, 1.3)])
+@pytest.mark.parametrize("count, pitch", [(2, 1.1), (3, 1.6), (2, 1.3)])
 def test_further_out_in_one_spiral_no_gap_falls_below_the_ring_bound(count, pitch):
     angle, dragon = 2.0 * math.pi / count, Dragon(60)
     rings = SearchBetween(dragon, Spiral(pitch), count, 0.0, work=1e7, budget=Budget(), stray=0.0).rings

@@ -9,7 +9,7 @@ from core.kernels import Excess, Judged
 WIDTH = 1e-9
 
 
-@pytest.mark.parametrize(("links", "judged"), [(0, Judged.UNDECIDED), (10**6, Judged.EXCEEDED)])
+@pytest.mark.parametrize("links, judged", [(0, Judged.UNDECIDED), (10**6, Judged.EXCEEDED)])
 def test_a_search_with_links_ends_and_without_them_is_given_up(links, judged):
     search = ContactSearch(Dragon(6), Turn(1.7), 0.0)
     excess = Excess(search.interval, 0.0)

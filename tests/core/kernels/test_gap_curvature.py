@@ -51,7 +51,7 @@ def bend(at, i, j):
 
 
 @pytest.mark.parametrize(
-    ("sample", "seed"),
+    "sample, seed",
     [*((on_spiral, seed) for seed in some(range(30), 12)), *((on_route, seed) for seed in range(100, 130))],
 )
 def test_gaps_along_body_axes_bend_no_more_than_their_bound(sample, seed):

@@ -43,7 +43,7 @@ def random_case(seed):
 
 
 @pytest.mark.parametrize(
-    ("dragon", "pitch", "stray"),
+    "dragon, pitch, stray",
     [
         (Dragon(60), 0.45, 0.0),
         (Dragon(60), 5.0, 0.0),  # the nearest benches have one bench between them
@@ -102,7 +102,7 @@ def test_the_bound_for_turns_apart_is_the_distance_of_their_line_from_the_origin
     assert more - less == pytest.approx(least, rel=1e-9)
 
 
-@pytest.mark.parametrize(("pitch", "radius"), [(0.5, 9.0), (0.55, 4.0), (0.55, 9.0), (0.7, 3.0)])
+@pytest.mark.parametrize("pitch, radius", [(0.5, 9.0), (0.55, 4.0), (0.55, 9.0), (0.7, 3.0)])
 def test_benches_of_one_dragon_a_turn_apart_have_the_bound_of_spirals_a_turn_apart(pitch, radius):
     rings, growth = ContactSearch(Dragon(40), Spiral(pitch), 0.0).rings, Spiral(pitch).growth
     alone = ring_least(growth, growth, radius, rings)

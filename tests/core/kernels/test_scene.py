@@ -18,7 +18,7 @@ from core.kernels.constants import (
 )
 
 
-@pytest.mark.parametrize(("benches", "edges", "room"), [(223, 0, 40), (10, 0, 10), (30, 10, 30)])
+@pytest.mark.parametrize("benches, edges, room", [(223, 0, 40), (10, 0, 10), (30, 10, 30)])
 def test_a_scene_has_room_for_as_many_benches_as_rows(benches, edges, room):
     sizes = np.zeros((41, SIZE_COLUMNS))
     assert Scene(spiral_curve(0.1), 9.0, Rings(), sizes, benches, edges).room == room

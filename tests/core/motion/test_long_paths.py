@@ -23,7 +23,7 @@ def assert_exact(places, exact):
 
 
 @pytest.mark.parametrize("speed", [1.0, 1.3])
-@pytest.mark.parametrize(("pitch", "turns"), [(0.55, 16.0), (0.55, 1e3), (0.3, 1e4), (3.0, 1e4), (0.55, 1e5)])
+@pytest.mark.parametrize("pitch, turns", [(0.55, 16.0), (0.55, 1e3), (0.3, 1e4), (3.0, 1e4), (0.55, 1e5)])
 def test_positions_on_long_spirals_are_as_good_as_stated(pitch, turns, speed):
     flint.ctx.prec = BITS  # also for the product of time and speed
     dance = Dance(DRAGON, Spiral(pitch, turns), speed)
@@ -35,7 +35,7 @@ def test_positions_on_long_spirals_are_as_good_as_stated(pitch, turns, speed):
 
 @pytest.mark.parametrize("rotation", [0.0, 2.0])
 @pytest.mark.parametrize(
-    ("begin", "end", "start"),
+    "begin, end, start",
     [(1e4, 1.0, 0.0), (1e4, 1.0, 9.4e8), (1.0, 1e4, 0.0)],
     ids=["inwards, s from afar", "inwards, s from near the centre", "outwards"],
 )

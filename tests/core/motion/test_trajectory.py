@@ -64,7 +64,7 @@ def test_velocities_are_the_difference_quotients_of_positions(dance, share, head
 
 @pytest.mark.parametrize("instants", [*range(LANES_PER_BLOCK + 2), 2 * LANES_PER_BLOCK + 1])
 @pytest.mark.parametrize(
-    ("dragon", "path", "most"),
+    "dragon, path, most",
     [
         *((Dragon(12), Spiral(), 432.0), (Dragon(1), Spiral(), 432.0)),
         (Dragon.of([1.0, 3.0, 2.0, 2.0, 2.0, 2.0, 2.0, 0.6, 2.0, 1.5], [0.2] * 10, [0.1] * 10), Spiral(), 430.0),
@@ -119,7 +119,7 @@ def test_the_first_row_that_folds_is_found_wherever_it_stands_in_its_block(row):
         assert (position[:row] == whole[0]).all()
 
 
-@pytest.mark.parametrize(("times", "field"), [(math.inf, "times"), ([0.0, math.nan], "times.1"), ([[0.0]], "times")])
+@pytest.mark.parametrize("times, field", [(math.inf, "times"), ([0.0, math.nan], "times.1"), ([[0.0]], "times")])
 def test_times_that_are_no_flat_list_of_numbers_are_refused(times, field):
     with refused(field):
         trajectory(DANCE, times)

@@ -54,7 +54,7 @@ def test_a_spent_budget_ends_the_layout():
 
 
 @pytest.mark.parametrize(
-    ("first", "last", "calm"), [(0.1, 0.4, True), (0.0, -0.4, True), (0.4, 0.1, False), (-0.1, 0.4, False)]
+    "first, last, calm", [(0.1, 0.4, True), (0.0, -0.4, True), (0.4, 0.1, False), (-0.1, 0.4, False)]
 )
 def test_a_growing_clothoid_at_the_beginning_is_calm(first, last, calm):
     """No handle is faster than its leader where the curvature grows in the direction of travel."""

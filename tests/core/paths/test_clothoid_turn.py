@@ -45,7 +45,7 @@ def test_all_benches_dance_through_it():
 
 
 @pytest.mark.parametrize(
-    ("ways", "field"),
+    "ways, field",
     [
         ({"middle": 1e-3, "ends": 100.0}, "middle"),
         ({"middle": 1.0, "ends": 1e-4}, "ends"),

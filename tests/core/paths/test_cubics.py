@@ -37,7 +37,7 @@ def circle(count):
 WANDER = points_of(*np.cumsum(np.random.default_rng(7).normal(0.0, 4.0, (7, 2)), axis=0).T)
 
 
-@pytest.mark.parametrize(("points", "most"), [(zigzag(300), 6), (circle(300), 1.01), (WANDER, math.inf)])
+@pytest.mark.parametrize("points, most", [(zigzag(300), 6), (circle(300), 1.01), (WANDER, math.inf)])
 def test_the_length_of_many_legs_is_that_of_a_finer_quadrature_in_few_cubics(points, most):
     route = Route([Waypoints(points)])
     spline, knots = spline_of(points)

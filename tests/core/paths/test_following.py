@@ -64,7 +64,7 @@ def test_benches_follow_the_random_bends_on_which_small_steps_see_them_follow():
 
 
 @pytest.mark.parametrize(
-    ("ratio", "entry", "leaving", "length", "followed"),
+    "ratio, entry, leaving, length, followed",
     [(0.7, 3.65, 4.25, 7.7319, True), (1.25, 4.0, 3.45, 7.8905, True), (1.417, 3.617, 3.097, 7.6918, False)],
 )
 def test_turns_with_an_arc_tighter_than_half_a_chord_are_danced_unless_a_bench_jumps(

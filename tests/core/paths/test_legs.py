@@ -40,7 +40,7 @@ def test_every_drawn_path_is_smooth_and_goes_through_its_points(points, legs):
 
 
 @pytest.mark.parametrize(
-    ("points", "straight", "field"),
+    "points, straight, field",
     [
         (CORNER[:1], [], "path.points"),
         ([*CORNER, CORNER[-1]], [], "path.points.3"),

@@ -15,7 +15,7 @@ ARC_ERROR = 1e-10  # [m]: arc length of curves through waypoints
 
 
 @pytest.mark.parametrize(
-    ("field", "pieces"),
+    "field, pieces",
     [
         ("waypoints.points", lambda: Waypoints(((0, 0),))),
         ("waypoints.points.1.1", lambda: Waypoints(((0, 0), (5, 10**400)))),

@@ -33,7 +33,7 @@ def way(*points):
 
 
 @pytest.mark.parametrize(
-    ("pieces", "field", "values"),
+    "pieces, field, values",
     [
         (way((0, 0), (5, 0)) + way((5.25, 0), (9, 0)), "path.pieces.1", {"gap": Quantity(0.25, "m", 3)}),
         (way((0, 0), (5, 0), (6, 0), (6, 1)), "path.pieces.2", {"kink": Quantity(0.5 * math.pi, "rad", 3)}),
@@ -51,7 +51,7 @@ STRAIGHT = Route([Line((0, 0), (100, 0))])
 
 
 @pytest.mark.parametrize(
-    ("path", "head_speed", "first", "last"),
+    "path, head_speed, first, last",
     [
         (STRAIGHT, 1.0, 17, 100),
         (Route([Line((0, 0), (100.5, 0))], 10.0), 1.0, 7, 90),

@@ -23,7 +23,7 @@ def test_the_centre_is_at_the_full_length():
 
 
 @pytest.mark.parametrize(
-    ("pitch", "turns"),
+    "pitch, turns",
     [(SIZE_MIN, 16.0), (SIZE_MAX, 16.0), (0.55, START_TURNS_MAX), (0.55, 1e-6)],
 )
 def test_a_spiral_at_its_limits_is_accepted(pitch, turns):

@@ -36,7 +36,7 @@ def test_an_invalid_turn_names_what_was_asked_and_never_a_piece(name):
 @pytest.mark.uncompiled
 # Turns with their own exit, found on a grid: ratio, radii of entry and exit, length of both arcs [m].
 @pytest.mark.parametrize(
-    ("ratio", "entry", "leaving", "length"),
+    "ratio, entry, leaving, length",
     [
         (2.0, 4.290, 4.498, 11.8105),
         (1.0, 4.462, 3.900, 8.2271),
@@ -62,9 +62,7 @@ def test_an_exit_equal_to_the_entry_is_the_default():
 
 
 @pytest.mark.uncompiled
-@pytest.mark.parametrize(
-    ("ratio", "entry", "leaving"), [(2.598, 1.853, 4.403), (0.288, 4.395, 1.672), (3.921, 1.557, 4.317)]
-)
+@pytest.mark.parametrize("ratio, entry, leaving", [(2.598, 1.853, 4.403), (0.288, 4.395, 1.672), (3.921, 1.557, 4.317)])
 def test_arcs_that_leave_the_circle_are_refused_with_their_distance(ratio, entry, leaving):
     """On a larger circle the same arcs are accepted, and samples of them say how far they go."""
     arcs = Turn(1.7, 20.0, ratio, entry_radius=entry, exit_radius=leaving)

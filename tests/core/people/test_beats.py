@@ -53,7 +53,7 @@ def test_beats_between_two_times_are_those_of_the_sum_and_bars_begin_with_the_fi
 
 
 @pytest.mark.parametrize(
-    ("field", "bars"),
+    "field, bars",
     [
         ("beats.0.tempo", [Bars(16, math.nan, 0.6)]),
         ("beats.0.bars", [Bars(0, 96.0, 0.6)]),

@@ -26,7 +26,7 @@ def times(cues, kind):
     return [cue.time for cue in cues if cue.kind is kind]
 
 
-@pytest.mark.parametrize(("speed", "counts"), [(1.0, False), (1.01, False), (1.0101, True), (1.5, True)])
+@pytest.mark.parametrize("speed, counts", [(1.0, False), (1.01, False), (1.0101, True), (1.5, True)])
 def test_a_bench_that_is_never_faster_has_no_fastest_moment(speed, counts):
     assert bool(times(card([], [], speed).cues, CueKind.FASTEST)) == counts
 
@@ -43,7 +43,7 @@ def test_meetings_one_after_the_other_on_one_side_are_one_cue():
     assert result.least_left_out is None
 
 
-@pytest.mark.parametrize(("ahead", "before"), [(None, 6), (2, TURNS)], ids=["head", "another bench"])
+@pytest.mark.parametrize("ahead, before", [(None, 6), (2, TURNS)], ids=["head", "another bench"])
 def test_the_head_has_its_turns_before_all_meetings_and_others_their_largest(ahead, before):
     turns = [Turning(100.0 * k, 100.0 * k + 5.0, 0.0, (-1) ** k * k, 0.0, ((0.0, 0.0),)) for k in range(1, 7)]
     met = [meeting(10.0 + 50.0 * k) for k in range(8)]

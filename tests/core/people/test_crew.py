@@ -92,7 +92,7 @@ def test_a_bench_changes_where_it_passes_the_place_and_the_next_one_after_it():
 
 
 @pytest.mark.parametrize(
-    ("path", "point"), [(Spiral(pitch=1.1, start_turns=9.0), (4.0, 0.3)), (THERE_AND_BACK, (20.0, 1.5))]
+    "path, point", [(Spiral(pitch=1.1, start_turns=9.0), (4.0, 0.3)), (THERE_AND_BACK, (20.0, 1.5))]
 )
 def test_the_places_near_a_point_are_those_of_a_fine_scan(path, point):
     begin, end = max(path.begin, -20.0), min(path.end, 250.0)
@@ -105,7 +105,7 @@ def test_the_places_near_a_point_are_those_of_a_fine_scan(path, point):
 
 
 @pytest.mark.parametrize(
-    ("field", "relief", "needed"),
+    "field, relief, needed",
     [
         ("relief.spares", Relief(1.5, 10.0), NEEDED),
         ("relief.places.1", Relief(2, None, [0.0, math.nan]), NEEDED),

@@ -58,7 +58,7 @@ def test_a_clock_that_rounds_puts_no_moment_before_the_dance(waits):
 
 
 @pytest.mark.parametrize(
-    ("field", "dance", "options"),
+    "field, dance, options",
     [
         ("benches", PAUSED, {"benches": []}),
         ("benches.1", PAUSED, {"benches": [0, 12]}),

@@ -70,9 +70,7 @@ def slow_meetings(times, rows, bench, reach):
 ALONE = [Performance([Part(DANCES[name][0])]) for name in ("unequal benches", "three rows")]
 
 
-@pytest.mark.parametrize(
-    ("performance", "dragon"), [*((PERFORMANCE, k) for k in range(3)), *((one, 0) for one in ALONE)]
-)
+@pytest.mark.parametrize("performance, dragon", [*((PERFORMANCE, k) for k in range(3)), *((one, 0) for one in ALONE)])
 def test_meetings_are_those_of_a_slow_search_in_small_steps(performance, dragon):
     count = 0
     for one in bench_cues(performance, dragon=dragon, reach=4.0):
@@ -101,7 +99,7 @@ def test_a_dragon_that_meets_no_other_has_the_cues_of_its_dance_on_the_clock_of_
 
 
 @pytest.mark.parametrize(
-    ("dragon", "start", "stop", "still"),
+    "dragon, start, stop, still",
     [(1, None, 12.0, 7.81), (0, 31.0, 40.0, 31.0)],
     ids=["pause", "after"],
 )

@@ -19,7 +19,7 @@ PITCH_ROUNDING = 1e-9
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize(
-    ("name", "benches"),
+    "name, benches",
     [
         ("n_5", 5),
         *thorough(
@@ -42,7 +42,7 @@ def test_a_reference_contact_is_proven_and_checked(name, benches):
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize(
-    ("name", "benches", "start_turns"),
+    "name, benches, start_turns",
     # Fewer benches, and some that start nearer, are limited by the same two as the whole dragon.
     [
         *thorough(("default R=6.36", examples(27, 223), 16.0)),
@@ -69,7 +69,7 @@ def test_the_contact_of_a_random_dragon_given_bench_by_bench_is_proven_and_its_n
     assert certificate["repeats_from"] == dance.dragon.benches - 3
 
 
-@pytest.mark.parametrize(("change", "reason"), FORGERIES)
+@pytest.mark.parametrize("change, reason", FORGERIES)
 def test_a_forged_certificate_is_refused(change, reason):
     assert_refused(small(), change, reason)
 

@@ -65,7 +65,7 @@ def test_a_bench_called_far_is_clear_of_the_ring_inside_it_whatever_both_stray(s
 
 
 @pytest.mark.parametrize(
-    ("theta", "chord"),
+    "theta, chord",
     [
         *product((14.76, 15.0, 16.0, 30.0, 100.0), (1.14, 18.8, 32.67)),
         *product((0.01, 0.3, 0.8, 1.0, 2.0), (1.65, 4.0)),

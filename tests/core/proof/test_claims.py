@@ -21,7 +21,7 @@ def test_a_bracket_moved_off_the_contact_is_refused(later):
 
 # At pitch 0.55 the benches part again from 415.02 to 415.375 s: a contact after that is not the first.
 @pytest.mark.parametrize(
-    ("benches", "time", "reason"),
+    "benches, time, reason",
     [
         (1, 100.0, "no two benches overlap"),
         (2, 100.0, "no two benches overlap"),
@@ -41,7 +41,7 @@ def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time):
 
 
 @pytest.mark.parametrize(
-    ("margin", "below", "above"),
+    "margin, below, above",
     [
         (0.0, "overlap when handle 0", "free of contact too"),
         *thorough((0.1, "nearer than the margin", "keeps the margin")),
@@ -64,6 +64,6 @@ OF_GRAZE = [
 ]
 
 
-@pytest.mark.parametrize(("edit", "reason"), OF_GRAZE)
+@pytest.mark.parametrize("edit, reason", OF_GRAZE)
 def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(edit, reason):
     assert_refused(graze(), edit, reason)

@@ -49,7 +49,7 @@ def certificate_of(kind):
 
 
 @pytest.mark.parametrize(
-    ("dance", "margin"),
+    "dance, margin",
     [
         (Dance(Dragon(5), Spiral()), 0.03),
         *thorough(
@@ -79,7 +79,7 @@ def test_two_corners_within_a_margin_need_a_direction_and_are_proven():
 
 
 @pytest.mark.parametrize(
-    ("name", "until", "words"),
+    "name, until, words",
     [
         *thorough(("pitch_0.80", "fold", "it folds"), ("combo_d", "centre", "the head reaches the centre before")),
         ("n_4", "fold", "it folds"),
@@ -108,7 +108,7 @@ def test_a_route_is_clear_to_its_end():
     assert_refused(certificate, "claim.stop += -2e-9", "not shown to end")
 
 
-@pytest.mark.parametrize(("field", "query"), [("start", {"start": 5.0}), ("stop", {"stop": 1e4})])
+@pytest.mark.parametrize("field, query", [("start", {"start": 5.0}), ("stop", {"stop": 1e4})])
 def test_what_is_no_run_is_refused_by_name(field, query):
     with refused(field, OutsideRun):
         prove_clear(Dance(SMALL, HAIRPIN), **({"stop": 50.0, "start": 40.0} | query))
@@ -169,8 +169,6 @@ FORGERIES = {
 }
 
 
-@pytest.mark.parametrize(
-    ("kind", "change", "reason"), [(kind, *row) for kind, rows in FORGERIES.items() for row in rows]
-)
+@pytest.mark.parametrize("kind, change, reason", [(kind, *row) for kind, rows in FORGERIES.items() for row in rows])
 def test_a_forged_certificate_of_a_dance_is_refused(kind, change, reason):
     assert_refused(certificate_of(kind), change, reason)

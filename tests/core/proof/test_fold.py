@@ -38,7 +38,7 @@ def certificate_of(dragon):
     return through_json(prove_minimum_pitch(dragon, least_pitch(dragon), **WAY))
 
 
-@pytest.mark.parametrize(("more", "reason"), [(-OFF, "the chain folds"), (1.1e-6, "is free of contact too")])
+@pytest.mark.parametrize("more, reason", [(-OFF, "the chain folds"), (1.1e-6, "is free of contact too")])
 @pytest.mark.parametrize("name", ["one", *thorough("two", "many")])
 def test_a_pitch_off_the_one_that_a_fold_limits_is_refused(name, more, reason):
     with pytest.raises(ProofRefused, match=reason):
@@ -148,7 +148,7 @@ OF_BOTH = [
 
 
 @pytest.mark.parametrize(
-    ("dragon", "change", "reason"), [(name, *row) for name in FORGERIES for row in [*FORGERIES[name], *OF_BOTH]]
+    "dragon, change, reason", [(name, *row) for name in FORGERIES for row in [*FORGERIES[name], *OF_BOTH]]
 )
 def test_a_forged_certificate_of_a_fold_is_refused(dragon, change, reason):
     assert_refused(certificate_of(DRAGONS[dragon]), change, reason)

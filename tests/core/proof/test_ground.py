@@ -22,7 +22,7 @@ def ground_of(chord, overhang, width, stray):
         return BenchGround(half, half + arb(overhang), arb(width) / 2, arb(stray))
 
 
-@pytest.mark.parametrize(("chord", "overhang", "width", "stray"), SHAPES, ids=IDS)
+@pytest.mark.parametrize("chord, overhang, width, stray", SHAPES, ids=IDS)
 def test_two_derivations_of_the_ground_agree_and_hold_every_place(chord, overhang, width, stray):
     ground = ground_of(chord, overhang, width, stray)
     hulls = bench_hulls(supports(chord, overhang, 0.5 * width, stray))

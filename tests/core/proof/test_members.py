@@ -14,7 +14,7 @@ from tests.support.reference_contacts import small
 
 
 @pytest.mark.parametrize(
-    ("edit", "field"),
+    "edit, field",
     [
         ('note = "x"', "note"),
         ("claim.margin = 0", "claim.margin"),

@@ -58,7 +58,7 @@ BENDING, CURVE = Clothoid((0.0, 0.0), 0.0, 0.0, 0.5, 2.0), Waypoints(((0.0, 0.0)
 
 
 @pytest.mark.parametrize(
-    ("path", "place"),
+    "path, place",
     [
         *((ClothoidTurn(1.7, ratio=1.0, middle=4.0), 1), (Route([FIRST, BENDING]), 1)),
         *((Route([FIRST, CURVE]), 1), (Route([CURVE]), 0)),
@@ -70,7 +70,7 @@ def test_a_path_without_a_proof_is_refused_by_its_place(path, place):
 
 
 @pytest.mark.parametrize(
-    ("name", "edit", "field"),
+    "name, edit, field",
     [
         ("turn", "entry_radius = 9.0", "path.entry_radius"),
         ("route", "pieces.1.radius = -1.0", "path.pieces.1.radius"),

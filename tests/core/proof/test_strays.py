@@ -69,7 +69,7 @@ def another_side(content):
 
 
 @pytest.mark.parametrize(
-    ("change", "reason"),
+    "change, reason",
     [
         *DROPPED,
         (lambda c: c["claim"].__setitem__("stray", 1.003 * c["claim"]["stray"]), "not apart by face|pairs are missing"),
@@ -97,7 +97,7 @@ def test_a_forged_certificate_of_a_stray_is_refused(change, reason):
 
 
 @pytest.mark.parametrize(
-    ("path", "stray", "stop", "field"),
+    "path, stray, stop, field",
     [
         (Route([Line((0.0, 0.0), (30.0, 0.0))]), 0.01, 5.0, "path"),
         *((DANCE.path, stray, 1.0, "stray") for stray in (0.0, 0.83)),

@@ -8,7 +8,7 @@ from tests.support.depth import thorough
 
 
 @pytest.mark.parametrize(
-    ("prove", "dance", "last", "options", "sweeps"),
+    "prove, dance, last, options, sweeps",
     [
         (prove_clear, Dance(Dragon(8), Turn(1.7)), 15.0, {"start": 8.0}, 6),
         (prove_tolerance, Dance(Dragon(8), Spiral(0.7, 4.0)), 0.2, {"start": 1.0, "stop": 8.0}, 6),

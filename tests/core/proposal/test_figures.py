@@ -16,7 +16,7 @@ CLOSED = [(Figure.RING, (8.0, 5.0, 3.0)), (Figure.EIGHT, (4.0, 1.4))]
 
 
 @pytest.mark.parametrize("mirror", [False, True])
-@pytest.mark.parametrize(("figure", "sizes"), CLOSED)
+@pytest.mark.parametrize("figure, sizes", CLOSED)
 def test_a_closed_figure_ends_where_it_began(figure, sizes, mirror):
     shape = Shape(figure, sizes, mirror)
     pose = reduce(moved, shape.steps, shape.first)

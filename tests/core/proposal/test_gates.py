@@ -68,7 +68,7 @@ def test_at_a_corner_a_gate_may_lead_in_over_either_side(venue, heading):
         checked_gates([Gate((0.0, 0.0), heading + math.pi)], venue)
 
 
-@pytest.mark.parametrize(("venue", "point"), [(HALL, (0.0, 0.5)), (BAY, (8.0, 8.0))], ids=["corner", "bay"])
+@pytest.mark.parametrize("venue, point", [(HALL, (0.0, 0.5)), (BAY, (8.0, 8.0))], ids=["corner", "bay"])
 def test_a_street_without_room_is_refused(venue, point):
     gates = checked_gates([Gate(point, 0.0)], venue)
     with refused("gates.0.point"):

@@ -19,7 +19,7 @@ SMALL = Venue(box("yard", 0, 0, 24, 20))
 LIMITS = {"stray": 0.05, "margin": 0.0}
 
 
-@pytest.mark.parametrize(("gates", "asked"), [((), ["ring", "spiral"]), *thorough(((WEST, EAST), None))])
+@pytest.mark.parametrize("gates, asked", [((), ["ring", "spiral"]), *thorough(((WEST, EAST), None))])
 def test_every_figure_of_a_square_with_trees_and_a_stage_is_danced_as_it_says(gates, asked):
     case = Case(PLACE, Dragon(40, 3.41, 2.0), gates, LIMITS)
     result = case.proposals(count=len(asked or Figure), figures=asked)
@@ -94,7 +94,7 @@ def test_rings_and_eights_go_around_as_often_as_is_asked_or_as_long_as_it_may_la
     assert 9.0 < shortest.duration <= reason.need + 0.01
 
 
-@pytest.mark.parametrize(("uses", "way"), [(("in", "out"), (0, 1)), (("out", "both"), (1, 0))])
+@pytest.mark.parametrize("uses, way", [(("in", "out"), (0, 1)), (("out", "both"), (1, 0))])
 def test_a_dance_enters_by_a_way_in_and_leaves_by_a_way_out(uses, way):
     gates = [Gate(gate.point, gate.heading, use) for gate, use in zip((WEST, EAST), uses, strict=True)]
     result = propose(PLACE, Dragon(12), gates=gates, figures=["ring", "parade"], count=2)
@@ -123,7 +123,7 @@ def test_the_bound_of_the_areas_is_that_of_every_other_bench_of_a_dragon_whose_l
 
 
 @pytest.mark.parametrize(
-    ("venue", "dragon", "more", "expected"),
+    "venue, dragon, more, expected",
     [
         (Venue(box("lane", 0, 0, 30, 3.0)), Dragon(8), {}, {"kind": "width", "have": 3.01, "need": 3.91}),
         # The mouth of the street is no part of the square.
@@ -155,7 +155,7 @@ def test_one_bench_dances_too():
 
 
 @pytest.mark.parametrize(
-    ("field", "more"),
+    "field, more",
     [
         ("figures", {"figures": []}),
         ("count", {"count": 1.5}),
@@ -181,7 +181,7 @@ def test_what_was_found_before_the_work_ended_is_proposed():
         within(Budget(1e3))
 
 
-@pytest.mark.parametrize(("side", "benches"), [(3.95, 1), (4.0, 2), (5.0, 4), (6.0, 1)])
+@pytest.mark.parametrize("side, benches", [(3.95, 1), (4.0, 2), (5.0, 4), (6.0, 1)])
 def test_a_short_dragon_dances_in_a_square_in_which_its_tightest_circle_just_fits(side, benches):
     case = Case(Venue(box("yard", 0, 0, side, side)), Dragon(benches), (), LIMITS)
     result = case.proposals()

@@ -44,7 +44,7 @@ def test_literal_corners_are_those_of_eq_12_as_printed(theta):
 SQUARE = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
 
-@pytest.mark.parametrize(("gap", "seen"), [(-1e-9, True), (0.0, True), (1e-13, True), (1e-12, False), (1e-9, False)])
+@pytest.mark.parametrize("gap, seen", [(-1e-9, True), (0.0, True), (1e-13, True), (1e-12, False), (1e-9, False)])
 def test_angle_sum_tolerance_reaches_less_than_a_picometre(gap, seen):
     tip = np.array([[1.0 + gap, 0.0], [2.0, 0.5], [2.0, -0.5]])
     assert angle_sum_overlap(SQUARE, tip) == seen

@@ -66,7 +66,7 @@ STREET = ring((0, 0), (50, 0), (50, 4), (10, 4), (10, 10), (0, 10))
 
 
 @pytest.mark.parametrize(
-    ("outline", "others", "middle"),
+    "outline, others, middle",
     [
         (SQUARE, [], (5.0, 5.0)),
         (HALL, [], (15.0, 5.0)),

@@ -38,7 +38,7 @@ SCENES = {
 
 
 @by_every_engine
-@pytest.mark.parametrize(("poses", "pairs"), SCENES.values(), ids=SCENES)
+@pytest.mark.parametrize("poses, pairs", SCENES.values(), ids=SCENES)
 def test_every_engine_finds_the_pairs_of_the_table(poses, pairs, engine):
     result = overlaps(*benches(*poses), engine=engine, chained=False)
     np.testing.assert_array_equal(result.pairs, np.array(pairs).reshape(-1, 2))
@@ -53,7 +53,7 @@ def test_neighbours_are_left_out_of_a_chain_only(engine):
 
 @by_exact_engines
 @pytest.mark.parametrize(
-    ("x", "y", "within"),
+    "x, y, within",
     [
         *((0.0, 1.5, True), (0.0, 1.5 - 1e-9, True), (0.0, 1.5 + 1e-9, False)),
         *((2.3 - 1e-6, 1.4, True), (2.3 + 1e-6, 1.4, False)),
@@ -79,7 +79,7 @@ def test_contact_holds_the_exact_separation_of_each_pair(engine):
 # -- the engines against each other ---------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("count", "margin"), [(examples(4_000, 100_000), 0.0), (examples(2_000, 10_000), 0.05)])
+@pytest.mark.parametrize("count, margin", [(examples(4_000, 100_000), 0.0), (examples(2_000, 10_000), 0.05)])
 def test_engines_agree_on_random_and_near_touching_pairs(count, margin):
     scene, gap = near_pairs(count, 2, margin, NEAR)
     assert np.mean(np.abs(gap - margin) <= NEAR + UNDECIDED) > 0.6
@@ -121,7 +121,7 @@ def test_verdicts_on_one_pair_are_what_the_searches_find(seed, margin):
 
 
 @pytest.mark.parametrize(
-    ("row", "column", "value"),
+    "row, column, value",
     [(1, "x", math.nan), (2, "heading", -math.inf), (0, "width", 1e5)],
 )
 def test_a_bad_bench_is_refused_by_number_and_name(row, column, value):
@@ -131,7 +131,7 @@ def test_a_bad_bench_is_refused_by_number_and_name(row, column, value):
         overlaps(scene[:, :3], *scene[:, 3:].T)
 
 
-@pytest.mark.parametrize(("field", "poses", "lengths"), [("benches", [0, 0, 0], [1]), ("lengths", [[0, 0, 0]], [1, 1])])
+@pytest.mark.parametrize("field, poses, lengths", [("benches", [0, 0, 0], [1]), ("lengths", [[0, 0, 0]], [1, 1])])
 def test_wrong_shapes_are_refused(field, poses, lengths):
     with refused(field):
         overlaps(poses, lengths, [1])
@@ -149,7 +149,7 @@ LAST, LEAST, MOST = np.nextafter([-POSITION_MAX, SIZE_MIN, SIZE_MAX], [-math.inf
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize(
-    ("field", "pose", "size"),
+    "field, pose, size",
     [
         *(("poses_a.0.x", (math.nan, 0, 0), BENCH), ("poses_a.0.y", (0, LAST, 0), BENCH)),
         *(("sizes_a.0.length", POSE, (length, 0.3)) for length in (LEAST, MOST)),

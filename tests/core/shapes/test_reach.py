@@ -14,7 +14,7 @@ ROUNDING = 1e-11  # [m]
 TIGHT = 1e-3  # supports exceed what places reach by at most this of the stray [1]
 # Chord, overhang, half width and stray [m].
 SHAPES = pytest.mark.parametrize(
-    ("chord", "overhang", "half_width", "stray"),
+    "chord, overhang, half_width, stray",
     [
         *((1.65, 0.275, 0.15, 0.05), (2.86, 0.275, 0.15, 0.26)),
         *thorough((1.65, 0.275, 0.15, 0.82), (1.0, 0.0, 0.1, 0.3)),

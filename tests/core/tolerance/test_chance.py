@@ -169,9 +169,7 @@ def test_nobody_wobbles_with_a_size_of_0():
     assert (result.probability, result.limits[1]) == (1.0, 1.0)
 
 
-@pytest.mark.parametrize(
-    ("time", "step", "instants"), [(4.0, None, 11), (100.0, None, 2), (4.0, 0.3, 28), (0.35, 0.07, 116)]
-)
+@pytest.mark.parametrize("time, step, instants", [(4.0, None, 11), (100.0, None, 2), (4.0, 0.3, 28), (0.35, 0.07, 116)])
 def test_instants_are_a_fifth_of_the_correlation_time_apart_or_as_asked(time, step, instants):
     result = contact_probability(SPIRAL, Wobble(correlation_time=time, step=step), 1, 1, **LATE)
     assert result.instants == instants

@@ -13,7 +13,7 @@ SIZES = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 8, [0.3, 0.5] * 20, [0.2] * 40)
 
 
 @pytest.mark.parametrize(
-    ("dance", "stop", "least", "part", "pair"),
+    "dance, stop, least, part, pair",
     [
         (*to_circle(0.55), 0.0465, BRACKET, (0, 19)),
         (Dance(Dragon(60), Spiral(0.9)), None, 0.05, BRACKET, None),

@@ -23,7 +23,7 @@ DANCE = Dance(Dragon(), Spiral())
 KNOWN = [(0.01, 0.47173, 401.565), (0.02, 0.49313, 389.513), (0.05, 0.55741, 311.432)]
 
 
-@pytest.mark.parametrize(("stray", "pitch", "time"), KNOWN)
+@pytest.mark.parametrize("stray, pitch, time", KNOWN)
 def test_known_answers_with_a_stray(stray, pitch, time):
     assert pitch - 4e-4 < minimum_pitch(Dragon(), stray=stray).pitch < pitch + 1e-5
     contact = first_contact(DANCE, stray=stray)

@@ -19,7 +19,7 @@ SIMPLE = {0.5: 0.01931, 0.55: 0.03874, 0.7: 0.09735, 1.0: 0.21590}
 SIMPLE_SHORT = 1e-3
 
 
-@pytest.mark.parametrize(("pitch", "bound", "contact"), KNOWN, ids=[f"{known[0]} m" for known in KNOWN])
+@pytest.mark.parametrize("pitch, bound, contact", KNOWN, ids=[f"{known[0]} m" for known in KNOWN])
 def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch, bound, contact):
     dance, stop = to_circle(pitch)
     result = tolerance(dance, stop=stop)
@@ -31,9 +31,7 @@ def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch, bound, co
     assert SIMPLE[pitch] * (1.0 - SIMPLE_SHORT) < result.simple < SIMPLE[pitch] + ROUNDED
 
 
-@pytest.mark.parametrize(
-    ("dance", "stop", "benches"), [(*to_circle(0.42), None), (Dance(Dragon(), Spiral()), None, (0, 8))]
-)
+@pytest.mark.parametrize("dance, stop, benches", [(*to_circle(0.42), None), (Dance(Dragon(), Spiral()), None, (0, 8))])
 def test_where_benches_touch_as_they_are_nothing_is_called_safe(dance, stop, benches):
     result = tolerance(dance, stop=stop)
     assert (result.stray, result.time) == (0.0, pytest.approx(first_contact(dance).time, abs=1e-6))
@@ -42,7 +40,7 @@ def test_where_benches_touch_as_they_are_nothing_is_called_safe(dance, stop, ben
     assert result.certificate.claim.touches
 
 
-@pytest.mark.parametrize(("above", "known"), [(1e-9, False), (3e-9, True)], ids=["1 nm", "3 nm"])
+@pytest.mark.parametrize("above, known", [(1e-9, False), (3e-9, True)], ids=["1 nm", "3 nm"])
 def test_a_stray_of_less_than_a_nanometre_counts_as_none(above, known):
     """The stray is about half of what the pitch exceeds the least one by."""
     dragon = Dragon(20)

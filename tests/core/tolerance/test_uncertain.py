@@ -27,7 +27,7 @@ def test_no_benches_and_no_pitch_within_their_errors_allow_less(seed):
 
 
 @pytest.mark.parametrize(
-    ("pitch", "radius", "error", "spread"),
+    "pitch, radius, error, spread",
     [(0.7, CIRCLE, 0.1, 0.0), (0.7, CIRCLE, 0.0, 0.03), (0.7, CIRCLE, 0.1, 0.03), (9.0, 50.0, 0.1, 0.0)],
     ids=["lengths", "pitch", "both", "benches next but one"],
 )

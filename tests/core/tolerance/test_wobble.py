@@ -15,7 +15,7 @@ def test_a_step_above_a_second_or_none_is_refused(step):
 
 
 @pytest.mark.parametrize(
-    ("path", "field", "most"),
+    "path, field, most",
     [
         *((Spiral(), "lateral", 0.165), (Spiral(), "forward", 0.165), (Spiral(), "hole", 0.33)),
         *((Spiral(), "pitch_error", 0.055), (Turn(1.7), "pitch_error", 0.0)),

@@ -35,6 +35,6 @@ def test_numbers_have_all_their_digits_but_a_safe_stray_only_those_that_are_prov
     assert "within 0.029999999999 m of" in words
 
 
-@pytest.mark.parametrize(("english", "chinese"), SENTENCES.values(), ids=SENTENCES)
+@pytest.mark.parametrize("english, chinese", SENTENCES.values(), ids=SENTENCES)
 def test_no_number_is_left_out_in_chinese(english, chinese):
     assert set(NUMBER.findall(chinese)) >= set(NUMBER.findall(english))
