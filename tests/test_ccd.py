@@ -21,6 +21,7 @@ from benchmarks.ccd.report import BEGIN, END, PAGE, SAMPLE, SAMPLED, Results, re
 from benchmarks.ccd.running import Worker, answers, answers_path, installed, save_answers
 from benchmarks.ccd.truth import covered, track
 from tests.support.depth import some, thorough
+from tests.support.near import assert_near
 
 SHARD = load_shard(SAMPLE)
 # Largest errors of our own times of contact [s]: the corner comes to a graze of 1e-9 m at 1e-5 m/s, so slowly that what
@@ -155,4 +156,4 @@ def test_scores_count_what_differs_from_the_truth():
 def test_the_least_between_two_ends_is_that_of_the_parabola(start, end, bend, h):
     x = np.linspace(0.0, h, 100_001)
     parabola = start + (end - start) * x / h - 0.5 * bend * x * (h - x)
-    assert least_between(start, end, bend, h) == pytest.approx(parabola.min(), abs=1e-9)
+    assert_near(least_between(start, end, bend, h), parabola.min(), 1e-9)

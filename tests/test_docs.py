@@ -20,6 +20,7 @@ from app.questions.registry import QUESTIONS
 from app.settings import Settings
 from tests.conftest import ROOT
 from tests.support.command import PATIENCE, bin_folder
+from tests.support.near import assert_near
 
 DOCS = ROOT / "docs"
 DOORS = ("README.md", "README.zh.md", "CONTRIBUTING.md", "SECURITY.md")
@@ -213,4 +214,4 @@ def assert_alike(output, expected):
             patterns.append(".*?" if part == "..." else r"\s*" if part.isspace() else re.escape(part))
     match = re.fullmatch("".join(patterns), output.strip(), re.DOTALL)
     assert match, f"expected:\n{expected}\ngot:\n{output}"
-    assert list(map(float, match.groups())) == pytest.approx(numbers, abs=ROUNDING)
+    assert_near(list(map(float, match.groups())), numbers, ROUNDING)

@@ -1,13 +1,13 @@
 """Every file under examples/ is a request that runs, with the verdict that its comment promises."""
 
 import numpy as np
-import pytest
 
 import core
 from app.maps.dances import read_dance
 from app.questions.check import CheckRequest
 from core import FailureKind, check
 from tests.conftest import ROOT
+from tests.support.near import assert_near
 from tests.support.reference import reference, reference_cases
 
 EXAMPLES = ROOT / "examples"
@@ -48,7 +48,7 @@ def test_the_papers_dance_ends_where_the_head_touches_bench_8():
     assert not result.passed
     assert [(failure.kind, failure.benches) for failure in result.failures] == [(FailureKind.CONTACT, (0, 8))]
     time = reference_cases("first_contact")["default"]["time"]
-    assert [result.first_contact.time, result.stop] == pytest.approx([time] * 2, abs=REFERENCE_ERROR)
+    assert_near([result.first_contact.time, result.stop], [time] * 2, REFERENCE_ERROR)
 
 
 def test_the_contests_turn_passes_below_2_metres_a_second():
@@ -56,4 +56,4 @@ def test_the_contests_turn_passes_below_2_metres_a_second():
     assert result.passed
     values = [result.least_clearance.distance, result.highest_speed.speed]
     expected = [reference("turn")["clearance"]["least"], reference("maximum_head_speed")["speed_ratio"]]
-    assert values == pytest.approx(expected, abs=REFERENCE_ERROR)
+    assert_near(values, expected, REFERENCE_ERROR)

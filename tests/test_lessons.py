@@ -6,6 +6,7 @@ import re
 import pytest
 
 from tests.conftest import ROOT
+from tests.support.near import assert_near
 
 LESSONS = sorted((ROOT / "examples" / "lessons").glob("*.en.py"))
 NAMES = [path.name.removesuffix(".en.py") for path in LESSONS]
@@ -62,7 +63,7 @@ def test_halving_for_a_radius_ends_beside_a_jump_and_the_grader_judges_the_pitch
     lesson = ran("3_smallest_pitch")
     below, above = lesson["radius"](lesson["low"]), lesson["radius"](lesson["high"])
     assert lesson["high"] - lesson["low"] < 1e-9
-    assert below - above == pytest.approx(0.17, abs=0.005)  # "17 cm apart"
+    assert_near(below - above, 0.17, 0.005)  # "17 cm apart"
     assert above < 4.5 < below
-    assert lesson["smallest"].head_radius == pytest.approx(4.57, abs=0.005)
+    assert_near(lesson["smallest"].head_radius, 4.57, 0.005)
     assert list(lesson["verdicts"].values()) == ["right", "right", "infeasible", "wrong", "wrong"]

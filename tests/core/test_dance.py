@@ -22,6 +22,7 @@ from core import (
     venue_clearance,
 )
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN
+from tests.support.near import assert_near
 from tests.support.random_dances import DANCES, unlike_dance
 from tests.support.refused import refused
 from tests.support.shared_dances import square
@@ -54,7 +55,7 @@ def test_a_chord_that_just_folds_ends_the_run_before_the_centre(excess):
 @pytest.mark.parametrize("seed", range(12))
 def test_a_run_of_unlike_benches_ends_where_the_slow_chain_stops(seed):
     dance = unlike_dance(np.random.default_rng(seed))
-    assert dance.end.time == pytest.approx(SlowDance.of(dance.dragon, dance.path).end(), abs=SLOW_END)
+    assert_near(dance.end.time, SlowDance.of(dance.dragon, dance.path).end(), SLOW_END)
 
 
 @settings(max_examples=40, deadline=None)
@@ -94,7 +95,7 @@ CORNER = partial(Legs, [(0, 0), (60, 0), (60, 60)], [0, 1], radius=5.0)
 def test_without_a_start_a_question_asks_from_the_default_start(path, start):
     dance = Dance(Dragon(10), path)
     default = dance.default_start
-    assert default == pytest.approx(start, abs=1e-3)
+    assert_near(default, start, 1e-3)
     for question in (first_contact, sharpest_bend, partial(venue_clearance, venue=square(150))):
         assert repr(question(dance, stop=default + 20.0)) == repr(question(dance, start=default, stop=default + 20.0))
     assert dance.span() == dance.span(None, None) == (default, dance.end.time)

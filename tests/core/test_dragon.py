@@ -9,6 +9,7 @@ from core import Dragon, Stray
 from core.dragon import BENCHES_MAX, checked_stray
 from core.errors import SIZE_MAX, SIZE_MIN
 from tests.support.depth import thorough
+from tests.support.near import assert_near
 from tests.support.refused import refused
 
 pytestmark = pytest.mark.uncompiled
@@ -87,7 +88,7 @@ def test_leading_benches_are_those_of_the_dragon(benches):
 
 def test_people_and_play_add_up():
     stray = Stray(0.02, 0.055, 0.045)
-    assert stray.total == pytest.approx(0.025, abs=1e-15)
+    assert_near(stray.total, 0.025, 1e-15)
     assert Stray(0.01, 0.055, 0.045).total == 0.015  # and not 0.015000000000000001
     assert checked_stray(stray, Dragon()) == stray.total > checked_stray(0.02, Dragon())
     assert checked_stray(0.825, Dragon()) == 0.825

@@ -22,6 +22,7 @@ from core import (
     quick_check,
     trajectory,
 )
+from tests.support.near import assert_near
 from tests.support.random_squares import box
 from tests.support.shared_dances import EAST, NORTH, on_lanes
 
@@ -70,7 +71,7 @@ def test_a_delay_shifts_the_failures_of_a_dragon_and_its_brackets():
     early, late = ([one for one in report.failures if one.dragons == (1,)] for report in reports)
     assert late
     for before, after in zip(early, late, strict=True):
-        assert after.time == pytest.approx(before.time + 30.0, abs=1e-9)
+        assert_near(after.time, before.time + 30.0, 1e-9)
         assert after.kind is before.kind is not FailureKind.CONTACT
 
 

@@ -26,6 +26,7 @@ from core import (
     trajectory,
 )
 from core.dance import Clock
+from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.shared_dances import square
 
@@ -54,9 +55,9 @@ def test_a_place_is_first_reached_at_its_time(passed, time):
     travel = clock.travel(time)
     first = clock.time(travel)
     assert first <= time + 1e-9
-    assert clock.travel(first) == pytest.approx(travel, abs=1e-9)
+    assert_near(clock.travel(first), travel, 1e-9)
     assert clock.travel(first - 0.1) < travel
-    assert clock.steady(np.array([time])).item() * 1.5 == pytest.approx(travel, abs=1e-9)
+    assert_near(clock.steady(np.array([time])).item() * 1.5, travel, 1e-9)
 
 
 def test_handles_stand_where_they_stand_without_passages_and_move_by_the_speed_of_the_head():
@@ -70,11 +71,11 @@ def test_handles_stand_where_they_stand_without_passages_and_move_by_the_speed_o
 def test_a_contact_is_at_the_same_place_at_the_time_of_that_place():
     slow = Dance(DRAGON, SPIRAL, 1.0, [Passage(0.1, until_s=430.0)])
     contact, steady, in_passage = (first_contact(dance) for dance in (DANCE, STEADY, slow))
-    assert contact.time == pytest.approx(steady.time + LATER, abs=1e-9)
+    assert_near(contact.time, steady.time + LATER, 1e-9)
     assert (contact.benches, contact.head) == (steady.benches, steady.head)
     assert contact_check(contact).agree
-    assert DANCE.end.time == pytest.approx(STEADY.end.time + LATER, abs=1e-9)
-    assert in_passage.time == pytest.approx(10.0 * steady.time, abs=1e-8)
+    assert_near(DANCE.end.time, STEADY.end.time + LATER, 1e-9)
+    assert_near(in_passage.time, 10.0 * steady.time, 1e-8)
     assert in_passage.time_bracket[1] - in_passage.time_bracket[0] <= 1e-9
 
 
@@ -85,7 +86,7 @@ def test_nothing_happens_in_a_pause_but_every_question_has_an_answer():
     gap = clearance_profile(STEADY, there).clearance
     assert (report.least_clearance.distance, report.least_clearance.time) == (gap, PAUSE["start"])
     bend = sharpest_bend(STEADY, start=there, stop=there + 1e-9)
-    assert report.sharpest_bend.angle == pytest.approx(bend.angle, abs=1e-9)
+    assert_near(report.sharpest_bend.angle, bend.angle, 1e-9)
     assert {"start": swept.start, "stop": swept.stop} == PAUSE
 
 
@@ -103,7 +104,7 @@ def test_a_dance_is_played_faster_as_a_whole_until_a_passage_reaches_the_limit()
     assert played.clock.travels == pytest.approx(DANCE.clock.travels)
     faster = highest_speed(played, stop=300.0 / result.head_speed)
     assert faster.speed == pytest.approx(3.0, rel=1e-9)
-    assert faster.time == pytest.approx(result.time, abs=1e-9)
+    assert_near(faster.time, result.time, 1e-9)
 
 
 @pytest.mark.parametrize(

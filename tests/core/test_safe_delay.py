@@ -22,6 +22,7 @@ from core import (
 from core.safe_delay import END_WIDTH
 from tests.campaigns.hunt_encounters import random_performance
 from tests.support.depth import further, some
+from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.shared_dances import lane, on_lanes
 from tests.support.slow_performance import SlowPerformance
@@ -57,11 +58,11 @@ def test_processions_that_cross_wait_until_the_other_one_is_past(benches, speed)
     crossing = streets(*benches, head_speed=speed)
     delays = safe_delay(crossing, 1, -60.0, 60.0)
     ends = np.ravel(delays.safe)
-    assert ends == pytest.approx(np.array([-60.0, -second, first, 60.0]), abs=END_WIDTH)
+    assert_near(ends, np.array([-60.0, -second, first, 60.0]), END_WIDTH)
     assert ends[1] <= -second < first <= ends[2]
     assert delays.undecided == ()
     mirrored = safe_delay(crossing, 0, -60.0, 60.0).safe
-    assert np.ravel(mirrored) == pytest.approx(np.array([-60.0, -first, second, 60.0]), abs=END_WIDTH)
+    assert_near(np.ravel(mirrored), np.array([-60.0, -first, second, 60.0]), END_WIDTH)
 
 
 def unfolding(rng):

@@ -1,10 +1,10 @@
 """What a pose that shows a contact must be, and overlaps of benches by shapely."""
 
 import numpy as np
-import pytest
 import shapely
 
 from core import bench_outlines, trajectory
+from tests.support.near import assert_near
 
 CHORD_ERROR = 1e-12  # [m]
 
@@ -16,7 +16,7 @@ def overlap(outlines, others):
 
 def assert_contact_shown(dance, pose):
     """The pose keeps every chord, no hole is further from its place than it says, and its two benches overlap."""
-    assert np.hypot(*np.diff(pose.handles, axis=0).T) == pytest.approx(dance.dragon.chords, abs=CHORD_ERROR)
+    assert_near(np.hypot(*np.diff(pose.handles, axis=0).T), dance.dragon.chords, CHORD_ERROR)
     assert np.hypot(*(pose.handles - trajectory(dance, pose.time).position).T).max() == pose.stray
     first, second = bench_outlines(dance.dragon, pose.handles)[list(pose.benches)]
     assert overlap(first, second) > 0.0

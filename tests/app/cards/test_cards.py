@@ -18,6 +18,7 @@ from app.wire.messages import checked
 from app.wire.question import Terms
 from core import Budget, TooMuchWork, bench_outlines, trajectory
 from tests.conftest import ROOT
+from tests.support.near import assert_near
 from tests.support.paper import assert_printable, pages_of, shapes_of, sheets_of, words_of
 from tests.support.refusal_rows import assert_refused
 
@@ -114,7 +115,7 @@ def test_who_comes_near_without_being_abreast_is_met_where_it_is_nearest(ask):
         times = met["time"] + np.arange(-20, 21) * 0.05
         corners = bench_outlines(dance.dragon, trajectory(dance, times).position)
         gaps = shapely.distance(*(shapely.polygons(corners[:, k]) for k in (bench, met["bench"])))
-        assert met["gap"] == pytest.approx(gaps[20], abs=1e-9)
+        assert_near(met["gap"], gaps[20], 1e-9)
         assert met["gap"] <= gaps.min() + 1e-4
 
 
@@ -253,8 +254,8 @@ def test_crosses_stand_at_the_chalk_marks_of_start_and_end(ask):
     start, done = dots[0], dots[-1]
     scale = (done - start)[0] / (card["done"]["x"] - card["start"]["x"])
     # The street of the start leads along x, that of the end along y.
-    assert before == pytest.approx(start - [scale * card["start"]["past_mark"], 0.0], abs=0.05)
-    assert ahead == pytest.approx(done - [0.0, scale * card["done"]["past_mark"]], abs=0.05)
+    assert_near(before, start - [scale * card["start"]["past_mark"], 0.0], 0.05)
+    assert_near(ahead, done - [0.0, scale * card["done"]["past_mark"]], 0.05)
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from app.questions.crew import CrewRequest
 from app.wire.messages import checked
 from tests.conftest import ROOT
 from tests.support.command import run
+from tests.support.near import assert_near
 from tests.support.paper import assert_printable, sheets_of
 from tests.support.refusal_rows import assert_refused
 
@@ -33,11 +34,11 @@ def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has
     assert (roll["time"], roll["clock"]) == (30.0, "19:45:00")
     assert [len(entry["people"]) for entry in roll["benches"]] == [8] + [2] * 23
     position = core.trajectory(dance, [30.0]).position[0]
-    assert [(entry["x"], entry["y"]) for entry in roll["benches"]] == pytest.approx(position[:-1], abs=ROUNDING)
+    assert_near([(entry["x"], entry["y"]) for entry in roll["benches"]], position[:-1], ROUNDING)
     changes = [spell for entry in answer["carriers"] for spell in entry["spells"] if spell["relieves"]]
     position = core.trajectory(dance, [spell["begin"] for spell in changes]).position
     places = [front[spell["bench"]] for front, spell in zip(position, changes, strict=True)]
-    assert [(spell["x"], spell["y"]) for spell in changes] == pytest.approx(np.array(places), abs=AT_PLACE)
+    assert_near([(spell["x"], spell["y"]) for spell in changes], np.array(places), AT_PLACE)
     assert answer["longest"] == max(person["longest"] for person in answer["carriers"])
     # Each is where their own spells say.
     places = {label: entry["bench"] for entry in roll["benches"] for label in entry["people"]}

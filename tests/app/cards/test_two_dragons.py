@@ -19,6 +19,7 @@ from app.wire.messages import checked
 from app.wire.question import Terms
 from core.people.cards import card_of
 from tests.support.asking import json_like
+from tests.support.near import assert_near
 from tests.support.paper import sheets_of
 
 # Both wind into one spiral from opposite sides. The second one begins later, hurries, pauses, and goes on slowly.
@@ -91,7 +92,7 @@ def test_a_bench_stands_where_its_chalk_marks_say(pairs):
             at, stand = card[name], getattr(known.bench, name)
             assert_same(at, stand, "time x y heading")
             assert at["mark"] % SPACING == 0.0
-            assert at["mark"] + at["past_mark"] == pytest.approx(stand.s - zeros[dragon], abs=ROUNDING)
+            assert_near(at["mark"] + at["past_mark"], stand.s - zeros[dragon], ROUNDING)
             assert abs(at["past_mark"]) <= 0.5 * SPACING
             assert at["steps"] == round(at["past_mark"] / STEP)
 

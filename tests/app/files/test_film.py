@@ -31,6 +31,7 @@ from core.plots import BLUE
 from tests.conftest import ROOT
 from tests.support.command import said
 from tests.support.depth import further, some
+from tests.support.near import assert_near
 from tests.support.random_squares import polygon
 
 # Colours of the head and of the body; video keeps them to within a few parts of 255.
@@ -156,7 +157,7 @@ def assert_heard(data, beats, spec):
     """A stroke on each of the beats [s of the dance], and none beside them."""
     # Each frame shows its instant as long as it stands; between two of them time goes on evenly.
     heard = np.interp(beats, spec.times, np.arange(spec.times.size) / spec.rate)
-    assert onsets(data) == pytest.approx(heard, abs=HEARD)
+    assert_near(onsets(data), heard, HEARD)
 
 
 def test_the_drum_of_a_film_is_on_the_beat(ask):
@@ -168,7 +169,7 @@ def test_the_drum_of_a_film_is_on_the_beat(ask):
     with opened(data) as file:
         video, sound = file.streams
         assert video.frames == spec.times.size
-        assert float(sound.duration * sound.time_base) == pytest.approx(8.0, abs=0.05)
+        assert_near(float(sound.duration * sound.time_base), 8.0, 0.05)
     assert ask.file("films", request, MP4_TYPE) == data
 
 

@@ -15,6 +15,7 @@ from app.wire.question import Terms
 from core import bench_outlines, first_contact, first_encounter, trajectory
 from core.language import Language, speaking
 from tests.app.files.test_film import assert_heard, decoded
+from tests.support.near import assert_near
 
 TWO = json.loads("""{"dances": [
     {"name": "east", "dragon": {"benches": 5}, "path": {"kind": "waypoints", "points": [[0, 0], [30, 0]]}},
@@ -38,7 +39,7 @@ def test_every_bench_is_drawn_in_the_colour_of_its_dragon():
         for k, own in enumerate(outlines):
             for x, y in stage.axes.transData.transform(own.mean(axis=1)):
                 colour = picture[round(len(picture) - 1 - y), round(x)] / 255.0
-                assert colour == pytest.approx(to_rgb(colour_of(k)), abs=0.02)
+                assert_near(colour, to_rgb(colour_of(k)), 0.02)
     assert stage.time.text == "19:30:20 (20.50 s)"
 
 

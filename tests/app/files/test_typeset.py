@@ -14,6 +14,7 @@ from core import Budget, TooMuchWork
 from core.kernels import Halted
 from tests.support.command import run
 from tests.support.job_service import wait_for
+from tests.support.near import assert_near
 from tests.support.paper import pages_of, words_of
 
 TEMPLATE = b"""
@@ -72,7 +73,7 @@ def test_a_file_that_needs_too_much_memory_is_refused_in_a_sentence_and_the_next
 
 def test_widths_are_those_on_paper():
     """DejaVu Sans: a digit is 0.636 as wide as its type is high, and a blank 0.318."""
-    assert FACE.width("0 0", 72.0) == pytest.approx(25.4 * 1.59, abs=0.05)
+    assert_near(FACE.width("0 0", 72.0), 25.4 * 1.59, 0.05)
 
 
 def test_a_machine_without_a_chinese_font_says_what_to_install():

@@ -17,6 +17,7 @@ from app.grade.shortcuts import pitch_grids, shortcuts
 from core.language import speaking
 from tests.support.command import refusal, run, said
 from tests.support.depth import further
+from tests.support.near import assert_near
 from tests.support.students import AT_CONTACT, contact_workbook, spiral
 
 
@@ -309,7 +310,7 @@ def test_the_stated_chance_is_that_of_random_numbers():
 
 
 def test_no_shorter_turn_has_arcs_of_two_to_one():
-    assert core.shortest_turn(core.Dragon(), 1.7).length_bracket[0] == pytest.approx(TURN_OF_TWO_LEAST, abs=1e-7)
+    assert_near(core.shortest_turn(core.Dragon(), 1.7).length_bracket[0], TURN_OF_TWO_LEAST, 1e-7)
 
 
 @pytest.mark.parametrize(

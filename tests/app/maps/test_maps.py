@@ -16,6 +16,7 @@ from core import InvalidValue
 from tests.conftest import ROOT
 from tests.support.asking import assert_problem, box
 from tests.support.command import run, said
+from tests.support.near import assert_near
 from tests.support.refusal_rows import assert_refused
 
 # Rounding of degrees in doubles, on places 10,000 km from the centre of the earth [m].
@@ -70,7 +71,7 @@ def assert_alike(features, others):
         assert own == expected
         assert feature["geometry"]["type"] == other["geometry"]["type"]
         places, expected = (np.array(each["geometry"]["coordinates"]) for each in (feature, other))
-        assert places == pytest.approx(expected, abs=ROUNDING)
+        assert_near(places, expected, ROUNDING)
 
 
 THINGS = VILLAGE["features"] + json.loads("""[
@@ -441,8 +442,8 @@ def test_a_line_of_many_points_keeps_those_that_matter_and_says_how_near_it_stay
 def test_longitudes_beyond_180_are_places_on_the_other_side(row):
     west, east, middle = map(float, row.replace("->", "").split())
     result = read_json({"type": "GeometryCollection", "geometries": [box(west, 0, east, 0.001)]})
-    assert np.ptp(rings(result)[0], axis=0) == pytest.approx([111.3, 110.6], abs=0.2)
-    assert abs(result.origin.longitude) == pytest.approx(abs(middle), abs=1e-9)
+    assert_near(np.ptp(rings(result)[0], axis=0), [111.3, 110.6], 0.2)
+    assert_near(abs(result.origin.longitude), abs(middle), 1e-9)
 
 
 @pytest.mark.parametrize("west", [1, 3])
@@ -453,7 +454,7 @@ def test_a_square_that_is_cut_at_the_date_line_is_one_square_around_its_middle(c
     [square] = rings(result)
     width, height = np.ptp(square, axis=0).tolist()
     assert width == pytest.approx((1 + west) * height, rel=0.02)
-    assert square.min(axis=0) + square.max(axis=0) == pytest.approx([0.0, 0.0], abs=0.01)
+    assert_near(square.min(axis=0) + square.max(axis=0), [0.0, 0.0], 0.01)
     assert ("The square is drawn in 2 parts that share edges." in result.notes) is (name == "square")
     for form in MapFormat:
         if form is not MapFormat.DXF:

@@ -26,6 +26,7 @@ from core import Coil, Dragon, InvalidValue, Legs, Route
 from core.language import speaking
 from core.paths.following import tightest_bend
 from tests.support.asking import assert_problem
+from tests.support.near import assert_near
 
 CORNERS = np.array([(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0), (0.0, 8.0)])
 REST = (80.0, 140.0)  # [s] of standing still
@@ -87,7 +88,7 @@ def test_a_noisy_walk_becomes_a_path_that_benches_follow(seed):
     # The distance of a place from the way at its time is never below that from the whole way.
     assert farthest(points, path) <= walk.largest + 0.2
     assert walk.largest < 6.0 * NOISE
-    assert walk.points[[0, -1]] == pytest.approx(points[[0, -1]], abs=1e-9)
+    assert_near(walk.points[[0, -1]], points[[0, -1]], 1e-9)
 
 
 @pytest.mark.parametrize("chord", [1.5, 4.0])
@@ -104,8 +105,8 @@ def test_noise_of_every_point_is_no_change_of_speed(noise, seed):
     """One pace, a pause, the same pace: not a passage for each few metres of noise."""
     times = np.arange(0.0, 250.0)
     walk, _ = walk_along(with_noise(walked(times), noise, seed), times)
-    assert [passage["speed"] for passage in walk.passages] == pytest.approx([1.0, 0.0, 1.0], abs=0.1)
-    assert [passage["until_time"] for passage in walk.passages] == pytest.approx([*REST, times[-1]], abs=6.0)
+    assert_near([passage["speed"] for passage in walk.passages], [1.0, 0.0, 1.0], 0.1)
+    assert_near([passage["until_time"] for passage in walk.passages], [*REST, times[-1]], 6.0)
     assert walk.passages[1]["speed"] == 0.0
 
 
@@ -126,7 +127,7 @@ def test_a_close_coil_keeps_its_windings_and_the_times_of_its_walk(pitch, noise,
     assert farthest(points, path) < 5.0 * noise
     assert walk.largest < 7.0 * noise
     assert 0.93 * coil.end < walk.length < 1.03 * coil.end
-    assert [passage["speed"] for passage in walk.passages] == pytest.approx([1.0] * len(walk.passages), abs=0.5)
+    assert_near([passage["speed"] for passage in walk.passages], [1.0] * len(walk.passages), 0.5)
     assert len(walk.passages) < 8
 
 
@@ -177,7 +178,7 @@ def test_thinning_and_smoothing_keep_a_straight_way_and_its_ends():
     assert (np.hypot(*np.diff(way[kept], axis=0).T) >= 0.5 * APART).all()
     assert (kept[0], kept[-1]) == (0, 500)
     even = evenly(way)
-    assert smoothed(even, 4.0) == pytest.approx(even, abs=1e-9)
+    assert_near(smoothed(even, 4.0), even, 1e-9)
     assert walk_of(way[:5], None) is None
     assert walk_along(np.repeat(way, 1 + 2 * POINTS_MOST // len(way), axis=0), None)[0].largest < 1e-6
 

@@ -16,6 +16,7 @@ from app.wire.messages import checked
 from app.wire.question import Terms
 from core import InvalidValue
 from tests.support.asking import box
+from tests.support.near import assert_near
 from tests.support.paper import assert_printable, pages_of, shapes_of, words_of
 from tests.support.refusal_rows import assert_refused
 
@@ -71,7 +72,7 @@ def holds_box(page, width, height):
 
 
 def test_ten_metres_are_fifty_millimetres_at_one_to_two_hundred(pages):
-    assert size(pages[0]) == pytest.approx([297.0, 210.0], abs=0.01)
+    assert_near(size(pages[0]), [297.0, 210.0], 0.01)
     assert "1:200" in words_of(pages[0])
     result = boxes(pages[0])
     sizes = result[:, 2:] - result[:, :2]
@@ -79,7 +80,7 @@ def test_ten_metres_are_fifty_millimetres_at_one_to_two_hundred(pages):
     assert np.abs(sizes - [25.0, 1.6]).max(axis=1).min() < ON_PAPER
     # Above the title block the nine marks, 2.2 mm high and as wide as their lines, stand every 5 m.
     ticks = result[(np.abs(sizes[:, 1] - 2.6) < 0.1) & (sizes[:, 0] < 0.5) & (result[:, 1] > 45.0)]
-    assert np.diff(np.sort(ticks[:, 0])) == pytest.approx(np.full(8, 25.0), abs=ON_PAPER)
+    assert_near(np.diff(np.sort(ticks[:, 0])), np.full(8, 25.0), ON_PAPER)
     # The kiosk: 6 m by 4 m; the square: 50 m by 24 m.
     assert holds_box(pages[0], 30.0, 20.0)
     assert holds_box(pages[0], 250.0, 120.0)
@@ -154,7 +155,7 @@ def test_a_plan_in_chinese_on_a3():
         4: ("1 王家 19:30:13", "40.0 m 19:30:40"),
     }
     assert [word for k, words in expected.items() for word in words if word not in words_of(pages[k])] == []
-    assert size(pages[0]) == pytest.approx([420.0, 297.0], abs=0.01)
+    assert_near(size(pages[0]), [420.0, 297.0], 0.01)
     assert holds_box(pages[0], 30.0, 20.0)
 
 

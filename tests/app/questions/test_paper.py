@@ -7,6 +7,7 @@ import pytest
 from app.questions.paper import comparison, literature
 from core import Dance, Dragon, Spiral, first_contact, minimum_pitch
 from core.language import Language
+from tests.support.near import assert_near
 
 # Printed digits of the paper, and how well the reference values are known.
 MICROMETRE = 0.5e-6  # [m]
@@ -35,17 +36,17 @@ def test_ours_is_what_core_answers_and_an_independent_computation_proved(rows):
     ours = [rows[name].ours for name in (TIME, RADIUS, PITCH)]
     assert ours == [contact.time, contact.head.radius, minimum_pitch(Dragon()).pitch]
     proven = [412.47383768211466, 2.288742638382156, 0.4503373930271955]
-    assert ours == pytest.approx(proven, abs=NANO)
+    assert_near(ours, proven, NANO)
     assert abs(rows[LENGTH].difference) <= MICROMETRE
 
 
 def test_the_exact_angle_rule_and_a_bisection_of_the_radius_agree_with_ours(rows):
     exact = evidence(rows[TIME], "first time of an angle sum of 360 degrees")
-    assert exact == pytest.approx(rows[TIME].ours, abs=1e-6)  # [s]: the angle sum nears 360 degrees continuously
+    assert_near(exact, rows[TIME].ours, 1e-6)  # [s]: the angle sum nears 360 degrees continuously
     ends = evidence(rows[PITCH], "pitch at which a bisection of the radius ends")
-    assert ends == pytest.approx(rows[PITCH].ours, abs=NANO)
+    assert_near(ends, rows[PITCH].ours, NANO)
     passed = evidence(rows[RADIUS], "time at which the head passes the paper's radius")
-    assert Spiral().head(passed).radius == pytest.approx(2.883, abs=NANO)
+    assert_near(Spiral().head(passed).radius, 2.883, NANO)
 
 
 def test_in_chinese_no_english_word_is_left_and_a_reason_tells_the_same_numbers():

@@ -7,6 +7,7 @@ import pytest
 from tests.support.asking import box, written
 from tests.support.command import run
 from tests.support.depth import thorough
+from tests.support.near import assert_near
 
 BODY = {
     "venue": box(0, 0, 24, 20),
@@ -43,11 +44,11 @@ def test_every_dance_passes_its_check_as_it_is(ask, more):
         nearest = min(area["nearest"]["distance"] for area in report["venue"]["areas"])
         measured = [report["stop"], report["highest_speed"]["speed"], report["sharpest_bend"]["angle"], nearest]
         known = [one["duration"], one["highest_speed"], one["sharpest_bend"], one["near"]["distance"]]
-        assert measured == pytest.approx(known, abs=1e-9)
+        assert_near(measured, known, 1e-9)
         calm = ask("check", body | {"stray": 0.0})
         own = next(area["nearest"] for area in calm["venue"]["areas"] if area["name"] == one["near"]["name"])
         in_place = [one["near"]["in_place"], one["clearance_in_place"]]
-        assert [own["distance"], calm["least_clearance"]["distance"]] == pytest.approx(in_place, abs=1e-9)
+        assert_near([own["distance"], calm["least_clearance"]["distance"]], in_place, 1e-9)
         assert f"from '{one['near']['name']}'" in one["summary"]
         assert not one["gates"] or "from gate {} to gate {}".format(*one["gates"]) in one["summary"]
 

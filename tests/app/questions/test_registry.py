@@ -9,6 +9,7 @@ import core
 from app.questions import registry
 from core import Arc, Area, Dance, Dragon, Part, Performance, Route, Spiral, Turn, Venue, Waypoints
 from tests.support.asking import box, dance, json_like, line
+from tests.support.near import assert_near
 
 DRAGON, CLOSE = Dragon(20), Dance(Dragon(40), Spiral(0.5, 8.0))
 POINTS = [(0.0, 0.0), (20.0, 0.0), (21.0, 2.0), (0.0, 3.0)]
@@ -172,7 +173,7 @@ def test_a_pitch_scan_has_the_first_contacts_of_core_and_the_jumps_if_they_are_l
     )
     assert look["minimum_pitch"] == core.minimum_pitch(Dragon(30)).pitch
     heads = [core.first_contact(Dance(Dragon(30), Spiral(pitch, 16.0))).head for pitch in look["pitch"]]
-    assert look["radius"] == pytest.approx([head.radius for head in heads if head], abs=1e-9)  # [m]
+    assert_near(look["radius"], [head.radius for head in heads if head], 1e-9)  # [m]
     assert (len(heads), look["jumps"], scan["pitch"], scan["radius"]) == (3, [], look["pitch"], look["radius"])
     assert scan["pieces"][-1][1] == 3
     assert len(scan["jumps"]) > 10

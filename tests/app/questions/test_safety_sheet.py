@@ -15,6 +15,7 @@ from core import envelope, least_clearance, stays, tail_reach
 from core.shapes.reach import gains
 from tests.core.ground.test_envelope import ground
 from tests.support.asking import box, json_like, line, polygon
+from tests.support.near import assert_near
 from tests.support.paper import pages_of, shapes_of, sheets_of, words_of
 from tests.support.random_squares import box as square_box
 from tests.support.shared_dances import CROSSING, STREET
@@ -75,7 +76,7 @@ def test_ground_lanes_gates_speed_and_stop_are_those_of_core(ask):
     assert 2.0 - 0.15 - 0.1 < over["free_width"] < 2.0 - 0.15 - 0.05
     (gate,) = answer["gates"]
     assert (gate["head"], gate["lasts"]) == pytest.approx((50.0, 9.46))
-    assert (answer["fastest"]["speed"], answer["stopping"]["distance"]) == pytest.approx((1.0, 1.5), abs=1e-6)
+    assert_near((answer["fastest"]["speed"], answer["stopping"]["distance"]), (1.0, 1.5), 1e-6)
 
 
 def test_lanes_and_gates_of_the_venue_are_those_of_the_request(ask):
@@ -150,7 +151,7 @@ def test_several_dragons_have_one_sheet_whose_numbers_are_those_of_core_on_one_c
         pytest.approx(9.46 / 1.1),
     )
     assert (answer["fastest"]["dragon"], answer["fastest"]["speed"]) == (1, pytest.approx(1.1))
-    assert answer["stopping"]["distance"] == pytest.approx(1.5 * 1.1, abs=1e-5)
+    assert_near(answer["stopping"]["distance"], 1.5 * 1.1, 1e-5)
 
 
 def test_the_sheet_of_several_dragons_names_them_and_says_when_two_meet(ask):
@@ -230,7 +231,7 @@ def test_the_page_has_its_words_in_order_a_map_to_scale_and_a_code_that_a_phone_
 @pytest.mark.parametrize("paper, size", [("A4", (210, 297)), ("A3", (297, 420))])
 def test_the_scale_on_the_sheet_is_true_to_two_tenths_of_a_millimetre(ask, paper, size):
     (page,) = pages_of(ask.file("safety-sheet", BODY | {"paper": paper}, PDF_TYPE))
-    assert page.get_size() == pytest.approx([side * 72 / 25.4 for side in size], abs=0.01)
+    assert_near(page.get_size(), [side * 72 / 25.4 for side in size], 0.01)
     scale = int(re.search(r"1:(\d+) ", words_of(page))[1])
     # The obstacle of 2 m by 2 m and the square of 70 m by 16 m; bounds hold the line around a shape twice.
     boxes = np.array(shapes_of(page)) * 25.4 / 72.0

@@ -11,6 +11,7 @@ from app.wire.degrees import ACROSS_MAX, AXIS, place_of
 from core import Dragon
 from tests.support.asking import box, written
 from tests.support.command import run
+from tests.support.near import assert_near
 from tests.support.refused import refused
 
 # Longitude and latitude are differences of doubles near 120 degrees: 1e-14 degrees [m].
@@ -57,7 +58,7 @@ def test_vertices_lie_where_the_slow_formula_puts_them(longitude, latitude, x, y
     place = placed({"type": "GeometryCollection", "geometries": [square, stall]}, "degrees")
     for area, geometry in zip(place.venue.areas, (square, stall), strict=True):
         slow = [east_north(place.origin, *corner) for corner in geometry["coordinates"][0]]
-        assert np.array(area.rings[0]) == pytest.approx(np.array(slow), abs=PLACED)
+        assert_near(np.array(area.rings[0]), np.array(slow), PLACED)
 
 
 def east_north(origin, longitude, latitude):

@@ -9,6 +9,7 @@ from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_poses, s
 from core.contact.between import held_apart, sag_pulls, sags_of, touching_pose
 from core.shapes.rectangles import corners
 from tests.support.depth import examples
+from tests.support.near import assert_near
 from tests.support.scenes import lengths_and_widths
 from tests.support.shown_poses import overlap
 from tests.support.slow_search import in_plane
@@ -79,7 +80,7 @@ def test_sags_are_those_of_the_handles():
     sags = sags_of(sag_pulls(chords), joint_angles).T
     for sag, (i, j, k) in zip(sags, [(0, 1, 2), (1, 2, 3), (0, 1, 3), (0, 2, 3)], strict=True):
         line = handles[i] + (along[j] - along[i]) / (along[k] - along[i]) * (handles[k] - handles[i])
-        assert sag == pytest.approx(abs(handles[j] - line), abs=1e-12)
+        assert_near(sag, abs(handles[j] - line), 1e-12)
 
 
 def test_a_pose_on_a_line_strays_little_more_than_must_be():

@@ -19,6 +19,7 @@ from core import (
     encounter_check,
     first_encounter,
 )
+from tests.support.near import assert_near
 from tests.support.reference_encounters import CASES, performance_of
 from tests.support.shared_dances import in_one_spiral, on_lanes
 
@@ -42,10 +43,10 @@ def test_the_reference_is_met(name):
         near = met.certificate.least_clearance
         assert near is None or near.clearance >= case["least"] - 2e-6
         return
-    assert met.time == pytest.approx(case["time"], abs=case["time_error"])
+    assert_near(met.time, case["time"], case["time_error"])
     assert (list(met.dragons), list(met.benches)) == (case["dragons"], case["benches"])
     if met.outcome is Outcome.CONTACT_AT_START:
-        assert met.gap == pytest.approx(case["least"], abs=1e-6)
+        assert_near(met.gap, case["least"], 1e-6)
     else:
         low, high = met.time_bracket
         assert low <= met.time <= high <= low + (1.01e-8 if "grazed" in name else NARROW)
@@ -82,18 +83,18 @@ def test_a_graze_is_decided_a_micrometre_from_the_touch(offset):
     met = first_encounter(Performance([Part(inner), Part(outer)]))
     assert met.outcome is (Outcome.CONTACT if offset < 0.0 else Outcome.CLEAR)
     if offset > 0.0:
-        assert met.certificate.least_clearance.clearance == pytest.approx(1e-6, abs=1e-10)
+        assert_near(met.certificate.least_clearance.clearance, 1e-6, 1e-10)
 
 
 def test_a_margin_is_met_earlier_and_a_stray_counts_as_ground():
     performance = Performance([STREETS[0], replace(STREETS[1], delay=3.5)])
     queries = {}, {"margin": 0.25}, {"stray": 0.02}
     touch, near, stray = (first_encounter(performance, start=54.0, **query) for query in queries)
-    assert near.time == pytest.approx(touch.time - 0.25, abs=SAME_TIME)
+    assert_near(near.time, touch.time - 0.25, SAME_TIME)
     assert (near.gap, touch.gap) == (0.25, 0.0)
     # One bench moves sideways by the stray and the other one forwards by it; a corner of a turning end reaches further.
     assert 0.04 < touch.time - stray.time < 0.05
-    assert stray.gap == pytest.approx(touch.time - stray.time, abs=SAME_TIME)
+    assert_near(stray.gap, touch.time - stray.time, SAME_TIME)
     assert encounter_check(stray).agree
 
 

@@ -50,7 +50,7 @@ def test_every_case_of_the_reference_is_met(name):
     dance = Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), case["head_speed"])
     contact = first_contact(dance)
     if fold := case.get("fold_time"):
-        assert dance.end.time == pytest.approx(fold, abs=1e-9)
+        assert_near(dance.end.time, fold, 1e-9)
     assert contact.outcome == case["outcome"]
     if contact.outcome is Outcome.CONTACT:
         result = contact.time, contact.head.theta, contact.head.radius, *contact.point

@@ -15,6 +15,7 @@ from core import (
 from core.contact.gaps import PROOF_WIDTHS
 from tests.campaigns import hunt_encounters
 from tests.support.depth import further
+from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.shared_dances import CROSSING, EAST, OPPOSITE, on_lanes, side_by_side
 from tests.support.slow_performance import SlowPerformance
@@ -28,7 +29,7 @@ def test_every_clearance_is_that_of_all_pairs(performance):
     times = np.linspace(performance.begin, performance.end.time - 1.0, 60)
     answer = clearance_profile(performance, times)
     gaps, pairs = SlowPerformance(performance.parts).clearance(times)
-    assert answer.clearance == pytest.approx(gaps, abs=GAP)
+    assert_near(answer.clearance, gaps, GAP)
     # Where two pairs are equally near, either is an answer.
     assert (np.column_stack([answer.dragons, answer.benches]) == pairs).all(axis=1).mean() > 0.4
     alone = clearance_profile(performance, float(times[7]))
@@ -45,7 +46,7 @@ def test_the_least_clearance_of_random_performances_is_that_of_a_slow_look(case)
         assert least.at_least <= low + GAP
         assert 0.0 < least.distance - least.at_least <= 1.01 * PROOF_WIDTHS[1]
         assert least.distance <= low + LEAST
-        assert look.at(least.time) == pytest.approx(least.distance, abs=GAP)
+        assert_near(look.at(least.time), least.distance, GAP)
     else:
         assert least.distance <= 0.0
         assert look.at(least.time) <= GAP
@@ -62,7 +63,7 @@ def test_dragons_that_touch_have_no_clearance_at_their_encounter_and_below_zero_
 def test_a_stray_takes_ground_and_is_bounded_in_closed_form():
     performance = on_lanes(EAST, ((40.0, 2.0), (-40.0, 2.0)), benches=1)
     without, strayed = (least_clearance(performance, stray=stray) for stray in (0.0, 0.05))
-    assert without.distance == pytest.approx(2.0 - 0.3, abs=1e-12)
+    assert_near(without.distance, 2.0 - 0.3, 1e-12)
     # Both move 0.05 m towards each other, or turn: the corners beyond the holes swing further out.
     assert 0.09 < without.distance - strayed.distance < 0.13
     assert strayed.at_least <= strayed.distance

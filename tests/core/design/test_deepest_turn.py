@@ -21,6 +21,7 @@ from core import (
 from core.design.deepest_turn import ENTRY_STEP, way_followed
 from core.paths.following import bends_widely
 from tests.support.depth import further
+from tests.support.near import assert_near
 from tests.support.slow_route import SlowRoute
 
 ENTRY_ERROR = 1e-9  # [m]
@@ -99,7 +100,7 @@ def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name
     # the sum of both radii is sqrt(entry^2 + growth^2), and the smaller one just fits the longest chord
     smaller = 0.5 * float(dragon.chords.max()) / core.kernels.ROUTE_SINE_LIMIT
     total, growth = smaller * (1.0 + ratio) / min(1.0, ratio), request["pitch"] / math.tau
-    assert feasible == pytest.approx(math.sqrt(total**2 - growth**2), abs=2 * ENTRY_ERROR)
+    assert_near(feasible, math.sqrt(total**2 - growth**2), 2 * ENTRY_ERROR)
 
 
 def test_nothing_limits_a_tiny_dragon_down_to_the_centre():

@@ -5,6 +5,7 @@ import pytest
 
 from core import Dance, Dragon, Outcome, dubins_turn, first_contact, shortest_turn
 from tests.support.depth import further
+from tests.support.near import assert_near
 
 PITCH = 1.7
 # How much longer than its limit, without a straight piece, a scan ends [m].
@@ -20,11 +21,11 @@ def test_the_pieces_have_the_length_and_are_as_tight_as_benches_can_follow(pitch
     """A route refuses pieces that do not meet. Two benches never touch, so that only the bends limit the turn."""
     result = dubins_turn(Dragon(2), pitch, radius, ratio)
     start, left, right, end = result.path.joints
-    assert (start, end, right - left) == pytest.approx((0.0, result.length, result.straight), abs=1e-9)
+    assert_near((start, end, right - left), (0.0, result.length, result.straight), 1e-9)
     assert min(result.radii) == pytest.approx(1.43 / 0.999, rel=1e-9)
     assert result.radii[0] / result.radii[1] == pytest.approx(ratio)
     # as found on 2026-11-28, when the pieces were laid out at random entries and exits too
-    assert result.length == pytest.approx(length, abs=1e-3)
+    assert_near(result.length, length, 1e-3)
     assert np.sign(result.path.pieces[1].sweep) == turned
 
 

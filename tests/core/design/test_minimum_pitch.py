@@ -12,6 +12,7 @@ from core import (
     minimum_pitch,
 )
 from tests.campaigns.sweep_pitch import judged, random_case
+from tests.support.near import assert_near
 from tests.support.reference import reference
 from tests.support.refused import refused
 from tests.support.slow_pitch import SlowWay
@@ -34,18 +35,18 @@ FOLDING = Dragon(14, 2.21, 1.47, 0.06, 0.12)
 def test_every_case_of_the_reference_is_met(case):
     dragon, radius, islands = Dragon(**case["dragon"]), case["turning_diameter"] / 2, case["other_feasible_intervals"]
     result = minimum_pitch(dragon, turning_radius=radius, start_turns=case["start_turns"])
-    assert result.pitch == pytest.approx(case["pitch"], abs=ACCURACY)
+    assert_near(result.pitch, case["pitch"], ACCURACY)
     assert result.limited_by == case["limited_by"]
     assert result.pitch_bracket[0] <= case["pitch"] + ACCURACY
     assert result.pitch_bracket[1] - result.pitch_bracket[0] <= ACCURACY
     assert result.benches == (tuple(case["benches"]) if "benches" in case else None)
     assert result.head_radius == (pytest.approx(case["head_radius"], abs=1e-6) if "head_radius" in case else None)
-    assert np.array(result.other_feasible_intervals) == pytest.approx(np.array(islands), abs=ACCURACY)
+    assert_near(np.array(result.other_feasible_intervals), np.array(islands), ACCURACY)
 
 
 def test_benches_out_of_reach_change_nothing():
     few, many = (minimum_pitch(Dragon(benches)).pitch for benches in (80, 10_000))
-    assert many == pytest.approx(few, abs=1e-12)
+    assert_near(many, few, 1e-12)
 
 
 def test_where_a_handle_turns_back_the_claim_names_the_step_of_the_scan_and_the_begin_of_the_proof():
@@ -53,7 +54,7 @@ def test_where_a_handle_turns_back_the_claim_names_the_step_of_the_scan_and_the_
     result = minimum_pitch(FOLDING, turning_radius=0.85, start_turns=5.0)
     assert (result.justified_by, result.proven_up_to) == ("scan", None)
     assert result.pitch + result.scan_step < result.proven_from < WIDEST
-    assert result.pitch_bracket == pytest.approx((0.525552677857343, result.pitch), abs=ACCURACY)
+    assert_near(result.pitch_bracket, (0.525552677857343, result.pitch), ACCURACY)
     assert (result.limited_by, result.benches, result.bench, result.head_radius) == (LimitedBy.FOLD, None, 0, 0.85)
 
 
@@ -91,12 +92,12 @@ def test_a_start_inside_a_graze_passes_it_and_names_the_pair_that_repeats_it():
     }
     inside, before = results.values()
     assert (before.benches, inside.benches) == ((0, 9), (1, 10))
-    assert inside.pitch == pytest.approx(before.pitch, abs=ACCURACY)
+    assert_near(inside.pitch, before.pitch, ACCURACY)
     assert inside.head_radius < inside.pitch * 4.06 < before.head_radius
     for turns, result in results.items():
         dance = SlowDance.of(dragon, Spiral(result.pitch, turns))
         there = float(dance.way - dance.growth * arc_length(result.head_radius / dance.growth))
-        assert dance.pair_gap(there, result.benches) == pytest.approx(margin, abs=ACCURACY)
+        assert_near(dance.pair_gap(there, result.benches), margin, ACCURACY)
 
 
 SHORT = Dragon(6, 1.21, 0.93, 0.61, 0.0)
@@ -130,7 +131,7 @@ def test_every_larger_pitch_is_proven_by_bounds(dragon, radius, turns, margin, l
         assert (result.pitch, result.other_feasible_intervals) == (radius / turns, ())
         assert result.benches is result.head_radius is None
     if limited_by is LimitedBy.FOLD:  # by 40 digits
-        assert result.pitch == pytest.approx(2.434860824509272, abs=ACCURACY)
+        assert_near(result.pitch, 2.434860824509272, ACCURACY)
 
 
 def test_just_above_the_infeasible_end_of_a_bracket_a_pitch_is_feasible():

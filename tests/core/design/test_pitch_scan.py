@@ -11,6 +11,7 @@ from core import Dance, Dragon, Outcome, Spiral, TooMuchWork, first_contact, min
 from core.design.pitch_scan import JUMP, JUMP_WIDTH, RADIUS_WIDTH, Stops, pitch_scan, scan_near_minimum
 from tests.core.contact.test_fold import TO_THE_FOLD
 from tests.support.depth import some
+from tests.support.near import assert_near
 from tests.support.refused import refused
 
 SMALL = Dragon(benches=30)
@@ -32,13 +33,13 @@ def test_a_scan_covers_all_samples_in_continuous_pieces_with_a_jump_at_the_minim
     (at,) = np.flatnonzero(
         np.abs(scan.pitch[jumps] - minimum_pitch(Dragon()).pitch).max(axis=1) <= JUMP_WIDTH + BRACKET
     )
-    assert scan.radius[jumps[at]] == pytest.approx((4.573, 4.406), abs=1e-3)  # [m]: the digits given above
+    assert_near(scan.radius[jumps[at]], (4.573, 4.406), 1e-3)  # [m]: the digits given above
 
 
 def test_a_first_look_has_the_samples_alone_and_the_same_radii():
     look, scan = (pitch_scan(Dragon(), PITCHES, locate=locate) for locate in (False, True))
     assert look.pitch.tolist() == PITCHES.tolist()
-    assert look.radius == pytest.approx(scan.radius[np.isin(scan.pitch, PITCHES)], abs=RADIUS_WIDTH)
+    assert_near(look.radius, scan.radius[np.isin(scan.pitch, PITCHES)], RADIUS_WIDTH)
     assert look.jumps == ()
 
 
@@ -56,7 +57,7 @@ def test_a_run_that_is_undecided_just_before_its_fold_stops_there():
     dance, margin = Dance(dragon, spiral), 2.734e-4
     assert first_contact(dance, margin=margin).outcome is Outcome.UNDECIDED
     at_fold = dance.path.head(dance.end.time).radius
-    assert Stops(dragon, margin).radius(spiral) == pytest.approx(at_fold, abs=RADIUS_WIDTH)
+    assert_near(Stops(dragon, margin).radius(spiral), at_fold, RADIUS_WIDTH)
 
 
 def radius_of_contact(dragon, pitch, margin=0.0):

@@ -11,6 +11,7 @@ from core import (
     minimum_pitch,
 )
 from tests.support.depth import further, some
+from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.slow_pitch import SlowWays
 
@@ -59,7 +60,7 @@ def test_no_dragons_meet_above_the_minimum_pitch_and_two_do_below_it(seed):
 )
 def test_dragons_of_223_benches(count, pitch, limited_by):
     result = minimum_pitch(Dragon(), dragons=count)
-    assert result.pitch == pytest.approx(pitch, abs=1e-8)
+    assert_near(result.pitch, pitch, 1e-8)
     assert (result.limited_by, result.justified_by) == (limited_by, JustifiedBy.BOUND)
     assert result.proven_up_to is None
 

@@ -17,6 +17,7 @@ from core import (
     turn_time,
 )
 from tests.support.depth import thorough
+from tests.support.near import assert_near
 
 LIMIT = 2.0  # [m/s]
 SAMPLED = 2e-3  # [1], part of a rate that samples miss
@@ -41,8 +42,8 @@ def slow_time(turn):
 )
 def test_the_time_of_a_turn_is_its_length_over_the_highest_speed_of_the_head(turn, length, speed, time):
     result = turn_time(Dragon(), turn, LIMIT) if turn else quickest_turn(Dragon(), 1.7, ratio=1.2)
-    assert (result.length, result.head_speed) == pytest.approx((length, speed), abs=5e-5)
-    assert result.time == pytest.approx(time, abs=5e-3)
+    assert_near((result.length, result.head_speed), (length, speed), 5e-5)
+    assert_near(result.time, time, 5e-3)
     assert result.time * (1.0 - SAMPLED) <= slow_time(result.turn) <= result.time * (1.0 + 1e-9)
 
 

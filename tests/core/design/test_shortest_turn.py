@@ -20,6 +20,7 @@ from core import (
 )
 from core.design.turn_bounds import ENTRY_LEAST
 from tests.support.depth import DEEP, further, some, thorough
+from tests.support.near import assert_near
 
 WHOLE, PITCH, RADIUS = Dragon(), 1.7, 4.5
 # Lengths that others found with free entry and exit on grids of 2 mm, and bounds by hand: ratio, length [m].
@@ -89,7 +90,7 @@ def test_the_contests_turn_is_limited_by_the_least_radius_and_the_circle():
     circle. One bench has the same turn."""
     result, alone = answer(2.0), shortest_turn(Dragon(1), PITCH)
     assert (result.limited_by, result.turn.exit_radius) == (TurnLimit.LEAST_RADIUS, RADIUS)
-    assert min(result.turn.radii) == pytest.approx(LEAST, abs=1e-9)
+    assert_near(min(result.turn.radii), LEAST, 1e-9)
     assert result.turn.length < deepest_turn(Dragon(), PITCH).turn.length - 1.1
     assert (alone.limited_by, alone.overlaps) == (TurnLimit.LEAST_RADIUS, 0)
     assert alone.length_bracket == result.length_bracket
@@ -165,5 +166,5 @@ def test_small_benches_in_a_small_circle_are_limited_by_the_least_radius_that_a_
     result = shortest_turn(small, PITCH, radius, ratio, budget=Budget(1e7))
     assert result.limited_by is TurnLimit.CENTRE
     ends = result.turn.entry_radius, result.turn.exit_radius
-    assert ends == pytest.approx((ENTRY_LEAST, ENTRY_LEAST), abs=1e-6)
+    assert_near(ends, (ENTRY_LEAST, ENTRY_LEAST), 1e-6)
     assert result.length_bracket[0] < result.turn.length < 0.003

@@ -10,6 +10,7 @@ from core import kernels
 from core.design.straight import Straight, curvature_most
 from tests.campaigns.sweep_pitch import random_case
 from tests.support.depth import further, some
+from tests.support.near import assert_near
 from tests.support.slow_pitch import SlowWay
 
 # Rounding of a slow clearance on ways of metres [m], and on a wide spiral per metre of its growth [1].
@@ -54,7 +55,7 @@ def test_the_bound_grows_to_the_gap_on_a_straight_line(seed):
     assert (straight.gap <= 0.0) is bool(gap <= 0.0)
     if gap > 0.0:
         assert straight.gap == pytest.approx(gap, rel=1e-12)
-        assert straight.least(growth, radius) == pytest.approx(gap, abs=4.0 * straight.chord / WIDE)
+        assert_near(straight.least(growth, radius), gap, 4.0 * straight.chord / WIDE)
 
 
 def test_no_spiral_of_the_growth_or_a_larger_one_is_bent_more():

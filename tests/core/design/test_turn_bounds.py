@@ -9,6 +9,7 @@ from core.design.turn_bounds import Boxes, divided, joined, multipliers_at
 from core.design.turn_boxes import sizes_of, turns_in
 from tests.core.design.test_turn_boxes import boxes
 from tests.support.boxes_of_turns import GROWTH, LEAST
+from tests.support.near import assert_near
 
 pytestmark = pytest.mark.uncompiled
 
@@ -36,6 +37,6 @@ def test_boxes_that_are_divided_or_joined_cover_the_same_turns():
     assert parts.halves.prod(axis=0).sum() == pytest.approx(halves.prod(axis=0).sum())
     for sign in (-1.0, 1.0):
         ends = (parts.centres + sign * parts.halves).reshape(3, 2, count)
-        assert (sign * ends).max(axis=1) == pytest.approx(sign * centres + halves, abs=1e-15)
+        assert_near((sign * ends).max(axis=1), sign * centres + halves, 1e-15)
     again = joined([whole.taken(slice(0, 7)), whole.taken(slice(7, None))])
     assert np.array_equal(again.centres, centres)

@@ -9,6 +9,7 @@ from core import Turn
 from core.design.turn_bounds import Multipliers, lower_lengths
 from core.design.turn_boxes import sizes_of, too_tight, turns_in
 from tests.support.boxes_of_turns import GROWTH, LEAST, place_in
+from tests.support.near import assert_near
 
 pytestmark = pytest.mark.uncompiled
 
@@ -27,7 +28,7 @@ def boxes(rng, largest):
 def test_the_sizes_are_those_of_the_turn(ratio, entry, leaving):
     turn = Turn(1.7, 9.0, ratio, entry_radius=entry, exit_radius=leaving)
     result = sizes_of(GROWTH, *np.array([[entry], [(leaving - entry) / GROWTH], [math.log(ratio)]]))[:, 0]
-    assert result == pytest.approx([*turn.radii, *turn.angles, turn.length, leaving], abs=ROUNDED)
+    assert_near(result, [*turn.radii, *turn.angles, turn.length, leaving], ROUNDED)
 
 
 @pytest.mark.parametrize("largest", [0.002, 0.05, 0.3])

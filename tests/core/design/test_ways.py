@@ -7,6 +7,7 @@ from core import Dragon, Spiral, TooMuchWork, minimum_pitch
 from core.design.ways import CONTACT_WIDTH, Ways
 from core.kernels import Ended
 from tests.core.design.test_minimum_pitch import FOLDING
+from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.slow_search import SlowDance
 
@@ -22,7 +23,7 @@ def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not():
     state, result = ways.march(pitch, CONTACT_WIDTH)
     assert state is Ended.TOUCHED
     dance = SlowDance.of(Dragon(14), Spiral(pitch, TURNS))
-    assert dance.pair_gap(result.touching, result.benches) == pytest.approx(0.0, abs=GAP)
+    assert_near(dance.pair_gap(result.touching, result.benches), 0.0, GAP)
     radius = dance.head(result.touching) * dance.growth
     assert ways.still_touches(pitch, radius - 1e-6, *result.benches)
     assert not ways.still_touches(1.1 * pitch, radius, *result.benches)

@@ -7,6 +7,7 @@ from core import Dance, Dragon, Spiral, Turn, trajectory
 from core.contact.search import ContactSearch
 from core.kernels import place_chain
 from core.kernels.constants import RATE
+from tests.support.near import assert_near
 
 ROUNDING = 1e-11  # of rates [1]
 
@@ -18,4 +19,4 @@ def test_a_chain_moves_as_fast_as_the_trajectory_says(path, travel):
     assert search.curve.is_spiral == isinstance(path, Spiral)
     assert place_chain(search.curve, search.place - travel, 30, search.sizes, search.placed) == 30
     speed = trajectory(Dance(Dragon(30), path), travel).speed
-    assert np.abs(search.placed[:31, RATE]) == pytest.approx(speed, abs=ROUNDING)
+    assert_near(np.abs(search.placed[:31, RATE]), speed, ROUNDING)

@@ -5,6 +5,7 @@ import pytest
 from core import Dragon, Spiral, Turn
 from core.contact.search import ContactSearch
 from core.kernels import gap_at, gap_rate_at
+from tests.support.near import assert_near
 
 # Step of difference quotients [m], and the error that it leaves in a rate [1].
 STEP, QUOTIENT = 1e-5, 1e-6
@@ -21,4 +22,4 @@ def test_a_gap_changes_as_fast_as_said(path, travel, pair):
     search = ContactSearch(Dragon(45), path, 0.0)
     quotient = (gap(search, travel + STEP, pair) - gap(search, travel - STEP, pair)) / (2.0 * STEP)
     rate = gap_rate_at(search.scene, search.place - travel, *pair, search.tried)
-    assert rate == pytest.approx(quotient, abs=QUOTIENT)
+    assert_near(rate, quotient, QUOTIENT)

@@ -2,11 +2,10 @@
 
 import math
 
-import pytest
-
 from core import Arc, Line, Route
 from core.kernels import Follower
 from core.kernels.constants import REAR_COSINE_LEAST, Follows
+from tests.support.near import assert_near
 
 CHORD, RADIUS = 2.0, 0.7
 
@@ -45,7 +44,7 @@ def test_a_bench_follows_an_arc_up_to_the_angle_at_which_its_rear_handle_goes_ac
     assert end_of_proof(low - 1e-5)[0] == Follows.PROVEN
     ended, proof = end_of_proof(high + 1e-5)
     assert ended == Follows.SIDEWAYS
-    assert proof.rear == pytest.approx(5.0, abs=1e-3)
+    assert_near(proof.rear, 5.0, 1e-3)
 
 
 def test_on_a_circle_the_limit_at_the_rear_handle_decides_and_too_small_a_circle_has_no_place_behind():

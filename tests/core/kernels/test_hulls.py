@@ -3,12 +3,12 @@
 import math
 
 import numpy as np
-import pytest
 import shapely
 
 from core.kernels import Rings, Scene, meet, spiral_curve
 from core.kernels.constants import CHAIN_COLUMNS, DIRECTIONS, MX, MY, SIZE_COLUMNS, UX, UY
 from core.shapes.reach import bench_hulls, directions, supports
+from tests.support.near import assert_near
 from tests.support.slow_search import in_plane
 
 # The largest gap along an axis falls short of the distance by no more than this part of it [1].
@@ -34,10 +34,10 @@ def test_the_separation_is_that_of_the_nearest_hulls_in_either_order():
         separation = scene.met.separation
         meet(scene, 0, 1, chain)
         met = scene.met
-        assert met.separation == pytest.approx(separation, abs=ROUNDING)
+        assert_near(met.separation, separation, ROUNDING)
         assert met.separation <= distance + ROUNDING
         assert met.separation >= (1.0 - SHORT) * distance - ROUNDING or not distance
-        assert met.bx - met.ax == pytest.approx(met.separation * met.nx, abs=ROUNDING)
-        assert met.by - met.ay == pytest.approx(met.separation * met.ny, abs=ROUNDING)
+        assert_near(met.bx - met.ax, met.separation * met.nx, ROUNDING)
+        assert_near(met.by - met.ay, met.separation * met.ny, ROUNDING)
         apart += distance > 0.0
     assert 50 < apart < 195

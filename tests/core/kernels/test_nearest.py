@@ -2,11 +2,10 @@
 
 import math
 
-import pytest
-
 from core import Arc, Dance, Dragon, Line, Route, Spiral, clearance_profile, first_contact
 from core.contact.search import ContactSearch
 from core.kernels import Ended, March
+from tests.support.near import assert_near
 
 # The default dance first touches here, benches 0 and 8 [m of head travel].
 CONTACT = 412.4738376822
@@ -32,4 +31,4 @@ def test_a_head_that_comes_back_against_its_tail_touches_it_and_does_not_overlap
     loop = Arc((20.0 * math.sqrt(3.0), 0.0), 20.0, -2.5 * third, 5.0 * third)
     dance = Dance(Dragon(94), Route([Line(*lane), right, loop, back, Line(*lane[::-1])]))
     met = first_contact(dance, start=276.0)
-    assert clearance_profile(dance, met.time).clearance == pytest.approx(0.0, abs=1e-9)
+    assert_near(clearance_profile(dance, met.time).clearance, 0.0, 1e-9)

@@ -1,11 +1,10 @@
 """Rates of handles, and the slopes of the rates."""
 
-import pytest
-
 from core import Dragon, Turn
 from core.contact.search import ContactSearch
 from core.kernels import climbs, place_chain
 from core.kernels.constants import CLIMB
+from tests.support.near import assert_near
 
 
 def test_slopes_of_rates_are_their_difference_quotients():
@@ -14,4 +13,4 @@ def test_slopes_of_rates_are_their_difference_quotients():
     place_chain(search.curve, search.place - travel, 6, search.sizes, search.tried)
     climbs(search.curve, 6, search.sizes, search.tried)
     quotient = (search.rates(travel + step) - search.rates(travel - step)) / (2.0 * step)
-    assert search.tried[:7, CLIMB] == pytest.approx(quotient, abs=1e-6)
+    assert_near(search.tried[:7, CLIMB], quotient, 1e-6)

@@ -5,6 +5,7 @@ import pytest
 from core import Dragon, Spiral
 from core.contact.search import ContactSearch
 from core.kernels import bench_separation, gap_at
+from tests.support.near import assert_near
 
 ROUNDING = 1e-13  # [m]
 
@@ -16,7 +17,7 @@ def test_witnesses_lie_the_gap_apart_along_the_normal(travel):
     for b in range(2, 40):
         met = bench_separation(0, b, search.sizes, search.placed)
         normal = complex(met.nx, met.ny)
-        assert abs(normal) == pytest.approx(1.0, abs=ROUNDING)
-        assert complex(met.bx - met.ax, met.by - met.ay) == pytest.approx(met.separation * normal, abs=ROUNDING)
+        assert_near(abs(normal), 1.0, ROUNDING)
+        assert_near(complex(met.bx - met.ax, met.by - met.ay), met.separation * normal, ROUNDING)
         gap = gap_at(search.scene, search.place - travel, 0, b, search.tried)
-        assert met.separation == pytest.approx(gap, abs=ROUNDING)
+        assert_near(met.separation, gap, ROUNDING)

@@ -8,6 +8,7 @@ from core.contact.search import ContactSearch
 from core.kernels.constants import THETA
 from core.sampling import bisect
 from tests.support.depth import some, thorough
+from tests.support.near import assert_near
 
 # Two poses of one bench at one place of a path, found by two ways of the head [m], and two times of contact [s].
 SAME, ACCURACY = 1e-9, 1e-9
@@ -59,4 +60,4 @@ def test_a_body_that_slides_back_behind_its_start_has_the_contacts_of_the_genera
     family, every = (first_contact(Dance(each, spiral), start=start) for each in (dragon, general))
     assert family.outcome is every.outcome
     if family.outcome is Outcome.CONTACT:
-        assert family.time == pytest.approx(every.time, abs=ACCURACY)
+        assert_near(family.time, every.time, ACCURACY)

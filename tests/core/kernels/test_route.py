@@ -1,7 +1,6 @@
 """Routes: points on a table of pieces, against ball arithmetic. Curvatures: tests/core/paths/test_path.py."""
 
 import numpy as np
-import pytest
 from flint import arb
 
 from core import Route
@@ -9,6 +8,7 @@ from core.error_free import paired
 from core.kernels import route_points
 from core.kernels.constants import POINT_COLUMNS, PX, TX
 from tests.support.exact_chain import ExactRoute
+from tests.support.near import assert_near
 from tests.support.random_routes import Pen
 
 # [m], and of directions [1].
@@ -27,4 +27,4 @@ def test_points_and_tangents_of_every_kind_of_piece_are_exact():
     route_points(route.table, paired(s), points := np.empty((s.size, POINT_COLUMNS)))
     for at, row in zip(s.tolist(), points, strict=True):
         for column, place in zip((PX, TX), exact.point(arb(at)), strict=True):
-            assert row[column : column + 2] == pytest.approx([float(place.real), float(place.imag)], abs=ROUNDING)
+            assert_near(row[column : column + 2], [float(place.real), float(place.imag)], ROUNDING)

@@ -1,13 +1,13 @@
 """Wobbling dragons as they are laid out: joints and chords, how alike people stand, and what safe strays promise."""
 
 import numpy as np
-import pytest
 
 from core import Dance, Dragon, Spiral, bench_poses, overlaps, separation, trajectory
 from core.kernels import Budget, Wobbler
 from core.kernels.constants import BOX_COLUMNS, CHORD, HALF_LENGTH, MX, MY, UX, UY
 from core.shapes.reach import gains
 from tests.support.intervals import sizes_of
+from tests.support.near import assert_near
 
 DRAGON = Dragon.of([3.4, 2.2, 2.0, 2.2, 2.4] * 4, [0.3] * 20, [0.275] * 20)
 NOMINAL = trajectory(Dance(DRAGON, Spiral()), np.arange(280.0, 300.0))
@@ -33,7 +33,7 @@ def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them():
         poses = bench_poses(PLACES[t])
         between = separation(poses[a], sizes[a], poses[b], sizes[b]).separation / (gain[a] + gain[b])
         least = [min(MOST, between[(a == k) | (b == k)].min()) for k in range(DRAGON.benches)]
-        assert safe[t] == pytest.approx(np.array(least), abs=2e-9)
+        assert_near(safe[t], np.array(least), 2e-9)
         known = np.array(least) < MOST
         assert (safe[t] < least)[known].all()
 
@@ -61,7 +61,7 @@ def test_a_bench_of_a_block_within_the_most_strays_of_both_counts_for_a_safe_str
     along, safe = np.concatenate([way, around, way[::-1] + 2.2j]), np.empty((1, 24))
     places = np.stack([along.real, along.imag], axis=-1)[None]
     wobbler(0.0, sizes_of(dragon)).measure(1.0, np.ones(24), places, safe)
-    assert safe[0, [*range(6), *range(-6, 0)]] == pytest.approx(0.95, abs=2e-9)
+    assert_near(safe[0, [*range(6), *range(-6, 0)]], 0.95, 2e-9)
 
 
 def test_benches_that_overlap_in_their_places_touch_although_nobody_strays():

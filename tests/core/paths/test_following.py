@@ -71,7 +71,7 @@ def test_turns_with_an_arc_tighter_than_half_a_chord_are_danced_unless_a_bench_j
     ratio, entry, leaving, length, followed
 ):
     turn = Turn(1.7, ratio=ratio, entry_radius=entry, exit_radius=leaving)
-    assert turn.length == pytest.approx(length, abs=1e-4)
+    assert_near(turn.length, length, 1e-4)
     assert follows(Dragon(), turn) is followed
     if not followed:
         words = r"bench 0 .* beyond s = 9.60113 m, .* at 9.60113 s; .* jump to a nearer place"

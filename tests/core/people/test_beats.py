@@ -7,6 +7,7 @@ import pytest
 
 from core import Dance, Dragon, Spiral
 from core.people.beats import Bars, Music
+from tests.support.near import assert_near
 from tests.support.refused import refused
 
 pytestmark = pytest.mark.uncompiled
@@ -34,7 +35,7 @@ def every_beat():
 def test_the_head_goes_one_step_on_each_beat():
     clock = Dance(Dragon(3), Spiral(), 1.0, MUSIC.passages).clock
     for time, _, _, way in [*BEATS, END, (END[0] + 2.0, 0, 0, END[3] + 2.0)]:
-        assert clock.travel(time) == pytest.approx(way, abs=ROUNDING)
+        assert_near(clock.travel(time), way, ROUNDING)
 
 
 def test_every_moment_has_the_count_of_the_nearest_beat():
@@ -48,7 +49,7 @@ def test_every_moment_has_the_count_of_the_nearest_beat():
 def test_beats_between_two_times_are_those_of_the_sum_and_bars_begin_with_the_first(span):
     times, first = MUSIC.beats(*span)
     inside = [(time, beat == 1) for time, _, beat, _ in BEATS if span[0] <= time <= span[1]]
-    assert times == pytest.approx([time for time, _ in inside], abs=ROUNDING)
+    assert_near(times, [time for time, _ in inside], ROUNDING)
     assert first == [begins for _, begins in inside]
 
 

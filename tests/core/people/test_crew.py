@@ -10,6 +10,7 @@ import pytest
 from core import Dance, Dragon, Passage, Spiral
 from core.motion.places import handle_places
 from core.people.crew import Relief, crew, places_near
+from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.shared_dances import there_and_back
 
@@ -45,8 +46,8 @@ def test_every_bench_has_its_people_nobody_two_and_minutes_and_metres_add_up(rel
         assert carried.longest == max((one.end - one.begin for one in spells), default=0.0)
     s = handle_places(DANCE, [START, STOP])
     ways = float(np.dot(NEEDED, (s[1] - s[0])[:-1]))
-    assert sum(one.time for one in result.carried) == pytest.approx(sum(NEEDED) * (STOP - START), abs=ROUNDING)
-    assert sum(one.way for one in result.carried) == pytest.approx(ways, abs=ROUNDING)
+    assert_near(sum(one.time for one in result.carried), sum(NEEDED) * (STOP - START), ROUNDING)
+    assert_near(sum(one.way for one in result.carried), ways, ROUNDING)
 
 
 @pytest.mark.parametrize("relief", RELIEFS[1:], ids=repr)
@@ -86,7 +87,7 @@ def test_a_bench_changes_where_it_passes_the_place_and_the_next_one_after_it():
     result = crew(Dance(Dragon(4), THERE_AND_BACK, 1.2, passages), [2, 2, 2, 2], Relief(2, None, [50.0]))
     changes = [one for one in result.spells if one.relieved is not None]
     assert [one.bench for one in changes] == [0, 0, 1, 1, 2, 2, 3, 3]
-    assert [one.s for one in changes] == pytest.approx([50.0] * 8, abs=AT_PLACE)
+    assert_near([one.s for one in changes], [50.0] * 8, AT_PLACE)
     # Those who come from bench 0 go to bench 1.
     assert {one.person for one in changes if one.bench == 1} == {0, 1}
 
@@ -101,7 +102,7 @@ def test_the_places_near_a_point_are_those_of_a_fine_scan(path, point):
     inner = 1 + np.flatnonzero((away[1:-1] < away[:-2]) & (away[1:-1] <= away[2:]) & (away[1:-1] <= 2.0))
     places = places_near(path, point, begin, end, 2.0)
     assert len(places) >= 2
-    assert places == pytest.approx(s[inner], abs=2 * (end - begin) / 200_000)
+    assert_near(places, s[inner], 2 * (end - begin) / 200_000)
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import pytest
 from core import Dance, Dragon, Passage, Spiral, trajectory
 from core.motion.places import handle_places
 from core.people.cues import FOLLOWED_MAX, Side, bench_cues
+from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.shared_dances import lane, there_and_back
 
@@ -30,12 +31,12 @@ def test_begin_pauses_and_end_are_those_of_the_clock():
     for one in cues:
         assert (one.start.time, one.begin.time, one.head_speed) == (2.0, 5.0, 0.5)
         assert [(pause.begin, pause.end) for pause in one.pauses] == [(9.0, 12.0), (20.0, 24.5)]
-        assert one.done.time == pytest.approx(DONE, abs=ROUNDING)
+        assert_near(one.done.time, DONE, ROUNDING)
         for at in (one.start, one.begin, one.done):
-            assert (at.x, at.y) == pytest.approx(trajectory(PAUSED, at.time).position[one.bench], abs=ROUNDING)
+            assert_near((at.x, at.y), trajectory(PAUSED, at.time).position[one.bench], ROUNDING)
         assert one.start.s == handle_places(PAUSED, [2.0])[0, one.bench]
         before, after = trajectory(PAUSED, [5.0, 5.001]).position[:, one.bench]
-        assert one.direction == pytest.approx(math.atan2(*(after - before)[::-1]), abs=1e-6)
+        assert_near(one.direction, math.atan2(*(after - before)[::-1]), 1e-6)
     assert [(one.ahead, one.behind) for one in cues] == [(None, 1), (4, 6), (10, None)]
 
 
@@ -44,7 +45,7 @@ def test_a_bench_meets_those_that_come_back_and_sees_them_on_its_left():
     assert cues.meetings
     for meeting in cues.meetings:
         middle = trajectory(STEADY, meeting.time).position[6:8].mean(axis=0)
-        assert (meeting.x, meeting.y) == pytest.approx(middle, abs=1e-9)
+        assert_near((meeting.x, meeting.y), middle, 1e-9)
         assert meeting.side is Side.LEFT
 
 

@@ -6,6 +6,7 @@ import pytest
 from core import bench_cues, trajectory
 from core.people.fastest import FASTEST_WIDTH
 from tests.core.people.test_cues import DONE, PAUSED, ROUNDING, STEP
+from tests.support.near import assert_near
 
 pytestmark = pytest.mark.uncompiled
 
@@ -17,5 +18,5 @@ def test_the_fastest_moment_is_the_fastest_of_small_steps():
         assert most - ROUNDING <= fastest.speed <= most + STEP
         assert (fastest.handle in (one.bench, one.bench + 1), fastest.head_speed) == (True, 1.5)
         before = trajectory(PAUSED, [fastest.time - FASTEST_WIDTH, fastest.time])
-        assert before.speed[:, fastest.handle].max() == pytest.approx(fastest.speed, abs=1e-5)
-        assert before.position[1, fastest.handle] == pytest.approx((fastest.x, fastest.y), abs=ROUNDING)
+        assert_near(before.speed[:, fastest.handle].max(), fastest.speed, 1e-5)
+        assert_near(before.position[1, fastest.handle], (fastest.x, fastest.y), ROUNDING)

@@ -10,6 +10,7 @@ from shapely import Polygon
 from core import Arc, Budget, Dance, Dragon, Line, Passage, Route, Spiral, bench_outlines, trajectory
 from core.people.meetings import ABREAST, EVEN, meetings_between, steady_dance, travels_between
 from tests.support.depth import further
+from tests.support.near import assert_near
 from tests.support.shared_dances import there_and_back
 
 pytestmark = pytest.mark.uncompiled
@@ -50,7 +51,7 @@ def test_whom_a_bench_meets_is_abreast_of_it_at_the_gap(name):
     for bench, other, travel, gap in zip(*met[:3], met.gap, strict=True):
         assert abs(ahead(dance, bench, other, travel)) <= ABREAST + ROUNDING
         outlines = bench_outlines(dance.dragon, trajectory(steady_dance(dance), travel).position)
-        assert gap == pytest.approx(Polygon(outlines[bench]).distance(Polygon(outlines[other])), abs=ROUNDING)
+        assert_near(gap, Polygon(outlines[bench]).distance(Polygon(outlines[other])), ROUNDING)
 
 
 def lap(length):
@@ -73,6 +74,6 @@ def test_benches_that_walk_side_by_side_do_not_meet_again_and_again():
 def test_meetings_are_the_same_for_few_benches_and_for_all_and_with_passages():
     dance, *ends = DANCES["spiral"]
     whole, few = meetings(dance, range(30), *ends), meetings(dance, [7, 3], *ends)
-    assert few.travel == pytest.approx(whole.travel[np.isin(whole.own, [3, 7])], abs=1e-8)
+    assert_near(few.travel, whole.travel[np.isin(whole.own, [3, 7])], 1e-8)
     slow = Dance(dance.dragon, dance.path, 0.5, [Passage(0.25, until_s=9.0)])
     assert meetings(slow, [7, 3], *ends).travel.tolist() == few.travel.tolist()

@@ -23,6 +23,7 @@ from core import (
 from core.errors import Quantity
 from core.people.meetings import EVEN
 from tests.core.people.test_meetings import DANCES
+from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.shared_dances import lane
 
@@ -78,8 +79,8 @@ def test_meetings_are_those_of_a_slow_search_in_small_steps(performance, dragon)
         abreast = [m for m in one.meetings if not m.ahead]
         met = sorted((m.time, m.dragon or 0, m.bench, m.side.value == "left", max(m.gap, 0.0)) for m in abreast)
         assert [m[1:4] for m in met] == [m[1:4] for m in slow]
-        assert [m[0] for m in met] == pytest.approx([m[0] for m in slow], abs=2 * STEP)
-        assert [m[4] for m in met] == pytest.approx([m[4] for m in slow], abs=0.05)
+        assert_near([m[0] for m in met], [m[0] for m in slow], 2 * STEP)
+        assert_near([m[4] for m in met], [m[4] for m in slow], 0.05)
         count += len(met)
     assert count > 1
 

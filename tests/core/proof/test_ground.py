@@ -9,6 +9,7 @@ from flint import acb, arb, ctx
 
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, BenchGround, PolygonSide
 from core.shapes.reach import bench_hulls, directions, supports
+from tests.support.near import assert_near
 
 # Rounding of places and supports in doubles [m].
 ROUNDING = 1e-11
@@ -27,8 +28,8 @@ def test_two_derivations_of_the_ground_agree_and_hold_every_place(chord, overhan
     ground = ground_of(chord, overhang, width, stray)
     hulls = bench_hulls(supports(chord, overhang, 0.5 * width, stray))
     furthest = (hulls * directions()).sum(axis=-1)
-    assert ground.rough_supports[:WHOLE] == pytest.approx(furthest, abs=ROUNDING)
-    assert ground.rough_corners[:WHOLE] == pytest.approx(hulls @ [1.0, 1.0j], abs=ROUNDING)
+    assert_near(ground.rough_supports[:WHOLE], furthest, ROUNDING)
+    assert_near(ground.rough_corners[:WHOLE], hulls @ [1.0, 1.0j], ROUNDING)
     assert max(float(value.rad()) for row in ground.supports for value in row) < 1e-24
     # The polygon around both holds them, and so all places: tests/core/shapes/test_reach.py.
     assert (ground.rough_supports[WHOLE] >= furthest.max(axis=0) - ROUNDING).all()
@@ -47,5 +48,5 @@ def test_corners_of_a_side_are_all_that_can_be_nearest_while_a_bench_turns(sprea
         for turn in np.linspace(-spread, spread, 21):
             axis = cmath.rect(1.0, heading + turn)
             nearest = min((axis * corner).real for corner in corners)
-            assert nearest == pytest.approx((axis * everyone).real.min(), abs=ROUNDING)
+            assert_near(nearest, (axis * everyone).real.min(), ROUNDING)
         assert len(corners) <= 3 + 2.5 * spread * SIDES / math.tau or spread > 1.0

@@ -10,6 +10,7 @@ from core import Dragon, Figure, Route
 from core.proposal.figures import DANCED, Shape, eight, ring, serpentine, shapes, tight_rings
 from core.proposal.needs import Needs
 from core.proposal.walks import moved
+from tests.support.near import assert_near
 
 NEEDS = Needs(Dragon(20), 0.05, 0.0)
 CLOSED = [(Figure.RING, (8.0, 5.0, 3.0)), (Figure.EIGHT, (4.0, 1.4))]
@@ -20,9 +21,9 @@ CLOSED = [(Figure.RING, (8.0, 5.0, 3.0)), (Figure.EIGHT, (4.0, 1.4))]
 def test_a_closed_figure_ends_where_it_began(figure, sizes, mirror):
     shape = Shape(figure, sizes, mirror)
     pose = reduce(moved, shape.steps, shape.first)
-    assert pose[:2] == pytest.approx(shape.first[:2], abs=1e-9)
-    assert math.remainder(pose[2] - shape.first[2], math.tau) == pytest.approx(0.0, abs=1e-9)
-    assert shape.around == pytest.approx(Route(shape.pieces).end, abs=1e-9)
+    assert_near(pose[:2], shape.first[:2], 1e-9)
+    assert_near(math.remainder(pose[2] - shape.first[2], math.tau), 0.0, 1e-9)
+    assert_near(shape.around, Route(shape.pieces).end, 1e-9)
 
 
 def test_impossible_sizes_give_no_figure():
@@ -60,6 +61,6 @@ def test_tight_rings_hold_a_short_dragon_and_bend_no_tighter_than_it_can():
     assert every[0][0].round
     assert min(route.end for _, route in every) >= needs.length + needs.gap
     bends = [route.sharpest[0] * needs.tight for _, route in every]
-    assert max(bends) == pytest.approx(1.0, abs=2e-3)
+    assert_near(max(bends), 1.0, 2e-3)
     assert max(bends) <= 1.0
     assert list(tight_rings(Needs(Dragon(60), 0.05, 0.0), 20.0)) == []

@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-import pytest
 import shapely
 
 from core import Dragon, Venue
@@ -11,6 +10,7 @@ from core.proposal.footprint import DENSE, room_beside, standing
 from core.proposal.free_ground import FreeGround
 from core.proposal.legs import points_along
 from core.proposal.needs import Needs
+from tests.support.near import assert_near
 from tests.support.random_squares import box, polygon
 
 NEEDS = Needs(Dragon(3), 0.05, 0.0)
@@ -23,7 +23,7 @@ def test_handles_are_a_chord_apart_and_on_the_path():
     points, s = points_along((2.0, 2.0, 0.0), steps, DENSE)
     fronts = np.linspace(5.0, s[-1], 40)
     front, rear = standing(s, points, fronts, NEEDS.chord)
-    assert np.hypot(*(front - rear).T) == pytest.approx(NEEDS.chord, abs=PLACE)
+    assert_near(np.hypot(*(front - rear).T), NEEDS.chord, PLACE)
     line = shapely.LineString(points)
     assert max(line.distance(shapely.Point(point)) for point in [*front, *rear]) < PLACE
 
@@ -40,6 +40,6 @@ def test_the_room_beside_a_bench_is_the_distance_of_its_rectangle():
         ends = point - NEEDS.overhang * way, point + (NEEDS.chord + NEEDS.overhang) * way
         bench = shapely.LineString(ends).buffer(NEEDS.straight_side, cap_style="flat")
         if polygon(SQUARE).contains(bench) and not bench.intersects(polygon(TREE)):
-            assert distance == pytest.approx(bench.distance(borders), abs=1e-9)
+            assert_near(distance, bench.distance(borders), 1e-9)
             compared += 1
     assert compared > 50

@@ -6,6 +6,7 @@ import shapely
 
 from core import Area, Venue
 from core.proposal.free_ground import WIDEST, FreeGround
+from tests.support.near import assert_near
 from tests.support.random_squares import box, free_ground, polygon, random_case
 
 SAME = 1e-9  # [m]: at coordinates to 50 m
@@ -21,12 +22,12 @@ def test_clearances_and_the_widest_circle_are_those_of_shapely(seed):
     borders = [polygon(one).boundary for one in (venue.square, *venue.obstacles)]
     nearest = np.min([shapely.distance(border, places) for border in borders], axis=0)
     clearance = ground.clearance(points)
-    assert clearance == pytest.approx(np.where(shapely.contains(left, places), nearest, -nearest), abs=SAME)
+    assert_near(clearance, np.where(shapely.contains(left, places), nearest, -nearest), SAME)
     held = ((points > ground.low) & (points < ground.high)).all(axis=1)
     for rough in (ground.nearest_node(*points[held].T), ground.roughly(points[held])):
         assert np.abs(rough - clearance[held]).max() <= ground.node_error + SAME
     x, y, radius, most = ground.widest_circle
-    assert radius == pytest.approx(float(ground.clearance(np.array([[x, y]]))[0]), abs=SAME)
+    assert_near(radius, float(ground.clearance(np.array([[x, y]]))[0]), SAME)
     assert widest - WIDEST - 1e-3 <= radius <= widest + 1e-3
     assert widest - SAME <= most <= widest + WIDEST + 1e-3
 

@@ -12,6 +12,7 @@ from core.proposal.free_ground import FreeGround
 from core.proposal.legs import LegFinder, points_along
 from core.proposal.needs import Needs
 from core.proposal.walks import joined, length_of, moved
+from tests.support.near import assert_near
 from tests.support.random_squares import box, polygon
 
 SQUARE, WALL = box("square", 0, 0, 40, 30), box("wall", 18, -1, 2, 24)
@@ -27,7 +28,7 @@ def test_a_wall_is_gone_around_with_room_on_both_sides():
     there = ways(WALL)
     assert there.leg(BEGIN, END) is None
     steps = there.around(BEGIN, END)
-    assert reduce(moved, steps, BEGIN)[:2] == pytest.approx(END[:2], abs=1e-9)
+    assert_near(reduce(moved, steps, BEGIN)[:2], END[:2], 1e-9)
     line = shapely.LineString(points_along(BEGIN, steps, 0.05)[0])
     borders = polygon(WALL), polygon(SQUARE).boundary
     assert min(map(line.distance, borders)) >= NEEDS.straight_side + NEEDS.free
@@ -50,7 +51,7 @@ def test_a_walk_goes_straight_turns_once_where_the_lines_cross_and_goes_straight
     there, corner = ways(WALL), (8.0, 25.0, 0.5 * math.pi)
     steps = joined(there.walk((2.0, 5.0, 0.0), corner))
     assert [curvature for _, curvature in steps] == [0.0, 1.0 / NEEDS.radii[0], 0.0]
-    assert reduce(moved, steps, (2.0, 5.0, 0.0)) == pytest.approx(corner, abs=1e-9)
+    assert_near(reduce(moved, steps, (2.0, 5.0, 0.0)), corner, 1e-9)
 
 
 def test_heedless_legs_lead_across_edges():

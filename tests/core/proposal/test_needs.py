@@ -9,6 +9,7 @@ from core import Arc, Dance, Dragon, Route, bench_outlines, trajectory
 from core.paths.following import tightest_bend
 from core.proposal.needs import SPARE, Needs
 from core.shapes.reach import gains
+from tests.support.near import assert_near
 
 DRAGON = Dragon(3)
 TIGHTEST = tightest_bend(DRAGON)[0]
@@ -27,7 +28,7 @@ def distances(dragon, radius):
 def test_the_sides_on_a_circle_are_those_of_the_benches(radius, dragon):
     away = distances(dragon, radius)
     most = max(away.max() - radius, radius - away.min())
-    assert Needs(dragon, 0.0, 0.0).sides(np.array([1.0 / radius, -1.0 / radius])) == pytest.approx(most, abs=1e-6)
+    assert_near(Needs(dragon, 0.0, 0.0).sides(np.array([1.0 / radius, -1.0 / radius])), most, 1e-6)
 
 
 def test_the_longest_bench_turns_in_the_circle_on_the_tightest_bend():
@@ -50,5 +51,5 @@ def test_a_straight_path_needs_half_a_width():
 
 def test_the_length_along_a_circle_is_that_of_the_arcs_under_the_chords():
     needs, route = Needs(Dragon(30), 0.0, 0.0), Route([Arc((0.0, 0.0), 5.0, 0.0, 4.0 * math.pi)])
-    assert needs.length_along(5.0) == pytest.approx(Dance(Dragon(30), route).begin, abs=1e-6)
+    assert_near(needs.length_along(5.0), Dance(Dragon(30), route).begin, 1e-6)
     assert needs.length == pytest.approx(2.86 + 29 * 1.65)

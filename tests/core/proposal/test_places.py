@@ -11,6 +11,7 @@ from core.proposal.free_ground import FreeGround
 from core.proposal.needs import Needs
 from core.proposal.places import base_rotation, placements, sampled
 from tests.support.depth import further
+from tests.support.near import assert_near
 from tests.support.random_squares import random_case
 
 NEEDS = Needs(Dragon(8), 0.0, 0.0)
@@ -38,4 +39,4 @@ def test_no_place_of_a_fine_grid_has_much_more_room(seed):
     if most > 0.0:
         ((room, (*place, angle)),) = best
         assert room >= most - 2.0 * ground.node_error
-        assert room == pytest.approx(room_of(place + turned(angle)), abs=2.0 * ground.node_error)
+        assert_near(room, room_of(place + turned(angle)), 2.0 * ground.node_error)

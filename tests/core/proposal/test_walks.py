@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from core import Coil, Route
 from core.proposal.walks import along, dubins, joined, length_of, mirrored, moved, placed, stretch
 from tests.support.depth import examples
+from tests.support.near import assert_near
 
 PLACE = 1e-9  # [m], [rad]: rounding of a few steps
 NEAR = 1e-4  # [m], [rad]: rounding may leave no path between poses that are nearer
@@ -63,4 +64,4 @@ def test_a_stretch_goes_round_a_closed_path():
 def test_pieces_are_placed_as_a_whole():
     pieces, s, plane = [Coil(1.0, 4.0, 2.0)], np.linspace(0.0, 20.0, 7), np.array([1.0, 1.0j])
     expected = Route(pieces).position(s) @ plane * np.exp(0.7j) + (3.0 - 1.0j)
-    assert Route(placed(pieces, (3.0, -1.0, 0.7))).position(s) @ plane == pytest.approx(expected, abs=PLACE)
+    assert_near(Route(placed(pieces, (3.0, -1.0, 0.7))).position(s) @ plane, expected, PLACE)

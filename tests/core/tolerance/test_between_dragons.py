@@ -21,6 +21,7 @@ from core import (
 )
 from core.tolerance.exhibit import CHORD_WITHIN
 from tests.support.depth import further
+from tests.support.near import assert_near
 from tests.support.random_squares import box
 from tests.support.random_strays import random_strays
 from tests.support.shared_dances import CROSSING, EAST, OPPOSITE, on_lanes
@@ -71,7 +72,7 @@ def test_no_random_stray_touches_and_the_pose_beyond_does(name):
     assert 0.0 < pose.stray - answer.stray < 0.02 * answer.stray
     for part, dragon, handles in zip(slow.parts, dragons, pose.handles, strict=True):
         chords = np.linalg.norm(np.diff(handles, axis=0), axis=1)
-        assert chords == pytest.approx(dragon.chords, abs=CHORD_WITHIN + ROUNDED)
+        assert_near(chords, dragon.chords, CHORD_WITHIN + ROUNDED)
         assert np.linalg.norm(handles - part.handles(np.array([pose.time]))[0], axis=1).max() <= pose.stray + 1e-9
     holes = (handles[None, k : k + 2] for handles, k in zip(pose.handles, pose.benches, strict=True))
     assert gaps(*holes, pose.benches)[0] == pytest.approx(-pose.depth, rel=1e-3)

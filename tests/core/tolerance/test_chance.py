@@ -24,6 +24,7 @@ from core import (
 from core.sampling import bisect
 from core.tolerance.chance import CONFIDENCE, clopper_pearson
 from core.tolerance.union_bound import union_bound
+from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.scenes import lengths_and_widths
 from tests.support.slow_search import in_plane
@@ -137,7 +138,7 @@ def test_each_dragon_is_the_one_that_is_laid_out_step_by_step():
             if gaps.min() <= 0.0:
                 touching.append((sample, times[t]))
                 break
-        assert result.strays[sample] == pytest.approx(furthest, abs=1e-7)
+        assert_near(result.strays[sample], furthest, 1e-7)
     assert list(zip(result.sample.tolist(), result.time.tolist(), strict=True)) == touching
     assert 20 < len(touching) < 200
 
@@ -173,15 +174,15 @@ def test_nobody_wobbles_with_a_size_of_0():
 def test_instants_are_a_fifth_of_the_correlation_time_apart_or_as_asked(time, step, instants):
     result = contact_probability(SPIRAL, Wobble(correlation_time=time, step=step), 1, 1, **LATE)
     assert result.instants == instants
-    assert result.step == pytest.approx(8.0 / (instants - 1), abs=1e-12)
+    assert_near(result.step, 8.0 / (instants - 1), 1e-12)
 
 
 def test_clopper_and_pearson_leave_as_much_beyond_either_limit():
     from scipy.stats import binom
 
     low, high = clopper_pearson(7, 50)
-    assert binom.sf(6, 50, low) == pytest.approx(0.5 * (1.0 - CONFIDENCE), abs=1e-12)
-    assert binom.cdf(7, 50, high) == pytest.approx(0.5 * (1.0 - CONFIDENCE), abs=1e-12)
+    assert_near(binom.sf(6, 50, low), 0.5 * (1.0 - CONFIDENCE), 1e-12)
+    assert_near(binom.cdf(7, 50, high), 0.5 * (1.0 - CONFIDENCE), 1e-12)
 
 
 def test_a_dance_is_sampled_to_its_fold_also_on_other_pitches():

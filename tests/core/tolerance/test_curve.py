@@ -5,6 +5,7 @@ import pytest
 
 from core import Budget, Dance, Dragon, Spiral, TooMuchWork, minimum_pitch, tolerance, tolerance_curve
 from core.tolerance.curve import time_on_circle
+from tests.support.near import assert_near
 
 DRAGON = Dragon(benches=30)
 
@@ -22,7 +23,7 @@ def test_the_tolerance_rises_with_the_pitch_and_is_the_inverse_of_the_minimum_pi
 
 def test_the_head_is_on_the_circle_at_that_time():
     dance = Dance(DRAGON, Spiral(0.6, 10.0), head_speed=2.0)
-    assert dance.path.head(2.0 * time_on_circle(dance, 4.0)).radius == pytest.approx(4.0, abs=1e-12)
+    assert_near(dance.path.head(2.0 * time_on_circle(dance, 4.0)).radius, 4.0, 1e-12)
 
 
 def test_pitches_that_are_too_many_for_the_budget_are_reported_with_how_many_were_answered():

@@ -12,6 +12,7 @@ from core import (
 )
 from core.tolerance.tolerance import Limit
 from tests.campaigns.adversaries import seek, to_circle
+from tests.support.near import assert_near
 from tests.support.random_squares import box
 from tests.support.random_strays import moved_points, random_strays
 from tests.support.shared_dances import lane, square
@@ -50,7 +51,7 @@ def test_speed_changes_when_but_not_how_far_and_all_lengths_times_k_how_far(defa
 def test_two_benches_on_a_line_have_nothing_to_touch():
     result = tolerance(Dance(Dragon(2), lane((0.0, 0.0), (30.0, 0.0))), start=5.0)
     assert result.limited_by is Limit.CHORD
-    assert result.stray == pytest.approx(0.825, abs=1e-12)
+    assert_near(result.stray, 0.825, 1e-12)
     assert result.stray_bracket == (result.stray, None)
     assert result.benches is result.time is result.exhibit is None
 
