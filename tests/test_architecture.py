@@ -22,7 +22,8 @@ OVERLAP_ENGINES = {"fcl", "shapely"}
 # Engines of continuous collision detection, only for comparison.
 OTHER_ENGINES = {"Box2D", "ipctk"}
 # No function is longer, docstring included, or takes more parameters.
-LINES_MOST, PARAMETERS_MOST = 80, 8
+LINES_MOST = 80
+PARAMETERS_MOST = 8
 HEAVY = ("fcl", "flint", "matplotlib", "pandas", "scipy", "shapely", "xarray")
 
 
@@ -137,7 +138,8 @@ def without_name(index):
     """True if the last index is a number; or the first one, unless the last is the name of a column."""
     if not isinstance(index, ast.Tuple):
         return False
-    first, last = index.elts[0], index.elts[-1]
+    first = index.elts[0]
+    last = index.elts[-1]
     has_column_name = isinstance(last, ast.Name) and last.id.isupper()
     return numbered(index) or (isinstance(first, ast.Constant) and not has_column_name)
 

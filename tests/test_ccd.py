@@ -26,7 +26,8 @@ from tests.support.near import assert_near
 SHARD = load_shard(SAMPLE)
 # Largest errors of our own times of contact [s]: the corner comes to a graze of 1e-9 m at 1e-5 m/s, so slowly that what
 # doubles leave of its place, 1e-14 m and more, is 1e-9 s and more.
-OURS, OURS_AT_GRAZES = 1e-9, 1e-8
+OURS = 1e-9
+OURS_AT_GRAZES = 1e-8
 
 
 def answered(engine, shard, folder):
@@ -83,7 +84,8 @@ def test_the_truth_of_the_sample_is_shown_again_in_balls(kind, sign, path):
     columns = SHARD.columns
     rows = np.flatnonzero((columns["kind"] == kind) & ((sign == 0) | (np.sign(columns["depth"]) == sign)))
     k = next(k for k in rows.tolist() if SHARD.dances[int(columns["dance"][k])]["kind"] == path)
-    query, stage = SHARD.query(k), Stage(SHARD.dances[int(columns["dance"][k])])
+    query = SHARD.query(k)
+    stage = Stage(SHARD.dances[int(columns["dance"][k])])
     last = max(query.corner_bench, query.edge_bench) + 1
     seen = track(covered(stage, pieces_of(stage), query.place, query.span, last), query, stage)
     low, high, depth = (columns[name][k].item() for name in ("low", "high", "depth"))
@@ -116,7 +118,8 @@ def test_an_engine_that_cannot_be_loaded_is_named_and_left_out(capsys):
 
 @pytest.mark.thorough
 def test_a_crash_and_a_hang_are_rows_of_the_report_and_a_run_continues_where_it_was(tmp_path):
-    shard, worker = SHARD.taken(np.arange(0, len(SHARD), 170)), Worker("ours")
+    shard = SHARD.taken(np.arange(0, len(SHARD), 170))
+    worker = Worker("ours")
     save_shard(tmp_path / "queries-0000.npz", shard)
     rows = []
     for end in (signal.SIGKILL, signal.SIGPROF):

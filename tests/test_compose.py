@@ -55,7 +55,8 @@ def test_the_cluster_is_of_its_profile_and_nothing_is_written_but_in_the_volume(
 
 def test_memory_holds_what_files_and_jobs_may_take_on_two_cores():
     gigabytes = int(SERVICES["service"]["mem_limit"].removesuffix("g"))
-    settings, workers = Settings(), 2
+    settings = Settings()
+    workers = 2
     files = workers * settings.readers_max * settings.reader_memory_max
     assert files + workers * settings.bodies_bytes_max + workers * 0.3e9 < gigabytes * 1e9
     assert all(one["pids_limit"] == 512 for one in SERVICES.values())
@@ -78,7 +79,8 @@ def test_the_port_is_open_to_this_machine_alone_unless_a_token_is_set(published,
     assert interpolated(port, **variables) == f"{published or '127.0.0.1'}:8000:8000"
     environment = {name: interpolated(text, **variables) for name, text in names.items()}
     here = {"8000": str(free_port()), "0.0.0.0": "127.0.0.1"}
-    process, log = start("service", here, tmp_path, environment), tmp_path / "service.log"
+    process = start("service", here, tmp_path, environment)
+    log = tmp_path / "service.log"
     try:
         if runs:
             wait_until_live(process, int(here["8000"]), log)
@@ -115,7 +117,8 @@ def listens(port):
 @pytest.fixture
 def started(tmp_path):
     """A client of the service, which runs with the scheduler and one worker."""
-    scheduler, port = str(free_port()), str(free_port())
+    scheduler = str(free_port())
+    port = str(free_port())
     places = {
         "0.0.0.0": "127.0.0.1",
         "scheduler:": "127.0.0.1:",

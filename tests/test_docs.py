@@ -160,7 +160,8 @@ def test_a_command_gives_what_is_printed_below_it(text, server, folder):
     for turn in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
         lines = turn.splitlines()
         length = next(number for number, line in enumerate(lines, 1) if not line.endswith(("\\", "[")))
-        command, expected = "\n".join(lines[:length]), "\n".join(lines[length:])
+        command = "\n".join(lines[:length])
+        expected = "\n".join(lines[length:])
         done = run(command.replace("localhost:8000", urlsplit(server).netloc), folder)
         assert (done.returncode != 0) is expected.startswith(("Error: ", "Refused: ")), done.stdout
         assert_alike(done.stdout, expected)
@@ -205,7 +206,8 @@ def run(command, folder):
 
 def assert_alike(output, expected):
     """The same text and, but for rounding, the same numbers; `...` stands for anything, and spaces do not count."""
-    patterns, numbers = [], []
+    patterns = []
+    numbers = []
     for part in re.split(r"(\.\.\.|\s+|-?\d+\.\d+(?:e-?\d+)?)", expected.strip()):
         if NUMBER.fullmatch(part):
             numbers.append(float(part))

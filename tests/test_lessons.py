@@ -21,7 +21,8 @@ def cells(path, kind):
 
 def ran(name):
     """Names after all cells ran in order; `answers` are the values of their last lines."""
-    names, answers = {"__name__": "__main__"}, []
+    names = {"__name__": "__main__"}
+    answers = []
     for source in cells(ROOT / "examples" / "lessons" / f"{name}.en.py", "code"):
         tree = ast.parse(source)
         last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
@@ -34,7 +35,8 @@ def ran(name):
 def test_both_languages_have_the_same_code_between_words_of_their_own(path):
     chinese = path.with_name(path.name.replace(".en.", ".zh."))
     assert cells(path, "code") == cells(chinese, "code")
-    english_words, chinese_words = cells(path, "markdown"), cells(chinese, "markdown")
+    english_words = cells(path, "markdown")
+    chinese_words = cells(chinese, "markdown")
     assert len(english_words) == len(chinese_words) > 6
     assert sum(words.startswith(("## Exercise", "# Lesson")) for words in english_words) == 3
     assert not any(re.search("[一-鿿]", words) for words in english_words)
@@ -61,7 +63,8 @@ def test_a_look_once_a_second_misses_a_contact_that_a_step_which_is_a_proof_find
 
 def test_halving_for_a_radius_ends_beside_a_jump_and_the_grader_judges_the_pitches():
     lesson = ran("3_smallest_pitch")
-    below, above = lesson["radius"](lesson["low"]), lesson["radius"](lesson["high"])
+    below = lesson["radius"](lesson["low"])
+    above = lesson["radius"](lesson["high"])
     assert lesson["high"] - lesson["low"] < 1e-9
     assert_near(below - above, 0.17, 0.005)  # "17 cm apart"
     assert above < 4.5 < below

@@ -64,7 +64,8 @@ def test_types_and_data_go_with_the_package(package):
 
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_the_plain_installation_is_the_same_on_every_system_and_the_service_takes_uvloop_where_it_is(system):
-    names, service = requirements(system), requirements(system, "service")
+    names = requirements(system)
+    service = requirements(system, "service")
     assert names == requirements("linux")
     assert "numpy" in names
     assert names & {"fastapi", "matplotlib", "starlette", "uvicorn", "uvloop", "XlsxWriter"} == set()
@@ -93,7 +94,8 @@ def test_the_digests_are_of_the_versions_in_the_lock():
 
 
 def test_the_locks_hold_a_version_that_fits_of_every_requirement():
-    extras, groups = PROJECT["optional-dependencies"], SETTINGS["dependency-groups"]
+    extras = PROJECT["optional-dependencies"]
+    groups = SETTINGS["dependency-groups"]
     service = chain(*map(extras.get, ["service", "sweep", "arrow", "dxf", "film", "figures", "xlsx"]))
     assert unfit([*PROJECT["dependencies"], *groups["tools"], *service], locked("requirements.lock")) == []
     every = locked("requirements.lock", "requirements-test.lock", "requirements-ccd.lock")

@@ -62,7 +62,8 @@ ON_LANE = {"dragon": {"benches": 4}, "path": line((0, 0), (60, 0))}
 )
 def test_an_answer_that_the_client_has_is_not_sent_again(ask, call, body):
     first = ask.send(call, body)
-    tag, method = first.headers["etag"], "POST" if body else "GET"
+    tag = first.headers["etag"]
+    method = "POST" if body else "GET"
     assert re.fullmatch(r"public, max-age=\d+", first.headers["cache-control"])
     again, other = (
         ask.client.request(method, call, json=body, headers={"If-None-Match": tags})

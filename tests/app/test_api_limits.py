@@ -54,7 +54,9 @@ def test_an_endless_body_is_cut_off(small):
 
 
 def test_a_table_may_have_as_many_cells_as_the_limit(small):
-    body, whole, more = {"dragon": {"benches": 199}}, {"stop": 99.9, "step": 0.1}, {"stop": 100, "step": 0.1}
+    body = {"dragon": {"benches": 199}}
+    whole = {"stop": 99.9, "step": 0.1}
+    more = {"stop": 100, "step": 0.1}
     assert len(small("trajectory", body | {"times": whole})["time"]) == 1000
     small.refuses("/times/step", "trajectory", body | {"times": more})
 

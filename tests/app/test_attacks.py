@@ -9,7 +9,8 @@ from tests.support.serving import serving
 
 # Duration of an attack, and longest wait of another client, which is 0.1 s on an idle machine [s]. What keeps others
 # waiting does so until it is done, also after its clients have gone.
-SECONDS, SLOWEST = examples(1, 4) / 2, 1.0
+SECONDS = examples(1, 4) / 2
+SLOWEST = 1.0
 # Tries: waits that the service causes occur each time, those that other programs cause do not.
 TIMES = 3
 # One of each kind: much to compute, to parse, to write, to read, and bodies and heads that come slowly.

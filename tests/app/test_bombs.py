@@ -43,7 +43,8 @@ def readers(service):
 @contextmanager
 def watched(service):
     """The memory [MB] and the processor time [s] of each reader of a service, looked at all the time."""
-    seen, done = defaultdict(list), threading.Event()
+    seen = defaultdict(list)
+    done = threading.Event()
 
     def look():
         while not done.wait(0.02):

@@ -203,7 +203,8 @@ def test_an_address_of_a_scheduler_is_a_setting(address, monkeypatch):
 
 
 def test_output_takes_decimals_and_language(tmp_path):
-    text, book = tmp_path / "a.csv", tmp_path / "a.xlsx"
+    text = tmp_path / "a.csv"
+    book = tmp_path / "a.xlsx"
     run("trajectory", "--stop", "1", "--decimals", "3", "--output", str(text))
     assert "0.0,1,8.364,2.827," in text.read_text()
     run("trajectory", "--stop", "1", "--language", "zh", "--output", str(book))
@@ -245,7 +246,8 @@ def on_terminal(columns, *arguments, stream="stdout", until=None):
     streams |= {"env": ENVIRONMENT | {"TERM": "xterm"}, "preexec_fn": heed_ctrl_c}
     with subprocess.Popen([COMMAND, *arguments], **streams) as process:
         os.close(follower)
-        seen, code = b"", 0
+        seen = b""
+        code = 0
         with contextlib.suppress(OSError):  # what reads a terminal without a writer gets an error, not an end of file
             while chunk := os.read(leader, 65_536):
                 seen += chunk

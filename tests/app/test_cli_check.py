@@ -111,7 +111,8 @@ def test_the_dance_that_is_judged_is_written_as_a_table(dance):
 
 @pytest.mark.parametrize("more", [LANES[0], {"dances": LANES}], ids=["one", "several"])
 def test_the_last_second_of_a_table_is_not_after_the_end_of_a_path(tmp_path, more):
-    table, text = tmp_path / "lane.csv", json.dumps({"start": 10, "start_clock": "19:30", **more})
+    table = tmp_path / "lane.csv"
+    text = json.dumps({"start": 10, "start_clock": "19:30", **more})
     assert run("check", "-", "--output", str(table), text=text).stderr == f"{table}\n"
     stop = json.loads(said("check", "-", "--json", text=text))["stop"]
     assert stop % 1.0 > 0.999

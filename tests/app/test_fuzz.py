@@ -7,7 +7,9 @@ from tests.campaigns.fuzz import ask_mutants
 from tests.campaigns.fuzz_files import ask_files, readers_over
 from tests.support.depth import examples
 
-MUTANTS, FILES, SEED = examples(60, 150), examples(80, 400), 1
+MUTANTS = examples(60, 150)
+FILES = examples(80, 400)
+SEED = 1
 
 
 def test_no_odd_request_gets_an_error_of_the_service(server):

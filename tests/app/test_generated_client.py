@@ -67,7 +67,8 @@ ASKED = [one for one in CALLS.values() if one.question.model]
 
 @pytest.mark.parametrize("asked", ASKED, ids=lambda one: one.name)
 def test_every_question_is_answered(own, client, asked):
-    module, path = call("questions", asked.name), asked.question.path
+    module = call("questions", asked.name)
+    path = asked.question.path
     example = EXAMPLES[f"{asked.method} {path}"]
     answer = module.sync(client=own, **(with_body(module, example.body) if example.body else example.query))
     response = client.request(asked.method, path, params=example.query, json=example.body)
@@ -75,7 +76,8 @@ def test_every_question_is_answered(own, client, asked):
 
 
 def test_a_file_is_graded(own):
-    module, types = call("grading", "grade"), importlib.import_module(f"{PACKAGE}.types")
+    module = call("grading", "grade")
+    types = importlib.import_module(f"{PACKAGE}.types")
     file = types.File(payload=io.BytesIO(contact_workbook()))
     answer = module.sync(client=own, body=file, name="result2.xlsx", pitch="0.450337393")
     assert (answer.files[0].workbook, answer.files[0].verdict, answer.files[0].diagnosis) == ("result2", "right", [])

@@ -27,7 +27,8 @@ from tests.support.depth import further, thorough
 from tests.support.job_service import is_gone, wait_for
 from tests.support.serving import sample, serving
 
-HEAD_SECONDS, GRACE_SECONDS = 0.5, 1
+HEAD_SECONDS = 0.5
+GRACE_SECONDS = 1
 # Longest wait for what should come within the times above on a busy machine [s].
 SOON = 15.0
 # Seconds of compiled work that nothing stops: under the limits, and refused to a second client.
@@ -107,10 +108,12 @@ def test_a_body_that_its_client_breaks_off_or_garbles_is_no_error_of_the_service
 
 def test_a_client_that_takes_nothing_of_its_answer_loses_its_connection(held):
     body = json.dumps({"times": {"stop": 400, "step": 0.1}}).encode()
-    whole, taken = int(1e7), 0
+    whole = int(1e7)
+    taken = 0
     with connected(held, JSON_HEAD % b"trajectory" + b"Content-Length: %d\r\n\r\n%s" % (len(body), body)) as peer:
         peer.recv(1)
-        ours, service = peer.getsockname(), psutil.Process(held.process.pid)
+        ours = peer.getsockname()
+        service = psutil.Process(held.process.pid)
         wait_for(lambda: all(other.raddr != ours for other in service.net_connections()))
         with suppress(ConnectionResetError):
             while block := peer.recv(1 << 20):
@@ -259,7 +262,8 @@ def test_the_loop_that_takes_requests_comes_before_long_computations(held):
 @pytest.mark.thorough
 def test_by_default_one_client_cannot_take_all_places(tmp_path):
     """Of two for files, and of two for large bodies."""
-    text, large = b"word " * 3_999_000, b'{"pitch": [' + b"0," * 1_900_000
+    text = b"word " * 3_999_000
+    large = b'{"pitch": [' + b"0," * 1_900_000
 
     def post(address, call, kind, body):
         with client_at(address, ANSWER_TIMEOUT) as client:
@@ -283,7 +287,8 @@ def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held):
         body = {"times": {"stop": 400, "step": 2.0}}
         return httpx.post(f"{held.url}/trajectory", json=body, headers={"Accept": CSV_TYPE} | headers, timeout=SOON)
 
-    simple, zipped = answer(**{"Accept-Encoding": "identity"}), answer(**{"Accept-Encoding": "gzip"})
+    simple = answer(**{"Accept-Encoding": "identity"})
+    zipped = answer(**{"Accept-Encoding": "gzip"})
     assert ("content-encoding" in simple.headers, zipped.headers["content-encoding"]) == (False, "gzip")
     assert (simple.content, simple.headers["etag"] != zipped.headers["etag"]) == (zipped.content, True)
     assert answer(**{"If-None-Match": zipped.headers["etag"]}).status_code == 304

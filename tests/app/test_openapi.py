@@ -31,7 +31,8 @@ SPENT = "steps marches bound evaluations method evidence at_least head_speed_bra
 # Requests that fit the schema may still be refused: an overhang beyond half a bench, an instant after the fold.
 UNCHECKED = "positive_data_acceptance"
 # Kinds of values that schemathesis makes, which only the tests that ask it load: it takes 65 MB.
-RIGHT, WRONG = "positive", "negative"
+RIGHT = "positive"
+WRONG = "negative"
 
 DOCUMENT = create_app(Settings()).openapi()
 CALLS = [f"{method.upper()} {path}" for path, methods in DOCUMENT["paths"].items() for method in methods]

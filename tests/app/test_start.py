@@ -24,7 +24,8 @@ def test_a_module_is_called_with_its_own_arguments(tmp_path):
 @pytest.fixture
 def other_program(tmp_path, monkeypatch):
     """PYTHONPATH of another program with packages called app and core, in whose folder a user stands."""
-    other, library = tmp_path / "another program", tmp_path / "library"
+    other = tmp_path / "another program"
+    library = tmp_path / "library"
     (other / "app").mkdir(parents=True)
     library.mkdir()
     (other / "app" / "__init__.py").write_text("raise ImportError('the app of another program')\n")
@@ -38,7 +39,8 @@ def other_program(tmp_path, monkeypatch):
     "words", ["--version", "collision-time --benches 3 --json", "check --benches 3 --json", "no-such-command"]
 )
 def test_the_command_does_not_import_the_packages_of_another_program(words, other_program):
-    done, usual = run(*words.split(), PYTHONPATH=other_program), run(*words.split())
+    done = run(*words.split(), PYTHONPATH=other_program)
+    usual = run(*words.split())
     assert (done.returncode, done.stdout, done.stderr) == (usual.returncode, usual.stdout, usual.stderr)
 
 

@@ -88,7 +88,8 @@ def test_both_ways_of_asking_have_one_answer(client, question):
 
 @pytest.mark.parametrize("question", BOTH.values(), ids=BOTH)
 def test_an_empty_body_asks_what_an_empty_query_asks(question):
-    flat, body = question.flat(), question.body()
+    flat = question.flat()
+    body = question.body()
     shared = question.flat.model_fields.keys() & question.body.model_fields.keys() - {"time"}
     if question.name == "tolerance":  # over a body any dance, to its own end
         shared -= {"turning_diameter"}
@@ -97,13 +98,15 @@ def test_an_empty_body_asks_what_an_empty_query_asks(question):
 
 @pytest.mark.parametrize("asked", few(BODIES, 5), ids=label)
 def test_a_job_has_the_answer_of_its_call(client, asked):
-    path, body = asked[0].path, asked[1]
+    path = asked[0].path
+    body = asked[1]
     job = client.post(path, json=body, headers={"Prefer": "wait=5, respond-async"})
     assert (job.status_code, job.headers["preference-applied"]) == (202, "respond-async")
     assert job.json()["processID"].removesuffix("_of") == asked[0].name
     address = job.headers["location"]
     client.get(f"{address}/events").raise_for_status()  # Its events end when it is finished.
-    later, at_once = client.get(f"{address}/result").raise_for_status(), client.post(path, json=body)
+    later = client.get(f"{address}/result").raise_for_status()
+    at_once = client.post(path, json=body)
     assert (later.content, later.headers["content-type"]) == (at_once.content, at_once.headers["content-type"])
 
 
@@ -123,7 +126,8 @@ def test_a_command_with_options_prints_the_answer_of_the_call(ask, call):
 @pytest.mark.parametrize("name", [name for name, question in QUESTIONS.items() if question.several])
 def test_several_dances_are_described_beside_one_and_null_stands_for_one(ask, name):
     question = QUESTIONS[name]
-    call, operation = question.path[1:], ask("openapi.json")["paths"][question.path]["post"]
+    call = question.path[1:]
+    operation = ask("openapi.json")["paths"][question.path]["post"]
     schema = operation["responses"]["200"]["content"]["application/json"]["schema"]
     models = [model.__name__ for model in (question.model, question.several) if model]
     assert [one["$ref"].rpartition("/")[2] for one in schema["anyOf"]] == models

@@ -56,7 +56,8 @@ def test_places_and_speeds_of_a_dance_with_passages_and_pauses_are_those_of_core
 def test_failures_say_who_and_at_what_time_of_day(ask):
     got = ask("check", DANCE | CLOCK | {"venue": box(20, -18, 40, -6), "speed_limit": 0.9, "stop": 150})
     values = {failure["kind"]: failure for failure in got["failures"]}
-    speed, outside = values["speed"], values["outside"]
+    speed = values["speed"]
+    outside = values["outside"]
     assert (speed["time"], speed["clock"], speed["names"]) == (100, "19:31:40", ["Zhou"])
     assert outside["names"] == [NAMES[outside["benches"][0]]]
 
@@ -148,7 +149,8 @@ def test_the_dance_starts_at_its_time_of_day_and_the_verdict_says_when_it_ends(a
 def test_what_people_hold_begins_when_a_dance_does_that_begins_before_time_0(ask, call):
     lane = {"kind": "route", "start": 26, "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}]}
     body = {"dragon": {"benches": 5}, "path": lane, "begin_clock": "19:30"}
-    held, report = ask(call, body), ask("check", body)
+    held = ask(call, body)
+    report = ask("check", body)
     first = held["cards"][0]["begin"] if call == "cues" else {"time": held["start"]}
     assert report["start"] == first["time"] < 0.0
 
@@ -158,7 +160,8 @@ def test_what_people_hold_begins_when_a_dance_does_that_begins_before_time_0(ask
     [({"start": 20}, "", 20.0), ({"start": 20}, "--start 22", 20.0), ({}, "--start 22", 7.81)],
 )
 def test_a_dance_starts_at_its_time_of_day_wherever_a_table_begins(tmp_path, file, options, begin):
-    dance, table = written(tmp_path, ON_LANE | {"begin_clock": "19:30"} | file), tmp_path / "all.csv"
+    dance = written(tmp_path, ON_LANE | {"begin_clock": "19:30"} | file)
+    table = tmp_path / "all.csv"
     said("trajectory", dance, *options.split(), "--output", str(table), aside=None)
     first = next(csv.DictReader(table.read_text().splitlines()))
     assert first["clock"] == f"19:30:{int(float(first['time']) - begin):02d}"

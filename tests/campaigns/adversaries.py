@@ -17,11 +17,16 @@ from tests.support.scenes import lengths_and_widths
 
 CIRCLE = 4.5  # radius of the turning circle [m]
 # Poses drawn at random for a place; those of them that are varied, and how often [1].
-DRAWS, VARIED, VARIANTS = 80_000, 150, 50
+DRAWS = 80_000
+VARIED = 150
+VARIANTS = 50
 # Rounds of variants; size of the first as a part of the stray, and factor from each to the next [1].
-ROUNDS, FIRST, SHRINK = 16, 0.3, 0.6
+ROUNDS = 16
+FIRST = 0.3
+SHRINK = 0.6
 # Random times, and poses of the two nearest benches at each of them [1].
-ANY_TIMES, ANY_DRAWS = 30, 1_000
+ANY_TIMES = 30
+ANY_DRAWS = 1_000
 
 
 def to_circle(pitch):
@@ -36,12 +41,15 @@ class PairAtTime:
     """Two benches of a dance at a time. stray: largest distance of their holes from their places [m]"""
 
     def __init__(self, dance, time, pair, stray):
-        handles, bench = trajectory(dance, time).position, list(pair)
-        self.stray, self.handles = stray, np.array([handles[k : k + 2] for k in pair])
+        handles = trajectory(dance, time).position
+        bench = list(pair)
+        self.stray = stray
+        self.handles = np.array([handles[k : k + 2] for k in pair])
         self.chords = dance.dragon.chords[bench].tolist()
         self.sizes = lengths_and_widths(dance.dragon)[bench]
         heading = bench_poses(self.handles)[:, 0, 2]
-        cosine, sine = np.cos(heading), np.sin(heading)
+        cosine = np.cos(heading)
+        sine = np.sin(heading)
         self.turns = np.moveaxis(np.array([[cosine, sine], [-sine, cosine]]), -1, 0)
 
     def gaps(self, strays):
@@ -73,7 +81,8 @@ class PairAtTime:
 
 def _shapes(strays):
     """q and the middle (N, bench, 3) of strays."""
-    middle, half = 0.5 * strays.sum(axis=2), 0.5 * (strays[:, :, 0] - strays[:, :, 1])
+    middle = 0.5 * strays.sum(axis=2)
+    half = 0.5 * (strays[:, :, 0] - strays[:, :, 1])
     q = np.copysign(np.hypot(half[..., 0], half[..., 1]), half[..., 1])
     return np.concatenate([q[..., None], middle], axis=-1)
 
@@ -81,7 +90,9 @@ def _shapes(strays):
 def seek(dance, known, part=0.999, draws=DRAWS):
     """Gaps [m] of poses of a default dance with this part of its tolerance, where and when benches are the nearest."""
     assert known.time is not None
-    stray, rng, sought = part * known.stray, np.random.default_rng(7), []
+    stray = part * known.stray
+    rng = np.random.default_rng(7)
+    sought = []
     at = known.time
     for time, pair in [(at, (0, 19)), (at - 1.0, (0, 19)), (known.stop, (0, 18)), (322.9, (0, 17)), (320.0, (1, 20))]:
         place = PairAtTime(dance, time, pair, stray)

@@ -151,7 +151,8 @@ def _stops_at_the_end(certificate, stop):
 
 def disagreement(certificate):
     """How the two checkers disagree about a certificate; empty if they agree."""
-    first, other = proven_by_core(certificate), proven_by_second(certificate)
+    first = proven_by_core(certificate)
+    other = proven_by_second(certificate)
     # The end of a route is a double that core rounds on its way: a stop some last digits later is no disagreement.
     stop = certificate.get("claim", {}).get("stop") if isinstance(certificate.get("claim"), dict) else None
     edge = "when the path ends, got" in first[1] and isinstance(stop, float)
@@ -159,7 +160,8 @@ def disagreement(certificate):
         return ""
     for parts in PARTS:
         finer = cut(certificate, parts)
-        finer_first, finer_other = proven_by_core(finer), proven_by_second(finer)
+        finer_first = proven_by_core(finer)
+        finer_other = proven_by_second(finer)
         if finer_first[0] and finer_other[0]:
             return ""
     return f"only {'core/proof' if first[0] else 'verify.py'} proves it: {first[1][:300]} | {other[1][:300]}"
@@ -184,7 +186,8 @@ def _change(content, dice):
     inside = content
     for step in place[:-1]:
         inside = inside[step]
-    name, value = place[-1], inside[place[-1]]
+    name = place[-1]
+    value = inside[place[-1]]
     kind = dice.random()
     if isinstance(value, float | int) and not isinstance(value, bool) and kind < 0.8:
         inside[name] = _number(value, dice)
@@ -192,7 +195,8 @@ def _change(content, dice):
         k = dice.randrange(len(value))
         inside[name] = value[:k] + dice.choice((*"0123456789", "", 2 * value[k])) + value[k + 1 :]
     elif isinstance(value, list) and value and kind < 0.9:
-        k, other = dice.randrange(len(value)), dice.randrange(len(value))
+        k = dice.randrange(len(value))
+        other = dice.randrange(len(value))
         dice.choice(
             (
                 lambda: value.pop(k),

@@ -48,7 +48,9 @@ class Tally:
         """An answer, counted. raises: AssertionError for a fault of the service, or one without problem details"""
         begun = time.monotonic()
         answer = ask()
-        seconds, status, text = time.monotonic() - begun, answer.status_code, answer.content.decode(errors="replace")
+        seconds = time.monotonic() - begun
+        status = answer.status_code
+        text = answer.content.decode(errors="replace")
         self.statuses[status] += 1
         self.slowest = max(self.slowest, (seconds, request[:200]))
         assert status < 500 or (status == 503 and "retry-after" in answer.headers), (request, text[:500])
@@ -63,7 +65,8 @@ def mutated(value, chance):
     inner = list(value) if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else []
     if not inner or chance.random() < 0.15:
         return copy.deepcopy(chance.choice(ODD))
-    values, at = copy.deepcopy(value), chance.choice(inner)
+    values = copy.deepcopy(value)
+    at = chance.choice(inner)
     match chance.randrange(6):
         case 0:
             del values[at]
@@ -78,7 +81,8 @@ def mutated(value, chance):
 
 def mutant(call, chance):
     """Path and options of a request that is one to three steps away from an example."""
-    example, path = EXAMPLES[call], call.split()[1]
+    example = EXAMPLES[call]
+    path = call.split()[1]
     request = (example.query if example.body is None else example.body) or {"pitch": 0.5}
     for _ in range(chance.randrange(1, 4)):
         request = mutated(request, chance)
@@ -95,7 +99,9 @@ def mutant(call, chance):
 
 def ask_mutants(url, count, seed=0):
     """Ask a number of them, each call in turn."""
-    chance, tally, calls = random.Random(seed), Tally(), sorted(EXAMPLES)
+    chance = random.Random(seed)
+    tally = Tally()
+    calls = sorted(EXAMPLES)
     with httpx.Client(base_url=url, timeout=2.0 * SLOWEST) as client:
         for number in range(count):
             call = calls[number % len(calls)]

@@ -73,7 +73,8 @@ TOML = 'margin = 0.1\nvenue = "square.kml"\n[dragon]\nbenches = 4\n[path]\nkind 
 @cache
 def samples():
     """Good files, by their calls."""
-    kml, result = KML.encode(), by_xlsxwriter(few())
+    kml = KML.encode()
+    result = by_xlsxwriter(few())
     csv = "\n".join(f"head x (m),{k},{k}.5,8.800000" for k in range(300)).encode()
     maps = [kml, zipped({"a.png": b"", "doc.kml": kml}, zipfile.ZIP_DEFLATED), _drawing(), TOML.encode()]
     maps += [json.dumps(one).encode() for one in (GEOJSON, DANCE)]
@@ -159,7 +160,8 @@ def file_of(chance):
 
 def ask_files(url, count, seed=0, kept=None):
     """Send a number of them. kept: folder that gets a file at which the service fails"""
-    chance, tally = random.Random(seed), Tally()
+    chance = random.Random(seed)
+    tally = Tally()
     headers = {"Content-Type": "application/octet-stream"}
     with httpx.Client(base_url=url, timeout=4.0 * SLOWEST) as client:
         for number in range(count):

@@ -11,7 +11,9 @@ from tests.support.slow_follower import cosines_at, followed_slowly, twisted
 
 # Part by which u . T at the rear handle may differ from the limit, and u . T at the front handle from 0 [1]; how far
 # below the chord a nearer place must stay, which small steps see to 1e-5 m [m].
-PART, FRONT, NEARER = 0.01, 0.005, 1e-4
+PART = 0.01
+FRONT = 0.005
+NEARER = 1e-4
 # How far beyond the place of a refusal the small steps look again [m].
 JUST = 1e-5
 
@@ -20,7 +22,8 @@ def judged(route, dragon):
     """What was said of the one bench on a route, and what the steps saw against it, '' for nothing."""
     if bends_widely(dragon, route):
         return "wide", ""
-    proof, steps = following(dragon, route), followed_slowly(route, float(dragon.chords[0]))
+    proof = following(dragon, route)
+    steps = followed_slowly(route, float(dragon.chords[0]))
     jumps = steps.jumps_at is not None
     if not proof.obstacles:
         worse = steps.rear_cosine < REAR_COSINE_LEAST * (1.0 - PART) or steps.front_cosine < -FRONT
@@ -41,7 +44,8 @@ def fails(rear_cosine, front_cosine):
 
 def fault(seed, case):
     """The kind of the answer to a random case, and its fault in words ('' for none)."""
-    rng, route = hunting.generator(seed, case), None
+    rng = hunting.generator(seed, case)
+    route = None
     dragon = Dragon(1, rng.uniform(1.4, 2.4), overhang=0.2)
     while route is None:
         route = twisted(rng, 3.0 * float(dragon.chords[0]))

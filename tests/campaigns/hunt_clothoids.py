@@ -15,10 +15,12 @@ def blended_route(rng, dragon):
     """A line, bends of clothoids and arcs, and a line, each as long as the dragon."""
     chord = float(dragon.chords.max())
     way = float(sum(dragon.chords) + rng.uniform(1.0, 6.0) * chord)
-    pen, side = Pen(complex(-way)), float(rng.choice([-1.0, 1.0]))
+    pen = Pen(complex(-way))
+    side = float(rng.choice([-1.0, 1.0]))
     pen.line(way)
     for _ in range(int(rng.choice([1, 1, 2]))):
-        bend, sweep = side / (rng.uniform(0.55, 1.5) * chord), rng.uniform(1.5, 3.4)
+        bend = side / (rng.uniform(0.55, 1.5) * chord)
+        sweep = rng.uniform(1.5, 3.4)
         ramps = rng.uniform(0.0, 0.9, 2) * (rng.uniform(size=2) < 0.8)  # parts of the sweep, half of which is left
         turned = [(0.0, bend, 0.5 * ramps[0] * sweep), (bend, bend, (1.0 - 0.5 * ramps.sum()) * sweep)]
         for first, last, angle in [*turned, (bend, 0.0, 0.5 * ramps[1] * sweep)]:

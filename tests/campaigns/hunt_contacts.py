@@ -30,7 +30,8 @@ from tests.support.slow_route import SlowRoute
 from tests.support.slow_search import RUN, STEP, Samples, SlowDance
 
 # Accuracy of slow clearances [m], and of times at 1 m/s [s].
-GAP, TIME = 1e-9, 1e-9
+GAP = 1e-9
+TIME = 1e-9
 # Width of a bracket as promised at 1 m/s [s], and where a second pair or rounding may hide more.
 NARROW = 1e-9
 # Largest number of coarse samples of a slow search: longer dances are cut.
@@ -42,7 +43,8 @@ SURE = 1e-8
 def random_dragon(rng, benches=None):
     """3 to 16 benches, or so many, uniform or bench by bench."""
     benches, chord = benches or int(rng.integers(3, 17)), 10.0 ** rng.uniform(-0.3, 0.4)
-    width, overhang = chord * 10.0 ** rng.uniform(-1.0, -0.1), chord * rng.choice([0.0, 0.1, 0.25, 0.4])
+    width = chord * 10.0 ** rng.uniform(-1.0, -0.1)
+    overhang = chord * rng.choice([0.0, 0.1, 0.25, 0.4])
     if rng.uniform() < 0.3:
         chords = chord * 10.0 ** rng.uniform(-0.15, 0.15, benches)
         overhangs = np.full(benches, overhang) * rng.uniform(0.5, 1.0, benches)
@@ -53,7 +55,8 @@ def random_dragon(rng, benches=None):
 
 def random_path(rng, dragon):
     """A spiral, a turn, or a route of lines, arcs and coils that bends back towards itself."""
-    chord, width = float(dragon.chords.max()), float(dragon.widths.max())
+    chord = float(dragon.chords.max())
+    width = float(dragon.widths.max())
     kind = rng.choice(["spiral", "turn", "route", "coil"])
     pitch = rng.uniform(0.8, 2.0) * width + rng.uniform(0.0, 0.6) * chord
     if kind == "spiral":
@@ -64,7 +67,8 @@ def random_path(rng, dragon):
     if kind == "coil":
         inner = 1.2 * chord / pitch
         return Route([Coil(pitch, inner + rng.uniform(2.0, 5.0), inner)])
-    radius, sweep = rng.uniform(0.55, 1.5) * chord, rng.uniform(2.0, 3.1) * rng.choice([-1, 1])
+    radius = rng.uniform(0.55, 1.5) * chord
+    sweep = rng.uniform(2.0, 3.1) * rng.choice([-1, 1])
     way = float(sum(dragon.chords) + rng.uniform(1.0, 6.0) * chord)
     pen = Pen(complex(-way))
     pen.line(way)
@@ -77,7 +81,8 @@ def random_passages(rng):
     """No passages, or some with pauses, from time 0 on."""
     if rng.uniform() < 0.6:
         return ()
-    passages, time = [], 0.0
+    passages = []
+    time = 0.0
     for _ in range(int(rng.integers(1, 4))):
         time += rng.uniform(0.5, 6.0)
         passages.append(Passage(0.0 if rng.uniform() < 0.4 else rng.uniform(0.3, 2.0), until_time=time))
@@ -97,7 +102,8 @@ class SlowLook(Samples):
     """The slow clearance of a dance between two travels, in samples that are closer around the lowest of them."""
 
     def __init__(self, slow, begin, until):
-        self.begin, self.until = begin, min(until, begin + SAMPLES * STEP * slow.chords.min())
+        self.begin = begin
+        self.until = min(until, begin + SAMPLES * STEP * slow.chords.min())
         part = np.linspace(0.0, 1.0, 3 + int((self.until - begin) / (STEP * slow.chords.min())))
         # handles move as the square root of the way to a fold
         ahead = until - self.until < 1.0 and not isinstance(slow, SlowRoute)

@@ -38,8 +38,10 @@ LONGEST = 60.0
 
 def random_route(rng, dragon, reach):
     """A line through the middle, an arc about it, or a coil, long enough for the dragon."""
-    chord, length = float(dragon.chords.max()), float(dragon.chords.sum())
-    middle, heading = rng.uniform(-0.3, 0.3, 2) * reach, rng.uniform(-np.pi, np.pi)
+    chord = float(dragon.chords.max())
+    length = float(dragon.chords.sum())
+    middle = rng.uniform(-0.3, 0.3, 2) * reach
+    heading = rng.uniform(-np.pi, np.pi)
     kind = rng.choice(["line", "arc", "coil"])
     along = np.array([np.cos(heading), np.sin(heading)])
     if kind == "line":
@@ -48,16 +50,21 @@ def random_route(rng, dragon, reach):
         radius = rng.uniform(1.2 * chord, max(reach, 1.5 * chord))
         sweep = (length / radius * 1.6 + rng.uniform(1.0, 5.0)) * float(rng.choice([-1.0, 1.0]))
         return Route([Arc(tuple(middle), radius, heading, sweep)])
-    pitch, inner = rng.uniform(0.8, 2.0) * chord, rng.uniform(1.0, 2.0)
+    pitch = rng.uniform(0.8, 2.0) * chord
+    inner = rng.uniform(1.0, 2.0)
     return Route([Coil(pitch, inner + rng.uniform(2.0, 4.0), inner, tuple(middle), heading)])
 
 
 def random_performance(rng):
     """Two to five dragons, of which some share one spiral."""
-    count, reach = int(rng.integers(2, 6)), rng.uniform(5.0, 16.0)
+    count = int(rng.integers(2, 6))
+    reach = rng.uniform(5.0, 16.0)
     shared = rng.uniform() < 0.4
-    pitch, clockwise = rng.uniform(0.8, 2.0) * count * 0.6, rng.uniform() < 0.5
-    centre, turn, spin = tuple(rng.uniform(-5.0, 5.0, 2)), rng.uniform(2.0, 6.0), rng.uniform(-3.0, 3.0)
+    pitch = rng.uniform(0.8, 2.0) * count * 0.6
+    clockwise = rng.uniform() < 0.5
+    centre = tuple(rng.uniform(-5.0, 5.0, 2))
+    turn = rng.uniform(2.0, 6.0)
+    spin = rng.uniform(-3.0, 3.0)
     parts = []
     for k in range(count):
         dragon = random_dragon(rng, int(rng.integers(1, 10)))
@@ -83,7 +90,8 @@ def random_case(seed, case):
         if SlowPerformance(performance.parts).clearance([performance.begin])[0][0] > 0.0:
             break
         performance = random_performance(rng)
-    begin, end = performance.begin, performance.end.time
+    begin = performance.begin
+    end = performance.end.time
     if performance.end.dragon is not None:
         end = begin + RUN * (end - begin)
     start = begin + (end - begin) * float(rng.choice([0.0, rng.uniform(0.0, 0.8)]))

@@ -27,9 +27,11 @@ SECONDS = 120.0
 # Shares of typed numbers and of files among the cases, and of sheets with all instants: others have every 25th.
 TYPED, FILES, WHOLE, THINNED = 0.4, 0.2, 0.02, 25
 # Numbers of instants in a file, from and below; and share of the files with one sheet that are workbooks.
-INSTANTS, WORKBOOKS = (2, 7), 0.3
+INSTANTS = (2, 7)
+WORKBOOKS = 0.3
 # Decimals of sheets, and of typed numbers.
-SHEET_DECIMALS, TYPED_DECIMALS = (2, 9), (1, 11)
+SHEET_DECIMALS = (2, 9)
+TYPED_DECIMALS = (1, 11)
 
 
 @cache
@@ -122,7 +124,8 @@ CHANGES = [
 def sheet_fault(random):
     """What the grader finds in a workbook that is nearly right; empty for nothing."""
     workbook = list(Workbook)[random.integers(3)]
-    values, times = right(workbook), times_of(workbook)
+    values = right(workbook)
+    times = times_of(workbook)
     if workbook is not Workbook.RESULT2 and random.random() > WHOLE:
         values, times = values[::THINNED], times[::THINNED]
     changes = [CHANGES[k] for k in random.integers(len(CHANGES), size=random.integers(3))]
@@ -141,7 +144,8 @@ def sheet_fault(random):
 
 def table_of(kind, times, values):
     """A sheet with these numbers (T, HANDLES, 3)."""
-    some, handles = values[..., list(COMPONENTS[kind])], np.arange(HANDLES)
+    some = values[..., list(COMPONENTS[kind])]
+    handles = np.arange(HANDLES)
     places = np.zeros(some.shape, dtype=np.int64)
     instants = np.array([np.nan]) if kind is TableKind.CONTACT else times
     return SheetTable("", kind, instants, handles, handles, some, places, places)
@@ -168,8 +172,10 @@ ERRORS = {
 
 def file_fault(random):
     """What is false in the grade of a file in a random layout, right or with one of ERRORS; empty for nothing."""
-    workbook, error = list(Workbook)[random.integers(len(Workbook))], list(ERRORS)[random.integers(len(ERRORS))]
-    values, times = right(workbook), times_of(workbook)
+    workbook = list(Workbook)[random.integers(len(Workbook))]
+    error = list(ERRORS)[random.integers(len(ERRORS))]
+    values = right(workbook)
+    times = times_of(workbook)
     if workbook is not Workbook.RESULT2:
         some = np.sort(random.choice(times.size, random.integers(*INSTANTS), replace=False))
         values, times = values[some], times[some]
@@ -178,7 +184,8 @@ def file_fault(random):
     is_csv = len(sheets) == 1 and random.random() > WORKBOOKS
     data = as_csv(*sheets.values()) if is_csv else by_xlsxwriter(sheets)
     grade = graded(f"{workbook.value}.csv", data, Budget())
-    names, count = [one.error for one in grade.diagnosis], sum(one.right for one in grade.sheets)
+    names = [one.error for one in grade.diagnosis]
+    count = sum(one.right for one in grade.sheets)
     if error:
         is_fine = grade.verdict == "wrong" and names == [error]
     else:
@@ -191,7 +198,8 @@ def file_fault(random):
 def typed_fault(random):
     """What the grader finds in a number that is right to its digits, nearly right, or random; empty for nothing."""
     name = list(UNITS)[random.integers(len(UNITS))]
-    value, decimals = right_answer(name), int(random.integers(*TYPED_DECIMALS))
+    value = right_answer(name)
+    decimals = int(random.integers(*TYPED_DECIMALS))
     way = random.integers(3)
     if way == 1:
         value *= 1.0 + random.normal(0.0, 10.0 ** -random.uniform(2.0, 9.0))

@@ -24,8 +24,10 @@ BEFORE_FOLD = 0.01
 
 def random_turn(rng, dragon):
     """A turn that may begin and end anywhere inside its circle."""
-    chord, width = float(dragon.chords.max()), float(dragon.widths.max())
-    pitch, radius = rng.uniform(0.8, 2.0) * width + rng.uniform(0.0, 0.6) * chord, rng.uniform(1.1, 3.0) * chord
+    chord = float(dragon.chords.max())
+    width = float(dragon.widths.max())
+    pitch = rng.uniform(0.8, 2.0) * width + rng.uniform(0.0, 0.6) * chord
+    radius = rng.uniform(1.1, 3.0) * chord
     ends = radius * np.maximum(rng.uniform(0.5, 1.15, 2), 0.0).clip(max=1.0)
     return Turn(
         pitch, radius, float(np.exp(rng.uniform(-0.5, 0.5))), start_turns=radius / pitch + rng.uniform(1.0, 5.0),
@@ -46,9 +48,11 @@ def turn_case(rng):
 def spiral_case(rng):
     """The same for the last turns of a long spiral."""
     dragon = random_dragon(rng)
-    pitch, turns = rng.uniform(0.3, 2.0), 10.0 ** rng.uniform(1.0, 3.0)
+    pitch = rng.uniform(0.3, 2.0)
+    turns = 10.0 ** rng.uniform(1.0, 3.0)
     spiral = Spiral(pitch, turns)
-    dance, slow = Dance(dragon, spiral), SlowDance.of(dragon, spiral)
+    dance = Dance(dragon, spiral)
+    slow = SlowDance.of(dragon, spiral)
     left = pitch / (2.0 * math.pi) * float(arc_length(2.0 * math.pi * rng.uniform(1.0, 7.0)))
     fold = min(slow.end(), dance.end.time)
     start = float(max(fold - left, 0.0))

@@ -33,7 +33,8 @@ class SlowVenue(Samples):
     """Distances of all benches from one area at many times."""
 
     def __init__(self, part, boundary, times):
-        self.part, self.boundary = part, boundary
+        self.part = part
+        self.boundary = boundary
         super().__init__(self.distances, times)
 
     def distances(self, times):
@@ -47,16 +48,21 @@ class SlowVenue(Samples):
 
 def random_obstacle(rng, part, times):
     """A triangle (3, 2) with a corner beside a bench or anywhere."""
-    handles, slow = part.handles(times[-1:] - (times[-1] - times[0]) * rng.uniform() ** 3)[0], part.slow
+    handles = part.handles(times[-1:] - (times[-1] - times[0]) * rng.uniform() ** 3)[0]
+    slow = part.slow
     bench = int(min(rng.integers(0, 4), len(slow.chords) - 1))
-    front, rear = handles[bench], handles[bench + 1]
+    front = handles[bench]
+    rear = handles[bench + 1]
     along = (front - rear) / np.linalg.norm(front - rear)
     left = np.array([-along[1], along[0]]) * rng.choice([-1.0, 1.0])
-    length, width = 0.5 * slow.lengths[bench], 0.5 * slow.widths[bench]
+    length = 0.5 * slow.lengths[bench]
+    width = 0.5 * slow.widths[bench]
     gap = 10.0 ** rng.uniform(-6.0, 0.0)
-    is_beside, share = rng.uniform() < 0.5, rng.uniform(-1.0, 1.0)
+    is_beside = rng.uniform() < 0.5
+    share = rng.uniform(-1.0, 1.0)
     ahead, aside = (length * share, width + gap) if is_beside else (length + gap, width * share)
-    corner, away = 0.5 * (front + rear) + along * ahead + left * aside, left if is_beside else along
+    corner = 0.5 * (front + rear) + along * ahead + left * aside
+    away = left if is_beside else along
     if rng.uniform() < 0.2:
         corner = rng.uniform(-1.0, 1.0, 2) * np.linalg.norm(handles[0]) * 1.5
     size = 10.0 ** rng.uniform(-2.5, 0.1)
@@ -67,9 +73,12 @@ def random_obstacle(rng, part, times):
 def random_case(seed, case):
     """dance, venue, margin, start, stop, and the slow look at the tree; raises: BenchDragonError for what is refused"""
     rng = hunting.generator(seed, case)
-    dragon, turns = random_dragon(rng, int(rng.choice([1, 2, 3, 5, 8, 12]))), rng.uniform(1.2, 5.0)
+    dragon = random_dragon(rng, int(rng.choice([1, 2, 3, 5, 8, 12])))
+    turns = rng.uniform(1.2, 5.0)
     pitch = float(rng.uniform(0.15, 1.2) * dragon.chords.max())
-    centre, rotation, clockwise = rng.uniform(-20.0, 20.0, 2), rng.uniform(-4.0, 4.0), rng.uniform() < 0.5
+    centre = rng.uniform(-20.0, 20.0, 2)
+    rotation = rng.uniform(-4.0, 4.0)
+    clockwise = rng.uniform() < 0.5
     path = blended_route(rng, dragon) if case % 3 == 2 else Spiral(pitch, turns, tuple(centre), rotation, clockwise)
     dance = Dance(dragon, path)
     placed = SlowPart(Part(dance))

@@ -40,7 +40,9 @@ def unless_refused(judged, case_of, *case):
 def hunt(fault, seed, seconds=SECONDS, cases=None):
     """Judge case after case until the time is over [s], or for a number of cases; prints every fault."""
     kinds = Counter()
-    stop, case, faults = time.monotonic() + seconds, 0, 0
+    stop = time.monotonic() + seconds
+    case = 0
+    faults = 0
     while time.monotonic() < stop if cases is None else case < cases:
         kind, wrong = fault(seed, case)
         kinds[kind] += 1

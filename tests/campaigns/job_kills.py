@@ -69,7 +69,9 @@ def survive(service, kills, seed, pause=PAUSE, busy=BUSY):
 
     returns: number of processes killed, by role
     """
-    chance, done, store = random.Random(seed), dict.fromkeys(ROLES, 0), Store(service.folder)
+    chance = random.Random(seed)
+    done = dict.fromkeys(ROLES, 0)
+    store = Store(service.folder)
     request = {}
     while sum(done.values()) < kills:
         while sum(not job.is_finished for job in store.all()) < busy:

@@ -29,11 +29,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 FAULTS = Path(__file__).with_suffix(".json")
-CLONE, TRIED = ROOT / "build" / "mutants" / "clone", ROOT / "build" / "mutants" / "tried.json"
+CLONE = ROOT / "build" / "mutants" / "clone"
+TRIED = ROOT / "build" / "mutants" / "tried.json"
 COVERED = CLONE / ".coverage"
 SHARES = {"core": 0.45, "app": 0.38, "app/page": 0.17}  # of syntax nodes (2026-11-28)
 STRYKER = "@stryker-mutator/instrumenter@9.6.1"
-EVERY_DAY, THOROUGH = "not thorough", "thorough"
+EVERY_DAY = "not thorough"
+THOROUGH = "thorough"
 # Longest time of the tests of one fault [s]: a fault may make a search endless.
 MOST = 1_800.0
 # A run without what a test needs has another reason to fail.
@@ -67,12 +69,15 @@ class Fault:
 
 def fault_of(path, kind, text, changed):
     """The fault that makes `changed` of a file's text; None if it changes nothing."""
-    old, new = text.splitlines(keepends=True), changed.splitlines(keepends=True)
+    old = text.splitlines(keepends=True)
+    new = changed.splitlines(keepends=True)
     spans = [code for code in difflib.SequenceMatcher(None, old, new, False).get_opcodes() if code[0] != "equal"]
     if not spans:
         return None
-    i, j = spans[0][1], spans[0][3]
-    end, stop = spans[-1][2], spans[-1][4]
+    i = spans[0][1]
+    j = spans[0][3]
+    end = spans[-1][2]
+    stop = spans[-1][4]
     if end == i:  # only new lines: the line before them names the place
         i, j = i - 1, j - 1
     return Fault(path, i + 1, kind, old[i:end], new[j:stop])
@@ -95,7 +100,8 @@ def draw_python(room, chance, place):
     from cosmic_ray.mutating import mutate_code
     from cosmic_ray.plugins import get_operator
 
-    config, session = place / "cosmic.toml", place / f"{room}.sqlite"
+    config = place / "cosmic.toml"
+    session = place / f"{room}.sqlite"
     config.write_text(
         f'[cosmic-ray]\nmodule-path = ["{room}"]\ntimeout = 60.0\nexcluded-modules = []\ntest-command = "true"\n'
         '[cosmic-ray.distributor]\nname = "local"\n'
@@ -171,7 +177,8 @@ def prepare():
 def near(fault):
     """Files of tests that are named as the module of a fault, that import it, or that stand in its room."""
     path = Path(fault.path)
-    room, stem = path.parent.name, path.stem
+    room = path.parent.name
+    stem = path.stem
     files = {file.relative_to(CLONE).as_posix(): file for file in sorted((CLONE / "tests").rglob("test_*.py"))}
     if room == "page" or "page" in path.parts:
         word = re.compile(rf"\b{re.escape(stem)}\b|import node")

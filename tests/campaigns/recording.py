@@ -32,7 +32,8 @@ MUTANTS = 6
 SEED = 67
 # Calls without an example: figures, files and maps, with a request of few seconds.
 DANCE = {"dragon": {"benches": 12}, "path": {"kind": "spiral", "start_turns": 9}}
-QUERY, FILM = {"benches": 12, "start_turns": 9}, DANCE | {"height": 90, "seconds": 0.2}
+QUERY = {"benches": 12, "start_turns": 9}
+FILM = DANCE | {"height": 90, "seconds": 0.2}
 SMALL = {"films": FILM, "contest_kit": {"benches": 5, "films": False, "span": 2, "stop": 20}, "maps": DANCE}
 # Files beside which the commands run, and what is asked of each; a line of one word is also asked for its help, with an
 # option that is not there, and with values that are refused.
@@ -72,8 +73,10 @@ def requests():
     """Name of each request to the service, and what httpx gets."""
     chance = random.Random(SEED)
     for name, call in CALLS.items():
-        question, at = call.question, f"{call.method} {call.question.path}"
-        example, is_post = EXAMPLES.get(at), call.method == "POST"
+        question = call.question
+        at = f"{call.method} {call.question.path}"
+        example = EXAMPLES.get(at)
+        is_post = call.method == "POST"
         request = SMALL.get(name, DANCE if is_post else QUERY)
         if example:
             request = example.query or example.body or {}

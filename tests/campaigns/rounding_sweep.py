@@ -80,7 +80,8 @@ def random_path(rng):
     """A turn, or a line and up to four pieces of any kind; curvatures jump between them, or go on."""
     if rng.random() < 0.2:
         return Turn(*rng.uniform((1.4, 4.0, 1.0), (2.5, 6.0, 2.5)).tolist())
-    pen, bend = Pen(complex(*rng.uniform(-EXTENT, EXTENT, 2)), rng.uniform(-9.0, 9.0)), 0.0
+    pen = Pen(complex(*rng.uniform(-EXTENT, EXTENT, 2)), rng.uniform(-9.0, 9.0))
+    bend = 0.0
     pen.line(rng.uniform(20.0, 90.0))
     for kind in rng.choice(["line", "arc", "coil", "clothoid", "waypoints"], rng.integers(1, 5)):
         last = rng.uniform(-0.5, 0.5)
@@ -98,9 +99,11 @@ def random_path(rng):
 
 def compare(errors, search, head, rng):
     """Adds the errors of one chain over their bounds, by what they are of; its head is at theta or s."""
-    dragon, growth = search.dragon, search.growth
+    dragon = search.dragon
+    growth = search.growth
     search.resize(dragon.benches)
-    sizes, chain = search.sizes, search.placed
+    sizes = search.sizes
+    chain = search.placed
     if isinstance(search.path, Spiral):
         kernels.start_chain(head, chain)
         assert kernels.extend_chain(growth, 0, dragon.benches, kernels.FREE, sizes, chain) == dragon.benches
@@ -145,7 +148,9 @@ def _pairs(rng, benches, count):
 
 def sweep(gaps, seed):
     """Errors of a number of gaps, of chains on spirals and routes in turn, over their bounds."""
-    rng, errors, chains = np.random.default_rng(seed), defaultdict(list), 0
+    rng = np.random.default_rng(seed)
+    errors = defaultdict(list)
+    chains = 0
     while len(errors["gaps"]) < gaps:
         chains += 1
         compare(errors, *(random_spiral(rng) if chains % 2 else random_route(rng)), rng)
@@ -155,6 +160,7 @@ def sweep(gaps, seed):
 if __name__ == "__main__":
     result = sweep(*hunting.arguments(10_000, 0))
     for name, ratios in result.items():
-        most, middle = np.max(ratios), np.median(ratios)
+        most = np.max(ratios)
+        middle = np.median(ratios)
         print(f"{name:>10}: {len(ratios)} compared, error over bound {most:.3g}, median {middle:.3g}")
     sys.exit(int(max(map(max, result.values())) > 1.0))

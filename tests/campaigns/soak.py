@@ -18,7 +18,8 @@ from tests.support.serving import serving
 # Every process of the service has loaded all it needs by then [s].
 START_SECONDS = 5.0
 # Ordinary clients at once, the length of one attack, and how often the curve has a point [s].
-CONNECTIONS, ATTACK_SECONDS = 64, 10.0
+CONNECTIONS = 64
+ATTACK_SECONDS = 10.0
 POINTS = 180
 COLUMNS = ("seconds", "memory_mb", "answered", "busy", "other", "slowest_healthz_s", "slowest_collision_time_s")
 # The clients are processes of their own: none waits for Python's lock of another.
@@ -84,7 +85,8 @@ def all_at_once(url, pid, seconds):
     ]
     for other in others:
         other.start()
-    start, rows = time.monotonic(), []
+    start = time.monotonic()
+    rows = []
     step = max(seconds / POINTS, 5.0)
     while (now := time.monotonic() - start) < seconds:
         with watching(url) as watch:

@@ -26,7 +26,8 @@ from tests.support.serving import free_port
 
 ROOT = Path(__file__).parents[2]
 # Between two looks at the processes, and the most that a sweep may go on without a new part [s].
-LOOK, PATIENCE = 0.1, 300.0
+LOOK = 0.1
+PATIENCE = 300.0
 SHARDS = 200
 KINDS = ["scheduler", "worker", "client"]
 DASK = (sys.executable, "-m", "dask")
@@ -36,7 +37,8 @@ class Kept:
     """A process that is started again whenever it ended."""
 
     def __init__(self, log, *command):
-        self._log, self._command = log, command
+        self._log = log
+        self._command = command
         self.start()
 
     def start(self):
@@ -70,7 +72,8 @@ class KilledCluster:
 
     def __init__(self, folder, workers=2):
         port = str(free_port())
-        self.address, none = f"tcp://127.0.0.1:{port}", "--no-dashboard"
+        self.address = f"tcp://127.0.0.1:{port}"
+        none = "--no-dashboard"
         scheduler = (*DASK, "scheduler", "--host", "127.0.0.1", "--port", port, none)
         worker = (*DASK, "worker", self.address, "--nthreads", "1", none, "--death-timeout", "20")
         self.scheduler = Kept(folder / "scheduler.log", *scheduler)
@@ -92,16 +95,19 @@ def disturbed(spec_fields, folder, kills, seed):
 
     raises: TimeoutError, with the last words of the client
     """
-    chance, killed = random.Random(seed), Counter[str]()
+    chance = random.Random(seed)
+    killed = Counter[str]()
     (folder / "spec.json").write_bytes(orjson.dumps(spec_fields))
-    spec, output = Spec.of(spec_fields), folder / "out"
+    spec = Spec.of(spec_fields)
+    output = folder / "out"
     cluster = KilledCluster(folder)
     sweep = ("run", str(folder / "spec.json"), "--output", str(output), "--dask", cluster.address)
     client = Kept(folder / "client.log", COMMAND, "sweep", *sweep)
     kinds = (KINDS * kills)[:kills]
     chance.shuffle(kinds)
     due = [(k + 1) * spec.shards / (kills + 1) for k in range(kills)]
-    seen, since = 0, time.monotonic()
+    seen = 0
+    since = time.monotonic()
     try:
         while client.process.poll() != 0:
             client.keep()
@@ -109,7 +115,8 @@ def disturbed(spec_fields, folder, kills, seed):
             time.sleep(LOOK)
             there = len(parts(output)) if output.is_dir() else 0
             if there > seen:
-                seen, since = there, time.monotonic()
+                seen = there
+                since = time.monotonic()
             if time.monotonic() - since > PATIENCE:
                 words = (folder / "client.log").read_text()[-2000:]
                 raise TimeoutError(f"no new part for {PATIENCE:g} s after {seen} of {spec.shards}, {killed}: {words}")
@@ -140,7 +147,8 @@ def main(designs=200_000, kills=50, seed=0):
     spec_fields = collisions(designs)
     spec = Spec.of(spec_fields)
     with tempfile.TemporaryDirectory() as name:
-        folder, begun = Path(name), time.monotonic()
+        folder = Path(name)
+        begun = time.monotonic()
         run(spec, folder / "undisturbed", question=spec.asks, engine=Processes)
         quiet = time.monotonic() - begun
         killed = disturbed(spec_fields, folder, kills, seed)

@@ -14,11 +14,15 @@ from tests.support.slow_pitch import SlowWay
 
 # A pitch this much above the answer must be feasible, one this much below the infeasible end must not be [1], and at
 # least the second number [m]: pitches are promised to 1e-9 m.
-BESIDE, BESIDE_LEAST = 1e-8, 2e-9
+BESIDE = 1e-8
+BESIDE_LEAST = 2e-9
 # Rounding of a slow clearance on a way of metres [m], and of one on a wide spiral, per metre of its pitch [1].
-ROUNDING, ROUNDING_PER_PITCH = 1e-11, 1e-13
+ROUNDING = 1e-11
+ROUNDING_PER_PITCH = 1e-13
 # Nearest and furthest sample above the answer, as multiples of it less one [1]; the largest pitch sampled [m].
-NEAREST, FURTHEST, PITCH_MAX = 1e-5, 1e2, 1e4
+NEAREST = 1e-5
+FURTHEST = 1e2
+PITCH_MAX = 1e4
 # A dragon that is refused touches, or folds, at every pitch looked at from here to the largest [m].
 WIDE = 9e3
 

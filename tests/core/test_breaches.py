@@ -64,7 +64,8 @@ def test_fast_handles_are_marked_where_they_are_fast():
     most = float(motion.speed.max())
     assert breaches(BEND, speed_limit=1.001 * most) == ()
     limit = 0.5 * (1.0 + most)
-    fast, result = s[motion.speed > limit], breaches(BEND, speed_limit=limit)
+    fast = s[motion.speed > limit]
+    result = breaches(BEND, speed_limit=limit)
     assert np.any([(one.start <= fast) & (fast <= one.end) for one in result], axis=0).all()
     assert {one.kind for one in result} == {BreachKind.SPEED}
 
@@ -73,7 +74,8 @@ def test_fast_handles_are_marked_where_they_are_fast():
 def test_the_marked_places_are_those_of_a_slow_look_with_shapely(margin):
     result = [one for one in breaches(BEND, ROOM, margin=margin) if one.kind is BreachKind.MARGIN]
     motion, places = sampled()
-    square, stage = polygon(ROOM.square), polygon(ROOM.obstacles[0])
+    square = polygon(ROOM.square)
+    stage = polygon(ROOM.obstacles[0])
     marked = []
     for row, s in zip(shapely.polygons(bench_outlines(BEND.dragon, motion.position)), places, strict=True):
         for k, bench in enumerate(row):

@@ -63,7 +63,8 @@ ALL = pytest.mark.parametrize("name", QUESTIONS)
 
 @ALL
 def test_a_question_whose_work_is_stopped_or_spent_ends_and_says_which(name):
-    stopped, spent = Budget(), Budget(1.0)
+    stopped = Budget()
+    spent = Budget(1.0)
     stopped.stop()
     spent.spend(1.0)
     for budget in (stopped, spent):

@@ -8,7 +8,8 @@ import pytest
 from core import Dance, Dragon, InvalidValue, Legs, Route, Spiral, Waypoints, course
 from core.paths.following import bends_widely
 
-LONG, SHORT = Dragon(4), Dragon(4, head_length=0.9, body_length=0.9, overhang=0.1)
+LONG = Dragon(4)
+SHORT = Dragon(4, head_length=0.9, body_length=0.9, overhang=0.1)
 CORNERS = ((0.0, 0.0), (20.0, 0.0), (20.0, 20.0))
 BACK = ((0.0, 0.0), (40.0, 0.0), (5.0, 7.0))
 TIGHT = Legs(CORNERS, [0, 1], radius=1.0)

@@ -106,7 +106,8 @@ def test_every_public_result_is_shown_here(values):
 
 @pytest.mark.parametrize("kind", [*filter(is_dataclass, PUBLIC)], ids=lambda kind: kind.__name__)
 def test_the_fields_of_a_public_result_have_public_types_and_every_number_but_a_count_its_unit(kind):
-    types, known = {name: inside(hint) for name, hint in hints(kind).items()}, meanings(kind)
+    types = {name: inside(hint) for name, hint in hints(kind).items()}
+    known = meanings(kind)
     held = {one for some in types.values() for one in some if isinstance(one, type)}
     assert {one.__name__ for one in held if one.__module__.startswith("core.")} <= set(core.__all__)
     for name, some in types.items():
@@ -131,7 +132,9 @@ def test_results_with_the_same_numbers_are_equal(values):
 
 def test_every_value_has_one_short_line_and_a_table(values):
     for value in values:
-        line, table, name = repr(value), value._repr_html_(), type(value).__name__
+        line = repr(value)
+        table = value._repr_html_()
+        name = type(value).__name__
         assert name in line
         assert "\n" not in line
         assert len(line) <= LINE_MOST, line

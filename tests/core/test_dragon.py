@@ -82,7 +82,8 @@ def test_a_dragon_cannot_be_changed_nor_by_the_lists_it_was_made_from():
 @pytest.mark.parametrize("benches", [1, 2, 3, 5])
 def test_leading_benches_are_those_of_the_dragon(benches):
     columns = [3.0, 2.0, 4.0, 2.0, 2.0], [0.3, 0.2, 0.3, 0.3, 0.3], [0.2, 0.1, 0.2, 0.2, 0.2]
-    front, expected = Dragon.of(*columns).leading(benches), Dragon.of(*(column[:benches] for column in columns))
+    front = Dragon.of(*columns).leading(benches)
+    expected = Dragon.of(*(column[:benches] for column in columns))
     assert (front, front.uniform_from) == (expected, expected.uniform_from)
 
 

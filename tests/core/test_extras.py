@@ -8,7 +8,9 @@ from core import Dance, Dragon, Spiral, clearance_profile, first_contact, trajec
 from core.extras import wanted
 
 DANCE = Dance(Dragon(5), Spiral())
-TRAJECTORY, PROFILE, CONTACT = trajectory(DANCE, 0.0), clearance_profile(DANCE, 0.0), first_contact(DANCE)
+TRAJECTORY = trajectory(DANCE, 0.0)
+PROFILE = clearance_profile(DANCE, 0.0)
+CONTACT = first_contact(DANCE)
 
 
 @pytest.mark.parametrize(

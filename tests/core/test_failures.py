@@ -8,7 +8,8 @@ from core import Dance, Dragon, FailureKind, Judgement, Spiral, Turn, check, hig
 from core.extremes.speed import SPEED_ROUNDING
 
 EXCESS_ERROR = 1e-9  # [s]: a first excess is bracketed so closely at 1 m/s and more
-TURN, WIDE = Turn(1.7), Spiral(1.2, 8.0)
+TURN = Turn(1.7)
+WIDE = Spiral(1.2, 8.0)
 SHORT = Dance(Dragon(40), WIDE)
 
 
@@ -39,7 +40,8 @@ def test_a_speed_failure_is_at_the_first_instant_above_the_limit(dance, limit, s
 
 
 def test_a_proof_that_runs_short_of_work_leaves_a_kept_limit_undecided_and_a_broken_one_broken(monkeypatch):
-    dance, span = Dance(Dragon(), TURN), {"start": -100.0, "stop": 100.0}
+    dance = Dance(Dragon(), TURN)
+    span = {"start": -100.0, "stop": 100.0}
     for name in ("LINKS_BUDGET", "EXCESS_LINKS"):
         monkeypatch.setattr(core.extremes.speed, name, 10)
     kept = check(dance, speed_limit=highest_speed(dance, **span).speed * (1.0 + 1e-9), **span)

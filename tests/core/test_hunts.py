@@ -14,7 +14,8 @@ from tests.support.depth import examples, further
 
 CAMPAIGNS = hunt_encounters, hunt_venues, hunt_contacts, hunt_turns, hunt_clothoids
 # Cases of a small part, of which the first ones are those of every run.
-FEW, MANY = 3, examples(25, 200)
+FEW = 3
+MANY = examples(25, 200)
 
 
 @pytest.mark.parametrize("count", further([FEW, MANY], 1), ids=["few", "many"])

@@ -22,10 +22,12 @@ from core import (
 from tests.support.random_squares import box
 from tests.support.shared_dances import lane, square
 
-TURN, SQUARE = Turn(1.7), square(30)
+TURN = Turn(1.7)
+SQUARE = square(30)
 SHORT = Dance(Dragon(40), Spiral(1.2, 8.0))  # nothing touches, and the head folds 1.12 m from the centre
 DEFAULT, TIGHT = (Dance(Dragon(), Spiral(pitch)) for pitch in (0.55, 0.3))
-AROUND, FEW = Dance(Dragon(), TURN), Dance(Dragon(3), Spiral())
+AROUND = Dance(Dragon(), TURN)
+FEW = Dance(Dragon(3), Spiral())
 ALONG = Dance(Dragon(5), lane((-60, 0), (60, 0), start=60.0))
 SPAN = {"start": -100.0, "stop": 100.0}
 
@@ -80,7 +82,8 @@ VERDICTS = {
 @pytest.mark.parametrize("name", VERDICTS)
 def test_all_failures_are_named_in_order_of_time_also_by_a_quick_check(name):
     dance, query, sentences = VERDICTS[name]
-    report, quick = check(dance, **query), quick_check(dance, **query)
+    report = check(dance, **query)
+    quick = quick_check(dance, **query)
     for failure, words in zip(report.failures, sentences, strict=True):
         assert failure.message.startswith(words)
     times = [failure.time for failure in report.failures]
@@ -105,7 +108,8 @@ def test_each_part_is_what_its_own_search_says():
 
 
 def test_a_dance_is_judged_up_to_the_touch():
-    report, contact = check(DEFAULT, venue=SQUARE, speed_limit=2.0), first_contact(DEFAULT)
+    report = check(DEFAULT, venue=SQUARE, speed_limit=2.0)
+    contact = first_contact(DEFAULT)
     (failure,) = report.failures
     assert (report.stop, failure.time, failure.benches) == (contact.time, contact.time, contact.benches)
     assert report.least_clearance.distance == 0.0

@@ -52,7 +52,8 @@ def test_a_single_dragon_has_the_report_of_its_dance_to_the_last_bit(question, v
 
 
 def test_failures_of_all_dragons_stand_in_order_of_time_and_name_their_dragon():
-    report, met = check(IN_SQUARE), first_encounter(IN_SQUARE)
+    report = check(IN_SQUARE)
+    met = first_encounter(IN_SQUARE)
     assert (report.encounter, report.verdict) == (met, Judgement.FAILS)
     assert report.least_clearance == least_clearance(IN_SQUARE)
     failures = report.failures
@@ -81,7 +82,8 @@ def test_a_dragon_that_stands_all_the_time_has_no_report_of_its_own():
 
 
 def test_everyone_is_where_its_own_dance_puts_it_and_stands_before_and_after():
-    performance, times = delayed(20.0), [0.0, 30.5, 45.0, 99.0, 200.0]
+    performance = delayed(20.0)
+    times = [0.0, 30.5, 45.0, 99.0, 200.0]
     first, second = trajectory(performance, times)
     alone = trajectory(CROSSING.parts[1].dance, [performance.parts[1].own_time(time) for time in times])
     assert (second.position == alone.position).all()
@@ -94,7 +96,8 @@ def test_everyone_is_where_its_own_dance_puts_it_and_stands_before_and_after():
 
 
 def test_the_ground_of_a_dragon_that_stands_is_that_of_its_place():
-    dance, query = CROSSING.parts[1].dance, {"stop": 30.0, "excess": 0.01}
+    dance = CROSSING.parts[1].dance
+    query = {"stop": 30.0, "excess": 0.01}
     _, still = envelope(delayed(500.0), **query)
     width, height = np.ptp(bench_outlines(dance.dragon, trajectory(dance, dance.begin).position), axis=(0, 1))
     assert width * height <= still.area <= (width + 0.021) * (height + 0.021)  # its benches overlap in a row

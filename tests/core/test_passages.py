@@ -32,8 +32,10 @@ from tests.support.shared_dances import square
 
 # Head at 0.5 m/s up to 20 m (40 s), still until 100 s, at 2 m/s up to 60 m (120 s), then at 1 m/s.
 PASSAGES = [Passage(0.5, until_s=20.0), Passage(0.0, until_time=100.0), Passage(2.0, until_s=60.0)]
-SPIRAL, DRAGON = Spiral(0.55, 16.0), Dragon(20)
-DANCE, STEADY = Dance(DRAGON, SPIRAL, 1.0, PASSAGES), Dance(DRAGON, SPIRAL)
+SPIRAL = Spiral(0.55, 16.0)
+DRAGON = Dragon(20)
+DANCE = Dance(DRAGON, SPIRAL, 1.0, PASSAGES)
+STEADY = Dance(DRAGON, SPIRAL)
 LATER = 60.0  # delay of everything after the last passage [s]
 PAUSE = {"start": 50.0, "stop": 80.0}
 SPEEDS = st.floats(0.0, 3.0).filter(lambda speed: speed == 0.0 or speed > 0.05)
@@ -41,7 +43,8 @@ SPEEDS = st.floats(0.0, 3.0).filter(lambda speed: speed == 0.0 or speed > 0.05)
 
 def test_times_and_places_are_those_of_the_passages():
     clock = DANCE.clock
-    times, places = [-3, 0, 10, 40, 110, 120, 130], [-3, 0, 5, 20, 40, 60, 70]
+    times = [-3, 0, 10, 40, 110, 120, 130]
+    places = [-3, 0, 5, 20, 40, 60, 70]
     assert [clock.travel(time) for time in [*times, 70.0, 100.0]] == [*places, 20.0, 20.0]
     assert [clock.time(place) for place in places] == times
     assert clock.speed(np.array([-1.0, 0.0, 40.0, 99.0, 100.0, 120.0])).tolist() == [1.0, 0.5, 0.0, 0.0, 2.0, 1.0]
@@ -62,7 +65,8 @@ def test_a_place_is_first_reached_at_its_time(passed, time):
 
 def test_handles_stand_where_they_stand_without_passages_and_move_by_the_speed_of_the_head():
     times = np.array([0.0, 10.0, 40.0, 70.0, 100.0, 110.0, 250.0])
-    motion, steady = trajectory(DANCE, times), trajectory(STEADY, DANCE.clock.steady(times))
+    motion = trajectory(DANCE, times)
+    steady = trajectory(STEADY, DANCE.clock.steady(times))
     assert (motion.position == steady.position).all()
     assert motion.speed == pytest.approx(steady.speed * DANCE.clock.speed(times)[:, None], rel=1e-15)
     assert not motion.velocity[2:4].any()
@@ -81,7 +85,8 @@ def test_a_contact_is_at_the_same_place_at_the_time_of_that_place():
 
 def test_nothing_happens_in_a_pause_but_every_question_has_an_answer():
     there = DANCE.clock.steady(np.array(PAUSE["start"])).item()
-    report, swept = check(DANCE, venue=square(20), speed_limit=0.1, **PAUSE), envelope(DANCE, **PAUSE)
+    report = check(DANCE, venue=square(20), speed_limit=0.1, **PAUSE)
+    swept = envelope(DANCE, **PAUSE)
     assert (report.passed, report.highest_speed.speed, report.first_contact.end.time) == (True, 0.0, PAUSE["stop"])
     gap = clearance_profile(STEADY, there).clearance
     assert (report.least_clearance.distance, report.least_clearance.time) == (gap, PAUSE["start"])
@@ -141,7 +146,8 @@ def test_however_many_passages_there_are_each_node_has_one_rounding(ends):
     clock = Dance(Dragon(30), Spiral(0.55, 300), 1.0, passages).clock
     time = travel = Fraction(0)
     for k, passage in enumerate(passages, start=1):
-        end, speed = Fraction(getattr(passage, ends)), Fraction(passage.speed)
+        end = Fraction(getattr(passage, ends))
+        speed = Fraction(passage.speed)
         if ends == "until_s":
             time, travel = time + (end - travel) / speed, end
         else:

@@ -99,7 +99,8 @@ def test_both_ends_of_a_bracket_keep_their_promise(below):
 @pytest.mark.parametrize("margin", [0.0, 0.05])
 def test_however_long_the_way_both_ends_of_a_bracket_are_true(turns, margin):
     """The travel of a head that has come a thousand kilometres is rounded to a tenth of a nanometre."""
-    dragon, spiral = Dragon(30, head_length=2.5), Spiral(0.55, turns)
+    dragon = Dragon(30, head_length=2.5)
+    spiral = Spiral(0.55, turns)
     contact = true_bracket(dragon, spiral, margin=margin)
     clear, within = contact.time_bracket
     assert within - clear <= 1e-9 + 8.0 * ContactSearch(dragon, spiral, margin).travel_rounding(contact.time)
@@ -135,7 +136,8 @@ def exact_climbs(growth, theta, chords):
         [growth * spiral_place(angle) for angle in angles_behind(arb(theta) + turned, arb(growth), chords)]
         for turned in (-TURNED, arb(0), TURNED)
     )
-    first, second = at[0] - before[0], after[0] - at[0]
+    first = at[0] - before[0]
+    second = after[0] - at[0]
     pairs = [((b - a) / first, (c - b) / second) for a, b, c in zip(before, at, after, strict=True)]
     # The head walks towards the centre, from which places are counted.
     return [(low + high) / 2 for low, high in pairs], [2 * (low - high) / (first + second) for low, high in pairs]
@@ -167,7 +169,8 @@ def test_a_speed_above_a_limit_by_the_kernel_is_above_it(seed):
     spiral = Spiral(1.2, 3.0)
     dance = Dance(Dragon(5, 3.0, np.random.default_rng(seed).uniform(2.0, 2.6)), spiral)
     for left in (1e-1, 1e-3, 1e-5):
-        time, above_it = dance.end.time - left, set()
+        time = dance.end.time - left
+        above_it = set()
         speed = float(trajectory(dance, time).speed.max())
         for above in (-1e-3, -1e-9, *(units * kernels.ULP for units in range(-6, 7, 2)), 1e-9):
             limit = speed * (1.0 + above) / (1.0 + SPEED_ROUNDING)
@@ -183,7 +186,8 @@ def test_a_speed_above_a_limit_by_the_kernel_is_above_it(seed):
 
 def test_a_pitch_at_which_rounding_hides_whether_benches_graze_is_not_called_infeasible():
     """Pitches around that at which benches 0 and 19 graze by the doubles, nearer than gaps are proven good to."""
-    dragon, result = Dragon(60), minimum_pitch(Dragon(60))
+    dragon = Dragon(60)
+    result = minimum_pitch(Dragon(60))
     ways = Ways(dragon, 4.5, 16.0, 0.0, 0.0, None)
     ways.bands.graze = result.benches, result.head_radius
 

@@ -76,11 +76,13 @@ def unfolding(rng):
 
 @pytest.mark.parametrize("seed", further(some(range(60), 6), 2))
 def test_random_performances_meet_nobody_at_safe_delays_and_somebody_at_others(seed):
-    rng, margin = np.random.default_rng(seed), 0.0 if seed % 2 else 0.3
+    rng = np.random.default_rng(seed)
+    margin = 0.0 if seed % 2 else 0.3
     performance = unfolding(rng)
     k = int(rng.integers(len(performance.parts)))
     delays = safe_delay(performance, k, -15.0, 25.0, margin=margin)
-    tried, safe = np.random.default_rng(seed).uniform(-15.0, 25.0, 12).tolist(), 0
+    tried = np.random.default_rng(seed).uniform(-15.0, 25.0, 12).tolist()
+    safe = 0
     for delay in tried + np.ravel(delays.safe).tolist():
         delayed = at_delay(performance, k, delay)
         met = first_encounter(delayed, margin=margin)

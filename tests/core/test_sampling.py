@@ -36,7 +36,9 @@ def test_a_search_that_is_given_up_keeps_the_bracket_so_far_and_another_middle_i
 @pytest.mark.parametrize("accuracy", ["1e-20", "0.25"])
 @pytest.mark.parametrize("zero", ["0.1", "0.5", "0.99"])
 def test_a_function_is_followed_to_where_it_is_0(zero, accuracy):
-    low, high, width = Decimal(0), Decimal(1), Decimal(accuracy)
+    low = Decimal(0)
+    high = Decimal(1)
+    width = Decimal(accuracy)
 
     def value(x):
         return (Decimal(zero) - x) * (1 + x * x)

@@ -7,7 +7,8 @@ from core import Dance, Dragon, Spiral, clearance_profile, pitch_scan, tolerance
 
 DANCE = Dance(Dragon(5), Spiral())
 TIMES = [0.0, 60.0, 120.0]
-MOTION, INSTANT = trajectory(DANCE, TIMES), trajectory(DANCE, 60.0)
+MOTION = trajectory(DANCE, TIMES)
+INSTANT = trajectory(DANCE, 60.0)
 SCAN = pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 3), start_turns=8.0)
 
 
@@ -34,7 +35,8 @@ def test_axes_of_a_trajectory_have_names_and_one_instant_no_axis_of_time():
 @pytest.mark.parametrize("times", [TIMES, 60.0, []])
 def test_a_clearance_profile_is_a_table(times):
     result = clearance_profile(DANCE, times)
-    frame, dataset = result.to_dataframe(), result.to_xarray()
+    frame = result.to_dataframe()
+    dataset = result.to_xarray()
     columns = np.column_stack([np.ravel(times), np.ravel(result.clearance), result.benches.reshape(-1, 2)])
     assert frame[["time", "clearance", "bench_a", "bench_b"]].to_numpy().tolist() == columns.tolist()
     assert np.array_equal(dataset.benches.sel(pair="b"), result.benches[..., 1])

@@ -25,7 +25,8 @@ THREADS = 8
 
 def answers(shared, number):
     """Every digit of answers from each family of loops, of one dance that all threads share and of the thread's own."""
-    own, turn = Dance(Dragon(60 + number), Spiral(0.5 + 0.01 * number, 8)), Dance(Dragon(20 + number), Turn(1.7))
+    own = Dance(Dragon(60 + number), Spiral(0.5 + 0.01 * number, 8))
+    turn = Dance(Dragon(20 + number), Turn(1.7))
     both = Performance([Part(own, name="own"), Part(Dance(Dragon(40), Spiral(1.1, 8)), 0.5 * number, "other")])
     results = (
         first_contact(shared),
@@ -42,7 +43,8 @@ def answers(shared, number):
 def test_eight_threads_at_once_get_the_digits_that_each_gets_alone():
     alone = [answers(Dance(Dragon(80), Spiral(0.55, 8)), number) for number in range(THREADS)]
     assert len(set(alone)) == THREADS
-    shared, together = Dance(Dragon(80), Spiral(0.55, 8)), Barrier(THREADS)
+    shared = Dance(Dragon(80), Spiral(0.55, 8))
+    together = Barrier(THREADS)
 
     def at_once(number):
         together.wait()

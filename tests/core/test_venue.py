@@ -28,7 +28,8 @@ def circle(edges, x=0.0, y=0.0):
     return closed([(x + math.cos(a), y + math.sin(a)) for a in angles])
 
 
-SQUARE, STAGE = box(-35, -5, 20, 20), box(15.0, 0.0, 18.0, 3.0)
+SQUARE = box(-35, -5, 20, 20)
+STAGE = box(15.0, 0.0, 18.0, 3.0)
 WELL = circle(24, 5.0, 4.0)
 
 

@@ -18,7 +18,9 @@ DRAGON = {"benches": 20}
 SLACK = 45  # from the last press to the cue [s], so that a slow machine is not late
 TOUCHING = "path=route&benches=40&route=*-100,0_0,0_12,8_0,14_-4,0_0,-20&begin=88"
 BEFORE_ZERO = "path=route&route=*-40,0_40,0&benches=9&begin=30"
-CUE, HINT, LIST = "#carrier .cue", "#card-more .hint", "#card-more li"
+CUE = "#carrier .cue"
+HINT = "#card-more .hint"
+LIST = "#card-more li"
 # Two dragons in one spiral, by the list in the address; the chosen one is that of the other numbers.
 TWO = "dances=name:A!benches:20!pitch:1.1!start_turns:8~rotation:180&dragon=1&benches=20&pitch=1.1&start_turns=8"
 SPIRALS = [{"kind": "spiral", "pitch": 1.1, "start_turns": 8, **more} for more in ({}, {"rotation": math.pi})]
@@ -90,7 +92,8 @@ def test_a_carrier_has_its_own_card_and_its_bench_in_the_middle(open_page, serve
     person = held(open_page("?benches=20&bench=7&lang=en", permissions=["screen-wake-lock"], **PHONE))
     own = card(server)
     assert cues_of(person) == words_of(own["cues"])
-    steps, mark = abs(own["start"]["steps"]), round(own["start"]["mark"])
+    steps = abs(own["start"]["steps"])
+    mark = round(own["start"]["mark"])
     stand = [str(mark), str(steps) if steps else str(mark)]
     person.sees({"#carrier h1": "body 7", "#card-more .stand": stand, HINT: "The screen stays on."})
     person.has("#carrier", data_awake="true").sees({CUE: "Press Start when the dance begins."})
@@ -147,7 +150,8 @@ def test_without_a_network_the_card_goes_on_and_opens_again_in_both_languages_un
 def test_the_next_day_in_flight_mode_the_card_opens_in_a_new_tab_and_nothing_else_does(open_page):
     person = held(open_page("?benches=20&bench=7&lang=en", failing=True, **PHONE))
     person.at("#carrier[data-kept=true]").wait_for()
-    context, address = person.page.context, person.page.url
+    context = person.page.context
+    address = person.page.url
     context.set_offline(True)
     tab = context.new_page()
     tab.clock.install(time=datetime.now() + timedelta(days=1))

@@ -93,7 +93,9 @@ def watched(person, server):
 
 
 def test_the_first_view_shows_the_contact_its_proof_its_limits_and_how_every_answer_is_known(open_page, server):
-    person, answer, least = open_page(), collision_time(server), answer_of(server, "minimum-pitch")
+    person = open_page()
+    answer = collision_time(server)
+    least = answer_of(server, "minimum-pitch")
     person.presses("#first-contact summary", "#minimum-pitch summary").sees(
         {
             "#first-contact[data-outcome=contact] .value": f"{answer['time']:.6f} s",
@@ -244,7 +246,9 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages_and_the_
     pitch = f"{answer_of(server, 'minimum-pitch', benches=40, stray=0.02)['pitch']:.9f} m"
     free = answer_of(server, "tolerance", benches=40)
     low, high = ends([100 * Decimal(end) for end in free["stray_bracket"]], 7)
-    time, gap, safe = f"{contact['time']:.6f} s", f"{1000 * contact['gap']:.3f} mm", int(1e4 * free["stray"]) / 100
+    time = f"{contact['time']:.6f} s"
+    gap = f"{1000 * contact['gap']:.3f} mm"
+    safe = int(1e4 * free["stray"]) / 100
     person.ask(ALL_OPEN)
     person.sees({"#tolerance dl": f"up to {low} cm; a pose with {high} cm overlaps", "#inset figcaption": gap})
     for language, words in (("zh", f"{time} 起可能相碰"), ("en", f"May touch from {time}")):

@@ -8,7 +8,8 @@ from core import Dragon
 from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, contact_workbook, rows_of, spiral
 
 # Instants of a workbook that is soon read; and a short dragon: this is not about its dance.
-FEW, EASY = SPIRAL_TIMES[:21], "?benches=5&time=end"
+FEW = SPIRAL_TIMES[:21]
+EASY = "?benches=5&time=end"
 BOX = "#grades .answer"
 DROP = """data => {
   const files = new DataTransfer();

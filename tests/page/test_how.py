@@ -55,7 +55,8 @@ def test_dragged_numbers_get_the_answers_of_the_service_also_after_it_was_lost(o
     assert steps > 1
     person.sees({"#step .verdict": f"The service takes {steps} shorter steps"})
     # The lowest curve spans the interval.
-    span, arch = person.box("#step .span"), person.box("#step .arch")
+    span = person.box("#step .span")
+    arch = person.box("#step .arch")
     assert [arch["x"], arch["width"]] == pytest.approx([span["x"], span["width"]], abs=12.0)
     person.sees({"#graze .lead": "Every look finds all benches apart", "#stray .exhibit": 0})
     person.presses("#graze .try").sees({"#graze .lead": "In 1 of them benches overlap"})
@@ -94,7 +95,8 @@ def test_dragged_numbers_get_the_answers_of_the_service_also_after_it_was_lost(o
 
 def test_the_turn_keeps_its_length_at_every_ratio_and_jams_when_the_entry_is_too_deep(open_page):
     person = drawn(open_page("how?lang=en", failing=True)).sees({"#turn .lead": "13.621245 m"})
-    ratio, entry = dial(person, "turn", "Radius of the first arc"), dial(person, "turn", "Distance of the entry")
+    ratio = dial(person, "turn", "Radius of the first arc")
+    entry = dial(person, "turn", "Distance of the entry")
     ratio.press("PageDown")
     person.sees({"#turn .lead .dial": "1.90", "#turn .verdict": "go through: the tighter bend has a radius of 1.555 m"})
     person.sees({"#turn .lead": "13.621245 m"})
@@ -176,7 +178,8 @@ def keeps_the_look(person, dance):
         person.presses(f"#look button:has-text('{name}')")
         return person.style("body", "backgroundColor")
 
-    usual, height = person.style("body", "backgroundColor"), person.box(".article")["height"]
+    usual = person.style("body", "backgroundColor")
+    height = person.box(".article")["height"]
     dark = look("Dark") if person.presses("#look-open") else ""
     look("Large type, for a projector")
     assert person.findings() == []

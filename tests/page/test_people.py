@@ -67,11 +67,9 @@ def test_who_carries_when_and_where_is_as_the_service_says(open_page, server):
 
 def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(open_page, server):
     person = open_page("?time=0&benches=5&view=8,-3,40", failing=True).presses("#one-by-one summary")
-    answer, narrow, wu = (
-        "#first-contact .value",
-        TABLE.replace("1.8,0.7", "1.8,0.2"),
-        "#rows tr:has-text('body 2 (Wu)')",
-    )
+    answer = "#first-contact .value"
+    narrow = TABLE.replace("1.8,0.7", "1.8,0.2")
+    wu = "#rows tr:has-text('body 2 (Wu)')"
     person.types({"#csv": TABLE}, "Tab").sees({answer: contact_of(server, dragon={"csv": TABLE}), wu: True})
     wide = person.settles().picture()
     # One bench narrower: its chord, and so the whole pose, stays; the picture does not.

@@ -64,7 +64,8 @@ def test_from_nothing_to_a_certified_dance_on_a_phone(open_page):
         assert not re.search("undefined|NaN", person.text("#place"))
     assert person.findings() == []
     # What was chosen is in the address, to every digit.
-    words, chosen = person.text("#judgement"), person.address()
+    words = person.text("#judgement")
+    chosen = person.address()
     assert len(person.page.url) < ADDRESS
     person.page.reload()
     assert person.settles().text("#judgement") == words
@@ -204,8 +205,10 @@ def _what_was_drawn_before_leaves_nothing(person):
 
 def _while_a_point_is_dragged_the_stretches_that_fail_are_coloured(person):
     person.opens(f"{YARD}&route=*-11,-8_11,-8&benches=3&stray=0.05").presses("#edit", "[data-tool=path]")
-    before, knot = person.settles().coloured("head"), person.box(".knot >> nth=1")
-    x, y = knot["x"] + knot["width"] / 2, knot["y"] + knot["height"] / 2
+    before = person.settles().coloured("head")
+    knot = person.box(".knot >> nth=1")
+    x = knot["x"] + knot["width"] / 2
+    y = knot["y"] + knot["height"] / 2
     person.page.mouse.move(x, y)
     person.page.mouse.down()
     with person.page.expect_response("**/course") as answer:

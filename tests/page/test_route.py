@@ -22,7 +22,8 @@ VILLAGE = (
     "~c.well.1!5.6!5,-6!5~b.stage..-17,1!5_-6,1!5_-6,9!5_-17,9!5~w.fence.0!2.10!5,3!5_18,4"
 )
 VERDICT = "#judgement .value"
-YES, NO = {VERDICT: "Can be danced"}, {VERDICT: "Cannot be danced"}
+YES = {VERDICT: "Can be danced"}
+NO = {VERDICT: "Cannot be danced"}
 LABEL = "document.activeElement.getAttribute('aria-label')"
 DROP = """([name, text]) => {
   const data = new DataTransfer();
@@ -50,7 +51,8 @@ def knot(k):
 def test_points_are_dragged_moved_by_keys_put_in_and_taken_away_and_every_step_is_taken_back(open_page):
     person = open_page(failing=True).presses("[data-path=route]").sees({**YES, ".knot": 7})
     before = points(person)
-    bend, corner = person.box(knot(2)), person.box(knot(3))
+    bend = person.box(knot(2))
+    corner = person.box(knot(3))
     person.drags(knot(2), corner["x"] - bend["x"] - 16, corner["y"] - bend["y"] - 10)
     person.sees({**NO, ".failures li:has-text('The bend is too tight')": True})
     after = points(person)
@@ -70,7 +72,8 @@ def _keys_and_taps_change_points(person):
     assert "Point 3 of 8" in person.strikes("Enter").ask(LABEL)
     assert len(points(person.strikes("Delete"))) == 7
     # A tap on the path divides it, and one beside it goes on from its end; the list has fields for both.
-    first, second = person.box(knot(0)), person.box(knot(1))
+    first = person.box(knot(0))
+    second = person.box(knot(1))
     person.page.mouse.click((first["x"] + second["x"]) / 2 + 11, (first["y"] + second["y"]) / 2 + 11)
     drawn = points(person.sees({".knot": 8}))
     assert drawn[0][0] < drawn[1][0] < drawn[2][0]
@@ -109,8 +112,10 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_judged_and_changed_by_th
 
 def _a_press_on_a_tree_moves_it_and_a_tap_on_an_edge_adds_a_corner_there(person):
     person.presses("#zoom-out", "#edit", "[data-tool=circle]").settles()
-    canvas, mouse = person.box("#canvas"), person.page.mouse
-    x, y = canvas["x"] + 200, canvas["y"] + 120
+    canvas = person.box("#canvas")
+    mouse = person.page.mouse
+    x = canvas["x"] + 200
+    y = canvas["y"] + 120
 
     def drawn():
         return [one["geometry"]["coordinates"] for one in file_of(person.settles())["venue"]["features"]]
@@ -206,8 +211,10 @@ def test_a_photo_stays_behind_the_square_on_the_device_with_the_scale_of_a_measu
 
 def test_the_verdict_follows_the_hand_and_a_line_says_what_its_change_has_done(open_page):
     person = open_page(f"{S_CURVE}&things=c.elm.1.0,24&view=0,10,10").sees(YES).presses("#edit").settles()
-    canvas, mouse = person.box("#canvas"), person.page.mouse
-    x, y = canvas["x"] + 0.5 * canvas["width"], canvas["y"] + 0.5 * canvas["height"] - 140
+    canvas = person.box("#canvas")
+    mouse = person.page.mouse
+    x = canvas["x"] + 0.5 * canvas["width"]
+    y = canvas["y"] + 0.5 * canvas["height"] - 140
     mouse.move(x, y)
     mouse.down()
     mouse.move(x, y + 80, steps=4)
@@ -252,7 +259,8 @@ def test_several_things_are_chosen_moved_brought_into_line_copied_and_removed_to
     trees = "c.well.1.20,22~c.elm.1.30,25~c.oak.1.33,28"
     person = open_page(f"{S_CURVE}&things=b.stage..-5,20_5,20_5,26_-5,26~{trees}&view=0,10,10").sees(YES)
     before = person.presses("#edit").settles().address()["things"]
-    canvas, page = person.box("#canvas"), person.page
+    canvas = person.box("#canvas")
+    page = person.page
 
     def at(x, y):
         return canvas["x"] + 0.5 * canvas["width"] + 10 * x, canvas["y"] + 0.5 * canvas["height"] - 10 * (y - 10)
@@ -282,7 +290,8 @@ def test_several_things_are_chosen_moved_brought_into_line_copied_and_removed_to
 
 def test_a_long_press_opens_the_menu_of_a_point_on_a_phone(open_page):
     person = open_page(f"{S_CURVE}&view=0,10,10", **PHONE).sees({"#verdict": True}).presses("#edit").settles()
-    box, finger = person.box(knot(5)), person.page.context.new_cdp_session(person.page)
+    box = person.box(knot(5))
+    finger = person.page.context.new_cdp_session(person.page)
     place = {"x": box["x"] + 0.5 * box["width"], "y": box["y"] + 0.5 * box["height"]}
     finger.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [place]})
     person.sees({"#menu": ["Insert a point", "Delete point 6"]})
@@ -292,7 +301,8 @@ def test_a_long_press_opens_the_menu_of_a_point_on_a_phone(open_page):
 
 def test_a_finger_drags_points_and_trees_on_a_phone_and_nothing_is_cut_off(open_page):
     person = open_page(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit")
-    before, box = points(person), person.box(knot(2))
+    before = points(person)
+    box = person.box(knot(2))
     person.swipes(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0, -6)
     assert points(person.sees({"#verdict": "可以表演"}))[2][1] > before[2][1]
     assert not person.overflows(390)
@@ -303,7 +313,8 @@ def test_a_finger_drags_points_and_trees_on_a_phone_and_nothing_is_cut_off(open_
 def _a_tree_goes_upwards_as_far_as_the_finger(person):
     person.presses("#edit", "[data-tool=circle]").settles()
     canvas = person.box("#canvas")
-    x, y = canvas["x"] + 0.5 * canvas["width"], canvas["y"] + 0.8 * canvas["height"]
+    x = canvas["x"] + 0.5 * canvas["width"]
+    y = canvas["y"] + 0.8 * canvas["height"]
 
     def tree():
         return person.box(".knot")["y"]
@@ -380,7 +391,8 @@ def _the_picture_has_the_drawn_path_alone(person):
         person.types({"#pitch": "0.6"}, "Tab")
     person.presses("[data-path=route]").sees(YES).settles("course")
     held.let_go()
-    canvas, knots = person.settles().box("#canvas"), [one.bounding_box() for one in person.all(".knot").all()]
+    canvas = person.settles().box("#canvas")
+    knots = [one.bounding_box() for one in person.all(".knot").all()]
     beside = [(box["x"] - canvas["x"], box["y"] - canvas["y"]) for box in knots]
     assert len(knots) > 1
     assert all(0 < x < canvas["width"] and 0 < y < canvas["height"] for x, y in beside)

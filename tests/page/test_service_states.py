@@ -37,10 +37,12 @@ def test_a_lost_service_is_reported_and_what_a_person_does_meanwhile_is_done_whe
     open_page, server, tmp_path
 ):
     """The last service ends every longer computation at once, so that a file of it becomes a job."""
-    numbers, port = {"benches": 20, "stray": 0.02}, free_port()
+    numbers = {"benches": 20, "stray": 0.02}
+    port = free_port()
     with serving(tmp_path / "first.log", port=port, deadline_seconds=PATIENT):
         person = open_page(f"?{urlencode(numbers)}", base=f"http://127.0.0.1:{port}", failing=True)
-        answer, before = person.text(CONTACT), person.picture()
+        answer = person.text(CONTACT)
+        before = person.picture()
     # An idle page notices it too.
     person.sees({"#lost:visible": ["does not answer", "next try in "]})
     person.types({"#pitch": "0.5"}, "Tab")
@@ -76,7 +78,8 @@ def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(open_pa
     ):
         person.at(f"#{name}").fill(text)
         right_again(person, before)
-        label, box = person.text(f"label[for={name}]"), "minimum-pitch" if "diameter" in name else "first-contact"
+        label = person.text(f"label[for={name}]")
+        box = "minimum-pitch" if "diameter" in name else "first-contact"
         person.sees({f"#{name}-error": words, f"#{box}": f"An answer appears as soon as “{label}” is right."})
         person.has(f"#{name}", aria_invalid="true")
         assert person.text("body").count(words) == 1

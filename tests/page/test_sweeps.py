@@ -15,7 +15,8 @@ LOCKED = "Jobs and uploads need the token of this service"
 # The middle of the map: its margins are 64 px on the left, 16 on the right, 12 above and 44 below.
 LEFT, RIGHT, TOP, BOTTOM = 64, 16, 12, 44
 DONE = "#jobs li[data-state=successful]"
-MAP, READING = "#map canvas", "#map .reading"
+MAP = "#map canvas"
+READING = "#map .reading"
 SHADES = """canvas => {
   const { data, width } = canvas.getContext("2d").getImageData(70, 20, canvas.width - 100, canvas.height - 80);
   return new Set(Array.from({ length: data.length / 4 }, (_, k) => data.slice(4 * k, 4 * k + 4).join(" "))).size;
@@ -74,7 +75,8 @@ def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page, s
 def test_the_list_outlives_the_page_its_jobs_are_removed_and_commands_save_the_table(open_page, service, tmp_path):
     person = open_page("?benches=12", base=base(service), timezone_id="UTC")
     begins(person, "shortest_turn", ("pitch", 1.6, 1.8, 90))
-    running, gone = "#jobs li[data-state=running]", "#jobs li[data-state=dismissed]"
+    running = "#jobs li[data-state=running]"
+    gone = "#jobs li[data-state=dismissed]"
     person.sees({running: "of 90 designs", f"{running} progress": True}).page.reload()
     person.reaches_below().sees({running: "Shortest turn over Pitch"})
     address = person.at(f"{running} button").get_attribute("id").replace("jobCancel-", "/jobs/")

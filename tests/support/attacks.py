@@ -145,12 +145,15 @@ def make_job(url, wanted, client):
     return f"/jobs/{json.loads(answer)['jobID']}" if status == http.client.ACCEPTED else ""
 
 
-SMALL, MINE, THEIRS = {"question": "turn", "request": {}}, "127.0.0.7", "127.0.0.8"
+SMALL = {"question": "turn", "request": {}}
+MINE = "127.0.0.7"
+THEIRS = "127.0.0.8"
 
 
 def full_store(url, seconds):
     """A client that makes small jobs as long as it may; another one must still get its answer, and keep it."""
-    end, theirs = time.monotonic() + seconds, make_job(url, SMALL, THEIRS)
+    end = time.monotonic() + seconds
+    theirs = make_job(url, SMALL, THEIRS)
     while time.monotonic() < end:
         if not make_job(url, SMALL, MINE):
             time.sleep(0.05)  # Its jobs wait for one another.
@@ -189,7 +192,8 @@ def strange_hosts(url, seconds):
 
 def largest_input(name, client=""):
     """A call at its largest input, from an address: a function of the service's URL."""
-    call, request = CALLS[name], LARGEST[name]
+    call = CALLS[name]
+    request = LARGEST[name]
     path = call.question.path.replace("{format}", next(iter(call.question.formats or ("",))))
     if call.method == "GET":
         return lambda url: ask(url, "GET", f"{path}?{urlencode(request)}", timeout=PATIENCE, client=client)
@@ -243,7 +247,8 @@ def watching(url, paths=("/healthz", "/collision-time"), pid=None):
 
     pid: of the service's process: of a wait counts at most its own work, so that other programs keep nobody waiting
     """
-    watch, done = Watch(), threading.Event()
+    watch = Watch()
+    done = threading.Event()
     own = psutil.Process(pid) if pid else None
 
     def times():
@@ -258,7 +263,8 @@ def watching(url, paths=("/healthz", "/collision-time"), pid=None):
             try:
                 status, answer = ask(url, "GET", path + query)
             except OSError as error:
-                status, answer = 0, str(error).encode()
+                status = 0
+                answer = str(error).encode()
             waited = min(after - before for before, after in zip(started, times(), strict=True))
             watch.slowest[path] = max(waited, watch.slowest.get(path, 0.0))
             watch.sent += 1

@@ -28,7 +28,8 @@ def place_in(centres, halves, rng):
 
 def turn_at(point):
     """The turn at a point of a box that the benches can follow; None if there is none."""
-    entry, leaving = float(point[0]), float(point[0] + GROWTH * point[1])
+    entry = float(point[0])
+    leaving = float(point[0] + GROWTH * point[1])
     try:
         turn = Turn(1.7, 30.0, math.exp(point[2]), start_turns=40.0, entry_radius=entry, exit_radius=leaving)
     except InvalidValue:

@@ -106,7 +106,8 @@ class Serving:
     returncode: int | None = None
 
     def __init__(self, peer):
-        self._peer, self._signal = peer, signal.SIGKILL
+        self._peer = peer
+        self._signal = signal.SIGKILL
         self.pid = int(peer.recv(9))
 
     def poll(self):
@@ -161,7 +162,8 @@ def bin_folder(house=ROOT):
 @cache
 def _folder_of(house):
     place = Path(tempfile.mkdtemp())
-    program, script = place / "program.py", place / "bench-dragon"
+    program = place / "program.py"
+    script = place / "bench-dragon"
     program.write_text(PROGRAM.format(door=f"{place}/door"))
     script.write_text(SHELL.format(python=shlex.quote(sys.executable), program=shlex.quote(str(program))))
     script.chmod(0o755)
@@ -189,7 +191,8 @@ def _close(place, forks, owner):
 def main():
     """Fork for each request, until standard input ends, which means that the parent is gone."""
     with importing():  # The collector of a run leaves the imported modules alone.
-        commands, core = import_module("app.command.main"), import_module("core")
+        commands = import_module("app.command.main")
+        core = import_module("core")
         entry = import_module("app.command.entry")
         for name in {name for extra in USED for name in MODULES[extra]} | set(LAZY):
             import_module(name)

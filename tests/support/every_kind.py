@@ -31,12 +31,14 @@ WINDING = replace(
     path=PathSummary("route", 0.0, 60.0, pieces=("arc", "coil", "line", "waypoints")),
 )
 CLEAR, CONTACT, START, UNDECIDED = list(ClaimKind)[:4]
-SAFE, UNSAFE = ClaimKind.SAFE_STRAY, ClaimKind.NO_SAFE_STRAY
+SAFE = ClaimKind.SAFE_STRAY
+UNSAFE = ClaimKind.NO_SAFE_STRAY
 MET = {"benches": (0, 3), "time": 12.5}
 
 EAST = PartSummary("red", FIVE, 0.0, (0.0, 0.0), 0.0, True)
 SECOND = PartSummary(None, TWO, 12.5, (3.0, -1.5), 0.5, False)
-BOTH, TEN = ((EAST, SECOND), 2, 7), ((), 10, 2000)
+BOTH = ((EAST, SECOND), 2, 7)
+TEN = ((), 10, 2000)
 TOGETHER = {"dragons": (0, 1), "benches": (3, 0), "time": 12.5}
 
 CLAIMS = {

@@ -50,7 +50,8 @@ def next_delta(theta, reach):
     """The first root of delta^2 + 4 theta (theta + delta) sin^2(delta / 2) = reach^2."""
     root = arb(float(nearly_delta(np.array([float(theta)]), float(reach))[0]))
     for _ in range(NEWTON_STEPS):
-        sine, cosine = (root / 2).sin(), (root / 2).cos()
+        sine = (root / 2).sin()
+        cosine = (root / 2).cos()
         value = root**2 + 4 * theta * (theta + root) * sine**2 - reach**2
         slope = 2 * root + 4 * theta * sine**2 + 4 * theta * (theta + root) * sine * cosine
         root = middle(root - value / slope)
@@ -114,12 +115,16 @@ class ExactRoute:
         """Point [m] and unit tangent at arc length s."""
         row = self.rows[min(bisect_left(self.ends, float(s)), len(self.rows) - 1)]
         u = s - row[c.S_START] - row[c.S_START_LOW]
-        kind, sign, centre = row[c.PIECE_KIND], row[c.SIGN], acb(row[c.CENTRE_X], row[c.CENTRE_Y])
-        first, along = acb(row[c.LINE_X], row[c.LINE_Y]), acb(row[c.LINE_DX], row[c.LINE_DY])
+        kind = row[c.PIECE_KIND]
+        sign = row[c.SIGN]
+        centre = acb(row[c.CENTRE_X], row[c.CENTRE_Y])
+        first = acb(row[c.LINE_X], row[c.LINE_Y])
+        along = acb(row[c.LINE_DX], row[c.LINE_DY])
         if kind == c.LINE:
             return first + u * along, along
         if kind == c.CLOTHOID:
-            k, slope = arb(row[c.K_START]), arb(row[c.K_RATE])
+            k = arb(row[c.K_START])
+            slope = arb(row[c.K_RATE])
             arc = (direction(k * u) - 1) / acb(0, k) if k != 0 else acb(u)
             way = fresnel_way(k, slope, u) if slope != 0 else arc
             return middle(first + along * way), middle(along * direction(k * u + slope * u * u / 2))
@@ -182,7 +187,8 @@ def _facing(own, other):
     (place, along, *halves), (middle_other, along_other, *sides) = own, other
     offsets = (acb(*(sign * side for sign, side in zip(signs, sides, strict=True))) for signs in CORNERS)
     seen = [(middle_other + along_other * offset - place) * along.conjugate() for offset in offsets]
-    gaps, beyond = [], []
+    gaps = []
+    beyond = []
     for half, *parts in zip(halves, *((corner.real, corner.imag) for corner in seen), strict=True):
         gaps.append(max(min(parts), -max(parts)) - half)
         beyond.append([max(abs(part) - half, arb(0)) for part in parts])
@@ -192,6 +198,7 @@ def _facing(own, other):
 def clothoid_place(piece, v):
     """Place on a clothoid at a length from its beginning, by Fresnel integrals of its own numbers [m]."""
     flint.ctx.prec = BITS
-    first, last = arb(piece.start_curvature), arb(piece.end_curvature)
+    first = arb(piece.start_curvature)
+    last = arb(piece.end_curvature)
     way = fresnel_way(first, (last - first) / arb(piece.length), arb(v))
     return acb(*piece.start) + way * direction(arb(piece.heading))

@@ -47,7 +47,8 @@ class Firefox:
     """One tab. downloads: folder of saved files; errors: what the pages complained of"""
 
     def __init__(self, port, downloads):
-        self.downloads, self.errors = downloads, list[str]()
+        self.downloads = downloads
+        self.errors = list[str]()
         self._socket = connect(f"ws://127.0.0.1:{port}/session", proxy=None, open_timeout=PATIENCE, max_size=None)
         self._number = 0
         self._ask("session.new", capabilities={})
@@ -119,7 +120,8 @@ class Firefox:
 
     def saved(self, name):
         """The content of a file that the page saves, once it is there."""
-        end, file = time.monotonic() + PATIENCE, self.downloads / name
+        end = time.monotonic() + PATIENCE
+        file = self.downloads / name
         while not file.is_file() or not file.stat().st_size or list(self.downloads.glob("*.part")):
             assert time.monotonic() < end, name
             time.sleep(0.1)
@@ -134,7 +136,8 @@ def running_firefox(folder):
     """A Firefox without windows that keeps its profile and its downloads in a folder."""
     program = firefox_path()
     assert program, MISSING
-    profile, downloads = folder / "profile", folder / "downloads"
+    profile = folder / "profile"
+    downloads = folder / "downloads"
     for place in (profile, downloads):
         place.mkdir()
     lines = {**SETTINGS, "browser.download.dir": str(downloads)}

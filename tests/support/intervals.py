@@ -24,7 +24,9 @@ from tests.support.slow_search import SlowDance, arc_length
 
 # Rounding on routes: of a rate or direction on one some hundred metres long [1], and of coordinates there [m]; on
 # spirals: of a projected corner, relative to the largest coordinate [1], and of a travel, relative to the way [1].
-ROUNDING, CORNER, ULP = 2e-13, 2e-14, 2.3e-16
+ROUNDING = 2e-13
+CORNER = 2e-14
+ULP = 2.3e-16
 
 
 class Sampled(NamedTuple):
@@ -73,7 +75,8 @@ def on_spiral(seed):
     """Close to the end of the run or further out; places by the slow search."""
     rng = np.random.default_rng(seed)
     while True:
-        benches, growth = int(rng.integers(3, 7)), 10 ** rng.uniform(-1.5, 0.3)
+        benches = int(rng.integers(3, 7))
+        growth = 10 ** rng.uniform(-1.5, 0.3)
         dragon = random_dragon(rng, benches, max(growth * 10 ** rng.uniform(-0.1, 1.7), 0.02))
         spiral = Spiral(2 * np.pi * growth, 30.0)
         end = Dance(dragon, spiral).end
@@ -82,14 +85,16 @@ def on_spiral(seed):
         h = 10 ** rng.uniform(-3.0, 0.0) * dragon.chords.min()
         if start + h < end.time:
             break
-    sizes, motion = sizes_of(dragon), np.zeros((benches + 1, MOTION_COLUMNS))
+    sizes = sizes_of(dragon)
+    motion = np.zeros((benches + 1, MOTION_COLUMNS))
     scene = Scene(spiral_curve(spiral.growth), spiral.length, Rings(), sizes, benches, 0)
     interval = Interval(scene, *np.zeros((2, benches + 1, CHAIN_COLUMNS)), motion)
     while not interval.lay_out(spiral.length - start, h, benches):  # too wide for any bound
         h *= 0.5
     times, step = np.linspace(start, start + h, 121, retstep=True)
     handles = SlowDance.of(dragon, spiral).handles(times) @ [1.0, 1.0j]
-    centres, along = 0.5 * (handles[:, 1:] + handles[:, :-1]), -np.diff(handles, axis=1) / dragon.chords
+    centres = 0.5 * (handles[:, 1:] + handles[:, :-1])
+    along = -np.diff(handles, axis=1) / dragon.chords
     rounding = CORNER * np.abs(centres).max() + ULP * spiral.length * motion[:, HANDLE_SPEED].max()
     return Sampled(dragon, spiral, interval, sizes, motion, centres, along, float(step), 20, rounding)
 
@@ -102,14 +107,17 @@ def on_route(seed):
         path = random_path(rng)
         longest = min(1.9 / path.sharpest[0] if path.sharpest[0] else 2.0, 3.0)
         dragon = random_dragon(rng, benches, longest * 10 ** rng.uniform(-0.4, -0.02))
-        begin, end = max(Dance(dragon, path, 1.0).earliest, path.begin), Dance(dragon, path).end.time
+        begin = max(Dance(dragon, path, 1.0).earliest, path.begin)
+        end = Dance(dragon, path).end.time
         h = 10 ** rng.uniform(-2.0, 0.0) * dragon.chords.min()
         start = rng.uniform(begin, end)
         if path.joints and rng.random() < 0.6:
             start = rng.choice(path.joints) + rng.uniform(-0.2, 1.0) * dragon.chords.sum()
         if begin <= start and start + h < end:
             break
-    curve, sizes, motion = route_curve(path.table), sizes_of(dragon), np.zeros((benches + 1, MOTION_COLUMNS))
+    curve = route_curve(path.table)
+    sizes = sizes_of(dragon)
+    motion = np.zeros((benches + 1, MOTION_COLUMNS))
 
     def laid_out(s):
         chain = np.zeros((benches + 1, CHAIN_COLUMNS))
@@ -121,7 +129,8 @@ def on_route(seed):
     scene = Scene(curve, 0.0, Rings(), sizes, benches, 0)
     while True:
         interval = Interval(scene, laid_out(start), laid_out(start + h), motion)
-        interval.h, interval.handles = h, benches
+        interval.h = h
+        interval.handles = benches
         if interval.bound(True):
             break
         h *= 0.5

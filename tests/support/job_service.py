@@ -45,7 +45,8 @@ class JobService:
     """`bench-dragon serve` on a free port, with this data folder and these settings."""
 
     def __init__(self, folder, workers=1, **settings):
-        self.folder, self.workers = folder, workers
+        self.folder = folder
+        self.workers = workers
         self.mark = f"{os.getpid()}-{id(self)}"
         self.environment = environment_of({**settings, "data": folder}) | {"TEST_MARK": self.mark}
         self.port = free_port()
@@ -159,7 +160,8 @@ def _has_job(pid):
 
 def direct(client, wanted):
     """The answer of the call itself, with nothing of jobs."""
-    call, values = CALLS[wanted["question"]], dict(wanted.get("request", {}))
+    call = CALLS[wanted["question"]]
+    values = dict(wanted.get("request", {}))
     path = call.question.path.format(format=values.pop("format", ""))
     headers = {"Accept": wanted.get("accept", "*/*")}
     return client.request(call.method, path, headers=headers, **{"params" if call.method == "GET" else "json": values})

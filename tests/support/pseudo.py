@@ -29,7 +29,8 @@ def house(folder):
         catalogue = read_po(file)
     for message in catalogue:
         if message.id:
-            kept, several = PARTS.findall(str(message.string)), isinstance(message.id, tuple)
+            kept = PARTS.findall(str(message.string))
+            several = isinstance(message.id, tuple)
             parts = PARTS.split(message.id[0] if several else message.id)
             said = "".join(one if one[:1] in ("{", "-") or one in kept else one.translate(LETTERS) for one in parts)
             message.string = (said,) if several else said

@@ -9,10 +9,12 @@ import core
 from core import Area, Dragon, Line, Spiral, Venue
 from core.old_names import NEW
 
-DRAGON, SPIRAL = Dragon(benches=5), Spiral()
+DRAGON = Dragon(benches=5)
+SPIRAL = Spiral()
 SQUARE = Venue(Area("square", (((-30, -30), (30, -30), (30, 30), (-30, 30), (-30, -30)),)))
 DANCE = core.Dance(DRAGON, SPIRAL)
-POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
+POSES = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+COLUMN = [2.0, 2.0]
 PERFORMANCE = core.Performance(
     [core.Part(DANCE), core.Part(core.Dance(DRAGON, core.Spiral(centre=(18.3, 0.0), rotation=3.0)))]
 )
@@ -102,7 +104,8 @@ FUNCTIONS = [call for name in core.__all__ if isfunction(call := getattr(core, n
 
 def arguments(call):
     """Valid arguments by the names of its parameters."""
-    values, names = COMMON | OWN.get(call, {}), [*signature(call).parameters, *OWN.get(call, {})]
+    values = COMMON | OWN.get(call, {})
+    names = [*signature(call).parameters, *OWN.get(call, {})]
     return {name: values[name] for name in names if name in values}
 
 

@@ -31,7 +31,8 @@ def random_dragon(rng, bench_by_bench):
     benches = int(rng.choice([3, 4, 6, 10, 20, 40]))
     chord = 10 ** rng.uniform(-0.3, 0.4)
     overhang = rng.choice([0.0, rng.uniform(0.0, 0.3)])
-    head, width = chord * 10 ** rng.uniform(-0.3, 0.3), 10 ** rng.uniform(-1.5, -0.3)
+    head = chord * 10 ** rng.uniform(-0.3, 0.3)
+    width = 10 ** rng.uniform(-1.5, -0.3)
     if not bench_by_bench:
         return Dragon(benches, head + 2 * overhang, chord + 2 * overhang, width, overhang)
     chords = np.where(rng.random(benches) < 0.5, chord, chord * 10 ** rng.uniform(-0.3, 0.3, benches))

@@ -17,7 +17,9 @@ class Pen:
     """Draws pieces one after the other from a place in a direction, so that every joint is smooth."""
 
     def __init__(self, place=0j, heading=0.0):
-        self.place, self.heading, self.pieces = place, heading, []
+        self.place = place
+        self.heading = heading
+        self.pieces = []
 
     def line(self, length):
         end = self.place + length * cmath.rect(1.0, self.heading)
@@ -31,8 +33,10 @@ class Pen:
         self.place, self.heading = centre + cmath.rect(radius, angle + sweep), self.heading + sweep
 
     def coil(self, pitch, start, end):
-        growth, sign = pitch / (2.0 * math.pi), 1.0 if end > start else -1.0
-        theta, last = 2.0 * math.pi * start, 2.0 * math.pi * end
+        growth = pitch / (2.0 * math.pi)
+        sign = 1.0 if end > start else -1.0
+        theta = 2.0 * math.pi * start
+        last = 2.0 * math.pi * end
         rotation = self.heading - cmath.phase(sign * complex(1.0, theta)) - theta
         centre = self.place - cmath.rect(growth * theta, theta + rotation)
         self.pieces.append(Coil(pitch, start, end, (centre.real, centre.imag), rotation))
@@ -44,13 +48,16 @@ class Pen:
         self.place, self.heading = complex(*self.pieces[-1].end), self.pieces[-1].end_heading
 
     def waypoints(self, legs):
-        points, place, heading = [self.place], self.place, self.heading
+        points = [self.place]
+        place = self.place
+        heading = self.heading
         for length, swerve in legs:
             heading += swerve
             place += cmath.rect(length, heading)
             points.append(place)
         self.pieces.append(Waypoints(tuple((p.real, p.imag) for p in points), self.heading, heading))
-        self.place, self.heading = place, heading
+        self.place = place
+        self.heading = heading
 
 
 lengths = st.floats(0.3, 3.0)

@@ -11,7 +11,8 @@ import core
 from core import Area, Dragon, Gate, Venue, bench_outlines, trajectory
 
 # Distance of two samples of a dance [s], and rounding of distances at coordinates of some hundred metres [m].
-STEP, ROUNDING = 0.1, 1e-9
+STEP = 0.1
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,8 @@ def random_case(seed):
     square = Area("square", (closed(ring),))
     obstacles = []
     for k in range(int(random.integers(0, 11))):
-        place, around = random.uniform(-size, size, 2), np.linspace(0.0, math.tau, int(random.integers(3, 9)), False)
+        place = random.uniform(-size, size, 2)
+        around = np.linspace(0.0, math.tau, int(random.integers(3, 9)), False)
         radius = random.uniform(0.2, 0.15 * size) if random.random() < 0.3 else random.uniform(0.2, 0.8)
         obstacles.append(
             Area(f"obstacle {k}", (closed(place + radius * np.stack([np.cos(around), np.sin(around)], 1)),))
@@ -64,7 +66,8 @@ def random_case(seed):
     gates = []
     for _ in range(int(random.choice([0, 0, 1, 2, 3]))):
         side = int(random.integers(0, corners))
-        a, b = ring[side], ring[(side + 1) % corners]
+        a = ring[side]
+        b = ring[(side + 1) % corners]
         way = b - a
         heading = math.atan2(way[0], -way[1]) + random.uniform(-0.5, 0.5)  # inwards is to the left
         x, y = (a + random.uniform(0.3, 0.7) * way).tolist()
@@ -85,8 +88,11 @@ def refuted(case, proposal):
 
     Both holes of a bench may stray the same way, so every bench has the stray to the edges, two benches have it twice.
     """
-    stray, margin, limit = case.limits["stray"], case.limits["margin"], case.limits.get("speed_limit")
-    dance, report = proposal.dance, proposal.report
+    stray = case.limits["stray"]
+    margin = case.limits["margin"]
+    limit = case.limits.get("speed_limit")
+    dance = proposal.dance
+    report = proposal.report
     if not report.passed or report.start != 0.0 or report.stop != dance.end.time:
         return "the report does not pass from time 0 to the end"
     motion = trajectory(dance, np.append(np.arange(0.0, report.stop, STEP), report.stop))
@@ -123,7 +129,8 @@ def wrong_reason(case, result):
     """What is wrong with a reason by other means; empty if nothing."""
     reason = result.reason
     assert reason is not None
-    have, need = reason.have or 0.0, reason.need or 0.0
+    have = reason.have or 0.0
+    need = reason.need or 0.0
     if reason.kind is core.ReasonKind.FAILS:
         nearest = reason.failure is not None and reason.figure is not None
         return "" if nearest and have in (1.0, need) else f"no failure of a nearest dance: {reason.message}"

@@ -37,7 +37,8 @@ def moved_points(points, strays, chord):
 
     By the rigid motion itself: the new middle and the new direction of the chord.
     """
-    front, rear = np.array([0.5 * chord, 0.0]) + strays[:, 0], np.array([-0.5 * chord, 0.0]) + strays[:, 1]
+    front = np.array([0.5 * chord, 0.0]) + strays[:, 0]
+    rear = np.array([-0.5 * chord, 0.0]) + strays[:, 1]
     along = (front - rear) / np.linalg.norm(front - rear, axis=-1, keepdims=True)
     across = np.stack([-along[:, 1], along[:, 0]], axis=-1)
     middle = 0.5 * (front + rear)

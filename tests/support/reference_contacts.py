@@ -51,7 +51,8 @@ def random_contact(seed):
     """A dance of a random dragon given bench by bench, and the time of its first contact [s]."""
     random = np.random.default_rng(seed)
     benches = int(random.integers(4, 12))
-    lengths, overhangs = random.uniform(1.2, 3.6, benches), random.uniform(0.0, 0.4, benches)
+    lengths = random.uniform(1.2, 3.6, benches)
+    overhangs = random.uniform(0.0, 0.4, benches)
     dragon = Dragon.of(lengths, random.uniform(0.1, 0.4, benches), overhangs)
     dance = Dance(dragon, Spiral(random.uniform(0.5, 0.8), random.uniform(5.0, 9.0)))
     time = first_contact(dance).time

@@ -38,7 +38,8 @@ def text(value, used=0, depth=0):
     # One for the comma behind it. The file and its calls are always opened.
     if not isinstance(value, (dict, list)) or (depth > 1 and used + len(line) + 1 <= WIDTH):
         return line
-    inner, outer = " " * INDENT * (depth + 1), " " * INDENT * depth
+    inner = " " * INDENT * (depth + 1)
+    outer = " " * INDENT * depth
     names = [json.dumps(name) + ": " for name in value] if isinstance(value, dict) else [""] * len(value)
     parts = value.values() if isinstance(value, dict) else value
     opened = [inner + name + text(part, len(inner + name), depth + 1) for name, part in zip(names, parts, strict=True)]

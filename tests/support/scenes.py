@@ -7,7 +7,8 @@ import shapely
 
 from core import separation
 
-LENGTH, WIDTH = 2.2, 0.3
+LENGTH = 2.2
+WIDTH = 0.3
 
 
 def benches(*poses):
@@ -48,7 +49,8 @@ def unlinked_pairs(pose, size, margin):
 def outside(points, pose, size):
     """How far a point lies outside a rectangle: 0 on its boundary, negative within. (..., 2) -> (...) [m]."""
     offset = points - pose[..., :2]
-    cos, sin = np.cos(pose[..., 2]), np.sin(pose[..., 2])
+    cos = np.cos(pose[..., 2])
+    sin = np.sin(pose[..., 2])
     along = np.abs(offset[..., 0] * cos + offset[..., 1] * sin) - size[..., 0] / 2
     across = np.abs(offset[..., 1] * cos - offset[..., 0] * sin) - size[..., 1] / 2
     return np.maximum(along, across)

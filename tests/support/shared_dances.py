@@ -8,7 +8,8 @@ from tests.support.random_squares import box
 FIVE_LENGTHS = Dragon.of([3.0, 1.5, 2.5, 1.2, 2.0], [0.3] * 5, [0.2] * 5)
 UNLIKE = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 4, [0.3, 0.5] * 10, [0.2] * 20)
 # Two streets that cross in their middles [m].
-EAST, NORTH = ((-40.0, 0.0), (40.0, 0.0)), ((0.0, -40.0), (0.0, 40.0))
+EAST = ((-40.0, 0.0), (40.0, 0.0))
+NORTH = ((0.0, -40.0), (0.0, 40.0))
 
 
 def square(half):

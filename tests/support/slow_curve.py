@@ -7,7 +7,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 # Parts of each leg, and nodes of the quadrature in each [1].
-PARTS, NODES = 64, 24
+PARTS = 64
+NODES = 24
 
 
 def spline_of(points):

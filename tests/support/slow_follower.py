@@ -30,7 +30,8 @@ def points_along(route, s):
     """Points and tangents (N,) of a route without waypoints at places s (N,), as complex numbers."""
     ends = np.cumsum([0.0, *map(piece_length, route.pieces)]) - route.start
     number = np.clip(np.searchsorted(ends, s, side="left") - 1, 0, len(route.pieces) - 1)
-    points, tangents = np.empty(len(s), complex), np.empty(len(s), complex)
+    points = np.empty(len(s), complex)
+    tangents = np.empty(len(s), complex)
     for k in np.unique(number):
         here = number == k
         points[here], tangents[here] = piece_points(route.pieces[k], s[here] - ends[k])
@@ -80,11 +81,15 @@ def jumps_between(route, chord, low, high):
 
 def followed_slowly(route, chord):
     """A bench with its front handle from a chord behind the beginning of a route, which is straight, to its end."""
-    seen, before, back = Followed(), None, round(BACK / SCAN)
+    seen = Followed()
+    before = None
+    back = round(BACK / SCAN)
     grid = route.begin + SCAN * chord * np.arange(round(1.0 / SCAN) - back, (route.end - route.begin) / (SCAN * chord))
     points, tangents = points_along(route, grid)
     for k in range(back, len(grid), FRONT):
-        s, front, onwards = grid[k], points[k], tangents[k]
+        s = grid[k]
+        front = points[k]
+        onwards = tangents[k]
         rear, top = rear_behind(np.abs(points[k - back : k + 1][::-1] - front), s, chord)
         if rear is None or (before is not None and jumps_between(route, chord, before, (s, rear))):
             seen.jumps_at = s

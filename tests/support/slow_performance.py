@@ -15,7 +15,8 @@ from tests.support.slow_search import SlowDance, benches_of, in_plane, nearest
 
 def travelled(dance, times):
     """Travels of the head (T,) at times (T,) of its own dance, whose passages end at given times [m]."""
-    ends, travel = [0.0, *(passage.until_time for passage in dance.passages)], 0.0
+    ends = [0.0, *(passage.until_time for passage in dance.passages)]
+    travel = 0.0
     for (start, end), passage in zip(pairwise(ends), dance.passages, strict=True):
         travel = travel + passage.speed * (np.clip(times, start, end) - start)
     return travel + dance.head_speed * (np.maximum(times - ends[-1], 0.0) + np.minimum(times, 0.0))
@@ -25,10 +26,12 @@ class SlowPart:
     """One dragon: its handles at times of the performance."""
 
     def __init__(self, part):
-        self.dance, self.delay = part.dance, part.delay
+        self.dance = part.dance
+        self.delay = part.delay
         spiral = isinstance(part.dance.path, Spiral)
         self.slow = (SlowDance if spiral else SlowRoute).of(part.dance.dragon, part.dance.path)
-        self.begin, self.end = part.dance.begin, part.dance.end.time
+        self.begin = part.dance.begin
+        self.end = part.dance.end.time
         path = part.dance.path
         self.place = (path.centre, path.rotation, path.clockwise) if spiral else ((0.0, 0.0), 0.0, True)
 
@@ -51,7 +54,8 @@ class SlowPerformance:
     def clearance(self, times):
         """(T,) least separation of benches of two dragons [m], and (T, 4) its dragons and benches."""
         times = np.asarray(times, dtype=float)
-        best, pairs = np.full(len(times), np.inf), np.zeros((len(times), 4), dtype=int)
+        best = np.full(len(times), np.inf)
+        pairs = np.zeros((len(times), 4), dtype=int)
         placed = [benches_of(part.handles(times), part.slow.sides) for part in self.parts]
         for i, j in combinations(range(len(placed)), 2):
             gaps, benches = nearest(placed[i], placed[j])

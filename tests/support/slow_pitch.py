@@ -15,7 +15,8 @@ from tests.support.slow_search import Samples, SlowDance, arc_length, benches_of
 STEPS = ((0.02, 2.0), (0.2, 30.0))
 FAR_SAMPLES = 120
 # The steepest stretches, as towards a fold, are sampled again too; samples of each stretch.
-STEEPEST, SPLIT = 3, 25
+STEEPEST = 3
+SPLIT = 25
 
 
 @dataclass
@@ -30,10 +31,12 @@ class SlowWay(SlowDance):
 
     def heads(self):
         """Angles of the head, from the circle outwards, at which the way is sampled."""
-        circle, start = self.radius / self.growth, 2.0 * np.pi * self.start_turns
+        circle = self.radius / self.growth
+        start = 2.0 * np.pi * self.start_turns
         if start <= circle:
             return np.array([circle])
-        inner, outer = arc_length(circle), arc_length(start)
+        inner = arc_length(circle)
+        outer = arc_length(start)
         near = np.concatenate([np.arange(0.0, end, step) for step, end in STEPS])
         near = inner + np.unique(near) * self.chords.min() / self.growth
         arcs = np.concatenate([near, np.geomspace(near[-1], max(outer, near[-1]), FAR_SAMPLES)[1:], [outer]])
@@ -62,7 +65,8 @@ class SlowWays(SlowWay):
         middles, along, sides = benches_of(self.handles_behind(heads), self.sides)
         best = np.full(heads.size, np.inf)
         for k in range(1, self.dragons):
-            c, s = np.cos(2.0 * np.pi * k / self.dragons), np.sin(2.0 * np.pi * k / self.dragons)
+            c = np.cos(2.0 * np.pi * k / self.dragons)
+            s = np.sin(2.0 * np.pi * k / self.dragons)
             turn = np.array([[c, s], [-s, c]])
             best = np.minimum(best, nearest((middles, along, sides), (middles @ turn, along @ turn, sides))[0])
         return best

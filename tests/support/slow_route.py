@@ -12,7 +12,9 @@ from core import Arc, Clothoid, Coil, Line
 from tests.support.slow_search import SlowDance, arc_length, head_angle, in_plane, sizes_of
 
 # Steps of Newton's towards a handle, then of a bisection if those do not suffice, and the distance that does [m].
-NEWTON_STEPS, HALVINGS, CLOSE = 12, 60, 1e-11
+NEWTON_STEPS = 12
+HALVINGS = 60
+CLOSE = 1e-11
 # Longest arc over its chord, where the chord can follow the route at all [1].
 LONGEST = 0.5 * np.pi
 # Nodes on which the direction of a clothoid is summed up over its length, and their weights [1].
@@ -25,8 +27,10 @@ def clothoid_of(piece):
         way = complex(*piece.end) - complex(*piece.start)
         return complex(*piece.start), np.angle(way), 0.0, 0.0, abs(way)
     if isinstance(piece, Arc):
-        sign, first = np.sign(piece.sweep), complex(*piece.centre) + piece.radius * np.exp(1j * piece.start_angle)
-        bend, heading = sign / piece.radius, piece.start_angle + 0.5 * np.pi * sign
+        sign = np.sign(piece.sweep)
+        first = complex(*piece.centre) + piece.radius * np.exp(1j * piece.start_angle)
+        bend = sign / piece.radius
+        heading = piece.start_angle + 0.5 * np.pi * sign
         return first, heading, bend, bend, abs(piece.sweep) * piece.radius
     return complex(*piece.start), piece.heading, piece.start_curvature, piece.end_curvature, piece.length
 
@@ -51,18 +55,21 @@ def piece_points(piece, u):
     A clothoid goes on as a circle.
     """
     if isinstance(piece, Coil):
-        growth, sign = piece.pitch / (2.0 * np.pi), np.sign(piece.end_turns - piece.start_turns)
+        growth = piece.pitch / (2.0 * np.pi)
+        sign = np.sign(piece.end_turns - piece.start_turns)
         theta = head_angle(arc_length(2.0 * np.pi * piece.start_turns) + sign * u / growth)
         out = np.exp(1j * (theta + piece.rotation))
         return complex(*piece.centre) + growth * theta * out, sign * out * (1.0 + 1j * theta) / np.hypot(1.0, theta)
     first, heading, bend, last, length = clothoid_of(piece)
-    slope, on = (last - bend) / length, np.clip(u, 0.0, length)
+    slope = (last - bend) / length
+    on = np.clip(u, 0.0, length)
 
     def along(v):
         return np.exp(1j * (heading + bend * v + 0.5 * slope * v * v))
 
     way = along(0.0) * bow(bend, on) if not slope else 0.5 * on * (along(0.5 * np.outer(on, 1.0 + NODES)) @ WEIGHTS)
-    ends, beyond = bend + slope * on, u - on
+    ends = bend + slope * on
+    beyond = u - on
     return first + way + along(on) * bow(ends, beyond), along(on) * np.exp(1j * ends * beyond)
 
 
@@ -94,7 +101,8 @@ class SlowRoute(SlowDance):
 
     def behind(self, s, leaders, chord):
         """Arc lengths and points of the handles a chord behind leaders at s."""
-        low, high = s - LONGEST * chord, s - chord
+        low = s - LONGEST * chord
+        high = s - chord
         at = s - chord
         for step in range(NEWTON_STEPS + HALVINGS):
             points, tangents = self.points(at)

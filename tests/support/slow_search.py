@@ -10,7 +10,8 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 # A root is found to its last bits [1], in six or so steps of Newton's; by bisection alone it takes 53.
-LAST_BITS, STEPS_MOST = 3e-16, 200
+LAST_BITS = 3e-16
+STEPS_MOST = 200
 # Points on which the range of delta beyond half a turn is sampled [1].
 CREST_POINTS = 100
 # Rounds of SPLIT instants each in which a time is found: 40^8 is about 7e12.
@@ -19,7 +20,8 @@ ROUNDS = 8
 STEP = 0.12
 SPLIT = 40
 # Local minima of the clearance that are looked at again, and how often.
-LOWEST, REFINED = 4, 3
+LOWEST = 4
+REFINED = 3
 # The last part of a run, where speeds grow without bound, is left out [1].
 RUN = 1.0 - 1e-7
 
@@ -65,7 +67,8 @@ def head_angle(arc):
 
 def next_delta(theta, chord):
     """First delta at which points of r = theta are a chord apart; NaN where there is none before the first crest."""
-    low, high = np.zeros_like(theta), np.full_like(theta, np.pi)
+    low = np.zeros_like(theta)
+    high = np.full_like(theta, np.pi)
     beyond = np.flatnonzero(chord_squared(theta, high) < chord**2)
     if beyond.size:
         low[beyond], high[beyond] = np.pi, first_crest(theta[beyond])
@@ -199,7 +202,8 @@ def first_time(low, high, holds):
     for _ in range(ROUNDS):
         times = np.linspace(low, high, SPLIT + 1)
         k = max(1, int(np.argmax(holds(times))))
-        low, high = times[k - 1], times[k]
+        low = times[k - 1]
+        high = times[k]
     return high
 
 
@@ -220,7 +224,8 @@ def corners_of(middle, along, sides):
 def nearest(dragon, other=None):
     """(T,) least separation of benches of two dragons, or of one that share no handle [m], and (T, 2) the pair."""
     (middles, along, sides), (middles_b, along_b, sides_b) = dragon, other or dragon
-    best, pairs = np.full(len(middles), np.inf), np.zeros((len(middles), 2), dtype=int)
+    best = np.full(len(middles), np.inf)
+    pairs = np.zeros((len(middles), 2), dtype=int)
     rows = np.arange(len(middles))
     for a in range(len(sides)):
         first = 0 if other else a + 2
@@ -232,7 +237,8 @@ def nearest(dragon, other=None):
         if not t.size:
             continue
         exact = np.full(apart.shape, np.inf)
-        box_a, b_of_all = (middles[t, a], along[t, a], sides[[a]]), b + first
+        box_a = (middles[t, a], along[t, a], sides[[a]])
+        b_of_all = b + first
         exact[t, b] = rectangles_gap(*box_a, middles_b[t, b_of_all], along_b[t, b_of_all], sides_b[b_of_all])
         least = exact.argmin(axis=1)
         closer = exact[rows, least] < best
@@ -245,12 +251,15 @@ class Samples:
     """A function of time in samples that are closer around the lowest of them, and at the steepest ones if asked."""
 
     def __init__(self, measure, times, split=SPLIT, steepest=0):
-        self.measure, self.times, self.values = measure, np.asarray(times), measure(times)
+        self.measure = measure
+        self.times = np.asarray(times)
+        self.values = measure(times)
         for _ in range(REFINED):
             self._refine(split, steepest)
 
     def _refine(self, split, steepest):
-        edges, last = np.concatenate([[np.inf], self.values, [np.inf]]), len(self.times) - 1
+        edges = np.concatenate([[np.inf], self.values, [np.inf]])
+        last = len(self.times) - 1
         low = np.flatnonzero((edges[:-2] >= self.values) & (self.values <= edges[2:]) & np.isfinite(self.values))
         brackets = [(max(k - 1, 0), min(k + 1, last)) for k in low[np.argsort(self.values[low])][:LOWEST]]
         steps = np.abs(np.diff(np.where(np.isfinite(self.values), self.values, 0.0)))

@@ -15,7 +15,8 @@ INSTANTS = ("{:.9g} s", "{:.9g}s", "t={:.9g}")
 
 def in_layout(values, times, form, *, heading=INSTANTS[0], numbered=False):
     """Rows of sheets with these numbers (T, H, 3) of all handles. numbered: numbers in the place of their names"""
-    table, count = values.tolist(), values.shape[1]
+    table = values.tolist()
+    count = values.shape[1]
     handles = list(range(count)) if numbered else NAMES[:count]
     instants = [heading.format(time) for time in times]
     if form == "list":
@@ -81,8 +82,10 @@ def as_file(sheets):
 
 def in_random_layout(values, times, random):
     """Rows of sheets, and the name of their layout."""
-    form, heading = FORMS[random.integers(len(FORMS))], INSTANTS[random.integers(len(INSTANTS))]
-    numbered, turned = bool(random.integers(2)), form != "list" and bool(random.integers(2))
+    form = FORMS[random.integers(len(FORMS))]
+    heading = INSTANTS[random.integers(len(INSTANTS))]
+    numbered = bool(random.integers(2))
+    turned = form != "list" and bool(random.integers(2))
     sheets = in_layout(values, times, form, heading=heading, numbered=numbered)
     if turned:
         sheets = {title: on_side(rows) for title, rows in sheets.items()}

@@ -13,8 +13,10 @@ import xlsxwriter
 from core import Coil, Dance, Dragon, Line, Route, Spiral, Turn, trajectory
 from tests.support.slow_search import arc_length
 
-SPIRAL_TIMES, TURN_TIMES = np.arange(301.0), np.arange(-100.0, 101.0)
-B, START = 0.55 / (2.0 * math.pi), 32.0 * math.pi
+SPIRAL_TIMES = np.arange(301.0)
+TURN_TIMES = np.arange(-100.0, 101.0)
+B = 0.55 / (2.0 * math.pi)
+START = 32.0 * math.pi
 CONTACT = 412.47383768211466  # [s]
 AT_CONTACT = np.array([CONTACT])
 # Cells of the contest's three workbooks.
@@ -116,7 +118,8 @@ def strayed(path, results, times, handle, elsewhere):
 
     elsewhere: ends of the stretch where it is, by the distance of the one before from the centre and the usual ends [m]
     """
-    position, s = results[0].copy(), times
+    position = results[0].copy()
+    s = times
     for k, chord in enumerate(Dragon().chords, start=1):
         point = position[:, k - 1]
 
@@ -140,7 +143,8 @@ def wrong_ring(handle):
 
 def wrong_coil(handle, times):
     """One handle is on the other coil while the one before it is outside the turn."""
-    path, growth = Turn(1.7), 1.7 / (2.0 * math.pi)
+    path = Turn(1.7)
+    growth = 1.7 / (2.0 * math.pi)
 
     def elsewhere(radius, low, high):
         # In the same direction from the centre the other coil is half a ring further out.
@@ -153,7 +157,8 @@ def wrong_coil(handle, times):
 
 def followed(place, times):
     """Handles (T, 224, 2) on a path of one's own: each is at the first place behind the one before a chord away."""
-    s, points = times, [place(times)]
+    s = times
+    points = [place(times)]
     for chord in Dragon().chords:
 
         def excess(u, point=points[-1], chord=chord):
@@ -174,7 +179,8 @@ def semicircles(times):
     entry = np.array(path.entry)
     along = -entry / np.linalg.norm(entry)
     left = np.array([-along[1], along[0]])
-    middle, end = 3.0 * math.pi, 4.5 * math.pi
+    middle = 3.0 * math.pi
+    end = 4.5 * math.pi
 
     def place(s):
         first = s < middle  # to the left of the line, as seen along it

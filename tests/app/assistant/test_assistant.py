@@ -125,7 +125,8 @@ def test_every_question_is_a_tool(client):
     async def tools(door):
         return {tool.name: tool.input_schema for tool in (await door.list_tools()).tools}
 
-    some, every = with_door(tools), with_door(tools, "--twins")
+    some = with_door(tools)
+    every = with_door(tools, "--twins")
     assert CALLS.keys() | {"grade", "places"} <= every.keys()
     assert some.keys() == {name for name in every if not (name.endswith("_of") and name.removesuffix("_of") in every)}
     flat = some["collision_time"]["properties"]

@@ -57,7 +57,8 @@ def test_the_table_has_the_same_numbers_and_runs_in_no_spreadsheet(ask):
     lines = table_of(ask, VILLAGE | FESTIVE)
     assert {line["name"] for line in lines if line["bench"] == "0"} == {"'=1+1"}
     assert not any(cell.startswith(("=", "+", "@")) for line in lines for cell in line.values())
-    at, names = "past_mark steps mark time clock x y", "kind time since until x y clock words"
+    at = "past_mark steps mark time clock x y"
+    names = "kind time since until x y clock words"
     for request, of, other in ((VILLAGE | FESTIVE, "bench", ""), (TWO, "dragon dragon_name bench", " dragon")):
         lines = table_of(ask, request)
         for card in cards_of(ask, request):
@@ -79,7 +80,8 @@ def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(ask):
     assert first.get_size() == second.get_size() == pytest.approx((595.28, 841.89), abs=0.01)
     wide, high = (0.5 * side for side in first.get_size())
     for k, card in enumerate(cards_of(ask, request)):
-        left, bottom = wide * (k % 2), high * (1 - k // 2 % 2)
+        left = wide * (k % 2)
+        bottom = high * (1 - k // 2 % 2)
         text = words_of((first, second)[k // 4], left, bottom, left + wide, bottom + high).replace(" ", "")
         place = f"x {card['start']['x']:.2f} m, y {card['start']['y']:.2f} m"
         verdict = "The whole dance was checked: nobody touches another bench"
@@ -89,7 +91,8 @@ def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(ask):
         assert -1 not in places
         assert places[1:] == sorted(places[1:])  # The order in which they are read aloud.
     picture = second.render(scale=2.0).to_numpy()[..., :3].min(axis=-1)
-    y, x = picture.shape[0] // 2, picture.shape[1] // 2
+    y = picture.shape[0] // 2
+    x = picture.shape[1] // 2
     for row, column in ((y, x + 20), (y + 20, x), (4, x), (y, 4)):
         assert picture[row - 3 : row + 4, column - 3 : column + 4].min() < 200
     assert picture[y + 60 : -60, 60 : x - 60].min() == 255  # The last two places are empty.
@@ -122,7 +125,8 @@ def test_who_comes_near_without_being_abreast_is_met_where_it_is_nearest(ask):
 def test_turns_name_what_they_go_around_also_a_gate_and_where_north_is(ask):
     (head,) = cards_of(ask, VILLAGE | {"cards": [0], "gates": [{"name": "north gate", "x": 12, "y": 45}]})
     turns = [cue["words"] for cue in head["cues"] if cue["angle"]]
-    around, towards = "turn back to the left around “well”.", "turn left, towards “north gate”."
+    around = "turn back to the left around “well”."
+    towards = "turn left, towards “north gate”."
     assert (turns[0], turns[-1]) == (f"Near mark 65 m: {around}", f"Near mark 110 m: {towards}")
     geographic = VILLAGE | {"cards": [0], "origin": {"longitude": 10, "latitude": 50}}
     assert cards_of(ask, geographic)[0]["cues"][0]["words"] == "Walk towards “linden tree”, east."
@@ -245,13 +249,15 @@ def test_crosses_stand_at_the_chalk_marks_of_start_and_end(ask):
     request = VILLAGE | {"cards": [17]}
     (card,) = cards_of(ask, request)
     boxes = np.array(shapes_of(pages_of(ask.file("cues", request, "application/pdf"))[0]))
-    sizes, middles = boxes[:, 2:] - boxes[:, :2], 0.5 * (boxes[:, 2:] + boxes[:, :2])
+    sizes = boxes[:, 2:] - boxes[:, :2]
+    middles = 0.5 * (boxes[:, 2:] + boxes[:, :2])
     wide = np.where(np.abs(sizes[:, 0] - sizes[:, 1]) < 0.05, sizes[:, 0], 0.0)
     # Arrows along the way, which leads along x for the most part.
     assert (np.abs(sizes - [7.4, 5.1]) < 0.4).all(axis=1).any()
     # A dot stands at each moment, the first one at the start and the last one at the end.
     (before, ahead), dots = (middles[(low < wide) & (wide < high)] for low, high in ((7.3, 8.0), (2.5, 2.8)))
-    start, done = dots[0], dots[-1]
+    start = dots[0]
+    done = dots[-1]
     scale = (done - start)[0] / (card["done"]["x"] - card["start"]["x"])
     # The street of the start leads along x, that of the end along y.
     assert_near(before, start - [scale * card["start"]["past_mark"], 0.0], 0.05)
@@ -264,7 +270,8 @@ def test_crosses_stand_at_the_chalk_marks_of_start_and_end(ask):
      ("crew", VILLAGE, "timeline was")],
 )  # fmt: skip
 def test_a_deadline_while_a_paper_is_set_is_a_refusal(name, body, paper):
-    question, budget = QUESTIONS[name], Budget()
+    question = QUESTIONS[name]
+    budget = Budget()
     terms = Terms(budget=budget, progress=lambda _: budget.stop("within 2 s"))
     with pytest.raises(TooMuchWork, match=f"the {paper} not drawn within 2 s"):
         question.to_bytes(checked(question.body, body), terms, PDF_TYPE)

@@ -20,7 +20,8 @@ from tests.support.refusal_rows import assert_refused
 
 VILLAGE = read_dance(ROOT / "examples" / "village_square.toml")
 # Places [m], and the error with which a bench is at its place of a change [m].
-ROUNDING, AT_PLACE = 1e-9, 0.02
+ROUNDING = 1e-9
+AT_PLACE = 0.02
 PEOPLE = {"spares": 6, "shift": 40, "rest": 10, "points": [{"x": 6, "y": -8}], "start_clock": "19:44:30"}
 
 
@@ -30,7 +31,8 @@ def answer(ask):
 
 
 def test_the_roll_at_a_time_of_day_names_everybody_once_where_the_trajectory_has_the_bench(answer):
-    roll, dance = answer["at"], checked(CrewRequest, VILLAGE).to_dance(100)
+    roll = answer["at"]
+    dance = checked(CrewRequest, VILLAGE).to_dance(100)
     assert (roll["time"], roll["clock"]) == (30.0, "19:45:00")
     assert [len(entry["people"]) for entry in roll["benches"]] == [8] + [2] * 23
     position = core.trajectory(dance, [30.0]).position[0]

@@ -89,7 +89,8 @@ def test_a_bench_stands_where_its_chalk_marks_say(pairs):
     zeros = [SPACING * math.floor(known.bench.start.s / SPACING) for _, _, known in (pairs[19], pairs[30])]
     for card, dragon, known in pairs:
         for name in ("start", "begin", "done"):
-            at, stand = card[name], getattr(known.bench, name)
+            at = card[name]
+            stand = getattr(known.bench, name)
             assert_same(at, stand, "time x y heading")
             assert at["mark"] % SPACING == 0.0
             assert_near(at["mark"] + at["past_mark"], stand.s - zeros[dragon], ROUNDING)
@@ -116,7 +117,8 @@ def test_the_words_of_a_meeting_name_all_benches_and_the_paper_has_them(pairs):
         if near := cue["nearest"]:
             assert re.search(rf"{where(near)} on your {near['side']}, {near['gap']:.2f} m\b", cue["words"])
             # One bench that comes abreast again and again is not several.
-            several, times = len(set(cue["others"])), len(cue["others"])
+            several = len(set(cue["others"]))
+            times = len(cue["others"])
             apart = " from " in cue["words"]
             listed = re.search(r"Benches ([\d, -]+) (?:pass you the other way|walk your way)", cue["words"])
             assert bool(listed) == (several > 1)

@@ -248,7 +248,8 @@ def test_a_kit_reports_its_progress_and_ends_when_it_is_stopped(films):
 
 
 def test_a_kit_that_waits_for_other_drawings_ends_when_it_is_stopped():
-    budget, solved = Budget(math.inf), threading.Event()
+    budget = Budget(math.inf)
+    solved = threading.Event()
 
     def long():
         solved.wait(PATIENCE)

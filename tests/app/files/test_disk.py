@@ -10,7 +10,8 @@ from app.files.disk import write_whole
 from tests.support.command import refusal, run, said
 from tests.support.refusal_rows import assert_refused_in_one_line
 
-OLD, NEW = b"what stood here before", b"what is written now"
+OLD = b"what stood here before"
+NEW = b"what is written now"
 # Longest file in the tests of a full disk [bytes].
 ROOM = 500
 # Each command that writes a file, with its option last.

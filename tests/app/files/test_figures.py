@@ -47,7 +47,8 @@ def test_contact_figure_states_the_time_pair_and_features_that_core_found():
 
 
 def test_contact_figure_with_a_margin_states_it():
-    coil, five = Dance(Dragon(), Spiral()), Dance(Dragon(benches=5), Spiral(9.0, 3.0))
+    coil = Dance(Dragon(), Spiral())
+    five = Dance(Dragon(benches=5), Spiral(9.0, 3.0))
     for words, part in (
         (texts(figures.contact_figure(Dance(SMALL, Spiral()), margin=0.05)), "Within 0.05 m: a gap of 0.050000 m at ("),
         (texts(figures.contact_figure(coil, margin=0.2)), "a gap of 0.169279 m"),

@@ -35,7 +35,9 @@ from tests.support.near import assert_near
 from tests.support.random_squares import polygon
 
 # Colours of the head and of the body; video keeps them to within a few parts of 255.
-HEAD, BODY, NEAR = (213, 94, 0), (0, 114, 178), 60
+HEAD = (213, 94, 0)
+BODY = (0, 114, 178)
+NEAR = 60
 SMALL = {"dragon": {"benches": 12}, "seconds": 1, "rate": 6, "height": 360, "stop": 60}
 
 
@@ -82,7 +84,8 @@ def test_every_frame_shows_every_bench_where_it_is(tmp_path):
     words = "--path turn --start -20 --stop 40 --benches 30 --seconds 1 --rate 4"
     result = filmed(tmp_path / "dance.mp4", *words.split())
     # It has the pitch of the turn, not of the spiral, as in the table of `trajectory --path turn`.
-    dance, spec = Dance(Dragon(benches=30), Turn(1.7)), FilmSpec(-20.0, 40.0, 1.0, 4)
+    dance = Dance(Dragon(benches=30), Turn(1.7))
+    spec = FilmSpec(-20.0, 40.0, 1.0, 4)
     stage = FilmPicture(dance, spec, None, "")
     for instant, picture in zip(spec.times, result, strict=True):
         assert picture.shape == (1080, 1920, 3)
@@ -126,7 +129,8 @@ def test_stopping_a_film_harms_no_other(form, frames):
         if share * spec.times.size >= frames:
             budget.stop()
 
-    dance, spec = Dance(Dragon(benches=5), Spiral()), FilmSpec(0.0, 60.0, 2.0, 12)
+    dance = Dance(Dragon(benches=5), Spiral())
+    spec = FilmSpec(0.0, 60.0, 2.0, 12)
     # With a spent budget it must not be the trajectory of the first frames that ends it.
     for progress in (stop_after, lambda share: None):
         with pytest.raises(TooMuchWork, match="the film was not drawn"):
@@ -138,7 +142,8 @@ def test_stopping_a_film_harms_no_other(form, frames):
 MARCH = [{"bars": 2, "tempo": 96, "step": 0.6}, {"bars": 2, "tempo": 132, "step": 0.3, "beats": 3}]
 HEARD = 0.010
 # A stroke begins where the sound is louder than LOUD [1] for the first time in APART [s].
-LOUD, APART = 0.15, 0.2
+LOUD = 0.15
+APART = 0.2
 
 
 def onsets(data):
@@ -192,7 +197,8 @@ def test_the_head_and_every_tenth_bench_have_their_numbers():
     stage = FilmPicture(dance, FilmSpec(0.0, 300.0), None, "")
     for instant in (0.0, 171.3):
         outlines = outlines_of(dance, instant)
-        picture, places = stage.frame(instant, outlines), fronts(stage, outlines)
+        picture = stage.frame(instant, outlines)
+        places = fronts(stage, outlines)
         for k, (_, left, top) in zip(range(0, 223, 10), stage.layers[0].labels[0].placed, strict=True):
             digits = pictures_of([str(k)], size_of(1080), BLUE, DPI)[0]
             high, wide, _ = digits.shape
@@ -240,7 +246,9 @@ def test_a_marked_bench_is_wide_enough_to_be_seen(height):
 
 def test_a_number_stands_on_the_outer_side_of_a_bend_and_does_not_flicker():
     stage, _ = village()
-    numbers, changes, before = stage.layers[0].labels[1], 0, 0.0
+    numbers = stage.layers[0].labels[1]
+    changes = 0
+    before = 0.0
     for instant in np.linspace(0.0, 119.0, 400):
         outlines = outlines_of(stage.dance, instant)
         numbers.place(outlines)

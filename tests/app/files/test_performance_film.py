@@ -70,7 +70,8 @@ def test_the_film_ends_at_the_first_encounter_or_contact_and_marks_it():
         (TWO, first_encounter(PERFORMANCE).time),
         (TWO | {"dances": [far, coiled | {"delay": 1}], "venue": None}, contact.time + 1.0),
     ):
-        whole, cut = film_of(body), film_of(body | {"stop": stop})
+        whole = film_of(body)
+        cut = film_of(body | {"stop": stop})
         assert [(a == b).all() for a, b in zip(whole, cut, strict=True)] == [True] * 3 + [False]
 
 
@@ -95,7 +96,8 @@ def test_the_drum_is_that_of_the_first_dragon_with_beats_on_the_clock_of_all(cli
 
 
 def test_the_count_names_its_dragon_unless_all_have_the_same_beats():
-    own, other = {"beats": BEATS}, {"beats": [{"bars": 8, "tempo": 120, "step": 0.5}]}
+    own = {"beats": BEATS}
+    other = {"beats": [{"bars": 8, "tempo": 120, "step": 0.5}]}
     # 12 s are 19.2 beats of the first music, and 14 s are 22.4 of it.
     assert counted([EAST, NORTH | own], 14.0) == "dragon 1: bar 5 beat 4"
     assert counted([EAST | own, NORTH | other], 14.0) == "east: bar 6 beat 3"

@@ -73,7 +73,8 @@ def test_the_words_are_in_the_language_chosen(class_of_three, tmp_path, monkeypa
     position, speed = spiral(AT_CONTACT)
     speed[0, 5] += 1.0
     monkeypatch.chdir(tmp_path)
-    file, summary = Path("=1+1.xlsx"), Path("grades.xlsx")
+    file = Path("=1+1.xlsx")
+    summary = Path("grades.xlsx")
     file.write_bytes(contact_workbook((position, speed)))
     other = class_of_three / "li" / "result2.xlsx"
     done = run("grade", str(other), file.name, "--pitch", "0.4202", "--language", "zh", "--summary", str(summary))

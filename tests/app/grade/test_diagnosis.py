@@ -74,7 +74,8 @@ def shifted(results, rows=1):
 
 def turned(results, degrees):
     """The places turned about the centre against the clock."""
-    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    c = np.cos(np.radians(degrees))
+    s = np.sin(np.radians(degrees))
     return results[0] @ np.array([[c, s], [-s, c]]), results[1]
 
 
@@ -255,7 +256,8 @@ def test_the_errors_of_places_and_of_speeds_are_named_each(places, speeds):
 
 @pytest.mark.parametrize("by, decimals", [(0.582, 6), (-0.09, 4), (-0.437, 5)])
 def test_speeds_of_other_times_tell_no_digit_of_the_shift_that_they_do_not_know(by, decimals):
-    places, speeds = turn()[0], np.round(turn(TURN_TIMES + by)[1], decimals)
+    places = turn()[0]
+    speeds = np.round(turn(TURN_TIMES + by)[1], decimals)
     (error,) = grade(students.lines((places, speeds), TURN_TIMES)).diagnosis
     assert f"{by:+} s" in error.words
 

@@ -120,7 +120,8 @@ def test_a_missing_sheet_makes_the_file_incomplete(written):
 
 
 # The numbers that the paper prints: seven handles at six instants.
-PRINTED, MINUTES = [0, 1, 51, 101, 151, 201, 223], SPIRAL_TIMES[::60]
+PRINTED = [0, 1, 51, 101, 151, 201, 223]
+MINUTES = SPIRAL_TIMES[::60]
 
 
 def numbers_at(times):
@@ -255,7 +256,8 @@ def test_csv_with_decimal_commas_is_graded(separator):
         assert_right((title + wide_csv().replace(",", separator).replace(".", ",")).encode())
 
 
-FROM_0, FROM_1 = range(224), range(1, 225)
+FROM_0 = range(224)
+FROM_1 = range(1, 225)
 # Headings of lists with a line for each handle and instant, and the names of the handles in them.
 HEADS = {
     "time,handle,x,y,speed": FROM_0,
@@ -376,7 +378,8 @@ NUMBERED = {
 def test_speeds_of_numbered_handles_are_graded_beside_positions_of_named_ones(side):
     """All handles, or the printed ones, with a heading above their numbers or none."""
     for name in ("", "把手"):
-        position, speed = printed()[0], numbered(printed(name)[1], PRINTED)
+        position = printed()[0]
+        speed = numbered(printed(name)[1], PRINTED)
         assert_printed(grade(by_xlsxwriter({"位置": position, "速度": speed})))
         assert_printed(grade(as_csv(NUMBERED[side](position, speed))))
     every = grade(as_csv(NUMBERED[side](few()["位置"], numbered(few()["速度"]))))

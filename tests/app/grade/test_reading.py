@@ -38,7 +38,8 @@ def grade(data, name="result1.xlsx"):
 
 
 def by_openpyxl(sheets):
-    book, sink = openpyxl.Workbook(write_only=True), io.BytesIO()
+    book = openpyxl.Workbook(write_only=True)
+    sink = io.BytesIO()
     for title, rows in sheets.items():
         sheet = book.create_sheet(title)
         for row in rows:
@@ -83,7 +84,8 @@ def test_a_few_instants_of_other_tools_are_right(writer):
 @cache
 def small(change=lambda book: None):
     """A result1 of a few instants as openpyxl writes it, with a change to it."""
-    book, sink = openpyxl.load_workbook(io.BytesIO(by_openpyxl(few()))), io.BytesIO()
+    book = openpyxl.load_workbook(io.BytesIO(by_openpyxl(few())))
+    sink = io.BytesIO()
     change(book)
     book.save(sink)
     return sink.getvalue()
@@ -130,7 +132,8 @@ def repeated(element, times):
 
 def strict():
     """A workbook in Excel's Strict Open XML."""
-    old, new = b"http://schemas.openxmlformats.org/spreadsheetml/2006", b"http://purl.oclc.org/ooxml/spreadsheetml"
+    old = b"http://schemas.openxmlformats.org/spreadsheetml/2006"
+    new = b"http://purl.oclc.org/ooxml/spreadsheetml"
     return repacked(small(), lambda part, content: content.replace(old, new))
 
 
@@ -223,7 +226,8 @@ def test_macros_are_reported_and_not_run():
 
 
 def test_formulas_count_with_the_value_stored_with_them_or_are_reported():
-    formula, number = b'<c r="C2"><f>4.4*2</f><v>', b'<c r="C2" t="n"><v>'
+    formula = b'<c r="C2"><f>4.4*2</f><v>'
+    number = b'<c r="C2" t="n"><v>'
     result = grade(repacked(small(), in_sheets(number, formula)))
     # One in each sheet.
     assert result.notes == 2 * ["Cells with formulas: 1, the first is C2. The values stored with them were read."]
@@ -313,7 +317,8 @@ def test_wide_rows_without_end_are_cut_and_that_is_reported():
 
 def test_a_budget_ends_a_reading_that_has_begun():
     # The budget is checked between rows; here there are none, and openpyxl takes seconds for the other elements.
-    data, budget = repeated(b"<x/>", 500_000), Budget()
+    data = repeated(b"<x/>", 500_000)
+    budget = Budget()
     timer = Timer(0.1, budget.stop)
     timer.start()
     with pytest.raises(TooMuchWork):
@@ -348,7 +353,8 @@ def test_a_table_of_few_handles_is_told_which_are_missing():
 
 
 def test_numbers_of_one_decimal_are_told_to_have_too_few():
-    rows, times = [f"{k},1.3,{k}.4,1" for k in range(224)], SPIRAL_TIMES[:4]
+    rows = [f"{k},1.3,{k}.4,1" for k in range(224)]
+    times = SPIRAL_TIMES[:4]
     position, speed = spiral(times)
     for data in ("\n".join([",x,y,v", *rows]).encode(), students.lines(((position + 0.3).round(1), speed), times)):
         [said] = grade(data, "index.csv").notes

@@ -9,7 +9,8 @@ from app.jobs.clock import STEP, TIMES
 from app.jobs.room import DAY
 from tests.app.jobs.test_store import PROBLEM, ended, make, run_in, written
 
-MINUTE, HOUR = 60.0, 3600.0
+MINUTE = 60.0
+HOUR = 3600.0
 
 
 def jump(store, step):
@@ -27,7 +28,9 @@ def times_of(job):
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux names each start of the machine")
 @pytest.mark.parametrize("step", [-1000 * DAY, -HOUR, DAY, 1000 * DAY])
 def test_jobs_keep_their_ages_when_the_clock_jumps(store, step):
-    kept, running, waiting = ended(store), make(store), make(store)
+    kept = ended(store)
+    running = make(store)
+    waiting = make(store)
     assert store.take() == running
     jump(store, step)
     assert store.has_work(days=0.5)
@@ -42,7 +45,8 @@ def test_jobs_keep_their_ages_when_the_clock_jumps(store, step):
 
 
 def test_after_a_start_with_an_earlier_clock_no_job_is_from_the_future(store):
-    kept, waiting = ended(store), make(store)
+    kept = ended(store)
+    waiting = make(store)
     jump(store, -1000 * DAY)
     run_in(store, "UPDATE clock SET boot = 'another start of this machine'")
     make(store)

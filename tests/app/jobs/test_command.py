@@ -52,7 +52,8 @@ def test_a_job_is_listed_shown_answered_and_removed(service, place, tmp_path):
     job = service.done(SHORT).rpartition("/")[2]
     assert re.search(rf"{job}.*successful", run("list", *place).stdout)
     assert json.loads(run("show", job, "--json", *place).stdout)["processID"] == "collision_time"
-    answer, output = direct(service.client, SHORT), tmp_path / "answer.json"
+    answer = direct(service.client, SHORT)
+    output = tmp_path / "answer.json"
     said("jobs", "result", job, "--output", str(output), *place, aside=None)
     assert output.read_bytes() == answer.content
     assert run("result", job, *place).stdout == answer.text

@@ -42,7 +42,8 @@ def fill(folder, name="filler"):
 
 def test_a_full_disk_is_reported_and_freed_space_is_used(small_disk):
     with JobService(small_disk / "data") as service:
-        first, too_big = service.done(SHORT), service.post(BIG)
+        first = service.done(SHORT)
+        too_big = service.post(BIG)
         assert service.finished(too_big)["status"] == "failed"
         assert service.result(too_big).status_code == 507
         filler = fill(small_disk)
@@ -63,7 +64,8 @@ def test_on_a_full_disk_every_job_ends_and_can_be_removed_and_readiness_says_it(
         service.stop()
         service.environment |= environment_of({"job_seconds_max": JOB_SECONDS})
         service.start()
-        ends_by_itself, waits = service.post(ENDLESS), service.post(ENDLESS)
+        ends_by_itself = service.post(ENDLESS)
+        waits = service.post(ENDLESS)
         service.until(ends_by_itself, "running")
         filler = fill(small_disk)
         ready = service.client.get("/readyz")

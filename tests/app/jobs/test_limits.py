@@ -26,7 +26,9 @@ def strict(tmp_path_factory):
 
 
 def test_without_the_token_no_job_is_made_and_none_is_listed_and_no_file_taken(strict):
-    later, typed, file = {"Prefer": "respond-async"}, {"Content-Type": "application/json"}, {"Content-Type": BYTES}
+    later = {"Prefer": "respond-async"}
+    typed = {"Content-Type": "application/json"}
+    file = {"Content-Type": BYTES}
     for method, call, body, headers in (
         ("POST", "/jobs", b'{"question": "turn"}', typed),
         ("POST", "/sweeps", b'{"question": "turn", "over": {"pitch": [1.7]}}', typed),
@@ -66,7 +68,8 @@ def test_a_client_has_only_so_many_unfinished_jobs(strict):
     assert strict.status(addresses[2])["status"] == "accepted"  # one runs at once, the other waits
     with strict.at("127.0.0.2") as other:
         theirs = other.post("/jobs", json=ENDLESS).headers["location"]
-        refused, full = strict.client.post("/jobs", json=SHORT), other.post("/jobs", json=SHORT)
+        refused = strict.client.post("/jobs", json=SHORT)
+        full = other.post("/jobs", json=SHORT)
     assert (refused.status_code, full.status_code) == (429, 503)
     # It is estimated that the first one ends soon; then its result stays for a while.
     assert 0 < int(refused.headers["retry-after"]) <= 5
@@ -158,7 +161,8 @@ def damage(folder):
 @pytest.mark.thorough
 @pytest.mark.parametrize("harm", [shutil.rmtree, damage])
 def test_a_store_that_fails_while_the_service_runs_promises_nothing(tmp_path, harm):
-    folder, fault = tmp_path / "data", "and is tried again each second"
+    folder = tmp_path / "data"
+    fault = "and is tried again each second"
     with JobService(folder) as service:
         address = service.done(SHORT)
         harm(folder)

@@ -16,7 +16,8 @@ from app.settings import Settings
 from tests.campaigns.job_kills import post, survive
 from tests.support.job_service import ENDLESS, SCAN, SHORT, JobService, direct, wait_for
 
-KILLS, SEED = 4, 1
+KILLS = 4
+SEED = 1
 
 
 @pytest.fixture(scope="module")

@@ -138,7 +138,8 @@ def test_only_the_latest_events_are_kept_under_their_numbers(store):
     ],
 )
 def test_no_job_is_taken_where_there_is_no_room(store, limit, most, error):
-    job, room = (make if error is FullForClient else ended)(store), Settings(**{limit: most})
+    job = (make if error is FullForClient else ended)(store)
+    room = Settings(**{limit: most})
     store.take()
     with pytest.raises(error) as refused:
         make(store, limits=room)
@@ -257,7 +258,8 @@ def test_a_result_takes_the_room_of_older_ones_of_its_client(store):
 def test_only_who_has_at_least_as_much_makes_room_and_a_refusal_says_when_there_will_be_some(seed):
     """Whatever is in the store, against the words of app.jobs.room."""
     chance = random.Random(seed)
-    now, names = 1e9, [f"client {k}" for k in range(chance.randrange(1, 6))]
+    now = 1e9
+    names = [f"client {k}" for k in range(chance.randrange(1, 6))]
     rows = []
     for k in range(chance.randrange(1, chance.choice([5, 30]))):
         state = chance.choice(["successful", "successful", "dismissed", "failed"])

@@ -112,7 +112,8 @@ def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_i
 
 @pytest.mark.thorough
 def test_a_dismissed_sweep_leaves_no_shard_nor_process_and_others_are_answered_meanwhile(service):
-    address, waits = service.post(ENDLESS_SPEC, "/sweeps"), service.post(ENDLESS_SPEC, "/sweeps")
+    address = service.post(ENDLESS_SPEC, "/sweeps")
+    waits = service.post(ENDLESS_SPEC, "/sweeps")
     wait_for(lambda: parts(service))
     service.done(SHORT)
     wait_for(lambda: sample(service.client.base_url, "bench_dragon_sweep_designs_done") > 0)

@@ -60,8 +60,10 @@ def test_a_bulge_is_the_arc_that_it_says(bulge):
         assert len(points) == 2
         return
     # A positive bulge turns to the left, so its top is to the right of the straight line.
-    middle, left = np.array([5.0, 2.5]), np.array([-5.0, 10.0])
-    top, centre = middle - 0.5 * bulge * left, middle + (1.0 - bulge**2) / (4.0 * bulge) * left
+    middle = np.array([5.0, 2.5])
+    left = np.array([-5.0, 10.0])
+    top = middle - 0.5 * bulge * left
+    centre = middle + (1.0 - bulge**2) / (4.0 * bulge) * left
     radius = hypot(*(top - centre))
     assert np.hypot(*(points - centre).T) == pytest.approx(radius)
     assert abs(circle_of(points, *centre) - radius).max() <= SAG
@@ -80,7 +82,8 @@ def test_a_squeezed_circle_is_an_ellipse_and_a_part_of_it():
 
 def spline(points, degree, knots, weights=None):
     entity = SPACE.add_spline(degree=degree)
-    entity.control_points, entity.knots = [(*point, 0.0) for point in points], knots
+    entity.control_points = [(*point, 0.0) for point in points]
+    entity.knots = knots
     if weights:
         entity.weights = weights
     return entity
@@ -99,7 +102,8 @@ CURVES = {
 def test_a_spline_is_where_another_program_computes_it(name):
     control, degree, knots = CURVES[name]
     points = points_of(spline(control, degree, knots), 1.0)
-    low, high = knots[degree], knots[len(control)]
+    low = knots[degree]
+    high = knots[len(control)]
     truth = BSpline(np.array(knots, dtype=float), np.array(control), degree)(np.linspace(low, high, 300_001))
     assert points[[0, -1]] == pytest.approx(truth[[0, -1]])
     apart, _ = KDTree(truth).query(middles(points))
@@ -118,7 +122,8 @@ def test_a_spline_with_weights_is_a_circle(place):
 
 
 def test_a_spline_whose_numbers_do_not_fit_is_damaged():
-    ends, clamped = [0, 0, 0, 0, 1], [0, 0, 0, 0, 1, 1, 1]
+    ends = [0, 0, 0, 0, 1]
+    clamped = [0, 0, 0, 0, 1, 1, 1]
     # Too few knots, knots that fall, a weight of zero.
     for knots, weights in ((ends, None), ([*clamped, 0.5], None), ([*clamped, 1], [1, 0, 1, 1])):
         with pytest.raises((Damaged, ezdxf.DXFError, ValueError)):

@@ -111,7 +111,8 @@ def test_what_cannot_be_seen_or_read_is_left_out_and_said(space):
     space.add_polymesh((2, 2))
     space.add_polyface()
     damaged = space.add_spline(degree=3)
-    damaged.control_points, damaged.knots = [(k, k * k, 0) for k in range(4)], [0, 0, 0, 0, 1, 1, 1, 0.5]
+    damaged.control_points = [(k, k * k, 0) for k in range(4)]
+    damaged.knots = [0, 0, 0, 0, 1, 1, 1, 0.5]
     document.add_xref_def("other.dwg", "OTHER")
     for name in ("LOST", "OTHER"):
         space.add_blockref(name, (3, 3))
@@ -180,7 +181,9 @@ def test_an_entity_that_cannot_be_read_is_left_out_alone(row):
 
 def bare(data, kinds):
     """A drawing without the markers of some kinds, or of all of them."""
-    lines, result, kind = data.decode().split("\n"), [], ""
+    lines = data.decode().split("\n")
+    result = []
+    kind = ""
     for code, value in zip(lines[::2], lines[1::2], strict=False):
         kind = value.strip() if code.strip() == "0" else kind
         if code.strip() != "100" or (kinds and kind not in kinds):
@@ -287,7 +290,8 @@ def test_only_a_ring_in_an_area_of_its_layer_is_a_hole(space):
 def test_a_closed_spline_is_the_area_in_it(space):
     sides = [(0, 0, 0), (10, 0, 0), (10, 10, 0), (0, 10, 0)]
     entity = space.add_spline(degree=3, dxfattribs={"layer": "OBSTACLES", "flags": 3})
-    entity.control_points, entity.knots = [*sides, *sides[:3]], range(11)
+    entity.control_points = [*sides, *sides[:3]]
+    entity.knots = range(11)
     [(form, rings, _)] = things(read(space))
     assert form == "Polygon"
     assert_near((np.min(rings), np.max(rings)), (0.417, 9.583), 0.005)
@@ -346,7 +350,8 @@ def test_a_circle_on_the_layer_of_the_square_is_a_round_square(empty):
 
 
 def test_lines_and_arcs_of_the_path_are_one_path():
-    space, on_path = new(), {"layer": "PATH"}
+    space = new()
+    on_path = {"layer": "PATH"}
     for ends in ([(0, 0), (10, 0)], [(10, 10), (0, 10)], [(30, 30), (40, 40)]):
         space.add_line(*ends, dxfattribs=on_path)
     space.add_arc((10, 5), 5.0, -90, 90, dxfattribs=on_path)

@@ -414,7 +414,8 @@ def test_a_map_has_at_most_two_thousand_marks(client):
 
 @pytest.mark.parametrize("write", [str.upper, str.title, str.lower])
 def test_properties_are_read_however_their_names_are_written(write):
-    path, well = thing("path", "LineString", [[5, 5], [35, 25]]), thing("well", "Point", [10, 25])
+    path = thing("path", "LineString", [[5, 5], [35, 25]])
+    well = thing("well", "Point", [10, 25])
     features = [
         {"type": "Feature", "properties": {"name": "Market", "layer": "square"}, "geometry": SQUARE},
         path,

@@ -132,7 +132,8 @@ def test_a_close_coil_keeps_its_windings_and_the_times_of_its_walk(pitch, noise,
 
 
 # Radius of the arcs that would cost least [m], and how much more than they a smooth curve may cost [1].
-EASIEST, DEARER = 1.1 * tightest_bend(Dragon())[0], 1.2
+EASIEST = 1.1 * tightest_bend(Dragon())[0]
+DEARER = 1.2
 SQUARES = {
     "corners alone": [(0, 0), (20, 0), (20, 20), (0, 20), (0, 0)],
     "stairs": [(6 * ((k + 1) // 2), 6 * (k // 2)) for k in range(9)],

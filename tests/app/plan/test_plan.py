@@ -21,7 +21,8 @@ from tests.support.paper import assert_printable, pages_of, shapes_of, words_of
 from tests.support.refusal_rows import assert_refused
 
 # Millimetres in a point of PDF, and how well a place on paper is known [mm].
-POINT, ON_PAPER = 25.4 / 72.0, 0.02
+POINT = 25.4 / 72.0
+ON_PAPER = 0.02
 BODY = json.loads("""{
     "dragon": {"benches": 6}, "margin": 0.3, "title": "Lantern night",
     "path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [40, 0]}]},

@@ -34,7 +34,8 @@ def answered(pool, task=b"a", budget=None):
 
 
 def test_tasks_at_the_same_time_have_processes_of_their_own_and_few_wait_afterwards(pool):
-    reports, budget = [], Budget()
+    reports = []
+    budget = Budget()
 
     def sleep():
         with pytest.raises(Halted):
@@ -69,7 +70,8 @@ def test_a_process_that_is_killed_while_it_waits_or_needed_much_memory_takes_no_
 
 
 def test_a_pool_that_closes_ends_its_processes_and_starts_none():
-    pool, reports = Pool(MODULE, waiting=1), []
+    pool = Pool(MODULE, waiting=1)
+    reports = []
     with ThreadPoolExecutor() as threads:
         answer = threads.submit(pool.answer, b"sleep", None, reports.append)
         wait_for(lambda: reports)

@@ -17,7 +17,8 @@ from tests.support.depth import few
 from tests.support.largest import LARGEST
 
 # Time after which a call is stopped [s], and the longest time of the processor until it has ended [s].
-STOPPED, ENDS_WITHIN = 0.5, 1.0
+STOPPED = 0.5
+ENDS_WITHIN = 1.0
 GROWS, KEEPS = 200.0, 100.0  # [MB]
 # Times that a call is asked: in the first ones modules and caches come, which are kept.
 ROUNDS = 3
@@ -29,9 +30,12 @@ def test_every_call_has_a_largest_input():
 
 def asked(name):
     """Time of the processor from the stop to the end [s], and the most memory meanwhile [MB]."""
-    question, budget, stopped = CALLS[name].question, Budget(), []
+    question = CALLS[name].question
+    budget = Budget()
+    stopped = []
     inputs = CALLS[name].request_type.model_validate(LARGEST[name])
-    done, most = threading.Event(), [memory()]
+    done = threading.Event()
+    most = [memory()]
 
     def stop():
         stopped.append(time.process_time())
@@ -41,7 +45,8 @@ def asked(name):
         while not done.wait(0.01):
             most.append(memory())
 
-    watch, timer = threading.Thread(target=look), threading.Timer(STOPPED, stop)
+    watch = threading.Thread(target=look)
+    timer = threading.Timer(STOPPED, stop)
     watch.start()
     timer.start()
     try:

@@ -9,7 +9,8 @@ from tests.app.files.test_figures import texts
 from tests.support.asking import box, dance, json_like, written
 from tests.support.command import run, said
 
-EAST, NORTH = dance(5, (0, 0), (30, 0)), dance(5, (15, -20), (15, 20))
+EAST = dance(5, (0, 0), (30, 0))
+NORTH = dance(5, (15, -20), (15, 20))
 HOUSEHOLDS = ["Zhou", "Wu", "Zheng", "Wang", "Feng"]
 LIMITS = {"venue": box(-5, -30, 28, 30), "speed_limit": 1.2, "margin": 0.05, "start_clock": "19:30"}
 NAMED = NORTH | {"dragon": {"benches": 5, "names": HOUSEHOLDS}}

@@ -13,7 +13,8 @@ PERFORMANCE = ClearanceRequest.model_validate({"dances": DANCES}).to_performance
 
 
 def test_what_is_left_out_is_every_whole_second_of_the_performance(ask):
-    first, last = math.ceil(PERFORMANCE.begin), math.floor(PERFORMANCE.end.time)
+    first = math.ceil(PERFORMANCE.begin)
+    last = math.floor(PERFORMANCE.end.time)
     assert first > 0
     for times, known in (({"stop": 40, "step": 8}, range(first, 41, 8)), (None, range(first, last + 1))):
         assert ask("clearance", {"dances": DANCES, "times": times})["time"] == [*known]

@@ -15,8 +15,10 @@ from tests.support.command import refusal, run, said
 from tests.support.reference_encounters import CASES, performance_of
 
 EXAMPLE = str(ROOT / "examples" / "two_dragons.toml")
-LANE, BESIDE = dance(3, (0, 0), (30, 0)), dance(3, (0, 2), (30, 2))
-EAST, NORTH = dance(5, (0, 0), (30, 0), name="east"), dance(5, (15, -20), (15, 20), name="north")
+LANE = dance(3, (0, 0), (30, 0))
+BESIDE = dance(3, (0, 2), (30, 2))
+EAST = dance(5, (0, 0), (30, 0), name="east")
+NORTH = dance(5, (15, -20), (15, 20), name="north")
 TWO = {"dances": [EAST, NORTH]}
 
 

@@ -19,7 +19,8 @@ BODY = {"dragon": {"benches": 3}, "path": {"kind": "route", "pieces": [RING], "s
 ENVELOPE = envelope(Dance(Dragon(3), Route([Arc((0.0, 0.0), 5.0, 0.0, 7.0)], start=8.0)))
 OUTLINE = [ring.tolist() for ring in ENVELOPE.polygons[0]]
 SPECTATORS = [[8.0, -3.0], [8.0, 3.0], [9.0, 9.0]]
-LOW, HIGH = dance(3, (0, 0), (20, 0), name="low"), dance(3, (0, 6), (20, 6), delay=5)
+LOW = dance(3, (0, 0), (20, 0), name="low")
+HIGH = dance(3, (0, 6), (20, 6), delay=5)
 SEVERAL = {"dances": [LOW, HIGH], "start": 8, "stop": 12}
 BEYOND = {"spectators": [[0.0, 9.0], [20.0, 9.0]]}
 
@@ -32,7 +33,9 @@ def test_several_polygons_are_a_multipolygon():
 
 
 def test_the_command_writes_the_files_of_the_service_with_the_hole_as_its_own_line(ask, tmp_path):
-    file, drawing, table = written(tmp_path, BODY | {"spectators": SPECTATORS}), tmp_path / "x.dxf", tmp_path / "x.json"
+    file = written(tmp_path, BODY | {"spectators": SPECTATORS})
+    drawing = tmp_path / "x.dxf"
+    table = tmp_path / "x.json"
     text = said("envelope", file, "--output", str(drawing), aside=f"{drawing}\n")
     for words in ("1 polygon, 1 hole, ", f"{ENVELOPE.distance(SPECTATORS):.9f} m"):
         assert words in text

@@ -59,7 +59,8 @@ def test_a_reason_stands_where_no_dance_fits(ask):
 
 
 def test_a_venue_in_degrees_keeps_its_place(ask):
-    east, north = 24 / 111_320 / math.cos(math.radians(48.0)), 20 / 111_195
+    east = 24 / 111_320 / math.cos(math.radians(48.0))
+    north = 20 / 111_195
     venue = {"venue": box(9.0, 48.0, 9.0 + east, 48.0 + north), "coordinates": "degrees"}
     dance = ask("proposals", BODY | venue | {"figures": ["ring"], "count": 1})["proposals"][0]["dance"]
     assert dance["venue"]["origin"]["longitude"] == pytest.approx(9.0 + 0.5 * east)
@@ -70,7 +71,9 @@ def test_a_venue_in_degrees_keeps_its_place(ask):
 @pytest.mark.thorough
 def test_the_command_writes_dances_and_pictures(tmp_path):
     written(tmp_path, BODY["venue"], "yard.geojson")
-    file, folder, none = tmp_path / "wish.toml", tmp_path / "proposals", tmp_path / "none"
+    file = tmp_path / "wish.toml"
+    folder = tmp_path / "proposals"
+    none = tmp_path / "none"
     file.write_text('venue = "yard.geojson"\nfigures = ["ring"]\ncount = 2\n[dragon]\nbenches = 10\n')
     result = run("propose", str(file), "--output", str(folder))
     assert result.stdout.startswith("The best 2 of "), result.stderr

@@ -11,12 +11,15 @@ from core import Arc, Area, Dance, Dragon, Part, Performance, Route, Spiral, Tur
 from tests.support.asking import box, dance, json_like, line
 from tests.support.near import assert_near
 
-DRAGON, CLOSE = Dragon(20), Dance(Dragon(40), Spiral(0.5, 8.0))
+DRAGON = Dragon(20)
+CLOSE = Dance(Dragon(40), Spiral(0.5, 8.0))
 POINTS = [(0.0, 0.0), (20.0, 0.0), (21.0, 2.0), (0.0, 3.0)]
 WINDING = [(0, 0), (30, 0), (36, 5), (30, 10), (24, 5), (24, -20)]
 ODD = {"lengths": [3.41, 2.2, 2.0, 2.2, 1.9, 2.2] * 4, "widths": [0.3] * 24, "overhangs": [0.275] * 24}
 ODD_DANCE = Dance(Dragon.of(*ODD.values()), Route([Waypoints(WINDING)]), 2.0)
-EAST, NORTH, LATE = [(0, 0), (30, 0)], [(15, -20), (15, 20)], 16.0
+EAST = [(0, 0), (30, 0)]
+NORTH = [(15, -20), (15, 20)]
+LATE = 16.0
 TWO = {"dances": [dance(5, *EAST, name="east"), dance(5, *NORTH, delay=LATE)]}
 RING = {"kind": "arc", "centre": [0, 0], "radius": 5, "start_angle": 0, "sweep": 7}
 WOBBLE = {"lateral": 0.02, "forward": 0.005, "correlation_time": 4.0, "step": 0.5, "hole": 0.055, "pin": 0.05}
@@ -161,7 +164,8 @@ def part_of(value, name):
 @pytest.mark.parametrize("question", REQUESTS)
 def test_an_answer_has_the_numbers_of_core(ask, question):
     body, request, names = REQUESTS[question]
-    got, known = ask(question.split()[0], body), request()
+    got = ask(question.split()[0], body)
+    known = request()
     got["turn"] = got  # Of a turn the answer holds the fields themselves.
     for name in names.split():
         assert part_of(got, name) == json_like(part_of(known, name)), name
@@ -182,7 +186,8 @@ def test_a_pitch_scan_has_the_first_contacts_of_core_and_the_jumps_if_they_are_l
 def test_overlaps_and_the_verdicts_of_the_engines_are_those_of_core(ask):
     benches = [{"x": x, "y": y, "heading": heading, "length": 2.0, "width": 0.3} for x, y, heading in PLACES]
     for chained, pairs in ((True, [[0, 2]]), (False, [[0, 2], [2, 3]])):
-        got, sizes = ask("overlaps", {"benches": benches, "chained": chained}), ([2.0] * 4, [0.3] * 4)
+        got = ask("overlaps", {"benches": benches, "chained": chained})
+        sizes = ([2.0] * 4, [0.3] * 4)
         contact = core.overlaps(PLACES, *sizes, chained=chained).contact
         assert [one["benches"] for one in got["overlaps"]] == pairs
         for name in ("separation", "witness_a", "witness_b", "normal"):

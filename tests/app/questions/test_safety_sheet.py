@@ -55,7 +55,9 @@ def test_the_nearest_approach_of_each_thing_is_that_of_the_check_with_every_benc
 
 def test_ground_lanes_gates_speed_and_stop_are_those_of_core(ask):
     answer = ask("safety-sheet", BODY)
-    swept, kept, tail = shape(answer["swept"]["ground"]), shape(answer["spectators"]), answer["loose_tail"]
+    swept = shape(answer["swept"]["ground"])
+    kept = shape(answer["spectators"])
+    tail = answer["loose_tail"]
     assert answer["swept"]["area"] == pytest.approx(envelope(STREET, excess=EXCESS).area)
     assert shapely.contains(kept, shapely.buffer(swept, 2.0 + 0.05))
     assert not shapely.contains(kept, shapely.buffer(swept, 2.0 + 0.3))

@@ -35,7 +35,8 @@ def addresses_of(services):
 @contextmanager
 def nginx(folder, services):
     """The address at which nginx passes requests on to these ports, also those below /dragon/"""
-    port, file = free_port(), folder / "nginx.conf"
+    port = free_port()
+    file = folder / "nginx.conf"
     changes = {
         "listen 80;": f"listen 127.0.0.1:{port};",
         "    location / {": f"{shown('location /dragon/')}    location / {{",
@@ -54,7 +55,8 @@ def nginx(folder, services):
 @contextmanager
 def caddy(folder, services):
     """The address at which Caddy passes requests below /dragon/ on to these ports."""
-    port, file = free_port(), folder / "Caddyfile"
+    port = free_port()
+    file = folder / "Caddyfile"
     changes = addresses_of(services) | {"dance.example": f"http://127.0.0.1:{port}"}
     file.write_text("{\nadmin off\n}\n" + shown("dance.example", **changes))
     with running(port, folder / "errors", "caddy", "run", "--config", file, "--adapter", "caddyfile"):
@@ -78,7 +80,9 @@ class Client(threading.Thread):
 
     def __init__(self, url, pitch):
         super().__init__()
-        self.url, self.pitch, self.ended = url, pitch, threading.Event()
+        self.url = url
+        self.pitch = pitch
+        self.ended = threading.Event()
         self.answers = []
 
     def run(self):

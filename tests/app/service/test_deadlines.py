@@ -27,7 +27,8 @@ TOO_MUCH = {
     "scan": SCAN,
     "plan": {"method": "POST", "url": "/plan", "json": LONG_PLAN},
 }
-RUNNING, GONE = 'bench_dragon_computations{lane="heavy"}', 'bench_dragon_stopped_total{reason="client gone"}'
+RUNNING = 'bench_dragon_computations{lane="heavy"}'
+GONE = 'bench_dragon_stopped_total{reason="client gone"}'
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +62,8 @@ def test_as_a_job_the_same_request_is_answered(hurried):
 
 @pytest.mark.parametrize("name", few([*TOO_MUCH][:3], 2))
 def test_a_computation_ends_when_its_client_is_gone(patient, name):
-    before, request = sample(patient, GONE), httpx.Client(base_url=patient).build_request(**TOO_MUCH[name])
+    before = sample(patient, GONE)
+    request = httpx.Client(base_url=patient).build_request(**TOO_MUCH[name])
     with closing(http.client.HTTPConnection(request.url.netloc.decode())) as connection:
         connection.request(request.method, request.url.raw_path.decode(), request.read(), dict(request.headers))
         wait_for(lambda: sample(patient, RUNNING) == 1.0)

@@ -47,7 +47,8 @@ def keeps_no_page_waiting(service, ask):
 def events_of(service, address, last=None):
     """Numbers and statuses, until the service ends the stream."""
     headers = {} if last is None else {"Last-Event-ID": str(last)}
-    numbers, entries = [], []
+    numbers = []
+    entries = []
     with service.client.stream("GET", f"{address}/events", headers=headers) as answer:
         assert answer.status_code == 200
         assert answer.headers["content-type"].startswith("text/event-stream")
@@ -93,8 +94,11 @@ def test_what_is_wrong_is_refused_at_once_by_its_place(service, wanted):
 
 def test_a_job_that_fails_answers_the_problem_of_its_call(service):
     wanted = {"question": "trajectory", "request": {"times": {"stop": 100, "step": 1e-3}}}
-    address, request = service.post(wanted), direct(service.client, wanted)
-    status, kept, problem = service.finished(address), service.result(address), request.json()
+    address = service.post(wanted)
+    request = direct(service.client, wanted)
+    status = service.finished(address)
+    kept = service.result(address)
+    problem = request.json()
     assert (status["status"], status["problem"], status["message"]) == ("failed", problem, problem["detail"])
     assert (kept.status_code, kept.headers["content-type"], kept.content) == (422, PROBLEM_TYPE, request.content)
 

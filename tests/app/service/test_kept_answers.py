@@ -10,7 +10,8 @@ REPEATED = "bench_dragon_repeated_total"
 
 
 def test_a_question_that_is_asked_again_is_answered_from_memory(ask, server):
-    before, request = sample(server, REPEATED), {"samples": 3, "benches": 39, "locate": False}
+    before = sample(server, REPEATED)
+    request = {"samples": 3, "benches": 39, "locate": False}
     first = ask.send("pitch-scan", **request)
     assert sample(server, REPEATED) == before
     again = ask.send("pitch-scan", **request)
@@ -33,7 +34,8 @@ def test_the_answers_kept_stay_within_their_room_and_the_latest_stay():
 
 
 def test_a_large_answer_is_not_kept_and_without_room_none_is():
-    kept, none = KeptAnswers(160, CollectorRegistry()), KeptAnswers(0, CollectorRegistry())
+    kept = KeptAnswers(160, CollectorRegistry())
+    none = KeptAnswers(0, CollectorRegistry())
     kept.keep("large", bytes(11))
     none.keep("small", b"{}")
     assert kept.get("large") is none.get("small") is None

@@ -9,7 +9,8 @@ import pytest
 from app.service.pages import Files
 
 FILES = ["/", "/how", "/page/main.js", "/page/uPlot.iife.js", "/docs", "/openapi.json"]
-UNPACKED, PACKED = {"Accept-Encoding": "identity"}, {"Accept-Encoding": "gzip"}
+UNPACKED = {"Accept-Encoding": "identity"}
+PACKED = {"Accept-Encoding": "gzip"}
 
 
 @pytest.mark.parametrize("path", FILES)

@@ -39,7 +39,8 @@ class Counting:
     def __init__(self, cost, work):
         """cost: estimated time [s]"""
         self.estimated = self.computed = 0
-        self.cost, self.work = cost, work
+        self.cost = cost
+        self.work = work
 
     def estimate(self, request):
         self.estimated += 1

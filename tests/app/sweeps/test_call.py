@@ -9,7 +9,8 @@ from tests.support.refused import refused
 
 
 def test_a_call_answers_and_the_same_call_goes_on(tmp_path):
-    over, request = {"pitch": np.linspace(0.5, 0.6, 5)}, {"benches": 40}
+    over = {"pitch": np.linspace(0.5, 0.6, 5)}
+    request = {"benches": 40}
     result, again = (sweep("collision_time", over, tmp_path / "a", request=request) for _ in range(2))
     dances = [core.Dance(core.Dragon(40), core.Spiral(pitch)) for pitch in over["pitch"]]
     assert list(result.to_dataframe(["time"])["time"]) == [core.first_contact(dance).time for dance in dances]

@@ -50,7 +50,8 @@ def test_what_no_worker_can_answer_ends_the_run_with_the_reason(tmp_path, addres
 @pytest.mark.thorough
 def test_a_local_cluster_answers_and_leaves_no_worker(tmp_path, dask):
     before = set(psutil.Process().children(recursive=True))
-    spec, reports = grid_of(LAND), []
+    spec = grid_of(LAND)
+    reports = []
     run(spec, tmp_path / "a", question=LAND, engine=lambda: dask.Cluster(dask.LOCAL, 1), progress=reports.append)
     assert reports[-1].designs == 60
     assert_undisturbed(tmp_path / "a", spec, LAND)

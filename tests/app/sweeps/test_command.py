@@ -27,7 +27,8 @@ pitch = { start = 0.42, stop = 0.60, count = 50 }
 width = [0.25, 0.30, 0.35, -1.0]
 """
 # Four times as long, so that a machine that stands still for a moment does not find it finished.
-LONGER, SHARDS = SPEC.replace("shard_size = 10", "shard_size = 40").replace("count = 50", "count = 200"), 20
+LONGER = SPEC.replace("shard_size = 10", "shard_size = 40").replace("count = 50", "count = 200")
+SHARDS = 20
 
 
 def sweep(*arguments):
@@ -57,7 +58,8 @@ def stopped(spec, folder, stop, workers):
 
 @pytest.mark.thorough
 def test_after_ctrl_c_and_a_kill_no_worker_is_left_and_the_sweep_continues_to_the_same_bytes(tmp_path):
-    spec, folder = tmp_path / "longer.toml", tmp_path / "a"
+    spec = tmp_path / "longer.toml"
+    folder = tmp_path / "a"
     spec.write_text(LONGER)
     *interrupted, children = stopped(spec, folder, lambda process: process.send_signal(signal.SIGINT), 2)
     assert interrupted == [130, f"Stopped: the same command continues {folder}\n"]
@@ -72,7 +74,8 @@ def test_after_ctrl_c_and_a_kill_no_worker_is_left_and_the_sweep_continues_to_th
 
 
 def test_a_terminal_shows_a_bar_and_the_map_is_drawn_of_a_value_that_is_chosen(tmp_path):
-    spec, folder = tmp_path / "spec.toml", tmp_path / "a"
+    spec = tmp_path / "spec.toml"
+    folder = tmp_path / "a"
     spec.write_text(SPEC)
     bar = on_terminal(120, "sweep", "run", str(spec), "--output", str(folder), "--workers", "1", stream="stderr")
     assert re.search(r"of 200, .*/s, 0:00:\d\d left", bar)

@@ -29,7 +29,8 @@ def values(collection):
 def test_a_map_of_two_lists_has_each_value_in_its_cell(tmp_path):
     over = {"x": [3.0, 1.0, 13.0, 2.0], "y": {"start": 1.0, "stop": 100.0, "count": 3, "scale": "log"}}
     axes = value_map(swept(tmp_path, over), "height").axes[0]
-    x, y = np.array([1.0, 2.0, 3.0, np.nan]), np.array([1.0, 10.0, 100.0])
+    x = np.array([1.0, 2.0, 3.0, np.nan])
+    y = np.array([1.0, 10.0, 100.0])
     np.testing.assert_allclose(values(drawn(axes, QuadMesh)), y[:, None] * x, rtol=1e-12)
     assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_yscale()) == ("x", "y", "log")
     assert len(axes.collections) > 1  # contours

@@ -54,7 +54,8 @@ def test_a_run_writes_every_part_removes_what_a_killed_one_left_and_answers_only
 
 @pytest.mark.thorough
 def test_a_sweep_of_one_shard_starts_one_process(tmp_path):
-    engine, pids = Processes(3), set()
+    engine = Processes(3)
+    pids = set()
     run(grid_of(LAND, 6), tmp_path, question=LAND, engine=lambda: engine, progress=lambda _: pids.update(engine.pids))
     assert len(pids) == 1
 

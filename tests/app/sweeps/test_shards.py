@@ -31,7 +31,8 @@ def rows(name, request, over):
 
 BENCH = {"x": 0.0, "y": 0.0, "heading": 0.0, "length": 2.2, "width": 0.3}
 LANES = [dance(3, (0, y), (20, y)) for y in (0, 9)]
-FLAT, BODY = {"benches": 8}, {"dragon": {"benches": 8}}
+FLAT = {"benches": 8}
+BODY = {"dragon": {"benches": 8}}
 # The request, the name of a parameter and a good value of it, where they are not those of most questions.
 REQUESTS = {
     "collision_time": (FLAT, "pitch", 0.55),
@@ -87,13 +88,15 @@ def test_a_row_about_one_dance_refuses_several():
 
 
 def test_every_call_of_the_service_is_swept_or_has_its_reason():
-    swept, reasons = CALLS.keys() & QUESTIONS.keys(), {name for name in CALLS if name.removesuffix("_of") in NO_ROWS}
+    swept = CALLS.keys() & QUESTIONS.keys()
+    reasons = {name for name in CALLS if name.removesuffix("_of") in NO_ROWS}
     assert swept & reasons == set()
     assert CALLS.keys() - swept - reasons == set(), "app/sweeps/questions.py needs a line of each, or its reason"
 
 
 def test_the_row_of_a_table_is_what_the_table_says():
-    dance, times = core.Dance(core.Dragon(benches=30), core.Spiral(0.6)), np.arange(0.0, 301.0)
+    dance = core.Dance(core.Dragon(benches=30), core.Spiral(0.6))
+    times = np.arange(0.0, 301.0)
     motion = core.trajectory(dance, times)
     head, tail, speed = *motion.position[-1, [0, -1]], motion.speed
     [row] = rows("trajectory", {"dragon": {"benches": 30}}, {"path.pitch": [0.6]})
@@ -143,7 +146,8 @@ def test_a_part_of_errors_alone_or_a_killed_design_has_the_columns_of_the_others
 
 
 def test_parts_of_another_sweep_and_broken_files_are_refused(tmp_path):
-    spec, file = spec_of(LAND, {"x": [1.0]}), tmp_path / part_name(0)
+    spec = spec_of(LAND, {"x": [1.0]})
+    file = tmp_path / part_name(0)
     answered(tmp_path, spec_of(LAND, {"x": [2.0]}), LAND)
     for _ in range(2):
         with refused("folder", file=str(file)):

@@ -26,7 +26,8 @@ def folder(tmp_path):
 
 def test_compacting_keeps_every_row_and_may_be_done_again(folder):
     sweep = Sweep.open(folder)
-    before, part = sweep.table(), (folder / shards.part_name(2)).read_bytes()
+    before = sweep.table()
+    part = (folder / shards.part_name(2)).read_bytes()
     first = sweep.compact().read_bytes()
     assert pq.read_table(folder / "sweep.parquet").equals(before)
     assert sweep.table(["height", "x"]).equals(before.select(["height", "x"]))
@@ -50,7 +51,8 @@ def test_an_incomplete_sweep_is_shown_but_not_compacted(folder):
 def test_csv_and_a_dataframe_have_every_row_and_numbers_as_numbers(folder):
     sweep = Sweep(folder, SPEC)
     sweep.to_csv(folder / "a.csv")
-    rows, frame = list(csv.DictReader((folder / "a.csv").read_text().splitlines())), sweep.to_dataframe()
+    rows = list(csv.DictReader((folder / "a.csv").read_text().splitlines()))
+    frame = sweep.to_dataframe()
     assert [int(row["design"]) for row in rows] == list(frame["design"]) == list(range(40))
     heights = [str(x * y) if x not in (13, 14) else "" for x in range(20) for y in (1, 2)]
     assert [row["height"] for row in rows] == heights

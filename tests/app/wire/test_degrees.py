@@ -26,7 +26,8 @@ def placed(venue, coordinates=None, dragon=Dragon()):  # noqa: B008
     return place_of(venue, coordinates, dragon)
 
 
-METRES, DEGREES = box(-40, -40, 40, 40), box(120.1547, 28.97, 120.1555, 28.9706)
+METRES = box(-40, -40, 40, 40)
+DEGREES = box(120.1547, 28.97, 120.1555, 28.9706)
 
 
 # -- degrees or metres ----------------------------------------------------------------------------------------
@@ -64,7 +65,9 @@ def test_vertices_lie_where_the_slow_formula_puts_them(longitude, latitude, x, y
 def east_north(origin, longitude, latitude):
     """By the latitude and longitude alone, as in Torge and Mueller, Geodesy, section 6.2: e = n cos p sin(l - l0)."""
     squared = 1.0 - (1.0 - 1.0 / 298.257223563) ** 2
-    p0, p, dl = math.radians(origin.latitude), math.radians(latitude), math.radians(longitude - origin.longitude)
+    p0 = math.radians(origin.latitude)
+    p = math.radians(latitude)
+    dl = math.radians(longitude - origin.longitude)
     n0, n = (6_378_137.0 / math.sqrt(1.0 - squared * math.sin(one) ** 2) for one in (p0, p))
     east = n * math.cos(p) * math.sin(dl)
     north = n * (math.sin(p) * math.cos(p0) * (1.0 - squared) - math.cos(p) * math.sin(p0) * math.cos(dl))

@@ -4,7 +4,8 @@ import pytest
 
 from tests.support.asking import box, dance, line
 
-SHORT, YARD = dance(3, (0, 0), (60, 0)), box(0, -0.15, 80, 9)
+SHORT = dance(3, (0, 0), (60, 0))
+YARD = box(0, -0.15, 80, 9)
 # A call, its query or body, and what stands in its sentences in English; {name} is a value of the answer.
 SAID = [
     (

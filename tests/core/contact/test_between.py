@@ -19,7 +19,8 @@ FAR = 9.0  # a stray above all that are found [m]
 
 def on_hairpin(dragon, radius):
     """A dance out and back, and the bound for it."""
-    line, back = Line((0.0, 0.0), (40.0, 0.0)), Line((40.0, 2.0 * radius), (0.0, 2.0 * radius))
+    line = Line((0.0, 0.0), (40.0, 0.0))
+    back = Line((40.0, 2.0 * radius), (0.0, 2.0 * radius))
     dance = Dance(dragon, Route([line, Arc((40.0, radius), radius, -0.5 * math.pi, math.pi), back]))
     return dance, held_apart(dance, 0.0, FAR, Budget())
 
@@ -30,7 +31,8 @@ def strayed_threes(rng, chords, places, stray):
     places: (R, 4) nominal ones, as complex numbers
     """
     places, kept = np.repeat(places, examples(120, 300), axis=0), []
-    seek, moved = places.mean(axis=1, keepdims=True), places
+    seek = places.mean(axis=1, keepdims=True)
+    moved = places
     for spread in (1.0, 1.0, 0.5, 0.3, 0.1):
         step = rng.normal(0.0, spread * stray, (*places.shape, 2)) @ [1.0, 1j]
         moved = moved + step + rng.uniform(0.0, 0.6, (len(places), 1)) * (seek - moved)
@@ -74,7 +76,8 @@ def test_no_pose_within_the_bound_touches(radius, dragon, least):
 
 def test_sags_are_those_of_the_handles():
     rng = np.random.default_rng(5)
-    chords, joint_angles = rng.uniform(0.5, 3.0, (200, 3)), rng.uniform(-math.pi, math.pi, (200, 2))
+    chords = rng.uniform(0.5, 3.0, (200, 3))
+    joint_angles = rng.uniform(-math.pi, math.pi, (200, 2))
     steps = chords * np.exp(1j * np.insert(joint_angles, 1, 0.0, axis=1))
     handles, along = (np.insert(part.cumsum(axis=1), 0, 0.0, axis=1).T for part in (-steps, chords))
     sags = sags_of(sag_pulls(chords), joint_angles).T
@@ -85,7 +88,8 @@ def test_sags_are_those_of_the_handles():
 
 def test_a_pose_on_a_line_strays_little_more_than_must_be():
     """Another search (SLSQP from 30 starts, 2026-11-22) found 1.4326 m on a line, 1.0939 m on an arc of 1.45 m."""
-    three, turn = np.array([[1.65, 2.2, 0.3]] * 3), 2.0 * math.asin(0.825 / 1.45)
+    three = np.array([[1.65, 2.2, 0.3]] * 3)
+    turn = 2.0 * math.asin(0.825 / 1.45)
     for places, least in (
         (-1.65 * np.arange(4.0), 1.4326),
         (1.45j * (1.0 - np.exp(1j * turn * np.arange(4.0))), 1.0939),
@@ -109,7 +113,8 @@ def test_two_chords_in_a_row_bend_by_no_more_than_two_half_arcs(radius):
 
 
 def test_a_spiral_is_as_bent_as_where_its_head_ends():
-    dance, ends = Dance(Dragon(30), Spiral(2.0)), (0.0, 1.5, 2.0, 4.5, 9.0)
+    dance = Dance(Dragon(30), Spiral(2.0))
+    ends = (0.0, 1.5, 2.0, 4.5, 9.0)
     bounds = [held_apart(dance, dance.path.travel_to(radius), FAR, Budget()) for radius in ends]
     assert bounds[0] == 0.0
     assert bounds == sorted(bounds)

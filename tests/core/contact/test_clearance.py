@@ -28,7 +28,8 @@ from tests.support.slow_search import SlowDance
 
 PROVEN = 1.1e-5  # [m]: a least clearance is proven to this
 SAME = 1e-12  # [m], [s]
-DANCE, SHORT = Dance(Dragon(), Spiral()), Dance(Dragon(30), Spiral())
+DANCE = Dance(Dragon(), Spiral())
+SHORT = Dance(Dragon(30), Spiral())
 TURN = Turn(1.7)
 
 
@@ -55,7 +56,8 @@ def test_the_least_clearance_is_below_dense_samples_and_proven(dance, start, sto
 
 def test_no_least_clearance_is_claimed_where_benches_overlap_at_the_start():
     dance = Dance(Dragon(), Spiral(0.3))
-    least, there = least_clearance(dance), clearance_profile(dance, 0.0)
+    least = least_clearance(dance)
+    there = clearance_profile(dance, 0.0)
     assert least.distance == there.clearance < -0.1
     assert (least.at_least, least.time, least.benches) == (None, 0.0, tuple(there.benches))
 

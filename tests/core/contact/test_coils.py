@@ -37,7 +37,9 @@ def test_benches_claimed_wholly_outside_a_radius_are_outside(pitch, chord, overh
 @pytest.mark.parametrize("head_length", [2.2, 1.001])
 @pytest.mark.parametrize("pitch", [0.9, 1.2, 1.7, 3.0])
 def test_two_coils_claimed_apart_are_apart_by_more_than_the_margin(pitch, head_length):
-    coils, dragon, equal = coils_of(Turn(pitch)), Dragon(60, head_length), Dragon(60, 2.2)
+    coils = coils_of(Turn(pitch))
+    dragon = Dragon(60, head_length)
+    equal = Dragon(60, 2.2)
     radii = []
     # along a coil, with one between them, two benches are known to be 0.6 m apart
     for margin in np.linspace(0.0, min(0.5 * pitch - 0.35, 0.55), 5):

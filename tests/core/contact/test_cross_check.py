@@ -66,7 +66,8 @@ def test_the_whole_dragon_is_as_reported_on_random_dragons():
         dragon = random_dragon(random, random.random() < 0.5)
         pitch = dragon.widths.max() + random.uniform(0.1, 0.4)
         path = Spiral(pitch, random.uniform(5.0, 9.0) / pitch)
-        margin, head_speed = random.choice([0.0, 0.0, 0.03]), random.choice([0.01, 1.0, 5.0])
+        margin = random.choice([0.0, 0.0, 0.03])
+        head_speed = random.choice([0.01, 1.0, 5.0])
         contact = first_contact(Dance(dragon, path, head_speed), margin=margin)
         check = contact_check(contact)
         if check is None:
@@ -150,7 +151,8 @@ def test_an_engine_that_differs_makes_them_disagree():
 
 def test_near_are_all_that_touch_one_of_the_pair():
     random = np.random.default_rng(3)
-    count, pair = WHOLE_BENCHES + 500, (7, 1500)
+    count = WHOLE_BENCHES + 500
+    pair = (7, 1500)
     pose = random.uniform([0.0, 0.0, -4.0], [60.0, 60.0, 4.0], (count, 3))
     size = random.uniform([0.5, 0.1], [3.0, 0.5], (count, 2))
     judged = judged_benches(pose, size, pair, 0.1)

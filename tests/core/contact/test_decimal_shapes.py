@@ -61,6 +61,7 @@ def test_a_corner_between_two_instants_is_no_further_out_than_its_bound(a, b, pa
     for corner in CORNERS:
         bound = beyond([(resting, start), (resting, end)], corner, Decimal(0))
         x, y = (abs(float(coordinate)) for coordinate in corner_of(between, corner))
-        dx, dy = x - float(resting.half_length), y - float(resting.half_width)
+        dx = x - float(resting.half_length)
+        dy = y - float(resting.half_width)
         outside = math.hypot(max(dx, 0.0), max(dy, 0.0))
         assert (outside or max(dx, dy)) <= float(bound) + DOUBLE

@@ -37,7 +37,8 @@ def first_of(case):
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_reference_is_met(name):
-    case, met = CASES[name], first_of(CASES[name])
+    case = CASES[name]
+    met = first_of(CASES[name])
     assert met.outcome.value == case["outcome"]
     if met.outcome is Outcome.CLEAR:
         near = met.certificate.least_clearance
@@ -57,7 +58,8 @@ def test_the_reference_is_met(name):
 
 @pytest.mark.parametrize("speed, away, width", [(0.001, 0.0, 4.1e-9), (0.0025, 0.0, NARROW), (0.0065, 300.0, NARROW)])
 def test_benches_that_meet_slowly_have_a_bracket_as_narrow_as_rounding_lets_it_be(speed, away, width):
-    angle, middle = 0.0457, np.array([22.6 + away, 0.0])
+    angle = 0.0457
+    middle = np.array([22.6 + away, 0.0])
     way = 20.0 * np.array([math.cos(angle), math.sin(angle)])
     lanes = ((away, 0.0), (40.0 + away, 0.0)), (tuple(middle - way), tuple(middle + way))
     slow = (
@@ -75,7 +77,9 @@ def test_benches_that_meet_slowly_have_a_bracket_as_narrow_as_rounding_lets_it_b
 def test_a_graze_is_decided_a_micrometre_from_the_touch(offset):
     # Two circles: the outer dragon overtakes. The corners of the inner one reach out to a radius in closed form, and
     # the inner side of an outer bench is nearest to the centre at its middle.
-    radius, half, sizes = 14.0, 0.8, (2.0, 2.0, 0.3, 0.2)
+    radius = 14.0
+    half = 0.8
+    sizes = (2.0, 2.0, 0.3, 0.2)
     reach = math.hypot(math.sqrt(radius**2 - half**2) + 0.15, 1.0)
     far = math.hypot(reach + 0.15 + offset, half)
     inner = Dance(Dragon(3, *sizes), Route([Arc((0.0, 0.0), radius, 0.0, 9.0)]))

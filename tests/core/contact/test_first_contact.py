@@ -138,7 +138,8 @@ def undecided_dance():
 
 def test_an_undecided_contact_names_the_pair_that_surely_overlaps_and_carries_no_bound():
     dance = undecided_dance()
-    contact, least = first_contact(dance), least_clearance(dance)
+    contact = first_contact(dance)
+    least = least_clearance(dance)
     assert (contact.outcome, contact.time, contact.benches) == (Outcome.UNDECIDED, None, None)
     claim = contact.certificate.claim
     assert (claim.kind, claim.benches) == (ClaimKind.UNDECIDED, contact.overlapping)
@@ -163,8 +164,11 @@ SLOW = Dragon(20, 1.2, 1.2, 0.8, 0.25)
 @pytest.mark.parametrize("start", [-194.0, -15.0, -12.1])
 def test_a_slow_contact_before_time_zero_is_decided_as_the_same_one_after_it(start):
     """On the way in a turn is the spiral from the same turns; the benches close by 4 mm per metre."""
-    turn, spiral = Dance(SLOW, Turn(1.0, 1.5, start_turns=8.0)), Dance(SLOW, Spiral(1.0, 8.0))
-    later, contact, least = first_contact(spiral), first_contact(turn, start=start), least_clearance(turn, start=start)
+    turn = Dance(SLOW, Turn(1.0, 1.5, start_turns=8.0))
+    spiral = Dance(SLOW, Spiral(1.0, 8.0))
+    later = first_contact(spiral)
+    contact = first_contact(turn, start=start)
+    least = least_clearance(turn, start=start)
     assert (later.outcome, contact.outcome) == (Outcome.CONTACT, Outcome.CONTACT)
     assert_bracketed(contact)
     assert_near([contact.time, least.time], [later.time + turn.begin] * 2, ACCURACY)
@@ -175,7 +179,8 @@ def test_a_slow_contact_before_time_zero_is_decided_as_the_same_one_after_it(sta
 @pytest.mark.parametrize("judge", [check, quick_check])
 def test_a_contact_that_is_certain_but_perhaps_not_the_first_fails(judge):
     dance = undecided_dance()
-    contact, report = first_contact(dance, start=dance.begin), judge(dance)
+    contact = first_contact(dance, start=dance.begin)
+    report = judge(dance)
     failure = report.failures[0]
     assert report.verdict is Judgement.FAILS
     assert (failure.kind, failure.benches) == (FailureKind.CONTACT, contact.overlapping)
@@ -187,7 +192,8 @@ def test_a_contact_that_is_certain_but_perhaps_not_the_first_fails(judge):
 def test_without_a_certain_contact_an_undecided_search_stays_undecided():
     dance = undecided_dance()
     stop = first_contact(dance).time_bracket[0] + 1.0
-    contact, report = first_contact(dance, stop=stop), check(dance, stop=stop)
+    contact = first_contact(dance, stop=stop)
+    report = check(dance, stop=stop)
     assert (contact.outcome, contact.overlapping, contact.time_bracket[1]) == (Outcome.UNDECIDED, None, stop)
     assert report.verdict is Judgement.UNDECIDED
     assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]

@@ -43,7 +43,8 @@ def test_no_dances_have_no_contacts():
 
 
 def test_the_first_dance_that_is_refused_is_the_reason_and_one_budget_ends_all():
-    long, short = Dance(Dragon(5), Spiral(0.55)), Dance(Dragon(5), Spiral(0.55, 4.0))
+    long = Dance(Dragon(5), Spiral(0.55))
+    short = Dance(Dragon(5), Spiral(0.55, 4.0))
     with pytest.raises(OutsideRun) as caught:
         first_contacts([long, short, long, Dance(Dragon(5), Spiral(0.55, 3.0))], stop=200.0)
     with pytest.raises(OutsideRun) as alone:

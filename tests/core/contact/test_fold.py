@@ -28,7 +28,8 @@ TO_THE_FOLD = {
 
 @pytest.mark.parametrize("dragon, spiral", TO_THE_FOLD.values(), ids=TO_THE_FOLD)
 def test_the_last_instants_before_a_fold_are_decided(dragon, spiral):
-    contact, end = first_contact(Dance(dragon, spiral)), Dance(dragon, spiral).end
+    contact = first_contact(Dance(dragon, spiral))
+    end = Dance(dragon, spiral).end
     assert (contact.outcome, contact.end) == (Outcome.CLEAR, end)
     times = end.time * (1.0 - 1e-9 * np.linspace(1.0, 0.0, 40)[:-1] ** 2)
     assert SlowDance.of(dragon, spiral).clearance(times)[0].min() > 0.0

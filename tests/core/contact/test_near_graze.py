@@ -38,7 +38,8 @@ from tests.support.scenes import lengths_and_widths
 DOUBLE = 1e-12
 PRECISE = Decimal("1e-30")  # [m]
 BRACKET = 1e-9  # [s]
-DRAGON, TURN = Dragon(60), Turn(1.7)
+DRAGON = Dragon(60)
+TURN = Turn(1.7)
 RAMP = Clothoid((100, 0), 0.0, 0.0, 0.3, 12.0)
 BEND = Route([Line((0, 0), (100, 0)), RAMP, Clothoid(RAMP.end, RAMP.end_heading, 0.3, -0.2, 20.0)], start=100.0)
 

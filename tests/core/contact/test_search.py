@@ -12,9 +12,12 @@ from tests.support.slow_search import SlowDance
 
 SLOW = SlowDance.of(Dragon(30), Spiral())
 # The default dance first touches here, benches 0 and 8, and would have grazed with 0 and 11 before [m of head travel].
-CONTACT, PAIR, GRAZING = 412.4738376822, (0, 8), (0, 11)
+CONTACT = 412.4738376822
+PAIR = (0, 8)
+GRAZING = (0, 11)
 # The bottom of a dip is flat: places in it [m], gaps there [m].
-FLAT, GAP = 1e-5, 1e-11
+FLAT = 1e-5
+GAP = 1e-11
 
 
 @pytest.fixture
@@ -26,7 +29,8 @@ def test_a_pair_turns_at_the_bottom_of_its_dip(search):
     _, marched = search.march(CONTACT - 0.1, 0.0, start=405.0, dips=True)
     graze = marched.graze
     assert graze.pair == GRAZING
-    low, high = graze.moment - 0.05, graze.moment + 0.05
+    low = graze.moment - 0.05
+    high = graze.moment + 0.05
     travel, gap = SLOW.dip(low, high, GRAZING)
     assert_near(graze.gap, gap, GAP)
     assert_near(search.bottom(low, high, GRAZING, 1e-10), travel, FLAT)

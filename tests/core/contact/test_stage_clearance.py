@@ -21,7 +21,8 @@ from tests.support.shared_dances import CROSSING, EAST, OPPOSITE, on_lanes, side
 from tests.support.slow_performance import SlowPerformance
 
 # Accuracy of slow clearances, and of the least of a slow look, which refines its lowest samples [m].
-GAP, LEAST = 1e-9, 1e-7
+GAP = 1e-9
+LEAST = 1e-7
 
 
 @pytest.mark.parametrize("performance", [CROSSING, OPPOSITE], ids=["crossing", "one spiral"])
@@ -53,7 +54,8 @@ def test_the_least_clearance_of_random_performances_is_that_of_a_slow_look(case)
 
 
 def test_dragons_that_touch_have_no_clearance_at_their_encounter_and_below_zero_where_they_overlap():
-    met, least = first_encounter(OPPOSITE), least_clearance(OPPOSITE)
+    met = first_encounter(OPPOSITE)
+    least = least_clearance(OPPOSITE)
     assert (least.distance, least.at_least, least.time, least.benches) == (0.0, 0.0, met.time, met.benches)
     both = Performance([CROSSING.parts[0], replace(CROSSING.parts[0], name="other")])
     least = least_clearance(both)

@@ -8,8 +8,12 @@ from tests.support.slow_search import SlowDance
 
 SLOW = SlowDance.of(Dragon(30), Spiral())
 # The default dance first touches here, and would have grazed with 0 and 11 before [m of head travel].
-CONTACT, GRAZING, BOTTOM = 412.4738376822, (0, 11), (409.0, 411.0)
-FLAT, GAP, PROVEN = 1e-5, 1e-11, 1e-3
+CONTACT = 412.4738376822
+GRAZING = (0, 11)
+BOTTOM = (409.0, 411.0)
+FLAT = 1e-5
+GAP = 1e-11
+PROVEN = 1e-3
 
 
 def test_the_least_gap_of_a_stretch_is_the_bottom_of_its_dip_and_proven_from_below():

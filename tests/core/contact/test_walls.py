@@ -57,7 +57,8 @@ def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch():
 
 TREE = Area("tree", (((0.0, -4.723129), (0.1, -5.723129), (-0.1, -5.723129), (0.0, -4.723129)),))
 # The place of the least distance, found with slow_search.py and shapely: 3.0085432166 m at 6.50325 s.
-TREE_DISTANCE, TREE_TIME = 3.0085432166, 6.5032
+TREE_DISTANCE = 3.0085432166
+TREE_TIME = 6.5032
 
 
 @pytest.mark.parametrize("stop", [8.36, None])
@@ -77,7 +78,8 @@ def test_a_wall_just_before_the_fold_is_met_when_a_bench_gets_there(before):
     at = dance.end.time - before
     rear = bench_outlines(dance.dragon, trajectory(dance, at).position)[2, 3]
     out = rear / np.hypot(*rear)
-    corner, side = rear - 0.001 * out, 0.02 * np.array([-out[1], out[0]])
+    corner = rear - 0.001 * out
+    side = 0.02 * np.array([-out[1], out[0]])
     ring = [tuple(place) for place in (corner, corner + 0.5 * out - side, corner + 0.5 * out + side, corner)]
     post = Area("post", (tuple(ring),))
     result = venue_clearance(dance, Venue(AROUND, (post,)), start=dance.end.time - 2.0 * before).areas[1]
@@ -110,7 +112,8 @@ def test_a_wall_that_stays_at_the_margin_is_undecided_until_a_bench_is_surely_ne
     """A parallel wall at the margin but for its last digits, and a step of it further on."""
     ring = ((-50.0, 0.35), (40.0, 0.35), (40.0, 0.3), (50.0, 0.3), (50.0, 5.0), (-50.0, 5.0), (-50.0, 0.35))
     venue = Venue(HALL, (Area("wall", (ring,)),))
-    dance, margin = Dance(Dragon(5), STRAIGHT), 0.35 - 0.15
+    dance = Dance(Dragon(5), STRAIGHT)
+    margin = 0.35 - 0.15
     result = venue_clearance(dance, venue, margin=margin).areas[1]
     assert (result.outcome, result.bench, result.time, result.overlapping) == (Outcome.UNDECIDED, None, None, 0)
     touching = result.time_bracket[1]

@@ -74,7 +74,8 @@ def slow_clearance(dragon, turn, *span):
 @pytest.mark.parametrize("name", further(CONTACT, 1))
 def test_just_deeper_two_benches_come_within_the_margin_and_above_none_do(name):
     dragon, request = CONTACT[name]
-    margin, result = request.get("margin", 0.0), answer(name)
+    margin = request.get("margin", 0.0)
+    result = answer(name)
     infeasible, feasible = result.entry_bracket
     assert result.limited_by is TurnLimit.CONTACT
     assert 0.0 < feasible - infeasible <= ENTRY_ERROR
@@ -89,7 +90,8 @@ def test_just_deeper_two_benches_come_within_the_margin_and_above_none_do(name):
 @pytest.mark.parametrize("name", further(BEND, 1))
 def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name):
     dragon, request = BEND[name]
-    result, ratio = answer(name), request.get("ratio", 2.0)
+    result = answer(name)
+    ratio = request.get("ratio", 2.0)
     infeasible, feasible = result.entry_bracket
     assert (result.limited_by, result.benches, result.time) == (TurnLimit.LEAST_RADIUS, None, None)
     assert 0.0 < feasible - infeasible <= ENTRY_ERROR
@@ -99,12 +101,14 @@ def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name
     assert_all_clear(dragon, result.turn)
     # the sum of both radii is sqrt(entry^2 + growth^2), and the smaller one just fits the longest chord
     smaller = 0.5 * float(dragon.chords.max()) / core.kernels.ROUTE_SINE_LIMIT
-    total, growth = smaller * (1.0 + ratio) / min(1.0, ratio), request["pitch"] / math.tau
+    total = smaller * (1.0 + ratio) / min(1.0, ratio)
+    growth = request["pitch"] / math.tau
     assert_near(feasible, math.sqrt(total**2 - growth**2), 2 * ENTRY_ERROR)
 
 
 def test_nothing_limits_a_tiny_dragon_down_to_the_centre():
-    result, step = deepest_turn(Dragon(5, 0.1, 0.1, 0.01, 0.01), 1.7), ENTRY_STEP * 4.5
+    result = deepest_turn(Dragon(5, 0.1, 0.1, 0.01, 0.01), 1.7)
+    step = ENTRY_STEP * 4.5
     assert (result.limited_by, result.entry_bracket) == (TurnLimit.CENTRE, (0.0, step))
     assert result.scan_step == step
 
@@ -130,7 +134,8 @@ def test_work_that_ends_while_the_turn_is_bisected_leaves_a_wider_bracket(monkey
 @pytest.mark.thorough
 def test_a_margin_that_an_entry_only_just_keeps_is_limited_by_the_pair_that_meets_deeper(monkeypatch):
     """Rounding hides whether the pair meets at that entry, so the lower end of the bracket is a deeper one."""
-    dragon, entry = Dragon(40), 4.5
+    dragon = Dragon(40)
+    entry = 4.5
     for _ in range(3):  # steps of the scan
         entry -= 0.01 * 4.5
 

@@ -32,7 +32,8 @@ def test_the_pieces_have_the_length_and_are_as_tight_as_benches_can_follow(pitch
 @pytest.mark.parametrize("ratio", further([0.5, 2.0, 1.0], 1))
 def test_a_straight_piece_makes_no_turn_of_the_contest_shorter(ratio):
     """The shortest one found has nearly none: it is the turn of two arcs as tight as benches can follow."""
-    result, two_arcs = dubins_turn(Dragon(), PITCH, ratio=ratio), shortest_turn(Dragon(), PITCH, ratio=ratio)
+    result = dubins_turn(Dragon(), PITCH, ratio=ratio)
+    two_arcs = shortest_turn(Dragon(), PITCH, ratio=ratio)
     assert two_arcs.length_bracket[0] <= result.length <= two_arcs.turn.length + (SCANNED if ratio >= 1.0 else 4.0)
     assert first_contact(Dance(Dragon(), result.path), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
     within = result.path.position(np.linspace(0.0, result.length, 2_000))

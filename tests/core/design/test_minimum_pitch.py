@@ -33,7 +33,9 @@ FOLDING = Dragon(14, 2.21, 1.47, 0.06, 0.12)
 
 @pytest.mark.parametrize("case", CASES, ids=[case["name"] for case in CASES])
 def test_every_case_of_the_reference_is_met(case):
-    dragon, radius, islands = Dragon(**case["dragon"]), case["turning_diameter"] / 2, case["other_feasible_intervals"]
+    dragon = Dragon(**case["dragon"])
+    radius = case["turning_diameter"] / 2
+    islands = case["other_feasible_intervals"]
     result = minimum_pitch(dragon, turning_radius=radius, start_turns=case["start_turns"])
     assert_near(result.pitch, case["pitch"], ACCURACY)
     assert result.limited_by == case["limited_by"]
@@ -86,7 +88,8 @@ def test_benches_that_meet_on_a_straight_line_are_refused(dragon, margin, field)
 
 def test_a_start_inside_a_graze_passes_it_and_names_the_pair_that_repeats_it():
     """All benches alike: what 0 and 9 would meet before the start, 1 and 10 meet after it, at the same pitch."""
-    dragon, margin = Dragon(50, 2.4, 2.4, 0.13, 0.042), 0.343
+    dragon = Dragon(50, 2.4, 2.4, 0.13, 0.042)
+    margin = 0.343
     results = {
         turns: minimum_pitch(dragon, turning_radius=2.64, start_turns=turns, margin=margin) for turns in (4.06, 12.0)
     }

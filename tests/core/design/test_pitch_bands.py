@@ -35,7 +35,8 @@ def random_bands(seed):
     """A random dragon and circle, and two pitches at which there may or may not be room."""
     rng = np.random.default_rng(seed)
     dragon = random_dragon(rng, bench_by_bench=True)
-    radius, turns = dragon.chords.max() * rng.uniform(0.7, 4.0), rng.uniform(5.0, 20.0)
+    radius = dragon.chords.max() * rng.uniform(0.7, 4.0)
+    turns = rng.uniform(5.0, 20.0)
     margin = rng.choice([0.0, 0.2 * dragon.chords[-1]])
     high = min(10 ** rng.uniform(0.1, 0.9) * (dragon.widths.max() + margin), 3.0 * dragon.chords.min())
     bands = Bands(ContactSearch(dragon, Spiral(high, turns), margin), radius, turns, margin)
@@ -46,7 +47,9 @@ def random_bands(seed):
 def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed):
     """At random growths within a band, in one short step at a random radius."""
     bands, low, high = random_bands(seed)
-    search, rng, dragon = bands.search, np.random.default_rng(seed), bands.search.dragon
+    search = bands.search
+    rng = np.random.default_rng(seed)
+    dragon = bands.search.dragon
     low, high = low / math.tau, high / math.tau
     inner = bands.radius * rng.uniform(1.0, 2.0)
     outer = inner * (1.0 + 1e-6)
@@ -58,7 +61,8 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed):
     assert moved > 2
     sizes = lengths_and_widths(dragon)[:moved]
     for growth in rng.uniform(low, high, 8):
-        step, radius = STEP * growth, rng.uniform(inner, outer)
+        step = STEP * growth
+        radius = rng.uniform(inner, outer)
         if not low + step < growth < high - step:
             continue
         rows = np.stack([chain(search, growth + k * step, radius, moved)[1] for k in (-1, 0, 1)])

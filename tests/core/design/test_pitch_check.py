@@ -66,7 +66,8 @@ def test_a_minimum_pitch_of_others_is_refused(dragons, dragon, field, values):
 
 
 def test_a_pitch_limited_at_the_start_is_judged_with_the_head_at_the_start():
-    dragon, turns = Dragon(80), 8.0
+    dragon = Dragon(80)
+    turns = 8.0
 
     def nearest(pitch):
         profile = clearance_profile(Dance(dragon, Spiral(pitch, turns)), [0.0])

@@ -54,7 +54,8 @@ def test_a_pitch_without_contact_between_two_others_separates_two_pieces():
 def test_a_run_that_is_undecided_just_before_its_fold_stops_there():
     """In the last nanometre of travel the clearance falls from 0.27395 to 0.27289 mm."""
     dragon, spiral = TO_THE_FOLD["30 micrometres apart"]
-    dance, margin = Dance(dragon, spiral), 2.734e-4
+    dance = Dance(dragon, spiral)
+    margin = 2.734e-4
     assert first_contact(dance, margin=margin).outcome is Outcome.UNDECIDED
     at_fold = dance.path.head(dance.end.time).radius
     assert_near(Stops(dragon, margin).radius(spiral), at_fold, RADIUS_WIDTH)

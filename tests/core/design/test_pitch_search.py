@@ -17,7 +17,8 @@ from tests.support.slow_pitch import SlowWays
 
 # Difference in pitch at which the clearance is clearly on one side of the margin [m], and how exactly the slow search
 # finds a dip between its samples [m].
-BESIDE, SLOW = 1e-6, 2e-8
+BESIDE = 1e-6
+SLOW = 2e-8
 
 
 def random_case(seed):

@@ -48,7 +48,8 @@ def test_the_time_of_a_turn_is_its_length_over_the_highest_speed_of_the_head(tur
 
 
 def test_the_quickest_turn_is_quicker_than_its_neighbours_the_shortest_and_the_contests():
-    result, tried = quickest_turn(Dragon(), 1.7), 0
+    result = quickest_turn(Dragon(), 1.7)
+    tried = 0
     assert result.time < 10.79
     at = np.array([result.turn.entry_radius, result.turn.exit_radius])
     for angle in np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False):

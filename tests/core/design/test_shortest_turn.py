@@ -22,7 +22,9 @@ from core.design.turn_bounds import ENTRY_LEAST
 from tests.support.depth import DEEP, further, some, thorough
 from tests.support.near import assert_near
 
-WHOLE, PITCH, RADIUS = Dragon(), 1.7, 4.5
+WHOLE = Dragon()
+PITCH = 1.7
+RADIUS = 4.5
 # Lengths that others found with free entry and exit on grids of 2 mm, and bounds by hand: ratio, length [m].
 SHORTEST = {2.0: 11.8105, 1.5: 9.4153, 1.2: 8.6309, 1.0: 8.2271, 0.8: 8.7917}
 RATIOS = further(some(list(SHORTEST), 2), 1)
@@ -76,7 +78,8 @@ def test_no_turn_on_a_slow_grid_is_shorter_than_the_bracket(ratio):
 
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_the_shortest_turn_is_danced_by_all_benches_and_shorter_than_any_that_was_found(ratio):
-    result, turn = answer(ratio), answer(ratio).turn
+    result = answer(ratio)
+    turn = answer(ratio).turn
     assert SHORTEST[ratio] - GRID_EXCESS < turn.length < SHORTEST[ratio]
     assert turn.length == result.length_bracket[1]
     assert min(turn.radii) >= LEAST - ROUNDED
@@ -88,7 +91,8 @@ def test_the_shortest_turn_is_danced_by_all_benches_and_shorter_than_any_that_wa
 def test_the_contests_turn_is_limited_by_the_least_radius_and_the_circle():
     """There both constraints of the closed forms hold: the second arc as tight as the head can follow, the exit on the
     circle. One bench has the same turn."""
-    result, alone = answer(2.0), shortest_turn(Dragon(1), PITCH)
+    result = answer(2.0)
+    alone = shortest_turn(Dragon(1), PITCH)
     assert (result.limited_by, result.turn.exit_radius) == (TurnLimit.LEAST_RADIUS, RADIUS)
     assert_near(min(result.turn.radii), LEAST, 1e-9)
     assert result.turn.length < deepest_turn(Dragon(), PITCH).turn.length - 1.1
@@ -98,7 +102,8 @@ def test_the_contests_turn_is_limited_by_the_least_radius_and_the_circle():
 
 @pytest.mark.parametrize("ratio, work", [(2.0, 1e6), *thorough((1.2, 1.2e7))])
 def test_spent_work_leaves_a_wider_bracket_that_holds_the_narrow_one(ratio, work):
-    whole, brief = answer(ratio), shortest_turn(Dragon(), PITCH, RADIUS, ratio, budget=Budget(work))
+    whole = answer(ratio)
+    brief = shortest_turn(Dragon(), PITCH, RADIUS, ratio, budget=Budget(work))
     assert brief.length_bracket[0] < whole.length_bracket[0] - 1e-3
     assert brief.length_bracket[1] >= whole.length_bracket[0]
     assert brief.entry_bracket[0] <= whole.turn.entry_radius <= brief.entry_bracket[1]
@@ -120,7 +125,9 @@ def test_an_arc_too_short_to_be_drawn_is_no_fault_of_the_request(ratio):
 @pytest.mark.thorough
 def test_every_dance_above_is_proven(monkeypatch):
     """A turn that the proof refuses is never the answer, even if it is the shortest by the closed forms."""
-    proof, touching, known = core.design.shortest_turn.contact_in, [], answer(2.0)
+    proof = core.design.shortest_turn.contact_in
+    touching = []
+    known = answer(2.0)
 
     def contact_in(budget, dragon, danced, *more):
         if danced.exit_radius > 4.499 and danced.entry_radius < 4.45:

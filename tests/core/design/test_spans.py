@@ -8,7 +8,8 @@ from tests.support.boxes_of_turns import place_in
 
 pytestmark = pytest.mark.uncompiled
 
-BOXES, PLACES = 300, 40
+BOXES = 300
+PLACES = 40
 STEP = 1e-6  # of difference quotients [1]
 ROUNDED, QUOTIENT_ERROR = 1e-12, 1e-6  # of values, and of difference quotients of numbers below 100 [1]
 
@@ -19,14 +20,18 @@ def value(x, y):
 
 def test_spans_hold_the_values_and_slopes_of_a_formula():
     """One of all operations but the root, without which the spans of boxes of turns would be false."""
-    rng, widest = np.random.default_rng(1), 0.0
-    centres, halves = rng.uniform(-4.0, 4.0, (2, BOXES)), rng.uniform(0.0, 0.6, (2, BOXES))
+    rng = np.random.default_rng(1)
+    widest = 0.0
+    centres = rng.uniform(-4.0, 4.0, (2, BOXES))
+    halves = rng.uniform(0.0, 0.6, (2, BOXES))
     x, y = parameters(centres, halves)
     result = x.sine() + -(x.scaled(0.3).exponential() * y.cosine() / y.squared().plus(1.0))
     form = mean_value(value(*centres), result.slopes, halves)
     for _ in range(PLACES):
         x, y = place_in(centres, halves, rng)
-        at, by_x, by_y = value(x, y), value(x + STEP, y) - value(x - STEP, y), value(x, y + STEP) - value(x, y - STEP)
+        at = value(x, y)
+        by_x = value(x + STEP, y) - value(x - STEP, y)
+        by_y = value(x, y + STEP) - value(x, y - STEP)
         for span, inside, error in (
             (result.value, at, ROUNDED),
             (form, at, ROUNDED),

@@ -18,7 +18,8 @@ def test_dragons_keep_a_cleared_margin_at_every_larger_growth(seed):
     radius = max(radius, 2.0 * float(dragon.lengths.max()))
     dragon, rng = dragon.leading(min(dragon.benches, 30)), np.random.default_rng(seed)
     count = int(rng.integers(2, 6))
-    spread, bounds = Spread(dragon, count), 0
+    spread = Spread(dragon, count)
+    bounds = 0
 
     def least(wider):
         return SlowWays.of(dragon, math.tau * wider, max(turns, 2.0 * radius / wider / math.pi), radius, count).least()

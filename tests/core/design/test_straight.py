@@ -14,7 +14,8 @@ from tests.support.near import assert_near
 from tests.support.slow_pitch import SlowWay
 
 # Rounding of a slow clearance on ways of metres [m], and on a wide spiral per metre of its growth [1].
-ROUNDING, ROUNDING_PER_GROWTH = 1e-11, 1e-12
+ROUNDING = 1e-11
+ROUNDING_PER_GROWTH = 1e-12
 # From this growth on, in longest chords, a dragon of metres stands straight to a part of a thousand [1].
 WIDE = 1e5
 
@@ -29,7 +30,8 @@ def assert_bounded(rng, growth, bound, least):
 def test_benches_are_no_closer_than_the_bound_at_any_larger_growth(seed):
     dragon, radius, turns, _ = random_case(seed)
     straight = Straight(dragon)
-    rng, bounds = np.random.default_rng(seed), 0
+    rng = np.random.default_rng(seed)
+    bounds = 0
 
     def least(wider):
         return SlowWay.of(dragon, math.tau * wider, max(turns, radius / wider / math.pi), radius).least()

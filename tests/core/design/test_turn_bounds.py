@@ -19,7 +19,8 @@ def test_multipliers_make_the_bound_good_to_the_second_order():
     nearer."""
     entry, missing = 4.290395288338, []  # [m], where the second arc has the least radius
     point = np.array([entry, (4.5 - entry) / GROWTH, math.log(2.0)])
-    known, at = multipliers_at(GROWTH, point, LEAST, 4.5, free=False), point[:, None]
+    known = multipliers_at(GROWTH, point, LEAST, 4.5, free=False)
+    at = point[:, None]
     for half in (1e-2, 1e-3, 1e-4):
         halves = np.array([[half], [half], [0.0]])
         missing.append(sizes_of(GROWTH, *at)[4, 0] - known.lower(turns_in(GROWTH, at, halves), at, halves)[0])

@@ -13,13 +13,15 @@ from tests.support.near import assert_near
 
 pytestmark = pytest.mark.uncompiled
 
-BOXES, PLACES = 1_500, 30
+BOXES = 1_500
+PLACES = 30
 ROUNDED = 1e-9  # [m], [rad]
 
 
 def boxes(rng, largest):
     middles = [rng.uniform(1.5, 4.5, BOXES), rng.uniform(-6.0, 6.0, BOXES), rng.uniform(-0.6, 0.8, BOXES)]
-    centres, halves = np.array(middles), rng.uniform(0.0, largest, (3, BOXES))
+    centres = np.array(middles)
+    halves = rng.uniform(0.0, largest, (3, BOXES))
     inside = centres[0] + GROWTH * centres[1] > 1.2
     return centres[:, inside], halves[:, inside]
 
@@ -35,8 +37,10 @@ def test_the_sizes_are_those_of_the_turn(ratio, entry, leaving):
 def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest):
     rng = np.random.default_rng(3)
     centres, halves = boxes(rng, largest)
-    turns, every = turns_in(GROWTH, centres, halves), np.ones(centres.shape[1], dtype=bool)
-    lows, of_followed = lower_lengths(turns), lower_lengths(turns, LEAST)
+    turns = turns_in(GROWTH, centres, halves)
+    every = np.ones(centres.shape[1], dtype=bool)
+    lows = lower_lengths(turns)
+    of_followed = lower_lengths(turns, LEAST)
     weighted = Multipliers(GROWTH, LEAST, 4.5, np.array([2.0, 5.0, 0.3, 0.1])).lower(turns, centres, halves)
     spans = (*turns.radii, *turns.angles, turns.length, turns.exit)
     holds = (every, every, turns.whole, turns.whole, turns.whole, every)
@@ -45,7 +49,8 @@ def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest):
         sizes = sizes_of(GROWTH, *at)
         for span, size, counts in zip(spans, sizes, holds, strict=True):
             assert not (counts & ((size < span.low - ROUNDED) | (size > span.high + ROUNDED))).any()
-        follows, inside = sizes[:2].min(axis=0) >= LEAST, np.maximum(at[0], sizes[5]) <= 4.5
+        follows = sizes[:2].min(axis=0) >= LEAST
+        inside = np.maximum(at[0], sizes[5]) <= 4.5
         for bound, counts in ((lows, every), (of_followed, follows), (weighted, follows & inside)):
             assert (sizes[4] >= bound - ROUNDED)[counts].all()
     assert turns.whole.mean() > 0.05
@@ -58,7 +63,8 @@ def test_boxes_that_are_too_tight_have_no_turn_that_benches_can_follow(largest, 
     rng = np.random.default_rng(8)
     centres, halves = boxes(rng, largest)
     centres[2] *= 7.0
-    tight, followed = too_tight(GROWTH, centres, halves, LEAST), np.zeros(centres.shape[1], dtype=bool)
+    tight = too_tight(GROWTH, centres, halves, LEAST)
+    followed = np.zeros(centres.shape[1], dtype=bool)
     for _ in range(PLACES):
         radii = sizes_of(GROWTH, *place_in(centres, halves, rng))[:2]
         followed |= radii.min(axis=0) >= LEAST

@@ -28,7 +28,8 @@ def points(turn, s):
 def test_points_at_one_place_are_no_further_apart_than_the_bound(place, size):
     box, centre = box_at(*place, size * SMALL)
     assert [box.entry, box.turned] == pytest.approx(size * SMALL[:2])  # the nominal turn is in the middle
-    s, nearest = np.linspace(-25.0, 25.0, SAMPLES), 0.0
+    s = np.linspace(-25.0, 25.0, SAMPLES)
+    nearest = 0.0
     most = np.array([displaced(box, at, at) for at in s.tolist()])
     for turn in turns_drawn(centre, size * SMALL, examples(20, 200), 0.3):
         moved = np.linalg.norm(points(turn, s) - points(box.nominal, s), axis=-1)
@@ -45,7 +46,8 @@ def test_curvatures_differ_by_no_more_than_the_bound(place):
         for low in np.arange(-12.0, 12.0, 1.7).tolist():
             s = np.arange(low, low + 1.7, STEP)
             a, b = (one.curvature(s + one.radii[0] * one.angles[0]) for one in (turn, box.nominal))
-            total, most = float(np.abs(a - b).sum()) * STEP, 2.0 * bent(box, low, low + 1.7)
+            total = float(np.abs(a - b).sum()) * STEP
+            most = 2.0 * bent(box, low, low + 1.7)
             assert total <= most + 3.0 * STEP  # a sum may count one sample of a jump too many
             nearest = max(nearest, total / most)
     assert nearest > 0.3

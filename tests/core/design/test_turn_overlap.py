@@ -28,7 +28,9 @@ def test_every_turn_of_a_box_with_an_exhibited_overlap_has_a_contact(place):
 @pytest.mark.parametrize("size", [0.2, 1.0, 2.0])
 def test_handles_stand_between_their_least_and_greatest_places(place, size):
     box, centre = box_at(*place, size * SMALL)
-    overlap, last, moved = OverlapSearch(DRAGON, 0.0, MOST), 14, 0.0
+    overlap = OverlapSearch(DRAGON, 0.0, MOST)
+    last = 14
+    moved = 0.0
     low, at, high = overlap.chain_within(box, box.nominal.length + 2.0, last)
     for turn in turns_drawn(centre, size * SMALL, examples(20, 200), 0.5):
         middle = turn.radii[0] * turn.angles[0]

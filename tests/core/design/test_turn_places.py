@@ -29,7 +29,8 @@ def test_a_polished_place_is_followed_and_no_neighbour_is_shorter(ratio):
         assert min(size[:2]) >= LEAST
         assert INNER <= place[0] <= CIRCLE >= size[5] - ROUNDED
         around = np.linspace(0.0, 2.0 * math.pi, 90)
-        entry, leaving = place[0] + APART * np.cos(around), size[5] + APART * np.sin(around)
+        entry = place[0] + APART * np.cos(around)
+        leaving = size[5] + APART * np.sin(around)
         others = sizes_of(GROWTH, entry, (leaving - entry) / GROWTH, np.full(90, math.log(ratio)))
         fits = (others[:2].min(axis=0) >= LEAST) & (entry <= CIRCLE) & (leaving <= CIRCLE)
         assert (others[4][fits] >= size[4] - ROUNDED).all()

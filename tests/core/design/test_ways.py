@@ -11,7 +11,8 @@ from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.slow_search import SlowDance
 
-RADIUS, TURNS = 3.0, 9.0
+RADIUS = 3.0
+TURNS = 9.0
 # The head of FOLDING folds on a circle of 0.85 m at this pitch, by 40 digits [m].
 FOLDS_AT = 0.525552677857343
 # A pair at a computed place of the head is within this of its gap there [m].
@@ -19,7 +20,8 @@ GAP = 1e-9
 
 
 def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not():
-    ways, pitch = Ways(Dragon(14), RADIUS, TURNS, 0.0, 0.0, None), 0.44
+    ways = Ways(Dragon(14), RADIUS, TURNS, 0.0, 0.0, None)
+    pitch = 0.44
     state, result = ways.march(pitch, CONTACT_WIDTH)
     assert state is Ended.TOUCHED
     dance = SlowDance.of(Dragon(14), Spiral(pitch, TURNS))

@@ -98,7 +98,8 @@ def test_benches_that_follow_calmly_change_nothing():
     ids=["line, arc", "arc, line", "coil inwards", "waypoints"],
 )
 def test_on_every_kind_of_piece_dense_samples_come_up_to_the_highest(path, start, stop):
-    dance, times = Dance(Dragon(8), path), np.linspace(start, stop, 20_001)
+    dance = Dance(Dragon(8), path)
+    times = np.linspace(start, stop, 20_001)
     result = assert_highest(dance, times, start=start, stop=stop)
     assert result.speed - sampled(dance, times) < 1e-3
     assert result.speed_bracket[1] - result.speed < 1e-6

@@ -22,7 +22,8 @@ DANCES = {
 
 def thrown(dance, benches, times, random):
     """Rear corners of loose benches behind a handle on the path, each turned at random, half of them nearly alike."""
-    dragon, first = dance.dragon, dance.dragon.benches - benches
+    dragon = dance.dragon
+    first = dance.dragon.benches - benches
     joint = trajectory(dance, times).position[:, first]
     spread = np.where(random.random(len(times)) < 0.5, 0.05, math.pi)[:, None]
     angles = random.uniform(-math.pi, math.pi, (len(times), 1)) + spread * random.uniform(
@@ -56,7 +57,8 @@ STRAIGHT = Dance(Dragon(3), lane((0.0, 0.0), (30.0, 0.0), start=9.0))
 
 
 def test_the_last_bench_reaches_its_chord_and_overhang_and_a_stray_goes_further():
-    result, strayed = tail_reach(STRAIGHT, 1), tail_reach(STRAIGHT, 1, stray=0.2)
+    result = tail_reach(STRAIGHT, 1)
+    strayed = tail_reach(STRAIGHT, 1, stray=0.2)
     assert result.reach == pytest.approx(math.hypot(1.65 + 0.275, 0.15))
     way = result.stop - result.start
     exact = 2.0 * result.reach * way + math.pi * result.reach**2

@@ -26,9 +26,12 @@ def test_the_places_of_handles_that_turn_back_are_all_in_their_stretch(dragon):
     seen = places(dance, np.minimum(until - 8.0 * np.linspace(1.0, 0.0, 4001) ** 3, until))
     assert (np.diff(seen[:, 1:], axis=0) < -1e-6).any()  # some handle turns back
     for track in tracks(dance, until - 8.0, until):
-        low, high, spare = track.stretches[0][0], track.stretches[-1][1], track.stretches[0][2]
+        low = track.stretches[0][0]
+        high = track.stretches[-1][1]
+        spare = track.stretches[0][2]
         alike = seen[:, dragon.lengths == dragon.lengths[track.bench]]
-        least, most = alike.min(), alike.max()
+        least = alike.min()
+        most = alike.max()
         assert least - 1e-5 <= low <= least + 1e-9
         assert most - 1e-9 <= high <= most + 1e-5
         assert spare < 3.0 * REVERSAL

@@ -9,7 +9,8 @@ from core.contact.search import ContactSearch
 from core.design.pitch_bands import Bands
 from core.kernels import Ended, gap_at
 
-CIRCLE, WORK = 4.5, 1e7
+CIRCLE = 4.5
+WORK = 1e7
 
 
 @pytest.mark.parametrize(

@@ -26,8 +26,11 @@ from tests.support.intervals import ROUNDING, on_route, on_spiral
 @pytest.mark.parametrize("seed", range(60))
 def test_no_sampled_derivative_on_a_route_exceeds_its_bound(seed):
     at = on_route(seed)
-    handles, benches = at.motion[1:].T, at.motion[:-1].T
-    chords, radii, smooth = at.dragon.chords, at.sizes[:-1, RADIUS], handles[CROSSED] == 0.0
+    handles = at.motion[1:].T
+    benches = at.motion[:-1].T
+    chords = at.dragon.chords
+    radii = at.sizes[:-1, RADIUS]
+    smooth = handles[CROSSED] == 0.0
     rate = at.chains[:, :, RATE]
     assert (rate >= 0.0).all()
     velocity = rate * (at.chains[:, :, [TX, TY]] @ [1.0, 1.0j])
@@ -55,7 +58,9 @@ def test_no_sampled_derivative_on_a_route_exceeds_its_bound(seed):
 @pytest.mark.parametrize("seed", range(40))
 def test_no_sampled_motion_on_a_spiral_exceeds_its_bound(seed):
     at = on_spiral(seed)
-    bounds, stride, swayed = at.motion[:-1].T, at.stride * at.step, 2.0 * at.rounding / at.dragon.chords
+    bounds = at.motion[:-1].T
+    stride = at.stride * at.step
+    swayed = 2.0 * at.rounding / at.dragon.chords
     radii = at.sizes[:-1, RADIUS]
     for places, speed, pull, rounding in (
         (at.centres, CENTRE_SPEED, CENTRE_PULL, at.rounding),

@@ -8,7 +8,8 @@ from core.kernels import gap_at, gap_rate_at
 from tests.support.near import assert_near
 
 # Step of difference quotients [m], and the error that it leaves in a rate [1].
-STEP, QUOTIENT = 1e-5, 1e-6
+STEP = 1e-5
+QUOTIENT = 1e-6
 PATHS = pytest.mark.parametrize("path, travel", [(Spiral(), 395.0), (Turn(1.7), 20.0)], ids=["spiral", "turn"])
 
 

@@ -13,7 +13,8 @@ from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, FREE, OMEGA
 from tests.support.slow_performance import SlowPerformance
 
 # Instants within a step at which gaps and motions are measured [1], and what a difference quotient may miss [1].
-INSTANTS, QUOTIENT = 41, 1e-4
+INSTANTS = 41
+QUOTIENT = 1e-4
 PARTS = [
     Part(Dance(Dragon(12), Spiral(1.1, 5.0, (3.0, -2.0), 0.4), 1.2), 2.0),
     Part(Dance(Dragon(9, 3.0, 2.0), Spiral(1.1, 5.2, (3.0, -2.0), 3.1)), 1.0),
@@ -43,7 +44,8 @@ def rows_of(stage):
 
 @pytest.mark.parametrize("begin, until", STEPS)
 def test_the_motion_in_time_and_the_gaps_of_two_dragons_stay_within_their_bounds(begin, until):
-    stage, times = staged(begin, until), np.linspace(begin, until, INSTANTS)
+    stage = staged(begin, until)
+    times = np.linspace(begin, until, INSTANTS)
     step = (until - begin) / (INSTANTS - 1)
     x, y, heading = np.moveaxis(poses(*times.tolist()), -1, 0)
     speed = np.abs(np.diff(x + 1j * y, axis=0)).max(axis=0) / step
@@ -61,7 +63,8 @@ def test_the_motion_in_time_and_the_gaps_of_two_dragons_stay_within_their_bounds
 
 @pytest.mark.parametrize("count, pitch", [(2, 1.1), (3, 1.6), (2, 1.3)])
 def test_further_out_in_one_spiral_no_gap_falls_below_the_ring_bound(count, pitch):
-    angle, dragon = 2.0 * math.pi / count, Dragon(60)
+    angle = 2.0 * math.pi / count
+    dragon = Dragon(60)
     rings = SearchBetween(dragon, Spiral(pitch), count, 0.0, work=1e7, budget=Budget(), stray=0.0).rings
     parts = [Part(Dance(dragon, Spiral(pitch, 9.0, rotation=angle * k), 1.0 + 0.1 * k)) for k in range(count)]
     growth = pitch / (2.0 * math.pi)

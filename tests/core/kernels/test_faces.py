@@ -15,11 +15,13 @@ def test_over_an_interval_two_benches_are_between_their_bounds_whether_they_stra
     rng = np.random.default_rng(6)
     touching = proven = 0
     for k in range(240):
-        dragon, stray = Dragon(9, 2.0, rng.uniform(1.2, 2.0), rng.uniform(0.1, 0.5)), rng.uniform(0.002, 0.1) * (k % 2)
+        dragon = Dragon(9, 2.0, rng.uniform(1.2, 2.0), rng.uniform(0.1, 0.5))
+        stray = rng.uniform(0.002, 0.1) * (k % 2)
         search = ContactSearch(dragon, Spiral(0.5, 3.0), 0.0, stray=stray)
         a = int(rng.integers(0, 3))
         b = int(rng.integers(a + 2, 9))
-        h, place = 10 ** rng.uniform(-9.0, -1.0), search.place - rng.uniform(0.0, 6.0)
+        h = 10 ** rng.uniform(-9.0, -1.0)
+        place = search.place - rng.uniform(0.0, 6.0)
         most = pair_most(search.scene, search.probe, place, h, a, b)
         places = (place - np.linspace(0.0, h, 9)).tolist()
         gaps = [gap_at(search.scene, at, a, b, search.placed) for at in places]

@@ -9,8 +9,11 @@ from core.shapes.rectangles import corners
 
 # How far a value may be from the part of a pixel that is covered [of 255]: half a step between two values, and what the
 # product of two stretches leaves out at an edge aslant.
-NEAR, NEAR_ASLANT = 0.6, 32.0
-FACE, EDGE, PAPER = 200, 20, 250
+NEAR = 0.6
+NEAR_ASLANT = 32.0
+FACE = 200
+EDGE = 20
+PAPER = 250
 
 
 def filled(rectangles, line=0.0, inks=((FACE,), (EDGE,))):
@@ -45,7 +48,8 @@ def test_a_pixel_is_mixed_by_the_part_of_it_that_is_covered(seed):
     angle = rng.uniform(-4.0, 4.0) if seed % 3 else 0.5 * np.pi * rng.integers(-2, 3)
     place = rng.uniform(5, 35), rng.uniform(5, 25), angle, rng.uniform(2.0, 12.0), rng.uniform(0.2, 4.0)
     line = rng.choice([0.0, 0.3, 0.6, 1.5])
-    plane, slow = filled([row_of(*place)], line)[..., 0], by_areas(*place, line)
+    plane = filled([row_of(*place)], line)[..., 0]
+    slow = by_areas(*place, line)
     assert np.abs(plane - slow).max() < (NEAR_ASLANT if seed % 3 else NEAR)
     assert abs(float(np.mean(plane - slow))) < 0.1
 

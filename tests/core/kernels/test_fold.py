@@ -7,7 +7,8 @@ from core.kernels import first_crest, first_root, fold_theta, previous_theta
 from tests.support.slow_search import chord_squared
 
 # A fold is good to this part of its angle, and a root to this part of itself [1].
-PART, ROOT_PART = 1e-9, 1e-13
+PART = 1e-9
+ROOT_PART = 1e-13
 
 
 @pytest.mark.parametrize("theta", [0.3, 2.0, 20.0])

@@ -7,7 +7,8 @@ from core.kernels import Follower
 from core.kernels.constants import REAR_COSINE_LEAST, Follows
 from tests.support.near import assert_near
 
-CHORD, RADIUS = 2.0, 0.7
+CHORD = 2.0
+RADIUS = 0.7
 
 
 def around(angle):
@@ -35,7 +36,8 @@ def test_the_least_cosine_at_the_front_handle_is_that_at_the_end_of_the_arc():
 def test_a_bench_follows_an_arc_up_to_the_angle_at_which_its_rear_handle_goes_across_it():
     """With the front handle at the end of the arc, u . T = sin a sin b + cos a cos b there, with the angle b of the
     chord, sin b = y / c; and the same at the rear handle when that one is at the beginning of the arc."""
-    low, high = math.radians(90.0), math.radians(170.0)
+    low = math.radians(90.0)
+    high = math.radians(170.0)
     while high - low > 1e-9:
         angle = 0.5 * (low + high)
         across = RADIUS * (1.0 - math.cos(angle)) / CHORD

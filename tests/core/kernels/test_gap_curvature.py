@@ -92,7 +92,9 @@ TURNING = [2.1377410196121263, 1.7776693484931232, 1.6244083083577288, 1.4733464
 
 @pytest.mark.parametrize("seed", range(len(TURNING)))
 def test_a_bound_has_every_term_of_its_derivation(seed):
-    random, motion, sizes = np.random.default_rng(seed), np.zeros((8, MOTION_COLUMNS)), np.zeros((8, SIZE_COLUMNS))
+    random = np.random.default_rng(seed)
+    motion = np.zeros((8, MOTION_COLUMNS))
+    sizes = np.zeros((8, SIZE_COLUMNS))
     for low, high, least, most in (
         (RATE_LOW, RATE_HIGH, 0.9, 1.0),
         (THETA_LOW, THETA_HIGH, 40.0, 60.0),
@@ -107,7 +109,8 @@ def test_a_bound_has_every_term_of_its_derivation(seed):
 
 def test_bounds_on_a_pair_reach_as_far_as_its_centres_may_move():
     search = ContactSearch(Dragon(12), Spiral(), 0.0)
-    h, pair = 0.25, (0, 9)
+    h = 0.25
+    pair = (0, 9)
     result = pair_curvatures(search.scene, search.probe, search.place - 400.0, h, *pair)
     first, second = search.probed[pair, MX] + 1j * search.probed[pair, MY]
     distance = float(abs(second - first) + h * search.motion[pair, CENTRE_SPEED].sum())

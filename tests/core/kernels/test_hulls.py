@@ -23,7 +23,8 @@ def test_the_separation_is_that_of_the_nearest_hulls_in_either_order():
     chain = np.zeros((2, CHAIN_COLUMNS))
     scene = Scene(spiral_curve(0.1), 0.0, Rings(), np.zeros((2, SIZE_COLUMNS)), 2, 0)
     scene.kinds.lay(HULLS.reshape(-1, 2), np.array([0, 1], dtype=np.int64), directions())
-    rng, apart = np.random.default_rng(4), 0
+    rng = np.random.default_rng(4)
+    apart = 0
     for places, angles in zip(rng.uniform(-1.6, 1.6, (200, 2, 2)), rng.uniform(-np.pi, np.pi, (200, 2)), strict=True):
         turns = in_plane(np.exp(1j * angles))
         chain[:, [MX, MY]], chain[:, [UX, UY]] = places, turns

@@ -4,7 +4,8 @@ from core import Dragon, Spiral
 from core.contact.search import ContactSearch
 from core.kernels import Ended, March
 
-HALF_BRACKET, ROUNDING = 1e-10, 1e-12
+HALF_BRACKET = 1e-10
+ROUNDING = 1e-12
 # The default dance first touches here [m of head travel].
 CONTACT = 412.4738376822
 

@@ -13,7 +13,8 @@ CONTACT = 412.4738376822
 
 def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and_misses_nothing():
     """The rings around the head hold some 130 benches: as few rows, and one would be missing from a pair."""
-    search, ended = ContactSearch(Dragon(600), Spiral(), 0.0), set()
+    search = ContactSearch(Dragon(600), Spiral(), 0.0)
+    ended = set()
     for rows in (3, 9, 60, 120, 160, 300):
         search.resize(rows)
         march = March(search.interval, search.probe, search.opening)
@@ -26,8 +27,10 @@ def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and
 
 def test_a_head_that_comes_back_against_its_tail_touches_it_and_does_not_overlap():
     """A loop leads back onto the lane, on which both benches of the pair are as fast."""
-    third, lane = math.pi / 3.0, [(-140.0, 0.0), (0.0, 0.0)]
-    right, back = Arc((0.0, -20.0), 20.0, 1.5 * third, -third), Arc((0.0, 20.0), 20.0, -0.5 * third, -third)
+    third = math.pi / 3.0
+    lane = [(-140.0, 0.0), (0.0, 0.0)]
+    right = Arc((0.0, -20.0), 20.0, 1.5 * third, -third)
+    back = Arc((0.0, 20.0), 20.0, -0.5 * third, -third)
     loop = Arc((20.0 * math.sqrt(3.0), 0.0), 20.0, -2.5 * third, 5.0 * third)
     dance = Dance(Dragon(94), Route([Line(*lane), right, loop, back, Line(*lane[::-1])]))
     met = first_contact(dance, start=276.0)

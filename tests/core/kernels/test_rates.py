@@ -8,7 +8,8 @@ from tests.support.near import assert_near
 
 
 def test_slopes_of_rates_are_their_difference_quotients():
-    search, step = ContactSearch(Dragon(6), Turn(1.7), 0.0), 1e-5
+    search = ContactSearch(Dragon(6), Turn(1.7), 0.0)
+    step = 1e-5
     travel = 12.0
     place_chain(search.curve, search.place - travel, 6, search.sizes, search.tried)
     climbs(search.curve, 6, search.sizes, search.tried)

@@ -11,7 +11,8 @@ from tests.support.depth import some, thorough
 from tests.support.near import assert_near
 
 # Two poses of one bench at one place of a path, found by two ways of the head [m], and two times of contact [s].
-SAME, ACCURACY = 1e-9, 1e-9
+SAME = 1e-9
+ACCURACY = 1e-9
 
 
 @pytest.mark.parametrize("path", [Spiral(0.8, 8.0), Turn(1.7)], ids=["spiral", "turn"])
@@ -31,7 +32,8 @@ def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(pat
 
     for time in rng.uniform(20.0, 100.0, 8):
         i = int(rng.integers(first + 1, 30))
-        here, earliest = place(i, time), time - 2.0 * float(dragon.chords[:i].sum())
+        here = place(i, time)
+        earliest = time - 2.0 * float(dragon.chords[:i].sum())
         earlier = bisect(lambda at, here=here: place(first, at) <= here, earliest, time, width=SAME * 1e-3)[1]
         then, now = trajectory(Dance(dragon, path), [earlier, time]).position
         np.testing.assert_allclose(then[first : first + 41 - i], now[i:], rtol=0, atol=SAME)
@@ -43,7 +45,8 @@ def test_a_body_that_slides_back_behind_its_start_has_the_contacts_of_the_genera
     by a nanometre in the second dragon, so that all pairs are followed there."""
     rng = np.random.default_rng(seed)
     while True:
-        chord, head = 10 ** rng.uniform(-1.0, -0.3), 10 ** rng.uniform(0.6, 1.0)
+        chord = 10 ** rng.uniform(-1.0, -0.3)
+        head = 10 ** rng.uniform(0.6, 1.0)
         dragon = Dragon(int(rng.integers(6, 30)), head, chord, 0.3 * chord, 0.0)
         spiral = Spiral(10 ** rng.uniform(0.5, 1.0), rng.uniform(2.0, 4.0))
         end = Dance(dragon, spiral).end

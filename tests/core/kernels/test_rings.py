@@ -23,7 +23,8 @@ from tests.support.random_dances import random_dragon
 @pytest.mark.parametrize("seed", range(20))
 def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_their_reach(seed):
     rng = np.random.default_rng(seed)
-    dragon, spiral = Dragon(40, 3.4, rng.uniform(0.8, 2.2), 0.3, rng.uniform(0.0, 0.3)), Spiral(rng.uniform(0.3, 1.5))
+    dragon = Dragon(40, 3.4, rng.uniform(0.8, 2.2), 0.3, rng.uniform(0.0, 0.3))
+    spiral = Spiral(rng.uniform(0.3, 1.5))
     search = ContactSearch(dragon, spiral, 0.0)
     position = trajectory(Dance(dragon, spiral), rng.uniform(0.0, 100.0)).position
     far, handles = (np.linalg.norm(points, axis=-1) for points in (bench_outlines(dragon, position), position))
@@ -68,7 +69,8 @@ def test_no_clearance_falls_below_the_ring_bound_further_out(dragon, pitch, stra
 @pytest.mark.parametrize("margin", [0.0, 0.1])
 @pytest.mark.parametrize("pitch", [0.45, 0.55, 1.7])
 def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_margin(pitch, margin):
-    rings, growth = ContactSearch(Dragon(), Spiral(pitch), margin).rings, Spiral(pitch).growth
+    rings = ContactSearch(Dragon(), Spiral(pitch), margin).rings
+    growth = Spiral(pitch).growth
     radii = np.array([0.998, 1.0, 1.1, 10.0]) * rings.clear_radius
     assert [ring_clears(growth, growth, radius, margin, rings) for radius in radii] == [False, True, True, True]
 
@@ -92,7 +94,9 @@ def test_the_bound_for_two_spirals_over_a_range_of_growths_is_none_above_that_of
 def test_the_bound_for_turns_apart_is_the_distance_of_their_line_from_the_origin(angle):
     """Points at polar angles x apart are G + growth x apart radially, and 2 rho |x| / pi sideways: the bound is the
     least of both together. G is growth times the angle of the spirals less the bows, so the bound grows with it."""
-    rings, growth, radius = ContactSearch(Dragon(40), Spiral(), 0.0).rings, 0.8, 8.0
+    rings = ContactSearch(Dragon(40), Spiral(), 0.0).rings
+    growth = 0.8
+    radius = 8.0
     foot = max(0.5 * rings.all_chord, 1.67 * growth)
     rho = np.sqrt(radius**2 - foot**2) - rings.all_half_width
     x = np.linspace(-np.pi, np.pi, 2_000_001)
@@ -104,6 +108,7 @@ def test_the_bound_for_turns_apart_is_the_distance_of_their_line_from_the_origin
 
 @pytest.mark.parametrize("pitch, radius", [(0.5, 9.0), (0.55, 4.0), (0.55, 9.0), (0.7, 3.0)])
 def test_benches_of_one_dragon_a_turn_apart_have_the_bound_of_spirals_a_turn_apart(pitch, radius):
-    rings, growth = ContactSearch(Dragon(40), Spiral(pitch), 0.0).rings, Spiral(pitch).growth
+    rings = ContactSearch(Dragon(40), Spiral(pitch), 0.0).rings
+    growth = Spiral(pitch).growth
     alone = ring_least(growth, growth, radius, rings)
     assert 0.0 < alone == pytest.approx(spirals_least(growth, 2.0 * np.pi, radius, rings), rel=1e-12)

@@ -10,7 +10,8 @@ from core.kernels.constants import LOOSE, MISS_ACROSS, MISS_ALONG, MISS_COLUMNS,
 
 def test_misses_of_a_joint_are_those_that_were_made():
     route = Route([Line((0.0, 0.0), (30.0, 0.0)), Line((30.0, 9e-10), (60.0, 9e-10))])
-    table, misses = route.table.copy(), np.zeros((2, MISS_COLUMNS))
+    table = route.table.copy()
+    misses = np.zeros((2, MISS_COLUMNS))
     table[:, LOOSE] = 0.0  # which holds these misses already
     joint_misses(table, misses)
     assert misses[1, MISS_ACROSS] == pytest.approx(9e-10, rel=1e-3)

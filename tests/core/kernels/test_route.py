@@ -23,7 +23,8 @@ def test_points_and_tangents_of_every_kind_of_piece_are_exact():
     pen.clothoid(0.0, 0.6, 9.0)
     pen.waypoints([(6.0, 0.2), (7.0, 0.6), (7.0, 0.9)])
     route = Route(pen.pieces)
-    s, exact = np.linspace(0.0, route.end, 401), ExactRoute(route.table)
+    s = np.linspace(0.0, route.end, 401)
+    exact = ExactRoute(route.table)
     route_points(route.table, paired(s), points := np.empty((s.size, POINT_COLUMNS)))
     for at, row in zip(s.tolist(), points, strict=True):
         for column, place in zip((PX, TX), exact.point(arb(at)), strict=True):

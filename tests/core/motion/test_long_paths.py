@@ -12,7 +12,8 @@ from tests.support.near import assert_near
 # Of 10,000 turns a double knows the length to 1e-8 m and the angle to 4e-12 rad.
 DRAGON = Dragon(12, head_length=2.5)
 # Largest error of a position, in parts of what trajectory() states, and of a chord 30 km from the centre [m].
-SMALL, CHORD_ERROR = 0.01, 2e-11
+SMALL = 0.01
+CHORD_ERROR = 2e-11
 
 
 def assert_exact(places, exact):
@@ -52,7 +53,8 @@ def test_positions_on_long_coils_are_as_good_as_stated(begin, end, rotation, sta
 def test_handles_cross_the_end_of_a_long_coil_as_well_as_they_do_elsewhere():
     """A line behind 10,000 turns, where s is 1e8 m: the joint closes and chords keep their lengths."""
     last = Route([Coil(0.4, 4.0, 3.0)])
-    end, ahead = last.position(last.end), last.tangent(last.end)
+    end = last.position(last.end)
+    ahead = last.tangent(last.end)
     path = Route([Coil(0.4, 1e4, 3.0), Line(tuple(end), tuple(end + 40.0 * ahead))])
     places = trajectory(Dance(DRAGON, path), path.end - np.array([35.0, 22.0, 10.0, 1.0])).position
     for handles in places:

@@ -9,7 +9,8 @@ from core.passages import Passage
 from tests.support.near import assert_near
 
 # Rounding of places along a path [m], and how well a passing time is known [m of travel].
-PLACE_ROUNDING, PASSED = 1e-11, 0.01
+PLACE_ROUNDING = 1e-11
+PASSED = 0.01
 DANCES = {
     "spiral": Dance(Dragon(30), Spiral()),
     "spiral elsewhere, counter-clockwise": Dance(Dragon(12), Spiral(0.9, 8, (5.0, -2.0), 1.0, False)),

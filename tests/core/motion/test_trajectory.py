@@ -54,7 +54,8 @@ def test_handles_are_those_of_the_slow_dance_sooner_with_a_faster_head(dance, sh
 def test_velocities_are_the_difference_quotients_of_positions(dance, share, head_speed):
     dance = Dance(dance.dragon, dance.path, head_speed)
     end = dance.end.time
-    time, h = share * end, 1e-6 * end * (1.0 - share)
+    time = share * end
+    h = 1e-6 * end * (1.0 - share)
     moving = trajectory(dance, [time - h, time, time + h])
     quotient = (moving.position[2] - moving.position[0]) / (2 * h)
     assert_near(quotient, moving.velocity[1], 1e-5 * moving.speed.max() + 1e-8 / h * ROUNDING)

@@ -16,7 +16,8 @@ from tests.support.exact_chain import clothoid_place
 from tests.support.near import assert_near
 
 # Stated accuracy of a place up to 20 m from the origin [m]; one curve written in two ways [m].
-PLACE, SAME = 1e-11, 1e-12
+PLACE = 1e-11
+SAME = 1e-12
 
 
 CASES = {

@@ -14,7 +14,8 @@ SMOOTH = ClothoidTurn(1.7, ratio=1.0, middle=4.0, ends=0.5)
 
 def test_the_curvature_is_continuous_from_coil_to_coil():
     s = np.linspace(-2.0, SMOOTH.length + 2.0, 40_001)
-    bends, sharpest = SMOOTH.curvature(s), 1.0 / min(SMOOTH.radii)
+    bends = SMOOTH.curvature(s)
+    sharpest = 1.0 / min(SMOOTH.radii)
     assert np.abs(np.diff(bends)).max() < 2.0 * sharpest / 0.5 * (s[1] - s[0])
     assert_near(np.abs(bends).max(), sharpest, 3e-13)
 
@@ -31,7 +32,9 @@ def test_short_clothoids_leave_the_turn_of_two_arcs(ratio):
 def test_its_arcs_and_the_place_between_them_lie_on_it():
     turn = ClothoidTurn(1.7, ratio=1.3, middle=2.0, ends=0.4, entry_radius=4.2, exit_radius=4.4)
     s = np.linspace(0.0, turn.length, 40_001)
-    places, bends, step = turn.position(s), turn.curvature(s), s[1] - s[0]
+    places = turn.position(s)
+    bends = turn.curvature(s)
+    step = s[1] - s[0]
     for centre, radius, angle, side in zip(turn.centres, turn.radii, turn.angles, (-1.0, 1.0), strict=True):
         on_arc = np.abs(bends - side / radius) < 1e-12
         assert_near(on_arc.sum() * step, radius * angle, 2.0 * step)

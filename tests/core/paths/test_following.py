@@ -78,7 +78,8 @@ def test_turns_with_an_arc_tighter_than_half_a_chord_are_danced_unless_a_bench_j
         with pytest.raises(InvalidValue, match=words):
             Dance(Dragon(), turn)
         return
-    dance, s = Dance(Dragon(60), turn), 5.0
+    dance = Dance(Dragon(60), turn)
+    s = 5.0
     handles = trajectory(dance, s).position
     for k, chord in enumerate(dance.dragon.chords.tolist()[:3]):
         s = first_behind(turn, s, chord)

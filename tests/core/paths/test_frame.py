@@ -43,18 +43,21 @@ def moved(request):
 def test_everything_that_has_a_place_is_moved(moved):
     dance, move = moved
     times = [0.0, 100.0, 250.0]
-    old, new = trajectory(STANDARD, times), trajectory(dance, times)
+    old = trajectory(STANDARD, times)
+    new = trajectory(dance, times)
     assert_near(new.position, move(old.position), ROUNDING)
     assert_near(new.velocity, move(old.velocity) - move(np.zeros(2)), ROUNDING)
     assert (new.speed == old.speed).all()
-    head, there = dance.path.head(100.0), STANDARD.path.head(100.0)
+    head = dance.path.head(100.0)
+    there = STANDARD.path.head(100.0)
     assert (head.radius, head.theta) == (there.radius, there.theta)
     assert_near(dance.path.drawn(new.position), move(STANDARD.path.drawn(old.position)), 10 * ROUNDING)
 
 
 def test_no_time_and_no_distance_depends_on_the_place(moved):
     dance, move = moved
-    old, new = first_contact(STANDARD), first_contact(dance)
+    old = first_contact(STANDARD)
+    new = first_contact(dance)
     assert (new.time_bracket, new.benches, new.corner) == (old.time_bracket, old.benches, old.corner)
     assert_near(new.point, move(np.array(old.point)), ROUNDING)
 
@@ -62,7 +65,8 @@ def test_no_time_and_no_distance_depends_on_the_place(moved):
 def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(moved):
     dance, move = moved
     span = {"start": 300.0, "stop": 310.0}
-    old, new = envelope(STANDARD, excess=0.01, **span), envelope(dance, excess=0.01, **span)
+    old = envelope(STANDARD, excess=0.01, **span)
+    new = envelope(dance, excess=0.01, **span)
     assert new.area == pytest.approx(old.area, rel=1e-9)
     flip = 1 if dance.path.frame.clockwise else -1
     for rings, others in zip(old.polygons, new.polygons, strict=True):

@@ -82,7 +82,8 @@ def test_the_turn_has_the_reference_arcs():
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("table", REFERENCE["tables"], ids=lambda table: f"{table['time']:g} s")
 def test_every_handle_on_the_turn_is_the_reference_one(table):
-    motion, rows = trajectory(DANCE, table["time"]), table["handles"]
+    motion = trajectory(DANCE, table["time"])
+    rows = table["handles"]
     handles = [row["handle"] for row in rows]
     assert len(handles) > 5
     result = np.column_stack([motion.position, motion.speed])[handles]

@@ -20,7 +20,9 @@ MUSIC = Music(STRETCHES)
 
 def every_beat():
     """Time [s], bar, beat and way of the head until then [m] of each beat, added up one after the other."""
-    time, bar, way = 0.0, 0, 0.0
+    time = 0.0
+    bar = 0
+    way = 0.0
     for one in STRETCHES:
         for beat in range(one.bars * one.beats):
             bar += beat % one.beats == 0

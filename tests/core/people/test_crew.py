@@ -16,10 +16,13 @@ from tests.support.shared_dances import there_and_back
 
 pytestmark = pytest.mark.uncompiled
 
-DANCE, START, STOP = Dance(Dragon(6), Spiral()), 0.0, 100.0
+DANCE = Dance(Dragon(6), Spiral())
+START = 0.0
+STOP = 100.0
 NEEDED = [8, 2, 2, 3, 2, 2]
 # Rounding of sums of times and ways [s], [m], and the error with which a bench is at its place of a change [m].
-ROUNDING, AT_PLACE = 1e-9, 0.01
+ROUNDING = 1e-9
+AT_PLACE = 0.01
 THERE_AND_BACK = there_and_back(60)
 RELIEFS = [
     Relief(), Relief(7, 9.0, rest=25.0), Relief(40, 33.0), Relief(5, None, [10.0, 40.0], 3.0),
@@ -64,7 +67,8 @@ def test_benches_of_which_nobody_ever_goes_out_are_named():
 
 
 def test_at_a_change_those_go_out_who_have_carried_longest():
-    spells, moment = planned(Relief(3, 25.0)).spells, 75.0
+    spells = planned(Relief(3, 25.0)).spells
+    moment = 75.0
     out = [one for one in spells if one.end == moment]
     assert len(out) == 3
     assert max(one.begin for one in out) <= min(one.begin for one in spells if one.begin < moment < one.end)
@@ -96,7 +100,8 @@ def test_a_bench_changes_where_it_passes_the_place_and_the_next_one_after_it():
     "path, point", [(Spiral(pitch=1.1, start_turns=9.0), (4.0, 0.3)), (THERE_AND_BACK, (20.0, 1.5))]
 )
 def test_the_places_near_a_point_are_those_of_a_fine_scan(path, point):
-    begin, end = max(path.begin, -20.0), min(path.end, 250.0)
+    begin = max(path.begin, -20.0)
+    end = min(path.end, 250.0)
     s = np.linspace(begin, end, 200_001)
     away = np.linalg.norm(path.position(s) - point, axis=1)
     inner = 1 + np.flatnonzero((away[1:-1] < away[:-2]) & (away[1:-1] <= away[2:]) & (away[1:-1] <= 2.0))

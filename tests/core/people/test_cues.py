@@ -14,7 +14,8 @@ from tests.support.shared_dances import lane, there_and_back
 pytestmark = pytest.mark.uncompiled
 
 # Step of the slow search [s]; rounding of places and speeds [m], [m/s].
-STEP, ROUNDING = 0.01, 1e-10
+STEP = 0.01
+ROUNDING = 1e-10
 # Waits, walks, pauses twice (two passages of the second pause), hurries, and waits again.
 PASSAGES = (
     Passage(0.0, until_time=5.0), Passage(0.5, until_time=9.0), Passage(0.0, until_time=12.0),

@@ -14,7 +14,8 @@ pytestmark = pytest.mark.uncompiled
 def test_the_fastest_moment_is_the_fastest_of_small_steps():
     speed = trajectory(PAUSED, np.arange(2.0, DONE, STEP)).speed
     for one in bench_cues(PAUSED, start=2.0, stop=50.0):
-        fastest, most = one.fastest, speed[:, one.bench : one.bench + 2].max()
+        fastest = one.fastest
+        most = speed[:, one.bench : one.bench + 2].max()
         assert most - ROUNDING <= fastest.speed <= most + STEP
         assert (fastest.handle in (one.bench, one.bench + 1), fastest.head_speed) == (True, 1.5)
         before = trajectory(PAUSED, [fastest.time - FASTEST_WIDTH, fastest.time])

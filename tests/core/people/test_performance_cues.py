@@ -49,8 +49,10 @@ def rows_of(performance):
 
 def slow_meetings(times, rows, bench, reach):
     """Changes of sign of the way ahead of every other bench, in small steps, unless a third bench hides it."""
-    met, here = [], rows[bench]
-    along, left = here[:, 0] - here[:, 3], here[:, 0] - here[:, 1]
+    met = []
+    here = rows[bench]
+    along = here[:, 0] - here[:, 3]
+    left = here[:, 0] - here[:, 1]
     for other, there in rows.items():
         if other[0] == bench[0] and abs(other[1] - bench[1]) <= 1:
             continue
@@ -62,7 +64,8 @@ def slow_meetings(times, rows, bench, reach):
             k = before + int(np.abs(ahead[before : after + 1]).argmin())
             third = {name: Polygon(corners[k]) for name, corners in rows.items()}
             pair = third.pop(bench), third.pop(other)
-            sight, gap = LineString([shape.centroid for shape in pair]), pair[0].distance(pair[1])
+            sight = LineString([shape.centroid for shape in pair])
+            gap = pair[0].distance(pair[1])
             if gap <= reach and not any(shape.intersects(sight) for shape in third.values()):
                 met.append((times[k], *other, bool(left[k] @ away[k] > 0.0), gap))
     return sorted(met)

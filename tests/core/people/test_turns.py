@@ -12,7 +12,8 @@ from tests.support.shared_dances import there_and_back
 pytestmark = pytest.mark.uncompiled
 
 # A bend of 20 degrees, a straight way, and a turn of 90 degrees to the right.
-SLIGHT, RIGHT = math.radians(20.0), -math.radians(90.0)
+SLIGHT = math.radians(20.0)
+RIGHT = -math.radians(90.0)
 CROOKED = Route(
     [Arc((0, 5), 5.0, -math.pi / 2 - SLIGHT, SLIGHT), Line((0, 0), (10, 0)), Arc((10, -3), 3.0, math.pi / 2, RIGHT)],
     2.0,

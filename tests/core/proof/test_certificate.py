@@ -52,7 +52,8 @@ def test_a_reference_contact_is_proven_and_checked(name, benches):
 )
 def test_a_reference_pitch_is_proven_and_checked(name, benches, start_turns):
     case = PITCHES[name]
-    pitch, dragon = case["pitch"] + PITCH_ROUNDING, Dragon(**(case["dragon"] | {"benches": benches}))
+    pitch = case["pitch"] + PITCH_ROUNDING
+    dragon = Dragon(**(case["dragon"] | {"benches": benches}))
     certificate = through_json(
         prove_minimum_pitch(dragon, pitch, turning_radius=case["turning_diameter"] / 2, start_turns=start_turns)
     )
@@ -92,7 +93,9 @@ def test_a_certificate_is_checked_with_its_precision_or_with_that_of_our_own_if_
 
 
 def test_progress_rises_to_one_and_the_precision_is_left_as_it_was():
-    before, proving, checking = ctx.prec, [0.0], [0.0]
+    before = ctx.prec
+    proving = [0.0]
+    checking = [0.0]
     verify(proof_of(SMALL, progress=proving.append), progress=checking.append)
     with pytest.raises(ProofRefused):
         proof_of(SMALL, later=1.0)

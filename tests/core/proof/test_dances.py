@@ -71,7 +71,8 @@ def test_a_contact_within_a_margin_is_proven_and_its_neighbourhood_refused(dance
 
 
 def test_two_corners_within_a_margin_need_a_direction_and_are_proven():
-    dance, request = Dance(Dragon(18), LOOP), {"start": 60.0, "margin": 1.05}
+    dance = Dance(Dragon(18), LOOP)
+    request = {"start": 60.0, "margin": 1.05}
     contact = first_contact(dance, **request)
     assert contact.edge is None
     certificate, _ = proven_then_only(prove_contact, dance, contact.time, **request)
@@ -86,7 +87,8 @@ def test_two_corners_within_a_margin_need_a_direction_and_are_proven():
     ],
 )
 def test_a_reference_run_is_clear_to_its_end_and_that_is_proven(name, until, words):
-    certificate, end = through_json(prove_clear(reference_dance(name))), CONTACTS[name]["end"]["time"]
+    certificate = through_json(prove_clear(reference_dance(name)))
+    end = CONTACTS[name]["end"]["time"]
     stop = certificate["claim"]["stop"]
     assert (certificate["claim"]["until"], "overlap" in certificate) == (until, False)
     assert stop < end < stop + 2 * HALF_BRACKET

@@ -19,13 +19,16 @@ from tests.support.forgeries import assert_refused, in_words, stretches, through
 from tests.support.slow_search import chord_squared
 
 DRAGONS = {name: Dragon(count, 2.21, 1.47, 0.06, 0.12) for name, count in (("one", 1), ("two", 2), ("many", 14))}
-DRAGON, WAY = DRAGONS["many"], {"turning_radius": 0.85, "start_turns": 5.0}
+DRAGON = DRAGONS["many"]
+WAY = {"turning_radius": 0.85, "start_turns": 5.0}
 # This much below the true pitch the dragon folds before the circle; this much above it there is a certificate [m].
 OFF = 1e-11
 # Number of samples of a delta, and a little more than the distance between two of them [rad].
-SAMPLES, SAMPLED = 200_001, 1e-4
+SAMPLES = 200_001
+SAMPLED = 1e-4
 # From this pitch on the head of one bench with a chord of 2 m reaches the centre: CREST_DELTA of core/kernels/fold.py.
-ALONE, VANISHED = Dragon(1, 2.2, 2.2, 0.02, 0.1), 2.1727687945055
+ALONE = Dragon(1, 2.2, 2.2, 0.02, 0.1)
+VANISHED = 2.1727687945055
 
 
 @cache
@@ -81,7 +84,8 @@ def test_a_fold_with_a_shallow_wall_is_proven_only_from_close_to_it():
     fold, bench = end_theta(ALONE, Spiral(pitch, 2.0))
     assert bench == 0
     with ctx.workprec(96):
-        chain, inside = Chain(ALONE, arb(pitch), 2.0), arb(fold * (1.0 - 1e-9))
+        chain = Chain(ALONE, arb(pitch), 2.0)
+        inside = arb(fold * (1.0 - 1e-9))
         verify_fold(chain, 0, arb(fold * (1.0 + 1e-9)), inside)
         with pytest.raises(Unproven, match="no bound is found on the angle"):
             verify_fold(chain, 0, arb(fold * 1.01), inside)

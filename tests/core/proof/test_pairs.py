@@ -18,9 +18,11 @@ def test_benches_are_within_a_margin_exactly_when_shapely_says_so(seed):
     random = np.random.default_rng(seed)
     for _ in range(60):
         sizes = [Size(*random.uniform([0.5, 0.1, 0.0], [3.0, 0.6, 0.2])) for _ in range(2)]
-        benches, shapes = Benches(sizes), []
+        benches = Benches(sizes)
+        shapes = []
         for size in sizes:
-            angle, place = random.uniform(0.0, 7.0), complex(*random.uniform(-1.6, 1.6, 2))
+            angle = random.uniform(0.0, 7.0)
+            place = complex(*random.uniform(-1.6, 1.6, 2))
             benches.centres.append(acb(place.real, place.imag))
             benches.along.append((acb(0, 1) * arb(angle)).exp())
             shapes.append(polygon(benches.centres[-1], benches.along[-1], size))
@@ -35,7 +37,8 @@ def test_the_bound_on_a_stretch_never_calls_a_dip_positive():
     random = np.random.default_rng(5)
     proven = 0
     for first, rate, bow, width in random.uniform([0.0, -2.0, -3.0, 0.1], [1.0, 2.0, 3.0, 2.0], (4000, 4)):
-        end, end_rate = first + rate * width + bow * width**2, rate + 2 * bow * width
+        end = first + rate * width + bow * width**2
+        end_rate = rate + 2 * bow * width
         inside = -rate / (2 * bow) if 0.0 < -rate / (2 * bow) < width else 0.0
         least = min(first, end, first + rate * inside + bow * inside**2)
         positive = stays_positive(arb(first), arb(end), arb(rate).union(arb(end_rate)), arb(width))

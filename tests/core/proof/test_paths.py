@@ -54,7 +54,8 @@ def test_a_path_reads_back_from_json_to_the_last_bit_and_has_its_chain(name):
 
 
 FIRST = Line((-9.0, 0.0), (0.0, 0.0))
-BENDING, CURVE = Clothoid((0.0, 0.0), 0.0, 0.0, 0.5, 2.0), Waypoints(((0.0, 0.0), (5.0, 0.0), (9.0, 4.0)), 0.0)
+BENDING = Clothoid((0.0, 0.0), 0.0, 0.0, 0.5, 2.0)
+CURVE = Waypoints(((0.0, 0.0), (5.0, 0.0), (9.0, 4.0)), 0.0)
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,8 @@ def small():
 
 
 def test_both_ends_of_a_tolerance_are_proven():
-    proof, shown = verify(small()), small()["claim"]["shown"]
+    proof = verify(small())
+    shown = small()["claim"]["shown"]
     assert f"while every hole is within {known().stray!r} m of its place and every chord keeps its" in proof.statement
     a, b = known().benches or ()
     assert f"benches {a} and {b} overlap in a pose with strays below {shown!r} m" in proof.statement
@@ -45,7 +46,8 @@ def test_both_ends_of_a_tolerance_are_proven():
 
 
 def test_the_pose_of_a_certificate_is_a_contact_in_doubles_too():
-    pose, dragon = small()["overlap"], DANCE.dragon
+    pose = small()["overlap"]
+    dragon = DANCE.dragon
     headings = np.array(pose["headings"])
     steps = dragon.chords[:, None] * in_plane(np.exp(1j * headings))
     handles = pose["head"] - np.concatenate([np.zeros((1, 2)), steps.cumsum(axis=0)])

@@ -42,7 +42,8 @@ LEAST = {Figure.RING: ROUND, Figure.EIGHT: 2.0 * ROUND, Figure.SPIRAL: 2.0 * ROU
 def test_shapes_hold_the_dragon_and_bend_no_tighter_than_it_can(figure, gated):
     every = list(shapes(figure, NEEDS, 1e3, gated=gated))
     assert bool(every) == (figure is not Figure.PARADE)
-    lengths, extents = [], []
+    lengths = []
+    extents = []
     for shape in every:
         route = Route(shape.pieces)
         assert route.sharpest[0] <= 1.0 / NEEDS.tight + 1e-9

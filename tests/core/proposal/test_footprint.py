@@ -14,7 +14,8 @@ from tests.support.near import assert_near
 from tests.support.random_squares import box, polygon
 
 NEEDS = Needs(Dragon(3), 0.05, 0.0)
-SQUARE, TREE = box("square", 0, 0, 20, 12), box("tree", 9, 5, 1, 1.5)
+SQUARE = box("square", 0, 0, 20, 12)
+TREE = box("tree", 9, 5, 1, 1.5)
 PLACE = 1e-3  # [m]: of a handle between dense points of a bend
 
 
@@ -31,7 +32,8 @@ def test_handles_are_a_chord_apart_and_on_the_path():
 def test_the_room_beside_a_bench_is_the_distance_of_its_rectangle():
     rng = np.random.default_rng(65)
     ground = FreeGround(Venue(SQUARE, (TREE,)))
-    rear, turn = rng.uniform((2, 2), (18, 10), (200, 2)), rng.uniform(0.0, 2.0 * math.pi, 200)
+    rear = rng.uniform((2, 2), (18, 10), (200, 2))
+    turn = rng.uniform(0.0, 2.0 * math.pi, 200)
     ahead = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     room = room_beside(ground, NEEDS, rear + NEEDS.chord * ahead, rear)
     borders = shapely.union_all([polygon(SQUARE).boundary, polygon(TREE)])

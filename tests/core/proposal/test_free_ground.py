@@ -48,6 +48,7 @@ def test_the_area_is_that_of_the_square_without_its_holes():
 def test_a_way_is_parted_just_where_a_gap_is_too_narrow(gap):
     walls = box("low", 5, -1, 2, 5.0 - 0.5 * gap), box("high", 5.3, 4.0 + 0.5 * gap, 2, 9)
     ground = FreeGround(Venue(box("square", 0, 0, 12, 8), walls))
-    begins, ends = np.array([[1.0, 3.0], [1.0, 5.0]]), np.array([[11.0, 1.0], [11.0, 2.0]])
+    begins = np.array([[1.0, 3.0], [1.0, 5.0]])
+    ends = np.array([[11.0, 1.0], [11.0, 2.0]])
     assert [ground.is_parted(begins, ends, 0.5 * gap + more) for more in (-0.004, 0.004)] == [False, True]
     assert not ground.is_parted(begins, ends, 0.0)

@@ -26,7 +26,8 @@ WAYS_ROUND = pytest.mark.parametrize("venue", [HALL, TURNED], ids=["counter-cloc
 def test_a_street_adds_its_own_ground_and_no_other(venue, heading):
     gate = checked_gates([Gate((0.1, 6.0), heading)], venue)[0]
     assert gate.point == pytest.approx((0.0, 6.0))
-    before, after = polygon(venue.square), polygon(with_streets(venue, [gate], (3.0, 3.0), 30.0).square)
+    before = polygon(venue.square)
+    after = polygon(with_streets(venue, [gate], (3.0, 3.0), 30.0).square)
     assert after.contains(before)
     # A parallelogram between the border and the street's end, whose middle line is 30 m long.
     assert after.area - before.area == pytest.approx(90.0)

@@ -15,9 +15,11 @@ from core.proposal.walks import joined, length_of, moved
 from tests.support.near import assert_near
 from tests.support.random_squares import box, polygon
 
-SQUARE, WALL = box("square", 0, 0, 40, 30), box("wall", 18, -1, 2, 24)
+SQUARE = box("square", 0, 0, 40, 30)
+WALL = box("wall", 18, -1, 2, 24)
 NEEDS = Needs(Dragon(8), 0.05, 0.0)
-BEGIN, END = (4.0, 5.0, 0.0), (36.0, 5.0, 0.0)
+BEGIN = (4.0, 5.0, 0.0)
+END = (36.0, 5.0, 0.0)
 
 
 def ways(*obstacles):
@@ -48,7 +50,8 @@ def test_a_lane_in_which_benches_can_just_turn_is_passed():
 
 
 def test_a_walk_goes_straight_turns_once_where_the_lines_cross_and_goes_straight_on():
-    there, corner = ways(WALL), (8.0, 25.0, 0.5 * math.pi)
+    there = ways(WALL)
+    corner = (8.0, 25.0, 0.5 * math.pi)
     steps = joined(there.walk((2.0, 5.0, 0.0), corner))
     assert [curvature for _, curvature in steps] == [0.0, 1.0 / NEEDS.radii[0], 0.0]
     assert_near(reduce(moved, steps, (2.0, 5.0, 0.0)), corner, 1e-9)

@@ -39,7 +39,8 @@ def test_the_longest_bench_turns_in_the_circle_on_the_tightest_bend():
 
 def test_margin_and_stray_take_room_on_both_sides_and_at_both_ends():
     dragon = Dragon.of([3.41, 2.2, 2.2], [0.3] * 3, [0.275, 0.275, 0.4])
-    needs, strayed = Needs(dragon, 0.1, 0.2), 0.1 * float(gains(dragon).max())
+    needs = Needs(dragon, 0.1, 0.2)
+    strayed = 0.1 * float(gains(dragon).max())
     assert (needs.free, needs.least_width) == pytest.approx((0.2 + strayed, 0.9))
     assert needs.gap == pytest.approx(0.275 + 0.4 + 0.2 + 2.0 * strayed + SPARE)
     assert needs.least_area == pytest.approx((3.41 + 2.2) * 0.3)
@@ -50,6 +51,7 @@ def test_a_straight_path_needs_half_a_width():
 
 
 def test_the_length_along_a_circle_is_that_of_the_arcs_under_the_chords():
-    needs, route = Needs(Dragon(30), 0.0, 0.0), Route([Arc((0.0, 0.0), 5.0, 0.0, 4.0 * math.pi)])
+    needs = Needs(Dragon(30), 0.0, 0.0)
+    route = Route([Arc((0.0, 0.0), 5.0, 0.0, 4.0 * math.pi)])
     assert_near(needs.length_along(5.0), Dance(Dragon(30), route).begin, 1e-6)
     assert needs.length == pytest.approx(2.86 + 29 * 1.65)

@@ -20,16 +20,19 @@ OVAL = Shape(Figure.RING, (5.0, 3.0, 3.0))
 
 @pytest.mark.parametrize("seed", further([5, 1, 12], 1))
 def test_no_place_of_a_fine_grid_has_much_more_room(seed):
-    ground, outline = FreeGround(random_case(seed).venue), sampled(Route(OVAL.pieces), NEEDS)
+    ground = FreeGround(random_case(seed).venue)
+    outline = sampled(Route(OVAL.pieces), NEEDS)
 
     def turned(angle):
-        cos, sin = math.cos(angle), math.sin(angle)
+        cos = math.cos(angle)
+        sin = math.sin(angle)
         return outline.points @ np.array([[cos, sin], [-sin, cos]])
 
     def room_of(points):
         return float((ground.clearance(points) - outline.sides).min())
 
-    best, most = placements(ground, NEEDS, OVAL, 1), -math.inf
+    best = placements(ground, NEEDS, OVAL, 1)
+    most = -math.inf
     grid = np.mgrid[tuple(slice(low, high) for low, high in zip(ground.low, ground.high, strict=True))]
     for angle in base_rotation(ground) + math.pi / 8 * np.arange(8):
         points = turned(angle)

@@ -14,7 +14,8 @@ from tests.support.refused import refused
 # What an organiser has: 30 m x 40 m with two trees and a stage, and 40 benches of 2 m.
 SQUARE = box("square", 0, 0, 40, 30)
 PLACE = Venue(SQUARE, (box("linden", 10, 10, 1, 1), box("chestnut", 30, 20, 1, 1), box("stage", 14, 25, 12, 5)))
-WEST, EAST = Gate((0.0, 15.0), 0.0), Gate((40.0, 15.0), math.pi)
+WEST = Gate((0.0, 15.0), 0.0)
+EAST = Gate((40.0, 15.0), math.pi)
 SMALL = Venue(box("yard", 0, 0, 24, 20))
 LIMITS = {"stray": 0.05, "margin": 0.0}
 
@@ -78,7 +79,8 @@ def test_more_turns_and_longer_dances_are_wished_for():
 
 
 def test_rings_and_eights_go_around_as_often_as_is_asked_or_as_long_as_it_may_last():
-    case, dragon = Case(SMALL, Dragon(8), (), LIMITS), Dragon(8)
+    case = Case(SMALL, Dragon(8), (), LIMITS)
+    dragon = Dragon(8)
     once, often = (propose(SMALL, dragon, figures=["ring"], count=1, laps=laps).proposals[0] for laps in (1, 5))
     assert often.turns - once.turns == pytest.approx(4.0)
     around = (often.length - once.length) / 4
@@ -196,14 +198,18 @@ def bend(width, other):
 
 def rooms(width):
     """Two rooms with a channel between and one to each gate, on three lines."""
-    across, low, high = (0, 8, 8, 20, 20, 30, 30, 44, 44, 52), (8, 8, 0, 0, 1, 1, 0, 0, 8, 8), (8, 8, 12, 12, 1)
+    across = (0, 8, 8, 20, 20, 30, 30, 44, 44, 52)
+    low = (8, 8, 0, 0, 1, 1, 0, 0, 8, 8)
+    high = (8, 8, 12, 12, 1)
     up = [y + width * (y in (1, 8)) for y in (*high, *high[::-1])]
     ring = [*zip(across, low, strict=True), *zip(across[::-1], up, strict=True)]
     return ring, ((0, 8 + 0.5 * width), 0.0), ((52, 8 + 0.5 * width), math.pi)
 
 
-YARD, STREETS = [(0, 0), (24, 0), (24, 20), (0, 20)], [(0, 3), (17, 3), (17, 20), (13, 20), (13, 7), (0, 7)]
-LOW_WEST, LOW_EAST = ((0, 10.1), 0.0), ((24, 10.1), math.pi)
+YARD = [(0, 0), (24, 0), (24, 20), (0, 20)]
+STREETS = [(0, 3), (17, 3), (17, 20), (13, 20), (13, 7), (0, 7)]
+LOW_WEST = ((0, 10.1), 0.0)
+LOW_EAST = ((24, 10.1), math.pi)
 # Corners of a square [m], the gates of a walk, the angle by which all is turned [rad], and what stands in it.
 WALKS = {
     "straight through a channel": (YARD, LOW_WEST, LOW_EAST, 0.0, (6, 0, 12, 9.8), (6, 10.4, 12, 9.6)),

@@ -28,7 +28,8 @@ def test_the_stray_of_a_ring_in_a_box_is_rated_a_little_too_low(radius):
 
 
 def test_streets_do_not_count():
-    ground, route = FreeGround(Venue(box("square", 0, 0, 20, 10))), lane((-30, 5), (50, 5))
+    ground = FreeGround(Venue(box("square", 0, 0, 20, 10)))
+    route = lane((-30, 5), (50, 5))
     assert rated(ground, NEEDS, route).venue < 0.0
     assert rated(ground, NEEDS, route, (36.0, 36.0)).venue > 1.0
 
@@ -37,5 +38,6 @@ def test_the_room_between_two_lanes_is_their_distance_without_the_benches():
     turn = Arc((30, 2.5), 2.5, -0.5 * math.pi, math.pi)
     path = sampled(Route([Line((0, 0), (30, 0)), turn, Line((30, 5), (0, 5))]), NEEDS)
     # The nearest strands that are not parts of one bend are STRANDS chords apart, along the half circle.
-    side, across = float(NEEDS.sides(np.array([1.0 / 2.5]))[0]), 5.0 * math.sin(STRANDS * NEEDS.chord / 5.0)
+    side = float(NEEDS.sides(np.array([1.0 / 2.5]))[0])
+    across = 5.0 * math.sin(STRANDS * NEEDS.chord / 5.0)
     assert across - 2.0 * side <= strands(path, NEEDS) <= 5.0 - 0.3 + 1e-6

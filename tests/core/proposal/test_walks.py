@@ -15,7 +15,8 @@ from tests.support.near import assert_near
 
 PLACE = 1e-9  # [m], [rad]: rounding of a few steps
 NEAR = 1e-4  # [m], [rad]: rounding may leave no path between poses that are nearer
-SIZES, ANGLES = st.floats(0.1, 12.0), st.floats(-7.0, 7.0)
+SIZES = st.floats(0.1, 12.0)
+ANGLES = st.floats(-7.0, 7.0)
 POSES = st.tuples(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0), ANGLES)
 ORIGIN = (0.0, 0.0, 0.0)
 
@@ -62,6 +63,8 @@ def test_a_stretch_goes_round_a_closed_path():
 
 
 def test_pieces_are_placed_as_a_whole():
-    pieces, s, plane = [Coil(1.0, 4.0, 2.0)], np.linspace(0.0, 20.0, 7), np.array([1.0, 1.0j])
+    pieces = [Coil(1.0, 4.0, 2.0)]
+    s = np.linspace(0.0, 20.0, 7)
+    plane = np.array([1.0, 1.0j])
     expected = Route(pieces).position(s) @ plane * np.exp(0.7j) + (3.0 - 1.0j)
     assert_near(Route(placed(pieces, (3.0, -1.0, 0.7))).position(s) @ plane, expected, PLACE)

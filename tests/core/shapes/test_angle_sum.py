@@ -34,7 +34,8 @@ def test_paper_corners_are_the_rectangle_whichever_way_its_arctan_points(heading
 
 @pytest.mark.parametrize("theta", [0.0, 0.4, math.pi / 4, math.pi / 2, 2.5])
 def test_literal_corners_are_those_of_eq_12_as_printed(theta):
-    cos, sin = math.cos(theta), math.sin(theta)
+    cos = math.cos(theta)
+    sin = math.sin(theta)
     signs = np.array([[1, -1], [1, 1], [-1, 1], [-1, -1]])
     # y = l / 2 sin theta + w / 2 cos theta with the signs of x, where a rectangle has the other sign of w
     expected = [3.0, 1.0] + 0.5 * signs * SIZE @ [[cos, sin], [sin, cos]]

@@ -61,7 +61,8 @@ def test_close_benches_that_do_not_overlap_are_refused_when_too_many_must_be_loo
 @pytest.mark.parametrize("find, limit", [(overlaps, PAIRS_MAX), (close_pairs, CROSS_CANDIDATES_MAX)])
 def test_as_many_pairs_as_the_limit_allows_are_found(find, limit):
     most = (1 + math.isqrt(1 + 8 * limit)) // 2
-    poses, size = np.zeros((most + 1, 3)), np.ones(most + 1)
+    poses = np.zeros((most + 1, 3))
+    size = np.ones(most + 1)
     result = find(poses[1:], size[1:], size[1:], chained=False)
     assert len(getattr(result, "pairs", result)) == most * (most - 1) // 2
     with refused("benches", TooLarge, most=limit):

@@ -96,7 +96,8 @@ def test_cross_check_names_the_engine_that_differs_and_its_pairs():
     plus_and_corner = benches((0, 0, 0), (0, 0, math.pi / 2), (9, 0, 0), (10, 0.1, 0.3))
     check = cross_check(*plus_and_corner, chained=False)
     assert (check.agree, check.left_out) == (False, ())
-    plus, corner = [[0, 1]], [[2, 3]]
+    plus = [[0, 1]]
+    corner = [[2, 3]]
     for engine in Engine:
         answer = [pairs[engine].tolist() for pairs in (check.pairs, check.only, check.missing)]
         assert answer == ([plus + corner, plus, []] if engine in EXACT else [corner, [], plus])
@@ -143,7 +144,8 @@ def test_verdicts_are_of_two_benches(count):
         verdicts(np.zeros((2, 3)), np.zeros((count, 3)), [LENGTH] * 2, [WIDTH] * 2)
 
 
-POSE, BENCH = (0.0, 0.0, 0.0), (2.2, 0.3)
+POSE = (0.0, 0.0, 0.0)
+BENCH = (2.2, 0.3)
 LAST, LEAST, MOST = np.nextafter([-POSITION_MAX, SIZE_MIN, SIZE_MAX], [-math.inf, 0.0, math.inf])
 
 

@@ -73,7 +73,8 @@ def test_a_dragon_of_too_many_sizes_is_refused():
 
 @pytest.mark.parametrize("k", [0, 1])
 def test_a_corner_goes_as_far_as_the_gain_says_and_no_point_further(k):
-    dragon, stray = Dragon(2), 0.01
+    dragon = Dragon(2)
+    stray = 0.01
     gain, chord, x = (float(column[k]) for column in (gains(dragon), dragon.chords, 0.5 * dragon.lengths))
     corners = np.array([[x, 0.15], [x, -0.15], [-x, 0.15], [-x, -0.15]])
     strays = random_strays(np.random.default_rng(k), chord, stray, 20_000)

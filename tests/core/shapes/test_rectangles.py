@@ -100,7 +100,8 @@ def test_nearly_parallel_edges_keep_their_distance_and_witnesses(turn, gap):
     little = 10 ** np.linspace(-12, -3, 200)
     shift = np.concatenate([np.linspace(-2.5, 2.5, 401), little, -little])
     pose = np.stack([shift, np.full_like(shift, 0.3 + gap), np.full_like(shift, turn)], axis=-1)
-    still, size = np.zeros_like(pose), np.full((shift.size, 2), BENCH)
+    still = np.zeros_like(pose)
+    size = np.full((shift.size, 2), BENCH)
     assert_separated(still, size, pose, size)
 
 
@@ -121,8 +122,10 @@ def test_features_name_the_corner_or_edge_that_holds_each_witness():
         (kernels.FEATURE_B, kernels.WITNESS_BX, corners(pose_b, size_b)),
     ):
         feature = out[:, column].astype(int)
-        start, end = corner[rows, feature % 4], corner[rows, (feature + 1) % 4]
-        along, to = end - start, out[:, x : x + 2] - start
+        start = corner[rows, feature % 4]
+        end = corner[rows, (feature + 1) % 4]
+        along = end - start
+        to = out[:, x : x + 2] - start
         off_edge = np.abs(along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]) / np.hypot(*along.T)
         is_corner = feature < 4
         assert 0.1 < is_corner.mean() < 0.9

@@ -29,7 +29,9 @@ from tests.support.slow_performance import SlowPerformance
 from tests.support.slow_search import benches_of, nearest
 
 # Random strays of each pair of benches at each time [1]; times looked at, and their distance [s].
-STRAYS, TIMES, STEP = 4000, 9, 0.05
+STRAYS = 4000
+TIMES = 9
+STEP = 0.05
 # Rounding of a chord that was computed from places of hundreds of metres [m].
 ROUNDED = 1e-12
 ANSWERS = {
@@ -41,7 +43,8 @@ ANSWERS = {
 
 def strayed(rng, handles, dragon, bench, stray):
     """Two holes (STRAYS, 2, 2) of a bench that stray by no more than `stray` and keep its chord."""
-    front, rear = handles[bench], handles[bench + 1]
+    front = handles[bench]
+    rear = handles[bench + 1]
     along = (front - rear) / np.linalg.norm(front - rear)
     turned = np.array([along, [-along[1], along[0]]])
     return np.stack([front, rear]) + random_strays(rng, float(dragon.chords[bench]), stray, STRAYS) @ turned
@@ -53,7 +56,9 @@ def test_no_random_stray_touches_and_the_pose_beyond_does(name):
     answer = tolerance(performance, stop=stop)
     pose = answer.exhibit
     assert (answer.limited_by, answer.dragons) == (Limit.BENCHES, (0, 1))
-    slow, rng, least = SlowPerformance(performance.parts), np.random.default_rng(49), math.inf
+    slow = SlowPerformance(performance.parts)
+    rng = np.random.default_rng(49)
+    least = math.inf
     times = np.clip(answer.time + STEP * (np.arange(TIMES) - TIMES // 2), answer.start, answer.stop)
     dragons = [part.dance.dragon for part in performance.parts]
 
@@ -90,7 +95,8 @@ def test_the_stray_is_the_one_with_which_no_encounter_comes_about():
 
 def test_a_single_dragon_has_its_own_tolerance_to_the_last_bit():
     alone = Dance(Dragon(30), Spiral(1.1, 8.0))
-    answer, own = tolerance(Performance([Part(alone)])), tolerance(alone)
+    answer = tolerance(Performance([Part(alone)]))
+    own = tolerance(alone)
     assert (answer.own, answer.certificate, answer.dragons) == ((own,), None, (0,))
     assert (answer.stray_bracket, answer.time, answer.benches) == (own.stray_bracket, own.time, own.benches)
 
@@ -108,6 +114,7 @@ def test_the_venue_limits_and_a_delay_shifts_its_time(delay):
 
 
 def test_dragons_that_touch_have_no_safe_stray():
-    met, answer = first_encounter(OPPOSITE), tolerance(OPPOSITE)
+    met = first_encounter(OPPOSITE)
+    answer = tolerance(OPPOSITE)
     assert (answer.stray, answer.certificate) == (0.0, None)
     assert (answer.time, answer.dragons, answer.benches) == (met.time, met.dragons, met.benches)

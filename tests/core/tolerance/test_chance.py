@@ -50,7 +50,9 @@ def laid_out(wanted, chords, front_play=None, rear_play=None):
 
     Each rear hole is as near to where its person wants it as the chord allows. All places are complex numbers.
     """
-    still, pin, holes = np.zeros(len(chords)), wanted[0], []
+    still = np.zeros(len(chords))
+    pin = wanted[0]
+    holes = []
     plays = [still if play is None else play for play in (front_play, rear_play)]
     for want, chord, ahead, behind in zip(wanted[1:], chords, *plays, strict=True):
         front = pin + ahead
@@ -86,7 +88,9 @@ def chance_to_exceed(limits, memory):
 
 def test_the_probability_of_a_hairpin_is_that_of_its_quadrature():
     """With a long correlation along the chain all stand alike, and one number at each instant decides."""
-    dance, size, stop = Dance(WIDE, HAIRPIN), 0.05, OPPOSITE + 0.5
+    dance = Dance(WIDE, HAIRPIN)
+    size = 0.05
+    stop = OPPOSITE + 0.5
     result = contact_probability(dance, Wobble(size, 0.0, 0.625, 1e9), 4_000, 1, start=OPPOSITE, stop=stop)
     assert result.instants == 5
     placed = trajectory(dance, np.linspace(OPPOSITE, stop, 5))
@@ -112,17 +116,21 @@ def test_the_probability_of_a_hairpin_is_that_of_its_quadrature():
 
 def test_each_dragon_is_the_one_that_is_laid_out_step_by_step():
     """On its own spiral, with the play of its own pins, and people who wobble along the chain and in time."""
-    model, dragon = Wobble(0.02, 0.01, 4.0, 3.0, hole=0.06, pin=0.05, pitch_error=0.02), SPIRAL.dragon
-    start, touching = LATE["start"], []
+    model = Wobble(0.02, 0.01, 4.0, 3.0, hole=0.06, pin=0.05, pitch_error=0.02)
+    dragon = SPIRAL.dragon
+    start = LATE["start"]
+    touching = []
     result = contact_probability(SPIRAL, model, 300, 5, start=start, stop=start + 1.5)
     times = np.linspace(start, start + 1.5, 3)
-    memory, radii = np.exp(-result.step / 4.0), [float(SPIRAL.path.head(time).radius) for time in times]
+    memory = np.exp(-result.step / 4.0)
+    radii = [float(SPIRAL.path.head(time).radius) for time in times]
     sizes = lengths_and_widths(dragon)
     first, second = np.triu_indices(20, 2)
     for sample in range(300):
         spiral = Spiral(0.55 + model.pitch_error * numbers(5, sample, 1).standard_normal(), 20.0)
         motion = trajectory(Dance(dragon, spiral), [spiral.travel_to(radius) for radius in radii])
-        places, ahead = motion.position @ [1.0, 1j], motion.velocity @ [1.0, 1j] / motion.speed
+        places = motion.position @ [1.0, 1j]
+        ahead = motion.velocity @ [1.0, 1j] / motion.speed
         distance, turn = numbers(5, sample, 0).random((2, 20, 2))
         play = model.play * np.sqrt(distance) * np.exp(2j * np.pi * turn)
         wish = numbers(5, sample, 2).standard_normal((3, 21, 2)) @ [1j * model.lateral, model.forward]

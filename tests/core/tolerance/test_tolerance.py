@@ -64,7 +64,8 @@ def test_a_bench_that_passes_a_wall_may_stray_to_it():
     assert result.area == "wall"
     safe, touching = result.stray_bracket
     assert touching < safe * (1.0 + BRACKET)
-    corner, chord = np.array([[0.5 * 2.86 + 0.275, 0.15]]), 2.86
+    corner = np.array([[0.5 * 2.86 + 0.275, 0.15]])
+    chord = 2.86
     reached = [
         moved_points(corner, random_strays(np.random.default_rng(1), chord, stray, 100_000), chord)[..., 1].max()
         for stray in (safe, 1.002 * touching)

@@ -14,8 +14,10 @@ CIRCLE = 4.5  # radius of the turning circle [m]
 def test_no_benches_and_no_pitch_within_their_errors_allow_less(seed):
     """Half of the draws have benches that are as long or as short as can be, and the narrowest spiral."""
     rng = np.random.default_rng(seed)
-    dragon, pitch = Dragon(70, width=rng.uniform(0.2, 0.4), overhang=rng.uniform(0.1, 0.3)), rng.uniform(0.7, 1.0)
-    error, spread = rng.uniform(0.0, 0.2), rng.uniform(0.0, 0.05)
+    dragon = Dragon(70, width=rng.uniform(0.2, 0.4), overhang=rng.uniform(0.1, 0.3))
+    pitch = rng.uniform(0.7, 1.0)
+    error = rng.uniform(0.0, 0.2)
+    spread = rng.uniform(0.0, 0.05)
     safe = uncertain_tolerance(dragon, pitch, length_error=error, pitch_error=spread, turning_radius=CIRCLE)
     off = rng.uniform(-1.0, 1.0, 71)
     if seed % 2:

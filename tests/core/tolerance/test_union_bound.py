@@ -18,12 +18,15 @@ COUNT = 10_000
 def chains(model):
     """The first order, then of COUNT chains drawn at random at the last instant: e_k, its first order (COUNT, n + 1, 2)
     and, in first order, the four numbers of every bench that are assumed to be small (COUNT, n, 4) [m]."""
-    rng, chords = np.random.default_rng(1), DANCE.dragon.chords
-    places, ahead = PLACED.position[-1] @ [1.0, 1j], TANGENTS[-1] @ [1.0, 1j]
+    rng = np.random.default_rng(1)
+    chords = DANCE.dragon.chords
+    places = PLACED.position[-1] @ [1.0, 1j]
+    ahead = TANGENTS[-1] @ [1.0, 1j]
     z = rng.standard_normal((COUNT, len(places), 2))
     correlate(z, model.along)
     wants = (z @ [1j * model.lateral, model.forward]) * ahead
-    linear, small = [wants[:, 0]], []
+    linear = [wants[:, 0]]
+    small = []
     for k, chord in enumerate(chords.tolist()):
         u = (places[k] - places[k + 1]) / chord
         e, want = linear[k] / u, wants[:, k + 1] / u  # along and across the chord
@@ -70,7 +73,8 @@ def test_nothing_is_claimed_of_steep_turns():
 
 
 def test_the_bound_grows_with_the_wobble_and_holds_of_every_sample():
-    span, bounds = {"start": 384.0, "stop": 394.0}, []
+    span = {"start": 384.0, "stop": 394.0}
+    bounds = []
     for size in (0.0003, 0.001, 0.002, 0.004, 0.03):
         result = contact_probability(DANCE, Wobble(size, size), 200, 1, **span)
         assert result.limits[0] <= result.union_bound
