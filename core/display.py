@@ -20,6 +20,9 @@ LINE_DIGITS, TABLE_DIGITS = 9, 15
 TEXT_MOST, REPR_MOST = 60, 160
 # Most entries of a list in a table; a longer list shows its first entries.
 ENTRIES_MOST = 6
+# Width of the picture below a table [pixels], and most benches in it.
+PICTURE_WIDTH, PICTURE_MOST = 320, 1_000
+TOUCHING = "#D55E00"  # colour of benches that touch
 # What a line of a docstring says of a field.
 ENTRY = re.compile(r"(?P<name>\w+): (?P<words>.*?)(?: \[(?P<unit>[^\]]*)\])?")
 
@@ -39,7 +42,8 @@ class Readable:
         from html import escape
 
         rows = (f'<tr><th scope="row">{escape(name)}</th><td>{escape(text)}</td></tr>' for name, text in self._rows())
-        return f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
+        table = f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
+        return table + _drawn(*self._benches(), escape(self._line()))
 
     def _line(self) -> str:
         """The short fields, each with its unit; a bracket only if its two ends differ in these digits."""
@@ -50,6 +54,10 @@ class Readable:
     def _rows(self) -> list[tuple[str, str]]:
         """Name and value of every row of the table."""
         return [(name, display(value, unit, TABLE_DIGITS)) for name, value, unit in self._values()]
+
+    def _benches(self) -> tuple[np.ndarray[Any, Any] | None, Sequence[int]]:
+        """Corners (n, 4, 2) [m] of the benches that a small picture below the table shows, and those that it fills."""
+        return None, ()
 
     def _values(self) -> list[tuple[str, object, str]]:
         """Name, value and unit of every field that has a value."""
@@ -129,6 +137,22 @@ def format_range(values: Sequence[float] | np.ndarray, unit: str = "", digits: i
     if least != most:
         text = say("{least} to {most}", least=text, most=f"{most:.{digits}g}")
     return f"{text} {unit}".rstrip()
+
+
+def _drawn(outlines: np.ndarray[Any, Any] | None, filled: Sequence[int], label: str) -> str:
+    """A drawing of benches seen from above as SVG, or nothing. outlines: (n, 4, 2) [m]; label: in words, escaped"""
+    if outlines is None or not 0 < len(outlines) <= PICTURE_MOST:
+        return ""
+    corners = outlines * (1.0, -1.0)
+    low = corners.min(axis=(0, 1)) - 0.5
+    width, height = corners.max(axis=(0, 1)) + 0.5 - low
+    shapes = ["M" + " ".join(f"{x:.2f},{y:.2f}" for x, y in corner) + "z" for corner in corners]
+    benches = f'<path d="{"".join(shapes)}" fill="none" stroke="currentColor" stroke-width="0.05"/>'
+    benches += f'<path d="{"".join(shapes[bench] for bench in filled)}" fill="{TOUCHING}"/>' if filled else ""
+    return (
+        f'<svg role="img" aria-label="{label}" width="{PICTURE_WIDTH}" style="max-height: {PICTURE_WIDTH}px" '
+        f'viewBox="{low[0]:.2f} {low[1]:.2f} {width:.2f} {height:.2f}">{benches}</svg>'
+    )
 
 
 def _equal(one: object, other: object) -> bool:

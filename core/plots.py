@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from core.display import TOUCHING
 from core.extras import wanted
 from core.language import Phrases, say
 from core.paths.route import Route
@@ -20,7 +21,7 @@ from core.values import Floats
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-VERMILION, BLUE, GREY, PALE = "#D55E00", "#0072B2", "#7F7F7F", "#DDDDDD"
+VERMILION, BLUE, GREY, PALE = TOUCHING, "#0072B2", "#7F7F7F", "#DDDDDD"
 # Most benches that an SVG shows as shapes; for more it holds one raster picture.
 SHAPES_MAX = 3_000
 # Length of the arrow ahead of the head, and distance of its label inwards [m].

@@ -47,6 +47,15 @@ class Table(WithArrays):
         """
         return polars_frame(f"{type(self).__name__}.to_polars()", self.columns())
 
+    def to_xarray(self) -> xarray.Dataset:
+        """The columns along the first one, which names the axis, each with its unit in `attrs["units"]`.
+
+        raises: ImportError without xarray, naming the extra
+        """
+        (axis, values), *others = self.columns().items()
+        variables = {name: ((axis,), column) for name, column in others}
+        return data_set(f"{type(self).__name__}.to_xarray()", variables, {axis: values}, self.units())
+
 
 def data_frame(what: str, columns: Mapping[str, Column], units: Mapping[str, str]) -> pandas.DataFrame:
     """A table of pandas with one row for each entry of the columns; `attrs["units"]` has the units of all.

@@ -17,6 +17,7 @@ from core.language import phrase, say
 from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
 from core.shapes.rectangles import bench_outlines
+from core.values import Floats
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -189,6 +190,10 @@ class FirstContact(Readable):
         if self.end.reason is EndReason.STOP:
             return say("no two benches {near} until {end}", near=near, end=end)
         return say("no two benches {near} until {end}, where {why}", near=near, end=end, why=self.end.why)
+
+    def _benches(self) -> tuple[Floats, tuple[int, ...]]:
+        handles = trajectory(self.dance, self._plot_time()).position
+        return bench_outlines(self.dance.dragon, handles), self.benches or ()
 
     def plot(self, ax: Axes | None = None, *, enlarged: bool = False) -> Axes:
         """Plot the dance at first contact, the two benches filled; without a contact, just before the end of the run.

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass, field
 
+import numpy as np
+
 from core.claims.certificate import WithClaim
 from core.claims.claim import EncounterClaim
 from core.contact.answer import Feature, Outcome, near_words, undecided_words
 from core.dance import EndReason
 from core.display import Readable, display
 from core.language import say
+from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
 from core.performance import Performance, PerformanceEnd
-from core.values import Point
+from core.shapes.rectangles import bench_outlines
+from core.values import Floats, Point
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -127,6 +131,15 @@ class FirstEncounter(Readable):
             return say("no benches of two dragons {near} until {end}", near=near, end=end)
         why = self.performance.ending
         return say("no benches of two dragons {near} until {end}, where {why}", near=near, end=end, why=why)
+
+    def _benches(self) -> tuple[Floats | None, list[int]]:
+        if self.time is None or self.dragons is None or self.benches is None:
+            return None, []
+        parts, placed = self.performance.parts, trajectory(self.performance, self.time)
+        outlines = [bench_outlines(part.dance.dragon, one.position) for part, one in zip(parts, placed, strict=True)]
+        firsts = np.cumsum([0, *map(len, outlines)])
+        pairs = zip(self.dragons, self.benches, strict=True)
+        return np.concatenate(outlines), [int(firsts[dragon]) + bench for dragon, bench in pairs]
 
     def _pair(self, dragons: tuple[int, int], benches: tuple[int, int]) -> str:
         one, two = (

@@ -58,6 +58,10 @@ class Trajectory(Table):
         handles = say("{count} handles", count=self.speed.shape[-1])
         return f"{instants(self.time)}; {handles}{speeds}"
 
+    def _benches(self) -> tuple[Floats | None, tuple[int, ...]]:
+        handles = self.position.reshape(-1, *self.position.shape[-2:])[-1:]
+        return bench_outlines(self.dance.dragon, handles[0]) if self.dance and len(handles) else None, ()
+
     def columns(self) -> dict[str, Column]:
         """One row for each time and handle: time [s], handle, x, y [m], velocity_x, velocity_y, speed [m/s]."""
         handles = self.speed.shape[-1]

@@ -29,6 +29,7 @@ PURE = {
     "union_bound",
 }
 CURVE = Waypoints(tuple((float(k), 0.01 * k * k) for k in range(1000)))
+STREETS = ((-40.0, 0.0), (40.0, 0.0)), ((0.0, -40.0), (0.0, 40.0))
 LEGS = core.Legs([(0, 0), (9, 0), (1, 3)], [0, 1], radius=0.5)
 
 
@@ -198,6 +199,18 @@ def test_a_table_has_every_field_with_its_unit_and_both_ends_of_a_bracket():
     rows = {"time": "412.473837682115 s", "benches": "0, 8", "margin": "0 m", "time bracket": f"{low}, {high} s"}
     for name, text in rows.items():
         assert f'<tr><th scope="row">{name}</th><td>{text}</td></tr>' in contact._repr_html_()
+
+
+def test_an_answer_about_an_instant_has_a_small_picture_with_the_benches_that_touch_filled():
+    crossing = core.Performance([core.Part(Dance(Dragon(5), lane(*ends))) for ends in STREETS])
+    answers = core.first_contact(DANCE), core.first_contact(crossing), core.trajectory(DANCE, [0.0, 9.0])
+    for answer, benches, touching in zip(answers, (223, 10, 223), ([2], [2], []), strict=True):
+        outlines, *filled = re.findall('<path d="(.*?)"', answer._repr_html_())
+        assert outlines.count("z") == benches
+        assert [path.count("z") for path in filled] == touching
+    # The benches that touch are a part of the drawing: benches 0 and 8 at their places at the contact.
+    drawn = re.findall("M.*?z", re.findall('<path d="(.*?)"', answers[0]._repr_html_())[0])
+    assert drawn[0] + drawn[8] in answers[0]._repr_html_()
 
 
 def test_zero_has_no_sign_and_an_unknown_bound_is_called_so():

@@ -9,6 +9,7 @@ DANCE = Dance(Dragon(5), Spiral())
 TIMES = [0.0, 60.0, 120.0]
 MOTION = trajectory(DANCE, TIMES)
 INSTANT = trajectory(DANCE, 60.0)
+CURVE = tolerance_curve(Dragon(5), [0.5, 0.6])
 SCAN = pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 3), start_turns=8.0)
 
 
@@ -47,11 +48,15 @@ def test_a_scan_is_a_table_with_the_piece_of_each_pitch():
     frame = SCAN.to_dataframe()
     assert (frame.pitch.to_list(), frame.radius.to_list()) == (SCAN.pitch.tolist(), SCAN.radius.tolist())
     assert [(group.index[0], group.index[-1] + 1) for _, group in frame.groupby("piece")] == list(SCAN.pieces)
+    for scan, name in ((SCAN, "radius"), (CURVE, "stray")):
+        column = scan.to_xarray()[name]
+        assert (column.dims, column.pitch.attrs["units"], column.attrs["units"]) == (("pitch",), "m", "m")
+        assert column.sel(pitch=scan.pitch[1]) == getattr(scan, name)[1]
 
 
 @pytest.mark.parametrize(
     "result",
-    [MOTION, INSTANT, clearance_profile(DANCE, TIMES), SCAN, tolerance_curve(Dragon(5), [0.5, 0.6])],
+    [MOTION, INSTANT, clearance_profile(DANCE, TIMES), SCAN, CURVE],
     ids=lambda result: type(result).__name__,
 )
 def test_a_table_of_polars_has_the_numbers_of_that_of_pandas(result):
